@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <exception>
+#include <string>
+#include <string_view>
+
+namespace meshhood {
+
+/// Every way in which meshhood refuses. The list is closed: a program may switch over it.
+enum class ErrorCode {
+  VertexOutOfRange,  ///< a query vertex that the mesh does not have
+  InvalidRadius,     ///< a radius that is NaN or negative
+  InvalidOption,     ///< an option outside its documented range
+  InvalidMesh,    ///< arrays that do not describe a mesh: an index out of range, a coordinate that is not finite, ...
+  MalformedFile,  ///< a file whose content contradicts its format or itself
+  UnsupportedFormat,  ///< a file in a format, or a variant of one, that is not read
+  IoFailure,          ///< the operating system could not open, read, write or close
+  TooLarge,           ///< more vertices, edges or bytes than the documented limits
+};
+
+/// One sentence about `code`, the same in every language binding.
+[[nodiscard]] std::string_view describe(ErrorCode code) noexcept;
+
+/// The one exception that meshhood throws. `what()` is one line that names the culprit (file and place, face, corner,
+/// value) and what was expected. A failed call leaves its arguments and the object it was called on as they were.
+///
+/// A core compiled without exceptions (WebAssembly) traps instead.
+class Error : public std::exception {
+ public:
+  Error(ErrorCode code, std::string message) : code_(code), message_(std::move(message)) {}
+
+  [[nodiscard]] ErrorCode code() const noexcept { return code_; }
+  [[nodiscard]] const char* what() const noexcept override { return message_.c_str(); }
+
+ private:
+  ErrorCode code_;
+  std::string message_;
+};
+
+/// Throws `Error{code, message}`, or traps where exceptions are off. All errors of the library pass through here.
+[[noreturn]] void raise(ErrorCode code, std::string message);
+
+}  // namespace meshhood

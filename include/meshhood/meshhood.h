@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// meshhood: the neighbourhood of a point on a polygonal mesh.
+///
+/// The neighborhood of vertex `v` with radius `r` is the part of the mesh inside the ball of radius `r` around `v` that
+/// hangs together with `v` inside that ball.
+///
+///     #include <meshhood/meshhood.h>
+///
+///     std::vector<float> positions = ...;          // #V by 3
+///     std::vector<std::uint32_t> triangles = ...;  // #F by 3
+///
+///     const auto index = meshhood::paper::build({positions, meshhood::FacesView::triangles(triangles)});
+///     meshhood::paper::Searcher searcher(index);   // one a thread
+///     std::vector<meshhood::VertexId> near;
+///     searcher.neighborhood(42, 1.5, near);        // contains the exact answer, lies in the ball
+
+#include "meshhood/adjacency.h"  // IWYU pragma: export
+#include "meshhood/error.h"      // IWYU pragma: export
+#include "meshhood/mesh.h"       // IWYU pragma: export
+#include "meshhood/paper.h"      // IWYU pragma: export
+#include "meshhood/reference.h"  // IWYU pragma: export

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "meshhood/adjacency.h"
+#include "meshhood/mesh.h"
+
+/// The index and the query of *Fast neighborhood search on polygonal meshes*, sections 3.2 and 3.3.
+/// `docs/paper.md` lists where the code departs from the printed page, and why.
+namespace meshhood::paper {
+
+/// A cluster, by its place on its level.
+using ClusterId = VertexId;
+
+/// How the hierarchy is made (3.2, 4.1).
+struct BuildOptions {
+  /// Levels to compute, the base level (one cluster a vertex) included; >= 1. Construction ends earlier where every
+  /// component of the mesh has become a single cluster; `kAllLevels` always goes on until then.
+  int levels = 5;
+
+  /// How many of the lowest levels to drop once the ones above them stand; >= 0. The last level is kept in any case.
+  int discard = 2;
+
+  /// Fusion on level `l` dissolves clusters of fewer than `fusion_growth` to the power of `l` vertices; finite, >= 0.
+  double fusion_growth = 4.0;
+
+  static constexpr int kAllLevels = 64;
+};
+
+/// A level of the hierarchy, in figures.
+struct LevelSummary {
+  int level;             ///< its number in sec. 3.1: the base level is 0
+  std::size_t clusters;  ///< how many
+  double mean_vertices;  ///< vertices a cluster
+  double mean_radius;    ///< of the bounding spheres, in the unit of the positions: `ar` of sec. 3.3
+  double mean_siblings;  ///< siblings a cluster
+  std::size_t bytes;     ///< memory of the level's arrays
+};
+
+/// The hierarchy of connected clusters (3.1). Immutable: any number of threads may query it, each with its own
+/// `Searcher`. It keeps a copy of the positions, in the order of its clusters, and does not refer to the mesh.
+class Index {
+ public:
+  Index(Index&&) noexcept;
+  Index& operator=(Index&&) noexcept;
+  ~Index();
+
+  /// #V.
+  [[nodiscard]] std::size_t vertex_count() const;
+
+  /// The levels kept, lowest first; at least one unless there are no vertices.
+  [[nodiscard]] std::vector<LevelSummary> levels() const;
+
+  /// Bytes of all arrays of the index, its copy of the positions included.
+  [[nodiscard]] std::size_t bytes() const;
+
+  /// The vertices in index order, in which every cluster of every level is a contiguous range. #V; lives as long as
+  /// the index.
+  [[nodiscard]] std::span<const VertexId> permutation() const;
+
+  /// Verifies every statement of sec. 3.1 and returns those that do not hold, one line each that names level and
+  /// cluster, at most sixteen. Empty means that all hold:
+  ///  - each level partitions the vertices;  - a parent is the union of its children, and the links agree;
+  ///  - each cluster is connected on the mesh, so none spans two components;
+  ///  - each sphere encloses its vertices, and that of a base cluster has radius 0;
+  ///  - siblings are symmetric, irreflexive and exactly the pairs that an edge of the mesh joins;
+  ///  - levels shrink: only a cluster that is a whole component may have a single child;
+  ///  - the averages are finite and what the clusters give.
+  ///
+  /// mesh    the mesh that the index was built from.
+  /// Throws Error{InvalidMesh} where `mesh` is no mesh. O((#V + #E) #levels).
+  [[nodiscard]] std::vector<std::string> check(const MeshView& mesh) const;
+  [[nodiscard]] std::vector<std::string> check(const GraphView& graph) const;
+
+ private:
+  friend class Searcher;
+  friend Index build(const GraphView& graph, const BuildOptions& options);
+  friend struct IndexAccess;
+
+  struct Storage;
+  explicit Index(std::unique_ptr<const Storage> storage);
+  std::unique_ptr<const Storage> storage_;
+};
+
+/// Computes the index (3.2): create, select, link and sphere, fusion, level by level. One thread; the same mesh and
+/// options give the same index.
+///
+/// mesh    any polygonal mesh (see `validate`); borrowed for the call.
+/// Throws Error{InvalidMesh, TooLarge, InvalidOption}. O(#levels (#V + #E) log #V).
+[[nodiscard]] Index build(const MeshView& mesh, const BuildOptions& options = {});
+[[nodiscard]] Index build(const GraphView& graph, const BuildOptions& options = {});
+
+/// How a query is made (3.3).
+struct QueryOptions {
+  /// `f` of sec. 3.3; finite, > 0. The climb ends on the first level whose mean radius is at least radius / f: a larger
+  /// factor means smaller clusters, more of them, and fewer vertices that should not be in the answer.
+  double scale_factor = 10.0;
+};
+
+/// What the last query of a `Searcher` went through, for the profile of sec. 4.3.
+struct QueryProfile {
+  int level = 0;                     ///< where the climb ended (numbered as in `LevelSummary`)
+  std::size_t clusters_reached = 0;  ///< clusters whose sphere meets the search sphere: `SC` of sec. 3.3
+  std::size_t vertices_tested = 0;   ///< vertices whose own distance was computed
+};
+
+/// Asks an `Index`. Owns the scratch memory of the search (12 bytes a cluster of the lowest level): one object a
+/// thread. The index must outlive it.
+class Searcher {
+ public:
+  explicit Searcher(const Index& index);
+
+  /// The vertices near `v` that are also joined to it along the surface: climb up, breadth-first search over siblings,
+  /// range search (3.3).
+  ///
+  /// v       in [0, #V).     radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius`
+  /// counts. out     refilled, capacity reused: ids in no stated order, without duplicates, `v` included. The answer
+  /// contains the exact neighborhood and is contained in the ball; extra vertices are rarer as `scale_factor` grows. It
+  /// need not grow with the radius, for the level may change. Cost is that of the clusters touched, not of the mesh.
+  /// Nothing is allocated once the buffers have grown. Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption};
+  /// `out` is then unchanged.
+  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, const QueryOptions& options = {});
+
+  /// How many vertices `neighborhood` would return. As it, without the ids.
+  [[nodiscard]] std::size_t count(VertexId v, double radius, const QueryOptions& options = {});
+
+  /// About the last successful query.
+  [[nodiscard]] const QueryProfile& profile() const { return profile_; }
+
+ private:
+  /// Vertices in index order of which all, or those within the radius, belong to the answer.
+  struct Piece {
+    VertexId begin;
+    VertexId end;
+    bool inside;
+  };
+
+  /// The three phases for one precision of positions; leave the pieces of the answer in `pieces_`.
+  template <class Real>
+  class Query;
+
+  const Index::Storage* storage_;
+  std::vector<std::uint32_t> visited_;  // by cluster: the last query that saw it
+  std::uint32_t query_ = 0;
+  std::vector<ClusterId> reached_;
+  std::vector<ClusterId> refined_;
+  std::vector<Piece> pieces_;
+  QueryProfile profile_;
+};
+
+}  // namespace meshhood::paper

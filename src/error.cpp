@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "meshhood/error.h"
+
+#include <cstdlib>
+#include <utility>
+
+namespace meshhood {
+
+std::string_view describe(ErrorCode code) noexcept {
+  switch (code) {
+    case ErrorCode::VertexOutOfRange: return "the mesh has no such vertex";
+    case ErrorCode::InvalidRadius: return "a radius must be a number >= 0";
+    case ErrorCode::InvalidOption: return "an option is outside its range";
+    case ErrorCode::InvalidMesh: return "the arrays do not describe a mesh";
+    case ErrorCode::MalformedFile: return "the file contradicts its format or itself";
+    case ErrorCode::UnsupportedFormat: return "the format, or this variant of it, is not read";
+    case ErrorCode::IoFailure: return "the operating system could not open, read, write or close";
+    case ErrorCode::TooLarge: return "larger than the documented limits";
+  }
+  return "unknown error";
+}
+
+void raise(ErrorCode code, std::string message) {
+#if defined(__cpp_exceptions)
+  throw Error(code, std::move(message));
+#else
+  static_cast<void>(code);
+  static_cast<void>(message);
+  std::abort();
+#endif
+}
+
+}  // namespace meshhood
