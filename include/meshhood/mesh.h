@@ -33,6 +33,12 @@ class PositionsView {
   template <std::convertible_to<std::span<const double>> Range>
   PositionsView(const Range& xyz) : xyz_(std::span<const double>(xyz)) {}
 
+  /// Calls `f` with the `std::span<const float>` or `std::span<const double>` behind this view and returns its result.
+  template <class F>
+  decltype(auto) visit(F&& f) const {
+    return std::visit(std::forward<F>(f), xyz_);
+  }
+
   /// The number of scalars: `3 #V` for a view that `validate` accepts.
   [[nodiscard]] std::size_t scalar_count() const {
     return visit([](auto xyz) { return xyz.size(); });
@@ -40,12 +46,6 @@ class PositionsView {
 
   /// #V.
   [[nodiscard]] std::size_t size() const { return scalar_count() / 3; }
-
-  /// Calls `f` with the `std::span<const float>` or `std::span<const double>` behind this view and returns its result.
-  template <class F>
-  decltype(auto) visit(F&& f) const {
-    return std::visit(std::forward<F>(f), xyz_);
-  }
 
  private:
   std::variant<std::span<const float>, std::span<const double>> xyz_;
@@ -68,14 +68,14 @@ class IndicesView {
   template <std::convertible_to<std::span<const std::int64_t>> Range>
   IndicesView(const Range& indices) : indices_(std::span<const std::int64_t>(indices)) {}
 
-  [[nodiscard]] std::size_t size() const {
-    return visit([](auto indices) { return indices.size(); });
-  }
-
   /// Calls `f` with the span behind this view and returns its result.
   template <class F>
   decltype(auto) visit(F&& f) const {
     return std::visit(std::forward<F>(f), indices_);
+  }
+
+  [[nodiscard]] std::size_t size() const {
+    return visit([](auto indices) { return indices.size(); });
   }
 
  private:

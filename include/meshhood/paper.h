@@ -54,7 +54,7 @@ class Index {
   /// #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
-  /// The levels kept, lowest first; at least one unless there are no vertices.
+  /// The levels kept, lowest first; at least one.
   [[nodiscard]] std::vector<LevelSummary> levels() const;
 
   /// Bytes of all arrays of the index, its copy of the positions included.
@@ -80,7 +80,6 @@ class Index {
 
  private:
   friend class Searcher;
-  friend Index build(const GraphView& graph, const BuildOptions& options);
   friend struct IndexAccess;
 
   struct Storage;
@@ -144,6 +143,12 @@ class Searcher {
   /// The three phases for one precision of positions; leave the pieces of the answer in `pieces_`.
   template <class Real>
   class Query;
+
+  template <class F>
+  void run(VertexId v, double radius, const QueryOptions& options, F&& answer);
+
+  /// A number that no cluster carries in `visited_`.
+  std::uint32_t next_query();
 
   const Index::Storage* storage_;
   std::vector<std::uint32_t> visited_;  // by cluster: the last query that saw it

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "meshhood/adjacency.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "meshhood/error.h"
+
+#include "distance.h"
+
+namespace meshhood {
+namespace {
+
+/// Calls `f(v, w)` for every pair of consecutive distinct corners, the last with the first; a side that several
+/// polygons share comes as often.
+template <class F>
+void for_each_side(const FacesView& faces, F&& f) {
+  faces.for_each([&](std::size_t, auto corners) {
+    if (corners.empty()) return;
+    auto previous = static_cast<VertexId>(corners.back());
+    for (const auto corner : corners) {
+      const auto current = static_cast<VertexId>(corner);
+      if (current != previous) f(previous, current);
+      previous = current;
+    }
+  });
+}
+
+/// Sorts each row, drops what stands in it twice, and closes the gaps.
+void make_rows_unique(Adjacency& adjacency) {
+  EdgeOffset end = 0;
+  EdgeOffset row_begin = 0;
+  for (std::size_t v = 0; v + 1 < adjacency.offsets.size(); ++v) {
+    const auto first = adjacency.neighbors.begin() + row_begin;
+    const auto last = adjacency.neighbors.begin() + adjacency.offsets[v + 1];
+    row_begin = adjacency.offsets[v + 1];
+    std::sort(first, last);
+    const auto kept = std::unique(first, last);
+    std::move(first, kept, adjacency.neighbors.begin() + end);
+    end = static_cast<EdgeOffset>(end + (kept - first));
+    adjacency.offsets[v + 1] = end;
+  }
+  adjacency.neighbors.resize(end);
+  adjacency.neighbors.shrink_to_fit();
+}
+
+std::string row_of(std::size_t v) { return "neighbours of vertex " + std::to_string(v) + ": "; }
+
+void validate_row(const AdjacencyView& adjacency, std::size_t v) {
+  const std::span<const VertexId> row = adjacency[v];
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const VertexId w = row[i];
+    if (w >= adjacency.size()) {
+      raise(ErrorCode::InvalidMesh, row_of(v) + "vertex " + std::to_string(w) + ", but the graph has " +
+                                        std::to_string(adjacency.size()) + " vertices");
+    }
+    if (w == v) raise(ErrorCode::InvalidMesh, row_of(v) + "the vertex itself");
+    if (i > 0 && row[i - 1] >= w) {
+      raise(ErrorCode::InvalidMesh,
+            row_of(v) + std::to_string(w) + " after " + std::to_string(row[i - 1]) + ", expected ascending ids");
+    }
+  }
+}
+
+void validate_symmetry(const AdjacencyView& adjacency, std::size_t v) {
+  for (const VertexId w : adjacency[v]) {
+    const std::span<const VertexId> row = adjacency[w];
+    if (!std::binary_search(row.begin(), row.end(), static_cast<VertexId>(v))) {
+      raise(ErrorCode::InvalidMesh, row_of(v) + std::to_string(w) + ", but " + std::to_string(v) +
+                                        " is not among the neighbours of " + std::to_string(w));
+    }
+  }
+}
+
+void validate_offsets(const AdjacencyView& adjacency) {
+  const auto& offsets = adjacency.offsets;
+  if (!offsets.empty() && offsets[0] != 0) {
+    raise(ErrorCode::InvalidMesh, "neighbour offsets begin with " + std::to_string(offsets[0]) + ", expected 0");
+  }
+  for (std::size_t v = 0; v + 1 < offsets.size(); ++v) {
+    if (offsets[v + 1] < offsets[v] || offsets[v + 1] > adjacency.neighbors.size()) {
+      raise(ErrorCode::InvalidMesh, row_of(v) + "from " + std::to_string(offsets[v]) + " to " +
+                                        std::to_string(offsets[v + 1]) + " in a list of " +
+                                        std::to_string(adjacency.neighbors.size()));
+    }
+  }
+}
+
+}  // namespace
+
+Adjacency adjacency(const MeshView& mesh) {
+  validate(mesh);
+  // Every corner starts one side, and a side stands in two rows.
+  if (mesh.faces.corners().size() > kMaxNeighbors / 2) {
+    raise(ErrorCode::TooLarge, std::to_string(mesh.faces.corners().size()) + " face corners, but the limit is " +
+                                   std::to_string(kMaxNeighbors / 2));
+  }
+  Adjacency result;
+  const std::size_t vertices = mesh.positions.size();
+  result.offsets.assign(vertices + 1, 0);
+  for_each_side(mesh.faces, [&](VertexId v, VertexId w) {
+    ++result.offsets[v];
+    ++result.offsets[w];
+  });
+  std::inclusive_scan(result.offsets.begin(), result.offsets.end(), result.offsets.begin());
+  result.neighbors.resize(result.offsets[vertices]);
+  // Each offset stands at the end of its row and moves to the beginning as the row fills.
+  for_each_side(mesh.faces, [&](VertexId v, VertexId w) {
+    result.neighbors[--result.offsets[v]] = w;
+    result.neighbors[--result.offsets[w]] = v;
+  });
+  make_rows_unique(result);
+  return result;
+}
+
+void validate(const GraphView& graph) {
+  validate(graph.positions);
+  const AdjacencyView& adjacency = graph.adjacency;
+  if (adjacency.size() != graph.positions.size()) {
+    raise(ErrorCode::InvalidMesh, std::to_string(adjacency.size()) + " rows of neighbours for " +
+                                      std::to_string(graph.positions.size()) + " vertices");
+  }
+  validate_offsets(adjacency);
+  for (std::size_t v = 0; v < adjacency.size(); ++v) validate_row(adjacency, v);
+  for (std::size_t v = 0; v < adjacency.size(); ++v) validate_symmetry(adjacency, v);
+}
+
+double mean_edge_length(const GraphView& graph) {
+  const AdjacencyView& adjacency = graph.adjacency;
+  return graph.positions.visit([&](auto xyz) {
+    double sum = 0;
+    for (std::size_t v = 0; v < adjacency.size(); ++v) {
+      const Point p = point(xyz, v);
+      for (const VertexId w : adjacency[v]) {
+        if (w > v) sum += std::sqrt(squared_distance(p, point(xyz, w)));
+      }
+    }
+    const auto edges = static_cast<double>(adjacency.neighbors.size() / 2);
+    return edges == 0 ? 0.0 : sum / edges;
+  });
+}
+
+}  // namespace meshhood

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "distance.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "meshhood/error.h"
+
+#include "text.h"
+
+namespace meshhood {
+
+double squared_radius(double radius) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double threshold = radius * radius;
+  if (threshold == kInfinity) return kInfinity;
+  // The product is rounded once and the root once more, so the answer is a step or two away.
+  while (std::sqrt(threshold) > radius) threshold = std::nextafter(threshold, 0.0);
+  for (double next = std::nextafter(threshold, kInfinity); std::sqrt(next) <= radius;) {
+    threshold = next;
+    next = std::nextafter(threshold, kInfinity);
+  }
+  return threshold;
+}
+
+void check_query(VertexId v, std::size_t vertices, double radius) {
+  if (v >= vertices) {
+    raise(ErrorCode::VertexOutOfRange,
+          "vertex " + std::to_string(v) + ", but the mesh has " + std::to_string(vertices) + " vertices");
+  }
+  if (!(radius >= 0)) raise(ErrorCode::InvalidRadius, "radius " + to_text(radius) + ", expected a number >= 0");
+}
+
+double distance(const PositionsView& positions, VertexId v, VertexId w) {
+  check_query(v, positions.size(), 0);
+  check_query(w, positions.size(), 0);
+  return positions.visit([&](auto xyz) { return std::sqrt(squared_distance(point(xyz, v), point(xyz, w))); });
+}
+
+}  // namespace meshhood

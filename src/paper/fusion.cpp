@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// Step 4 of sec. 3.2, fusion: Algorithm 2. It comes before step 3 here, for all it needs of that is which cluster is
+// whose parent; so neither siblings nor spheres exist yet that it could leave stale (Deviation: the printed order
+// patches the one and forgets the other).
+#include "paper/fusion.h"
+
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace meshhood::paper {
+namespace {
+
+class Fusion {
+ public:
+  Fusion(const DraftLevel& below, double threshold, Partition& partition)
+      : below_(below),
+        threshold_(threshold),
+        partition_(partition),
+        first_child_(partition.clusters, kNoCluster),
+        next_child_(below.size(), kNoCluster),
+        child_count_(partition.clusters, 0),
+        vertex_count_(partition.clusters, 0),
+        position_sum_(partition.clusters, Point{}) {
+    // Backwards, so that every list of children ascends.
+    for (std::size_t c = below.size(); c-- > 0;) add_child(partition.parent[c], static_cast<ClusterId>(c));
+  }
+
+  /// Smallest first: what a dissolved cluster gives goes to clusters at least as large, so nothing moves often.
+  void run() {
+    for (std::size_t c = 0; c < partition_.clusters; ++c) queue_if_small(static_cast<ClusterId>(c));
+    while (!small_.empty()) {
+      const auto [vertices, cluster] = small_.top();
+      small_.pop();
+      if (vertices == vertex_count_[cluster]) {
+        dissolve(cluster);
+      } else {
+        queue_if_small(cluster);  // it has grown since
+      }
+    }
+    number_survivors();
+  }
+
+ private:
+  using Entry = std::pair<VertexId, ClusterId>;
+
+  /// Deviation: a cluster with a single child is dissolved however large it is. Nothing else makes the levels shrink:
+  /// select alone can take one cluster off a level (a star), and would again and again.
+  void queue_if_small(ClusterId cluster) {
+    if (static_cast<double>(vertex_count_[cluster]) < threshold_ || child_count_[cluster] < 2) {
+      small_.emplace(vertex_count_[cluster], cluster);
+    }
+  }
+
+  void add_child(ClusterId parent, ClusterId child) {
+    partition_.parent[child] = parent;
+    next_child_[child] = std::exchange(first_child_[parent], child);
+    ++child_count_[parent];
+    vertex_count_[parent] = static_cast<VertexId>(vertex_count_[parent] + below_.vertex_count[child]);
+    const Point& sum = below_.position_sum[child];
+    Point& total = position_sum_[parent];
+    total = {total.x + sum.x, total.y + sum.y, total.z + sum.z};
+  }
+
+  /// Algorithm 2. Deviation: a child goes to the nearest of the clusters *that it touches*; the printed one takes the
+  /// nearest sibling of its parent, which need not touch it and then is no longer connected. Children inside the
+  /// donor, which touch none, follow when a neighbour of theirs has gone.
+  /// Deviation: a donor without siblings stays; the printed one would lose its vertices.
+  void dissolve(ClusterId donor) {
+    given_.clear();
+    for (ClusterId child = first_child_[donor]; child != kNoCluster; child = next_child_[child]) {
+      if (nearest_touching(child, donor) != kNoCluster) given_.push_back(child);
+    }
+    if (given_.empty()) return;
+    first_child_[donor] = kNoCluster;
+    child_count_[donor] = 0;
+    vertex_count_[donor] = 0;
+    for (std::size_t i = 0; i < given_.size(); ++i) {
+      const ClusterId child = given_[i];
+      if (partition_.parent[child] != donor) continue;
+      add_child(nearest_touching(child, donor), child);
+      for (const ClusterId sibling : below_.siblings[child]) {
+        if (partition_.parent[sibling] == donor) given_.push_back(sibling);
+      }
+    }
+  }
+
+  /// Deviation: distances are those between mean positions, which stay exact as clusters grow.
+  [[nodiscard]] ClusterId nearest_touching(ClusterId child, ClusterId donor) const {
+    const Point centre = mean(below_.position_sum[child], below_.vertex_count[child]);
+    ClusterId nearest = kNoCluster;
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const ClusterId sibling : below_.siblings[child]) {
+      const ClusterId cluster = partition_.parent[sibling];
+      if (cluster == donor || cluster == nearest) continue;
+      const double d2 = squared_distance(centre, mean(position_sum_[cluster], vertex_count_[cluster]));
+      if (d2 < smallest || (d2 == smallest && cluster < nearest)) {
+        smallest = d2;
+        nearest = cluster;
+      }
+    }
+    return nearest;
+  }
+
+  [[nodiscard]] static Point mean(const Point& sum, VertexId count) {
+    const auto n = static_cast<double>(count);
+    return {sum.x / n, sum.y / n, sum.z / n};
+  }
+
+  void number_survivors() {
+    std::vector<ClusterId> number(partition_.clusters, kNoCluster);
+    partition_.clusters = 0;
+    for (ClusterId& parent : partition_.parent) {
+      if (number[parent] == kNoCluster) number[parent] = static_cast<ClusterId>(partition_.clusters++);
+      parent = number[parent];
+    }
+  }
+
+  const DraftLevel& below_;
+  double threshold_;
+  Partition& partition_;
+  // The children of each cluster, as linked lists: a cluster is given new ones and asked for all, never for one.
+  std::vector<ClusterId> first_child_;
+  std::vector<ClusterId> next_child_;
+  std::vector<VertexId> child_count_;
+  std::vector<VertexId> vertex_count_;
+  std::vector<Point> position_sum_;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> small_;
+  std::vector<ClusterId> given_;
+};
+
+}  // namespace
+
+void fuse(const DraftLevel& below, double threshold, Partition& partition) {
+  Fusion(below, threshold, partition).run();
+}
+
+}  // namespace meshhood::paper

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <variant>
+#include <vector>
+
+#include "meshhood/paper.h"
+
+#include "distance.h"
+#include "paper/packed_ids.h"
+
+namespace meshhood::paper {
+
+/// A level as it is kept (3.1). Clusters are numbered so that the children of a cluster, and its vertices, are
+/// contiguous.
+template <class Real>
+struct Level {
+  int number = 0;                      // as in sec. 3.1: the base level is 0
+  double mean_radius = 0;              // `ar` of sec. 3.3
+  std::vector<Sphere<Real>> spheres;   // by cluster
+  std::vector<VertexId> first_vertex;  // in index order; one more than clusters
+  std::vector<ClusterId> first_child;  // on the level below; one more than clusters, empty on the lowest level
+  std::vector<ClusterId> parent;       // on the level above; empty on the highest level
+  Adjacency siblings;
+
+  [[nodiscard]] std::size_t size() const { return first_vertex.empty() ? 0 : first_vertex.size() - 1; }
+};
+
+/// The whole index: levels, lowest first, over vertices in index order.
+template <class Real>
+struct Hierarchy {
+  std::vector<Real> positions;     // #V by 3, in index order
+  std::vector<VertexId> vertices;  // the vertex at each place of the index order
+  PackedIds lowest_cluster;        // by vertex: its cluster on the lowest level
+  std::vector<Level<Real>> levels;
+};
+
+struct Index::Storage {
+  std::variant<Hierarchy<float>, Hierarchy<double>> hierarchy;
+};
+
+}  // namespace meshhood::paper

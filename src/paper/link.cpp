@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Step 3 of sec. 3.2, link and sphere. A cluster has the vertices of its children, and as siblings the clusters, other
+// than itself, that the siblings of its children have as parent.
+#include "paper/link.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "paper/group.h"
+#include "sphere.h"
+
+namespace meshhood::paper {
+namespace {
+
+void link_siblings(const DraftLevel& below, const Partition& partition, DraftLevel& level) {
+  const Groups children = group(partition.parent, partition.clusters);
+  Adjacency& siblings = level.own_siblings;
+  siblings.offsets.reserve(partition.clusters + 1);
+  siblings.offsets.push_back(0);
+  std::vector<ClusterId> listed_by(partition.clusters, kNoCluster);
+  for (std::size_t c = 0; c < partition.clusters; ++c) {
+    const auto cluster = static_cast<ClusterId>(c);
+    listed_by[cluster] = cluster;
+    for (const ClusterId child : children[cluster]) {
+      for (const ClusterId neighbor : below.siblings[child]) {
+        const ClusterId sibling = partition.parent[neighbor];
+        if (std::exchange(listed_by[sibling], cluster) != cluster) siblings.neighbors.push_back(sibling);
+      }
+    }
+    std::sort(siblings.neighbors.begin() + siblings.offsets.back(), siblings.neighbors.end());
+    siblings.offsets.push_back(static_cast<EdgeOffset>(siblings.neighbors.size()));
+  }
+  level.siblings = siblings.view();
+}
+
+}  // namespace
+
+DraftLevel link(const DraftLevel& below, const Partition& partition) {
+  DraftLevel level;
+  level.vertex_count.assign(partition.clusters, 0);
+  level.position_sum.assign(partition.clusters, Point{});
+  for (std::size_t c = 0; c < below.size(); ++c) {
+    const ClusterId parent = partition.parent[c];
+    level.vertex_count[parent] = static_cast<VertexId>(level.vertex_count[parent] + below.vertex_count[c]);
+    const Point& sum = below.position_sum[c];
+    Point& total = level.position_sum[parent];
+    total = {total.x + sum.x, total.y + sum.y, total.z + sum.z};
+  }
+  link_siblings(below, partition, level);
+  return level;
+}
+
+template <class Real>
+void enclose(std::span<const Real> positions, Level<Real>& level) {
+  level.spheres.resize(level.size());
+  double sum = 0;
+  for (std::size_t c = 0; c < level.size(); ++c) {
+    const std::size_t begin = level.first_vertex[c];
+    const std::size_t end = level.first_vertex[c + 1];
+    level.spheres[c] = bounding_sphere(positions.subspan(3 * begin, 3 * (end - begin)));
+    sum += static_cast<double>(level.spheres[c].radius);
+  }
+  level.mean_radius = level.size() == 0 ? 0.0 : sum / static_cast<double>(level.size());
+}
+
+template void enclose(std::span<const float> positions, Level<float>& level);
+template void enclose(std::span<const double> positions, Level<double>& level);
+
+}  // namespace meshhood::paper

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// The query of sec. 3.3 in its three phases: climb up, breadth first, range search. The answer is first a list of
+// pieces of the index order; only then are ids copied, or vertices counted.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "meshhood/error.h"
+#include "meshhood/paper.h"
+
+#include "distance.h"
+#include "paper/hierarchy.h"
+#include "prefetch.h"
+#include "text.h"
+
+namespace meshhood::paper {
+
+template <class Real>
+class Searcher::Query {
+ public:
+  Query(Searcher& searcher, const Hierarchy<Real>& hierarchy, VertexId v, double radius)
+      : searcher_(searcher),
+        hierarchy_(hierarchy),
+        cluster_(static_cast<ClusterId>(hierarchy.lowest_cluster[v])),
+        ball_(position_of(v), radius) {}
+
+  /// Leaves the pieces of the answer with the searcher.
+  void run(double radius, double scale_factor) {
+    searcher_.pieces_.clear();
+    climb_up(radius / scale_factor);
+    breadth_first();
+    range_search();
+  }
+
+  void collect(std::vector<VertexId>& out) const;
+  [[nodiscard]] std::size_t count() const;
+
+ private:
+  [[nodiscard]] const Level<Real>& level() const { return hierarchy_.levels[level_]; }
+
+  /// The position of `v`, found among the few vertices of its lowest cluster.
+  [[nodiscard]] Point position_of(VertexId v) const {
+    const auto first = hierarchy_.vertices.begin() + hierarchy_.levels.front().first_vertex[cluster_];
+    const auto place = std::find(first, hierarchy_.vertices.end(), v) - hierarchy_.vertices.begin();
+    return point<Real>(hierarchy_.positions, static_cast<std::size_t>(place));
+  }
+
+  void climb_up(double wanted_radius) {
+    while (level_ + 1 < hierarchy_.levels.size() && level().mean_radius < wanted_radius) {
+      cluster_ = level().parent[cluster_];
+      ++level_;
+    }
+    searcher_.profile_ = {.level = level().number};
+  }
+
+  /// Leaves in `reached_` the clusters that meet the ball and hang together, through such clusters, with that of `v`.
+  void breadth_first() {
+    std::vector<ClusterId>& reached = searcher_.reached_;
+    const std::uint32_t query = searcher_.next_query();
+    reached.assign(1, cluster_);
+    searcher_.visited_[cluster_] = query;
+    for (std::size_t head = 0; head < reached.size(); ++head) {
+      for (const ClusterId sibling : level().siblings.view()[reached[head]]) {
+        if (std::exchange(searcher_.visited_[sibling], query) == query) continue;
+        if (ball_.place(level().spheres[sibling]) != Placement::Outside) reached.push_back(sibling);
+      }
+    }
+    searcher_.profile_.clusters_reached = reached.size();
+  }
+
+  /// Deviation: the search goes down to the children of a cluster that lies across the surface of the ball, and takes
+  /// whole what lies inside; the paper tests every vertex. The answer is the same, its cost that of the rim.
+  void range_search() {
+    std::vector<ClusterId>& clusters = searcher_.reached_;
+    for (;; --level_) {
+      searcher_.refined_.clear();
+      for (const ClusterId cluster : clusters) search_cluster(cluster);
+      if (level_ == 0) break;
+      std::swap(clusters, searcher_.refined_);
+    }
+  }
+
+  void search_cluster(ClusterId cluster) {
+    const Placement placement = ball_.place(level().spheres[cluster]);
+    if (placement == Placement::Outside) return;
+    if (placement == Placement::Inside || level_ == 0) {
+      searcher_.pieces_.push_back(
+          {level().first_vertex[cluster], level().first_vertex[cluster + 1], placement == Placement::Inside});
+      return;
+    }
+    for (ClusterId c = level().first_child[cluster]; c < level().first_child[cluster + 1]; ++c) {
+      searcher_.refined_.push_back(c);
+    }
+  }
+
+  Searcher& searcher_;
+  const Hierarchy<Real>& hierarchy_;
+  std::size_t level_ = 0;  // among those kept
+  ClusterId cluster_;
+  SearchBall ball_;
+};
+
+template <class Real>
+void Searcher::Query<Real>::collect(std::vector<VertexId>& out) const {
+  std::size_t bound = 0;
+  for (const Piece& piece : searcher_.pieces_) bound += piece.end - std::size_t{piece.begin};
+  out.resize(bound);
+  std::size_t end = 0;
+  for (const Piece& piece : searcher_.pieces_) {
+    if (piece.inside) {
+      std::copy(hierarchy_.vertices.begin() + piece.begin, hierarchy_.vertices.begin() + piece.end,
+                out.begin() + static_cast<std::ptrdiff_t>(end));
+      end += piece.end - std::size_t{piece.begin};
+      continue;
+    }
+    for (std::size_t i = piece.begin; i < piece.end; ++i) {
+      // Written always, kept if it is inside: cheaper than a jump that cannot be foretold.
+      out[end] = hierarchy_.vertices[i];
+      end += static_cast<std::size_t>(ball_.contains(point<Real>(hierarchy_.positions, i)));
+    }
+    searcher_.profile_.vertices_tested += piece.end - std::size_t{piece.begin};
+  }
+  out.resize(end);
+}
+
+template <class Real>
+std::size_t Searcher::Query<Real>::count() const {
+  std::size_t total = 0;
+  for (const Piece& piece : searcher_.pieces_) {
+    if (piece.inside) {
+      total += piece.end - std::size_t{piece.begin};
+      continue;
+    }
+    for (std::size_t i = piece.begin; i < piece.end; ++i) {
+      total += static_cast<std::size_t>(ball_.contains(point<Real>(hierarchy_.positions, i)));
+    }
+    searcher_.profile_.vertices_tested += piece.end - std::size_t{piece.begin};
+  }
+  return total;
+}
+
+Searcher::Searcher(const Index& index) : storage_(index.storage_.get()) {
+  const std::size_t clusters =
+      std::visit([](const auto& hierarchy) { return hierarchy.levels.front().size(); }, storage_->hierarchy);
+  visited_.assign(clusters, 0);
+}
+
+std::uint32_t Searcher::next_query() {
+  if (++query_ == 0) {
+    std::fill(visited_.begin(), visited_.end(), 0);
+    query_ = 1;
+  }
+  return query_;
+}
+
+template <class F>
+void Searcher::run(VertexId v, double radius, const QueryOptions& options, F&& answer) {
+  std::visit(
+      [&]<class Real>(const Hierarchy<Real>& hierarchy) {
+        check_query(v, hierarchy.vertices.size(), radius);
+        if (!std::isfinite(options.scale_factor) || options.scale_factor <= 0) {
+          raise(ErrorCode::InvalidOption,
+                "scale_factor is " + to_text(options.scale_factor) + ", expected a finite number > 0");
+        }
+        Query<Real> query(*this, hierarchy, v, radius);
+        query.run(radius, options.scale_factor);
+        answer(query);
+      },
+      storage_->hierarchy);
+}
+
+void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, const QueryOptions& options) {
+  run(v, radius, options, [&](auto& query) { query.collect(out); });
+}
+
+std::size_t Searcher::count(VertexId v, double radius, const QueryOptions& options) {
+  std::size_t result = 0;
+  run(v, radius, options, [&](auto& query) { result = query.count(); });
+  return result;
+}
+
+}  // namespace meshhood::paper
