@@ -61,14 +61,11 @@ struct ReferenceSearcher::State {
     return query;
   }
 
-  /// What the search will read of the vertices behind `head`: first where a row lies, then the row, then its records.
-  template <class Real>
-  void fetch_ahead(std::size_t head, std::size_t end, const std::vector<Record<Real>>& all) const {
-    if (head + 12 < end) prefetch(&adjacency.offsets[queue[head + 12]]);
-    if (head + 8 < end) prefetch(&adjacency.neighbors[adjacency.offsets[queue[head + 8]]]);
-    if (head + 4 < end) {
-      for (const VertexId w : adjacency[queue[head + 4]]) prefetch(&all[w]);
-    }
+  /// Where the rows of the vertices that come next begin, and a little later the rows. (Their records too would be
+  /// faster where all is cold, and far slower where it is not.)
+  void fetch_ahead(std::size_t head, std::size_t end) const {
+    if (head + 16 < end) prefetch(&adjacency.offsets[queue[head + 16]]);
+    if (head + 8 < end) prefetch(adjacency.neighbors.data() + adjacency.offsets[queue[head + 8]]);
   }
 
   /// Leaves the component in the first places of the queue and returns its size.
@@ -80,14 +77,14 @@ struct ReferenceSearcher::State {
     queue[0] = v;
     std::size_t end = 1;
     for (std::size_t head = 0; head < end; ++head) {
-      fetch_ahead(head, end, all);
+      fetch_ahead(head, end);
       for (const VertexId w : adjacency[queue[head]]) {
         Record<Real>& record = all[w];
-        // Written always, kept if it belongs to the answer: cheaper than a jump that cannot be foretold.
-        queue[end] = w;
-        end += static_cast<std::size_t>(record.seen != current) &
-               static_cast<std::size_t>(ball.contains(position(record)));
+        if (record.seen == current) continue;
         record.seen = current;
+        // Written always, kept if it is inside: cheaper than a second jump that cannot be foretold.
+        queue[end] = w;
+        end += static_cast<std::size_t>(ball.contains(position(record)));
       }
     }
     return end;
