@@ -49,6 +49,11 @@ struct Sphere {
   Real radius;
 };
 
+template <class Real>
+[[nodiscard]] Point centre_of(const Sphere<Real>& sphere) {
+  return {static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
+}
+
 enum class Placement { Outside, Straddling, Inside };
 
 /// The closed ball around a query vertex: decides single vertices exactly and whole spheres conservatively.
@@ -65,8 +70,7 @@ class SearchBall {
   /// Outside: no vertex in `sphere` is contained. Inside: every one is. Straddling: neither is certain.
   template <class Real>
   [[nodiscard]] Placement place(const Sphere<Real>& sphere) const {
-    const double distance2 = squared_distance(
-        centre_, {static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)});
+    const double distance2 = squared_distance(centre_, centre_of(sphere));
     const auto sphere_radius = static_cast<double>(sphere.radius);
     const double far = outer_radius_ + sphere_radius * (1 + kSlack);
     if (distance2 > far * far) return Placement::Outside;

@@ -169,8 +169,7 @@ template <class Real>
 Sphere<Real> bounding_sphere(std::span<const Real> xyz) {
   const Point centre = smallest_ball_centre(xyz);
   Sphere<Real> sphere{static_cast<Real>(centre.x), static_cast<Real>(centre.y), static_cast<Real>(centre.z), 0};
-  const Point stored{static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
-  sphere.radius = round_up<Real>(std::sqrt(farthest(xyz, stored).second));
+  sphere.radius = round_up<Real>(std::sqrt(farthest(xyz, centre_of(sphere)).second));
   return sphere;
 }
 
