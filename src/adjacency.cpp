@@ -86,6 +86,11 @@ void validate_offsets(const AdjacencyView& adjacency) {
                                         std::to_string(adjacency.neighbors.size()));
     }
   }
+  const std::size_t end = offsets.empty() ? 0 : offsets.back();
+  if (end != adjacency.neighbors.size()) {
+    raise(ErrorCode::InvalidMesh, "neighbour offsets end with " + std::to_string(end) + ", but there are " +
+                                      std::to_string(adjacency.neighbors.size()) + " neighbours");
+  }
 }
 
 }  // namespace
