@@ -12,6 +12,7 @@
 #include "paper/create.h"
 #include "paper/fusion.h"
 #include "paper/hierarchy.h"
+#include "paper/index_access.h"
 #include "paper/link.h"
 #include "paper/select.h"
 #include "text.h"
@@ -86,42 +87,33 @@ bool fits_float_spheres(std::span<const float> xyz) {
   return std::all_of(xyz.begin(), xyz.end(), [](float x) { return std::abs(x) <= 0x1p125F; });
 }
 
-}  // namespace
+AnyHierarchy compute_any(std::span<const double> xyz, const AdjacencyView& graph, const BuildOptions& options) {
+  return compute(xyz, graph, options);
+}
+
+AnyHierarchy compute_any(std::span<const float> xyz, const AdjacencyView& graph, const BuildOptions& options) {
+  if (fits_float_spheres(xyz)) return compute(xyz, graph, options);
+  const std::vector<double> wide(xyz.begin(), xyz.end());
+  return compute<double>(wide, graph, options);
+}
 
 /// `graph` and `options` have been checked.
-struct IndexAccess {
-  static Index make(const GraphView& graph, const BuildOptions& options) {
-    auto storage = std::make_unique<Index::Storage>();
-    graph.positions.visit([&](auto xyz) { fill(*storage, xyz, graph.adjacency, options); });
-    return Index(std::move(storage));
-  }
+Index make_index(const GraphView& graph, const BuildOptions& options) {
+  return IndexAccess::make(graph.positions.visit([&](auto xyz) { return compute_any(xyz, graph.adjacency, options); }));
+}
 
-  static void fill(Index::Storage& storage, std::span<const double> xyz, const AdjacencyView& graph,
-                   const BuildOptions& options) {
-    storage.hierarchy = compute(xyz, graph, options);
-  }
-
-  static void fill(Index::Storage& storage, std::span<const float> xyz, const AdjacencyView& graph,
-                   const BuildOptions& options) {
-    if (fits_float_spheres(xyz)) {
-      storage.hierarchy = compute(xyz, graph, options);
-    } else {
-      const std::vector<double> wide(xyz.begin(), xyz.end());
-      storage.hierarchy = compute<double>(wide, graph, options);
-    }
-  }
-};
+}  // namespace
 
 Index build(const GraphView& graph, const BuildOptions& options) {
   check_options(options);
   validate(graph);
-  return IndexAccess::make(graph, options);
+  return make_index(graph, options);
 }
 
 Index build(const MeshView& mesh, const BuildOptions& options) {
   check_options(options);
   const Adjacency graph = adjacency(mesh);
-  return IndexAccess::make({mesh.positions, graph.view()}, options);
+  return make_index({mesh.positions, graph.view()}, options);
 }
 
 }  // namespace meshhood::paper

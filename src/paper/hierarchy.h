@@ -36,8 +36,10 @@ struct Hierarchy {
   std::vector<Level<Real>> levels;
 };
 
+using AnyHierarchy = std::variant<Hierarchy<float>, Hierarchy<double>>;
+
 struct Index::Storage {
-  std::variant<Hierarchy<float>, Hierarchy<double>> hierarchy;
+  AnyHierarchy hierarchy;
 };
 
 }  // namespace meshhood::paper
