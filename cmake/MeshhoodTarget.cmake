@@ -1,6 +1,19 @@
 # What every target of ours is compiled with. Users of the library inherit none of it.
 function(meshhood_own_target target)
   # One distance predicate on every path: no fused multiply-add, whatever the compiler's default.
-  target_compile_options(${target} PRIVATE
-    -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -ffp-contract=off)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -ffp-contract=off)
+  # A newer compiler's new warning is our problem, not that of a project that contains us.
+  set_target_properties(${target} PROPERTIES
+    CXX_EXTENSIONS OFF COMPILE_WARNING_AS_ERROR ${meshhood_IS_TOP_LEVEL})
+endfunction()
+
+# For what touches foreign bytes: a mistake of ours ends the program at once instead of being carried further.
+function(meshhood_harden target)
+  target_compile_options(${target} PRIVATE -fstack-protector-strong)
+  target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS)
+  # Sanitizers bring checks of their own that fortified functions would hide.
+  if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2>)
+  endif()
+  target_link_options(${target} PRIVATE $<$<PLATFORM_ID:Linux>:LINKER:-z,relro,-z,now>)
 endfunction()
