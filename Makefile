@@ -1,0 +1,20 @@
+# The three commands of a fresh Debian machine. What they do, step by step, is in tools/; presets are for daily work.
+#
+#   make build                    installs what it needs, builds build/release/meshhood
+#   make test                     the same, then builds and runs all tests
+#   make demo [MESH=some.ply]     the four methods side by side on a mesh with a trap, or on your own
+.PHONY: build test demo
+
+# The demo reads these from the environment, so that a name may hold blanks.
+export MESH VERTEX RADIUS
+
+build:
+	@tools/setup build
+	@tools/build release -DMESHHOOD_BUILD_TESTS=OFF -DMESHHOOD_BUILD_BENCH=OFF
+
+test:
+	@tools/setup test
+	@tools/test release asan
+
+demo: build
+	@tools/demo

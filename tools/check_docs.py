@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""Checks that what the documents name still exists: files they link to or name, presets, MESHHOOD_ names and the
+options of the command line. Usage: tools/check_docs.py [PROGRAM]
+
+Without PROGRAM, or where it does not exist, the options of the command line are left out, and that is said.
+"""
+import functools
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)|<img[^>]* src=\"([^\"]+)\"")
+CODE = re.compile(r"```.*?```|`[^`\n]+`", re.DOTALL)
+PATH = re.compile(r"(?<![\w./<-])(?:include|src|io|cli|shapes|tests|bench|examples|docs|cmake|tools|\.ci)/[\w./-]*\w")
+PRESET = re.compile(r"--preset[ =]([\w-]+)")
+MACRO = re.compile(r"\bMESHHOOD_[A-Z_]*[A-Z]\b")
+COMMAND = re.compile(r"\bmeshhood ([a-z]+)\b([^\n`#]*)")
+OPTION = re.compile(r"(?<!\S)\[?(--?[a-z][\w-]*)")
+
+
+def texts(*patterns):
+    """The files of the checkout that match, each with its text. Does not ask git, which may not trust the owner."""
+    files = (path for pattern in patterns for path in ROOT.rglob(pattern))
+    names = sorted(path.relative_to(ROOT) for path in files if path.relative_to(ROOT).parts[0] != "build")
+    return [(str(name), (ROOT / name).read_text(encoding="utf-8")) for name in names]
+
+
+def code_in(text):
+    """The code of a document; a command broken over lines by a backslash becomes one line."""
+    return "\n".join(CODE.findall(text)).replace("\\\n", " ")
+
+
+def missing_links(name, text):
+    for target in filter(None, (a or b for a, b in LINK.findall(text))):
+        if "://" not in target and not (ROOT / name).parent.joinpath(target).exists():
+            yield f"{name}: link to {target}, which does not exist"
+
+
+def missing_paths(name, text):
+    for path in sorted(set(PATH.findall(code_in(text)))):
+        if not (ROOT / path).exists() and not list(ROOT.glob(path + ".*")):
+            yield f"{name}: names {path}, which does not exist"
+
+
+def missing_presets(name, text):
+    presets = {p["name"] for p in json.loads((ROOT / "CMakePresets.json").read_text())["configurePresets"]}
+    for preset in sorted(set(PRESET.findall(text)) - presets):
+        yield f"{name}: names the preset {preset}, which does not exist"
+
+
+def missing_macros(name, text):
+    for macro in sorted(set(MACRO.findall(text)) - known_macros()):
+        yield f"{name}: names {macro}, which does not exist"
+
+
+@functools.cache
+def known_macros():
+    sources = texts("CMakeLists.txt", "*.cmake", "*.json", "*.h", "*.cpp", "*.py")
+    return frozenset(macro for _, text in sources for macro in MACRO.findall(text))
+
+
+@functools.cache
+def help_of(program, subcommand):
+    run = subprocess.run([program, subcommand, "--help"], capture_output=True, text=True, check=False)
+    return run.stdout if run.returncode == 0 else None
+
+
+def missing_options(name, text, program):
+    for subcommand, rest in COMMAND.findall(code_in(text)):
+        manual = help_of(program, subcommand)
+        if manual is None:
+            yield f"{name}: `meshhood {subcommand}` is no command"
+            continue
+        for option in OPTION.findall(rest):
+            if not re.search(rf"(?<![\w-]){option}(?![\w-])", manual):
+                yield f"{name}: `meshhood {subcommand}` has no option {option}"
+
+
+def main(program):
+    known = texts("*.md")
+    checks = [missing_links, missing_paths, missing_presets, missing_macros]
+    if program and Path(program).exists():
+        program = str(Path(program).resolve())
+        checks.append(lambda name, text: missing_options(name, text, program))
+    else:
+        print("docs: options of the command line not checked, for there is no program")
+    faults = [fault for name, text in known for check in checks for fault in check(name, text)]
+    print("\n".join(faults + [f"docs: {len(known)} documents, {len(faults)} names that do not exist"]))
+    return 1 if faults or not known else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1] if len(sys.argv) > 1 else ""))
