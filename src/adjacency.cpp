@@ -142,8 +142,8 @@ double mean_edge_length(const GraphView& graph) {
         if (w > v) sum += std::sqrt(squared_distance(p, point(xyz, w)));
       }
     }
-    const auto edges = static_cast<double>(adjacency.neighbors.size() / 2);
-    return edges == 0 ? 0.0 : sum / edges;
+    const std::size_t edges = adjacency.neighbors.size() / 2;
+    return edges == 0 ? 0.0 : sum / static_cast<double>(edges);
   });
 }
 

@@ -48,6 +48,7 @@ std::vector<LevelSummary> Index::levels() const {
   return std::visit(
       [](const auto& hierarchy) {
         std::vector<LevelSummary> result;
+        result.reserve(hierarchy.levels.size());
         for (const auto& level : hierarchy.levels) result.push_back(summarize(level));
         return result;
       },
