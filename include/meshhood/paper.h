@@ -138,6 +138,8 @@ class Searcher {
     VertexId begin;
     VertexId end;
     bool inside;
+
+    [[nodiscard]] std::size_t size() const { return std::size_t{end} - begin; }
   };
 
   /// The three phases for one precision of positions; leave the pieces of the answer in `pieces_`.

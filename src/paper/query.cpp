@@ -3,7 +3,6 @@
 // pieces of the index order; only then are ids copied, or vertices counted.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <variant>
@@ -13,7 +12,6 @@
 
 #include "distance.h"
 #include "paper/hierarchy.h"
-#include "prefetch.h"
 #include "text.h"
 
 namespace meshhood::paper {
@@ -87,13 +85,17 @@ class Searcher::Query {
     const Placement placement = ball_.place(level().spheres[cluster]);
     if (placement == Placement::Outside) return;
     if (placement == Placement::Inside || level_ == 0) {
-      searcher_.pieces_.push_back(
-          {level().first_vertex[cluster], level().first_vertex[cluster + 1], placement == Placement::Inside});
+      add_piece({level().first_vertex[cluster], level().first_vertex[cluster + 1], placement == Placement::Inside});
       return;
     }
     for (ClusterId c = level().first_child[cluster]; c < level().first_child[cluster + 1]; ++c) {
       searcher_.refined_.push_back(c);
     }
+  }
+
+  void add_piece(const Piece& piece) {
+    searcher_.pieces_.push_back(piece);
+    if (!piece.inside) searcher_.profile_.vertices_tested += piece.size();
   }
 
   Searcher& searcher_;
@@ -105,25 +107,23 @@ class Searcher::Query {
 
 template <class Real>
 void Searcher::Query<Real>::collect(std::vector<VertexId>& out) const {
+  const std::vector<VertexId>& vertices = hierarchy_.vertices;
   std::size_t bound = 0;
-  for (const Piece& piece : searcher_.pieces_) bound += piece.end - std::size_t{piece.begin};
+  for (const Piece& piece : searcher_.pieces_) bound += piece.size();
   out.resize(bound);
-  std::size_t end = 0;
+  auto end = out.begin();
   for (const Piece& piece : searcher_.pieces_) {
     if (piece.inside) {
-      std::copy(hierarchy_.vertices.begin() + piece.begin, hierarchy_.vertices.begin() + piece.end,
-                out.begin() + static_cast<std::ptrdiff_t>(end));
-      end += piece.end - std::size_t{piece.begin};
+      end = std::copy(vertices.begin() + piece.begin, vertices.begin() + piece.end, end);
       continue;
     }
     for (std::size_t i = piece.begin; i < piece.end; ++i) {
       // Written always, kept if it is inside: cheaper than a jump that cannot be foretold.
-      out[end] = hierarchy_.vertices[i];
-      end += static_cast<std::size_t>(ball_.contains(point<Real>(hierarchy_.positions, i)));
+      *end = vertices[i];
+      end += static_cast<std::ptrdiff_t>(ball_.contains(point<Real>(hierarchy_.positions, i)));
     }
-    searcher_.profile_.vertices_tested += piece.end - std::size_t{piece.begin};
   }
-  out.resize(end);
+  out.resize(static_cast<std::size_t>(end - out.begin()));
 }
 
 template <class Real>
@@ -131,13 +131,12 @@ std::size_t Searcher::Query<Real>::count() const {
   std::size_t total = 0;
   for (const Piece& piece : searcher_.pieces_) {
     if (piece.inside) {
-      total += piece.end - std::size_t{piece.begin};
+      total += piece.size();
       continue;
     }
     for (std::size_t i = piece.begin; i < piece.end; ++i) {
       total += static_cast<std::size_t>(ball_.contains(point<Real>(hierarchy_.positions, i)));
     }
-    searcher_.profile_.vertices_tested += piece.end - std::size_t{piece.begin};
   }
   return total;
 }
