@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that what the documents name still exists: files they link to or name, presets, MESHHOOD_ names and the
-options of the command line. Usage: tools/check_docs.py [PROGRAM]
+"""Checks that what the documents name still exists: files they link to or name, code they show, presets, MESHHOOD_
+names and the options of the command line. Usage: tools/check_docs.py [PROGRAM]
 
 Without PROGRAM, or where it does not exist, the options of the command line are left out, and that is said.
 """
@@ -15,6 +15,7 @@ ROOT = Path(__file__).resolve().parent.parent
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)|<img[^>]* src=\"([^\"]+)\"")
 CODE = re.compile(r"```.*?```|`[^`\n]+`", re.DOTALL)
 PATH = re.compile(r"(?<![\w./<-])(?:include|src|io|cli|shapes|tests|bench|examples|docs|cmake|tools|\.ci)/[\w./-]*\w")
+EXCERPT = re.compile(r"<!-- from (\S+) -->\n```cpp\n(.*?)```", re.DOTALL)
 PRESET = re.compile(r"--preset[ =]([\w-]+)")
 MACRO = re.compile(r"\bMESHHOOD_[A-Z_]*[A-Z]\b")
 COMMAND = re.compile(r"\bmeshhood ([a-z]+)\b([^\n`#]*)")
@@ -43,6 +44,14 @@ def missing_paths(name, text):
     for path in sorted(set(PATH.findall(code_in(text)))):
         if not (ROOT / path).exists() and not list(ROOT.glob(path + ".*")):
             yield f"{name}: names {path}, which does not exist"
+
+
+def stale_excerpts(name, text):
+    """The code under `<!-- from FILE -->` is the part of FILE between its two `// [readme]` lines, word for word."""
+    for path, code in EXCERPT.findall(text):
+        parts = (ROOT / path).read_text(encoding="utf-8").split("// [readme]\n")
+        if len(parts) != 3 or parts[1] != code:
+            yield f"{name}: the excerpt from {path} is not what stands there"
 
 
 def missing_presets(name, text):
@@ -81,14 +90,14 @@ def missing_options(name, text, program):
 
 def main(program):
     known = texts("*.md")
-    checks = [missing_links, missing_paths, missing_presets, missing_macros]
+    checks = [missing_links, missing_paths, stale_excerpts, missing_presets, missing_macros]
     if program and Path(program).exists():
         program = str(Path(program).resolve())
         checks.append(lambda name, text: missing_options(name, text, program))
     else:
         print("docs: options of the command line not checked, for there is no program")
     faults = [fault for name, text in known for check in checks for fault in check(name, text)]
-    print("\n".join(faults + [f"docs: {len(known)} documents, {len(faults)} names that do not exist"]))
+    print("\n".join(faults + [f"docs: {len(known)} documents, {len(faults)} faults"]))
     return 1 if faults or not known else 0
 
 

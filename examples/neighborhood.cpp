@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The neighborhood of a vertex of a mesh file: `example_neighborhood FILE VERTEX RADIUS`.
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <vector>
+
+// [readme]
+#include <meshhood/io/mesh_io.h>
+#include <meshhood/meshhood.h>
+
+std::vector<meshhood::VertexId> near(const char* file, meshhood::VertexId vertex, double radius) {
+  const auto mesh = meshhood::io::read_mesh(file);         // PLY, OBJ, OFF or STL
+  const auto index = meshhood::paper::build(mesh.view());  // once a mesh
+  meshhood::paper::Searcher searcher(index);               // one a thread, for any number of queries
+  std::vector<meshhood::VertexId> answer;
+  searcher.neighborhood(vertex, radius, answer);  // the radius in the unit of the positions
+  return answer;
+}
+// [readme]
+
+int main(int argc, char** argv) try {
+  if (argc != 4) {
+    std::fprintf(stderr, "usage: %s FILE VERTEX RADIUS\n", argv[0]);
+    return 2;
+  }
+  const auto vertex = static_cast<meshhood::VertexId>(std::strtoul(argv[2], nullptr, 10));
+  const double radius = std::strtod(argv[3], nullptr);
+  std::printf("%zu vertices within %g of vertex %u along the surface\n", near(argv[1], vertex, radius).size(), radius,
+              unsigned{vertex});
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}

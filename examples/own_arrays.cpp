@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// A mesh that is in memory already: nothing is copied but what the index keeps. A paper strip, folded so that its ends
+// lie on each other, shows what a ball takes and a neighborhood does not.
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+#include <meshhood/meshhood.h>
+
+namespace {
+
+constexpr std::uint32_t kLength = 4000;
+
+/// Two vertices a step, the second half of the strip back over the first at a height of a tenth of a step.
+std::vector<float> strip_positions() {
+  std::vector<float> xyz;
+  for (std::uint32_t step = 0; step < kLength; ++step) {
+    const bool back = step >= kLength / 2;
+    const auto x = static_cast<float>(back ? kLength - 1 - step : step);
+    const float z = back ? 0.1F : 0.0F;
+    xyz.insert(xyz.end(), {x, 0.0F, z, x, 1.0F, z});
+  }
+  return xyz;
+}
+
+}  // namespace
+
+int main() {
+  const std::vector<float> xyz = strip_positions();
+  std::vector<std::uint32_t> offsets = {
+      0};  // polygons of any size: face f has the corners [offsets[f], offsets[f + 1])
+  std::vector<std::uint32_t> corners;
+  for (std::uint32_t step = 0; step + 1 < kLength; ++step) {
+    corners.insert(corners.end(), {2 * step, 2 * step + 1, 2 * step + 3, 2 * step + 2});
+    offsets.push_back(static_cast<std::uint32_t>(corners.size()));
+  }
+  const meshhood::MeshView mesh{xyz, meshhood::FacesView::polygons(offsets, corners)};
+
+  const auto index = meshhood::paper::build(mesh);
+  meshhood::paper::Searcher searcher(index);
+  std::vector<meshhood::VertexId> in_ball;
+  meshhood::ball(mesh.positions, 0, 100.0, in_ball);
+  const std::size_t exact = meshhood::exact_neighborhood(mesh, 0, 100.0).size();
+  const std::size_t paper = searcher.count(0, 100.0);
+  std::printf("within 100 of vertex 0: %zu by the ball, %zu along the strip, %zu by the paper's index\n",
+              in_ball.size(), exact, paper);
+  return exact <= paper && paper <= in_ball.size() && exact < in_ball.size() ? 0 : 1;
+}

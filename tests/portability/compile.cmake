@@ -1,0 +1,21 @@
+# Compiles SOURCES one by one with COMPILER and FLAGS, and stops at the first that fails.
+cmake_minimum_required(VERSION 3.25)
+
+list(TRANSFORM INCLUDE_DIRS PREPEND -I)
+set(command ${COMPILER} -std=c++20 -O1 -Wall -Wextra -Werror ${INCLUDE_DIRS} ${FLAGS} -c -o /dev/null)
+
+# A compiler that cannot do the smallest program here says nothing about ours.
+set(probe ${CMAKE_CURRENT_BINARY_DIR}/portability_probe.cpp)
+file(WRITE ${probe} "#include <vector>\nint main() { return static_cast<int>(std::vector<int>().size()); }\n")
+execute_process(COMMAND ${command} ${probe} RESULT_VARIABLE result OUTPUT_QUIET ERROR_QUIET)
+if(NOT result EQUAL 0)
+  list(JOIN FLAGS " " flags)
+  message("SKIPPED: ${COMPILER} ${flags} does not work on this machine")
+  return()
+endif()
+
+foreach(source IN LISTS SOURCES)
+  execute_process(COMMAND ${command} ${source} COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+list(LENGTH SOURCES count)
+message("${count} sources compiled")
