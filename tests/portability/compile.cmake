@@ -4,9 +4,7 @@ cmake_minimum_required(VERSION 3.25)
 list(TRANSFORM INCLUDE_DIRS PREPEND -I)
 set(command ${COMPILER} -std=c++20 -O1 -Wall -Wextra -Werror ${INCLUDE_DIRS} ${FLAGS} -c -o /dev/null)
 
-# A compiler that cannot do the smallest program here says nothing about ours.
-set(probe ${CMAKE_CURRENT_BINARY_DIR}/portability_probe.cpp)
-file(WRITE ${probe} "#include <vector>\nint main() { return static_cast<int>(std::vector<int>().size()); }\n")
+set(probe ${CMAKE_CURRENT_LIST_DIR}/probe.cpp)
 execute_process(COMMAND ${command} ${probe} RESULT_VARIABLE result OUTPUT_QUIET ERROR_QUIET)
 if(NOT result EQUAL 0)
   list(JOIN FLAGS " " flags)
