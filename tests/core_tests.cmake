@@ -10,3 +10,4 @@ target_link_libraries(meshhood_families PUBLIC meshhood::meshhood)
 meshhood_own_target(meshhood_families)
 
 meshhood_test(differential meshhood_families)
+add_subdirectory(paper)

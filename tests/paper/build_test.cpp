@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/meshhood.h"
+
+#include "families.h"
+#include "paper/same_index.h"
+#include "scale.h"
+
+namespace meshhood::test {
+namespace {
+
+using paper::build;
+using paper::BuildOptions;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+std::vector<int> level_numbers(const paper::Index& index) {
+  std::vector<int> numbers;
+  for (const paper::LevelSummary& level : index.levels()) numbers.push_back(level.level);
+  return numbers;
+}
+
+/// All clusters are whole components.
+bool is_complete(const paper::Index& index) { return index.levels().back().mean_siblings == 0; }
+
+TEST(Build, ComputesFiveLevelsAndKeepsThreeByDefault) {
+  const TestMesh mesh = make_grid(60, 60, false);
+  EXPECT_THAT(level_numbers(build(mesh.view())), ElementsAre(2, 3, 4));
+}
+
+TEST(Build, KeepsWhatTheOptionsSay) {
+  const TestMesh mesh = make_grid(60, 60, true);
+  EXPECT_THAT(level_numbers(build(mesh.view(), {.levels = 4, .discard = 0})), ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(level_numbers(build(mesh.view(), {.levels = 1, .discard = 0})), ElementsAre(0));
+  EXPECT_THAT(level_numbers(build(mesh.view(), {.levels = 3, .discard = 2})), ElementsAre(2));
+  EXPECT_THAT(level_numbers(build(mesh.view(), {.levels = 3, .discard = 1000})), ElementsAre(2));
+}
+
+TEST(Build, GoesOnUntilEveryComponentIsOneCluster) {
+  TestMesh mesh = make_grid(20, 20, false);
+  append(mesh, make_grid(3, 3, false));
+  mesh.add_vertex(100, 0, 0);
+  const paper::Index index = build(mesh.finish(true).view(), {.levels = BuildOptions::kAllLevels, .discard = 0});
+  EXPECT_TRUE(is_complete(index));
+  EXPECT_EQ(index.levels().back().clusters, 3U);
+  EXPECT_LT(index.levels().size(), 10U);
+  EXPECT_THAT(index.check(mesh.view()), IsEmpty());
+}
+
+TEST(Build, HalvesUntilItIsComplete) {
+  std::size_t meshes = 0;
+  for (const Family& family : families()) {
+    for (std::uint64_t seed = 0; seed < scaled(10, 2); ++seed, ++meshes) {
+      const TestMesh mesh = make_mesh(family, seed, 20 + 50 * seed);
+      const auto index = build(mesh.view(), {.levels = BuildOptions::kAllLevels, .discard = 0, .fusion_growth = 0});
+      EXPECT_TRUE(is_complete(index)) << mesh.name;
+      EXPECT_LE(index.levels().size(), 2 + std::bit_width(mesh.size())) << mesh.name;
+      EXPECT_THAT(index.check(mesh.view()), IsEmpty()) << mesh.name;
+    }
+  }
+  std::printf("%zu meshes\n", meshes);
+}
+
+TEST(Build, FusesMoreWhereTheGrowthIsLarger) {
+  const TestMesh mesh = make_grid(60, 60, false);
+  const auto clusters = [&](double growth) {
+    return build(mesh.view(), {.levels = 2, .discard = 1, .fusion_growth = growth}).levels().back().clusters;
+  };
+  EXPECT_LE(clusters(4), clusters(0));
+  EXPECT_LT(clusters(16), clusters(4));
+  EXPECT_EQ(clusters(1e9), 1U);
+}
+
+TEST(Build, SummarisesItsLevels) {
+  const TestMesh mesh = make_grid(50, 40, false);
+  const paper::Index index = build(mesh.view(), {.levels = 3, .discard = 0});
+  EXPECT_EQ(index.vertex_count(), 2000U);
+  const auto levels = index.levels();
+  ASSERT_EQ(levels.size(), 3U);
+  EXPECT_EQ(levels[0].clusters, 2000U);
+  EXPECT_EQ(levels[0].mean_vertices, 1.0);
+  EXPECT_EQ(levels[0].mean_radius, 0.0);
+  const auto edges = static_cast<double>(adjacency(mesh.view()).neighbors.size());
+  EXPECT_EQ(levels[0].mean_siblings, edges / 2000);
+  std::size_t bytes = 2000 * (3 * sizeof(float) + sizeof(VertexId));
+  for (const auto& level : levels) {
+    EXPECT_DOUBLE_EQ(level.mean_vertices * static_cast<double>(level.clusters), 2000);
+    bytes += level.bytes;
+  }
+  EXPECT_GT(levels[2].mean_radius, levels[1].mean_radius);
+  EXPECT_GT(index.bytes(), bytes);  // and the references of the vertices to their clusters
+  EXPECT_LT(index.bytes(), bytes + 4 * 2000);
+}
+
+TEST(Build, PermutesTheVertices) {
+  const TestMesh mesh = make_grid(30, 30, false);
+  const paper::Index index = build(mesh.view());
+  std::vector<VertexId> ids(index.permutation().begin(), index.permutation().end());
+  std::sort(ids.begin(), ids.end());
+  for (std::size_t v = 0; v < mesh.size(); ++v) ASSERT_EQ(ids[v], v);
+}
+
+TEST(Build, OutlivesTheMeshAndMoves) {
+  const TestMesh mesh = make_grid(10, 10, false);
+  paper::Index index = [&] {
+    const TestMesh copy = mesh;
+    return build(copy.view());
+  }();
+  paper::Index moved = std::move(index);
+  index = build(mesh.view());
+  EXPECT_TRUE(same_index(index, moved));
+}
+
+TEST(Build, IsDeterministic) {
+  std::size_t indexes = 0;
+  for (const Family& family : families()) {
+    for (std::uint64_t seed = 0; seed < scaled(10, 2); ++seed) {
+      const TestMesh mesh = make_mesh(family, seed, 30 + 40 * seed);
+      const BuildOptions options{.levels = 1 + static_cast<int>(seed % 5), .discard = static_cast<int>(seed % 3)};
+      const paper::Index index = build(mesh.view(), options);
+      const Adjacency graph = adjacency(mesh.view());
+      EXPECT_TRUE(same_index(index, build(mesh.view(), options))) << mesh.name;
+      EXPECT_TRUE(same_index(index, build(GraphView{mesh.positions_view(), graph.view()}, options))) << mesh.name;
+      EXPECT_THAT(index.check(GraphView{mesh.positions_view(), graph.view()}), IsEmpty()) << mesh.name;
+      indexes += 3;
+    }
+  }
+  std::printf("%zu indexes\n", indexes);
+}
+
+template <class Index>
+std::vector<Index> widened(const TestMesh& mesh) {
+  return {mesh.corners.begin(), mesh.corners.end()};
+}
+
+TEST(Build, DoesNotDependOnTheTypeOfTheIndices) {
+  const TestMesh mesh = make_grid(30, 30, false);
+  const auto of = [&](const auto& corners) {
+    return build({mesh.positions_view(), FacesView::triangles(corners)}, {.levels = 3, .discard = 0});
+  };
+  const paper::Index index = of(mesh.corners);
+  EXPECT_TRUE(same_index(index, of(widened<std::int32_t>(mesh))));
+  EXPECT_TRUE(same_index(index, of(widened<std::uint64_t>(mesh))));
+  EXPECT_TRUE(same_index(index, of(widened<std::int64_t>(mesh))));
+  EXPECT_TRUE(same_index(index, build(mesh.view(), {.levels = 3, .discard = 0})));
+}
+
+TEST(Build, MakesTheSameClustersInEitherPrecision) {
+  const TestMesh single = make_grid(30, 30, false);
+  TestMesh wide = single;
+  wide.finish(false);
+  const paper::Index a = build(single.view());
+  const paper::Index b = build(wide.view());
+  EXPECT_TRUE(std::ranges::equal(a.permutation(), b.permutation()));
+}
+
+TEST(Build, A1RefusesOptionsOutOfRange) {
+  const TestMesh mesh = make_grid(3, 3, false);
+  const auto expect_refused = [&](const BuildOptions& options, const char* culprit) {
+    try {
+      static_cast<void>(build(mesh.view(), options));
+      ADD_FAILURE() << culprit << " accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::InvalidOption);
+      EXPECT_THAT(error.what(), testing::HasSubstr(culprit));
+    }
+  };
+  expect_refused({.levels = 0}, "levels is 0");
+  expect_refused({.levels = -3}, "levels is -3");
+  expect_refused({.discard = -1}, "discard is -1");
+  expect_refused({.fusion_growth = -1}, "fusion_growth is -1");
+  expect_refused({.fusion_growth = std::numeric_limits<double>::infinity()}, "fusion_growth is inf");
+  expect_refused({.fusion_growth = std::numeric_limits<double>::quiet_NaN()}, "fusion_growth is nan");
+}
+
+}  // namespace
+}  // namespace meshhood::test

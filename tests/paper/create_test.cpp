@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "paper/create.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "paper/levels.h"
+
+namespace meshhood::test {
+namespace {
+
+using paper::CandidateQueue;
+using testing::ElementsAre;
+
+std::vector<ClusterId> order_of(CandidateQueue& queue) {
+  std::vector<ClusterId> order;
+  while (!queue.empty()) order.push_back(queue.pop().cluster);
+  return order;
+}
+
+TEST(Create, CountsAClusterAndItsSiblings) {
+  EXPECT_THAT(paper::create(path_level(4)), ElementsAre(2, 3, 3, 2));
+  EXPECT_THAT(paper::create(star_level(3)), ElementsAre(4, 2, 2, 2));
+  EXPECT_THAT(paper::create(level_on_line({0, 1}, {})), ElementsAre(1, 1));
+}
+
+TEST(CandidateQueue, GivesTheNearestToTheAverageFirst) {
+  CandidateQueue queue({2, 9, 4, 5});  // average 5
+  EXPECT_THAT(order_of(queue), ElementsAre(3, 2, 0, 1));
+}
+
+TEST(CandidateQueue, BreaksTiesById) {
+  CandidateQueue queue({4, 6, 4, 6});
+  EXPECT_THAT(order_of(queue), ElementsAre(0, 1, 2, 3));
+}
+
+TEST(CandidateQueue, KeepsTheFirstAverageWhenCandidatesComeBack) {
+  CandidateQueue queue({4, 6, 5});  // average 5
+  EXPECT_EQ(queue.pop().cluster, 2U);
+  queue.insert(2, 1);
+  EXPECT_THAT(order_of(queue), ElementsAre(0, 1, 2));
+}
+
+TEST(CandidateQueue, CarriesTheCount) {
+  CandidateQueue queue({7});
+  const CandidateQueue::Candidate top = queue.pop();
+  EXPECT_EQ(top.children, 7U);
+  EXPECT_EQ(top.from_average, 0.0);
+  EXPECT_TRUE(queue.empty());
+}
+
+TEST(CandidateQueue, IsASortByKeyAndId) {
+  Random random(1);
+  std::vector<VertexId> children(1000);
+  double sum = 0;
+  for (VertexId& count : children) sum += count = static_cast<VertexId>(1 + random.below(20));
+  std::vector<std::tuple<double, ClusterId>> expected;
+  for (std::size_t c = 0; c < children.size(); ++c) {
+    expected.emplace_back(std::abs(children[c] - sum / 1000), static_cast<ClusterId>(c));
+  }
+  std::sort(expected.begin(), expected.end());
+  CandidateQueue queue(children);
+  for (const auto& [key, cluster] : expected) ASSERT_EQ(queue.pop().cluster, cluster) << "key " << key;
+}
+
+}  // namespace
+}  // namespace meshhood::test

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "paper/fusion.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "paper/create.h"
+#include "paper/levels.h"
+#include "paper/select.h"
+#include "scale.h"
+
+namespace meshhood::test {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<ClusterId> fused(const DraftLevel& level, double threshold, std::vector<ClusterId> parent) {
+  Partition partition{std::move(parent), 0};
+  for (const ClusterId p : partition.parent) partition.clusters = std::max<std::size_t>(partition.clusters, p + 1);
+  paper::fuse(level, threshold, partition);
+  EXPECT_TRUE(is_connected_partition(level, partition));
+  return partition.parent;
+}
+
+TEST(Fusion, LeavesWhatIsLargeEnough) {
+  EXPECT_THAT(fused(path_level(6), 3, {0, 0, 0, 1, 1, 1}), ElementsAre(0, 0, 0, 1, 1, 1));
+  EXPECT_THAT(fused(path_level(6), 0, {0, 0, 1, 1, 2, 2}), ElementsAre(0, 0, 1, 1, 2, 2));
+}
+
+TEST(Fusion, DissolvesTheSmallestFirst) {
+  // Cluster 0 goes to cluster 1, which then is large enough.
+  EXPECT_THAT(fused(path_level(7), 3, {0, 0, 1, 1, 2, 2, 2}), ElementsAre(0, 0, 0, 0, 1, 1, 1));
+}
+
+TEST(Fusion, DissolvesASingleChildHoweverLarge) {
+  EXPECT_THAT(fused(path_level(3), 0, {0, 0, 1}), ElementsAre(0, 0, 0));
+  DraftLevel level = path_level(3);
+  level.vertex_count = {1, 1, 1000};
+  EXPECT_THAT(fused(level, 2, {0, 0, 1}), ElementsAre(0, 0, 0));
+}
+
+TEST(Fusion, CountsVerticesNotChildren) {
+  DraftLevel level = path_level(4);
+  level.vertex_count = {1, 1, 10, 10};
+  EXPECT_THAT(fused(level, 3, {0, 0, 1, 1}), ElementsAre(0, 0, 0, 0));
+  level.vertex_count = {2, 2, 10, 10};
+  EXPECT_THAT(fused(level, 3, {0, 0, 1, 1}), ElementsAre(0, 0, 1, 1));
+}
+
+TEST(Fusion, A13KeepsADonorWithoutSiblings) {
+  const DraftLevel pairs = level_on_line({0, 1, 10, 11}, {{0, 1}, {2, 3}});
+  EXPECT_THAT(fused(pairs, 1e9, {0, 0, 1, 1}), ElementsAre(0, 0, 1, 1));
+  EXPECT_THAT(fused(level_on_line({0, 1}, {}), 1e9, {0, 1}), ElementsAre(0, 1));
+}
+
+TEST(Fusion, MergesAComponentThatIsTooSmallIntoOne) {
+  EXPECT_THAT(fused(path_level(6), 100, {0, 0, 1, 1, 2, 2}), ElementsAre(0, 0, 0, 0, 0, 0));
+}
+
+TEST(Fusion, GivesToTheNearestThatIsTouched) {
+  // The donor {1, 2, 3} is a path. Its end 1 touches {0, 4}, its end 3 touches {5, 6}; but 3 lies beside the former.
+  const std::vector<double> xs{0, 1, 2, 0.5, 0.4, 50, 51};
+  DraftLevel heavy = level_on_line(xs, {{0, 4}, {0, 1}, {1, 2}, {2, 3}, {3, 5}, {5, 6}});
+  for (const std::size_t c : {0, 4, 5, 6}) {
+    heavy.vertex_count[c] = 10;
+    heavy.position_sum[c].x *= 10;
+  }
+  // 2 touches none at first, and follows 1 into the nearer of the two that it then touches.
+  EXPECT_THAT(fused(heavy, 4, {0, 1, 1, 1, 0, 2, 2}), ElementsAre(0, 0, 0, 1, 0, 1, 1));
+}
+
+TEST(Fusion, NumbersTheSurvivorsByTheirFirstChild) {
+  EXPECT_THAT(fused(path_level(4), 0, {1, 1, 0, 0}), ElementsAre(0, 0, 1, 1));
+}
+
+/// What must hold of a cluster after fusion, unless it is a whole component.
+void expect_large_enough(const TestMesh& mesh, const DraftLevel& level, const Partition& partition, double threshold) {
+  for (const auto& children : children_of(partition)) {
+    bool touches = false;
+    for (const std::uint32_t c : children) {
+      for (const ClusterId s : level.siblings[c]) touches |= partition.parent[s] != partition.parent[c];
+    }
+    if (!touches) continue;
+    EXPECT_GE(static_cast<double>(children.size()), threshold) << mesh.name;
+    EXPECT_GE(children.size(), 2U) << mesh.name;
+  }
+}
+
+TEST(Fusion, A14KeepsEveryClusterConnected) {
+  std::size_t fusions = 0;
+  const std::size_t levels = for_each_small_level(scaled(600, 40), [&](const TestMesh& mesh, const DraftLevel& level) {
+    for (const double threshold : {0.0, 2.0, 4.0, 16.0, 1e9}) {
+      Partition partition = paper::select(level, paper::create(level));
+      paper::fuse(level, threshold, partition);
+      EXPECT_TRUE(is_connected_partition(level, partition)) << mesh.name << ", threshold " << threshold;
+      expect_large_enough(mesh, level, partition, threshold);
+      ++fusions;
+    }
+  });
+  std::printf("%zu levels, %zu fusions\n", levels, fusions);
+}
+
+}  // namespace
+}  // namespace meshhood::test

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/meshhood.h"
+
+#include "families.h"
+
+namespace meshhood::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Two parallel edges of a long narrow U: near each other in space, far along the mesh.
+TestMesh hairpin() {
+  TestMesh mesh;
+  for (std::uint32_t i = 0; i < 400; ++i) {
+    const bool back = i >= 200;
+    mesh.add_vertex(back ? 399 - i : i, back ? 0.5 : 0, 0);
+    if (i > 0) mesh.add_face({i - 1, i});
+  }
+  return mesh.finish(true);
+}
+
+std::vector<VertexId> sorted(std::vector<VertexId> ids) {
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+TEST(Query, ClimbsToTheFirstLevelWhoseMeanRadiusReaches) {
+  const TestMesh mesh = make_grid(80, 80, false);
+  const paper::Index index = paper::build(mesh.view(), {.levels = 5, .discard = 0});
+  const auto levels = index.levels();
+  paper::Searcher searcher(index);
+  std::vector<VertexId> out;
+  for (const double factor : {1.0, 10.0, 50.0}) {
+    for (double radius = 0; radius < 200; radius += 0.5) {
+      searcher.neighborhood(1234, radius, out, {.scale_factor = factor});
+      const auto wanted =
+          std::ranges::find_if(levels, [&](const auto& level) { return level.mean_radius >= radius / factor; });
+      const int expected = wanted == levels.end() ? levels.back().level : wanted->level;
+      ASSERT_EQ(searcher.profile().level, expected) << "radius " << radius << ", factor " << factor;
+    }
+  }
+}
+
+TEST(Query, ReachesAcrossTheGapWhereClustersAreLarge) {
+  const TestMesh mesh = hairpin();
+  const paper::Index index = paper::build(mesh.view(), {.levels = 6, .discard = 0});
+  paper::Searcher searcher(index);
+  std::vector<VertexId> coarse;
+  std::vector<VertexId> fine;
+  searcher.neighborhood(150, 10, coarse, {.scale_factor = 0.1});
+  searcher.neighborhood(150, 10, fine, {.scale_factor = 1000});
+  const auto exact = exact_neighborhood(mesh.view(), 150, 10);
+  EXPECT_THAT(sorted(fine), testing::ElementsAreArray(sorted(exact)));
+  EXPECT_GT(coarse.size(), exact.size());
+}
+
+TEST(Query, CountsWhatItDoes) {
+  const TestMesh mesh = make_grid(60, 60, false);
+  const paper::Index index = paper::build(mesh.view(), {.levels = 3, .discard = 0});
+  paper::Searcher searcher(index);
+  std::vector<VertexId> out;
+  searcher.neighborhood(0, 0, out);
+  EXPECT_THAT(out, testing::ElementsAre(0));
+  EXPECT_EQ(searcher.profile().level, 0);
+  EXPECT_EQ(searcher.profile().clusters_reached, 1U);
+  searcher.neighborhood(1830, 15, out);
+  EXPECT_GT(searcher.profile().clusters_reached, 10U);
+  EXPECT_LT(searcher.profile().vertices_tested, out.size());  // most clusters lie inside
+  const std::size_t tested = searcher.profile().vertices_tested;
+  EXPECT_EQ(searcher.count(1830, 15), out.size());
+  EXPECT_EQ(searcher.profile().vertices_tested, tested);
+}
+
+TEST(Query, TakesTheWholeComponentAtInfinity) {
+  TestMesh mesh = make_grid(20, 20, false);
+  append(mesh, make_grid(10, 10, false));
+  const paper::Index index = paper::build(mesh.view());
+  paper::Searcher searcher(index);
+  EXPECT_EQ(searcher.count(7, kInfinity), 400U);
+  EXPECT_EQ(searcher.count(450, kInfinity), 100U);
+  EXPECT_EQ(searcher.profile().vertices_tested, 0U);
+}
+
+TEST(Query, ForgetsTheQueriesBefore) {
+  const TestMesh mesh = make_grid(40, 40, false);
+  const paper::Index index = paper::build(mesh.view());
+  paper::Searcher used(index);
+  std::vector<VertexId> out;
+  std::vector<VertexId> expected;
+  Random random(5);
+  for (int i = 0; i < 1000; ++i) {
+    const auto v = static_cast<VertexId>(random.below(mesh.size()));
+    const double radius = random.uniform(0, 30);
+    used.neighborhood(v, radius, out);
+    paper::Searcher(index).neighborhood(v, radius, expected);
+    ASSERT_EQ(out, expected) << "vertex " << v << ", radius " << radius;
+  }
+}
+
+TEST(Query, RefillsWithoutANewBuffer) {
+  const TestMesh mesh = make_grid(40, 40, false);
+  const paper::Index index = paper::build(mesh.view());
+  paper::Searcher searcher(index);
+  std::vector<VertexId> out(mesh.size());
+  const VertexId* const buffer = out.data();
+  for (VertexId v = 0; v < mesh.size(); ++v) searcher.neighborhood(v, 10, out);
+  EXPECT_EQ(out.data(), buffer);
+}
+
+TEST(Query, ServesSeveralSearchersOfOneIndex) {
+  const TestMesh mesh = make_grid(40, 40, false);
+  const paper::Index index = paper::build(mesh.view());
+  paper::Searcher first(index);
+  paper::Searcher second(index);
+  for (VertexId v = 0; v < mesh.size(); v += 7) ASSERT_EQ(first.count(v, 6), second.count(v, 6));
+}
+
+template <class F>
+void expect_refused(ErrorCode code, const char* message, F&& call) {
+  try {
+    call();
+    ADD_FAILURE() << "accepted, expected: " << message;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), code);
+    EXPECT_THAT(error.what(), HasSubstr(message));
+  }
+}
+
+TEST(Query, A1A2RefusesWithoutTouchingTheAnswer) {
+  const TestMesh mesh = make_grid(4, 4, false);
+  const paper::Index index = paper::build(mesh.view());
+  paper::Searcher searcher(index);
+  std::vector<VertexId> out{9, 8, 7};
+  const auto ask = [&](VertexId v, double radius, double factor) {
+    return [&searcher, &out, v, radius, factor] { searcher.neighborhood(v, radius, out, {.scale_factor = factor}); };
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  expect_refused(ErrorCode::VertexOutOfRange, "vertex 16, but the mesh has 16 vertices", ask(16, 1, 10));
+  expect_refused(ErrorCode::VertexOutOfRange, "but the mesh has 16", ask(static_cast<VertexId>(-1), 1, 10));
+  expect_refused(ErrorCode::InvalidRadius, "radius -1", ask(0, -1, 10));
+  expect_refused(ErrorCode::InvalidRadius, "radius nan", ask(0, nan, 10));
+  expect_refused(ErrorCode::InvalidRadius, "radius -inf", ask(0, -kInfinity, 10));
+  expect_refused(ErrorCode::InvalidOption, "scale_factor is 0", ask(0, 1, 0));
+  expect_refused(ErrorCode::InvalidOption, "scale_factor is -2", ask(0, 1, -2));
+  expect_refused(ErrorCode::InvalidOption, "scale_factor is nan", ask(0, 1, nan));
+  expect_refused(ErrorCode::InvalidOption, "scale_factor is inf", ask(0, 1, kInfinity));
+  expect_refused(ErrorCode::InvalidRadius, "radius nan", [&] { static_cast<void>(searcher.count(0, nan)); });
+  EXPECT_THAT(out, testing::ElementsAre(9, 8, 7));
+  searcher.neighborhood(5, -0.0, out);
+  EXPECT_THAT(out, testing::ElementsAre(5));
+}
+
+}  // namespace
+}  // namespace meshhood::test
