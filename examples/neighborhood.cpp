@@ -5,6 +5,7 @@
 #include <exception>
 #include <vector>
 
+// NOLINTBEGIN(misc-use-internal-linkage): as the README shows it
 // [readme]
 #include <meshhood/io/mesh_io.h>
 #include <meshhood/meshhood.h>
@@ -18,6 +19,7 @@ std::vector<meshhood::VertexId> near(const char* file, meshhood::VertexId vertex
   return answer;
 }
 // [readme]
+// NOLINTEND(misc-use-internal-linkage)
 
 int main(int argc, char** argv) try {
   if (argc != 4) {

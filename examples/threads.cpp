@@ -36,6 +36,7 @@ std::size_t count_neighbors(const meshhood::paper::Index& index, std::size_t thr
     }
   };
   std::vector<std::thread> threads;
+  threads.reserve(thread_count);
   for (std::size_t thread = 0; thread < thread_count; ++thread) threads.emplace_back(ask, thread);
   for (auto& thread : threads) thread.join();
   return std::accumulate(sums.begin(), sums.end(), std::size_t{0});

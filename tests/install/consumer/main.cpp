@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <meshhood/io/mesh_io.h>
@@ -19,7 +20,7 @@ int main(int argc, char** argv) {
   const auto mesh = meshhood::io::read_mesh(file);
   const auto index = meshhood::paper::build(mesh.view());
   meshhood::paper::Searcher searcher(index);
-  std::printf("meshhood %s: %zu of %zu vertices within 1\n", meshhood::kVersion.data(), searcher.count(0, 1.0),
-              index.vertex_count());
+  std::printf("meshhood %s: %zu of %zu vertices within 1\n", std::string(meshhood::kVersion).c_str(),
+              searcher.count(0, 1.0), index.vertex_count());
   return searcher.count(0, 2.0) == 4 && meshhood::exact_neighborhood(mesh.view(), 0, 1.0).size() == 3 ? 0 : 1;
 }
