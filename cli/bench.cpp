@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// meshhood bench: the paper's Table 1 and Table 2 on one mesh.
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "meshhood/error.h"
+
+#include "commands.h"
+#include "input.h"
+#include "machine.h"
+#include "measure.h"
+#include "methods.h"
+#include "output.h"
+#include "progress.h"
+#include "question.h"
+
+namespace meshhood::cli {
+namespace {
+
+struct Options {
+  std::string file;
+  std::string order = "cold";
+  Plan plan{.radii = {2, 3, 5, 10, 20, 40, 65, 90}};
+  bool json = false;
+};
+
+/// Space in bytes, counted as the paper does.
+struct Table1 {
+  std::size_t vertices;
+  std::size_t faces;
+  std::size_t mesh_bytes;      ///< positions and corners; offsets too where not all faces are triangles
+  std::size_t topology_bytes;  ///< the same and the adjacency
+  std::size_t index_bytes;
+  double build_seconds;
+};
+
+std::size_t mesh_bytes(const MeshView& mesh) {
+  const std::size_t positions = mesh.positions.visit([](auto xyz) { return xyz.size_bytes(); });
+  const std::size_t offsets = mesh.faces.are_triangles() ? 0 : 4 * mesh.faces.offsets().size();
+  return positions + 4 * mesh.faces.corners().size() + offsets;
+}
+
+struct TimedIndex {
+  paper::Index index;
+  double seconds;
+};
+
+TimedIndex build_timed(const MeshView& mesh) {
+  const auto start = std::chrono::steady_clock::now();
+  paper::Index index = build_index(mesh);
+  return {std::move(index), std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
+}
+
+Table1 table1(const Input& input, const TimedIndex& built) {
+  const std::size_t mesh = mesh_bytes(input.view());
+  const AdjacencyView adjacency = input.adjacency.view();
+  return {.vertices = input.vertex_count(),
+          .faces = input.view().faces.size(),
+          .mesh_bytes = mesh,
+          .topology_bytes = mesh + adjacency.offsets.size_bytes() + adjacency.neighbors.size_bytes(),
+          .index_bytes = built.index.bytes(),
+          .build_seconds = built.seconds};
+}
+
+std::vector<Measurement> table2(const Input& input, const paper::Index& index, const Plan& plan) {
+  const std::vector<Method> methods{bfs_method(input.graph()), ball_method(input.view().positions),
+                                    paper_method(index)};
+  Progress progress("measuring");
+  return measure(methods, plan, mean_edge_length(input.graph()), index.permutation(),
+                 [&](double fraction) { progress.report(fraction); });
+}
+
+Json to_json(const Table1& t) {
+  return {{"vertices", t.vertices},       {"faces", t.faces},
+          {"mesh_bytes", t.mesh_bytes},   {"topology_bytes", t.topology_bytes},
+          {"index_bytes", t.index_bytes}, {"build_seconds", t.build_seconds}};
+}
+
+Json to_json(const std::vector<Measurement>& table) {
+  Json rows = Json::array();
+  for (const Measurement& m : table) {
+    rows.push_back({{"radius_edges", m.radius_edges},
+                    {"method", m.method},
+                    {"microseconds", m.microseconds},
+                    {"count", m.count},
+                    {"extra", m.extra},
+                    {"missing", m.missing}});
+  }
+  return rows;
+}
+
+Json to_json(const Machine& machine) {
+  return {{"processor", machine.processor}, {"compiler", machine.compiler}, {"build", machine.build}};
+}
+
+std::string to_text(const Table1& t) {
+  const auto megabytes = [](std::size_t bytes) { return static_cast<double>(bytes) / 1e6; };
+  return fmt::format(
+      "vertices     {}\nfaces        {}\nplain mesh   {:.3f} MB\nwith topology {:.3f} MB\n"
+      "index        {:.3f} MB\nbuilt in     {:.3f} s\n",
+      t.vertices, t.faces, megabytes(t.mesh_bytes), megabytes(t.topology_bytes), megabytes(t.index_bytes),
+      t.build_seconds);
+}
+
+std::string to_text(const std::vector<Measurement>& table) {
+  std::string text = "radius/edge  method  microseconds      count      extra  missing\n";
+  for (const Measurement& m : table) {
+    text += fmt::format("{:>11g}  {:<6} {:>13.3f} {:>10.1f} {:>10.2f} {:>8.2f}\n", m.radius_edges, m.method,
+                        m.microseconds, m.count, m.extra, m.missing);
+  }
+  return text;
+}
+
+void check(const Options& options) {
+  if (options.plan.queries == 0) raise(ErrorCode::InvalidOption, "--queries: at least one query is needed");
+  for (const double radius : options.plan.radii) {
+    if (!(radius >= 0)) raise(ErrorCode::InvalidRadius, fmt::format("--radii: {} is not a number >= 0", radius));
+  }
+}
+
+void bench(Options& options) {
+  check(options);
+  options.plan.order = options.order == "warm" ? Order::Warm : Order::Cold;
+  const Input input = read_input(options.file);
+  if (input.adjacency.neighbors.empty()) {
+    raise(ErrorCode::InvalidMesh, options.file + ": it has no edges, so there is nothing to measure");
+  }
+  const TimedIndex built = build_timed(input.view());
+  const Table1 space = table1(input, built);
+  const std::vector<Measurement> curves = table2(input, built.index, options.plan);
+  const Machine machine = this_machine();
+  if (options.json) {
+    print_json(Json{
+        {"mesh", input.name}, {"machine", to_json(machine)}, {"table1", to_json(space)}, {"table2", to_json(curves)}});
+  } else {
+    print_text(fmt::format("{} on {}, {}, {}\n\n{}\n{}", printable(input.name), machine.processor, machine.compiler,
+                           machine.build, to_text(space), to_text(curves)));
+  }
+}
+
+}  // namespace
+
+void add_bench(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("bench", "The paper's Table 1 and Table 2 on a mesh of yours");
+  command->add_option("FILE", options->file, "mesh: PLY, OBJ, OFF or STL")->required();
+  command->add_option("--radii", options->plan.radii, "in average edges")->delimiter(',')->capture_default_str();
+  command->add_option("--queries", options->plan.queries, "how many a radius")
+      ->transform(whole_number())
+      ->capture_default_str();
+  command->add_option("--order", options->order, "cold: far apart; warm: each beside the one before")
+      ->check(CLI::IsMember({"cold", "warm"}))
+      ->capture_default_str();
+  command->add_option("--seed", options->plan.seed, "which queries")->transform(whole_number())->capture_default_str();
+  command->add_flag("--json", options->json, "one JSON document");
+  command->callback([options] { bench(*options); });
+}
+
+}  // namespace meshhood::cli

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+/// The subcommands, one file each. Each adds itself, with its options, to the program; it runs within `parse`.
+namespace meshhood::cli {
+
+void add_bench(CLI::App& program);
+void add_compare(CLI::App& program);
+void add_generate(CLI::App& program);
+void add_info(CLI::App& program);
+void add_query(CLI::App& program);
+
+}  // namespace meshhood::cli

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "exit_code.h"
+
+#include <exception>
+#include <new>
+#include <stdexcept>
+#include <system_error>
+
+#include "meshhood/error.h"
+
+namespace meshhood::cli {
+namespace {
+
+ExitCode exit_code(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::VertexOutOfRange:
+    case ErrorCode::InvalidRadius:
+    case ErrorCode::InvalidOption: return ExitCode::Usage;
+    case ErrorCode::InvalidMesh:
+    case ErrorCode::MalformedFile:
+    case ErrorCode::UnsupportedFormat: return ExitCode::MeshRefused;
+    case ErrorCode::IoFailure: return ExitCode::InputOutput;
+    case ErrorCode::TooLarge: return ExitCode::Limit;
+  }
+  throw std::logic_error("an error code without an exit code");
+}
+
+}  // namespace
+
+ExitCode exit_code(const std::exception& error) {
+  if (const auto* ours = dynamic_cast<const Error*>(&error)) return exit_code(ours->code());
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return ExitCode::Limit;
+  if (dynamic_cast<const std::length_error*>(&error) != nullptr) return ExitCode::Limit;
+  if (dynamic_cast<const std::system_error*>(&error) != nullptr) return ExitCode::InputOutput;
+  throw;
+}
+
+}  // namespace meshhood::cli

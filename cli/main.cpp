@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// The program: its subcommands, and what becomes of their errors.
+#include <csignal>
+#include <exception>
+#include <sstream>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "meshhood/version.h"
+
+#include "commands.h"
+#include "exit_code.h"
+#include "output.h"
+
+namespace meshhood::cli {
+namespace {
+
+void add_subcommands(CLI::App& program) {
+  program.require_subcommand(1);
+  program.set_version_flag("--version", "meshhood " + std::string(kVersion));
+  add_info(program);
+  add_query(program);
+  add_compare(program);
+  add_bench(program);
+  add_generate(program);
+}
+
+/// Runs the subcommand, or prints the help or the version where these were asked for.
+void run(CLI::App& program, int argc, const char* const* argv) {
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& request) {
+    std::ostringstream text;
+    program.exit(request, text, text);
+    print_text(text.str());
+  }
+  close_output();
+}
+
+ExitCode guarded(CLI::App& program, int argc, const char* const* argv) {
+  try {
+    add_subcommands(program);
+    run(program, argc, argv);
+    return ExitCode::Ok;
+  } catch (const BrokenPipe&) {
+    return ExitCode::InputOutput;
+  } catch (const CLI::ParseError& error) {
+    complain("", error.what());
+    return ExitCode::Usage;
+  } catch (const std::exception& error) {
+    const ExitCode code = exit_code(error);
+    complain("", error.what());
+    return code;
+  }
+}
+
+}  // namespace
+}  // namespace meshhood::cli
+
+int main(int argc, char** argv) {
+  // A reader that has gone is an error of `print_text`, not a signal.
+  std::signal(SIGPIPE, SIG_IGN);
+  CLI::App program(
+      "The neighbourhood of a point on a polygonal mesh: what lies within a distance of it in space and is\n"
+      "joined to it along the surface within that distance.",
+      "meshhood");
+  return static_cast<int>(meshhood::cli::guarded(program, argc, argv));
+}

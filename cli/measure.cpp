@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "measure.h"
+
+#include <algorithm>
+#include <chrono>
+#include <random>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "difference.h"
+
+namespace meshhood::cli {
+namespace {
+
+constexpr std::size_t kBlocks = 25;
+constexpr std::size_t kVerticesPerBlock = 2'000'000;
+
+using Vertices = std::vector<VertexId>;
+
+/// Where the queries start. The same seed gives the same vertices on every platform, which the distributions of the
+/// standard library do not promise.
+class Starts {
+ public:
+  Starts(std::span<const VertexId> permutation, const Plan& plan)
+      : permutation_(permutation), order_(plan.order), random_(plan.seed) {}
+
+  Vertices next(std::size_t count) {
+    Vertices block(count);
+    std::size_t place = anywhere();
+    for (VertexId& v : block) {
+      v = permutation_[place];
+      place = order_ == Order::Cold ? anywhere() : (place + 1) % permutation_.size();
+    }
+    return block;
+  }
+
+ private:
+  std::size_t anywhere() { return random_() % permutation_.size(); }
+
+  std::span<const VertexId> permutation_;
+  Order order_;
+  std::mt19937_64 random_;
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// What one method has done at one radius so far.
+struct Tally {
+  std::vector<double> microseconds;  // a query, by block
+  double count = 0;
+  double extra = 0;
+  double missing = 0;
+};
+
+/// All methods at one radius.
+class Race {
+ public:
+  Race(std::span<const Method> methods, double radius, std::size_t vertices)
+      : methods_(methods), radius_(radius), vertices_(vertices), comparison_(vertices), tallies_(methods.size()) {}
+
+  void run(std::span<const VertexId> block) {
+    // Each method in turn is the first, and finds the caches as the last one of the block before left them.
+    ++first_;
+    for (std::size_t i = 0; i < methods_.size(); ++i) time((first_ + i) % methods_.size(), block);
+    for (const VertexId v : block) judge(v);
+  }
+
+  [[nodiscard]] Measurement result(std::size_t method, double radius_edges, std::size_t queries) const {
+    const Tally& tally = tallies_[method];
+    const auto mean = [&](double sum) { return sum / static_cast<double>(queries); };
+    return {radius_edges,      methods_[method].name, median(tally.microseconds),
+            mean(tally.count), mean(tally.extra),     mean(tally.missing)};
+  }
+
+ private:
+  void time(std::size_t i, std::span<const VertexId> block) {
+    const Method& method = methods_[i];
+    if (method.visits_all_vertices) {
+      block = block.first(std::clamp<std::size_t>(kVerticesPerBlock / vertices_, 1, block.size()));
+    }
+    const auto start = std::chrono::steady_clock::now();
+    for (const VertexId v : block) method.neighborhood(v, radius_, answer_);
+    const std::chrono::duration<double, std::micro> elapsed = std::chrono::steady_clock::now() - start;
+    tallies_[i].microseconds.push_back(elapsed.count() / static_cast<double>(block.size()));
+  }
+
+  void judge(VertexId v) {
+    for (std::size_t i = 0; i < methods_.size(); ++i) {
+      Vertices& answer = i == 0 ? exact_ : answer_;
+      methods_[i].neighborhood(v, radius_, answer);
+      const Difference difference = comparison_.compare(exact_, answer);
+      tallies_[i].count += static_cast<double>(answer.size());
+      tallies_[i].extra += static_cast<double>(difference.extra);
+      tallies_[i].missing += static_cast<double>(difference.missing);
+    }
+  }
+
+  std::span<const Method> methods_;
+  double radius_;
+  std::size_t vertices_;
+  Comparison comparison_;
+  std::vector<Tally> tallies_;
+  std::size_t first_ = 0;
+  Vertices exact_;
+  Vertices answer_;
+};
+
+/// `total` in as even parts as possible, block `i` of `blocks`.
+std::size_t share(std::size_t total, std::size_t i, std::size_t blocks) {
+  return total * (i + 1) / blocks - total * i / blocks;
+}
+
+}  // namespace
+
+std::vector<Measurement> measure(std::span<const Method> methods, const Plan& plan, double unit,
+                                 std::span<const VertexId> permutation, const std::function<void(double)>& report) {
+  std::vector<Measurement> table;
+  Starts starts(permutation, plan);
+  const std::size_t blocks = std::min(kBlocks, plan.queries);
+  const auto steps = static_cast<double>(plan.radii.size() * blocks);
+  std::size_t step = 0;
+  for (const double radius : plan.radii) {
+    Race race(methods, unit * radius, permutation.size());
+    for (std::size_t i = 0; i < blocks; ++i) {
+      race.run(starts.next(share(plan.queries, i, blocks)));
+      report(static_cast<double>(++step) / steps);
+    }
+    for (std::size_t i = 0; i < methods.size(); ++i) table.push_back(race.result(i, radius, plan.queries));
+  }
+  return table;
+}
+
+}  // namespace meshhood::cli

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "question.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <string>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "meshhood/adjacency.h"
+#include "meshhood/error.h"
+
+#include "input.h"
+
+namespace meshhood::cli {
+namespace {
+
+double edge_unit(const Input& input) {
+  const double mean = mean_edge_length(input.graph());
+  if (mean > 0) return mean;
+  raise(ErrorCode::InvalidOption, "--unit edge: the edges of " + input.name + " have no length to measure by");
+}
+
+}  // namespace
+
+CLI::Validator whole_number() {
+  const auto check = [](std::string& text) -> std::string {
+    const bool digits = std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (text.empty() || !digits) return "'" + text + "' is not a whole number >= 0";
+    text.erase(0, std::min(text.find_first_not_of('0'), text.size() - 1));
+    return {};
+  };
+  return {check, "NUMBER"};
+}
+
+double parse_radius(const std::string& text) {
+  double radius = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, radius);
+  if (error == std::errc() && rest == end) return radius;
+  raise(ErrorCode::InvalidRadius, "radius '" + text + "' is not a number that a double can hold");
+}
+
+void add_question(CLI::App& command, Question& question) {
+  command.add_option("FILE", question.file, "mesh: PLY, OBJ, OFF or STL")->required();
+  command.add_option("-v,--vertex", question.vertex, "the vertex to start from, by its number in the file")
+      ->transform(whole_number())
+      ->required();
+  command.add_option("-r,--radius", question.radius, "how far to go, in space")->required();
+  command.add_option("--unit", question.unit, "of the radius: that of the positions, or the average edge")
+      ->check(CLI::IsMember({"mesh", "edge"}))
+      ->capture_default_str();
+}
+
+Query resolve(const Question& question, const Input& input) {
+  const std::size_t vertices = input.vertex_count();
+  if (question.vertex >= vertices) {
+    raise(ErrorCode::VertexOutOfRange,
+          fmt::format("vertex {} is out of range: {} has {} vertices", question.vertex, input.name, vertices));
+  }
+  const double unit = question.unit == "edge" ? edge_unit(input) : 1.0;
+  return {static_cast<VertexId>(question.vertex), unit * parse_radius(question.radius)};
+}
+
+}  // namespace meshhood::cli

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "statistics.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace meshhood::cli {
+namespace {
+
+std::map<std::size_t, std::size_t> polygon_degrees(const FacesView& faces) {
+  std::map<std::size_t, std::size_t> degrees;
+  faces.for_each([&](std::size_t, auto corners) { ++degrees[corners.size()]; });
+  return degrees;
+}
+
+/// Every side of every face that is an edge, as a sorted list of ordered pairs: an edge stands in it once a face.
+std::vector<std::pair<VertexId, VertexId>> sides(const FacesView& faces) {
+  std::vector<std::pair<VertexId, VertexId>> all;
+  all.reserve(faces.corners().size());
+  faces.for_each([&](std::size_t, auto corners) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const auto a = static_cast<VertexId>(corners[i]);
+      const auto b = static_cast<VertexId>(corners[i + 1 < corners.size() ? i + 1 : 0]);
+      if (a != b) all.emplace_back(std::min(a, b), std::max(a, b));
+    }
+  });
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+void count_edges(const FacesView& faces, Statistics& result) {
+  const auto all = sides(faces);
+  for (auto edge = all.begin(); edge != all.end();) {
+    const auto next = std::find_if(edge, all.end(), [&](const auto& other) { return other != *edge; });
+    ++result.edges;
+    result.boundary_edges += next - edge == 1 ? 1 : 0;
+    result.nonmanifold_edges += next - edge > 2 ? 1 : 0;
+    edge = next;
+  }
+}
+
+/// By vertex: whether it is in no face, or in a component that has been counted.
+std::vector<char> mark_isolated(const MeshView& mesh) {
+  std::vector<char> done(mesh.positions.size(), 1);
+  mesh.faces.for_each([&](std::size_t, auto corners) {
+    for (const auto v : corners) done[static_cast<std::size_t>(v)] = 0;
+  });
+  return done;
+}
+
+void flood(const AdjacencyView& adjacency, std::size_t start, std::vector<char>& done, std::vector<VertexId>& stack) {
+  stack.assign(1, static_cast<VertexId>(start));
+  done[start] = 1;
+  while (!stack.empty()) {
+    const VertexId v = stack.back();
+    stack.pop_back();
+    for (const VertexId w : adjacency[v]) {
+      if (done[w] == 0) stack.push_back(w);
+      done[w] = 1;
+    }
+  }
+}
+
+void count_components(const MeshView& mesh, const AdjacencyView& adjacency, Statistics& result) {
+  std::vector<char> done = mark_isolated(mesh);
+  std::vector<VertexId> stack;
+  result.isolated_vertices = static_cast<std::size_t>(std::count(done.begin(), done.end(), 1));
+  for (std::size_t v = 0; v < done.size(); ++v) {
+    if (done[v] != 0) continue;
+    flood(adjacency, v, done, stack);
+    ++result.components;
+  }
+}
+
+std::size_t repeated_positions(const PositionsView& positions) {
+  return positions.visit([](auto xyz) {
+    std::vector<std::array<float, 3>> points(xyz.size() / 3);
+    for (std::size_t i = 0; i < 3 * points.size(); ++i) points[i / 3][i % 3] = static_cast<float>(xyz[i]);
+    std::sort(points.begin(), points.end());
+    return static_cast<std::size_t>(points.end() - std::unique(points.begin(), points.end()));
+  });
+}
+
+std::optional<Box> bounds(const PositionsView& positions) {
+  if (positions.size() == 0) return std::nullopt;
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Box box{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+  positions.visit([&](auto xyz) {
+    for (std::size_t i = 0; i < xyz.size(); ++i) {
+      const auto value = static_cast<double>(xyz[i]);
+      box.min[i % 3] = std::min(box.min[i % 3], value);
+      box.max[i % 3] = std::max(box.max[i % 3], value);
+    }
+  });
+  return box;
+}
+
+}  // namespace
+
+Statistics statistics(const MeshView& mesh, const AdjacencyView& adjacency) {
+  Statistics result;
+  result.vertices = mesh.positions.size();
+  result.faces = mesh.faces.size();
+  result.polygon_degrees = polygon_degrees(mesh.faces);
+  count_edges(mesh.faces, result);
+  count_components(mesh, adjacency, result);
+  result.average_edge = mean_edge_length({mesh.positions, adjacency});
+  result.repeated_positions = repeated_positions(mesh.positions);
+  result.bounds = bounds(mesh.positions);
+  return result;
+}
+
+}  // namespace meshhood::cli
