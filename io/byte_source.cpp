@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "io/byte_source.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+
+#include "meshhood/error.h"
+
+#include "io/place.h"
+
+namespace meshhood::io {
+namespace {
+
+// A named pipe that nobody opens for writing is given up after this long.
+constexpr int kWriterPatienceMs = 2000;
+
+}  // namespace
+
+std::size_t MemorySource::read(std::span<char> out) {
+  const std::size_t count = std::min(out.size(), left_.size());
+  if (count != 0) std::memcpy(out.data(), left_.data(), count);
+  left_ = left_.subspan(count);
+  return count;
+}
+
+FileSource::FileSource(const std::filesystem::path& path)
+    : name_(printable_name(path.string())),
+      // Without O_NONBLOCK the mere opening of a pipe may never end.
+      file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
+  struct stat status = {};
+  if (!file_.is_open() || ::fstat(file_.number(), &status) != 0) fail(std::generic_category().message(errno));
+  if (S_ISDIR(status.st_mode)) fail("is a directory, expected a mesh file");
+  // A file of length 0 may still have content: /proc is full of them.
+  if (S_ISREG(status.st_mode) && status.st_size > 0) size_ = static_cast<std::uint64_t>(status.st_size);
+  may_lack_a_writer_ = S_ISFIFO(status.st_mode);
+}
+
+std::size_t FileSource::read(std::span<char> out) {
+  for (;;) {
+    const ssize_t count = ::read(file_.number(), out.data(), out.size());
+    if (count == 0 && std::exchange(may_lack_a_writer_, false) && wait_for_bytes(kWriterPatienceMs)) continue;
+    if (count >= 0) {
+      may_lack_a_writer_ = false;
+      return static_cast<std::size_t>(count);
+    }
+    if (errno == EAGAIN && wait_for_bytes(-1)) continue;
+    if (errno != EINTR) fail(std::generic_category().message(errno));
+  }
+}
+
+bool FileSource::wait_for_bytes(int milliseconds) const {
+  pollfd waiting = {file_.number(), POLLIN, 0};
+  return ::poll(&waiting, 1, milliseconds) > 0;
+}
+
+void FileSource::fail(const std::string& reason) const { raise(ErrorCode::IoFailure, name_ + ": " + reason); }
+
+}  // namespace meshhood::io

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <utility>
+
+#include <unistd.h>
+
+namespace meshhood::io {
+
+/// An open file of the operating system, closed at the end of its scope.
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    static_cast<void>(close());
+    number_ = std::exchange(other.number_, -1);
+    return *this;
+  }
+  ~Descriptor() { static_cast<void>(close()); }
+
+  [[nodiscard]] bool is_open() const { return number_ >= 0; }
+  [[nodiscard]] int number() const { return number_; }
+
+  /// Whether it closed without error; it counts as closed in any case.
+  [[nodiscard]] bool close() {
+    const int number = std::exchange(number_, -1);
+    return number < 0 || ::close(number) == 0;
+  }
+
+ private:
+  int number_;
+};
+
+}  // namespace meshhood::io

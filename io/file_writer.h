@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "io/descriptor.h"
+
+namespace meshhood::io {
+
+/// Writes a file that appears whole or not at all: under another name beside the target, which takes its place on
+/// `commit`. A target that is no ordinary file (a pipe, a device) is written to directly.
+///
+/// All errors are Error{IoFailure} and name the path and the reason; the target is then as it was.
+class FileWriter {
+ public:
+  explicit FileWriter(const std::filesystem::path& path);
+  FileWriter(const FileWriter&) = delete;
+  FileWriter& operator=(const FileWriter&) = delete;
+
+  /// Removes what was written, unless it was committed.
+  ~FileWriter();
+
+  void write(std::string_view bytes);
+
+  /// Makes what was written durable and visible. To be called once, last.
+  void commit();
+
+ private:
+  void open_in_place();
+  void open_beside();
+  void flush();
+  void keep_mode() const;
+  void sync_directory() const;
+  [[noreturn]] void fail(std::string_view action) const;
+
+  std::filesystem::path target_;
+  std::filesystem::path temporary_;  // empty where the target is written to directly
+  Descriptor file_;
+  std::string buffer_;
+};
+
+}  // namespace meshhood::io

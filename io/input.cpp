@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "io/input.h"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "meshhood/error.h"
+
+#include "io/place.h"
+
+namespace meshhood::io {
+namespace {
+
+constexpr std::size_t kWindow = std::size_t{1} << 20;
+
+[[noreturn]] void refuse_size(const std::string& name, std::uint64_t max_bytes) {
+  raise(ErrorCode::TooLarge, fmt::format("{}: more than the {} bytes that may be read", name, max_bytes));
+}
+
+}  // namespace
+
+Input::Input(ByteSource& source, const std::string& name, std::uint64_t max_bytes)
+    : source_(source), name_(printable_name(name)), max_bytes_(max_bytes) {
+  if (source.size().value_or(0) > max_bytes) refuse_size(name_, max_bytes);
+}
+
+std::optional<std::uint64_t> Input::left() const {
+  if (!source_.size()) return std::nullopt;
+  return *source_.size() - offset_;
+}
+
+void Input::fill(std::size_t count) {
+  make_room(count);
+  while (end_ - begin_ < count && !exhausted_) read_more();
+}
+
+void Input::make_room(std::size_t count) {
+  if (capacity_ - begin_ >= count) return;
+  if (count <= capacity_) {
+    std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
+  } else {
+    const std::size_t capacity = std::max({kWindow, 2 * capacity_, count});
+    // Not initialised: what no byte of the file reaches takes no memory.
+    auto wider = std::make_unique_for_overwrite<char[]>(capacity);
+    if (end_ != begin_) std::memcpy(wider.get(), buffer_.get() + begin_, end_ - begin_);
+    buffer_ = std::move(wider);
+    capacity_ = capacity;
+  }
+  end_ -= begin_;
+  begin_ = 0;
+}
+
+void Input::read_more() {
+  std::size_t room = capacity_ - end_;
+  // A file that grows while it is read ends where it ended when it was opened.
+  if (source_.size()) room = std::min<std::uint64_t>(room, *source_.size() - offset_ - (end_ - begin_));
+  const std::size_t count = room == 0 ? 0 : source_.read(std::span(buffer_.get() + end_, room));
+  end_ += count;
+  exhausted_ = count == 0;
+  const std::uint64_t reached = offset_ + (end_ - begin_);
+  if (reached > max_bytes_) refuse_size(name_, max_bytes_);
+  if (exhausted_ && reached < source_.size().value_or(0)) {
+    raise(ErrorCode::IoFailure,
+          fmt::format("{}@{}: the file ends here, but had {} bytes when opened", name_, reached, *source_.size()));
+  }
+}
+
+}  // namespace meshhood::io

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "io/byte_source.h"
+
+namespace meshhood::io {
+
+/// A file seen through a window that moves forward. Only the window is in memory, so that text, which takes more room
+/// than the numbers it stands for, is never held whole.
+class Input {
+ public:
+  /// `name` stands for the file in messages. Throws Error{TooLarge} where the source says, or turns out, to hold more
+  /// than `max_bytes`.
+  Input(ByteSource& source, const std::string& name, std::uint64_t max_bytes);
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+  /// The size of the whole file, where it is known beforehand.
+  [[nodiscard]] std::optional<std::uint64_t> size() const { return source_.size(); }
+
+  /// The number of bytes skipped so far: where the window begins in the file.
+  [[nodiscard]] std::uint64_t offset() const { return offset_; }
+
+  /// The bytes that follow, all of those in memory: at least `count` of them unless the file ends before. Valid until
+  /// the next call.
+  [[nodiscard]] std::string_view ahead(std::size_t count) {
+    if (end_ - begin_ < count) fill(count);
+    return {buffer_.get() + begin_, end_ - begin_};
+  }
+
+  /// Moves past `count` bytes that `ahead` has shown.
+  void skip(std::size_t count) {
+    begin_ += count;
+    offset_ += count;
+  }
+
+  /// The number of bytes that follow, where it is known beforehand.
+  [[nodiscard]] std::optional<std::uint64_t> left() const;
+
+ private:
+  void fill(std::size_t count);
+  void make_room(std::size_t count);
+  void read_more();
+
+  ByteSource& source_;
+  std::string name_;
+  std::uint64_t max_bytes_;
+  std::unique_ptr<char[]> buffer_;
+  std::size_t capacity_ = 0;
+  std::size_t begin_ = 0;
+  std::size_t end_ = 0;
+  std::uint64_t offset_ = 0;
+  bool exhausted_ = false;
+};
+
+}  // namespace meshhood::io

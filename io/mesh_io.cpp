@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "io/mesh_io.h"
+
+#include <new>
+#include <stdexcept>
+
+#include "meshhood/error.h"
+
+#include "io/byte_source.h"
+#include "io/input.h"
+#include "io/readers.h"
+
+namespace meshhood::io {
+namespace {
+
+Mesh read_format(Input& input, const std::string& name, const ReadOptions& options) {
+  switch (detect_format(input, name)) {
+    case Format::Ply: return read_ply(input, options);
+    case Format::Obj: return read_obj(input, options);
+    case Format::Off: return read_off(input, options);
+    case Format::Stl: return read_stl(input, options);
+  }
+  raise(ErrorCode::UnsupportedFormat, input.name() + ": unknown format");
+}
+
+[[noreturn]] void refuse_memory(const Input& input) {
+  raise(ErrorCode::TooLarge, input.name() + ": not enough memory for this mesh");
+}
+
+Mesh read(ByteSource& source, const std::string& name, const ReadOptions& options) {
+  Input input(source, name, options.max_bytes);
+  try {
+    return read_format(input, name, options);
+  } catch (const std::bad_alloc&) {
+    refuse_memory(input);
+  } catch (const std::length_error&) {
+    refuse_memory(input);
+  }
+}
+
+}  // namespace
+
+MeshView Mesh::view() const {
+  const auto view_of_positions = [](const auto& xyz) { return PositionsView(xyz); };
+  const auto faces = offsets.empty() ? FacesView::triangles(corners) : FacesView::polygons(offsets, corners);
+  return {std::visit(view_of_positions, positions), faces};
+}
+
+Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
+  FileSource source(path);
+  return read(source, path.string(), options);
+}
+
+Mesh read_mesh(std::span<const std::byte> bytes, const std::string& name, const ReadOptions& options) {
+  MemorySource source(bytes);
+  return read(source, name, options);
+}
+
+}  // namespace meshhood::io

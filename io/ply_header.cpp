@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "io/ply_header.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "io/number.h"
+#include "io/text.h"
+
+namespace meshhood::io {
+namespace {
+
+// Far beyond any header; keeps a forged one from filling the memory with properties.
+constexpr std::uint64_t kLongestHeader = std::uint64_t{16} << 20;
+
+constexpr std::array<std::pair<std::string_view, PlyType>, 16> kTypeNames = {{
+    {"char", PlyType::Int8},
+    {"int8", PlyType::Int8},
+    {"uchar", PlyType::Uint8},
+    {"uint8", PlyType::Uint8},
+    {"short", PlyType::Int16},
+    {"int16", PlyType::Int16},
+    {"ushort", PlyType::Uint16},
+    {"uint16", PlyType::Uint16},
+    {"int", PlyType::Int32},
+    {"int32", PlyType::Int32},
+    {"uint", PlyType::Uint32},
+    {"uint32", PlyType::Uint32},
+    {"float", PlyType::Float32},
+    {"float32", PlyType::Float32},
+    {"double", PlyType::Float64},
+    {"float64", PlyType::Float64},
+}};
+
+// The byte that ends the header's lines. A CR before an LF is a blank.
+char line_end_of(Input& input) {
+  const auto head = input.ahead(256);
+  const auto end = head.find_first_of("\r\n");
+  const bool only_cr = end != std::string_view::npos && head[end] == '\r' && !head.substr(end).starts_with("\r\n");
+  return only_cr ? '\r' : '\n';
+}
+
+class HeaderParser {
+ public:
+  explicit HeaderParser(Input& input) : text_(input, {.line_end = line_end_of(input)}) {}
+
+  PlyHeader parse() {
+    if (!text_.next_line() || text_.token_on_line() != "ply") text_.malformed("expected 'ply'");
+    while (parse_line()) {
+      if (text_.input().offset() > kLongestHeader) text_.malformed("a header longer than {} bytes", kLongestHeader);
+    }
+    if (!has_format_) text_.malformed("the header has no line 'format'");
+    text_.leave_line();
+    header_.lines = text_.place().line;
+    return std::move(header_);
+  }
+
+ private:
+  // False behind `end_header`.
+  bool parse_line() {
+    if (!text_.next_line()) text_.malformed("the file ends before 'end_header'");
+    const auto keyword = text_.token_on_line();
+    if (keyword == "end_header") return false;
+    if (keyword == "comment" || keyword == "obj_info" || keyword.empty()) {
+      text_.skip_line();
+    } else if (keyword == "format") {
+      parse_format();
+    } else if (keyword == "element") {
+      parse_element();
+    } else if (keyword == "property") {
+      parse_property();
+    } else {
+      text_.malformed("expected 'element', 'property' or 'end_header', found {}", quote(keyword));
+    }
+    if (!text_.at_line_end()) text_.malformed("unexpected {}", quote(text_.token_on_line()));
+    return true;
+  }
+
+  void parse_format() {
+    if (std::exchange(has_format_, true)) text_.malformed("a second line 'format'");
+    const auto encoding = text_.token_on_line();
+    if (encoding == "ascii") {
+      header_.encoding = PlyEncoding::Ascii;
+    } else if (encoding == "binary_little_endian") {
+      header_.encoding = PlyEncoding::LittleEndian;
+    } else if (encoding == "binary_big_endian") {
+      header_.encoding = PlyEncoding::BigEndian;
+    } else {
+      unsupported("PLY encoding", encoding);
+    }
+    const auto version = text_.token_on_line();
+    if (version != "1.0") unsupported("PLY version", version);
+  }
+
+  void parse_element() {
+    const std::string name(word("the name of an element"));
+    const auto same = [&name](const PlyElement& e) { return e.name == name; };
+    if (std::any_of(header_.elements.begin(), header_.elements.end(), same)) {
+      text_.malformed("a second element {}", quote(name));
+    }
+    const auto place = text_.place();
+    const auto digits = word("a count");
+    const auto count = parse_count(digits);
+    if (!count) text_.malformed("expected the number of elements {}, found {}", quote(name), quote(digits));
+    header_.elements.push_back({name, *count, {}, place});
+  }
+
+  void parse_property() {
+    if (header_.elements.empty()) text_.malformed("a property before the first element");
+    PlyProperty property = {{}, PlyType::Int8, std::nullopt};
+    const auto first = word("a type");
+    if (first == "list") {
+      property.count_type = type(word("a type"));
+      if (!is_integer(*property.count_type)) text_.malformed("the length of a list must have an integer type");
+      property.type = type(word("a type"));
+    } else {
+      property.type = type(first);
+    }
+    property.name = word("the name of a property");
+    header_.elements.back().properties.push_back(std::move(property));
+  }
+
+  std::string_view word(std::string_view what) {
+    const auto token = text_.token_on_line();
+    if (token.empty()) text_.malformed("expected {}", what);
+    return token;
+  }
+
+  PlyType type(std::string_view name) {
+    const auto* const known =
+        std::find_if(kTypeNames.begin(), kTypeNames.end(), [name](const auto& entry) { return entry.first == name; });
+    if (known == kTypeNames.end()) unsupported("property type", name);
+    return known->second;
+  }
+
+  [[noreturn]] void unsupported(std::string_view what, std::string_view found) {
+    text_.fail(ErrorCode::UnsupportedFormat, fmt::format("{} {} is not supported", what, quote(found)));
+  }
+
+  Text text_;
+  PlyHeader header_;
+  bool has_format_ = false;
+};
+
+}  // namespace
+
+std::size_t size_of(PlyType type) {
+  switch (type) {
+    case PlyType::Int8:
+    case PlyType::Uint8: return 1;
+    case PlyType::Int16:
+    case PlyType::Uint16: return 2;
+    case PlyType::Int32:
+    case PlyType::Uint32:
+    case PlyType::Float32: return 4;
+    case PlyType::Float64: return 8;
+  }
+  return 0;
+}
+
+PlyHeader read_ply_header(Input& input) { return HeaderParser(input).parse(); }
+
+}  // namespace meshhood::io

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/input.h"
+#include "io/place.h"
+
+/// What a PLY file says about itself before its values begin.
+namespace meshhood::io {
+
+enum class PlyEncoding { Ascii, LittleEndian, BigEndian };
+
+enum class PlyType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64 };
+
+/// In bytes, in a binary file.
+[[nodiscard]] std::size_t size_of(PlyType type);
+
+[[nodiscard]] inline bool is_integer(PlyType type) { return type != PlyType::Float32 && type != PlyType::Float64; }
+
+/// Whether a float holds every value of the type.
+[[nodiscard]] inline bool fits_float(PlyType type) { return size_of(type) <= 2 || type == PlyType::Float32; }
+
+struct PlyProperty {
+  std::string name;
+  PlyType type;                       ///< of the value, or of each value of a list
+  std::optional<PlyType> count_type;  ///< of the length, where the property is a list; an integer type
+};
+
+struct PlyElement {
+  std::string name;
+  std::uint64_t count;
+  std::vector<PlyProperty> properties;
+  Place place;  ///< of its line in the header
+};
+
+struct PlyHeader {
+  PlyEncoding encoding = PlyEncoding::Ascii;
+  std::vector<PlyElement> elements;  ///< no two of the same name
+  std::uint64_t lines = 0;
+};
+
+/// Leaves `input` at the first byte of the values. The header's lines end as its first one does, in CR, LF or CRLF, and
+/// exactly one such end is taken behind `end_header`.
+///
+/// Throws Error{MalformedFile, UnsupportedFormat}.
+[[nodiscard]] PlyHeader read_ply_header(Input& input);
+
+}  // namespace meshhood::io

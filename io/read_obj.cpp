@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "io/draft.h"
+#include "io/number.h"
+#include "io/readers.h"
+#include "io/text.h"
+
+// Only `v` and `f` make the mesh. Every other statement is passed over, those that name a file or a program to run
+// (`mtllib`, `call`, `csh`) like the rest; what adds to the geometry, or is unknown, is counted.
+
+namespace meshhood::io {
+namespace {
+
+using std::uint64_t;
+
+constexpr std::array<std::string_view, 18> kAttributes = {
+    "bevel", "c_interp", "ctech",      "d_interp", "g",         "lod",    "maplib", "mg", "mtllib",
+    "o",     "s",        "shadow_obj", "stech",    "trace_obj", "usemap", "usemtl", "vn", "vt"};
+
+constexpr std::array<std::string_view, 24> kOtherGeometry = {
+    "bmat", "bsp",  "bzp", "call", "cdc",  "cdp", "con",  "csh", "cstype", "curv", "curv2", "deg",
+    "end",  "hole", "l",   "p",    "parm", "res", "scrv", "sp",  "step",   "surf", "trim",  "vp"};
+
+template <class Words>
+bool contains(const Words& words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+class ObjReader {
+ public:
+  ObjReader(Input& input, const ReadOptions& options)
+      : text_(input, {.hash_comments = true}), draft_(input, options, false) {}
+
+  Mesh read() {
+    while (text_.next_line()) read_statement(text_.token_on_continued_line());
+    if (unknown_ != 0 && !is_obj_) text_.malformed("not one statement of the OBJ format in the whole file");
+    check_forward_reference();
+    return draft_.finish(Format::Obj);
+  }
+
+ private:
+  void read_statement(std::string_view keyword) {
+    if (keyword.empty()) return;
+    is_obj_ = is_obj_ || is_obj_statement(keyword);
+    if (keyword == "v") return read_vertex();
+    if (keyword == "f") return read_face();
+    if (contains(kOtherGeometry, keyword)) {
+      draft_.warnings.add(fmt::format("'{}' statements are not read", keyword), text_.place());
+    } else if (!contains(kAttributes, keyword)) {
+      ++unknown_;
+      draft_.warnings.add("unknown statements", text_.place());
+    }
+    while (!text_.token_on_continued_line().empty()) {
+    }
+  }
+
+  // x y z, then a weight, a colour or both.
+  void read_vertex() {
+    const auto vertex = draft_.positions.vertex_count();
+    check_vertex_count(vertex + 1, text_.input().name(), text_.place());
+    for (int i = 0; i < 3; ++i) read_coordinate(vertex);
+    std::array<double, 4> rest = {};
+    std::size_t count = 0;
+    for (auto token = text_.token_on_continued_line(); !token.empty(); token = text_.token_on_continued_line()) {
+      const auto number = parse_real<double>(token);
+      if (!number) text_.malformed("vertex {}: {} is not a number", vertex + 1, quote(token));
+      if (count == rest.size()) text_.malformed("vertex {} has more than 7 numbers", vertex + 1);
+      rest[count++] = *number;
+    }
+    const bool has_weight = count == 1 || count == 4;
+    if (has_weight && rest[0] != 1.0) draft_.warnings.add("weights other than 1 are not used", text_.place());
+  }
+
+  void read_coordinate(uint64_t vertex) {
+    const char name = axis(draft_.positions.scalar_count());
+    const auto token = text_.token_on_continued_line();
+    if (token.empty()) text_.malformed("vertex {} has no {}", vertex + 1, name);
+    const auto problem = draft_.positions.append(token);
+    if (problem) text_.malformed("vertex {}, {} = {} {}", vertex + 1, name, quote(token), *problem);
+  }
+
+  void read_face() {
+    uint64_t corners = 0;
+    for (auto token = text_.token_on_continued_line(); !token.empty(); token = text_.token_on_continued_line()) {
+      draft_.faces.append_corner(resolve_corner(token, corners++));
+    }
+    if (corners == 0) {
+      draft_.warnings.add("faces without corners are left out", text_.place());
+    } else {
+      draft_.faces.end_face(corners);
+    }
+  }
+
+  // The vertex of `v`, `v/vt`, `v//vn` or `v/vt/vn`.
+  std::uint32_t resolve_corner(std::string_view token, uint64_t corner) {
+    const auto slash = token.find('/');
+    const auto index = parse_integer(token.substr(0, slash));
+    const bool rest_is_good = slash == std::string_view::npos || are_attribute_indices(token.substr(slash + 1));
+    if (!index || !rest_is_good) {
+      text_.malformed("face {}, corner {}: {} is no vertex index", draft_.faces.size() + 1, corner + 1, quote(token));
+    }
+    return resolve(*index, corner);
+  }
+
+  // `vt`, `/vn` or `vt/vn`, where either may be missing.
+  static bool are_attribute_indices(std::string_view rest) {
+    const auto slash = rest.find('/');
+    const auto is_index = [](std::string_view part) { return part.empty() || parse_integer(part).has_value(); };
+    return is_index(rest.substr(0, slash)) && (slash == std::string_view::npos || is_index(rest.substr(slash + 1)));
+  }
+
+  // Positive indices count from 1, negative ones back from the vertex declared last.
+  std::uint32_t resolve(std::int64_t index, uint64_t corner) {
+    const auto declared = static_cast<std::int64_t>(draft_.positions.vertex_count());
+    const bool names_one = index > 0 || (index < 0 && index >= -declared);
+    if (!names_one || index > static_cast<std::int64_t>(kMaxVertices))
+      refuse(text_.place(), draft_.faces.size(), corner, index);
+    if (index > declared && index > forward_.index) forward_ = {index, draft_.faces.size(), corner, text_.place()};
+    return static_cast<std::uint32_t>(index > 0 ? index - 1 : declared + index);
+  }
+
+  // A face may come before its vertices; whether they come at all is known at the end.
+  void check_forward_reference() const {
+    const auto declared = static_cast<std::int64_t>(draft_.positions.vertex_count());
+    if (forward_.index > declared) refuse(forward_.place, forward_.face, forward_.corner, forward_.index);
+  }
+
+  [[noreturn]] void refuse(const Place& place, uint64_t face, uint64_t corner, std::int64_t index) const {
+    fail_at(text_.input().name(), place, ErrorCode::MalformedFile,
+            fmt::format("face {}, corner {} = {}, but there are {} vertices", face + 1, corner + 1, index,
+                        draft_.positions.vertex_count()));
+  }
+
+  // The largest index met so far among those of vertices not declared yet.
+  struct ForwardReference {
+    std::int64_t index = 0;
+    uint64_t face = 0;
+    uint64_t corner = 0;
+    Place place;
+  };
+
+  Text text_;
+  Draft draft_;
+  ForwardReference forward_;
+  uint64_t unknown_ = 0;
+  bool is_obj_ = false;
+};
+
+}  // namespace
+
+bool is_obj_statement(std::string_view word) {
+  return word == "v" || word == "f" || contains(kAttributes, word) || contains(kOtherGeometry, word);
+}
+
+Mesh read_obj(Input& input, const ReadOptions& options) { return ObjReader(input, options).read(); }
+
+}  // namespace meshhood::io

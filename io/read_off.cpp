@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "io/draft.h"
+#include "io/number.h"
+#include "io/readers.h"
+#include "io/text.h"
+
+// `[ST][C][N]OFF` in text. What follows the position of a vertex or the corners of a face in its line (normals,
+// colours, texture coordinates) is not read. Vertices of 4 or n dimensions (4OFF, nOFF) and `OFF BINARY` are refused.
+
+namespace meshhood::io {
+namespace {
+
+using std::uint64_t;
+
+// Digits with what separates them: "0 0 0\n" and "0\n".
+constexpr uint64_t kLeastBytesOfVertex = 6;
+constexpr uint64_t kLeastBytesOfFace = 2;
+
+class OffReader {
+ public:
+  OffReader(Input& input, const ReadOptions& options)
+      : text_(input, {.hash_comments = true}), draft_(input, options, false) {}
+
+  Mesh read() {
+    read_keyword();
+    read_counts();
+    for (uint64_t vertex = 0; vertex < vertices_; ++vertex) read_vertex(vertex);
+    for (uint64_t face = 0; face < faces_; ++face) read_face(face);
+    if (!text_.token().empty()) draft_.warnings.add("data after the last face", text_.place());
+    return draft_.finish(Format::Off);
+  }
+
+ private:
+  void read_keyword() {
+    const auto keyword = text_.token();
+    if (!is_off_keyword(keyword)) text_.malformed("expected 'OFF', found {}", quote(keyword));
+    const auto dimension = keyword.find_first_of("4n");
+    if (dimension != std::string_view::npos) {
+      text_.fail(ErrorCode::UnsupportedFormat,
+                 fmt::format("{}: only vertices of three coordinates are read", quote(keyword)));
+    }
+    has_attributes_ = keyword != "OFF";
+  }
+
+  void read_counts() {
+    vertices_ = read_count("vertices");
+    check_bytes(vertices_, kLeastBytesOfVertex, "vertices");
+    check_vertex_count(vertices_, text_.input().name(), text_.place());
+    faces_ = read_count("faces");
+    check_bytes(faces_, kLeastBytesOfFace, "faces");
+    read_count("edges");
+    const auto left = text_.input().left();
+    if (!left) return;
+    draft_.positions.reserve(vertices_);
+    draft_.faces.reserve_corners(std::min(3 * faces_, *left / 2));
+  }
+
+  uint64_t read_count(std::string_view what) {
+    const auto token = text_.token();
+    if (token == "BINARY") text_.fail(ErrorCode::UnsupportedFormat, "'OFF BINARY' is not read, only OFF as text");
+    const auto count = parse_count(token);
+    if (!count) text_.malformed("expected the number of {}, found {}", what, quote(token));
+    return *count;
+  }
+
+  // No allocation before the bytes are there that a count promises.
+  void check_bytes(uint64_t count, uint64_t least, std::string_view what) const {
+    const auto left = text_.input().left();
+    if (!left || count <= (*left + 1) / least) return;
+    text_.malformed("{} {} take at least {} bytes each, but {} bytes are left", count, what, least, *left);
+  }
+
+  void read_vertex(uint64_t vertex) {
+    for (int i = 0; i < 3; ++i) {
+      const char name = axis(draft_.positions.scalar_count());
+      const auto token = text_.token();
+      if (token.empty()) text_.malformed("the file ends in vertex {} of {}", vertex, vertices_);
+      const auto problem = draft_.positions.append(token);
+      if (problem) text_.malformed("vertex {}, {} = {} {}", vertex, name, quote(token), *problem);
+    }
+    if (!has_attributes_ && !text_.at_line_end()) {
+      draft_.warnings.add("more than three numbers in a line of a vertex", text_.place());
+    }
+    text_.skip_line();
+  }
+
+  void read_face(uint64_t face) {
+    const auto corners = read_face_integer(face, "number of corners");
+    if (corners < 0) text_.malformed("face {} has {} corners", face, corners);
+    for (std::int64_t corner = 0; corner < corners; ++corner) {
+      const auto index = read_face_integer(face, "vertex index");
+      if (index < 0 || static_cast<uint64_t>(index) >= vertices_) {
+        text_.malformed("face {}, corner {} = {}, but there are {} vertices", face, corner, index, vertices_);
+      }
+      draft_.faces.append_corner(static_cast<std::uint32_t>(index));
+    }
+    draft_.faces.end_face(static_cast<uint64_t>(corners));
+    text_.skip_line();
+  }
+
+  std::int64_t read_face_integer(uint64_t face, std::string_view what) {
+    const auto token = text_.token();
+    if (token.empty()) text_.malformed("the file ends in face {} of {}", face, faces_);
+    const auto value = parse_integer(token);
+    if (!value) text_.malformed("face {}: expected a {}, found {}", face, what, quote(token));
+    return *value;
+  }
+
+  Text text_;
+  Draft draft_;
+  bool has_attributes_ = false;
+  uint64_t vertices_ = 0;
+  uint64_t faces_ = 0;
+};
+
+bool take_prefix(std::string_view& word, std::string_view prefix) {
+  if (!word.starts_with(prefix)) return false;
+  word.remove_prefix(prefix.size());
+  return true;
+}
+
+}  // namespace
+
+bool is_off_keyword(std::string_view word) {
+  for (const std::string_view prefix : {"ST", "C", "N", "4", "n"}) take_prefix(word, prefix);
+  return word == "OFF";
+}
+
+Mesh read_off(Input& input, const ReadOptions& options) { return OffReader(input, options).read(); }
+
+}  // namespace meshhood::io

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "io/draft.h"
+#include "io/ply_header.h"
+#include "io/ply_values.h"
+#include "io/readers.h"
+
+// Elements are read in the order of the file. Only `vertex` (x, y, z), `face` and `tristrips` (vertex_indices or
+// vertex_index) are kept; all others are passed over.
+
+namespace meshhood::io {
+namespace {
+
+using std::uint64_t;
+
+// The place of the one property called by one of `names` among those of `element`; none where there is none.
+std::optional<std::size_t> find_property(const Input& input, const PlyElement& element,
+                                         std::initializer_list<std::string_view> names) {
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < element.properties.size(); ++i) {
+    if (std::find(names.begin(), names.end(), element.properties[i].name) == names.end()) continue;
+    if (found) {
+      fail_at(input.name(), element.place, ErrorCode::MalformedFile,
+              fmt::format("element {} has the property {} twice", element.name, *names.begin()));
+    }
+    found = i;
+  }
+  return found;
+}
+
+const PlyElement* find_element(const PlyHeader& header, std::string_view name) {
+  const auto found = std::find_if(header.elements.begin(), header.elements.end(),
+                                  [name](const PlyElement& element) { return element.name == name; });
+  return found == header.elements.end() ? nullptr : &*found;
+}
+
+// The places of x, y and z among the properties of a vertex.
+using Axes = std::array<std::size_t, 3>;
+
+Axes find_axes(const Input& input, const PlyElement& vertex) {
+  Axes axes = {};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string name(1, axis(i));
+    const auto found = find_property(input, vertex, {name});
+    if (!found || vertex.properties[*found].count_type) {
+      fail_at(input.name(), vertex.place, ErrorCode::MalformedFile,
+              fmt::format("element vertex has no scalar property {}", name));
+    }
+    axes[i] = *found;
+  }
+  return axes;
+}
+
+bool has_double_axis(const PlyElement& vertex, const Axes& axes) {
+  return std::any_of(axes.begin(), axes.end(), [&](std::size_t i) { return !fits_float(vertex.properties[i].type); });
+}
+
+const PlyElement& vertex_element(const Input& input, const PlyHeader& header) {
+  const auto* const vertex = find_element(header, "vertex");
+  if (vertex == nullptr) {
+    fail_at(input.name(), {.line = header.lines, .column = 1}, ErrorCode::MalformedFile,
+            "the header has no element vertex");
+  }
+  return *vertex;
+}
+
+class PlyReader {
+ public:
+  PlyReader(Input& input, const ReadOptions& options)
+      : input_(input),
+        header_(read_ply_header(input)),
+        vertex_(vertex_element(input, header_)),
+        axes_(find_axes(input, vertex_)),
+        values_(ply_values(input, header_)),
+        draft_(input, options, has_double_axis(vertex_, axes_)) {}
+
+  Mesh read() {
+    for (const auto& element : header_.elements) {
+      element_ = &element;
+      row_ = 0;
+      check_count();
+      read_element();
+    }
+    if (values_->anything_left()) draft_.warnings.add("data after the last element", values_->place());
+    return draft_.finish(Format::Ply);
+  }
+
+ private:
+  // No loop and no allocation before the bytes are there that the header promises.
+  void check_count() const {
+    const auto least = least_bytes(*element_);
+    const auto left = values_->bytes_left();
+    if (left && least != 0 && element_->count > *left / least) {
+      fail_at(input_.name(), element_->place, ErrorCode::MalformedFile,
+              fmt::format("{} elements {} take at least {} bytes each, but {} bytes are left", element_->count,
+                          quote(element_->name), least, *left));
+    }
+    if (element_ == &vertex_) check_vertex_count(vertex_.count, input_.name(), vertex_.place);
+  }
+
+  [[nodiscard]] uint64_t least_bytes(const PlyElement& element) const {
+    uint64_t sum = 0;
+    for (const auto& property : element.properties)
+      sum += values_->least_bytes(property.count_type.value_or(property.type));
+    return sum;
+  }
+
+  void read_element() {
+    if (element_->properties.empty()) return;  // its rows take no bytes, however many there are
+    if (element_ == &vertex_) return read_vertices();
+    if (element_->name == "face") return read_lists(&PlyReader::read_face);
+    if (element_->name == "tristrips") return read_lists(&PlyReader::read_strip);
+    for (; row_ < element_->count; ++row_) skip_properties(0, element_->properties.size());
+  }
+
+  void read_vertices() {
+    if (values_->bytes_left()) draft_.positions.reserve(vertex_.count);
+    Axes sorted = axes_;
+    std::sort(sorted.begin(), sorted.end());
+    for (; row_ < vertex_.count; ++row_) {
+      std::size_t next = 0;
+      for (const auto place : sorted) {
+        skip_properties(next, place);
+        property_ = &vertex_.properties[place];
+        require(values_->take_coordinate(property_->type, draft_.positions));
+        next = place + 1;
+      }
+      skip_properties(next, vertex_.properties.size());
+      if (sorted != axes_) draft_.positions.reorder_last(axes_);
+    }
+  }
+
+  // Reads the list of vertices in each row of the element and gives it to `read_list`, which takes its corners.
+  void read_lists(void (PlyReader::*read_list)(uint64_t corners)) {
+    const auto place = find_property(input_, *element_, {"vertex_indices", "vertex_index"});
+    if (!place && element_->count == 0) return;
+    check_list(place);
+    property_ = &element_->properties[*place];
+    reserve_corners();
+    for (; row_ < element_->count; ++row_) {
+      skip_properties(0, *place);
+      property_ = &element_->properties[*place];
+      (this->*read_list)(take_list_count());
+      skip_properties(*place + 1, element_->properties.size());
+    }
+  }
+
+  void check_list(std::optional<std::size_t> place) const {
+    const auto* const property = place ? &element_->properties[*place] : nullptr;
+    if (property != nullptr && property->count_type && is_integer(property->type)) return;
+    fail_at(input_.name(), element_->place, ErrorCode::MalformedFile,
+            fmt::format("element {} has no list of integers vertex_indices or vertex_index", element_->name));
+  }
+
+  void reserve_corners() {
+    const auto left = values_->bytes_left();
+    if (!left) return;
+    const auto most = *left / values_->least_bytes(property_->type);
+    draft_.faces.reserve_corners(std::min(most, element_->count <= most ? 3 * element_->count : most));
+  }
+
+  void read_face(uint64_t corners) {
+    for (uint64_t corner = 0; corner < corners; ++corner) {
+      const auto index = take_index();
+      draft_.faces.append_corner(checked(index, corner));
+    }
+    draft_.faces.end_face(corners);
+  }
+
+  // A strip is a triangle for each corner from its third on, every other one turned over; -1 begins a new strip. A
+  // triangle that repeats a corner only carries the strip to another place, and is none.
+  void read_strip(uint64_t corners) {
+    std::array<std::uint32_t, 2> last = {};
+    uint64_t length = 0;
+    for (uint64_t corner = 0; corner < corners; ++corner) {
+      const auto index = take_index();
+      if (index == -1) {
+        length = 0;
+        continue;
+      }
+      const auto vertex = checked(index, corner);
+      if (length >= 2) append_triangle(last[length % 2], last[(length + 1) % 2], vertex, length % 2 == 1);
+      last[length++ % 2] = vertex;
+    }
+  }
+
+  void append_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, bool turned) {
+    if (a == b || b == c || c == a) return;
+    draft_.faces.append_corner(turned ? b : a);
+    draft_.faces.append_corner(turned ? a : b);
+    draft_.faces.append_corner(c);
+    draft_.faces.end_face(3);
+  }
+
+  void skip_properties(std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      property_ = &element_->properties[i];
+      if (!property_->count_type) {
+        require(values_->skip(property_->type, 1));
+      } else if (i > 0 && values_->row_is_over()) {
+        draft_.warnings.add("rows end before their last list, which is taken as empty", values_->place());
+      } else {
+        require(values_->skip(property_->type, take_list_count()));
+      }
+    }
+  }
+
+  uint64_t take_list_count() {
+    std::int64_t count = 0;
+    require(values_->take_integer(*property_->count_type, count));
+    if (count < 0) fail(fmt::format("a list of {} values", count));
+    const auto length = static_cast<uint64_t>(count);
+    const auto left = values_->bytes_left();
+    if (left && length > *left / values_->least_bytes(property_->type)) {
+      fail(fmt::format("a list of {} values, but {} bytes are left", count, *left));
+    }
+    return length;
+  }
+
+  std::int64_t take_index() {
+    std::int64_t index = 0;
+    require(values_->take_integer(property_->type, index));
+    return index;
+  }
+
+  std::uint32_t checked(std::int64_t index, uint64_t corner) const {
+    if (index >= 0 && static_cast<uint64_t>(index) < vertex_.count) return static_cast<std::uint32_t>(index);
+    fail_at(input_.name(), values_->place(), ErrorCode::MalformedFile,
+            fmt::format("{} {}, {}[{}] = {}, but there are {} vertices", element_->name, row_, property_->name, corner,
+                        index, vertex_.count));
+  }
+
+  void require(const Problem& problem) const {
+    if (problem) fail(*problem);
+  }
+
+  [[noreturn]] void fail(std::string_view problem) const {
+    fail_at(input_.name(), values_->place(), ErrorCode::MalformedFile,
+            fmt::format("{} {} of {}, {}: {}", shown(element_->name), row_, element_->count, shown(property_->name),
+                        problem));
+  }
+
+  Input& input_;
+  PlyHeader header_;
+  const PlyElement& vertex_;
+  Axes axes_;
+  std::unique_ptr<PlyValues> values_;
+  Draft draft_;
+
+  // What is being read, for messages.
+  const PlyElement* element_ = nullptr;
+  uint64_t row_ = 0;
+  const PlyProperty* property_ = nullptr;
+};
+
+}  // namespace
+
+Mesh read_ply(Input& input, const ReadOptions& options) { return PlyReader(input, options).read(); }
+
+}  // namespace meshhood::io

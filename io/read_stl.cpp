@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <string>
+#include <type_traits>
+
+#include "io/draft.h"
+#include "io/readers.h"
+#include "io/stl_text.h"
+#include "io/weld.h"
+
+// A file is binary where its size says so, even if it begins with "solid", as many do.
+
+namespace meshhood::io {
+namespace {
+
+using std::uint64_t;
+
+constexpr std::size_t kHeaderBytes = 84;
+constexpr std::size_t kFacetBytes = 50;
+constexpr std::size_t kNormalBytes = 12;
+
+std::uint32_t little_endian_word(std::string_view bytes) {
+  std::uint32_t word = 0;
+  for (std::size_t i = 4; i-- > 0;) word = (word << 8U) | static_cast<unsigned char>(bytes[i]);
+  return word;
+}
+
+std::uint32_t facet_count(std::string_view header) { return little_endian_word(header.substr(80)); }
+
+uint64_t binary_size(std::string_view header) { return kHeaderBytes + kFacetBytes * uint64_t{facet_count(header)}; }
+
+bool is_text(std::string_view bytes) {
+  return std::all_of(bytes.begin(), bytes.end(), [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte >= 0x20 || ('\t' <= c && c <= '\r');
+  });
+}
+
+bool is_binary(Input& input) {
+  if (has_binary_stl_size(input)) return true;
+  const auto header = input.ahead(kHeaderBytes).substr(0, kHeaderBytes);
+  if (header.size() < kHeaderBytes || is_text(header)) return false;
+  return !input.size() || *input.left() >= binary_size(header);
+}
+
+std::string why_not_binary(Input& input) {
+  const auto header = input.ahead(kHeaderBytes);
+  if (header.size() < kHeaderBytes) return "not a binary STL, which has at least 84 bytes";
+  return fmt::format("not a binary STL, which would have {} bytes for the {} facets of its header", binary_size(header),
+                     facet_count(header));
+}
+
+template <class Real>
+class BinaryStl {
+ public:
+  BinaryStl(Input& input, Draft& draft, Weld<Real>& weld) : input_(input), draft_(draft), weld_(weld) {}
+
+  void read() {
+    const auto facets = facet_count(input_.ahead(kHeaderBytes));
+    input_.skip(kHeaderBytes);
+    for (std::uint32_t facet = 0; facet < facets; ++facet) read_facet(facet, facets);
+    if (!input_.ahead(1).empty()) draft_.warnings.add("bytes after the last facet", {.byte = input_.offset()});
+  }
+
+ private:
+  void read_facet(std::uint32_t facet, std::uint32_t facets) {
+    const auto bytes = input_.ahead(kFacetBytes);
+    if (bytes.size() < kFacetBytes) {
+      fail_at(input_.name(), {.byte = input_.offset()}, ErrorCode::MalformedFile,
+              fmt::format("the file ends in facet {} of {}", facet, facets));
+    }
+    std::array<typename Weld<Real>::Point, 3> corners;
+    for (std::size_t i = 0; i < 9; ++i) {
+      const std::size_t at = kNormalBytes + 4 * i;
+      const double number = std::bit_cast<float>(little_endian_word(bytes.substr(at)));
+      if (const auto problem = to_coordinate(number, corners[i / 3][i % 3])) {
+        fail_at(input_.name(), {.byte = input_.offset() + at}, ErrorCode::MalformedFile,
+                fmt::format("facet {}, vertex {}, {} {}", facet, i / 3, axis(i), *problem));
+      }
+    }
+    append_triangle(corners, {.byte = input_.offset()}, draft_, weld_);
+    input_.skip(kFacetBytes);
+  }
+
+  Input& input_;
+  Draft& draft_;
+  Weld<Real>& weld_;
+};
+
+// Room for as many corners as the bytes can hold, all of them vertices of their own.
+void reserve(Draft& draft, const Input& input, bool binary) {
+  constexpr uint64_t kLeastTextOfVertex = 13;  // "vertex 0 0 0 "
+  if (!input.left()) return;
+  const auto corners = binary ? 3 * (*input.left() / kFacetBytes) : *input.left() / kLeastTextOfVertex;
+  draft.positions.reserve(corners);
+  draft.faces.reserve_corners(corners);
+}
+
+template <class Real>
+void read_soup(Input& input, bool binary, Draft& draft, std::vector<Real>& positions) {
+  Weld<Real> weld(positions, draft.faces.corners(), input.name());
+  if (binary) {
+    BinaryStl<Real>(input, draft, weld).read();
+  } else {
+    read_stl_text(input, draft, weld);
+  }
+  weld.flush();
+}
+
+}  // namespace
+
+bool has_binary_stl_size(Input& input) {
+  const auto header = input.ahead(kHeaderBytes);
+  return header.size() >= kHeaderBytes && input.size() && *input.left() == binary_size(header);
+}
+
+Mesh read_stl(Input& input, const ReadOptions& options) {
+  const bool binary = is_binary(input);
+  // What reads as binary garbage deserves to be told both reasons.
+  const bool may_be_either = !binary && !is_text(input.ahead(kHeaderBytes).substr(0, kHeaderBytes));
+  const std::string not_binary = binary ? "" : why_not_binary(input);
+  Draft draft(input, options, false);
+  reserve(draft, input, binary);
+  try {
+    std::visit([&](auto& positions) { read_soup(input, binary, draft, positions); }, draft.positions.values());
+  } catch (const Error& error) {
+    if (!may_be_either) throw;
+    raise(error.code(), fmt::format("{}; and {}", error.what(), not_binary));
+  }
+  return draft.finish(Format::Stl);
+}
+
+}  // namespace meshhood::io

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "io/stl_text.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "io/text.h"
+
+namespace meshhood::io {
+namespace {
+
+using std::uint64_t;
+
+bool is_word(std::string_view token, std::string_view lower_case) {
+  return std::equal(token.begin(), token.end(), lower_case.begin(), lower_case.end(),
+                    [](char a, char b) { return (('A' <= a && a <= 'Z') ? a - 'A' + 'a' : a) == b; });
+}
+
+template <class Real>
+class StlText {
+ public:
+  StlText(Input& input, Draft& draft, Weld<Real>& weld) : text_(input, {}), draft_(draft), weld_(weld) {}
+
+  void read() {
+    if (!is_word(text_.token(), "solid")) text_.malformed("expected 'solid'");
+    text_.skip_line();
+    for (auto token = text_.token(); !token.empty(); token = text_.token()) read_item(token);
+    if (in_solid_) draft_.warnings.add("no 'endsolid' at the end", text_.place());
+    if (facets_ == 0) text_.malformed("expected at least one 'facet'");
+  }
+
+ private:
+  void read_item(std::string_view token) {
+    if (is_word(token, "facet")) return read_facet();
+    in_solid_ = is_word(token, "solid");
+    if (!in_solid_ && !is_word(token, "endsolid")) {
+      text_.malformed("expected 'facet', 'endsolid' or 'solid', found {}", quote(token));
+    }
+    text_.skip_line();  // a name of any words
+  }
+
+  void read_facet() {
+    const Place place = text_.place();
+    auto token = text_.token();
+    if (is_word(token, "normal")) {
+      for (int i = 0; i < 3; ++i) text_.token();
+      token = text_.token();
+    }
+    check(token, "outer");
+    check(text_.token(), "loop");
+    read_loop(place);
+    check(text_.token(), "endfacet");
+    ++facets_;
+  }
+
+  void read_loop(const Place& place) {
+    uint64_t count = 0;
+    for (auto token = text_.token(); !is_word(token, "endloop"); token = text_.token()) {
+      check(token, "vertex");
+      const auto corner = read_corner(count);
+      if (count == 3) append_first_three();
+      if (count >= 3) weld_.append(corner);
+      if (count < 3) first_[count] = corner;
+      ++count;
+    }
+    end_loop(count, place);
+  }
+
+  // The first three wait: a facet that turns out to have fewer is left out.
+  void append_first_three() {
+    for (const auto& corner : first_) weld_.append(corner);
+  }
+
+  void end_loop(uint64_t count, const Place& place) {
+    if (count < 3) {
+      draft_.warnings.add("facets of fewer than three vertices are left out", place);
+    } else if (count == 3) {
+      append_triangle(first_, place, draft_, weld_);
+    } else {
+      draft_.warnings.add("facets of more than three vertices", place);
+      draft_.faces.end_face(count);
+    }
+  }
+
+  typename Weld<Real>::Point read_corner(uint64_t count) {
+    typename Weld<Real>::Point corner;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto token = text_.token();
+      if (const auto problem = to_coordinate(token, corner[i])) {
+        text_.malformed("facet {}, vertex {}, {} = {} {}", facets_, count, axis(i), quote(token), *problem);
+      }
+    }
+    return corner;
+  }
+
+  void check(std::string_view token, std::string_view expected) const {
+    if (is_word(token, expected)) return;
+    if (token.empty()) text_.malformed("facet {}: expected '{}', but the file ends", facets_, expected);
+    text_.malformed("facet {}: expected '{}', found {}", facets_, expected, quote(token));
+  }
+
+  Text text_;
+  Draft& draft_;
+  Weld<Real>& weld_;
+  std::array<typename Weld<Real>::Point, 3> first_ = {};
+  uint64_t facets_ = 0;
+  bool in_solid_ = true;
+};
+
+}  // namespace
+
+template <class Real>
+void read_stl_text(Input& input, Draft& draft, Weld<Real>& weld) {
+  StlText<Real>(input, draft, weld).read();
+}
+
+template void read_stl_text(Input& input, Draft& draft, Weld<float>& weld);
+template void read_stl_text(Input& input, Draft& draft, Weld<double>& weld);
+
+}  // namespace meshhood::io

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "io/draft.h"
+#include "io/input.h"
+#include "io/place.h"
+#include "io/weld.h"
+
+namespace meshhood::io {
+
+/// Reads all facets of an STL file in text, of any number of solids and in any letter case. A facet of more than three
+/// vertices is kept as a polygon, one of fewer is left out, both with a warning.
+template <class Real>
+void read_stl_text(Input& input, Draft& draft, Weld<Real>& weld);
+
+/// Appends a facet of either kind of file.
+template <class Real>
+void append_triangle(const std::array<std::array<Real, 3>, 3>& corners, const Place& place, Draft& draft,
+                     Weld<Real>& weld) {
+  const auto& [a, b, c] = corners;
+  if (a == b || b == c || c == a) draft.warnings.add("facets in which two corners coincide", place);
+  for (const auto& corner : corners) weld.append(corner);
+  draft.faces.end_face(3);
+}
+
+extern template void read_stl_text(Input& input, Draft& draft, Weld<float>& weld);
+extern template void read_stl_text(Input& input, Draft& draft, Weld<double>& weld);
+
+}  // namespace meshhood::io

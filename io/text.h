@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "meshhood/error.h"
+
+#include "io/input.h"
+#include "io/place.h"
+
+namespace meshhood::io {
+
+/// How a text format is laid out.
+struct TextSyntax {
+  bool hash_comments = false;         ///< `#` at the start of a token makes the rest of the line a comment
+  std::optional<char> line_end = {};  ///< the one byte that ends a line; any of LF, CR and CRLF where there is none
+  std::uint64_t lines_before = 0;     ///< lines of the file before the text
+};
+
+/// A text file as lines and the tokens in them. Blanks, tabs, vertical tabs and form feeds separate tokens. Lines may
+/// have any length up to 64 MiB.
+class Text {
+ public:
+  /// Begins before the line at the front of `input`.
+  Text(Input& input, const TextSyntax& syntax) : input_(input), syntax_(syntax), line_number_(syntax.lines_before) {}
+
+  /// Moves to the next line; false at the end of the file. Throws Error{MalformedFile} on a NUL byte and on a line that
+  /// is too long.
+  bool next_line();
+
+  /// The next token of this line, empty at its end.
+  std::string_view token_on_line();
+
+  /// The next token of this line or of those after it, empty at the end of the file.
+  std::string_view token();
+
+  void skip_line() { cursor_ = line_.size(); }
+
+  /// Leaves the input behind the current line and its end.
+  void leave_line() { input_.skip(std::exchange(whole_length_, 0)); }
+
+  /// Whether this line holds no further token.
+  [[nodiscard]] bool at_line_end() const;
+
+  /// As `token_on_line`, but a backslash at the end of a line makes the next one part of it.
+  std::string_view token_on_continued_line();
+
+  /// The place of the token taken last; the end of the file, if there was none.
+  [[nodiscard]] Place place() const { return {.line = line_number_, .column = token_begin_ + 1}; }
+
+  [[nodiscard]] Input& input() const { return input_; }
+
+  /// Throws Error{code}: the message after the place of the token taken last.
+  [[noreturn]] void fail(ErrorCode code, std::string_view message) const {
+    fail_at(input_.name(), place(), code, message);
+  }
+
+  template <class... Args>
+  [[noreturn]] void malformed(fmt::format_string<Args...> format, Args&&... args) const {
+    fail(ErrorCode::MalformedFile, fmt::format(format, std::forward<Args>(args)...));
+  }
+
+ private:
+  [[nodiscard]] std::size_t find_line_end();
+  void take_line(std::size_t length);
+  [[nodiscard]] bool ends_line(char c) const;
+
+  Input& input_;
+  TextSyntax syntax_;
+  std::uint64_t line_number_;
+  std::string_view line_;
+  std::size_t whole_length_ = 0;  // of the line with its end
+  std::size_t cursor_ = 0;
+  std::size_t token_begin_ = 0;
+};
+
+}  // namespace meshhood::io

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <iterator>
+#include <limits>
+#include <string_view>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "meshhood/error.h"
+
+#include "io/file_writer.h"
+#include "io/mesh_io.h"
+#include "io/place.h"
+
+namespace meshhood::io {
+namespace {
+
+constexpr std::array<std::string_view, 3> kAxes = {"x", "y", "z"};
+constexpr std::array<std::string_view, 3> kColors = {"red", "green", "blue"};
+
+[[noreturn]] void refuse(const std::string& message) { raise(ErrorCode::InvalidOption, message); }
+
+bool is_property_name(std::string_view name) {
+  const auto is_good = [](char c) { return '!' <= c && c <= '~'; };
+  return !name.empty() && std::all_of(name.begin(), name.end(), is_good);
+}
+
+void check_property(const VertexProperty& property, std::size_t vertices, std::vector<std::string_view>& taken) {
+  const auto name = quote(property.name);
+  if (!is_property_name(property.name)) refuse("PLY property " + name + ": a name is printable ASCII without blanks");
+  if (std::find(taken.begin(), taken.end(), property.name) != taken.end()) refuse("PLY property " + name + " twice");
+  taken.push_back(property.name);
+  if (property.values.size() == vertices) return;
+  refuse(fmt::format("PLY property {} has {} values for {} vertices", name, property.values.size(), vertices));
+}
+
+void check(const PlyOptions& options, std::size_t vertices) {
+  std::vector<std::string_view> taken(kAxes.begin(), kAxes.end());
+  if (!options.colors.empty()) {
+    taken.insert(taken.end(), kColors.begin(), kColors.end());
+    if (options.colors.size() != 3 * vertices) {
+      refuse(fmt::format("{} colour values for {} vertices, expected three each", options.colors.size(), vertices));
+    }
+  }
+  for (const auto& property : options.properties) check_property(property, vertices, taken);
+}
+
+std::size_t largest_face(const FacesView& faces) {
+  std::size_t largest = 0;
+  faces.for_each([&largest](std::size_t, auto corners) { largest = std::max(largest, corners.size()); });
+  return largest;
+}
+
+// Values as text, a blank between them, a row a line; or as little-endian bytes.
+class Rows {
+ public:
+  Rows(FileWriter& file, bool ascii) : file_(file), ascii_(ascii) {}
+
+  template <class T>
+  void value(T value) {
+    if (ascii_) {
+      // The shortest text that reads back as the same number.
+      fmt::format_to(std::back_inserter(row_), "{}{}", row_.empty() ? "" : " ", value);
+    } else {
+      std::array<char, sizeof(T)> bytes;
+      std::memcpy(bytes.data(), &value, sizeof(T));
+      if constexpr (std::endian::native == std::endian::big) std::reverse(bytes.begin(), bytes.end());
+      row_.append(bytes.data(), bytes.size());
+    }
+  }
+
+  void end() {
+    if (ascii_) row_ += '\n';
+    file_.write(row_);
+    row_.clear();
+  }
+
+ private:
+  FileWriter& file_;
+  bool ascii_;
+  std::string row_;
+};
+
+class PlyWriter {
+ public:
+  PlyWriter(FileWriter& file, const MeshView& mesh, const PlyOptions& options)
+      : file_(file), rows_(file, options.ascii), mesh_(mesh), options_(options) {}
+
+  void write() {
+    has_long_faces_ = largest_face(mesh_.faces) > std::numeric_limits<std::uint8_t>::max();
+    file_.write(header());
+    mesh_.positions.visit([this](auto xyz) { write_vertices(xyz); });
+    mesh_.faces.for_each([this](std::size_t, auto corners) { write_face(corners); });
+  }
+
+ private:
+  [[nodiscard]] std::string header() const {
+    const auto scalar = mesh_.positions.visit(
+        [](auto xyz) { return std::is_same_v<typename decltype(xyz)::value_type, double> ? "double" : "float"; });
+    std::string text = "ply\n";
+    text += options_.ascii ? "format ascii 1.0\n" : "format binary_little_endian 1.0\n";
+    text += fmt::format("element vertex {}\n", mesh_.positions.size());
+    for (const auto name : kAxes) text += fmt::format("property {} {}\n", scalar, name);
+    if (!options_.colors.empty()) {
+      for (const auto name : kColors) text += fmt::format("property uchar {}\n", name);
+    }
+    for (const auto& property : options_.properties) text += fmt::format("property float {}\n", property.name);
+    text += fmt::format("element face {}\n", mesh_.faces.size());
+    text += fmt::format("property list {} {} vertex_indices\n", has_long_faces_ ? "uint" : "uchar", index_type());
+    return text + "end_header\n";
+  }
+
+  // Most readers expect int.
+  [[nodiscard]] std::string_view index_type() const {
+    return mesh_.positions.size() > std::size_t{std::numeric_limits<std::int32_t>::max()} ? "uint" : "int";
+  }
+
+  template <class Real>
+  void write_vertices(std::span<const Real> xyz) {
+    for (std::size_t vertex = 0; vertex < xyz.size() / 3; ++vertex) {
+      for (const auto coordinate : xyz.subspan(3 * vertex, 3)) rows_.value(coordinate);
+      if (!options_.colors.empty()) {
+        for (const auto channel : options_.colors.subspan(3 * vertex, 3)) rows_.value(channel);
+      }
+      for (const auto& property : options_.properties) rows_.value(property.values[vertex]);
+      rows_.end();
+    }
+  }
+
+  template <class Index>
+  void write_face(std::span<const Index> corners) {
+    if (has_long_faces_) {
+      rows_.value(static_cast<std::uint32_t>(corners.size()));
+    } else {
+      rows_.value(static_cast<std::uint8_t>(corners.size()));
+    }
+    for (const auto corner : corners) rows_.value(static_cast<std::uint32_t>(corner));
+    rows_.end();
+  }
+
+  FileWriter& file_;
+  Rows rows_;
+  const MeshView& mesh_;
+  const PlyOptions& options_;
+  bool has_long_faces_ = false;
+};
+
+}  // namespace
+
+void write_ply(const std::filesystem::path& path, const MeshView& mesh, const PlyOptions& options) {
+  validate(mesh);
+  check(options, mesh.positions.size());
+  FileWriter file(path);
+  PlyWriter(file, mesh, options).write();
+  file.commit();
+}
+
+}  // namespace meshhood::io
