@@ -11,11 +11,10 @@
 #include "meshhood/meshhood.h"
 
 #include "families.h"
+#include "refusal.h"
 
 namespace meshhood::test {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -124,17 +123,6 @@ TEST(Query, ServesSeveralSearchersOfOneIndex) {
   paper::Searcher first(index);
   paper::Searcher second(index);
   for (VertexId v = 0; v < mesh.size(); v += 7) ASSERT_EQ(first.count(v, 6), second.count(v, 6));
-}
-
-template <class F>
-void expect_refused(ErrorCode code, const char* message, F&& call) {
-  try {
-    call();
-    ADD_FAILURE() << "accepted, expected: " << message;
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), code);
-    EXPECT_THAT(error.what(), HasSubstr(message));
-  }
 }
 
 TEST(Query, A1A2RefusesWithoutTouchingTheAnswer) {
