@@ -45,13 +45,20 @@ std::string_view first_word(std::string_view head) {
   }
 }
 
+// A keyword and something behind it. A letter alone is no evidence.
+bool begins_obj(std::string_view head, std::string_view word) {
+  const auto behind = static_cast<std::size_t>(word.data() - head.data()) + word.size();
+  return is_obj_statement(word) && behind < head.size() && (head[behind] == ' ' || head[behind] == '\t');
+}
+
 std::optional<Format> format_of_content(Input& input) {
-  const std::string word(first_word(input.ahead(kHead)));
-  if (word == "ply") return Format::Ply;
   if (has_binary_stl_size(input)) return Format::Stl;
-  if (lower_case(word) == "solid") return Format::Stl;
+  const auto head = input.ahead(kHead);
+  const auto word = first_word(head);
+  if (word == "ply") return Format::Ply;
+  if (lower_case(std::string(word)) == "solid") return Format::Stl;
   if (is_off_keyword(word)) return Format::Off;
-  if (is_obj_statement(word)) return Format::Obj;
+  if (begins_obj(head, word)) return Format::Obj;
   return std::nullopt;
 }
 

@@ -99,11 +99,10 @@ class HeaderParser {
     if (std::any_of(header_.elements.begin(), header_.elements.end(), same)) {
       text_.malformed("a second element {}", quote(name));
     }
-    const auto place = text_.place();
     const auto digits = word("a count");
     const auto count = parse_count(digits);
     if (!count) text_.malformed("expected the number of elements {}, found {}", quote(name), quote(digits));
-    header_.elements.push_back({name, *count, {}, place});
+    header_.elements.push_back({name, *count, {}, text_.place()});
   }
 
   void parse_property() {

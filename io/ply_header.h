@@ -35,7 +35,7 @@ struct PlyElement {
   std::string name;
   std::uint64_t count;
   std::vector<PlyProperty> properties;
-  Place place;  ///< of its line in the header
+  Place place;  ///< of its count in the header
 };
 
 struct PlyHeader {

@@ -99,7 +99,7 @@ class PlyReader {
     if (left && least != 0 && element_->count > *left / least) {
       fail_at(input_.name(), element_->place, ErrorCode::MalformedFile,
               fmt::format("{} elements {} take at least {} bytes each, but {} bytes are left", element_->count,
-                          quote(element_->name), least, *left));
+                          quote(element_->name), least, *input_.left()));
     }
     if (element_ == &vertex_) check_vertex_count(vertex_.count, input_.name(), vertex_.place);
   }
@@ -218,7 +218,7 @@ class PlyReader {
     const auto length = static_cast<uint64_t>(count);
     const auto left = values_->bytes_left();
     if (left && length > *left / values_->least_bytes(property_->type)) {
-      fail(fmt::format("a list of {} values, but {} bytes are left", count, *left));
+      fail(fmt::format("a list of {} values, but {} bytes are left", count, *input_.left()));
     }
     return length;
   }

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: MIT
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/hostile.h"
+
+// The rows of the catalogue of mesh files that concern PLY.
+
+namespace meshhood::test {
+namespace {
+
+using ::testing::ElementsAre;
+
+const std::string kAxes = "property float x\nproperty float y\nproperty float z\n";
+
+std::string header(const std::string& encoding, const std::string& elements) {
+  return "ply\nformat " + encoding + " 1.0\n" + elements + "end_header\n";
+}
+
+std::string triangle(const std::string& rows) {
+  return header("ascii", "element vertex 3\n" + kAxes + "element face 1\nproperty list uchar int vertex_indices\n") +
+         rows;
+}
+
+const std::string kVertices = "0 0 0\n1 0 0\n0 1 0\n";
+
+std::string little_triangle(const std::string& face) {
+  return header("binary_little_endian",
+                "element vertex 3\n" + kAxes + "element face 1\nproperty list uchar int vertex_indices\n") +
+         little(0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F) + face;
+}
+
+TEST(Ply, M1_HugeCountsAreRefusedBeforeTheyAllocate) {
+  const std::string digits(33, '9');
+  for (const std::string encoding : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    expect_refused("a.ply", header(encoding, "element vertex 1099511627776\n" + kAxes), ErrorCode::MalformedFile,
+                   "a.ply:3:16", "1099511627776", "0 bytes are left");
+    expect_refused("a.ply", header(encoding, "element vertex " + digits + "\n" + kAxes), ErrorCode::MalformedFile,
+                   digits);
+    expect_refused("a.ply", header(encoding, "element vertex 18446744073709551615\n" + kAxes), ErrorCode::MalformedFile,
+                   "18446744073709551615");
+    expect_refused("a.ply", header(encoding, "element vertex -1\n" + kAxes), ErrorCode::MalformedFile, "-1");
+    expect_refused("a.ply",
+                   header(encoding, "element vertex 0\n" + kAxes +
+                                        "element face 1099511627776\nproperty list uchar int vertex_indices\n"),
+                   ErrorCode::MalformedFile, "'face'");
+  }
+}
+
+TEST(Ply, M2_ElementsWithoutPropertiesCostNothing) {
+  for (const std::string encoding : {"ascii", "binary_little_endian"}) {
+    const auto mesh = read("a.ply", header(encoding, "element nothing 18446744073709551615\nelement vertex 0\n" +
+                                                         kAxes + "element face 999999999999999999\n"));
+    EXPECT_EQ(vertex_count(mesh), 0U);
+    EXPECT_EQ(face_count(mesh), 0U);
+  }
+}
+
+TEST(Ply, M3_TruncationAtAnyByteIsRefused) {
+  const std::string whole = little_triangle(little(std::uint8_t{3}, 0, 1, 2));
+  EXPECT_EQ(face_count(read("a.ply", whole)), 1U);
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    const auto result = refusal("a.ply", whole.substr(0, length));
+    EXPECT_TRUE(result.refused) << length;
+  }
+  std::printf("%zu truncations of a binary file refused\n", whole.size());
+  expect_refused("a.ply", whole.substr(0, whole.size() - 1), ErrorCode::MalformedFile, "a.ply@", "face 0 of 1",
+                 "vertex_indices");
+}
+
+TEST(Ply, M3_TruncationOfTextNamesElementAndPlace) {
+  const std::string whole = triangle(kVertices + "3 0 1 2");  // a missing last newline is fine
+  EXPECT_EQ(face_count(read("a.ply", whole)), 1U);
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    EXPECT_TRUE(refusal("a.ply", whole.substr(0, length)).refused) << length;
+  }
+  expect_refused("a.ply", triangle("0 0 0\n1 0 0\n0 1"), ErrorCode::MalformedFile, "a.ply:3:16",
+                 "3 elements 'vertex' take at least 6 bytes each, but 15 bytes are left");
+  expect_refused("a.ply", triangle("0.00000 0 0\n1.00000 0 0\n0 1"), ErrorCode::MalformedFile, "a.ply:12:4",
+                 "vertex 2 of 3, z: the file ends here");
+  expect_refused("a.ply", triangle(kVertices + "3 0 1"), ErrorCode::MalformedFile, "face 0 of 1");
+}
+
+TEST(Ply, M4_BytesAfterTheLastElementAreAWarning) {
+  const std::string binary = little_triangle(little(std::uint8_t{3}, 0, 1, 2));
+  for (const auto& file : {binary + "x", triangle(kVertices + "3 0 1 2\n7 8\n")}) {
+    EXPECT_EQ(warned(read("a.ply", file), "after the last element"), 1U);
+    EXPECT_TRUE(refusal("a.ply", file, {.strict = true}).refused);
+  }
+  EXPECT_TRUE(read("a.ply", triangle(kVertices + "3 0 1 2\n \n\n")).warnings.empty());
+  EXPECT_EQ(read("a.ply", binary + "x").warnings.at(0).first_place, "byte " + std::to_string(binary.size()));
+}
+
+template <class Count, class Index>
+void expect_list_types(const std::string& count_type, const std::string& index_type) {
+  const std::string elements = "element vertex 3\n" + kAxes + "element face 1\nproperty list " + count_type + " " +
+                               index_type + " vertex_index\n";
+  for (const auto order : {std::endian::little, std::endian::big}) {
+    const bool is_little = order == std::endian::little;
+    std::string file = header(is_little ? "binary_little_endian" : "binary_big_endian", elements);
+    for (const float number : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F}) file += bytes_of(number, order);
+    file += bytes_of(Count{3}, order);
+    for (const int index : {2, 0, 1}) file += bytes_of(static_cast<Index>(index), order);
+    EXPECT_THAT(read("a.ply", file).corners, ElementsAre(2, 0, 1)) << count_type << " " << index_type;
+  }
+  const auto text = read("a.ply", header("ascii", elements) + kVertices + "3 2 0 1\n");
+  EXPECT_THAT(text.corners, ElementsAre(2, 0, 1));
+}
+
+template <class Count>
+void expect_all_index_types(const std::string& count_type) {
+  expect_list_types<Count, std::int8_t>(count_type, "char");
+  expect_list_types<Count, std::uint8_t>(count_type, "uint8");
+  expect_list_types<Count, std::int16_t>(count_type, "short");
+  expect_list_types<Count, std::uint16_t>(count_type, "ushort");
+  expect_list_types<Count, std::int32_t>(count_type, "int32");
+  expect_list_types<Count, std::uint32_t>(count_type, "uint");
+}
+
+TEST(Ply, M5_EveryIntegerCountAndIndexTypeIsRead) {
+  expect_all_index_types<std::int8_t>("int8");
+  expect_all_index_types<std::uint8_t>("uchar");
+  expect_all_index_types<std::int16_t>("int16");
+  expect_all_index_types<std::uint16_t>("uint16");
+  expect_all_index_types<std::int32_t>("int");
+  expect_all_index_types<std::uint32_t>("uint32");
+  std::printf("36 pairs of types, each in text and in both byte orders\n");
+}
+
+TEST(Ply, M5_AnUnsignedCharOf200IsNotNegative) {
+  std::string face = little(std::uint8_t{200});
+  for (int corner = 0; corner < 200; ++corner) face += little(corner % 3);
+  const auto mesh = read("a.ply", little_triangle(face));
+  EXPECT_EQ(face_count(mesh), 1U);
+  EXPECT_EQ(mesh.corners.size(), 200U);
+}
+
+TEST(Ply, M5_ListCountsThatLieAreRefused) {
+  const auto with_count_type = [](const std::string& type) {
+    return header("binary_little_endian",
+                  "element vertex 0\n" + kAxes + "element face 1\nproperty list " + type + " int vertex_indices\n");
+  };
+  expect_refused("a.ply", with_count_type("char") + little(std::int8_t{-1}), ErrorCode::MalformedFile,
+                 "face 0 of 1, vertex_indices: a list of -1 values");
+  expect_refused("a.ply", with_count_type("uint") + little(0xffffffffU, 0), ErrorCode::MalformedFile,
+                 "a list of 4294967295 values, but 4 bytes are left");
+  expect_refused("a.ply", with_count_type("float") + little(3.F, 0, 1, 2), ErrorCode::MalformedFile,
+                 "a.ply:8:", "integer type");
+  expect_refused("a.ply", triangle(kVertices + "-3 0 1 2\n"), ErrorCode::MalformedFile, "a.ply:13:1", "'-3'");
+  expect_refused("a.ply", triangle(kVertices + "256 0 1 2\n"), ErrorCode::MalformedFile, "'256'");
+  expect_refused("a.ply", triangle(kVertices + "3.0 0 1 2\n"), ErrorCode::MalformedFile, "'3.0'");
+}
+
+TEST(Ply, M6_IndicesOutOfRangeAreRefusedByFaceAndCorner) {
+  for (const std::int32_t index : {3, -1, std::numeric_limits<std::int32_t>::min(), 999999}) {
+    expect_refused("a.ply", little_triangle(little(std::uint8_t{3}, 0, 1, index)), ErrorCode::MalformedFile,
+                   "face 0, vertex_indices[2] = " + std::to_string(index) + ", but there are 3 vertices");
+    expect_refused("a.ply", triangle(kVertices + "3 0 1 " + std::to_string(index)), ErrorCode::MalformedFile,
+                   "a.ply:13:7: face 0, vertex_indices[2] = " + std::to_string(index));
+  }
+  const std::string unsigned_face =
+      header("binary_little_endian",
+             "element vertex 1\n" + kAxes + "element face 1\nproperty list uchar uint vertex_indices\n") +
+      little(0.F, 0.F, 0.F, std::uint8_t{1});
+  expect_refused("a.ply", unsigned_face + little(0xffffffffU), ErrorCode::MalformedFile, "4294967295");
+  expect_refused("a.ply", unsigned_face + little(0x80000000U), ErrorCode::MalformedFile, "2147483648");
+}
+
+TEST(Ply, M11_ExactlyOneLineEndFollowsTheHeader) {
+  // The first byte of the body is 0x0A, and must not be taken for the end of a line.
+  const std::string body = little(std::bit_cast<float>(0x3f80000aU), 2.F, 3.F);
+  const std::string lines = "ply\nformat binary_little_endian 1.0\nelement vertex 1\n" + kAxes + "end_header\n";
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    std::string file;
+    for (const char c : lines) file += c == '\n' ? end : std::string(1, c);
+    const auto mesh = read("a.ply", file + body);
+    EXPECT_THAT(floats(mesh), ElementsAre(std::bit_cast<float>(0x3f80000aU), 2.F, 3.F));
+    EXPECT_TRUE(mesh.warnings.empty());
+  }
+  const auto mixed = read("a.ply", lines.substr(0, lines.size() - 1) + "\r\n" + body);
+  EXPECT_EQ(floats(mixed).at(1), 2.F);
+}
+
+TEST(Ply, M12_EveryScalarTypeIsAPosition) {
+  const std::vector<std::pair<std::string, std::string>> types = {{"char", bytes_of(std::int8_t{-7})},
+                                                                  {"uchar", bytes_of(std::uint8_t{200})},
+                                                                  {"short", bytes_of(std::int16_t{-700})},
+                                                                  {"ushort", bytes_of(std::uint16_t{60000})},
+                                                                  {"int", bytes_of(-16777217)},
+                                                                  {"uint", bytes_of(4294967295U)},
+                                                                  {"float", bytes_of(0.1F)},
+                                                                  {"double", bytes_of(0.1)}};
+  const std::vector<double> values = {-7, 200, -700, 60000, -16777217, 4294967295.0, double{0.1F}, 0.1};
+  for (std::size_t i = 0; i < types.size(); ++i) {
+    const auto& [type, bytes] = types[i];
+    const std::string file = header("binary_little_endian", "element vertex 1\nproperty " + type + " x\nproperty " +
+                                                                type + " y\nproperty " + type + " z\n") +
+                             bytes + bytes + bytes;
+    const auto mesh = read("a.ply", file, {.precision = io::Precision::Double});
+    EXPECT_THAT(std::get<std::vector<double>>(mesh.positions), ElementsAre(values[i], values[i], values[i])) << type;
+    const bool is_double = std::holds_alternative<std::vector<double>>(read("a.ply", file).positions);
+    EXPECT_EQ(is_double, type == "double" || type == "int" || type == "uint") << type;
+  }
+}
+
+TEST(Ply, M12_FacesMayComeFirstAndElementsMayBeUnknown) {
+  const std::string elements =
+      "element face 1\nproperty uchar flags\nproperty list uchar int vertex_indices\nproperty list ushort double w\n"
+      "element strange 2\nproperty list int short a\nproperty float b\n"
+      "element vertex 3\nproperty double z\nproperty list uchar float extra\nproperty double x\nproperty char c\n"
+      "property double y\n";
+  const auto text = read("a.ply", header("ascii", elements) +
+                                      "9 3 0 1 2 2 0.5 0.5\n"
+                                      "0 1.5\n2 1 2 2.5\n"
+                                      "3 0 1 7 2\n6 2 1 1 4 7 5\n9 0 7 7 8\n");
+  EXPECT_THAT(text.corners, ElementsAre(0, 1, 2));
+  EXPECT_THAT(std::get<std::vector<double>>(text.positions), ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9));
+  EXPECT_TRUE(text.warnings.empty());
+
+  std::string file = header("binary_big_endian", elements);
+  const auto add = [&file](auto... values) { ((file += bytes_of(values, std::endian::big)), ...); };
+  add(std::uint8_t{9}, std::uint8_t{3}, 0, 1, 2, std::uint16_t{2}, 0.5, 0.5);
+  add(0, 1.5F, 2, std::int16_t{1}, std::int16_t{2}, 2.5F);
+  add(3.0, std::uint8_t{0}, 1.0, std::int8_t{7}, 2.0);
+  add(6.0, std::uint8_t{2}, 1.F, 1.F, 4.0, std::int8_t{7}, 5.0);
+  add(9.0, std::uint8_t{0}, 7.0, std::int8_t{7}, 8.0);
+  const auto binary = read("a.ply", file);
+  EXPECT_EQ(binary.corners, text.corners);
+  EXPECT_EQ(binary.positions, text.positions);
+}
+
+TEST(Ply, M12_XMissingOrTwiceIsRefused) {
+  const std::string yz = "property float y\nproperty float z\n";
+  expect_refused("a.ply", header("ascii", "element vertex 0\n" + yz), ErrorCode::MalformedFile, "a.ply:3:", "x");
+  expect_refused("a.ply", header("ascii", "element vertex 0\nproperty float x\nproperty float x\n" + yz),
+                 ErrorCode::MalformedFile, "x twice");
+  expect_refused("a.ply", header("ascii", "element vertex 0\nproperty list uchar float x\n" + yz),
+                 ErrorCode::MalformedFile, "scalar property x");
+  expect_refused("a.ply", header("ascii", "element vertex 0\n" + kAxes + "element vertex 0\n" + kAxes),
+                 ErrorCode::MalformedFile, "a second element 'vertex'");
+  expect_refused("a.ply", header("ascii", "element face 0\nproperty list uchar int vertex_indices\n"),
+                 ErrorCode::MalformedFile, "no element vertex");
+  expect_refused("a.ply",
+                 header("ascii", "element vertex 0\n" + kAxes +
+                                     "element face 0\nproperty list uchar int vertex_indices\n"
+                                     "property list uchar int vertex_index\n"),
+                 ErrorCode::MalformedFile, "twice");
+}
+
+TEST(Ply, M12_WithoutFacesThereAreVerticesOnly) {
+  const auto mesh = read("a.ply", header("ascii", "element vertex 2\n" + kAxes) + "1 2 3\n4 5 6\n");
+  EXPECT_EQ(vertex_count(mesh), 2U);
+  EXPECT_EQ(face_count(mesh), 0U);
+  validate(mesh.view());
+}
+
+TEST(Ply, M12_StripsAreTriangles) {
+  const std::string elements =
+      "element vertex 5\n" + kAxes + "element tristrips 1\nproperty list int int vertex_indices\n";
+  const std::string vertices = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n";
+  // The second strip turns back to 4 through a repeated corner.
+  const auto mesh = read("a.ply", header("ascii", elements) + vertices + "11 0 1 2 3 -1 2 3 4 -1 0 0 1\n");
+  EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 2, 2, 1, 3, 2, 3, 4));
+  expect_refused("a.ply", header("ascii", elements) + vertices + "3 0 1 5\n", ErrorCode::MalformedFile,
+                 "tristrips 0, vertex_indices[2] = 5");
+  expect_refused("a.ply", header("ascii", elements) + vertices + "3 0 1 -2\n", ErrorCode::MalformedFile, "= -2");
+}
+
+TEST(Ply, M17_OnlyPositionsMustBeFinite) {
+  const std::string normals = "property float nx\n";
+  for (const std::string word : {"nan", "inf", "-inf", "1e999", "1e39"}) {
+    const auto good = read("a.ply", header("ascii", "element vertex 1\n" + kAxes + normals) + "1 2 3 " + word + "\n");
+    EXPECT_EQ(vertex_count(good), 1U);
+    expect_refused("a.ply", header("ascii", "element vertex 1\n" + kAxes + normals) + "1 " + word + " 3 0\n",
+                   ErrorCode::MalformedFile, "a.ply:9:3", "vertex 0 of 1, y: '" + word + "' is ");
+  }
+  const std::string doubles = "property double x\nproperty double y\nproperty double z\n";
+  const std::string binary = header("binary_little_endian", "element vertex 1\n" + doubles);
+  expect_refused("a.ply", binary + little(1.0, std::numeric_limits<double>::quiet_NaN(), 0.0), ErrorCode::MalformedFile,
+                 "vertex 0 of 1, y: is not finite");
+  EXPECT_EQ(vertex_count(read("a.ply", binary + little(1.0, 1e39, 0.0))), 1U);
+  const auto rounded = refusal("a.ply", binary + little(1.0, 1e39, 0.0), {.precision = io::Precision::Float});
+  EXPECT_THAT(rounded.message, ::testing::HasSubstr("y: is too large"));
+}
+
+TEST(Ply, M18_LineEndsAndBlanksOfAllKinds) {
+  const std::string whole = triangle(kVertices + "3 0 1 2\n");
+  for (const std::string end : {"\n", "\r\n", "\r", "\n\n"}) {
+    std::string file;
+    for (const char c : whole) file += c == '\n' ? end : c == ' ' ? "\t " : std::string(1, c);
+    EXPECT_THAT(read("a.ply", file).corners, ElementsAre(0, 1, 2));
+    EXPECT_THAT(read("a.ply", "\xef\xbb\xbf" + file).corners, ElementsAre(0, 1, 2));
+  }
+  expect_refused("a.ply", triangle(kVertices + std::string("3 0 1 2\0\n", 9)), ErrorCode::MalformedFile, "a.ply:13:8",
+                 "NUL");
+}
+
+TEST(Ply, M19_SizesNeverWrap) {
+  // 2^60 rows of 16 bytes are 2^64 bytes, which wraps to none.
+  const std::string row = kAxes + "property float w\n";
+  expect_refused("a.ply", header("binary_little_endian", "element vertex 1152921504606846976\n" + row),
+                 ErrorCode::MalformedFile, "1152921504606846976");
+  expect_refused(
+      "a.ply",
+      header("binary_little_endian",
+             "element vertex 0\n" + kAxes + "element e 1152921504606846976\nproperty double a\nproperty double b\n"),
+      ErrorCode::MalformedFile, "'e'");
+  // A list of 2^30 + 1 values of 4 bytes wraps to 4 in 32 bits.
+  expect_refused(
+      "a.ply",
+      header("binary_little_endian", "element vertex 0\n" + kAxes + "element e 1\nproperty list uint float a\n") +
+          little(0x40000001U, 0.F),
+      ErrorCode::MalformedFile, "1073741825");
+}
+
+TEST(Ply, M21_APolygonOf100000CornersIsOneFace) {
+  constexpr int kCorners = 100000;
+  std::string file = header("binary_little_endian", "element vertex " + std::to_string(kCorners) + "\n" + kAxes +
+                                                        "element face 1\nproperty list uint uint vertex_indices\n");
+  for (int i = 0; i < kCorners; ++i) file += little(static_cast<float>(i), 0.F, 0.F);
+  file += little(std::uint32_t{kCorners});
+  for (int i = 0; i < kCorners; ++i) file += little(i);
+  const auto mesh = read("a.ply", file);
+  EXPECT_THAT(mesh.offsets, ElementsAre(0, kCorners));
+  EXPECT_EQ(mesh.corners.back(), std::uint32_t{kCorners - 1});
+}
+
+TEST(Ply, HeadersThatMakeNoSenseAreRefused) {
+  expect_refused("a.ply", "ply\nformat ascii 2.0\nend_header\n", ErrorCode::UnsupportedFormat, "'2.0'");
+  expect_refused("a.ply", "ply\nformat binary 1.0\nend_header\n", ErrorCode::UnsupportedFormat, "'binary'");
+  expect_refused("a.ply", "ply\nend_header\n", ErrorCode::MalformedFile, "'format'");
+  expect_refused("a.ply", "ply\nformat ascii 1.0\nproperty float x\nend_header\n", ErrorCode::MalformedFile,
+                 "before the first element");
+  expect_refused("a.ply", header("ascii", "element vertex 0 7\n"), ErrorCode::MalformedFile, "'7'");
+  expect_refused("a.ply", header("ascii", "element vertex 0\nproperty int64 x\n"), ErrorCode::UnsupportedFormat,
+                 "'int64'");
+  expect_refused("a.ply", header("ascii", "element vertex 0\nproperty float\n"), ErrorCode::MalformedFile, "name");
+  expect_refused("a.ply", header("ascii", "nonsense \x1b[31m\n"), ErrorCode::MalformedFile, "'nonsense'");
+  expect_refused("a.ply", header("ascii", "element vertex 0\n" + kAxes + "element face 0\nproperty int vertex_index\n"),
+                 ErrorCode::MalformedFile, "no list of integers");
+  expect_refused("a.ply", "ply\nformat ascii 1.0\n" + std::string(100, 'x') + "\n", ErrorCode::MalformedFile,
+                 std::string(64, 'x') + "...'");
+}
+
+}  // namespace
+}  // namespace meshhood::test

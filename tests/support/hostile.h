@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <ostream>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/error.h"
+
+#include "io/mesh_io.h"
+
+/// Files built in a test, byte by byte, and what a reader makes of them.
+namespace meshhood::test {
+
+[[nodiscard]] inline io::Mesh read(const std::string& name, std::string_view content,
+                                   const io::ReadOptions& options = {}) {
+  // A copy that ends where the content ends, so that a sanitizer sees a read of one byte more.
+  const std::vector<char> exact(content.begin(), content.end());
+  return io::read_mesh(std::as_bytes(std::span(exact)), name, options);
+}
+
+struct Refusal {
+  bool refused = false;
+  ErrorCode code = ErrorCode::InvalidMesh;
+  std::string message;
+};
+
+[[nodiscard]] inline Refusal refusal(const std::string& name, std::string_view content,
+                                     const io::ReadOptions& options = {}) {
+  try {
+    static_cast<void>(read(name, content, options));
+    return {};
+  } catch (const Error& error) {
+    return {true, error.code(), error.what()};
+  }
+}
+
+/// The content is refused with a message that contains each of `parts`.
+template <class... Parts>
+void expect_refused(const std::string& name, std::string_view content, ErrorCode code, const Parts&... parts) {
+  const auto result = refusal(name, content);
+  ASSERT_TRUE(result.refused) << "accepted: " << content.substr(0, 400);
+  EXPECT_EQ(result.code, code) << result.message;
+  EXPECT_THAT(result.message, ::testing::AllOf(::testing::HasSubstr(parts)...));
+  EXPECT_EQ(result.message.find_first_of("\n\r\x1b"), std::string::npos) << "one line, no control codes";
+}
+
+[[nodiscard]] inline std::vector<float> floats(const io::Mesh& mesh) {
+  return std::get<std::vector<float>>(mesh.positions);
+}
+
+[[nodiscard]] inline std::size_t vertex_count(const io::Mesh& mesh) { return mesh.view().positions.size(); }
+[[nodiscard]] inline std::size_t face_count(const io::Mesh& mesh) { return mesh.view().faces.size(); }
+
+/// How often a warning whose text contains `what` was given.
+[[nodiscard]] inline std::uint64_t warned(const io::Mesh& mesh, std::string_view what) {
+  std::uint64_t count = 0;
+  for (const auto& warning : mesh.warnings) {
+    if (warning.what.find(what) != std::string::npos) count += warning.count;
+  }
+  return count;
+}
+
+/// The bytes of a value in a file of the given byte order.
+template <class T>
+[[nodiscard]] std::string bytes_of(T value, std::endian order = std::endian::little) {
+  std::array<char, sizeof(T)> bytes = {};
+  std::memcpy(bytes.data(), &value, sizeof(T));
+  if (order != std::endian::native) std::reverse(bytes.begin(), bytes.end());
+  return {bytes.begin(), bytes.end()};
+}
+
+template <class... T>
+[[nodiscard]] std::string little(T... values) {
+  return (bytes_of(values) + ... + std::string());
+}
+
+/// A binary STL file of the given triangles, nine numbers each.
+[[nodiscard]] inline std::string binary_stl(const std::vector<std::array<float, 9>>& triangles,
+                                            std::string_view header = "binary") {
+  std::string file(header);
+  file.resize(80, '\0');
+  file += little(static_cast<std::uint32_t>(triangles.size()));
+  for (const auto& triangle : triangles) {
+    file.append(12, '\0');
+    for (const float number : triangle) file += little(number);
+    file.append(2, '\0');
+  }
+  return file;
+}
+
+}  // namespace meshhood::test
