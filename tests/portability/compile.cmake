@@ -1,4 +1,5 @@
-# Compiles SOURCES one by one with COMPILER and FLAGS, and stops at the first that fails.
+# Compiles SOURCES one by one with COMPILER and FLAGS, and stops at the first that fails; or, given REFUSED_WITH, demands
+# that the first fails with those words.
 cmake_minimum_required(VERSION 3.25)
 
 list(TRANSFORM INCLUDE_DIRS PREPEND -I)
@@ -13,7 +14,14 @@ if(NOT result EQUAL 0)
 endif()
 
 foreach(source IN LISTS SOURCES)
-  execute_process(COMMAND ${command} ${source} COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${command} ${source} RESULT_VARIABLE result ERROR_VARIABLE errors)
+  if(DEFINED REFUSED_WITH AND errors MATCHES "${REFUSED_WITH}")
+    message("refused: ${REFUSED_WITH}")
+    return()
+  endif()
+  if(DEFINED REFUSED_WITH OR NOT result EQUAL 0)
+    message(FATAL_ERROR "${source}\n${errors}")
+  endif()
 endforeach()
 list(LENGTH SOURCES count)
 message("${count} sources compiled")
