@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/hostile.h"
+
+// The rows of the catalogue of mesh files that concern OFF.
+
+namespace meshhood::test {
+namespace {
+
+using ::testing::ElementsAre;
+
+const std::string kVertices = "0 0 0\n1 0 0\n0 1 0\n";
+
+TEST(Off, M1_HugeCountsAreRefusedBeforeTheyAllocate) {
+  for (const std::string counts :
+       {"2000000000 1 0", "3 2000000000 0", "1099511627776 0 0", "18446744073709551615 0 0"}) {
+    expect_refused("a.off", "OFF\n" + counts + "\n" + kVertices + "3 0 1 2\n", ErrorCode::MalformedFile,
+                   "a.off:2:", "bytes are left");
+  }
+  expect_refused("a.off", "OFF\n999999999999999999999999999999999 0 0\n", ErrorCode::MalformedFile,
+                 "number of vertices");
+  expect_refused("a.off", "OFF\n-1 0 0\n", ErrorCode::MalformedFile, "'-1'");
+}
+
+TEST(Off, M3_TruncationAtAnyByteIsRefused) {
+  const std::string whole = "OFF\n3 1 0\n" + kVertices + "3 0 1 2";
+  EXPECT_EQ(face_count(read("a.off", whole)), 1U);
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    EXPECT_TRUE(refusal("a.off", whole.substr(0, length)).refused) << length;
+  }
+  expect_refused("a.off", "OFF\n3 1 0\n" + kVertices + "3  0  1", ErrorCode::MalformedFile, "a.off:6:8",
+                 "the file ends in face 0 of 1");
+}
+
+TEST(Off, M4_DataAfterTheLastFaceIsAWarning) {
+  const std::string file = "OFF\n3 1 0\n" + kVertices + "3 0 1 2\n3 2 1 0\n";
+  EXPECT_EQ(warned(read("a.off", file), "after the last face"), 1U);
+  EXPECT_TRUE(refusal("a.off", file, {.strict = true}).refused);
+}
+
+TEST(Off, M5_FaceCountsThatLieAreRefused) {
+  expect_refused("a.off", "OFF 3 1 0\n" + kVertices + "-3 0 1 2\n", ErrorCode::MalformedFile, "face 0 has -3 corners");
+  expect_refused("a.off", "OFF 3 1 0\n" + kVertices + "9223372036854775807 0 1 2\n", ErrorCode::MalformedFile,
+                 "the file ends in face 0 of 1");
+  expect_refused("a.off", "OFF 3 1 0\n" + kVertices + "3.0 0 1 2\n", ErrorCode::MalformedFile, "'3.0'");
+}
+
+TEST(Off, M6_IndicesOutOfRangeAreRefusedByFaceAndCorner) {
+  for (const std::string index : {"3", "-1", "4294967295", "2147483648", "4294967296"}) {
+    expect_refused("a.off", "OFF 3 1 0\n" + kVertices + "3 0 1 " + index + "\n", ErrorCode::MalformedFile,
+                   "a.off:5:7: face 0, corner 2 = " + index + ", but there are 3 vertices");
+  }
+}
+
+TEST(Off, M15_TheDocumentedFamilyIsRead) {
+  const std::string rest = "# a comment\n3 1 3\n\n";
+  const std::string face = "3 0 1 2 255 0 0\n";
+  const auto expect_triangle = [](const std::string& file) {
+    const auto mesh = read("a.off", file);
+    EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 2)) << file;
+    EXPECT_THAT(floats(mesh), ElementsAre(0, 0, 0, 1, 0, 0, 0, 1, 0)) << file;
+    EXPECT_TRUE(mesh.warnings.empty()) << file;
+  };
+  expect_triangle("OFF\n" + rest + kVertices + face);
+  expect_triangle("# first\nOFF 3 1 0 # counts\n" + kVertices + face);
+  expect_triangle("COFF\n" + rest + "0 0 0 1 1 1 1\n1 0 0 0 0 0 1\n0 1 0 1 0 0 1\n" + face);
+  expect_triangle("NOFF\n" + rest + "0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n" + face);
+  expect_triangle("CNOFF\n" + rest + "0 0 0 0 0 1 1 1 1 1\n1 0 0 0 0 1 1 1 1 1\n0 1 0 0 0 1 1 1 1 1\n" + face);
+  expect_triangle("STOFF\n" + rest + "0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n" + face);
+  expect_triangle("OFF\n3\n1\n0\n0\n0 0\n1 0\n0\n0 1 0\n3 0\n1 2\n");
+}
+
+TEST(Off, M15_TheOthersAreRefusedByName) {
+  for (const std::string keyword : {"4OFF", "nOFF", "C4OFF", "STCN4nOFF"}) {
+    expect_refused("a.off", keyword + "\n3 1 0\n", ErrorCode::UnsupportedFormat, "'" + keyword + "'");
+  }
+  expect_refused("a.off", std::string("OFF BINARY\n\0\0\0\3", 15), ErrorCode::UnsupportedFormat, "'OFF BINARY'");
+  expect_refused("a.off", "3 1 0\n" + kVertices + "3 0 1 2\n", ErrorCode::MalformedFile, "expected 'OFF'");
+  expect_refused("a.off", "FOFF\n3 1 0\n", ErrorCode::MalformedFile, "'FOFF'");
+}
+
+TEST(Off, M15_ColumnsBehindPlainVerticesAreAWarning) {
+  const auto mesh = read("a.off", "OFF 3 1 0\n0 0 0 9\n1 0 0 9\n0 1 0 9\n3 0 1 2\n");
+  EXPECT_THAT(floats(mesh), ElementsAre(0, 0, 0, 1, 0, 0, 0, 1, 0));
+  EXPECT_EQ(warned(mesh, "more than three numbers"), 3U);
+}
+
+}  // namespace
+}  // namespace meshhood::test

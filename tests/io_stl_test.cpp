@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <random>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/hostile.h"
+
+// The rows of the catalogue of mesh files that concern STL.
+
+namespace meshhood::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const std::array<float, 9> kTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+const std::array<float, 9> kNeighbour = {1, 0, 0, 1, 1, 0, 0, 1, 0};
+
+std::string facet(const std::string& vertices) {
+  return "facet normal 0 0 1\nouter loop\n" + vertices + "endloop\nendfacet\n";
+}
+
+const std::string kVertices = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
+
+TEST(Stl, M1_AHugeFacetCountAllocatesNothing) {
+  std::string file = binary_stl({kTriangle});
+  file.replace(80, 4, little(0xffffffffU));
+  expect_refused("a.stl", file, ErrorCode::MalformedFile, "4294967295 facets", "214748364834 bytes");
+}
+
+TEST(Stl, M3_TruncationAtAnyByteIsRefused) {
+  const std::string binary = binary_stl({kTriangle, kNeighbour});
+  for (std::size_t length = 0; length < binary.size(); ++length) {
+    EXPECT_TRUE(refusal("a.stl", binary.substr(0, length)).refused) << length;
+  }
+  const std::string text = "solid\n" + facet(kVertices);
+  for (std::size_t length = 0; length + 1 < text.size(); ++length) {
+    EXPECT_TRUE(refusal("a.stl", text.substr(0, length)).refused) << length;
+  }
+  std::printf("%zu truncations refused\n", binary.size() + text.size() - 1);
+  expect_refused("a.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0", ErrorCode::MalformedFile, "a.stl:4:11",
+                 "facet 0, vertex 0, z");
+  const auto open = read("a.stl", text);
+  EXPECT_EQ(warned(open, "endsolid"), 1U);
+  EXPECT_EQ(face_count(open), 1U);
+}
+
+TEST(Stl, M4_BytesAfterTheLastFacetAreAWarning) {
+  const std::string file = binary_stl({kTriangle}) + "tail";
+  const auto mesh = read("a.stl", file);
+  EXPECT_EQ(face_count(mesh), 1U);
+  EXPECT_EQ(warned(mesh, "after the last facet"), 1U);
+  EXPECT_EQ(mesh.warnings.at(0).first_place, "byte 134");
+  EXPECT_TRUE(refusal("a.stl", file, {.strict = true}).refused);
+}
+
+TEST(Stl, M13_ABinaryFileMayBeginWithSolid) {
+  for (const std::string header : {"solid", "solid name", "SOLID facet normal 0 0 1"}) {
+    const auto mesh = read("a.stl", binary_stl({kTriangle, kNeighbour}, header));
+    EXPECT_EQ(face_count(mesh), 2U) << header;
+    EXPECT_TRUE(mesh.warnings.empty()) << header;
+    EXPECT_EQ(warned(read("a.stl", binary_stl({kTriangle}, header) + "x"), "after the last facet"), 1U) << header;
+  }
+  std::string blank_header = binary_stl({kTriangle}, "solid" + std::string(75, ' '));
+  EXPECT_EQ(face_count(read("no_ending", blank_header)), 1U);
+}
+
+TEST(Stl, M13_WhereNeitherFitsTheErrorSaysBothReasons) {
+  const std::string cut = binary_stl({kTriangle, kNeighbour}, "solid name").substr(0, 150);
+  expect_refused("a.stl", cut, ErrorCode::MalformedFile, "NUL byte", "not a binary STL",
+                 "184 bytes for the 2 facets of its header");
+  const std::string no_solid = binary_stl({kTriangle, kNeighbour}, "name").substr(0, 150);
+  expect_refused("a.stl", no_solid, ErrorCode::MalformedFile, "not a binary STL", "184 bytes");
+}
+
+TEST(Stl, M13_TextOfAnyCaseAndAnyNumberOfSolids) {
+  const std::string upper =
+      "SOLID A b c\nFacet Normal 0 0 1 OUTER LOOP VERTEX 0 0 0 Vertex 1 0 0 vertex 0 1 0 EndLoop\n"
+      "ENDFACET EndSolid A b c\n";
+  const auto mesh = read("a.stl", upper + "solid empty\nendsolid\nsolid\n" + facet(kVertices) + "endsolid\n");
+  EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 2, 0, 1, 2));
+  EXPECT_TRUE(mesh.warnings.empty());
+  expect_refused("a.stl", "solid\nendsolid\n", ErrorCode::MalformedFile, "at least one 'facet'");
+  expect_refused("a.stl", "solid\nface\n", ErrorCode::MalformedFile, "a.stl:2:1", "found 'face'");
+}
+
+TEST(Stl, M13_FacetsOfOtherThanThreeVertices) {
+  const std::string quad = "vertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\n";
+  const auto mesh =
+      read("a.stl", "solid\n" + facet(kVertices) + facet("vertex 9 9 9\nvertex 8 8 8\n") + facet(quad) + "endsolid\n");
+  EXPECT_THAT(mesh.offsets, ElementsAre(0, 3, 7));
+  EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 2, 0, 1, 3, 2));
+  EXPECT_EQ(vertex_count(mesh), 4U) << "the facet that is left out leaves no vertex";
+  EXPECT_EQ(warned(mesh, "fewer than three"), 1U);
+  EXPECT_EQ(warned(mesh, "more than three"), 1U);
+}
+
+TEST(Stl, M14_CornersAreWeldedByExactEquality) {
+  const float next = std::nextafter(1.F, 2.F);
+  const auto mesh = read("a.stl", binary_stl({{-0.F, 0, 0, 1, 0, 0, 0, 1, 0},
+                                              {0.F, -0.F, 0, 0, 1, -0.F, next, 0, 0},
+                                              {1, 0, 0, 1, 0, 0, 0, 0, 0}}));
+  EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 2, 0, 2, 3, 1, 1, 0));
+  EXPECT_EQ(vertex_count(mesh), 4U);
+  EXPECT_TRUE(std::signbit(floats(mesh)[0])) << "the bits of the first appearance stay";
+  EXPECT_EQ(warned(mesh, "two corners coincide"), 1U);
+}
+
+// By hand: an ordered map from positions to ids.
+std::vector<std::uint32_t> welded_by_map(const std::vector<std::array<float, 9>>& triangles) {
+  std::map<std::array<float, 3>, std::uint32_t> ids;
+  std::vector<std::uint32_t> corners;
+  for (const auto& t : triangles) {
+    for (std::size_t i = 0; i < 9; i += 3) {
+      corners.push_back(
+          ids.try_emplace({t[i], t[i + 1], t[i + 2]}, static_cast<std::uint32_t>(ids.size())).first->second);
+    }
+  }
+  return corners;
+}
+
+TEST(Stl, M14_WeldingInManyBatchesGivesWhatAMapGives) {
+  std::mt19937 random(14);
+  std::size_t corners = 0;
+  for (const int range : {1, 20, 90, 100000}) {
+    std::vector<std::array<float, 9>> triangles(150000);
+    for (auto& triangle : triangles) {
+      for (float& number : triangle)
+        number = static_cast<float>(static_cast<int>(random() % static_cast<unsigned>(range)) - range / 2);
+    }
+    const auto mesh = read("a.stl", binary_stl(triangles));
+    EXPECT_EQ(mesh.corners, welded_by_map(triangles)) << range;
+    const auto exact = read("a.stl", binary_stl(triangles), {.precision = io::Precision::Double});
+    EXPECT_EQ(exact.corners, mesh.corners) << range;
+    corners += mesh.corners.size();
+  }
+  std::printf("%zu corners welded in each precision as a map does it\n", corners);
+}
+
+TEST(Stl, M17_CoordinatesMustBeFinite) {
+  auto triangle = kTriangle;
+  triangle[4] = std::numeric_limits<float>::infinity();
+  expect_refused("a.stl", binary_stl({kNeighbour, triangle}), ErrorCode::MalformedFile, "a.stl@162",
+                 "facet 1, vertex 1, y is not finite");
+  for (const std::string word : {"nan", "-inf", "1e39", "1,5", "0x1p3", "1.#QNAN"}) {
+    expect_refused("a.stl", "solid\n" + facet("vertex 0 0 " + word + "\n"), ErrorCode::MalformedFile, "a.stl:4:12",
+                   "facet 0, vertex 0, z = '" + word + "' is ");
+  }
+  EXPECT_EQ(face_count(read(
+                "a.stl", "solid\nfacet normal nan nan nan\nouter loop\n" + kVertices + "endloop\nendfacet\nendsolid")),
+            1U);
+}
+
+}  // namespace
+}  // namespace meshhood::test
