@@ -13,3 +13,36 @@ foreach(stem adjacency mesh distance sphere reference error robustness different
   meshhood_test(${stem} meshhood_families)
 endforeach()
 add_subdirectory(paper)
+
+# On real meshes.
+meshhood_test(paper_meshes meshhood_test_support)
+meshhood_test(all_meshes meshhood_test_support)
+
+# Beside CGAL, which no part of the library needs.
+find_package(CGAL QUIET)
+if(CGAL_FOUND)
+  meshhood_test(sphere_cgal meshhood_families meshhood_test_support CGAL::CGAL)
+else()
+  add_test(NAME sphere_cgal COMMAND ${CMAKE_COMMAND} -E echo "skipped: no CGAL (libcgal-dev)")
+  set_tests_properties(sphere_cgal PROPERTIES SKIP_REGULAR_EXPRESSION "skipped")
+endif()
+
+# The sources of the core, to be compiled in other ways than the library is.
+get_target_property(core_sources meshhood SOURCES)
+list(TRANSFORM core_sources PREPEND ${PROJECT_SOURCE_DIR}/)
+
+# Ids of 16 bits, so that small meshes reach every limit.
+add_subdirectory(narrow_ids)
+
+# For a processor with fused multiply-add, which the distance must not use.
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND CMAKE_OBJDUMP)
+  add_library(meshhood_haswell OBJECT ${core_sources})
+  target_include_directories(meshhood_haswell PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
+  target_compile_features(meshhood_haswell PRIVATE cxx_std_20)
+  meshhood_own_target(meshhood_haswell)
+  target_compile_options(meshhood_haswell PRIVATE -march=haswell -O3)
+  add_library(meshhood_fused_control OBJECT fused_control.cpp)
+  target_compile_options(meshhood_fused_control PRIVATE -march=haswell -O3 -ffp-contract=fast)
+  add_test(NAME no_fma COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/no_fma.sh
+    $<TARGET_OBJECTS:meshhood_fused_control> $<TARGET_OBJECTS:meshhood_haswell> COMMAND_EXPAND_LISTS)
+endif()
