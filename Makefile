@@ -2,7 +2,7 @@
 #
 #   make build                    installs what it needs, builds build/release/meshhood
 #   make test                     the same, then builds and runs all tests
-#   make demo [MESH=some.ply]     the four methods side by side on a mesh with a trap, or on your own
+#   make demo [MESH=some.ply]     every method on a mesh with a trap, or on your own
 .PHONY: build test demo
 
 # The demo reads these from the environment, so that a name may hold blanks.
