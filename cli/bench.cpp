@@ -4,8 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -102,12 +103,18 @@ Json to_json(const Machine& machine) {
 }
 
 std::string to_text(const Table1& t) {
-  const auto megabytes = [](std::size_t bytes) { return static_cast<double>(bytes) / 1e6; };
-  return fmt::format(
-      "vertices     {}\nfaces        {}\nplain mesh   {:.3f} MB\nwith topology {:.3f} MB\n"
-      "index        {:.3f} MB\nbuilt in     {:.3f} s\n",
-      t.vertices, t.faces, megabytes(t.mesh_bytes), megabytes(t.topology_bytes), megabytes(t.index_bytes),
-      t.build_seconds);
+  const auto megabytes = [](std::size_t bytes) { return fmt::format("{:.3f} MB", static_cast<double>(bytes) / 1e6); };
+  std::string text;
+  const auto row = [&](std::string_view name, const std::string& value) {
+    text += fmt::format("{:<13} {}\n", name, value);
+  };
+  row("vertices", std::to_string(t.vertices));
+  row("faces", std::to_string(t.faces));
+  row("plain mesh", megabytes(t.mesh_bytes));
+  row("with topology", megabytes(t.topology_bytes));
+  row("index", megabytes(t.index_bytes));
+  row("built in", fmt::format("{:.3f} s", t.build_seconds));
+  return text;
 }
 
 std::string to_text(const std::vector<Measurement>& table) {
@@ -151,15 +158,23 @@ void bench(Options& options) {
 void add_bench(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("bench", "The paper's Table 1 and Table 2 on a mesh of yours");
-  command->add_option("FILE", options->file, "mesh: PLY, OBJ, OFF or STL")->required();
-  command->add_option("--radii", options->plan.radii, "in average edges")->delimiter(',')->capture_default_str();
+  command->add_option("FILE", options->file, "mesh: PLY, OBJ, OFF or STL")->required()->type_name("");
+  command->add_option("--radii", options->plan.radii, "in average edges")
+      ->delimiter(',')
+      ->type_name("NUMBERS")
+      ->capture_default_str();
   command->add_option("--queries", options->plan.queries, "how many a radius")
       ->transform(whole_number())
+      ->type_name("NUMBER")
       ->capture_default_str();
   command->add_option("--order", options->order, "cold: far apart; warm: each beside the one before")
       ->check(CLI::IsMember({"cold", "warm"}))
+      ->type_name("")
       ->capture_default_str();
-  command->add_option("--seed", options->plan.seed, "which queries")->transform(whole_number())->capture_default_str();
+  command->add_option("--seed", options->plan.seed, "which queries")
+      ->transform(whole_number())
+      ->type_name("NUMBER")
+      ->capture_default_str();
   command->add_flag("--json", options->json, "one JSON document");
   command->callback([options] { bench(*options); });
 }

@@ -94,8 +94,10 @@ void add_compare(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("compare", "The methods side by side: what each finds, and in what time (bfs is exact)");
   add_question(*command, options->question);
-  command->add_option("-o,--output", options->output,
-                      "also write the mesh as PLY: the vertex red, exact green, only paper yellow, only ball blue");
+  command
+      ->add_option("-o,--output", options->output,
+                   "also write the mesh as PLY: the vertex red, exact green, only paper yellow, only ball blue")
+      ->type_name("FILE");
   command->add_flag("--json", options->json, "one JSON document");
   command->callback([options] { compare(*options); });
 }

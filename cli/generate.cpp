@@ -67,11 +67,12 @@ void generate(const Options& options) {
 void add_generate(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("generate", "A mesh with a known trap, for benchmarks and tests");
-  command->add_option("KIND", options->kind, "which; see --list");
+  command->add_option("KIND", options->kind, "which; see --list")->type_name("");
   command->add_option("--vertices", options->vertices, "how many, exactly or within 5 %")
       ->transform(whole_number())
+      ->type_name("NUMBER")
       ->default_val(10000);
-  command->add_option("-o,--output", options->output, "the PLY file to write");
+  command->add_option("-o,--output", options->output, "the PLY file to write")->type_name("FILE");
   command->add_flag("--list", options->list, "every kind and its trap");
   command->add_flag("--json", options->json, "one JSON document");
   command->callback([options] { generate(*options); });

@@ -74,6 +74,7 @@ Json to_json(const Input& input, const Statistics& s) {
 
 std::string to_text(const std::map<std::size_t, std::size_t>& polygon_degrees) {
   std::vector<std::string> parts;
+  parts.reserve(polygon_degrees.size());
   for (const auto& [corners, faces] : polygon_degrees) parts.push_back(fmt::format("{} of {}", faces, corners));
   return parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -131,7 +132,7 @@ void info(const Options& options) {
 void add_info(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("info", "What a mesh is like: its size, components, borders and flaws");
-  command->add_option("FILE", options->file, "mesh: PLY, OBJ, OFF or STL")->required();
+  command->add_option("FILE", options->file, "mesh: PLY, OBJ, OFF or STL")->required()->type_name("");
   command->add_flag("--index", options->index, "also build the index of the paper and list its levels");
   command->add_flag("--json", options->json, "one JSON document");
   command->callback([options] { info(*options); });

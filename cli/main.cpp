@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "meshhood/error.h"
 #include "meshhood/version.h"
 
 #include "commands.h"
@@ -16,8 +17,12 @@
 namespace meshhood::cli {
 namespace {
 
+constexpr const char* kDescription =
+    "The neighbourhood of a point on a polygonal mesh: what lies within a distance of it in space and is\n"
+    "joined to it along the surface within that distance.";
+
 void add_subcommands(CLI::App& program) {
-  program.require_subcommand(1);
+  program.require_subcommand(0, 1);
   program.set_version_flag("--version", "meshhood " + std::string(kVersion));
   add_info(program);
   add_query(program);
@@ -30,6 +35,7 @@ void add_subcommands(CLI::App& program) {
 void run(CLI::App& program, int argc, const char* const* argv) {
   try {
     program.parse(argc, argv);
+    if (program.get_subcommands().empty()) raise(ErrorCode::InvalidOption, "a subcommand is missing; see --help");
   } catch (const CLI::Success& request) {
     std::ostringstream text;
     program.exit(request, text, text);
@@ -38,8 +44,9 @@ void run(CLI::App& program, int argc, const char* const* argv) {
   close_output();
 }
 
-ExitCode guarded(CLI::App& program, int argc, const char* const* argv) {
+ExitCode run_or_complain(int argc, const char* const* argv) {
   try {
+    CLI::App program(kDescription, "meshhood");
     add_subcommands(program);
     run(program, argc, argv);
     return ExitCode::Ok;
@@ -58,12 +65,9 @@ ExitCode guarded(CLI::App& program, int argc, const char* const* argv) {
 }  // namespace
 }  // namespace meshhood::cli
 
-int main(int argc, char** argv) {
+// What still escapes is a bug, or memory too short for an error message.
+int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   // A reader that has gone is an error of `print_text`, not a signal.
   std::signal(SIGPIPE, SIG_IGN);
-  CLI::App program(
-      "The neighbourhood of a point on a polygonal mesh: what lies within a distance of it in space and is\n"
-      "joined to it along the surface within that distance.",
-      "meshhood");
-  return static_cast<int>(meshhood::cli::guarded(program, argc, argv));
+  return static_cast<int>(meshhood::cli::run_or_complain(argc, argv));
 }

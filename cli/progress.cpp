@@ -6,8 +6,8 @@
 #include <mutex>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <thread>
-#include <utility>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -25,7 +25,7 @@ constexpr const char* kClearLine = "\r\x1b[K";
 
 }  // namespace
 
-Progress::Progress(std::string what) : what_(printable(what)) {
+Progress::Progress(std::string_view what) : what_(printable(what)) {
   if (isatty(STDERR_FILENO) == 0) return;
   watcher_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
 }

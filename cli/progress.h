@@ -6,6 +6,7 @@
 #include <mutex>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <thread>
 
 namespace meshhood::cli {
@@ -13,7 +14,7 @@ namespace meshhood::cli {
 /// A line on standard error that says what takes so long: only on a terminal, only after a second, and gone at the end.
 class Progress {
  public:
-  explicit Progress(std::string what);
+  explicit Progress(std::string_view what);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

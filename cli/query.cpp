@@ -106,11 +106,14 @@ void add_query(CLI::App& program) {
   add_question(*command, options->question);
   command->add_option("--method", options->method, "bfs is exact, paper may hold a few extra vertices, ball many")
       ->check(CLI::IsMember({"bfs", "ball", "paper"}))
+      ->type_name("")
       ->capture_default_str();
-  command->add_option("--factor", options->factor, "f of the paper's query: greater is more exact (default 10)");
+  command->add_option("--factor", options->factor, "f of the paper's query: greater is more exact (default 10)")
+      ->type_name("NUMBER");
   CLI::Option* count = command->add_flag("--count", options->count, "only how many");
   command->add_flag("--distances", options->distances, "each vertex with its distance in space")->excludes(count);
-  command->add_option("-o,--output", options->output, "also write the mesh with the answer in colour, as PLY");
+  command->add_option("-o,--output", options->output, "also write the mesh with the answer in colour, as PLY")
+      ->type_name("FILE");
   command->add_flag("--json", options->json, "one JSON document");
   command->callback([options] { query(*options); });
 }

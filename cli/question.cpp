@@ -33,7 +33,7 @@ CLI::Validator whole_number() {
     text.erase(0, std::min(text.find_first_not_of('0'), text.size() - 1));
     return {};
   };
-  return {check, "NUMBER"};
+  return {check, ""};
 }
 
 double parse_radius(const std::string& text) {
@@ -45,13 +45,15 @@ double parse_radius(const std::string& text) {
 }
 
 void add_question(CLI::App& command, Question& question) {
-  command.add_option("FILE", question.file, "mesh: PLY, OBJ, OFF or STL")->required();
+  command.add_option("FILE", question.file, "mesh: PLY, OBJ, OFF or STL")->required()->type_name("");
   command.add_option("-v,--vertex", question.vertex, "the vertex to start from, by its number in the file")
       ->transform(whole_number())
+      ->type_name("NUMBER")
       ->required();
-  command.add_option("-r,--radius", question.radius, "how far to go, in space")->required();
+  command.add_option("-r,--radius", question.radius, "how far to go, in space")->type_name("NUMBER")->required();
   command.add_option("--unit", question.unit, "of the radius: that of the positions, or the average edge")
       ->check(CLI::IsMember({"mesh", "edge"}))
+      ->type_name("")
       ->capture_default_str();
 }
 
