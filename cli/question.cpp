@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "question.h"
 
-#include <algorithm>
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <system_error>
 
@@ -28,9 +28,11 @@ double edge_unit(const Input& input) {
 
 CLI::Validator whole_number() {
   const auto check = [](std::string& text) -> std::string {
-    const bool digits = std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-    if (text.empty() || !digits) return "'" + text + "' is not a whole number >= 0";
-    text.erase(0, std::min(text.find_first_not_of('0'), text.size() - 1));
+    std::uint64_t number = 0;
+    const char* end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc() || rest != end) return fmt::format("'{}' is not a whole number below 2^64", text);
+    text = std::to_string(number);
     return {};
   };
   return {check, ""};

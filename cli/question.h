@@ -32,7 +32,7 @@ struct Query {
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}.
 [[nodiscard]] Query resolve(const Question& question, const Input& input);
 
-/// Accepts digits alone, where CLI11 would also take octal and hexadecimal numbers.
+/// Accepts decimal digits alone: CLI11 would read 010 as 8, and 2^64 as the largest number there is.
 [[nodiscard]] CLI::Validator whole_number();
 
 /// `text` as the double nearest to it. Throws Error{InvalidRadius} where it is no number.

@@ -1,2 +1,19 @@
 # The tests of the shapes, and of the program as its users see it.
 meshhood_test(shapes meshhood_shapes)
+
+if(MESHHOOD_BUILD_CLI)
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  set(transcripts bench compare errors generate help info names query)
+  if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+    list(APPEND transcripts memory)
+  endif()
+  foreach(name ${transcripts})
+    add_test(NAME cli.${name}
+      COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_transcript.py
+        $<TARGET_FILE:meshhood_cli> ${CMAKE_CURRENT_SOURCE_DIR}/cli/${name}.txt)
+  endforeach()
+  add_test(NAME cli.manifest
+    COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_manifest.py
+      $<TARGET_FILE:meshhood_cli> ${PROJECT_SOURCE_DIR}/../shared/meshes)
+  set_tests_properties(cli.manifest PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
+endif()
