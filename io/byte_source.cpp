@@ -45,7 +45,10 @@ FileSource::FileSource(const std::filesystem::path& path)
 std::size_t FileSource::read(std::span<char> out) {
   for (;;) {
     const ssize_t count = ::read(file_.number(), out.data(), out.size());
-    if (count == 0 && std::exchange(may_lack_a_writer_, false) && wait_for_bytes(kWriterPatienceMs)) continue;
+    if (count == 0 && std::exchange(may_lack_a_writer_, false)) {
+      if (!wait_for_bytes(kWriterPatienceMs)) fail("nobody writes to this pipe");
+      continue;
+    }
     if (count >= 0) {
       may_lack_a_writer_ = false;
       return static_cast<std::size_t>(count);

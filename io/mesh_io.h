@@ -73,8 +73,8 @@ struct VertexProperty {
 };
 
 struct PlyOptions {
-  std::span<const std::uint8_t> colors;  ///< #V by 3 (red, green, blue), or empty
-  std::vector<VertexProperty> properties;
+  std::span<const std::uint8_t> colors = {};  ///< #V by 3 (red, green, blue), or empty
+  std::vector<VertexProperty> properties = {};
   bool ascii = false;  ///< binary little-endian otherwise
 };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <string>
 #include <type_traits>
+
+#include <fmt/format.h>
 
 #include "io/draft.h"
 #include "io/readers.h"

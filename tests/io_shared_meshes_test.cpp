@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
 #include <cstdio>
 #include <map>
 #include <set>
 #include <string>
 #include <variant>
 
-#include "io/mesh_io.h"
+#include <gtest/gtest.h>
+
 #include "meshhood/error.h"
 #include "meshhood/mesh.h"
+
+#include "io/mesh_io.h"
 #include "support/shared_meshes.h"
 
 namespace meshhood::test {

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "support/hostile.h"
+#include "support/scratch.h"
+
+// The row of the catalogue of mesh files that concerns files as such.
+
+namespace meshhood::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+const std::string kObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+Refusal file_refusal(const std::filesystem::path& path, const io::ReadOptions& options = {}) {
+  try {
+    static_cast<void>(io::read_mesh(path, options));
+    return {};
+  } catch (const Error& error) {
+    return {true, error.code(), error.what()};
+  }
+}
+
+class Files : public ::testing::Test {
+ protected:
+  Scratch scratch;
+};
+
+TEST_F(Files, M22_WhatIsNoFileIsAnError) {
+  const auto directory = file_refusal(scratch.path());
+  EXPECT_EQ(directory.code, ErrorCode::IoFailure);
+  EXPECT_THAT(directory.message, StartsWith(scratch.path().string() + ": is a directory"));
+
+  const auto missing = file_refusal(scratch.path() / "missing.ply");
+  EXPECT_EQ(missing.code, ErrorCode::IoFailure);
+  EXPECT_THAT(missing.message, HasSubstr("missing.ply: No such file"));
+
+  scratch.write("empty.ply", "");
+  EXPECT_THAT(file_refusal(scratch.path() / "empty.ply").message, HasSubstr("the file is empty"));
+  scratch.write("empty.obj", "");
+  EXPECT_EQ(vertex_count(io::read_mesh(scratch.path() / "empty.obj")), 0U);
+}
+
+TEST_F(Files, M22_EndlessDevicesEnd) {
+  for (const std::string device : {"/dev/zero", "/dev/urandom"}) {
+    const auto result = file_refusal(device);
+    EXPECT_TRUE(result.refused) << device;
+    EXPECT_THAT(result.message, StartsWith(device));
+  }
+  // Under a name that makes every byte count, the limit ends it.
+  for (const std::string name : {"zero.obj", "zero.stl", "zero.ply", "zero.off"}) {
+    std::filesystem::create_symlink("/dev/zero", scratch.path() / name);
+    const auto result = file_refusal(scratch.path() / name, {.max_bytes = 1 << 20});
+    EXPECT_TRUE(result.refused || name == "zero.stl") << name << " " << result.message;
+  }
+}
+
+TEST_F(Files, M22_APipeIsReadToItsEnd) {
+  const auto pipe = scratch.path() / "pipe.obj";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::jthread writer([&pipe] {
+    std::ofstream out(pipe);
+    out << kObj.substr(0, 10) << std::flush;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    out << kObj.substr(10);
+  });
+  EXPECT_EQ(face_count(io::read_mesh(pipe)), 1U);
+}
+
+TEST_F(Files, M22_APipeThatNobodyWritesToIsGivenUp) {
+  const auto pipe = scratch.path() / "pipe.obj";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const auto result = file_refusal(pipe.parent_path() / "pipe.obj");
+  EXPECT_EQ(result.code, ErrorCode::IoFailure);
+  EXPECT_THAT(result.message, HasSubstr("nobody writes to this pipe"));
+}
+
+TEST_F(Files, M22_AnEndlessPipeIsReadUpToTheLimit) {
+  const auto pipe = scratch.path() / "pipe.obj";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::jthread writer([&pipe] {
+    // A reader that leaves ends the writing with an error, not with a signal.
+    sigset_t blocked;
+    sigemptyset(&blocked);
+    sigaddset(&blocked, SIGPIPE);
+    pthread_sigmask(SIG_BLOCK, &blocked, nullptr);
+    std::ofstream out(pipe);
+    while (out << kObj) {
+    }
+  });
+  const auto result = file_refusal(pipe, {.max_bytes = 4 << 20});
+  EXPECT_EQ(result.code, ErrorCode::TooLarge);
+  EXPECT_THAT(result.message, HasSubstr("4194304 bytes"));
+}
+
+TEST_F(Files, M22_TheLimitHoldsForFilesAndMemory) {
+  scratch.write("a.obj", kObj);
+  EXPECT_EQ(file_refusal(scratch.path() / "a.obj", {.max_bytes = 10}).code, ErrorCode::TooLarge);
+  EXPECT_EQ(refusal("a.obj", kObj, {.max_bytes = 10}).code, ErrorCode::TooLarge);
+  EXPECT_FALSE(refusal("a.obj", kObj, {.max_bytes = kObj.size()}).refused);
+}
+
+TEST_F(Files, M22_AFileThatShrinksWhileReadIsAnError) {
+  std::string vertices;
+  while (vertices.size() < (std::size_t{8} << 20)) vertices += "v 0.123456 0.123456 0.123456\n";
+  std::size_t refused = 0;
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    const auto path = scratch.write("shrinks.obj", vertices);
+    std::jthread shrinker([&path, attempt] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2 * attempt));
+      std::filesystem::resize_file(path, 1000);
+    });
+    const auto result = file_refusal(path);
+    if (!result.refused) continue;
+    ++refused;
+    EXPECT_EQ(result.code, ErrorCode::IoFailure);
+    EXPECT_THAT(result.message, HasSubstr("when opened"));
+  }
+  std::printf("%zu of 20 files were caught shrinking\n", refused);
+}
+
+TEST_F(Files, ReadLikeBytesInMemory) {
+  const auto mesh = io::read_mesh(scratch.write("a.obj", kObj));
+  EXPECT_EQ(mesh.positions, read("a.obj", kObj).positions);
+  EXPECT_EQ(mesh.corners, read("a.obj", kObj).corners);
+}
+
+}  // namespace
+}  // namespace meshhood::test

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "support/hostile.h"
+#include "support/scratch.h"
+#include "support/shared_meshes.h"
+
+namespace meshhood::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+std::string content_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::size_t files_in(const std::filesystem::path& folder) {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+template <class Real>
+std::vector<Real> random_positions(std::size_t vertices) {
+  using Bits = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
+  std::mt19937_64 random(vertices);
+  std::vector<Real> positions;
+  while (positions.size() < 3 * vertices) {
+    const auto number = std::bit_cast<Real>(static_cast<Bits>(random()));
+    if (std::abs(number) < Real{1e30F}) positions.push_back(number);
+  }
+  return positions;
+}
+
+template <class Real>
+bool same_bits(const std::vector<Real>& a, const std::vector<Real>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Real)) == 0;
+}
+
+class WritePly : public ::testing::Test {
+ protected:
+  Refusal refused(const std::filesystem::path& path, const MeshView& mesh, const io::PlyOptions& options = {}) {
+    try {
+      io::write_ply(path, mesh, options);
+      return {};
+    } catch (const Error& error) {
+      return {true, error.code(), error.what()};
+    }
+  }
+
+  template <class Real>
+  void expect_same_after_writing(const std::vector<Real>& xyz, const FacesView& faces) {
+    for (const bool ascii : {false, true}) {
+      io::write_ply(file, {xyz, faces}, {.ascii = ascii});
+      const auto mesh = io::read_mesh(file, {.strict = true});
+      ASSERT_TRUE(std::holds_alternative<std::vector<Real>>(mesh.positions));
+      EXPECT_TRUE(same_bits(std::get<std::vector<Real>>(mesh.positions), xyz));
+      std::vector<std::vector<std::uint64_t>> expected;
+      std::vector<std::vector<std::uint64_t>> found;
+      faces.for_each([&](std::size_t, auto face) { expected.emplace_back(face.begin(), face.end()); });
+      mesh.view().faces.for_each([&](std::size_t, auto face) { found.emplace_back(face.begin(), face.end()); });
+      EXPECT_EQ(found, expected);
+    }
+  }
+
+  Scratch scratch;
+  const std::filesystem::path file = scratch.path() / "out.ply";
+  const std::vector<float> positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const std::vector<std::int32_t> corners = {0, 1, 2};
+  const MeshView triangle = {positions, FacesView::triangles(corners)};
+};
+
+TEST_F(WritePly, ReadsBackBitForBit) {
+  const std::vector<std::uint32_t> triangles = {0, 1, 2, 2, 3, 4, 999, 998, 997};
+  const std::vector<std::uint64_t> offsets = {0, 4, 4, 5, 7, 10};
+  const std::vector<std::int64_t> polygons = {0, 1, 2, 3, 9, 8, 7, 6, 5, 4};
+  expect_same_after_writing(random_positions<float>(1000), FacesView::triangles(triangles));
+  expect_same_after_writing(random_positions<double>(1000), FacesView::triangles(triangles));
+  expect_same_after_writing(random_positions<float>(1000), FacesView::polygons(offsets, polygons));
+  expect_same_after_writing(random_positions<double>(1000), FacesView::polygons(offsets, polygons));
+  expect_same_after_writing(std::vector<float>{}, FacesView{});
+  expect_same_after_writing(std::vector<float>{-0.F, 1e-45F, 3.4028234e38F}, FacesView{});
+}
+
+TEST_F(WritePly, FacesMayHaveMoreThan255Corners) {
+  std::vector<std::uint32_t> ring(70000);
+  for (std::size_t i = 0; i < ring.size(); ++i) ring[i] = static_cast<std::uint32_t>(i % 300);
+  for (const std::uint64_t length : {255U, 256U, 70000U}) {
+    const std::vector<std::uint64_t> offsets = {0, length};
+    const std::vector<std::uint32_t> face(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(length));
+    expect_same_after_writing(random_positions<float>(300), FacesView::polygons(offsets, face));
+  }
+}
+
+TEST_F(WritePly, ColoursAndPropertiesStandBesideThePositions) {
+  const std::vector<std::uint8_t> colors = {255, 0, 0, 0, 128, 0, 1, 2, 3};
+  const std::vector<float> distance = {0.5F, std::numeric_limits<float>::infinity(), 2};
+  const std::vector<float> level = {1, 2, 3};
+  const io::PlyOptions options = {.colors = colors, .properties = {{"distance", distance}, {"level", level}}};
+  io::write_ply(file, triangle, options);
+  EXPECT_EQ(io::read_mesh(file, {.strict = true}).corners, (std::vector<std::uint32_t>{0, 1, 2}));
+  const auto binary = content_of(file);
+  EXPECT_THAT(binary, HasSubstr("property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                                "property float distance\nproperty float level\nelement face 1\n"));
+  EXPECT_THAT(binary, HasSubstr(little(1.F, 0.F, 0.F, std::uint8_t{0}, std::uint8_t{128}, std::uint8_t{0},
+                                       std::numeric_limits<float>::infinity(), 2.F)));
+  auto text = options;
+  text.ascii = true;
+  io::write_ply(file, triangle, text);
+  EXPECT_THAT(content_of(file), HasSubstr("\nend_header\n0 0 0 255 0 0 0.5 1\n1 0 0 0 128 0 inf 2\n0 1 0 1 2 3 2 3\n"
+                                          "3 0 1 2\n"));
+  EXPECT_EQ(io::read_mesh(file, {.strict = true}).corners, (std::vector<std::uint32_t>{0, 1, 2}));
+}
+
+TEST_F(WritePly, OptionsThatDoNotFitAreRefusedAndNothingIsWritten) {
+  const std::vector<std::uint8_t> short_colors = {1, 2};
+  const std::vector<float> values = {1, 2, 3};
+  const std::vector<float> two = {1, 2};
+  const std::vector<io::PlyOptions> bad = {
+      {.colors = short_colors},
+      {.properties = {{"a", two}}},
+      {.properties = {{"a", values}, {"a", values}}},
+      {.properties = {{"x", values}}},
+      {.properties = {{"two words", values}}},
+      {.properties = {{"line\nend_header", values}}},
+      {.properties = {{"", values}}},
+  };
+  for (const auto& options : bad) EXPECT_EQ(refused(file, triangle, options).code, ErrorCode::InvalidOption);
+  const std::vector<std::int32_t> out_of_range = {0, 1, 3};
+  EXPECT_EQ(refused(file, {positions, FacesView::triangles(out_of_range)}).code, ErrorCode::InvalidMesh);
+  EXPECT_EQ(files_in(scratch.path()), 0U);
+}
+
+TEST_F(WritePly, AFailureNamesPathAndReasonAndLeavesTheOldFile) {
+  const auto missing = refused(scratch.path() / "no" / "out.ply", triangle);
+  EXPECT_EQ(missing.code, ErrorCode::IoFailure);
+  EXPECT_THAT(missing.message, HasSubstr("out.ply: cannot create: No such file"));
+
+  const auto folder = scratch.path() / "folder";
+  std::filesystem::create_directory(folder);
+  EXPECT_THAT(refused(folder, triangle).message, HasSubstr("Is a directory"));
+  EXPECT_TRUE(std::filesystem::is_directory(folder));
+  EXPECT_EQ(files_in(scratch.path()), 1U) << "no temporary file stays";
+}
+
+TEST_F(WritePly, AFullDeviceIsAnErrorAndStaysADevice) {
+  if (!std::filesystem::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  const auto full = refused("/dev/full", triangle);
+  EXPECT_EQ(full.code, ErrorCode::IoFailure);
+  EXPECT_THAT(full.message, StartsWith("/dev/full: cannot write: No space left on device"));
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
+
+TEST_F(WritePly, ReplacesWhatTheNameStandsForAndKeepsItsMode) {
+  scratch.write("out.ply", "old");
+  ASSERT_EQ(::chmod(file.c_str(), 0640), 0);
+  const auto link = scratch.path() / "link.ply";
+  std::filesystem::create_symlink(file, link);
+  io::write_ply(link, triangle);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(face_count(io::read_mesh(file)), 1U);
+  struct stat status = {};
+  ASSERT_EQ(::stat(file.c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777U, 0640U);
+  EXPECT_EQ(files_in(scratch.path()), 2U);
+}
+
+TEST_F(WritePly, SharedMeshesReadBackTheSame) {
+  MESHHOOD_NEED_SHARED_MESHES();
+  std::size_t meshes = 0;
+  for (const std::string name : {"poly/cow_mixed.obj", "nonmanifold/office_chair.obj", "cad/thingi10k_472042.stl",
+                                 "scan/horse_big_endian.ply", "poly/mpi.off", "broken/invalid-face-definition.obj"}) {
+    const auto before = shared_mesh(name);
+    for (const bool ascii : {false, true}) {
+      io::write_ply(file, before.view(), {.ascii = ascii});
+      const auto after = io::read_mesh(file, {.strict = true});
+      EXPECT_EQ(after.positions, before.positions) << name;
+      EXPECT_EQ(after.offsets, before.offsets) << name;
+      EXPECT_EQ(after.corners, before.corners) << name;
+      ++meshes;
+    }
+  }
+  std::printf("%zu meshes written and read back\n", meshes);
+}
+
+}  // namespace
+}  // namespace meshhood::test
