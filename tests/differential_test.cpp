@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,9 +27,9 @@ using testing::IsEmpty;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-template <class T, std::size_t N>
-T pick(Random& random, const T (&choices)[N]) {
-  return choices[random.below(N)];
+template <class T>
+T pick(Random& random, std::initializer_list<T> choices) {
+  return *(choices.begin() + random.below(choices.size()));
 }
 
 paper::BuildOptions draw_build_options(Random& random) {
@@ -169,6 +171,7 @@ TEST(IntegerLattice, ExactIsWhatIntegersGive) {
     mesh.finish(seed % 2 == 0);
     const Oracle oracle(mesh);
     std::vector<std::set<std::uint32_t>> neighbors;
+    neighbors.reserve(mesh.size());
     for (std::size_t v = 0; v < mesh.size(); ++v) neighbors.push_back(oracle.neighbors(v));
     ReferenceSearcher reference(mesh.view());
     std::vector<VertexId> answer;

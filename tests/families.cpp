@@ -55,7 +55,7 @@ void append(TestMesh& mesh, const TestMesh& other) {
 TestMesh renumbered(const TestMesh& mesh, std::span<const std::uint32_t> place) {
   TestMesh result = mesh;
   for (std::size_t v = 0; v < mesh.size(); ++v) {
-    for (std::size_t i = 0; i < 3; ++i) result.positions[3 * place[v] + i] = mesh.positions[3 * v + i];
+    for (std::size_t i = 0; i < 3; ++i) result.positions[3 * std::size_t{place[v]} + i] = mesh.positions[3 * v + i];
   }
   for (std::uint32_t& corner : result.corners) corner = place[corner];
   return result.finish(mesh.single_precision);

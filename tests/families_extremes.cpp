@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -64,7 +65,7 @@ TestMesh far_away(Random& random, std::size_t vertices) {
 
 TestMesh coincident(Random& random, std::size_t vertices) {
   TestMesh mesh = any_shape(random, vertices);
-  const double places = static_cast<double>(1 + random.below(3));
+  const auto places = static_cast<double>(1 + random.below(3));
   for (double& x : mesh.positions) x = std::floor(random.uniform(0, places));
   return mesh;
 }
@@ -94,7 +95,7 @@ TestMesh no_faces(Random& random, std::size_t vertices) {
 
 TestMesh nothing(Random&, std::size_t) { return {}; }
 
-constexpr Family kFamilies[] = {
+constexpr auto kFamilies = std::to_array<Family>({
     {"huge", huge},
     {"tiny", tiny},
     {"vanishing", vanishing, false},
@@ -108,7 +109,7 @@ constexpr Family kFamilies[] = {
     {"one vertex", one_vertex},
     {"no faces", no_faces},
     {"nothing", nothing},
-};
+});
 
 }  // namespace
 

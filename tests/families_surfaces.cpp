@@ -112,7 +112,7 @@ TestMesh lattice(Random& random, std::size_t vertices) {
   return mesh;
 }
 
-constexpr Family kFamilies[] = {
+constexpr auto kFamilies = std::to_array<Family>({
     {"triangle grid", triangle_grid},
     {"quad grid", quad_grid},
     {"noisy grid", noisy_grid},
@@ -122,7 +122,7 @@ constexpr Family kFamilies[] = {
     {"pleated sheet", pleated_sheet},
     {"touching sheets", touching_sheets},
     {"lattice", lattice},
-};
+});
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -53,7 +54,8 @@ TestMesh spiral(Random& random, std::size_t vertices) {
   TestMesh mesh;
   const double gap = random.uniform(0.02, 0.5);
   for (std::uint32_t i = 0; i < vertices; ++i) {
-    const double angle = 0.2 * static_cast<double>(i / 2);
+    const std::uint32_t step = i / 2;  // two vertices stand one above the other
+    const double angle = 0.2 * step;
     const double radius = 1 + gap * angle / (2 * std::numbers::pi);
     mesh.add_vertex(radius * std::cos(angle), radius * std::sin(angle), i % 2 == 0 ? 0 : 0.2);
     if (i > 1) mesh.add_face({i - 2, i - 1, i});
@@ -157,7 +159,7 @@ TestMesh random_faces(Random& random, std::size_t vertices) {
   return mesh;
 }
 
-constexpr Family kFamilies[] = {
+constexpr auto kFamilies = std::to_array<Family>({
     {"fan", fan},
     {"star", star},
     {"path", path},
@@ -170,7 +172,7 @@ constexpr Family kFamilies[] = {
     {"shells", shells},
     {"isolated vertices", isolated_vertices},
     {"random faces", random_faces},
-};
+});
 
 }  // namespace
 

@@ -96,7 +96,7 @@ Points icosahedron() {
 }
 
 TEST(BoundingSphere, OfASinglePlaceIsThatPlace) {
-  for (const std::size_t copies : {1, 2, 3, 4, 1000}) {
+  for (const std::size_t copies : {1U, 2U, 3U, 4U, 1000U}) {
     std::vector<float> xyz(3 * copies, -7);
     for (std::size_t i = 0; i < copies; ++i) {
       xyz[3 * i] = 0.1F;
@@ -121,7 +121,7 @@ TEST(BoundingSphere, IsTightAroundKnownSolids) {
 }
 
 TEST(BoundingSphere, A15IsTightAroundCocircularPoints) {
-  for (const std::size_t n : {3, 4, 5, 6, 7, 12, 17, 1000}) {
+  for (const std::size_t n : {3U, 4U, 5U, 6U, 7U, 12U, 17U, 1000U}) {
     SCOPED_TRACE(n);
     expect_tight(regular_polygon(n), 1);
   }

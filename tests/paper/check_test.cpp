@@ -136,8 +136,8 @@ TEST(Check, I3FindsADisconnectedCluster) {
   level.spheres = {{0, 0, 0, 0}, {2.5, 0, 0, 1.5}, {3.5, 0, 0, 1.5}};
   level.mean_radius = 1;
   h.lowest_cluster = paper::PackedIds(6, 3);
-  for (const VertexId v : {1, 4}) h.lowest_cluster.set(v, 1);
-  for (const VertexId v : {2, 3, 5}) h.lowest_cluster.set(v, 2);
+  for (const VertexId v : {1U, 4U}) h.lowest_cluster.set(v, 1);
+  for (const VertexId v : {2U, 3U, 5U}) h.lowest_cluster.set(v, 2);
   const auto faults = paper::IndexAccess::make(h).check(mesh.view());
   EXPECT_THAT(faults,
               testing::ElementsAre(HasSubstr("cluster 1: not connected"), HasSubstr("cluster 2: not connected")));

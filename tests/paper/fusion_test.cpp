@@ -66,7 +66,7 @@ TEST(Fusion, GivesToTheNearestThatIsTouched) {
   // The donor {1, 2, 3} is a path. Its end 1 touches {0, 4}, its end 3 touches {5, 6}; but 3 lies beside the former.
   const std::vector<double> xs{0, 1, 2, 0.5, 0.4, 50, 51};
   DraftLevel heavy = level_on_line(xs, {{0, 4}, {0, 1}, {1, 2}, {2, 3}, {3, 5}, {5, 6}});
-  for (const std::size_t c : {0, 4, 5, 6}) {
+  for (const std::size_t c : {0U, 4U, 5U, 6U}) {
     heavy.vertex_count[c] = 10;
     heavy.position_sum[c].x *= 10;
   }
