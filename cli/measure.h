@@ -18,7 +18,7 @@ namespace meshhood::cli {
 struct Measurement {
   double radius_edges;
   std::string method;
-  double microseconds;  ///< the median over blocks of queries
+  double microseconds;  ///< of processor time, the median over blocks of queries
   double count;         ///< means over all queries
   double extra;
   double missing;
