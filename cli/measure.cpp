@@ -2,13 +2,13 @@
 #include "measure.h"
 
 #include <algorithm>
-#include <ctime>
 #include <random>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "difference.h"
+#include "processor_time.h"
 
 namespace meshhood::cli {
 namespace {
@@ -49,14 +49,6 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Microseconds of processor time that this thread has had. Unlike the time of day, it stands still while the machine
-/// runs something else, which would hit the long blocks of a slow method far more often than the short ones of a fast.
-double processor_time() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
-
 /// What one method has done at one radius so far.
 struct Tally {
   std::vector<double> microseconds;  // a query, by block
@@ -93,7 +85,7 @@ class Race {
     }
     const double start = processor_time();
     for (const VertexId v : block) method.neighborhood(v, radius_, answer_);
-    tallies_[i].microseconds.push_back((processor_time() - start) / static_cast<double>(block.size()));
+    tallies_[i].microseconds.push_back(1e6 * (processor_time() - start) / static_cast<double>(block.size()));
   }
 
   void judge(VertexId v) {
