@@ -21,7 +21,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 TEST(Adjacency, JoinsConsecutiveCorners) {
-  TestMesh mesh = make_grid(2, 2, true);  // 0 1 / 2 3
+  const TestMesh mesh = make_grid(2, 2, true);  // 0 1 / 2 3
   const Adjacency graph = adjacency(mesh.view());
   EXPECT_THAT(graph.offsets, ElementsAre(0, 2, 4, 6, 8));
   EXPECT_THAT(graph.neighbors, ElementsAre(1, 2, 0, 3, 0, 3, 1, 2));
@@ -34,7 +34,7 @@ TEST(Adjacency, M21ReadsAPolygonAsItsCycle) {
 }
 
 TEST(Adjacency, A6CountsAnEdgeOnceHoweverManyFacesHaveIt) {
-  TestMesh mesh = make_grid(3, 3, false);
+  const TestMesh mesh = make_grid(3, 3, false);
   const Adjacency once = adjacency(mesh.view());
   TestMesh doubled = mesh;
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "meshhood/error.h"
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <set>
@@ -17,9 +18,9 @@
 namespace meshhood::test {
 namespace {
 
-constexpr ErrorCode kCodes[] = {ErrorCode::VertexOutOfRange, ErrorCode::InvalidRadius, ErrorCode::InvalidOption,
-                                ErrorCode::InvalidMesh,      ErrorCode::MalformedFile, ErrorCode::UnsupportedFormat,
-                                ErrorCode::IoFailure,        ErrorCode::TooLarge};
+constexpr std::array kCodes{ErrorCode::VertexOutOfRange, ErrorCode::InvalidRadius, ErrorCode::InvalidOption,
+                            ErrorCode::InvalidMesh,      ErrorCode::MalformedFile, ErrorCode::UnsupportedFormat,
+                            ErrorCode::IoFailure,        ErrorCode::TooLarge};
 
 TEST(Error, DescribesEveryCodeInItsOwnWords) {
   std::set<std::string_view> words;
@@ -41,7 +42,7 @@ std::vector<std::function<void(const MeshView&)>> mesh_doors() {
   return {[](const MeshView& mesh) { validate(mesh); },
           [](const MeshView& mesh) { static_cast<void>(adjacency(mesh)); },
           [](const MeshView& mesh) { static_cast<void>(paper::build(mesh)); },
-          [](const MeshView& mesh) { ReferenceSearcher searcher(mesh); },
+          [](const MeshView& mesh) { const ReferenceSearcher searcher(mesh); },
           [](const MeshView& mesh) { static_cast<void>(exact_neighborhood(mesh, 0, 1)); },
           [](const MeshView& mesh) {
             const std::vector<float> one(3, 0.0F);
@@ -74,7 +75,7 @@ TEST(Error, EveryDoorRefusesAGraphThatLies) {
   };
   refuse([&] { validate(graph); });
   refuse([&] { static_cast<void>(paper::build(graph)); });
-  refuse([&] { ReferenceSearcher searcher(graph); });
+  refuse([&] { const ReferenceSearcher searcher(graph); });
   refuse([&] { static_cast<void>(paper::build(MeshView{positions, {}}).check(graph)); });
 }
 

@@ -167,7 +167,9 @@ TEST(Robustness, A11StarOfAMillion) {
 TEST(Robustness, A15OnePlaceOrOneLine) {
   for (const double step : {0.0, 1.0}) {
     TestMesh mesh = make_grid(40, 40, false);
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) mesh.positions[i] = step * static_cast<double>(i / 3);
+    for (std::size_t v = 0; v < mesh.size(); ++v) {
+      std::fill_n(mesh.positions.begin() + static_cast<std::ptrdiff_t>(3 * v), 3, step * static_cast<double>(v));
+    }
     expect_sound(mesh.finish(true));
   }
 }
@@ -202,7 +204,7 @@ void run_on_small_stack(void* (*work)(void*), void* argument) {
   pthread_attr_t attributes;
   ASSERT_EQ(pthread_attr_init(&attributes), 0);
   const auto least = static_cast<std::size_t>(PTHREAD_STACK_MIN);
-  ASSERT_EQ(pthread_attr_setstacksize(&attributes, std::max<std::size_t>(least, 64 * 1024)), 0);
+  ASSERT_EQ(pthread_attr_setstacksize(&attributes, std::max<std::size_t>(least, std::size_t{64} * 1024)), 0);
   pthread_t thread{};
   ASSERT_EQ(pthread_create(&thread, &attributes, work, argument), 0);
   ASSERT_EQ(pthread_join(thread, nullptr), 0);

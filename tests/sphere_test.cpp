@@ -111,8 +111,8 @@ TEST(BoundingSphere, OfASinglePlaceIsThatPlace) {
 
 TEST(BoundingSphere, IsTightAroundKnownSolids) {
   for (const double scale : {1.0, 0x1p-100, 0x1p90, 3.7, 1e30, 1e-30}) {
-    expect_tight(scaled_by(scale, kCube), scale * std::sqrt(0.75));
-    expect_tight(scaled_by(scale, kTetrahedron), scale * std::sqrt(3.0));
+    expect_tight(scaled_by(scale, kCube), scale * std::numbers::sqrt3 / 2);
+    expect_tight(scaled_by(scale, kTetrahedron), scale * std::numbers::sqrt3);
     expect_tight(scaled_by(scale, kOctahedron), scale);
     expect_tight(scaled_by(scale, icosahedron()), scale * std::hypot(1, std::numbers::phi));
     expect_tight(scaled_by(scale, {0, 0, 0, 2, 0, 0}), scale);

@@ -55,7 +55,7 @@ TEST(NarrowIds, M20RefusesOneVertexMore) {
   expect_refused(ErrorCode::TooLarge, culprit, [&] { validate(mesh.view()); });
   expect_refused(ErrorCode::TooLarge, culprit, [&] { static_cast<void>(adjacency(mesh.view())); });
   expect_refused(ErrorCode::TooLarge, culprit, [&] { static_cast<void>(paper::build(mesh.view())); });
-  expect_refused(ErrorCode::TooLarge, culprit, [&] { ReferenceSearcher searcher(mesh.view()); });
+  expect_refused(ErrorCode::TooLarge, culprit, [&] { const ReferenceSearcher searcher(mesh.view()); });
 }
 
 TEST(NarrowIds, M20RefusesOneCornerMore) {
