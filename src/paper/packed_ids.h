@@ -22,13 +22,13 @@ class PackedIds {
     const std::size_t bit = i * width_;
     const unsigned shift = bit % 64;
     words_[bit / 64] |= value << shift;
-    if (shift + width_ > 64) words_[bit / 64 + 1] |= value >> (64 - shift);
+    // Two shifts, for a shift by 64 is undefined.
+    words_[bit / 64 + 1] |= value >> 1 >> (63 - shift);
   }
 
   [[nodiscard]] std::uint64_t operator[](std::size_t i) const {
     const std::size_t bit = i * width_;
     const unsigned shift = bit % 64;
-    // Two shifts, for a shift by 64 is undefined.
     const std::uint64_t high = words_[bit / 64 + 1] << 1 << (63 - shift);
     return (words_[bit / 64] >> shift | high) & ((std::uint64_t{1} << width_) - 1);
   }
