@@ -100,7 +100,7 @@ TEST(Build, SummarisesItsLevels) {
   }
   EXPECT_GT(levels[2].mean_radius, levels[1].mean_radius);
   EXPECT_GT(index.bytes(), bytes);  // and the references of the vertices to their clusters
-  EXPECT_LT(index.bytes(), bytes + 4 * 2000);
+  EXPECT_LT(index.bytes(), bytes + std::size_t{4} * 2000);
 }
 
 TEST(Build, PermutesTheVertices) {

@@ -60,6 +60,7 @@ TEST(CandidateQueue, IsASortByKeyAndId) {
   double sum = 0;
   for (VertexId& count : children) sum += count = static_cast<VertexId>(1 + random.below(20));
   std::vector<std::tuple<double, ClusterId>> expected;
+  expected.reserve(children.size());
   for (std::size_t c = 0; c < children.size(); ++c) {
     expected.emplace_back(std::abs(children[c] - sum / 1000), static_cast<ClusterId>(c));
   }

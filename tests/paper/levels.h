@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <set>
@@ -70,6 +69,7 @@ inline std::vector<std::vector<std::uint32_t>> children_of(const Partition& part
 
 inline std::vector<std::set<std::uint32_t>> sibling_sets(const DraftLevel& level) {
   std::vector<std::set<std::uint32_t>> sets;
+  sets.reserve(level.size());
   for (std::size_t c = 0; c < level.size(); ++c) {
     sets.emplace_back(level.siblings[c].begin(), level.siblings[c].end());
   }
