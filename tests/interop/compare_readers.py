@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Reads the shared PLY, OFF and STL meshes with plyfile and trimesh too, and compares vertices and faces.
+
+    compare_readers.py DUMP_MESH MESHES
+
+DUMP_MESH   the program built from dump_mesh.cpp
+MESHES      the folder of the shared meshes
+
+Exit code 77, by which ctest tells a skipped test, where the meshes or the libraries are missing.
+"""
+
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+SKIPPED = 77
+FEWEST = 40
+
+try:
+    import numpy as np
+    import plyfile
+    import trimesh
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(SKIPPED)
+
+
+def our_reading(dump_mesh, name, folder):
+    """Positions (#V by 3, float32) and a list of faces."""
+    subprocess.run([dump_mesh, name, folder], check=True)
+    positions = np.fromfile(folder / "positions", np.float32).reshape(-1, 3)
+    sides = np.fromfile(folder / "sides", np.uint64).astype(np.int64)
+    corners = np.fromfile(folder / "corners", np.uint32)
+    return positions, np.split(corners, np.cumsum(sides)[:-1]) if len(sides) else []
+
+
+def plyfile_reading(file):
+    mesh = plyfile.PlyData.read(file)
+    vertex = mesh["vertex"]
+    positions = np.stack([vertex[axis] for axis in "xyz"], axis=1).astype(np.float32)
+    if "face" not in mesh or mesh["face"].count == 0:
+        return positions, []
+    names = [p.name for p in mesh["face"].properties]
+    return positions, list(mesh["face"]["vertex_indices" if "vertex_indices" in names else "vertex_index"])
+
+
+def trimesh_reading(file, kind):
+    mesh = trimesh.load(file, file_type=kind, process=False, maintain_order=True)
+    return np.asarray(mesh.vertices).astype(np.float32), list(np.asarray(mesh.faces))
+
+
+def same_faces(ours, theirs):
+    return len(ours) == len(theirs) and all(np.array_equal(a, b) for a, b in zip(ours, theirs))
+
+
+def compare_indexed(ours, theirs):
+    assert np.array_equal(ours[0], theirs[0]), "vertices differ"
+    assert same_faces(ours[1], theirs[1]), "faces differ"
+
+
+def compare_soup(ours, theirs):
+    """trimesh leaves the corners of an STL unjoined."""
+    positions, faces = ours
+    soup = theirs[0][np.concatenate(theirs[1])]
+    corners = np.concatenate(faces)
+    assert np.array_equal(positions[corners], soup), "corners differ"
+    assert len(np.unique(soup + np.float32(0), axis=0)) == len(positions), "not every equal position is one vertex"
+    first = np.unique(corners, return_index=True)[1]
+    assert np.all(np.diff(first) > 0), "vertices are not numbered by first appearance"
+
+
+def compare(dump_mesh, name):
+    """Whether the mesh could be compared; an AssertionError where the readers differ."""
+    kind = name.removesuffix(".zst").rsplit(".", 1)[1]
+    with tempfile.TemporaryDirectory() as folder:
+        folder = Path(folder)
+        ours = our_reading(dump_mesh, name, folder)
+        with open(folder / "plain", "rb") as file:
+            if kind == "ply":
+                compare_indexed(ours, plyfile_reading(file))
+            elif kind == "off":
+                if any(len(face) != 3 for face in ours[1]):
+                    return False  # trimesh cuts polygons into triangles
+                compare_indexed(ours, trimesh_reading(file, kind))
+            else:
+                compare_soup(ours, trimesh_reading(file, kind))
+    return True
+
+
+def main(dump_mesh, meshes):
+    if not meshes.is_dir():
+        print(f"skipped: no meshes at {meshes}")
+        return SKIPPED
+    names = sorted(str(path.relative_to(meshes)) for path in meshes.rglob("*") if path.is_file())
+    kinds = (".ply", ".off", ".stl", ".ply.zst", ".stl.zst")
+    tally, failures = {"ply": 0, "off": 0, "stl": 0}, 0
+    for name in names:
+        # Triangle strips are no faces to plyfile.
+        if name.startswith("broken/") or not name.endswith(kinds) or "tristrips" in name:
+            continue
+        try:
+            if compare(dump_mesh, name):
+                tally[name.removesuffix(".zst").rsplit(".", 1)[1]] += 1
+        except AssertionError as difference:
+            failures += 1
+            print(f"{name}: {difference}")
+    compared = sum(tally.values())
+    print(f"{compared} meshes compared ({tally}), {failures} differ")
+    return 0 if failures == 0 and compared >= FEWEST else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1], Path(sys.argv[2])))

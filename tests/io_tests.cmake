@@ -1,0 +1,24 @@
+# The tests of mesh files: format by format, row by row of the catalogue of faults, and beside other readers.
+foreach(stem shared_meshes ply obj off stl text file write memory)
+  meshhood_test(io_${stem} meshhood_test_support)
+endforeach()
+add_subdirectory(interop)
+
+# What `io_memory` watches from outside.
+add_executable(read_peak support/read_peak.cpp)
+target_link_libraries(read_peak PRIVATE meshhood::io)
+meshhood_own_target(read_peak)
+target_compile_definitions(io_memory_test PRIVATE MESHHOOD_READ_PEAK="$<TARGET_FILE:read_peak>")
+add_dependencies(io_memory_test read_peak)
+
+# With ids of 16 bits, so that small files reach the limit of the vertices.
+find_package(fmt REQUIRED)
+find_package(FastFloat REQUIRED)
+get_target_property(io_sources meshhood_io SOURCES)
+list(TRANSFORM io_sources PREPEND ${PROJECT_SOURCE_DIR}/io/)
+add_executable(io_limits_test io_limits_test.cpp ${io_sources})
+target_include_directories(io_limits_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR})
+target_link_libraries(io_limits_test PRIVATE
+  meshhood_narrow fmt::fmt FastFloat::fast_float GTest::gmock GTest::gtest_main)
+meshhood_own_target(io_limits_test)
+gtest_discover_tests(io_limits_test TEST_PREFIX io_limits. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
