@@ -41,7 +41,8 @@ TEST(Query, ClimbsToTheFirstLevelWhoseMeanRadiusReaches) {
   paper::Searcher searcher(index);
   std::vector<VertexId> out;
   for (const double factor : {1.0, 10.0, 50.0}) {
-    for (double radius = 0; radius < 200; radius += 0.5) {
+    for (int half = 0; half < 400; ++half) {
+      const double radius = half / 2.0;
       searcher.neighborhood(1234, radius, out, {.scale_factor = factor});
       const auto wanted =
           std::ranges::find_if(levels, [&](const auto& level) { return level.mean_radius >= radius / factor; });
