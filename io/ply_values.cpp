@@ -88,14 +88,28 @@ class TextValues final : public PlyValues {
   Text text_;
 };
 
+/// Takes the bytes of the next value, in the byte order of the file; false at its end.
+template <class T>
+bool load(Input& input, bool swaps, T& value) {
+  const auto bytes = input.ahead(sizeof(T));
+  if (bytes.size() < sizeof(T)) return false;
+  std::array<char, sizeof(T)> raw;
+  std::copy_n(bytes.begin(), sizeof(T), raw.begin());
+  if (swaps) std::reverse(raw.begin(), raw.end());
+  std::memcpy(&value, raw.data(), sizeof(T));
+  input.skip(sizeof(T));
+  return true;
+}
+
 class BinaryValues final : public PlyValues {
  public:
   BinaryValues(Input& input, bool big_endian)
       : input_(input), swaps_(big_endian != (std::endian::native == std::endian::big)) {}
 
   Problem take_coordinate(PlyType type, Positions& positions) override {
+    begin_ = input_.offset();
     return with_type(type, [&](auto example) -> Problem {
-      if (!load(example)) return std::string(kEnd);
+      if (!load(input_, swaps_, example)) return std::string(kEnd);
       const auto problem = positions.append(static_cast<double>(example));
       if (!problem) return std::nullopt;
       return std::string(*problem);
@@ -103,8 +117,9 @@ class BinaryValues final : public PlyValues {
   }
 
   Problem take_integer(PlyType type, std::int64_t& value) override {
+    begin_ = input_.offset();
     return with_type(type, [&](auto example) -> Problem {
-      if (!load(example)) return std::string(kEnd);
+      if (!load(input_, swaps_, example)) return std::string(kEnd);
       value = static_cast<std::int64_t>(example);
       return std::nullopt;
     });
@@ -134,19 +149,6 @@ class BinaryValues final : public PlyValues {
   Place place() const override { return {.byte = begin_}; }
 
  private:
-  template <class T>
-  bool load(T& value) {
-    begin_ = input_.offset();
-    const auto bytes = input_.ahead(sizeof(T));
-    if (bytes.size() < sizeof(T)) return false;
-    std::array<char, sizeof(T)> raw;
-    std::copy_n(bytes.begin(), sizeof(T), raw.begin());
-    if (swaps_) std::reverse(raw.begin(), raw.end());
-    std::memcpy(&value, raw.data(), sizeof(T));
-    input_.skip(sizeof(T));
-    return true;
-  }
-
   Input& input_;
   bool swaps_;
   std::uint64_t begin_ = 0;
