@@ -15,6 +15,9 @@
 namespace meshhood::io {
 namespace {
 
+// Beyond it the core takes no coordinate (see `validate`).
+constexpr double kLargestCoordinate = 0x1p500;
+
 // The least double that rounds to a float beyond the largest.
 constexpr double kFloatOverflow = 0x1.ffffffp127;
 
@@ -35,6 +38,7 @@ std::optional<std::string_view> to_coordinate(std::string_view token, Real& valu
   const auto number = parse_real<Real>(token);
   if (!number) return "is not a number";
   if (!std::isfinite(*number)) return reason_not_finite(token);
+  if (double{std::abs(*number)} > kLargestCoordinate) return "is too large";
   value = *number;
   return std::nullopt;
 }
@@ -42,7 +46,9 @@ std::optional<std::string_view> to_coordinate(std::string_view token, Real& valu
 template <class Real>
 std::optional<std::string_view> to_coordinate(double number, Real& value) {
   if (!std::isfinite(number)) return "is not finite";
-  if (std::is_same_v<Real, float> && std::abs(number) >= kFloatOverflow) return "is too large";
+  const bool fits =
+      std::is_same_v<Real, float> ? std::abs(number) < kFloatOverflow : std::abs(number) <= kLargestCoordinate;
+  if (!fits) return "is too large";
   value = static_cast<Real>(number);
   return std::nullopt;
 }

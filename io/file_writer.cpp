@@ -61,13 +61,16 @@ void FileWriter::open_in_place() {
 }
 
 void FileWriter::open_beside() {
-  do {
-    temporary_ = target_.parent_path() / temporary_name(target_);
-    file_ = Descriptor(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode));
-  } while (!file_.is_open() && errno == EEXIST);
-  if (file_.is_open()) return;
-  temporary_.clear();
-  fail("create");
+  for (;;) {
+    const auto name = target_.parent_path() / temporary_name(target_);
+    const int file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
+    if (file >= 0) {
+      file_ = Descriptor(file);
+      temporary_ = name;
+      return;
+    }
+    if (errno != EEXIST) fail("create");
+  }
 }
 
 FileWriter::~FileWriter() {

@@ -29,8 +29,9 @@ Input::Input(ByteSource& source, const std::string& name, std::uint64_t max_byte
 }
 
 std::optional<std::uint64_t> Input::left() const {
-  if (!source_.size()) return std::nullopt;
-  return *source_.size() - offset_;
+  const auto size = source_.size();
+  if (!size) return std::nullopt;
+  return *size - offset_;
 }
 
 void Input::fill(std::size_t count) {
@@ -44,7 +45,7 @@ void Input::make_room(std::size_t count) {
     std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
   } else {
     const std::size_t capacity = std::max({kWindow, 2 * capacity_, count});
-    // Not initialised: what no byte of the file reaches takes no memory.
+    // Not initialised: what no byte of the file reaches takes no memory. NOLINTNEXTLINE(modernize-avoid-c-arrays)
     auto wider = std::make_unique_for_overwrite<char[]>(capacity);
     if (end_ != begin_) std::memcpy(wider.get(), buffer_.get() + begin_, end_ - begin_);
     buffer_ = std::move(wider);
@@ -55,17 +56,18 @@ void Input::make_room(std::size_t count) {
 }
 
 void Input::read_more() {
-  std::size_t room = capacity_ - end_;
   // A file that grows while it is read ends where it ended when it was opened.
-  if (source_.size()) room = std::min<std::uint64_t>(room, *source_.size() - offset_ - (end_ - begin_));
+  const auto size = source_.size();
+  const std::uint64_t expected = size ? *size - offset_ - (end_ - begin_) : capacity_;
+  const auto room = static_cast<std::size_t>(std::min<std::uint64_t>(capacity_ - end_, expected));
   const std::size_t count = room == 0 ? 0 : source_.read(std::span(buffer_.get() + end_, room));
   end_ += count;
   exhausted_ = count == 0;
   const std::uint64_t reached = offset_ + (end_ - begin_);
   if (reached > max_bytes_) refuse_size(name_, max_bytes_);
-  if (exhausted_ && reached < source_.size().value_or(0)) {
+  if (size && exhausted_ && reached < *size) {
     raise(ErrorCode::IoFailure,
-          fmt::format("{}@{}: the file ends here, but had {} bytes when opened", name_, reached, *source_.size()));
+          fmt::format("{}@{}: the file ends here, but had {} bytes when opened", name_, reached, *size));
   }
 }
 

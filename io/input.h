@@ -52,7 +52,7 @@ class Input {
   ByteSource& source_;
   std::string name_;
   std::uint64_t max_bytes_;
-  std::unique_ptr<char[]> buffer_;
+  std::unique_ptr<char[]> buffer_;  // NOLINT(modernize-avoid-c-arrays): a vector would write to all of it
   std::size_t capacity_ = 0;
   std::size_t begin_ = 0;
   std::size_t end_ = 0;

@@ -107,15 +107,15 @@ class HeaderParser {
 
   void parse_property() {
     if (header_.elements.empty()) text_.malformed("a property before the first element");
-    PlyProperty property = {{}, PlyType::Int8, std::nullopt};
-    const auto first = word("a type");
-    if (first == "list") {
+    PlyProperty property;
+    auto type_name = word("a type");
+    if (type_name == "list") {
+      property.is_list = true;
       property.count_type = type(word("a type"));
-      if (!is_integer(*property.count_type)) text_.malformed("the length of a list must have an integer type");
-      property.type = type(word("a type"));
-    } else {
-      property.type = type(first);
+      if (!is_integer(property.count_type)) text_.malformed("the length of a list must have an integer type");
+      type_name = word("a type");
     }
+    property.type = type(type_name);
     property.name = word("the name of a property");
     header_.elements.back().properties.push_back(std::move(property));
   }

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,8 +26,12 @@ enum class PlyType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64
 
 struct PlyProperty {
   std::string name;
-  PlyType type;                       ///< of the value, or of each value of a list
-  std::optional<PlyType> count_type;  ///< of the length, where the property is a list; an integer type
+  PlyType type = PlyType::Float32;  ///< of the value, or of each value of a list
+  bool is_list = false;
+  PlyType count_type = PlyType::Uint8;  ///< of the length of a list; an integer type
+
+  /// Of the first value that a row has for the property.
+  [[nodiscard]] PlyType first_type() const { return is_list ? count_type : type; }
 };
 
 struct PlyElement {

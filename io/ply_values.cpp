@@ -71,18 +71,18 @@ class TextValues final : public PlyValues {
   }
 
   // A digit and what separates it from the next.
-  std::uint64_t least_bytes(PlyType /*type*/) const override { return 2; }
+  [[nodiscard]] std::uint64_t least_bytes(PlyType /*type*/) const override { return 2; }
 
   // The last value needs no separator.
-  std::optional<std::uint64_t> bytes_left() const override {
+  [[nodiscard]] std::optional<std::uint64_t> bytes_left() const override {
     const auto left = text_.input().left();
     if (!left) return std::nullopt;
     return *left + 1;
   }
 
-  bool row_is_over() const override { return text_.at_line_end(); }
+  [[nodiscard]] bool row_is_over() const override { return text_.at_line_end(); }
   bool anything_left() override { return !text_.token().empty(); }
-  Place place() const override { return text_.place(); }
+  [[nodiscard]] Place place() const override { return text_.place(); }
 
  private:
   Text text_;
@@ -120,7 +120,7 @@ class BinaryValues final : public PlyValues {
     begin_ = input_.offset();
     return with_type(type, [&](auto example) -> Problem {
       if (!load(input_, swaps_, example)) return std::string(kEnd);
-      value = static_cast<std::int64_t>(example);
+      value = static_cast<std::int64_t>(+example);
       return std::nullopt;
     });
   }
@@ -137,16 +137,16 @@ class BinaryValues final : public PlyValues {
     return std::nullopt;
   }
 
-  std::uint64_t least_bytes(PlyType type) const override { return size_of(type); }
-  std::optional<std::uint64_t> bytes_left() const override { return input_.left(); }
-  bool row_is_over() const override { return false; }
+  [[nodiscard]] std::uint64_t least_bytes(PlyType type) const override { return size_of(type); }
+  [[nodiscard]] std::optional<std::uint64_t> bytes_left() const override { return input_.left(); }
+  [[nodiscard]] bool row_is_over() const override { return false; }
 
   bool anything_left() override {
     begin_ = input_.offset();
     return !input_.ahead(1).empty();
   }
 
-  Place place() const override { return {.byte = begin_}; }
+  [[nodiscard]] Place place() const override { return {.byte = begin_}; }
 
  private:
   Input& input_;

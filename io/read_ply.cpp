@@ -48,7 +48,7 @@ Axes find_axes(const Input& input, const PlyElement& vertex) {
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string name(1, axis(i));
     const auto found = find_property(input, vertex, {name});
-    if (!found || vertex.properties[*found].count_type) {
+    if (!found || vertex.properties[*found].is_list) {
       fail_at(input.name(), vertex.place, ErrorCode::MalformedFile,
               fmt::format("element vertex has no scalar property {}", name));
     }
@@ -99,15 +99,14 @@ class PlyReader {
     if (left && least != 0 && element_->count > *left / least) {
       fail_at(input_.name(), element_->place, ErrorCode::MalformedFile,
               fmt::format("{} elements {} take at least {} bytes each, but {} bytes are left", element_->count,
-                          quote(element_->name), least, *input_.left()));
+                          quote(element_->name), least, input_.left().value_or(0)));
     }
     if (element_ == &vertex_) check_vertex_count(vertex_.count, input_.name(), vertex_.place);
   }
 
   [[nodiscard]] uint64_t least_bytes(const PlyElement& element) const {
     uint64_t sum = 0;
-    for (const auto& property : element.properties)
-      sum += values_->least_bytes(property.count_type.value_or(property.type));
+    for (const auto& property : element.properties) sum += values_->least_bytes(property.first_type());
     return sum;
   }
 
@@ -138,22 +137,28 @@ class PlyReader {
 
   // Reads the list of vertices in each row of the element and gives it to `read_list`, which takes its corners.
   void read_lists(void (PlyReader::*read_list)(uint64_t corners)) {
-    const auto place = find_property(input_, *element_, {"vertex_indices", "vertex_index"});
-    if (!place && element_->count == 0) return;
-    check_list(place);
-    property_ = &element_->properties[*place];
+    if (element_->count == 0 && !find_list()) return;
+    const std::size_t place = list_place();
+    property_ = &element_->properties[place];
     reserve_corners();
     for (; row_ < element_->count; ++row_) {
-      skip_properties(0, *place);
-      property_ = &element_->properties[*place];
+      skip_properties(0, place);
+      property_ = &element_->properties[place];
       (this->*read_list)(take_list_count());
-      skip_properties(*place + 1, element_->properties.size());
+      skip_properties(place + 1, element_->properties.size());
     }
   }
 
-  void check_list(std::optional<std::size_t> place) const {
-    const auto* const property = place ? &element_->properties[*place] : nullptr;
-    if (property != nullptr && property->count_type && is_integer(property->type)) return;
+  [[nodiscard]] std::optional<std::size_t> find_list() const {
+    return find_property(input_, *element_, {"vertex_indices", "vertex_index"});
+  }
+
+  [[nodiscard]] std::size_t list_place() const {
+    const auto place = find_list();
+    if (place) {
+      const auto& property = element_->properties[*place];
+      if (property.is_list && is_integer(property.type)) return *place;
+    }
     fail_at(input_.name(), element_->place, ErrorCode::MalformedFile,
             fmt::format("element {} has no list of integers vertex_indices or vertex_index", element_->name));
   }
@@ -201,7 +206,7 @@ class PlyReader {
   void skip_properties(std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       property_ = &element_->properties[i];
-      if (!property_->count_type) {
+      if (!property_->is_list) {
         require(values_->skip(property_->type, 1));
       } else if (i > 0 && values_->row_is_over()) {
         draft_.warnings.add("rows end before their last list, which is taken as empty", values_->place());
@@ -213,12 +218,12 @@ class PlyReader {
 
   uint64_t take_list_count() {
     std::int64_t count = 0;
-    require(values_->take_integer(*property_->count_type, count));
+    require(values_->take_integer(property_->count_type, count));
     if (count < 0) fail(fmt::format("a list of {} values", count));
     const auto length = static_cast<uint64_t>(count);
     const auto left = values_->bytes_left();
     if (left && length > *left / values_->least_bytes(property_->type)) {
-      fail(fmt::format("a list of {} values, but {} bytes are left", count, *input_.left()));
+      fail(fmt::format("a list of {} values, but {} bytes are left", count, input_.left().value_or(0)));
     }
     return length;
   }
@@ -229,7 +234,7 @@ class PlyReader {
     return index;
   }
 
-  std::uint32_t checked(std::int64_t index, uint64_t corner) const {
+  [[nodiscard]] std::uint32_t checked(std::int64_t index, uint64_t corner) const {
     if (index >= 0 && static_cast<uint64_t>(index) < vertex_.count) return static_cast<std::uint32_t>(index);
     fail_at(input_.name(), values_->place(), ErrorCode::MalformedFile,
             fmt::format("{} {}, {}[{}] = {}, but there are {} vertices", element_->name, row_, property_->name, corner,

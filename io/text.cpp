@@ -66,7 +66,7 @@ bool Text::at_line_end() const {
 
 bool Text::ends_line(char c) const {
   if (c == '\0') return true;  // ends the text, in fact: `take_line` refuses it
-  return syntax_.line_end ? c == *syntax_.line_end : c == '\n' || c == '\r';
+  return syntax_.line_end == kAnyLineEnd ? c == '\n' || c == '\r' : c == syntax_.line_end;
 }
 
 // The length of the line at the front of the input, without its end.
@@ -91,7 +91,7 @@ void Text::take_line(std::size_t length) {
     token_begin_ = length;
     malformed("a NUL byte in text");
   }
-  const bool pair = end == "\r\n" && !syntax_.line_end;
+  const bool pair = end == "\r\n" && syntax_.line_end == kAnyLineEnd;
   whole_length_ = length + (pair ? 2 : std::min<std::size_t>(end.size(), 1));
 }
 

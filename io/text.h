@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -16,11 +15,13 @@
 
 namespace meshhood::io {
 
+inline constexpr char kAnyLineEnd = 0;
+
 /// How a text format is laid out.
 struct TextSyntax {
-  bool hash_comments = false;         ///< `#` at the start of a token makes the rest of the line a comment
-  std::optional<char> line_end = {};  ///< the one byte that ends a line; any of LF, CR and CRLF where there is none
-  std::uint64_t lines_before = 0;     ///< lines of the file before the text
+  bool hash_comments = false;      ///< `#` at the start of a token makes the rest of the line a comment
+  char line_end = kAnyLineEnd;     ///< the one byte that ends a line, or LF, CR and CRLF all alike
+  std::uint64_t lines_before = 0;  ///< lines of the file before the text
 };
 
 /// A text file as lines and the tokens in them. Blanks, tabs, vertical tabs and form feeds separate tokens. Lines may
