@@ -49,7 +49,7 @@ class LeafMeasure {
   LeafMeasure(const LeafPartition& leaves, const AdjacencyView& adjacency, std::span<const Point> points)
       : leaves_(leaves), adjacency_(adjacency), points_(points) {}
 
-  void measure(std::size_t leaf, TreeLevel& out) {
+  void measure(std::size_t leaf, NodeList& out) {
     const std::size_t begin = leaves_.leaf_begin[leaf];
     const std::size_t end = leaves_.leaf_begin[leaf + 1];
     out.bounds.push_back(enclosing_sphere(points_.subspan(begin, end - begin)));
@@ -81,6 +81,7 @@ class LeafMeasure {
 std::vector<Leaf> make_leaf_records(const LeafPartition& partition, const Links& links,
                                     std::span<const FrameSphere> bounds) {
   std::vector<Leaf> leaves;
+  leaves.reserve(bounds.size() + 1);
   std::uint32_t first_link = 0;
   for (std::size_t leaf = 0; leaf < bounds.size(); ++leaf) {
     const VertexId first = partition.leaf_begin[leaf];
@@ -117,7 +118,7 @@ Index IndexAccess::build_valid(const GraphView& graph, const BuildOptions& /*opt
   Links links = make_links(graph.adjacency, partition);
 
   const std::vector<Point> points = place_points(graph.positions, storage->frame, partition.permutation);
-  TreeLevel lowest;
+  NodeList lowest;
   LeafMeasure measure(partition, graph.adjacency, points);
   for (std::size_t leaf = 0; leaf + 1 < partition.leaf_begin.size(); ++leaf) measure.measure(leaf, lowest);
 

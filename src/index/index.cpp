@@ -32,7 +32,7 @@ IndexBytes Index::bytes() const {
   result.permutation = bytes_of(storage_->permutation) + bytes_of(storage_->place);
   result.graph = bytes_of(storage_->adjacency) + bytes_of(storage_->links) + bytes_of(storage_->crossings);
   result.tree = bytes_of(storage_->leaves) + bytes_of(storage_->leaf_begin);
-  for (const auto& level : storage_->tree) result.tree += bytes_of(level);
+  for (const auto& level : storage_->tree) result.tree += bytes_of(level.groups);
   return result;
 }
 

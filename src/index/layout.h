@@ -61,9 +61,15 @@ struct alignas(64) Group {
   Row reach;
 };
 
-/// The groups over the nodes of each level, leaves first; the last level is one group. Node `i` of a level lies in its
-/// group `i / 8` and covers the eight nodes of group `i` one level lower.
-using Tree = std::vector<std::vector<Group>>;
+/// The nodes of one level, by groups. Node `i` lies in group `i / 8`, and covers the nodes of group `i` one level lower.
+struct TreeLevel {
+  std::vector<Group> groups;
+  std::size_t nodes = 0;
+  double mean_radius = 0;  // of their bounding spheres
+};
+
+/// Leaves first; the last level is one group.
+using Tree = std::vector<TreeLevel>;
 
 struct IndexStorage {
   Frame frame;
@@ -78,6 +84,17 @@ struct IndexStorage {
   std::vector<Crossing> crossings;    // padded
   std::vector<Lanes> adjacency;       // in index order: the neighbours within the leaf; padded
   Tree tree;
+
+  [[nodiscard]] Point position(LeafId leaf, unsigned lane) const {
+    const std::size_t first = leaf_begin[leaf];
+    const std::size_t size = leaf_begin[leaf + 1] - first;
+    return std::visit(
+        [&](const auto& all) {
+          const auto* p = all.data() + 3 * first + lane;
+          return Point{static_cast<double>(p[0]), static_cast<double>(p[size]), static_cast<double>(p[2 * size])};
+        },
+        positions);
+  }
 
   [[nodiscard]] std::size_t vertex_count() const { return place.size(); }
   [[nodiscard]] std::size_t leaf_count() const { return leaf_begin.size() - 1; }

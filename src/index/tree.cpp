@@ -40,7 +40,7 @@ Point smallest_sphere_centre(std::span<const Point> points) {
 }
 
 /// The eight nodes from `begin` on, side by side.
-Group make_group(const TreeLevel& level, std::size_t begin) {
+Group make_group(const NodeList& level, std::size_t begin) {
   Group group;
   for (std::size_t i = 0; i < kFanOut; ++i) {
     const bool exists = begin + i < level.bounds.size();
@@ -58,18 +58,21 @@ Group make_group(const TreeLevel& level, std::size_t begin) {
   return group;
 }
 
-std::vector<Group> make_groups(const TreeLevel& level) {
-  std::vector<Group> groups;
-  for (std::size_t begin = 0; begin < level.bounds.size(); begin += kFanOut) {
-    groups.push_back(make_group(level, begin));
-  }
-  return groups;
+TreeLevel make_level(const NodeList& nodes) {
+  TreeLevel level;
+  level.nodes = nodes.bounds.size();
+  level.groups.reserve((level.nodes + kFanOut - 1) / kFanOut);
+  double radii = 0;
+  for (std::size_t begin = 0; begin < level.nodes; begin += kFanOut) level.groups.push_back(make_group(nodes, begin));
+  for (const FrameSphere& bounds : nodes.bounds) radii += static_cast<double>(bounds.radius);
+  level.mean_radius = radii / static_cast<double>(level.nodes);
+  return level;
 }
 
 /// The nodes above those of `level`; each of the latter covers `leaves` leaves.
-TreeLevel make_parents(const TreeLevel& level, std::size_t leaves, std::span<const VertexId> leaf_begin,
+NodeList make_parents(const NodeList& level, std::size_t leaves, std::span<const VertexId> leaf_begin,
                        std::span<const Point> points) {
-  TreeLevel parents;
+  NodeList parents;
   const std::size_t leaf_count = leaf_begin.size() - 1;
   for (std::size_t begin = 0; begin < level.bounds.size(); begin += kFanOut) {
     const std::size_t end = std::min(begin + kFanOut, level.bounds.size());
@@ -99,13 +102,13 @@ FrameSphere enclosing_sphere(std::span<const Point> points) {
   return enclosing_sphere(points, smallest_sphere_centre(points));
 }
 
-Tree make_tree(TreeLevel level, std::span<const VertexId> leaf_begin, std::span<const Point> points) {
+Tree make_tree(NodeList level, std::span<const VertexId> leaf_begin, std::span<const Point> points) {
   Tree tree;
   if (level.bounds.empty()) return tree;
-  tree.push_back(make_groups(level));
-  for (std::size_t leaves = 1; tree.back().size() > 1; leaves *= kFanOut) {
+  tree.push_back(make_level(level));
+  for (std::size_t leaves = 1; tree.back().groups.size() > 1; leaves *= kFanOut) {
     level = make_parents(level, leaves, leaf_begin, points);
-    tree.push_back(make_groups(level));
+    tree.push_back(make_level(level));
   }
   return tree;
 }

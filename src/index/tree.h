@@ -10,13 +10,13 @@
 namespace meshhood {
 
 /// The nodes of one level.
-struct TreeLevel {
+struct NodeList {
   std::vector<FrameSphere> bounds;
   std::vector<Column> columns;
 };
 
 /// The tree over the leaves. `points`: the vertices in index order, in the frame. O(#V log #V).
-[[nodiscard]] Tree make_tree(TreeLevel leaves, std::span<const VertexId> leaf_begin, std::span<const Point> points);
+[[nodiscard]] Tree make_tree(NodeList leaves, std::span<const VertexId> leaf_begin, std::span<const Point> points);
 
 /// A sphere around `points`, with the room that comparing it with a ball in single precision needs (see kernels.h).
 [[nodiscard]] FrameSphere enclosing_sphere(std::span<const Point> points, const Point& centre);

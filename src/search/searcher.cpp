@@ -7,29 +7,15 @@
 #include "search/searcher_state.h"
 
 namespace meshhood {
-namespace {
-
-Point position(const IndexStorage& index, std::uint32_t place) {
-  const std::size_t first = index.leaf_begin[place / kLeafCapacity];
-  const std::size_t size = index.leaf_begin[place / kLeafCapacity + 1] - first;
-  return std::visit(
-      [&](const auto& positions) {
-        const auto* p = positions.data() + 3 * first + place % kLeafCapacity;
-        return Point{static_cast<double>(p[0]), static_cast<double>(p[size]), static_cast<double>(p[2 * size])};
-      },
-      index.positions);
-}
-
-}  // namespace
 
 Point Searcher::State::search(VertexId v, double radius) {
   check_query(v, index->vertex_count(), radius);
   const std::uint32_t place = index->place[v];
-  const Point centre = position(*index, place);
+  const Point centre = index->position(place / kLeafCapacity, place % kLeafCapacity);
   const LeafBall ball(centre, radius);
   const TreeBall tree_ball(index->frame, centre, radius);
   answer.clear();
-  flood.run(place, ball, tree_ball, answer);
+  if (!cover.run(place, ball, tree_ball, answer)) flood.run(place, ball, tree_ball, answer);
   return centre;
 }
 

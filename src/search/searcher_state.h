@@ -5,6 +5,7 @@
 
 #include "index/layout.h"
 #include "search/answer.h"
+#include "search/cover.h"
 #include "search/flood.h"
 #include "search/simd.h"
 
@@ -13,11 +14,12 @@ namespace meshhood {
 struct Searcher::State {
   const IndexStorage* index;
   const Kernels* kernels;
+  Cover cover;
   Flood flood;
   Answer answer;
 
   State(const IndexStorage& storage, Isa isa)
-      : index(&storage), kernels(&meshhood::kernels(isa)), flood(storage, *kernels) {}
+      : index(&storage), kernels(&meshhood::kernels(isa)), cover(storage, *kernels), flood(storage, *kernels) {}
 
   /// Leaves the neighborhood in `answer` and returns where `v` is.
   Point search(VertexId v, double radius);

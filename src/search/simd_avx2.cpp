@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "search/simd.h"
 
+#include "search/lane_list.h"
+
 #if defined(MESHHOOD_HAS_X86)
 #include <immintrin.h>
 
-#include <array>
 #include <bit>
 
 #define MESHHOOD_AVX2 __attribute__((target("avx2")))
@@ -111,24 +112,11 @@ MESHHOOD_AVX2 void place(const Group* groups, std::span<const std::uint32_t> lis
   }
 }
 
-/// For every set of eight lanes: where they are, first to last, in bytes of one word.
-constexpr std::array<std::uint64_t, 256> kLaneLists = [] {
-  std::array<std::uint64_t, 256> lists{};
-  for (unsigned set = 0; set < 256; ++set) {
-    unsigned shift = 0;
-    for (unsigned lane = 0; lane < 8; ++lane) {
-      if ((set >> lane & 1U) == 0) continue;
-      lists[set] |= std::uint64_t{lane} << shift;
-      shift += 8;
-    }
-  }
-  return lists;
-}();
-
 MESHHOOD_AVX2 VertexId* append(const VertexId* ids, Lanes lanes, VertexId* out) {
   for (std::size_t i = 0; i < kLeafCapacity; i += 8) {
     const unsigned set = lanes >> i & 0xFFU;
-    const __m256i order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(kLaneLists[set])));
+    const auto* list = reinterpret_cast<const __m128i*>(kLaneLists[set].data());
+    const __m256i order = _mm256_cvtepu8_epi32(_mm_loadl_epi64(list));
     const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids + i));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), _mm256_permutevar8x32_epi32(all, order));
     out += std::popcount(set);
