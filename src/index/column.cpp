@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Let `e` be the edge from vertex u to a neighbour w, and let the query vertex stand at `u + x`. Then w is nearer than u
-// where `x . e > e . e / 2`. Split x into its height n over the leaf's plane and a part of length s in the direction t
-// of that plane, and e likewise, with height h: w is nearer where
-//     s > (e.e / 2 + |n h|) / (t . e).
-// So for every t, an edge with t . e > 0 bounds how far from the axis a column must reach at height n: `width + slope
-// |n|`. Directions are taken by sectors, each with the edge that does best there and its worst direction within.
+// where `x . e > e . e / 2`. Split x into its height n over the leaf's plane and a vector p in that plane, and e likewise
+// into h and d: w is nearer where
+//     p . d > e . e / 2 - n h.
+// The p from which no neighbour is nearer make a polygon, at n = 0 about the Voronoi cell of u among its neighbours. Its
+// corners lie where two of these lines cross, at `c + n g` with c and g that do not depend on n. So the polygon has no
+// point farther from u than `max |c| + max |g| |n|`, over the pairs of lines that meet at its corners at n = 0; or over
+// any lines that enclose the origin: they need not all be corners of the polygon. |g| is the slope of the triangle that
+// u makes with the two neighbours.
 #include "index/column.h"
 
 #include <algorithm>
@@ -20,36 +23,12 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // An axis longer than this, of a column that opens wide, would cost the search its margin (see kernels.h).
 constexpr double kLongestAxis = 4;
 
-// Edges shorter than this, along the sector's direction, cannot tell nearer from farther: the mesh has size 1, and a
-// squared distance is rounded by some 1e-14.
-constexpr float kShortestEdge = 1e-7F;
+// Lines that meet at a smaller angle, as seen along the shorter edge, put the corner where rounding would. The mesh has
+// size 1, a squared distance is rounded by some 1e-14, and here that is magnified by up to 2^22.
+constexpr double kSmallestCross = 0x1p-22;
 
-// Of the single-precision arithmetic below, relative to the edge.
-constexpr float kRounding = 1e-6F;
-
-constexpr std::size_t kSectors = 16;
-using Sectors = std::array<float, kSectors>;
-
-struct Directions {
-  Sectors cosine;
-  Sectors sine;
-  float half_cosine;
-  float half_sine;
-};
-
-Directions make_directions() {
-  Directions result{};
-  const double half = std::acos(-1.0) / kSectors;
-  for (std::size_t k = 0; k < kSectors; ++k) {
-    result.cosine[k] = static_cast<float>(std::cos(2 * half * static_cast<double>(k)));
-    result.sine[k] = static_cast<float>(std::sin(2 * half * static_cast<double>(k)));
-  }
-  result.half_cosine = static_cast<float>(std::cos(half));
-  result.half_sine = static_cast<float>(std::sin(half));
-  return result;
-}
-
-const Directions kDirections = make_directions();
+// More edges of one vertex would hardly make its polygon smaller.
+constexpr std::size_t kMostEdges = 24;
 
 Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 Point operator*(double s, const Point& a) { return {s * a.x, s * a.y, s * a.z}; }
@@ -112,55 +91,98 @@ struct Axes {
 
 /// How wide a column over one vertex must be.
 struct Bound {
-  float width;
-  float slope;
+  double width = 0;
+  double slope = 0;
 };
 
-/// Of all edges of a vertex, the best for every sector.
-class VertexBound {
- public:
-  explicit VertexBound(float leaf_radius) : leaf_radius_(leaf_radius) {}
+constexpr Bound kUnbounded{kInfinity, kInfinity};
 
-  void add_edge(float x, float y, float height) {
-    const float square = x * x + y * y + height * height;
-    // What counts is the width, and the slope at heights about the size of the leaf.
-    const float weight = 1 / (square / (2 * leaf_radius_) + std::abs(height) + std::numeric_limits<float>::min());
-    const float rounding = kRounding * std::sqrt(square) + kShortestEdge;
-    for (std::size_t k = 0; k < kSectors; ++k) {
-      const float along = x * kDirections.cosine[k] + y * kDirections.sine[k];
-      const float across = std::abs(y * kDirections.cosine[k] - x * kDirections.sine[k]);
-      // The smallest t . e over the sector.
-      const float advance = along * kDirections.half_cosine - across * kDirections.half_sine - rounding;
-      const float score = advance * weight;
-      const bool better = score > score_[k];
-      score_[k] = better ? score : score_[k];
-      advance_[k] = better ? advance : advance_[k];
-      square_[k] = better ? square : square_[k];
-      height_[k] = better ? std::abs(height) : height_[k];
-    }
+/// An edge as a line that bounds the polygon.
+struct Line {
+  double angle;  // grows with the angle from 0 to 4
+  double x;
+  double y;
+  double height;
+  double offset;  // half the square of the length
+};
+
+Line make_line(double x, double y, double height) {
+  const double part = x / (std::abs(x) + std::abs(y) + std::numeric_limits<double>::min());
+  return {y < 0 ? 3 + part : 1 - part, x, y, height, (x * x + y * y + height * height) / 2};
+}
+
+double cross(const Line& a, const Line& b) { return a.x * b.y - a.y * b.x; }
+
+/// Where the lines meet, if `a` is followed by `b` after less than half a turn.
+struct Corner {
+  double x;
+  double y;
+};
+
+Corner corner(const Line& a, const Line& b, double value_a, double value_b) {
+  const double determinant = cross(a, b);
+  return {(value_a * b.y - value_b * a.y) / determinant, (value_b * a.x - value_a * b.x) / determinant};
+}
+
+/// The polygon of one vertex.
+class Polygon {
+ public:
+  void clear() { size_ = 0; }
+
+  void add(const Line& line) {
+    if (size_ == kMostEdges) return;
+    std::size_t i = size_++;
+    for (; i > 0 && lines_[i - 1].angle > line.angle; --i) lines_[i] = lines_[i - 1];
+    lines_[i] = line;
   }
 
-  /// Infinite where some sector has no edge.
-  [[nodiscard]] Bound bound() const {
-    Bound result{0, 0};
-    for (std::size_t k = 0; k < kSectors; ++k) {
-      // Without an edge the score is 0, and so is the advance.
-      result.width = std::max(result.width, square_[k] / (2 * advance_[k]));
-      result.slope = std::max(result.slope, height_[k] / advance_[k]);
+  [[nodiscard]] Bound bound() {
+    drop_redundant_lines();
+    if (size_ < 3) return kUnbounded;
+    Bound result;
+    for (std::size_t i = 0; i < size_; ++i) {
+      const Line& a = lines_[i];
+      const Line& b = lines_[i + 1 < size_ ? i + 1 : 0];
+      if (!(cross(a, b) > kSmallestCross * std::sqrt(2 * std::max(a.offset, b.offset)))) return kUnbounded;
+      const Corner centre = corner(a, b, a.offset, b.offset);
+      const Corner gradient = corner(a, b, a.height, b.height);
+      result.width = std::max(result.width, centre.x * centre.x + centre.y * centre.y);
+      result.slope = std::max(result.slope, gradient.x * gradient.x + gradient.y * gradient.y);
     }
-    return {result.width * (1 + 8 * kRounding), result.slope * (1 + 8 * kRounding)};
+    return {std::sqrt(result.width), std::sqrt(result.slope)};
   }
 
  private:
-  float leaf_radius_;
-  Sectors score_{};
-  Sectors advance_{};
-  Sectors square_ = [] {
-    Sectors all{};
-    all.fill(1);
-    return all;
-  }();
-  Sectors height_{};
+  /// A line is redundant where the corner of its neighbours lies on its near side.
+  void drop_redundant_lines() {
+    std::size_t kept_in_a_row = 0;
+    for (std::size_t i = 0; size_ > 3 && kept_in_a_row < size_;) {
+      i = i < size_ ? i : 0;
+      if (is_redundant(i)) {
+        std::copy(lines_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                  lines_.begin() + static_cast<std::ptrdiff_t>(size_), lines_.begin() + static_cast<std::ptrdiff_t>(i));
+        --size_;
+        i = (i == 0 ? size_ : i) - 1;
+        kept_in_a_row = 0;
+      } else {
+        ++i;
+        ++kept_in_a_row;
+      }
+    }
+  }
+
+  [[nodiscard]] bool is_redundant(std::size_t i) const {
+    const Line& before = lines_[i == 0 ? size_ - 1 : i - 1];
+    const Line& after = lines_[i + 1 == size_ ? 0 : i + 1];
+    const double determinant = cross(before, after);
+    if (!(determinant > kSmallestCross * std::sqrt(2 * std::max(before.offset, after.offset)))) return false;
+    const double x = before.offset * after.y - after.offset * before.y;
+    const double y = after.offset * before.x - before.offset * after.x;
+    return x * lines_[i].x + y * lines_[i].y <= lines_[i].offset * determinant;
+  }
+
+  std::array<Line, kMostEdges> lines_;
+  std::size_t size_ = 0;
 };
 
 Column make_column(const Point& direction, double width, double slope) {
@@ -174,26 +196,24 @@ Column make_column(const Point& direction, double width, double slope) {
 Column leaf_column(const ColumnInput& leaf, const Point& centre) {
   const std::span<const Point> own = leaf.points.subspan(leaf.begin, leaf.end - leaf.begin);
   const Axes axes(flattest_direction(own));
-  double radius = 1e-30;
-  for (const Point& p : own) radius = std::max(radius, length(p - centre));
+  Polygon polygon;
   double width = 0;
   double slope = 0;
   std::size_t next = 0;
   for (std::size_t i = 0; i < own.size(); ++i) {
-    VertexBound vertex(static_cast<float>(radius));
+    polygon.clear();
     for (const std::size_t end = next + leaf.degrees[i]; next < end; ++next) {
       const Point e = leaf.points[leaf.neighbors[next]] - own[i];
-      vertex.add_edge(static_cast<float>(dot(e, axes.first)), static_cast<float>(dot(e, axes.second)),
-                      static_cast<float>(dot(e, axes.normal)));
+      polygon.add(make_line(dot(e, axes.first), dot(e, axes.second), dot(e, axes.normal)));
     }
-    const Bound bound = vertex.bound();
+    const Bound bound = polygon.bound();
     const Point offset = own[i] - centre;
     const double height = std::abs(dot(offset, axes.normal));
     const double distance = std::hypot(dot(offset, axes.first), dot(offset, axes.second));
-    width = std::max(width, distance + static_cast<double>(bound.width) + static_cast<double>(bound.slope) * height);
-    slope = std::max(slope, static_cast<double>(bound.slope));
+    width = std::max(width, distance + bound.width + bound.slope * height);
+    slope = std::max(slope, bound.slope);
   }
-  // Up to here |x's part in the plane| <= width + slope |height|. With the height as the other leg, the triangle
+  // So far |x's part in the plane| <= width + slope |height|. With the height as the other leg, the triangle
   // inequality makes |x| <= width + sqrt(1 + slope^2) |height| of it.
   return make_column(axes.normal, width, slope);
 }
