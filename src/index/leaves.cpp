@@ -18,8 +18,8 @@ namespace {
 // Below the capacity, so that small parts find room next door.
 constexpr std::size_t kCellSize = 30;
 
-// A part smaller than this does not become a leaf if it can be helped.
-constexpr int kSmallPart = 8;
+// A part smaller than this does not become a leaf if it can be helped: two of them make one.
+constexpr int kSmallPart = 17;
 
 std::vector<Site> make_sites(const PositionsView& positions, const Frame& frame) {
   return positions.visit([&](auto xyz) {
@@ -106,34 +106,51 @@ class Parts {
       for (Lanes left = part_lanes; left != 0; left &= left - 1) {
         part_of_[begin + static_cast<std::size_t>(std::countr_zero(left))] = part;
       }
-      if (size_.back() < kSmallPart && part != home) small_.push_back({begin, part_lanes, part, home});
+      if (size_.back() < kSmallPart) small_.push_back({begin, part_lanes, part, home});
     }
   }
 
-  /// Joins a small part to a neighbour with room. One that has no neighbours is a component of the mesh, and stays with
-  /// the others of its cell: else a cloud of points would cost a leaf a point.
+  /// Joins a small part to the neighbour that shares most edges with it, of those that have room. One without any
+  /// neighbours is a component of the mesh, and stays with the others of its cell: else a cloud of points would cost a
+  /// leaf a point.
   void merge(const Small& small) {
-    bool alone = true;
     const std::uint32_t part = root(small.part);
+    if (size_[part] >= kSmallPart) return;
+    neighbors_.clear();
     for (Lanes left = small.lanes; left != 0; left &= left - 1) {
-      bool joined = false;
-      for_each_neighbor_site(small.cell_begin + static_cast<std::size_t>(std::countr_zero(left)),
-                             [&](std::size_t site) {
-                               const std::uint32_t other = root(part_of_[site]);
-                               if (other == part) return;
-                               alone = false;
-                               joined = joined || join(part, other);
-                             });
-      if (joined) return;
+      const std::size_t site = small.cell_begin + static_cast<std::size_t>(std::countr_zero(left));
+      for_each_neighbor_site(site, [&](std::size_t other) {
+        const std::uint32_t neighbor = root(part_of_[other]);
+        if (neighbor != part) neighbors_.push_back(neighbor);
+      });
     }
-    if (alone) join(part, root(small.home));
+    join(part, neighbors_.empty() ? root(small.home) : best_neighbor(part));
   }
 
-  bool join(std::uint32_t part, std::uint32_t other) {
-    if (part == other || size_[part] + size_[other] > static_cast<int>(kLeafCapacity)) return false;
+  /// The most frequent of `neighbors_` with room for `part`; `part` itself if none has.
+  std::uint32_t best_neighbor(std::uint32_t part) {
+    std::sort(neighbors_.begin(), neighbors_.end());
+    std::uint32_t best = part;
+    std::ptrdiff_t most = 0;
+    for (auto first = neighbors_.begin(); first != neighbors_.end();) {
+      const auto last = std::upper_bound(first, neighbors_.end(), *first);
+      if (last - first > most && has_room(part, *first)) {
+        best = *first;
+        most = last - first;
+      }
+      first = last;
+    }
+    return best;
+  }
+
+  [[nodiscard]] bool has_room(std::uint32_t part, std::uint32_t other) const {
+    return size_[part] + size_[other] <= static_cast<int>(kLeafCapacity);
+  }
+
+  void join(std::uint32_t part, std::uint32_t other) {
+    if (part == other || !has_room(part, other)) return;
     merged_into_[part] = other;
     size_[other] += size_[part];
-    return true;
   }
 
   std::uint32_t root(std::uint32_t part) {
@@ -148,6 +165,7 @@ class Parts {
   std::vector<std::uint32_t> merged_into_;
   std::vector<int> size_;
   std::vector<Small> small_;
+  std::vector<std::uint32_t> neighbors_;  // of the part that is being merged, by edge
 };
 
 /// The parts that are left, as the means of their vertices, in the order of the leaves.

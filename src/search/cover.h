@@ -21,7 +21,7 @@ class Cover {
   [[nodiscard]] bool run(std::uint32_t place, const LeafBall& ball, const TreeBall& tree_ball, Answer& answer);
 
  private:
-  [[nodiscard]] bool has_no_minimum(std::uint32_t place, const LeafBall& ball) const;
+  [[nodiscard]] bool has_no_minimum(std::uint32_t place, const LeafBall& ball, const TreeBall& tree_ball) const;
   template <class Real>
   void append_straddling(const Real* positions, const LeafBall& ball, std::vector<PartialLeaf>& parts) const;
 

@@ -20,20 +20,6 @@ Lanes spread(const Lanes* adjacency, Lanes among, Lanes from) {
   return reached;
 }
 
-/// A single node against the ball, as `Kernels::place` does it.
-enum class Side { Outside, Straddling, Inside };
-
-Side side_of(const FrameSphere& sphere, const TreeBall& ball) {
-  const float x = ball.x - sphere.x;
-  const float y = ball.y - sphere.y;
-  const float z = ball.z - sphere.z;
-  const float square = (x * x + y * y) + z * z;
-  const float far = ball.outer + sphere.radius;
-  if (square > far * far) return Side::Outside;
-  const float near = ball.inner - sphere.radius;
-  return near > 0 && square < near * near ? Side::Inside : Side::Straddling;
-}
-
 }  // namespace
 
 Flood::Flood(const IndexStorage& index, const Kernels& kernels)
@@ -51,10 +37,11 @@ void Flood::run_on(const Real* positions, std::uint32_t place, Answer& answer) {
   const LeafId first = place / kLeafCapacity;
   touch(first).pending = Lanes{1} << place % kLeafCapacity;
   queue_.push_back(first);
+  fetch_neighbors(first);
   for (std::size_t head = 0; head < queue_.size(); ++head) {
     const LeafId leaf = queue_[head];
     State& state = states_[leaf];
-    fetch_neighbors(leaf);
+    if (head + 1 < queue_.size()) fetch_neighbors(queue_[head + 1]);
     const bool is_new = state.reached == 0;
     const Lanes added = reach(positions, leaf, state);
     if (added == 0) continue;
@@ -74,12 +61,28 @@ void Flood::start_query() {
   ++query_;
 }
 
+/// What `push_on` will look at.
 void Flood::fetch_neighbors(LeafId leaf) const {
   const std::uint32_t end = index_->leaves[leaf + 1].first_link;
+  prefetch(&index_->crossings[index_->links[index_->leaves[leaf].first_link].first_crossing]);
   for (std::uint32_t i = index_->leaves[leaf].first_link; i < end; ++i) {
     prefetch(&states_[index_->links[i].leaf]);
     prefetch(&index_->leaves[index_->links[i].leaf]);
   }
+}
+
+/// What `reach` will look at, and then the output.
+void Flood::fetch_leaf(const Leaf& leaf, bool straddling) const {
+  fetch_lines(&index_->links[leaf.first_link], 2);
+  fetch_lines(&index_->permutation[leaf.first], 2);
+  if (!straddling) return;
+  fetch_lines(&index_->adjacency[leaf.first], 2);
+  std::visit(
+      [&](const auto& positions) {
+        const auto* first = &positions[3 * std::size_t{leaf.first}];
+        fetch_lines(first, 3 * leaf.size * sizeof(*first) / kCacheLine + 1);
+      },
+      index_->positions);
 }
 
 /// The state of a leaf, set up when the query first meets it.
@@ -87,20 +90,10 @@ Flood::State& Flood::touch(LeafId leaf) {
   State& state = states_[leaf];
   if (state.query == query_) return state;
   const Leaf& record = index_->leaves[leaf];
-  const Side side = side_of(record.bounds, *tree_ball_);
+  const Placement side = place(record.bounds, *tree_ball_);
   const Lanes all = first_lanes(record.size);
-  state = {query_ & kLastQuery, side == Side::Inside && record.connected, side == Side::Outside ? 0 : all, 0, 0};
-  prefetch(&index_->links[record.first_link]);
-  if (side == Side::Straddling) {
-    std::visit(
-        [&](const auto& positions) {
-          const auto* begin = &positions[3 * std::size_t{record.first}];
-          const auto* end = begin + 3 * record.size;
-          constexpr std::size_t kLine = 64 / sizeof(*begin);
-          for (const auto* line = begin; line < end; line += kLine) prefetch(line);
-        },
-        index_->positions);
-  }
+  state = {query_ & kLastQuery, side == Placement::Inside && record.connected, side == Placement::Outside ? 0 : all, 0, 0};
+  if (side != Placement::Outside) fetch_leaf(record, side == Placement::Straddling);
   return state;
 }
 

@@ -38,6 +38,7 @@ class Flood {
 
   void start_query();
   void fetch_neighbors(LeafId leaf) const;
+  void fetch_leaf(const Leaf& leaf, bool straddling) const;
   State& touch(LeafId leaf);
   template <class Real>
   Lanes reach(const Real* positions, LeafId leaf, State& state) const;

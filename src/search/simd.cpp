@@ -51,6 +51,17 @@ TreeBall::TreeBall(const Frame& frame, const Point& centre, double radius)
       outer(round_up((radius * (1 + kTreeError) + kTiny) * frame.scale)),
       inner(round_down((radius * (1 - kTreeError) - kTiny) * frame.scale)) {}
 
+Placement place(const FrameSphere& sphere, const TreeBall& ball) {
+  const float x = ball.x - sphere.x;
+  const float y = ball.y - sphere.y;
+  const float z = ball.z - sphere.z;
+  const float square = (x * x + y * y) + z * z;
+  const float far = ball.outer + sphere.radius;
+  if (square > far * far) return Placement::Outside;
+  const float near = ball.inner - sphere.radius;
+  return near > 0 && square < near * near ? Placement::Inside : Placement::Straddling;
+}
+
 Isa best_isa() {
 #if defined(MESHHOOD_HAS_X86)
   if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&

@@ -51,6 +51,9 @@ struct Placements {
   std::uint8_t doubtful;  // the ball's centre stands in the column of the node, or may
 };
 
+/// A single node against the ball, as `Kernels::place` does it.
+[[nodiscard]] Placement place(const FrameSphere& sphere, const TreeBall& ball);
+
 struct Kernels {
   /// Which of the `size` vertices of a leaf at `xyz` (see IndexStorage::positions) are in the ball.
   Lanes (*within_float)(const float* xyz, std::size_t size, const LeafBall& ball);
