@@ -10,7 +10,7 @@ namespace meshhood {
 namespace {
 
 // Below so many mean radii of a leaf, hardly a leaf lies inside and a flood looks at no more of them.
-constexpr double kSmallestBall = 2.2;
+constexpr double kSmallestBall = 2.0;
 
 bool are_linked(const IndexStorage& index, LeafId a, LeafId b) {
   const auto first = index.links.begin() + index.leaves[a].first_link;
