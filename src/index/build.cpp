@@ -17,6 +17,9 @@
 namespace meshhood {
 namespace {
 
+// In a mesh smaller than the inverse, squares of distances underflow, and so does what columns say of them.
+constexpr double kLargestScaleWithColumns = 0x1p480;
+
 /// The vertices in index order, in the frame.
 std::vector<Point> place_points(const PositionsView& positions, const Frame& frame,
                                 std::span<const VertexId> permutation) {
@@ -46,13 +49,18 @@ std::vector<Real> pack_positions(std::span<const Real> xyz, const LeafPartition&
 /// What the tree says of each leaf.
 class LeafMeasure {
  public:
-  LeafMeasure(const LeafPartition& leaves, const AdjacencyView& adjacency, std::span<const Point> points)
-      : leaves_(leaves), adjacency_(adjacency), points_(points) {}
+  LeafMeasure(const LeafPartition& leaves, const AdjacencyView& adjacency, std::span<const Point> points,
+              bool with_columns)
+      : leaves_(leaves), adjacency_(adjacency), points_(points), with_columns_(with_columns) {}
 
   void measure(std::size_t leaf, NodeList& out) {
     const std::size_t begin = leaves_.leaf_begin[leaf];
     const std::size_t end = leaves_.leaf_begin[leaf + 1];
     out.bounds.push_back(enclosing_sphere(points_.subspan(begin, end - begin)));
+    if (!with_columns_) {
+      out.columns.push_back(kNoColumn);
+      return;
+    }
     gather(begin, end);
     out.columns.push_back(leaf_column({points_, begin, end, neighbors_, degrees_}, centre_of(out.bounds.back())));
   }
@@ -74,6 +82,7 @@ class LeafMeasure {
   const LeafPartition& leaves_;
   AdjacencyView adjacency_;
   std::span<const Point> points_;
+  bool with_columns_;
   std::vector<std::uint32_t> neighbors_;
   std::vector<std::uint32_t> degrees_;
 };
@@ -119,7 +128,7 @@ Index IndexAccess::build_valid(const GraphView& graph, const BuildOptions& /*opt
 
   const std::vector<Point> points = place_points(graph.positions, storage->frame, partition.permutation);
   NodeList lowest;
-  LeafMeasure measure(partition, graph.adjacency, points);
+  LeafMeasure measure(partition, graph.adjacency, points, storage->frame.scale <= kLargestScaleWithColumns);
   for (std::size_t leaf = 0; leaf + 1 < partition.leaf_begin.size(); ++leaf) measure.measure(leaf, lowest);
 
   storage->leaves = make_leaf_records(partition, links, lowest.bounds);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Let `e` be the edge from vertex u to a neighbour w, and let the query vertex stand at `u + x`. Then w is nearer than u
-// where `x . e > e . e / 2`. Split x into its height n over the leaf's plane and a vector p in that plane, and e likewise
-// into h and d: w is nearer where
+// Let `e` be the edge from vertex u to a neighbour w, and let the query vertex stand at `u + x`. Then w is nearer than
+// u where `x . e > e . e / 2`. Split x into its height n over the leaf's plane and a vector p in that plane, and e
+// likewise into h and d: w is nearer where
 //     p . d > e . e / 2 - n h.
-// The p from which no neighbour is nearer make a polygon, at n = 0 about the Voronoi cell of u among its neighbours. Its
-// corners lie where two of these lines cross, at `c + n g` with c and g that do not depend on n. So the polygon has no
-// point farther from u than `max |c| + max |g| |n|`, over the pairs of lines that meet at its corners at n = 0; or over
-// any lines that enclose the origin: they need not all be corners of the polygon. |g| is the slope of the triangle that
-// u makes with the two neighbours.
+// The p from which no neighbour is nearer make a polygon, at n = 0 about the Voronoi cell of u among its neighbours.
+// Its corners lie where two of these lines cross, at `c + n g` with c and g that do not depend on n. So the polygon has
+// no point farther from u than `max |c| + max |g| |n|`, over the pairs of lines that meet at its corners at n = 0; or
+// over any lines that enclose the origin: they need not all be corners of the polygon. |g| is the slope of the triangle
+// that u makes with the two neighbours.
 #include "index/column.h"
 
 #include <algorithm>
@@ -187,7 +187,7 @@ class Polygon {
 
 Column make_column(const Point& direction, double width, double slope) {
   const double stretch = std::sqrt(1 + slope * slope);
-  if (!(stretch <= kLongestAxis) || !(width < kInfinity)) return {{0, 0, 0}, kInfinity};
+  if (!(stretch <= kLongestAxis) || !(width < kInfinity)) return kNoColumn;
   return {stretch * direction, width};
 }
 
@@ -222,7 +222,7 @@ Column enclosing_column(std::span<const Column> children, std::span<const Point>
   Point sum{};
   for (const Column& child : children) sum = sum - (dot(child.axis, sum) < 0 ? 1.0 : -1.0) * child.axis;
   const double norm = length(sum);
-  if (!(norm > 0)) return {{0, 0, 0}, kInfinity};
+  if (!(norm > 0)) return kNoColumn;
   const Point axis = 1 / norm * sum;
   double reach = 0;
   double stretch = 0;
@@ -230,12 +230,12 @@ Column enclosing_column(std::span<const Column> children, std::span<const Point>
     // |x . child.axis| <= cosine |x . axis| + sine |x|, both times the length of child.axis; solved for |x|.
     const double cosine = std::abs(dot(children[i].axis, axis));
     const double rest = 1 - length(cross(children[i].axis, axis));
-    if (!(rest > 0) || !(children[i].reach < kInfinity)) return {{0, 0, 0}, kInfinity};
+    if (!(rest > 0) || !(children[i].reach < kInfinity)) return kNoColumn;
     const Point offset = centres[i] - centre;
     reach = std::max(reach, length(offset) + (children[i].reach + cosine * std::abs(dot(offset, axis))) / rest);
     stretch = std::max(stretch, cosine / rest);
   }
-  if (!(stretch <= kLongestAxis)) return {{0, 0, 0}, kInfinity};
+  if (!(stretch <= kLongestAxis)) return kNoColumn;
   return {stretch * axis, reach};
 }
 

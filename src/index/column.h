@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "meshhood/mesh.h"
@@ -18,6 +19,9 @@ struct Column {
   Point axis{0, 0, 0};  // longer than 1: the more so, the wider the column opens
   double reach;         // infinite where no column is known
 };
+
+/// Around everything.
+inline constexpr Column kNoColumn{{0, 0, 0}, std::numeric_limits<double>::infinity()};
 
 /// The column of some vertices. `points` are all positions in the frame; `adjacency` of vertex `i` is
 /// `neighbors[offsets[i]] ..`.

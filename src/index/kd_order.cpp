@@ -21,10 +21,9 @@ std::size_t widest_axis(std::span<const Site> sites) {
 
 template <std::size_t axis>
 void cut(std::span<Site> sites, std::size_t middle) {
-  std::nth_element(sites.begin(), sites.begin() + static_cast<std::ptrdiff_t>(middle), sites.end(),
-                   [](const Site& a, const Site& b) {
-                     return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.id < b.id;
-                   });
+  std::nth_element(
+      sites.begin(), sites.begin() + static_cast<std::ptrdiff_t>(middle), sites.end(),
+      [](const Site& a, const Site& b) { return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.id < b.id; });
 }
 
 }  // namespace

@@ -61,7 +61,8 @@ struct alignas(64) Group {
   Row reach;
 };
 
-/// The nodes of one level, by groups. Node `i` lies in group `i / 8`, and covers the nodes of group `i` one level lower.
+/// The nodes of one level, by groups. Node `i` lies in group `i / 8`, and covers the nodes of group `i` one level
+/// lower.
 struct TreeLevel {
   std::vector<Group> groups;
   std::size_t nodes = 0;

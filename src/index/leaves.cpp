@@ -95,8 +95,8 @@ class Parts {
   }
 
   void add_parts(std::size_t begin, std::span<Lanes> lanes) {
-    const auto largest = std::max_element(
-        lanes.begin(), lanes.end(), [](Lanes a, Lanes b) { return std::popcount(a) < std::popcount(b); });
+    const auto largest = std::max_element(lanes.begin(), lanes.end(),
+                                          [](Lanes a, Lanes b) { return std::popcount(a) < std::popcount(b); });
     std::swap(*largest, lanes[0]);
     const auto home = static_cast<std::uint32_t>(merged_into_.size());
     for (const Lanes part_lanes : lanes) {

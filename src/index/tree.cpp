@@ -10,7 +10,8 @@
 namespace meshhood {
 namespace {
 
-// What a float may lose: a rounding of a point in the frame, and of a product, with room to spare.
+// What floats may lose: the roundings of a vertex, of the query and of a centre in the frame, 2^-24.2 each; and those
+// of the comparison, some 2^-22 of the radius.
 constexpr double kRelativeRoom = 0x1p-20;
 constexpr double kAbsoluteRoom = 0x1p-22;
 constexpr double kColumnRoom = 0x1p-20;
@@ -71,7 +72,7 @@ TreeLevel make_level(const NodeList& nodes) {
 
 /// The nodes above those of `level`; each of the latter covers `leaves` leaves.
 NodeList make_parents(const NodeList& level, std::size_t leaves, std::span<const VertexId> leaf_begin,
-                       std::span<const Point> points) {
+                      std::span<const Point> points) {
   NodeList parents;
   const std::size_t leaf_count = leaf_begin.size() - 1;
   for (std::size_t begin = 0; begin < level.bounds.size(); begin += kFanOut) {

@@ -16,8 +16,8 @@ class Cover {
   Cover(const IndexStorage& index, const Kernels& kernels)
       : index_(&index), kernels_(&kernels), descent_(index, kernels) {}
 
-  /// Appends the exact neighborhood of the vertex at `place`, or returns false and leaves `answer` as it was: then there
-  /// may be more in the ball.
+  /// Appends the exact neighborhood of the vertex at `place`, or returns false and leaves `answer` as it was: then
+  /// there may be more in the ball.
   [[nodiscard]] bool run(std::uint32_t place, const LeafBall& ball, const TreeBall& tree_ball, Answer& answer);
 
  private:

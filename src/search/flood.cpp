@@ -92,7 +92,8 @@ Flood::State& Flood::touch(LeafId leaf) {
   const Leaf& record = index_->leaves[leaf];
   const Placement side = place(record.bounds, *tree_ball_);
   const Lanes all = first_lanes(record.size);
-  state = {query_ & kLastQuery, side == Placement::Inside && record.connected, side == Placement::Outside ? 0 : all, 0, 0};
+  state = {query_ & kLastQuery, side == Placement::Inside && record.connected, side == Placement::Outside ? 0 : all, 0,
+           0};
   if (side != Placement::Outside) fetch_leaf(record, side == Placement::Straddling);
   return state;
 }

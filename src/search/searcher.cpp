@@ -15,7 +15,8 @@ Point Searcher::State::search(VertexId v, double radius) {
   const LeafBall ball(centre, radius);
   const TreeBall tree_ball(index->frame, centre, radius);
   answer.clear();
-  if (!cover.run(place, ball, tree_ball, answer)) flood.run(place, ball, tree_ball, answer);
+  proved = cover.run(place, ball, tree_ball, answer);
+  if (!proved) flood.run(place, ball, tree_ball, answer);
   return centre;
 }
 

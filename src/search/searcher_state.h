@@ -17,6 +17,7 @@ struct Searcher::State {
   Cover cover;
   Flood flood;
   Answer answer;
+  bool proved = false;  // the last answer: by the cover, not by the flood
 
   State(const IndexStorage& storage, Isa isa)
       : index(&storage), kernels(&meshhood::kernels(isa)), cover(storage, *kernels), flood(storage, *kernels) {}

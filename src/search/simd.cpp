@@ -19,15 +19,17 @@ float round_down(double value) {
 }
 
 /// The smallest float >= `value`.
-float round_up(double value) { return -round_down(-value) < kInfinity && value > kLargest ? kInfinity : -round_down(-value); }
+float round_up(double value) {
+  return -round_down(-value) < kInfinity && value > kLargest ? kInfinity : -round_down(-value);
+}
 
 // The coordinates are floats, so a difference is off by 2^-24 of itself, a square by three times that, and the two sums
 // by two more: 5 * 2^-24 in all. Products below the smallest float add at most 2^-149 each.
 constexpr double kFloatError = 0x1p-21;
 constexpr double kFloatUnderflow = 0x1p-140;
 
-// The centre and the spheres' points are rounded by 2^-25 along each axis, which the radius of a sphere makes up for; so
-// are the roundings of the comparison, 2^-22 of either radius at most, by 2^-20 of each.
+// The centre and the spheres' points are rounded by 2^-25 along each axis, which the radius of a sphere makes up for;
+// so are the roundings of the comparison, 2^-22 of either radius at most, by 2^-20 of each.
 constexpr double kTreeError = 0x1p-20;
 
 // Where squares underflow in the predicate, vertices that are too far count as inside. See SearchBall.

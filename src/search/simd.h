@@ -26,8 +26,8 @@ struct LeafBall {
   float x;
   float y;
   float z;
-  float surely_inside;    // <=
-  float surely_outside;   // >
+  float surely_inside;   // <=
+  float surely_outside;  // >
 
   LeafBall(const Point& centre, double radius);
 };

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "search/lane_list.h"
 #include "search/simd.h"
 
-#include "search/lane_list.h"
-
 #if defined(MESHHOOD_HAS_X86)
-#include <immintrin.h>
-
 #include <bit>
+
+#include <immintrin.h>
 
 #define MESHHOOD_AVX2 __attribute__((target("avx2")))
 
@@ -24,8 +23,7 @@ MESHHOOD_AVX2 inline Lanes within4(const Real* x, const Real* y, const Real* z, 
   const __m256d dz = _mm256_sub_pd(load4(z), _mm256_set1_pd(ball.centre.z));
   const __m256d square =
       _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(dx, dx), _mm256_mul_pd(dy, dy)), _mm256_mul_pd(dz, dz));
-  return static_cast<Lanes>(
-      _mm256_movemask_pd(_mm256_cmp_pd(square, _mm256_set1_pd(ball.squared_radius), _CMP_LE_OQ)));
+  return static_cast<Lanes>(_mm256_movemask_pd(_mm256_cmp_pd(square, _mm256_set1_pd(ball.squared_radius), _CMP_LE_OQ)));
 }
 
 template <class Real>
@@ -93,9 +91,10 @@ MESHHOOD_AVX2 inline Placements place_group(const Group& group, const TreeBall& 
   const __m256 height = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x, _mm256_load_ps(group.axis_x.data())),
                                                     _mm256_mul_ps(y, _mm256_load_ps(group.axis_y.data()))),
                                       _mm256_mul_ps(z, _mm256_load_ps(group.axis_z.data())));
-  const __m256 reach = _mm256_add_ps(_mm256_load_ps(group.reach.data()), _mm256_andnot_ps(_mm256_set1_ps(-0.0F), height));
-  const unsigned clear =
-      bits(_mm256_cmp_ps(_mm256_mul_ps(square, _mm256_set1_ps(kColumnMargin)), _mm256_mul_ps(reach, reach), _CMP_GT_OQ));
+  const __m256 reach =
+      _mm256_add_ps(_mm256_load_ps(group.reach.data()), _mm256_andnot_ps(_mm256_set1_ps(-0.0F), height));
+  const unsigned clear = bits(
+      _mm256_cmp_ps(_mm256_mul_ps(square, _mm256_set1_ps(kColumnMargin)), _mm256_mul_ps(reach, reach), _CMP_GT_OQ));
   return {static_cast<std::uint8_t>(inside), static_cast<std::uint8_t>(~(outside | inside)),
           static_cast<std::uint8_t>(~clear)};
 }

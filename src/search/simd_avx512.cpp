@@ -8,10 +8,10 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 
-#include <immintrin.h>
-
 #include <algorithm>
 #include <bit>
+
+#include <immintrin.h>
 
 #define MESHHOOD_AVX512 __attribute__((target("avx512f,avx512bw,avx512vl,avx512dq,bmi2")))
 
@@ -53,10 +53,10 @@ MESHHOOD_AVX512 Lanes within_float(const float* xyz, std::size_t size, const Lea
   const __m512 high = square16(xyz + 16, xyz + size + 16, xyz + 2 * size + 16, ball);
   const __m512 inner = _mm512_set1_ps(ball.surely_inside);
   const __m512 outer = _mm512_set1_ps(ball.surely_outside);
-  const Lanes inside = _mm512_cmp_ps_mask(low, inner, _CMP_LE_OQ) |
-                       Lanes{_mm512_cmp_ps_mask(high, inner, _CMP_LE_OQ)} << 16;
-  const Lanes outside = _mm512_cmp_ps_mask(low, outer, _CMP_GT_OQ) |
-                        Lanes{_mm512_cmp_ps_mask(high, outer, _CMP_GT_OQ)} << 16;
+  const Lanes inside = _mm512_cmp_ps_mask(low, inner, _CMP_LE_OQ) | Lanes{_mm512_cmp_ps_mask(high, inner, _CMP_LE_OQ)}
+                                                                        << 16;
+  const Lanes outside = _mm512_cmp_ps_mask(low, outer, _CMP_GT_OQ) | Lanes{_mm512_cmp_ps_mask(high, outer, _CMP_GT_OQ)}
+                                                                         << 16;
   const Lanes all = first_lanes(static_cast<unsigned>(size));
   if (((inside | outside) & all) != all) [[unlikely]] {
     return within_exact(xyz, size, ball);
@@ -91,9 +91,10 @@ MESHHOOD_AVX512 inline Placements place_group(const Group& group, const TreeBall
   const __m256 height = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x, _mm256_load_ps(group.axis_x.data())),
                                                     _mm256_mul_ps(y, _mm256_load_ps(group.axis_y.data()))),
                                       _mm256_mul_ps(z, _mm256_load_ps(group.axis_z.data())));
-  const __m256 reach = _mm256_add_ps(_mm256_load_ps(group.reach.data()), _mm256_andnot_ps(_mm256_set1_ps(-0.0F), height));
-  const __mmask8 clear = _mm256_cmp_ps_mask(_mm256_mul_ps(square, _mm256_set1_ps(kColumnMargin)),
-                                            _mm256_mul_ps(reach, reach), _CMP_GT_OQ);
+  const __m256 reach =
+      _mm256_add_ps(_mm256_load_ps(group.reach.data()), _mm256_andnot_ps(_mm256_set1_ps(-0.0F), height));
+  const __mmask8 clear =
+      _mm256_cmp_ps_mask(_mm256_mul_ps(square, _mm256_set1_ps(kColumnMargin)), _mm256_mul_ps(reach, reach), _CMP_GT_OQ);
   return {inside, static_cast<std::uint8_t>(~(outside | inside)), static_cast<std::uint8_t>(~clear)};
 }
 
