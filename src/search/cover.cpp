@@ -21,14 +21,24 @@ bool are_linked(const IndexStorage& index, LeafId a, LeafId b) {
 }  // namespace
 
 bool Cover::run(std::uint32_t place, const LeafBall& ball, const TreeBall& tree_ball, Answer& answer) {
-  if (static_cast<double>(tree_ball.inner) < kSmallestBall * index_->tree[0].mean_radius) return false;
-  if (!descent_.run(tree_ball, answer.runs) || !has_no_minimum(place, ball, tree_ball)) {
+  const auto radius = static_cast<double>(tree_ball.inner);
+  const LeafId home = place / kLeafCapacity;
+  if (radius < kSmallestBall * index_->tree[0].mean_radius || !memory_.is_worth_trying(home, radius)) return false;
+  const bool proved = prove(place, ball, tree_ball, answer.runs);
+  memory_.tell(home, radius, proved);
+  if (!proved) {
     answer.clear();
     return false;
   }
   std::visit([&](const auto& positions) { append_straddling(positions.data(), ball, answer.parts); },
              index_->positions);
   return true;
+}
+
+/// Appends the runs that lie inside; false if something else may lie there.
+bool Cover::prove(std::uint32_t place, const LeafBall& ball, const TreeBall& tree_ball,
+                  std::vector<VertexRange>& runs) {
+  return descent_.run(tree_ball, runs) && has_no_minimum(place, ball, tree_ball);
 }
 
 bool Cover::has_no_minimum(std::uint32_t place, const LeafBall& ball, const TreeBall& tree_ball) const {
