@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+
 namespace meshhood {
 
 /// Asks the processor to fetch what lies at `address`, which will be read soon. Never faults.
@@ -10,6 +12,14 @@ inline void prefetch(const void* address) {
 #else
   static_cast<void>(address);
 #endif
+}
+
+inline constexpr std::size_t kCacheLine = 64;
+
+/// The same for `count` lines from `address` on.
+inline void fetch_lines(const void* address, std::size_t count) {
+  const auto* line = static_cast<const char*>(address);
+  for (std::size_t i = 0; i < count; ++i) prefetch(line + i * kCacheLine);
 }
 
 }  // namespace meshhood

@@ -13,6 +13,10 @@ foreach(stem adjacency mesh distance sphere reference error robustness different
   meshhood_test(${stem} meshhood_families)
 endforeach()
 add_subdirectory(paper)
+foreach(stem index_structure search_families search_rare search_simd)
+  meshhood_test(${stem} meshhood_families)
+endforeach()
+meshhood_test(search_meshes meshhood_test_support meshhood_shapes)
 
 # On real meshes.
 meshhood_test(paper_meshes meshhood_test_support)

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// The exact engine beside the best breadth-first search, on the mesh as it is and in index order.
+// Usage: exact_speed MESH [RADIUS...]; radii in mean edges. MESH is a file, or a shape as "scroll:1000000".
+//
+// Every method is timed in turn on small blocks of queries, and the median block counts: what else the machine does
+// hits all alike. Cold: random vertices, fresh ones for each method. Warm: consecutive vertices in index order, with
+// other memory touched before each block. Times are of the processor, not of the wall.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <ctime>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "meshhood/index.h"
+#include "meshhood/meshhood.h"
+#include "meshhood/search.h"
+
+#include "exact_mesh.h"
+
+namespace meshhood::bench {
+namespace {
+
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// The graph of a mesh with its vertices in another order.
+struct Reordered {
+  std::vector<float> positions;
+  Adjacency adjacency;
+  std::vector<VertexId> place;  // by old vertex
+
+  Reordered(const GraphView& graph, std::span<const VertexId> order) : place(order.size()) {
+    for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<VertexId>(i);
+    adjacency.offsets.push_back(0);
+    for (const VertexId v : order) {
+      graph.positions.visit([&](auto xyz) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          positions.push_back(static_cast<float>(xyz[3 * std::size_t{v} + axis]));
+        }
+      });
+      const auto row = adjacency.neighbors.size();
+      for (const VertexId w : graph.adjacency[v]) adjacency.neighbors.push_back(place[w]);
+      std::sort(adjacency.neighbors.begin() + static_cast<std::ptrdiff_t>(row), adjacency.neighbors.end());
+      adjacency.offsets.push_back(static_cast<EdgeOffset>(adjacency.neighbors.size()));
+    }
+  }
+};
+
+enum Method : std::size_t { BfsGiven, BfsReordered, Ids, Count, Ranges, Methods };
+
+class Bench {
+ public:
+  explicit Bench(const MeshView& mesh)
+      : adjacency_(adjacency(mesh)),
+        graph_{mesh.positions, adjacency_.view()},
+        index_(build(mesh)),
+        reordered_(graph_, index_.permutation()),
+        given_(graph_),
+        in_order_(GraphView{reordered_.positions, reordered_.adjacency.view()}),
+        searcher_(index_),
+        mean_edge_(mean_edge_length(graph_)),
+        other_memory_(std::size_t{1} << 20) {}
+
+  void row(double edges, bool warm) {
+    constexpr std::size_t kBlocks = 15;
+    std::array<std::vector<double>, Methods> times;
+    found_ = 0;
+    const std::size_t queries = edges >= 40 ? 60 : 300;
+    for (std::size_t block = 0; block < kBlocks; ++block) {
+      std::vector<VertexId> asked = pick(queries, warm);
+      for (std::size_t i = 0; i < Methods; ++i) {
+        const auto method = static_cast<Method>((i + block) % Methods);
+        if (!warm) asked = pick(queries, false);
+        times[method].push_back(time(method, asked, edges * mean_edge_));
+        for (std::size_t k = 0; k < other_memory_.size(); k += 16) ++other_memory_[k];
+      }
+    }
+    std::array<double, Methods> median{};
+    for (std::size_t i = 0; i < Methods; ++i) {
+      std::nth_element(times[i].begin(), times[i].begin() + kBlocks / 2, times[i].end());
+      median[i] = times[i][kBlocks / 2];
+    }
+    const double best = std::min(median[BfsGiven], median[BfsReordered]);
+    std::printf("| %s | %g | %zu | %.2f | %.2f | %.2f | %.2f | %.2f | %.1f / %.1f / %.1f |\n", warm ? "warm" : "cold",
+                edges, found_ / (kBlocks * queries), median[BfsGiven], median[BfsReordered], median[Ids], median[Count],
+                median[Ranges], best / median[Ids], best / median[Ranges], best / median[Count]);
+    std::fflush(stdout);
+  }
+
+  [[nodiscard]] const Index& index() const { return index_; }
+
+ private:
+  std::vector<VertexId> pick(std::size_t queries, bool warm) {
+    const std::size_t vertices = index_.vertex_count();
+    const std::size_t first = random_() % vertices;
+    std::vector<VertexId> result;
+    for (std::size_t i = 0; i < queries; ++i) {
+      result.push_back(warm ? index_.permutation()[(first + i) % vertices]
+                            : static_cast<VertexId>(random_() % vertices));
+    }
+    return result;
+  }
+
+  /// Microseconds a query.
+  double time(Method method, const std::vector<VertexId>& asked, double radius) {
+    const double begin = processor_seconds();
+    for (const VertexId v : asked) ask(method, v, radius);
+    const double seconds = processor_seconds() - begin;
+    return 1e6 * seconds / static_cast<double>(asked.size());
+  }
+
+  void ask(Method method, VertexId v, double radius) {
+    switch (method) {
+      case BfsGiven: given_.neighborhood(v, radius, out_); break;
+      case BfsReordered: in_order_.neighborhood(reordered_.place[v], radius, out_); break;
+      case Ids:
+        searcher_.neighborhood(v, radius, out_);
+        found_ += out_.size();
+        break;
+      case Count: sink_ += searcher_.count(v, radius); break;
+      default: sink_ += searcher_.ranges(v, radius).size();
+    }
+  }
+
+  Adjacency adjacency_;
+  GraphView graph_;
+  Index index_;
+  Reordered reordered_;
+  ReferenceSearcher given_;
+  ReferenceSearcher in_order_;
+  Searcher searcher_;
+  double mean_edge_;
+  std::vector<unsigned> other_memory_;
+  std::mt19937_64 random_{11};
+  std::vector<VertexId> out_;
+  std::size_t found_ = 0;
+  std::size_t sink_ = 0;
+};
+
+double build_microseconds_per_vertex(const MeshView& mesh) {
+  double best = 1e9;
+  for (int i = 0; i < 3; ++i) {
+    const double begin = processor_seconds();
+    const Index index = build(mesh);
+    best = std::min(best, processor_seconds() - begin);
+  }
+  return 1e6 * best / static_cast<double>(mesh.positions.size());
+}
+
+void run(const std::string& name, std::vector<double> radii) {
+  const MeshArgument mesh(name);
+  const double build_time = build_microseconds_per_vertex(mesh.view());
+  Bench bench(mesh.view());
+  const auto vertices = static_cast<double>(bench.index().vertex_count());
+  const IndexBytes bytes = bench.index().bytes();
+  const auto per_vertex = [&](std::size_t part) { return static_cast<double>(part) / vertices; };
+  std::printf("%s: %.0f vertices, build %.2f us a vertex, %.2f bytes a vertex", name.c_str(), vertices, build_time,
+              per_vertex(bytes.total()));
+  std::printf(" (positions %.2f, permutation %.2f, graph %.2f, tree %.2f)\n\n", per_vertex(bytes.positions),
+              per_vertex(bytes.permutation), per_vertex(bytes.graph), per_vertex(bytes.tree));
+  std::printf("| | r (edges) | k | BFS us | BFS reordered | ids | count | ranges | x ids / ranges / count |\n");
+  std::printf("|--|--|--|--|--|--|--|--|--|\n");
+  if (radii.empty()) radii = {2, 3, 5, 10, 20, 40, 65, 90};
+  for (const bool warm : {false, true}) {
+    for (const double edges : radii) bench.row(edges, warm);
+  }
+}
+
+}  // namespace
+}  // namespace meshhood::bench
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: exact_speed MESH [RADIUS...]\n");
+    return 2;
+  }
+  try {
+    std::vector<double> radii;
+    for (int i = 2; i < argc; ++i) radii.push_back(std::stod(argv[i]));
+    meshhood::bench::run(argv[1], std::move(radii));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "exact_speed: %s\n", error.what());
+    return 1;
+  }
+}

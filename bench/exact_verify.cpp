@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Exact answers against the reference, vertex by vertex: the work of tools/verify.
+// Usage: exact_verify MESH STEP RADIUS...; every STEP-th vertex, radii in mean edges ("inf" allowed). Also at each
+// vertex the distance to one random vertex of the answer, and its two neighbouring numbers.
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "meshhood/index.h"
+#include "meshhood/meshhood.h"
+#include "meshhood/search.h"
+
+#include "exact_mesh.h"
+
+namespace meshhood::bench {
+namespace {
+
+class Verify {
+ public:
+  explicit Verify(const MeshView& mesh)
+      : mesh_(mesh), reference_(mesh), index_(build(mesh)), searcher_(index_), stamp_(index_.vertex_count()) {}
+
+  void run(std::size_t step, const std::vector<double>& edges) {
+    const double mean_edge = mean_edge_length({mesh_.positions, reference_.adjacency()});
+    for (std::size_t v = 0; v < index_.vertex_count(); v += step) {
+      for (const double radius : edges) query(static_cast<VertexId>(v), radius * mean_edge);
+      query_ties(static_cast<VertexId>(v));
+    }
+  }
+
+  [[nodiscard]] std::size_t queries() const { return queries_; }
+  [[nodiscard]] std::size_t differences() const { return differences_; }
+
+ private:
+  void query(VertexId v, double radius) {
+    reference_.neighborhood(v, radius, expected_);
+    searcher_.neighborhood(v, radius, found_);
+    ++queries_;
+    if (same_set()) return;
+    if (++differences_ <= 5) {
+      std::fprintf(stderr, "vertex %u, radius %.17g: %zu vertices, expected %zu\n", static_cast<unsigned>(v), radius,
+                   found_.size(), expected_.size());
+    }
+  }
+
+  /// At the distance of a vertex of the last answer, which then just counts.
+  void query_ties(VertexId v) {
+    const double tie = distance(mesh_.positions, v, expected_[random_() % expected_.size()]);
+    for (const double radius :
+         {std::nextafter(tie, 0.0), tie, std::nextafter(tie, std::numeric_limits<double>::max())}) {
+      query(v, radius);
+    }
+  }
+
+  bool same_set() {
+    ++round_;
+    for (const VertexId w : expected_) stamp_[w] = round_;
+    for (const VertexId w : found_) {
+      if (stamp_[w] != round_) return false;
+      stamp_[w] = 0;  // so that it is not found twice
+    }
+    return found_.size() == expected_.size();
+  }
+
+  MeshView mesh_;
+  ReferenceSearcher reference_;
+  Index index_;
+  Searcher searcher_;
+  std::vector<std::uint64_t> stamp_;
+  std::uint64_t round_ = 0;
+  std::vector<VertexId> expected_;
+  std::vector<VertexId> found_;
+  std::mt19937_64 random_{1};
+  std::size_t queries_ = 0;
+  std::size_t differences_ = 0;
+};
+
+int run(const std::string& name, std::size_t step, const std::vector<double>& edges) {
+  const MeshArgument mesh(name);
+  if (mesh.view().positions.size() == 0) return 0;
+  Verify verify(mesh.view());
+  verify.run(step, edges);
+  std::printf("%s: %zu queries, %zu differences\n", name.substr(name.find_last_of('/') + 1).c_str(), verify.queries(),
+              verify.differences());
+  return verify.differences() == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace meshhood::bench
+
+int main(int argc, char** argv) {
+  if (argc < 4) {
+    std::fprintf(stderr, "usage: exact_verify MESH STEP RADIUS...\n");
+    return 2;
+  }
+  try {
+    std::vector<double> edges;
+    for (int i = 3; i < argc; ++i) edges.push_back(std::stod(argv[i]));
+    return meshhood::bench::run(argv[1], std::stoul(argv[2]), edges);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "exact_verify: %s: %s\n", argv[1], error.what());
+    return 1;
+  }
+}

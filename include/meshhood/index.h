@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "meshhood/adjacency.h"
+#include "meshhood/mesh.h"
+
+namespace meshhood {
+
+/// How an index is built. The answers do not depend on it.
+struct BuildOptions {};
+
+/// Memory of an index by part, in bytes.
+struct IndexBytes {
+  std::size_t positions = 0;    ///< its copy of them
+  std::size_t permutation = 0;  ///< from the caller's numbering to its own, and back
+  std::size_t graph = 0;        ///< the edges of the mesh
+  std::size_t tree = 0;         ///< leaves, bounding spheres and columns
+
+  [[nodiscard]] std::size_t total() const { return positions + permutation + graph + tree; }
+};
+
+struct IndexStorage;
+
+/// What exact neighborhoods are searched with: the mesh in an order in which near vertices lie close together, cut into
+/// connected leaves of up to 32 vertices, and a tree of bounding spheres over them. Immutable: any number of threads
+/// may query it, each with its own `Searcher`. It keeps a copy of the positions and does not refer to the mesh.
+class Index {
+ public:
+  Index(Index&&) noexcept;
+  Index& operator=(Index&&) noexcept;
+  ~Index();
+
+  /// #V.
+  [[nodiscard]] std::size_t vertex_count() const;
+
+  [[nodiscard]] IndexBytes bytes() const;
+
+  /// The vertices in index order. #V; lives as long as the index.
+  [[nodiscard]] std::span<const VertexId> permutation() const;
+
+  /// Verifies the index against the mesh it was built from and returns what does not hold, one line each that names
+  /// leaf or node, at most sixteen. Empty means that all hold:
+  ///  - leaves hold each vertex once, and the numberings agree;
+  ///  - positions and edges are those of the mesh, and leaves marked connected are;
+  ///  - each sphere encloses its vertices;
+  ///  - from outside a column, tried from a number of vertices, no vertex is a local minimum of the distance.
+  ///
+  /// Throws Error{InvalidMesh} where `mesh` is no mesh. O((#V + #E) log #V).
+  [[nodiscard]] std::vector<std::string> check(const MeshView& mesh) const;
+  [[nodiscard]] std::vector<std::string> check(const GraphView& graph) const;
+
+ private:
+  friend struct IndexAccess;
+
+  explicit Index(std::unique_ptr<const IndexStorage> storage);
+  std::unique_ptr<const IndexStorage> storage_;
+};
+
+/// Computes the index. The same mesh gives the same index.
+///
+/// mesh    any polygonal mesh (see `validate`); borrowed for the call.
+/// Throws Error{InvalidMesh, TooLarge}. O(#V log #V + #E).
+[[nodiscard]] Index build(const MeshView& mesh, const BuildOptions& options = {});
+[[nodiscard]] Index build(const GraphView& graph, const BuildOptions& options = {});
+
+}  // namespace meshhood

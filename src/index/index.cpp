@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "meshhood/index.h"
+
+#include <utility>
+
+#include "index/layout.h"
+
+namespace meshhood {
+namespace {
+
+template <class T>
+std::size_t bytes_of(const std::vector<T>& values) {
+  return values.capacity() * sizeof(T);
+}
+
+}  // namespace
+
+Index::Index(std::unique_ptr<const IndexStorage> storage) : storage_(std::move(storage)) {}
+Index::Index(Index&&) noexcept = default;
+Index& Index::operator=(Index&&) noexcept = default;
+Index::~Index() = default;
+
+std::size_t Index::vertex_count() const { return storage_->vertex_count(); }
+
+std::span<const VertexId> Index::permutation() const {
+  return std::span(storage_->permutation).first(storage_->vertex_count());
+}
+
+IndexBytes Index::bytes() const {
+  IndexBytes result;
+  result.positions = std::visit([](const auto& values) { return bytes_of(values); }, storage_->positions);
+  result.permutation = bytes_of(storage_->permutation) + bytes_of(storage_->place);
+  result.graph = bytes_of(storage_->adjacency) + bytes_of(storage_->links) + bytes_of(storage_->crossings);
+  result.tree = bytes_of(storage_->leaves) + bytes_of(storage_->leaf_begin);
+  for (const auto& level : storage_->tree) result.tree += bytes_of(level.groups);
+  return result;
+}
+
+}  // namespace meshhood

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "meshhood/adjacency.h"
+
+#include "index/frame.h"
+
+namespace meshhood {
+
+/// Which vertices make up a leaf, and the order of the leaves and of their vertices.
+struct LeafPartition {
+  std::vector<std::uint32_t> place;   // by the caller's vertex: 32 times its leaf, plus its lane
+  std::vector<VertexId> permutation;  // in index order: the caller's vertex
+  std::vector<VertexId> leaf_begin;   // by leaf, and one more
+};
+
+/// Cuts the vertices into leaves of at most 32 that lie close together and, wherever the mesh allows it without leaves
+/// of a few vertices, are connected. Eight, sixty-four, ... consecutive leaves lie close together again.
+/// The graph is valid. O(#V log #V + #E).
+[[nodiscard]] LeafPartition make_leaves(const GraphView& graph, const Frame& frame);
+
+}  // namespace meshhood

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "index/tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sphere.h"
+
+namespace meshhood {
+namespace {
+
+// What floats may lose: the roundings of a vertex, of the query and of a centre in the frame, 2^-24.2 each; and those
+// of the comparison, some 2^-22 of the radius.
+constexpr double kRelativeRoom = 0x1p-20;
+constexpr double kAbsoluteRoom = 0x1p-22;
+constexpr double kColumnRoom = 0x1p-20;
+
+// Farther than any vertex, and its square still a float.
+constexpr float kFarAway = 1e18F;
+
+float round_up(double value) {
+  return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
+}
+
+std::vector<float> as_floats(std::span<const Point> points) {
+  std::vector<float> xyz;
+  xyz.reserve(3 * points.size());
+  for (const Point& p : points) {
+    xyz.push_back(static_cast<float>(p.x));
+    xyz.push_back(static_cast<float>(p.y));
+    xyz.push_back(static_cast<float>(p.z));
+  }
+  return xyz;
+}
+
+Point smallest_sphere_centre(std::span<const Point> points) {
+  const std::vector<float> xyz = as_floats(points);
+  const Sphere<float> sphere = bounding_sphere(std::span<const float>(xyz));
+  return centre_of(sphere);
+}
+
+/// The eight nodes from `begin` on, side by side.
+Group make_group(const NodeList& level, std::size_t begin) {
+  Group group;
+  for (std::size_t i = 0; i < kFanOut; ++i) {
+    const bool exists = begin + i < level.bounds.size();
+    const FrameSphere bounds = exists ? level.bounds[begin + i] : FrameSphere{kFarAway, kFarAway, kFarAway, 0};
+    const Column column = exists ? level.columns[begin + i] : Column{{0, 0, 0}, 0};
+    group.x[i] = bounds.x;
+    group.y[i] = bounds.y;
+    group.z[i] = bounds.z;
+    group.radius[i] = bounds.radius;
+    group.axis_x[i] = static_cast<float>(column.axis.x);
+    group.axis_y[i] = static_cast<float>(column.axis.y);
+    group.axis_z[i] = static_cast<float>(column.axis.z);
+    group.reach[i] = round_up(column.reach + kColumnRoom);
+  }
+  return group;
+}
+
+TreeLevel make_level(const NodeList& nodes) {
+  TreeLevel level;
+  level.nodes = nodes.bounds.size();
+  level.groups.reserve((level.nodes + kFanOut - 1) / kFanOut);
+  double radii = 0;
+  for (std::size_t begin = 0; begin < level.nodes; begin += kFanOut) level.groups.push_back(make_group(nodes, begin));
+  for (const FrameSphere& bounds : nodes.bounds) radii += static_cast<double>(bounds.radius);
+  level.mean_radius = radii / static_cast<double>(level.nodes);
+  return level;
+}
+
+/// The nodes above those of `level`; each of the latter covers `leaves` leaves.
+NodeList make_parents(const NodeList& level, std::size_t leaves, std::span<const VertexId> leaf_begin,
+                      std::span<const Point> points) {
+  NodeList parents;
+  const std::size_t leaf_count = leaf_begin.size() - 1;
+  for (std::size_t begin = 0; begin < level.bounds.size(); begin += kFanOut) {
+    const std::size_t end = std::min(begin + kFanOut, level.bounds.size());
+    std::vector<Point> centres;
+    for (std::size_t i = begin; i < end; ++i) centres.push_back(centre_of(level.bounds[i]));
+    const std::size_t first = leaf_begin[begin * leaves];
+    const std::size_t last = leaf_begin[std::min(end * leaves, leaf_count)];
+    parents.bounds.push_back(enclosing_sphere(points.subspan(first, last - first), smallest_sphere_centre(centres)));
+    parents.columns.push_back(enclosing_column(std::span(level.columns).subspan(begin, end - begin), centres,
+                                               centre_of(parents.bounds.back())));
+  }
+  return parents;
+}
+
+}  // namespace
+
+FrameSphere enclosing_sphere(std::span<const Point> points, const Point& centre) {
+  FrameSphere sphere{static_cast<float>(centre.x), static_cast<float>(centre.y), static_cast<float>(centre.z), 0};
+  const Point rounded = centre_of(sphere);
+  double farthest = 0;
+  for (const Point& p : points) farthest = std::max(farthest, squared_distance(p, rounded));
+  sphere.radius = round_up(std::sqrt(farthest) * (1 + kRelativeRoom) + kAbsoluteRoom);
+  return sphere;
+}
+
+FrameSphere enclosing_sphere(std::span<const Point> points) {
+  return enclosing_sphere(points, smallest_sphere_centre(points));
+}
+
+Tree make_tree(NodeList level, std::span<const VertexId> leaf_begin, std::span<const Point> points) {
+  Tree tree;
+  if (level.bounds.empty()) return tree;
+  tree.push_back(make_level(level));
+  for (std::size_t leaves = 1; tree.back().groups.size() > 1; leaves *= kFanOut) {
+    level = make_parents(level, leaves, leaf_begin, points);
+    tree.push_back(make_level(level));
+  }
+  return tree;
+}
+
+}  // namespace meshhood

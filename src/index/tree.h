@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "index/column.h"
+#include "index/layout.h"
+
+namespace meshhood {
+
+/// The nodes of one level.
+struct NodeList {
+  std::vector<FrameSphere> bounds;
+  std::vector<Column> columns;
+};
+
+/// The tree over the leaves. `points`: the vertices in index order, in the frame. O(#V log #V).
+[[nodiscard]] Tree make_tree(NodeList leaves, std::span<const VertexId> leaf_begin, std::span<const Point> points);
+
+/// A sphere around `points`, with the room that comparing it with a ball in single precision needs (see kernels.h).
+[[nodiscard]] FrameSphere enclosing_sphere(std::span<const Point> points, const Point& centre);
+
+/// The smallest of them, nearly.
+[[nodiscard]] FrameSphere enclosing_sphere(std::span<const Point> points);
+
+[[nodiscard]] inline Point centre_of(const FrameSphere& sphere) {
+  return {static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
+}
+
+}  // namespace meshhood

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "search/descent.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "search/lane_list.h"
+
+namespace meshhood {
+namespace {
+
+/// The nodes of `group` that exist.
+std::uint8_t existing(const TreeLevel& level, std::uint32_t group) {
+  const std::size_t left = level.nodes - std::size_t{group} * kFanOut;
+  return static_cast<std::uint8_t>(left >= kFanOut ? 0xFFU : (1U << left) - 1);
+}
+
+/// More straddling nodes than a sheet of surface has where a ball of this size cuts it, with room for a curved one.
+std::size_t most_straddling(double ball_radius, double mean_radius) {
+  return 12 + static_cast<std::size_t>(std::min(14 * ball_radius / mean_radius, 1e9));
+}
+
+}  // namespace
+
+void NodeQueue::make_room(std::size_t groups) {
+  const std::size_t needed = size_ + (groups + 1) * kFanOut;
+  if (nodes_.size() < needed) nodes_.resize(2 * needed);
+}
+
+void NodeQueue::append(std::uint32_t group, std::uint8_t set) {
+  // All eight are written, and those not in the set overwritten by what comes next: no jump to be foretold.
+  std::uint32_t* out = nodes_.data() + size_;
+  for (std::size_t i = 0; i < kFanOut; ++i) out[i] = group * kFanOut + kLaneLists[set][i];
+  size_ += static_cast<std::size_t>(__builtin_popcount(set));
+}
+
+bool Descent::run(const TreeBall& ball, std::vector<VertexRange>& runs) {
+  straddling_.clear();
+  doubtful_.clear();
+  straddling_.make_room(1);
+  straddling_.append(0, 1);  // the one group of the last level
+  for (std::size_t level = index_->tree.size(); level-- > 0;) {
+    refine_doubtful(level, ball);
+    refine_straddling(level, ball);
+    append_inside(level, runs);
+    const double mean_radius = index_->tree[level].mean_radius;
+    if (straddling_.size() > most_straddling(static_cast<double>(ball.outer), mean_radius)) return false;
+  }
+  return true;
+}
+
+void Descent::place_groups(std::size_t level, std::span<const std::uint32_t> groups, const TreeBall& ball) {
+  if (placements_.size() < groups.size()) placements_.resize(2 * groups.size());
+  kernels_->place(index_->tree[level].groups.data(), groups, ball, placements_.data());
+}
+
+/// From the doubtful nodes of the level above to their doubtful children: all are inside.
+void Descent::refine_doubtful(std::size_t level, const TreeBall& ball) {
+  std::swap(groups_, doubtful_);
+  doubtful_.clear();
+  doubtful_.make_room(groups_.size());
+  place_groups(level, groups_.nodes(), ball);
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    const std::uint32_t group = groups_.nodes()[i];
+    doubtful_.append(group, placements_[i].doubtful & existing(index_->tree[level], group));
+  }
+}
+
+/// From the straddling nodes of the level above to their children.
+void Descent::refine_straddling(std::size_t level, const TreeBall& ball) {
+  std::swap(groups_, straddling_);
+  straddling_.clear();
+  inside_.clear();
+  straddling_.make_room(groups_.size());
+  inside_.make_room(groups_.size());
+  doubtful_.make_room(groups_.size());
+  place_groups(level, groups_.nodes(), ball);
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    const std::uint32_t group = groups_.nodes()[i];
+    const Placements& found = placements_[i];
+    const std::uint8_t exist = existing(index_->tree[level], group);
+    const std::uint8_t known = level == 0 ? found.inside | found.straddling : found.inside;
+    straddling_.append(group, found.straddling & exist);
+    inside_.append(group, found.inside & exist);
+    doubtful_.append(group, found.doubtful & known & exist);
+  }
+}
+
+void Descent::append_inside(std::size_t level, std::vector<VertexRange>& runs) const {
+  const std::size_t leaves = index_->leaf_count();
+  for (const std::uint32_t node : inside_.nodes()) {
+    const std::size_t first = std::size_t{node} << 3 * level;
+    const std::size_t last = std::min(std::size_t{node + 1} << 3 * level, leaves);
+    runs.push_back({index_->leaf_begin[first], index_->leaf_begin[last]});
+  }
+}
+
+}  // namespace meshhood

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "search/output.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "prefetch.h"
+
+namespace meshhood {
+namespace {
+
+constexpr std::size_t kAhead = 4;
+constexpr std::size_t kIdsPerLine = 64 / sizeof(VertexId);
+
+void fetch_ids(const VertexId* first, std::size_t count) {
+  // What follows in a long run, the processor fetches by itself.
+  for (std::size_t i = 0; i < std::min(count, 4 * kIdsPerLine); i += kIdsPerLine) prefetch(first + i);
+}
+
+VertexId* copy_runs(const Answer& answer, const VertexId* permutation, VertexId* out) {
+  for (std::size_t i = 0; i < answer.runs.size(); ++i) {
+    if (i + kAhead < answer.runs.size()) {
+      const VertexRange next = answer.runs[i + kAhead];
+      fetch_ids(permutation + next.begin, std::size_t{next.end} - next.begin);
+    }
+    const VertexRange run = answer.runs[i];
+    out = std::copy(permutation + run.begin, permutation + run.end, out);
+  }
+  return out;
+}
+
+VertexId* copy_parts(const Answer& answer, const IndexStorage& index, const Kernels& kernels, VertexId* out) {
+  const VertexId* permutation = index.permutation.data();
+  for (std::size_t i = 0; i < answer.parts.size(); ++i) {
+    if (i + kAhead < answer.parts.size()) {
+      fetch_ids(permutation + index.leaf_begin[answer.parts[i + kAhead].leaf], kLeafCapacity);
+    }
+    const PartialLeaf& part = answer.parts[i];
+    out = kernels.append(permutation + index.leaf_begin[part.leaf], part.lanes, out);
+  }
+  return out;
+}
+
+/// The distances of those vertices of a leaf that are in `lanes`.
+template <class Real>
+double* write_leaf(const IndexStorage& index, const std::vector<Real>& positions, LeafId leaf, Lanes lanes,
+                   const Point& centre, double* out) {
+  const std::size_t first = index.leaf_begin[leaf];
+  const std::size_t size = index.leaf_begin[leaf + 1] - first;
+  const Real* x = positions.data() + 3 * first;
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const Real* p = x + std::countr_zero(lanes);
+    const Point at{static_cast<double>(p[0]), static_cast<double>(p[size]), static_cast<double>(p[2 * size])};
+    *out++ = std::sqrt(squared_distance(at, centre));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::size_t count(const Answer& answer) {
+  std::size_t result = 0;
+  for (const VertexRange& run : answer.runs) result += std::size_t{run.end} - run.begin;
+  for (const PartialLeaf& part : answer.parts) result += static_cast<std::size_t>(std::popcount(part.lanes));
+  return result;
+}
+
+void write_ids(const Answer& answer, const IndexStorage& index, const Kernels& kernels, std::vector<VertexId>& out) {
+  const std::size_t size = count(answer);
+  // Room for what is written beyond the end.
+  out.resize(size + kLeafCapacity);
+  VertexId* end = copy_runs(answer, index.permutation.data(), out.data());
+  copy_parts(answer, index, kernels, end);
+  out.resize(size);
+}
+
+void write_distances(const Answer& answer, const IndexStorage& index, const Point& centre, std::vector<double>& out) {
+  out.resize(count(answer));
+  std::visit(
+      [&](const auto& positions) {
+        double* end = out.data();
+        for (const VertexRange& run : answer.runs) {
+          for (LeafId leaf = index.place[index.permutation[run.begin]] / kLeafCapacity;
+               index.leaf_begin[leaf] < run.end; ++leaf) {
+            const auto size = static_cast<unsigned>(index.leaf_begin[leaf + 1] - index.leaf_begin[leaf]);
+            end = write_leaf(index, positions, leaf, first_lanes(size), centre, end);
+          }
+        }
+        for (const PartialLeaf& part : answer.parts) {
+          end = write_leaf(index, positions, part.leaf, part.lanes, centre, end);
+        }
+      },
+      index.positions);
+}
+
+void append_parts_as_runs(const IndexStorage& index, Answer& answer) {
+  for (const PartialLeaf& part : answer.parts) {
+    const VertexId first = index.leaf_begin[part.leaf];
+    for (std::uint64_t left = part.lanes; left != 0;) {
+      const auto begin = static_cast<unsigned>(std::countr_zero(left));
+      const auto end = begin + static_cast<unsigned>(std::countr_one(left >> begin));
+      answer.runs.push_back({static_cast<VertexId>(first + begin), static_cast<VertexId>(first + end)});
+      left = left >> end << end;
+    }
+  }
+  answer.parts.clear();
+}
+
+}  // namespace meshhood

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "meshhood/search.h"
+
+#include "distance.h"
+#include "index/index_access.h"
+#include "search/output.h"
+#include "search/searcher_state.h"
+
+namespace meshhood {
+
+Point Searcher::State::search(VertexId v, double radius) {
+  check_query(v, index->vertex_count(), radius);
+  const std::uint32_t place = index->place[v];
+  const Point centre = index->position(place / kLeafCapacity, place % kLeafCapacity);
+  const LeafBall ball(centre, radius);
+  const TreeBall tree_ball(index->frame, centre, radius);
+  answer.clear();
+  proved = cover.run(place, ball, tree_ball, answer);
+  if (!proved) flood.run(place, ball, tree_ball, answer);
+  return centre;
+}
+
+Searcher::Searcher(const Index& index) : state_(std::make_unique<State>(IndexAccess::storage(index), best_isa())) {}
+Searcher::Searcher(Searcher&&) noexcept = default;
+Searcher& Searcher::operator=(Searcher&&) noexcept = default;
+Searcher::~Searcher() = default;
+
+void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
+  state_->search(v, radius);
+  write_ids(state_->answer, *state_->index, *state_->kernels, out);
+}
+
+void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
+  const Point centre = state_->search(v, radius);
+  write_ids(state_->answer, *state_->index, *state_->kernels, out);
+  write_distances(state_->answer, *state_->index, centre, distances);
+}
+
+std::span<const VertexRange> Searcher::ranges(VertexId v, double radius) {
+  state_->search(v, radius);
+  append_parts_as_runs(*state_->index, state_->answer);
+  return state_->answer.runs;
+}
+
+std::size_t Searcher::count(VertexId v, double radius) {
+  state_->search(v, radius);
+  return meshhood::count(state_->answer);
+}
+
+}  // namespace meshhood

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "meshhood/search.h"
+
+#include "index/layout.h"
+#include "search/answer.h"
+#include "search/cover.h"
+#include "search/flood.h"
+#include "search/simd.h"
+
+namespace meshhood {
+
+struct Searcher::State {
+  const IndexStorage* index;
+  const Kernels* kernels;
+  Cover cover;
+  Flood flood;
+  Answer answer;
+  bool proved = false;  // the last answer: by the cover, not by the flood
+
+  State(const IndexStorage& storage, Isa isa)
+      : index(&storage), kernels(&meshhood::kernels(isa)), cover(storage, *kernels), flood(storage, *kernels) {}
+
+  /// Leaves the neighborhood in `answer` and returns where `v` is.
+  Point search(VertexId v, double radius);
+};
+
+/// The door to what a searcher is made of, for tests that force what is rare.
+struct SearcherAccess {
+  static Searcher::State& state(Searcher& searcher) { return *searcher.state_; }
+  static void set_isa(Searcher& searcher, Isa isa) {
+    searcher.state_ = std::make_unique<Searcher::State>(*searcher.state_->index, isa);
+  }
+};
+
+}  // namespace meshhood

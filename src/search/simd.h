@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "meshhood/mesh.h"
+
+#include "distance.h"
+#include "index/layout.h"
+
+/// All that is written for particular processors. Each function does the same on each, bit for bit.
+namespace meshhood {
+
+enum class Isa : std::uint8_t { Portable, Avx2, Avx512 };
+
+/// The best that this processor has.
+[[nodiscard]] Isa best_isa();
+
+/// A search ball, prepared for comparing whole leaves.
+struct LeafBall {
+  Point centre;
+  double squared_radius;  // of the predicate
+  // For float positions: a squared distance computed in float is decided by these, or by the predicate in between.
+  float x;
+  float y;
+  float z;
+  float surely_inside;   // <=
+  float surely_outside;  // >
+
+  LeafBall(const Point& centre, double radius);
+};
+
+/// A search ball in the frame, prepared for comparing bounding spheres and columns.
+struct TreeBall {
+  float x;
+  float y;
+  float z;
+  float outer;  // no vertex farther than this is in the ball
+  float inner;  // every vertex not farther is
+
+  TreeBall(const Frame& frame, const Point& centre, double radius);
+};
+
+/// How the nodes of a group lie to a ball, a bit a node. A node may be neither inside nor straddling: then it is
+/// outside.
+struct Placements {
+  std::uint8_t inside;
+  std::uint8_t straddling;
+  std::uint8_t doubtful;  // the ball's centre stands in the column of the node, or may
+};
+
+/// A single node against the ball, as `Kernels::place` does it.
+[[nodiscard]] Placement place(const FrameSphere& sphere, const TreeBall& ball);
+
+struct Kernels {
+  /// Which of the `size` vertices of a leaf at `xyz` (see IndexStorage::positions) are in the ball.
+  Lanes (*within_float)(const float* xyz, std::size_t size, const LeafBall& ball);
+  Lanes (*within_double)(const double* xyz, std::size_t size, const LeafBall& ball);
+
+  /// The other ends of those of the first `count` crossings that begin in `from`. Reads as far as 31 more.
+  Lanes (*cross)(const Crossing* crossings, std::size_t count, Lanes from);
+
+  /// Places the groups `list` of `groups`.
+  void (*place)(const Group* groups, std::span<const std::uint32_t> list, const TreeBall& ball, Placements* out);
+
+  /// Writes those of the 32 `ids` whose lane is set, and returns where they end. May write up to 32 behind that.
+  VertexId* (*append)(const VertexId* ids, Lanes lanes, VertexId* out);
+
+  [[nodiscard]] Lanes within(const float* xyz, std::size_t size, const LeafBall& ball) const {
+    return within_float(xyz, size, ball);
+  }
+  [[nodiscard]] Lanes within(const double* xyz, std::size_t size, const LeafBall& ball) const {
+    return within_double(xyz, size, ball);
+  }
+};
+
+/// Those for `isa`, which the processor must have.
+[[nodiscard]] const Kernels& kernels(Isa isa);
+
+/// How much nearer than its reach a column begins to the square of a distance, for rounding in single precision.
+inline constexpr float kColumnMargin = 1 - 0x1p-18F;
+
+const Kernels& portable_kernels();
+#if defined(__x86_64__) && !defined(MESHHOOD_NARROW_IDS)
+#define MESHHOOD_HAS_X86 1
+const Kernels& avx2_kernels();
+const Kernels& avx512_kernels();
+#endif
+
+}  // namespace meshhood

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "search/lane_list.h"
+#include "search/simd.h"
+
+#if defined(MESHHOOD_HAS_X86)
+#include <bit>
+
+#include <immintrin.h>
+
+#define MESHHOOD_AVX2 __attribute__((target("avx2")))
+
+namespace meshhood {
+namespace {
+
+MESHHOOD_AVX2 inline __m256d load4(const float* values) { return _mm256_cvtps_pd(_mm_loadu_ps(values)); }
+MESHHOOD_AVX2 inline __m256d load4(const double* values) { return _mm256_loadu_pd(values); }
+
+/// The predicate on four vertices.
+template <class Real>
+MESHHOOD_AVX2 inline Lanes within4(const Real* x, const Real* y, const Real* z, const LeafBall& ball) {
+  const __m256d dx = _mm256_sub_pd(load4(x), _mm256_set1_pd(ball.centre.x));
+  const __m256d dy = _mm256_sub_pd(load4(y), _mm256_set1_pd(ball.centre.y));
+  const __m256d dz = _mm256_sub_pd(load4(z), _mm256_set1_pd(ball.centre.z));
+  const __m256d square =
+      _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(dx, dx), _mm256_mul_pd(dy, dy)), _mm256_mul_pd(dz, dz));
+  return static_cast<Lanes>(_mm256_movemask_pd(_mm256_cmp_pd(square, _mm256_set1_pd(ball.squared_radius), _CMP_LE_OQ)));
+}
+
+template <class Real>
+MESHHOOD_AVX2 Lanes within_exact(const Real* xyz, std::size_t size, const LeafBall& ball) {
+  Lanes result = 0;
+  for (std::size_t i = 0; i < size; i += 4) {
+    result |= within4(xyz + i, xyz + size + i, xyz + 2 * size + i, ball) << i;
+  }
+  return result & first_lanes(static_cast<unsigned>(size));
+}
+
+MESHHOOD_AVX2 inline __m256 square8(const float* x, const float* y, const float* z, const LeafBall& ball) {
+  const __m256 dx = _mm256_sub_ps(_mm256_loadu_ps(x), _mm256_set1_ps(ball.x));
+  const __m256 dy = _mm256_sub_ps(_mm256_loadu_ps(y), _mm256_set1_ps(ball.y));
+  const __m256 dz = _mm256_sub_ps(_mm256_loadu_ps(z), _mm256_set1_ps(ball.z));
+  return _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(dx, dx), _mm256_mul_ps(dy, dy)), _mm256_mul_ps(dz, dz));
+}
+
+MESHHOOD_AVX2 Lanes within_float(const float* xyz, std::size_t size, const LeafBall& ball) {
+  const __m256 inner = _mm256_set1_ps(ball.surely_inside);
+  const __m256 outer = _mm256_set1_ps(ball.surely_outside);
+  Lanes inside = 0;
+  Lanes outside = 0;
+  for (std::size_t i = 0; i < kLeafCapacity; i += 8) {
+    const __m256 square = square8(xyz + i, xyz + size + i, xyz + 2 * size + i, ball);
+    inside |= static_cast<Lanes>(_mm256_movemask_ps(_mm256_cmp_ps(square, inner, _CMP_LE_OQ))) << i;
+    outside |= static_cast<Lanes>(_mm256_movemask_ps(_mm256_cmp_ps(square, outer, _CMP_GT_OQ))) << i;
+  }
+  const Lanes all = first_lanes(static_cast<unsigned>(size));
+  if (((inside | outside) & all) != all) [[unlikely]] {
+    return within_exact(xyz, size, ball);
+  }
+  return inside & all;
+}
+
+MESHHOOD_AVX2 Lanes cross(const Crossing* crossings, std::size_t count, Lanes from) {
+  const __m256i one = _mm256_set1_epi32(1);
+  const __m256i source = _mm256_set1_epi32(static_cast<int>(from));
+  __m256i result = _mm256_setzero_si256();
+  for (std::size_t i = 0; i < count; i += 8) {
+    const __m256i pairs = _mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(crossings + i)));
+    const __m256i mine = _mm256_and_si256(pairs, _mm256_set1_epi32(31));
+    const __m256i rank = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    const __m256i live = _mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(count - i)), rank);
+    const __m256i begins = _mm256_and_si256(_mm256_and_si256(_mm256_srlv_epi32(source, mine), one), live);
+    result = _mm256_or_si256(result, _mm256_sllv_epi32(begins, _mm256_srli_epi32(pairs, 8)));
+  }
+  const __m128i half = _mm_or_si128(_mm256_castsi256_si128(result), _mm256_extracti128_si256(result, 1));
+  const __m128i pair = _mm_or_si128(half, _mm_shuffle_epi32(half, 0x4E));
+  return static_cast<Lanes>(_mm_cvtsi128_si32(_mm_or_si128(pair, _mm_shuffle_epi32(pair, 0xB1))));
+}
+
+MESHHOOD_AVX2 inline unsigned bits(__m256 mask) { return static_cast<unsigned>(_mm256_movemask_ps(mask)); }
+
+MESHHOOD_AVX2 inline Placements place_group(const Group& group, const TreeBall& ball) {
+  const __m256 x = _mm256_sub_ps(_mm256_set1_ps(ball.x), _mm256_load_ps(group.x.data()));
+  const __m256 y = _mm256_sub_ps(_mm256_set1_ps(ball.y), _mm256_load_ps(group.y.data()));
+  const __m256 z = _mm256_sub_ps(_mm256_set1_ps(ball.z), _mm256_load_ps(group.z.data()));
+  const __m256 square = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x, x), _mm256_mul_ps(y, y)), _mm256_mul_ps(z, z));
+  const __m256 radius = _mm256_load_ps(group.radius.data());
+  const __m256 far = _mm256_add_ps(_mm256_set1_ps(ball.outer), radius);
+  const __m256 near = _mm256_max_ps(_mm256_sub_ps(_mm256_set1_ps(ball.inner), radius), _mm256_setzero_ps());
+  const unsigned outside = bits(_mm256_cmp_ps(square, _mm256_mul_ps(far, far), _CMP_GT_OQ));
+  const unsigned inside = bits(_mm256_cmp_ps(square, _mm256_mul_ps(near, near), _CMP_LT_OQ));
+  const __m256 height = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x, _mm256_load_ps(group.axis_x.data())),
+                                                    _mm256_mul_ps(y, _mm256_load_ps(group.axis_y.data()))),
+                                      _mm256_mul_ps(z, _mm256_load_ps(group.axis_z.data())));
+  const __m256 reach =
+      _mm256_add_ps(_mm256_load_ps(group.reach.data()), _mm256_andnot_ps(_mm256_set1_ps(-0.0F), height));
+  const unsigned clear = bits(
+      _mm256_cmp_ps(_mm256_mul_ps(square, _mm256_set1_ps(kColumnMargin)), _mm256_mul_ps(reach, reach), _CMP_GT_OQ));
+  return {static_cast<std::uint8_t>(inside), static_cast<std::uint8_t>(~(outside | inside)),
+          static_cast<std::uint8_t>(~clear)};
+}
+
+MESHHOOD_AVX2 void place(const Group* groups, std::span<const std::uint32_t> list, const TreeBall& ball,
+                         Placements* out) {
+  constexpr std::size_t kAhead = 4;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (i + kAhead < list.size()) {
+      const auto* next = reinterpret_cast<const char*>(groups + list[i + kAhead]);
+      for (std::size_t line = 0; line < sizeof(Group); line += 64) _mm_prefetch(next + line, _MM_HINT_T0);
+    }
+    out[i] = place_group(groups[list[i]], ball);
+  }
+}
+
+MESHHOOD_AVX2 VertexId* append(const VertexId* ids, Lanes lanes, VertexId* out) {
+  for (std::size_t i = 0; i < kLeafCapacity; i += 8) {
+    const unsigned set = lanes >> i & 0xFFU;
+    const auto* list = reinterpret_cast<const __m128i*>(kLaneLists[set].data());
+    const __m256i order = _mm256_cvtepu8_epi32(_mm_loadl_epi64(list));
+    const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids + i));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), _mm256_permutevar8x32_epi32(all, order));
+    out += std::popcount(set);
+  }
+  return out;
+}
+
+}  // namespace
+
+const Kernels& avx2_kernels() {
+  static constexpr Kernels kAll{within_float, within_exact<double>, cross, place, append};
+  return kAll;
+}
+
+}  // namespace meshhood
+#endif

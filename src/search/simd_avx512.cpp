@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "search/simd.h"
+
+#if defined(MESHHOOD_HAS_X86)
+// g++ 12 takes the values that its own intrinsics leave undefined on purpose for forgotten ones.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+
+#include <algorithm>
+#include <bit>
+
+#include <immintrin.h>
+
+#define MESHHOOD_AVX512 __attribute__((target("avx512f,avx512bw,avx512vl,avx512dq,bmi2")))
+
+namespace meshhood {
+namespace {
+
+MESHHOOD_AVX512 inline __m512d load8(const float* values) { return _mm512_cvtps_pd(_mm256_loadu_ps(values)); }
+MESHHOOD_AVX512 inline __m512d load8(const double* values) { return _mm512_loadu_pd(values); }
+
+/// The predicate on eight vertices.
+template <class Real>
+MESHHOOD_AVX512 inline Lanes within8(const Real* x, const Real* y, const Real* z, const LeafBall& ball) {
+  const __m512d dx = _mm512_sub_pd(load8(x), _mm512_set1_pd(ball.centre.x));
+  const __m512d dy = _mm512_sub_pd(load8(y), _mm512_set1_pd(ball.centre.y));
+  const __m512d dz = _mm512_sub_pd(load8(z), _mm512_set1_pd(ball.centre.z));
+  const __m512d square =
+      _mm512_add_pd(_mm512_add_pd(_mm512_mul_pd(dx, dx), _mm512_mul_pd(dy, dy)), _mm512_mul_pd(dz, dz));
+  return _mm512_cmp_pd_mask(square, _mm512_set1_pd(ball.squared_radius), _CMP_LE_OQ);
+}
+
+template <class Real>
+MESHHOOD_AVX512 Lanes within_exact(const Real* xyz, std::size_t size, const LeafBall& ball) {
+  Lanes result = 0;
+  for (std::size_t i = 0; i < size; i += 8) {
+    result |= within8(xyz + i, xyz + size + i, xyz + 2 * size + i, ball) << i;
+  }
+  return result & first_lanes(static_cast<unsigned>(size));
+}
+
+MESHHOOD_AVX512 inline __m512 square16(const float* x, const float* y, const float* z, const LeafBall& ball) {
+  const __m512 dx = _mm512_sub_ps(_mm512_loadu_ps(x), _mm512_set1_ps(ball.x));
+  const __m512 dy = _mm512_sub_ps(_mm512_loadu_ps(y), _mm512_set1_ps(ball.y));
+  const __m512 dz = _mm512_sub_ps(_mm512_loadu_ps(z), _mm512_set1_ps(ball.z));
+  return _mm512_add_ps(_mm512_add_ps(_mm512_mul_ps(dx, dx), _mm512_mul_ps(dy, dy)), _mm512_mul_ps(dz, dz));
+}
+
+MESHHOOD_AVX512 Lanes within_float(const float* xyz, std::size_t size, const LeafBall& ball) {
+  const __m512 low = square16(xyz, xyz + size, xyz + 2 * size, ball);
+  const __m512 high = square16(xyz + 16, xyz + size + 16, xyz + 2 * size + 16, ball);
+  const __m512 inner = _mm512_set1_ps(ball.surely_inside);
+  const __m512 outer = _mm512_set1_ps(ball.surely_outside);
+  const Lanes inside = _mm512_cmp_ps_mask(low, inner, _CMP_LE_OQ) | Lanes{_mm512_cmp_ps_mask(high, inner, _CMP_LE_OQ)}
+                                                                        << 16;
+  const Lanes outside = _mm512_cmp_ps_mask(low, outer, _CMP_GT_OQ) | Lanes{_mm512_cmp_ps_mask(high, outer, _CMP_GT_OQ)}
+                                                                         << 16;
+  const Lanes all = first_lanes(static_cast<unsigned>(size));
+  if (((inside | outside) & all) != all) [[unlikely]] {
+    return within_exact(xyz, size, ball);
+  }
+  return inside & all;
+}
+
+MESHHOOD_AVX512 Lanes cross(const Crossing* crossings, std::size_t count, Lanes from) {
+  const __m512i one = _mm512_set1_epi32(1);
+  const __m512i source = _mm512_set1_epi32(static_cast<int>(from));
+  __m512i result = _mm512_setzero_si512();
+  for (std::size_t i = 0; i < count; i += 16) {
+    const auto live = static_cast<__mmask16>((1U << std::min<std::size_t>(count - i, 16)) - 1);
+    const __m512i pairs = _mm512_cvtepu16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(crossings + i)));
+    const __m512i mine = _mm512_and_si512(pairs, _mm512_set1_epi32(31));
+    const __m512i begins = _mm512_and_si512(_mm512_srlv_epi32(source, mine), one);
+    result = _mm512_mask_or_epi32(result, live, result, _mm512_sllv_epi32(begins, _mm512_srli_epi32(pairs, 8)));
+  }
+  return static_cast<Lanes>(_mm512_reduce_or_epi32(result));
+}
+
+MESHHOOD_AVX512 inline Placements place_group(const Group& group, const TreeBall& ball) {
+  const __m256 x = _mm256_sub_ps(_mm256_set1_ps(ball.x), _mm256_load_ps(group.x.data()));
+  const __m256 y = _mm256_sub_ps(_mm256_set1_ps(ball.y), _mm256_load_ps(group.y.data()));
+  const __m256 z = _mm256_sub_ps(_mm256_set1_ps(ball.z), _mm256_load_ps(group.z.data()));
+  const __m256 square = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x, x), _mm256_mul_ps(y, y)), _mm256_mul_ps(z, z));
+  const __m256 radius = _mm256_load_ps(group.radius.data());
+  const __m256 far = _mm256_add_ps(_mm256_set1_ps(ball.outer), radius);
+  const __m256 near = _mm256_max_ps(_mm256_sub_ps(_mm256_set1_ps(ball.inner), radius), _mm256_setzero_ps());
+  const __mmask8 outside = _mm256_cmp_ps_mask(square, _mm256_mul_ps(far, far), _CMP_GT_OQ);
+  const __mmask8 inside = _mm256_cmp_ps_mask(square, _mm256_mul_ps(near, near), _CMP_LT_OQ);
+  const __m256 height = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x, _mm256_load_ps(group.axis_x.data())),
+                                                    _mm256_mul_ps(y, _mm256_load_ps(group.axis_y.data()))),
+                                      _mm256_mul_ps(z, _mm256_load_ps(group.axis_z.data())));
+  const __m256 reach =
+      _mm256_add_ps(_mm256_load_ps(group.reach.data()), _mm256_andnot_ps(_mm256_set1_ps(-0.0F), height));
+  const __mmask8 clear =
+      _mm256_cmp_ps_mask(_mm256_mul_ps(square, _mm256_set1_ps(kColumnMargin)), _mm256_mul_ps(reach, reach), _CMP_GT_OQ);
+  return {inside, static_cast<std::uint8_t>(~(outside | inside)), static_cast<std::uint8_t>(~clear)};
+}
+
+MESHHOOD_AVX512 void place(const Group* groups, std::span<const std::uint32_t> list, const TreeBall& ball,
+                           Placements* out) {
+  constexpr std::size_t kAhead = 4;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (i + kAhead < list.size()) {
+      const auto* next = reinterpret_cast<const char*>(groups + list[i + kAhead]);
+      for (std::size_t line = 0; line < sizeof(Group); line += 64) _mm_prefetch(next + line, _MM_HINT_T0);
+    }
+    out[i] = place_group(groups[list[i]], ball);
+  }
+}
+
+MESHHOOD_AVX512 VertexId* append(const VertexId* ids, Lanes lanes, VertexId* out) {
+  const auto low = static_cast<__mmask16>(lanes);
+  const auto high = static_cast<__mmask16>(lanes >> 16);
+  // Compressed in a register and stored whole: compressing stores are slow on some processors.
+  _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(low, _mm512_loadu_si512(ids)));
+  out += std::popcount(lanes & 0xFFFFU);
+  _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(high, _mm512_loadu_si512(ids + 16)));
+  return out + std::popcount(lanes >> 16);
+}
+
+}  // namespace
+
+const Kernels& avx512_kernels() {
+  static constexpr Kernels kAll{within_float, within_exact<double>, cross, place, append};
+  return kAll;
+}
+
+}  // namespace meshhood
+#endif

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// What the index promises of itself, and that `check` finds what is wrong: one index a statement, damaged by hand.
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <memory>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/index.h"
+
+#include "families.h"
+#include "index/index_access.h"
+#include "index/kd_order.h"
+
+namespace meshhood::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+TestMesh bumpy_grid(std::size_t side) {
+  Random random(4);
+  TestMesh mesh = make_grid(side, side, false);
+  for (double& x : mesh.positions) x += random.uniform(-0.2, 0.2);
+  return mesh.finish(true);
+}
+
+/// One above the other, so that distances have local minima.
+TestMesh two_bumpy_grids(std::size_t side) {
+  TestMesh mesh = bumpy_grid(side);
+  TestMesh upper = mesh;
+  for (std::size_t i = 2; i < upper.positions.size(); i += 3) upper.positions[i] += 3;
+  append(mesh, upper);
+  return mesh;
+}
+
+/// What `check` has to say of an index after `damage`.
+std::vector<std::string> faults_after(const std::function<void(IndexStorage&)>& damage) {
+  const TestMesh mesh = two_bumpy_grids(50);
+  const Index index = build(mesh.view());
+  auto storage = std::make_unique<IndexStorage>(IndexAccess::storage(index));
+  damage(*storage);
+  return IndexAccess::make(std::move(storage)).check(mesh.view());
+}
+
+void expect_found(const char* fault, const std::function<void(IndexStorage&)>& damage) {
+  const auto faults = faults_after(damage);
+  ASSERT_THAT(faults, Not(IsEmpty())) << "not noticed: " << fault;
+  EXPECT_THAT(faults.front(), HasSubstr(fault));
+  EXPECT_LE(faults.size(), 16U);
+}
+
+TEST(IndexCheck, FindsNothingWhereNothingIsWrong) {
+  EXPECT_THAT(faults_after([](IndexStorage&) {}), IsEmpty());
+}
+
+TEST(IndexCheck, FindsAWrongNumbering) {
+  expect_found("is not where its place says", [](IndexStorage& i) { std::swap(i.permutation[3], i.permutation[40]); });
+  expect_found("is not where its place says", [](IndexStorage& i) { i.place[100] ^= 1; });
+  expect_found("not 1 to 32 vertices", [](IndexStorage& i) { --i.leaves[2].size; });
+}
+
+TEST(IndexCheck, FindsAWrongPosition) {
+  expect_found("not the position", [](IndexStorage& i) { std::get<std::vector<float>>(i.positions)[200] += 1; });
+}
+
+TEST(IndexCheck, FindsAWrongEdge) {
+  expect_found("not the neighbours", [](IndexStorage& i) { i.adjacency[5] = 0; });
+  expect_found("not the neighbours", [](IndexStorage& i) { i.crossings[9].other ^= 1; });
+  expect_found("its border", [](IndexStorage& i) { i.links[7].border = 0; });
+}
+
+TEST(IndexCheck, FindsAWrongConnection) {
+  expect_found("as connected", [](IndexStorage& i) { i.leaves[4].connected = !i.leaves[4].connected; });
+}
+
+TEST(IndexCheck, FindsASphereTooSmall) {
+  expect_found("outside of its sphere", [](IndexStorage& i) { i.leaves[3].bounds.radius *= 0.9F; });
+  for (std::size_t level = 0; level < 3; ++level) {
+    expect_found("outside of its sphere", [&](IndexStorage& i) { i.tree.at(level).groups[0].radius[1] *= 0.9F; });
+  }
+}
+
+TEST(IndexCheck, FindsAColumnTooNarrow) {
+  expect_found("outside of its column", [](IndexStorage& i) {
+    for (TreeLevel& level : i.tree) {
+      for (Group& group : level.groups) {
+        group.reach.fill(0);
+        for (Group::Row* row : {&group.axis_x, &group.axis_y, &group.axis_z}) row->fill(0);
+      }
+    }
+  });
+}
+
+TEST(IndexBuild, IsTheSameForTheSameMesh) {
+  const TestMesh mesh = bumpy_grid(80);
+  const Index first = build(mesh.view());
+  const Index second = build(mesh.view());
+  const IndexStorage& a = IndexAccess::storage(first);
+  const IndexStorage& b = IndexAccess::storage(second);
+  EXPECT_EQ(a.permutation, b.permutation);
+  EXPECT_EQ(a.place, b.place);
+  EXPECT_EQ(a.positions, b.positions);
+  EXPECT_EQ(a.adjacency, b.adjacency);
+  for (std::size_t level = 0; level < a.tree.size(); ++level) {
+    EXPECT_EQ(std::memcmp(a.tree[level].groups.data(), b.tree[level].groups.data(),
+                          a.tree[level].groups.size() * sizeof(Group)),
+              0);
+  }
+}
+
+TEST(IndexBuild, LeavesOfASurfaceAreFullAndConnected) {
+  const TestMesh mesh = bumpy_grid(200);
+  const Index built = build(mesh.view());
+  const IndexStorage& index = IndexAccess::storage(built);
+  const auto last = index.leaves.begin() + static_cast<std::ptrdiff_t>(index.leaf_count());
+  EXPECT_TRUE(std::all_of(index.leaves.begin(), last, [](const Leaf& leaf) { return leaf.connected; }));
+  const double mean = static_cast<double>(mesh.size()) / static_cast<double>(index.leaf_count());
+  std::printf("%zu leaves, %.1f vertices a leaf\n", index.leaf_count(), mean);
+  EXPECT_GT(mean, 28);
+}
+
+TEST(KdOrder, DoesNotDependOnTheOrderGiven) {
+  Random random(8);
+  std::vector<Site> sites;
+  for (std::uint32_t i = 0; i < 5000; ++i) {
+    const auto coordinate = [&] { return static_cast<float>(random.below(50)); };  // with many ties
+    sites.push_back({{coordinate(), coordinate(), coordinate()}, i});
+  }
+  std::vector<Site> shuffled;
+  for (const std::uint32_t i : random.permutation(sites.size())) shuffled.push_back(sites[i]);
+  kd_order(sites, 30);
+  kd_order(shuffled, 30);
+  for (std::size_t begin = 0; begin < sites.size(); begin += 30) {
+    std::vector<std::uint32_t> a;
+    std::vector<std::uint32_t> b;
+    for (std::size_t i = begin; i < std::min(begin + 30, sites.size()); ++i) {
+      a.push_back(sites[i].id);
+      b.push_back(shuffled[i].id);
+    }
+    EXPECT_THAT(a, testing::UnorderedElementsAreArray(b));
+  }
+}
+
+}  // namespace
+}  // namespace meshhood::test

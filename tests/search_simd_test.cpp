@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// That every processor's path does the same, bit for bit, also where a float cannot decide.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "exact_answer.h"
+#include "random.h"
+#include "scale.h"
+
+namespace meshhood::test {
+namespace {
+
+class EveryPath : public testing::TestWithParam<Isa> {
+ protected:
+  const Kernels& tried_ = kernels(GetParam());
+  const Kernels& plain_ = portable_kernels();
+  Random random_{9};
+};
+
+/// A leaf of `size` vertices, all x before all y, with what a leaf may read beyond its end.
+template <class Real>
+std::vector<Real> random_leaf(Random& random, std::size_t size, double extent) {
+  std::vector<Real> xyz(3 * size + kLeafCapacity, std::numeric_limits<Real>::quiet_NaN());
+  for (std::size_t i = 0; i < 3 * size; ++i) xyz[i] = static_cast<Real>(random.uniform(-extent, extent));
+  return xyz;
+}
+
+/// As a coordinate of a mesh is. Through memory, for g++ 12 takes several roundings side by side for none at all.
+template <class Real>
+double rounded(double value) {
+  const volatile Real result = static_cast<Real>(value);
+  return static_cast<double>(result);
+}
+
+/// What the predicate itself says.
+template <class Real>
+Lanes by_predicate(const std::vector<Real>& xyz, std::size_t size, const Point& centre, double radius) {
+  const SearchBall ball(centre, radius);
+  Lanes lanes = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    const Point p{static_cast<double>(xyz[i]), static_cast<double>(xyz[size + i]),
+                  static_cast<double>(xyz[2 * size + i])};
+    lanes |= Lanes{ball.contains(p)} << i;
+  }
+  return lanes;
+}
+
+template <class Real>
+void expect_within_is_the_predicate(const Kernels& tried, Random& random) {
+  std::size_t balls = 0;
+  for (std::size_t round = 0; round < scaled(4000, 100); ++round) {
+    const std::size_t size = 1 + random.below(kLeafCapacity);
+    const double extent = std::ldexp(1.0, static_cast<int>(random.below(120)) - 60);
+    const auto xyz = random_leaf<Real>(random, size, extent);
+    const Point centre{rounded<Real>(random.uniform(-extent, extent)), rounded<Real>(random.uniform(-extent, extent)),
+                       rounded<Real>(random.uniform(-extent, extent))};
+    const std::size_t lane = random.below(size);
+    const Point p{static_cast<double>(xyz[lane]), static_cast<double>(xyz[size + lane]),
+                  static_cast<double>(xyz[2 * size + lane])};
+    const double tie = std::sqrt(squared_distance(p, centre));
+    for (const double radius : {std::nextafter(tie, 0.0), tie, std::nextafter(tie, 1e300), tie * (1 + 1e-7),
+                                tie * (1 - 1e-7), random.uniform(0, 3 * extent), 0.0}) {
+      ASSERT_EQ(tried.within(xyz.data(), size, LeafBall(centre, radius)), by_predicate(xyz, size, centre, radius));
+      ++balls;
+    }
+  }
+  std::printf("%zu balls\n", balls);
+}
+
+TEST_P(EveryPath, WithinIsThePredicateOnFloats) { expect_within_is_the_predicate<float>(tried_, random_); }
+TEST_P(EveryPath, WithinIsThePredicateOnDoubles) { expect_within_is_the_predicate<double>(tried_, random_); }
+
+TEST_P(EveryPath, CrossFollowsEveryCrossing) {
+  for (std::size_t round = 0; round < 4000; ++round) {
+    std::vector<Crossing> crossings(random_.below(70) + kLeafCapacity);
+    for (Crossing& crossing : crossings) {
+      crossing = {static_cast<std::uint8_t>(random_.below(32)), static_cast<std::uint8_t>(random_.below(32))};
+    }
+    const std::size_t count = crossings.size() - kLeafCapacity;
+    const auto from = static_cast<Lanes>(random_.bits() & random_.bits());
+    ASSERT_EQ(tried_.cross(crossings.data(), count, from), plain_.cross(crossings.data(), count, from));
+  }
+}
+
+TEST_P(EveryPath, PlaceComparesAllEight) {
+  std::vector<Group> groups(64);
+  std::vector<std::uint32_t> list;
+  for (std::uint32_t i = 0; i < groups.size(); ++i) list.push_back(i);
+  std::vector<Placements> expected(groups.size());
+  std::vector<Placements> found(groups.size());
+  std::size_t seen = 0;
+  for (std::size_t round = 0; round < 300; ++round) {
+    for (Group& group : groups) {
+      for (Group::Row* row :
+           {&group.x, &group.y, &group.z, &group.radius, &group.axis_x, &group.axis_y, &group.axis_z, &group.reach}) {
+        for (float& value : *row) value = static_cast<float>(random_.uniform(-1, 1));
+      }
+      for (float& radius : group.radius) radius = std::abs(radius) / 4;
+      for (float& reach : group.reach)
+        reach = random_.below(20) == 0 ? std::numeric_limits<float>::infinity() : std::abs(reach);
+    }
+    const Point centre{random_.uniform(-1, 1), random_.uniform(-1, 1), random_.uniform(-1, 1)};
+    const double radius = round == 0 ? std::numeric_limits<double>::infinity() : random_.uniform(0, 2);
+    const TreeBall ball({}, centre, radius);
+    plain_.place(groups.data(), list, ball, expected.data());
+    tried_.place(groups.data(), list, ball, found.data());
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      ASSERT_EQ(found[i].inside, expected[i].inside);
+      ASSERT_EQ(found[i].straddling, expected[i].straddling);
+      ASSERT_EQ(found[i].doubtful, expected[i].doubtful);
+      ASSERT_EQ(found[i].inside & found[i].straddling, 0);
+      seen += static_cast<std::size_t>(std::popcount(found[i].inside));
+    }
+  }
+  EXPECT_GT(seen, 1000U);
+}
+
+TEST_P(EveryPath, AppendKeepsTheOrder) {
+  std::vector<VertexId> ids(kLeafCapacity);
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<VertexId>(100 + i);
+  std::vector<VertexId> out(2 * kLeafCapacity);
+  for (std::size_t round = 0; round < 10'000; ++round) {
+    const auto lanes = static_cast<Lanes>(round == 0 ? 0 : random_.bits());
+    const VertexId* const end = tried_.append(ids.data(), lanes, out.data());
+    ASSERT_EQ(end - out.data(), std::popcount(lanes));
+    const VertexId* next = out.data();
+    for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
+      if ((lanes >> lane & 1U) == 0) continue;
+      ASSERT_EQ(*next++, 100 + lane);
+    }
+  }
+}
+
+std::string case_name(const testing::TestParamInfo<Isa>& isa) {
+  switch (isa.param) {
+    case Isa::Portable: return "Portable";
+    case Isa::Avx2: return "Avx2";
+    case Isa::Avx512: return "Avx512";
+  }
+  return "";
+}
+
+INSTANTIATE_TEST_SUITE_P(Isas, EveryPath, testing::ValuesIn(available_isas()), case_name);
+
+}  // namespace
+}  // namespace meshhood::test
