@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <ostream>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,9 @@ struct Family {
 
   /// Positions in either precision; otherwise only as doubles.
   bool either_precision = true;
+
+  /// How GoogleTest names it: without this, by the bytes of its pointers.
+  friend void PrintTo(const Family& family, std::ostream* out) { *out << family.name; }
 };
 
 [[nodiscard]] std::span<const Family> surface_families();  ///< well-behaved surfaces

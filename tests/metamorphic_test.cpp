@@ -7,12 +7,14 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <ostream>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "meshhood/meshhood.h"
+#include "meshhood/search.h"
 
 #include "families.h"
 #include "oracle.h"
@@ -118,6 +120,8 @@ Retold scaled_by_a_power(const TestMesh& mesh, Random& random) {
 struct NamedRetelling {
   const char* name;
   Retelling retell;
+
+  friend void PrintTo(const NamedRetelling& retelling, std::ostream* out) { *out << retelling.name; }
 };
 
 class Metamorphic : public testing::TestWithParam<NamedRetelling> {};
@@ -134,6 +138,8 @@ void compare(const TestMesh& mesh, const Retold& retold, Random& random) {
   const paper::Index index = paper::build(retold.mesh.view());
   ASSERT_THAT(index.check(retold.mesh.view()), testing::IsEmpty()) << mesh.name;
   paper::Searcher searcher(index);
+  const Index exact_index = build(retold.mesh.view());
+  Searcher exact_searcher(exact_index);
   std::vector<VertexId> out;
   for (int i = 0; i < 40; ++i) {
     const auto v = static_cast<VertexId>(random.below(mesh.size()));
@@ -144,6 +150,8 @@ void compare(const TestMesh& mesh, const Retold& retold, Random& random) {
     const auto expected = sorted(out);
     const auto place = static_cast<VertexId>(retold.place[v]);
     after.neighborhood(place, radius * retold.scale, out);
+    ASSERT_EQ(sorted(out), expected) << mesh.name << ", vertex " << v << ", radius " << radius;
+    exact_searcher.neighborhood(place, radius * retold.scale, out);
     ASSERT_EQ(sorted(out), expected) << mesh.name << ", vertex " << v << ", radius " << radius;
     searcher.neighborhood(place, radius * retold.scale, out);
     ASSERT_TRUE(std::ranges::includes(sorted(out), expected)) << mesh.name << ", vertex " << v << ", radius " << radius;
