@@ -20,6 +20,9 @@ Lanes spread(const Lanes* adjacency, Lanes among, Lanes from) {
   return reached;
 }
 
+// How many leaves of the queue, the present one included, have their neighbours fetched.
+constexpr std::size_t kAhead = 6;
+
 }  // namespace
 
 Flood::Flood(const IndexStorage& index, const Kernels& kernels)
@@ -37,11 +40,12 @@ void Flood::run_on(const Real* positions, std::uint32_t place, Answer& answer) {
   const LeafId first = place / kLeafCapacity;
   touch(first).pending = Lanes{1} << place % kLeafCapacity;
   queue_.push_back(first);
-  fetch_neighbors(first);
+  std::size_t fetched = 0;
   for (std::size_t head = 0; head < queue_.size(); ++head) {
+    const std::size_t soon = std::min(head + kAhead, queue_.size());
+    for (; fetched < soon; ++fetched) fetch_neighbors(queue_[fetched]);
     const LeafId leaf = queue_[head];
     State& state = states_[leaf];
-    if (head + 1 < queue_.size()) fetch_neighbors(queue_[head + 1]);
     const bool is_new = state.reached == 0;
     const Lanes added = reach(positions, leaf, state);
     if (added == 0) continue;
