@@ -87,6 +87,27 @@ TEST_P(EveryPath, CrossFollowsEveryCrossing) {
   }
 }
 
+TEST_P(EveryPath, SpreadGoesAsFarAsItCan) {
+  std::size_t grown = 0;
+  for (std::size_t round = 0; round < 4000; ++round) {
+    std::vector<Lanes> adjacency(kLeafCapacity);
+    const std::size_t edges = random_.below(60);
+    for (std::size_t i = 0; i < edges; ++i) {
+      const std::size_t a = random_.below(kLeafCapacity);
+      const std::size_t b = random_.below(kLeafCapacity);
+      adjacency[a] |= Lanes{1} << b;
+      adjacency[b] |= Lanes{1} << a;
+    }
+    const auto among = static_cast<Lanes>(random_.bits() | random_.bits());
+    const auto from = static_cast<Lanes>(random_.bits() & random_.bits() & random_.bits()) & among;
+    const Lanes reached = tried_.spread(adjacency.data(), among, from);
+    ASSERT_EQ(reached, plain_.spread(adjacency.data(), among, from));
+    ASSERT_EQ(reached & among, reached);
+    grown += static_cast<std::size_t>(std::popcount(reached & ~from));
+  }
+  EXPECT_GT(grown, 10'000U);
+}
+
 TEST_P(EveryPath, PlaceComparesAllEight) {
   std::vector<Group> groups(64);
   std::vector<std::uint32_t> list;

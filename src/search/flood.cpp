@@ -2,23 +2,11 @@
 #include "search/flood.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "prefetch.h"
 
 namespace meshhood {
 namespace {
-
-/// What `from` reaches by edges within the leaf, through `among` alone.
-Lanes spread(const Lanes* adjacency, Lanes among, Lanes from) {
-  Lanes reached = from;
-  for (Lanes todo = from; todo != 0 && reached != among;) {
-    const Lanes added = adjacency[std::countr_zero(todo)] & among & ~reached;
-    todo = (todo & (todo - 1)) | added;
-    reached |= added;
-  }
-  return reached;
-}
 
 // How many leaves of the queue, the present one included, have their neighbours fetched.
 constexpr std::size_t kAhead = 6;
@@ -113,7 +101,7 @@ Lanes Flood::reach(const Real* positions, LeafId leaf, State& state) const {
   const Lanes from = state.pending & open;
   state.pending = 0;
   if (from == 0) return 0;
-  const Lanes added = state.whole ? open : spread(&index_->adjacency[record.first], open, from);
+  const Lanes added = state.whole ? open : kernels_->spread(&index_->adjacency[record.first], open, from);
   state.reached |= added;
   return added;
 }
