@@ -100,6 +100,7 @@ class Bench {
     const std::size_t vertices = index_.vertex_count();
     const std::size_t first = random_() % vertices;
     std::vector<VertexId> result;
+    result.reserve(queries);
     for (std::size_t i = 0; i < queries; ++i) {
       result.push_back(warm ? index_.permutation()[(first + i) % vertices]
                             : static_cast<VertexId>(random_() % vertices));

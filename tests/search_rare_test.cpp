@@ -34,7 +34,7 @@ TestMesh star(std::size_t vertices) {
   TestMesh mesh;
   mesh.add_vertex(0, 0, 0);
   for (std::size_t i = 1; i < vertices; ++i) {
-    const double angle = static_cast<double>(i);
+    const auto angle = static_cast<double>(i);
     const auto tip = mesh.add_vertex(std::cos(angle) * std::sqrt(angle), std::sin(angle) * std::sqrt(angle), 0);
     mesh.add_face({0, tip});
   }
@@ -149,7 +149,7 @@ TEST(Rare, PathOfAMillion) {
   TestMesh mesh;
   const std::size_t length = scaled(1'000'000, 5000);
   for (std::size_t i = 0; i < length; ++i) {
-    const double t = static_cast<double>(i);
+    const auto t = static_cast<double>(i);
     mesh.add_vertex(std::cos(t / 50) * std::sqrt(t), std::sin(t / 50) * std::sqrt(t), 0);
     if (i > 0) mesh.add_face({static_cast<std::uint32_t>(i - 1), static_cast<std::uint32_t>(i)});
   }
@@ -168,7 +168,7 @@ TEST(Rare, CoincidentVertices) {
   for (double& x : mesh.positions) x = std::floor(x / 2);  // and many more often, joined
   mesh.finish(true);
   ExactAnswer exact(mesh.view());
-  query_everywhere(exact, mesh.size(), {0, 1, std::sqrt(2.0), 2, 5, 100});
+  query_everywhere(exact, mesh.size(), {0, 1, std::numbers::sqrt2, 2, 5, 100});
 }
 
 TEST(Rare, VerticesThatFloatsCannotPlace) {

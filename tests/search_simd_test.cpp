@@ -17,9 +17,9 @@ namespace {
 
 class EveryPath : public testing::TestWithParam<Isa> {
  protected:
-  const Kernels& tried_ = kernels(GetParam());
-  const Kernels& plain_ = portable_kernels();
-  Random random_{9};
+  const Kernels& tried = kernels(GetParam());
+  const Kernels& plain = portable_kernels();
+  Random random{9};
 };
 
 /// A leaf of `size` vertices, all x before all y, with what a leaf may read beyond its end.
@@ -72,19 +72,40 @@ void expect_within_is_the_predicate(const Kernels& tried, Random& random) {
   std::printf("%zu balls\n", balls);
 }
 
-TEST_P(EveryPath, WithinIsThePredicateOnFloats) { expect_within_is_the_predicate<float>(tried_, random_); }
-TEST_P(EveryPath, WithinIsThePredicateOnDoubles) { expect_within_is_the_predicate<double>(tried_, random_); }
+TEST_P(EveryPath, WithinIsThePredicateOnFloats) { expect_within_is_the_predicate<float>(tried, random); }
+TEST_P(EveryPath, WithinIsThePredicateOnDoubles) { expect_within_is_the_predicate<double>(tried, random); }
 
 TEST_P(EveryPath, CrossFollowsEveryCrossing) {
   for (std::size_t round = 0; round < 4000; ++round) {
-    std::vector<Crossing> crossings(random_.below(70) + kLeafCapacity);
+    std::vector<Crossing> crossings(random.below(70) + kLeafCapacity);
     for (Crossing& crossing : crossings) {
-      crossing = {static_cast<std::uint8_t>(random_.below(32)), static_cast<std::uint8_t>(random_.below(32))};
+      crossing = {static_cast<std::uint8_t>(random.below(32)), static_cast<std::uint8_t>(random.below(32))};
     }
     const std::size_t count = crossings.size() - kLeafCapacity;
-    const auto from = static_cast<Lanes>(random_.bits() & random_.bits());
-    ASSERT_EQ(tried_.cross(crossings.data(), count, from), plain_.cross(crossings.data(), count, from));
+    const auto from = static_cast<Lanes>(random.bits() & random.bits());
+    ASSERT_EQ(tried.cross(crossings.data(), count, from), plain.cross(crossings.data(), count, from));
   }
+}
+
+TEST_P(EveryPath, SpreadGoesAsFarAsItCan) {
+  std::size_t grown = 0;
+  for (std::size_t round = 0; round < 4000; ++round) {
+    std::vector<Lanes> adjacency(kLeafCapacity);
+    const std::size_t edges = random.below(60);
+    for (std::size_t i = 0; i < edges; ++i) {
+      const std::size_t a = random.below(kLeafCapacity);
+      const std::size_t b = random.below(kLeafCapacity);
+      adjacency[a] |= Lanes{1} << b;
+      adjacency[b] |= Lanes{1} << a;
+    }
+    const auto among = static_cast<Lanes>(random.bits() | random.bits());
+    const auto from = static_cast<Lanes>(random.bits() & random.bits() & random.bits()) & among;
+    const Lanes reached = tried.spread(adjacency.data(), among, from);
+    ASSERT_EQ(reached, plain.spread(adjacency.data(), among, from));
+    ASSERT_EQ(reached & among, reached);
+    grown += static_cast<std::size_t>(std::popcount(reached & ~from));
+  }
+  EXPECT_GT(grown, 10'000U);
 }
 
 TEST_P(EveryPath, PlaceComparesAllEight) {
@@ -98,17 +119,17 @@ TEST_P(EveryPath, PlaceComparesAllEight) {
     for (Group& group : groups) {
       for (Group::Row* row :
            {&group.x, &group.y, &group.z, &group.radius, &group.axis_x, &group.axis_y, &group.axis_z, &group.reach}) {
-        for (float& value : *row) value = static_cast<float>(random_.uniform(-1, 1));
+        for (float& value : *row) value = static_cast<float>(random.uniform(-1, 1));
       }
       for (float& radius : group.radius) radius = std::abs(radius) / 4;
       for (float& reach : group.reach)
-        reach = random_.below(20) == 0 ? std::numeric_limits<float>::infinity() : std::abs(reach);
+        reach = random.below(20) == 0 ? std::numeric_limits<float>::infinity() : std::abs(reach);
     }
-    const Point centre{random_.uniform(-1, 1), random_.uniform(-1, 1), random_.uniform(-1, 1)};
-    const double radius = round == 0 ? std::numeric_limits<double>::infinity() : random_.uniform(0, 2);
+    const Point centre{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+    const double radius = round == 0 ? std::numeric_limits<double>::infinity() : random.uniform(0, 2);
     const TreeBall ball({}, centre, radius);
-    plain_.place(groups.data(), list, ball, expected.data());
-    tried_.place(groups.data(), list, ball, found.data());
+    plain.place(groups.data(), list, ball, expected.data());
+    tried.place(groups.data(), list, ball, found.data());
     for (std::size_t i = 0; i < groups.size(); ++i) {
       ASSERT_EQ(found[i].inside, expected[i].inside);
       ASSERT_EQ(found[i].straddling, expected[i].straddling);
@@ -123,10 +144,10 @@ TEST_P(EveryPath, PlaceComparesAllEight) {
 TEST_P(EveryPath, AppendKeepsTheOrder) {
   std::vector<VertexId> ids(kLeafCapacity);
   for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<VertexId>(100 + i);
-  std::vector<VertexId> out(2 * kLeafCapacity);
+  std::vector<VertexId> out(std::size_t{2} * kLeafCapacity);
   for (std::size_t round = 0; round < 10'000; ++round) {
-    const auto lanes = static_cast<Lanes>(round == 0 ? 0 : random_.bits());
-    const VertexId* const end = tried_.append(ids.data(), lanes, out.data());
+    const auto lanes = static_cast<Lanes>(round == 0 ? 0 : random.bits());
+    const VertexId* const end = tried.append(ids.data(), lanes, out.data());
     ASSERT_EQ(end - out.data(), std::popcount(lanes));
     const VertexId* next = out.data();
     for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <bit>
 #include <memory>
 #include <string>
 #include <utility>
@@ -49,42 +50,48 @@ std::vector<Real> pack_positions(std::span<const Real> xyz, const LeafPartition&
 /// What the tree says of each leaf.
 class LeafMeasure {
  public:
-  LeafMeasure(const LeafPartition& leaves, const AdjacencyView& adjacency, std::span<const Point> points,
+  LeafMeasure(std::span<const VertexId> leaf_begin, const Links& links, std::span<const Point> points,
               bool with_columns)
-      : leaves_(leaves), adjacency_(adjacency), points_(points), with_columns_(with_columns) {}
+      : leaf_begin_(leaf_begin), links_(links), points_(points), with_columns_(with_columns) {}
 
   void measure(std::size_t leaf, NodeList& out) {
-    const std::size_t begin = leaves_.leaf_begin[leaf];
-    const std::size_t end = leaves_.leaf_begin[leaf + 1];
-    out.bounds.push_back(enclosing_sphere(points_.subspan(begin, end - begin)));
+    const std::size_t begin = leaf_begin_[leaf];
+    const std::size_t size = leaf_begin_[leaf + 1] - begin;
+    out.bounds.push_back(enclosing_sphere(points_.subspan(begin, size)));
     if (!with_columns_) {
       out.columns.push_back(kNoColumn);
       return;
     }
-    gather(begin, end);
-    out.columns.push_back(leaf_column({points_, begin, end, neighbors_, degrees_}, centre_of(out.bounds.back())));
+    edges_.clear();
+    gather_edges_within(begin, size);
+    gather_edges_out(leaf);
+    out.columns.push_back(leaf_column(points_, begin, size, edges_, centre_of(out.bounds.back())));
   }
 
  private:
-  void gather(std::size_t begin, std::size_t end) {
-    neighbors_.clear();
-    degrees_.clear();
-    for (std::size_t v = begin; v < end; ++v) {
-      const auto row = adjacency_[leaves_.permutation[v]];
-      degrees_.push_back(static_cast<std::uint32_t>(row.size()));
-      for (const VertexId w : row) {
-        const std::uint32_t place = leaves_.place[w];
-        neighbors_.push_back(leaves_.leaf_begin[place / kLeafCapacity] + place % kLeafCapacity);
+  void gather_edges_within(std::size_t begin, std::size_t size) {
+    for (std::uint32_t lane = 0; lane < size; ++lane) {
+      for (Lanes left = links_.adjacency[begin + lane]; left != 0; left &= left - 1) {
+        edges_.push_back(
+            {lane, static_cast<std::uint32_t>(begin) + static_cast<std::uint32_t>(std::countr_zero(left))});
       }
     }
   }
 
-  const LeafPartition& leaves_;
-  AdjacencyView adjacency_;
+  void gather_edges_out(std::size_t leaf) {
+    for (std::size_t i = leaf == 0 ? 0 : links_.link_end[leaf - 1]; i < links_.link_end[leaf]; ++i) {
+      const std::uint32_t other = leaf_begin_[links_.links[i].leaf];
+      for (std::size_t k = links_.links[i].first_crossing; k < links_.links[i + 1].first_crossing; ++k) {
+        edges_.push_back({links_.crossings[k].mine, other + links_.crossings[k].other});
+      }
+    }
+  }
+
+  std::span<const VertexId> leaf_begin_;
+  const Links& links_;
   std::span<const Point> points_;
   bool with_columns_;
-  std::vector<std::uint32_t> neighbors_;
-  std::vector<std::uint32_t> degrees_;
+  std::vector<LeafEdge> edges_;
 };
 
 std::vector<Leaf> make_leaf_records(const LeafPartition& partition, const Links& links,
@@ -128,7 +135,7 @@ Index IndexAccess::build_valid(const GraphView& graph, const BuildOptions& /*opt
 
   const std::vector<Point> points = place_points(graph.positions, storage->frame, partition.permutation);
   NodeList lowest;
-  LeafMeasure measure(partition, graph.adjacency, points, storage->frame.scale <= kLargestScaleWithColumns);
+  LeafMeasure measure(partition.leaf_begin, links, points, storage->frame.scale <= kLargestScaleWithColumns);
   for (std::size_t leaf = 0; leaf + 1 < partition.leaf_begin.size(); ++leaf) measure.measure(leaf, lowest);
 
   storage->leaves = make_leaf_records(partition, links, lowest.bounds);

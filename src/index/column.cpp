@@ -15,12 +15,14 @@
 #include <cmath>
 #include <limits>
 
+#include "index/layout.h"
+
 namespace meshhood {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// An axis longer than this, of a column that opens wide, would cost the search its margin (see kernels.h).
+// An axis longer than this, of a column that opens wide, would cost the search its margin (see search/simd.h).
 constexpr double kLongestAxis = 4;
 
 // Lines that meet at a smaller angle, as seen along the shorter edge, put the corner where rounding would. The mesh has
@@ -127,8 +129,6 @@ Corner corner(const Line& a, const Line& b, double value_a, double value_b) {
 /// The polygon of one vertex.
 class Polygon {
  public:
-  void clear() { size_ = 0; }
-
   void add(const Line& line) {
     if (size_ == kMostEdges) return;
     std::size_t i = size_++;
@@ -181,7 +181,7 @@ class Polygon {
     return x * lines_[i].x + y * lines_[i].y <= lines_[i].offset * determinant;
   }
 
-  std::array<Line, kMostEdges> lines_;
+  std::array<Line, kMostEdges> lines_;  // the first `size_`
   std::size_t size_ = 0;
 };
 
@@ -193,20 +193,19 @@ Column make_column(const Point& direction, double width, double slope) {
 
 }  // namespace
 
-Column leaf_column(const ColumnInput& leaf, const Point& centre) {
-  const std::span<const Point> own = leaf.points.subspan(leaf.begin, leaf.end - leaf.begin);
+Column leaf_column(std::span<const Point> points, std::size_t first, std::size_t size, std::span<const LeafEdge> edges,
+                   const Point& centre) {
+  const std::span<const Point> own = points.subspan(first, size);
   const Axes axes(flattest_direction(own));
-  Polygon polygon;
+  std::array<Polygon, kLeafCapacity> polygons;
+  for (const LeafEdge& edge : edges) {
+    const Point e = points[edge.neighbor] - own[edge.lane];
+    polygons[edge.lane].add(make_line(dot(e, axes.first), dot(e, axes.second), dot(e, axes.normal)));
+  }
   double width = 0;
   double slope = 0;
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < own.size(); ++i) {
-    polygon.clear();
-    for (const std::size_t end = next + leaf.degrees[i]; next < end; ++next) {
-      const Point e = leaf.points[leaf.neighbors[next]] - own[i];
-      polygon.add(make_line(dot(e, axes.first), dot(e, axes.second), dot(e, axes.normal)));
-    }
-    const Bound bound = polygon.bound();
+  for (std::size_t i = 0; i < size; ++i) {
+    const Bound bound = polygons[i].bound();
     const Point offset = own[i] - centre;
     const double height = std::abs(dot(offset, axes.normal));
     const double distance = std::hypot(dot(offset, axes.first), dot(offset, axes.second));

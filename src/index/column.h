@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 
@@ -23,16 +25,16 @@ struct Column {
 /// Around everything.
 inline constexpr Column kNoColumn{{0, 0, 0}, std::numeric_limits<double>::infinity()};
 
-/// The column of some vertices. `points` are all positions in the frame; `adjacency` of vertex `i` is
-/// `neighbors[offsets[i]] ..`.
-struct ColumnInput {
-  std::span<const Point> points;  // of the whole mesh
-  std::size_t begin;              // the vertices of the leaf
-  std::size_t end;
-  std::span<const std::uint32_t> neighbors;  // of them, one after another, by their number in `points`
-  std::span<const std::uint32_t> degrees;    // by vertex of the leaf
+/// An edge of a leaf's vertex, to any vertex of the mesh.
+struct LeafEdge {
+  std::uint32_t lane;
+  std::uint32_t neighbor;  // in index order
 };
-[[nodiscard]] Column leaf_column(const ColumnInput& leaf, const Point& centre);
+
+/// The column of the vertices `first .. first + size - 1` of `points`, which are all vertices of the mesh in index
+/// order, in the frame. `edges`: theirs, in any order.
+[[nodiscard]] Column leaf_column(std::span<const Point> points, std::size_t first, std::size_t size,
+                                 std::span<const LeafEdge> edges, const Point& centre);
 
 /// A column around the columns of `children`, which stand at `centres`, seen from `centre`.
 [[nodiscard]] Column enclosing_column(std::span<const Column> children, std::span<const Point> centres,

@@ -18,7 +18,7 @@ struct NodeList {
 /// The tree over the leaves. `points`: the vertices in index order, in the frame. O(#V log #V).
 [[nodiscard]] Tree make_tree(NodeList leaves, std::span<const VertexId> leaf_begin, std::span<const Point> points);
 
-/// A sphere around `points`, with the room that comparing it with a ball in single precision needs (see kernels.h).
+/// A sphere around `points`, with the room that comparing it with a ball in single precision needs (see search/simd.h).
 [[nodiscard]] FrameSphere enclosing_sphere(std::span<const Point> points, const Point& centre);
 
 /// The smallest of them, nearly.

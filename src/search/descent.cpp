@@ -2,6 +2,7 @@
 #include "search/descent.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "search/lane_list.h"
@@ -31,7 +32,7 @@ void NodeQueue::append(std::uint32_t group, std::uint8_t set) {
   // All eight are written, and those not in the set overwritten by what comes next: no jump to be foretold.
   std::uint32_t* out = nodes_.data() + size_;
   for (std::size_t i = 0; i < kFanOut; ++i) out[i] = group * kFanOut + kLaneLists[set][i];
-  size_ += static_cast<std::size_t>(__builtin_popcount(set));
+  size_ += static_cast<std::size_t>(std::popcount(set));
 }
 
 bool Descent::run(const TreeBall& ball, std::vector<VertexRange>& runs) {

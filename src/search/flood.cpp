@@ -2,23 +2,14 @@
 #include "search/flood.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "prefetch.h"
 
 namespace meshhood {
 namespace {
 
-/// What `from` reaches by edges within the leaf, through `among` alone.
-Lanes spread(const Lanes* adjacency, Lanes among, Lanes from) {
-  Lanes reached = from;
-  for (Lanes todo = from; todo != 0 && reached != among;) {
-    const Lanes added = adjacency[std::countr_zero(todo)] & among & ~reached;
-    todo = (todo & (todo - 1)) | added;
-    reached |= added;
-  }
-  return reached;
-}
+// How many leaves of the queue, the present one included, have their neighbours fetched.
+constexpr std::size_t kAhead = 6;
 
 }  // namespace
 
@@ -37,11 +28,12 @@ void Flood::run_on(const Real* positions, std::uint32_t place, Answer& answer) {
   const LeafId first = place / kLeafCapacity;
   touch(first).pending = Lanes{1} << place % kLeafCapacity;
   queue_.push_back(first);
-  fetch_neighbors(first);
+  std::size_t fetched = 0;
   for (std::size_t head = 0; head < queue_.size(); ++head) {
+    const std::size_t soon = std::min(head + kAhead, queue_.size());
+    for (; fetched < soon; ++fetched) fetch_neighbors(queue_[fetched]);
     const LeafId leaf = queue_[head];
     State& state = states_[leaf];
-    if (head + 1 < queue_.size()) fetch_neighbors(queue_[head + 1]);
     const bool is_new = state.reached == 0;
     const Lanes added = reach(positions, leaf, state);
     if (added == 0) continue;
@@ -109,7 +101,7 @@ Lanes Flood::reach(const Real* positions, LeafId leaf, State& state) const {
   const Lanes from = state.pending & open;
   state.pending = 0;
   if (from == 0) return 0;
-  const Lanes added = state.whole ? open : spread(&index_->adjacency[record.first], open, from);
+  const Lanes added = state.whole ? open : kernels_->spread(&index_->adjacency[record.first], open, from);
   state.reached |= added;
   return added;
 }

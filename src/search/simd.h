@@ -62,6 +62,10 @@ struct Kernels {
   /// The other ends of those of the first `count` crossings that begin in `from`. Reads as far as 31 more.
   Lanes (*cross)(const Crossing* crossings, std::size_t count, Lanes from);
 
+  /// What `from` reaches by the edges within a leaf, through `among` alone; `from` is a part of `among`. Reads all 32
+  /// rows of `adjacency`, and uses those in `among`.
+  Lanes (*spread)(const Lanes* adjacency, Lanes among, Lanes from);
+
   /// Places the groups `list` of `groups`.
   void (*place)(const Group* groups, std::span<const std::uint32_t> list, const TreeBall& ball, Placements* out);
 

@@ -78,6 +78,27 @@ MESHHOOD_AVX2 Lanes cross(const Crossing* crossings, std::size_t count, Lanes fr
 
 MESHHOOD_AVX2 inline unsigned bits(__m256 mask) { return static_cast<unsigned>(_mm256_movemask_ps(mask)); }
 
+/// Those of eight lanes that have a neighbour among `reached`.
+MESHHOOD_AVX2 inline Lanes near8(__m256i adjacency, __m256i reached) {
+  const __m256i none = _mm256_cmpeq_epi32(_mm256_and_si256(adjacency, reached), _mm256_setzero_si256());
+  return ~bits(_mm256_castsi256_ps(none)) & 0xFFU;
+}
+
+MESHHOOD_AVX2 Lanes spread(const Lanes* adjacency, Lanes among, Lanes from) {
+  const auto* rows = reinterpret_cast<const __m256i*>(adjacency);
+  const __m256i row0 = _mm256_loadu_si256(rows);
+  const __m256i row1 = _mm256_loadu_si256(rows + 1);
+  const __m256i row2 = _mm256_loadu_si256(rows + 2);
+  const __m256i row3 = _mm256_loadu_si256(rows + 3);
+  for (Lanes reached = from;;) {
+    const __m256i all = _mm256_set1_epi32(static_cast<int>(reached));
+    const Lanes near = near8(row0, all) | near8(row1, all) << 8 | near8(row2, all) << 16 | near8(row3, all) << 24;
+    const Lanes grown = reached | (near & among);
+    if (grown == reached) return reached;
+    reached = grown;
+  }
+}
+
 MESHHOOD_AVX2 inline Placements place_group(const Group& group, const TreeBall& ball) {
   const __m256 x = _mm256_sub_ps(_mm256_set1_ps(ball.x), _mm256_load_ps(group.x.data()));
   const __m256 y = _mm256_sub_ps(_mm256_set1_ps(ball.y), _mm256_load_ps(group.y.data()));
@@ -126,7 +147,7 @@ MESHHOOD_AVX2 VertexId* append(const VertexId* ids, Lanes lanes, VertexId* out) 
 }  // namespace
 
 const Kernels& avx2_kernels() {
-  static constexpr Kernels kAll{within_float, within_exact<double>, cross, place, append};
+  static constexpr Kernels kAll{within_float, within_exact<double>, cross, spread, place, append};
   return kAll;
 }
 

@@ -78,6 +78,19 @@ MESHHOOD_AVX512 Lanes cross(const Crossing* crossings, std::size_t count, Lanes 
   return static_cast<Lanes>(_mm512_reduce_or_epi32(result));
 }
 
+MESHHOOD_AVX512 Lanes spread(const Lanes* adjacency, Lanes among, Lanes from) {
+  const __m512i low = _mm512_loadu_si512(adjacency);
+  const __m512i high = _mm512_loadu_si512(adjacency + 16);
+  for (Lanes reached = from;;) {
+    const __m512i all = _mm512_set1_epi32(static_cast<int>(reached));
+    // The lanes with a neighbour among those reached.
+    const Lanes near = _mm512_test_epi32_mask(low, all) | Lanes{_mm512_test_epi32_mask(high, all)} << 16;
+    const Lanes grown = reached | (near & among);
+    if (grown == reached) return reached;
+    reached = grown;
+  }
+}
+
 MESHHOOD_AVX512 inline Placements place_group(const Group& group, const TreeBall& ball) {
   const __m256 x = _mm256_sub_ps(_mm256_set1_ps(ball.x), _mm256_load_ps(group.x.data()));
   const __m256 y = _mm256_sub_ps(_mm256_set1_ps(ball.y), _mm256_load_ps(group.y.data()));
@@ -123,7 +136,7 @@ MESHHOOD_AVX512 VertexId* append(const VertexId* ids, Lanes lanes, VertexId* out
 }  // namespace
 
 const Kernels& avx512_kernels() {
-  static constexpr Kernels kAll{within_float, within_exact<double>, cross, place, append};
+  static constexpr Kernels kAll{within_float, within_exact<double>, cross, spread, place, append};
   return kAll;
 }
 

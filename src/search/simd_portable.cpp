@@ -25,6 +25,16 @@ Lanes cross(const Crossing* crossings, std::size_t count, Lanes from) {
   return result;
 }
 
+Lanes spread(const Lanes* adjacency, Lanes among, Lanes from) {
+  Lanes reached = from;
+  for (Lanes todo = from; todo != 0 && reached != among;) {
+    const Lanes added = adjacency[std::countr_zero(todo)] & among & ~reached;
+    todo = (todo & (todo - 1)) | added;
+    reached |= added;
+  }
+  return reached;
+}
+
 Placements place_group(const Group& group, const TreeBall& ball) {
   Placements result{0, 0, 0};
   for (unsigned i = 0; i < kFanOut; ++i) {
@@ -58,7 +68,7 @@ VertexId* append(const VertexId* ids, Lanes lanes, VertexId* out) {
 }  // namespace
 
 const Kernels& portable_kernels() {
-  static constexpr Kernels kAll{within<float>, within<double>, cross, place, append};
+  static constexpr Kernels kAll{within<float>, within<double>, cross, spread, place, append};
   return kAll;
 }
 
