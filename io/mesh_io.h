@@ -73,10 +73,8 @@ struct VertexProperty {
 };
 
 struct PlyOptions {
-  // NOLINTBEGIN(readability-redundant-member-init): g++ wants them where a caller names only some of the fields
   std::span<const std::uint8_t> colors = {};  ///< #V by 3 (red, green, blue), or empty
   std::vector<VertexProperty> properties = {};
-  // NOLINTEND(readability-redundant-member-init)
   bool ascii = false;  ///< binary little-endian otherwise
 };
 

@@ -44,7 +44,8 @@ bool is_binary(Input& input) {
   if (has_binary_stl_size(input)) return true;
   const auto header = input.ahead(kHeaderBytes).substr(0, kHeaderBytes);
   if (header.size() < kHeaderBytes || is_text(header)) return false;
-  return !input.size() || *input.left() >= binary_size(header);
+  const auto left = input.left();
+  return !left || *left >= binary_size(header);
 }
 
 std::string why_not_binary(Input& input) {
@@ -94,8 +95,9 @@ class BinaryStl {
 // Room for as many corners as the bytes can hold, all of them vertices of their own.
 void reserve(Draft& draft, const Input& input, bool binary) {
   constexpr uint64_t kLeastTextOfVertex = 13;  // "vertex 0 0 0 "
-  if (!input.left()) return;
-  const auto corners = binary ? 3 * (*input.left() / kFacetBytes) : *input.left() / kLeastTextOfVertex;
+  const auto left = input.left();
+  if (!left) return;
+  const auto corners = binary ? 3 * (*left / kFacetBytes) : *left / kLeastTextOfVertex;
   draft.positions.reserve(corners);
   draft.faces.reserve_corners(corners);
 }
@@ -115,7 +117,7 @@ void read_soup(Input& input, bool binary, Draft& draft, std::vector<Real>& posit
 
 bool has_binary_stl_size(Input& input) {
   const auto header = input.ahead(kHeaderBytes);
-  return header.size() >= kHeaderBytes && input.size() && *input.left() == binary_size(header);
+  return header.size() >= kHeaderBytes && input.left() == binary_size(header);
 }
 
 Mesh read_stl(Input& input, const ReadOptions& options) {

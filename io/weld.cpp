@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <ranges>
 
 #include <fmt/format.h>
 
@@ -89,11 +90,11 @@ void Weld<Real>::merge_new_vertices() {
   std::size_t old_end = sorted_vertices_.size();
   sorted_vertices_.resize(old_end + new_.size());
   std::size_t write = sorted_vertices_.size();
-  for (auto place = new_.rbegin(); place != new_.rend(); ++place) {
-    while (old_end > 0 && batch_[*place] < vertex(sorted_vertices_[old_end - 1])) {
+  for (const auto place : std::views::reverse(new_)) {
+    while (old_end > 0 && batch_[place] < vertex(sorted_vertices_[old_end - 1])) {
       sorted_vertices_[--write] = sorted_vertices_[--old_end];
     }
-    sorted_vertices_[--write] = id_[*place];
+    sorted_vertices_[--write] = id_[place];
   }
 }
 

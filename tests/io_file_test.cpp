@@ -48,10 +48,8 @@ TEST_F(Files, M22_WhatIsNoFileIsAnError) {
   EXPECT_EQ(missing.code, ErrorCode::IoFailure);
   EXPECT_THAT(missing.message, HasSubstr("missing.ply: No such file"));
 
-  scratch.write("empty.ply", "");
-  EXPECT_THAT(file_refusal(scratch.path() / "empty.ply").message, HasSubstr("the file is empty"));
-  scratch.write("empty.obj", "");
-  EXPECT_EQ(vertex_count(io::read_mesh(scratch.path() / "empty.obj")), 0U);
+  EXPECT_THAT(file_refusal(scratch.write("empty.ply", "")).message, HasSubstr("the file is empty"));
+  EXPECT_EQ(vertex_count(io::read_mesh(scratch.write("empty.obj", ""))), 0U);
 }
 
 TEST_F(Files, M22_EndlessDevicesEnd) {
@@ -71,7 +69,7 @@ TEST_F(Files, M22_EndlessDevicesEnd) {
 TEST_F(Files, M22_APipeIsReadToItsEnd) {
   const auto pipe = scratch.path() / "pipe.obj";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  std::jthread writer([&pipe] {
+  const std::jthread writer([&pipe] {
     std::ofstream out(pipe);
     out << kObj.substr(0, 10) << std::flush;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -91,7 +89,7 @@ TEST_F(Files, M22_APipeThatNobodyWritesToIsGivenUp) {
 TEST_F(Files, M22_AnEndlessPipeIsReadUpToTheLimit) {
   const auto pipe = scratch.path() / "pipe.obj";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  std::jthread writer([&pipe] {
+  const std::jthread writer([&pipe] {
     // A reader that leaves ends the writing with an error, not with a signal.
     sigset_t blocked;
     sigemptyset(&blocked);
@@ -107,8 +105,7 @@ TEST_F(Files, M22_AnEndlessPipeIsReadUpToTheLimit) {
 }
 
 TEST_F(Files, M22_TheLimitHoldsForFilesAndMemory) {
-  scratch.write("a.obj", kObj);
-  EXPECT_EQ(file_refusal(scratch.path() / "a.obj", {.max_bytes = 10}).code, ErrorCode::TooLarge);
+  EXPECT_EQ(file_refusal(scratch.write("a.obj", kObj), {.max_bytes = 10}).code, ErrorCode::TooLarge);
   EXPECT_EQ(refusal("a.obj", kObj, {.max_bytes = 10}).code, ErrorCode::TooLarge);
   EXPECT_FALSE(refusal("a.obj", kObj, {.max_bytes = kObj.size()}).refused);
 }
@@ -119,7 +116,7 @@ TEST_F(Files, M22_AFileThatShrinksWhileReadIsAnError) {
   std::size_t refused = 0;
   for (int attempt = 0; attempt < 20; ++attempt) {
     const auto path = scratch.write("shrinks.obj", vertices);
-    std::jthread shrinker([&path, attempt] {
+    const std::jthread shrinker([&path, attempt] {
       std::this_thread::sleep_for(std::chrono::milliseconds(2 * attempt));
       std::filesystem::resize_file(path, 1000);
     });

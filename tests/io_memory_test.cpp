@@ -136,7 +136,10 @@ TEST_F(Memory, R1_Off) {
 
 void write_facet(std::ofstream& file, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   file << little(0.F, 0.F, 0.F);
-  for (const auto v : {a, b, c}) file << little(static_cast<float>(v / 2), static_cast<float>(v % 2), 0.F);
+  for (const auto v : {a, b, c}) {
+    const std::uint32_t row = v / 2;
+    file << little(static_cast<float>(row), static_cast<float>(v % 2), 0.F);
+  }
   file << little(std::uint16_t{0});
 }
 

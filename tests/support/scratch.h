@@ -28,7 +28,7 @@ class Scratch {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
   /// Writes a file and returns its path.
-  std::filesystem::path write(const std::string& name, std::string_view content) const {
+  [[nodiscard]] std::filesystem::path write(const std::string& name, std::string_view content) const {
     const auto path = path_ / name;
     std::ofstream file(path, std::ios::binary);
     file.write(content.data(), static_cast<std::streamsize>(content.size()));
