@@ -8,12 +8,12 @@
 // NOLINTBEGIN(misc-use-internal-linkage): as the README shows it
 // [readme]
 #include <meshhood/io/mesh_io.h>
-#include <meshhood/meshhood.h>
+#include <meshhood/search.h>
 
 std::vector<meshhood::VertexId> near(const char* file, meshhood::VertexId vertex, double radius) {
-  const auto mesh = meshhood::io::read_mesh(file);         // PLY, OBJ, OFF or STL
-  const auto index = meshhood::paper::build(mesh.view());  // once a mesh
-  meshhood::paper::Searcher searcher(index);               // one a thread, for any number of queries
+  const auto mesh = meshhood::io::read_mesh(file);  // PLY, OBJ, OFF or STL
+  const auto index = meshhood::build(mesh.view());  // once a mesh
+  meshhood::Searcher searcher(index);               // one a thread, for any number of queries
   std::vector<meshhood::VertexId> answer;
   searcher.neighborhood(vertex, radius, answer);  // the radius in the unit of the positions
   return answer;
