@@ -113,6 +113,21 @@ TEST(IndexBuild, IsTheSameForTheSameMesh) {
   }
 }
 
+TEST(IndexBuild, PositionsAreThoseOfTheMeshInIndexOrder) {
+  const TestMesh mesh = bumpy_grid(20);
+  const Index index = build(mesh.view());
+  ASSERT_EQ(index.positions().size(), mesh.size());
+  index.positions().visit([&](auto mine) {
+    mesh.view().positions.visit([&](auto given) {
+      for (std::size_t i = 0; i < mesh.size(); ++i) {
+        const Point expected = point(given, index.permutation()[i]);
+        const Point found = point(mine, i);
+        ASSERT_TRUE(found.x == expected.x && found.y == expected.y && found.z == expected.z) << i;
+      }
+    });
+  });
+}
+
 TEST(IndexBuild, LeavesOfASurfaceAreFullAndConnected) {
   const TestMesh mesh = bumpy_grid(200);
   const Index built = build(mesh.view());

@@ -25,7 +25,7 @@ class EveryPath : public testing::TestWithParam<Isa> {
 /// A leaf of `size` vertices, all x before all y, with what a leaf may read beyond its end.
 template <class Real>
 std::vector<Real> random_leaf(Random& random, std::size_t size, double extent) {
-  std::vector<Real> xyz(3 * size + kLeafCapacity, std::numeric_limits<Real>::quiet_NaN());
+  std::vector<Real> xyz(3 * kLeafCapacity, std::numeric_limits<Real>::quiet_NaN());
   for (std::size_t i = 0; i < 3 * size; ++i) xyz[i] = static_cast<Real>(random.uniform(-extent, extent));
   return xyz;
 }
@@ -43,8 +43,7 @@ Lanes by_predicate(const std::vector<Real>& xyz, std::size_t size, const Point& 
   const SearchBall ball(centre, radius);
   Lanes lanes = 0;
   for (std::size_t i = 0; i < size; ++i) {
-    const Point p{static_cast<double>(xyz[i]), static_cast<double>(xyz[size + i]),
-                  static_cast<double>(xyz[2 * size + i])};
+    const Point p = point(std::span(xyz), i);
     lanes |= Lanes{ball.contains(p)} << i;
   }
   return lanes;
@@ -60,8 +59,7 @@ void expect_within_is_the_predicate(const Kernels& tried, Random& random) {
     const Point centre{rounded<Real>(random.uniform(-extent, extent)), rounded<Real>(random.uniform(-extent, extent)),
                        rounded<Real>(random.uniform(-extent, extent))};
     const std::size_t lane = random.below(size);
-    const Point p{static_cast<double>(xyz[lane]), static_cast<double>(xyz[size + lane]),
-                  static_cast<double>(xyz[2 * size + lane])};
+    const Point p = point(std::span(xyz), lane);
     const double tie = std::sqrt(squared_distance(p, centre));
     for (const double radius : {std::nextafter(tie, 0.0), tie, std::nextafter(tie, 1e300), tie * (1 + 1e-7),
                                 tie * (1 - 1e-7), random.uniform(0, 3 * extent), 0.0}) {

@@ -41,6 +41,9 @@ class Index {
 
   [[nodiscard]] IndexBytes bytes() const;
 
+  /// The positions in index order, #V by 3. Lives as long as the index.
+  [[nodiscard]] PositionsView positions() const;
+
   /// The vertices in index order. #V; lives as long as the index.
   [[nodiscard]] std::span<const VertexId> permutation() const;
 

@@ -32,19 +32,13 @@ std::vector<Point> place_points(const PositionsView& positions, const Frame& fra
   });
 }
 
-/// The positions leaf by leaf, all x first, then y, then z.
+/// The positions in index order.
 template <class Real>
-std::vector<Real> pack_positions(std::span<const Real> xyz, const LeafPartition& leaves) {
-  std::vector<Real> packed(xyz.size() + kLeafCapacity);
-  auto out = packed.begin();
-  for (std::size_t leaf = 0; leaf + 1 < leaves.leaf_begin.size(); ++leaf) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (std::size_t v = leaves.leaf_begin[leaf]; v < leaves.leaf_begin[leaf + 1]; ++v) {
-        *out++ = xyz[3 * std::size_t{leaves.permutation[v]} + axis];
-      }
-    }
-  }
-  return packed;
+std::vector<Real> permute_positions(std::span<const Real> xyz, std::span<const VertexId> permutation) {
+  std::vector<Real> permuted(xyz.size() + 3 * kLeafCapacity);
+  auto out = permuted.begin();
+  for (const VertexId v : permutation) out = std::copy_n(xyz.begin() + 3 * std::ptrdiff_t{v}, 3, out);
+  return permuted;
 }
 
 /// What the tree says of each leaf.
@@ -140,7 +134,8 @@ Index IndexAccess::build_valid(const GraphView& graph, const BuildOptions& /*opt
 
   storage->leaves = make_leaf_records(partition, links, lowest.bounds);
   storage->tree = make_tree(std::move(lowest), partition.leaf_begin, points);
-  graph.positions.visit([&](auto xyz) { storage->positions = pack_positions(xyz, partition); });
+  graph.positions.visit(
+      [&](auto xyz) { storage->positions = permute_positions(xyz, std::span<const VertexId>(partition.permutation)); });
   pad(links.adjacency);
   pad(links.crossings);
   pad(partition.permutation);

@@ -22,6 +22,11 @@ Index::~Index() = default;
 
 std::size_t Index::vertex_count() const { return storage_->vertex_count(); }
 
+PositionsView Index::positions() const {
+  return std::visit([&](const auto& values) { return PositionsView(std::span(values).first(3 * vertex_count())); },
+                    storage_->positions);
+}
+
 std::span<const VertexId> Index::permutation() const {
   return std::span(storage_->permutation).first(storage_->vertex_count());
 }

@@ -74,8 +74,7 @@ using Tree = std::vector<TreeLevel>;
 
 struct IndexStorage {
   Frame frame;
-  /// x of all vertices of a leaf, then y, then z, beginning at three times its first vertex; `kLeafCapacity` more at
-  /// the end, so that a whole leaf may be read anywhere.
+  /// In index order, #V by 3; `kLeafCapacity` vertices more at the end, so that a whole leaf may be read anywhere.
   std::variant<std::vector<float>, std::vector<double>> positions;
   std::vector<VertexId> permutation;  // in index order: the caller's vertex; padded like the positions
   std::vector<std::uint32_t> place;   // by the caller's vertex: 32 times its leaf, plus its lane
@@ -87,14 +86,8 @@ struct IndexStorage {
   Tree tree;
 
   [[nodiscard]] Point position(LeafId leaf, unsigned lane) const {
-    const std::size_t first = leaf_begin[leaf];
-    const std::size_t size = leaf_begin[leaf + 1] - first;
-    return std::visit(
-        [&](const auto& all) {
-          const auto* p = all.data() + 3 * first + lane;
-          return Point{static_cast<double>(p[0]), static_cast<double>(p[size]), static_cast<double>(p[2 * size])};
-        },
-        positions);
+    const std::size_t vertex = std::size_t{leaf_begin[leaf]} + lane;
+    return std::visit([&](const auto& all) { return point(std::span(all), vertex); }, positions);
   }
 
   [[nodiscard]] std::size_t vertex_count() const { return place.size(); }

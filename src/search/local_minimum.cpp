@@ -13,9 +13,7 @@ using Squares = std::array<double, kLeafCapacity>;
 template <class Real>
 void squared_distances(const Real* xyz, std::size_t size, const Point& centre, Squares& out) {
   for (std::size_t i = 0; i < size; ++i) {
-    const Point p{static_cast<double>(xyz[i]), static_cast<double>(xyz[size + i]),
-                  static_cast<double>(xyz[2 * size + i])};
-    out[i] = squared_distance(p, centre);
+    out[i] = squared_distance(point(std::span(xyz, 3 * size), i), centre);
   }
 }
 

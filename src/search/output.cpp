@@ -42,21 +42,6 @@ VertexId* copy_parts(const Answer& answer, const IndexStorage& index, const Kern
   return out;
 }
 
-/// The distances of those vertices of a leaf that are in `lanes`.
-template <class Real>
-double* write_leaf(const IndexStorage& index, const std::vector<Real>& positions, LeafId leaf, Lanes lanes,
-                   const Point& centre, double* out) {
-  const std::size_t first = index.leaf_begin[leaf];
-  const std::size_t size = index.leaf_begin[leaf + 1] - first;
-  const Real* x = positions.data() + 3 * first;
-  for (; lanes != 0; lanes &= lanes - 1) {
-    const Real* p = x + std::countr_zero(lanes);
-    const Point at{static_cast<double>(p[0]), static_cast<double>(p[size]), static_cast<double>(p[2 * size])};
-    *out++ = std::sqrt(squared_distance(at, centre));
-  }
-  return out;
-}
-
 }  // namespace
 
 std::size_t count(const Answer& answer) {
@@ -79,16 +64,19 @@ void write_distances(const Answer& answer, const IndexStorage& index, const Poin
   out.resize(count(answer));
   std::visit(
       [&](const auto& positions) {
+        const std::span xyz(positions);
         double* end = out.data();
+        const auto append = [&](std::size_t vertex) {
+          *end++ = std::sqrt(squared_distance(point(xyz, vertex), centre));
+        };
         for (const VertexRange& run : answer.runs) {
-          for (LeafId leaf = index.place[index.permutation[run.begin]] / kLeafCapacity;
-               index.leaf_begin[leaf] < run.end; ++leaf) {
-            const auto size = static_cast<unsigned>(index.leaf_begin[leaf + 1] - index.leaf_begin[leaf]);
-            end = write_leaf(index, positions, leaf, first_lanes(size), centre, end);
-          }
+          for (VertexId vertex = run.begin; vertex < run.end; ++vertex) append(vertex);
         }
         for (const PartialLeaf& part : answer.parts) {
-          end = write_leaf(index, positions, part.leaf, part.lanes, centre, end);
+          const std::size_t first = index.leaf_begin[part.leaf];
+          for (Lanes left = part.lanes; left != 0; left &= left - 1) {
+            append(first + static_cast<std::size_t>(std::countr_zero(left)));
+          }
         }
       },
       index.positions);

@@ -55,7 +55,7 @@ struct Placements {
 [[nodiscard]] Placement place(const FrameSphere& sphere, const TreeBall& ball);
 
 struct Kernels {
-  /// Which of the `size` vertices of a leaf at `xyz` (see IndexStorage::positions) are in the ball.
+  /// Which of the first `size` vertices of `xyz`, #V by 3, are in the ball; `size` <= 32. Reads as far as 32.
   Lanes (*within_float)(const float* xyz, std::size_t size, const LeafBall& ball);
   Lanes (*within_double)(const double* xyz, std::size_t size, const LeafBall& ball);
 

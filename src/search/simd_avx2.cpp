@@ -15,12 +15,32 @@ namespace {
 MESHHOOD_AVX2 inline __m256d load4(const float* values) { return _mm256_cvtps_pd(_mm_loadu_ps(values)); }
 MESHHOOD_AVX2 inline __m256d load4(const double* values) { return _mm256_loadu_pd(values); }
 
+struct Points4 {
+  __m256d x;
+  __m256d y;
+  __m256d z;
+};
+
+/// Four vertices of `xyz`, #V by 3.
+template <class Real>
+MESHHOOD_AVX2 inline Points4 load_points4(const Real* xyz) {
+  const __m256d a = load4(xyz);                                // x0 y0 | z0 x1
+  const __m256d b = load4(xyz + 4);                            // y1 z1 | x2 y2
+  const __m256d c = load4(xyz + 8);                            // z2 x3 | y3 z3
+  const __m256d even = _mm256_blend_pd(a, b, 0b1100);          // x0 y0 | x2 y2
+  const __m256d odd = _mm256_blend_pd(b, c, 0b1100);           // y1 z1 | y3 z3
+  const __m256d between = _mm256_permute2f128_pd(a, c, 0x21);  // z0 x1 | z2 x3
+  return {_mm256_shuffle_pd(even, between, 0b1010), _mm256_shuffle_pd(even, odd, 0b0101),
+          _mm256_shuffle_pd(between, odd, 0b1010)};
+}
+
 /// The predicate on four vertices.
 template <class Real>
-MESHHOOD_AVX2 inline Lanes within4(const Real* x, const Real* y, const Real* z, const LeafBall& ball) {
-  const __m256d dx = _mm256_sub_pd(load4(x), _mm256_set1_pd(ball.centre.x));
-  const __m256d dy = _mm256_sub_pd(load4(y), _mm256_set1_pd(ball.centre.y));
-  const __m256d dz = _mm256_sub_pd(load4(z), _mm256_set1_pd(ball.centre.z));
+MESHHOOD_AVX2 inline Lanes within4(const Real* xyz, const LeafBall& ball) {
+  const Points4 points = load_points4(xyz);
+  const __m256d dx = _mm256_sub_pd(points.x, _mm256_set1_pd(ball.centre.x));
+  const __m256d dy = _mm256_sub_pd(points.y, _mm256_set1_pd(ball.centre.y));
+  const __m256d dz = _mm256_sub_pd(points.z, _mm256_set1_pd(ball.centre.z));
   const __m256d square =
       _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(dx, dx), _mm256_mul_pd(dy, dy)), _mm256_mul_pd(dz, dz));
   return static_cast<Lanes>(_mm256_movemask_pd(_mm256_cmp_pd(square, _mm256_set1_pd(ball.squared_radius), _CMP_LE_OQ)));
@@ -30,15 +50,28 @@ template <class Real>
 MESHHOOD_AVX2 Lanes within_exact(const Real* xyz, std::size_t size, const LeafBall& ball) {
   Lanes result = 0;
   for (std::size_t i = 0; i < size; i += 4) {
-    result |= within4(xyz + i, xyz + size + i, xyz + 2 * size + i, ball) << i;
+    result |= within4(xyz + 3 * i, ball) << i;
   }
   return result & first_lanes(static_cast<unsigned>(size));
 }
 
-MESHHOOD_AVX2 inline __m256 square8(const float* x, const float* y, const float* z, const LeafBall& ball) {
-  const __m256 dx = _mm256_sub_ps(_mm256_loadu_ps(x), _mm256_set1_ps(ball.x));
-  const __m256 dy = _mm256_sub_ps(_mm256_loadu_ps(y), _mm256_set1_ps(ball.y));
-  const __m256 dz = _mm256_sub_ps(_mm256_loadu_ps(z), _mm256_set1_ps(ball.z));
+/// The first half of the result is at `low`, the second at `high`.
+MESHHOOD_AVX2 inline __m256 load_halves(const float* low, const float* high) {
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(low)), _mm_loadu_ps(high), 1);
+}
+
+MESHHOOD_AVX2 inline __m256 square8(const float* xyz, const LeafBall& ball) {
+  const __m256 a = load_halves(xyz, xyz + 12);                               // x0 y0 z0 x1 | x4 y4 z4 x5
+  const __m256 b = load_halves(xyz + 4, xyz + 16);                           // y1 z1 x2 y2 | y5 z5 x6 y6
+  const __m256 c = load_halves(xyz + 8, xyz + 20);                           // z2 x3 y3 z3 | z6 x7 y7 z7
+  const __m256 upper_xy = _mm256_shuffle_ps(b, c, _MM_SHUFFLE(2, 1, 3, 2));  // x2 y2 x3 y3 | ...
+  const __m256 lower_yz = _mm256_shuffle_ps(a, b, _MM_SHUFFLE(1, 0, 2, 1));  // y0 z0 y1 z1 | ...
+  const __m256 x = _mm256_shuffle_ps(a, upper_xy, _MM_SHUFFLE(2, 0, 3, 0));
+  const __m256 y = _mm256_shuffle_ps(lower_yz, upper_xy, _MM_SHUFFLE(3, 1, 2, 0));
+  const __m256 z = _mm256_shuffle_ps(lower_yz, c, _MM_SHUFFLE(3, 0, 3, 1));
+  const __m256 dx = _mm256_sub_ps(x, _mm256_set1_ps(ball.x));
+  const __m256 dy = _mm256_sub_ps(y, _mm256_set1_ps(ball.y));
+  const __m256 dz = _mm256_sub_ps(z, _mm256_set1_ps(ball.z));
   return _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(dx, dx), _mm256_mul_ps(dy, dy)), _mm256_mul_ps(dz, dz));
 }
 
@@ -48,7 +81,7 @@ MESHHOOD_AVX2 Lanes within_float(const float* xyz, std::size_t size, const LeafB
   Lanes inside = 0;
   Lanes outside = 0;
   for (std::size_t i = 0; i < kLeafCapacity; i += 8) {
-    const __m256 square = square8(xyz + i, xyz + size + i, xyz + 2 * size + i, ball);
+    const __m256 square = square8(xyz + 3 * i, ball);
     inside |= static_cast<Lanes>(_mm256_movemask_ps(_mm256_cmp_ps(square, inner, _CMP_LE_OQ))) << i;
     outside |= static_cast<Lanes>(_mm256_movemask_ps(_mm256_cmp_ps(square, outer, _CMP_GT_OQ))) << i;
   }

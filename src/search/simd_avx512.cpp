@@ -21,12 +21,34 @@ namespace {
 MESHHOOD_AVX512 inline __m512d load8(const float* values) { return _mm512_cvtps_pd(_mm256_loadu_ps(values)); }
 MESHHOOD_AVX512 inline __m512d load8(const double* values) { return _mm512_loadu_pd(values); }
 
+struct Points8 {
+  __m512d x;
+  __m512d y;
+  __m512d z;
+};
+
+/// Eight vertices of `xyz`, #V by 3.
+template <class Real>
+MESHHOOD_AVX512 inline Points8 load_points8(const Real* xyz) {
+  const __m512d a = load8(xyz);
+  const __m512d b = load8(xyz + 8);
+  const __m512d c = load8(xyz + 16);
+  // Numbers from 8 on stand for the second source; what belongs to `c` is put in afterwards.
+  const __m512d x = _mm512_permutex2var_pd(a, _mm512_setr_epi64(0, 3, 6, 9, 12, 15, 0, 0), b);
+  const __m512d y = _mm512_permutex2var_pd(a, _mm512_setr_epi64(1, 4, 7, 10, 13, 0, 0, 0), b);
+  const __m512d z = _mm512_permutex2var_pd(a, _mm512_setr_epi64(2, 5, 8, 11, 14, 0, 0, 0), b);
+  return {_mm512_mask_permutexvar_pd(x, 0xC0, _mm512_setr_epi64(0, 0, 0, 0, 0, 0, 2, 5), c),
+          _mm512_mask_permutexvar_pd(y, 0xE0, _mm512_setr_epi64(0, 0, 0, 0, 0, 0, 3, 6), c),
+          _mm512_mask_permutexvar_pd(z, 0xE0, _mm512_setr_epi64(0, 0, 0, 0, 0, 1, 4, 7), c)};
+}
+
 /// The predicate on eight vertices.
 template <class Real>
-MESHHOOD_AVX512 inline Lanes within8(const Real* x, const Real* y, const Real* z, const LeafBall& ball) {
-  const __m512d dx = _mm512_sub_pd(load8(x), _mm512_set1_pd(ball.centre.x));
-  const __m512d dy = _mm512_sub_pd(load8(y), _mm512_set1_pd(ball.centre.y));
-  const __m512d dz = _mm512_sub_pd(load8(z), _mm512_set1_pd(ball.centre.z));
+MESHHOOD_AVX512 inline Lanes within8(const Real* xyz, const LeafBall& ball) {
+  const Points8 points = load_points8(xyz);
+  const __m512d dx = _mm512_sub_pd(points.x, _mm512_set1_pd(ball.centre.x));
+  const __m512d dy = _mm512_sub_pd(points.y, _mm512_set1_pd(ball.centre.y));
+  const __m512d dz = _mm512_sub_pd(points.z, _mm512_set1_pd(ball.centre.z));
   const __m512d square =
       _mm512_add_pd(_mm512_add_pd(_mm512_mul_pd(dx, dx), _mm512_mul_pd(dy, dy)), _mm512_mul_pd(dz, dz));
   return _mm512_cmp_pd_mask(square, _mm512_set1_pd(ball.squared_radius), _CMP_LE_OQ);
@@ -36,21 +58,42 @@ template <class Real>
 MESHHOOD_AVX512 Lanes within_exact(const Real* xyz, std::size_t size, const LeafBall& ball) {
   Lanes result = 0;
   for (std::size_t i = 0; i < size; i += 8) {
-    result |= within8(xyz + i, xyz + size + i, xyz + 2 * size + i, ball) << i;
+    result |= within8(xyz + 3 * i, ball) << i;
   }
   return result & first_lanes(static_cast<unsigned>(size));
 }
 
-MESHHOOD_AVX512 inline __m512 square16(const float* x, const float* y, const float* z, const LeafBall& ball) {
-  const __m512 dx = _mm512_sub_ps(_mm512_loadu_ps(x), _mm512_set1_ps(ball.x));
-  const __m512 dy = _mm512_sub_ps(_mm512_loadu_ps(y), _mm512_set1_ps(ball.y));
-  const __m512 dz = _mm512_sub_ps(_mm512_loadu_ps(z), _mm512_set1_ps(ball.z));
+struct Points16 {
+  __m512 x;
+  __m512 y;
+  __m512 z;
+};
+
+/// Sixteen vertices of `xyz`, #V by 3.
+MESHHOOD_AVX512 inline Points16 load_points16(const float* xyz) {
+  const __m512 a = _mm512_loadu_ps(xyz);
+  const __m512 b = _mm512_loadu_ps(xyz + 16);
+  const __m512 c = _mm512_loadu_ps(xyz + 32);
+  const __m512i xs = _mm512_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21, 24, 27, 30, 1, 4, 7, 10, 13);
+  const __m512i ys = _mm512_setr_epi32(1, 4, 7, 10, 13, 16, 19, 22, 25, 28, 31, 2, 5, 8, 11, 14);
+  const __m512i zs = _mm512_setr_epi32(2, 5, 8, 11, 14, 17, 20, 23, 26, 29, 0, 3, 6, 9, 12, 15);
+  // Numbers from 16 on stand for the second source; what belongs to `c` is put in afterwards.
+  return {_mm512_mask_permutexvar_ps(_mm512_permutex2var_ps(a, xs, b), 0xF800, xs, c),
+          _mm512_mask_permutexvar_ps(_mm512_permutex2var_ps(a, ys, b), 0xF800, ys, c),
+          _mm512_mask_permutexvar_ps(_mm512_permutex2var_ps(a, zs, b), 0xFC00, zs, c)};
+}
+
+MESHHOOD_AVX512 inline __m512 square16(const float* xyz, const LeafBall& ball) {
+  const Points16 points = load_points16(xyz);
+  const __m512 dx = _mm512_sub_ps(points.x, _mm512_set1_ps(ball.x));
+  const __m512 dy = _mm512_sub_ps(points.y, _mm512_set1_ps(ball.y));
+  const __m512 dz = _mm512_sub_ps(points.z, _mm512_set1_ps(ball.z));
   return _mm512_add_ps(_mm512_add_ps(_mm512_mul_ps(dx, dx), _mm512_mul_ps(dy, dy)), _mm512_mul_ps(dz, dz));
 }
 
 MESHHOOD_AVX512 Lanes within_float(const float* xyz, std::size_t size, const LeafBall& ball) {
-  const __m512 low = square16(xyz, xyz + size, xyz + 2 * size, ball);
-  const __m512 high = square16(xyz + 16, xyz + size + 16, xyz + 2 * size + 16, ball);
+  const __m512 low = square16(xyz, ball);
+  const __m512 high = square16(xyz + 48, ball);
   const __m512 inner = _mm512_set1_ps(ball.surely_inside);
   const __m512 outer = _mm512_set1_ps(ball.surely_outside);
   const Lanes inside = _mm512_cmp_ps_mask(low, inner, _CMP_LE_OQ) | Lanes{_mm512_cmp_ps_mask(high, inner, _CMP_LE_OQ)}

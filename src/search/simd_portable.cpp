@@ -8,12 +8,9 @@ namespace {
 
 template <class Real>
 Lanes within(const Real* xyz, std::size_t size, const LeafBall& ball) {
-  const Real* x = xyz;
-  const Real* y = x + size;
-  const Real* z = y + size;
   Lanes result = 0;
   for (std::size_t i = 0; i < size; ++i) {
-    const Point p{static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])};
+    const Point p = point(std::span(xyz, 3 * size), i);
     result |= Lanes{squared_distance(p, ball.centre) <= ball.squared_radius} << i;
   }
   return result;
