@@ -14,9 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "meshhood/index.h"
 #include "meshhood/meshhood.h"
-#include "meshhood/search.h"
 
 #include "exact_mesh.h"
 

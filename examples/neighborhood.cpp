@@ -8,7 +8,7 @@
 // NOLINTBEGIN(misc-use-internal-linkage): as the README shows it
 // [readme]
 #include <meshhood/io/mesh_io.h>
-#include <meshhood/search.h>
+#include <meshhood/meshhood.h>
 
 std::vector<meshhood::VertexId> near(const char* file, meshhood::VertexId vertex, double radius) {
   const auto mesh = meshhood::io::read_mesh(file);  // PLY, OBJ, OFF or STL

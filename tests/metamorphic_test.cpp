@@ -14,7 +14,6 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/meshhood.h"
-#include "meshhood/search.h"
 
 #include "families.h"
 #include "oracle.h"

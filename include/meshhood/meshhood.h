@@ -11,13 +11,17 @@
 ///     std::vector<float> positions = ...;          // #V by 3
 ///     std::vector<std::uint32_t> triangles = ...;  // #F by 3
 ///
-///     const auto index = meshhood::paper::build({positions, meshhood::FacesView::triangles(triangles)});
-///     meshhood::paper::Searcher searcher(index);   // one a thread
+///     const auto index = meshhood::build({positions, meshhood::FacesView::triangles(triangles)});
+///     meshhood::Searcher searcher(index);    // one a thread
 ///     std::vector<meshhood::VertexId> near;
-///     searcher.neighborhood(42, 1.5, near);        // contains the exact answer, lies in the ball
+///     searcher.neighborhood(42, 1.5, near);  // exactly what a breadth-first search would find
+///
+/// `meshhood::paper` has the same calls with the approximate answers of the paper.
 
 #include "meshhood/adjacency.h"  // IWYU pragma: export
 #include "meshhood/error.h"      // IWYU pragma: export
+#include "meshhood/index.h"      // IWYU pragma: export
 #include "meshhood/mesh.h"       // IWYU pragma: export
 #include "meshhood/paper.h"      // IWYU pragma: export
 #include "meshhood/reference.h"  // IWYU pragma: export
+#include "meshhood/search.h"     // IWYU pragma: export

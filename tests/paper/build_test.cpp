@@ -20,7 +20,6 @@
 namespace meshhood::test {
 namespace {
 
-using paper::build;
 using paper::BuildOptions;
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -36,22 +35,22 @@ bool is_complete(const paper::Index& index) { return index.levels().back().mean_
 
 TEST(Build, ComputesFiveLevelsAndKeepsThreeByDefault) {
   const TestMesh mesh = make_grid(60, 60, false);
-  EXPECT_THAT(level_numbers(build(mesh.view())), ElementsAre(2, 3, 4));
+  EXPECT_THAT(level_numbers(paper::build(mesh.view())), ElementsAre(2, 3, 4));
 }
 
 TEST(Build, KeepsWhatTheOptionsSay) {
   const TestMesh mesh = make_grid(60, 60, true);
-  EXPECT_THAT(level_numbers(build(mesh.view(), {.levels = 4, .discard = 0})), ElementsAre(0, 1, 2, 3));
-  EXPECT_THAT(level_numbers(build(mesh.view(), {.levels = 1, .discard = 0})), ElementsAre(0));
-  EXPECT_THAT(level_numbers(build(mesh.view(), {.levels = 3, .discard = 2})), ElementsAre(2));
-  EXPECT_THAT(level_numbers(build(mesh.view(), {.levels = 3, .discard = 1000})), ElementsAre(2));
+  EXPECT_THAT(level_numbers(paper::build(mesh.view(), {.levels = 4, .discard = 0})), ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(level_numbers(paper::build(mesh.view(), {.levels = 1, .discard = 0})), ElementsAre(0));
+  EXPECT_THAT(level_numbers(paper::build(mesh.view(), {.levels = 3, .discard = 2})), ElementsAre(2));
+  EXPECT_THAT(level_numbers(paper::build(mesh.view(), {.levels = 3, .discard = 1000})), ElementsAre(2));
 }
 
 TEST(Build, GoesOnUntilEveryComponentIsOneCluster) {
   TestMesh mesh = make_grid(20, 20, false);
   append(mesh, make_grid(3, 3, false));
   mesh.add_vertex(100, 0, 0);
-  const paper::Index index = build(mesh.finish(true).view(), {.levels = BuildOptions::kAllLevels, .discard = 0});
+  const paper::Index index = paper::build(mesh.finish(true).view(), {.levels = BuildOptions::kAllLevels, .discard = 0});
   EXPECT_TRUE(is_complete(index));
   EXPECT_EQ(index.levels().back().clusters, 3U);
   EXPECT_LT(index.levels().size(), 10U);
@@ -63,7 +62,8 @@ TEST(Build, HalvesUntilItIsComplete) {
   for (const Family& family : families()) {
     for (std::uint64_t seed = 0; seed < scaled(10, 2); ++seed, ++meshes) {
       const TestMesh mesh = make_mesh(family, seed, 20 + 50 * seed);
-      const auto index = build(mesh.view(), {.levels = BuildOptions::kAllLevels, .discard = 0, .fusion_growth = 0});
+      const auto index =
+          paper::build(mesh.view(), {.levels = BuildOptions::kAllLevels, .discard = 0, .fusion_growth = 0});
       EXPECT_TRUE(is_complete(index)) << mesh.name;
       EXPECT_LE(index.levels().size(), 2 + std::bit_width(mesh.size())) << mesh.name;
       EXPECT_THAT(index.check(mesh.view()), IsEmpty()) << mesh.name;
@@ -75,7 +75,7 @@ TEST(Build, HalvesUntilItIsComplete) {
 TEST(Build, FusesMoreWhereTheGrowthIsLarger) {
   const TestMesh mesh = make_grid(60, 60, false);
   const auto clusters = [&](double growth) {
-    return build(mesh.view(), {.levels = 2, .discard = 1, .fusion_growth = growth}).levels().back().clusters;
+    return paper::build(mesh.view(), {.levels = 2, .discard = 1, .fusion_growth = growth}).levels().back().clusters;
   };
   EXPECT_LE(clusters(4), clusters(0));
   EXPECT_LT(clusters(16), clusters(4));
@@ -84,7 +84,7 @@ TEST(Build, FusesMoreWhereTheGrowthIsLarger) {
 
 TEST(Build, SummarisesItsLevels) {
   const TestMesh mesh = make_grid(50, 40, false);
-  const paper::Index index = build(mesh.view(), {.levels = 3, .discard = 0});
+  const paper::Index index = paper::build(mesh.view(), {.levels = 3, .discard = 0});
   EXPECT_EQ(index.vertex_count(), 2000U);
   const auto levels = index.levels();
   ASSERT_EQ(levels.size(), 3U);
@@ -105,7 +105,7 @@ TEST(Build, SummarisesItsLevels) {
 
 TEST(Build, PermutesTheVertices) {
   const TestMesh mesh = make_grid(30, 30, false);
-  const paper::Index index = build(mesh.view());
+  const paper::Index index = paper::build(mesh.view());
   std::vector<VertexId> ids(index.permutation().begin(), index.permutation().end());
   std::sort(ids.begin(), ids.end());
   for (std::size_t v = 0; v < mesh.size(); ++v) ASSERT_EQ(ids[v], v);
@@ -115,10 +115,10 @@ TEST(Build, OutlivesTheMeshAndMoves) {
   const TestMesh mesh = make_grid(10, 10, false);
   paper::Index index = [&] {
     const TestMesh copy = mesh;
-    return build(copy.view());
+    return paper::build(copy.view());
   }();
   paper::Index moved = std::move(index);
-  index = build(mesh.view());
+  index = paper::build(mesh.view());
   EXPECT_TRUE(same_index(index, moved));
 }
 
@@ -128,10 +128,11 @@ TEST(Build, IsDeterministic) {
     for (std::uint64_t seed = 0; seed < scaled(10, 2); ++seed) {
       const TestMesh mesh = make_mesh(family, seed, 30 + 40 * seed);
       const BuildOptions options{.levels = 1 + static_cast<int>(seed % 5), .discard = static_cast<int>(seed % 3)};
-      const paper::Index index = build(mesh.view(), options);
+      const paper::Index index = paper::build(mesh.view(), options);
       const Adjacency graph = adjacency(mesh.view());
-      EXPECT_TRUE(same_index(index, build(mesh.view(), options))) << mesh.name;
-      EXPECT_TRUE(same_index(index, build(GraphView{mesh.positions_view(), graph.view()}, options))) << mesh.name;
+      EXPECT_TRUE(same_index(index, paper::build(mesh.view(), options))) << mesh.name;
+      EXPECT_TRUE(same_index(index, paper::build(GraphView{mesh.positions_view(), graph.view()}, options)))
+          << mesh.name;
       EXPECT_THAT(index.check(GraphView{mesh.positions_view(), graph.view()}), IsEmpty()) << mesh.name;
       indexes += 3;
     }
@@ -147,28 +148,28 @@ std::vector<Index> widened(const TestMesh& mesh) {
 TEST(Build, DoesNotDependOnTheTypeOfTheIndices) {
   const TestMesh mesh = make_grid(30, 30, false);
   const auto of = [&](const auto& corners) {
-    return build({mesh.positions_view(), FacesView::triangles(corners)}, {.levels = 3, .discard = 0});
+    return paper::build({mesh.positions_view(), FacesView::triangles(corners)}, {.levels = 3, .discard = 0});
   };
   const paper::Index index = of(mesh.corners);
   EXPECT_TRUE(same_index(index, of(widened<std::int32_t>(mesh))));
   EXPECT_TRUE(same_index(index, of(widened<std::uint64_t>(mesh))));
   EXPECT_TRUE(same_index(index, of(widened<std::int64_t>(mesh))));
-  EXPECT_TRUE(same_index(index, build(mesh.view(), {.levels = 3, .discard = 0})));
+  EXPECT_TRUE(same_index(index, paper::build(mesh.view(), {.levels = 3, .discard = 0})));
 }
 
 TEST(Build, MakesTheSameClustersInEitherPrecision) {
   const TestMesh single = make_grid(30, 30, false);
   TestMesh wide = single;
   wide.finish(false);
-  const paper::Index a = build(single.view());
-  const paper::Index b = build(wide.view());
+  const paper::Index a = paper::build(single.view());
+  const paper::Index b = paper::build(wide.view());
   EXPECT_TRUE(std::ranges::equal(a.permutation(), b.permutation()));
 }
 
 TEST(Build, A1RefusesOptionsOutOfRange) {
   const TestMesh mesh = make_grid(3, 3, false);
   const auto refuse = [&](const BuildOptions& options, const char* culprit) {
-    expect_refused(ErrorCode::InvalidOption, culprit, [&] { static_cast<void>(build(mesh.view(), options)); });
+    expect_refused(ErrorCode::InvalidOption, culprit, [&] { static_cast<void>(paper::build(mesh.view(), options)); });
   };
   refuse({.levels = 0}, "levels is 0");
   refuse({.levels = -3}, "levels is -3");

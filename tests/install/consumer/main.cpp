@@ -18,8 +18,8 @@ int main(int argc, char** argv) {
   meshhood::io::write_ply(file, {xyz, meshhood::FacesView::triangles(triangles)});
 
   const auto mesh = meshhood::io::read_mesh(file);
-  const auto index = meshhood::paper::build(mesh.view());
-  meshhood::paper::Searcher searcher(index);
+  const auto index = meshhood::build(mesh.view());
+  meshhood::Searcher searcher(index);
   std::printf("meshhood %s: %zu of %zu vertices within 1\n", std::string(meshhood::kVersion).c_str(),
               searcher.count(0, 1.0), index.vertex_count());
   return searcher.count(0, 2.0) == 4 && meshhood::exact_neighborhood(mesh.view(), 0, 1.0).size() == 3 ? 0 : 1;
