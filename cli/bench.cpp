@@ -39,8 +39,10 @@ struct Table1 {
   std::size_t faces;
   std::size_t mesh_bytes;      ///< positions and corners; offsets too where not all faces are triangles
   std::size_t topology_bytes;  ///< the same and the adjacency
-  std::size_t index_bytes;
-  double build_seconds;  ///< of processor time
+  std::size_t index_bytes;     ///< of the paper's index
+  double build_seconds;        ///< of processor time
+  std::size_t exact_index_bytes;
+  double exact_build_seconds;
 };
 
 std::size_t mesh_bytes(const MeshView& mesh) {
@@ -49,40 +51,54 @@ std::size_t mesh_bytes(const MeshView& mesh) {
   return positions + 4 * mesh.faces.corners().size() + offsets;
 }
 
-struct TimedIndex {
-  paper::Index index;
+template <class Index>
+struct Timed {
+  Index index;
   double seconds;
 };
 
-TimedIndex build_timed(const MeshView& mesh) {
+template <class Build>
+auto build_timed(Build&& build, const MeshView& mesh) {
   const double start = processor_time();
-  paper::Index index = build_index(mesh);
-  return {std::move(index), processor_time() - start};
+  auto index = build(mesh);
+  return Timed<decltype(index)>{std::move(index), processor_time() - start};
 }
 
-Table1 table1(const Input& input, const TimedIndex& built) {
+struct Indexes {
+  Timed<paper::Index> paper;
+  Timed<Index> exact;
+};
+
+Table1 table1(const Input& input, const Indexes& built) {
   const std::size_t mesh = mesh_bytes(input.view());
   const AdjacencyView adjacency = input.adjacency.view();
   return {.vertices = input.vertex_count(),
           .faces = input.view().faces.size(),
           .mesh_bytes = mesh,
           .topology_bytes = mesh + adjacency.offsets.size_bytes() + adjacency.neighbors.size_bytes(),
-          .index_bytes = built.index.bytes(),
-          .build_seconds = built.seconds};
+          .index_bytes = built.paper.index.bytes(),
+          .build_seconds = built.paper.seconds,
+          .exact_index_bytes = built.exact.index.bytes().total(),
+          .exact_build_seconds = built.exact.seconds};
 }
 
-std::vector<Measurement> table2(const Input& input, const paper::Index& index, const Plan& plan) {
+std::vector<Measurement> table2(const Input& input, const Indexes& built, const Plan& plan) {
   const std::vector<Method> methods{bfs_method(input.graph()), ball_method(input.view().positions),
-                                    paper_method(index)};
+                                    paper_method(built.paper.index), exact_method(built.exact.index)};
   Progress progress("measuring");
-  return measure(methods, plan, mean_edge_length(input.graph()), index.permutation(),
+  return measure(methods, plan, mean_edge_length(input.graph()), built.paper.index.permutation(),
                  [&](double fraction) { progress.report(fraction); });
 }
 
 Json to_json(const Table1& t) {
-  return {{"vertices", t.vertices},       {"faces", t.faces},
-          {"mesh_bytes", t.mesh_bytes},   {"topology_bytes", t.topology_bytes},
-          {"index_bytes", t.index_bytes}, {"build_seconds", t.build_seconds}};
+  return {{"vertices", t.vertices},
+          {"faces", t.faces},
+          {"mesh_bytes", t.mesh_bytes},
+          {"topology_bytes", t.topology_bytes},
+          {"index_bytes", t.index_bytes},
+          {"build_seconds", t.build_seconds},
+          {"exact_index_bytes", t.exact_index_bytes},
+          {"exact_build_seconds", t.exact_build_seconds}};
 }
 
 Json to_json(const std::vector<Measurement>& table) {
@@ -112,8 +128,8 @@ std::string to_text(const Table1& t) {
   row("faces", std::to_string(t.faces));
   row("plain mesh", megabytes(t.mesh_bytes));
   row("with topology", megabytes(t.topology_bytes));
-  row("index", megabytes(t.index_bytes));
-  row("built in", fmt::format("{:.3f} s", t.build_seconds));
+  row("paper's index", fmt::format("{}, built in {:.3f} s", megabytes(t.index_bytes), t.build_seconds));
+  row("exact index", fmt::format("{}, built in {:.3f} s", megabytes(t.exact_index_bytes), t.exact_build_seconds));
   return text;
 }
 
@@ -140,9 +156,9 @@ void bench(Options& options) {
   if (input.adjacency.neighbors.empty()) {
     raise(ErrorCode::InvalidMesh, options.file + ": it has no edges, so there is nothing to measure");
   }
-  const TimedIndex built = build_timed(input.view());
+  const Indexes built{build_timed(build_paper_index, input.view()), build_timed(build_exact_index, input.view())};
   const Table1 space = table1(input, built);
-  const std::vector<Measurement> curves = table2(input, built.index, options.plan);
+  const std::vector<Measurement> curves = table2(input, built, options.plan);
   const Machine machine = this_machine();
   if (options.json) {
     print_json(Json{

@@ -51,6 +51,14 @@ Json to_json(const paper::Index& index) {
   return {{"bytes", index.bytes()}, {"levels", levels}};
 }
 
+Json to_json(const IndexBytes& bytes) {
+  return {{"bytes", bytes.total()},
+          {"positions", bytes.positions},
+          {"permutation", bytes.permutation},
+          {"graph", bytes.graph},
+          {"tree", bytes.tree}};
+}
+
 Json to_json(const Input& input, const Statistics& s) {
   Json degrees = Json::object();
   for (const auto& [corners, faces] : s.polygon_degrees) degrees[std::to_string(corners)] = faces;
@@ -104,6 +112,16 @@ std::string to_text(const Input& input, const Statistics& s) {
   return text;
 }
 
+std::string to_text(const IndexBytes& bytes) {
+  std::string text = fmt::format("\nexact index: {} bytes\n", bytes.total());
+  const auto row = [&](std::string_view part, std::size_t size) { text += fmt::format("{:<11}  {:9}\n", part, size); };
+  row("positions", bytes.positions);
+  row("permutation", bytes.permutation);
+  row("graph", bytes.graph);
+  row("tree", bytes.tree);
+  return text;
+}
+
 std::string to_text(const paper::Index& index) {
   std::string text = fmt::format("\nindex of the paper: {} bytes\n", index.bytes());
   text += "level  clusters  mean vertices  mean radius  mean siblings     bytes\n";
@@ -120,9 +138,10 @@ void info(const Options& options) {
   Json document = to_json(input, summary);
   std::string text = to_text(input, summary);
   if (options.index) {
-    const paper::Index index = build_index(input.view());
-    document["index"] = to_json(index);
-    text += to_text(index);
+    const IndexBytes exact = build_exact_index(input.view()).bytes();
+    const paper::Index paper = build_paper_index(input.view());
+    document["index"] = {{"exact", to_json(exact)}, {"paper", to_json(paper)}};
+    text += to_text(exact) + to_text(paper);
   }
   options.json ? print_json(document) : print_text(text);
 }
@@ -133,7 +152,8 @@ void add_info(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("info", "What a mesh is like: its size, components, borders and flaws");
   command->add_option("FILE", options->file, "mesh: PLY, OBJ, OFF or STL")->required()->type_name("");
-  command->add_flag("--index", options->index, "also build the index of the paper and list its levels");
+  command->add_flag("--index", options->index,
+                    "also build the exact index and that of the paper, and list their parts");
   command->add_flag("--json", options->json, "one JSON document");
   command->callback([options] { info(*options); });
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/paper.h"
 
@@ -16,8 +17,12 @@ namespace meshhood::cli {
 struct Method {
   std::string name;
   std::function<void(VertexId v, double radius, std::vector<VertexId>& out)> neighborhood;
-  bool visits_all_vertices = false;  ///< each query costs as much as the whole mesh
+  std::function<std::size_t(VertexId v, double radius)> count;  ///< none where the vertices must be listed for it
+  bool visits_all_vertices = false;                             ///< each query costs as much as the whole mesh
 };
+
+/// The exact answer, by the index made for it. Borrows `index`.
+[[nodiscard]] Method exact_method(const Index& index);
 
 /// The exact answer, by breadth-first search. Borrows `graph`.
 [[nodiscard]] Method bfs_method(const GraphView& graph);
@@ -28,11 +33,15 @@ struct Method {
 /// The paper's answer. Borrows `index`.
 [[nodiscard]] Method paper_method(const paper::Index& index, const paper::QueryOptions& options = {});
 
-/// Builds the paper's index, with progress for the impatient.
-[[nodiscard]] paper::Index build_index(const MeshView& mesh);
+/// Builds an index, with progress for the impatient.
+[[nodiscard]] Index build_exact_index(const MeshView& mesh);
+[[nodiscard]] paper::Index build_paper_index(const MeshView& mesh);
 
 /// Asks twice, so that the second time finds everything in its place, and returns how many seconds that took. `out` is
 /// the answer, ascending.
 double timed_query(const Method& method, VertexId v, double radius, std::vector<VertexId>& out);
+
+/// The same by `method.count`.
+double timed_count(const Method& method, VertexId v, double radius, std::size_t& out);
 
 }  // namespace meshhood::cli

@@ -22,7 +22,7 @@ namespace {
 
 struct Options {
   Question question;
-  std::string method = "bfs";
+  std::string method = "exact";
   std::optional<double> factor;
   bool count = false;
   bool distances = false;
@@ -31,23 +31,30 @@ struct Options {
 };
 
 struct Answer {
-  std::vector<VertexId> vertices;  ///< ascending
+  std::size_t count = 0;
+  std::vector<VertexId> vertices;  ///< ascending; none where they are neither printed nor painted
   std::vector<double> distances;   ///< beside the vertices, if asked for
   double seconds = 0;
 };
 
-Answer ask(const Method& method, const Query& query) {
+Answer ask(const Options& options, const Method& method, const Query& query) {
   Answer answer;
-  answer.seconds = timed_query(method, query.vertex, query.radius, answer.vertices);
+  if (options.count && options.output.empty() && method.count) {
+    answer.seconds = timed_count(method, query.vertex, query.radius, answer.count);
+  } else {
+    answer.seconds = timed_query(method, query.vertex, query.radius, answer.vertices);
+    answer.count = answer.vertices.size();
+  }
   return answer;
 }
 
 Answer ask(const Options& options, const Input& input, const Query& query) {
-  if (options.method == "bfs") return ask(bfs_method(input.graph()), query);
-  if (options.method == "ball") return ask(ball_method(input.view().positions), query);
-  const paper::Index index = build_index(input.view());
+  if (options.method == "bfs") return ask(options, bfs_method(input.graph()), query);
+  if (options.method == "ball") return ask(options, ball_method(input.view().positions), query);
+  if (options.method == "exact") return ask(options, exact_method(build_exact_index(input.view())), query);
   const paper::QueryOptions defaults;
-  return ask(paper_method(index, {.scale_factor = options.factor.value_or(defaults.scale_factor)}), query);
+  const paper::QueryOptions settings{.scale_factor = options.factor.value_or(defaults.scale_factor)};
+  return ask(options, paper_method(build_paper_index(input.view()), settings), query);
 }
 
 void add_distances(const PositionsView& positions, VertexId from, Answer& answer) {
@@ -56,10 +63,8 @@ void add_distances(const PositionsView& positions, VertexId from, Answer& answer
 }
 
 Json to_json(const Options& options, const Query& query, const Answer& answer) {
-  Json document{{"vertex", query.vertex},
-                {"radius", query.radius},
-                {"method", options.method},
-                {"count", answer.vertices.size()}};
+  Json document{
+      {"vertex", query.vertex}, {"radius", query.radius}, {"method", options.method}, {"count", answer.count}};
   if (!options.count) document["vertices"] = answer.vertices;
   if (options.distances) document["distances"] = answer.distances;
   document["seconds"] = answer.seconds;
@@ -67,7 +72,7 @@ Json to_json(const Options& options, const Query& query, const Answer& answer) {
 }
 
 std::string to_text(const Options& options, const Answer& answer) {
-  if (options.count) return fmt::format("{}\n", answer.vertices.size());
+  if (options.count) return fmt::format("{}\n", answer.count);
   std::string text;
   for (std::size_t i = 0; i < answer.vertices.size(); ++i) {
     text += std::to_string(answer.vertices[i]);
@@ -104,8 +109,10 @@ void add_query(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("query", "The neighborhood of a vertex: its vertices, one a line");
   add_question(*command, options->question);
-  command->add_option("--method", options->method, "bfs is exact, paper may hold a few extra vertices, ball many")
-      ->check(CLI::IsMember({"bfs", "ball", "paper"}))
+  command
+      ->add_option("--method", options->method,
+                   "exact; bfs, exact but slow; paper, with a few extra vertices; ball, with many")
+      ->check(CLI::IsMember({"exact", "bfs", "paper", "ball"}))
       ->type_name("")
       ->capture_default_str();
   command->add_option("--factor", options->factor, "f of the paper's query: greater is more exact (default 10)")
