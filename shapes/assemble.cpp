@@ -9,6 +9,12 @@ namespace meshhood::shapes {
 
 std::size_t root(double square, std::size_t least) { return std::max(least, nearest(std::sqrt(square))); }
 
+std::size_t cube_root(std::size_t cube) {
+  std::size_t side = 1;
+  while (side * side * side < cube) ++side;
+  return side;
+}
+
 void add_cell(Shape& shape, std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
   add_triangle(shape, a, b, d);
   if (c != d) add_triangle(shape, b, c, d);

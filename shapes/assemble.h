@@ -32,6 +32,9 @@ inline void add_polygon(Shape& shape, std::initializer_list<std::size_t> corners
 /// The whole number nearest to the square root, and at least `least`.
 [[nodiscard]] std::size_t root(double square, std::size_t least);
 
+/// The least whole number, at least 1, whose cube is no less than `cube`.
+[[nodiscard]] std::size_t cube_root(std::size_t cube);
+
 /// Vertices `0 .. count - 1` laid out row after row, `width >= 2` in a row, the last row perhaps cut short. A cell lies
 /// between four of them.
 struct Sheet {

@@ -74,12 +74,6 @@ void add_sphere(Shape& shape, std::size_t n, const Point& centre) {
   }
 }
 
-std::size_t cube_root(std::size_t cube) {
-  std::size_t side = 1;
-  while (side * side * side < cube) ++side;
-  return side;
-}
-
 /// A point of the (2, 3) torus knot, twice around the axis of a torus of radius 1 and three times around its tube, and
 /// the two directions across it.
 struct KnotPoint {

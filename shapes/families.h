@@ -22,6 +22,9 @@ namespace meshhood::shapes {
 [[nodiscard]] Shape scroll(std::size_t n);
 [[nodiscard]] Shape strip(std::size_t n);
 
+// gyroid.cpp
+[[nodiscard]] Shape gyroid(std::size_t n);
+
 // closed.cpp
 [[nodiscard]] Shape knot(std::size_t n);
 [[nodiscard]] Shape soup(std::size_t n);

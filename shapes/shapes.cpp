@@ -32,6 +32,7 @@ const std::vector<Kind>& kinds() {
       {"comb", "long flat teeth, half an edge apart: a ball jumps from tooth to tooth", 24, comb},
       {"folds", "an accordion, its walls 1.5 edges apart: a ball goes through the walls", 4, folds},
       {"grid", "a flat square grid of triangles, many vertices at equal distances: none but ties", 3, grid},
+      {"gyroid", "a smooth sheet that winds through a box: a ball meets it many times, nearly all joined", 4, gyroid},
       {"isolated", "points without faces: every neighborhood is the vertex alone", 1, isolated},
       {"knot", "a trefoil tube whose strands pass close: a ball leaves the strand", 9, knot},
       {"ngons", "a honeycomb of hexagons: corners across a hexagon are near, and three edges apart", 6, ngons},

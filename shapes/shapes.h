@@ -30,8 +30,8 @@ struct Kind {
   std::size_t minimum;               ///< the fewest vertices it can be made of
   Shape (*generate)(std::size_t n);  ///< `make` without the checks
 
-  /// The shape with `vertices` vertices; where the kind is made of rings (knot, torus) or of whole hexagons (ngons),
-  /// with the nearest number that comes out even, within 5 % from a thousand vertices on.
+  /// The shape with `vertices` vertices; where the kind is made of rings (knot), of whole hexagons (ngons) or of
+  /// layers (gyroid), with the nearest number that comes out even, within 5 % from a thousand vertices on.
   ///
   /// Throws Error{InvalidOption} below `minimum`, Error{TooLarge} above `kMaxVertices`. O(vertices).
   [[nodiscard]] Shape make(std::size_t vertices) const;

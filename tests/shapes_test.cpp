@@ -65,9 +65,9 @@ TEST(Shapes, AreMeshesOfTheSizeAskedFor) {
       EXPECT_NO_THROW(validate(shape.view()));
       EXPECT_EQ(unused_vertices(shape), kind.name == "isolated" ? n : 0);
       const auto made = static_cast<double>(shape.view().positions.size());
-      const bool of_rings = kind.name == "knot" || kind.name == "ngons";
-      if (!of_rings || n >= 1000) {
-        EXPECT_NEAR(made, static_cast<double>(n), of_rings ? 0.05 * static_cast<double>(n) : 0.0);
+      const bool of_parts = kind.name == "gyroid" || kind.name == "knot" || kind.name == "ngons";
+      if (!of_parts || n >= 1000) {
+        EXPECT_NEAR(made, static_cast<double>(n), of_parts ? 0.05 * static_cast<double>(n) : 0.0);
       }
       ++checked;
     }
@@ -111,6 +111,26 @@ TEST(Shapes, ClosedOnesHaveNoBoundary) {
   std::printf("%zu closed shapes\n", checked);
 }
 
+/// How far a point is from the gyroid, roughly: its field over the length of a period.
+double gyroid_miss(const float* p) {
+  constexpr double kPeriod = 10.4;
+  const auto angle = [&](int axis) { return 2 * shapes::kPi * static_cast<double>(p[axis]) / kPeriod; };
+  const double field = std::sin(angle(0)) * std::cos(angle(1)) + std::sin(angle(1)) * std::cos(angle(2)) +
+                       std::sin(angle(2)) * std::cos(angle(0));
+  return std::abs(field) * kPeriod / (2 * shapes::kPi);
+}
+
+TEST(Shapes, GyroidIsASheetWithTwoSidesWhereItsFormulaIsZero) {
+  const Shape shape = shapes::find_kind("gyroid")->make(20000);
+  for (std::size_t i = 0; i < shape.positions.size(); i += 3) EXPECT_LT(gyroid_miss(&shape.positions[i]), 0.2);
+  std::set<std::pair<std::uint32_t, std::uint32_t>> sides;
+  for (std::size_t i = 0; i < shape.corners.size(); ++i) {
+    const std::uint32_t next = shape.corners[i % 3 == 2 ? i - 2 : i + 1];
+    EXPECT_TRUE(sides.emplace(shape.corners[i], next).second) << "two faces on one side of an edge";
+  }
+  std::printf("%zu vertices, %zu faces\n", shape.positions.size() / 3, shape.corners.size() / 3);
+}
+
 TEST(Shapes, EdgesAreAboutOneLong) {
   for (const Kind& kind : shapes::kinds()) {
     if (kind.name == "isolated") continue;
@@ -136,7 +156,7 @@ std::size_t extras_of_ball(const Shape& shape, double radius) {
 }
 
 TEST(Shapes, SpringTheirTraps) {
-  const auto harmless = {"grid", "ngons", "noise", "quads", "sphere"};
+  const auto harmless = {"grid", "gyroid", "ngons", "noise", "quads", "sphere"};
   for (const Kind& kind : shapes::kinds()) {
     const std::size_t extras = extras_of_ball(kind.make(5000), kind.name == "star" ? 0.5 : 4.0);
     std::printf("%-9s %zu extra vertices in 50 balls\n", std::string(kind.name).c_str(), extras);
@@ -161,7 +181,7 @@ TEST(Shapes, HaveTheSameBytesEverywhere) {
     }
     for (const std::uint32_t corner : shape.corners) add(corner);
   }
-  EXPECT_EQ(hash, 12361690312070994054U);
+  EXPECT_EQ(hash, 15589639091413617374U);
 }
 
 TEST(Geometry, DirectionsAreThoseOfTheAngle) {
