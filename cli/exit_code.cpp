@@ -21,6 +21,7 @@ ExitCode exit_code(ErrorCode code) {
     case ErrorCode::UnsupportedFormat: return ExitCode::MeshRefused;
     case ErrorCode::IoFailure: return ExitCode::InputOutput;
     case ErrorCode::TooLarge: return ExitCode::Limit;
+    case ErrorCode::Cancelled: return ExitCode::Interrupted;
   }
   throw std::logic_error("an error code without an exit code");
 }

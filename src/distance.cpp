@@ -24,12 +24,19 @@ double squared_radius(double radius) {
   return threshold;
 }
 
-void check_query(VertexId v, std::size_t vertices, double radius) {
-  if (v >= vertices) {
-    raise(ErrorCode::VertexOutOfRange,
-          "vertex " + std::to_string(v) + ", but the mesh has " + std::to_string(vertices) + " vertices");
+void check_radius(double radius, std::string_view where) {
+  if (radius >= 0) [[likely]] {
+    return;
   }
-  if (!(radius >= 0)) raise(ErrorCode::InvalidRadius, "radius " + to_text(radius) + ", expected a number >= 0");
+  raise(ErrorCode::InvalidRadius, std::string(where) + "radius " + to_text(radius) + ", expected a number >= 0");
+}
+
+void check_query(VertexId v, std::size_t vertices, double radius, std::string_view where) {
+  if (v >= vertices) {
+    raise(ErrorCode::VertexOutOfRange, std::string(where) + "vertex " + std::to_string(v) + ", but the mesh has " +
+                                           std::to_string(vertices) + " vertices");
+  }
+  check_radius(radius, where);
 }
 
 double distance(const PositionsView& positions, VertexId v, VertexId w) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string_view>
 
 #include "meshhood/mesh.h"
 
@@ -37,8 +38,11 @@ template <class Real>
 /// against `radius * radius` instead would lose a vertex whose distance is `radius` in about a quarter of the cases.
 [[nodiscard]] double squared_radius(double radius);
 
-/// Throws Error{InvalidRadius} unless `radius` is >= 0 or infinite; Error{VertexOutOfRange} unless `v` < `vertices`.
-void check_query(VertexId v, std::size_t vertices, double radius);
+/// Throws Error{InvalidRadius} unless `radius` is >= 0 or infinite. The message begins with `where`.
+void check_radius(double radius, std::string_view where = {});
+
+/// Throws Error{VertexOutOfRange} unless `v` < `vertices`, and as `check_radius`.
+void check_query(VertexId v, std::size_t vertices, double radius, std::string_view where = {});
 
 /// A sphere stored with an index, its centre and radius rounded so that it still encloses what it was made for.
 template <class Real>
@@ -66,6 +70,8 @@ class SearchBall {
         inner_radius_((radius - kTiny) * (1 - kSlack)) {}
 
   [[nodiscard]] bool contains(const Point& p) const { return squared_distance(centre_, p) <= squared_radius_; }
+
+  [[nodiscard]] const Point& centre() const { return centre_; }
 
   /// Outside: no vertex in `sphere` is contained. Inside: every one is. Straddling: neither is certain.
   template <class Real>

@@ -16,6 +16,7 @@ std::string_view describe(ErrorCode code) noexcept {
     case ErrorCode::UnsupportedFormat: return "the format, or this variant of it, is not read";
     case ErrorCode::IoFailure: return "the operating system could not open, read, write or close";
     case ErrorCode::TooLarge: return "larger than the documented limits";
+    case ErrorCode::Cancelled: return "stopped as the caller asked";
   }
   return "unknown error";
 }

@@ -17,6 +17,7 @@ enum class ErrorCode {
   UnsupportedFormat,  ///< a file in a format, or a variant of one, that is not read
   IoFailure,          ///< the operating system could not open, read, write or close
   TooLarge,           ///< more vertices, edges or bytes than the documented limits
+  Cancelled,          ///< the caller's `Progress` said to stop
 };
 
 /// One sentence about `code`, the same in every language binding.

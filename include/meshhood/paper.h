@@ -126,6 +126,10 @@ class Searcher {
   /// `out` is then unchanged.
   void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, const QueryOptions& options = {});
 
+  /// The same with the distance of each vertex from `v` (see `distance`), in the same order.
+  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances,
+                    const QueryOptions& options = {});
+
   /// How many vertices `neighborhood` would return. As it, without the ids.
   [[nodiscard]] std::size_t count(VertexId v, double radius, const QueryOptions& options = {});
 

@@ -12,6 +12,7 @@
 
 #include "distance.h"
 #include "paper/hierarchy.h"
+#include "paper/query_options.h"
 #include "text.h"
 
 namespace meshhood::paper {
@@ -34,6 +35,7 @@ class Searcher::Query {
   }
 
   void collect(std::vector<VertexId>& out) const;
+  void collect(std::vector<VertexId>& out, std::vector<double>& distances) const;
   [[nodiscard]] std::size_t count() const;
 
  private:
@@ -127,6 +129,20 @@ void Searcher::Query<Real>::collect(std::vector<VertexId>& out) const {
 }
 
 template <class Real>
+void Searcher::Query<Real>::collect(std::vector<VertexId>& out, std::vector<double>& distances) const {
+  out.clear();
+  distances.clear();
+  for (const Piece& piece : searcher_.pieces_) {
+    for (std::size_t i = piece.begin; i < piece.end; ++i) {
+      const Point p = point<Real>(hierarchy_.positions, i);
+      if (!piece.inside && !ball_.contains(p)) continue;
+      out.push_back(hierarchy_.vertices[i]);
+      distances.push_back(std::sqrt(squared_distance(p, ball_.centre())));
+    }
+  }
+}
+
+template <class Real>
 std::size_t Searcher::Query<Real>::count() const {
   std::size_t total = 0;
   for (const Piece& piece : searcher_.pieces_) {
@@ -139,6 +155,12 @@ std::size_t Searcher::Query<Real>::count() const {
     }
   }
   return total;
+}
+
+void check(const QueryOptions& options) {
+  if (std::isfinite(options.scale_factor) && options.scale_factor > 0) return;
+  raise(ErrorCode::InvalidOption,
+        "scale_factor is " + to_text(options.scale_factor) + ", expected a finite number > 0");
 }
 
 Searcher::Searcher(const Index& index) : storage_(index.storage_.get()) {
@@ -160,10 +182,7 @@ void Searcher::run(VertexId v, double radius, const QueryOptions& options, F&& a
   std::visit(
       [&]<class Real>(const Hierarchy<Real>& hierarchy) {
         check_query(v, hierarchy.vertices.size(), radius);
-        if (!std::isfinite(options.scale_factor) || options.scale_factor <= 0) {
-          raise(ErrorCode::InvalidOption,
-                "scale_factor is " + to_text(options.scale_factor) + ", expected a finite number > 0");
-        }
+        check(options);
         Query<Real> query(*this, hierarchy, v, radius);
         query.run(radius, options.scale_factor);
         answer(query);
@@ -173,6 +192,11 @@ void Searcher::run(VertexId v, double radius, const QueryOptions& options, F&& a
 
 void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, const QueryOptions& options) {
   run(v, radius, options, [&](auto& query) { query.collect(out); });
+}
+
+void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances,
+                            const QueryOptions& options) {
+  run(v, radius, options, [&](auto& query) { query.collect(out, distances); });
 }
 
 std::size_t Searcher::count(VertexId v, double radius, const QueryOptions& options) {

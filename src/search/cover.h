@@ -21,6 +21,9 @@ class Cover {
   /// there may be more in the ball.
   [[nodiscard]] bool run(std::uint32_t place, const LeafBall& ball, const TreeBall& tree_ball, Answer& answer);
 
+  /// Forgets earlier queries: the order of an answer then does not depend on them.
+  void forget() { memory_.forget(); }
+
  private:
   [[nodiscard]] bool prove(std::uint32_t place, const LeafBall& ball, const TreeBall& tree_ball,
                            std::vector<VertexRange>& runs);

@@ -82,6 +82,24 @@ TEST(Query, CountsWhatItDoes) {
   EXPECT_EQ(searcher.profile().vertices_tested, tested);
 }
 
+TEST(Query, GivesTheDistancesOfTheSameVertices) {
+  const TestMesh mesh = make_grid(60, 60, false);
+  const paper::Index index = paper::build(mesh.view());
+  paper::Searcher searcher(index);
+  std::vector<VertexId> out;
+  std::vector<VertexId> ids;
+  std::vector<double> distances;
+  for (const double radius : {0.0, 1.0, 7.5, 30.0, kInfinity}) {
+    searcher.neighborhood(1830, radius, out);
+    searcher.neighborhood(1830, radius, ids, distances);
+    EXPECT_EQ(ids, out);
+    ASSERT_EQ(distances.size(), ids.size());
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      EXPECT_EQ(distances[i], distance(mesh.positions_view(), 1830, ids[i]));
+    }
+  }
+}
+
 TEST(Query, TakesTheWholeComponentAtInfinity) {
   TestMesh mesh = make_grid(20, 20, false);
   append(mesh, make_grid(10, 10, false));

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "meshhood/mesh.h"
+
+namespace meshhood {
+
+/// A searcher as a batch sees it: one object a thread.
+class BatchSearcher {
+ public:
+  BatchSearcher() = default;
+  BatchSearcher(const BatchSearcher&) = delete;
+  BatchSearcher& operator=(const BatchSearcher&) = delete;
+  virtual ~BatchSearcher() = default;
+
+  virtual void neighborhood(VertexId v, double radius, std::vector<VertexId>& ids) = 0;
+  virtual void neighborhood(VertexId v, double radius, std::vector<VertexId>& ids, std::vector<double>& distances) = 0;
+  [[nodiscard]] virtual std::size_t count(VertexId v, double radius) = 0;
+
+  /// What follows does not depend on what went before.
+  virtual void forget() {}
+};
+
+/// Either index as a batch sees it.
+class BatchIndex {
+ public:
+  BatchIndex() = default;
+  BatchIndex(const BatchIndex&) = delete;
+  BatchIndex& operator=(const BatchIndex&) = delete;
+  virtual ~BatchIndex() = default;
+
+  [[nodiscard]] virtual std::size_t vertex_count() const = 0;
+
+  /// Ascends with the index order: vertices of near places lie close together.
+  [[nodiscard]] virtual std::uint32_t place(VertexId v) const = 0;
+
+  [[nodiscard]] virtual std::unique_ptr<BatchSearcher> make_searcher() const = 0;
+};
+
+}  // namespace meshhood

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "meshhood/search.h"
+
+#include "batch/batch.h"
+#include "index/index_access.h"
+#include "search/searcher_state.h"
+
+namespace meshhood {
+namespace {
+
+class ExactSearcher final : public BatchSearcher {
+ public:
+  explicit ExactSearcher(const Index& index) : searcher_(index) {}
+
+  void neighborhood(VertexId v, double radius, std::vector<VertexId>& ids) override {
+    searcher_.neighborhood(v, radius, ids);
+  }
+  void neighborhood(VertexId v, double radius, std::vector<VertexId>& ids, std::vector<double>& distances) override {
+    searcher_.neighborhood(v, radius, ids, distances);
+  }
+  std::size_t count(VertexId v, double radius) override { return searcher_.count(v, radius); }
+  void forget() override { SearcherAccess::state(searcher_).cover.forget(); }
+
+ private:
+  Searcher searcher_;
+};
+
+class ExactIndex final : public BatchIndex {
+ public:
+  explicit ExactIndex(const Index& index) : index_(index) {}
+
+  [[nodiscard]] std::size_t vertex_count() const override { return index_.vertex_count(); }
+  [[nodiscard]] std::uint32_t place(VertexId v) const override { return IndexAccess::storage(index_).place[v]; }
+  [[nodiscard]] std::unique_ptr<BatchSearcher> make_searcher() const override {
+    return std::make_unique<ExactSearcher>(index_);
+  }
+
+ private:
+  const Index& index_;
+};
+
+}  // namespace
+
+void for_each_neighborhood(const Index& index, const BatchQuery& query, const RowSink& sink,
+                           const BatchOptions& options) {
+  for_each_neighborhood(ExactIndex(index), query, sink, options);
+}
+
+Neighborhoods neighborhoods(const Index& index, const BatchQuery& query, const BatchOptions& options) {
+  return neighborhoods(ExactIndex(index), query, options);
+}
+
+std::vector<std::uint64_t> counts(const Index& index, const BatchQuery& query, const BatchOptions& options) {
+  return counts(ExactIndex(index), query, options);
+}
+
+}  // namespace meshhood
