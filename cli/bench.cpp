@@ -174,7 +174,7 @@ void bench(Options& options) {
 void add_bench(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("bench", "The paper's Table 1 and Table 2 on a mesh of yours");
-  command->add_option("FILE", options->file, "mesh: PLY, OBJ, OFF or STL")->required()->type_name("");
+  add_mesh_file(*command, options->file);
   command->add_option("--radii", options->plan.radii, "in average edges")
       ->delimiter(',')
       ->type_name("NUMBERS")

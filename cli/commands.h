@@ -6,6 +6,7 @@
 /// The subcommands, one file each. Each adds itself, with its options, to the program; it runs within `parse`.
 namespace meshhood::cli {
 
+void add_batch(CLI::App& program);
 void add_bench(CLI::App& program);
 void add_compare(CLI::App& program);
 void add_generate(CLI::App& program);

@@ -13,6 +13,7 @@
 #include "input.h"
 #include "methods.h"
 #include "output.h"
+#include "question.h"
 #include "statistics.h"
 
 namespace meshhood::cli {
@@ -151,7 +152,7 @@ void info(const Options& options) {
 void add_info(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("info", "What a mesh is like: its size, components, borders and flaws");
-  command->add_option("FILE", options->file, "mesh: PLY, OBJ, OFF or STL")->required()->type_name("");
+  add_mesh_file(*command, options->file);
   command->add_flag("--index", options->index,
                     "also build the exact index and that of the paper, and list their parts");
   command->add_flag("--json", options->json, "one JSON document");

@@ -36,7 +36,7 @@ Input read_input(const std::string& file) {
 void refuse_same_file(const std::string& input, const std::string& output) {
   std::error_code missing;
   if (std::filesystem::equivalent(input, output, missing)) {
-    raise(ErrorCode::InvalidOption, output + ": the mesh would be overwritten; name another file for the output");
+    raise(ErrorCode::InvalidOption, output + ": " + input + " would be overwritten; name another file for the output");
   }
 }
 

@@ -24,7 +24,7 @@ struct Input {
 /// Reads `file`. What the reader finds odd is said on standard error. Throws what `io::read_mesh` throws.
 [[nodiscard]] Input read_input(const std::string& file);
 
-/// Throws Error{InvalidOption} where `output` would overwrite the mesh it is made from. Either may not exist.
+/// Throws Error{InvalidOption} where `output` is a file that it is made from. Either may not exist.
 void refuse_same_file(const std::string& input, const std::string& output);
 
 }  // namespace meshhood::cli

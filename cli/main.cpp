@@ -26,6 +26,7 @@ void add_subcommands(CLI::App& program) {
   program.set_version_flag("--version", "meshhood " + std::string(kVersion));
   add_info(program);
   add_query(program);
+  add_batch(program);
   add_compare(program);
   add_bench(program);
   add_generate(program);

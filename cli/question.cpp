@@ -24,6 +24,15 @@ double edge_unit(const Input& input) {
   raise(ErrorCode::InvalidOption, "--unit edge: the edges of " + input.name + " have no length to measure by");
 }
 
+/// `text` as the double nearest to it.
+double parse_radius(const std::string& text) {
+  double radius = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, radius);
+  if (error == std::errc() && rest == end) return radius;
+  raise(ErrorCode::InvalidRadius, "radius '" + text + "' is not a number that a double can hold");
+}
+
 }  // namespace
 
 CLI::Validator whole_number() {
@@ -38,25 +47,30 @@ CLI::Validator whole_number() {
   return {check, ""};
 }
 
-double parse_radius(const std::string& text) {
-  double radius = 0;
-  const char* end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, radius);
-  if (error == std::errc() && rest == end) return radius;
-  raise(ErrorCode::InvalidRadius, "radius '" + text + "' is not a number that a double can hold");
+void add_mesh_file(CLI::App& command, std::string& file) {
+  command.add_option("FILE", file, "mesh: PLY, OBJ, OFF or STL")->required()->type_name("");
+}
+
+void add_radius(CLI::App& command, Radius& radius) {
+  command.add_option("-r,--radius", radius.value, "how far to go, in space")->type_name("NUMBER")->required();
+  command.add_option("--unit", radius.unit, "of the radius: that of the positions, or the average edge")
+      ->check(CLI::IsMember({"mesh", "edge"}))
+      ->type_name("")
+      ->capture_default_str();
+}
+
+double resolve(const Radius& radius, const Input& input) {
+  const double unit = radius.unit == "edge" ? edge_unit(input) : 1.0;
+  return unit * parse_radius(radius.value);
 }
 
 void add_question(CLI::App& command, Question& question) {
-  command.add_option("FILE", question.file, "mesh: PLY, OBJ, OFF or STL")->required()->type_name("");
+  add_mesh_file(command, question.file);
   command.add_option("-v,--vertex", question.vertex, "the vertex to start from, by its number in the file")
       ->transform(whole_number())
       ->type_name("NUMBER")
       ->required();
-  command.add_option("-r,--radius", question.radius, "how far to go, in space")->type_name("NUMBER")->required();
-  command.add_option("--unit", question.unit, "of the radius: that of the positions, or the average edge")
-      ->check(CLI::IsMember({"mesh", "edge"}))
-      ->type_name("")
-      ->capture_default_str();
+  add_radius(command, question.radius);
 }
 
 Query resolve(const Question& question, const Input& input) {
@@ -65,8 +79,7 @@ Query resolve(const Question& question, const Input& input) {
     raise(ErrorCode::VertexOutOfRange,
           fmt::format("vertex {} is out of range: {} has {} vertices", question.vertex, input.name, vertices));
   }
-  const double unit = question.unit == "edge" ? edge_unit(input) : 1.0;
-  return {static_cast<VertexId>(question.vertex), unit * parse_radius(question.radius)};
+  return {static_cast<VertexId>(question.vertex), resolve(question.radius, input)};
 }
 
 }  // namespace meshhood::cli

@@ -12,15 +12,29 @@
 
 namespace meshhood::cli {
 
-/// FILE, a vertex and a radius, as they were typed.
-struct Question {
-  std::string file;
-  std::uint64_t vertex = 0;
-  std::string radius;
+/// Adds FILE, a mesh, to `command`; it ends up in `file`, which must outlive it. So do the options below.
+void add_mesh_file(CLI::App& command, std::string& file);
+
+/// A radius as it was typed.
+struct Radius {
+  std::string value;
   std::string unit = "mesh";
 };
 
-/// Adds FILE, --vertex, --radius and --unit to `command`; they end up in `question`, which must outlive it.
+/// Adds --radius and --unit.
+void add_radius(CLI::App& command, Radius& radius);
+
+/// In the unit of the positions. Throws Error{InvalidRadius, InvalidOption}.
+[[nodiscard]] double resolve(const Radius& radius, const Input& input);
+
+/// FILE, a vertex and a radius.
+struct Question {
+  std::string file;
+  std::uint64_t vertex = 0;
+  Radius radius;
+};
+
+/// Adds FILE, --vertex, --radius and --unit.
 void add_question(CLI::App& command, Question& question);
 
 /// What the library is asked: a radius in the unit of the positions.
@@ -34,8 +48,5 @@ struct Query {
 
 /// Accepts decimal digits alone: CLI11 would read 010 as 8, and 2^64 as the largest number there is.
 [[nodiscard]] CLI::Validator whole_number();
-
-/// `text` as the double nearest to it. Throws Error{InvalidRadius} where it is no number.
-[[nodiscard]] double parse_radius(const std::string& text);
 
 }  // namespace meshhood::cli

@@ -84,7 +84,14 @@ void FileWriter::write(std::string_view bytes) {
 
 void FileWriter::flush() {
   if (!write_all(file_.number(), buffer_)) fail("write");
+  flushed_ += buffer_.size();
   buffer_.clear();
+}
+
+void FileWriter::seek(std::uint64_t position) {
+  flush();
+  if (::lseek(file_.number(), static_cast<off_t>(position), SEEK_SET) < 0) fail("move within");
+  flushed_ = position;
 }
 
 void FileWriter::commit() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -24,6 +25,12 @@ class FileWriter {
 
   void write(std::string_view bytes);
 
+  /// Where the next byte goes, counted from the beginning.
+  [[nodiscard]] std::uint64_t position() const { return flushed_ + buffer_.size(); }
+
+  /// Goes to another place, to write over what stands there. Not every target that is no ordinary file can do it.
+  void seek(std::uint64_t position);
+
   /// Makes what was written durable and visible. To be called once, last.
   void commit();
 
@@ -39,6 +46,7 @@ class FileWriter {
   std::filesystem::path temporary_;  // empty where the target is written to directly
   Descriptor file_;
   std::string buffer_;
+  std::uint64_t flushed_ = 0;  // where the buffer goes
 };
 
 }  // namespace meshhood::io

@@ -3,7 +3,7 @@ meshhood_test(shapes meshhood_shapes)
 
 if(MESHHOOD_BUILD_CLI)
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
-  set(transcripts bench compare errors generate help info names query)
+  set(transcripts batch bench compare errors generate help info names query)
   if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     list(APPEND transcripts memory)
   endif()
@@ -12,6 +12,8 @@ if(MESHHOOD_BUILD_CLI)
       COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_transcript.py
         $<TARGET_FILE:meshhood_cli> ${CMAKE_CURRENT_SOURCE_DIR}/cli/${name}.txt)
   endforeach()
+  add_test(NAME cli.interrupt
+    COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_interrupt.py $<TARGET_FILE:meshhood_cli>)
   add_test(NAME cli.manifest
     COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_manifest.py
       $<TARGET_FILE:meshhood_cli> ${PROJECT_SOURCE_DIR}/../shared/meshes)

@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: MIT
 """Reads the shared PLY, OFF and STL meshes with plyfile and trimesh too, and compares vertices and faces.
 
-    compare_readers.py DUMP_MESH MESHES
+    compare_readers.py DUMP_MESH SHARED
 
 DUMP_MESH   the program built from dump_mesh.cpp
-MESHES      the folder of the shared meshes
+SHARED      the folder that holds that of the meshes, unless MESHHOOD_SHARED names it
 
 Exit code 77, by which ctest tells a skipped test, where the meshes or the libraries are missing.
 """
 
+import os
 import subprocess
 import sys
 import tempfile
@@ -112,4 +113,4 @@ def main(dump_mesh, meshes):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1], Path(sys.argv[2])))
+    sys.exit(main(sys.argv[1], Path(os.environ.get("MESHHOOD_SHARED", sys.argv[2])) / "meshes"))

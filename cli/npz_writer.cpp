@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// NumPy's format: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html, version 1.0.
+#include "npz_writer.h"
+
+#include <bit>
+#include <cassert>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+namespace meshhood::cli {
+namespace {
+
+template <class T>
+std::string type_of() {
+  const char order = sizeof(T) == 1 ? '|' : std::endian::native == std::endian::little ? '<' : '>';
+  const char kind = std::is_same_v<T, bool> ? 'b' : std::is_floating_point_v<T> ? 'f' : std::is_signed_v<T> ? 'i' : 'u';
+  return fmt::format("{}{}{}", order, kind, sizeof(T));
+}
+
+/// What stands before the values: a mark, the version, a length of two bytes, and a dictionary of Python, filled up
+/// with blanks so that the values are aligned.
+std::string header(std::string_view type, std::string_view shape) {
+  constexpr std::size_t kAlignment = 64;
+  constexpr std::size_t kBeforeDictionary = 10;
+  std::string dictionary = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': {}, }}", type, shape);
+  while ((kBeforeDictionary + dictionary.size() + 1) % kAlignment != 0) dictionary += ' ';
+  dictionary += '\n';
+  std::string text = "\x93NUMPY\x01";
+  text += '\0';
+  text += static_cast<char>(dictionary.size() & 0xffU);
+  text += static_cast<char>(dictionary.size() >> 8U);
+  return text + dictionary;
+}
+
+}  // namespace
+
+void NpzWriter::begin_member(std::string_view name, std::string_view type, std::string_view shape, std::uint64_t bytes,
+                             ZipWriter::Packing packing) {
+  assert(bytes_left_ == 0);
+  const std::string head = header(type, shape);
+  zip_.begin(fmt::format("{}.npy", name), head.size() + bytes, packing);
+  zip_.write(head);
+  bytes_left_ = bytes;
+}
+
+template <class T>
+void NpzWriter::begin(std::string_view name, std::uint64_t count) {
+  // Numbers hardly shrink, and take long to try.
+  const auto packing = std::is_same_v<T, bool> ? ZipWriter::Packing::Deflated : ZipWriter::Packing::Stored;
+  begin_member(name, type_of<T>(), fmt::format("({},)", count), count * sizeof(T), packing);
+}
+
+template <class T>
+void NpzWriter::append(std::span<const T> values) {
+  assert(values.size_bytes() <= bytes_left_);
+  bytes_left_ -= values.size_bytes();
+  zip_.write({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
+}
+
+void NpzWriter::add_text(std::string_view name, std::string_view text) {
+  begin_member(name, fmt::format("|S{}", text.size()), "()", text.size(), ZipWriter::Packing::Stored);
+  append(std::span<const char>(text));
+}
+
+void NpzWriter::commit() {
+  assert(bytes_left_ == 0);
+  zip_.commit();
+}
+
+template void NpzWriter::begin<bool>(std::string_view, std::uint64_t);
+template void NpzWriter::begin<std::int32_t>(std::string_view, std::uint64_t);
+template void NpzWriter::begin<std::int64_t>(std::string_view, std::uint64_t);
+template void NpzWriter::begin<std::uint64_t>(std::string_view, std::uint64_t);
+template void NpzWriter::begin<double>(std::string_view, std::uint64_t);
+template void NpzWriter::append<bool>(std::span<const bool>);
+template void NpzWriter::append<std::int32_t>(std::span<const std::int32_t>);
+template void NpzWriter::append<std::int64_t>(std::span<const std::int64_t>);
+template void NpzWriter::append<std::uint64_t>(std::span<const std::uint64_t>);
+template void NpzWriter::append<double>(std::span<const double>);
+
+}  // namespace meshhood::cli
