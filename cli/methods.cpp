@@ -14,13 +14,24 @@
 namespace meshhood::cli {
 namespace {
 
+/// The fastest of up to twenty runs, and of no more than fit into 20 ms, for a single one may be disturbed. The first,
+/// which finds nothing in its place, does not count.
 template <class Ask>
-double seconds_of_second(Ask&& ask) {
+double fastest(Ask&& ask) {
+  using Seconds = std::chrono::duration<double>;
+  constexpr Seconds kPatience{0.02};
+  constexpr int kRuns = 20;
   ask();
-  const auto start = std::chrono::steady_clock::now();
-  ask();
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  return elapsed.count();
+  Seconds best = Seconds::max();
+  Seconds spent{0};
+  for (int run = 0; run < kRuns && spent < kPatience; ++run) {
+    const auto start = std::chrono::steady_clock::now();
+    ask();
+    const Seconds elapsed = std::chrono::steady_clock::now() - start;
+    best = std::min(best, elapsed);
+    spent += elapsed;
+  }
+  return best.count();
 }
 
 }  // namespace
@@ -69,13 +80,13 @@ paper::Index build_paper_index(const MeshView& mesh) {
 }
 
 double timed_query(const Method& method, VertexId v, double radius, std::vector<VertexId>& out) {
-  const double seconds = seconds_of_second([&] { method.neighborhood(v, radius, out); });
+  const double seconds = fastest([&] { method.neighborhood(v, radius, out); });
   std::sort(out.begin(), out.end());
   return seconds;
 }
 
 double timed_count(const Method& method, VertexId v, double radius, std::size_t& out) {
-  return seconds_of_second([&] { out = method.count(v, radius); });
+  return fastest([&] { out = method.count(v, radius); });
 }
 
 }  // namespace meshhood::cli

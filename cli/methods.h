@@ -37,8 +37,8 @@ struct Method {
 [[nodiscard]] Index build_exact_index(const MeshView& mesh);
 [[nodiscard]] paper::Index build_paper_index(const MeshView& mesh);
 
-/// Asks twice, so that the second time finds everything in its place, and returns how many seconds that took. `out` is
-/// the answer, ascending.
+/// Asks some times, the first so that everything is in its place, and returns how many seconds the fastest of the
+/// others took. `out` is the answer, ascending.
 double timed_query(const Method& method, VertexId v, double radius, std::vector<VertexId>& out);
 
 /// The same by `method.count`.
