@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Each path of the exact search that ordinary meshes hardly ever take, forced, and shown to have been taken.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <numbers>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -59,7 +61,7 @@ void query_everywhere(ExactAnswer& exact, std::size_t vertices, std::initializer
 
 bool last_was_proved(ExactAnswer& exact) {
   return std::any_of(exact.searchers().begin(), exact.searchers().end(),
-                     [](Searcher& searcher) { return SearcherAccess::state(searcher).proved; });
+                     [](Searcher& searcher) { return SearcherAccess::state(searcher).covered; });
 }
 
 TEST(Rare, BallOnOneSheetIsProved) {
@@ -67,7 +69,7 @@ TEST(Rare, BallOnOneSheetIsProved) {
   ExactAnswer exact(mesh.view());
   for (Searcher& searcher : exact.searchers()) {
     EXPECT_GT(searcher.count(60 * 120 + 60, 30), 2000U);
-    EXPECT_TRUE(SearcherAccess::state(searcher).proved);
+    EXPECT_TRUE(SearcherAccess::state(searcher).covered);
   }
   query_everywhere(exact, mesh.size(), {9, 10, 20, 30, 50, 1000});
 }
@@ -79,6 +81,49 @@ TEST(Rare, ForeignSheetIsNotProvedAndLeftOut) {
   EXPECT_FALSE(last_was_proved(exact));
   EXPECT_LE(*std::max_element(exact.answer().begin(), exact.answer().end()), 3599U);
   query_everywhere(exact, mesh.size(), {0.3, 0.6, 1, 2, 5, 10, 20, 40, 100});
+}
+
+/// A grid, small patches of surface hanging over it, and tongues: strips over it that are joined to it at one end.
+TestMesh grid_below(std::size_t patches, std::size_t tongues) {
+  constexpr std::uint32_t kSide = 100;
+  constexpr std::size_t kPatch = 9;
+  constexpr std::uint32_t kTongue = 24;
+  Random random(17);
+  TestMesh mesh = make_grid(kSide, kSide, false);
+  const auto hang = [&](std::size_t columns, std::size_t rows) {
+    TestMesh piece = make_grid(columns, rows, false);
+    const auto x = static_cast<double>(random.below(kSide - columns));
+    const auto y = static_cast<double>(random.below(kSide - rows));
+    const std::array<double, 3> shift{x, y, 0.7};
+    for (std::size_t i = 0; i < piece.positions.size(); ++i) piece.positions[i] += shift[i % 3];
+    const auto first = static_cast<std::uint32_t>(mesh.size());
+    append(mesh, piece);
+    return std::pair(first, static_cast<std::uint32_t>(x) + kSide * static_cast<std::uint32_t>(y));
+  };
+  for (std::size_t i = 0; i < patches; ++i) hang(kPatch, kPatch);
+  for (std::size_t i = 0; i < tongues; ++i) {
+    const auto [first, below] = hang(kTongue, 5);
+    for (std::uint32_t row = 0; row < 5; ++row) mesh.add_face({first + row * kTongue, below + row * kSide});
+  }
+  return mesh;
+}
+
+TEST(Rare, ForeignPatchesAreCutAway) {
+  const TestMesh mesh = grid_below(9, 0);
+  ExactAnswer exact(mesh.view());
+  exact.query(50 * 100 + 50, 45);
+  EXPECT_TRUE(last_was_proved(exact));
+  EXPECT_LT(*std::max_element(exact.answer().begin(), exact.answer().end()), 100 * 100U);
+  query_everywhere(exact, mesh.size(), {1, 5, 8, 12, 20, 33, 45, 60});
+}
+
+TEST(Rare, TonguesBelongToTheAnswerWhereTheirRootIsInTheBall) {
+  const TestMesh mesh = grid_below(2, 3);
+  ExactAnswer exact(mesh.view());
+  exact.query(50 * 100 + 50, 80);
+  EXPECT_TRUE(last_was_proved(exact));
+  EXPECT_EQ(exact.answer().size(), mesh.size() - 2 * 81);
+  query_everywhere(exact, mesh.size(), {1, 5, 8, 10, 12, 15, 18, 20, 25, 33, 45});
 }
 
 TEST(Rare, SheetsThatMeetAtTheRimAreOneOrTwoByTheRadius) {
@@ -195,7 +240,7 @@ TEST(Rare, VerticesThatFloatsCannotPlace) {
 TEST(Rare, QueryNumbersRunOut) {
   const TestMesh mesh = plates(40, 0.6);
   ExactAnswer exact(mesh.view());
-  for (Searcher& searcher : exact.searchers()) SearcherAccess::state(searcher).flood.set_query((1U << 31) - 40);
+  for (Searcher& searcher : exact.searchers()) SearcherAccess::state(searcher).walk.set_query((1U << 31) - 40);
   query_everywhere(exact, mesh.size(), {1, 4, 9});
 }
 

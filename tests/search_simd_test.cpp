@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <span>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,7 +24,7 @@ class EveryPath : public testing::TestWithParam<Isa> {
   Random random{9};
 };
 
-/// A leaf of `size` vertices, all x before all y, with what a leaf may read beyond its end.
+/// A leaf of `size` vertices, with what may be read beyond its end.
 template <class Real>
 std::vector<Real> random_leaf(Random& random, std::size_t size, double extent) {
   std::vector<Real> xyz(3 * kLeafCapacity, std::numeric_limits<Real>::quiet_NaN());
@@ -72,6 +74,32 @@ void expect_within_is_the_predicate(const Kernels& tried, Random& random) {
 
 TEST_P(EveryPath, WithinIsThePredicateOnFloats) { expect_within_is_the_predicate<float>(tried, random); }
 TEST_P(EveryPath, WithinIsThePredicateOnDoubles) { expect_within_is_the_predicate<double>(tried, random); }
+
+/// Also among vertices that a float cannot tell apart by their distance, and where several are equally near.
+template <class Real>
+void expect_nearest_is_by_the_predicate(const Kernels& tried, Random& random) {
+  for (std::size_t round = 0; round < scaled(4000, 100); ++round) {
+    const double extent = std::ldexp(1.0, static_cast<int>(random.below(120)) - 60);
+    auto xyz = random_leaf<Real>(random, kLeafCapacity, extent);
+    const LeafBall ball({rounded<Real>(random.uniform(-extent, extent)), 0, 0}, extent);
+    for (std::size_t i = 0; i < xyz.size(); i += 3) {
+      if (random.below(3) == 0) std::copy_n(xyz.begin(), 3, xyz.begin() + static_cast<std::ptrdiff_t>(i));
+      if (random.below(3) == 0) xyz[i] = std::nextafter(xyz[0], static_cast<Real>(extent));
+    }
+    const Lanes lanes = static_cast<Lanes>(random.bits()) | Lanes{1} << random.below(kLeafCapacity);
+    const Nearest found = tried.nearest(xyz.data(), lanes, ball);
+    Nearest expected{std::numeric_limits<double>::infinity(), 0};
+    for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
+      const double square = squared_distance(point(std::span<const Real>(xyz), lane), ball.centre);
+      if ((lanes >> lane & 1U) != 0 && square < expected.square) expected = {square, lane};
+    }
+    ASSERT_EQ(found.lane, expected.lane);
+    ASSERT_EQ(found.square, expected.square);
+  }
+}
+
+TEST_P(EveryPath, NearestIsByThePredicateOnFloats) { expect_nearest_is_by_the_predicate<float>(tried, random); }
+TEST_P(EveryPath, NearestIsByThePredicateOnDoubles) { expect_nearest_is_by_the_predicate<double>(tried, random); }
 
 TEST_P(EveryPath, CrossFollowsEveryCrossing) {
   for (std::size_t round = 0; round < 4000; ++round) {

@@ -72,10 +72,12 @@ struct TreeLevel {
 /// Leaves first; the last level is one group.
 using Tree = std::vector<TreeLevel>;
 
+/// In index order, #V by 3; `kLeafCapacity` vertices more at the end, so that a whole leaf may be read anywhere.
+using PositionsInOrder = std::variant<std::vector<float>, std::vector<double>>;
+
 struct IndexStorage {
   Frame frame;
-  /// In index order, #V by 3; `kLeafCapacity` vertices more at the end, so that a whole leaf may be read anywhere.
-  std::variant<std::vector<float>, std::vector<double>> positions;
+  PositionsInOrder positions;
   std::vector<VertexId> permutation;  // in index order: the caller's vertex; padded like the positions
   std::vector<std::uint32_t> place;   // by the caller's vertex: 32 times its leaf, plus its lane
   std::vector<VertexId> leaf_begin;   // by leaf, and one more: its first vertex in index order

@@ -2,15 +2,22 @@
 #include "search/cover.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "prefetch.h"
+#include "search/fetch.h"
 #include "search/local_minimum.h"
+#include "search/output.h"
 
 namespace meshhood {
 namespace {
 
 // Below so many mean radii of a leaf, hardly a leaf lies inside and a flood looks at no more of them.
-constexpr double kSmallestBall = 2.0;
+constexpr double kSmallestBall = 1.8;
+
+// What may be spent, in leaves, before a flood of all the leaves in the ball is the shorter way.
+std::size_t most_doubtful(std::size_t leaves) { return std::min(leaves, 16 + leaves / 4); }
+std::size_t most_walked(std::size_t leaves) { return std::min(leaves / 2, 16 + leaves / 10); }
 
 bool are_linked(const IndexStorage& index, LeafId a, LeafId b) {
   const auto first = index.links.begin() + index.leaves[a].first_link;
@@ -20,54 +27,78 @@ bool are_linked(const IndexStorage& index, LeafId a, LeafId b) {
 
 }  // namespace
 
-bool Cover::run(std::uint32_t place, const LeafBall& ball, const TreeBall& tree_ball, Answer& answer) {
+bool Cover::run(std::uint32_t place, const LeafBall& ball, const TreeBall& tree_ball, LeafWalk& walk, Answer& answer) {
   const auto radius = static_cast<double>(tree_ball.inner);
   const LeafId home = place / kLeafCapacity;
   if (radius < kSmallestBall * index_->tree[0].mean_radius || !memory_.is_worth_trying(home, radius)) return false;
-  const bool proved = prove(place, ball, tree_ball, answer.runs);
-  memory_.tell(home, radius, proved);
-  if (!proved) {
-    answer.clear();
+  const bool found = find(place, ball, tree_ball, walk, answer);
+  memory_.tell(home, radius, found);
+  if (!found) answer.clear();
+  return found;
+}
+
+bool Cover::find(std::uint32_t place, const LeafBall& ball, const TreeBall& tree_ball, LeafWalk& walk, Answer& answer) {
+  if (!descent_.run(tree_ball, answer.runs)) return false;
+  const std::size_t leaves = count(answer) / kLeafCapacity + descent_.straddling_leaves().size();
+  if (descent_.doubtful_leaves().size() > most_doubtful(leaves)) return false;
+  collect_minima(place, ball, tree_ball);
+  const bool is_alone = minima_.empty();
+  if (!is_alone && !foreign_.find(place, minima_, most_walked(leaves), ball, tree_ball, walk)) {
     return false;
   }
-  std::visit([&](const auto& positions) { append_straddling(positions.data(), ball, answer.parts); },
-             index_->positions);
+  append_straddling(ball, answer.parts);
+  if (!is_alone) foreign_.cut_from(answer);
   return true;
 }
 
-/// Appends the runs that lie inside; false if something else may lie there.
-bool Cover::prove(std::uint32_t place, const LeafBall& ball, const TreeBall& tree_ball,
-                  std::vector<VertexRange>& runs) {
-  return descent_.run(tree_ball, runs) && has_no_minimum(place, ball, tree_ball);
-}
-
-bool Cover::has_no_minimum(std::uint32_t place, const LeafBall& ball, const TreeBall& tree_ball) const {
+void Cover::collect_minima(std::uint32_t place, const LeafBall& ball, const TreeBall& tree_ball) {
+  minima_.clear();
   const LeafId home = place / kLeafCapacity;
-  const auto is_whole = [&](LeafId leaf) {
-    const Leaf& record = index_->leaves[leaf];
-    return record.connected && meshhood::place(record.bounds, tree_ball) == Placement::Inside;
-  };
-  const bool home_is_whole = is_whole(home);
-  for (const LeafId leaf : descent_.doubtful_leaves()) {
+  const bool home_is_whole = is_whole(home, tree_ball);
+  const std::span<const std::uint32_t> leaves = descent_.doubtful_leaves();
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    fetch_ahead(leaves.subspan(i));
+    const LeafId leaf = leaves[i];
     // The leaves around the query vertex always look doubtful, but mostly hang together with it as they are.
-    if (home_is_whole && (leaf == home || (are_linked(*index_, home, leaf) && is_whole(leaf)))) continue;
-    if (has_local_minimum(*index_, *kernels_, leaf, place, ball)) return false;
+    if (home_is_whole && (leaf == home || (are_linked(*index_, home, leaf) && is_whole(leaf, tree_ball)))) continue;
+    append_local_minima(*index_, *kernels_, leaf, place, ball, minima_);
   }
-  return true;
+  std::sort(minima_.begin(), minima_.end(), [](const LocalMinimum& a, const LocalMinimum& b) {
+    return std::tie(a.square, a.leaf, a.lane) < std::tie(b.square, b.leaf, b.lane);
+  });
 }
 
-template <class Real>
-void Cover::append_straddling(const Real* positions, const LeafBall& ball, std::vector<PartialLeaf>& parts) const {
+/// What `append_local_minima` will look at in the next of `leaves`; each step needs what an earlier one has fetched.
+void Cover::fetch_ahead(std::span<const std::uint32_t> leaves) const {
+  constexpr std::size_t kRecord = 9;
+  constexpr std::size_t kContents = 6;
+  constexpr std::size_t kCrossings = 3;
+  if (leaves.size() > kRecord) prefetch(&index_->leaves[leaves[kRecord]]);
+  if (leaves.size() > kContents) {
+    const Leaf& leaf = index_->leaves[leaves[kContents]];
+    fetch_positions(*index_, leaf.first, leaf.size);
+    fetch_lines(&index_->adjacency[leaf.first], 2);
+    fetch_lines(&index_->links[leaf.first_link], 2);
+  }
+  if (leaves.size() > kCrossings) {
+    const Leaf& leaf = index_->leaves[leaves[kCrossings]];
+    fetch_lines(&index_->crossings[index_->links[leaf.first_link].first_crossing], 2);
+    fetch_lines(&index_->leaf_begin[index_->links[leaf.first_link].leaf], 1);
+  }
+}
+
+bool Cover::is_whole(LeafId leaf, const TreeBall& ball) const {
+  const Leaf& record = index_->leaves[leaf];
+  return record.connected && meshhood::place(record.bounds, ball) == Placement::Inside;
+}
+
+void Cover::append_straddling(const LeafBall& ball, std::vector<PartialLeaf>& parts) const {
   constexpr std::size_t kAhead = 4;
-  constexpr std::size_t kLines = 3 * kLeafCapacity * sizeof(Real) / kCacheLine;
   const std::span<const std::uint32_t> leaves = descent_.straddling_leaves();
   for (std::size_t i = 0; i < leaves.size(); ++i) {
-    if (i + kAhead < leaves.size()) {
-      fetch_lines(positions + 3 * std::size_t{index_->leaf_begin[leaves[i + kAhead]]}, kLines);
-    }
-    const std::size_t first = index_->leaf_begin[leaves[i]];
-    const std::size_t size = index_->leaf_begin[leaves[i] + 1] - first;
-    const Lanes lanes = kernels_->within(positions + 3 * first, size, ball);
+    if (i + kAhead < leaves.size()) fetch_positions(*index_, index_->leaf_begin[leaves[i + kAhead]], kLeafCapacity);
+    const VertexId first = index_->leaf_begin[leaves[i]];
+    const Lanes lanes = kernels_->within(index_->positions, first, index_->leaf_begin[leaves[i] + 1] - first, ball);
     if (lanes != 0) parts.push_back({leaves[i], lanes});
   }
 }

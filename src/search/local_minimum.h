@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "index/layout.h"
 #include "search/simd.h"
 
 namespace meshhood {
 
-/// Whether `leaf` may hold a vertex of the ball, other than the query vertex at `place`, that could be the nearest of
-/// its component: one without a nearer neighbour. Distances are those of the predicate, so that the answer is not in
-/// doubt where they tie.
-[[nodiscard]] bool has_local_minimum(const IndexStorage& index, const Kernels& kernels, LeafId leaf,
-                                     std::uint32_t place, const LeafBall& ball);
+/// A vertex of the ball that may be the nearest of its component: it has no nearer neighbour.
+struct LocalMinimum {
+  double square;  // of its distance, as the predicate has it
+  LeafId leaf;
+  unsigned lane;
+};
+
+/// Appends the local minima of `leaf`, the query vertex at `place` aside. Of vertices that hang together within leaf
+/// and ball, the nearest stands for all. Nothing is in doubt where distances tie: they are those of the predicate.
+void append_local_minima(const IndexStorage& index, const Kernels& kernels, LeafId leaf, std::uint32_t place,
+                         const LeafBall& ball, std::vector<LocalMinimum>& out);
 
 }  // namespace meshhood

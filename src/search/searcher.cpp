@@ -15,8 +15,8 @@ Point Searcher::State::search(VertexId v, double radius) {
   const LeafBall ball(centre, radius);
   const TreeBall tree_ball(index->frame, centre, radius);
   answer.clear();
-  proved = cover.run(place, ball, tree_ball, answer);
-  if (!proved) flood.run(place, ball, tree_ball, answer);
+  covered = cover.run(place, ball, tree_ball, walk, answer);
+  if (!covered) flood.run(place, ball, tree_ball, walk, answer);
   return centre;
 }
 

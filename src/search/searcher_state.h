@@ -7,6 +7,7 @@
 #include "search/answer.h"
 #include "search/cover.h"
 #include "search/flood.h"
+#include "search/leaf_walk.h"
 #include "search/simd.h"
 
 namespace meshhood {
@@ -14,13 +15,18 @@ namespace meshhood {
 struct Searcher::State {
   const IndexStorage* index;
   const Kernels* kernels;
+  LeafWalk walk;
   Cover cover;
   Flood flood;
   Answer answer;
-  bool proved = false;  // the last answer: by the cover, not by the flood
+  bool covered = false;  // the last answer: by the cover, not by the flood
 
   State(const IndexStorage& storage, Isa isa)
-      : index(&storage), kernels(&meshhood::kernels(isa)), cover(storage, *kernels), flood(storage, *kernels) {}
+      : index(&storage),
+        kernels(&meshhood::kernels(isa)),
+        walk(storage, *kernels),
+        cover(storage, *kernels),
+        flood(storage) {}
 
   /// Leaves the neighborhood in `answer` and returns where `v` is.
   Point search(VertexId v, double radius);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <variant>
 
 #include "meshhood/mesh.h"
 
@@ -54,10 +57,20 @@ struct Placements {
 /// A single node against the ball, as `Kernels::place` does it.
 [[nodiscard]] Placement place(const FrameSphere& sphere, const TreeBall& ball);
 
+struct Nearest {
+  double square;  // of the distance, as the predicate has it
+  unsigned lane;
+};
+
 struct Kernels {
   /// Which of the first `size` vertices of `xyz`, #V by 3, are in the ball; `size` <= 32. Reads as far as 32.
   Lanes (*within_float)(const float* xyz, std::size_t size, const LeafBall& ball);
   Lanes (*within_double)(const double* xyz, std::size_t size, const LeafBall& ball);
+
+  /// Of the vertices `lanes` of `xyz`, at least one, that nearest to the centre; the first of several. Reads as far as
+  /// 32.
+  Nearest (*nearest_float)(const float* xyz, Lanes lanes, const LeafBall& ball);
+  Nearest (*nearest_double)(const double* xyz, Lanes lanes, const LeafBall& ball);
 
   /// The other ends of those of the first `count` crossings that begin in `from`. Reads as far as 31 more.
   Lanes (*cross)(const Crossing* crossings, std::size_t count, Lanes from);
@@ -78,7 +91,39 @@ struct Kernels {
   [[nodiscard]] Lanes within(const double* xyz, std::size_t size, const LeafBall& ball) const {
     return within_double(xyz, size, ball);
   }
+  [[nodiscard]] Nearest nearest(const float* xyz, Lanes lanes, const LeafBall& ball) const {
+    return nearest_float(xyz, lanes, ball);
+  }
+  [[nodiscard]] Nearest nearest(const double* xyz, Lanes lanes, const LeafBall& ball) const {
+    return nearest_double(xyz, lanes, ball);
+  }
+
+  // The same of the vertices from `first` on.
+  [[nodiscard]] Lanes within(const PositionsInOrder& positions, std::size_t first, std::size_t size,
+                             const LeafBall& ball) const {
+    return std::visit([&](const auto& xyz) { return within(xyz.data() + 3 * first, size, ball); }, positions);
+  }
+  [[nodiscard]] Nearest nearest(const PositionsInOrder& positions, std::size_t first, Lanes lanes,
+                                const LeafBall& ball) const {
+    return std::visit([&](const auto& xyz) { return nearest(xyz.data() + 3 * first, lanes, ball); }, positions);
+  }
 };
+
+/// As `Kernels::nearest`, vertex by vertex.
+template <class Real>
+[[nodiscard]] inline Nearest nearest_of(const Real* xyz, Lanes lanes, const LeafBall& ball) {
+  const std::span<const Real> vertices(xyz, 3 * kLeafCapacity);
+  Nearest result{std::numeric_limits<double>::infinity(), 0};
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<unsigned>(std::countr_zero(lanes));
+    const double square = squared_distance(point(vertices, lane), ball.centre);
+    if (square < result.square) result = {square, lane};
+  }
+  return result;
+}
+
+/// A vertex is not the nearest if its squared distance in float is larger than this; `least` is the least of them all.
+[[nodiscard]] inline float nearest_at_most(float least) { return least * (1 + 0x1p-19F) + 0x1p-138F; }
 
 /// Those for `isa`, which the processor must have.
 [[nodiscard]] const Kernels& kernels(Isa isa);

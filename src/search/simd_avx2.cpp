@@ -4,6 +4,7 @@
 
 #if defined(MESHHOOD_HAS_X86)
 #include <bit>
+#include <limits>
 
 #include <immintrin.h>
 
@@ -92,6 +93,38 @@ MESHHOOD_AVX2 Lanes within_float(const float* xyz, std::size_t size, const LeafB
   return inside & all;
 }
 
+MESHHOOD_AVX2 inline unsigned bits(__m256 mask) { return static_cast<unsigned>(_mm256_movemask_ps(mask)); }
+
+/// Eight squared distances in float; of vertices not in `lanes`, infinity.
+MESHHOOD_AVX2 inline __m256 some_squares8(const float* xyz, Lanes lanes, const LeafBall& ball) {
+  const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+  const __m256i is_set = _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(static_cast<int>(lanes)), bit), bit);
+  const __m256 far = _mm256_set1_ps(std::numeric_limits<float>::infinity());
+  return _mm256_blendv_ps(far, square8(xyz, ball), _mm256_castsi256_ps(is_set));
+}
+
+MESHHOOD_AVX2 inline float least_of(__m256 values) {
+  const __m128 four = _mm_min_ps(_mm256_castps256_ps128(values), _mm256_extractf128_ps(values, 1));
+  const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
+  return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
+}
+
+/// Those of eight that are at most as large.
+MESHHOOD_AVX2 inline Lanes at_most8(__m256 values, __m256 most) {
+  return bits(_mm256_cmp_ps(values, most, _CMP_LE_OQ));
+}
+
+MESHHOOD_AVX2 Nearest nearest(const float* xyz, Lanes lanes, const LeafBall& ball) {
+  const __m256 a = some_squares8(xyz, lanes, ball);
+  const __m256 b = some_squares8(xyz + 24, lanes >> 8, ball);
+  const __m256 c = some_squares8(xyz + 48, lanes >> 16, ball);
+  const __m256 d = some_squares8(xyz + 72, lanes >> 24, ball);
+  const float least = least_of(_mm256_min_ps(_mm256_min_ps(a, b), _mm256_min_ps(c, d)));
+  const __m256 most = _mm256_set1_ps(nearest_at_most(least));
+  const Lanes near = at_most8(a, most) | at_most8(b, most) << 8 | at_most8(c, most) << 16 | at_most8(d, most) << 24;
+  return nearest_of(xyz, near & lanes, ball);
+}
+
 MESHHOOD_AVX2 Lanes cross(const Crossing* crossings, std::size_t count, Lanes from) {
   const __m256i one = _mm256_set1_epi32(1);
   const __m256i source = _mm256_set1_epi32(static_cast<int>(from));
@@ -108,8 +141,6 @@ MESHHOOD_AVX2 Lanes cross(const Crossing* crossings, std::size_t count, Lanes fr
   const __m128i pair = _mm_or_si128(half, _mm_shuffle_epi32(half, 0x4E));
   return static_cast<Lanes>(_mm_cvtsi128_si32(_mm_or_si128(pair, _mm_shuffle_epi32(pair, 0xB1))));
 }
-
-MESHHOOD_AVX2 inline unsigned bits(__m256 mask) { return static_cast<unsigned>(_mm256_movemask_ps(mask)); }
 
 /// Those of eight lanes that have a neighbour among `reached`.
 MESHHOOD_AVX2 inline Lanes near8(__m256i adjacency, __m256i reached) {
@@ -180,7 +211,8 @@ MESHHOOD_AVX2 VertexId* append(const VertexId* ids, Lanes lanes, VertexId* out) 
 }  // namespace
 
 const Kernels& avx2_kernels() {
-  static constexpr Kernels kAll{within_float, within_exact<double>, cross, spread, place, append};
+  static constexpr Kernels kAll{within_float, within_exact<double>, nearest, nearest_of<double>, cross, spread, place,
+                                append};
   return kAll;
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include <immintrin.h>
 
@@ -107,6 +108,16 @@ MESHHOOD_AVX512 Lanes within_float(const float* xyz, std::size_t size, const Lea
   return inside & all;
 }
 
+MESHHOOD_AVX512 Nearest nearest(const float* xyz, Lanes lanes, const LeafBall& ball) {
+  const __m512 far = _mm512_set1_ps(std::numeric_limits<float>::infinity());
+  const __m512 low = _mm512_mask_mov_ps(far, static_cast<__mmask16>(lanes), square16(xyz, ball));
+  const __m512 high = _mm512_mask_mov_ps(far, static_cast<__mmask16>(lanes >> 16), square16(xyz + 48, ball));
+  const __m512 most = _mm512_set1_ps(nearest_at_most(_mm512_reduce_min_ps(_mm512_min_ps(low, high))));
+  const Lanes near = _mm512_cmp_ps_mask(low, most, _CMP_LE_OQ) | Lanes{_mm512_cmp_ps_mask(high, most, _CMP_LE_OQ)}
+                                                                     << 16;
+  return nearest_of(xyz, near & lanes, ball);
+}
+
 MESHHOOD_AVX512 Lanes cross(const Crossing* crossings, std::size_t count, Lanes from) {
   const __m512i one = _mm512_set1_epi32(1);
   const __m512i source = _mm512_set1_epi32(static_cast<int>(from));
@@ -179,7 +190,8 @@ MESHHOOD_AVX512 VertexId* append(const VertexId* ids, Lanes lanes, VertexId* out
 }  // namespace
 
 const Kernels& avx512_kernels() {
-  static constexpr Kernels kAll{within_float, within_exact<double>, cross, spread, place, append};
+  static constexpr Kernels kAll{within_float, within_exact<double>, nearest, nearest_of<double>, cross, spread, place,
+                                append};
   return kAll;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <bit>
+#include <span>
 
 #include "search/simd.h"
 
@@ -65,7 +66,8 @@ VertexId* append(const VertexId* ids, Lanes lanes, VertexId* out) {
 }  // namespace
 
 const Kernels& portable_kernels() {
-  static constexpr Kernels kAll{within<float>, within<double>, cross, spread, place, append};
+  static constexpr Kernels kAll{within<float>, within<double>, nearest_of<float>, nearest_of<double>, cross, spread,
+                                place,         append};
   return kAll;
 }
 
