@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "meshhood/adjacency.h"
+#include "adjacency.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "meshhood/error.h"
 
@@ -29,21 +30,27 @@ void for_each_side(const FacesView& faces, F&& f) {
 }
 
 /// Sorts each row, drops what stands in it twice, and closes the gaps.
-void make_rows_unique(Adjacency& adjacency) {
-  EdgeOffset end = 0;
-  EdgeOffset row_begin = 0;
-  for (std::size_t v = 0; v + 1 < adjacency.offsets.size(); ++v) {
-    const auto first = adjacency.neighbors.begin() + row_begin;
-    const auto last = adjacency.neighbors.begin() + adjacency.offsets[v + 1];
-    row_begin = adjacency.offsets[v + 1];
-    std::sort(first, last);
-    const auto kept = std::unique(first, last);
-    std::move(first, kept, adjacency.neighbors.begin() + end);
-    end = static_cast<EdgeOffset>(end + (kept - first));
-    adjacency.offsets[v + 1] = end;
-  }
-  adjacency.neighbors.resize(end);
-  adjacency.neighbors.shrink_to_fit();
+Adjacency with_unique_rows(Adjacency all, Work& work) {
+  constexpr std::size_t kGrain = 4096;
+  const std::size_t vertices = all.offsets.size() - 1;
+  const auto row = [&](std::size_t v) { return all.neighbors.begin() + static_cast<std::ptrdiff_t>(all.offsets[v]); };
+  Adjacency result;
+  result.offsets.resize(vertices + 1);
+  work.parallel_for(vertices, kGrain, [&](unsigned, std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      std::sort(row(v), row(v + 1));
+      result.offsets[v + 1] = static_cast<EdgeOffset>(std::unique(row(v), row(v + 1)) - row(v));
+    }
+  });
+  std::partial_sum(result.offsets.begin(), result.offsets.end(), result.offsets.begin());
+  result.neighbors.resize(result.offsets.back());
+  work.parallel_for(vertices, kGrain, [&](unsigned, std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const std::size_t size = result.offsets[v + 1] - result.offsets[v];
+      std::copy_n(row(v), size, result.neighbors.data() + result.offsets[v]);
+    }
+  });
+  return result;
 }
 
 std::string row_of(std::size_t v) { return "neighbours of vertex " + std::to_string(v) + ": "; }
@@ -96,6 +103,12 @@ void validate_offsets(const AdjacencyView& adjacency) {
 }  // namespace
 
 Adjacency adjacency(const MeshView& mesh) {
+  const Progress nobody;
+  Work alone(1, nobody, 0);
+  return adjacency(mesh, alone);
+}
+
+Adjacency adjacency(const MeshView& mesh, Work& work) {
   validate(mesh);
   // Every corner starts one side, and a side stands in two rows.
   if (mesh.faces.corners().size() > kMaxNeighbors / 2) {
@@ -116,8 +129,7 @@ Adjacency adjacency(const MeshView& mesh) {
     result.neighbors[--result.offsets[v]] = w;
     result.neighbors[--result.offsets[w]] = v;
   });
-  make_rows_unique(result);
-  return result;
+  return with_unique_rows(std::move(result), work);
 }
 
 void validate(const GraphView& graph) {

@@ -16,6 +16,7 @@ add_subdirectory(paper)
 foreach(stem index_structure search_families search_rare search_simd)
   meshhood_test(${stem} meshhood_families)
 endforeach()
+meshhood_test(index_threads meshhood_families meshhood_test_support)
 meshhood_test(search_meshes meshhood_test_support meshhood_shapes)
 
 # On real meshes.

@@ -9,11 +9,18 @@
 
 #include "meshhood/adjacency.h"
 #include "meshhood/mesh.h"
+#include "meshhood/progress.h"
 
 namespace meshhood {
 
-/// How an index is built. The answers do not depend on it.
-struct BuildOptions {};
+/// How an index is built. The index does not depend on it.
+struct BuildOptions {
+  /// The calling thread included; 0: as many as the processor has; at most `kMaxThreads`. With 1, none is started.
+  unsigned threads = 1;
+
+  /// Called between the parts of each step, which take some 50 ms for a million vertices at most.
+  Progress progress = {};
+};
 
 /// Memory of an index by part, in bytes.
 struct IndexBytes {
@@ -65,10 +72,10 @@ class Index {
   std::unique_ptr<const IndexStorage> storage_;
 };
 
-/// Computes the index. The same mesh gives the same index.
+/// Computes the index. The same mesh gives the same index, whatever the number of threads.
 ///
 /// mesh    any polygonal mesh (see `validate`); borrowed for the call.
-/// Throws Error{InvalidMesh, TooLarge}. O(#V log #V + #E).
+/// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}. O(#V log #V + #E).
 [[nodiscard]] Index build(const MeshView& mesh, const BuildOptions& options = {});
 [[nodiscard]] Index build(const GraphView& graph, const BuildOptions& options = {});
 

@@ -8,12 +8,14 @@
 #include "meshhood/error.h"
 #include "meshhood/index.h"
 
+#include "adjacency.h"
 #include "index/column.h"
 #include "index/index_access.h"
 #include "index/layout.h"
 #include "index/leaves.h"
 #include "index/links.h"
 #include "index/tree.h"
+#include "parallel.h"
 
 namespace meshhood {
 namespace {
@@ -21,23 +23,34 @@ namespace {
 // In a mesh smaller than the inverse, squares of distances underflow, and so does what columns say of them.
 constexpr double kLargestScaleWithColumns = 0x1p480;
 
+// How many parts the work has, for whoever watches: graph, leaves, links, spheres and columns, tree, arrays.
+constexpr std::size_t kSteps = 6;
+
+// So many vertices, or leaves, keep a thread busy long enough.
+constexpr std::size_t kVertexGrain = 8192;
+constexpr std::size_t kLeafGrain = 64;
+
 /// The vertices in index order, in the frame.
 std::vector<Point> place_points(const PositionsView& positions, const Frame& frame,
-                                std::span<const VertexId> permutation) {
+                                std::span<const VertexId> permutation, Work& work) {
   return positions.visit([&](auto xyz) {
-    std::vector<Point> points;
-    points.reserve(permutation.size());
-    for (const VertexId v : permutation) points.push_back(frame.place(point(xyz, v)));
+    std::vector<Point> points(permutation.size());
+    work.parallel_for(points.size(), kVertexGrain, [&](unsigned, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) points[i] = frame.place(point(xyz, permutation[i]));
+    });
     return points;
   });
 }
 
 /// The positions in index order.
 template <class Real>
-std::vector<Real> permute_positions(std::span<const Real> xyz, std::span<const VertexId> permutation) {
+std::vector<Real> permute_positions(std::span<const Real> xyz, std::span<const VertexId> permutation, Work& work) {
   std::vector<Real> permuted(xyz.size() + 3 * kLeafCapacity);
-  auto out = permuted.begin();
-  for (const VertexId v : permutation) out = std::copy_n(xyz.begin() + 3 * std::ptrdiff_t{v}, 3, out);
+  work.parallel_for(permutation.size(), kVertexGrain, [&](unsigned, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      std::copy_n(xyz.data() + 3 * std::size_t{permutation[i]}, 3, permuted.data() + 3 * i);
+    }
+  });
   return permuted;
 }
 
@@ -51,15 +64,13 @@ class LeafMeasure {
   void measure(std::size_t leaf, NodeList& out) {
     const std::size_t begin = leaf_begin_[leaf];
     const std::size_t size = leaf_begin_[leaf + 1] - begin;
-    out.bounds.push_back(enclosing_sphere(points_.subspan(begin, size)));
-    if (!with_columns_) {
-      out.columns.push_back(kNoColumn);
-      return;
-    }
+    out.bounds[leaf] = enclosing_sphere(points_.subspan(begin, size));
+    out.columns[leaf] = kNoColumn;
+    if (!with_columns_) return;
     edges_.clear();
     gather_edges_within(begin, size);
     gather_edges_out(leaf);
-    out.columns.push_back(leaf_column(points_, begin, size, edges_, centre_of(out.bounds.back())));
+    out.columns[leaf] = leaf_column(points_, begin, size, edges_, centre_of(out.bounds[leaf]));
   }
 
  private:
@@ -88,18 +99,29 @@ class LeafMeasure {
   std::vector<LeafEdge> edges_;
 };
 
+NodeList measure_leaves(std::span<const VertexId> leaf_begin, const Links& links, std::span<const Point> points,
+                        bool with_columns, Work& work) {
+  NodeList result(leaf_begin.size() - 1);
+  work.parallel_for(result.bounds.size(), kLeafGrain, [&](unsigned, std::size_t begin, std::size_t end) {
+    LeafMeasure measure(leaf_begin, links, points, with_columns);
+    for (std::size_t leaf = begin; leaf < end; ++leaf) measure.measure(leaf, result);
+  });
+  return result;
+}
+
 std::vector<Leaf> make_leaf_records(const LeafPartition& partition, const Links& links,
-                                    std::span<const FrameSphere> bounds) {
-  std::vector<Leaf> leaves;
-  leaves.reserve(bounds.size() + 1);
-  std::uint32_t first_link = 0;
-  for (std::size_t leaf = 0; leaf < bounds.size(); ++leaf) {
-    const VertexId first = partition.leaf_begin[leaf];
-    const auto size = static_cast<std::uint8_t>(partition.leaf_begin[leaf + 1] - first);
-    leaves.push_back({bounds[leaf], first, first_link, size, is_connected(&links.adjacency[first], size)});
-    first_link = links.link_end[leaf];
-  }
-  leaves.push_back({{}, static_cast<VertexId>(partition.permutation.size()), first_link, 0, false});
+                                    std::span<const FrameSphere> bounds, Work& work) {
+  std::vector<Leaf> leaves(bounds.size() + 1);
+  work.parallel_for(bounds.size(), kLeafGrain, [&](unsigned, std::size_t begin, std::size_t end) {
+    for (std::size_t leaf = begin; leaf < end; ++leaf) {
+      const VertexId first = partition.leaf_begin[leaf];
+      const auto size = static_cast<std::uint8_t>(partition.leaf_begin[leaf + 1] - first);
+      leaves[leaf] = {bounds[leaf], first, leaf == 0 ? 0 : links.link_end[leaf - 1], size,
+                      is_connected(&links.adjacency[first], size)};
+    }
+  });
+  leaves.back() = {
+      {}, static_cast<VertexId>(partition.permutation.size()), bounds.empty() ? 0 : links.link_end.back(), 0, false};
   return leaves;
 }
 
@@ -112,30 +134,35 @@ void pad(std::vector<T>& values) {
 }  // namespace
 
 Index build(const MeshView& mesh, const BuildOptions& options) {
-  const Adjacency graph = adjacency(mesh);
-  return IndexAccess::build_valid({mesh.positions, graph.view()}, options);
+  Work work(options.threads, options.progress, kSteps);
+  const Adjacency graph = adjacency(mesh, work);
+  return IndexAccess::build_valid({mesh.positions, graph.view()}, work);
 }
 
 Index build(const GraphView& graph, const BuildOptions& options) {
+  Work work(options.threads, options.progress, kSteps);
   validate(graph);
-  return IndexAccess::build_valid(graph, options);
+  return IndexAccess::build_valid(graph, work);
 }
 
-Index IndexAccess::build_valid(const GraphView& graph, const BuildOptions& /*options*/) {
+Index IndexAccess::build_valid(const GraphView& graph, Work& work) {
+  work.advance(1);
   auto storage = std::make_unique<IndexStorage>();
   storage->frame = make_frame(graph.positions);
-  LeafPartition partition = make_leaves(graph, storage->frame);
-  Links links = make_links(graph.adjacency, partition);
-
-  const std::vector<Point> points = place_points(graph.positions, storage->frame, partition.permutation);
-  NodeList lowest;
-  LeafMeasure measure(partition.leaf_begin, links, points, storage->frame.scale <= kLargestScaleWithColumns);
-  for (std::size_t leaf = 0; leaf + 1 < partition.leaf_begin.size(); ++leaf) measure.measure(leaf, lowest);
-
-  storage->leaves = make_leaf_records(partition, links, lowest.bounds);
-  storage->tree = make_tree(std::move(lowest), partition.leaf_begin, points);
-  graph.positions.visit(
-      [&](auto xyz) { storage->positions = permute_positions(xyz, std::span<const VertexId>(partition.permutation)); });
+  LeafPartition partition = make_leaves(graph, storage->frame, work);
+  work.advance(1);
+  Links links = make_links(graph.adjacency, partition, work);
+  work.advance(1);
+  const std::vector<Point> points = place_points(graph.positions, storage->frame, partition.permutation, work);
+  NodeList lowest =
+      measure_leaves(partition.leaf_begin, links, points, storage->frame.scale <= kLargestScaleWithColumns, work);
+  work.advance(1);
+  storage->leaves = make_leaf_records(partition, links, lowest.bounds, work);
+  storage->tree = make_tree(std::move(lowest), partition.leaf_begin, points, work);
+  work.advance(1);
+  graph.positions.visit([&](auto xyz) {
+    storage->positions = permute_positions(xyz, std::span<const VertexId>(partition.permutation), work);
+  });
   pad(links.adjacency);
   pad(links.crossings);
   pad(partition.permutation);
@@ -146,6 +173,8 @@ Index IndexAccess::build_valid(const GraphView& graph, const BuildOptions& /*opt
   storage->adjacency = std::move(links.adjacency);
   storage->links = std::move(links.links);
   storage->crossings = std::move(links.crossings);
+  work.advance(1);
+  work.report();
   return make(std::move(storage));
 }
 

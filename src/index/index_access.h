@@ -8,6 +8,7 @@
 #include "meshhood/index.h"
 
 #include "index/layout.h"
+#include "parallel.h"
 
 namespace meshhood {
 
@@ -17,7 +18,7 @@ struct IndexAccess {
 
   [[nodiscard]] static const IndexStorage& storage(const Index& index) { return *index.storage_; }
 
-  [[nodiscard]] static Index build_valid(const GraphView& graph, const BuildOptions& options);
+  [[nodiscard]] static Index build_valid(const GraphView& graph, Work& work);
 };
 
 }  // namespace meshhood

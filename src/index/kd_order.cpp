@@ -2,6 +2,7 @@
 #include "index/kd_order.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace meshhood {
 namespace {
@@ -20,26 +21,56 @@ std::size_t widest_axis(std::span<const Site> sites) {
 }
 
 template <std::size_t axis>
-void cut(std::span<Site> sites, std::size_t middle) {
+void cut_at(std::span<Site> sites, std::size_t middle) {
   std::nth_element(
       sites.begin(), sites.begin() + static_cast<std::ptrdiff_t>(middle), sites.end(),
       [](const Site& a, const Site& b) { return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.id < b.id; });
+}
+
+/// Cuts across the widest side and returns where.
+std::size_t cut(std::span<Site> sites, std::size_t unit) {
+  const std::size_t units = (sites.size() + unit - 1) / unit;
+  const std::size_t middle = units / 2 * unit;
+  switch (widest_axis(sites)) {
+    case 0: cut_at<0>(sites, middle); break;
+    case 1: cut_at<1>(sites, middle); break;
+    default: cut_at<2>(sites, middle); break;
+  }
+  return middle;
+}
+
+using Runs = std::vector<std::span<Site>>;
+
+/// Cuts each run in two, unless it is too short.
+Runs cut_each(const Runs& runs, std::size_t unit, Work& work) {
+  Runs halves(2 * runs.size());
+  work.parallel_for(runs.size(), 1, [&](unsigned, std::size_t i, std::size_t) {
+    const std::size_t middle = runs[i].size() > unit ? cut(runs[i], unit) : 0;
+    halves[2 * i] = runs[i].first(middle);
+    halves[2 * i + 1] = runs[i].subspan(middle);
+  });
+  return halves;
 }
 
 }  // namespace
 
 void kd_order(std::span<Site> sites, std::size_t unit) {
   while (sites.size() > unit) {
-    const std::size_t units = (sites.size() + unit - 1) / unit;
-    const std::size_t middle = units / 2 * unit;
-    switch (widest_axis(sites)) {
-      case 0: cut<0>(sites, middle); break;
-      case 1: cut<1>(sites, middle); break;
-      default: cut<2>(sites, middle); break;
-    }
+    const std::size_t middle = cut(sites, unit);
     kd_order(sites.first(middle), unit);
     sites = sites.subspan(middle);
   }
+}
+
+void kd_order(std::span<Site> sites, std::size_t unit, Work& work) {
+  // Enough for threads of unequal speed to end at the same time, and no more than is worth a thread's while.
+  constexpr std::size_t kRunsPerThread = 8;
+  constexpr std::size_t kShortestRun = 2000;
+  Runs runs{sites};
+  while (runs.size() < kRunsPerThread * work.threads() && sites.size() / runs.size() > kShortestRun) {
+    runs = cut_each(runs, unit, work);
+  }
+  work.parallel_for(runs.size(), 1, [&](unsigned, std::size_t i, std::size_t) { kd_order(runs[i], unit); });
 }
 
 void kd_order_nested(std::span<Site> sites, std::size_t fan_out) {

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <span>
 
+#include "parallel.h"
+
 namespace meshhood {
 
 /// A point to be put in order, and whose it is.
@@ -18,6 +20,9 @@ struct Site {
 /// widest side, at a multiple of `unit` near the middle, and so on. Which sites come together is the same for any
 /// order in which they are given. O(n log(n / unit)).
 void kd_order(std::span<Site> sites, std::size_t unit);
+
+/// The same on several threads.
+void kd_order(std::span<Site> sites, std::size_t unit, Work& work);
 
 /// Reorders `sites` so that this holds for runs of every power of `fan_out`.
 void kd_order_nested(std::span<Site> sites, std::size_t fan_out);

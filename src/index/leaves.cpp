@@ -8,6 +8,7 @@
 #include <bit>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "index/kd_order.h"
 #include "index/layout.h"
@@ -21,13 +22,18 @@ constexpr std::size_t kCellSize = 30;
 // A part smaller than this does not become a leaf if it can be helped: two of them make one.
 constexpr int kSmallPart = 17;
 
-std::vector<Site> make_sites(const PositionsView& positions, const Frame& frame) {
+// So many vertices, or a like amount of work, keep a thread busy long enough.
+constexpr std::size_t kGrain = 4096;
+
+std::vector<Site> make_sites(const PositionsView& positions, const Frame& frame, Work& work) {
   return positions.visit([&](auto xyz) {
     std::vector<Site> sites(xyz.size() / 3);
-    for (std::size_t v = 0; v < sites.size(); ++v) {
-      const FramePoint p = frame.round(point(xyz, v));
-      sites[v] = {{p.x, p.y, p.z}, static_cast<std::uint32_t>(v)};
-    }
+    work.parallel_for(sites.size(), kGrain, [&](unsigned, std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        const FramePoint p = frame.round(point(xyz, v));
+        sites[v] = {{p.x, p.y, p.z}, static_cast<std::uint32_t>(v)};
+      }
+    });
     return sites;
   });
 }
@@ -35,30 +41,44 @@ std::vector<Site> make_sites(const PositionsView& positions, const Frame& frame)
 /// The vertices by cells, and the connected parts of the mesh in each cell.
 class Parts {
  public:
-  Parts(std::span<const Site> sites, const AdjacencyView& adjacency)
-      : sites_(sites), adjacency_(adjacency), place_(sites.size()), part_of_(sites.size()) {
-    for (std::size_t i = 0; i < sites.size(); ++i) {
-      place_[sites[i].id] = static_cast<std::uint32_t>(i / kCellSize * kLeafCapacity + i % kCellSize);
-    }
-    for (std::size_t begin = 0; begin < sites.size(); begin += kCellSize) {
-      split_cell(begin, std::min(kCellSize, sites.size() - begin));
-    }
-    for (const Small& small : small_) merge(small);
+  Parts(std::span<const Site> sites, const AdjacencyView& adjacency, Work& work)
+      : sites_(sites),
+        adjacency_(adjacency),
+        first_part_((sites.size() + kCellSize - 1) / kCellSize + 1),
+        place_(sites.size()),
+        part_of_(sites.size()) {
+    for_each_cell(work, [&](std::size_t cell) { place_sites(cell); });
+    for_each_cell(work, [&](std::size_t cell) { split(cell); });
+    std::partial_sum(first_part_.begin(), first_part_.end(), first_part_.begin());
+    size_.resize(first_part_.back());
+    for_each_cell(work, [&](std::size_t cell) { number_parts(cell); });
+    merged_into_.resize(first_part_.back());
+    std::iota(merged_into_.begin(), merged_into_.end(), 0);
+    merge_small_parts();
   }
 
-  /// By vertex in the order of the cells: the part it belongs to, after merging. Parts are numbered with gaps.
-  [[nodiscard]] std::uint32_t part_of(std::size_t site) { return root(part_of_[site]); }
+  /// By vertex in the order of the cells: the part it belongs to, after merging.
+  [[nodiscard]] std::uint32_t part_of(std::size_t site) const { return merged_into_[part_of_[site]]; }
 
-  [[nodiscard]] std::size_t part_count() const { return merged_into_.size(); }
+  /// Parts are numbered with gaps: one that has been merged into another has no vertices.
+  [[nodiscard]] std::size_t part_count() const { return size_.size(); }
+  [[nodiscard]] int size(std::size_t part) const { return size_[part]; }
 
  private:
-  /// A part that should not stay alone, and the largest part of its cell.
-  struct Small {
-    std::size_t cell_begin;
-    Lanes lanes;
-    std::uint32_t part;
-    std::uint32_t home;
-  };
+  template <class F>
+  void for_each_cell(Work& work, F&& f) const {
+    work.parallel_for(first_part_.size() - 1, kGrain / kCellSize, [&](unsigned, std::size_t begin, std::size_t end) {
+      for (std::size_t cell = begin; cell < end; ++cell) f(cell);
+    });
+  }
+
+  [[nodiscard]] std::size_t begin_of(std::size_t cell) const { return std::min(cell * kCellSize, sites_.size()); }
+
+  void place_sites(std::size_t cell) {
+    for (std::size_t site = begin_of(cell); site < begin_of(cell + 1); ++site) {
+      place_[sites_[site].id] = static_cast<std::uint32_t>(cell * kLeafCapacity + site % kCellSize);
+    }
+  }
 
   template <class F>
   void for_each_neighbor_site(std::size_t site, F&& f) const {
@@ -68,7 +88,10 @@ class Parts {
     }
   }
 
-  void split_cell(std::size_t begin, std::size_t size) {
+  /// Finds the parts of a cell and numbers them from 0, the largest first.
+  void split(std::size_t cell) {
+    const std::size_t begin = begin_of(cell);
+    const std::size_t size = begin_of(cell + 1) - begin;
     std::array<Lanes, kLeafCapacity> near{};
     for (std::size_t i = 0; i < size; ++i) {
       // Sites of other cells lie beyond the lanes, above or, wrapped around, below.
@@ -77,11 +100,19 @@ class Parts {
       });
     }
     std::array<Lanes, kLeafCapacity> parts{};
-    std::size_t count = 0;
+    std::uint32_t count = 0;
     for (Lanes left = first_lanes(static_cast<unsigned>(size)); left != 0; left &= ~parts[count++]) {
       parts[count] = grow(left & -left, near);
     }
-    add_parts(begin, std::span(parts).first(count));
+    const auto largest = std::max_element(parts.begin(), parts.begin() + count,
+                                          [](Lanes a, Lanes b) { return std::popcount(a) < std::popcount(b); });
+    std::swap(*largest, parts[0]);
+    for (std::uint32_t part = 0; part < count; ++part) {
+      for (Lanes left = parts[part]; left != 0; left &= left - 1) {
+        part_of_[begin + static_cast<std::size_t>(std::countr_zero(left))] = part;
+      }
+    }
+    first_part_[cell + 1] = count;
   }
 
   static Lanes grow(Lanes seed, const std::array<Lanes, kLeafCapacity>& near) {
@@ -94,37 +125,38 @@ class Parts {
     return reached;
   }
 
-  void add_parts(std::size_t begin, std::span<Lanes> lanes) {
-    const auto largest = std::max_element(lanes.begin(), lanes.end(),
-                                          [](Lanes a, Lanes b) { return std::popcount(a) < std::popcount(b); });
-    std::swap(*largest, lanes[0]);
-    const auto home = static_cast<std::uint32_t>(merged_into_.size());
-    for (const Lanes part_lanes : lanes) {
-      const auto part = static_cast<std::uint32_t>(merged_into_.size());
-      merged_into_.push_back(part);
-      size_.push_back(std::popcount(part_lanes));
-      for (Lanes left = part_lanes; left != 0; left &= left - 1) {
-        part_of_[begin + static_cast<std::size_t>(std::countr_zero(left))] = part;
-      }
-      if (size_.back() < kSmallPart) small_.push_back({begin, part_lanes, part, home});
+  /// From the numbers within the cell to those among all.
+  void number_parts(std::size_t cell) {
+    for (std::size_t site = begin_of(cell); site < begin_of(cell + 1); ++site) {
+      part_of_[site] += first_part_[cell];
+      ++size_[part_of_[site]];
     }
+  }
+
+  void merge_small_parts() {
+    for (std::size_t cell = 0; cell + 1 < first_part_.size(); ++cell) {
+      for (std::uint32_t part = first_part_[cell]; part < first_part_[cell + 1]; ++part) {
+        if (size_[part] < kSmallPart) merge(cell, part);
+      }
+    }
+    for (std::uint32_t part = 0; part < merged_into_.size(); ++part) merged_into_[part] = root(part);
   }
 
   /// Joins a small part to the neighbour that shares most edges with it, of those that have room. One without any
   /// neighbours is a component of the mesh, and stays with the others of its cell: else a cloud of points would cost a
   /// leaf a point.
-  void merge(const Small& small) {
-    const std::uint32_t part = root(small.part);
+  void merge(std::size_t cell, std::uint32_t small) {
+    const std::uint32_t part = root(small);
     if (size_[part] >= kSmallPart) return;
     neighbors_.clear();
-    for (Lanes left = small.lanes; left != 0; left &= left - 1) {
-      const std::size_t site = small.cell_begin + static_cast<std::size_t>(std::countr_zero(left));
+    for (std::size_t site = begin_of(cell); site < begin_of(cell + 1); ++site) {
+      if (part_of_[site] != small) continue;
       for_each_neighbor_site(site, [&](std::size_t other) {
         const std::uint32_t neighbor = root(part_of_[other]);
         if (neighbor != part) neighbors_.push_back(neighbor);
       });
     }
-    join(part, neighbors_.empty() ? root(small.home) : best_neighbor(part));
+    join(part, neighbors_.empty() ? root(first_part_[cell]) : best_neighbor(part));
   }
 
   /// The most frequent of `neighbors_` with room for `part`; `part` itself if none has.
@@ -150,7 +182,7 @@ class Parts {
   void join(std::uint32_t part, std::uint32_t other) {
     if (part == other || !has_room(part, other)) return;
     merged_into_[part] = other;
-    size_[other] += size_[part];
+    size_[other] += std::exchange(size_[part], 0);
   }
 
   std::uint32_t root(std::uint32_t part) {
@@ -160,27 +192,25 @@ class Parts {
 
   std::span<const Site> sites_;
   AdjacencyView adjacency_;
-  std::vector<std::uint32_t> place_;    // by vertex: 32 times its cell, plus its lane
-  std::vector<std::uint32_t> part_of_;  // by site
+  std::vector<std::uint32_t> first_part_;  // by cell, and one more
+  std::vector<std::uint32_t> place_;       // by vertex: 32 times its cell, plus its lane
+  std::vector<std::uint32_t> part_of_;     // by site, before merging
   std::vector<std::uint32_t> merged_into_;
   std::vector<int> size_;
-  std::vector<Small> small_;
   std::vector<std::uint32_t> neighbors_;  // of the part that is being merged, by edge
 };
 
 /// The parts that are left, as the means of their vertices, in the order of the leaves.
-std::vector<Site> order_parts(std::span<const Site> sites, Parts& parts) {
+std::vector<Site> order_parts(std::span<const Site> sites, const Parts& parts) {
   std::vector<std::array<double, 3>> sum(parts.part_count());
-  std::vector<unsigned> size(parts.part_count());
   for (std::size_t i = 0; i < sites.size(); ++i) {
     const std::uint32_t part = parts.part_of(i);
     for (std::size_t axis = 0; axis < 3; ++axis) sum[part][axis] += static_cast<double>(sites[i].at[axis]);
-    ++size[part];
   }
   std::vector<Site> centres;
-  for (std::uint32_t part = 0; part < size.size(); ++part) {
-    if (size[part] == 0) continue;
-    const auto mean = [&](std::size_t axis) { return static_cast<float>(sum[part][axis] / size[part]); };
+  for (std::uint32_t part = 0; part < parts.part_count(); ++part) {
+    if (parts.size(part) == 0) continue;
+    const auto mean = [&](std::size_t axis) { return static_cast<float>(sum[part][axis] / parts.size(part)); };
     centres.push_back({{mean(0), mean(1), mean(2)}, part});
   }
   kd_order_nested(centres, kFanOut);
@@ -189,25 +219,25 @@ std::vector<Site> order_parts(std::span<const Site> sites, Parts& parts) {
 
 }  // namespace
 
-LeafPartition make_leaves(const GraphView& graph, const Frame& frame) {
-  std::vector<Site> sites = make_sites(graph.positions, frame);
-  kd_order(sites, kCellSize);
-  Parts parts(sites, graph.adjacency);
+LeafPartition make_leaves(const GraphView& graph, const Frame& frame, Work& work) {
+  std::vector<Site> sites = make_sites(graph.positions, frame, work);
+  kd_order(sites, kCellSize, work);
+  const Parts parts(sites, graph.adjacency, work);
   const std::vector<Site> centres = order_parts(sites, parts);
-
-  std::vector<LeafId> leaf_of_part(parts.part_count());
-  for (std::size_t leaf = 0; leaf < centres.size(); ++leaf) leaf_of_part[centres[leaf].id] = static_cast<LeafId>(leaf);
 
   LeafPartition result;
   result.place.resize(sites.size());
   result.permutation.resize(sites.size());
   result.leaf_begin.assign(centres.size() + 1, 0);
-  for (std::size_t i = 0; i < sites.size(); ++i) {
-    const LeafId leaf = leaf_of_part[parts.part_of(i)];
-    result.place[sites[i].id] = leaf;
-    ++result.leaf_begin[leaf + 1];
+  std::vector<LeafId> leaf_of_part(parts.part_count());
+  for (std::size_t leaf = 0; leaf < centres.size(); ++leaf) {
+    const std::uint32_t part = centres[leaf].id;
+    leaf_of_part[part] = static_cast<LeafId>(leaf);
+    result.leaf_begin[leaf + 1] = static_cast<VertexId>(result.leaf_begin[leaf] + parts.size(part));
   }
-  std::partial_sum(result.leaf_begin.begin(), result.leaf_begin.end(), result.leaf_begin.begin());
+  work.parallel_for(sites.size(), kGrain, [&](unsigned, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) result.place[sites[i].id] = leaf_of_part[parts.part_of(i)];
+  });
   // In the order of the caller's vertices, so that neighbours in a leaf stay neighbours.
   std::vector<std::uint8_t> filled(centres.size(), 0);
   for (std::size_t v = 0; v < sites.size(); ++v) {

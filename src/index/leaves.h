@@ -7,6 +7,7 @@
 #include "meshhood/adjacency.h"
 
 #include "index/frame.h"
+#include "parallel.h"
 
 namespace meshhood {
 
@@ -20,6 +21,6 @@ struct LeafPartition {
 /// Cuts the vertices into leaves of at most 32 that lie close together and, wherever the mesh allows it without leaves
 /// of a few vertices, are connected. Eight, sixty-four, ... consecutive leaves lie close together again.
 /// The graph is valid. O(#V log #V + #E).
-[[nodiscard]] LeafPartition make_leaves(const GraphView& graph, const Frame& frame);
+[[nodiscard]] LeafPartition make_leaves(const GraphView& graph, const Frame& frame, Work& work);
 
 }  // namespace meshhood

@@ -37,23 +37,21 @@ void append_links(const std::vector<Exit>& exits, Links& out) {
   }
 }
 
-}  // namespace
-
-Links make_links(const AdjacencyView& adjacency, const LeafPartition& leaves) {
+/// The links of the leaves `begin .. end - 1`, counted from the first of them. Their part of `adjacency` is filled.
+Links link_leaves(const AdjacencyView& graph, const LeafPartition& leaves, std::size_t begin, std::size_t end,
+                  std::vector<Lanes>& adjacency) {
   Links result;
-  result.adjacency.resize(leaves.permutation.size());
-  result.crossings.reserve(adjacency.neighbors.size() / 3);
   std::vector<Exit> exits;
-  for (LeafId leaf = 0; leaf + 1 < leaves.leaf_begin.size(); ++leaf) {
+  for (std::size_t leaf = begin; leaf < end; ++leaf) {
     exits.clear();
-    const std::size_t begin = leaves.leaf_begin[leaf];
-    for (std::size_t v = begin; v < leaves.leaf_begin[leaf + 1]; ++v) {
-      for (const VertexId w : adjacency[leaves.permutation[v]]) {
+    const std::size_t first = leaves.leaf_begin[leaf];
+    for (std::size_t v = first; v < leaves.leaf_begin[leaf + 1]; ++v) {
+      for (const VertexId w : graph[leaves.permutation[v]]) {
         const std::uint32_t place = leaves.place[w];
         if (place / kLeafCapacity == leaf) {
-          result.adjacency[v] |= Lanes{1} << place % kLeafCapacity;
+          adjacency[v] |= Lanes{1} << place % kLeafCapacity;
         } else {
-          exits.push_back(make_exit(static_cast<unsigned>(v - begin), place));
+          exits.push_back(make_exit(static_cast<unsigned>(v - first), place));
         }
       }
     }
@@ -61,6 +59,31 @@ Links make_links(const AdjacencyView& adjacency, const LeafPartition& leaves) {
     append_links(exits, result);
     result.link_end.push_back(static_cast<std::uint32_t>(result.links.size()));
   }
+  return result;
+}
+
+/// Appends the links of the leaves that follow.
+void append(const Links& next, Links& all) {
+  const auto links = static_cast<std::uint32_t>(all.links.size());
+  const auto crossings = static_cast<std::uint32_t>(all.crossings.size());
+  for (const std::uint32_t end : next.link_end) all.link_end.push_back(links + end);
+  for (const Link& link : next.links) all.links.push_back({link.leaf, link.border, crossings + link.first_crossing});
+  all.crossings.insert(all.crossings.end(), next.crossings.begin(), next.crossings.end());
+}
+
+}  // namespace
+
+Links make_links(const AdjacencyView& graph, const LeafPartition& leaves, Work& work) {
+  constexpr std::size_t kGrain = 256;
+  const std::size_t leaf_count = leaves.leaf_begin.size() - 1;
+  Links result;
+  result.adjacency.resize(leaves.permutation.size());
+  std::vector<Links> runs((leaf_count + kGrain - 1) / kGrain);
+  work.parallel_for(leaf_count, kGrain, [&](unsigned, std::size_t begin, std::size_t end) {
+    runs[begin / kGrain] = link_leaves(graph, leaves, begin, end, result.adjacency);
+  });
+  result.crossings.reserve(graph.neighbors.size() / 3);
+  for (const Links& run : runs) append(run, result);
   result.links.push_back({0, 0, static_cast<std::uint32_t>(result.crossings.size())});
   return result;
 }

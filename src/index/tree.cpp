@@ -72,19 +72,20 @@ TreeLevel make_level(const NodeList& nodes) {
 
 /// The nodes above those of `level`; each of the latter covers `leaves` leaves.
 NodeList make_parents(const NodeList& level, std::size_t leaves, std::span<const VertexId> leaf_begin,
-                      std::span<const Point> points) {
-  NodeList parents;
+                      std::span<const Point> points, Work& work) {
   const std::size_t leaf_count = leaf_begin.size() - 1;
-  for (std::size_t begin = 0; begin < level.bounds.size(); begin += kFanOut) {
+  NodeList parents((level.bounds.size() + kFanOut - 1) / kFanOut);
+  work.parallel_for(parents.bounds.size(), 1, [&](unsigned, std::size_t parent, std::size_t) {
+    const std::size_t begin = parent * kFanOut;
     const std::size_t end = std::min(begin + kFanOut, level.bounds.size());
     std::vector<Point> centres;
     for (std::size_t i = begin; i < end; ++i) centres.push_back(centre_of(level.bounds[i]));
     const std::size_t first = leaf_begin[begin * leaves];
     const std::size_t last = leaf_begin[std::min(end * leaves, leaf_count)];
-    parents.bounds.push_back(enclosing_sphere(points.subspan(first, last - first), smallest_sphere_centre(centres)));
-    parents.columns.push_back(enclosing_column(std::span(level.columns).subspan(begin, end - begin), centres,
-                                               centre_of(parents.bounds.back())));
-  }
+    parents.bounds[parent] = enclosing_sphere(points.subspan(first, last - first), smallest_sphere_centre(centres));
+    parents.columns[parent] = enclosing_column(std::span(level.columns).subspan(begin, end - begin), centres,
+                                               centre_of(parents.bounds[parent]));
+  });
   return parents;
 }
 
@@ -103,12 +104,12 @@ FrameSphere enclosing_sphere(std::span<const Point> points) {
   return enclosing_sphere(points, smallest_sphere_centre(points));
 }
 
-Tree make_tree(NodeList level, std::span<const VertexId> leaf_begin, std::span<const Point> points) {
+Tree make_tree(NodeList level, std::span<const VertexId> leaf_begin, std::span<const Point> points, Work& work) {
   Tree tree;
   if (level.bounds.empty()) return tree;
   tree.push_back(make_level(level));
   for (std::size_t leaves = 1; tree.back().groups.size() > 1; leaves *= kFanOut) {
-    level = make_parents(level, leaves, leaf_begin, points);
+    level = make_parents(level, leaves, leaf_begin, points, work);
     tree.push_back(make_level(level));
   }
   return tree;

@@ -1,22 +1,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "index/column.h"
 #include "index/layout.h"
+#include "parallel.h"
 
 namespace meshhood {
 
 /// The nodes of one level.
 struct NodeList {
+  explicit NodeList(std::size_t nodes) : bounds(nodes), columns(nodes) {}
+
   std::vector<FrameSphere> bounds;
   std::vector<Column> columns;
 };
 
 /// The tree over the leaves. `points`: the vertices in index order, in the frame. O(#V log #V).
-[[nodiscard]] Tree make_tree(NodeList leaves, std::span<const VertexId> leaf_begin, std::span<const Point> points);
+[[nodiscard]] Tree make_tree(NodeList leaves, std::span<const VertexId> leaf_begin, std::span<const Point> points,
+                             Work& work);
 
 /// A sphere around `points`, with the room that comparing it with a ball in single precision needs (see search/simd.h).
 [[nodiscard]] FrameSphere enclosing_sphere(std::span<const Point> points, const Point& centre);
