@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -89,16 +90,16 @@ class Writer {
 
   template <class Integer>
   void write_pattern(std::span<const std::uint64_t> sizes, const Total& total) {
-    std::vector<Integer> numbers{0};
-    numbers.reserve(sizes.size() + 1);
-    for (const std::uint64_t size : sizes)
-      numbers.push_back(static_cast<Integer>(numbers.back() + static_cast<Integer>(size)));
-    npz_.add<Integer>("indptr", numbers);
-    npz_.begin<Integer>("indices", total.count);
+    std::vector<Integer> offsets(sizes.size() + 1);
+    std::transform_inclusive_scan(sizes.begin(), sizes.end(), offsets.begin() + 1, std::plus<>(),
+                                  [](std::uint64_t size) { return static_cast<Integer>(size); });
+    npz_.add<Integer>("indptr", offsets);
+    std::vector<Integer> ids;
     const auto write = [&](const BatchRow& row) {
-      numbers.assign(row.ids.begin(), row.ids.end());
-      npz_.append<Integer>(numbers);
+      ids.assign(row.ids.begin(), row.ids.end());
+      npz_.append<Integer>(ids);
     };
+    npz_.begin<Integer>("indices", total.count);
     for_each_neighborhood(index_, query_, write, next_pass());
   }
 
@@ -152,6 +153,7 @@ Total write(const Index& index, const BatchQuery& query, const Options& options)
     npz.add<std::int64_t>("vertices", listed);
   }
   const Total total = Writer(index, query, options, interrupt, npz).write();
+  if (interrupt.requested()) raise(ErrorCode::Cancelled, "cancelled");
   npz.commit();
   return total;
 }
