@@ -37,7 +37,7 @@ struct Options {
   Radius radius;
   std::string vertices;  ///< a file that lists them; empty for all
   std::string method = "exact";
-  unsigned threads = 0;
+  unsigned threads = kAllThreads;
   bool count = false;
   bool distances = false;
   bool json = false;
@@ -167,8 +167,9 @@ void batch(const Options& options) {
     listed = read_vertex_list(options.vertices, input.vertex_count());
     query.vertices = listed;
   }
-  const Total total = options.method == "exact" ? write(build_exact_index(input.view()), query, options)
-                                                : write(build_paper_index(input.view()), query, options);
+  const Total total = options.method == "exact"
+                          ? write(build_exact_index(input.view(), options.threads), query, options)
+                          : write(build_paper_index(input.view()), query, options);
   if (options.json) {
     print_json(
         Json{{"output", options.output}, {"method", options.method}, {"rows", total.rows}, {"count", total.count}});

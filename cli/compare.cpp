@@ -80,7 +80,7 @@ void compare(const Options& options) {
   const Input input = read_input(options.question.file);
   const Query query = resolve(options.question, input);
   const paper::Index paper_index = build_paper_index(input.view());
-  const Index exact_index = build_exact_index(input.view());
+  const Index exact_index = build_exact_index(input.view(), kAllThreads);
   const std::vector<Method> methods{bfs_method(input.graph()), ball_method(input.view().positions),
                                     paper_method(paper_index), exact_method(exact_index)};
   const std::vector<Row> rows = answer(methods, query, input.vertex_count());

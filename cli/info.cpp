@@ -139,7 +139,7 @@ void info(const Options& options) {
   Json document = to_json(input, summary);
   std::string text = to_text(input, summary);
   if (options.index) {
-    const IndexBytes exact = build_exact_index(input.view()).bytes();
+    const IndexBytes exact = build_exact_index(input.view(), kAllThreads).bytes();
     const paper::Index paper = build_paper_index(input.view());
     document["index"] = {{"exact", to_json(exact)}, {"paper", to_json(paper)}};
     text += to_text(exact) + to_text(paper);

@@ -69,9 +69,13 @@ Method paper_method(const paper::Index& index, const paper::QueryOptions& option
           .count = [searcher, options](VertexId v, double radius) { return searcher->count(v, radius, options); }};
 }
 
-Index build_exact_index(const MeshView& mesh) {
-  const Progress progress("building the index");
-  return build(mesh);
+Index build_exact_index(const MeshView& mesh, unsigned threads) {
+  Progress progress("building the index");
+  const auto report = [&](std::size_t done, std::size_t total) {
+    progress.report(done, total);
+    return true;
+  };
+  return build(mesh, {.threads = threads, .progress = report});
 }
 
 paper::Index build_paper_index(const MeshView& mesh) {

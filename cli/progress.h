@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <cstddef>
 #include <mutex>
 #include <stop_token>
 #include <string>
@@ -19,8 +20,11 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// How much is done, from 0 to 1. Without it, the line shows the time alone.
+  /// How much is done, from 0 to 1, or so many parts of `total`. Without it, the line shows the time alone.
   void report(double fraction) { fraction_ = fraction; }
+  void report(std::size_t done, std::size_t total) {
+    report(total == 0 ? 1 : static_cast<double>(done) / static_cast<double>(total));
+  }
 
  private:
   void watch(const std::stop_token& stop);

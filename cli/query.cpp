@@ -51,7 +51,7 @@ Answer ask(const Options& options, const Method& method, const Query& query) {
 Answer ask(const Options& options, const Input& input, const Query& query) {
   if (options.method == "bfs") return ask(options, bfs_method(input.graph()), query);
   if (options.method == "ball") return ask(options, ball_method(input.view().positions), query);
-  if (options.method == "exact") return ask(options, exact_method(build_exact_index(input.view())), query);
+  if (options.method == "exact") return ask(options, exact_method(build_exact_index(input.view(), kAllThreads)), query);
   const paper::QueryOptions defaults;
   const paper::QueryOptions settings{.scale_factor = options.factor.value_or(defaults.scale_factor)};
   return ask(options, paper_method(build_paper_index(input.view()), settings), query);
