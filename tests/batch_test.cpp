@@ -19,6 +19,7 @@
 #include "meshhood/meshhood.h"
 
 #include "families.h"
+#include "family_name.h"
 #include "refusal.h"
 
 namespace meshhood::test {
@@ -158,13 +159,7 @@ TEST_P(Families, OrderDoesNotDependOnTheThreads) {
   }
 }
 
-std::string case_name(const testing::TestParamInfo<Family>& family) {
-  std::string name(family.param.name);
-  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, Families, testing::ValuesIn(families()), case_name);
+INSTANTIATE_TEST_SUITE_P(All, Families, testing::ValuesIn(families()), family_name);
 
 /// A grid of 60 by 60 vertices, and its index.
 class Batches : public testing::Test {

@@ -17,6 +17,7 @@ foreach(stem index_structure search_families search_rare search_simd)
   meshhood_test(${stem} meshhood_families)
 endforeach()
 meshhood_test(index_threads meshhood_families meshhood_test_support)
+meshhood_test(reorder meshhood_families meshhood_test_support)
 meshhood_test(search_meshes meshhood_test_support meshhood_shapes)
 
 # On real meshes.

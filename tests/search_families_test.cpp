@@ -8,6 +8,7 @@
 
 #include "exact_answer.h"
 #include "families.h"
+#include "family_name.h"
 #include "scale.h"
 
 namespace meshhood::test {
@@ -50,13 +51,7 @@ TEST_P(Families, AnswersAreThoseOfTheReference) {
   std::printf("%s: %zu meshes, %zu queries, 0 mismatches\n", std::string(GetParam().name).c_str(), meshes, queries);
 }
 
-std::string case_name(const testing::TestParamInfo<Family>& family) {
-  std::string name(family.param.name);
-  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, Families, testing::ValuesIn(families()), case_name);
+INSTANTIATE_TEST_SUITE_P(All, Families, testing::ValuesIn(families()), family_name);
 
 }  // namespace
 }  // namespace meshhood::test

@@ -51,7 +51,8 @@ class Index {
   /// The positions in index order, #V by 3. Lives as long as the index.
   [[nodiscard]] PositionsView positions() const;
 
-  /// The vertices in index order. #V; lives as long as the index.
+  /// The vertices in index order. #V; lives as long as the index. Empty where that is the order of the mesh (see
+  /// `reorder`).
   [[nodiscard]] std::span<const VertexId> permutation() const;
 
   /// Verifies the index against the mesh it was built from and returns what does not hold, one line each that names

@@ -26,4 +26,5 @@
 #include "meshhood/paper.h"      // IWYU pragma: export
 #include "meshhood/progress.h"   // IWYU pragma: export
 #include "meshhood/reference.h"  // IWYU pragma: export
+#include "meshhood/reorder.h"    // IWYU pragma: export
 #include "meshhood/search.h"     // IWYU pragma: export

@@ -23,9 +23,6 @@ namespace {
 // In a mesh smaller than the inverse, squares of distances underflow, and so does what columns say of them.
 constexpr double kLargestScaleWithColumns = 0x1p480;
 
-// How many parts the work has, for whoever watches: graph, leaves, links, spheres and columns, tree, arrays.
-constexpr std::size_t kSteps = 6;
-
 // So many vertices, or leaves, keep a thread busy long enough.
 constexpr std::size_t kVertexGrain = 8192;
 constexpr std::size_t kLeafGrain = 64;
@@ -131,21 +128,26 @@ void pad(std::vector<T>& values) {
   values.shrink_to_fit();
 }
 
+Index finish(std::unique_ptr<IndexStorage> storage, Work& work) {
+  work.report();
+  return IndexAccess::make(std::move(storage));
+}
+
 }  // namespace
 
 Index build(const MeshView& mesh, const BuildOptions& options) {
-  Work work(options.threads, options.progress, kSteps);
+  Work work(options.threads, options.progress, IndexAccess::kBuildSteps);
   const Adjacency graph = adjacency(mesh, work);
-  return IndexAccess::build_valid({mesh.positions, graph.view()}, work);
+  return finish(IndexAccess::build_valid({mesh.positions, graph.view()}, work), work);
 }
 
 Index build(const GraphView& graph, const BuildOptions& options) {
-  Work work(options.threads, options.progress, kSteps);
+  Work work(options.threads, options.progress, IndexAccess::kBuildSteps);
   validate(graph);
-  return IndexAccess::build_valid(graph, work);
+  return finish(IndexAccess::build_valid(graph, work), work);
 }
 
-Index IndexAccess::build_valid(const GraphView& graph, Work& work) {
+std::unique_ptr<IndexStorage> IndexAccess::build_valid(const GraphView& graph, Work& work) {
   work.advance(1);
   auto storage = std::make_unique<IndexStorage>();
   storage->frame = make_frame(graph.positions);
@@ -174,8 +176,7 @@ Index IndexAccess::build_valid(const GraphView& graph, Work& work) {
   storage->links = std::move(links.links);
   storage->crossings = std::move(links.crossings);
   work.advance(1);
-  work.report();
-  return make(std::move(storage));
+  return storage;
 }
 
 }  // namespace meshhood

@@ -73,7 +73,7 @@ class Check {
       faults_.expect(begin < end && end - begin <= kLeafCapacity && record.first == begin && record.size == end - begin,
                      [&] { return leaf_name(leaf) + ": not 1 to 32 vertices, or not the same twice"; });
       for (std::size_t v = begin; v < end && faults_.none(); ++v) {
-        const VertexId old = index_.permutation[v];
+        const VertexId old = index_.id(v);
         faults_.expect(old < vertices && index_.place[old] == leaf * kLeafCapacity + (v - begin), [&] {
           return leaf_name(leaf) + ": vertex " + std::to_string(old) + " is not where its place says";
         });
@@ -115,20 +115,20 @@ class Check {
     for (std::size_t v = begin; v < leaf_end(leaf); ++v) {
       for (unsigned lane = 0; lane < leaf_end(leaf) - begin; ++lane) {
         if ((index_.adjacency[v] >> lane & 1U) == 0) continue;
-        rows[index_.permutation[v]].push_back(index_.permutation[begin + lane]);
+        rows[index_.id(v)].push_back(index_.id(begin + lane));
       }
     }
   }
 
   void add_edges_out(std::size_t leaf, std::vector<std::vector<VertexId>>& rows) {
-    const VertexId* mine = &index_.permutation[index_.leaf_begin[leaf]];
+    const std::size_t mine = index_.leaf_begin[leaf];
     for (std::size_t i = index_.leaves[leaf].first_link; i < index_.leaves[leaf + 1].first_link; ++i) {
       const Link& link = index_.links[i];
-      const VertexId* others = &index_.permutation[index_.leaf_begin[link.leaf]];
+      const std::size_t others = index_.leaf_begin[link.leaf];
       Lanes border = 0;
       for (std::size_t k = link.first_crossing; k < index_.links[i + 1].first_crossing; ++k) {
         const Crossing& crossing = index_.crossings[k];
-        rows[mine[crossing.mine]].push_back(others[crossing.other]);
+        rows[index_.id(mine + crossing.mine)].push_back(index_.id(others + crossing.other));
         border |= Lanes{1} << crossing.mine;
       }
       faults_.expect(border == link.border, [&] {

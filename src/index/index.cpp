@@ -28,7 +28,8 @@ PositionsView Index::positions() const {
 }
 
 std::span<const VertexId> Index::permutation() const {
-  return std::span(storage_->permutation).first(storage_->vertex_count());
+  const std::span<const VertexId> padded = storage_->permutation;
+  return padded.empty() ? padded : padded.first(storage_->vertex_count());
 }
 
 IndexBytes Index::bytes() const {

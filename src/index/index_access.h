@@ -18,7 +18,12 @@ struct IndexAccess {
 
   [[nodiscard]] static const IndexStorage& storage(const Index& index) { return *index.storage_; }
 
-  [[nodiscard]] static Index build_valid(const GraphView& graph, Work& work);
+  /// How many parts the work of a build has, for whoever watches: graph, leaves, links, spheres and columns, tree,
+  /// arrays.
+  static constexpr std::size_t kBuildSteps = 6;
+
+  /// The steps after the graph; leaves the last report to the caller.
+  [[nodiscard]] static std::unique_ptr<IndexStorage> build_valid(const GraphView& graph, Work& work);
 };
 
 }  // namespace meshhood

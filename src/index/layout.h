@@ -78,7 +78,7 @@ using PositionsInOrder = std::variant<std::vector<float>, std::vector<double>>;
 struct IndexStorage {
   Frame frame;
   PositionsInOrder positions;
-  std::vector<VertexId> permutation;  // in index order: the caller's vertex; padded like the positions
+  std::vector<VertexId> permutation;  // in index order: the caller's vertex; padded; empty where they are the same
   std::vector<std::uint32_t> place;   // by the caller's vertex: 32 times its leaf, plus its lane
   std::vector<VertexId> leaf_begin;   // by leaf, and one more: its first vertex in index order
   std::vector<Leaf> leaves;           // one more, for the end of the last links
@@ -90,6 +90,11 @@ struct IndexStorage {
   [[nodiscard]] Point position(LeafId leaf, unsigned lane) const {
     const std::size_t vertex = std::size_t{leaf_begin[leaf]} + lane;
     return std::visit([&](const auto& all) { return point(std::span(all), vertex); }, positions);
+  }
+
+  /// The caller's id of a vertex in index order.
+  [[nodiscard]] VertexId id(std::size_t vertex) const {
+    return permutation.empty() ? static_cast<VertexId>(vertex) : permutation[vertex];
   }
 
   [[nodiscard]] std::size_t vertex_count() const { return place.size(); }

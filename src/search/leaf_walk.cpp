@@ -40,7 +40,7 @@ LeafWalk::State& LeafWalk::touch(LeafId leaf) {
 /// What `reach` will look at, and then the output.
 void LeafWalk::fetch_leaf(const Leaf& leaf, bool straddling) const {
   fetch_lines(&index_->links[leaf.first_link], 2);
-  fetch_lines(&index_->permutation[leaf.first], 2);
+  if (!index_->permutation.empty()) fetch_lines(&index_->permutation[leaf.first], 2);
   if (!straddling) return;
   fetch_lines(&index_->adjacency[leaf.first], 2);
   fetch_positions(*index_, leaf.first, leaf.size);

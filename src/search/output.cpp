@@ -2,8 +2,10 @@
 #include "search/output.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "prefetch.h"
 
@@ -42,6 +44,19 @@ VertexId* copy_parts(const Answer& answer, const IndexStorage& index, const Kern
   return out;
 }
 
+/// Where the caller's order is that of the index.
+void write_places(const Answer& answer, const IndexStorage& index, const Kernels& kernels, VertexId* out) {
+  for (const VertexRange& run : answer.runs) {
+    std::iota(out, out + (run.end - run.begin), run.begin);
+    out += run.end - run.begin;
+  }
+  std::array<VertexId, kLeafCapacity> leaf{};
+  for (const PartialLeaf& part : answer.parts) {
+    std::iota(leaf.begin(), leaf.end(), index.leaf_begin[part.leaf]);
+    out = kernels.append(leaf.data(), part.lanes, out);
+  }
+}
+
 }  // namespace
 
 std::size_t count(const Answer& answer) {
@@ -55,8 +70,12 @@ void write_ids(const Answer& answer, const IndexStorage& index, const Kernels& k
   const std::size_t size = count(answer);
   // Room for what is written beyond the end.
   out.resize(size + kLeafCapacity);
-  VertexId* end = copy_runs(answer, index.permutation.data(), out.data());
-  copy_parts(answer, index, kernels, end);
+  if (index.permutation.empty()) {
+    write_places(answer, index, kernels, out.data());
+  } else {
+    VertexId* end = copy_runs(answer, index.permutation.data(), out.data());
+    copy_parts(answer, index, kernels, end);
+  }
   out.resize(size);
 }
 
