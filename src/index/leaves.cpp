@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kCellSize = 30;
 
 // A part smaller than this does not become a leaf if it can be helped: two of them make one.
-constexpr int kSmallPart = 17;
+constexpr std::uint32_t kSmallPart = 17;
 
 // So many vertices, or a like amount of work, keep a thread busy long enough.
 constexpr std::size_t kGrain = 4096;
@@ -62,7 +62,7 @@ class Parts {
 
   /// Parts are numbered with gaps: one that has been merged into another has no vertices.
   [[nodiscard]] std::size_t part_count() const { return size_.size(); }
-  [[nodiscard]] int size(std::size_t part) const { return size_[part]; }
+  [[nodiscard]] std::uint32_t size(std::size_t part) const { return size_[part]; }
 
  private:
   template <class F>
@@ -176,13 +176,13 @@ class Parts {
   }
 
   [[nodiscard]] bool has_room(std::uint32_t part, std::uint32_t other) const {
-    return size_[part] + size_[other] <= static_cast<int>(kLeafCapacity);
+    return size_[part] + size_[other] <= kLeafCapacity;
   }
 
   void join(std::uint32_t part, std::uint32_t other) {
     if (part == other || !has_room(part, other)) return;
     merged_into_[part] = other;
-    size_[other] += std::exchange(size_[part], 0);
+    size_[other] += std::exchange(size_[part], 0U);
   }
 
   std::uint32_t root(std::uint32_t part) {
@@ -196,7 +196,7 @@ class Parts {
   std::vector<std::uint32_t> place_;       // by vertex: 32 times its cell, plus its lane
   std::vector<std::uint32_t> part_of_;     // by site, before merging
   std::vector<std::uint32_t> merged_into_;
-  std::vector<int> size_;
+  std::vector<std::uint32_t> size_;
   std::vector<std::uint32_t> neighbors_;  // of the part that is being merged, by edge
 };
 
