@@ -2,6 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -17,10 +20,17 @@ template <class T>
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
+/// Bit for bit, so that 0 differs from -0; for types without bytes between their fields.
+template <class T>
+[[nodiscard]] bool same_bits(const T& a, const T& b) {
+  using Bytes = std::array<std::byte, sizeof(T)>;
+  return std::bit_cast<Bytes>(a) == std::bit_cast<Bytes>(b);
+}
+
 /// Field by field, for the bytes between them mean nothing.
 [[nodiscard]] inline bool same_leaf(const Leaf& a, const Leaf& b) {
-  return std::memcmp(&a.bounds, &b.bounds, sizeof(a.bounds)) == 0 && a.first == b.first &&
-         a.first_link == b.first_link && a.size == b.size && a.connected == b.connected;
+  return same_bits(a.bounds, b.bounds) && a.first == b.first && a.first_link == b.first_link && a.size == b.size &&
+         a.connected == b.connected;
 }
 
 [[nodiscard]] inline bool same_level(const TreeLevel& a, const TreeLevel& b) {
@@ -35,7 +45,7 @@ template <class T>
   const auto compare = [&](const char* name, bool same) {
     if (!same) result.emplace_back(name);
   };
-  compare("frame", std::memcmp(&a.frame, &b.frame, sizeof(Frame)) == 0);
+  compare("frame", same_bits(a.frame, b.frame));
   compare("positions", a.positions == b.positions);
   compare("permutation", a.permutation == b.permutation);
   compare("place", a.place == b.place);
