@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <ctime>
 #include <functional>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -80,21 +81,56 @@ class Bench {
         for (std::size_t k = 0; k < other_memory_.size(); k += 16) ++other_memory_[k];
       }
     }
-    std::array<double, Methods> median{};
-    for (std::size_t i = 0; i < Methods; ++i) {
-      std::nth_element(times[i].begin(), times[i].begin() + kBlocks / 2, times[i].end());
-      median[i] = times[i][kBlocks / 2];
-    }
-    const double best = std::min(median[BfsGiven], median[BfsReordered]);
+    std::array<double, Methods> typical{};
+    std::transform(times.begin(), times.end(), typical.begin(), median);
+    const double best = std::min(typical[BfsGiven], typical[BfsReordered]);
     std::printf("| %s | %g | %zu | %.2f | %.2f | %.2f | %.2f | %.2f | %.1f / %.1f / %.1f |\n", warm ? "warm" : "cold",
-                edges, found_ / (kBlocks * queries), median[BfsGiven], median[BfsReordered], median[Ids], median[Count],
-                median[Ranges], best / median[Ids], best / median[Ranges], best / median[Count]);
+                edges, found_ / (kBlocks * queries), typical[BfsGiven], typical[BfsReordered], typical[Ids],
+                typical[Count], typical[Ranges], best / typical[Ids], best / typical[Ranges], best / typical[Count]);
     std::fflush(stdout);
+  }
+
+  /// A batch over a run of vertices as the caller numbers them, in one thread, beside the better search over as many of
+  /// them as there is time for, in blocks taken in turn.
+  void batch(double edges) {
+    constexpr std::size_t kBlocks = 15;
+    constexpr std::size_t kRun = 2000;
+    constexpr std::size_t kSearched = 20;
+    const double radius = edges * mean_edge_;
+    const std::size_t run = std::min(kRun, index_.vertex_count());
+    std::array<std::vector<double>, 4> times;
+    for (std::size_t block = 0; block < kBlocks; ++block) {
+      std::vector<VertexId> asked(run);
+      std::iota(asked.begin(), asked.end(), static_cast<VertexId>(random_() % (index_.vertex_count() - run + 1)));
+      const std::vector<VertexId> searched(asked.begin(),
+                                           asked.begin() + static_cast<std::ptrdiff_t>(std::min(kSearched, run)));
+      times[0].push_back(time(BfsGiven, searched, radius));
+      times[1].push_back(time(BfsReordered, searched, radius));
+      const BatchQuery query{.vertices = asked, .radius = radius};
+      const double begin = processor_seconds();
+      for_each_neighborhood(index_, query, [&](const BatchRow& row) { sink_ += row.ids.size(); });
+      const double between = processor_seconds();
+      for (const std::uint64_t count : counts(index_, query)) sink_ += count;
+      const double end = processor_seconds();
+      times[2].push_back(1e6 * (between - begin) / static_cast<double>(run));
+      times[3].push_back(1e6 * (end - between) / static_cast<double>(run));
+    }
+    const double best = std::min(median(times[0]), median(times[1]));
+    const double ids = median(times[2]);
+    const double count = median(times[3]);
+    std::printf("\nbatch at %g edges, us a row: BFS %.2f, ids %.2f (x %.1f), counts %.2f (x %.1f)\n", edges, best, ids,
+                best / ids, count, best / count);
   }
 
   [[nodiscard]] const Index& index() const { return index_; }
 
  private:
+  static double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  }
+
   std::vector<VertexId> pick(std::size_t queries, bool warm) {
     const std::size_t vertices = index_.vertex_count();
     const std::size_t first = random_() % vertices;
@@ -172,6 +208,7 @@ void run(const std::string& name, std::vector<double> radii) {
   for (const bool warm : {false, true}) {
     for (const double edges : radii) bench.row(edges, warm);
   }
+  bench.batch(radii.size() == 8 ? 65 : radii.back());
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ Batch::Batch(const BatchIndex& index, const BatchQuery& query, const BatchOption
       options_(options),
       rows_(query, index.vertex_count()),
       work_(options.threads, options.progress, passes * rows_.size()),
-      workers_(work_.threads()) {}
+      searchers_(work_.threads()) {}
 
 void Batch::put_in_index_order(std::size_t first, std::size_t count) {
   in_order_.resize(count);
@@ -21,25 +21,23 @@ void Batch::put_in_index_order(std::size_t first, std::size_t count) {
 }
 
 void Batch::begin_chunk(unsigned thread) {
-  std::unique_ptr<BatchSearcher>& searcher = workers_[thread].searcher;
-  if (!searcher) searcher = index_.make_searcher();
+  std::unique_ptr<BatchSearcher>& searcher = searchers_[thread];
+  if (!searcher) searcher = index_.make_searcher(options_.distances);
   // Which chunks a thread gets is chance.
   searcher->forget();
 }
 
-const BatchWorker& Batch::ask(unsigned thread, std::size_t row) {
-  BatchWorker& worker = workers_[thread];
-  if (options_.distances) {
-    worker.searcher->neighborhood(rows_.vertex(row), rows_.radius(row), worker.ids, worker.distances);
-  } else {
-    worker.searcher->neighborhood(rows_.vertex(row), rows_.radius(row), worker.ids);
-  }
-  if (options_.sorted) sort_answer(worker.ids, worker.distances);
-  return worker;
+std::size_t Batch::search(unsigned thread, std::size_t row) {
+  return searchers_[thread]->search(rows_.vertex(row), rows_.radius(row));
+}
+
+void Batch::write(unsigned thread, std::size_t size, VertexId* ids, double* distances) {
+  searchers_[thread]->write(ids, distances);
+  if (options_.sorted) sort_answer({ids, size}, {distances, distances == nullptr ? 0 : size});
 }
 
 std::size_t Batch::count(unsigned thread, std::size_t row) {
-  return workers_[thread].searcher->count(rows_.vertex(row), rows_.radius(row));
+  return searchers_[thread]->count(rows_.vertex(row), rows_.radius(row));
 }
 
 }  // namespace meshhood

@@ -16,13 +16,6 @@
 
 namespace meshhood {
 
-/// One thread's part of a batch.
-struct BatchWorker {
-  std::unique_ptr<BatchSearcher> searcher;  // made by the thread itself
-  std::vector<VertexId> ids;                // of the last answer
-  std::vector<double> distances;
-};
-
 /// What all batches have in common: rows are asked in chunks that follow the index order, each by any of the threads.
 class Batch {
  public:
@@ -42,8 +35,14 @@ class Batch {
   template <class F>
   void for_each_row(std::size_t first, std::size_t count, F&& f);
 
-  /// The answer of a row. Only from `for_each_row`, where its order depends on the rows alone, not on the threads.
-  const BatchWorker& ask(unsigned thread, std::size_t row);
+  /// Finds the answer of a row and returns its size. Only from `for_each_row`, where the order of the answer depends on
+  /// the rows alone, not on the threads.
+  [[nodiscard]] std::size_t search(unsigned thread, std::size_t row);
+
+  /// Writes the answer that the thread found last. `distances` is null where none are asked for; `ids` has room for
+  /// `BatchSearcher::kRoom` more than `size`.
+  void write(unsigned thread, std::size_t size, VertexId* ids, double* distances);
+
   [[nodiscard]] std::size_t count(unsigned thread, std::size_t row);
 
  private:
@@ -54,8 +53,8 @@ class Batch {
   const BatchOptions& options_;
   Rows rows_;
   Work work_;
-  std::vector<BatchWorker> workers_;     // by thread
-  std::vector<std::uint64_t> in_order_;  // place and row, the latter from the first of its call
+  std::vector<std::unique_ptr<BatchSearcher>> searchers_;  // by thread, each made by the thread itself
+  std::vector<std::uint64_t> in_order_;                    // place and row, the latter from the first of its call
 };
 
 template <class F>

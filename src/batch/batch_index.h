@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 #include "meshhood/mesh.h"
 
@@ -18,9 +17,15 @@ class BatchSearcher {
   BatchSearcher& operator=(const BatchSearcher&) = delete;
   virtual ~BatchSearcher() = default;
 
-  virtual void neighborhood(VertexId v, double radius, std::vector<VertexId>& ids) = 0;
-  virtual void neighborhood(VertexId v, double radius, std::vector<VertexId>& ids, std::vector<double>& distances) = 0;
   [[nodiscard]] virtual std::size_t count(VertexId v, double radius) = 0;
+
+  /// Finds a neighborhood and returns its size.
+  [[nodiscard]] virtual std::size_t search(VertexId v, double radius) = 0;
+
+  /// Writes what the last `search` found. `ids` has room for `kRoom` more, which may be used; `distances` is null
+  /// unless the searcher was made for them.
+  virtual void write(VertexId* ids, double* distances) = 0;
+  static constexpr std::size_t kRoom = 32;
 
   /// What follows does not depend on what went before.
   virtual void forget() {}
@@ -39,7 +44,7 @@ class BatchIndex {
   /// Ascends with the index order: vertices of near places lie close together.
   [[nodiscard]] virtual std::uint32_t place(VertexId v) const = 0;
 
-  [[nodiscard]] virtual std::unique_ptr<BatchSearcher> make_searcher() const = 0;
+  [[nodiscard]] virtual std::unique_ptr<BatchSearcher> make_searcher(bool with_distances) const = 0;
 };
 
 }  // namespace meshhood

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Rows that are kept in memory: each is asked straight into its place.
+#include <algorithm>
 #include <numeric>
+#include <vector>
 
 #include "batch/batch.h"
 
@@ -42,10 +44,14 @@ Neighborhoods neighborhoods(const BatchIndex& index, const BatchQuery& query, co
   std::partial_sum(result.offsets.begin(), result.offsets.end(), result.offsets.begin());
   result.ids.resize(result.offsets.back());
   if (options.distances) result.distances.resize(result.offsets.back());
+  // Not straight into their place, for what is written beyond the end would hit the next row.
+  std::vector<std::vector<VertexId>> ids(batch.work().threads());
   for_every_row(batch, [&](unsigned thread, std::size_t row) {
-    const BatchWorker& answer = batch.ask(thread, row);
-    std::copy(answer.ids.begin(), answer.ids.end(), result.ids.data() + result.offsets[row]);
-    std::copy(answer.distances.begin(), answer.distances.end(), result.distances.data() + result.offsets[row]);
+    const std::size_t size = batch.search(thread, row);
+    ids[thread].resize(std::max(ids[thread].size(), size + BatchSearcher::kRoom));
+    batch.write(thread, size, ids[thread].data(),
+                options.distances ? result.distances.data() + result.offsets[row] : nullptr);
+    std::copy_n(ids[thread].begin(), size, result.ids.data() + result.offsets[row]);
   });
   batch.work().report();
   return result;

@@ -3,6 +3,7 @@
 
 #include "batch/batch.h"
 #include "index/index_access.h"
+#include "search/output.h"
 #include "search/searcher_state.h"
 
 namespace meshhood {
@@ -12,17 +13,23 @@ class ExactSearcher final : public BatchSearcher {
  public:
   explicit ExactSearcher(const Index& index) : searcher_(index) {}
 
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& ids) override {
-    searcher_.neighborhood(v, radius, ids);
-  }
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& ids, std::vector<double>& distances) override {
-    searcher_.neighborhood(v, radius, ids, distances);
-  }
   std::size_t count(VertexId v, double radius) override { return searcher_.count(v, radius); }
-  void forget() override { SearcherAccess::state(searcher_).cover.forget(); }
+  std::size_t search(VertexId v, double radius) override {
+    centre_ = state().search(v, radius);
+    return meshhood::count(state().answer);
+  }
+  void write(VertexId* ids, double* distances) override {
+    static_assert(kRoom >= kLeafCapacity);
+    write_ids(state().answer, *state().index, *state().kernels, ids);
+    if (distances != nullptr) write_distances(state().answer, *state().index, centre_, distances);
+  }
+  void forget() override { state().cover.forget(); }
 
  private:
+  SearcherAccess::State& state() { return SearcherAccess::state(searcher_); }
+
   Searcher searcher_;
+  Point centre_{0, 0, 0};
 };
 
 class ExactIndex final : public BatchIndex {
@@ -31,7 +38,7 @@ class ExactIndex final : public BatchIndex {
 
   [[nodiscard]] std::size_t vertex_count() const override { return index_.vertex_count(); }
   [[nodiscard]] std::uint32_t place(VertexId v) const override { return IndexAccess::storage(index_).place[v]; }
-  [[nodiscard]] std::unique_ptr<BatchSearcher> make_searcher() const override {
+  [[nodiscard]] std::unique_ptr<BatchSearcher> make_searcher(bool /*with_distances*/) const override {
     return std::make_unique<ExactSearcher>(index_);
   }
 

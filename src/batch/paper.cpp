@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "meshhood/paper.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "batch/batch.h"
 #include "paper/index_access.h"
 #include "paper/query_options.h"
@@ -10,19 +13,29 @@ namespace {
 
 class PaperSearcher final : public BatchSearcher {
  public:
-  PaperSearcher(const Index& index, const QueryOptions& options) : searcher_(index), options_(options) {}
+  PaperSearcher(const Index& index, const QueryOptions& options, bool with_distances)
+      : searcher_(index), options_(options), with_distances_(with_distances) {}
 
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& ids) override {
-    searcher_.neighborhood(v, radius, ids, options_);
-  }
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& ids, std::vector<double>& distances) override {
-    searcher_.neighborhood(v, radius, ids, distances, options_);
-  }
   std::size_t count(VertexId v, double radius) override { return searcher_.count(v, radius, options_); }
+  std::size_t search(VertexId v, double radius) override {
+    if (with_distances_) {
+      searcher_.neighborhood(v, radius, ids_, distances_, options_);
+    } else {
+      searcher_.neighborhood(v, radius, ids_, options_);
+    }
+    return ids_.size();
+  }
+  void write(VertexId* ids, double* distances) override {
+    std::copy(ids_.begin(), ids_.end(), ids);
+    if (distances != nullptr) std::copy(distances_.begin(), distances_.end(), distances);
+  }
 
  private:
   Searcher searcher_;
   QueryOptions options_;
+  bool with_distances_;
+  std::vector<VertexId> ids_;
+  std::vector<double> distances_;
 };
 
 class PaperIndex final : public BatchIndex {
@@ -34,8 +47,8 @@ class PaperIndex final : public BatchIndex {
     return std::visit([v](const auto& hierarchy) { return static_cast<std::uint32_t>(hierarchy.lowest_cluster[v]); },
                       IndexAccess::hierarchy(index_));
   }
-  [[nodiscard]] std::unique_ptr<BatchSearcher> make_searcher() const override {
-    return std::make_unique<PaperSearcher>(index_, options_);
+  [[nodiscard]] std::unique_ptr<BatchSearcher> make_searcher(bool with_distances) const override {
+    return std::make_unique<PaperSearcher>(index_, options_, with_distances);
   }
 
  private:

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace meshhood {
 
-void sort_answer(std::vector<VertexId>& ids, std::vector<double>& distances) {
+void sort_answer(std::span<VertexId> ids, std::span<double> distances) {
   if (distances.empty()) {
     std::sort(ids.begin(), ids.end());
     return;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
+#include <span>
 
 #include "meshhood/mesh.h"
 
 namespace meshhood {
 
 /// Puts `ids` in ascending order, and `distances`, unless empty, along with them.
-void sort_answer(std::vector<VertexId>& ids, std::vector<double>& distances);
+void sort_answer(std::span<VertexId> ids, std::span<double> distances);
 
 }  // namespace meshhood

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Rows in their order and in bounded memory, though asked in index order: a window of rows is worked off in any order,
 // then handed out in theirs.
+#include <algorithm>
 #include <atomic>
+#include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "meshhood/error.h"
@@ -14,6 +18,41 @@ namespace {
 // Before anything is known of how large rows are.
 constexpr std::size_t kFirstWindow = 256;
 constexpr std::size_t kGrowth = 4;
+
+// Large rows take as long to be written to memory as to be found, unless what waits stays in the cache. Small ones gain
+// more from a long window, in which more of them lie close together.
+constexpr double kLargeRow = 1024;
+constexpr double kCached = 1 << 20;
+
+/// Values one after the other in memory that is not set to zero first.
+template <class T>
+class Values {
+ public:
+  void clear() { size_ = 0; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] std::span<const T> part(std::size_t begin, std::size_t size) const {
+    return {values_.get() + begin, size};
+  }
+
+  /// Makes room for `count` more, and for `spare` that may be written but do not stay, and returns where.
+  T* append(std::size_t count, std::size_t spare) {
+    const std::size_t needed = size_ + count + spare;
+    if (needed > capacity_) {
+      capacity_ = std::max(needed, 2 * capacity_);
+      auto larger = std::make_unique_for_overwrite<T[]>(capacity_);
+      std::copy_n(values_.get(), size_, larger.get());
+      values_ = std::move(larger);
+    }
+    T* begin = values_.get() + size_;
+    size_ += count;
+    return begin;
+  }
+
+ private:
+  std::unique_ptr<T[]> values_;
+  std::size_t size_ = 0;
+  std::size_t capacity_ = 0;
+};
 
 class Stream {
  public:
@@ -37,8 +76,8 @@ class Stream {
  private:
   /// The answers of one thread that wait for their turn.
   struct Store {
-    std::vector<VertexId> ids;
-    std::vector<double> distances;
+    Values<VertexId> ids;
+    Values<double> distances;
   };
 
   /// A row's part of a store.
@@ -59,27 +98,32 @@ class Stream {
     bytes_ = 0;
     batch_.for_each_row(first, window, [&](unsigned thread, std::size_t row) {
       if (bytes_ > room && window > 1) return false;
-      bytes_ += keep(thread, batch_.ask(thread, row), waiting_[row - first]);
+      waiting_[row - first] = keep(thread, batch_.search(thread, row));
+      bytes_ += bytes_of(waiting_[row - first]);
       return true;
     });
     return bytes_ <= room || window == 1;
   }
 
-  std::size_t keep(unsigned thread, const BatchWorker& answer, Waiting& waiting) {
+  Waiting keep(unsigned thread, std::size_t size) {
     Store& store = stores_[thread];
-    waiting = {thread, store.ids.size(), answer.ids.size()};
-    store.ids.insert(store.ids.end(), answer.ids.begin(), answer.ids.end());
-    store.distances.insert(store.distances.end(), answer.distances.begin(), answer.distances.end());
-    return sizeof(Waiting) + answer.ids.size() * sizeof(VertexId) + answer.distances.size() * sizeof(double);
+    const Waiting row{thread, store.ids.size(), size};
+    VertexId* ids = store.ids.append(size, BatchSearcher::kRoom);
+    batch_.write(thread, size, ids, batch_.options().distances ? store.distances.append(size, 0) : nullptr);
+    return row;
+  }
+
+  [[nodiscard]] std::size_t bytes_of(const Waiting& row) const {
+    return sizeof(Waiting) + row.size * (sizeof(VertexId) + (batch_.options().distances ? sizeof(double) : 0));
   }
 
   void hand_out(std::size_t first) {
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
       const Waiting& row = waiting_[i];
       const Store& store = stores_[row.thread];
-      const auto distances = batch_.options().distances ? std::span(store.distances).subspan(row.begin, row.size)
-                                                        : std::span<const double>();
-      sink_({first + i, std::span(store.ids).subspan(row.begin, row.size), distances});
+      const auto distances =
+          batch_.options().distances ? store.distances.part(row.begin, row.size) : std::span<const double>();
+      sink_({first + i, store.ids.part(row.begin, row.size), distances});
       batch_.work().advance(1);
       batch_.work().proceed(0);
     }
@@ -87,8 +131,10 @@ class Stream {
 
   /// As many rows as will probably fit, some room left over.
   [[nodiscard]] std::size_t next_window(std::size_t window) const {
-    const double fitting = 0.75 * static_cast<double>(batch_.options().buffer_bytes) / static_cast<double>(bytes_);
-    const double rows = std::min(fitting, static_cast<double>(kGrowth)) * static_cast<double>(window);
+    const double row = static_cast<double>(bytes_) / static_cast<double>(window);
+    const auto most = static_cast<double>(batch_.options().buffer_bytes);
+    const double room = row < kLargeRow ? 0.75 * most : std::min(0.75 * most, kCached);
+    const double rows = std::min(room / row, static_cast<double>(kGrowth * window));
     return std::clamp<std::size_t>(static_cast<std::size_t>(rows), 1, Batch::kMostRows);
   }
 

@@ -66,27 +66,21 @@ std::size_t count(const Answer& answer) {
   return result;
 }
 
-void write_ids(const Answer& answer, const IndexStorage& index, const Kernels& kernels, std::vector<VertexId>& out) {
-  const std::size_t size = count(answer);
-  // Room for what is written beyond the end.
-  out.resize(size + kLeafCapacity);
+void write_ids(const Answer& answer, const IndexStorage& index, const Kernels& kernels, VertexId* out) {
   if (index.permutation.empty()) {
-    write_places(answer, index, kernels, out.data());
+    write_places(answer, index, kernels, out);
   } else {
-    VertexId* end = copy_runs(answer, index.permutation.data(), out.data());
+    VertexId* end = copy_runs(answer, index.permutation.data(), out);
     copy_parts(answer, index, kernels, end);
   }
-  out.resize(size);
 }
 
-void write_distances(const Answer& answer, const IndexStorage& index, const Point& centre, std::vector<double>& out) {
-  out.resize(count(answer));
+void write_distances(const Answer& answer, const IndexStorage& index, const Point& centre, double* out) {
   std::visit(
       [&](const auto& positions) {
         const std::span xyz(positions);
-        double* end = out.data();
         const auto append = [&](std::size_t vertex) {
-          *end++ = std::sqrt(squared_distance(point(xyz, vertex), centre));
+          *out++ = std::sqrt(squared_distance(point(xyz, vertex), centre));
         };
         for (const VertexRange& run : answer.runs) {
           for (VertexId vertex = run.begin; vertex < run.end; ++vertex) append(vertex);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include "index/layout.h"
 #include "search/answer.h"
@@ -12,11 +11,12 @@ namespace meshhood {
 
 [[nodiscard]] std::size_t count(const Answer& answer);
 
-/// Refills `out` with the caller's ids, in the order of the answer.
-void write_ids(const Answer& answer, const IndexStorage& index, const Kernels& kernels, std::vector<VertexId>& out);
+/// Writes the caller's ids, in the order of the answer. `out` has room for `count` of them, and for `kLeafCapacity`
+/// more that it may use.
+void write_ids(const Answer& answer, const IndexStorage& index, const Kernels& kernels, VertexId* out);
 
-/// Refills `out` with the distances from `centre`, in the same order.
-void write_distances(const Answer& answer, const IndexStorage& index, const Point& centre, std::vector<double>& out);
+/// Writes the distances from `centre`, `count` of them, in the same order.
+void write_distances(const Answer& answer, const IndexStorage& index, const Point& centre, double* out);
 
 /// Appends the parts to the runs.
 void append_parts_as_runs(const IndexStorage& index, Answer& answer);

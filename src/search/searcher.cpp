@@ -20,6 +20,13 @@ Point Searcher::State::search(VertexId v, double radius) {
   return centre;
 }
 
+void Searcher::State::refill(std::vector<VertexId>& out) const {
+  const std::size_t size = meshhood::count(answer);
+  out.resize(size + kLeafCapacity);
+  write_ids(answer, *index, *kernels, out.data());
+  out.resize(size);
+}
+
 Searcher::Searcher(const Index& index) : state_(std::make_unique<State>(IndexAccess::storage(index), best_isa())) {}
 Searcher::Searcher(Searcher&&) noexcept = default;
 Searcher& Searcher::operator=(Searcher&&) noexcept = default;
@@ -27,13 +34,14 @@ Searcher::~Searcher() = default;
 
 void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
   state_->search(v, radius);
-  write_ids(state_->answer, *state_->index, *state_->kernels, out);
+  state_->refill(out);
 }
 
 void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
   const Point centre = state_->search(v, radius);
-  write_ids(state_->answer, *state_->index, *state_->kernels, out);
-  write_distances(state_->answer, *state_->index, centre, distances);
+  state_->refill(out);
+  distances.resize(out.size());
+  write_distances(state_->answer, *state_->index, centre, distances.data());
 }
 
 std::span<const VertexRange> Searcher::ranges(VertexId v, double radius) {

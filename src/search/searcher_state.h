@@ -30,10 +30,14 @@ struct Searcher::State {
 
   /// Leaves the neighborhood in `answer` and returns where `v` is.
   Point search(VertexId v, double radius);
+
+  /// The ids of `answer`.
+  void refill(std::vector<VertexId>& out) const;
 };
 
 /// The door to what a searcher is made of, for tests that force what is rare.
 struct SearcherAccess {
+  using State = Searcher::State;
   static Searcher::State& state(Searcher& searcher) { return *searcher.state_; }
   static void set_isa(Searcher& searcher, Isa isa) {
     searcher.state_ = std::make_unique<Searcher::State>(*searcher.state_->index, isa);
