@@ -8,3 +8,13 @@ add_subdirectory(portability)
 
 add_test(NAME house.format COMMAND ${PROJECT_SOURCE_DIR}/tools/check format)
 add_test(NAME house.docs COMMAND ${PROJECT_SOURCE_DIR}/tools/check_docs.py $<$<TARGET_EXISTS:meshhood_cli>:$<TARGET_FILE:meshhood_cli>>)
+
+# Exact answers against breadth-first search on large meshes: a part of what tools/verify --full does.
+if(TARGET exact_verify)
+  foreach(part shared shapes)
+    add_test(NAME verify.${part} COMMAND ${PROJECT_SOURCE_DIR}/tools/verify ${part})
+    set_tests_properties(verify.${part} PROPERTIES
+      ENVIRONMENT "MESHHOOD_VERIFY=$<TARGET_FILE:exact_verify>"
+      SKIP_REGULAR_EXPRESSION "skipped: no meshes" TIMEOUT 3000 COST 1000)
+  endforeach()
+endif()
