@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "arrays.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace nb = nanobind;
+
+namespace meshhood::python {
+namespace {
+
+template <class T>
+bool holds(const Input& array) {
+  return array.dtype() == nb::dtype<T>();
+}
+
+template <class T>
+std::span<const T> span_of(const Input& array) {
+  return {static_cast<const T*>(array.data()), array.size()};
+}
+
+[[noreturn]] void refuse(const char* argument, const char* expected) {
+  throw nb::type_error((std::string(argument) + ": expected " + expected).c_str());
+}
+
+}  // namespace
+
+PositionsView positions_of(const Input& array, const char* argument) {
+  if (holds<float>(array)) return span_of<float>(array);
+  if (holds<double>(array)) return span_of<double>(array);
+  refuse(argument, "float32 or float64");
+}
+
+IndicesView indices_of(const Input& array, const char* argument) {
+  if (holds<std::int32_t>(array)) return span_of<std::int32_t>(array);
+  if (holds<std::int64_t>(array)) return span_of<std::int64_t>(array);
+  if (holds<std::uint32_t>(array)) return span_of<std::uint32_t>(array);
+  if (holds<std::uint64_t>(array)) return span_of<std::uint64_t>(array);
+  refuse(argument, "integers of 32 or 64 bits");
+}
+
+}  // namespace meshhood::python

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "meshhood/batch.h"
+#include "meshhood/index.h"
+#include "meshhood/mesh.h"
+#include "meshhood/search.h"
+
+#include "data.h"
+
+namespace meshhood::python {
+
+/// The answer to one query. `distances` is empty unless asked for.
+struct Answer {
+  std::vector<VertexId> ids;
+  std::vector<double> distances;
+};
+
+/// One way to find neighborhoods. Any number of threads may ask it at the same time. No Python object is touched, so
+/// the interpreter lock may be released meanwhile. Errors are those of the C++ calls of the same names.
+class Method {
+ public:
+  Method() = default;
+  Method(const Method&) = delete;
+  Method& operator=(const Method&) = delete;
+  virtual ~Method() = default;
+
+  virtual Answer neighborhood(VertexId v, double radius, bool distances) = 0;
+  virtual std::size_t count(VertexId v, double radius) = 0;
+  virtual Neighborhoods neighborhoods(const BatchQuery& query, const BatchOptions& options) = 0;
+  virtual std::vector<std::uint64_t> counts(const BatchQuery& query, const BatchOptions& options) = 0;
+};
+
+/// The exact neighborhood by the index, and what only the index has.
+class ExactMethod : public Method {
+ public:
+  [[nodiscard]] virtual const Index& index() const = 0;
+  virtual std::vector<VertexRange> ranges(VertexId v, double radius) = 0;
+};
+
+/// Builds the index: see `build`.
+[[nodiscard]] std::shared_ptr<ExactMethod> exact_method(const Data& data, const BuildOptions& options);
+
+/// Builds the index of the paper, with its own parameters.
+[[nodiscard]] std::shared_ptr<Method> paper_method(const Data& data);
+
+/// Breadth-first search. Batches run on the calling thread.
+[[nodiscard]] std::shared_ptr<Method> bfs_method(std::shared_ptr<const Data> data);
+
+/// Every vertex within the radius in space, by a scan of all. Batches run on the calling thread.
+[[nodiscard]] std::shared_ptr<Method> ball_method(std::shared_ptr<const Data> data);
+
+}  // namespace meshhood::python

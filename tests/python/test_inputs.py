@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: MIT
+"""What may be given as a mesh, and what is refused (reliability row P1)."""
+
+import meshes
+import meshhood
+import numpy as np
+import pytest
+from scipy.sparse import coo_matrix, csr_array
+
+V, QUADS = meshes.grid(6)
+F = meshes.triangles(QUADS)
+R = 1.5
+
+
+def answers(index):
+    return [a.tolist() for a in index.query_ball(None, R, sort=True)]
+
+
+TRIANGLES = answers(meshhood.MeshIndex(V, F))
+POLYGONS = answers(meshhood.MeshIndex(V, QUADS))
+
+
+def padded(faces):
+    return np.column_stack([np.full(len(faces), faces.shape[1]), faces]).ravel()
+
+
+def read_only(array):
+    array = array.copy()
+    array.flags.writeable = False
+    return array
+
+
+def spread(array):
+    """Every other row and column of something larger."""
+    larger = np.full((2 * len(array), 2 * array.shape[1]), 99, array.dtype)
+    larger[::2, ::2] = array
+    return larger[::2, ::2]
+
+
+LAYOUTS = {
+    "C": np.ascontiguousarray,
+    "Fortran": np.asfortranarray,
+    "reversed": lambda a: np.ascontiguousarray(a[::-1])[::-1],
+    "spread": spread,
+    "read-only": read_only,
+    "other byte order": lambda a: a.astype(a.dtype.newbyteorder()),
+    "list": lambda a: a.tolist(),
+}
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+@pytest.mark.parametrize("real", (np.float16, np.float32, np.float64, np.int8, np.int64))
+def test_positions(layout, real):
+    assert answers(meshhood.MeshIndex(LAYOUTS[layout](V.astype(real)), F)) == TRIANGLES
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+@pytest.mark.parametrize("integer", (np.uint8, np.int16, np.int32, np.int64, np.uint32, np.uint64))
+def test_faces(layout, integer):
+    assert answers(meshhood.MeshIndex(V, LAYOUTS[layout](F.astype(integer)))) == TRIANGLES
+    assert answers(meshhood.MeshIndex(V, LAYOUTS[layout](QUADS.astype(integer)))) == POLYGONS
+
+
+def test_polygons():
+    offsets = 4 * np.arange(len(QUADS) + 1)
+    assert answers(meshhood.MeshIndex(V, (offsets, QUADS.ravel()))) == POLYGONS
+    assert answers(meshhood.MeshIndex(V, padded(QUADS))) == POLYGONS
+    assert answers(meshhood.MeshIndex(V, np.concatenate([padded(QUADS[:9]), padded(F)]))) == TRIANGLES
+
+
+@pytest.mark.parametrize("kind", (csr_array, coo_matrix))
+def test_graph(kind):
+    rows, columns = QUADS.ravel(), np.roll(QUADS, -1, axis=1).ravel()
+    shape = (len(V), len(V))
+    one_way = kind((np.zeros(len(rows)), (rows, columns)), shape=shape)
+    assert answers(meshhood.MeshIndex(V, one_way)) == POLYGONS
+    both_ways = kind((np.ones(2 * len(rows)), (np.r_[rows, columns], np.r_[columns, rows])), shape=shape)
+    assert answers(meshhood.MeshIndex(V, both_ways)) == POLYGONS
+
+
+def test_trimesh():
+    trimesh = pytest.importorskip("trimesh")
+    mesh = trimesh.Trimesh(V, F, process=False)
+    assert answers(meshhood.MeshIndex(mesh)) == TRIANGLES
+
+
+def test_meshio():
+    meshio = pytest.importorskip("meshio")
+    half = len(QUADS) // 2
+    mixed = meshio.Mesh(V, [("quad", QUADS[:half]), ("triangle", F)])
+    assert answers(meshhood.MeshIndex(mixed)) == TRIANGLES
+    assert answers(meshhood.MeshIndex(meshio.Mesh(V, [("quad", QUADS)]))) == POLYGONS
+    with pytest.raises(ValueError, match="V: .*tetra"):
+        meshhood.MeshIndex(meshio.Mesh(V, [("tetra", QUADS)]))
+
+
+def test_pyvista():
+    pyvista = pytest.importorskip("pyvista")
+    assert answers(meshhood.MeshIndex(pyvista.PolyData.from_regular_faces(V, F))) == TRIANGLES
+    assert answers(meshhood.MeshIndex(pyvista.PolyData(V, padded(QUADS)))) == POLYGONS
+    with pytest.raises(ValueError, match="V: .*lines"):
+        meshhood.MeshIndex(pyvista.PolyData(V, lines=[2, 0, 1]))
+
+
+@pytest.mark.parametrize("faces", (np.zeros((0, 3), int), np.zeros((0, 4), int), np.zeros(0, int), [], ([0], [])))
+def test_nothing(faces):
+    empty = meshhood.MeshIndex(np.zeros((0, 3)), faces)
+    assert len(empty) == 0
+    assert empty.permutation.shape == (0,)
+    assert [len(a) for a in empty.query_ball(None, 1.0, return_distance=True)] == [1, 0, 0]
+    assert empty.query_ball_count([], 1.0).shape == (0,)
+    assert empty.radius_neighbors_graph(1.0).shape == (0, 0)
+    assert list(empty.iter_neighborhoods(1.0)) == []
+    lonely = meshhood.MeshIndex(V, faces)
+    np.testing.assert_array_equal(lonely.query_ball(3, np.inf), [3])
+
+
+def with_value(array, at, value):
+    array = array.copy()
+    array[at] = value
+    return array
+
+
+MASKED = np.ma.masked_greater(V, 3)
+
+
+@pytest.mark.parametrize(
+    ("positions", "faces", "error", "message"),
+    (
+        (V[:, :2], F, ValueError, r"V: .*\(36, 2\)"),
+        (V.ravel(), F, ValueError, r"V: .*\(108,\)"),
+        (np.float64(1), F, ValueError, r"V: .*\(\)"),
+        ([[0, 0, 0], [1, 1]], F, ValueError, "V: "),
+        (V.astype(complex), F, TypeError, "V: .*complex128"),
+        (V.astype(bool), F, TypeError, "V: .*bool"),
+        (V.astype(object), F, TypeError, "V: .*object"),
+        (V.astype(np.longdouble), F, TypeError, "V: .*float128"),
+        (V.astype(int) + 2**60, F, TypeError, "V: .*2.53"),
+        (MASKED, F, TypeError, "V: .*mask"),
+        (with_value(V, (7, 1), np.nan), F, ValueError, "V: vertex 7: y is nan"),
+        (with_value(V, (8, 2), np.inf), F, ValueError, "V: vertex 8: z is inf"),
+        (V, F.astype(float), TypeError, "F: .*float64"),
+        (V, F.astype(bool), TypeError, "F: .*bool"),
+        (V, F.astype(object), TypeError, "F: .*object"),
+        (V, F[None], ValueError, r"F: .*\(1, 50, 3\)"),
+        (V, np.int64(3), ValueError, r"F: .*\(\)"),
+        (V, with_value(F, (4, 1), 36), ValueError, "F: face 4: corner 1 is vertex 36, but the mesh has 36"),
+        (V, with_value(F, (4, 1), -1), ValueError, "F: face 4: corner 1 is vertex -1"),
+        (V, with_value(F, (4, 1), 2**40), ValueError, "F: face 4: corner 1 is vertex 1099511627776"),
+        (V, ([0, 3, 2, 4], [0, 1, 2, 3]), ValueError, "F: face 1 ends at corner 2"),
+        (V, ([1, 4], [0, 1, 2, 3]), ValueError, "F: face offsets begin with 1"),
+        (V, ([0.0, 3.0], [0, 1, 2]), TypeError, r"F\[0\]: .*float64"),
+        (V, ([0, 3], [[0, 1, 2]]), ValueError, r"F\[1\]: .*\(1, 3\)"),
+        (V, (0, 1, 2), ValueError, "F: .*3 parts"),
+        (V, [3, 0, 1, 2, 3, 0, 1], ValueError, "F: face 1 begins at 4 with 3 corners"),
+        (V, [3, 0, 1, 2, -1], ValueError, "F: face 1 begins at 4 with -1 corners"),
+        (V, csr_array((3, 3)), ValueError, r"F: .*\(3, 3\), expected \(36, 36\)"),
+        (V, None, TypeError, "V: .*ndarray"),
+    ),
+)
+def test_refused_meshes(positions, faces, error, message):
+    with pytest.raises(error, match=message):
+        meshhood.MeshIndex(positions, faces)
+
+
+INDEX = meshhood.MeshIndex(V, F)
+
+
+@pytest.mark.parametrize(
+    ("v", "r", "error", "message"),
+    (
+        (36, 1, ValueError, "v: vertex 36, but the mesh has 36"),
+        (-1, 1, ValueError, "v: vertex -1"),
+        (2**70, 1, ValueError, "v: vertex 1180591620717411303424"),
+        (1.0, 1, TypeError, "v: .*float"),
+        ([0, 1, 36], 1, ValueError, "v: row 2: vertex 36"),
+        (np.array([0, 2**32], np.uint64), 1, ValueError, "v: row 1: vertex 4294967296"),
+        ([0.0], 1, TypeError, "v: .*float64"),
+        ([True], 1, TypeError, "v: .*bool"),
+        ([[0, 1]], 1, ValueError, r"v: .*\(1, 2\)"),
+        (0, -1, ValueError, "r: .*-1"),
+        (0, np.nan, ValueError, "r: .*nan"),
+        (0, None, TypeError, "r: "),
+        (0, "1", TypeError, "r: "),
+        (0, [1], ValueError, r"r: .*\(1,\)"),
+        ([0, 1], [1, -1], ValueError, "r: row 1: .*-1"),
+        ([0, 1], [1, 2, 3], ValueError, r"r: .* 2 of them.*\(3,\)"),
+        ([0, 1], ["1", "2"], TypeError, "r: "),
+    ),
+)
+@pytest.mark.parametrize("method", ("exact", "paper", "bfs", "ball"))
+def test_refused_queries(v, r, error, message, method):
+    for ask in (INDEX.query_ball, INDEX.query_ball_count):
+        with pytest.raises(error, match=message):
+            ask(v, r, method=method)
+
+
+@pytest.mark.parametrize(
+    ("ask", "error", "message"),
+    (
+        (lambda: INDEX.query_ball(0, 1, method="fast"), ValueError, "method: 'fast'"),
+        (lambda: INDEX.query_ball([0], 1, workers=0), ValueError, "workers: 0"),
+        (lambda: INDEX.query_ball([0], 1, workers=1.5), TypeError, "workers: .*float"),
+        (lambda: INDEX.query_ball([0], 1, progress=3), TypeError, "progress: .*int"),
+        (lambda: INDEX.radius_neighbors_graph(1, mode="far"), ValueError, "mode: 'far'"),
+        (lambda: INDEX.iter_neighborhoods(1, chunk=0), ValueError, "chunk: 0"),
+        (lambda: meshhood.MeshIndex(V, F, workers=5000), ValueError, "workers: 5000"),
+    ),
+)
+def test_refused_options(ask, error, message):
+    with pytest.raises(error, match=message):
+        ask()

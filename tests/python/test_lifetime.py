@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: MIT
+"""Who owns the memory, and who may change it when (reliability rows P2 to P4)."""
+
+import gc
+from concurrent.futures import ThreadPoolExecutor
+
+import meshes
+import meshhood
+import numpy as np
+import pytest
+
+
+def make():
+    V, F = meshes.two_plates(20)
+    return meshhood.MeshIndex(V, F)
+
+
+def test_results_outlive_the_index():
+    index = make()
+    permutation, ranges = index.permutation, index.query_ranges(5, 3.0)
+    ids = index.query_ball(5, 3.0)
+    kept = ids.copy(), permutation.copy(), ranges.copy()
+    del index
+    gc.collect()
+    make()
+    for now, then in zip((ids, permutation, ranges), kept):
+        np.testing.assert_array_equal(now, then)
+
+
+def test_what_is_not_copied_is_read_only():
+    index = make()
+    assert np.shares_memory(index.permutation, index.permutation)
+    with pytest.raises(ValueError, match="read-only"):
+        index.permutation[0] = 1
+
+
+def test_answers_belong_to_the_caller():
+    index = make()
+    before = index.query_ball(5, 3.0).copy()
+    index.query_ball(5, 3.0)[:] = 0
+    np.testing.assert_array_equal(index.query_ball(5, 3.0), before)
+
+
+@pytest.mark.parametrize("method", ("exact", "paper", "bfs", "ball"))
+def test_arrays_may_change_after_the_index_is_made(method):
+    V, F = meshes.two_plates(20)
+    index, untouched = meshhood.MeshIndex(V, F), make()
+    V[:], F[:] = 0, 0
+    np.testing.assert_array_equal(index.query_ball(5, 3.0, method=method), untouched.query_ball(5, 3.0, method=method))
+
+
+@pytest.mark.parametrize("method", ("exact", "paper", "bfs", "ball"))
+def test_threads_may_share_an_index(method):
+    index = make()
+    wanted = [index.query_ball(v, 4.0, sort=True, method=method) for v in range(len(index))]
+    shared = make()  # whose searchers, and index of the paper, are not there yet
+
+    def ask(v):
+        return shared.query_ball(v, 4.0, sort=True, method=method)
+
+    with ThreadPoolExecutor(4) as pool:
+        for got, want in zip(pool.map(ask, range(len(index))), wanted):
+            np.testing.assert_array_equal(got, want)

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: MIT
+"""The picture of a neighborhood: that it shows what it should, seen by its colours."""
+
+import meshes
+import meshhood
+import numpy as np
+import pytest
+
+pyvista = pytest.importorskip("pyvista")
+
+
+def pixels(picture, red, green, blue):
+    """How many pixels are of about this hue."""
+    wanted = np.array([red, green, blue]) / np.linalg.norm([red, green, blue])
+    rgb = picture.reshape(-1, 3).astype(float)
+    size = np.linalg.norm(rgb, axis=1)
+    return int(((rgb @ wanted) > 0.99 * np.maximum(size, 60)).sum())
+
+
+def test_colours(tmp_path):
+    V, F = meshes.two_plates(20)
+    V[len(V) // 2 :, 0] += 25  # side by side, so that the camera sees both
+    index = meshhood.MeshIndex(V, F)
+    plotter = pyvista.Plotter(off_screen=True, window_size=(600, 400))
+    meshhood.plot_neighborhood(index, 210, 20.0, V, F, plotter=plotter)
+    plotter.view_xy()
+    picture = plotter.screenshot(str(tmp_path / "picture.png"), return_img=True)
+    green, blue = pixels(picture, 34, 139, 34), pixels(picture, 65, 105, 225)
+    print(f"{green} green, {blue} blue of {picture.shape[0] * picture.shape[1]} pixels")
+    assert green > 1000
+    assert blue > 1000
+
+
+def test_another_mesh_is_refused():
+    V, F = meshes.two_plates(5)
+    index = meshhood.MeshIndex(V, F)
+    with pytest.raises(ValueError, match="V: 36 vertices, but the index has 50"):
+        meshhood.plot_neighborhood(index, 0, 1.0, *meshes.grid(6), plotter=object())

@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: MIT
+"""Every way to ask, beside SciPy's answer."""
+
+import meshes
+import meshhood
+import numpy as np
+import oracle
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+METHODS = ("exact", "paper", "bfs", "ball")
+RADII = (0.0, 0.3, 1.0, 2.5, 5.0, np.inf)
+
+
+@pytest.fixture(scope="module")
+def plates():
+    V, F = meshes.two_plates(12)
+    return V, F, oracle.triangle_graph(len(V), F), meshhood.MeshIndex(V, F)
+
+
+def expected(V, edges, method, v, r):
+    return oracle.ball(V, v, r) if method == "ball" else oracle.neighborhood(V, edges, v, r)
+
+
+def rows(indptr, values):
+    return np.split(values, indptr[1:-1])
+
+
+@pytest.mark.parametrize("method", ("exact", "bfs", "ball"))
+@pytest.mark.parametrize("r", RADII)
+def test_one_vertex(plates, method, r):
+    V, _, edges, index = plates
+    for v in range(0, len(V), 17):
+        wanted = expected(V, edges, method, v, r)
+        ids, distances = index.query_ball(v, r, return_distance=True, method=method)
+        np.testing.assert_array_equal(np.sort(ids), wanted)
+        np.testing.assert_array_equal(distances, oracle.distances(V, v)[ids])
+        np.testing.assert_array_equal(index.query_ball(v, r, sort=True, method=method), wanted)
+        assert index.query_ball_count(v, r, method=method) == len(wanted)
+
+
+@pytest.mark.parametrize("r", RADII)
+def test_paper_lies_between_exact_and_ball(plates, r):
+    V, _, edges, index = plates
+    for v in range(0, len(V), 17):
+        ids = index.query_ball(v, r, method="paper")
+        assert set(oracle.neighborhood(V, edges, v, r)) <= set(ids) <= set(oracle.ball(V, v, r))
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("workers", (1, 2, -1))
+def test_many_vertices_are_one_after_the_other(plates, method, workers):
+    _, _, _, index = plates
+    v = np.array([5, 200, 5, 0, 287])
+    r = np.array([1.0, 2.0, 0.0, np.inf, 3.5])
+    options = {"return_distance": True, "sort": True, "method": method}
+    indptr, indices, distances = index.query_ball(v, r, workers=workers, **options)
+    singles = [index.query_ball(*query, **options) for query in zip(v, r)]
+    for ids, far, single in zip(rows(indptr, indices), rows(indptr, distances), singles):
+        np.testing.assert_array_equal(ids, single[0])
+        np.testing.assert_array_equal(far, single[1])
+    np.testing.assert_array_equal(np.diff(indptr), index.query_ball_count(v, r, workers=workers, method=method))
+
+
+def test_all_vertices(plates):
+    V, _, edges, index = plates
+    indptr, indices = index.query_ball(None, 2.5, sort=True)
+    assert len(indptr) == len(V) + 1
+    for v, ids in enumerate(rows(indptr, indices)):
+        np.testing.assert_array_equal(ids, oracle.neighborhood(V, edges, v, 2.5))
+
+
+@pytest.mark.parametrize("r", RADII)
+def test_ranges_are_the_neighborhood(plates, r):
+    index = plates[3]
+    ranges = index.query_ranges(100, r)
+    assert ranges.shape == (len(ranges), 2)
+    ids = np.concatenate([index.permutation[begin:end] for begin, end in ranges])
+    np.testing.assert_array_equal(np.sort(ids), index.query_ball(100, r, sort=True))
+
+
+def test_permutation_has_each_vertex_once(plates):
+    np.testing.assert_array_equal(np.sort(plates[3].permutation), np.arange(len(plates[3])))
+
+
+def test_graph(plates):
+    V, _, edges, index = plates
+    connected, far = index.radius_neighbors_graph(2.5), index.radius_neighbors_graph(2.5, mode="distance")
+    for graph in (connected, far):
+        assert graph.shape == (len(V), len(V))
+        assert graph.indices.dtype == np.int32
+    wanted = [oracle.neighborhood(V, edges, v, 2.5) for v in range(len(V))]
+    np.testing.assert_array_equal(connected.indices, np.concatenate(wanted))
+    assert connected.data.all()
+    np.testing.assert_array_equal(far.data, np.concatenate([oracle.distances(V, v)[w] for v, w in enumerate(wanted)]))
+
+
+def test_graph_with_a_radius_for_each_vertex(plates):
+    index = plates[3]
+    r = np.linspace(0, 4, len(index))
+    graph = index.radius_neighbors_graph(r)
+    np.testing.assert_array_equal(np.diff(graph.indptr), index.query_ball_count(None, r))
+
+
+@pytest.mark.parametrize("chunk", (1, 100, 10_000))
+def test_chunks_are_the_rows(plates, chunk):
+    index = plates[3]
+    r = np.linspace(0, 4, len(index))
+    parts = list(index.iter_neighborhoods(r, chunk=chunk, return_distance=True))
+    np.testing.assert_array_equal(np.concatenate([p.vertices for p in parts]), np.arange(len(index)))
+    assert all(len(p.vertices) <= chunk for p in parts)
+    indptr, _, distances = index.query_ball(None, r, return_distance=True)
+    np.testing.assert_array_equal(np.concatenate([np.diff(p.indptr) for p in parts]), np.diff(indptr))
+    np.testing.assert_array_equal(np.sort(np.concatenate([p.distances for p in parts])), np.sort(distances))
+
+
+def test_chunks_of_some_vertices(plates):
+    index = plates[3]
+    parts = list(index.iter_neighborhoods(1.0, [7, 3, 9], chunk=2, sort=True))
+    assert [list(p.vertices) for p in parts] == [[7, 3], [9]]
+    assert parts[0].distances is None
+    np.testing.assert_array_equal(parts[1].indices, index.query_ball(9, 1.0, sort=True))
+
+
+def test_index_does_not_depend_on_workers():
+    V, F = meshes.two_plates(60)
+    one, many = (meshhood.MeshIndex(V, F, workers=workers) for workers in (1, 4))
+    np.testing.assert_array_equal(one.permutation, many.permutation)
+    for a, b in zip(one.query_ball(None, 3.0, workers=1), many.query_ball(None, 3.0, workers=4)):
+        np.testing.assert_array_equal(a, b)
+
+
+def test_length_and_bytes(plates):
+    V, _, _, index = plates
+    assert len(index) == len(V)
+    assert index.nbytes > V.nbytes
+    assert str(len(V)) in repr(index)
+
+
+coordinate = st.integers(-3, 3).map(lambda x: x / 2)
+
+
+@st.composite
+def random_meshes(draw):
+    """Any polygons over points of a coarse lattice, so that many lie at exactly the radius or on top of each other."""
+    V = np.array(draw(st.lists(st.tuples(coordinate, coordinate, coordinate), min_size=1, max_size=40)))
+    corner = st.integers(0, len(V) - 1)
+    faces = draw(st.lists(st.lists(corner, max_size=6), max_size=40))
+    return V.astype(draw(st.sampled_from([np.float32, np.float64]))), faces
+
+
+@settings(deadline=None, max_examples=200, derandomize=True)
+@given(mesh=random_meshes(), r=st.sampled_from([0.0, 0.5, 1.0, 1.5, 3.0]))
+def test_random_meshes(mesh, r):
+    V, faces = mesh
+    offsets = np.cumsum([0, *map(len, faces)])
+    corners = np.array([corner for face in faces for corner in face], int)
+    index = meshhood.MeshIndex(V, (offsets, corners))
+    edges = oracle.graph(len(V), faces)
+    wanted = np.concatenate([oracle.neighborhood(V, edges, v, r) for v in range(len(V))])
+    for method in ("exact", "bfs"):
+        np.testing.assert_array_equal(index.query_ball(None, r, sort=True, method=method)[1], wanted)

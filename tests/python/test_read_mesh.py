@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: MIT
+"""Mesh files, as the C++ library reads them."""
+
+import meshes
+import meshhood
+import numpy as np
+import pytest
+
+TRIANGLE = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+
+
+def test_triangles(tmp_path):
+    file = tmp_path / "triangle.off"
+    file.write_text(TRIANGLE)
+    for path in (file, str(file)):
+        V, F = meshhood.read_mesh(path)
+        np.testing.assert_array_equal(V, [[0, 0, 0], [1, 0, 0], [0, 1, 0]])
+        np.testing.assert_array_equal(F, [[0, 1, 2]])
+        assert (V.dtype, F.dtype) == (np.float32, np.uint32)
+    assert meshhood.MeshIndex(meshhood.read_mesh(file)).query_ball_count(0, 1.0) == 3
+
+
+def test_polygons(tmp_path):
+    file = tmp_path / "polygons.obj"
+    file.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 1 2 3\n")
+    V, (offsets, corners) = meshhood.read_mesh(file)
+    assert offsets.tolist() == [0, 4, 7]
+    assert corners.tolist() == [0, 1, 2, 3, 0, 1, 2]
+    assert len(meshhood.MeshIndex(V, (offsets, corners))) == 4
+
+
+def test_no_file(tmp_path):
+    with pytest.raises(OSError, match="nothing.ply"):
+        meshhood.read_mesh(tmp_path / "nothing.ply")
+
+
+def test_malformed(tmp_path):
+    file = tmp_path / "short.off"
+    file.write_text(TRIANGLE[:-4])
+    with pytest.raises(ValueError, match="short.off"):
+        meshhood.read_mesh(file)
+
+
+def test_warning(tmp_path):
+    file = tmp_path / "long.off"
+    file.write_text(TRIANGLE + "3 0 1 2\n")
+    with pytest.warns(UserWarning, match="long.off"):
+        assert len(meshhood.read_mesh(file).faces) == 1
+
+
+def test_shared_mesh(tmp_path):
+    mesh = meshhood.read_mesh(meshes.shared("scan/cortex_left_41k.ply.zst", tmp_path))
+    assert mesh.vertices.shape == (40_962, 3)
+    assert mesh.faces.shape == (81_920, 3)
