@@ -8,6 +8,7 @@ add_subdirectory(portability)
 
 add_test(NAME house.format COMMAND ${PROJECT_SOURCE_DIR}/tools/check format)
 add_test(NAME house.docs COMMAND ${PROJECT_SOURCE_DIR}/tools/check_docs.py $<$<TARGET_EXISTS:meshhood_cli>:$<TARGET_FILE:meshhood_cli>>)
+add_test(NAME house.drawings COMMAND python3 -B ${PROJECT_SOURCE_DIR}/tools/drawings --check)
 
 # Exact answers against breadth-first search on large meshes: a part of what tools/verify --full does.
 if(TARGET exact_verify)

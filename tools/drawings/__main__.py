@@ -1,5 +1,6 @@
-"""Draws the pictures of docs/design.md again. Usage: python3 tools/drawings"""
+"""Draws the pictures of docs/design.md, or says whether they are as drawn. Usage: python3 tools/drawings [--check]"""
 
+import sys
 from pathlib import Path
 
 import column
@@ -8,8 +9,29 @@ import leaves
 import tree
 
 IMAGES = Path(__file__).resolve().parents[2] / "docs" / "images"
+DRAWINGS = {"leaves": leaves, "tree": tree, "column": column, "foreign": foreign}
 
-for name, drawing in ("leaves", leaves), ("tree", tree), ("column", column), ("foreign", foreign):
-    text = drawing.draw().finish()
-    (IMAGES / f"{name}.svg").write_text(text, encoding="utf-8")
-    print(f"docs/images/{name}.svg: {len(text)} bytes")
+
+def update(path, text):
+    path.write_text(text, encoding="utf-8")
+    print(f"{path.name}: {len(text)} bytes")
+
+
+def is_as_drawn(path, text):
+    same = path.exists() and path.read_text(encoding="utf-8") == text
+    print(f"{path.name}: {'as drawn' if same else 'not as drawn, run python3 tools/drawings'}")
+    return same
+
+
+def main(arguments):
+    if arguments not in ([], ["--check"]):
+        return f"tools/drawings: expected nothing or --check, not {' '.join(arguments)}"
+    pictures = [(IMAGES / f"{name}.svg", drawing.draw().finish()) for name, drawing in DRAWINGS.items()]
+    if arguments:
+        return 0 if all([is_as_drawn(path, text) for path, text in pictures]) else 1
+    for path, text in pictures:
+        update(path, text)
+    return 0
+
+
+sys.exit(main(sys.argv[1:]))
