@@ -2,6 +2,7 @@
 """Who owns the memory, and who may change it when (reliability rows P2 to P4)."""
 
 import gc
+import multiprocessing
 from concurrent.futures import ThreadPoolExecutor
 
 import meshes
@@ -61,3 +62,21 @@ def test_threads_may_share_an_index(method):
     with ThreadPoolExecutor(4) as pool:
         for got, want in zip(pool.map(ask, range(len(index))), wanted):
             np.testing.assert_array_equal(got, want)
+
+
+def test_an_index_works_in_a_forked_child():
+    if "fork" not in multiprocessing.get_all_start_methods():
+        pytest.skip("no fork here")
+    index = make()
+    wanted = index.query_ball(None, 4.0)[1]
+
+    def ask(answers):
+        answers.put(index.query_ball(None, 4.0, workers=2)[1])
+
+    context = multiprocessing.get_context("fork")
+    answers = context.SimpleQueue()
+    child = context.Process(target=ask, args=(answers,))
+    child.start()
+    np.testing.assert_array_equal(answers.get(), wanted)
+    child.join()
+    assert child.exitcode == 0

@@ -39,7 +39,8 @@ def vertices(v, count):
 
 def vertex(v, count):
     """`v` as an int in [0, count)."""
-    v = _integer(v, "v")
+    if not isinstance(v, int):
+        v = _integer(v, "v")
     if not 0 <= v < count:
         raise ValueError(f"v: vertex {v}, but the mesh has {count} vertices")
     return v

@@ -1,0 +1,56 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""What a call from Python costs over the query itself, both timed in the same run.
+
+    PYTHONPATH=build/release/python bench/python_overhead.py
+
+A grid of 250,000 vertices, the same vertex over and over, so that all is in the cache; the fastest of several rounds.
+The query itself is a batch of one thread that only counts, so the overhead is no less than it should be.
+"""
+
+import time
+
+import meshhood
+import numpy as np
+
+SIDE = 500
+CALLS = 5_000
+ROUNDS = 7
+RADII = (1.0, 3.0, 10.0)
+
+
+def grid(side):
+    x, y = np.meshgrid(np.arange(side, dtype=np.float32), np.arange(side, dtype=np.float32))
+    corner = (np.arange(side - 1)[:, None] * side + np.arange(side - 1)).ravel()
+    quads = np.column_stack([corner, corner + 1, corner + side + 1, corner + side])
+    return np.column_stack([x.ravel(), y.ravel(), np.zeros(side * side, np.float32)]), quads
+
+
+def microseconds(work):
+    start = time.perf_counter()
+    work()
+    return (time.perf_counter() - start) / CALLS * 1e6
+
+
+def main():
+    index = meshhood.MeshIndex(*grid(SIDE))
+    v = SIDE * SIDE // 2 + SIDE // 2
+    rows = np.full(CALLS, v)
+    print("   r  vertices  call us  query us  overhead us  call / query")
+    for r in RADII:
+
+        def calls(r=r):
+            for _ in range(CALLS):
+                index.query_ball(v, r)
+
+        def batch(r=r):
+            index.query_ball_count(rows, r, workers=1)
+
+        rounds = [(microseconds(calls), microseconds(batch)) for _ in range(ROUNDS)]
+        call, query = map(min, zip(*rounds))
+        count = index.query_ball_count(v, r)
+        print(f"{r:4.0f} {count:9d} {call:8.2f} {query:9.2f} {call - query:12.2f} {call / query:13.2f}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: MIT
+"""The Python in the documents runs as it stands, on a file named as there."""
+
+import re
+from pathlib import Path
+
+import meshhood
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+BLOCK = re.compile(r"```python\n(.*?)```", re.DOTALL)
+
+
+@pytest.mark.parametrize("name", ("README.md", "docs/python.md"))
+def test_code_runs(name, tmp_path, monkeypatch):
+    pytest.importorskip("trimesh").creation.icosphere(subdivisions=3).export(tmp_path / "hand.ply")
+    monkeypatch.chdir(tmp_path)
+    blocks = BLOCK.findall((ROOT / name).read_text(encoding="utf-8"))
+    names = {}
+    for block in blocks:
+        exec(compile(block, name, "exec"), names)
+    print(f"{name}: {len(blocks)} pieces of code")
+    assert isinstance(names["index"], meshhood.MeshIndex)
+
+
+def test_everything_public_is_described():
+    for name in meshhood.__all__:
+        thing = getattr(meshhood, name)
+        assert thing.__doc__
+        public = [part for part in vars(thing) if callable(getattr(thing, part)) and not part.startswith("_")]
+        for part in public if thing.__module__ == "meshhood._index" else []:
+            assert getattr(thing, part).__doc__, f"{name}.{part}"

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: MIT
+"""The Python programs under examples/, as their users run them."""
+
+import resource
+import subprocess
+import sys
+from pathlib import Path
+
+import meshes
+import pytest
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+FOUR_GB = 4 << 30
+
+
+def run(script, *arguments, memory=None):
+    """Runs it, in so much address space, and prints what it printed."""
+
+    def limit():
+        resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+
+    done = subprocess.run(
+        [sys.executable, EXAMPLES / script, *arguments],
+        capture_output=True,
+        text=True,
+        check=False,
+        preexec_fn=limit if memory else None,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    print(done.stdout, end="")
+    return done.stdout
+
+
+def test_smooth_signal():
+    pytest.importorskip("trimesh")
+    assert "10242 vertices" in run("smooth_signal.py")
+
+
+def test_searchlight(tmp_path):
+    run("searchlight.py", meshes.shared("scan/cortex_left_41k.ply.zst", tmp_path))
+
+
+def test_scan_graph(tmp_path):
+    scan = meshes.shared("paper/head_skin_1m.ply.zst", tmp_path)
+    assert "1002496 vertices" in run("scan_graph.py", scan, memory=FOUR_GB)
