@@ -73,7 +73,7 @@ class Bench {
     constexpr std::size_t kBlocks = 15;
     std::array<std::vector<double>, Methods> times;
     found_ = 0;
-    const std::size_t queries = edges >= 40 ? 60 : 300;
+    const std::size_t queries = queries_of_a_block(edges * mean_edge_);
     for (std::size_t block = 0; block < kBlocks; ++block) {
       std::vector<VertexId> asked = pick(queries, warm);
       for (std::size_t i = 0; i < Methods; ++i) {
@@ -127,6 +127,15 @@ class Bench {
   [[nodiscard]] const Index& index() const { return index_; }
 
  private:
+  /// Fewer where the answers are large, so that a row takes seconds.
+  std::size_t queries_of_a_block(double radius) {
+    constexpr std::size_t kProbes = 16;
+    constexpr std::size_t kVertices = 1'000'000;
+    std::size_t found = 0;
+    for (const VertexId v : pick(kProbes, false)) found += searcher_.count(v, radius);
+    return std::clamp<std::size_t>(kVertices * kProbes / found, 10, 300);
+  }
+
   static double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
