@@ -96,10 +96,9 @@ class Bench {
   /// them as there is time for, in blocks taken in turn.
   void batch(double edges) {
     constexpr std::size_t kBlocks = 15;
-    constexpr std::size_t kRun = 2000;
     constexpr std::size_t kSearched = 20;
     const double radius = edges * mean_edge_;
-    const std::size_t run = std::min(kRun, index_.vertex_count());
+    const std::size_t run = std::min(8 * queries_of_a_block(radius), index_.vertex_count());
     std::array<std::vector<double>, 4> times;
     for (std::size_t block = 0; block < kBlocks; ++block) {
       std::vector<VertexId> asked(run);
