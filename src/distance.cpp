@@ -15,11 +15,14 @@ double squared_radius(double radius) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double threshold = radius * radius;
   if (threshold == kInfinity) return kInfinity;
-  // The product is rounded once and the root once more, so the answer is a step or two away.
-  while (std::sqrt(threshold) > radius) threshold = std::nextafter(threshold, 0.0);
-  for (double next = std::nextafter(threshold, kInfinity); std::sqrt(next) <= radius;) {
+  // The product is rounded once and the root once more, so the answer is a step or two away. The steps are counted
+  // because where a host flushes denormals to zero, all of them have the root 0.
+  constexpr int kSteps = 4;
+  for (int i = 0; i < kSteps && std::sqrt(threshold) > radius; ++i) threshold = std::nextafter(threshold, 0.0);
+  for (int i = 0; i < kSteps; ++i) {
+    const double next = std::nextafter(threshold, kInfinity);
+    if (std::sqrt(next) > radius) break;
     threshold = next;
-    next = std::nextafter(threshold, kInfinity);
   }
   return threshold;
 }
