@@ -15,7 +15,9 @@
 
 #include "meshhood/meshhood.h"
 
+#include "draw.h"
 #include "families.h"
+#include "family_name.h"
 #include "oracle.h"
 #include "sandwich.h"
 #include "scale.h"
@@ -25,28 +27,10 @@ namespace {
 
 using testing::IsEmpty;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-template <class T>
-T pick(Random& random, std::initializer_list<T> choices) {
-  return *(choices.begin() + random.below(choices.size()));
-}
-
 paper::BuildOptions draw_build_options(Random& random) {
   return {.levels = pick(random, {1, 2, 3, 5, paper::BuildOptions::kAllLevels}),
           .discard = pick(random, {0, 0, 1, 2, 70}),
           .fusion_growth = pick(random, {0.0, 1.0, 4.0, 16.0, 1e9})};
-}
-
-/// Zero, infinity, the paper's multiples of the mean edge, and distances that occur with their neighbours in double.
-std::vector<double> draw_radii(Random& random, const Oracle& oracle, std::uint32_t v) {
-  std::vector<double> radii{0.0, kInfinity};
-  for (const double edges : {2, 5, 10, 20, 40, 65, 90}) radii.push_back(edges * oracle.mean_edge());
-  for (int i = 0; i < 3; ++i) {
-    const double tie = oracle.distance(v, random.below(oracle.size()));
-    radii.insert(radii.end(), {tie, std::nextafter(tie, kInfinity), std::nextafter(tie, 0.0)});
-  }
-  return radii;
 }
 
 struct Tally {
@@ -122,13 +106,6 @@ class Comparison {
 
 class Differential : public testing::TestWithParam<Family> {};
 
-/// Mostly small meshes, in which everything happens close together, and a few large ones.
-std::size_t draw_size(std::uint64_t seed) {
-  if (seed == 0) return 5000;
-  if (seed % 40 == 0) return 1500;
-  return 10 + (seed * 37) % (seed % 5 == 0 ? 400 : 80);
-}
-
 TEST_P(Differential, AnswersAreThoseOfTheOracle) {
   Tally tally;
   for (std::uint64_t seed = 0; seed < scaled(150, 2) && tally.mismatches < 10; ++seed) {
@@ -141,13 +118,7 @@ TEST_P(Differential, AnswersAreThoseOfTheOracle) {
   EXPECT_GT(tally.meshes, 0U);
 }
 
-std::string test_name(const testing::TestParamInfo<Family>& info) {
-  std::string name(info.param.name);
-  std::replace(name.begin(), name.end(), ' ', '_');
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Families, Differential, testing::ValuesIn(families()), test_name);
+INSTANTIATE_TEST_SUITE_P(Families, Differential, testing::ValuesIn(families()), family_name);
 
 /// A second oracle, in integers, so that a wrong distance cannot hide in both. Different integers below 2^46 have
 /// different square roots in double.

@@ -31,16 +31,25 @@ inline std::vector<double> around(double radius) {
   return {std::nextafter(radius, 0.0), radius, std::nextafter(radius, std::numeric_limits<double>::infinity())};
 }
 
+/// A searcher for every path.
+inline std::vector<Searcher> searchers_of(const Index& index) {
+  std::vector<Searcher> searchers;
+  for (const Isa isa : available_isas()) {
+    searchers.emplace_back(index);
+    SearcherAccess::set_isa(searchers.back(), isa);
+  }
+  return searchers;
+}
+
 /// An index of a mesh beside the reference, which the oracle has judged.
 class ExactAnswer {
  public:
-  explicit ExactAnswer(const MeshView& mesh) : mesh_(mesh), reference_(mesh), index_(build(mesh)) {
-    for (const Isa isa : available_isas()) {
-      searchers_.emplace_back(index_);
-      SearcherAccess::set_isa(searchers_.back(), isa);
-    }
-    stamp_.resize(index_.vertex_count());
-  }
+  explicit ExactAnswer(const MeshView& mesh)
+      : mesh_(mesh),
+        reference_(mesh),
+        index_(build(mesh)),
+        searchers_(searchers_of(index_)),
+        stamp_(index_.vertex_count()) {}
 
   /// One query, on the paths in turn: ids, count, ranges and distances against the reference.
   void query(VertexId v, double radius) {
