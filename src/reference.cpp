@@ -8,6 +8,7 @@
 
 #include "distance.h"
 #include "prefetch.h"
+#include "reference_access.h"
 
 namespace meshhood {
 namespace {
@@ -111,6 +112,10 @@ void ReferenceSearcher::neighborhood(VertexId v, double radius, std::vector<Vert
   const std::size_t count = std::visit([&](auto& all) { return state_->search(v, radius, all); }, state_->records);
   const auto first = state_->queue.begin();
   out.assign(first, first + static_cast<std::ptrdiff_t>(count));
+}
+
+void ReferenceAccess::set_query(ReferenceSearcher& searcher, std::uint32_t queries) {
+  searcher.state_->query = queries;
 }
 
 AdjacencyView ReferenceSearcher::adjacency() const { return state_->adjacency; }

@@ -13,7 +13,7 @@ foreach(stem adjacency mesh distance sphere reference error robustness different
   meshhood_test(${stem} meshhood_families)
 endforeach()
 add_subdirectory(paper)
-foreach(stem index_structure search_families search_rare search_simd)
+foreach(stem index_structure search_families search_differential search_rare search_simd threads)
   meshhood_test(${stem} meshhood_families)
 endforeach()
 meshhood_test(index_threads meshhood_families meshhood_test_support)
@@ -39,6 +39,11 @@ list(TRANSFORM core_sources PREPEND ${PROJECT_SOURCE_DIR}/)
 
 # Ids of 16 bits, so that small meshes reach every limit.
 add_subdirectory(narrow_ids)
+
+# Flushed denormals are set in a register of x86.
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+  meshhood_test(float_modes meshhood_families)
+endif()
 
 # For a processor with fused multiply-add, which the distance must not use.
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND CMAKE_OBJDUMP)

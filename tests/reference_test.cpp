@@ -13,6 +13,7 @@
 
 #include "families.h"
 #include "oracle.h"
+#include "reference_access.h"
 #include "refusal.h"
 #include "scale.h"
 
@@ -83,6 +84,19 @@ TEST(ReferenceSearcher, SurvivesAMove) {
 }
 
 /// Exact answers against the oracle are the business of differential_test; here the ball, and that exact grows.
+TEST(ReferenceSearcher, C3ForgetsTheQueriesBeforeWhenTheirNumbersRunOut) {
+  const TestMesh mesh = make_grid(20, 20, false);
+  ReferenceSearcher searcher(mesh.view());
+  std::vector<VertexId> expected;
+  std::vector<VertexId> out;
+  for (int i = 0; i < 10; ++i) searcher.neighborhood(210, 5, expected);
+  ReferenceAccess::set_query(searcher, std::numeric_limits<std::uint32_t>::max() - 5);
+  for (int i = 0; i < 15; ++i) {
+    searcher.neighborhood(210, 5, out);
+    EXPECT_EQ(out, expected) << "query " << i;
+  }
+}
+
 TEST(Ball, IsThatOfTheOracle) {
   std::size_t queries = 0;
   for (const Family& family : families()) {

@@ -137,6 +137,8 @@ class Searcher {
   [[nodiscard]] const QueryProfile& profile() const { return profile_; }
 
  private:
+  friend struct SearcherAccess;
+
   /// Vertices in index order of which all, or those within the radius, belong to the answer.
   struct Piece {
     VertexId begin;

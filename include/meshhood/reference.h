@@ -40,6 +40,8 @@ class ReferenceSearcher {
   [[nodiscard]] AdjacencyView adjacency() const;
 
  private:
+  friend struct ReferenceAccess;
+
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -11,6 +11,7 @@
 #include "meshhood/meshhood.h"
 
 #include "families.h"
+#include "paper/searcher_access.h"
 #include "refusal.h"
 
 namespace meshhood::test {
@@ -123,6 +124,20 @@ TEST(Query, ForgetsTheQueriesBefore) {
     used.neighborhood(v, radius, out);
     paper::Searcher(index).neighborhood(v, radius, expected);
     ASSERT_EQ(out, expected) << "vertex " << v << ", radius " << radius;
+  }
+}
+
+TEST(Query, C3ForgetsTheQueriesBeforeWhenTheirNumbersRunOut) {
+  const TestMesh mesh = make_grid(40, 40, false);
+  const paper::Index index = paper::build(mesh.view(), {.discard = 0});
+  paper::Searcher searcher(index);
+  std::vector<VertexId> expected;
+  std::vector<VertexId> out;
+  for (int i = 0; i < 10; ++i) searcher.neighborhood(820, 9, expected);
+  paper::SearcherAccess::set_query(searcher, std::numeric_limits<std::uint32_t>::max() - 5);
+  for (int i = 0; i < 15; ++i) {
+    searcher.neighborhood(820, 9, out);
+    EXPECT_EQ(out, expected) << "query " << i;
   }
 }
 
