@@ -9,7 +9,7 @@ target_include_directories(meshhood_families PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(meshhood_families PUBLIC meshhood::meshhood)
 meshhood_own_target(meshhood_families)
 
-foreach(stem adjacency mesh distance sphere reference error robustness differential metamorphic parallel batch)
+foreach(stem adjacency mesh distance sphere reference error arguments robustness differential metamorphic parallel batch)
   meshhood_test(${stem} meshhood_families)
 endforeach()
 add_subdirectory(paper)

@@ -41,9 +41,14 @@ TEST(Error, CarriesItsCodeAndMessage) {
 std::vector<std::function<void(const MeshView&)>> mesh_doors() {
   return {[](const MeshView& mesh) { validate(mesh); },
           [](const MeshView& mesh) { static_cast<void>(adjacency(mesh)); },
+          [](const MeshView& mesh) { static_cast<void>(build(mesh)); },
           [](const MeshView& mesh) { static_cast<void>(paper::build(mesh)); },
           [](const MeshView& mesh) { const ReferenceSearcher searcher(mesh); },
           [](const MeshView& mesh) { static_cast<void>(exact_neighborhood(mesh, 0, 1)); },
+          [](const MeshView& mesh) {
+            const std::vector<float> one(3, 0.0F);
+            static_cast<void>(build(MeshView{one, {}}).check(mesh));
+          },
           [](const MeshView& mesh) {
             const std::vector<float> one(3, 0.0F);
             static_cast<void>(paper::build(MeshView{one, {}}).check(mesh));
@@ -74,8 +79,10 @@ TEST(Error, EveryDoorRefusesAGraphThatLies) {
     expect_refused(ErrorCode::InvalidMesh, "neighbours of vertex 0: 1, but", door);
   };
   refuse([&] { validate(graph); });
+  refuse([&] { static_cast<void>(build(graph)); });
   refuse([&] { static_cast<void>(paper::build(graph)); });
   refuse([&] { const ReferenceSearcher searcher(graph); });
+  refuse([&] { static_cast<void>(build(MeshView{positions, {}}).check(graph)); });
   refuse([&] { static_cast<void>(paper::build(MeshView{positions, {}}).check(graph)); });
 }
 

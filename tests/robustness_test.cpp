@@ -15,6 +15,7 @@
 
 #include "meshhood/meshhood.h"
 
+#include "exact_answer.h"
 #include "families.h"
 #include "refusal.h"
 #include "sandwich.h"
@@ -36,8 +37,35 @@ using testing::IsEmpty;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Builds with few and with all levels, and compares `queries` answers with the reference. Returns what went wrong.
-std::vector<std::string> faults_of(const TestMesh& mesh, std::size_t queries) {
+struct Question {
+  VertexId v;
+  double radius;
+};
+
+/// Queries of a mesh that has vertices: the whole component now and then.
+std::vector<Question> draw_questions(const TestMesh& mesh, std::size_t count) {
+  std::vector<Question> questions;
+  Random random(7);
+  for (std::size_t i = 0; mesh.size() > 0 && i < count; ++i) {
+    const auto v = static_cast<VertexId>(i == 0 ? 0 : random.below(mesh.size()));
+    const auto w = static_cast<VertexId>(random.below(mesh.size()));
+    const double radius = i % 10 == 0 ? kInfinity : distance(mesh.positions_view(), v, w) * random.uniform();
+    questions.push_back({v, radius});
+  }
+  return questions;
+}
+
+/// Builds the exact index and compares answers with the reference. Returns what went wrong.
+std::vector<std::string> faults_of_exact(const TestMesh& mesh, const std::vector<Question>& questions) {
+  ExactAnswer exact(mesh.view());
+  std::vector<std::string> faults = exact.index().check(mesh.view());
+  for (const auto& [v, radius] : questions) exact.query(v, radius);
+  if (exact.mismatches() > 0) faults.emplace_back("exact answers differ");
+  return faults;
+}
+
+/// Builds the paper's index with few and with all levels, and compares answers with the reference.
+std::vector<std::string> faults_of_paper(const TestMesh& mesh, const std::vector<Question>& questions) {
   std::vector<std::string> faults;
   ReferenceSearcher reference(mesh.view());
   for (const int levels : {5, paper::BuildOptions::kAllLevels}) {
@@ -45,25 +73,30 @@ std::vector<std::string> faults_of(const TestMesh& mesh, std::size_t queries) {
     for (const std::string& fault : index.check(mesh.view())) faults.push_back(fault);
     paper::Searcher searcher(index);
     Sandwich sandwich(mesh.size());
-    Random random(7);
     std::vector<VertexId> exact;
     std::vector<VertexId> answer;
-    for (std::size_t i = 0; mesh.size() > 0 && i < queries; ++i) {
-      const auto v = static_cast<VertexId>(i == 0 ? 0 : random.below(mesh.size()));
-      const auto w = static_cast<VertexId>(random.below(mesh.size()));
-      const double radius = i % 10 == 0 ? kInfinity : distance(mesh.positions_view(), v, w) * random.uniform();
+    for (const auto& [v, radius] : questions) {
       reference.neighborhood(v, radius, exact);
       searcher.neighborhood(v, radius, answer);
-      const auto inside = [&](VertexId u) { return distance(mesh.positions_view(), v, u) <= radius; };
+      const auto inside = [&, v = v, radius = radius](VertexId u) {
+        return distance(mesh.positions_view(), v, u) <= radius;
+      };
       if (!sandwich.holds(exact, answer, inside)) faults.push_back("vertex " + std::to_string(v));
     }
   }
   return faults;
 }
 
+std::vector<std::string> faults_of(const TestMesh& mesh, std::size_t queries) {
+  const std::vector<Question> questions = draw_questions(mesh, queries);
+  std::vector<std::string> faults = faults_of_exact(mesh, questions);
+  for (const std::string& fault : faults_of_paper(mesh, questions)) faults.push_back(fault);
+  return faults;
+}
+
 void expect_sound(const TestMesh& mesh, std::size_t queries = 100) {
   EXPECT_THAT(faults_of(mesh, queries), IsEmpty());
-  std::printf("%zu vertices, %zu faces, %zu queries\n", mesh.size(), mesh.face_count(), 2 * queries);
+  std::printf("%zu vertices, %zu faces, %zu queries\n", mesh.size(), mesh.face_count(), 3 * queries);
 }
 
 TestMesh family_mesh(std::string_view name, std::size_t vertices, bool single = true) {
