@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+
+#include "io/readers.h"
+#include "read.h"
+#include "target.h"
+
+namespace meshhood::fuzz {
+namespace {
+
+/// Tells the format by content, where that fails by an ending which is drawn from the content as well.
+io::Mesh read_any(io::Input& input, const io::ReadOptions& options) {
+  constexpr std::array kNames{"fuzz", "fuzz.ply", "fuzz.obj", "fuzz.off", "fuzz.stl"};
+  constexpr std::array<Reader, 4> kReaders{io::read_ply, io::read_obj, io::read_off, io::read_stl};
+  const auto format = io::detect_format(input, kNames[input.size().value_or(0) % kNames.size()]);
+  return kReaders[static_cast<std::size_t>(format)](input, options);
+}
+
+}  // namespace
+
+void run(std::span<const std::byte> bytes) { read(bytes, read_any); }
+
+}  // namespace meshhood::fuzz

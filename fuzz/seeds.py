@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+"""Writes the first inputs of each fuzzer, small files that take the readers everywhere, into fuzz/corpus."""
+import pathlib
+import struct
+
+CORPUS = pathlib.Path(__file__).parent / "corpus"
+ELEMENTS = (
+    "element vertex 3\nproperty float x\nproperty double y\nproperty short z\nproperty list uchar float extra\n"
+    "element face 2\nproperty list uchar int vertex_indices\n"
+    "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+)
+
+
+def ply_text(body, header=ELEMENTS, form="ascii"):
+    return f"ply\nformat {form} 1.0\ncomment seed\n{header}{body}".encode()
+
+
+def ply_binary(order):
+    form = {"<": "binary_little_endian", ">": "binary_big_endian"}[order]
+    body = b"".join(struct.pack(order + "fdhBf", x, 1, 2, 1, 0.5) for x in range(3))
+    body += struct.pack(order + "BiiiB", 3, 0, 1, 2, 0) + struct.pack(order + "iiiii", 4, 0, 1, 2, -1)
+    return ply_text("", form=form) + body
+
+
+def grid_ply(side):
+    vertices = [f"{x} {y} {x * y % 3}" for y in range(side) for x in range(side)]
+    faces = [f"4 {i} {i + 1} {i + side + 1} {i + side}" for i in range(side * (side - 1)) if i % side < side - 1]
+    header = (f"element vertex {len(vertices)}\nproperty float x\nproperty float y\nproperty float z\n"
+              f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n")
+    return ply_text("\n".join(vertices + faces) + "\n", header)
+
+
+def stl_binary(name, facets):
+    data = name.ljust(80, b"\0") + struct.pack("<I", len(facets))
+    return data + b"".join(struct.pack("<12fH", 0, 0, 0, *facet, 0) for facet in facets)
+
+
+def stl_text(facets):
+    lines = ["solid a"]
+    for facet in facets:
+        lines += ["facet normal 0 0 1", "outer loop"]
+        lines += ["vertex {} {} {}".format(*facet[i:i + 3]) for i in (0, 3, 6)]
+        lines += ["endloop", "endfacet"]
+    return "\n".join(lines + ["endsolid a", ""]).encode()
+
+
+FACETS = [(0, 0, 0, 1, 0, 0, 0, 1, 0), (1, 0, 0, 1, 1, 0, 0, 1, -0.0)]
+XYZ = "property float x\nproperty float y\nproperty float z\n"
+
+SEEDS = {
+    "ply": {
+        "text": ply_text("0 0 0 0\n1 1e-3 -7 1 0.5\n+2 .5 3 2 1 1\n3 0 1 2\n1 0\n4 0 1 2 -1\n"),
+        "little": ply_binary("<"),
+        "big": ply_binary(">"),
+        "grid": grid_ply(8),
+        "no_faces": ply_text("1 2 3\n", f"element vertex 1\n{XYZ}end_header\n"),
+        "no_vertices": ply_text("", f"element vertex 0\n{XYZ}end_header\n"),
+        "faces_first": ply_text("3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n", "element face 1\nproperty list char uint vertex_index\n"
+                                f"element vertex 3\n{XYZ}end_header\n"),
+        "crlf": ply_text("0 0 0\n", f"element vertex 1\n{XYZ}end_header\n").replace(b"\n", b"\r\n"),
+        "unknown": ply_text("0 0 0\n", f"element nothing 1099511627776\nelement vertex 1\n{XYZ}end_header\n"),
+        "huge": ply_text("0 0 0\n", f"element vertex 1099511627776\n{XYZ}end_header\n"),
+    },
+    "obj": {
+        "all": b"# c\nv 0 0 0\nv 1 0 0 0.5\nv 1 1 0 1 1 1\nvt 0 0\nf 1/1 2//1 \\\n 3/1/1\nf -1 -2 -3\nl 1 2\ng a\n",
+        "polygon": b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n",
+        "relative": b"v 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1\nv 2 2 2\nf -1 -2 -3\n",
+        "carriage_returns": b"v 0 0 0\rv 1 0 0\rv 1 1 0\rf 1 2 3\r",
+        "mark": b"\xef\xbb\xbfv 1e-400 +1.5 -0\np 1\n",
+        "zero": b"v 0 0 0\nf 0 1 1\n",
+        "path": b"mtllib ../../etc/passwd\nv 0 0 0\ncall a\n",
+    },
+    "off": {
+        "colors": b"COFF # c\n3 2 0\n0 0 0 1 1 1 1\n1 0 0 0 0 0 1\n0 1 0 0 0 0 1\n3 0 1 2 255 0 0\n2 1 0\n",
+        "plain": b"OFF\n4 2 5\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n4 0 1 2 3\n",
+        "one_line": b"OFF 1 0 0\n1 2 3",
+        "normals": b"NOFF\n1 0 0\n0 0 0 0 0 1\n",
+        "texture": b"STOFF\n1 0 0\n0 0 0 0 1\n",
+        "four": b"4OFF\n1 0 0\n0 0 0 1\n",
+        "binary": b"OFF BINARY\n\0\0\0\1",
+        "huge": b"OFF\n2000000000 1 0\n0 0 0\n",
+    },
+    "stl": {
+        "text": stl_text(FACETS),
+        "empty": stl_text([]),
+        "binary": stl_binary(b"binary", FACETS),
+        "solid": stl_binary(b"solid", FACETS),
+        "none": stl_binary(b"", []),
+        "nan": stl_binary(b"", [(float("nan"),) * 9]),
+        "more": stl_binary(b"", FACETS) + b"more",
+    },
+    # vertices, surface (none, path, grid, star; rows), coordinates, exponent, seed; then coordinates and faces
+    "mesh": {
+        f"{surface}_{kind}_{seed}": struct.pack("<HBBhH", vertices, surface + 4 * 15, kind, exponent, seed) + bytes(body)
+        for surface in range(4)
+        for kind, exponent in ((0, 0), (129, 0), (130, 0), (132, -300), (133, 480), (134, 0))
+        for seed, vertices, body in ((1, 30, range(64)), (2, 500, b""), (3, 300, [7, 1, 2, 200, 9, 40, 0, 3] * 40))
+    },
+}
+SEEDS["any"] = {f"{kind}_{name}": data for kind in ("ply", "obj", "off", "stl") for name, data in SEEDS[kind].items()}
+
+for target, seeds in SEEDS.items():
+    folder = CORPUS / target
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, data in seeds.items():
+        (folder / name).write_bytes(data)
+    print(f"{target}: {len(seeds)} seeds")
