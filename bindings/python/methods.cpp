@@ -53,9 +53,10 @@ class IndexMethod : public Base {
     return searchers_.with([&] { return Searcher(index_); }, std::forward<F>(f));
   }
 
-  Index index_;
+  [[nodiscard]] const Index& built() const { return index_; }
 
  private:
+  Index index_;
   Pool<Searcher> searchers_;
 };
 
@@ -63,7 +64,7 @@ class IndexedExactMethod : public IndexMethod<ExactMethod, Index, Searcher> {
  public:
   using IndexMethod::IndexMethod;
 
-  [[nodiscard]] const Index& index() const override { return index_; }
+  [[nodiscard]] const Index& index() const override { return built(); }
 
   std::vector<VertexRange> ranges(VertexId v, double radius) override {
     return ask([&](Searcher& searcher) {

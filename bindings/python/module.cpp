@@ -168,8 +168,11 @@ auto read(const std::filesystem::path& path) {
       },
       mesh.positions);
   std::vector<std::string> warnings;
+  warnings.reserve(mesh.warnings.size());
   for (const auto& [what, count, place] : mesh.warnings) {
-    warnings.push_back(place + ": " + what + (count > 1 ? " (" + std::to_string(count) + " times)" : ""));
+    std::string& warning = warnings.emplace_back(place);
+    warning.append(": ").append(what);
+    if (count > 1) warning.append(" (").append(std::to_string(count)).append(" times)");
   }
   return std::tuple(std::move(positions), owned<std::uint32_t>(std::move(mesh.corners)),
                     owned<std::int64_t>(std::move(mesh.offsets)), std::move(warnings));
@@ -186,12 +189,13 @@ void bind_methods(nb::module_& module) {
   nb::class_<ExactMethod, Method>(module, "ExactMethod")
       .def("ranges", &ranges, nb::arg(), nb::arg())
       .def_prop_ro("permutation", &permutation)
-      .def_prop_ro("nbytes", [](const ExactMethod& method) { return method.index().bytes().total(); })
-      .def_prop_ro("vertex_count", [](const ExactMethod& method) { return method.index().vertex_count(); });
+      .def_prop_ro("nbytes", [](const ExactMethod& method) { return method.index().bytes().total(); });
 }
 
 void bind_makers(nb::module_& module) {
-  nb::class_<Data>(module, "Data");
+  nb::class_<Data>(module, "Data").def_prop_ro("vertex_count", [](const Data& data) {
+    return data.positions().size();
+  });
   module.def("data", &make_data, nb::arg(), nb::arg(), nb::arg("offsets").none());
   module.def("exact", &make_exact, nb::arg(), nb::arg("threads"), nb::arg("progress").none());
   module.def("paper", &paper_method, nb::call_guard<nb::gil_scoped_release>());

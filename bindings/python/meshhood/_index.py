@@ -63,7 +63,7 @@ class MeshIndex:
             self._exact = _core.exact(self._data, threads=_convert.threads(workers), progress=watch)
         self._methods = {"exact": self._exact}
         self._making = threading.Lock()
-        self._count = self._exact.vertex_count
+        self._count = self._data.vertex_count
 
     def __len__(self) -> int:
         """#V."""
@@ -92,7 +92,7 @@ class MeshIndex:
         method: Method = "exact",
         workers: int = -1,
         progress: Progress = None,
-    ) -> Ids | tuple[np.ndarray, ...]:
+    ) -> Any:
         """The vertices of the neighborhood of each `v`, itself included.
 
         v : a vertex, a sequence of vertices, or None for all.
@@ -124,7 +124,7 @@ class MeshIndex:
 
     def query_ball_count(
         self, v: Vertices, r: Radius, *, method: Method = "exact", workers: int = -1, progress: Progress = None
-    ) -> int | NDArray[np.int64]:
+    ) -> Any:
         """How many vertices each neighborhood has: an int for one vertex, else int64 for each. See `query_ball`."""
         asked = self._method(method)
         if v is not None and _convert.is_single(v):
