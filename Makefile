@@ -1,7 +1,7 @@
 # The three commands of a fresh Debian machine. What they do, step by step, is in tools/; presets are for daily work.
 #
 #   make build                    installs what it needs, builds build/release/meshhood
-#   make test                     the same, then builds and runs all tests
+#   make test                     the same, then builds and runs all tests, and each fuzzer for a moment
 #   make demo [MESH=some.ply]     every method on a mesh with a trap, or on your own
 .PHONY: build test demo
 
@@ -14,7 +14,8 @@ build:
 
 test:
 	@tools/setup test
-	@tools/test release asan
+	@tools/test release asan tsan:threads
+	@tools/fuzz --seconds 15
 
 demo: build
 	@tools/demo
