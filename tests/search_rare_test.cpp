@@ -83,6 +83,18 @@ TEST(Rare, ForeignSheetIsNotProvedAndLeftOut) {
   query_everywhere(exact, mesh.size(), {0.3, 0.6, 1, 2, 5, 10, 20, 40, 100});
 }
 
+TEST(Rare, ForeignSheetWhoseNearestVerticesTie) {
+  // Every vertex below stands between two above, often of two leaves: neither may excuse the other.
+  TestMesh mesh = plates(60, 0.6);
+  for (std::size_t i = mesh.positions.size() / 2; i < mesh.positions.size(); i += 3) mesh.positions[i] += 0.5;
+  ExactAnswer exact(mesh.view());
+  for (VertexId v = 0; v < mesh.size(); ++v) {
+    for (const double radius : {7.0, 9.0, 13.0}) exact.query(v, radius);
+  }
+  EXPECT_EQ(exact.mismatches(), 0U);
+  std::printf("%zu queries\n", exact.queries());
+}
+
 /// A grid, small patches of surface hanging over it, and tongues: strips over it that are joined to it at one end.
 TestMesh grid_below(std::size_t patches, std::size_t tongues) {
   constexpr std::uint32_t kSide = 100;
@@ -115,6 +127,18 @@ TEST(Rare, ForeignPatchesAreCutAway) {
   EXPECT_TRUE(last_was_proved(exact));
   EXPECT_LT(*std::max_element(exact.answer().begin(), exact.answer().end()), 100 * 100U);
   query_everywhere(exact, mesh.size(), {1, 5, 8, 12, 20, 33, 45, 60});
+}
+
+TEST(Rare, ForeignVerticesAreCutOutOfLeaves) {
+  // A vertex without edges shares a leaf with the surface around it.
+  TestMesh mesh = make_grid(100, 100, false);
+  Random random(23);
+  for (int i = 0; i < 12; ++i) mesh.add_vertex(random.uniform(20, 80), random.uniform(20, 80), 0.3);
+  ExactAnswer exact(mesh.finish(true).view());
+  exact.query(50 * 100 + 50, 45);
+  EXPECT_TRUE(last_was_proved(exact));
+  EXPECT_LT(*std::max_element(exact.answer().begin(), exact.answer().end()), 100 * 100U);
+  query_everywhere(exact, mesh.size(), {1, 5, 12, 20, 33, 45, 60, 200});
 }
 
 TEST(Rare, TonguesBelongToTheAnswerWhereTheirRootIsInTheBall) {
