@@ -15,7 +15,7 @@
 namespace meshhood::fuzz {
 namespace {
 
-constexpr std::size_t kLarge = 4000;  // vertices, or corners: beyond, the oracle would take all of the time
+constexpr std::size_t kLarge = 300;  // vertices, or corners: beyond, the oracle would take all of the time
 
 std::optional<io::Mesh> try_to_read(std::span<const std::byte> bytes, Reader reader) {
   io::MemorySource source(bytes);
