@@ -19,3 +19,9 @@ if(TARGET exact_verify)
       SKIP_REGULAR_EXPRESSION "skipped: no meshes" TIMEOUT 3000 COST 1000)
   endforeach()
 endif()
+
+# Some of the seeded faults; `tests/mutants/run build/mutants` tries them all.
+if(CMAKE_BUILD_TYPE STREQUAL "Release")
+  add_test(NAME mutants COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mutants/run ${PROJECT_BINARY_DIR}/mutants 6)
+  set_tests_properties(mutants PROPERTIES TIMEOUT 900)
+endif()

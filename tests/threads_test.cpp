@@ -123,6 +123,7 @@ TEST(Threads, C1OneIndexIsAskedByManyInEveryWay) {
     const std::vector<Question> questions = ask_alone(mesh.view(), paper_index);
     std::latch start(kThreads);  // the first queries race with each other
     std::vector<std::thread> threads;
+    threads.reserve(kThreads);
     for (std::size_t t = 0; t < kThreads; ++t) {
       threads.emplace_back([&, t] {
         Asker asker(index, paper_index);
