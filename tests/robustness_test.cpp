@@ -75,13 +75,11 @@ std::vector<std::string> faults_of_paper(const TestMesh& mesh, const std::vector
     Sandwich sandwich(mesh.size());
     std::vector<VertexId> exact;
     std::vector<VertexId> answer;
-    for (const auto& [v, radius] : questions) {
-      reference.neighborhood(v, radius, exact);
-      searcher.neighborhood(v, radius, answer);
-      const auto inside = [&, v = v, radius = radius](VertexId u) {
-        return distance(mesh.positions_view(), v, u) <= radius;
-      };
-      if (!sandwich.holds(exact, answer, inside)) faults.push_back("vertex " + std::to_string(v));
+    for (const Question& asked : questions) {
+      reference.neighborhood(asked.v, asked.radius, exact);
+      searcher.neighborhood(asked.v, asked.radius, answer);
+      const auto inside = [&](VertexId u) { return distance(mesh.positions_view(), asked.v, u) <= asked.radius; };
+      if (!sandwich.holds(exact, answer, inside)) faults.push_back("vertex " + std::to_string(asked.v));
     }
   }
   return faults;
