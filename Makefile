@@ -15,7 +15,6 @@ build:
 test:
 	@tools/setup test
 	@tools/test release asan tsan:threads
-	@tools/fuzz --seconds 15
 
 demo: build
 	@tools/demo
