@@ -24,7 +24,7 @@ struct VertexRange {
 ///
 /// v       in [0, #V).     radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` counts.
 /// Cost is about that of the leaves at the rim of the answer, not of the answer or the mesh; on folded surfaces that of
-/// the leaves of the answer. Nothing is allocated once the buffers have grown. Owns the scratch memory (16 bytes a
+/// the leaves of the answer. Nothing is allocated once the buffers have grown. Owns the scratch memory (22 bytes a
 /// leaf): one object a thread. The index must outlive it.
 /// Throws Error{VertexOutOfRange, InvalidRadius}; arguments are then unchanged.
 class Searcher {
