@@ -20,7 +20,7 @@ class LeafWalk {
     Lanes inside;             // what may be in the ball; exactly that once the leaf has been taken
     Lanes reached;
     Lanes pending;  // to be reached, if inside; the leaf waits to be taken
-    Lanes settled;  // reached before `settle`
+    Lanes settled;  // what the caller has put aside: reached on an earlier way through the same ball
   };
 
   LeafWalk(const IndexStorage& index, const Kernels& kernels);
