@@ -25,3 +25,9 @@ if(CMAKE_BUILD_TYPE STREQUAL "Release")
   add_test(NAME mutants COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mutants/run ${PROJECT_BINARY_DIR}/mutants 6)
   set_tests_properties(mutants PROPERTIES TIMEOUT 900)
 endif()
+
+# Instructions of fixed queries and builds against the committed baseline.
+if(CMAKE_BUILD_TYPE STREQUAL "Release" AND TARGET guard)
+  add_test(NAME bench.guard COMMAND python3 -B ${PROJECT_SOURCE_DIR}/bench/guard/guard.py $<TARGET_FILE:guard>)
+  set_tests_properties(bench.guard PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
+endif()
