@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cerrno>
 #include <utility>
 
 #include <unistd.h>
@@ -22,10 +23,11 @@ class Descriptor {
   [[nodiscard]] bool is_open() const { return number_ >= 0; }
   [[nodiscard]] int number() const { return number_; }
 
-  /// Whether it closed without error; it counts as closed in any case.
+  /// Whether it closed without error; it counts as closed in any case. A signal is none: Linux has let go of the file
+  /// by then, and to close it again might hit another that was opened since.
   [[nodiscard]] bool close() {
     const int number = std::exchange(number_, -1);
-    return number < 0 || ::close(number) == 0;
+    return number < 0 || ::close(number) == 0 || errno == EINTR;
   }
 
  private:

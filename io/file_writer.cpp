@@ -13,6 +13,7 @@
 #include "meshhood/error.h"
 
 #include "io/place.h"
+#include "io/uninterrupted.h"
 
 namespace meshhood::io {
 namespace {
@@ -27,17 +28,19 @@ std::filesystem::path resolved(const std::filesystem::path& path) {
   return ignored ? path : target;
 }
 
-// Recognisable as a leftover, should the process be killed.
+// Recognisable as a leftover, should the process be killed. No longer than a name may be, though the target's may be
+// so.
 std::string temporary_name(const std::filesystem::path& target) {
   static std::atomic<unsigned> serial = 0;
-  return fmt::format(".{}.meshhood-{}-{}.tmp", target.filename().string(), ::getpid(), serial++);
+  constexpr std::size_t kMost = 200;
+  return fmt::format(".{}.meshhood-{}-{}.tmp", target.filename().string().substr(0, kMost), ::getpid(), serial++);
 }
 
 bool write_all(int file, std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t count = ::write(file, bytes.data(), bytes.size());
-    if (count < 0 && errno != EINTR) return false;
-    if (count > 0) bytes.remove_prefix(static_cast<std::size_t>(count));
+    const ssize_t count = uninterrupted([&] { return ::write(file, bytes.data(), bytes.size()); });
+    if (count < 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(count));
   }
   return true;
 }
@@ -56,14 +59,15 @@ FileWriter::FileWriter(const std::filesystem::path& path) : target_(resolved(pat
 }
 
 void FileWriter::open_in_place() {
-  file_ = Descriptor(::open(target_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
+  file_ = Descriptor(uninterrupted([&] { return ::open(target_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY); }));
   if (!file_.is_open()) fail("open");
 }
 
 void FileWriter::open_beside() {
   for (;;) {
     const auto name = target_.parent_path() / temporary_name(target_);
-    const int file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
+    constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
+    const int file = uninterrupted([&] { return ::open(name.c_str(), kFlags, kNewFileMode); });
     if (file >= 0) {
       file_ = Descriptor(file);
       temporary_ = name;
@@ -74,7 +78,8 @@ void FileWriter::open_beside() {
 }
 
 FileWriter::~FileWriter() {
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (temporary_.empty()) return;
+  static_cast<void>(uninterrupted([this] { return ::unlink(temporary_.c_str()); }));
 }
 
 void FileWriter::write(std::string_view bytes) {
@@ -90,7 +95,8 @@ void FileWriter::flush() {
 
 void FileWriter::seek(std::uint64_t position) {
   flush();
-  if (::lseek(file_.number(), static_cast<off_t>(position), SEEK_SET) < 0) fail("move within");
+  const auto offset = static_cast<off_t>(position);
+  if (uninterrupted([&] { return ::lseek(file_.number(), offset, SEEK_SET); }) < 0) fail("move within");
   flushed_ = position;
 }
 
@@ -100,26 +106,41 @@ void FileWriter::commit() {
     if (!file_.close()) fail("close");
     return;
   }
-  keep_mode();
-  if (::fsync(file_.number()) != 0) fail("write");
+  keep_owner_and_mode();
+  const Descriptor directory = open_directory();
+  if (uninterrupted([this] { return ::fsync(file_.number()); }) != 0) fail("sync");
   if (!file_.close()) fail("close");
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("rename");
+  if (uninterrupted([this] { return ::rename(temporary_.c_str(), target_.c_str()); }) != 0) fail("rename");
   temporary_.clear();
-  sync_directory();
+  sync(directory);
 }
 
-// A file that is replaced keeps its permissions.
-void FileWriter::keep_mode() const {
-  struct stat status = {};
-  if (::stat(target_.c_str(), &status) != 0) return;
-  if (::fchmod(file_.number(), status.st_mode & 07777U) != 0) fail("set the mode of");
+// A file that is replaced keeps its permissions, and its owner where we may give files away.
+void FileWriter::keep_owner_and_mode() const {
+  struct stat old = {};
+  if (uninterrupted([&] { return ::stat(target_.c_str(), &old); }) != 0) {
+    if (errno == ENOENT) return;
+    fail("look at");
+  }
+  // Owner first, for a change of owner may take permissions away.
+  const int given = uninterrupted([&] { return ::fchown(file_.number(), old.st_uid, old.st_gid); });
+  if (given != 0 && errno != EPERM && errno != EINVAL) fail("set its owner");
+  if (uninterrupted([&] { return ::fchmod(file_.number(), old.st_mode & 07777U); }) != 0) fail("set its mode");
 }
 
-// The file is in place; where a directory cannot be synced, all that is lost is the promise for a power failure.
-void FileWriter::sync_directory() const {
+// Opened before the rename, so that an error finds the old file in place. None where we may write to it but not read
+// it: all that is lost is the promise for a loss of power.
+Descriptor FileWriter::open_directory() const {
   const auto directory = target_.has_parent_path() ? target_.parent_path() : std::filesystem::path(".");
-  const Descriptor opened(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (opened.is_open()) ::fsync(opened.number());
+  const int file = uninterrupted([&] { return ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
+  if (file < 0 && errno != EACCES) fail("open its folder");
+  return Descriptor(file);
+}
+
+// Not every file system has a notion of it.
+void FileWriter::sync(const Descriptor& directory) const {
+  if (!directory.is_open() || uninterrupted([&] { return ::fsync(directory.number()); }) == 0) return;
+  if (errno != EINVAL && errno != ENOTSUP) fail("sync its folder (the new file is in place)");
 }
 
 void FileWriter::fail(std::string_view action) const {

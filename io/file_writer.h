@@ -10,10 +10,13 @@
 
 namespace meshhood::io {
 
-/// Writes a file that appears whole or not at all: under another name beside the target, which takes its place on
-/// `commit`. A target that is no ordinary file (a pipe, a device) is written to directly.
+/// Writes a file that appears whole or not at all: under another name beside the target, `.NAME.meshhood-PID-N.tmp`,
+/// which takes its place on `commit`. Where the process is killed, that one stays behind. A target that is no ordinary
+/// file (a pipe, a device) is written to directly.
 ///
-/// All errors are Error{IoFailure} and name the path and the reason; the target is then as it was.
+/// All errors are Error{IoFailure} and name the path and the reason; the target is then as it was. One error comes too
+/// late for that, and says so: where the folder cannot be synced, the new file is in place, but might not outlive a
+/// loss of power.
 class FileWriter {
  public:
   explicit FileWriter(const std::filesystem::path& path);
@@ -38,8 +41,9 @@ class FileWriter {
   void open_in_place();
   void open_beside();
   void flush();
-  void keep_mode() const;
-  void sync_directory() const;
+  void keep_owner_and_mode() const;
+  [[nodiscard]] Descriptor open_directory() const;
+  void sync(const Descriptor& directory) const;
   [[noreturn]] void fail(std::string_view action) const;
 
   std::filesystem::path target_;

@@ -22,3 +22,20 @@ target_link_libraries(io_limits_test PRIVATE
   meshhood_narrow fmt::fmt FastFloat::fast_float GTest::gmock GTest::gtest_main)
 meshhood_own_target(io_limits_test)
 gtest_discover_tests(io_limits_test TEST_PREFIX io_limits. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+
+# Saves that fail, are killed, or meet a full disk: everything that writes a file is put through all of it.
+pkg_check_modules(MINIZIP REQUIRED IMPORTED_TARGET minizip)
+add_library(meshhood_save_trial STATIC
+  support/save_trial.cpp support/savers.cpp support/small_disk.cpp
+  ${PROJECT_SOURCE_DIR}/cli/npz_writer.cpp ${PROJECT_SOURCE_DIR}/cli/zip_writer.cpp)
+target_include_directories(meshhood_save_trial PUBLIC ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR})
+target_link_libraries(meshhood_save_trial PUBLIC
+  meshhood::io meshhood_shapes fmt::fmt PkgConfig::MINIZIP GTest::gtest)
+meshhood_own_target(meshhood_save_trial)
+foreach(stem calls full kill)
+  meshhood_test(io_save_${stem} meshhood_save_trial)
+endforeach()
+target_sources(io_save_calls_test PRIVATE support/system_calls.cpp)
+foreach(call open write lseek stat fchown fchmod fsync close rename unlink)
+  target_link_options(io_save_calls_test PRIVATE LINKER:--wrap=${call})
+endforeach()

@@ -14,6 +14,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "support/hostile.h"
 #include "support/scratch.h"
@@ -177,6 +178,24 @@ TEST_F(WritePly, ReplacesWhatTheNameStandsForAndKeepsItsMode) {
   ASSERT_EQ(::stat(file.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777U, 0640U);
   EXPECT_EQ(files_in(scratch.path()), 2U);
+}
+
+TEST_F(WritePly, KeepsTheOwnerWhereItMayGiveFilesAway) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root may";
+  constexpr uid_t kSomebody = 1234;
+  ASSERT_EQ(scratch.write("out.ply", "old"), file);
+  ASSERT_EQ(::chown(file.c_str(), kSomebody, kSomebody), 0);
+  io::write_ply(file, triangle);
+  struct stat status = {};
+  ASSERT_EQ(::stat(file.c_str(), &status), 0);
+  EXPECT_EQ(status.st_uid, kSomebody);
+  EXPECT_EQ(status.st_gid, kSomebody);
+}
+
+TEST_F(WritePly, NamesMayBeAsLongAsTheFileSystemTakes) {
+  const auto longest = scratch.path() / std::string(255, 'x');
+  io::write_ply(longest, triangle);
+  EXPECT_EQ(face_count(io::read_mesh(longest)), 1U);
 }
 
 TEST_F(WritePly, SharedMeshesReadBackTheSame) {

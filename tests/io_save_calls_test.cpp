@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// Every call of the operating system that a save makes fails, is cut short, or is the last: row F10 of the catalogue.
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <iterator>
+#include <system_error>
+
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "meshhood/error.h"
+
+#include "support/save_trial.h"
+#include "support/system_calls.h"
+
+namespace meshhood::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr std::array<Version, 2> kBefore = {Version::Old, Version::None};
+
+std::ptrdiff_t open_files() { return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {}); }
+
+class SaveCalls : public SaveTrial {
+ protected:
+  /// The calls of a save of the new version that goes well.
+  std::vector<Call> calls_of_a_save(Version before) {
+    restore(before);
+    const SystemCalls calls;
+    save(Version::New);
+    return calls.made();
+  }
+
+  /// Saves the new version with a fault; what the error says, or nothing.
+  std::string save_with(const Fault& fault) {
+    const SystemCalls calls(fault);
+    std::string message;
+    try {
+      save(Version::New);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::IoFailure);
+      message = error.what();
+    }
+    EXPECT_GT(calls.made().size(), fault.at) << "the call was never made";
+    return message;
+  }
+
+  void expect_all_well(const std::string& message) const {
+    EXPECT_EQ(message, "");
+    EXPECT_EQ(held(), Version::New);
+    EXPECT_EQ(remove_leftovers(), 0U);
+  }
+
+  void expect_refused(const std::string& message, int error, Version still_there) const {
+    EXPECT_THAT(message, AllOf(HasSubstr(file.string()), HasSubstr(std::generic_category().message(error))));
+    EXPECT_EQ(held(), still_there);
+  }
+};
+
+std::size_t rename_in(const std::vector<Call>& calls) {
+  return static_cast<std::size_t>(std::find(calls.begin(), calls.end(), Call::Rename) - calls.begin());
+}
+
+/// Tells which call a message is about.
+std::string label(const std::vector<Call>& calls, std::size_t at, Version before) {
+  return std::string(name_of(calls[at])) + ", call " + std::to_string(at) +
+         (before == Version::None ? ", no file before" : "");
+}
+
+// So that none escapes the trials below.
+TEST_P(SaveCalls, AreAllSeen) {
+  const auto calls = calls_of_a_save(Version::Old);
+  EXPECT_EQ(calls.front(), Call::Open);
+  EXPECT_GE(std::count(calls.begin(), calls.end(), Call::Write), 2);
+  EXPECT_THAT(std::vector<Call>(calls.end() - 9, calls.end()),
+              ElementsAre(Call::Look, Call::ChangeOwner, Call::ChangeMode, Call::Open, Call::Sync, Call::Close,
+                          Call::Rename, Call::Sync, Call::Close));
+}
+
+TEST_P(SaveCalls, EachFailureIsAnErrorAndLeavesTheOldFile) {
+  std::size_t failures = 0;
+  for (const Version before : kBefore) {
+    const auto calls = calls_of_a_save(before);
+    const auto files = open_files();
+    for (std::size_t at = 0; at < calls.size(); ++at) {
+      for (const int error : {EIO, ENOSPC, EDQUOT}) {
+        SCOPED_TRACE(label(calls, at, before));
+        restore(before);
+        const std::string message = save_with({Mishap::Error, at, error});
+        if (at <= rename_in(calls)) {
+          expect_refused(message, error, before);
+        } else if (calls[at] == Call::Sync) {
+          expect_refused(message, error, Version::New);
+          EXPECT_THAT(message, HasSubstr("the new file is in place"));
+        } else {
+          expect_all_well(message);  // only the folder was closed
+        }
+        EXPECT_EQ(remove_leftovers(), 0U);
+        EXPECT_EQ(open_files(), files);
+        ++failures;
+      }
+    }
+  }
+  std::printf("%zu failed calls\n", failures);
+}
+
+TEST_P(SaveCalls, WhereEvenRemovingFailsTheFirstErrorIsTold) {
+  const auto calls = calls_of_a_save(Version::Old);
+  for (std::size_t at = 1; at <= rename_in(calls); ++at) {
+    SCOPED_TRACE(label(calls, at, Version::Old));
+    restore(Version::Old);
+    expect_refused(save_with({.mishap = Mishap::Error, .at = at, .error = ENOSPC, .stuck = true}), ENOSPC,
+                   Version::Old);
+    EXPECT_EQ(remove_leftovers(), 1U);
+  }
+}
+
+TEST_P(SaveCalls, SignalsAndShortWritesAreNoErrors) {
+  std::size_t times = 0;
+  for (const Version before : kBefore) {
+    const auto calls = calls_of_a_save(before);
+    for (std::size_t at = 0; at < calls.size(); ++at) {
+      for (const Mishap mishap : {Mishap::Error, Mishap::Short}) {
+        SCOPED_TRACE(label(calls, at, before));
+        restore(before);
+        expect_all_well(save_with({mishap, at, EINTR}));
+        ++times;
+      }
+    }
+  }
+  std::printf("%zu calls cut short\n", times);
+}
+
+// A folder that may be written to but not read, a file of somebody else, a file system without a notion of it.
+TEST_P(SaveCalls, WhatCannotBeHadIsDoneWithout) {
+  const auto calls = calls_of_a_save(Version::Old);
+  const std::size_t rename = rename_in(calls);
+  for (const Fault& fault : {Fault{Mishap::Error, rename - 5, EPERM}, Fault{Mishap::Error, rename - 5, EINVAL},
+                             Fault{Mishap::Error, rename - 3, EACCES}, Fault{Mishap::Error, rename + 1, EINVAL}}) {
+    SCOPED_TRACE(label(calls, fault.at, Version::Old));
+    restore(Version::Old);
+    expect_all_well(save_with(fault));
+  }
+}
+
+TEST_P(SaveCalls, EachMayBeTheLast) {
+  std::size_t kills = 0;
+  for (const Version before : kBefore) {
+    const auto calls = calls_of_a_save(before);
+    for (std::size_t at = 0; at < calls.size(); ++at) {
+      for (const Mishap mishap : {Mishap::Kill, Mishap::KillWithin}) {
+        SCOPED_TRACE(label(calls, at, before));
+        restore(before);
+        const pid_t child = ::fork();
+        if (child == 0) {
+          static_cast<void>(save_with({mishap, at, 0}));
+          ::_exit(0);
+        }
+        int status = 0;
+        ASSERT_EQ(::waitpid(child, &status, 0), child);
+        ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) << status;
+        EXPECT_EQ(held(), at <= rename_in(calls) ? before : Version::New);
+        EXPECT_EQ(remove_leftovers(), 0 < at && at <= rename_in(calls) ? 1U : 0U);
+        ++kills;
+      }
+    }
+  }
+  std::printf("killed at %zu calls\n", kills);
+}
+
+// What is no ordinary file is written to directly.
+TEST_P(SaveCalls, ADeviceFailsByName) {
+  file = "/dev/null";
+  std::vector<Call> calls;
+  {
+    const SystemCalls watched;
+    save(Version::New);
+    calls = watched.made();
+  }
+  ASSERT_EQ(std::count(calls.begin(), calls.end(), Call::Rename), 0);
+  for (std::size_t at = 0; at < calls.size(); ++at) {
+    SCOPED_TRACE(label(calls, at, Version::None));
+    EXPECT_THAT(save_with({Mishap::Error, at, EIO}), HasSubstr("/dev/null: cannot "));
+    EXPECT_EQ(save_with({Mishap::Error, at, EINTR}), "");
+    EXPECT_EQ(save_with({Mishap::Short, at, 0}), "");
+  }
+}
+
+MESHHOOD_TRY_ALL_SAVERS(SaveCalls);
+
+}  // namespace
+}  // namespace meshhood::test

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "support/system_calls.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdarg>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace meshhood::test {
+namespace {
+
+SystemCalls* active = nullptr;
+
+Mishap next(Call call) { return active == nullptr ? Mishap::None : active->next(call); }
+
+int fail() {
+  errno = active->error();
+  return -1;
+}
+
+/// `real()`, unless it is to fail.
+template <class F>
+auto call_or_fail(Call call, F&& real) -> decltype(real()) {
+  return next(call) == Mishap::Error ? fail() : real();
+}
+
+}  // namespace
+
+std::string_view name_of(Call call) {
+  constexpr std::array<std::string_view, kCalls> kNames = {"open",   "write", "lseek", "stat",   "fchown",
+                                                           "fchmod", "fsync", "close", "rename", "unlink"};
+  return kNames[static_cast<std::size_t>(call)];
+}
+
+SystemCalls::SystemCalls(const Fault& fault) : fault_(fault) { active = this; }
+
+SystemCalls::~SystemCalls() { active = nullptr; }
+
+Mishap SystemCalls::next(Call call) {
+  made_.push_back(call);
+  if (call == Call::Unlink && fault_.stuck) return Mishap::Error;
+  if (made_.size() != fault_.at + 1) return Mishap::None;
+  if (fault_.mishap == Mishap::Kill || (fault_.mishap == Mishap::KillWithin && call != Call::Write)) {
+    static_cast<void>(std::raise(SIGKILL));
+  }
+  return fault_.mishap;
+}
+
+}  // namespace meshhood::test
+
+// The linker's names: calls of `f` become calls of `__wrap_f`, and `__real_f` is what `f` was.
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
+extern "C" {
+
+int __real_open(const char* path, int flags, ...);
+ssize_t __real_write(int file, const void* bytes, size_t size);
+off_t __real_lseek(int file, off_t offset, int origin);
+int __real_stat(const char* path, struct stat* status);
+int __real_fchown(int file, uid_t owner, gid_t group);
+int __real_fchmod(int file, mode_t mode);
+int __real_fsync(int file);
+int __real_close(int file);
+int __real_rename(const char* from, const char* to);
+int __real_unlink(const char* path);
+
+using meshhood::test::Call;
+using meshhood::test::call_or_fail;
+using meshhood::test::Mishap;
+
+int __wrap_open(const char* path, int flags, ...) {
+  va_list arguments;
+  va_start(arguments, flags);
+  const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(arguments, mode_t) : 0;
+  va_end(arguments);
+  return call_or_fail(Call::Open, [=] { return __real_open(path, flags, mode); });
+}
+
+ssize_t __wrap_write(int file, const void* bytes, size_t size) {
+  const Mishap mishap = meshhood::test::next(Call::Write);
+  if (mishap == Mishap::Error) return meshhood::test::fail();
+  const size_t taken = mishap == Mishap::None ? size : (size + 1) / 2;
+  const ssize_t written = __real_write(file, bytes, taken);
+  if (mishap == Mishap::KillWithin) static_cast<void>(std::raise(SIGKILL));
+  return written;
+}
+
+off_t __wrap_lseek(int file, off_t offset, int origin) {
+  return call_or_fail(Call::Seek, [=] { return __real_lseek(file, offset, origin); });
+}
+
+int __wrap_stat(const char* path, struct stat* status) {
+  return call_or_fail(Call::Look, [=] { return __real_stat(path, status); });
+}
+
+int __wrap_fchown(int file, uid_t owner, gid_t group) {
+  return call_or_fail(Call::ChangeOwner, [=] { return __real_fchown(file, owner, group); });
+}
+
+int __wrap_fchmod(int file, mode_t mode) {
+  return call_or_fail(Call::ChangeMode, [=] { return __real_fchmod(file, mode); });
+}
+
+int __wrap_fsync(int file) {
+  return call_or_fail(Call::Sync, [=] { return __real_fsync(file); });
+}
+
+int __wrap_close(int file) {
+  const Mishap mishap = meshhood::test::next(Call::Close);
+  const int closed = __real_close(file);
+  return mishap == Mishap::Error ? meshhood::test::fail() : closed;
+}
+
+int __wrap_rename(const char* from, const char* to) {
+  return call_or_fail(Call::Rename, [=] { return __real_rename(from, to); });
+}
+
+int __wrap_unlink(const char* path) {
+  return call_or_fail(Call::Unlink, [=] { return __real_unlink(path); });
+}
+
+}  // extern "C"
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
