@@ -8,12 +8,10 @@
 #include "search/fetch.h"
 #include "search/local_minimum.h"
 #include "search/output.h"
+#include "search/small_ball.h"
 
 namespace meshhood {
 namespace {
-
-// Below so many mean radii of a leaf, hardly a leaf lies inside and a flood looks at no more of them.
-constexpr double kSmallestBall = 1.8;
 
 // What may be spent, in leaves, before a flood of all the leaves in the ball is the shorter way.
 std::size_t most_doubtful(std::size_t leaves) { return std::min(leaves, 16 + leaves / 4); }
@@ -30,7 +28,7 @@ bool are_linked(const IndexStorage& index, LeafId a, LeafId b) {
 bool Cover::run(std::uint32_t place, const LeafBall& ball, const TreeBall& tree_ball, LeafWalk& walk, Answer& answer) {
   const auto radius = static_cast<double>(tree_ball.inner);
   const LeafId home = place / kLeafCapacity;
-  if (radius < kSmallestBall * index_->tree[0].mean_radius || !memory_.is_worth_trying(home, radius)) return false;
+  if (is_small(tree_ball, *index_) || !memory_.is_worth_trying(home, radius)) return false;
   const bool found = find(place, ball, tree_ball, walk, answer);
   memory_.tell(home, radius, found);
   if (!found) answer.clear();

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "search/small_ball.h"
+
 namespace meshhood {
 namespace {
 
@@ -18,9 +20,11 @@ void Flood::run(std::uint32_t place, const LeafBall& ball, const TreeBall& tree_
   const LeafId first = place / kLeafCapacity;
   walk.touch(first).pending = Lanes{1} << place % kLeafCapacity;
   queue_.push_back(first);
+  walk.fetch_crossings(first);
+  const std::size_t fetched_at_most = is_small(tree_ball, *index_) ? 1 : queue_.max_size();
   std::size_t fetched = 0;
   for (std::size_t head = 0; head < queue_.size(); ++head) {
-    const std::size_t soon = std::min(head + kAhead, queue_.size());
+    const std::size_t soon = std::min({head + kAhead, queue_.size(), fetched_at_most});
     for (; fetched < soon; ++fetched) walk.fetch_neighbors(queue_[fetched]);
     const LeafId leaf = queue_[head];
     const bool is_new = walk.find(leaf)->reached == 0;

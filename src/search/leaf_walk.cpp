@@ -37,7 +37,6 @@ LeafWalk::State& LeafWalk::touch(LeafId leaf) {
   return state;
 }
 
-/// What `reach` will look at, and then the output.
 void LeafWalk::fetch_leaf(const Leaf& leaf, bool straddling) const {
   fetch_lines(&index_->links[leaf.first_link], 2);
   if (!index_->permutation.empty()) fetch_lines(&index_->permutation[leaf.first], 2);
@@ -84,6 +83,11 @@ void LeafWalk::fetch_neighbors(LeafId leaf) const {
     prefetch(&states_[index_->links[i].leaf]);
     prefetch(&index_->leaves[index_->links[i].leaf]);
   }
+}
+
+void LeafWalk::fetch_crossings(LeafId leaf) const {
+  constexpr std::size_t kLines = 3;  // of 32 edges each
+  fetch_lines(&index_->crossings[index_->links[index_->leaves[leaf].first_link].first_crossing], kLines);
 }
 
 }  // namespace meshhood

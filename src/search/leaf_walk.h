@@ -38,8 +38,14 @@ class LeafWalk {
   /// in which nothing was pending before.
   void push_on(LeafId leaf, Lanes added, std::vector<LeafId>& waiting);
 
+  /// Fetches what `reach` will look at, where the leaf may straddle, and then the output.
+  void fetch_leaf(const Leaf& leaf, bool straddling = true) const;
+
   /// Fetches what `push_on` will look at.
   void fetch_neighbors(LeafId leaf) const;
+
+  /// The same of edges. Where the walk goes on for long, they come by themselves while others are waited for.
+  void fetch_crossings(LeafId leaf) const;
 
   /// The state of a leaf if the walk has met it.
   [[nodiscard]] const State* find(LeafId leaf) const {
@@ -51,8 +57,6 @@ class LeafWalk {
 
  private:
   static constexpr std::uint32_t kLastQuery = (1U << 31) - 1;
-
-  void fetch_leaf(const Leaf& leaf, bool straddling) const;
 
   const IndexStorage* index_;
   const Kernels* kernels_;

@@ -11,9 +11,12 @@ namespace meshhood {
 Point Searcher::State::search(VertexId v, double radius) {
   check_query(v, index->vertex_count(), radius);
   const std::uint32_t place = index->place[v];
+  // All that the leaf has, at once: it would come piece by piece, each where it is first looked at.
+  walk.fetch_leaf(index->leaves[place / kLeafCapacity]);
   const Point centre = index->position(place / kLeafCapacity, place % kLeafCapacity);
-  const LeafBall ball(centre, radius);
-  const TreeBall tree_ball(index->frame, centre, radius);
+  if (radius != bounds.radius) bounds = RadiusBounds(index->frame, radius);
+  const LeafBall ball(centre, bounds.leaf);
+  const TreeBall tree_ball(index->frame.round(centre), bounds.tree);
   answer.clear();
   covered = cover.run(place, ball, tree_ball, walk, answer);
   if (!covered) flood.run(place, ball, tree_ball, walk, answer);

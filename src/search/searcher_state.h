@@ -12,12 +12,22 @@
 
 namespace meshhood {
 
+/// What a radius is compared by. Kept from one query to the next, for most ask with the same.
+struct RadiusBounds {
+  double radius;
+  LeafBounds leaf;
+  TreeBounds tree;
+
+  RadiusBounds(const Frame& frame, double at) : radius(at), leaf(at), tree(frame, at) {}
+};
+
 struct Searcher::State {
   const IndexStorage* index;
   const Kernels* kernels;
   LeafWalk walk;
   Cover cover;
   Flood flood;
+  RadiusBounds bounds;
   Answer answer;
   bool covered = false;  // the last answer: by the cover, not by the flood
 
@@ -26,7 +36,8 @@ struct Searcher::State {
         kernels(&meshhood::kernels(isa)),
         walk(storage, *kernels),
         cover(storage, *kernels),
-        flood(storage) {}
+        flood(storage),
+        bounds(storage.frame, 0) {}
 
   /// Leaves the neighborhood in `answer` and returns where `v` is.
   Point search(VertexId v, double radius);

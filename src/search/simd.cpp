@@ -37,21 +37,23 @@ constexpr double kTiny = 0x1p-500;
 
 }  // namespace
 
-LeafBall::LeafBall(const Point& at, double radius)
-    : centre(at),
-      squared_radius(meshhood::squared_radius(radius)),
-      x(static_cast<float>(at.x)),
-      y(static_cast<float>(at.y)),
-      z(static_cast<float>(at.z)),
+LeafBounds::LeafBounds(double radius)
+    : squared_radius(meshhood::squared_radius(radius)),
       surely_inside(round_down(squared_radius * (1 - kFloatError) - kFloatUnderflow)),
       surely_outside(round_up(squared_radius * (1 + kFloatError) + kFloatUnderflow)) {}
 
-TreeBall::TreeBall(const Frame& frame, const Point& centre, double radius)
-    : x(frame.round(centre).x),
-      y(frame.round(centre).y),
-      z(frame.round(centre).z),
-      outer(round_up((radius * (1 + kTreeError) + kTiny) * frame.scale)),
+LeafBall::LeafBall(const Point& at, const LeafBounds& bounds)
+    : LeafBounds(bounds),
+      centre(at),
+      x(static_cast<float>(at.x)),
+      y(static_cast<float>(at.y)),
+      z(static_cast<float>(at.z)) {}
+
+TreeBounds::TreeBounds(const Frame& frame, double radius)
+    : outer(round_up((radius * (1 + kTreeError) + kTiny) * frame.scale)),
       inner(round_down((radius * (1 - kTreeError) - kTiny) * frame.scale)) {}
+
+TreeBall::TreeBall(const FramePoint& at, const TreeBounds& bounds) : TreeBounds(bounds), x(at.x), y(at.y), z(at.z) {}
 
 Placement place(const FrameSphere& sphere, const TreeBall& ball) {
   const float x = ball.x - sphere.x;

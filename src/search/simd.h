@@ -21,29 +21,44 @@ enum class Isa : std::uint8_t { Portable, Avx2, Avx512 };
 /// The best that this processor has.
 [[nodiscard]] Isa best_isa();
 
-/// A search ball, prepared for comparing whole leaves.
-struct LeafBall {
-  Point centre;
+/// What the squared distance of a vertex is compared with, by the radius alone.
+struct LeafBounds {
   double squared_radius;  // of the predicate
   // For float positions: a squared distance computed in float is decided by these, or by the predicate in between.
-  float x;
-  float y;
-  float z;
   float surely_inside;   // <=
   float surely_outside;  // >
 
-  LeafBall(const Point& centre, double radius);
+  LeafBounds(double radius);
 };
 
-/// A search ball in the frame, prepared for comparing bounding spheres and columns.
-struct TreeBall {
+/// A search ball, prepared for comparing whole leaves.
+struct LeafBall : LeafBounds {
+  Point centre;
+  // The same in float.
   float x;
   float y;
   float z;
+
+  LeafBall(const Point& centre, const LeafBounds& bounds);
+};
+
+/// What the distance of a bounding sphere is compared with, in the frame.
+struct TreeBounds {
   float outer;  // no vertex farther than this is in the ball
   float inner;  // every vertex not farther is
 
-  TreeBall(const Frame& frame, const Point& centre, double radius);
+  TreeBounds(const Frame& frame, double radius);
+};
+
+/// A search ball in the frame, prepared for comparing bounding spheres and columns.
+struct TreeBall : TreeBounds {
+  float x;
+  float y;
+  float z;
+
+  TreeBall(const FramePoint& centre, const TreeBounds& bounds);
+  TreeBall(const Frame& frame, const Point& centre, double radius)
+      : TreeBall(frame.round(centre), TreeBounds(frame, radius)) {}
 };
 
 /// How the nodes of a group lie to a ball, a bit a node. A node may be neither inside nor straddling: then it is
