@@ -19,6 +19,7 @@ ExitCode exit_code(ErrorCode code) {
     case ErrorCode::InvalidMesh:
     case ErrorCode::MalformedFile:
     case ErrorCode::UnsupportedFormat: return ExitCode::MeshRefused;
+    case ErrorCode::MalformedIndex: return ExitCode::IndexRefused;
     case ErrorCode::IoFailure: return ExitCode::InputOutput;
     case ErrorCode::TooLarge: return ExitCode::Limit;
     case ErrorCode::Cancelled: return ExitCode::Interrupted;

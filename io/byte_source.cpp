@@ -36,7 +36,7 @@ FileSource::FileSource(const std::filesystem::path& path)
       file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
   struct stat status = {};
   if (!file_.is_open() || ::fstat(file_.number(), &status) != 0) fail(std::generic_category().message(errno));
-  if (S_ISDIR(status.st_mode)) fail("is a directory, expected a mesh file");
+  if (S_ISDIR(status.st_mode)) fail("is a directory, expected a file");
   // A file of length 0 may still have content: /proc is full of them.
   if (S_ISREG(status.st_mode) && status.st_size > 0) size_ = static_cast<std::uint64_t>(status.st_size);
   may_lack_a_writer_ = S_ISFIFO(status.st_mode);

@@ -12,7 +12,7 @@
 
 namespace meshhood::io {
 
-/// Where the bytes of a mesh come from.
+/// Where the bytes of a mesh or an index come from.
 class ByteSource {
  public:
   ByteSource() = default;

@@ -83,13 +83,23 @@ FileWriter::~FileWriter() {
 }
 
 void FileWriter::write(std::string_view bytes) {
+  if (bytes.size() >= kBufferBytes) {
+    // Gains nothing from being copied.
+    flush();
+    write_through(bytes);
+    return;
+  }
   buffer_ += bytes;
   if (buffer_.size() >= kBufferBytes) flush();
 }
 
+void FileWriter::write_through(std::string_view bytes) {
+  if (!write_all(file_.number(), bytes)) fail("write");
+  flushed_ += bytes.size();
+}
+
 void FileWriter::flush() {
-  if (!write_all(file_.number(), buffer_)) fail("write");
-  flushed_ += buffer_.size();
+  write_through(buffer_);
   buffer_.clear();
 }
 

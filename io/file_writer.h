@@ -40,6 +40,7 @@ class FileWriter {
  private:
   void open_in_place();
   void open_beside();
+  void write_through(std::string_view bytes);
   void flush();
   void keep_owner_and_mode() const;
   [[nodiscard]] Descriptor open_directory() const;

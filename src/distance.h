@@ -14,6 +14,9 @@
 
 namespace meshhood {
 
+/// Beyond this the square of a distance overflows.
+inline constexpr double kLargestCoordinate = 0x1p500;
+
 struct Point {
   double x;
   double y;

@@ -14,6 +14,7 @@ std::string_view describe(ErrorCode code) noexcept {
     case ErrorCode::InvalidMesh: return "the arrays do not describe a mesh";
     case ErrorCode::MalformedFile: return "the file contradicts its format or itself";
     case ErrorCode::UnsupportedFormat: return "the format, or this variant of it, is not read";
+    case ErrorCode::MalformedIndex: return "the saved index was changed, is of another version or of another mesh";
     case ErrorCode::IoFailure: return "the operating system could not open, read, write or close";
     case ErrorCode::TooLarge: return "larger than the documented limits";
     case ErrorCode::Cancelled: return "stopped as the caller asked";

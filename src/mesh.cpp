@@ -6,13 +6,11 @@
 
 #include "meshhood/error.h"
 
+#include "distance.h"
 #include "text.h"
 
 namespace meshhood {
 namespace {
-
-// Beyond this the square of a distance overflows a double.
-constexpr double kLargestCoordinate = 0x1p500;
 
 template <class Real>
 void validate_coordinates(std::span<const Real> xyz) {

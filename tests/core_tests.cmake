@@ -13,7 +13,7 @@ foreach(stem adjacency mesh distance sphere reference error arguments robustness
   meshhood_test(${stem} meshhood_families)
 endforeach()
 add_subdirectory(paper)
-foreach(stem index_structure search_families search_differential search_rare search_simd threads)
+foreach(stem index_structure serialize search_families search_differential search_rare search_simd threads)
   meshhood_test(${stem} meshhood_families)
 endforeach()
 meshhood_test(index_threads meshhood_families meshhood_test_support)

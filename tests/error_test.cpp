@@ -20,7 +20,8 @@ namespace {
 
 constexpr std::array kCodes{ErrorCode::VertexOutOfRange, ErrorCode::InvalidRadius, ErrorCode::InvalidOption,
                             ErrorCode::InvalidMesh,      ErrorCode::MalformedFile, ErrorCode::UnsupportedFormat,
-                            ErrorCode::IoFailure,        ErrorCode::TooLarge,      ErrorCode::Cancelled};
+                            ErrorCode::MalformedIndex,   ErrorCode::IoFailure,     ErrorCode::TooLarge,
+                            ErrorCode::Cancelled};
 
 TEST(Error, DescribesEveryCodeInItsOwnWords) {
   std::set<std::string_view> words;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
-#include <memory>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,6 +12,7 @@
 #include "families.h"
 #include "index/index_access.h"
 #include "index/kd_order.h"
+#include "index_arrays.h"
 #include "same_storage.h"
 
 namespace meshhood::test {
@@ -39,59 +39,66 @@ TestMesh two_bumpy_grids(std::size_t side) {
 }
 
 /// What `check` has to say of an index after `damage`.
-std::vector<std::string> faults_after(const std::function<void(IndexStorage&)>& damage) {
+std::vector<std::string> faults_after(const std::function<void(IndexArrays&)>& damage) {
   const TestMesh mesh = two_bumpy_grids(50);
   const Index index = build(mesh.view());
-  auto storage = std::make_unique<IndexStorage>(IndexAccess::storage(index));
-  damage(*storage);
-  return IndexAccess::make(std::move(storage)).check(mesh.view());
+  IndexArrays arrays = arrays_of(index);
+  damage(arrays);
+  return IndexAccess::make(std::move(arrays)).check(mesh.view());
 }
 
-void expect_found(const char* fault, const std::function<void(IndexStorage&)>& damage) {
+void expect_found(const char* fault, const std::function<void(IndexArrays&)>& damage) {
   const auto faults = faults_after(damage);
   ASSERT_THAT(faults, Not(IsEmpty())) << "not noticed: " << fault;
   EXPECT_THAT(faults.front(), HasSubstr(fault));
   EXPECT_LE(faults.size(), 16U);
 }
 
+/// Where the groups of a level begin.
+std::size_t first_group(const IndexArrays& index, std::size_t level) {
+  const std::vector<std::size_t> nodes = tree_nodes(index.leaf_begin.size() - 1);
+  std::size_t group = 0;
+  for (std::size_t below = 0; below < level; ++below) group += (nodes[below] + kFanOut - 1) / kFanOut;
+  return group;
+}
+
 TEST(IndexCheck, FindsNothingWhereNothingIsWrong) {
-  EXPECT_THAT(faults_after([](IndexStorage&) {}), IsEmpty());
+  EXPECT_THAT(faults_after([](IndexArrays&) {}), IsEmpty());
 }
 
 TEST(IndexCheck, FindsAWrongNumbering) {
-  expect_found("is not where its place says", [](IndexStorage& i) { std::swap(i.permutation[3], i.permutation[40]); });
-  expect_found("is not where its place says", [](IndexStorage& i) { i.place[100] ^= 1; });
-  expect_found("not 1 to 32 vertices", [](IndexStorage& i) { --i.leaves[2].size; });
+  expect_found("is not where its place says", [](IndexArrays& i) { std::swap(i.permutation[3], i.permutation[40]); });
+  expect_found("is not where its place says", [](IndexArrays& i) { i.place[100] ^= 1; });
+  expect_found("not 1 to 32 vertices", [](IndexArrays& i) { --i.leaves[2].size; });
 }
 
 TEST(IndexCheck, FindsAWrongPosition) {
-  expect_found("not the position", [](IndexStorage& i) { std::get<std::vector<float>>(i.positions)[200] += 1; });
+  expect_found("not the position", [](IndexArrays& i) { std::get<std::vector<float>>(i.positions)[200] += 1; });
 }
 
 TEST(IndexCheck, FindsAWrongEdge) {
-  expect_found("not the neighbours", [](IndexStorage& i) { i.adjacency[5] = 0; });
-  expect_found("not the neighbours", [](IndexStorage& i) { i.crossings[9].other ^= 1; });
-  expect_found("its border", [](IndexStorage& i) { i.links[7].border = 0; });
+  expect_found("not the neighbours", [](IndexArrays& i) { i.adjacency[5] = 0; });
+  expect_found("not the neighbours", [](IndexArrays& i) { i.crossings[9].other ^= 1; });
+  expect_found("its border", [](IndexArrays& i) { i.links[7].border = 0; });
 }
 
 TEST(IndexCheck, FindsAWrongConnection) {
-  expect_found("as connected", [](IndexStorage& i) { i.leaves[4].connected = !i.leaves[4].connected; });
+  expect_found("as connected", [](IndexArrays& i) { i.leaves[4].connected = !i.leaves[4].connected; });
 }
 
 TEST(IndexCheck, FindsASphereTooSmall) {
-  expect_found("outside of its sphere", [](IndexStorage& i) { i.leaves[3].bounds.radius *= 0.9F; });
+  expect_found("outside of its sphere", [](IndexArrays& i) { i.leaves[3].bounds.radius *= 0.9F; });
   for (std::size_t level = 0; level < 3; ++level) {
-    expect_found("outside of its sphere", [&](IndexStorage& i) { i.tree.at(level).groups[0].radius[1] *= 0.9F; });
+    expect_found("outside of its sphere",
+                 [&](IndexArrays& i) { i.groups.at(first_group(i, level)).radius[1] *= 0.9F; });
   }
 }
 
 TEST(IndexCheck, FindsAColumnTooNarrow) {
-  expect_found("outside of its column", [](IndexStorage& i) {
-    for (TreeLevel& level : i.tree) {
-      for (Group& group : level.groups) {
-        group.reach.fill(0);
-        for (Group::Row* row : {&group.axis_x, &group.axis_y, &group.axis_z}) row->fill(0);
-      }
+  expect_found("outside of its column", [](IndexArrays& i) {
+    for (Group& group : i.groups) {
+      group.reach.fill(0);
+      for (Group::Row* row : {&group.axis_x, &group.axis_y, &group.axis_z}) row->fill(0);
     }
   });
 }

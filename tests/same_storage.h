@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstring>
+#include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "meshhood/index.h"
@@ -16,8 +17,8 @@
 namespace meshhood::test {
 
 template <class T>
-[[nodiscard]] bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+[[nodiscard]] bool same_bytes(std::span<const T> a, std::span<const T> b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
 }
 
 /// Bit for bit, so that 0 differs from -0; for types without bytes between their fields.
@@ -25,16 +26,6 @@ template <class T>
 [[nodiscard]] bool same_bits(const T& a, const T& b) {
   using Bytes = std::array<std::byte, sizeof(T)>;
   return std::bit_cast<Bytes>(a) == std::bit_cast<Bytes>(b);
-}
-
-/// Field by field, for the bytes between them mean nothing.
-[[nodiscard]] inline bool same_leaf(const Leaf& a, const Leaf& b) {
-  return same_bits(a.bounds, b.bounds) && a.first == b.first && a.first_link == b.first_link && a.size == b.size &&
-         a.connected == b.connected;
-}
-
-[[nodiscard]] inline bool same_level(const TreeLevel& a, const TreeLevel& b) {
-  return same_bytes(a.groups, b.groups) && a.nodes == b.nodes && a.mean_radius == b.mean_radius;
 }
 
 /// The arrays in which two indexes differ.
@@ -46,15 +37,21 @@ template <class T>
     if (!same) result.emplace_back(name);
   };
   compare("frame", same_bits(a.frame, b.frame));
-  compare("positions", a.positions == b.positions);
-  compare("permutation", a.permutation == b.permutation);
-  compare("place", a.place == b.place);
-  compare("leaf_begin", a.leaf_begin == b.leaf_begin);
-  compare("leaves", std::equal(a.leaves.begin(), a.leaves.end(), b.leaves.begin(), b.leaves.end(), same_leaf));
+  compare("positions", std::visit(
+                           [&](auto xyz) {
+                             const auto* other = std::get_if<decltype(xyz)>(&b.positions);
+                             return other != nullptr && same_bytes(xyz, *other);
+                           },
+                           a.positions));
+  compare("permutation", same_bytes(a.permutation, b.permutation));
+  compare("place", same_bytes(a.place, b.place));
+  compare("leaf_begin", same_bytes(a.leaf_begin, b.leaf_begin));
+  compare("leaves", same_bytes(a.leaves, b.leaves));
   compare("links", same_bytes(a.links, b.links));
   compare("crossings", same_bytes(a.crossings, b.crossings));
-  compare("adjacency", a.adjacency == b.adjacency);
-  compare("tree", std::equal(a.tree.begin(), a.tree.end(), b.tree.begin(), b.tree.end(), same_level));
+  compare("adjacency", same_bytes(a.adjacency, b.adjacency));
+  compare("groups", same_bytes(a.groups, b.groups));
+  compare("mean_radii", same_bytes(a.mean_radii, b.mean_radii));
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "meshhood/mesh.h"
@@ -46,6 +47,20 @@ struct Adjacency {
 struct GraphView {
   PositionsView positions;
   AdjacencyView adjacency;
+};
+
+/// Positions of either precision, owned. #V by 3.
+using PositionsData = std::variant<std::vector<float>, std::vector<double>>;
+
+/// A `GraphView`, owned.
+struct GraphData {
+  PositionsData positions;
+  Adjacency adjacency;
+
+  /// Borrows from this graph.
+  [[nodiscard]] GraphView view() const {
+    return {std::visit([](const auto& xyz) { return PositionsView(xyz); }, positions), adjacency.view()};
+  }
 };
 
 /// The graph of a mesh (see `FacesView`). O(#V + #corners log(valence)); one thread.

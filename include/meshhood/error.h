@@ -15,6 +15,7 @@ enum class ErrorCode {
   InvalidMesh,    ///< arrays that do not describe a mesh: an index out of range, a coordinate that is not finite, ...
   MalformedFile,  ///< a file whose content contradicts its format or itself
   UnsupportedFormat,  ///< a file in a format, or a variant of one, that is not read
+  MalformedIndex,     ///< a saved index that has been changed, is of another version, or belongs to another mesh
   IoFailure,          ///< the operating system could not open, read, write or close
   TooLarge,           ///< more vertices, edges or bytes than the documented limits
   Cancelled,          ///< the caller's `Progress` said to stop

@@ -80,4 +80,9 @@ class Index {
 [[nodiscard]] Index build(const MeshView& mesh, const BuildOptions& options = {});
 [[nodiscard]] Index build(const GraphView& graph, const BuildOptions& options = {});
 
+/// The vertices and the graph of the mesh that `index` was built from, in the caller's order: what `ReferenceSearcher`,
+/// `paper::build`, `ball` and `mean_edge_length` want to know, for whoever has kept the index and not the mesh.
+/// O(#V + #E log(valence)).
+[[nodiscard]] GraphData graph(const Index& index);
+
 }  // namespace meshhood

@@ -18,13 +18,15 @@
 ///
 /// `meshhood::paper` has the same calls with the approximate answers of the paper.
 
-#include "meshhood/adjacency.h"  // IWYU pragma: export
-#include "meshhood/batch.h"      // IWYU pragma: export
-#include "meshhood/error.h"      // IWYU pragma: export
-#include "meshhood/index.h"      // IWYU pragma: export
-#include "meshhood/mesh.h"       // IWYU pragma: export
-#include "meshhood/paper.h"      // IWYU pragma: export
-#include "meshhood/progress.h"   // IWYU pragma: export
-#include "meshhood/reference.h"  // IWYU pragma: export
-#include "meshhood/reorder.h"    // IWYU pragma: export
-#include "meshhood/search.h"     // IWYU pragma: export
+#include "meshhood/adjacency.h"    // IWYU pragma: export
+#include "meshhood/batch.h"        // IWYU pragma: export
+#include "meshhood/error.h"        // IWYU pragma: export
+#include "meshhood/fingerprint.h"  // IWYU pragma: export
+#include "meshhood/index.h"        // IWYU pragma: export
+#include "meshhood/mesh.h"         // IWYU pragma: export
+#include "meshhood/paper.h"        // IWYU pragma: export
+#include "meshhood/progress.h"     // IWYU pragma: export
+#include "meshhood/reference.h"    // IWYU pragma: export
+#include "meshhood/reorder.h"      // IWYU pragma: export
+#include "meshhood/search.h"       // IWYU pragma: export
+#include "meshhood/serialize.h"    // IWYU pragma: export

@@ -111,14 +111,17 @@ std::vector<Leaf> make_leaf_records(const LeafPartition& partition, const Links&
   std::vector<Leaf> leaves(bounds.size() + 1);
   work.parallel_for(bounds.size(), kLeafGrain, [&](unsigned, std::size_t begin, std::size_t end) {
     for (std::size_t leaf = begin; leaf < end; ++leaf) {
-      const VertexId first = partition.leaf_begin[leaf];
+      const std::uint32_t first = partition.leaf_begin[leaf];
       const auto size = static_cast<std::uint8_t>(partition.leaf_begin[leaf + 1] - first);
       leaves[leaf] = {bounds[leaf], first, leaf == 0 ? 0 : links.link_end[leaf - 1], size,
                       is_connected(&links.adjacency[first], size)};
     }
   });
-  leaves.back() = {
-      {}, static_cast<VertexId>(partition.permutation.size()), bounds.empty() ? 0 : links.link_end.back(), 0, false};
+  leaves.back() = {{},
+                   static_cast<std::uint32_t>(partition.permutation.size()),
+                   bounds.empty() ? 0 : links.link_end.back(),
+                   0,
+                   false};
   return leaves;
 }
 
@@ -128,9 +131,9 @@ void pad(std::vector<T>& values) {
   values.shrink_to_fit();
 }
 
-Index finish(std::unique_ptr<IndexStorage> storage, Work& work) {
+Index finish(IndexArrays arrays, Work& work) {
   work.report();
-  return IndexAccess::make(std::move(storage));
+  return IndexAccess::make(std::move(arrays));
 }
 
 }  // namespace
@@ -147,36 +150,38 @@ Index build(const GraphView& graph, const BuildOptions& options) {
   return finish(IndexAccess::build_valid(graph, work), work);
 }
 
-std::unique_ptr<IndexStorage> IndexAccess::build_valid(const GraphView& graph, Work& work) {
+IndexArrays IndexAccess::build_valid(const GraphView& graph, Work& work) {
   work.advance(1);
-  auto storage = std::make_unique<IndexStorage>();
-  storage->frame = make_frame(graph.positions);
-  LeafPartition partition = make_leaves(graph, storage->frame, work);
+  IndexArrays arrays;
+  arrays.frame = make_frame(graph.positions);
+  LeafPartition partition = make_leaves(graph, arrays.frame, work);
   work.advance(1);
   Links links = make_links(graph.adjacency, partition, work);
   work.advance(1);
-  const std::vector<Point> points = place_points(graph.positions, storage->frame, partition.permutation, work);
+  const std::vector<Point> points = place_points(graph.positions, arrays.frame, partition.permutation, work);
   NodeList lowest =
-      measure_leaves(partition.leaf_begin, links, points, storage->frame.scale <= kLargestScaleWithColumns, work);
+      measure_leaves(partition.leaf_begin, links, points, arrays.frame.scale <= kLargestScaleWithColumns, work);
   work.advance(1);
-  storage->leaves = make_leaf_records(partition, links, lowest.bounds, work);
-  storage->tree = make_tree(std::move(lowest), partition.leaf_begin, points, work);
+  arrays.leaves = make_leaf_records(partition, links, lowest.bounds, work);
+  TreeArrays tree = make_tree(std::move(lowest), partition.leaf_begin, points, work);
+  arrays.groups = std::move(tree.groups);
+  arrays.mean_radii = std::move(tree.mean_radii);
   work.advance(1);
   graph.positions.visit([&](auto xyz) {
-    storage->positions = permute_positions(xyz, std::span<const VertexId>(partition.permutation), work);
+    arrays.positions = permute_positions(xyz, std::span<const VertexId>(partition.permutation), work);
   });
   pad(links.adjacency);
   pad(links.crossings);
   pad(partition.permutation);
   links.links.shrink_to_fit();
-  storage->permutation = std::move(partition.permutation);
-  storage->place = std::move(partition.place);
-  storage->leaf_begin = std::move(partition.leaf_begin);
-  storage->adjacency = std::move(links.adjacency);
-  storage->links = std::move(links.links);
-  storage->crossings = std::move(links.crossings);
+  arrays.permutation = std::move(partition.permutation);
+  arrays.place = std::move(partition.place);
+  arrays.leaf_begin = std::move(partition.leaf_begin);
+  arrays.adjacency = std::move(links.adjacency);
+  arrays.links = std::move(links.links);
+  arrays.crossings = std::move(links.crossings);
   work.advance(1);
-  return storage;
+  return arrays;
 }
 
 }  // namespace meshhood

@@ -208,7 +208,10 @@ Column leaf_column(std::span<const Point> points, std::size_t first, std::size_t
     const Bound bound = polygons[i].bound();
     const Point offset = own[i] - centre;
     const double height = std::abs(dot(offset, axes.normal));
-    const double distance = std::hypot(dot(offset, axes.first), dot(offset, axes.second));
+    const double u = dot(offset, axes.first);
+    const double v = dot(offset, axes.second);
+    // No std::hypot, which every C library rounds in its own way.
+    const double distance = std::sqrt(u * u + v * v);
     width = std::max(width, distance + bound.width + bound.slope * height);
     slope = std::max(slope, bound.slope);
   }

@@ -9,8 +9,8 @@ namespace meshhood {
 namespace {
 
 template <class T>
-std::size_t bytes_of(const std::vector<T>& values) {
-  return values.capacity() * sizeof(T);
+std::size_t bytes_of(std::span<const T> values) {
+  return values.size_bytes();
 }
 
 }  // namespace
@@ -23,8 +23,7 @@ Index::~Index() = default;
 std::size_t Index::vertex_count() const { return storage_->vertex_count(); }
 
 PositionsView Index::positions() const {
-  return std::visit([&](const auto& values) { return PositionsView(std::span(values).first(3 * vertex_count())); },
-                    storage_->positions);
+  return std::visit([&](auto xyz) { return PositionsView(xyz.first(3 * vertex_count())); }, storage_->positions);
 }
 
 std::span<const VertexId> Index::permutation() const {
@@ -34,11 +33,11 @@ std::span<const VertexId> Index::permutation() const {
 
 IndexBytes Index::bytes() const {
   IndexBytes result;
-  result.positions = std::visit([](const auto& values) { return bytes_of(values); }, storage_->positions);
+  result.positions = std::visit([](auto xyz) { return bytes_of(xyz); }, storage_->positions);
   result.permutation = bytes_of(storage_->permutation) + bytes_of(storage_->place);
   result.graph = bytes_of(storage_->adjacency) + bytes_of(storage_->links) + bytes_of(storage_->crossings);
-  result.tree = bytes_of(storage_->leaves) + bytes_of(storage_->leaf_begin);
-  for (const auto& level : storage_->tree) result.tree += bytes_of(level.groups);
+  result.tree = bytes_of(storage_->leaves) + bytes_of(storage_->leaf_begin) + bytes_of(storage_->groups) +
+                bytes_of(storage_->mean_radii);
   return result;
 }
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -26,10 +28,11 @@ inline constexpr unsigned kFanOut = 8;
 /// Up to 32 vertices that lie close together: a contiguous range in index order.
 struct Leaf {
   FrameSphere bounds;
-  VertexId first;            // in index order
+  std::uint32_t first;       // in index order
   std::uint32_t first_link;  // its links end where those of the next leaf begin
   std::uint8_t size;
-  bool connected;  // by edges between its own vertices
+  bool connected;            // by edges between its own vertices
+  std::uint16_t unused = 0;  // so that every byte of a leaf has a value
 };
 
 /// A leaf that is joined to this one by an edge of the mesh.
@@ -64,7 +67,7 @@ struct alignas(64) Group {
 /// The nodes of one level, by groups. Node `i` lies in group `i / 8`, and covers the nodes of group `i` one level
 /// lower.
 struct TreeLevel {
-  std::vector<Group> groups;
+  std::span<const Group> groups;
   std::size_t nodes = 0;
   double mean_radius = 0;  // of their bounding spheres
 };
@@ -73,23 +76,28 @@ struct TreeLevel {
 using Tree = std::vector<TreeLevel>;
 
 /// In index order, #V by 3; `kLeafCapacity` vertices more at the end, so that a whole leaf may be read anywhere.
-using PositionsInOrder = std::variant<std::vector<float>, std::vector<double>>;
+using PositionsInOrder = std::variant<std::span<const float>, std::span<const double>>;
 
+/// What an index is, as those see it who search it. The arrays lie wherever `owner` keeps them: in memory of our own
+/// (see arrays.h), or in the bytes of an index file.
 struct IndexStorage {
   Frame frame;
   PositionsInOrder positions;
-  std::vector<VertexId> permutation;  // in index order: the caller's vertex; padded; empty where they are the same
-  std::vector<std::uint32_t> place;   // by the caller's vertex: 32 times its leaf, plus its lane
-  std::vector<VertexId> leaf_begin;   // by leaf, and one more: its first vertex in index order
-  std::vector<Leaf> leaves;           // one more, for the end of the last links
-  std::vector<Link> links;            // one more, likewise
-  std::vector<Crossing> crossings;    // padded
-  std::vector<Lanes> adjacency;       // in index order: the neighbours within the leaf; padded
-  Tree tree;
+  std::span<const VertexId> permutation;  // in index order: the caller's vertex; padded; empty where they are the same
+  std::span<const std::uint32_t> place;   // by the caller's vertex: 32 times its leaf, plus its lane
+  std::span<const VertexId> leaf_begin;   // by leaf, and one more: its first vertex in index order
+  std::span<const Leaf> leaves;           // one more, for the end of the last links
+  std::span<const Link> links;            // one more, likewise
+  std::span<const Crossing> crossings;    // padded
+  std::span<const Lanes> adjacency;       // in index order: the neighbours within the leaf; padded
+  std::span<const Group> groups;          // of the levels of the tree, leaves first
+  std::span<const double> mean_radii;     // by level
+  Tree tree;                              // these groups and radii, by level
+  std::shared_ptr<const void> owner;
 
   [[nodiscard]] Point position(LeafId leaf, unsigned lane) const {
     const std::size_t vertex = std::size_t{leaf_begin[leaf]} + lane;
-    return std::visit([&](const auto& all) { return point(std::span(all), vertex); }, positions);
+    return std::visit([&](auto xyz) { return point(xyz, vertex); }, positions);
   }
 
   /// The caller's id of a vertex in index order.
@@ -100,5 +108,11 @@ struct IndexStorage {
   [[nodiscard]] std::size_t vertex_count() const { return place.size(); }
   [[nodiscard]] std::size_t leaf_count() const { return leaf_begin.size() - 1; }
 };
+
+/// The number of nodes on each level above so many leaves, the leaves included.
+[[nodiscard]] std::vector<std::size_t> tree_nodes(std::size_t leaves);
+
+/// The levels of the tree above so many leaves. `groups` and `mean_radii` are as many as it has.
+[[nodiscard]] Tree make_levels(std::size_t leaves, std::span<const Group> groups, std::span<const double> mean_radii);
 
 }  // namespace meshhood

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -18,11 +17,11 @@ namespace meshhood {
 namespace {
 
 /// Makes the index order that of the mesh, and returns the caller's vertices in it.
-std::vector<VertexId> adopt_order(IndexStorage& index) {
+std::vector<VertexId> adopt_order(IndexArrays& index) {
   std::vector<VertexId> permutation = std::exchange(index.permutation, {});
-  permutation.resize(index.vertex_count());
+  permutation.resize(index.place.size());
   permutation.shrink_to_fit();
-  for (std::size_t leaf = 0; leaf < index.leaf_count(); ++leaf) {
+  for (std::size_t leaf = 0; leaf + 1 < index.leaf_begin.size(); ++leaf) {
     const auto place = static_cast<std::uint32_t>(leaf * kLeafCapacity);
     std::iota(index.place.begin() + static_cast<std::ptrdiff_t>(index.leaf_begin[leaf]),
               index.place.begin() + static_cast<std::ptrdiff_t>(index.leaf_begin[leaf + 1]), place);
@@ -81,13 +80,13 @@ ReorderedMesh reorder(const MeshView& mesh, const BuildOptions& options) {
     raise(ErrorCode::TooLarge, std::to_string(mesh.faces.size()) + " faces, but the limit is " +
                                    std::to_string(std::numeric_limits<std::uint32_t>::max()));
   }
-  std::unique_ptr<IndexStorage> storage;
+  IndexArrays arrays;
   {
     const Adjacency graph = adjacency(mesh, work);
-    storage = IndexAccess::build_valid({mesh.positions, graph.view()}, work);
+    arrays = IndexAccess::build_valid({mesh.positions, graph.view()}, work);
   }
-  std::vector<VertexId> permutation = adopt_order(*storage);
-  ReorderedMesh result{IndexAccess::make(std::move(storage)), std::move(permutation), {}, {}, {}};
+  std::vector<VertexId> permutation = adopt_order(arrays);
+  ReorderedMesh result{IndexAccess::make(std::move(arrays)), std::move(permutation), {}, {}, {}};
   add_faces(mesh.faces, inverse(result.permutation), result);
   work.report();
   return result;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "sphere.h"
@@ -40,34 +41,39 @@ Point smallest_sphere_centre(std::span<const Point> points) {
   return centre_of(sphere);
 }
 
+void set_node(Group& group, std::size_t i, const FrameSphere& bounds, const Column& column) {
+  group.x[i] = bounds.x;
+  group.y[i] = bounds.y;
+  group.z[i] = bounds.z;
+  group.radius[i] = bounds.radius;
+  group.axis_x[i] = static_cast<float>(column.axis.x);
+  group.axis_y[i] = static_cast<float>(column.axis.y);
+  group.axis_z[i] = static_cast<float>(column.axis.z);
+  group.reach[i] = round_up(column.reach + kColumnRoom);
+}
+
+void set_absent(Group& group, std::size_t i) {
+  set_node(group, i, {kFarAway, kFarAway, kFarAway, 0}, Column{{0, 0, 0}, 0});
+}
+
 /// The eight nodes from `begin` on, side by side.
 Group make_group(const NodeList& level, std::size_t begin) {
   Group group;
   for (std::size_t i = 0; i < kFanOut; ++i) {
-    const bool exists = begin + i < level.bounds.size();
-    const FrameSphere bounds = exists ? level.bounds[begin + i] : FrameSphere{kFarAway, kFarAway, kFarAway, 0};
-    const Column column = exists ? level.columns[begin + i] : Column{{0, 0, 0}, 0};
-    group.x[i] = bounds.x;
-    group.y[i] = bounds.y;
-    group.z[i] = bounds.z;
-    group.radius[i] = bounds.radius;
-    group.axis_x[i] = static_cast<float>(column.axis.x);
-    group.axis_y[i] = static_cast<float>(column.axis.y);
-    group.axis_z[i] = static_cast<float>(column.axis.z);
-    group.reach[i] = round_up(column.reach + kColumnRoom);
+    if (begin + i < level.bounds.size()) {
+      set_node(group, i, level.bounds[begin + i], level.columns[begin + i]);
+    } else {
+      set_absent(group, i);
+    }
   }
   return group;
 }
 
-TreeLevel make_level(const NodeList& nodes) {
-  TreeLevel level;
-  level.nodes = nodes.bounds.size();
-  level.groups.reserve((level.nodes + kFanOut - 1) / kFanOut);
-  double radii = 0;
-  for (std::size_t begin = 0; begin < level.nodes; begin += kFanOut) level.groups.push_back(make_group(nodes, begin));
-  for (const FrameSphere& bounds : nodes.bounds) radii += static_cast<double>(bounds.radius);
-  level.mean_radius = radii / static_cast<double>(level.nodes);
-  return level;
+void append_level(const NodeList& nodes, TreeArrays& tree) {
+  const std::size_t begin = tree.groups.size();
+  const std::size_t count = nodes.bounds.size();
+  for (std::size_t node = 0; node < count; node += kFanOut) tree.groups.push_back(make_group(nodes, node));
+  tree.mean_radii.push_back(mean_radius(std::span(tree.groups).subspan(begin), count));
 }
 
 /// The nodes above those of `level`; each of the latter covers `leaves` leaves.
@@ -104,13 +110,29 @@ FrameSphere enclosing_sphere(std::span<const Point> points) {
   return enclosing_sphere(points, smallest_sphere_centre(points));
 }
 
-Tree make_tree(NodeList level, std::span<const VertexId> leaf_begin, std::span<const Point> points, Work& work) {
-  Tree tree;
-  if (level.bounds.empty()) return tree;
-  tree.push_back(make_level(level));
-  for (std::size_t leaves = 1; tree.back().groups.size() > 1; leaves *= kFanOut) {
-    level = make_parents(level, leaves, leaf_begin, points, work);
-    tree.push_back(make_level(level));
+bool is_absent(const Group& group, std::size_t i) {
+  Group other = group;
+  set_absent(other, i);
+  return std::memcmp(&other, &group, sizeof(Group)) == 0;
+}
+
+double mean_radius(std::span<const Group> level, std::size_t nodes) {
+  double sum = 0;
+  for (std::size_t node = 0; node < nodes; ++node) {
+    sum += static_cast<double>(level[node / kFanOut].radius[node % kFanOut]);
+  }
+  return sum / static_cast<double>(nodes);
+}
+
+TreeArrays make_tree(NodeList level, std::span<const VertexId> leaf_begin, std::span<const Point> points, Work& work) {
+  const std::vector<std::size_t> levels = tree_nodes(level.bounds.size());
+  TreeArrays tree;
+  std::size_t groups = 0;
+  for (const std::size_t nodes : levels) groups += (nodes + kFanOut - 1) / kFanOut;
+  tree.groups.reserve(groups);
+  for (std::size_t leaves = 1; tree.mean_radii.size() < levels.size(); leaves *= kFanOut) {
+    if (leaves > 1) level = make_parents(level, leaves / kFanOut, leaf_begin, points, work);
+    append_level(level, tree);
   }
   return tree;
 }

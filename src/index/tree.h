@@ -19,9 +19,21 @@ struct NodeList {
   std::vector<Column> columns;
 };
 
+/// The groups of all levels, leaves first, and the mean radius of the nodes on each.
+struct TreeArrays {
+  std::vector<Group> groups;
+  std::vector<double> mean_radii;
+};
+
+/// The mean radius of the first `nodes` nodes of a level, which every index of these nodes has bit for bit.
+[[nodiscard]] double mean_radius(std::span<const Group> level, std::size_t nodes);
+
+/// Whether a group has no `i`-th node.
+[[nodiscard]] bool is_absent(const Group& group, std::size_t i);
+
 /// The tree over the leaves. `points`: the vertices in index order, in the frame. O(#V log #V).
-[[nodiscard]] Tree make_tree(NodeList leaves, std::span<const VertexId> leaf_begin, std::span<const Point> points,
-                             Work& work);
+[[nodiscard]] TreeArrays make_tree(NodeList leaves, std::span<const VertexId> leaf_begin, std::span<const Point> points,
+                                   Work& work);
 
 /// A sphere around `points`, with the room that comparing it with a ball in single precision needs (see search/simd.h).
 [[nodiscard]] FrameSphere enclosing_sphere(std::span<const Point> points, const Point& centre);

@@ -11,7 +11,7 @@ namespace meshhood {
 
 /// Fetches the positions of `size` vertices from `first` on, in index order.
 inline void fetch_positions(const IndexStorage& index, std::size_t first, std::size_t size) {
-  std::visit([&](const auto& xyz) { fetch_lines(&xyz[3 * first], 3 * size * sizeof(xyz[0]) / kCacheLine + 1); },
+  std::visit([&](auto xyz) { fetch_lines(&xyz[3 * first], 3 * size * sizeof(xyz[0]) / kCacheLine + 1); },
              index.positions);
 }
 

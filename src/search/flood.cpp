@@ -41,7 +41,7 @@ void Flood::append_to(const LeafWalk& walk, Answer& answer) const {
     const Leaf& record = index_->leaves[leaf];
     const Lanes lanes = walk.find(leaf)->reached;
     if (lanes == first_lanes(record.size)) {
-      answer.runs.push_back({record.first, static_cast<VertexId>(record.first + record.size)});
+      answer.runs.push_back({static_cast<VertexId>(record.first), static_cast<VertexId>(record.first + record.size)});
     } else {
       answer.parts.push_back({leaf, lanes});
     }

@@ -77,8 +77,7 @@ void write_ids(const Answer& answer, const IndexStorage& index, const Kernels& k
 
 void write_distances(const Answer& answer, const IndexStorage& index, const Point& centre, double* out) {
   std::visit(
-      [&](const auto& positions) {
-        const std::span xyz(positions);
+      [&](auto xyz) {
         const auto append = [&](std::size_t vertex) {
           *out++ = std::sqrt(squared_distance(point(xyz, vertex), centre));
         };

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "meshhood/serialize.h"
+
+namespace meshhood::test {
+
+template <class AnyIndex>
+[[nodiscard]] std::vector<std::byte> saved(const AnyIndex& index) {
+  std::vector<std::byte> bytes;
+  save(index, [&](std::span<const std::byte> part) { bytes.insert(bytes.end(), part.begin(), part.end()); });
+  return bytes;
+}
+
+/// A copy to be mapped, at an address that fits; ends where the bytes end, so that a sanitizer sees a read of one byte
+/// more, whenever their number is a multiple of the alignment.
+class Mappable {
+ public:
+  explicit Mappable(std::span<const std::byte> bytes) : lines_(bytes.size() / sizeof(Line)), size_(bytes.size()) {
+    if (size_ % sizeof(Line) != 0) lines_.emplace_back();
+    std::ranges::copy(bytes, data());
+  }
+
+  [[nodiscard]] std::byte* data() { return lines_.empty() ? nullptr : lines_.front().bytes.data(); }
+  [[nodiscard]] std::span<std::byte> bytes() { return {data(), size_}; }
+
+ private:
+  struct alignas(kIndexAlignment) Line {
+    std::array<std::byte, kIndexAlignment> bytes;
+  };
+
+  std::vector<Line> lines_;
+  std::size_t size_;
+};
+
+}  // namespace meshhood::test
