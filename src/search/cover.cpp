@@ -40,12 +40,12 @@ bool Cover::find(std::uint32_t place, const LeafBall& ball, const TreeBall& tree
   const std::size_t leaves = count(answer) / kLeafCapacity + descent_.straddling_leaves().size();
   if (descent_.doubtful_leaves().size() > most_doubtful(leaves)) return false;
   collect_minima(place, ball, tree_ball);
-  const bool is_alone = minima_.empty();
-  if (!is_alone && !foreign_.find(place, minima_, most_walked(leaves), ball, tree_ball, walk)) {
+  const bool is_whole_ball = minima_.empty();
+  if (!is_whole_ball && !foreign_.find(place, minima_, most_walked(leaves), ball, tree_ball, walk)) {
     return false;
   }
   append_straddling(ball, answer.parts);
-  if (!is_alone) foreign_.cut_from(answer);
+  if (!is_whole_ball) foreign_.cut_from(answer);
   return true;
 }
 
