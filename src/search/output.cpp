@@ -15,6 +15,13 @@ namespace {
 constexpr std::size_t kAhead = 4;
 constexpr std::size_t kIdsPerLine = 64 / sizeof(VertexId);
 
+/// The number of lanes. As std::popcount, which is a call into a library where the oldest processors are compiled for.
+std::size_t size_of(Lanes lanes) {
+  lanes -= lanes >> 1 & 0x55555555U;
+  lanes = (lanes & 0x33333333U) + (lanes >> 2 & 0x33333333U);
+  return ((lanes + (lanes >> 4)) & 0x0F0F0F0FU) * 0x01010101U >> 24;
+}
+
 void fetch_ids(const VertexId* first, std::size_t count) {
   // What follows in a long run, the processor fetches by itself.
   for (std::size_t i = 0; i < std::min(count, 4 * kIdsPerLine); i += kIdsPerLine) prefetch(first + i);
@@ -62,7 +69,7 @@ void write_places(const Answer& answer, const IndexStorage& index, const Kernels
 std::size_t count(const Answer& answer) {
   std::size_t result = 0;
   for (const VertexRange& run : answer.runs) result += std::size_t{run.end} - run.begin;
-  for (const PartialLeaf& part : answer.parts) result += static_cast<std::size_t>(std::popcount(part.lanes));
+  for (const PartialLeaf& part : answer.parts) result += size_of(part.lanes);
   return result;
 }
 

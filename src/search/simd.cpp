@@ -55,17 +55,6 @@ TreeBounds::TreeBounds(const Frame& frame, double radius)
 
 TreeBall::TreeBall(const FramePoint& at, const TreeBounds& bounds) : TreeBounds(bounds), x(at.x), y(at.y), z(at.z) {}
 
-Placement place(const FrameSphere& sphere, const TreeBall& ball) {
-  const float x = ball.x - sphere.x;
-  const float y = ball.y - sphere.y;
-  const float z = ball.z - sphere.z;
-  const float square = (x * x + y * y) + z * z;
-  const float far = ball.outer + sphere.radius;
-  if (square > far * far) return Placement::Outside;
-  const float near = ball.inner - sphere.radius;
-  return near > 0 && square < near * near ? Placement::Inside : Placement::Straddling;
-}
-
 Isa best_isa() {
 #if defined(MESHHOOD_HAS_X86)
   if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&

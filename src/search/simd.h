@@ -70,7 +70,16 @@ struct Placements {
 };
 
 /// A single node against the ball, as `Kernels::place` does it.
-[[nodiscard]] Placement place(const FrameSphere& sphere, const TreeBall& ball);
+[[nodiscard]] inline Placement place(const FrameSphere& sphere, const TreeBall& ball) {
+  const float x = ball.x - sphere.x;
+  const float y = ball.y - sphere.y;
+  const float z = ball.z - sphere.z;
+  const float square = (x * x + y * y) + z * z;
+  const float far = ball.outer + sphere.radius;
+  if (square > far * far) return Placement::Outside;
+  const float near = ball.inner - sphere.radius;
+  return near > 0 && square < near * near ? Placement::Inside : Placement::Straddling;
+}
 
 struct Nearest {
   double square;  // of the distance, as the predicate has it
