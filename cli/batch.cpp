@@ -22,7 +22,6 @@
 #include "commands.h"
 #include "input.h"
 #include "interrupt.h"
-#include "methods.h"
 #include "npz_writer.h"
 #include "output.h"
 #include "progress.h"
@@ -160,16 +159,15 @@ Total write(const Index& index, const BatchQuery& query, const Options& options)
 
 void batch(const Options& options) {
   for (const std::string& read : {options.file, options.vertices}) refuse_same_file(read, options.output);
-  const Input input = read_input(options.file);
+  Input input(options.file);
   BatchQuery query{.vertices = {}, .radius = resolve(options.radius, input)};
   std::vector<VertexId> listed;
   if (!options.vertices.empty()) {
     listed = read_vertex_list(options.vertices, input.vertex_count());
     query.vertices = listed;
   }
-  const Total total = options.method == "exact"
-                          ? write(build_exact_index(input.view(), options.threads), query, options)
-                          : write(build_paper_index(input.view()), query, options);
+  const Total total = options.method == "exact" ? write(input.exact_index(options.threads), query, options)
+                                                : write(input.paper_index(), query, options);
   if (options.json) {
     print_json(
         Json{{"output", options.output}, {"method", options.method}, {"rows", total.rows}, {"count", total.count}});
@@ -183,7 +181,7 @@ void batch(const Options& options) {
 void add_batch(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("batch", "The neighborhoods of all vertices, as a sparse matrix of SciPy");
-  add_mesh_file(*command, options->file);
+  add_file(*command, options->file);
   add_radius(*command, options->radius);
   command->add_option("--vertices", options->vertices, "a text that lists the vertices to ask for, one a line")
       ->type_name("FILE");
@@ -191,10 +189,7 @@ void add_batch(CLI::App& program) {
       ->check(CLI::IsMember({"exact", "paper"}))
       ->type_name("")
       ->capture_default_str();
-  command->add_option("--threads", options->threads, "how many; 0: as many as the processor has")
-      ->transform(whole_number())
-      ->type_name("NUMBER")
-      ->capture_default_str();
+  add_threads(*command, options->threads);
   CLI::Option* count = command->add_flag("--count", options->count, "only how many vertices each row has");
   command->add_flag("--distances", options->distances, "distances in space as the values of the matrix, not ones")
       ->excludes(count);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,6 +14,7 @@
 
 #include "meshhood/error.h"
 
+#include "building.h"
 #include "commands.h"
 #include "input.h"
 #include "machine.h"
@@ -33,22 +35,26 @@ struct Options {
   bool json = false;
 };
 
-/// Space in bytes, counted as the paper does.
+/// Space in bytes, counted as the paper does. What hangs on faces is unknown where an index was given.
 struct Table1 {
   std::size_t vertices;
-  std::size_t faces;
-  std::size_t mesh_bytes;      ///< positions and corners; offsets too where not all faces are triangles
-  std::size_t topology_bytes;  ///< the same and the adjacency
-  std::size_t index_bytes;     ///< of the paper's index
-  double build_seconds;        ///< of processor time
+  std::optional<std::size_t> faces;
+  std::optional<std::size_t> mesh_bytes;      ///< positions and corners; offsets too where not all are triangles
+  std::optional<std::size_t> topology_bytes;  ///< the same and the adjacency
+  std::size_t index_bytes;                    ///< of the paper's index
+  double build_seconds;                       ///< of processor time
   std::size_t exact_index_bytes;
   double exact_build_seconds;
 };
 
-std::size_t mesh_bytes(const MeshView& mesh) {
+std::size_t bytes_of(const MeshView& mesh) {
   const std::size_t positions = mesh.positions.visit([](auto xyz) { return xyz.size_bytes(); });
   const std::size_t offsets = mesh.faces.are_triangles() ? 0 : 4 * mesh.faces.offsets().size();
   return positions + 4 * mesh.faces.corners().size() + offsets;
+}
+
+std::size_t bytes_of(const AdjacencyView& adjacency) {
+  return adjacency.offsets.size_bytes() + adjacency.neighbors.size_bytes();
 }
 
 template <class Index>
@@ -58,9 +64,9 @@ struct Timed {
 };
 
 template <class Build>
-auto build_timed(Build&& build, const MeshView& mesh) {
+auto timed(Build&& build) {
   const double start = processor_time();
-  auto index = build(mesh);
+  auto index = build();
   return Timed<decltype(index)>{std::move(index), processor_time() - start};
 }
 
@@ -69,32 +75,44 @@ struct Indexes {
   Timed<Index> exact;
 };
 
-Table1 table1(const Input& input, const Indexes& built) {
-  const std::size_t mesh = mesh_bytes(input.view());
-  const AdjacencyView adjacency = input.adjacency.view();
-  return {.vertices = input.vertex_count(),
-          .faces = input.view().faces.size(),
-          .mesh_bytes = mesh,
-          .topology_bytes = mesh + adjacency.offsets.size_bytes() + adjacency.neighbors.size_bytes(),
-          .index_bytes = built.paper.index.bytes(),
-          .build_seconds = built.paper.seconds,
-          .exact_index_bytes = built.exact.index.bytes().total(),
-          .exact_build_seconds = built.exact.seconds};
+/// Both are built anew for the sake of the time, by one thread. `Mesh`: MeshView or GraphView.
+template <class Mesh>
+Indexes build_indexes(const Mesh& mesh) {
+  return {timed([&] { return build_paper_index(mesh); }), timed([&] { return build_exact_index(mesh, 1); })};
 }
 
-std::vector<Measurement> table2(const Input& input, const Indexes& built, const Plan& plan) {
-  const std::vector<Method> methods{bfs_method(input.graph()), ball_method(input.view().positions),
+Table1 table1(Input& input, const Indexes& built) {
+  Table1 table{.vertices = input.vertex_count(),
+               .faces = {},
+               .mesh_bytes = {},
+               .topology_bytes = {},
+               .index_bytes = built.paper.index.bytes(),
+               .build_seconds = built.paper.seconds,
+               .exact_index_bytes = built.exact.index.bytes().total(),
+               .exact_build_seconds = built.exact.seconds};
+  if (const io::Mesh* mesh = input.mesh()) {
+    table.faces = mesh->view().faces.size();
+    table.mesh_bytes = bytes_of(mesh->view());
+    table.topology_bytes = *table.mesh_bytes + bytes_of(input.graph().adjacency);
+  }
+  return table;
+}
+
+std::vector<Measurement> table2(Input& input, const Indexes& built, const Plan& plan) {
+  const std::vector<Method> methods{bfs_method(input.graph()), ball_method(input.positions()),
                                     paper_method(built.paper.index), exact_method(built.exact.index)};
   Progress progress("measuring");
   return measure(methods, plan, mean_edge_length(input.graph()), built.paper.index.permutation(),
                  [&](double fraction) { progress.report(fraction); });
 }
 
+Json or_null(const std::optional<std::size_t>& value) { return value ? Json(*value) : Json(); }
+
 Json to_json(const Table1& t) {
   return {{"vertices", t.vertices},
-          {"faces", t.faces},
-          {"mesh_bytes", t.mesh_bytes},
-          {"topology_bytes", t.topology_bytes},
+          {"faces", or_null(t.faces)},
+          {"mesh_bytes", or_null(t.mesh_bytes)},
+          {"topology_bytes", or_null(t.topology_bytes)},
           {"index_bytes", t.index_bytes},
           {"build_seconds", t.build_seconds},
           {"exact_index_bytes", t.exact_index_bytes},
@@ -125,9 +143,9 @@ std::string to_text(const Table1& t) {
     text += fmt::format("{:<13} {}\n", name, value);
   };
   row("vertices", std::to_string(t.vertices));
-  row("faces", std::to_string(t.faces));
-  row("plain mesh", megabytes(t.mesh_bytes));
-  row("with topology", megabytes(t.topology_bytes));
+  if (t.faces) row("faces", std::to_string(*t.faces));
+  if (t.mesh_bytes) row("plain mesh", megabytes(*t.mesh_bytes));
+  if (t.topology_bytes) row("with topology", megabytes(*t.topology_bytes));
   row("paper's index", fmt::format("{}, built in {:.3f} s", megabytes(t.index_bytes), t.build_seconds));
   row("exact index", fmt::format("{}, built in {:.3f} s", megabytes(t.exact_index_bytes), t.exact_build_seconds));
   return text;
@@ -152,20 +170,21 @@ void check(const Options& options) {
 void bench(Options& options) {
   check(options);
   options.plan.order = options.order == "warm" ? Order::Warm : Order::Cold;
-  const Input input = read_input(options.file);
-  if (input.adjacency.neighbors.empty()) {
+  Input input(options.file);
+  if (input.graph().adjacency.neighbors.empty()) {
     raise(ErrorCode::InvalidMesh, options.file + ": it has no edges, so there is nothing to measure");
   }
-  const Indexes built{build_timed(build_paper_index, input.view()),
-                      build_timed([](const MeshView& mesh) { return build_exact_index(mesh, 1); }, input.view())};
+  const Indexes built = input.mesh() != nullptr ? build_indexes(input.mesh()->view()) : build_indexes(input.graph());
   const Table1 space = table1(input, built);
   const std::vector<Measurement> curves = table2(input, built, options.plan);
   const Machine machine = this_machine();
   if (options.json) {
-    print_json(Json{
-        {"mesh", input.name}, {"machine", to_json(machine)}, {"table1", to_json(space)}, {"table2", to_json(curves)}});
+    print_json(Json{{"mesh", input.name()},
+                    {"machine", to_json(machine)},
+                    {"table1", to_json(space)},
+                    {"table2", to_json(curves)}});
   } else {
-    print_text(fmt::format("{} on {}, {}, {}\n\n{}\n{}", printable(input.name), machine.processor, machine.compiler,
+    print_text(fmt::format("{} on {}, {}, {}\n\n{}\n{}", printable(input.name()), machine.processor, machine.compiler,
                            machine.build, to_text(space), to_text(curves)));
   }
 }
@@ -175,7 +194,7 @@ void bench(Options& options) {
 void add_bench(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("bench", "The paper's Table 1 and Table 2 on a mesh of yours");
-  add_mesh_file(*command, options->file);
+  add_file(*command, options->file);
   command->add_option("--radii", options->plan.radii, "in average edges")
       ->delimiter(',')
       ->type_name("NUMBERS")

@@ -8,6 +8,8 @@ namespace meshhood::cli {
 
 void add_batch(CLI::App& program);
 void add_bench(CLI::App& program);
+void add_build(CLI::App& program);
+void add_check(CLI::App& program);
 void add_compare(CLI::App& program);
 void add_generate(CLI::App& program);
 void add_info(CLI::App& program);

@@ -66,23 +66,21 @@ std::string to_text(const std::vector<Row>& rows) {
 }
 
 /// The least exact answer at the bottom, as in the paper's Figure 4. `rows`: bfs, ball, paper, ...
-void paint(const std::string& file, const Input& input, const Query& query, const std::vector<Row>& rows) {
+void paint(const std::string& file, Input& input, const Query& query, const std::vector<Row>& rows) {
   Painting painting(input.vertex_count());
   painting.paint(rows[1].vertices, kBallColor);
   painting.paint(rows[2].vertices, kPaperColor);
   painting.paint(rows[0].vertices, kExactColor);
   painting.paint(std::span(&query.vertex, 1), kQueryColor);
-  painting.write(file, input.view());
+  painting.write(file, input.surface());
 }
 
 void compare(const Options& options) {
   refuse_same_file(options.question.file, options.output);
-  const Input input = read_input(options.question.file);
+  Input input(options.question.file);
   const Query query = resolve(options.question, input);
-  const paper::Index paper_index = build_paper_index(input.view());
-  const Index exact_index = build_exact_index(input.view(), kAllThreads);
-  const std::vector<Method> methods{bfs_method(input.graph()), ball_method(input.view().positions),
-                                    paper_method(paper_index), exact_method(exact_index)};
+  const std::vector<Method> methods{bfs_method(input.graph()), ball_method(input.positions()),
+                                    paper_method(input.paper_index()), exact_method(input.exact_index())};
   const std::vector<Row> rows = answer(methods, query, input.vertex_count());
   if (!options.output.empty()) paint(options.output, input, query, rows);
   options.json ? print_json(to_json(query, rows)) : print_text(to_text(rows));

@@ -10,6 +10,7 @@
 #include "meshhood/error.h"
 
 #include "commands.h"
+#include "interrupt.h"
 #include "io/mesh_io.h"
 #include "output.h"
 #include "question.h"
@@ -44,13 +45,18 @@ const shapes::Kind& find(const std::string& name) {
   return *kind;
 }
 
+void save(const std::string& file, const MeshView& mesh) {
+  const Interrupt interrupt;  // Ctrl-C waits, for it would leave a part of the file beside it
+  io::write_ply(file, mesh);
+}
+
 void generate(const Options& options) {
   if (options.list) return list(options.json);
   if (options.kind.empty()) raise(ErrorCode::InvalidOption, "generate: KIND is missing; --list names them all");
   if (options.output.empty()) raise(ErrorCode::InvalidOption, "generate: --output is missing");
   const shapes::Shape shape = find(options.kind).make(options.vertices);
   const MeshView mesh = shape.view();
-  io::write_ply(options.output, mesh);
+  save(options.output, mesh);
   if (options.json) {
     print_json(Json{{"kind", options.kind},
                     {"vertices", mesh.positions.size()},

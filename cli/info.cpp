@@ -10,8 +10,9 @@
 #include <fmt/ranges.h>
 
 #include "commands.h"
+#include "index_parts.h"
 #include "input.h"
-#include "methods.h"
+#include "io/index_io.h"
 #include "output.h"
 #include "question.h"
 #include "statistics.h"
@@ -39,34 +40,13 @@ Json to_json(const io::Warning& warning) {
   return {{"what", warning.what}, {"count", warning.count}, {"first_place", warning.first_place}};
 }
 
-Json to_json(const paper::Index& index) {
-  Json levels = Json::array();
-  for (const paper::LevelSummary& level : index.levels()) {
-    levels.push_back({{"level", level.level},
-                      {"clusters", level.clusters},
-                      {"mean_vertices", level.mean_vertices},
-                      {"mean_radius", level.mean_radius},
-                      {"mean_siblings", level.mean_siblings},
-                      {"bytes", level.bytes}});
-  }
-  return {{"bytes", index.bytes()}, {"levels", levels}};
-}
-
-Json to_json(const IndexBytes& bytes) {
-  return {{"bytes", bytes.total()},
-          {"positions", bytes.positions},
-          {"permutation", bytes.permutation},
-          {"graph", bytes.graph},
-          {"tree", bytes.tree}};
-}
-
-Json to_json(const Input& input, const Statistics& s) {
+Json to_json(const std::string& file, const io::Mesh& mesh, const Statistics& s) {
   Json degrees = Json::object();
   for (const auto& [corners, faces] : s.polygon_degrees) degrees[std::to_string(corners)] = faces;
   Json warnings = Json::array();
-  for (const io::Warning& warning : input.mesh.warnings) warnings.push_back(to_json(warning));
-  return {{"mesh", input.name},
-          {"format", format_name(input.mesh.format)},
+  for (const io::Warning& warning : mesh.warnings) warnings.push_back(to_json(warning));
+  return {{"mesh", file},
+          {"format", format_name(mesh.format)},
           {"vertices", s.vertices},
           {"faces", s.faces},
           {"polygon_degrees", degrees},
@@ -93,12 +73,12 @@ std::string to_text(const std::optional<Box>& bounds) {
   return fmt::format("{:g} to {:g}", fmt::join(bounds->min, " "), fmt::join(bounds->max, " "));
 }
 
-std::string to_text(const Input& input, const Statistics& s) {
+std::string to_text(const std::string& file, const io::Mesh& mesh, const Statistics& s) {
   std::string text;
   const auto row = [&](std::string_view name, const std::string& value) {
     text += fmt::format("{:<19} {}\n", name, value);
   };
-  row("mesh", fmt::format("{} ({})", printable(input.name), format_name(input.mesh.format)));
+  row("mesh", fmt::format("{} ({})", printable(file), format_name(mesh.format)));
   row("vertices", std::to_string(s.vertices));
   row("faces", std::to_string(s.faces));
   row("corners of a face", to_text(s.polygon_degrees));
@@ -113,48 +93,64 @@ std::string to_text(const Input& input, const Statistics& s) {
   return text;
 }
 
-std::string to_text(const IndexBytes& bytes) {
-  std::string text = fmt::format("\nexact index: {} bytes\n", bytes.total());
-  const auto row = [&](std::string_view part, std::size_t size) { text += fmt::format("{:<11}  {:9}\n", part, size); };
-  row("positions", bytes.positions);
-  row("permutation", bytes.permutation);
-  row("graph", bytes.graph);
-  row("tree", bytes.tree);
-  return text;
+Json to_json(const IndexHeader& header, Input& input) {
+  Json document{{"index", input.name()},
+                {"format", header.format},
+                {"kind", kind_name(header.kind)},
+                {"vertices", header.vertices},
+                {"precision", precision_name(header)},
+                {"fingerprint", to_text(header.mesh)}};
+  document.update(json_of(input.exact_index()));
+  return document;
 }
 
-std::string to_text(const paper::Index& index) {
-  std::string text = fmt::format("\nindex of the paper: {} bytes\n", index.bytes());
-  text += "level  clusters  mean vertices  mean radius  mean siblings     bytes\n";
-  for (const paper::LevelSummary& level : index.levels()) {
-    text += fmt::format("{:5}  {:8}  {:13.2f}  {:11.4g}  {:13.2f}  {:8}\n", level.level, level.clusters,
-                        level.mean_vertices, level.mean_radius, level.mean_siblings, level.bytes);
+std::string to_text(const IndexHeader& header, Input& input) {
+  std::string text;
+  const auto row = [&](std::string_view name, const std::string& value) {
+    text += fmt::format("{:<19} {}\n", name, value);
+  };
+  row("index", fmt::format("{} ({}, format {})", printable(input.name()), kind_name(header.kind), header.format));
+  row("vertices", std::to_string(header.vertices));
+  row("coordinates", std::string(precision_name(header)));
+  row("mesh", to_text(header.mesh));
+  return text + '\n' + text_of(input.exact_index());
+}
+
+/// A mesh and, if asked for, what its indexes would be.
+void info_of_mesh(const Options& options, Input& input) {
+  const Statistics summary = statistics(input.mesh()->view(), input.graph().adjacency);
+  Json document = to_json(input.name(), *input.mesh(), summary);
+  std::string text = to_text(input.name(), *input.mesh(), summary);
+  if (options.index) {
+    document["index"] = {{"exact", json_of(input.exact_index())}, {"paper", json_of(input.paper_index())}};
+    text += '\n' + text_of(input.exact_index()) + '\n' + text_of(input.paper_index());
   }
-  return text;
+  options.json ? print_json(document) : print_text(text);
+}
+
+void info_of_index(const Options& options, Input& input) {
+  const IndexHeader header = io::read_header(options.file);
+  if (options.json) {
+    print_json(to_json(header, input));
+  } else {
+    print_text(to_text(header, input));
+  }
 }
 
 void info(const Options& options) {
-  const Input input = read_input(options.file);
-  const Statistics summary = statistics(input.view(), input.adjacency.view());
-  Json document = to_json(input, summary);
-  std::string text = to_text(input, summary);
-  if (options.index) {
-    const IndexBytes exact = build_exact_index(input.view(), kAllThreads).bytes();
-    const paper::Index paper = build_paper_index(input.view());
-    document["index"] = {{"exact", to_json(exact)}, {"paper", to_json(paper)}};
-    text += to_text(exact) + to_text(paper);
-  }
-  options.json ? print_json(document) : print_text(text);
+  Input input(options.file);
+  input.mesh() != nullptr ? info_of_mesh(options, input) : info_of_index(options, input);
 }
 
 }  // namespace
 
 void add_info(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("info", "What a mesh is like: its size, components, borders and flaws");
-  add_mesh_file(*command, options->file);
+  CLI::App* command = program.add_subcommand(
+      "info", "What a mesh or an index is like: its size, components, borders and flaws; its levels");
+  add_file(*command, options->file);
   command->add_flag("--index", options->index,
-                    "also build the exact index and that of the paper, and list their parts");
+                    "of a mesh, also build the exact index and that of the paper, and list their parts");
   command->add_flag("--json", options->json, "one JSON document");
   command->callback([options] { info(*options); });
 }

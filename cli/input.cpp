@@ -2,13 +2,14 @@
 #include "input.h"
 
 #include <filesystem>
-#include <string>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "meshhood/error.h"
 
+#include "io/index_io.h"
 #include "output.h"
 #include "progress.h"
 
@@ -25,12 +26,53 @@ void complain_about(const io::Mesh& mesh, const std::string& file) {
 
 }  // namespace
 
-Input read_input(const std::string& file) {
+Input::Input(std::string file) : name_(std::move(file)) {
+  if (io::is_index(name_)) {
+    const Progress progress("reading " + name_);
+    exact_ = io::load(name_);
+  } else {
+    mesh_ = read_mesh(name_);
+  }
+}
+
+std::size_t Input::vertex_count() const { return mesh_ ? mesh_->view().positions.size() : exact_->vertex_count(); }
+
+PositionsView Input::positions() {
+  if (mesh_) return mesh_->view().positions;
+  return graph().positions;
+}
+
+GraphView Input::graph() {
+  if (mesh_) {
+    if (!adjacency_) adjacency_ = adjacency(mesh_->view());
+    return {mesh_->view().positions, adjacency_->view()};
+  }
+  if (!graph_) graph_ = meshhood::graph(*exact_);
+  return graph_->view();
+}
+
+MeshView Input::surface() {
+  if (mesh_) return mesh_->view();
+  complain("warning: ", name_ + ": an index keeps no faces, so what is drawn of it are its vertices");
+  return {positions(), FacesView{}};
+}
+
+const Index& Input::exact_index(unsigned threads) {
+  if (!exact_) exact_ = build_exact_index(graph(), threads);
+  return *exact_;
+}
+
+const paper::Index& Input::paper_index() {
+  if (!paper_) paper_ = build_paper_index(graph());
+  return *paper_;
+}
+
+io::Mesh read_mesh(const std::string& file) {
+  if (io::is_index(file)) raise(ErrorCode::UnsupportedFormat, file + ": an index, where a mesh was expected");
   const Progress progress("reading " + file);
-  Input input{file, io::read_mesh(file), {}};
-  complain_about(input.mesh, file);
-  input.adjacency = adjacency(input.view());
-  return input;
+  io::Mesh mesh = io::read_mesh(file);
+  complain_about(mesh, file);
+  return mesh;
 }
 
 void refuse_same_file(const std::string& input, const std::string& output) {

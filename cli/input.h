@@ -1,28 +1,60 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/index.h"
 #include "meshhood/mesh.h"
+#include "meshhood/paper.h"
 
+#include "building.h"
 #include "io/mesh_io.h"
 
 namespace meshhood::cli {
 
-/// A mesh file with its graph, as every command that reads one needs it.
-struct Input {
-  std::string name;  ///< as on the command line
-  io::Mesh mesh;
-  Adjacency adjacency;
+/// FILE: a mesh, or an index, which stands for the mesh it was built from. Told apart by content.
+///
+/// Commands ask for what they need; what the file does not hold is made from what it does, when first asked for. Faces
+/// only a mesh has.
+class Input {
+ public:
+  /// Reads `file`. What the reader finds odd is said on standard error. Throws what `io::read_mesh` and `io::load`
+  /// throw.
+  explicit Input(std::string file);
 
-  [[nodiscard]] MeshView view() const { return mesh.view(); }
-  [[nodiscard]] GraphView graph() const { return {view().positions, adjacency.view()}; }
-  [[nodiscard]] std::size_t vertex_count() const { return view().positions.size(); }
+  /// As on the command line.
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+  /// The mesh, if that is what the file holds; null where it is an index.
+  [[nodiscard]] const io::Mesh* mesh() const { return mesh_ ? &*mesh_ : nullptr; }
+
+  [[nodiscard]] std::size_t vertex_count() const;
+
+  /// Of the mesh, in its numbering. Borrowed.
+  [[nodiscard]] PositionsView positions();
+
+  /// The same and the edges.
+  [[nodiscard]] GraphView graph();
+
+  /// What can be drawn of it: the mesh, or its vertices alone, which is said on standard error.
+  [[nodiscard]] MeshView surface();
+
+  [[nodiscard]] const Index& exact_index(unsigned threads = kAllThreads);
+  [[nodiscard]] const paper::Index& paper_index();
+
+ private:
+  std::string name_;
+  std::optional<io::Mesh> mesh_;
+  std::optional<Adjacency> adjacency_;  // of the mesh
+  std::optional<Index> exact_;
+  std::optional<GraphData> graph_;  // where there is no mesh
+  std::optional<paper::Index> paper_;
 };
 
-/// Reads `file`. What the reader finds odd is said on standard error. Throws what `io::read_mesh` throws.
-[[nodiscard]] Input read_input(const std::string& file);
+/// Reads a mesh where an index will not do. As above; throws Error{UnsupportedFormat} where `file` is an index.
+[[nodiscard]] io::Mesh read_mesh(const std::string& file);
 
 /// Throws Error{InvalidOption} where `output` is a file that it is made from. Either may not exist.
 void refuse_same_file(const std::string& input, const std::string& output);

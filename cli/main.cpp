@@ -25,6 +25,8 @@ void add_subcommands(CLI::App& program) {
   program.require_subcommand(0, 1);
   program.set_version_flag("--version", "meshhood " + std::string(kVersion));
   add_info(program);
+  add_build(program);
+  add_check(program);
   add_query(program);
   add_batch(program);
   add_compare(program);

@@ -9,8 +9,6 @@
 #include "meshhood/reference.h"
 #include "meshhood/search.h"
 
-#include "progress.h"
-
 namespace meshhood::cli {
 namespace {
 
@@ -67,20 +65,6 @@ Method paper_method(const paper::Index& index, const paper::QueryOptions& option
                               VertexId v, double radius,
                               std::vector<VertexId>& out) { searcher->neighborhood(v, radius, out, options); },
           .count = [searcher, options](VertexId v, double radius) { return searcher->count(v, radius, options); }};
-}
-
-Index build_exact_index(const MeshView& mesh, unsigned threads) {
-  Progress progress("building the index");
-  const auto report = [&](std::size_t done, std::size_t total) {
-    progress.report(done, total);
-    return true;
-  };
-  return build(mesh, {.threads = threads, .progress = report});
-}
-
-paper::Index build_paper_index(const MeshView& mesh) {
-  const Progress progress("building the index of the paper");
-  return paper::build(mesh);
 }
 
 double timed_query(const Method& method, VertexId v, double radius, std::vector<VertexId>& out) {

@@ -33,13 +33,6 @@ struct Method {
 /// The paper's answer. Borrows `index`.
 [[nodiscard]] Method paper_method(const paper::Index& index, const paper::QueryOptions& options = {});
 
-/// As many as the processor has.
-inline constexpr unsigned kAllThreads = 0;
-
-/// Builds an index, with progress for the impatient; the exact one by as many threads as `BuildOptions` says.
-[[nodiscard]] Index build_exact_index(const MeshView& mesh, unsigned threads);
-[[nodiscard]] paper::Index build_paper_index(const MeshView& mesh);
-
 /// Asks some times, the first so that everything is in its place, and returns how many seconds the fastest of the
 /// others took. `out` is the answer, ascending.
 double timed_query(const Method& method, VertexId v, double radius, std::vector<VertexId>& out);

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "interrupt.h"
 #include "io/mesh_io.h"
 
 namespace meshhood::cli {
@@ -26,6 +27,7 @@ void Painting::paint(std::span<const VertexId> vertices, const Color& color) {
 }
 
 void Painting::write(const std::string& file, const MeshView& mesh) const {
+  const Interrupt interrupt;  // Ctrl-C waits, for it would leave a part of the file beside it
   io::write_ply(file, mesh, {.colors = colors_, .properties = {}});
 }
 

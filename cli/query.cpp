@@ -48,13 +48,13 @@ Answer ask(const Options& options, const Method& method, const Query& query) {
   return answer;
 }
 
-Answer ask(const Options& options, const Input& input, const Query& query) {
+Answer ask(const Options& options, Input& input, const Query& query) {
   if (options.method == "bfs") return ask(options, bfs_method(input.graph()), query);
-  if (options.method == "ball") return ask(options, ball_method(input.view().positions), query);
-  if (options.method == "exact") return ask(options, exact_method(build_exact_index(input.view(), kAllThreads)), query);
+  if (options.method == "ball") return ask(options, ball_method(input.positions()), query);
+  if (options.method == "exact") return ask(options, exact_method(input.exact_index()), query);
   const paper::QueryOptions defaults;
   const paper::QueryOptions settings{.scale_factor = options.factor.value_or(defaults.scale_factor)};
-  return ask(options, paper_method(build_paper_index(input.view()), settings), query);
+  return ask(options, paper_method(input.paper_index(), settings), query);
 }
 
 void add_distances(const PositionsView& positions, VertexId from, Answer& answer) {
@@ -82,12 +82,12 @@ std::string to_text(const Options& options, const Answer& answer) {
   return text;
 }
 
-void paint(const Options& options, const Input& input, const Query& query, const Answer& answer) {
+void paint(const Options& options, Input& input, const Query& query, const Answer& answer) {
   const Color color = options.method == "ball" ? kBallColor : options.method == "paper" ? kPaperColor : kExactColor;
   Painting painting(input.vertex_count());
   painting.paint(answer.vertices, color);
   painting.paint(std::span(&query.vertex, 1), kQueryColor);
-  painting.write(options.output, input.view());
+  painting.write(options.output, input.surface());
 }
 
 void query(const Options& options) {
@@ -95,10 +95,10 @@ void query(const Options& options) {
     raise(ErrorCode::InvalidOption, "--factor is an option of --method paper alone");
   }
   refuse_same_file(options.question.file, options.output);
-  const Input input = read_input(options.question.file);
+  Input input(options.question.file);
   const Query query = resolve(options.question, input);
   Answer answer = ask(options, input, query);
-  if (options.distances) add_distances(input.view().positions, query.vertex, answer);
+  if (options.distances) add_distances(input.positions(), query.vertex, answer);
   if (!options.output.empty()) paint(options, input, query, answer);
   options.json ? print_json(to_json(options, query, answer)) : print_text(to_text(options, answer));
 }

@@ -18,10 +18,10 @@
 namespace meshhood::cli {
 namespace {
 
-double edge_unit(const Input& input) {
+double edge_unit(Input& input) {
   const double mean = mean_edge_length(input.graph());
   if (mean > 0) return mean;
-  raise(ErrorCode::InvalidOption, "--unit edge: the edges of " + input.name + " have no length to measure by");
+  raise(ErrorCode::InvalidOption, "--unit edge: the edges of " + input.name() + " have no length to measure by");
 }
 
 /// `text` as the double nearest to it.
@@ -47,8 +47,19 @@ CLI::Validator whole_number() {
   return {check, ""};
 }
 
-void add_mesh_file(CLI::App& command, std::string& file) {
-  command.add_option("FILE", file, "mesh: PLY, OBJ, OFF or STL")->required()->type_name("");
+void add_file(CLI::App& command, std::string& file) {
+  command.add_option("FILE", file, "mesh (PLY, OBJ, OFF or STL), or index (meshhood build)")->required()->type_name("");
+}
+
+void add_mesh(CLI::App& command, std::string& file) {
+  command.add_option("MESH", file, "PLY, OBJ, OFF or STL")->required()->type_name("");
+}
+
+void add_threads(CLI::App& command, unsigned& threads) {
+  command.add_option("--threads", threads, "how many; 0: as many as the processor has")
+      ->transform(whole_number())
+      ->type_name("NUMBER")
+      ->capture_default_str();
 }
 
 void add_radius(CLI::App& command, Radius& radius) {
@@ -59,13 +70,13 @@ void add_radius(CLI::App& command, Radius& radius) {
       ->capture_default_str();
 }
 
-double resolve(const Radius& radius, const Input& input) {
+double resolve(const Radius& radius, Input& input) {
   const double unit = radius.unit == "edge" ? edge_unit(input) : 1.0;
   return unit * parse_radius(radius.value);
 }
 
 void add_question(CLI::App& command, Question& question) {
-  add_mesh_file(command, question.file);
+  add_file(command, question.file);
   command.add_option("-v,--vertex", question.vertex, "the vertex to start from, by its number in the file")
       ->transform(whole_number())
       ->type_name("NUMBER")
@@ -73,11 +84,11 @@ void add_question(CLI::App& command, Question& question) {
   add_radius(command, question.radius);
 }
 
-Query resolve(const Question& question, const Input& input) {
+Query resolve(const Question& question, Input& input) {
   const std::size_t vertices = input.vertex_count();
   if (question.vertex >= vertices) {
     raise(ErrorCode::VertexOutOfRange,
-          fmt::format("vertex {} is out of range: {} has {} vertices", question.vertex, input.name, vertices));
+          fmt::format("vertex {} is out of range: {} has {} vertices", question.vertex, input.name(), vertices));
   }
   return {static_cast<VertexId>(question.vertex), resolve(question.radius, input)};
 }

@@ -12,8 +12,14 @@
 
 namespace meshhood::cli {
 
-/// Adds FILE, a mesh, to `command`; it ends up in `file`, which must outlive it. So do the options below.
-void add_mesh_file(CLI::App& command, std::string& file);
+/// Adds FILE, a mesh or an index, to `command`; it ends up in `file`, which must outlive it. So do the options below.
+void add_file(CLI::App& command, std::string& file);
+
+/// Adds MESH, a mesh alone.
+void add_mesh(CLI::App& command, std::string& file);
+
+/// Adds --threads.
+void add_threads(CLI::App& command, unsigned& threads);
 
 /// A radius as it was typed.
 struct Radius {
@@ -25,7 +31,7 @@ struct Radius {
 void add_radius(CLI::App& command, Radius& radius);
 
 /// In the unit of the positions. Throws Error{InvalidRadius, InvalidOption}.
-[[nodiscard]] double resolve(const Radius& radius, const Input& input);
+[[nodiscard]] double resolve(const Radius& radius, Input& input);
 
 /// FILE, a vertex and a radius.
 struct Question {
@@ -44,7 +50,7 @@ struct Query {
 };
 
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}.
-[[nodiscard]] Query resolve(const Question& question, const Input& input);
+[[nodiscard]] Query resolve(const Question& question, Input& input);
 
 /// Accepts decimal digits alone: CLI11 would read 010 as 8, and 2^64 as the largest number there is.
 [[nodiscard]] CLI::Validator whole_number();

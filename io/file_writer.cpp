@@ -47,7 +47,7 @@ bool write_all(int file, std::string_view bytes) {
 
 }  // namespace
 
-FileWriter::FileWriter(const std::filesystem::path& path) : target_(resolved(path)) {
+FileWriter::FileWriter(const std::filesystem::path& path) : name_(path), target_(resolved(path)) {
   std::error_code ignored;
   const auto status = std::filesystem::status(target_, ignored);
   const bool is_special = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
@@ -155,7 +155,7 @@ void FileWriter::sync(const Descriptor& directory) const {
 
 void FileWriter::fail(std::string_view action) const {
   const auto reason = std::generic_category().message(errno);
-  raise(ErrorCode::IoFailure, fmt::format("{}: cannot {}: {}", printable_name(target_.string()), action, reason));
+  raise(ErrorCode::IoFailure, fmt::format("{}: cannot {}: {}", printable_name(name_.string()), action, reason));
 }
 
 }  // namespace meshhood::io

@@ -47,6 +47,7 @@ class FileWriter {
   void sync(const Descriptor& directory) const;
   [[noreturn]] void fail(std::string_view action) const;
 
+  std::filesystem::path name_;  // as it was given, for messages
   std::filesystem::path target_;
   std::filesystem::path temporary_;  // empty where the target is written to directly
   Descriptor file_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -117,6 +118,25 @@ TEST(IndexBuild, LeavesOfASurfaceAreFullAndConnected) {
   const double mean = static_cast<double>(mesh.size()) / static_cast<double>(index.leaf_count());
   std::printf("%zu leaves, %.1f vertices a leaf\n", index.leaf_count(), mean);
   EXPECT_GT(mean, 28);
+}
+
+TEST(IndexLevels, AreTheLeavesAndTheTreeAbove) {
+  const Index index = build(two_bumpy_grids(50).view());
+  const std::vector<LevelSummary> levels = index.levels();
+  const IndexArrays arrays = arrays_of(index);
+  ASSERT_EQ(levels.size(), tree_nodes(arrays.leaf_begin.size() - 1).size());
+  EXPECT_EQ(levels.front().clusters, arrays.leaf_begin.size() - 1);
+  EXPECT_EQ(levels.front().mean_siblings,
+            static_cast<double>(arrays.links.size() - 1) / static_cast<double>(levels.front().clusters));
+  double radius = 0;
+  for (const LevelSummary& level : levels) {
+    EXPECT_DOUBLE_EQ(level.mean_vertices * static_cast<double>(level.clusters), 5000);
+    EXPECT_GT(level.mean_radius, radius);
+    EXPECT_LT(level.mean_radius, 50 * std::numbers::sqrt2) << "in the unit of the positions";
+    radius = level.mean_radius;
+  }
+  EXPECT_GT(levels.front().mean_radius, 1);
+  EXPECT_THAT(build(TestMesh{}.view()).levels(), IsEmpty());
 }
 
 TEST(KdOrder, DoesNotDependOnTheOrderGiven) {

@@ -32,7 +32,7 @@ target_include_directories(meshhood_save_trial PUBLIC ${CMAKE_CURRENT_SOURCE_DIR
 target_link_libraries(meshhood_save_trial PUBLIC
   meshhood::io meshhood_shapes fmt::fmt PkgConfig::MINIZIP GTest::gtest)
 meshhood_own_target(meshhood_save_trial)
-foreach(stem calls full kill)
+foreach(stem calls full kill race)
   meshhood_test(io_save_${stem} meshhood_save_trial)
 endforeach()
 target_sources(io_save_calls_test PRIVATE support/system_calls.cpp)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/level.h"
 #include "meshhood/mesh.h"
 #include "meshhood/progress.h"
 
@@ -47,6 +48,9 @@ class Index {
   [[nodiscard]] std::size_t vertex_count() const;
 
   [[nodiscard]] IndexBytes bytes() const;
+
+  /// The leaves, and the levels of the tree above them up to a single node.
+  [[nodiscard]] std::vector<LevelSummary> levels() const;
 
   /// The positions in index order, #V by 3. Lives as long as the index.
   [[nodiscard]] PositionsView positions() const;

@@ -23,6 +23,7 @@
 #include "meshhood/error.h"        // IWYU pragma: export
 #include "meshhood/fingerprint.h"  // IWYU pragma: export
 #include "meshhood/index.h"        // IWYU pragma: export
+#include "meshhood/level.h"        // IWYU pragma: export
 #include "meshhood/mesh.h"         // IWYU pragma: export
 #include "meshhood/paper.h"        // IWYU pragma: export
 #include "meshhood/progress.h"     // IWYU pragma: export

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/level.h"
 #include "meshhood/mesh.h"
 
 /// The index and the query of *Fast neighborhood search on polygonal meshes*, sections 3.2 and 3.3.
@@ -33,15 +34,8 @@ struct BuildOptions {
   static constexpr int kAllLevels = 64;
 };
 
-/// A level of the hierarchy, in figures.
-struct LevelSummary {
-  int level;             ///< its number in sec. 3.1: the base level is 0
-  std::size_t clusters;  ///< how many
-  double mean_vertices;  ///< vertices a cluster
-  double mean_radius;    ///< of the bounding spheres, in the unit of the positions: `ar` of sec. 3.3
-  double mean_siblings;  ///< siblings a cluster
-  std::size_t bytes;     ///< memory of the level's arrays
-};
+/// Numbered as in sec. 3.1: the base level is 0.
+using LevelSummary = meshhood::LevelSummary;
 
 /// The hierarchy of connected clusters (3.1). Immutable: any number of threads may query it, each with its own
 /// `Searcher`. It keeps a copy of the positions, in the order of its clusters, and does not refer to the mesh.

@@ -2,7 +2,10 @@
 #include <cstdint>
 #include <numeric>
 
+#include "meshhood/index.h"
+
 #include "cli/npz_writer.h"
+#include "io/index_io.h"
 #include "io/mesh_io.h"
 #include "shapes/shapes.h"
 #include "support/save_trial.h"
@@ -27,10 +30,16 @@ void save_npz(const std::filesystem::path& file, Version version) {
   npz.commit();
 }
 
+void save_index(const std::filesystem::path& file, Version version) {
+  static const Index kOld = build(shape(Version::Old).view());
+  static const Index kNew = build(shape(Version::New).view());
+  io::save(file, version == Version::Old ? kOld : kNew);
+}
+
 }  // namespace
 
 const std::vector<Saver>& savers() {
-  static const std::vector<Saver> kSavers = {{"Ply", save_ply}, {"Npz", save_npz}};
+  static const std::vector<Saver> kSavers = {{"Index", save_index}, {"Ply", save_ply}, {"Npz", save_npz}};
   return kSavers;
 }
 

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// meshhood check: whether an index file is whole, and that of a mesh.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "meshhood/error.h"
+
+#include "commands.h"
+#include "index_parts.h"
+#include "input.h"
+#include "io/index_io.h"
+#include "output.h"
+
+namespace meshhood::cli {
+namespace {
+
+struct Options {
+  std::string index;
+  std::string mesh;  ///< empty where none is given
+  bool json = false;
+};
+
+[[noreturn]] void refuse(const Options& options, const std::string& message) {
+  raise(ErrorCode::MalformedIndex, printable(options.index) + ": " + message);
+}
+
+void expect_built_from(const Options& options, const IndexHeader& header, const Fingerprint& mesh,
+                       const std::string& name) {
+  if (header.mesh == mesh) return;
+  refuse(options, fmt::format("built from mesh {}, but {} is {}", to_text(header.mesh), name, to_text(mesh)));
+}
+
+void expect_none(const Options& options, const std::vector<std::string>& violations) {
+  if (violations.empty()) return;
+  const std::string more =
+      violations.size() > 1 ? fmt::format(" (and {} more of the kind)", violations.size() - 1) : "";
+  refuse(options, violations.front() + more);
+}
+
+/// The index against the mesh given, or against the one that it says to be that of.
+void check_mesh(const Options& options, const IndexHeader& header, const Index& index) {
+  if (options.mesh.empty()) {
+    const GraphData graph = meshhood::graph(index);
+    expect_built_from(options, header, fingerprint(graph.view()), "what it holds");
+    expect_none(options, index.check(graph.view()));
+  } else {
+    const io::Mesh mesh = read_mesh(options.mesh);
+    expect_built_from(options, header, fingerprint(mesh.view()), options.mesh);
+    expect_none(options, index.check(mesh.view()));
+  }
+}
+
+Json to_json(const Options& options, const IndexHeader& header) {
+  return {{"index", options.index},
+          {"format", header.format},
+          {"kind", kind_name(header.kind)},
+          {"vertices", header.vertices},
+          {"bytes", header.bytes},
+          {"fingerprint", to_text(header.mesh)},
+          {"mesh", options.mesh.empty() ? Json() : Json(options.mesh)}};
+}
+
+std::string to_text(const Options& options, const IndexHeader& header) {
+  std::string text;
+  const auto row = [&](std::string_view name, const std::string& value) {
+    text += fmt::format("{:<10} {}\n", name, value);
+  };
+  row("index", fmt::format("{} ({}, format {}, {} vertices, {} bytes)", printable(options.index),
+                           kind_name(header.kind), header.format, header.vertices, header.bytes));
+  row("checksums", "fit");
+  row("structure", "holds");
+  const std::string mesh = options.mesh.empty() ? "not compared; --mesh names it" : printable(options.mesh) + " fits";
+  row("mesh", fmt::format("{} ({})", to_text(header.mesh), mesh));
+  return text;
+}
+
+void check(const Options& options) {
+  const Index index = io::load(options.index);
+  const IndexHeader header = io::read_header(options.index);
+  check_mesh(options, header, index);
+  options.json ? print_json(to_json(options, header)) : print_text(to_text(options, header));
+}
+
+}  // namespace
+
+void add_check(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("check", "Whether an index file is whole, and that of a mesh");
+  command->add_option("INDEX", options->index, "index file (meshhood build)")->required()->type_name("");
+  command->add_option("--mesh", options->mesh, "the mesh it is said to be built from")->type_name("FILE");
+  command->add_flag("--json", options->json, "one JSON document");
+  command->callback([options] { check(*options); });
+}
+
+}  // namespace meshhood::cli
