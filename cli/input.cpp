@@ -68,7 +68,6 @@ const paper::Index& Input::paper_index() {
 }
 
 io::Mesh read_mesh(const std::string& file) {
-  if (io::is_index(file)) raise(ErrorCode::UnsupportedFormat, file + ": an index, where a mesh was expected");
   const Progress progress("reading " + file);
   io::Mesh mesh = io::read_mesh(file);
   complain_about(mesh, file);

@@ -53,7 +53,7 @@ class Input {
   std::optional<paper::Index> paper_;
 };
 
-/// Reads a mesh where an index will not do. As above; throws Error{UnsupportedFormat} where `file` is an index.
+/// Reads a mesh where an index will not do. As above.
 [[nodiscard]] io::Mesh read_mesh(const std::string& file);
 
 /// Throws Error{InvalidOption} where `output` is a file that it is made from. Either may not exist.

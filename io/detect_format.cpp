@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <span>
+
+#include "meshhood/serialize.h"
 
 #include "io/place.h"
 #include "io/readers.h"
@@ -10,6 +13,7 @@ namespace meshhood::io {
 namespace {
 
 constexpr std::size_t kHead = std::size_t{1} << 16;
+constexpr std::size_t kIndexMark = 8;
 
 std::string lower_case(std::string text) {
   for (char& c : text) {
@@ -17,6 +21,8 @@ std::string lower_case(std::string text) {
   }
   return text;
 }
+
+bool begins_index(Input& input) { return meshhood::is_index(std::as_bytes(std::span(input.ahead(kIndexMark)))); }
 
 std::optional<Format> format_of_ending(const std::string& name) {
   const auto ending = lower_case(std::filesystem::path(name).extension().string());
@@ -67,6 +73,9 @@ std::optional<Format> format_of_content(Input& input) {
 Format detect_format(Input& input, const std::string& name) {
   take_byte_order_mark(input);
   const auto ending = format_of_ending(name);
+  if (begins_index(input)) {
+    raise(ErrorCode::UnsupportedFormat, input.name() + ": an index, where a mesh was expected");
+  }
   if (input.ahead(1).empty()) {
     // Of the four only an OBJ file may be empty: it is a mesh of no vertices.
     if (ending == Format::Obj) return Format::Obj;

@@ -198,6 +198,7 @@ TEST(Format, IsToldByContentAndOnlyThenByName) {
   expect_refused("no_ending", "something else\n", ErrorCode::UnsupportedFormat, "neither PLY, OBJ, OFF nor STL");
   expect_refused("no_ending", std::string(4096, '\0'), ErrorCode::UnsupportedFormat, "neither");
   expect_refused("a.ply", "something else\n", ErrorCode::MalformedFile, "expected 'ply'");
+  expect_refused("a.ply", "\x8bMHI\r\n\x1a\n", ErrorCode::UnsupportedFormat, "an index, where a mesh was expected");
 }
 
 }  // namespace

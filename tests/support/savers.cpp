@@ -14,9 +14,9 @@ namespace meshhood::test {
 namespace {
 
 const shapes::Shape& shape(Version version) {
-  static const shapes::Shape kOld = shapes::find_kind("sphere")->make(15000);
-  static const shapes::Shape kNew = shapes::find_kind("grid")->make(9000);
-  return version == Version::Old ? kOld : kNew;
+  static const shapes::Shape large = shapes::find_kind("sphere")->make(15000);
+  static const shapes::Shape small = shapes::find_kind("grid")->make(9000);
+  return version == Version::Old ? large : small;
 }
 
 void save_ply(const std::filesystem::path& file, Version version) { io::write_ply(file, shape(version).view()); }
@@ -31,16 +31,16 @@ void save_npz(const std::filesystem::path& file, Version version) {
 }
 
 void save_index(const std::filesystem::path& file, Version version) {
-  static const Index kOld = build(shape(Version::Old).view());
-  static const Index kNew = build(shape(Version::New).view());
-  io::save(file, version == Version::Old ? kOld : kNew);
+  static const Index large = build(shape(Version::Old).view());
+  static const Index small = build(shape(Version::New).view());
+  io::save(file, version == Version::Old ? large : small);
 }
 
 }  // namespace
 
 const std::vector<Saver>& savers() {
-  static const std::vector<Saver> kSavers = {{"Index", save_index}, {"Ply", save_ply}, {"Npz", save_npz}};
-  return kSavers;
+  static const std::vector<Saver> all = {{"Index", save_index}, {"Ply", save_ply}, {"Npz", save_npz}};
+  return all;
 }
 
 }  // namespace meshhood::test
