@@ -34,10 +34,15 @@ std::span<char> chars_of(const Lines& lines, std::size_t bytes) {
 struct Content {
   Lines lines;
   std::size_t size = 0;
+
+  [[nodiscard]] std::span<const std::byte> bytes() const { return std::as_bytes(chars_of(lines, size)); }
 };
 
 /// All there is. Of a pipe nobody knows beforehand how much that will be.
-Content read_all(FileSource& source) {
+Content read_all(const std::filesystem::path& path) {
+  FileSource source(path);
+  // What is no index, or not all of one, is not read into memory first.
+  if (source.size()) static_cast<void>(meshhood::read_header(MappedFile(path).bytes()));
   constexpr std::size_t kFirstGuess = std::size_t{1} << 20;
   // One byte more, so that the end is seen without another growth.
   std::size_t capacity = source.size() ? static_cast<std::size_t>(*source.size()) + 1 : kFirstGuess;
@@ -67,23 +72,32 @@ auto naming(const std::filesystem::path& path, F&& call) {
   }
 }
 
-}  // namespace
-
-void save(const std::filesystem::path& path, const Index& index) {
+/// `save` of the core finds the kind of the index.
+template <class AnyIndex>
+void save_any(const std::filesystem::path& path, const AnyIndex& index) {
   FileWriter file(path);
-  meshhood::save(index, [&](std::span<const std::byte> bytes) {
+  const Sink sink = [&](std::span<const std::byte> bytes) {
     file.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  });
+  };
+  save(index, sink);
   file.commit();
 }
 
+}  // namespace
+
+void save(const std::filesystem::path& path, const Index& index) { save_any(path, index); }
+void save(const std::filesystem::path& path, const paper::Index& index) { save_any(path, index); }
+
 Index load(const std::filesystem::path& path) {
-  FileSource source(path);
   return naming(path, [&] {
-    Content content = read_all(source);
-    const auto bytes = std::as_bytes(chars_of(content.lines, content.size));
+    Content content = read_all(path);
+    const auto bytes = content.bytes();
     return meshhood::map(bytes, std::shared_ptr<const Line[]>(std::move(content.lines)));
   });
+}
+
+paper::Index load_paper(const std::filesystem::path& path) {
+  return naming(path, [&] { return paper::load(read_all(path).bytes()); });
 }
 
 Index map(const std::filesystem::path& path, const MapOptions& options) {

@@ -21,6 +21,10 @@ void save(const std::filesystem::path& path, const Index& index);
 /// Throws Error{IoFailure, MalformedIndex, TooLarge}: one line that begins with the file.
 [[nodiscard]] Index load(const std::filesystem::path& path);
 
+/// The same for the paper's index.
+void save(const std::filesystem::path& path, const paper::Index& index);
+[[nodiscard]] paper::Index load_paper(const std::filesystem::path& path);
+
 /// The index in the file, in place: pages are read as queries need them, and shared with whoever maps the same file.
 /// The file is unmapped with the index. Replacing it by renaming, as `save` does, is safe; to truncate or overwrite it
 /// in place is not, and ends the program at the next query that needs what is gone.

@@ -9,6 +9,7 @@
 
 #include "meshhood/fingerprint.h"
 #include "meshhood/index.h"
+#include "meshhood/paper.h"
 
 /// An index as bytes, to be kept. Files are `meshhood/io/index_io.h`'s business.
 ///
@@ -78,4 +79,11 @@ struct IndexHeader {
 /// Throws Error{MalformedIndex}, naming both fingerprints, unless `mesh` is that of the header.
 void check_mesh(const IndexHeader& header, const Fingerprint& mesh);
 
+/// The same for the paper's index. It is read into memory, and cannot be mapped.
+namespace paper {
+
+void save(const Index& index, const Sink& sink);
+[[nodiscard]] Index load(std::span<const std::byte> bytes);
+
+}  // namespace paper
 }  // namespace meshhood

@@ -80,6 +80,8 @@ std::vector<Real> permute(std::span<const Real> xyz, const std::vector<VertexId>
   return result;
 }
 
+}  // namespace
+
 PackedIds cluster_of_vertex(const std::vector<VertexId>& first_vertex, const std::vector<VertexId>& vertices) {
   const std::size_t clusters = first_vertex.size() - 1;
   PackedIds result(vertices.size(), clusters);
@@ -88,8 +90,6 @@ PackedIds cluster_of_vertex(const std::vector<VertexId>& first_vertex, const std
   }
   return result;
 }
-
-}  // namespace
 
 template <class Real>
 Hierarchy<Real> arrange(std::span<const Real> xyz, const std::vector<std::vector<ClusterId>>& parents,

@@ -20,4 +20,8 @@ template <class Real>
 [[nodiscard]] Hierarchy<Real> arrange(std::span<const Real> xyz, const std::vector<std::vector<ClusterId>>& parents,
                                       const std::vector<AdjacencyView>& siblings, std::size_t lowest);
 
+/// By vertex: its cluster on the level whose clusters begin, in index order, where `first_vertex` says.
+[[nodiscard]] PackedIds cluster_of_vertex(const std::vector<VertexId>& first_vertex,
+                                          const std::vector<VertexId>& vertices);
+
 }  // namespace meshhood::paper

@@ -99,7 +99,8 @@ AnyHierarchy compute_any(std::span<const float> xyz, const AdjacencyView& graph,
 
 /// `graph` and `options` have been checked.
 Index make_index(const GraphView& graph, const BuildOptions& options) {
-  return IndexAccess::make(graph.positions.visit([&](auto xyz) { return compute_any(xyz, graph.adjacency, options); }));
+  return IndexAccess::make(graph.positions.visit([&](auto xyz) { return compute_any(xyz, graph.adjacency, options); }),
+                           fingerprint(graph));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "meshhood/fingerprint.h"
 #include "meshhood/paper.h"
 
 #include "distance.h"
@@ -40,6 +41,7 @@ using AnyHierarchy = std::variant<Hierarchy<float>, Hierarchy<double>>;
 
 struct Index::Storage {
   AnyHierarchy hierarchy;
+  Fingerprint mesh;  // the graph is not kept, so it is told apart when it is there
 };
 
 }  // namespace meshhood::paper

@@ -8,11 +8,14 @@
 
 namespace meshhood::paper {
 
-/// The door between an index and what it is made of: for `build`, and for tests that damage an index on purpose.
+/// The door between an index and what it is made of: for `build`, for files, and for tests that damage an index on
+/// purpose.
 struct IndexAccess {
-  [[nodiscard]] static Index make(AnyHierarchy hierarchy) {
-    return Index(std::make_unique<const Index::Storage>(Index::Storage{std::move(hierarchy)}));
+  [[nodiscard]] static Index make(AnyHierarchy hierarchy, const Fingerprint& mesh = {}) {
+    return Index(std::make_unique<const Index::Storage>(Index::Storage{std::move(hierarchy), mesh}));
   }
+
+  [[nodiscard]] static const Fingerprint& mesh(const Index& index) { return index.storage_->mesh; }
 
   [[nodiscard]] static const AnyHierarchy& hierarchy(const Index& index) { return index.storage_->hierarchy; }
 };

@@ -14,4 +14,8 @@ namespace meshhood::paper {
 template <class Real>
 void enclose(std::span<const Real> positions, Level<Real>& level);
 
+/// The mean radius of the spheres of `level`, which stand; 0 where there is none.
+template <class Real>
+[[nodiscard]] double mean_radius(const Level<Real>& level);
+
 }  // namespace meshhood::paper

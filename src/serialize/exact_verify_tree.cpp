@@ -5,18 +5,11 @@
 #include <string>
 
 #include "index/tree.h"
+#include "serialize/coordinates.h"
 #include "serialize/exact_verify.h"
 
 namespace meshhood::file {
 namespace {
-
-template <class Real>
-void verify_coordinates(std::span<const Real> xyz, const SectionReader& file) {
-  for (const Real& value : xyz) {
-    if (std::abs(static_cast<double>(value)) <= kLargestCoordinate) continue;
-    file.refuse(&value, "a coordinate that is not finite, or beyond 2^500");
-  }
-}
 
 class TreeCheck {
  public:

@@ -25,7 +25,7 @@ void pad(std::uint64_t bytes, const Sink& sink) {
 
 void SectionWriter::add_bytes(std::string_view name, std::span<const std::byte> bytes) {
   assert(name.size() <= Section{}.name.size());
-  parts_.push_back({name, bytes});
+  parts_.push_back({std::string(name), bytes});
 }
 
 std::vector<Section> SectionWriter::make_table() const {

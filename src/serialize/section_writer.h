@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
@@ -28,7 +29,7 @@ class SectionWriter {
   [[nodiscard]] std::vector<Section> make_table() const;
 
   struct Part {
-    std::string_view name;
+    std::string name;
     std::span<const std::byte> bytes;
   };
   std::vector<Part> parts_;
