@@ -15,7 +15,8 @@ namespace meshhood::test {
 template <class AnyIndex>
 [[nodiscard]] std::vector<std::byte> saved(const AnyIndex& index) {
   std::vector<std::byte> bytes;
-  save(index, [&](std::span<const std::byte> part) { bytes.insert(bytes.end(), part.begin(), part.end()); });
+  const Sink append = [&](std::span<const std::byte> part) { bytes.insert(bytes.end(), part.begin(), part.end()); };
+  save(index, append);
   return bytes;
 }
 

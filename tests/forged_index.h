@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include "index_bytes.h"
+#include "serialize/checksum.h"
+#include "serialize/format.h"
+
+namespace meshhood::test {
+
+/// The header as it stands in the bytes of an index.
+[[nodiscard]] inline file::Header header_of(std::span<const std::byte> bytes) {
+  file::Header header;
+  std::memcpy(&header, bytes.data(), sizeof(header));
+  return header;
+}
+
+/// The table as it stands there; of what has no room, nothing.
+[[nodiscard]] inline std::vector<file::Section> table_of(std::span<const std::byte> bytes) {
+  std::vector<file::Section> table;
+  const file::Header header = header_of(bytes);
+  if (file::head_bytes(header.sections) > bytes.size()) return table;
+  table.resize(header.sections);
+  if (!table.empty()) std::memcpy(table.data(), bytes.data() + sizeof(header), std::as_bytes(std::span(table)).size());
+  return table;
+}
+
+/// Writes the checksum that belongs to the header and the table.
+inline void seal_header(std::span<std::byte> bytes) {
+  file::Header header = header_of(bytes);
+  const std::uint64_t head = file::head_bytes(header.sections);
+  if (head > bytes.size()) return;
+  const std::span<const std::byte> all = bytes;
+  header.checksum = checksum(
+      {all.first(offsetof(file::Header, checksum)), all.first(static_cast<std::size_t>(head)).subspan(sizeof(header))});
+  std::memcpy(bytes.data(), &header, sizeof(header));
+}
+
+/// Writes all checksums anew, as whoever forges an index can.
+inline void seal(std::span<std::byte> bytes) {
+  if (bytes.size() < sizeof(file::Header)) return;
+  std::vector<file::Section> table = table_of(bytes);
+  for (file::Section& section : table) {
+    if (section.begin > bytes.size() || section.bytes > bytes.size() - section.begin) continue;
+    section.checksum =
+        checksum({bytes.subspan(static_cast<std::size_t>(section.begin), static_cast<std::size_t>(section.bytes))});
+  }
+  if (!table.empty()) std::memcpy(bytes.data() + sizeof(file::Header), table.data(), table.size() * sizeof(table[0]));
+  seal_header(bytes);
+}
+
+/// A saved index that is changed by hand.
+class Forgery {
+ public:
+  explicit Forgery(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}
+
+  /// To be changed in place.
+  [[nodiscard]] file::Header& header() { return *reinterpret_cast<file::Header*>(bytes_.data()); }
+
+  [[nodiscard]] std::span<file::Section> table() {
+    return {reinterpret_cast<file::Section*>(bytes_.data() + sizeof(file::Header)), header().sections};
+  }
+
+  [[nodiscard]] file::Section& entry(std::string_view name) {
+    for (file::Section& section : table()) {
+      if (std::string_view(section.name.data(), std::strlen(section.name.data())) == name) return section;
+    }
+    throw std::out_of_range("no such section");
+  }
+
+  template <class T>
+  [[nodiscard]] std::span<T> section(std::string_view name) {
+    const file::Section& found = entry(name);
+    return {reinterpret_cast<T*>(bytes_.data() + found.begin), static_cast<std::size_t>(found.bytes) / sizeof(T)};
+  }
+
+  [[nodiscard]] std::vector<std::byte>& bytes() { return bytes_; }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+}  // namespace meshhood::test

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// Files of every format that was released: they are read, they answer, and an index built today is the same file. Every
+// compiler and preset runs this, so that all of them agree byte for byte.
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "exact_answer.h"
+#include "shapes.h"
+
+namespace meshhood::test {
+namespace {
+
+std::vector<std::byte> golden_file(const std::string& folder, const std::string& name) {
+  std::ifstream file(MESHHOOD_GOLDEN_DIR "/" + folder + "/" + name + ".mhi", std::ios::binary);
+  const std::vector<char> content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const auto bytes = std::as_bytes(std::span(content));
+  return {bytes.begin(), bytes.end()};
+}
+
+/// Every path of this processor, against breadth-first search.
+std::size_t expect_right_answers(const Index& index) {
+  const GraphData mesh = graph(index);
+  ReferenceSearcher reference(mesh.view());
+  std::vector<Searcher> searchers = searchers_of(index);
+  std::vector<VertexId> expected;
+  std::vector<VertexId> ids;
+  Random random(5);
+  std::size_t queries = 0;
+  for (; queries < 300 && index.vertex_count() > 0; ++queries) {
+    const auto v = static_cast<VertexId>(random.below(index.vertex_count()));
+    const double radius = queries % 50 == 0 ? std::numeric_limits<double>::infinity() : random.uniform(0, 9);
+    reference.neighborhood(v, radius, expected);
+    searchers[queries % searchers.size()].neighborhood(v, radius, ids);
+    EXPECT_THAT(ids, testing::UnorderedElementsAreArray(expected)) << "vertex " << v << ", radius " << radius;
+  }
+  return queries;
+}
+
+TEST(Golden, FilesOfFormat1AreReadAndAnswer) {
+  for (const GoldenShape& shape : golden_shapes()) {
+    SCOPED_TRACE(shape.name);
+    const std::vector<std::byte> bytes = golden_file("format1", shape.name);
+    ASSERT_EQ(read_header(bytes).format, 1U);
+    const Index index = load(bytes);
+    ASSERT_EQ(index.vertex_count(), shape.mesh.size());
+    if (!shape.reordered) {
+      EXPECT_EQ(read_header(bytes).mesh, fingerprint(shape.mesh.view()));
+      EXPECT_THAT(index.check(shape.mesh.view()), testing::IsEmpty());
+    }
+    std::printf("%s: %zu bytes, %zu queries\n", shape.name.c_str(), bytes.size(), expect_right_answers(index));
+  }
+}
+
+TEST(Golden, TodaysBytesAreThoseOfFormat1) {
+  for (const GoldenShape& shape : golden_shapes()) {
+    const std::vector<std::byte> expected = golden_file("format1", shape.name);
+    for (const unsigned threads : {1U, 2U, 3U, 8U}) {
+      EXPECT_TRUE(golden_bytes(shape, threads) == expected) << shape.name << ", " << threads << " threads";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace meshhood::test

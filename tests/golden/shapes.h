@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "meshhood/reorder.h"
+#include "meshhood/serialize.h"
+
+#include "families.h"
+#include "index_bytes.h"
+
+namespace meshhood::test {
+
+/// What the golden files hold: a mesh a kind of content. Made without functions that differ between C libraries.
+struct GoldenShape {
+  std::string name;
+  TestMesh mesh;
+  bool reordered = false;
+};
+
+/// A wavy grid over another, in triangles or quads; every seventh vertex of the upper one in no face.
+[[nodiscard]] inline TestMesh wavy_grids(std::size_t side, bool quads, bool single) {
+  Random random(side);
+  TestMesh mesh = make_grid(side, side + 3, quads);
+  for (double& x : mesh.positions) x += random.uniform(-0.25, 0.25);
+  TestMesh upper = make_grid(side, 4, !quads);
+  for (std::size_t i = 2; i < upper.positions.size(); i += 3) upper.positions[i] += random.uniform(1.0, 1.5);
+  append(mesh, upper);
+  for (std::uint32_t v = 0; v < 40; ++v) mesh.add_vertex(v * 0.5, -1, random.uniform());
+  return mesh.finish(single);
+}
+
+[[nodiscard]] inline std::vector<GoldenShape> golden_shapes() {
+  return {{"float", wavy_grids(15, false, true)},
+          {"double", wavy_grids(12, true, false)},
+          {"reordered", wavy_grids(9, false, true), true},
+          {"empty", TestMesh().finish(true)}};
+}
+
+[[nodiscard]] inline std::vector<std::byte> golden_bytes(const GoldenShape& shape, unsigned threads = 1) {
+  if (shape.reordered) return saved(reorder(shape.mesh.view(), {.threads = threads}).index);
+  return saved(build(shape.mesh.view(), {.threads = threads}));
+}
+
+}  // namespace meshhood::test
