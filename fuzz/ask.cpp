@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "ask.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "meshhood/adjacency.h"
+#include "meshhood/search.h"
+
+#include "judge.h"
+#include "random.h"
+
+namespace meshhood::fuzz {
+namespace {
+
+double draw_radius(const Index& index, VertexId v, test::Random& random) {
+  if (random.below(8) == 0) return std::numeric_limits<double>::infinity();
+  const GraphData mesh = graph(index);
+  const auto w = static_cast<VertexId>(random.below(index.vertex_count()));
+  return distance(mesh.view().positions, v, w) * random.uniform(0, 1.5);
+}
+
+}  // namespace
+
+void ask(const Index& index) {
+  const std::size_t vertices = index.vertex_count();
+  validate(graph(index).view());
+  Searcher searcher(index);
+  std::vector<VertexId> ids;
+  std::vector<double> distances;
+  test::Random random(vertices);
+  for (std::size_t query = 0; query < 64 && vertices > 0; ++query) {
+    const auto v = static_cast<VertexId>(random.below(vertices));
+    const double radius = draw_radius(index, v, random);
+    searcher.neighborhood(v, radius, ids, distances);
+    if (ids.size() > vertices || distances.size() != ids.size()) fail("more vertices than there are");
+    if (std::any_of(ids.begin(), ids.end(), [&](VertexId w) { return w >= vertices; })) fail("no such vertex");
+    for (const VertexRange& range : searcher.ranges(v, radius)) {
+      if (range.begin >= range.end || range.end > vertices) fail("no such range");
+    }
+  }
+}
+
+}  // namespace meshhood::fuzz

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Any bytes as a saved index. Checksums keep nearly all of them out; what is let in must be asked and saved again.
+#include <algorithm>
+#include <vector>
+
+#include "meshhood/error.h"
+#include "meshhood/serialize.h"
+
+#include "ask.h"
+#include "index_bytes.h"
+#include "judge.h"
+#include "target.h"
+
+namespace meshhood::fuzz {
+
+void run(std::span<const std::byte> input) {
+  try {
+    const Index index = load(input);
+    ask(index);
+    if (!std::ranges::equal(test::saved(index), input)) fail("saved again, not the same bytes");
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::MalformedIndex) fail(error.what());
+  }
+}
+
+}  // namespace meshhood::fuzz
