@@ -160,6 +160,7 @@ Total write(const Index& index, const BatchQuery& query, const Options& options)
 void batch(const Options& options) {
   for (const std::string& read : {options.file, options.vertices}) refuse_same_file(read, options.output);
   Input input(options.file);
+  if (options.method == "exact") input.need_edges("--method exact");
   BatchQuery query{.vertices = {}, .radius = resolve(options.radius, input)};
   std::vector<VertexId> listed;
   if (!options.vertices.empty()) {

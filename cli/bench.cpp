@@ -171,6 +171,7 @@ void bench(Options& options) {
   check(options);
   options.plan.order = options.order == "warm" ? Order::Warm : Order::Cold;
   Input input(options.file);
+  input.need_edges("bench");
   if (input.graph().adjacency.neighbors.empty()) {
     raise(ErrorCode::InvalidMesh, options.file + ": it has no edges, so there is nothing to measure");
   }

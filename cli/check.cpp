@@ -41,16 +41,28 @@ void expect_none(const Options& options, const std::vector<std::string>& violati
   refuse(options, violations.front() + more);
 }
 
-/// The index against the mesh given, or against the one that it says to be that of.
-void check_mesh(const Options& options, const IndexHeader& header, const Index& index) {
+template <class AnyIndex>
+void check_against(const io::Mesh& mesh, const Options& options, const IndexHeader& header, const AnyIndex& index) {
+  expect_built_from(options, header, fingerprint(mesh.view()), options.mesh);
+  expect_none(options, index.check(mesh.view()));
+}
+
+/// It keeps the graph, so that even alone it can be compared with what it says to be built from.
+void check_alone(const Options& options, const IndexHeader& header, const Index& index) {
+  const GraphData graph = meshhood::graph(index);
+  expect_built_from(options, header, fingerprint(graph.view()), "what it holds");
+  expect_none(options, index.check(graph.view()));
+}
+
+/// Loading has verified all there is.
+void check_alone(const Options& /*options*/, const IndexHeader& /*header*/, const paper::Index& /*index*/) {}
+
+template <class AnyIndex>
+void check_index(const Options& options, const IndexHeader& header, const AnyIndex& index) {
   if (options.mesh.empty()) {
-    const GraphData graph = meshhood::graph(index);
-    expect_built_from(options, header, fingerprint(graph.view()), "what it holds");
-    expect_none(options, index.check(graph.view()));
+    check_alone(options, header, index);
   } else {
-    const io::Mesh mesh = read_mesh(options.mesh);
-    expect_built_from(options, header, fingerprint(mesh.view()), options.mesh);
-    expect_none(options, index.check(mesh.view()));
+    check_against(read_mesh(options.mesh), options, header, index);
   }
 }
 
@@ -79,9 +91,12 @@ std::string to_text(const Options& options, const IndexHeader& header) {
 }
 
 void check(const Options& options) {
-  const Index index = io::load(options.index);
   const IndexHeader header = io::read_header(options.index);
-  check_mesh(options, header, index);
+  if (header.kind == IndexKind::Paper) {
+    check_index(options, header, io::load_paper(options.index));
+  } else {
+    check_index(options, header, io::load(options.index));
+  }
   options.json ? print_json(to_json(options, header)) : print_text(to_text(options, header));
 }
 

@@ -78,6 +78,7 @@ void paint(const std::string& file, Input& input, const Query& query, const std:
 void compare(const Options& options) {
   refuse_same_file(options.question.file, options.output);
   Input input(options.question.file);
+  input.need_edges("compare");
   const Query query = resolve(options.question, input);
   const std::vector<Method> methods{bfs_method(input.graph()), ball_method(input.positions()),
                                     paper_method(input.paper_index()), exact_method(input.exact_index())};

@@ -100,7 +100,7 @@ Json to_json(const IndexHeader& header, Input& input) {
                 {"vertices", header.vertices},
                 {"precision", precision_name(header)},
                 {"fingerprint", to_text(header.mesh)}};
-  document.update(json_of(input.exact_index()));
+  document.update(header.kind == IndexKind::Paper ? json_of(input.paper_index()) : json_of(input.exact_index()));
   return document;
 }
 
@@ -113,7 +113,7 @@ std::string to_text(const IndexHeader& header, Input& input) {
   row("vertices", std::to_string(header.vertices));
   row("coordinates", std::string(precision_name(header)));
   row("mesh", to_text(header.mesh));
-  return text + '\n' + text_of(input.exact_index());
+  return text + '\n' + (header.kind == IndexKind::Paper ? text_of(input.paper_index()) : text_of(input.exact_index()));
 }
 
 /// A mesh and, if asked for, what its indexes would be.

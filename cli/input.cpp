@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "input.h"
 
+#include <algorithm>
+#include <cassert>
 #include <filesystem>
+#include <span>
 #include <system_error>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -24,25 +29,53 @@ void complain_about(const io::Mesh& mesh, const std::string& file) {
   }
 }
 
+/// In the numbering of the mesh.
+PositionsData positions_of(const paper::Index& index) {
+  return index.positions().visit([&](auto in_index_order) -> PositionsData {
+    std::vector<typename decltype(in_index_order)::value_type> positions(in_index_order.size());
+    const std::span<const VertexId> vertices = index.permutation();
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      std::copy_n(&in_index_order[3 * i], 3, &positions[std::size_t{3} * vertices[i]]);
+    }
+    return positions;
+  });
+}
+
 }  // namespace
 
 Input::Input(std::string file) : name_(std::move(file)) {
-  if (io::is_index(name_)) {
-    const Progress progress("reading " + name_);
-    exact_ = io::load(name_);
-  } else {
+  if (!io::is_index(name_)) {
     mesh_ = read_mesh(name_);
+    return;
+  }
+  const Progress progress("reading " + name_);
+  if (io::read_header(name_).kind == IndexKind::Paper) {
+    paper_ = io::load_paper(name_);
+  } else {
+    exact_ = io::load(name_);
   }
 }
 
-std::size_t Input::vertex_count() const { return mesh_ ? mesh_->view().positions.size() : exact_->vertex_count(); }
+std::size_t Input::vertex_count() const {
+  if (mesh_) return mesh_->view().positions.size();
+  return exact_ ? exact_->vertex_count() : paper_->vertex_count();
+}
+
+void Input::need_edges(const std::string& purpose) const {
+  if (mesh_ || exact_) return;
+  raise(ErrorCode::InvalidOption,
+        fmt::format("{}: {} needs the edges of the mesh, which an index of the paper does not keep", name_, purpose));
+}
 
 PositionsView Input::positions() {
   if (mesh_) return mesh_->view().positions;
-  return graph().positions;
+  if (exact_) return graph().positions;
+  if (!positions_) positions_ = positions_of(*paper_);
+  return std::visit([](const auto& xyz) { return PositionsView(xyz); }, *positions_);
 }
 
 GraphView Input::graph() {
+  assert(mesh_ || exact_);
   if (mesh_) {
     if (!adjacency_) adjacency_ = adjacency(mesh_->view());
     return {mesh_->view().positions, adjacency_->view()};

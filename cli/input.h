@@ -17,7 +17,7 @@ namespace meshhood::cli {
 /// FILE: a mesh, or an index, which stands for the mesh it was built from. Told apart by content.
 ///
 /// Commands ask for what they need; what the file does not hold is made from what it does, when first asked for. Faces
-/// only a mesh has.
+/// only a mesh has; an index of the paper keeps no edges either, and whoever wants them says so by `need_edges`.
 class Input {
  public:
   /// Reads `file`. What the reader finds odd is said on standard error. Throws what `io::read_mesh` and `io::load`
@@ -32,16 +32,22 @@ class Input {
 
   [[nodiscard]] std::size_t vertex_count() const;
 
+  /// Throws Error{InvalidOption} where the file does not tell the edges, which `purpose` needs: "--method bfs".
+  void need_edges(const std::string& purpose) const;
+
   /// Of the mesh, in its numbering. Borrowed.
   [[nodiscard]] PositionsView positions();
 
-  /// The same and the edges.
+  /// The same and the edges, which must be there.
   [[nodiscard]] GraphView graph();
 
   /// What can be drawn of it: the mesh, or its vertices alone, which is said on standard error.
   [[nodiscard]] MeshView surface();
 
+  /// The edges must be there.
   [[nodiscard]] const Index& exact_index(unsigned threads = kAllThreads);
+
+  /// The edges must be there, unless this is what the file holds.
   [[nodiscard]] const paper::Index& paper_index();
 
  private:
@@ -49,8 +55,9 @@ class Input {
   std::optional<io::Mesh> mesh_;
   std::optional<Adjacency> adjacency_;  // of the mesh
   std::optional<Index> exact_;
-  std::optional<GraphData> graph_;  // where there is no mesh
+  std::optional<GraphData> graph_;  // where that is what the file holds
   std::optional<paper::Index> paper_;
+  std::optional<PositionsData> positions_;  // where that is
 };
 
 /// Reads a mesh where an index will not do. As above.

@@ -49,6 +49,7 @@ Answer ask(const Options& options, const Method& method, const Query& query) {
 }
 
 Answer ask(const Options& options, Input& input, const Query& query) {
+  if (options.method == "exact" || options.method == "bfs") input.need_edges("--method " + options.method);
   if (options.method == "bfs") return ask(options, bfs_method(input.graph()), query);
   if (options.method == "ball") return ask(options, ball_method(input.positions()), query);
   if (options.method == "exact") return ask(options, exact_method(input.exact_index()), query);

@@ -19,6 +19,7 @@ namespace meshhood::cli {
 namespace {
 
 double edge_unit(Input& input) {
+  input.need_edges("--unit edge");
   const double mean = mean_edge_length(input.graph());
   if (mean > 0) return mean;
   raise(ErrorCode::InvalidOption, "--unit edge: the edges of " + input.name() + " have no length to measure by");

@@ -29,12 +29,12 @@ struct Tally {
 class SaveKilled : public SaveTrial {
  protected:
   [[nodiscard]] Tally kill_often(std::size_t times) const {
-    constexpr std::size_t kMostMicroseconds = 20000;
+    const std::size_t most = microseconds_of_two_rounds();
     Random random(1);
     Tally tally;
     restore(Version::Old);
     while (tally.kills < times) {
-      kill_a_process_that_saves(std::chrono::microseconds(random.below(kMostMicroseconds)));
+      kill_a_process_that_saves(std::chrono::microseconds(random.below(most)));
       ++tally.kills;
       ++tally.held[static_cast<std::size_t>(held())];
       tally.leftovers += remove_leftovers();
@@ -46,6 +46,17 @@ class SaveKilled : public SaveTrial {
   }
 
  private:
+  /// However slow the disk is, a kill shall hit any of the first saves.
+  [[nodiscard]] std::size_t microseconds_of_two_rounds() const {
+    const auto start = std::chrono::steady_clock::now();
+    for (int round = 0; round < 2; ++round) {
+      save(Version::New);
+      save(Version::Old);
+    }
+    const std::chrono::duration<double, std::micro> elapsed = std::chrono::steady_clock::now() - start;
+    return 1 + static_cast<std::size_t>(elapsed.count());
+  }
+
   void kill_a_process_that_saves(std::chrono::microseconds after) const {
     std::array<int, 2> begun = {};
     ASSERT_EQ(::pipe(begun.data()), 0);

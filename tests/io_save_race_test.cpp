@@ -5,11 +5,7 @@
 #include <thread>
 #include <vector>
 
-#include "meshhood/search.h"
-
-#include "io/index_io.h"
 #include "scale.h"
-#include "shapes/shapes.h"
 #include "support/save_trial.h"
 
 namespace meshhood::test {
@@ -39,24 +35,6 @@ TEST_P(SaveRaces, WhoReadsSeesAWholeFile) {
 }
 
 MESHHOOD_TRY_ALL_SAVERS(SaveRaces);
-
-// Whoever has mapped a file keeps it, though its name comes to stand for another.
-TEST(SaveWhileMapped, TheOldIndexAnswersOn) {
-  const Scratch scratch;
-  const auto file = scratch.path() / "index";
-  const Index large = build(shapes::find_kind("sphere")->make(5000).view());
-  const Index small = build(shapes::find_kind("grid")->make(100).view());
-  io::save(file, large);
-  const Index mapped = io::map(file);
-  io::save(file, small);
-  ASSERT_EQ(io::load(file).vertex_count(), 100U);
-
-  Searcher before(large);
-  Searcher after(mapped);
-  for (VertexId v = 0; v < large.vertex_count(); ++v) {
-    ASSERT_EQ(after.count(v, 10.0), before.count(v, 10.0));
-  }
-}
 
 }  // namespace
 }  // namespace meshhood::test

@@ -54,6 +54,9 @@ class Index {
   /// Bytes of all arrays of the index, its copy of the positions included.
   [[nodiscard]] std::size_t bytes() const;
 
+  /// The positions in index order, #V by 3. Lives as long as the index.
+  [[nodiscard]] PositionsView positions() const;
+
   /// The vertices in index order, in which every cluster of every level is a contiguous range. #V; lives as long as
   /// the index.
   [[nodiscard]] std::span<const VertexId> permutation() const;

@@ -40,6 +40,11 @@ Index::~Index() = default;
 
 std::size_t Index::vertex_count() const { return permutation().size(); }
 
+PositionsView Index::positions() const {
+  return std::visit([](const auto& hierarchy) { return PositionsView(std::span(hierarchy.positions)); },
+                    storage_->hierarchy);
+}
+
 std::span<const VertexId> Index::permutation() const {
   return std::visit([](const auto& hierarchy) { return std::span(hierarchy.vertices); }, storage_->hierarchy);
 }
