@@ -46,6 +46,20 @@ TEST(Build, KeepsWhatTheOptionsSay) {
   EXPECT_THAT(level_numbers(paper::build(mesh.view(), {.levels = 3, .discard = 1000})), ElementsAre(2));
 }
 
+TEST(Build, KeepsThePositionsInIndexOrder) {
+  const TestMesh mesh = make_grid(60, 60, true);
+  const paper::Index index = paper::build(mesh.view());
+  const PositionsView of_mesh = mesh.view().positions;
+  const auto expect_in_order = [&](auto kept) {
+    of_mesh.visit([&](auto xyz) {
+      ASSERT_EQ(kept.size(), xyz.size());
+      for (std::size_t i = 0; i < kept.size(); ++i)
+        ASSERT_EQ(kept[i], xyz[std::size_t{3} * index.permutation()[i / 3] + i % 3]);
+    });
+  };
+  index.positions().visit(expect_in_order);
+}
+
 TEST(Build, GoesOnUntilEveryComponentIsOneCluster) {
   TestMesh mesh = make_grid(20, 20, false);
   append(mesh, make_grid(3, 3, false));
