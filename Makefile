@@ -3,7 +3,13 @@
 #   make build                    installs what it needs, builds build/release/meshhood
 #   make test                     the same, then builds and runs all tests, and each fuzzer for a moment
 #   make demo [MESH=some.ply]     every method on a mesh with a trap, or on your own
-.PHONY: build test demo
+#
+# And for who would see for himself what docs/benchmarks.md says; both end by writing it, and want a quiet machine:
+#
+#   make reproduce                the paper's tables and pictures, accuracy, growth; about half an hour
+#   make peers                    other products on the same queries; about half an hour
+#   make benchmarks               both
+.PHONY: build test demo reproduce peers benchmarks
 
 # The demo reads these from the environment, so that a name may hold blanks.
 export MESH VERTEX RADIUS
@@ -18,3 +24,15 @@ test:
 
 demo: build
 	@tools/demo
+
+bench = build/bench-venv/bin/python3 -B -m bench
+
+reproduce:
+	@bench/setup
+	@$(bench) tables exact pictures accuracy scaling report
+
+peers:
+	@bench/setup peers
+	@$(bench) peers report
+
+benchmarks: reproduce peers

@@ -16,11 +16,11 @@
 #include <string>
 #include <vector>
 
-#include <nanoflann.hpp>
-
 #include "meshhood/meshhood.h"
 
 #include "exact_mesh.h"
+#include "point_cloud.h"
+#include "reordered.h"
 
 namespace meshhood::bench {
 namespace {
@@ -30,29 +30,6 @@ double processor_seconds() {
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
-
-/// The graph of a mesh with its vertices in another order.
-struct Reordered {
-  std::vector<float> positions;
-  Adjacency adjacency;
-  std::vector<VertexId> place;  // by old vertex
-
-  Reordered(const GraphView& graph, std::span<const VertexId> order) : place(order.size()) {
-    for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<VertexId>(i);
-    adjacency.offsets.push_back(0);
-    for (const VertexId v : order) {
-      graph.positions.visit([&](auto xyz) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          positions.push_back(static_cast<float>(xyz[3 * std::size_t{v} + axis]));
-        }
-      });
-      const auto row = adjacency.neighbors.size();
-      for (const VertexId w : graph.adjacency[v]) adjacency.neighbors.push_back(place[w]);
-      std::sort(adjacency.neighbors.begin() + static_cast<std::ptrdiff_t>(row), adjacency.neighbors.end());
-      adjacency.offsets.push_back(static_cast<EdgeOffset>(adjacency.neighbors.size()));
-    }
-  }
-};
 
 enum Method : std::size_t { BfsGiven, BfsReordered, Ids, Count, Ranges, Methods };
 
@@ -64,7 +41,7 @@ class Bench {
         index_(build(mesh)),
         reordered_(graph_, index_.permutation()),
         given_(graph_),
-        in_order_(GraphView{reordered_.positions, reordered_.adjacency.view()}),
+        in_order_(reordered_.view()),
         searcher_(index_),
         mean_edge_(mean_edge_length(graph_)),
         other_memory_(std::size_t{1} << 20) {}
@@ -200,34 +177,13 @@ double build_microseconds_per_vertex(const MeshView& mesh, unsigned threads) {
   return 1e6 * best / static_cast<double>(mesh.positions.size());
 }
 
-/// The positions as nanoflann wants to be asked for them.
-struct PointCloud {
-  std::vector<float> xyz;
-
-  explicit PointCloud(const PositionsView& positions) {
-    positions.visit([&](auto given) {
-      xyz.resize(given.size());
-      std::transform(given.begin(), given.end(), xyz.begin(), [](auto x) { return static_cast<float>(x); });
-    });
-  }
-  // NOLINTBEGIN(readability-identifier-naming): nanoflann's names
-  [[nodiscard]] std::size_t kdtree_get_point_count() const { return xyz.size() / 3; }
-  [[nodiscard]] float kdtree_get_pt(std::size_t v, std::size_t axis) const { return xyz[3 * v + axis]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box& /*box*/) const {
-    return false;
-  }
-  // NOLINTEND(readability-identifier-naming)
-};
-
 /// A kd-tree over the same points, which knows nothing of the mesh.
 double kd_tree_microseconds_per_vertex(const MeshView& mesh) {
-  using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PointCloud>, PointCloud, 3>;
   const PointCloud cloud(mesh.positions);
   double best = 1e9;
   for (int i = 0; i < 3; ++i) {
     const double begin = processor_seconds();
-    const Tree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(10));
+    const KdTree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(10));
     best = std::min(best, processor_seconds() - begin);
   }
   return 1e6 * best / static_cast<double>(mesh.positions.size());

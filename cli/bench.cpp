@@ -125,6 +125,7 @@ Json to_json(const std::vector<Measurement>& table) {
     rows.push_back({{"radius_edges", m.radius_edges},
                     {"method", m.method},
                     {"microseconds", m.microseconds},
+                    {"quartiles", {m.lower, m.upper}},
                     {"count", m.count},
                     {"extra", m.extra},
                     {"missing", m.missing}});

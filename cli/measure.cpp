@@ -43,10 +43,11 @@ class Starts {
   std::mt19937_64 random_;
 };
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+/// The value below which `part` of `values` lie.
+double quantile(std::vector<double> values, double part) {
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
 }
 
 /// What one method has done at one radius so far.
@@ -73,8 +74,14 @@ class Race {
   [[nodiscard]] Measurement result(std::size_t method, double radius_edges, std::size_t queries) const {
     const Tally& tally = tallies_[method];
     const auto mean = [&](double sum) { return sum / static_cast<double>(queries); };
-    return {radius_edges,      methods_[method].name, median(tally.microseconds),
-            mean(tally.count), mean(tally.extra),     mean(tally.missing)};
+    return {.radius_edges = radius_edges,
+            .method = methods_[method].name,
+            .microseconds = quantile(tally.microseconds, 0.5),
+            .lower = quantile(tally.microseconds, 0.25),
+            .upper = quantile(tally.microseconds, 0.75),
+            .count = mean(tally.count),
+            .extra = mean(tally.extra),
+            .missing = mean(tally.missing)};
   }
 
  private:
@@ -90,6 +97,7 @@ class Race {
 
   void judge(VertexId v) {
     for (std::size_t i = 0; i < methods_.size(); ++i) {
+      if (!methods_[i].lists_vertices) continue;
       Vertices& answer = i == 0 ? exact_ : answer_;
       methods_[i].neighborhood(v, radius_, answer);
       const Difference difference = comparison_.compare(exact_, answer);

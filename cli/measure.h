@@ -19,7 +19,9 @@ struct Measurement {
   double radius_edges;
   std::string method;
   double microseconds;  ///< of processor time, the median over blocks of queries
-  double count;         ///< means over all queries
+  double lower;         ///< quartile of the same
+  double upper;
+  double count;  ///< means over all queries
   double extra;
   double missing;
 };
@@ -39,7 +41,8 @@ struct Plan {
 
 /// Times `methods` at every radius of `plan`. The queries come in blocks that all methods answer one after the other,
 /// so that whatever disturbs the machine disturbs all of them; answers are compared outside the timed section with
-/// those of the first method. A method that visits all vertices is timed on fewer queries of each block.
+/// those of the first method. A method that visits all vertices is timed on fewer queries of each block; one that does
+/// not list them is not compared.
 ///
 /// unit          one average edge, in the unit of the positions.
 /// permutation   the vertices, #V >= 1, neighbours near each other.

@@ -19,6 +19,7 @@ struct Method {
   std::function<void(VertexId v, double radius, std::vector<VertexId>& out)> neighborhood;
   std::function<std::size_t(VertexId v, double radius)> count;  ///< none where the vertices must be listed for it
   bool visits_all_vertices = false;                             ///< each query costs as much as the whole mesh
+  bool lists_vertices = true;                                   ///< else `neighborhood` leaves `out` as it was
 };
 
 /// The exact answer, by the index made for it. Borrows `index`.

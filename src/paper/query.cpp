@@ -39,6 +39,8 @@ class Searcher::Query {
   [[nodiscard]] std::size_t count() const;
 
  private:
+  friend struct SearcherAccess;  // which may time the phases one by one
+
   [[nodiscard]] const Level<Real>& level() const { return hierarchy_.levels[level_]; }
 
   /// The position of `v`, found among the few vertices of its lowest cluster.

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: MIT
+"""Measures what meshhood says of itself, each part by one command; the results are docs/benchmarks/*.json, and what is
+shown is made from them.
+
+    python3 -m bench tables      the paper's Table 1 and Table 2, the phases of its query, the account of all vertices
+    python3 -m bench exact       the exact index beside the best breadth-first search, cold and warm
+    python3 -m bench pictures    the paper's Figure 4
+    python3 -m bench accuracy    the paper's answer and the ball against the exact one
+    python3 -m bench scaling     cost as mesh and radius grow
+    python3 -m bench peers       other products on the same queries
+    python3 -m bench report      plots and docs/benchmarks.md, from the results
+
+`make reproduce` and `make peers` install what is needed and run them. On a busy machine the figures say so.
+"""
+import argparse
+
+from . import meshes
+
+
+def tables(options):
+    from . import paper_tables
+
+    paper_tables.tables(options.meshes or meshes.OF_PAPER, options.queries or 2000)
+    paper_tables.all_vertices(["head_skin"] if not options.meshes else options.meshes[:1])
+
+
+def exact(options):
+    from . import exact_index
+
+    exact_index.run(options.meshes, options.queries or 300)
+
+
+def pictures(options):
+    from . import pictures as drawing
+
+    drawing.run(options.meshes)
+
+
+def accuracy(options):
+    from . import accuracy as measuring
+
+    measuring.run(options.meshes or measuring.MESHES, options.queries or 500)
+
+
+def scaling(options):
+    from . import scaling as measuring
+
+    measuring.run(options.largest, options.queries or 1000)
+
+
+def peers(options):
+    from .peers import contest
+
+    contest.run(options.meshes, options.block_seconds)
+
+
+def report(_):
+    from . import report as writing
+
+    writing.write()
+
+
+PARTS = {part.__name__: part for part in (tables, exact, pictures, accuracy, scaling, peers, report)}
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="python3 -m bench", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("parts", nargs="+", choices=PARTS, metavar="PART", help=", ".join(PARTS))
+    parser.add_argument("--meshes", nargs="+", choices=meshes.MESHES, metavar="NAME", help=", ".join(meshes.MESHES))
+    parser.add_argument("--queries", type=int, help="a mesh and radius")
+    parser.add_argument("--largest", type=int, default=10_000_000, help="vertices of the largest mesh of `scaling`")
+    parser.add_argument("--block-seconds", type=float, default=0.5, help="of a peer and block, about")
+    options = parser.parse_args()
+    for part in options.parts:
+        PARTS[part](options)
+
+
+if __name__ == "__main__":
+    main()

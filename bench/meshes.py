@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: MIT
+"""The meshes, by name: those that lie beside the repository, or one by formula of the same size where they do not."""
+import os
+import struct
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+from . import places
+
+SHARED = Path(os.environ.get("MESHHOOD_SHARED", places.ROOT.parent / "shared" / "meshes"))
+
+
+@dataclass(frozen=True)
+class Mesh:
+    file: str
+    stand_in: str  # by formula
+    of_paper: str = ""  # which of the paper's meshes it is, or stands for
+    remark: str = ""
+
+
+MESHES = {
+    "cat0": Mesh("paper/tosca_cat0.off", "sphere:27894", "Cat", "the paper's data set (the pose it used is not known)"),
+    "victoria0": Mesh("paper/tosca_victoria0.off", "knot:45659", "Victoria",
+                      "the paper's data set (the pose it used is not known)"),
+    "dragon": Mesh("paper/stanford_dragon_437k.ply.zst", "noise:437645", "Happy",
+                   "stand-in: the same scanner and reconstruction program"),
+    "head_skin": Mesh("paper/head_skin_1m.ply.zst", "sphere:1000000", "Raptor",
+                      "stand-in: one smooth sheet, nearest to the Raptor in kind"),
+    "mri_head": Mesh("paper/mri_head_a_1m.ply.zst", "gyroid:1000000", "Raptor",
+                     "stand-in: one very folded surface, far harder"),
+    "cat2": Mesh("paper/tosca_cat2.off", "folds:27894", remark="the cat in a close-folded pose"),
+    "cortex": Mesh("scan/cortex_left_41k.ply.zst", "folds:40962", remark="a folded sheet whose folds lie close"),
+    "tiny": Mesh("", "scroll:3000", remark="by formula, to try the harness"),
+    "scroll": Mesh("", "scroll:100000", remark="by formula: a rolled sheet, its turns 2.5 edges apart"),
+}
+OF_PAPER = [name for name, mesh in MESHES.items() if mesh.of_paper]
+
+
+def argument(name):
+    """What our programs take: a file, unpacked, or a shape as kind:vertices."""
+    mesh = MESHES[name]
+    packed = SHARED / mesh.file
+    if not mesh.file or not packed.exists():
+        return mesh.stand_in
+    return str(unpacked(packed) if packed.suffix == ".zst" else packed)
+
+
+def described(name):
+    mesh = MESHES[name]
+    what = mesh.remark or ""
+    if mesh.file and argument(name) != mesh.stand_in:
+        return f"`{mesh.file}`; {what}"
+    return f"`{mesh.stand_in}` by formula; {what if not mesh.file else 'the file is not here'}"
+
+
+def as_file(name):
+    """As `argument`, but always a file."""
+    mesh = argument(name)
+    if ":" not in mesh:
+        return mesh
+    kind, vertices = mesh.split(":")
+    target = places.SCRATCH / f"{kind}-{vertices}.ply"
+    if not target.exists():
+        target.parent.mkdir(parents=True, exist_ok=True)
+        subprocess.run([places.MESHHOOD, "generate", kind, "--vertices", vertices, "-o", target], check=True,
+                       stdout=subprocess.DEVNULL)
+    return str(target)
+
+
+def unpacked(packed):
+    target = places.SCRATCH / packed.stem
+    if not target.exists():
+        target.parent.mkdir(parents=True, exist_ok=True)
+        partial = target.with_suffix(".partial")
+        subprocess.run(["zstd", "-dqf", packed, "-o", partial], check=True)
+        partial.rename(target)
+    return target
+
+
+def write_ply(path, positions, triangles):
+    """positions: #V by 3 float32. triangles: #F by 3 int32."""
+    import numpy as np
+
+    header = ("ply\nformat binary_little_endian 1.0\n"
+              f"element vertex {len(positions)}\nproperty float x\nproperty float y\nproperty float z\n"
+              f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n")
+    rows = np.empty(len(triangles), np.dtype([("size", "u1"), ("corners", "<i4", 3)]))
+    rows["size"], rows["corners"] = 3, triangles
+    assert rows.itemsize == struct.calcsize("<Biii")
+    with open(path, "wb") as file:
+        file.write(header.encode("ascii"))
+        file.write(np.ascontiguousarray(positions, "<f4").tobytes())
+        file.write(rows.tobytes())

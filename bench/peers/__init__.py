@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: MIT
+"""The peers, in the order of the tables: who answers the same question first."""
+from .libigl_curvature import LibiglBall, LibiglRings
+from .meshhood_exact import MeshhoodBatch, MeshhoodCalls, MeshhoodCount, MeshhoodPaper
+from .native import BreadthFirst, Nanoflann
+from .open3d_radius import Open3d
+from .pymeshlab_geodesic import PyMeshLab
+from .pyvista_clip import PyVista
+from .scipy_trees import Components, Dijkstra, KdTree
+from .trueform_neighborhoods import Trueform
+
+PEERS = {
+    peer.name: peer
+    for peer in (MeshhoodBatch, MeshhoodCalls, MeshhoodCount, MeshhoodPaper, BreadthFirst, Trueform, Components, PyVista,
+                 Nanoflann, KdTree, Open3d, Dijkstra, PyMeshLab, LibiglBall, LibiglRings)
+}

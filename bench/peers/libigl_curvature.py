@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: MIT
+"""libigl's curvature, whose search is the same breadth-first search with a ball, and its k-ring. It does not hand out
+the neighborhoods; what is timed is the whole job, search and fit."""
+import numpy as np
+
+from .peer import Peer
+
+
+class LibiglBall(Peer):
+    name = "libigl principal_curvature, ball"
+    package = "libigl"
+    module = "igl"
+    answers = "curvature within the ball"
+    remark = "all vertices at once; search and quadric fit; radius rounded to whole edges"
+    whole = True
+    largest_answer = 100_000_000
+    use_rings = False
+
+    def __init__(self, positions, triangles, path, threads):
+        import igl
+
+        self.igl = igl
+        self.positions, self.triangles = positions.astype(np.float64), triangles.astype(np.int64)
+        self.edge = igl.avg_edge_length(self.positions, self.triangles)
+
+    def ask(self, vertices, radius):
+        edges = max(2, round(radius / self.edge))
+        self.igl.principal_curvature(self.positions, self.triangles, edges, self.use_rings)
+
+    def rows(self, answer, vertices):
+        return None
+
+
+class LibiglRings(LibiglBall):
+    name = "libigl principal_curvature, k-ring"
+    answers = "curvature within k rings"
+    use_rings = True

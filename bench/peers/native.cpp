@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// Peers that are C++: our breadth-first search, and nanoflann's ball. bench/peers/native.py talks to it.
+// Usage: native bfs|nanoflann MESH THREADS. The first line says how many seconds building took.
+// Then, for each line `RADIUS QUERIES_FILE [ANSWERS_FILE]`: answers the queries (32-bit vertices) and says how many
+// seconds that took; answers are kept until then, and written if so asked (32-bit: how many, then the ids, each query).
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <nanoflann.hpp>
+
+#include "meshhood/meshhood.h"
+
+#include "exact_mesh.h"
+#include "point_cloud.h"
+
+namespace meshhood::bench {
+namespace {
+
+using Answer = std::vector<VertexId>;
+/// Answers a query in the thread of that number.
+using Ask = std::function<void(unsigned thread, VertexId v, double radius, Answer& out)>;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+Ask breadth_first(const MeshView& mesh, unsigned threads) {
+  auto graph = std::make_shared<Adjacency>(adjacency(mesh));
+  auto searchers = std::make_shared<std::vector<ReferenceSearcher>>();
+  for (unsigned i = 0; i < threads; ++i) searchers->emplace_back(GraphView{mesh.positions, graph->view()});
+  return [graph, searchers](unsigned thread, VertexId v, double radius, Answer& out) {
+    (*searchers)[thread].neighborhood(v, radius, out);
+  };
+}
+
+Ask kd_tree(const MeshView& mesh) {
+  auto cloud = std::make_shared<PointCloud>(mesh.positions);
+  auto tree = std::make_shared<KdTree>(3, *cloud);
+  return [cloud, tree](unsigned /*thread*/, VertexId v, double radius, Answer& out) {
+    thread_local std::vector<std::pair<VertexId, float>> found;
+    const auto squared = static_cast<float>(radius * radius);
+    tree->radiusSearch(&cloud->xyz[3 * std::size_t{v}], squared, found, nanoflann::SearchParams(0, 0, false));
+    out.clear();
+    for (const auto& item : found) out.push_back(item.first);
+  };
+}
+
+std::vector<VertexId> read_queries(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  std::vector<VertexId> queries(static_cast<std::size_t>(file.tellg()) / sizeof(VertexId));
+  file.seekg(0);
+  file.read(reinterpret_cast<char*>(queries.data()), static_cast<std::streamsize>(queries.size() * sizeof(VertexId)));
+  return queries;
+}
+
+void write_answers(const std::string& path, const std::vector<Answer>& answers) {
+  std::ofstream file(path, std::ios::binary);
+  for (const Answer& answer : answers) {
+    const auto count = static_cast<std::uint32_t>(answer.size());
+    file.write(reinterpret_cast<const char*>(&count), sizeof count);
+    file.write(reinterpret_cast<const char*>(answer.data()),
+               static_cast<std::streamsize>(answer.size() * sizeof(VertexId)));
+  }
+}
+
+/// Each thread takes the next few queries until none is left.
+void answer_all(const Ask& ask, const std::vector<VertexId>& queries, double radius, unsigned threads,
+                std::vector<Answer>& answers) {
+  constexpr std::size_t kChunk = 16;
+  std::atomic<std::size_t> next{0};
+  const auto work = [&](unsigned thread) {
+    for (std::size_t begin; (begin = next.fetch_add(kChunk)) < queries.size();) {
+      const std::size_t end = std::min(begin + kChunk, queries.size());
+      for (std::size_t i = begin; i < end; ++i) ask(thread, queries[i], radius, answers[i]);
+    }
+  };
+  std::vector<std::jthread> helpers;
+  for (unsigned thread = 1; thread < threads; ++thread) helpers.emplace_back(work, thread);
+  work(0);
+}
+
+void serve(const Ask& ask, unsigned threads) {
+  for (std::string line; std::getline(std::cin, line);) {
+    std::istringstream words(line);
+    double radius = 0;
+    std::string from;
+    std::string to;
+    words >> radius >> from >> to;
+    const std::vector<VertexId> queries = read_queries(from);
+    std::vector<Answer> answers(queries.size());
+    const auto begin = Clock::now();
+    answer_all(ask, queries, radius, threads, answers);
+    const double seconds = seconds_since(begin);
+    if (!to.empty()) write_answers(to, answers);
+    std::cout << seconds << std::endl;
+  }
+}
+
+}  // namespace
+}  // namespace meshhood::bench
+
+int main(int arguments, char** values) {
+  using namespace meshhood::bench;
+  if (arguments != 4) return 2;
+  const MeshArgument mesh(values[2]);
+  const auto threads = static_cast<unsigned>(std::stoul(values[3]));
+  const auto begin = Clock::now();
+  const Ask ask = std::string(values[1]) == "bfs" ? breadth_first(mesh.view(), threads) : kd_tree(mesh.view());
+  std::cout << seconds_since(begin) << std::endl;
+  serve(ask, threads);
+  return 0;
+}

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: MIT
+"""PyMeshLab has no such query. Nearest comes its distance along the surface from a point, up to a limit."""
+import numpy as np
+
+from .peer import Peer
+
+
+class PyMeshLab(Peer):
+    name = "PyMeshLab geodesic distance, maxdistance"
+    package = "pymeshlab"
+    module = "pymeshlab"
+    answers = "distance along the surface"
+    remark = "a call for each; one thread in any case"
+
+    def __init__(self, positions, triangles, path, threads):
+        import pymeshlab
+
+        self.pymeshlab = pymeshlab
+        self.positions = positions.astype(np.float64)
+        self.meshes = pymeshlab.MeshSet()
+        self.meshes.add_mesh(pymeshlab.Mesh(self.positions, triangles))
+
+    def ask(self, vertices, radius):
+        return [self.neighborhood(v, radius) for v in vertices]
+
+    def neighborhood(self, v, radius):
+        self.meshes.compute_scalar_by_geodesic_distance_from_given_point_per_vertex(
+            startpoint=self.positions[v], maxdistance=self.pymeshlab.PureValue(radius))
+        distances = self.meshes.current_mesh().vertex_scalar_array()
+        # Zero is also what lies beyond the limit.
+        reached = (distances > 0) & (distances <= radius)
+        reached[v] = True
+        return np.flatnonzero(reached)

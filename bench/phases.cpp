@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// The profile of sec. 4.3: how long the paper's query spends in each of its phases. Prints one JSON document.
+// Usage: phases MESH QUERIES RADIUS...; radii in mean edges.
+//
+// The phases are private to the query, so that its source is a part of this program.
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "exact_mesh.h"
+#include "paper/query.cpp"
+
+namespace meshhood::paper {
+
+/// Climb up, breadth first, range search; the last with the copying of the ids, which it leaves to the end.
+using PhaseSeconds = std::array<double, 3>;
+
+struct SearcherAccess {
+  static PhaseSeconds ask(Searcher& searcher, VertexId v, double radius, std::vector<VertexId>& out) {
+    return std::visit([&](const auto& hierarchy) { return run_phases(hierarchy, searcher, v, radius, out); },
+                      searcher.storage_->hierarchy);
+  }
+
+ private:
+  template <class Real>
+  static PhaseSeconds run_phases(const Hierarchy<Real>& hierarchy, Searcher& searcher, VertexId v, double radius,
+                                 std::vector<VertexId>& out) {
+    using Clock = std::chrono::steady_clock;
+    std::array<Clock::time_point, 4> at;
+    at[0] = Clock::now();
+    Searcher::Query<Real> query(searcher, hierarchy, v, radius);
+    searcher.pieces_.clear();
+    query.climb_up(radius / QueryOptions{}.scale_factor);
+    at[1] = Clock::now();
+    query.breadth_first();
+    at[2] = Clock::now();
+    query.range_search();
+    query.collect(out);
+    at[3] = Clock::now();
+    const auto seconds = [&](std::size_t i) { return std::chrono::duration<double>(at[i + 1] - at[i]).count(); };
+    return {seconds(0), seconds(1), seconds(2)};
+  }
+};
+
+}  // namespace meshhood::paper
+
+namespace meshhood::bench {
+namespace {
+
+/// The phases in per cent of a query, the mean over the queries: one that was interrupted counts no more than another.
+class Shares {
+ public:
+  void add(const paper::PhaseSeconds& phases) {
+    const double whole = phases[0] + phases[1] + phases[2];
+    for (std::size_t i = 0; i < sum_.size(); ++i) sum_[i] += 100 * phases[i] / whole;
+    ++queries_;
+  }
+
+  void print(double radius, bool last) const {
+    const auto mean = [&](std::size_t i) { return sum_[i] / static_cast<double>(queries_); };
+    std::printf("{\"radius_edges\": %g, \"climb_up\": %.2f, \"breadth_first\": %.2f, \"range_search\": %.2f}%s", radius,
+                mean(0), mean(1), mean(2), last ? "" : ", ");
+  }
+
+ private:
+  std::array<double, 3> sum_{};
+  std::size_t queries_ = 0;
+};
+
+void profile(const MeshView& mesh, std::size_t queries, const std::vector<double>& radii) {
+  const paper::Index index = paper::build(mesh);
+  const double unit = mean_edge_length({mesh.positions, adjacency(mesh).view()});
+  paper::Searcher searcher(index);
+  std::mt19937_64 random(1);
+  std::vector<VertexId> out;
+  std::printf("[");
+  for (const double radius : radii) {
+    Shares shares;
+    for (std::size_t i = 0; i < queries; ++i) {
+      const auto v = static_cast<VertexId>(random() % index.vertex_count());
+      shares.add(paper::SearcherAccess::ask(searcher, v, radius * unit, out));
+    }
+    shares.print(radius, radius == radii.back());
+  }
+  std::printf("]\n");
+}
+
+}  // namespace
+}  // namespace meshhood::bench
+
+int main(int arguments, char** values) {
+  if (arguments < 4) {
+    std::fprintf(stderr, "usage: phases MESH QUERIES RADIUS...\n");
+    return 2;
+  }
+  try {
+    std::vector<double> radii;
+    for (int i = 3; i < arguments; ++i) radii.push_back(std::stod(values[i]));
+    meshhood::bench::profile(meshhood::bench::MeshArgument(values[1]).view(), std::stoul(values[2]), radii);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "phases: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

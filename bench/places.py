@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: MIT
+"""Where things are."""
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+BUILD = ROOT / "build"
+PROGRAMS = BUILD / "release" / "bench"
+MESHHOOD = BUILD / "release" / "meshhood"
+SCRATCH = BUILD / "benchmarks"
+RESULTS = ROOT / "docs" / "benchmarks"
+DOCUMENT = ROOT / "docs" / "benchmarks.md"
+README = ROOT / "README.md"

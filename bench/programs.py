@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: MIT
+"""Our own programs, asked for JSON."""
+import json
+import subprocess
+import sys
+
+from . import places
+
+
+def ask(program, *arguments):
+    command = [str(program), *map(str, arguments)]
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
+    if done.returncode != 0:
+        sys.exit(f"bench: {' '.join(command)} failed")
+    return json.loads(done.stdout)
+
+
+def race(mesh, methods=(), *, radii=(), queries=0, order="cold", builds=0):
+    """All `methods` on the same queries in one run; the first is taken as exact. See bench/race/main.cpp."""
+    arguments = [mesh, "--order", order, "--builds", builds]
+    for method in methods:
+        arguments += ["--method", method]
+    if radii:
+        arguments += ["--radii", ",".join(map(str, radii)), "--queries", queries]
+    return ask(places.PROGRAMS / "race", *arguments)
+
+
+def by_radius(rows):
+    """Rows as radius -> method -> row."""
+    radii = {}
+    for row in rows:
+        radii.setdefault(row["radius_edges"], {})[row["method"]] = row
+    return radii

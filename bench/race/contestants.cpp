@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "contestants.h"
+
+#include <sstream>
+
+#include "meshhood/error.h"
+
+#include "cli/processor_time.h"
+
+namespace meshhood::bench {
+namespace {
+
+struct PaperOptions {
+  paper::BuildOptions build;
+  paper::QueryOptions query;
+};
+
+/// Of "paper,f=3,levels=4": what follows the first comma.
+PaperOptions paper_options(const std::string& name) {
+  PaperOptions options;
+  std::istringstream words(name);
+  std::string word;
+  std::getline(words, word, ',');
+  while (std::getline(words, word, ',')) {
+    const auto equals = word.find('=');
+    const std::string key = word.substr(0, equals);
+    const std::string value = equals == std::string::npos ? "" : word.substr(equals + 1);
+    if (key == "f") {
+      options.query.scale_factor = std::stod(value);
+    } else if (key == "levels") {
+      options.build.levels = std::stoi(value);
+    } else if (key == "discard") {
+      options.build.discard = std::stoi(value);
+    } else {
+      raise(ErrorCode::InvalidOption, name + ": " + word + " is neither f, levels nor discard");
+    }
+  }
+  return options;
+}
+
+template <class BuildIndex>
+double seconds_of(BuildIndex&& build_index) {
+  const double start = cli::processor_time();
+  static_cast<void>(build_index());
+  return cli::processor_time() - start;
+}
+
+}  // namespace
+
+cli::Method Contestants::method(const std::string& name) {
+  if (name == "bfs") return cli::bfs_method(graph());
+  if (name == "bfs-reordered") return bfs_reordered();
+  if (name == "ball") return cli::ball_method(mesh_.positions);
+  if (name == "ids") return ids_method();
+  if (name == "count") return count_method();
+  if (name == "ranges") return ranges_method();
+  if (name.starts_with("paper")) return paper(name);
+  raise(ErrorCode::InvalidOption, name + ": no such method");
+}
+
+std::vector<Build> Contestants::time_builds(int times) const {
+  std::vector<Build> builds{{"exact", {}, build(mesh_).bytes().total()}, {"paper", {}, paper::build(mesh_).bytes()}};
+  for (int i = 0; i < times; ++i) {
+    builds[0].seconds.push_back(seconds_of([&] { return build(mesh_); }));
+    builds[1].seconds.push_back(seconds_of([&] { return paper::build(mesh_); }));
+  }
+  return builds;
+}
+
+const Index& Contestants::another_exact() {
+  exacts_.push_back(std::make_unique<Index>(build(mesh_)));
+  return *exacts_.back();
+}
+
+cli::Method Contestants::ids_method() {
+  cli::Method method = cli::exact_method(another_exact());
+  method.name = "ids";
+  return method;
+}
+
+cli::Method Contestants::bfs_reordered() {
+  if (!reordered_) reordered_ = std::make_unique<Reordered>(graph(), order());
+  auto searcher = std::make_shared<ReferenceSearcher>(reordered_->view());
+  return {.name = "bfs-reordered",
+          .neighborhood =
+              [searcher, this](VertexId v, double radius, std::vector<VertexId>& out) {
+                searcher->neighborhood(reordered_->place[v], radius, out);
+              },
+          .count = {},
+          .lists_vertices = false};  // in its own numbering, so that they cannot be compared
+}
+
+cli::Method Contestants::count_method() {
+  auto searcher = std::make_shared<Searcher>(another_exact());
+  return {.name = "count",
+          .neighborhood = [searcher](VertexId v, double radius,
+                                     std::vector<VertexId>&) { static_cast<void>(searcher->count(v, radius)); },
+          .count = {},
+          .lists_vertices = false};
+}
+
+cli::Method Contestants::ranges_method() {
+  auto searcher = std::make_shared<Searcher>(another_exact());
+  return {.name = "ranges",
+          .neighborhood = [searcher](VertexId v, double radius,
+                                     std::vector<VertexId>&) { static_cast<void>(searcher->ranges(v, radius)); },
+          .count = {},
+          .lists_vertices = false};
+}
+
+cli::Method Contestants::paper(const std::string& name) {
+  const PaperOptions options = paper_options(name);
+  papers_.push_back(std::make_unique<paper::Index>(paper::build(graph(), options.build)));
+  cli::Method method = cli::paper_method(*papers_.back(), options.query);
+  method.name = name;
+  return method;
+}
+
+}  // namespace meshhood::bench

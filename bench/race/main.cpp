@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Times methods against each other on one mesh, interleaved, and compares their answers with the first method's.
+// Prints one JSON document; bench/run.py calls it.
+#include <exception>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "meshhood/meshhood.h"
+
+#include "cli/machine.h"
+#include "cli/measure.h"
+#include "contestants.h"
+#include "exact_mesh.h"
+
+namespace meshhood::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string mesh;
+  std::vector<std::string> methods;
+  std::string order = "cold";
+  cli::Plan plan{.radii = {2, 3, 5, 10, 20, 40, 65, 90}, .queries = 200};
+  int builds = 0;
+};
+
+Json to_json(const Build& build) { return {{"name", build.name}, {"seconds", build.seconds}, {"bytes", build.bytes}}; }
+
+Json to_json(const cli::Measurement& m, const cli::Method& method) {
+  Json row{{"radius_edges", m.radius_edges},
+           {"method", m.method},
+           {"microseconds", m.microseconds},
+           {"quartiles", {m.lower, m.upper}}};
+  if (method.lists_vertices) row.update({{"count", m.count}, {"extra", m.extra}, {"missing", m.missing}});
+  return row;
+}
+
+Json race(const MeshView& mesh, Options& options) {
+  Contestants contestants(mesh);
+  std::vector<cli::Method> methods;
+  for (const std::string& name : options.methods) methods.push_back(contestants.method(name));
+  const double unit = mean_edge_length(contestants.graph());
+  Json rows = Json::array();
+  if (!methods.empty()) {
+    options.plan.order = options.order == "warm" ? cli::Order::Warm : cli::Order::Cold;
+    const auto table = cli::measure(methods, options.plan, unit, contestants.order(), [](double /*fraction*/) {});
+    for (std::size_t i = 0; i < table.size(); ++i) rows.push_back(to_json(table[i], methods[i % methods.size()]));
+  }
+  Json builds = Json::array();
+  if (options.builds > 0) {
+    for (const Build& build : contestants.time_builds(options.builds)) builds.push_back(to_json(build));
+  }
+  const cli::Machine machine = cli::this_machine();
+  return {{"mesh", options.mesh},
+          {"vertices", mesh.positions.size()},
+          {"faces", mesh.faces.size()},
+          {"average_edge", unit},
+          {"compiler", machine.compiler},
+          {"order", options.order},
+          {"queries", options.plan.queries},
+          {"builds", builds},
+          {"rows", rows}};
+}
+
+int run(int arguments, char** values) {
+  CLI::App program{"Times methods against each other on one mesh; one JSON document on standard output"};
+  Options options;
+  program.add_option("mesh", options.mesh, "a file, or a shape as scroll:1000000")->required();
+  program.add_option("--method", options.methods, "may be repeated; the first is taken as exact")
+      ->allow_extra_args(false);
+  program.add_option("--radii", options.plan.radii, "in average edges")->delimiter(',');
+  program.add_option("--queries", options.plan.queries, "a radius")->capture_default_str();
+  program.add_option("--order", options.order)->check(CLI::IsMember({"cold", "warm"}))->capture_default_str();
+  program.add_option("--builds", options.builds, "how often each index is built")->capture_default_str();
+  CLI11_PARSE(program, arguments, values);
+  const MeshArgument mesh(options.mesh);
+  std::cout << race(mesh.view(), options).dump() << '\n';
+  return 0;
+}
+
+}  // namespace
+}  // namespace meshhood::bench
+
+int main(int arguments, char** values) {
+  try {
+    return meshhood::bench::run(arguments, values);
+  } catch (const std::exception& error) {
+    std::cerr << "race: " << error.what() << '\n';
+    return 1;
+  }
+}

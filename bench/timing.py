@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: MIT
+"""Medians with their spread. Never the best of several."""
+import statistics
+
+
+def summary(values):
+    """The median and the quartiles: of fewer than three values, the least and the greatest stand for these."""
+    if len(values) < 3:
+        return {"median": statistics.median(values), "quartiles": [min(values), max(values)], "runs": len(values)}
+    lower, middle, upper = statistics.quantiles(values, n=4, method="inclusive")
+    return {"median": middle, "quartiles": [lower, upper], "runs": len(values)}
+
+
+def fitted_exponent(sizes, costs):
+    """The slope of the straight line that lies closest to the points in log-log."""
+    import numpy as np
+
+    slope, _ = np.polyfit(np.log(sizes), np.log(costs), 1)
+    return float(slope)
