@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The limits on vertices and edges, reached and passed by one. With ids of 16 bits a small mesh does that.
 #include <cstdint>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -10,6 +12,7 @@
 
 #include "meshhood/meshhood.h"
 
+#include "index_bytes.h"
 #include "refusal.h"
 #include "test_mesh.h"
 
@@ -71,6 +74,24 @@ TEST(NarrowIds, M6RefusesACornerThatNarrowingWouldHide) {
   mesh.add_face({0, 1, 65'536 + 2});
   expect_refused(ErrorCode::InvalidMesh, "face 1: corner 2 is vertex 65538, but the mesh has 10 vertices",
                  [&] { static_cast<void>(adjacency(mesh.view())); });
+}
+
+TEST(NarrowIds, F4AnIndexIsSavedAndLoadedAtTheLimits) {
+  const TestMesh mesh = polygon_on_line(kMaxVertices, kMaxNeighbors / 2);
+  const std::vector<std::byte> exact = saved(build(mesh.view()));
+  EXPECT_THAT(load(exact).check(mesh.view()), IsEmpty());
+  EXPECT_EQ(saved(load(exact)), exact);
+  const std::vector<std::byte> of_paper = saved(paper::build(mesh.view()));
+  EXPECT_THAT(paper::load(of_paper).check(mesh.view()), IsEmpty());
+  EXPECT_EQ(saved(paper::load(of_paper)), of_paper);
+}
+
+TEST(NarrowIds, F4AnIndexWithWideIdsIsRefused) {
+  std::ifstream file(MESHHOOD_GOLDEN_DIR "/format1/float.mhi", std::ios::binary);
+  const std::vector<char> wide{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  ASSERT_FALSE(wide.empty());
+  expect_refused(ErrorCode::MalformedIndex, "header, byte 49: vertices have ids of 32 bits, this reads 16",
+                 [&] { static_cast<void>(load(std::as_bytes(std::span(wide)))); });
 }
 
 }  // namespace
