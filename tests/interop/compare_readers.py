@@ -28,13 +28,19 @@ except ImportError as missing:
     sys.exit(SKIPPED)
 
 
+def flat(faces):
+    """Corners per face, and all corners: compared as a whole, for a face at a time takes a minute."""
+    faces = list(faces)
+    sides = np.fromiter(map(len, faces), np.int64, len(faces))
+    return sides, np.concatenate(faces) if faces else np.empty(0, np.uint32)
+
+
 def our_reading(dump_mesh, name, folder):
-    """Positions (#V by 3, float32) and a list of faces."""
+    """Positions (#V by 3, float32), corners per face, and corners."""
     subprocess.run([dump_mesh, name, folder], check=True)
     positions = np.fromfile(folder / "positions", np.float32).reshape(-1, 3)
     sides = np.fromfile(folder / "sides", np.uint64).astype(np.int64)
-    corners = np.fromfile(folder / "corners", np.uint32)
-    return positions, np.split(corners, np.cumsum(sides)[:-1]) if len(sides) else []
+    return positions, sides, np.fromfile(folder / "corners", np.uint32)
 
 
 def plyfile_reading(file):
@@ -42,30 +48,26 @@ def plyfile_reading(file):
     vertex = mesh["vertex"]
     positions = np.stack([vertex[axis] for axis in "xyz"], axis=1).astype(np.float32)
     if "face" not in mesh or mesh["face"].count == 0:
-        return positions, []
+        return positions, *flat([])
     names = [p.name for p in mesh["face"].properties]
-    return positions, list(mesh["face"]["vertex_indices" if "vertex_indices" in names else "vertex_index"])
+    return positions, *flat(mesh["face"]["vertex_indices" if "vertex_indices" in names else "vertex_index"])
 
 
 def trimesh_reading(file, kind):
     mesh = trimesh.load(file, file_type=kind, process=False, maintain_order=True)
-    return np.asarray(mesh.vertices).astype(np.float32), list(np.asarray(mesh.faces))
-
-
-def same_faces(ours, theirs):
-    return len(ours) == len(theirs) and all(np.array_equal(a, b) for a, b in zip(ours, theirs))
+    faces = np.asarray(mesh.faces)
+    return np.asarray(mesh.vertices).astype(np.float32), np.full(len(faces), 3), faces.ravel()
 
 
 def compare_indexed(ours, theirs):
     assert np.array_equal(ours[0], theirs[0]), "vertices differ"
-    assert same_faces(ours[1], theirs[1]), "faces differ"
+    assert np.array_equal(ours[1], theirs[1]) and np.array_equal(ours[2], theirs[2]), "faces differ"
 
 
 def compare_soup(ours, theirs):
     """trimesh leaves the corners of an STL unjoined."""
-    positions, faces = ours
-    soup = theirs[0][np.concatenate(theirs[1])]
-    corners = np.concatenate(faces)
+    positions, _, corners = ours
+    soup = theirs[0][theirs[2]]
     assert np.array_equal(positions[corners], soup), "corners differ"
     assert len(np.unique(soup + np.float32(0), axis=0)) == len(positions), "not every equal position is one vertex"
     first = np.unique(corners, return_index=True)[1]
@@ -82,7 +84,7 @@ def compare(dump_mesh, name):
             if kind == "ply":
                 compare_indexed(ours, plyfile_reading(file))
             elif kind == "off":
-                if any(len(face) != 3 for face in ours[1]):
+                if np.any(ours[1] != 3):
                     return False  # trimesh cuts polygons into triangles
                 compare_indexed(ours, trimesh_reading(file, kind))
             else:
