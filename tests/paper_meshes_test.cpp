@@ -17,7 +17,7 @@ TEST_P(PaperMeshes, AnswersLieBetweenExactAndBall) {
   const io::Mesh mesh = shared_mesh(GetParam());
   RealMesh real(mesh.view());
   Random random(1);
-  for (const double edges : {2, 5, 10, 20, 40, 65, 90}) real.query(edges, scaled(2000, 10), random);
+  for (const double edges : {2, 5, 10, 20, 40, 65, 90}) real.query(edges, scaled(500, 10), random);
   const auto& [queries, exact, extra, mismatches] = real.tally();
   std::printf(
       "%s: %zu vertices, %zu queries, %zu vertices in exact answers, %.3f %% more in the paper's, %zu mismatches\n",
