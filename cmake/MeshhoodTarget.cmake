@@ -11,6 +11,13 @@ function(meshhood_own_target target)
     CXX_EXTENSIONS OFF COMPILE_WARNING_AS_ERROR ${meshhood_IS_TOP_LEVEL})
 endfunction()
 
+# For large programs that do nothing for long themselves: with sanitizers, to optimise them costs more than it saves.
+function(meshhood_compile_quickly target)
+  if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+    target_compile_options(${target} PRIVATE -O0)
+  endif()
+endfunction()
+
 # For what touches foreign bytes: a mistake of ours ends the program at once instead of being carried further.
 function(meshhood_harden target)
   target_compile_options(${target} PRIVATE -fstack-protector-strong)

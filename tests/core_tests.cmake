@@ -45,16 +45,3 @@ add_subdirectory(narrow_ids)
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
   meshhood_test(float_modes meshhood_families)
 endif()
-
-# For a processor with fused multiply-add, which the distance must not use.
-if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND CMAKE_OBJDUMP)
-  add_library(meshhood_haswell OBJECT ${core_sources})
-  target_include_directories(meshhood_haswell PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
-  target_compile_features(meshhood_haswell PRIVATE cxx_std_20)
-  meshhood_own_target(meshhood_haswell)
-  target_compile_options(meshhood_haswell PRIVATE -march=haswell -O3)
-  add_library(meshhood_fused_control OBJECT fused_control.cpp)
-  target_compile_options(meshhood_fused_control PRIVATE -march=haswell -O3 -ffp-contract=fast)
-  add_test(NAME no_fma COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/no_fma.sh
-    $<TARGET_OBJECTS:meshhood_fused_control> $<TARGET_OBJECTS:meshhood_haswell> COMMAND_EXPAND_LISTS)
-endif()

@@ -1,6 +1,7 @@
 # The tests of mesh files: format by format, row by row of the catalogue of faults, and beside other readers.
 foreach(stem shared_meshes ply obj off stl text file write memory mutation)
   meshhood_test(io_${stem} meshhood_test_support)
+  meshhood_compile_quickly(io_${stem}_test)
 endforeach()
 meshhood_test(io_index meshhood_test_support meshhood_families)
 add_subdirectory(interop)
@@ -22,6 +23,7 @@ target_include_directories(io_limits_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${
 target_link_libraries(io_limits_test PRIVATE
   meshhood_narrow fmt::fmt FastFloat::fast_float GTest::gmock GTest::gtest_main)
 meshhood_own_target(io_limits_test)
+meshhood_compile_quickly(io_limits_test)
 gtest_discover_tests(io_limits_test TEST_PREFIX io_limits. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 
 # Saves that fail, are killed, or meet a full disk: everything that writes a file is put through all of it.
