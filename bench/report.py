@@ -2,7 +2,7 @@
 """docs/benchmarks.md and the head table of the README, made from the results. Nothing there is written by hand."""
 import re
 
-from . import machine, places, plots, results
+from . import machine, places, results
 from .sections import SECTIONS
 
 HEAD = """# Benchmarks
@@ -20,21 +20,30 @@ MARKERS = re.compile(r"(<!-- from the benchmarks -->\n).*?(<!-- to here -->)", r
 
 
 def write():
+    from . import plots  # matplotlib, which the text does without
+
     drawn = plots.draw_all()
+    places.DOCUMENT.write_text(document(), encoding="utf-8")
+    print(f"wrote docs/benchmarks.md and {len(drawn)} plots")
+    tables = results.load("paper_tables")
+    if tables is not None:
+        places.README.write_text(readme(tables), encoding="utf-8")
+
+
+def document():
+    """docs/benchmarks.md, as the results want it."""
     parts = [HEAD]
     for source, section in SECTIONS.items():
         data = results.load(source)
         if data is not None:
             parts.append(f"{section.text(data)}\n*Measured on {machine.caption(data['machine'])}*\n")
-    places.DOCUMENT.write_text("\n".join(parts), encoding="utf-8")
-    print(f"wrote docs/benchmarks.md and {len(drawn)} plots")
-    tables = results.load("paper_tables")
-    if tables is not None:
-        write_readme(SECTIONS["paper_tables"].head_table(tables))
+    return "\n".join(parts)
 
 
-def write_readme(table):
+def readme(tables):
+    """README.md with its table as the results want it."""
     text = places.README.read_text(encoding="utf-8")
     if not MARKERS.search(text):
         raise SystemExit("bench: README.md has lost the marks between which its table stands")
-    places.README.write_text(MARKERS.sub(lambda found: f"{found[1]}{table}{found[2]}", text), encoding="utf-8")
+    table = SECTIONS["paper_tables"].head_table(tables)
+    return MARKERS.sub(lambda found: f"{found[1]}{table}{found[2]}", text)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Medians with their spread. Never the best of several."""
+import math
 import statistics
 
 
@@ -13,7 +14,4 @@ def summary(values):
 
 def fitted_exponent(sizes, costs):
     """The slope of the straight line that lies closest to the points in log-log."""
-    import numpy as np
-
-    slope, _ = np.polyfit(np.log(sizes), np.log(costs), 1)
-    return float(slope)
+    return statistics.linear_regression([math.log(size) for size in sizes], [math.log(cost) for cost in costs]).slope

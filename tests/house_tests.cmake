@@ -45,3 +45,8 @@ if(CMAKE_BUILD_TYPE STREQUAL "Release" AND TARGET guard)
   add_test(NAME bench.guard COMMAND python3 -B ${PROJECT_SOURCE_DIR}/bench/guard/guard.py $<TARGET_FILE:guard>)
   set_tests_properties(bench.guard PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
 endif()
+
+# The harness on a small shape, and docs/benchmarks.md beside the results it is made from.
+if(TARGET race)
+  add_test(NAME bench.harness COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/bench_test.py $<TARGET_FILE_DIR:race>)
+endif()

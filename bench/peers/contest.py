@@ -44,7 +44,8 @@ def run(names, block_seconds):
         for order in ("file", "shuffled"):
             mesh = prepared(name, order)
             for threads in (ONE_THREAD, ALL_THREADS):
-                print(f"  {name}, vertices as {order}, {'one thread' if threads == ONE_THREAD else 'all threads'}", flush=True)
+                spoken = "one thread" if threads == ONE_THREAD else "all threads"
+                print(f"  {name}, order: {order}, {spoken}", flush=True)
                 contests += contest(name, order, mesh, threads, block_seconds)
     results.save("peers", {"blocks": BLOCKS, "block_seconds": block_seconds, "contests": contests}, machine)
 
@@ -72,12 +73,7 @@ def contest(name, order, mesh, threads, block_seconds):
     with np.load(mesh) as arrays:
         positions, triangles = arrays["positions"], arrays["triangles"]
     exact = exact_index(positions, triangles)
-    field_ = [Contestant(peer, Worker(peer, mesh, threads)) for peer in PEERS]
-    for contestant in field_:
-        try:
-            contestant.built = contestant.worker.result(PATIENCE)
-        except RuntimeError as error:
-            contestant.failure = str(error)
+    field_ = [started(peer, mesh, threads) for peer in PEERS]
     found = []
     for edges in CONTESTS.get(name, (5, 20)):
         radius = edges * mean_edge(positions, triangles)
@@ -87,6 +83,16 @@ def contest(name, order, mesh, threads, block_seconds):
     for contestant in field_:
         contestant.worker.end()
     return found
+
+
+def started(peer, mesh, threads):
+    """One after the other, so that each builds alone."""
+    contestant = Contestant(peer, Worker(peer, mesh, threads))
+    try:
+        contestant.built = contestant.worker.result(PATIENCE)
+    except RuntimeError as error:
+        contestant.failure = str(error)
+    return contestant
 
 
 def at_radius(field_, exact, radius, block_seconds):

@@ -31,7 +31,7 @@ def versions(data):
 
 
 def contest_table(contest):
-    header = ["", "answers", "µs a query (quartiles)", "extra", "missing", "built s", "MB", "remark"]
+    header = ["", "answers", "µs a query (quartiles)", "extra", "missing", "built s (once)", "MB", "remark"]
     timed = sorted((peer for peer in contest["peers"] if "microseconds" in peer),
                    key=lambda peer: peer["microseconds"]["median"])
     others = [peer for peer in contest["peers"] if "microseconds" not in peer]

@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The programs of the harness on a small shape, and whether docs/benchmarks.md is what the results say.
+
+usage: tests/bench_test.py FOLDER    FOLDER has the programs: build/release/bench
+"""
+import json
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from bench import places, programs, report, results, timing  # noqa: E402: from the checkout
+
+MESH = "scroll:3000"
+METHODS = ("bfs", "bfs-reordered", "ball", "ids", "count", "ranges", "paper", "paper,f=1", "paper,levels=4,discard=1")
+
+
+class Programs(unittest.TestCase):
+    def test_race_compares_every_method_with_the_first(self):
+        race = programs.race(MESH, METHODS, radii=(3, 20), queries=60, builds=2)
+        self.assertEqual(race["vertices"], 3000)
+        self.assertEqual([len(build["seconds"]) for build in race["builds"]], [2, 2])
+        rows = programs.by_radius(race["rows"])
+        self.assertEqual(list(rows), [3, 20])
+        for row in rows.values():
+            self.assertEqual(tuple(row), METHODS)
+            for method in ("bfs", "ids"):
+                self.assertEqual((row[method]["extra"], row[method]["missing"]), (0, 0))
+            for method in METHODS[-3:]:
+                self.assertEqual(row[method]["missing"], 0)
+                self.assertLessEqual(row[method]["extra"], row["ball"]["extra"])
+            for method in METHODS:
+                lower, upper = row[method]["quartiles"]
+                self.assertTrue(0 < lower <= row[method]["microseconds"] <= upper)
+            self.assertNotIn("extra", row["ranges"])
+        self.assertGreater(rows[20]["ball"]["extra"], 0, "a scroll whose ball is exact tests nothing")
+
+    def test_race_refuses_what_it_does_not_know(self):
+        for method in ("nope", "paper,x=3"):
+            done = subprocess.run([places.PROGRAMS / "race", MESH, "--method", method], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(method, done.stderr)
+
+    def test_phases_are_shares_of_a_whole(self):
+        for row in programs.ask(places.PROGRAMS / "phases", MESH, 50, 3, 20):
+            shares = [row[phase] for phase in ("climb_up", "breadth_first", "range_search")]
+            self.assertTrue(all(share > 0 for share in shares))
+            self.assertAlmostEqual(sum(shares), 100, delta=0.1)
+
+
+class Figures(unittest.TestCase):
+    def test_summary_is_median_and_quartiles(self):
+        self.assertEqual(timing.summary([5, 1, 2, 4, 3]), {"median": 3, "quartiles": [2, 4], "runs": 5})
+        self.assertEqual(timing.summary([7]), {"median": 7, "quartiles": [7, 7], "runs": 1})
+
+    def test_exponent_of_a_power(self):
+        sizes = [10, 100, 1000]
+        self.assertAlmostEqual(timing.fitted_exponent(sizes, [3 * size**0.5 for size in sizes]), 0.5)
+
+
+class Documents(unittest.TestCase):
+    def test_benchmarks_are_what_the_results_say(self):
+        self.assertEqual(places.DOCUMENT.read_text(encoding="utf-8"), report.document(), "run python3 -m bench report")
+
+    def test_readme_has_the_table_of_the_results(self):
+        written = places.README.read_text(encoding="utf-8")
+        self.assertEqual(written, report.readme(results.load("paper_tables")), "run python3 -m bench report")
+
+    def test_every_result_names_its_machine(self):
+        files = list(places.RESULTS.glob("*.json"))
+        self.assertGreater(len(files), 5)
+        for file in files:
+            machine = json.loads(file.read_text(encoding="utf-8"))["machine"]
+            self.assertIn("load_before", machine, file.name)
+
+
+if __name__ == "__main__":
+    places.PROGRAMS = Path(sys.argv.pop(1))
+    unittest.main(verbosity=2)
