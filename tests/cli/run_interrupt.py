@@ -13,6 +13,13 @@ from pathlib import Path
 
 VERTICES = "30000"
 PATIENCE_SECONDS = 120
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+def hear_signals():
+    """What runs in the background, or under nohup, hands down that some are ignored, and the program keeps to that."""
+    for number in SIGNALS:
+        signal.signal(number, signal.SIG_DFL)
 
 
 def wait_for_file(folder, before, process):
@@ -27,7 +34,8 @@ def wait_for_file(folder, before, process):
 def interrupt(program, folder, number):
     before = set(folder.iterdir())
     command = [program, "batch", "sphere.ply", "-r", "inf", "-o", "out.npz"]
-    with subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+    with subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          preexec_fn=hear_signals) as process:
         wait_for_file(folder, before, process)
         process.send_signal(number)
         stdout, stderr = process.communicate(timeout=PATIENCE_SECONDS)
@@ -42,7 +50,7 @@ def main():
         folder = Path(name)
         subprocess.run([program, "generate", "sphere", "--vertices", VERTICES, "-o", "sphere.ply"], cwd=folder,
                        check=True, stdout=subprocess.DEVNULL)
-        ended = [interrupt(program, folder, number) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)]
+        ended = [interrupt(program, folder, number) for number in SIGNALS]
     return 0 if all(ended) else 1
 
 

@@ -3,7 +3,10 @@
 cmake_minimum_required(VERSION 3.25)
 
 list(TRANSFORM INCLUDE_DIRS PREPEND -I)
-set(command ${COMPILER} -std=c++20 -O0 -Wall -Wextra -Werror ${INCLUDE_DIRS} -isystem ${SYSTEM_INCLUDE_DIR} ${FLAGS} -c -o /dev/null)
+if(SYSTEM_INCLUDE_DIR)
+  set(system -isystem ${SYSTEM_INCLUDE_DIR})
+endif()
+set(command ${COMPILER} -std=c++20 -O0 -Wall -Wextra -Werror ${INCLUDE_DIRS} ${system} ${FLAGS} -c -o /dev/null)
 
 set(probe ${CMAKE_CURRENT_LIST_DIR}/probe.cpp)
 execute_process(COMMAND ${command} ${probe} RESULT_VARIABLE result OUTPUT_QUIET ERROR_QUIET)
