@@ -1,24 +1,32 @@
 // SPDX-License-Identifier: MIT
 #include "building.h"
 
+#include <cstddef>
+
 #include "progress.h"
 
 namespace meshhood::cli {
+namespace {
+
+auto reporting(Progress& progress) {
+  return [&progress](std::size_t done, std::size_t total) {
+    progress.report(done, total);
+    return true;
+  };
+}
+
+}  // namespace
 
 template <class Mesh>
 Index build_exact_index(const Mesh& mesh, unsigned threads) {
   Progress progress("building the index");
-  const auto report = [&](std::size_t done, std::size_t total) {
-    progress.report(done, total);
-    return true;
-  };
-  return build(mesh, {.threads = threads, .progress = report});
+  return build(mesh, {.threads = threads, .progress = reporting(progress)});
 }
 
 template <class Mesh>
 paper::Index build_paper_index(const Mesh& mesh) {
-  const Progress progress("building the index of the paper");
-  return paper::build(mesh);
+  Progress progress("building the index of the paper");
+  return paper::build(mesh, {.progress = reporting(progress)});
 }
 
 template Index build_exact_index(const MeshView& mesh, unsigned threads);

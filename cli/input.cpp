@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
 #include <filesystem>
 #include <span>
 #include <system_error>
@@ -41,6 +42,14 @@ PositionsData positions_of(const paper::Index& index) {
   });
 }
 
+/// What a reader tells, for the line on the terminal. Of a pipe it does not know how much there is.
+auto telling(Progress& progress) {
+  return [&progress](std::size_t done, std::size_t total) {
+    if (total != 0) progress.report(done, total);
+    return true;
+  };
+}
+
 }  // namespace
 
 Input::Input(std::string file) : name_(std::move(file)) {
@@ -48,11 +57,11 @@ Input::Input(std::string file) : name_(std::move(file)) {
     mesh_ = read_mesh(name_);
     return;
   }
-  const Progress progress("reading " + name_);
+  Progress progress("reading " + name_);
   if (io::read_header(name_).kind == IndexKind::Paper) {
-    paper_ = io::load_paper(name_);
+    paper_ = io::load_paper(name_, {.progress = telling(progress)});
   } else {
-    exact_ = io::load(name_);
+    exact_ = io::load(name_, {.progress = telling(progress)});
   }
 }
 
@@ -101,8 +110,8 @@ const paper::Index& Input::paper_index() {
 }
 
 io::Mesh read_mesh(const std::string& file) {
-  const Progress progress("reading " + file);
-  io::Mesh mesh = io::read_mesh(file);
+  Progress progress("reading " + file);
+  io::Mesh mesh = io::read_mesh(file, {.progress = telling(progress)});
   complain_about(mesh, file);
   return mesh;
 }

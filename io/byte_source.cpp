@@ -18,8 +18,15 @@
 namespace meshhood::io {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 // A named pipe that nobody opens for writing is given up after this long.
-constexpr int kWriterPatienceMs = 2000;
+constexpr auto kWriterPatience = std::chrono::seconds(2);
+
+// A source that has nothing to read yet may get it at any time.
+constexpr auto kAnyTime = Clock::duration::max();
+
+constexpr auto kMoment = std::chrono::milliseconds(100);
 
 }  // namespace
 
@@ -46,21 +53,26 @@ std::size_t FileSource::read(std::span<char> out) {
   for (;;) {
     const ssize_t count = ::read(file_.number(), out.data(), out.size());
     if (count == 0 && std::exchange(may_lack_a_writer_, false)) {
-      if (!wait_for_bytes(kWriterPatienceMs)) fail("nobody writes to this pipe");
+      if (!wait_for_bytes(kWriterPatience)) fail("nobody writes to this pipe");
       continue;
     }
     if (count >= 0) {
       may_lack_a_writer_ = false;
       return static_cast<std::size_t>(count);
     }
-    if (errno == EAGAIN && wait_for_bytes(-1)) continue;
+    if (errno == EAGAIN && wait_for_bytes(kAnyTime)) continue;
     if (errno != EINTR) fail(std::generic_category().message(errno));
   }
 }
 
-bool FileSource::wait_for_bytes(int milliseconds) const {
+bool FileSource::wait_for_bytes(Clock::duration patience) const {
   pollfd waiting = {file_.number(), POLLIN, 0};
-  return ::poll(&waiting, 1, milliseconds) > 0;
+  const auto start = Clock::now();
+  while (::poll(&waiting, 1, static_cast<int>(kMoment.count())) <= 0) {
+    if (while_waiting_) while_waiting_();
+    if (Clock::now() - start >= patience) return false;
+  }
+  return true;
 }
 
 void FileSource::fail(const std::string& reason) const { raise(ErrorCode::IoFailure, name_ + ": " + reason); }

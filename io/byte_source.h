@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "io/descriptor.h"
 
@@ -48,14 +51,18 @@ class FileSource final : public ByteSource {
   [[nodiscard]] std::optional<std::uint64_t> size() const override { return size_; }
   [[nodiscard]] std::size_t read(std::span<char> out) override;
 
+  /// Calls `f` whenever nothing has come for a moment, for whoever would rather stop. What it throws, `read` passes on.
+  void while_waiting(std::function<void()> f) { while_waiting_ = std::move(f); }
+
  private:
-  [[nodiscard]] bool wait_for_bytes(int milliseconds) const;
+  [[nodiscard]] bool wait_for_bytes(std::chrono::steady_clock::duration patience) const;
   [[noreturn]] void fail(const std::string& reason) const;
 
   std::string name_;
   Descriptor file_;
   std::optional<std::uint64_t> size_;
   bool may_lack_a_writer_ = false;
+  std::function<void()> while_waiting_;
 };
 
 }  // namespace meshhood::io

@@ -2,6 +2,7 @@
 #include "io/index_io.h"
 
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <new>
 #include <span>
@@ -15,6 +16,7 @@
 #include "io/file_writer.h"
 #include "io/mapped_file.h"
 #include "io/place.h"
+#include "io/watched_source.h"
 
 namespace meshhood::io {
 namespace {
@@ -38,11 +40,8 @@ struct Content {
   [[nodiscard]] std::span<const std::byte> bytes() const { return std::as_bytes(chars_of(lines, size)); }
 };
 
-/// All there is. Of a pipe nobody knows beforehand how much that will be.
-Content read_all(const std::filesystem::path& path) {
-  FileSource source(path);
-  // What is no index, or not all of one, is not read into memory first.
-  if (source.size()) static_cast<void>(meshhood::read_header(MappedFile(path).bytes()));
+/// All there is, or enough to see that it is no index. Of a pipe nobody knows beforehand how much that will be.
+Content read_all(ByteSource& source) {
   constexpr std::size_t kFirstGuess = std::size_t{1} << 20;
   // One byte more, so that the end is seen without another growth.
   std::size_t capacity = source.size() ? static_cast<std::size_t>(*source.size()) + 1 : kFirstGuess;
@@ -51,6 +50,7 @@ Content read_all(const std::filesystem::path& path) {
     const std::size_t count = source.read(chars_of(content.lines, capacity).subspan(content.size));
     if (count == 0) return content;
     content.size += count;
+    if (content.size >= sizeof(Line) && !meshhood::is_index(content.bytes())) return content;
     if (content.size < capacity) continue;
     Lines wider = make_lines(2 * capacity);
     std::ranges::copy(chars_of(content.lines, content.size), chars_of(wider, content.size).begin());
@@ -83,21 +83,42 @@ void save_any(const std::filesystem::path& path, const AnyIndex& index) {
   file.commit();
 }
 
+/// The index that `take(content, progress)` makes of the whole file; who watches is told of the bytes, and told again
+/// while they are verified.
+template <class F>
+auto load_any(const std::filesystem::path& path, const LoadOptions& options, F&& take) {
+  FileSource file(path);
+  WatchedSource source(file, options.progress, path.string());
+  file.while_waiting([&source] { source.tell(); });
+  const Progress verifying = [&source](std::size_t, std::size_t) {
+    source.tell();
+    return true;
+  };
+  return naming(path, [&] {
+    // What is no index, or not all of one, is not read into memory first.
+    if (file.size()) static_cast<void>(meshhood::read_header(MappedFile(path).bytes()));
+    auto index = take(read_all(source), verifying);
+    source.finish();
+    return index;
+  });
+}
+
 }  // namespace
 
 void save(const std::filesystem::path& path, const Index& index) { save_any(path, index); }
 void save(const std::filesystem::path& path, const paper::Index& index) { save_any(path, index); }
 
-Index load(const std::filesystem::path& path) {
-  return naming(path, [&] {
-    Content content = read_all(path);
+Index load(const std::filesystem::path& path, const LoadOptions& options) {
+  return load_any(path, options, [](Content content, const Progress& progress) {
     const auto bytes = content.bytes();
-    return meshhood::map(bytes, std::shared_ptr<const Line[]>(std::move(content.lines)));
+    return meshhood::map(bytes, std::shared_ptr<const Line[]>(std::move(content.lines)), {.progress = progress});
   });
 }
 
-paper::Index load_paper(const std::filesystem::path& path) {
-  return naming(path, [&] { return paper::load(read_all(path).bytes()); });
+paper::Index load_paper(const std::filesystem::path& path, const LoadOptions& options) {
+  return load_any(path, options, [](const Content& content, const Progress& progress) {
+    return paper::load(content.bytes(), {.progress = progress});
+  });
 }
 
 Index map(const std::filesystem::path& path, const MapOptions& options) {

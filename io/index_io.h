@@ -18,12 +18,13 @@ void save(const std::filesystem::path& path, const Index& index);
 
 /// The index in the file, read into memory and verified. What happens to the file later does not matter.
 ///
-/// Throws Error{IoFailure, MalformedIndex, TooLarge}: one line that begins with the file.
-[[nodiscard]] Index load(const std::filesystem::path& path);
+/// Progress is told while the file is read, as in `ReadOptions`, and between the parts of the verification.
+/// Throws Error{IoFailure, MalformedIndex, TooLarge, Cancelled}: one line that begins with the file.
+[[nodiscard]] Index load(const std::filesystem::path& path, const LoadOptions& options = {});
 
 /// The same for the paper's index.
 void save(const std::filesystem::path& path, const paper::Index& index);
-[[nodiscard]] paper::Index load_paper(const std::filesystem::path& path);
+[[nodiscard]] paper::Index load_paper(const std::filesystem::path& path, const LoadOptions& options = {});
 
 /// The index in the file, in place: pages are read as queries need them, and shared with whoever maps the same file.
 /// The file is unmapped with the index. Replacing it by renaming, as `save` does, is safe; to truncate or overwrite it

@@ -9,6 +9,7 @@
 #include "io/byte_source.h"
 #include "io/input.h"
 #include "io/readers.h"
+#include "io/watched_source.h"
 
 namespace meshhood::io {
 namespace {
@@ -27,10 +28,12 @@ Mesh read_format(Input& input, const std::string& name, const ReadOptions& optio
   raise(ErrorCode::TooLarge, input.name() + ": not enough memory for this mesh");
 }
 
-Mesh read(ByteSource& source, const std::string& name, const ReadOptions& options) {
+Mesh read(WatchedSource& source, const std::string& name, const ReadOptions& options) {
   Input input(source, name, options.max_bytes);
   try {
-    return read_format(input, name, options);
+    Mesh mesh = read_format(input, name, options);
+    source.finish();
+    return mesh;
   } catch (const std::bad_alloc&) {
     refuse_memory(input);
   } catch (const std::length_error&) {
@@ -47,12 +50,15 @@ MeshView Mesh::view() const {
 }
 
 Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
-  FileSource source(path);
+  FileSource file(path);
+  WatchedSource source(file, options.progress, path.string());
+  file.while_waiting([&source] { source.tell(); });
   return read(source, path.string(), options);
 }
 
 Mesh read_mesh(std::span<const std::byte> bytes, const std::string& name, const ReadOptions& options) {
-  MemorySource source(bytes);
+  MemorySource memory(bytes);
+  WatchedSource source(memory, options.progress, name);
   return read(source, name, options);
 }
 

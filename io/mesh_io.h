@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "meshhood/mesh.h"
+#include "meshhood/progress.h"
 
 /// Mesh files in and out. Readers keep the file's numbering of the vertices and its polygons as they are.
 namespace meshhood::io {
@@ -31,6 +32,10 @@ struct ReadOptions {
 
   /// Refuse a file of more bytes than this. Bounds endless devices too.
   std::uint64_t max_bytes = std::uint64_t{16} << 30;
+
+  /// Called for each megabyte at least, and ten times a second while a pipe has nothing to read. Parts are bytes;
+  /// without a size beforehand, as of a pipe, their total is 0.
+  Progress progress = {};
 };
 
 /// Something odd that was accepted, how often, and where it was first seen.
@@ -58,8 +63,8 @@ struct Mesh {
 ///
 /// Peak memory is at most twice the decoded arrays and 64 MB. A count in a header allocates nothing before the bytes
 /// that it promises are there. Parsing does not depend on the locale. No second file is ever opened.
-/// Throws Error{IoFailure, MalformedFile, UnsupportedFormat, TooLarge, InvalidMesh}: one line that begins with the file
-/// and the line and column, or byte, and names the element and what was expected.
+/// Throws Error{IoFailure, MalformedFile, UnsupportedFormat, TooLarge, InvalidMesh, Cancelled}: one line that begins
+/// with the file and the line and column, or byte, and names the element and what was expected.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// The same on bytes in memory. `name` stands for the file in messages, and its ending is the hint of the format.

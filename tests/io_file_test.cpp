@@ -111,14 +111,15 @@ TEST_F(Files, M22_TheLimitHoldsForFilesAndMemory) {
 }
 
 TEST_F(Files, M22_AFileThatShrinksWhileReadIsAnError) {
+  const std::string vertex = "v 0.123456 0.123456 0.123456\n";
   std::string vertices;
-  while (vertices.size() < (std::size_t{8} << 20)) vertices += "v 0.123456 0.123456 0.123456\n";
+  while (vertices.size() < (std::size_t{8} << 20)) vertices += vertex;
   std::size_t refused = 0;
   for (int attempt = 0; attempt < 20; ++attempt) {
     const auto path = scratch.write("shrinks.obj", vertices);
-    const std::jthread shrinker([&path, attempt] {
+    const std::jthread shrinker([&path, &vertex, attempt] {
       std::this_thread::sleep_for(std::chrono::milliseconds(2 * attempt));
-      std::filesystem::resize_file(path, 1000);
+      std::filesystem::resize_file(path, 35 * vertex.size());  // a whole file, where that comes before the reader
     });
     const auto result = file_refusal(path);
     if (!result.refused) continue;

@@ -11,6 +11,7 @@
 #include "meshhood/adjacency.h"
 #include "meshhood/level.h"
 #include "meshhood/mesh.h"
+#include "meshhood/progress.h"
 
 /// The index and the query of *Fast neighborhood search on polygonal meshes*, sections 3.2 and 3.3.
 /// `docs/paper.md` lists where the code departs from the printed page, and why.
@@ -30,6 +31,9 @@ struct BuildOptions {
 
   /// Fusion on level `l` dissolves clusters of fewer than `fusion_growth` to the power of `l` vertices; finite, >= 0.
   double fusion_growth = 4.0;
+
+  /// Called between the steps of each level, which take some 100 ms for a million vertices at most.
+  Progress progress = {};
 
   static constexpr int kAllLevels = 64;
 };
@@ -88,7 +92,7 @@ class Index {
 /// options give the same index.
 ///
 /// mesh    any polygonal mesh (see `validate`); borrowed for the call.
-/// Throws Error{InvalidMesh, TooLarge, InvalidOption}. O(#levels (#V + #E) log #V).
+/// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}. O(#levels (#V + #E) log #V).
 [[nodiscard]] Index build(const MeshView& mesh, const BuildOptions& options = {});
 [[nodiscard]] Index build(const GraphView& graph, const BuildOptions& options = {});
 

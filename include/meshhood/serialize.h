@@ -10,6 +10,7 @@
 #include "meshhood/fingerprint.h"
 #include "meshhood/index.h"
 #include "meshhood/paper.h"
+#include "meshhood/progress.h"
 
 /// An index as bytes, to be kept. Files are `meshhood/io/index_io.h`'s business.
 ///
@@ -28,12 +29,18 @@ inline constexpr std::size_t kIndexAlignment = 64;
 /// O(bytes of the index).
 void save(const Index& index, const Sink& sink);
 
+struct LoadOptions {
+  /// Called between the parts of the verification, which take some 50 ms for a million vertices at most.
+  Progress progress = {};
+};
+
 /// The index that was saved as `bytes`, which are copied: what happens to them later does not matter.
 ///
 /// Everything is verified: the checksums, and whatever a search relies on. An index that is accepted answers every
 /// query within its arrays, even where somebody has forged it; the answers may then be wrong. Throws
-/// Error{MalformedIndex}, naming the section, the byte, what stands there and what was expected. O(bytes).
-[[nodiscard]] Index load(std::span<const std::byte> bytes);
+/// Error{MalformedIndex}, naming the section, the byte, what stands there and what was expected; Error{Cancelled}.
+/// O(bytes).
+[[nodiscard]] Index load(std::span<const std::byte> bytes, const LoadOptions& options = {});
 
 struct MapOptions {
   /// Skip whatever needs a look at the data: the checksums of the sections, and the verification of what a search
@@ -41,6 +48,9 @@ struct MapOptions {
   /// have been changed lead to anything: wrong answers, a crash, a query that does not end. Only for files that nobody
   /// but oneself can write.
   bool trusted = false;
+
+  /// As that of `LoadOptions`; of a trusted file there are no parts.
+  Progress progress = {};
 };
 
 /// The same index in place: nothing is copied, and pages of a mapped file are read as queries need them.
@@ -49,7 +59,7 @@ struct MapOptions {
 ///         that is truncated or overwritten in place changes under its mapping (one that is replaced by renaming does
 ///         not): who cannot exclude that takes `load`.
 /// owner   kept as long as the index lives; may be null where the caller keeps the bytes.
-/// Throws Error{MalformedIndex} as `load`, Error{InvalidOption} where the address is wrong. O(bytes), or O(1) if
+/// Throws as `load`, and Error{InvalidOption} where the address is wrong. O(bytes), or O(1) if
 /// trusted.
 [[nodiscard]] Index map(std::span<const std::byte> bytes, std::shared_ptr<const void> owner,
                         const MapOptions& options = {});
@@ -83,7 +93,7 @@ void check_mesh(const IndexHeader& header, const Fingerprint& mesh);
 namespace paper {
 
 void save(const Index& index, const Sink& sink);
-[[nodiscard]] Index load(std::span<const std::byte> bytes);
+[[nodiscard]] Index load(std::span<const std::byte> bytes, const LoadOptions& options = {});
 
 }  // namespace paper
 }  // namespace meshhood

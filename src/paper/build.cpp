@@ -15,6 +15,7 @@
 #include "paper/index_access.h"
 #include "paper/link.h"
 #include "paper/select.h"
+#include "paper/steps.h"
 #include "text.h"
 
 namespace meshhood::paper {
@@ -51,13 +52,16 @@ bool is_complete(const DraftLevel& level) { return level.siblings.neighbors.empt
 /// cluster, when no fusion can change it any more.
 template <class Real>
 Hierarchy<Real> keep(std::span<const Real> xyz, const std::vector<DraftLevel>& levels,
-                     const std::vector<std::vector<ClusterId>>& parents, int discard) {
+                     const std::vector<std::vector<ClusterId>>& parents, int discard, Steps& steps) {
   std::vector<AdjacencyView> siblings;
   siblings.reserve(levels.size());
   for (const DraftLevel& level : levels) siblings.push_back(level.siblings);
   const std::size_t lowest = std::min(static_cast<std::size_t>(discard), levels.size() - 1);
   Hierarchy<Real> hierarchy = arrange(xyz, parents, siblings, lowest);
-  for (Level<Real>& level : hierarchy.levels) enclose<Real>(hierarchy.positions, level);
+  for (Level<Real>& level : hierarchy.levels) {
+    steps.next();
+    enclose<Real>(hierarchy.positions, level);
+  }
   return hierarchy;
 }
 
@@ -67,19 +71,26 @@ Hierarchy<Real> compute(std::span<const Real> xyz, const AdjacencyView& graph, c
   levels.push_back(base_level(xyz, graph));
   std::vector<std::vector<ClusterId>> parents;
   double threshold = 1;
+  Steps steps(options);
   while (!is_complete(levels.back()) && static_cast<int>(levels.size()) < options.levels) {
     const DraftLevel& below = levels.back();
     threshold *= options.fusion_growth;
 
     std::vector<VertexId> candidates = create(below);
+    steps.next();
     Partition partition = select(below, std::move(candidates));
+    steps.next();
     fuse(below, threshold, partition);
+    steps.next();
     DraftLevel level = link(below, partition);
+    steps.next();
 
     parents.push_back(std::move(partition.parent));
     levels.push_back(std::move(level));
   }
-  return keep(xyz, levels, parents, options.discard);
+  Hierarchy<Real> hierarchy = keep(xyz, levels, parents, options.discard, steps);
+  steps.finish();
+  return hierarchy;
 }
 
 /// A radius around coordinates near the end of the range of float would not be finite as float.

@@ -10,6 +10,7 @@
 
 #include "index/index_access.h"
 #include "index/layout.h"
+#include "parallel.h"
 #include "serialize/aligned_copy.h"
 #include "serialize/exact_verify.h"
 #include "serialize/section_reader.h"
@@ -112,22 +113,23 @@ void save(const Index& index, const Sink& sink) {
                sink);
 }
 
-Index load(std::span<const std::byte> bytes) {
+Index load(std::span<const std::byte> bytes, const LoadOptions& options) {
   // Before anything is allocated for it.
   static_cast<void>(read_header(bytes));
   file::AlignedCopy copy(bytes);
   const auto at = copy.bytes();
-  return map(at, copy.take_owner());
+  return map(at, copy.take_owner(), {.progress = options.progress});
 }
 
 Index map(std::span<const std::byte> bytes, std::shared_ptr<const void> owner, const MapOptions& options) {
   verify_alignment(bytes);
   file::SectionReader file(bytes);
   verify_kind(file);
-  if (!options.trusted) file.verify_checksums();
+  Work work(1, options.progress, options.trusted ? 0 : file.header().sections + file::kVerifyParts);
+  if (!options.trusted) file.verify_checksums(work);
   auto storage = take_arrays(file);
   file.expect_end();
-  if (!options.trusted) file::verify(*storage, file);
+  if (!options.trusted) file::verify(*storage, file, work);
   storage->owner = std::move(owner);
   return IndexAccess::make(std::move(storage));
 }

@@ -45,12 +45,12 @@ void verify_last_leaf(const IndexStorage& index, const SectionReader& file) {
 
 }  // namespace
 
-void verify(const IndexStorage& index, const SectionReader& file) {
-  verify_numbering(index, file);
-  verify_edges_within(index, file);
-  verify_links(index, file);
-  verify_positions(index, file);
-  verify_tree(index, file);
+void verify(const IndexStorage& index, const SectionReader& file, Work& work) {
+  for (const auto part : {verify_numbering, verify_edges_within, verify_links, verify_positions, verify_tree}) {
+    part(index, file);
+    work.advance(1);
+    work.report();
+  }
 }
 
 void verify_numbering(const IndexStorage& index, const SectionReader& file) {

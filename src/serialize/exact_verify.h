@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+
 #include "index/layout.h"
+#include "parallel.h"
 #include "serialize/section_reader.h"
 
 namespace meshhood::file {
@@ -10,8 +13,10 @@ namespace meshhood::file {
 /// whoever wrote them. Of columns and spheres it is not shown that they are those of the mesh: answers may be wrong.
 ///
 /// index   borrowed from `file`; its arrays have the lengths that belong together.
-/// Throws Error{MalformedIndex}. One pass over each array.
-void verify(const IndexStorage& index, const SectionReader& file);
+/// Throws Error{MalformedIndex}. One pass over each array, `kVerifyParts` parts of the work.
+void verify(const IndexStorage& index, const SectionReader& file, Work& work);
+
+inline constexpr std::size_t kVerifyParts = 5;
 
 // Its parts, in this order: each relies on those before.
 

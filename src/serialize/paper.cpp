@@ -8,6 +8,7 @@
 #include "meshhood/serialize.h"
 
 #include "paper/index_access.h"
+#include "parallel.h"
 #include "serialize/aligned_copy.h"
 #include "serialize/coordinates.h"
 #include "serialize/paper_levels.h"
@@ -120,16 +121,19 @@ void save(const Index& index, const Sink& sink) {
              IndexAccess::hierarchy(index));
 }
 
-Index load(std::span<const std::byte> bytes) {
+Index load(std::span<const std::byte> bytes, const LoadOptions& options) {
   const IndexHeader header = read_header(bytes);
   if (header.kind != IndexKind::Paper) {
     raise(ErrorCode::MalformedIndex, "an exact index, expected one of the paper");
   }
   const file::AlignedCopy copy(bytes);
   SectionReader file(copy.bytes());
-  file.verify_checksums();
-  if (header.is_double) return IndexAccess::make(take_hierarchy<double>(file), header.mesh);
-  return IndexAccess::make(take_hierarchy<float>(file), header.mesh);
+  Work work(1, options.progress, file.header().sections + 1);
+  file.verify_checksums(work);
+  AnyHierarchy hierarchy = header.is_double ? AnyHierarchy(take_hierarchy<double>(file)) : take_hierarchy<float>(file);
+  work.advance(1);
+  work.report();
+  return IndexAccess::make(std::move(hierarchy), header.mesh);
 }
 
 }  // namespace meshhood::paper

@@ -127,7 +127,7 @@ std::span<const std::byte> SectionReader::bytes_of(const Section& section) const
   return bytes_.subspan(static_cast<std::size_t>(section.begin), static_cast<std::size_t>(section.bytes));
 }
 
-void SectionReader::verify_checksums() const {
+void SectionReader::verify_checksums(Work& work) const {
   for (const Section& section : table_) {
     const std::string where = quoted(name_of(section));
     if (checksum({bytes_of(section)}) != section.checksum) {
@@ -138,6 +138,8 @@ void SectionReader::verify_checksums() const {
       const auto value = std::to_integer<unsigned>(bytes_[static_cast<std::size_t>(byte)]);
       if (value != 0) refuse_at(where, byte, "behind its end stands " + expected(value, 0));
     }
+    work.advance(1);
+    work.report();
   }
 }
 

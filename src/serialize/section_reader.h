@@ -8,6 +8,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "parallel.h"
 #include "serialize/format.h"
 
 namespace meshhood::file {
@@ -43,8 +44,9 @@ class SectionReader {
   /// Refuses where a section is left that was not taken.
   void expect_end() const;
 
-  /// Refuses unless the bytes of every section are those that were saved, and those between them are zero.
-  void verify_checksums() const;
+  /// Refuses unless the bytes of every section are those that were saved, and those between them are zero. A part of
+  /// the work for each section.
+  void verify_checksums(Work& work) const;
 
   /// Refuses where `place` lies: the byte and its section go before the message.
   [[noreturn]] void refuse(const void* place, const std::string& message) const;

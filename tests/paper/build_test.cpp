@@ -71,6 +71,30 @@ TEST(Build, GoesOnUntilEveryComponentIsOneCluster) {
   EXPECT_THAT(index.check(mesh.view()), IsEmpty());
 }
 
+TEST(Build, TellsHowFarItIsAndStopsAtAnyReport) {
+  const TestMesh mesh = make_grid(60, 60, false);
+  for (const int levels : {1, 5, BuildOptions::kAllLevels}) {
+    std::vector<std::pair<std::size_t, std::size_t>> reports;
+    const auto watch = [&](std::size_t done, std::size_t total) {
+      reports.emplace_back(done, total);
+      return true;
+    };
+    static_cast<void>(paper::build(mesh.view(), {.levels = levels, .progress = watch}));
+    ASSERT_GE(reports.size(), 3U);
+    EXPECT_EQ(reports.front().first, 0U);
+    EXPECT_EQ(reports.back().first, reports.back().second);
+    EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
+    for (const auto& report : reports) EXPECT_EQ(report.second, reports.back().second);
+    for (std::size_t last = 0; last < reports.size(); ++last) {
+      std::size_t told = 0;
+      const auto stop = [&](std::size_t, std::size_t) { return told++ < last; };
+      expect_refused(ErrorCode::Cancelled, "cancelled",
+                     [&] { static_cast<void>(paper::build(mesh.view(), {.levels = levels, .progress = stop})); });
+      EXPECT_EQ(told, last + 1);
+    }
+  }
+}
+
 TEST(Build, HalvesUntilItIsComplete) {
   std::size_t meshes = 0;
   for (const Family& family : families()) {

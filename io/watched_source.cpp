@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "io/watched_source.h"
+
+#include <algorithm>
+
+#include "meshhood/error.h"
+
+#include "io/place.h"
+
+namespace meshhood::io {
+namespace {
+
+constexpr std::size_t kMostAtOnce = std::size_t{4} << 20;
+
+}  // namespace
+
+WatchedSource::WatchedSource(ByteSource& source, const Progress& progress, const std::string& name)
+    : source_(source), progress_(progress), name_(printable_name(name)) {}
+
+std::size_t WatchedSource::read(std::span<char> out) {
+  tell();
+  const std::size_t count = source_.read(out.first(std::min(out.size(), kMostAtOnce)));
+  done_ += count;
+  return count;
+}
+
+void WatchedSource::tell() const {
+  if (!progress_) return;
+  const auto total = static_cast<std::size_t>(size().value_or(0));
+  // A file may grow while it is read.
+  const auto done = static_cast<std::size_t>(total == 0 ? done_ : std::min<std::uint64_t>(done_, total));
+  if (!progress_(done, total)) raise(ErrorCode::Cancelled, name_ + ": cancelled");
+}
+
+void WatchedSource::finish() {
+  done_ = std::max(done_, size().value_or(0));
+  tell();
+}
+
+}  // namespace meshhood::io

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// A file that is being read may be watched, and given up.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "support/hostile.h"
+#include "support/scratch.h"
+
+namespace meshhood::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Three megabytes: the window of the reader moves several times.
+std::string large_obj() {
+  std::string file;
+  while (file.size() < 3U << 20) file += "v 1.25 2.5 3.75\n";
+  return file;
+}
+
+using Reports = std::vector<std::pair<std::size_t, std::size_t>>;
+
+io::ReadOptions watching(Reports& reports) {
+  return {.progress = [&reports](std::size_t done, std::size_t total) {
+    reports.emplace_back(done, total);
+    return true;
+  }};
+}
+
+void expect_ascending(const Reports& reports, std::size_t bytes, std::size_t total) {
+  ASSERT_FALSE(reports.empty());
+  EXPECT_EQ(reports.front(), std::pair(std::size_t{0}, total));
+  EXPECT_EQ(reports.back(), std::pair(bytes, total));
+  EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
+  EXPECT_GE(reports.size(), bytes >> 20);
+  std::printf("%zu reports for %zu bytes\n", reports.size(), bytes);
+}
+
+TEST(Progress, TellsTheBytesOfAFileAndOfMemory) {
+  const Scratch scratch;
+  const std::string file = large_obj();
+  Reports of_file;
+  static_cast<void>(io::read_mesh(scratch.write("large.obj", file), watching(of_file)));
+  expect_ascending(of_file, file.size(), file.size());
+  Reports of_memory;
+  static_cast<void>(read("large.obj", file, watching(of_memory)));
+  expect_ascending(of_memory, file.size(), file.size());
+}
+
+TEST(Progress, EndsWithAllBytesWhereTheLastAreNotRead) {
+  const Scratch scratch;
+  const std::string file = "OFF\n1 0 0\n0 0 0\n" + std::string(3U << 20, '\n');
+  Reports reports;
+  static_cast<void>(io::read_mesh(scratch.write("long.off", file), watching(reports)));
+  expect_ascending(reports, file.size(), file.size());
+}
+
+TEST(Progress, EndsTheReadingAtAnyReport) {
+  const Scratch scratch;
+  const auto path = scratch.write("large.obj", large_obj());
+  Reports all;
+  static_cast<void>(io::read_mesh(path, watching(all)));
+  for (std::size_t last = 0; last < all.size(); ++last) {
+    std::size_t reports = 0;
+    const io::ReadOptions stopping{.progress = [&](std::size_t, std::size_t) { return reports++ < last; }};
+    try {
+      static_cast<void>(io::read_mesh(path, stopping));
+      ADD_FAILURE() << "read in spite of report " << last;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::Cancelled);
+      EXPECT_THAT(error.what(), HasSubstr("large.obj: cancelled"));
+    }
+    EXPECT_EQ(reports, last + 1);
+  }
+}
+
+TEST(Progress, PassesOnWhatIsThrown) {
+  const io::ReadOptions options{
+      .progress = [](std::size_t, std::size_t) -> bool { throw std::domain_error("enough"); }};
+  EXPECT_THROW(static_cast<void>(read("large.obj", "v 0 0 0\n", options)), std::domain_error);
+}
+
+TEST(Progress, EndsTheWaitForAPipe) {
+  const Scratch scratch;
+  const auto path = scratch.path() / "pipe.obj";
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  // Open for writing too, so that there is a writer, who never writes.
+  const std::fstream writer(path, std::ios::in | std::ios::out);
+  int left = 3;
+  Reports reports;
+  const io::ReadOptions options{.progress = [&](std::size_t done, std::size_t total) {
+    reports.emplace_back(done, total);
+    return --left > 0;
+  }};
+  EXPECT_THROW(static_cast<void>(io::read_mesh(path, options)), Error);
+  EXPECT_EQ(reports, Reports(3, {0, 0}));
+}
+
+TEST(Progress, HasNoTotalForAPipe) {
+  const Scratch scratch;
+  const auto path = scratch.path() / "pipe.obj";
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  const std::string file = large_obj();
+  const std::jthread writer([&] { std::ofstream(path) << file; });
+  Reports reports;
+  static_cast<void>(io::read_mesh(path, watching(reports)));
+  expect_ascending(reports, file.size(), 0);
+}
+
+}  // namespace
+}  // namespace meshhood::test
