@@ -17,21 +17,25 @@ namespace meshhood::python {
 /// An array of Python's, read in place: C order, in the memory of the processor, of any type.
 using Input = nanobind::ndarray<nanobind::ro, nanobind::c_contig, nanobind::device::cpu>;
 
+/// An array that Python gets.
+template <class T>
+using Output = nanobind::ndarray<nanobind::numpy, T>;
+
 /// Views of float32 or float64, and of integers of 32 or 64 bits. They last as long as the array.
 /// Throws a TypeError that names `argument` for another type.
 [[nodiscard]] PositionsView positions_of(const Input& array, const char* argument);
 [[nodiscard]] IndicesView indices_of(const Input& array, const char* argument);
 
-/// A writable array that owns the values, which Python sees as `T`.
+/// An array that owns the values, which Python sees as `T`; writable unless that is const.
 template <class T, class Value>
-nanobind::ndarray<nanobind::numpy, T> owned(std::vector<Value>&& values, std::initializer_list<std::size_t> shape) {
+Output<T> owned(std::vector<Value>&& values, std::initializer_list<std::size_t> shape) {
   static_assert(sizeof(Value) % sizeof(T) == 0);
   auto holder = std::make_unique<std::vector<Value>>(std::move(values));
   auto* const data = reinterpret_cast<T*>(holder->data());
   const nanobind::capsule owner(holder.get(),
                                 [](void* vector) noexcept { delete static_cast<std::vector<Value>*>(vector); });
   holder.release();
-  return nanobind::ndarray<nanobind::numpy, T>(data, shape, owner);
+  return Output<T>(data, shape, owner);
 }
 
 template <class T, class Value>

@@ -4,16 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <span>
-#include <string_view>
 #include <vector>
 
+#include "meshhood/adjacency.h"
 #include "meshhood/batch.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
+#include "meshhood/paper.h"
 #include "meshhood/search.h"
-
-#include "data.h"
 
 namespace meshhood::python {
 
@@ -45,16 +43,16 @@ class ExactMethod : public Method {
   virtual std::vector<VertexRange> ranges(VertexId v, double radius) = 0;
 };
 
-/// Builds the index: see `build`.
-[[nodiscard]] std::shared_ptr<ExactMethod> exact_method(const Data& data, const BuildOptions& options);
+[[nodiscard]] std::shared_ptr<ExactMethod> exact_method(Index index);
 
-/// Builds the index of the paper, with its own parameters.
-[[nodiscard]] std::shared_ptr<Method> paper_method(const Data& data);
+/// The approximate neighborhood by the index of the paper.
+[[nodiscard]] std::shared_ptr<Method> paper_method(std::shared_ptr<const paper::Index> hierarchy,
+                                                   const paper::QueryOptions& options);
 
 /// Breadth-first search. Batches run on the calling thread.
-[[nodiscard]] std::shared_ptr<Method> bfs_method(std::shared_ptr<const Data> data);
+[[nodiscard]] std::shared_ptr<Method> bfs_method(std::shared_ptr<const GraphData> graph);
 
 /// Every vertex within the radius in space, by a scan of all. Batches run on the calling thread.
-[[nodiscard]] std::shared_ptr<Method> ball_method(std::shared_ptr<const Data> data);
+[[nodiscard]] std::shared_ptr<Method> ball_method(std::shared_ptr<const GraphData> graph);
 
 }  // namespace meshhood::python

@@ -26,6 +26,15 @@ def two_plates(side):
     return np.concatenate([low, high]).astype(np.float32), triangles(np.concatenate([quads, quads + len(low)]))
 
 
+def folded(side):
+    """One grid, folded so that its halves nearly touch."""
+    V, quads = grid(2 * side)
+    x = V[:, 0].copy()
+    V[:, 0] = np.minimum(x, 2 * side - 1 - x)
+    V[:, 2] = np.where(x < side, 0.0, 0.25)
+    return V, triangles(quads)
+
+
 _BESIDE = Path(__file__).resolve().parents[3] / "shared"
 
 

@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Long calls: progress, Ctrl-C, and that others run meanwhile (reliability rows P3 and P5)."""
 
+import contextlib
+import os
+import pickle
 import signal
 import threading
 import time
+from pathlib import Path
 
 import meshes
 import meshhood
@@ -65,6 +69,75 @@ def test_ctrl_c_in_a_batch(index, ctrl_c, method):
 def test_ctrl_c_in_a_build(ctrl_c):
     seconds = ctrl_c(builds_without_end)
     print(f"build: KeyboardInterrupt after {1000 * seconds:.0f} ms")
+
+
+OPEN_FILES = Path("/proc/self/fd")
+
+
+@contextlib.contextmanager
+def nothing_stays_open():
+    before = len(list(OPEN_FILES.iterdir())) if OPEN_FILES.is_dir() else 0
+    yield
+    assert before == (len(list(OPEN_FILES.iterdir())) if OPEN_FILES.is_dir() else 0)
+
+
+def test_ctrl_c_while_reading_a_mesh(tmp_path, ctrl_c):
+    file = tmp_path / "large.obj"
+    file.write_text("v 1.25 2.5 3.75\n" * 1_000_000)
+
+    def reads_without_end():
+        while True:
+            meshhood.read_mesh(file)
+
+    with nothing_stays_open():
+        seconds = ctrl_c(reads_without_end)
+    print(f"read_mesh: KeyboardInterrupt after {1000 * seconds:.0f} ms")
+    assert len(meshhood.read_mesh(file).vertices) == 1_000_000
+
+
+@pytest.mark.parametrize("mmap", (False, True))
+def test_ctrl_c_while_loading_an_index(index, tmp_path, ctrl_c, mmap):
+    index.save(tmp_path / "index")
+
+    def loads_without_end():
+        while True:
+            meshhood.load(tmp_path / "index", mmap=mmap)
+
+    with nothing_stays_open():
+        seconds = ctrl_c(loads_without_end)
+    print(f"load: KeyboardInterrupt after {1000 * seconds:.0f} ms")
+
+
+def test_ctrl_c_in_unpickling(index, ctrl_c):
+    pickled = pickle.dumps(index)
+
+    def unpickles_without_end():
+        while True:
+            pickle.loads(pickled)
+
+    seconds = ctrl_c(unpickles_without_end)
+    print(f"unpickling: KeyboardInterrupt after {1000 * seconds:.0f} ms")
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes with names here")
+@pytest.mark.parametrize("read", (meshhood.read_mesh, meshhood.load))
+def test_ctrl_c_while_waiting_for_a_pipe(tmp_path, ctrl_c, read):
+    pipe = tmp_path / "pipe.ply"
+    os.mkfifo(pipe)
+    with open(pipe, "r+b", buffering=0), nothing_stays_open():  # a writer who never writes
+        seconds = ctrl_c(lambda: read(pipe))
+    print(f"{read.__name__}: KeyboardInterrupt after {1000 * seconds:.0f} ms")
+
+
+def test_ctrl_c_in_a_build_of_the_paper(index, ctrl_c):
+    def builds_without_end():
+        growth = 0.0
+        while True:
+            growth += 0.001
+            index.query_ball_count(0, 1.0, method=meshhood.Paper(fusion_growth=growth))
+
+    seconds = ctrl_c(builds_without_end)
+    print(f"hierarchy: KeyboardInterrupt after {1000 * seconds:.0f} ms")
 
 
 def told(call):

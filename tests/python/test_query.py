@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-METHODS = ("exact", "paper", "bfs", "ball")
+METHODS = ("exact", "paper", "bfs", "ball", meshhood.Paper(levels=4, discard=1, fusion_growth=2, factor=3))
 RADII = (0.0, 0.3, 1.0, 2.5, 5.0, np.inf)
 
 
@@ -46,6 +46,24 @@ def test_paper_lies_between_exact_and_ball(plates, r):
     for v in range(0, len(V), 17):
         ids = index.query_ball(v, r, method="paper")
         assert set(oracle.neighborhood(V, edges, v, r)) <= set(ids) <= set(oracle.ball(V, v, r))
+
+
+def test_paper_with_parameters_of_ones_own():
+    index = meshhood.MeshIndex(*meshes.folded(12))
+    one_cluster = meshhood.Paper(levels=64, discard=64, fusion_growth=0)
+    single_vertices = meshhood.Paper(levels=1)
+    # One cluster that holds all makes each answer the ball; single vertices make it exact.
+    for paper, method in ((one_cluster, "ball"), (single_vertices, "exact"), (meshhood.Paper(), "paper")):
+        for got, want in zip(*(index.query_ball(None, 2.5, sort=True, method=m) for m in (paper, method))):
+            np.testing.assert_array_equal(got, want)
+    exact, ball = (index.query_ball_count(None, 2.5, method=method) for method in ("exact", "ball"))
+    assert (exact < ball).any()
+
+
+def test_a_larger_factor_adds_fewer_vertices():
+    index = meshhood.MeshIndex(*meshes.folded(40))
+    few, many = (index.query_ball_count(None, 12.0, method=meshhood.Paper(factor=f)).sum() for f in (100, 1))
+    assert few < many
 
 
 @pytest.mark.parametrize("method", METHODS)

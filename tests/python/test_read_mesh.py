@@ -30,8 +30,27 @@ def test_polygons(tmp_path):
 
 
 def test_no_file(tmp_path):
-    with pytest.raises(OSError, match="nothing.ply"):
+    with pytest.raises(FileNotFoundError, match="nothing.ply"):
         meshhood.read_mesh(tmp_path / "nothing.ply")
+
+
+def test_progress(tmp_path):
+    file = tmp_path / "triangle.off"
+    file.write_text(TRIANGLE)
+    calls = []
+    meshhood.read_mesh(file, progress=lambda done, total: calls.append((done, total)))
+    assert calls[0] == (0, len(TRIANGLE))
+    assert calls[-1] == (len(TRIANGLE), len(TRIANGLE))
+
+
+def test_what_progress_raises_ends_the_reading(tmp_path):
+    def enough(done, total):
+        raise LookupError("enough")
+
+    file = tmp_path / "triangle.off"
+    file.write_text(TRIANGLE)
+    with pytest.raises(LookupError, match="enough"):
+        meshhood.read_mesh(file, progress=enough)
 
 
 def test_malformed(tmp_path):

@@ -10,8 +10,9 @@ together with v inside that ball.
     indptr, indices = index.query_ball([42, 43], 1.5)
 """
 
+from ._files import Mesh, load, read_mesh
 from ._index import Chunk, MeshIndex
+from ._methods import Paper
 from ._plot import plot_neighborhood
-from ._read import Mesh, read_mesh
 
-__all__ = ["Chunk", "Mesh", "MeshIndex", "plot_neighborhood", "read_mesh"]
+__all__ = ["Chunk", "Mesh", "MeshIndex", "Paper", "load", "plot_neighborhood", "read_mesh"]

@@ -52,14 +52,7 @@ def is_single(v):
 
 def radius(r):
     """`r` as a float, if it is one number."""
-    if isinstance(r, (float, int)):
-        return float(r)
-    array = _array(r, "r")
-    if array.dtype.kind not in "iuf":
-        raise TypeError(f"r: expected a number, not {array.dtype}")
-    if array.ndim != 0:
-        raise ValueError(f"r: expected one number for one vertex, not an array of shape {array.shape}")
-    return float(array)
+    return r if isinstance(r, float) else _number(r, "r")
 
 
 def radii(r, rows):
@@ -87,6 +80,21 @@ def threads(workers):
     return workers
 
 
+def integer(value, name, lowest, highest):
+    value = _integer(value, name)
+    if not lowest <= value <= highest:
+        raise ValueError(f"{name}: {value}, expected {lowest} to {highest}")
+    return value
+
+
+def finite(value, name, *, or_zero):
+    """`value` as a float beyond zero, or at it."""
+    value = _number(value, name)
+    if not (0 < value < np.inf or (or_zero and value == 0)):
+        raise ValueError(f"{name}: {value}, expected a finite number {'>=' if or_zero else '>'} 0")
+    return value
+
+
 def positive(value, name):
     value = _integer(value, name)
     if value < 1:
@@ -99,6 +107,15 @@ def _integer(value, name):
         return operator.index(value)
     except TypeError:
         raise TypeError(f"{name}: expected an integer, not {type(value).__name__}") from None
+
+
+def _number(value, name):
+    array = _array(value, name)
+    if array.dtype.kind not in "iuf":
+        raise TypeError(f"{name}: expected a number, not {array.dtype}")
+    if array.ndim != 0:
+        raise ValueError(f"{name}: expected one number, not an array of shape {array.shape}")
+    return float(array)
 
 
 def _array(values, name):

@@ -3,15 +3,17 @@
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Callable, Iterator
+import os
+import pickle
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _convert, _core
-from ._progress import watcher
+from ._methods import Method, Methods
+from ._progress import Progress, watcher
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -19,8 +21,6 @@ if TYPE_CHECKING:
 Ids = NDArray[np.int32]
 Vertices = Union[int, ArrayLike, None]
 Radius = Union[float, ArrayLike]
-Method = Literal["exact", "paper", "bfs", "ball"]
-Progress = Union[bool, Callable[[int, int], object], None]
 
 
 class Chunk(NamedTuple):
@@ -30,9 +30,6 @@ class Chunk(NamedTuple):
     indptr: NDArray[np.int64]
     indices: Ids
     distances: Optional[NDArray[np.float64]]
-
-
-_MAKERS = {"paper": _core.paper, "bfs": _core.bfs, "ball": _core.ball}
 
 
 class MeshIndex:
@@ -52,18 +49,27 @@ class MeshIndex:
     must not during the call; before that they are converted only where they are not in C order, of another byte order,
     or of a type that is not read as it is (float32, float64; int32, int64, uint32, uint64).
 
-    Immutable. Any number of threads may ask at the same time; the interpreter lock is released. Every method raises
-    ValueError or TypeError, naming the argument and the element, and KeyboardInterrupt on Ctrl-C.
+    Immutable. Any number of threads may ask at the same time; the interpreter lock is released. It can be saved, and
+    pickled as the same bytes. Every method raises ValueError or TypeError, naming the argument and the element, and
+    KeyboardInterrupt on Ctrl-C.
     """
 
     def __init__(self, V: Any, F: Any = None, *, workers: int = -1, progress: Progress = None):
         positions, corners, offsets = _convert.mesh_arrays(V, F)
-        self._data = _core.data(positions, corners, offsets=offsets)
+        threads = _convert.threads(workers)
         with watcher(progress) as watch:
-            self._exact = _core.exact(self._data, threads=_convert.threads(workers), progress=watch)
-        self._methods = {"exact": self._exact}
-        self._making = threading.Lock()
-        self._count = self._data.vertex_count
+            self._hold(_core.exact(positions, corners, offsets=offsets, threads=threads, progress=watch))
+
+    @classmethod
+    def _holding(cls, exact):
+        self = cls.__new__(cls)
+        self._hold(exact)
+        return self
+
+    def _hold(self, exact):
+        self._exact = exact
+        self._methods = Methods(exact)
+        self._count = exact.vertex_count
 
     def __len__(self) -> int:
         """#V."""
@@ -72,9 +78,20 @@ class MeshIndex:
     def __repr__(self) -> str:
         return f"<meshhood.MeshIndex of {self._count} vertices>"
 
+    def __reduce_ex__(self, protocol: int) -> tuple:
+        """The bytes of an index file, which are verified when they are loaded; with protocol 5 not copied."""
+        saved = _core.to_bytes(self._exact)
+        return _unpickled, (type(self), pickle.PickleBuffer(saved) if protocol >= 5 else saved.tobytes())
+
+    def __copy__(self) -> MeshIndex:
+        return self
+
+    def __deepcopy__(self, memo: dict) -> MeshIndex:
+        return self
+
     @property
     def nbytes(self) -> int:
-        """Memory of the exact index, in bytes. The copy of the mesh, and what other methods need, come on top."""
+        """Memory of the index, in bytes, its copy of the positions included. What other methods need comes on top."""
         return self._exact.nbytes
 
     @property
@@ -101,7 +118,7 @@ class MeshIndex:
         return_distance : also the distance of each from its `v`, in a straight line (float64, by any method).
         sort : vertices of a neighborhood ascend; otherwise in no stated order, but always the same.
         method : "exact", what breadth-first search gives, by the index;
-                 "paper", the approximate answer of the paper, between exact and ball;
+                 "paper", the approximate answer of the paper, between exact and ball, or `Paper` with other parameters;
                  "bfs", breadth-first search;
                  "ball", every vertex within `r` in space.
             "paper" builds an index of its own when first asked; "bfs" and "ball" use one thread.
@@ -197,16 +214,21 @@ class MeshIndex:
 
         return chunks()
 
-    def _method(self, name):
-        found = self._methods.get(name)
-        if found is not None:
-            return found
-        if name not in _MAKERS:
-            raise ValueError(f"method: {name!r}, expected 'exact', 'paper', 'bfs' or 'ball'")
-        with self._making:
-            if name not in self._methods:
-                self._methods[name] = _MAKERS[name](self._data)
-        return self._methods[name]
+    def save(self, path: str | os.PathLike) -> None:
+        """Writes the index to a file, for `load`: the same bytes on every machine for the same mesh.
+
+        Positions and graph of the mesh are in it, faces are not. The file appears whole or not at all: it is written
+        beside the target under another name, brought to the disk and renamed. Raises OSError.
+        """
+        _core.save(self._exact, path)
+
+    def _method(self, method):
+        try:
+            return self._methods[method]
+        except TypeError:
+            if method.__hash__ is not None:
+                raise
+            raise TypeError(f"method: expected a name or a Paper, not {type(method).__name__}") from None
 
     def _query_one(self, asked, v, r, return_distance, sort):
         v, r = _convert.vertex(v, self._count), _convert.radius(r)
@@ -225,3 +247,7 @@ class MeshIndex:
         rows = None if v is None else _convert.vertices(v, self._count)
         radius = _convert.radii(r, self._count if rows is None else len(rows))
         return rows, radius, _convert.threads(workers)
+
+
+def _unpickled(cls, saved):
+    return cls._holding(_core.from_bytes(np.frombuffer(saved, np.uint8)))

@@ -1,8 +1,14 @@
 # SPDX-License-Identifier: MIT
 """What watches a long call."""
 
+from __future__ import annotations
+
 import contextlib
 import warnings
+from collections.abc import Callable
+from typing import Union
+
+Progress = Union[bool, Callable[[int, int], object], None]
 
 
 @contextlib.contextmanager

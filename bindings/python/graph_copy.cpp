@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "data.h"
+#include "graph_copy.h"
 
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "meshhood/error.h"
 
@@ -25,24 +26,22 @@ auto about(const char* argument, F&& f) {
 
 void check_positions(const PositionsView& positions) {
   validate(positions);
-  if (positions.size() > kMostVertices) {
-    raise(ErrorCode::TooLarge,
-          std::to_string(positions.size()) + " vertices, but the limit is " + std::to_string(kMostVertices));
-  }
+  check_vertex_count(positions.size());
 }
 
 }  // namespace
 
-Data::Data(const MeshView& mesh) {
+GraphData graph_copy(const MeshView& mesh) {
   about("V", [&] { check_positions(mesh.positions); });
-  mesh.positions.visit([&](auto xyz) { positions_ = std::vector(xyz.begin(), xyz.end()); });
-  adjacency_ = about("F", [&] { return adjacency({positions(), mesh.faces}); });
+  GraphData copy;
+  mesh.positions.visit([&](auto xyz) { copy.positions = std::vector(xyz.begin(), xyz.end()); });
+  copy.adjacency = about("F", [&] { return adjacency({copy.view().positions, mesh.faces}); });
+  return copy;
 }
 
-PositionsView Data::positions() const {
-  return std::visit([](const auto& xyz) { return PositionsView(xyz); }, positions_);
+void check_vertex_count(std::size_t count) {
+  if (count <= kMostVertices) return;
+  raise(ErrorCode::TooLarge, std::to_string(count) + " vertices, but the limit is " + std::to_string(kMostVertices));
 }
-
-GraphView Data::view() const { return {positions(), adjacency_.view()}; }
 
 }  // namespace meshhood::python

@@ -1,78 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include "methods.h"
-
+// The yardsticks, which search without an index.
 #include <algorithm>
 #include <chrono>
+#include <memory>
+#include <span>
 #include <utility>
+#include <variant>
+#include <vector>
 
+#include "meshhood/adjacency.h"
 #include "meshhood/error.h"
-#include "meshhood/paper.h"
 #include "meshhood/reference.h"
 
+#include "methods.h"
 #include "pool.h"
 
 namespace meshhood::python {
 namespace {
-
-/// What `meshhood::Index` and `meshhood::paper::Index` have in common; `Base` is the interface to fill.
-template <class Base, class Index, class Searcher>
-class IndexMethod : public Base {
- public:
-  explicit IndexMethod(Index index) : index_(std::move(index)) {}
-
-  Answer neighborhood(VertexId v, double radius, bool distances) override {
-    return ask([&](Searcher& searcher) {
-      Answer answer;
-      if (distances) {
-        searcher.neighborhood(v, radius, answer.ids, answer.distances);
-      } else {
-        searcher.neighborhood(v, radius, answer.ids);
-      }
-      return answer;
-    });
-  }
-
-  std::size_t count(VertexId v, double radius) override {
-    return ask([&](Searcher& searcher) { return searcher.count(v, radius); });
-  }
-
-  Neighborhoods neighborhoods(const BatchQuery& query, const BatchOptions& options) override {
-    // Found by the namespace of `Index`.
-    using meshhood::neighborhoods;
-    return neighborhoods(index_, query, options);
-  }
-
-  std::vector<std::uint64_t> counts(const BatchQuery& query, const BatchOptions& options) override {
-    using meshhood::counts;
-    return counts(index_, query, options);
-  }
-
- protected:
-  template <class F>
-  auto ask(F&& f) {
-    return searchers_.with([&] { return Searcher(index_); }, std::forward<F>(f));
-  }
-
-  [[nodiscard]] const Index& built() const { return index_; }
-
- private:
-  Index index_;
-  Pool<Searcher> searchers_;
-};
-
-class IndexedExactMethod : public IndexMethod<ExactMethod, Index, Searcher> {
- public:
-  using IndexMethod::IndexMethod;
-
-  [[nodiscard]] const Index& index() const override { return built(); }
-
-  std::vector<VertexRange> ranges(VertexId v, double radius) override {
-    return ask([&](Searcher& searcher) {
-      const auto ranges = searcher.ranges(v, radius);
-      return std::vector(ranges.begin(), ranges.end());
-    });
-  }
-};
 
 /// Tells `progress` now and then, for loops that the core does not watch.
 class Steps {
@@ -101,7 +45,7 @@ class Steps {
 /// A method that only knows how to find the ids of one neighborhood.
 class ScanMethod : public Method {
  public:
-  explicit ScanMethod(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+  explicit ScanMethod(std::shared_ptr<const GraphData> graph) : graph_(std::move(graph)) {}
 
   Answer neighborhood(VertexId v, double radius, bool distances) override {
     Answer answer{find(v, radius), {}};
@@ -131,17 +75,17 @@ class ScanMethod : public Method {
 
  protected:
   [[nodiscard]] virtual std::vector<VertexId> find(VertexId v, double radius) = 0;
-  [[nodiscard]] const Data& data() const { return *data_; }
+  [[nodiscard]] GraphView graph() const { return graph_->view(); }
 
  private:
   void append_distances(VertexId v, const std::vector<VertexId>& ids, std::vector<double>& distances) const {
-    const PositionsView positions = data_->positions();
+    const PositionsView positions = graph().positions;
     for (const VertexId w : ids) distances.push_back(distance(positions, v, w));
   }
 
   template <class F>
   void for_each_row(const BatchQuery& query, const BatchOptions& options, F&& f) {
-    const std::size_t rows = query.vertices ? query.vertices->size() : data_->positions().size();
+    const std::size_t rows = query.vertices ? query.vertices->size() : graph().positions.size();
     const auto* const radii = std::get_if<std::span<const double>>(&query.radius);
     Steps steps(options.progress, rows);
     for (std::size_t row = 0; row < rows; ++row) {
@@ -151,7 +95,7 @@ class ScanMethod : public Method {
     }
   }
 
-  std::shared_ptr<const Data> data_;
+  std::shared_ptr<const GraphData> graph_;
 };
 
 class BfsMethod : public ScanMethod {
@@ -160,7 +104,7 @@ class BfsMethod : public ScanMethod {
 
  protected:
   std::vector<VertexId> find(VertexId v, double radius) override {
-    return searchers_.with([&] { return ReferenceSearcher(data().view()); },
+    return searchers_.with([&] { return ReferenceSearcher(graph()); },
                            [&](ReferenceSearcher& searcher) {
                              std::vector<VertexId> ids;
                              searcher.neighborhood(v, radius, ids);
@@ -179,27 +123,19 @@ class BallMethod : public ScanMethod {
  protected:
   std::vector<VertexId> find(VertexId v, double radius) override {
     std::vector<VertexId> ids;
-    ball(data().positions(), v, radius, ids);
+    ball(graph().positions, v, radius, ids);
     return ids;
   }
 };
 
 }  // namespace
 
-std::shared_ptr<ExactMethod> exact_method(const Data& data, const BuildOptions& options) {
-  return std::make_shared<IndexedExactMethod>(build(data.view(), options));
+std::shared_ptr<Method> bfs_method(std::shared_ptr<const GraphData> graph) {
+  return std::make_shared<BfsMethod>(std::move(graph));
 }
 
-std::shared_ptr<Method> paper_method(const Data& data) {
-  return std::make_shared<IndexMethod<Method, paper::Index, paper::Searcher>>(paper::build(data.view()));
-}
-
-std::shared_ptr<Method> bfs_method(std::shared_ptr<const Data> data) {
-  return std::make_shared<BfsMethod>(std::move(data));
-}
-
-std::shared_ptr<Method> ball_method(std::shared_ptr<const Data> data) {
-  return std::make_shared<BallMethod>(std::move(data));
+std::shared_ptr<Method> ball_method(std::shared_ptr<const GraphData> graph) {
+  return std::make_shared<BallMethod>(std::move(graph));
 }
 
 }  // namespace meshhood::python

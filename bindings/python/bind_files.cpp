@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include "meshhood/serialize.h"
+
+#include "arrays.h"
+#include "bindings.h"
+#include "graph_copy.h"
+#include "io/index_io.h"
+#include "io/mesh_io.h"
+#include "methods.h"
+#include "watch.h"
+
+namespace nb = nanobind;
+
+namespace meshhood::python {
+namespace {
+
+using Bytes = nb::ndarray<const std::uint8_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
+
+/// Positions (#V by 3), corners, offsets (empty where all are triangles), warnings.
+auto read(const std::filesystem::path& path, nb::handle progress) {
+  const io::ReadOptions options{.progress = watch(progress)};
+  io::Mesh mesh;
+  {
+    const nb::gil_scoped_release unlocked;
+    mesh = io::read_mesh(path, options);
+  }
+  nb::object positions = std::visit(
+      [](auto& xyz) {
+        using Real = typename std::decay_t<decltype(xyz)>::value_type;
+        const std::size_t size = xyz.size() / 3;
+        return nb::cast(owned<Real>(std::move(xyz), {size, 3}));
+      },
+      mesh.positions);
+  std::vector<std::string> warnings;
+  warnings.reserve(mesh.warnings.size());
+  for (const auto& [what, count, place] : mesh.warnings) {
+    std::string& warning = warnings.emplace_back(place);
+    warning.append(": ").append(what);
+    if (count > 1) warning.append(" (").append(std::to_string(count)).append(" times)");
+  }
+  return std::tuple(std::move(positions), owned<std::uint32_t>(std::move(mesh.corners)),
+                    owned<std::int64_t>(std::move(mesh.offsets)), std::move(warnings));
+}
+
+void save_file(const ExactMethod& method, const std::filesystem::path& path) {
+  const nb::gil_scoped_release unlocked;
+  io::save(path, method.index());
+}
+
+std::shared_ptr<ExactMethod> loaded(Index index) {
+  check_vertex_count(index.vertex_count());
+  return exact_method(std::move(index));
+}
+
+std::shared_ptr<ExactMethod> load_file(const std::filesystem::path& path, bool mmap, nb::handle progress) {
+  const Progress watched = watch(progress);
+  const nb::gil_scoped_release unlocked;
+  return loaded(mmap ? io::map(path, {.progress = watched}) : io::load(path, {.progress = watched}));
+}
+
+Output<std::uint8_t> to_bytes(const ExactMethod& method) {
+  std::vector<std::byte> bytes;
+  {
+    const nb::gil_scoped_release unlocked;
+    bytes.reserve(method.index().bytes().total());
+    save(method.index(),
+         [&](std::span<const std::byte> piece) { bytes.insert(bytes.end(), piece.begin(), piece.end()); });
+  }
+  return owned<std::uint8_t>(std::move(bytes));
+}
+
+std::shared_ptr<ExactMethod> from_bytes(const Bytes& bytes) {
+  const auto all = std::as_bytes(std::span(bytes.data(), bytes.size()));
+  const LoadOptions options{.progress = watch(nb::handle(Py_None))};
+  const nb::gil_scoped_release unlocked;
+  return loaded(load(all, options));
+}
+
+}  // namespace
+
+void bind_files(nb::module_& module) {
+  module.def("read_mesh", &read, nb::arg("path"), nb::arg("progress").none());
+  module.def("save", &save_file, nb::arg(), nb::arg("path"));
+  module.def("load", &load_file, nb::arg("path"), nb::arg("mmap"), nb::arg("progress").none());
+  module.def("to_bytes", &to_bytes);
+  module.def("from_bytes", &from_bytes);
+}
+
+}  // namespace meshhood::python

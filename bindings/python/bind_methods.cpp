@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/variant.h>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "methods.h"
+#include "watch.h"
+
+namespace nb = nanobind;
+
+namespace meshhood::python {
+namespace {
+
+using Rows = nb::ndarray<const std::int32_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
+using Radii = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
+
+Output<std::int32_t> one(Method& method, VertexId v, double radius) {
+  Answer answer;
+  {
+    const nb::gil_scoped_release unlocked;
+    answer = method.neighborhood(v, radius, false);
+  }
+  return owned<std::int32_t>(std::move(answer.ids));
+}
+
+auto one_with_distances(Method& method, VertexId v, double radius) {
+  Answer answer;
+  {
+    const nb::gil_scoped_release unlocked;
+    answer = method.neighborhood(v, radius, true);
+  }
+  return std::pair(owned<std::int32_t>(std::move(answer.ids)), owned<double>(std::move(answer.distances)));
+}
+
+BatchQuery query_of(const std::optional<Rows>& vertices, const std::variant<double, Radii>& radius) {
+  BatchQuery query;
+  if (vertices) query.vertices = {reinterpret_cast<const VertexId*>(vertices->data()), vertices->size()};
+  if (const auto* const radii = std::get_if<Radii>(&radius)) {
+    query.radius = std::span(radii->data(), radii->size());
+  } else {
+    query.radius = std::get<double>(radius);
+  }
+  return query;
+}
+
+auto many(Method& method, const std::optional<Rows>& vertices, const std::variant<double, Radii>& radius,
+          bool distances, bool sorted, unsigned threads, nb::handle progress) {
+  const BatchQuery query = query_of(vertices, radius);
+  const BatchOptions options{.threads = threads, .distances = distances, .sorted = sorted, .progress = watch(progress)};
+  Neighborhoods rows;
+  {
+    const nb::gil_scoped_release unlocked;
+    rows = method.neighborhoods(query, options);
+  }
+  return std::tuple(owned<std::int64_t>(std::move(rows.offsets)), owned<std::int32_t>(std::move(rows.ids)),
+                    owned<double>(std::move(rows.distances)));
+}
+
+Output<std::int64_t> many_counts(Method& method, const std::optional<Rows>& vertices,
+                                 const std::variant<double, Radii>& radius, unsigned threads, nb::handle progress) {
+  const BatchQuery query = query_of(vertices, radius);
+  const BatchOptions options{.threads = threads, .progress = watch(progress)};
+  std::vector<std::uint64_t> counts;
+  {
+    const nb::gil_scoped_release unlocked;
+    counts = method.counts(query, options);
+  }
+  return owned<std::int64_t>(std::move(counts));
+}
+
+Output<std::int32_t> ranges(ExactMethod& method, VertexId v, double radius) {
+  static_assert(sizeof(VertexRange) == 2 * sizeof(std::int32_t));
+  std::vector<VertexRange> ranges;
+  {
+    const nb::gil_scoped_release unlocked;
+    ranges = method.ranges(v, radius);
+  }
+  const std::size_t size = ranges.size();
+  return owned<std::int32_t>(std::move(ranges), {size, 2});
+}
+
+/// Not a copy: the array keeps the index alive, and may not be written to.
+Output<const std::int32_t> permutation(const nb::object& self) {
+  const Index& index = nb::cast<ExactMethod&>(self).index();
+  const auto ids = index.permutation();
+  if (ids.size() == index.vertex_count())
+    return {reinterpret_cast<const std::int32_t*>(ids.data()), {ids.size()}, self};
+  // The index of a mesh that was reordered has none.
+  std::vector<VertexId> all(index.vertex_count());
+  std::iota(all.begin(), all.end(), VertexId{0});
+  return owned<const std::int32_t>(std::move(all));
+}
+
+}  // namespace
+
+void bind_methods(nb::module_& module) {
+  nb::class_<Method>(module, "Method")
+      .def("neighborhood", &one, nb::arg(), nb::arg())
+      .def("neighborhood_and_distances", &one_with_distances, nb::arg(), nb::arg())
+      .def("count", &Method::count, nb::arg(), nb::arg(), nb::call_guard<nb::gil_scoped_release>())
+      .def("neighborhoods", &many, nb::arg().none(), nb::arg(), nb::arg("distances"), nb::arg("sorted"),
+           nb::arg("threads"), nb::arg("progress").none())
+      .def("counts", &many_counts, nb::arg().none(), nb::arg(), nb::arg("threads"), nb::arg("progress").none());
+  nb::class_<ExactMethod, Method>(module, "ExactMethod")
+      .def("ranges", &ranges, nb::arg(), nb::arg())
+      .def_prop_ro("permutation", &permutation)
+      .def_prop_ro("vertex_count", [](const ExactMethod& method) { return method.index().vertex_count(); })
+      .def_prop_ro("nbytes", [](const ExactMethod& method) { return method.index().bytes().total(); });
+}
+
+}  // namespace meshhood::python

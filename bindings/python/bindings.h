@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+/// What the Python package meshhood is made from: conversions, and the interpreter lock. Arguments have been checked
+/// and converted by meshhood/_convert.py.
+namespace meshhood::python {
+
+/// The ways to ask an index.
+void bind_methods(nanobind::module_& module);
+
+/// What makes an index, and the other methods from it.
+void bind_makers(nanobind::module_& module);
+
+/// Mesh files, index files, and an index as bytes.
+void bind_files(nanobind::module_& module);
+
+}  // namespace meshhood::python

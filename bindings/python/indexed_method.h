@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "methods.h"
+#include "pool.h"
+
+namespace meshhood::python {
+
+/// A method by an index. `Base` is the interface to fill; a `Searcher` asks the `Index`, and the calls for batches are
+/// found in its namespace.
+template <class Base, class Index, class Searcher>
+class IndexMethod : public Base {
+ public:
+  explicit IndexMethod(Index index) : index_(std::move(index)) {}
+
+  Answer neighborhood(VertexId v, double radius, bool distances) override {
+    return ask([&](Searcher& searcher) {
+      Answer answer;
+      if (distances) {
+        searcher.neighborhood(v, radius, answer.ids, answer.distances);
+      } else {
+        searcher.neighborhood(v, radius, answer.ids);
+      }
+      return answer;
+    });
+  }
+
+  std::size_t count(VertexId v, double radius) override {
+    return ask([&](Searcher& searcher) { return searcher.count(v, radius); });
+  }
+
+  Neighborhoods neighborhoods(const BatchQuery& query, const BatchOptions& options) override {
+    using meshhood::neighborhoods;
+    return neighborhoods(index_, query, options);
+  }
+
+  std::vector<std::uint64_t> counts(const BatchQuery& query, const BatchOptions& options) override {
+    using meshhood::counts;
+    return counts(index_, query, options);
+  }
+
+ protected:
+  template <class F>
+  auto ask(F&& f) {
+    return searchers_.with([&] { return Searcher(index_); }, std::forward<F>(f));
+  }
+
+  [[nodiscard]] const Index& built() const { return index_; }
+
+ private:
+  Index index_;
+  Pool<Searcher> searchers_;
+};
+
+}  // namespace meshhood::python

@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: MIT
+"""Indexes in files and between processes (reliability row P6)."""
+
+import concurrent.futures
+import copy
+import multiprocessing
+import pickle
+import warnings
+
+import meshes
+import meshhood
+import numpy as np
+import pytest
+
+METHODS = ("exact", "paper", "bfs", "ball", meshhood.Paper(levels=4, discard=1, factor=3))
+
+
+def make():
+    return meshhood.MeshIndex(*meshes.two_plates(20))
+
+
+@pytest.fixture(scope="module")
+def index():
+    return make()
+
+
+@pytest.fixture
+def file(index, tmp_path):
+    path = tmp_path / "plates.index"
+    index.save(path)
+    return path
+
+
+def assert_same(one, other):
+    assert len(one) == len(other)
+    assert one.nbytes == other.nbytes
+    np.testing.assert_array_equal(one.permutation, other.permutation)
+    for method in METHODS:
+        for a, b in zip(*(i.query_ball(None, 3.5, return_distance=True, method=method) for i in (one, other))):
+            np.testing.assert_array_equal(a, b)
+    np.testing.assert_array_equal(one.query_ranges(7, 5.0), other.query_ranges(7, 5.0))
+    assert (one.radius_neighbors_graph(2.0) != other.radius_neighbors_graph(2.0)).nnz == 0
+
+
+@pytest.mark.parametrize("mmap", (False, True))
+def test_a_loaded_index_is_the_one_that_was_saved(index, file, mmap):
+    assert_same(meshhood.load(file, mmap=mmap), index)
+    assert_same(meshhood.load(str(file), mmap=mmap), index)
+
+
+def test_the_bytes_depend_on_the_mesh_alone(index, file, tmp_path):
+    V, F = meshes.two_plates(20)
+    meshhood.MeshIndex(V, np.asfortranarray(F.astype(np.uint64)), workers=3).save(tmp_path / "again")
+    meshhood.load(file).save(tmp_path / "loaded")
+    assert file.read_bytes() == (tmp_path / "again").read_bytes() == (tmp_path / "loaded").read_bytes()
+    assert pickle.loads(pickle.dumps(index)).__reduce_ex__(4)[1][1] == file.read_bytes()
+
+
+@pytest.mark.parametrize("mmap", (False, True))
+def test_a_loaded_index_does_not_mind_its_file_being_replaced(index, file, mmap):
+    loaded = meshhood.load(file, mmap=mmap)
+    meshhood.MeshIndex(*meshes.two_plates(5)).save(file)
+    assert_same(loaded, index)
+    file.unlink()
+    assert_same(loaded, index)
+
+
+@pytest.mark.parametrize("mmap", (False, True))
+def test_results_outlive_a_loaded_index(index, file, mmap):
+    permutation = meshhood.load(file, mmap=mmap).permutation
+    file.unlink()
+    np.testing.assert_array_equal(permutation, index.permutation)
+
+
+@pytest.mark.parametrize("V", (np.zeros((0, 3)), np.ones((1, 3), np.float32)))
+def test_next_to_nothing(V, tmp_path):
+    index = meshhood.MeshIndex(V, np.zeros((0, 3), int))
+    index.save(tmp_path / "small")
+    for other in (meshhood.load(tmp_path / "small"), pickle.loads(pickle.dumps(index))):
+        assert len(other) == len(V)
+        np.testing.assert_array_equal(other.query_ball(None, 1.0)[1], np.arange(len(V)))
+
+
+@pytest.mark.parametrize("mmap", (False, True))
+def test_what_is_no_index_is_refused(file, mmap, tmp_path):
+    with pytest.raises(FileNotFoundError, match="nothing"):
+        meshhood.load(tmp_path / "nothing", mmap=mmap)
+    with pytest.raises(OSError, match=tmp_path.name):
+        meshhood.load(tmp_path, mmap=mmap)
+    whole = file.read_bytes()
+    for name, content in {"empty": b"", "text": b"OFF\n" * 1000, "short": whole[:-64], "long": whole + bytes(64)}.items():
+        (tmp_path / name).write_bytes(content)
+        with pytest.raises(ValueError, match=name + ".*byte"):
+            meshhood.load(tmp_path / name, mmap=mmap)
+
+
+def test_an_endless_file_that_is_no_index_is_refused():
+    with pytest.raises(ValueError, match="not a saved index"):
+        meshhood.load("/dev/zero")
+
+
+def test_a_changed_byte_is_noticed(index, file):
+    whole = file.read_bytes()
+    places = range(0, len(whole), 997)
+    for place in places:
+        changed = bytearray(whole)
+        changed[place] ^= 1
+        with pytest.raises(ValueError, match="byte"):
+            pickle.loads(pickle.dumps(index).replace(whole, bytes(changed)))
+        file.write_bytes(changed)
+        for mmap in (False, True):
+            with pytest.raises(ValueError, match="plates.index"):
+                meshhood.load(file, mmap=mmap)
+    print(f"{3 * len(places)} changed bytes refused")
+
+
+def test_saving_where_nothing_can_be_written(index, tmp_path):
+    with pytest.raises(OSError, match="nowhere"):
+        index.save(tmp_path / "nowhere" / "file")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_progress_of_loading(file):
+    for mmap in (False, True):
+        calls = []
+        meshhood.load(file, mmap=mmap, progress=lambda done, total: calls.append((done, total)))
+        assert calls[0][0] == 0 and calls[-1][0] == calls[-1][1] > 0
+        assert calls == sorted(calls) and len({total for _, total in calls}) == 1
+
+
+@pytest.mark.parametrize("mmap", (False, True))
+def test_what_progress_raises_ends_the_loading(file, mmap):
+    def enough(done, total):
+        raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough"):
+        meshhood.load(file, mmap=mmap, progress=enough)
+
+
+@pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
+def test_pickling(index, protocol):
+    assert_same(pickle.loads(pickle.dumps(index, protocol)), index)
+
+
+def test_a_pickle_is_the_bytes_of_the_file_and_a_name(index, file):
+    pickled, saved = pickle.dumps(index), file.read_bytes()
+    assert saved in pickled
+    assert len(pickled) < len(saved) + 200
+
+
+def test_pickling_without_a_copy(index):
+    buffers = []
+    pickled = pickle.dumps(index, protocol=5, buffer_callback=buffers.append)
+    assert len(pickled) < 200
+    assert_same(pickle.loads(pickled, buffers=buffers), index)
+
+
+def test_a_copy_is_the_index_itself(index):
+    assert copy.copy(index) is index
+    assert copy.deepcopy([index])[0] is index
+
+
+def ask(index, v):
+    return index.query_ball(v, 3.5)
+
+
+@pytest.mark.parametrize("method", multiprocessing.get_all_start_methods())
+def test_other_processes_may_ask(index, method):
+    wanted = [index.query_ball(v, 3.5) for v in range(5)]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # of forking where there are threads
+        pool = concurrent.futures.ProcessPoolExecutor(2, multiprocessing.get_context(method))
+        with pool:
+            for got, want in zip(pool.map(ask, [index] * 5, range(5)), wanted):
+                np.testing.assert_array_equal(got, want)
+
+
+_mapped = None
+
+
+def map_index(file):
+    global _mapped
+    _mapped = meshhood.load(file, mmap=True)
+
+
+def ask_mapped(v):
+    return ask(_mapped, v)
+
+
+def test_processes_may_share_a_file(index, file):
+    context = multiprocessing.get_context("spawn")
+    with concurrent.futures.ProcessPoolExecutor(2, context, initializer=map_index, initargs=(file,)) as pool:
+        for v, got in enumerate(pool.map(ask_mapped, range(5))):
+            np.testing.assert_array_equal(got, index.query_ball(v, 3.5))
+
+
+class Mine(meshhood.MeshIndex):
+    pass
+
+
+def test_subclasses_stay_what_they_are():
+    assert type(pickle.loads(pickle.dumps(Mine(*meshes.two_plates(3))))) is Mine
