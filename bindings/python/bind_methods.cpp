@@ -118,7 +118,7 @@ void bind_methods(nb::module_& module) {
       .def("counts", &many_counts, nb::arg().none(), nb::arg(), nb::arg("threads"), nb::arg("progress").none());
   nb::class_<ExactMethod, Method>(module, "ExactMethod")
       .def("ranges", &ranges, nb::arg(), nb::arg())
-      .def_prop_ro("permutation", &permutation)
+      .def_prop_ro("permutation", &permutation, nb::rv_policy::reference)
       .def_prop_ro("vertex_count", [](const ExactMethod& method) { return method.index().vertex_count(); })
       .def_prop_ro("nbytes", [](const ExactMethod& method) { return method.index().bytes().total(); });
 }

@@ -6,6 +6,7 @@ import copy
 import multiprocessing
 import pickle
 import warnings
+from pathlib import Path
 
 import meshes
 import meshhood
@@ -88,7 +89,8 @@ def test_what_is_no_index_is_refused(file, mmap, tmp_path):
     with pytest.raises(OSError, match=tmp_path.name):
         meshhood.load(tmp_path, mmap=mmap)
     whole = file.read_bytes()
-    for name, content in {"empty": b"", "text": b"OFF\n" * 1000, "short": whole[:-64], "long": whole + bytes(64)}.items():
+    contents = {"empty": b"", "text": b"OFF\n" * 1000, "short": whole[:-64], "long": whole + bytes(64)}
+    for name, content in contents.items():
         (tmp_path / name).write_bytes(content)
         with pytest.raises(ValueError, match=name + ".*byte"):
             meshhood.load(tmp_path / name, mmap=mmap)
@@ -118,6 +120,21 @@ def test_saving_where_nothing_can_be_written(index, tmp_path):
     with pytest.raises(OSError, match="nowhere"):
         index.save(tmp_path / "nowhere" / "file")
     assert list(tmp_path.iterdir()) == []
+
+
+GOLDEN = Path(__file__).resolve().parents[1] / "golden"
+
+
+@pytest.mark.parametrize("file", sorted(GOLDEN.glob("*/*.mhi")), ids=lambda file: file.stem)
+def test_what_the_cpp_library_has_saved(file):
+    """Among them one of a mesh that was reordered, whose index holds no permutation."""
+    index = meshhood.load(file)
+    np.testing.assert_array_equal(np.sort(index.permutation), np.arange(len(index)))
+    for v in range(0, len(index), 7):
+        ids = index.query_ball(v, 1.0, sort=True)
+        np.testing.assert_array_equal(ids, index.query_ball(v, 1.0, sort=True, method="bfs"))
+        ranges = [index.permutation[begin:end] for begin, end in index.query_ranges(v, 1.0)]
+        np.testing.assert_array_equal(ids, np.sort(np.concatenate(ranges)))
 
 
 def test_progress_of_loading(file):

@@ -79,7 +79,7 @@ class MeshIndex:
         return f"<meshhood.MeshIndex of {self._count} vertices>"
 
     def __reduce_ex__(self, protocol: int) -> tuple:
-        """The bytes of an index file, which are verified when they are loaded. With protocol 5 they may travel out of band."""
+        """The bytes of an index file, verified when they are loaded. With protocol 5 they may travel out of band."""
         saved = _core.to_bytes(self._exact)
         return _unpickled, (type(self), pickle.PickleBuffer(saved) if protocol >= 5 else saved.tobytes())
 
