@@ -9,12 +9,12 @@ from . import PEERS
 from .worker import ALL_THREADS, ONE_THREAD, Worker
 
 # mesh: radii in average edges.
-CONTESTS = {"cortex": (5, 20), "dragon": (5, 20)}
+CONTESTS = {"cortex": (5, 20), "dragon": (5, 10)}
 BLOCKS = 5
 BLOCK_QUERIES = 2000
 JUDGED = 20
 PATIENCE = 300  # seconds for one step of one peer
-WHOLE_MESH_BLOCKS = 30  # for who answers for all vertices: as long as so many blocks, and at least one run
+WHOLE_MESH_BLOCKS = 30  # for who answers for all vertices: as long as so many blocks take, and at least one run
 
 
 @dataclass
@@ -126,7 +126,8 @@ def begin_radius(contestant, judged, truth, radius, vertices, block_seconds):
     seconds, answers = judgement
     if peer.whole:
         contestant.queries = vertices
-        contestant.runs = int(np.clip(WHOLE_MESH_BLOCKS * block_seconds / seconds, 1, BLOCKS))
+        contestant.runs = int(np.clip(WHOLE_MESH_BLOCKS * block_seconds / seconds, 1, BLOCKS)) - 1
+        contestant.seconds.append(1e6 * seconds / vertices)  # too long for a run that does not count
     else:
         contestant.queries = int(np.clip(block_seconds * len(judged) / seconds, 1, BLOCK_QUERIES))
         contestant.runs = BLOCKS
