@@ -28,6 +28,9 @@ class Contestant:
     seconds: list = field(default_factory=list)
     row: dict = field(default_factory=dict)
 
+    def forget(self):
+        self.seconds, self.queries, self.runs, self.row = [], 0, 0, {}
+
     def attempt(self, *command):
         """As Worker.ask; a failure ends the part of this contestant, and is kept."""
         try:
@@ -73,14 +76,14 @@ def contest(name, order, mesh, threads, block_seconds):
     with np.load(mesh) as arrays:
         positions, triangles = arrays["positions"], arrays["triangles"]
     exact = exact_index(positions, triangles)
-    field_ = [started(peer, mesh, threads) for peer in PEERS]
+    contestants = [started(peer, mesh, threads) for peer in PEERS]
     found = []
     for edges in CONTESTS.get(name, (5, 20)):
         radius = edges * mean_edge(positions, triangles)
-        rows = at_radius(field_, exact, radius, block_seconds)
+        rows = at_radius(contestants, exact, radius, block_seconds)
         found.append({"mesh": meshes.described(name), "name": name, "order": order, "radius_edges": edges,
                       "vertices": len(positions), "threads": "one" if threads == ONE_THREAD else "all", "peers": rows})
-    for contestant in field_:
+    for contestant in contestants:
         contestant.worker.end()
     return found
 
@@ -95,13 +98,15 @@ def started(peer, mesh, threads):
     return contestant
 
 
-def at_radius(field_, exact, radius, block_seconds):
+def at_radius(contestants, exact, radius, block_seconds):
     random = np.random.default_rng(2)
     vertices = len(exact)
     judged = random.choice(vertices, min(JUDGED, vertices), replace=False).astype(np.int32)
     truth = [set(exact.query_ball(v, radius, method="bfs").tolist()) for v in judged]
     typical = np.mean([len(row) for row in truth])
-    running = [contestant for contestant in field_ if contestant.built and not contestant.failure]
+    for contestant in contestants:
+        contestant.forget()
+    running = [contestant for contestant in contestants if contestant.built and not contestant.failure]
     for contestant in running:
         begin_radius(contestant, judged, truth, radius, vertices, block_seconds)
     for number in range(BLOCKS):
@@ -109,13 +114,12 @@ def at_radius(field_, exact, radius, block_seconds):
         for contestant in running[number:] + running[:number]:
             if not contestant.failure and number < contestant.runs:
                 run_block(contestant, block, radius)
-    return [result(contestant, typical) for contestant in field_]
+    return [result(contestant, typical) for contestant in contestants]
 
 
 def begin_radius(contestant, judged, truth, radius, vertices, block_seconds):
     """Judges the answers, and finds how many queries there is time for; both warm what must be warm."""
     peer = PEERS[contestant.name]
-    contestant.seconds, contestant.queries, contestant.runs, contestant.row = [], 0, 0, {}
     ids = np.mean([len(row) for row in truth]) * vertices
     if peer.largest_answer and ids > peer.largest_answer:
         contestant.row = {"left_out": f"{ids:.1e} ids in all would be too many"}
