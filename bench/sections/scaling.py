@@ -12,8 +12,10 @@ index of its own, so that none finds in the cache what another has read. Exponen
 """
 
 RADIUS_NOTE = """
-Over the radius, fitted where at least {large:,} vertices are found (k). Ids must be copied, so their cost grows like k;
-ranges and counts cost the rim of the answer, which on a surface grows like k^0.5.
+Over the radius, fitted where at least {large:,} vertices are found (k). What is expected: where one sheet fills the ball
+(sphere), ranges and counts cost the rim of the answer, k^0.5, and ids on top what it takes to copy them, k^1. Where
+sheets lie close (scroll) or a surface is all spikes (noise), the search goes through the leaves of the answer, and all
+three tend to k^1; the paper's index does not ask what hangs together there, and can be the faster for it.
 
 """
 
