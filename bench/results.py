@@ -8,7 +8,7 @@ from . import machine, places
 def save(name, data, measured_on):
     places.RESULTS.mkdir(parents=True, exist_ok=True)
     document = {"machine": measured_on, **data}
-    (places.RESULTS / f"{name}.json").write_text(json.dumps(rounded(document), indent=1) + "\n", encoding="utf-8")
+    (places.RESULTS / f"{name}.json").write_text(as_text(rounded(document)) + "\n", encoding="utf-8")
     print(f"wrote docs/benchmarks/{name}.json")
 
 
@@ -16,6 +16,18 @@ def load(name):
     """What `save` has written, or None."""
     path = places.RESULTS / f"{name}.json"
     return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
+
+
+def as_text(value, indent=""):
+    """JSON with a line for each thing that fits on one, so that a change of it is a change of a line."""
+    line = json.dumps(value)
+    if not isinstance(value, (dict, list)) or len(line) < 200:
+        return line
+    deeper = indent + " "
+    if isinstance(value, list):
+        return "[\n" + ",\n".join(deeper + as_text(item, deeper) for item in value) + f"\n{indent}]"
+    items = (f"{deeper}{json.dumps(key)}: {as_text(item, deeper)}" for key, item in value.items())
+    return "{\n" + ",\n".join(items) + f"\n{indent}}}"
 
 
 def begin(what):
