@@ -7,7 +7,7 @@
 # And for who would see for himself what docs/benchmarks.md says; both end by writing it, and want a quiet machine:
 #
 #   make reproduce                the paper's tables and pictures, accuracy, growth; about half an hour
-#   make peers                    other products on the same queries; about half an hour
+#   make peers                    other products on the same queries; about three quarters of an hour
 #   make benchmarks               both
 .PHONY: build test demo reproduce peers benchmarks
 

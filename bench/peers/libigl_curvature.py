@@ -13,7 +13,7 @@ class LibiglBall(Peer):
     answers = "curvature within the ball"
     remark = "all vertices at once; search and quadric fit; radius rounded to whole edges"
     whole = True
-    largest_answer = 200_000_000
+    largest_answer = 120_000_000
     use_rings = False
 
     def __init__(self, positions, triangles, path, threads):
