@@ -36,7 +36,7 @@ endif()
 
 # Some of the seeded faults; `tests/mutants/run build/mutants` tries them all.
 if(CMAKE_BUILD_TYPE STREQUAL "Release")
-  add_test(NAME mutants COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mutants/run ${PROJECT_BINARY_DIR}/mutants 6)
+  add_test(NAME mutants COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mutants/run ${PROJECT_BINARY_DIR}/mutants 11)
   set_tests_properties(mutants PROPERTIES TIMEOUT 900 COST 1000)
 endif()
 

@@ -1,7 +1,6 @@
 # The tests of files: format by format, row by row of the catalogue of faults, and beside other readers.
 foreach(stem shared_meshes ply obj off stl text file progress index_progress write memory mutation)
   meshhood_test(io_${stem} meshhood_test_support)
-  meshhood_compile_quickly(io_${stem}_test)
 endforeach()
 meshhood_test(io_index meshhood_test_support meshhood_families)
 add_subdirectory(interop)
