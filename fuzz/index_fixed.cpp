@@ -29,6 +29,7 @@ void lay_out(std::vector<std::byte>& bytes) {
               bytes.begin() + static_cast<std::ptrdiff_t>(next), std::byte{0});
   }
   bytes.resize(static_cast<std::size_t>(next));
+  if (table.empty()) return;
   std::memcpy(bytes.data() + sizeof(file::Header), table.data(), table.size() * sizeof(file::Section));
 }
 
