@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What a call from Python costs over the query itself, both timed in the same run.
+"""What a call from Python costs over the query itself, and a batch beside its rows, all timed in the same run.
 
     PYTHONPATH=build/release/python bench/python_overhead.py
 
@@ -50,6 +50,26 @@ def main():
         call, query = map(min, zip(*rounds))
         count = index.query_ball_count(v, r)
         print(f"{r:4.0f} {count:9d} {call:8.2f} {query:9.2f} {call - query:12.2f} {call / query:13.2f}")
+
+
+    print_batch(index, v, query)
+
+
+def print_batch(index, v, query):
+    """A batch is one call of the library, so what it costs beside its rows does not depend on how many they are."""
+    rows = np.array([v])
+    r = RADII[-1]
+
+    def calls():
+        for _ in range(CALLS):
+            index.query_ball(rows, r, workers=1)
+
+    beside = min(microseconds(calls) for _ in range(ROUNDS)) - query
+    everything = np.arange(SIDE * SIDE)
+    start = time.perf_counter()
+    index.query_ball(everything, r, workers=1)
+    whole = (time.perf_counter() - start) * 1e6
+    print(f"a batch costs {beside:.1f} us beside its rows: {beside / whole:.5%} of one over all {SIDE * SIDE} vertices")
 
 
 if __name__ == "__main__":
