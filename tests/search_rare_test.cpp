@@ -83,6 +83,20 @@ TEST(Rare, ForeignSheetIsNotProvedAndLeftOut) {
   query_everywhere(exact, mesh.size(), {0.3, 0.6, 1, 2, 5, 10, 20, 40, 100});
 }
 
+TEST(Rare, SingleVerticesAreCutOffAtARoughRim) {
+  // Such a vertex has edges into the next leaf only to what lies outside, while others of its leaf have nearer neighbours
+  // there.
+  TestMesh mesh = make_grid(100, 100, false);
+  Random random(7);
+  for (double& coordinate : mesh.positions) coordinate += random.uniform(-0.4, 0.4);
+  ExactAnswer exact(mesh.finish(true).view());
+  for (VertexId v = 0; v < mesh.size(); ++v) {
+    for (const double radius : {7.0, 9.0, 12.0}) exact.query(v, radius);
+  }
+  EXPECT_EQ(exact.mismatches(), 0U);
+  std::printf("%zu queries\n", exact.queries());
+}
+
 /// A grid, small patches of surface hanging over it, and tongues: strips over it that are joined to it at one end.
 TestMesh grid_below(std::size_t patches, std::size_t tongues) {
   constexpr std::uint32_t kSide = 100;
