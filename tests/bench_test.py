@@ -4,9 +4,12 @@
 
 usage: tests/bench_test.py FOLDER    FOLDER has the programs: build/release/bench
 """
+import array
 import json
+import math
 import subprocess
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -48,6 +51,35 @@ class Programs(unittest.TestCase):
             shares = [row[phase] for phase in ("climb_up", "breadth_first", "range_search")]
             self.assertTrue(all(share > 0 for share in shares))
             self.assertAlmostEqual(sum(shares), 100, delta=0.1)
+
+
+class NativePeers(unittest.TestCase):
+    PROGRAM = "native_peers"
+
+    def answers(self, kind, mesh, radius, vertices):
+        program = places.PROGRAMS / self.PROGRAM
+        if not program.exists():
+            self.skipTest(f"no {self.PROGRAM} (libnanoflann-dev, libeigen3-dev)")
+        with tempfile.TemporaryDirectory() as folder:
+            queries, answers = Path(folder, "queries"), Path(folder, "answers")
+            queries.write_bytes(array.array("I", vertices).tobytes())
+            subprocess.run([program, kind, mesh, "2"], input=f"{radius} {queries} {answers}\n", text=True, check=True,
+                           capture_output=True)
+            return array.array("I", answers.read_bytes())
+
+    def test_curvature_of_a_sphere_is_that_of_its_radius(self):
+        vertices = range(0, 3000, 7)
+        expected = 1 / math.sqrt(3000 * math.sqrt(0.75) / (4 * math.pi))  # its mean edge is 1
+        by_index = self.answers("curvature", "sphere:3000", 5, vertices)
+        self.assertEqual(by_index, self.answers("curvature-bfs", "sphere:3000", 5, vertices))
+        self.assertEqual(len(by_index), 3 * len(vertices))
+        for at in range(0, len(by_index), 3):
+            for value in array.array("f", by_index[at + 1:at + 3].tobytes()):
+                self.assertAlmostEqual(value / expected, 1, delta=0.05)
+
+    def test_a_ball_takes_more_than_breadth_first_search(self):
+        self.assertGreater(len(self.answers("nanoflann", MESH, 4, range(50))),
+                           len(self.answers("bfs", MESH, 4, range(50))))
 
 
 class Figures(unittest.TestCase):

@@ -2,7 +2,7 @@
 """The peers, in the order of the tables: who answers the same question first."""
 from .libigl_curvature import LibiglBall, LibiglRings
 from .meshhood_exact import MeshhoodBatch, MeshhoodCalls, MeshhoodCount, MeshhoodPaper
-from .native import BreadthFirst, Nanoflann
+from .native import BreadthFirst, Curvature, CurvatureBreadthFirst, Nanoflann
 from .open3d_radius import Open3d
 from .pymeshlab_geodesic import PyMeshLab
 from .pyvista_clip import PyVista
@@ -12,5 +12,6 @@ from .trueform_neighborhoods import Trueform
 PEERS = {
     peer.name: peer
     for peer in (MeshhoodBatch, MeshhoodCalls, MeshhoodCount, MeshhoodPaper, BreadthFirst, Trueform, Components, PyVista,
-                 Nanoflann, KdTree, Open3d, Dijkstra, PyMeshLab, LibiglBall, LibiglRings)
+                 Nanoflann, KdTree, Open3d, Dijkstra, PyMeshLab, Curvature,
+                 CurvatureBreadthFirst, LibiglBall, LibiglRings)
 }

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Peers that are C++: our breadth-first search, and nanoflann's ball. bench/peers/native.py talks to it.
-// Usage: native bfs|nanoflann MESH THREADS. The first line says how many seconds building took.
+// Peers that are C++: our breadth-first search, nanoflann's ball, and curvature by our search and by breadth-first
+// search. bench/peers/native.py talks to it.
+// Usage: native bfs|nanoflann|curvature|curvature-bfs MESH THREADS. The first line says how many seconds building took.
 // Then, for each line `RADIUS QUERIES_FILE [ANSWERS_FILE]`: answers the queries (32-bit vertices) and says how many
-// seconds that took; answers are kept until then, and written if so asked (32-bit: how many, then the ids, each query).
+// seconds that took; answers are kept until then, and written if so asked (32-bit: how many, then the ids, each query;
+// of curvatures, two floats).
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <bit>
 #include <chrono>
 #include <cstdint>
 #include <fstream>
@@ -12,6 +16,7 @@
 #include <iostream>
 #include <memory>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
@@ -22,6 +27,7 @@
 #include "meshhood/meshhood.h"
 
 #include "exact_mesh.h"
+#include "peers/quadric_fit.h"
 #include "point_cloud.h"
 
 namespace meshhood::bench {
@@ -53,6 +59,35 @@ Ask kd_tree(const MeshView& mesh) {
     out.clear();
     for (const auto& item : found) out.push_back(item.first);
   };
+}
+
+Ask exact(const MeshView& mesh, unsigned threads) {
+  auto index = std::make_shared<Index>(build(mesh, {.threads = threads}));
+  auto searchers = std::make_shared<std::vector<Searcher>>();
+  for (unsigned i = 0; i < threads; ++i) searchers->emplace_back(*index);
+  return [index, searchers](unsigned thread, VertexId v, double radius, Answer& out) {
+    (*searchers)[thread].neighborhood(v, radius, out);
+  };
+}
+
+/// The curvatures that a quadric fitted to what `search` finds has, in place of the ids.
+Ask curvature(const MeshView& mesh, const Ask& search) {
+  auto fit = std::make_shared<QuadricFit>(mesh);
+  return [fit, search](unsigned thread, VertexId v, double radius, Answer& out) {
+    search(thread, v, radius, out);
+    const std::array<double, 2> found = fit->curvatures(v, out);
+    out.resize(found.size());
+    std::transform(found.begin(), found.end(), out.begin(),
+                   [](double value) { return std::bit_cast<VertexId>(static_cast<float>(value)); });
+  };
+}
+
+Ask make(const std::string& kind, const MeshView& mesh, unsigned threads) {
+  if (kind == "bfs") return breadth_first(mesh, threads);
+  if (kind == "nanoflann") return kd_tree(mesh);
+  if (kind == "curvature") return curvature(mesh, exact(mesh, threads));
+  if (kind == "curvature-bfs") return curvature(mesh, breadth_first(mesh, threads));
+  throw std::invalid_argument("no such peer: " + kind);
 }
 
 std::vector<VertexId> read_queries(const std::string& path) {
@@ -115,7 +150,7 @@ int main(int arguments, char** values) {
   const MeshArgument mesh(values[2]);
   const auto threads = static_cast<unsigned>(std::stoul(values[3]));
   const auto begin = Clock::now();
-  const Ask ask = std::string(values[1]) == "bfs" ? breadth_first(mesh.view(), threads) : kd_tree(mesh.view());
+  const Ask ask = make(values[1], mesh.view(), threads);
   std::cout << seconds_since(begin) << std::endl;
   serve(ask, threads);
   return 0;

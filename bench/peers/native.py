@@ -18,7 +18,7 @@ class Native(Peer):
 
     def __init__(self, positions, triangles, path, threads):
         if not PROGRAM.exists():
-            raise ImportError("native_peers is not built (libnanoflann-dev)")
+            raise ImportError("native_peers is not built (libnanoflann-dev, libeigen3-dev)")
         count = len(os.sched_getaffinity(0)) if threads == -1 else threads
         self.program = subprocess.Popen([PROGRAM, self.kind, path, str(count)], text=True, stdin=subprocess.PIPE,
                                         stdout=subprocess.PIPE)
@@ -60,3 +60,18 @@ class Nanoflann(Native):
         header = Path("/usr/include/nanoflann.hpp").read_text(encoding="utf-8")
         word = header.partition("#define NANOFLANN_VERSION ")[2].split()[0]
         return ".".join(str(int(digit, 16)) for digit in word.removeprefix("0x"))
+
+
+class Curvature(Native):
+    name = "meshhood, then a quadric fit (C++)"
+    kind = "curvature"
+    answers = "curvature within the ball"
+    remark = "search and a quadric fit like libigl's"
+
+    def rows(self, answer, vertices):
+        return None
+
+
+class CurvatureBreadthFirst(Curvature):
+    name = "our breadth-first search, then a quadric fit (C++)"
+    kind = "curvature-bfs"
