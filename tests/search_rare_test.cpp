@@ -84,8 +84,8 @@ TEST(Rare, ForeignSheetIsNotProvedAndLeftOut) {
 }
 
 TEST(Rare, SingleVerticesAreCutOffAtARoughRim) {
-  // Such a vertex has edges into the next leaf only to what lies outside, while others of its leaf have nearer neighbours
-  // there.
+  // Such a vertex has edges into the next leaf only to what lies outside, while others of its leaf have nearer
+  // neighbours there.
   TestMesh mesh = make_grid(100, 100, false);
   Random random(7);
   for (double& coordinate : mesh.positions) coordinate += random.uniform(-0.4, 0.4);
