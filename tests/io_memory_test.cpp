@@ -12,21 +12,13 @@
 #include <gtest/gtest.h>
 
 #include "support/hostile.h"
+#include "support/sanitized.h"
 #include "support/scratch.h"
 
 // Peak memory while reading, measured on a process of its own, is at most twice the decoded arrays and 64 MB.
 
 namespace meshhood::test {
 namespace {
-
-// Each compiler has a way of its own to say it.
-#if defined(__has_feature)
-constexpr bool kSanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
-#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
 
 constexpr std::size_t kSlack = 64'000'000;
 

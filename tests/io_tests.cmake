@@ -3,6 +3,7 @@ foreach(stem shared_meshes ply obj off stl text file progress index_progress wri
   meshhood_test(io_${stem} meshhood_test_support)
 endforeach()
 meshhood_test(io_index meshhood_test_support meshhood_families)
+meshhood_test(soak meshhood_test_support meshhood_families)
 add_subdirectory(interop)
 
 # What `io_memory` watches from outside.

@@ -20,14 +20,7 @@
 #include "refusal.h"
 #include "sandwich.h"
 #include "scale.h"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define MESHHOOD_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(undefined_behavior_sanitizer)
-#define MESHHOOD_SANITIZED 1
-#endif
-#endif
+#include "support/sanitized.h"
 
 namespace meshhood::test {
 namespace {
@@ -248,9 +241,7 @@ struct PathCase {
 };
 
 TEST(Robustness, A12PathOfAMillionOnASmallStack) {
-#if defined(MESHHOOD_SANITIZED)
-  GTEST_SKIP() << "sanitizers need more stack";
-#endif
+  if (kSanitized) GTEST_SKIP() << "sanitizers need more stack";
   PathCase path{family_mesh("path", scaled(1'000'000, 1000))};
   run_on_small_stack(
       [](void* argument) -> void* {
