@@ -72,10 +72,13 @@ std::shared_ptr<ExactMethod> loaded(Index index) {
   return exact_method(std::move(index));
 }
 
-std::shared_ptr<ExactMethod> load_file(const std::filesystem::path& path, bool mmap, nb::handle progress) {
+/// `trusted` is for what is mapped alone.
+std::shared_ptr<ExactMethod> load_file(const std::filesystem::path& path, bool mmap, bool trusted,
+                                       nb::handle progress) {
   const Progress watched = watch(progress);
   const nb::gil_scoped_release unlocked;
-  return loaded(mmap ? io::map(path, {.progress = watched}) : io::load(path, {.progress = watched}));
+  if (mmap) return loaded(io::map(path, {.trusted = trusted, .progress = watched}));
+  return loaded(io::load(path, {.progress = watched}));
 }
 
 Output<std::uint8_t> to_bytes(const ExactMethod& method) {
@@ -101,7 +104,8 @@ std::shared_ptr<ExactMethod> from_bytes(const Bytes& bytes) {
 void bind_files(nb::module_& module) {
   module.def("read_mesh", &read, nb::arg("path"), nb::arg("progress").none());
   module.def("save", &save_file, nb::arg(), nb::arg("path"));
-  module.def("load", &load_file, nb::arg("path"), nb::arg("mmap"), nb::arg("progress").none());
+  module.def("load", &load_file, nb::arg("path"), nb::arg("mmap"), nb::arg("trusted"),
+             nb::arg("progress").none());
   module.def("to_bytes", &to_bytes);
   module.def("from_bytes", &from_bytes);
 }

@@ -4,7 +4,7 @@
 #include <nanobind/nanobind.h>
 
 /// What the Python package meshhood is made from: conversions, and the interpreter lock. Arguments have been checked
-/// and converted by meshhood/_convert.py.
+/// and converted by meshhood/_mesh.py and meshhood/_convert.py.
 namespace meshhood::python {
 
 /// The ways to ask an index.

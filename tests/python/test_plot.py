@@ -31,6 +31,25 @@ def test_colours(tmp_path):
     assert blue > 1000
 
 
+def test_the_vertex_is_seen_through_what_lies_before_it():
+    V, F = meshes.two_plates(20)
+    index = meshhood.MeshIndex(V, F)
+    plotter = pyvista.Plotter(off_screen=True, window_size=(600, 400))
+    meshhood.plot_neighborhood(index, 210, 3.0, V, F, plotter=plotter)  # on the lower plate, seen from above
+    plotter.view_xy()
+    red = pixels(plotter.screenshot(return_img=True), 255, 0, 0)
+    print(f"{red} red")
+    assert red > 50
+
+
+def test_one_vertex_is_expected():
+    V, F = meshes.two_plates(5)
+    index = meshhood.MeshIndex(V, F)
+    for v, error in (([0, 1], TypeError), (50, ValueError)):
+        with pytest.raises(error, match="v: "):
+            meshhood.plot_neighborhood(index, v, 1.0, V, F, plotter=object())
+
+
 def test_another_mesh_is_refused():
     V, F = meshes.two_plates(5)
     index = meshhood.MeshIndex(V, F)

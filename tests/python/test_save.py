@@ -43,10 +43,30 @@ def assert_same(one, other):
     assert (one.radius_neighbors_graph(2.0) != other.radius_neighbors_graph(2.0)).nnz == 0
 
 
-@pytest.mark.parametrize("mmap", (False, True))
-def test_a_loaded_index_is_the_one_that_was_saved(index, file, mmap):
-    assert_same(meshhood.load(file, mmap=mmap), index)
-    assert_same(meshhood.load(str(file), mmap=mmap), index)
+WAYS = ({}, {"mmap": True}, {"mmap": True, "trusted": True})
+
+
+@pytest.mark.parametrize("way", WAYS, ids=lambda way: "-".join(way) or "copied")
+def test_a_loaded_index_is_the_one_that_was_saved(index, file, way):
+    assert_same(meshhood.load(file, **way), index)
+    assert_same(meshhood.load(str(file), **way), index)
+
+
+def test_a_trusted_file_is_verified_in_its_header_alone(file):
+    whole = bytearray(file.read_bytes())
+    whole[len(whole) // 2] ^= 1
+    file.write_bytes(whole)
+    with pytest.raises(ValueError, match="plates.index"):
+        meshhood.load(file, mmap=True)
+    meshhood.load(file, mmap=True, trusted=True)
+    file.write_bytes(whole[:-64])
+    with pytest.raises(ValueError, match="plates.index"):
+        meshhood.load(file, mmap=True, trusted=True)
+
+
+def test_only_what_is_mapped_can_be_trusted(file):
+    with pytest.raises(ValueError, match="trusted: .*mmap"):
+        meshhood.load(file, trusted=True)
 
 
 def test_the_bytes_depend_on_the_mesh_alone(index, file, tmp_path):

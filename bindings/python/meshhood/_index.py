@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _convert, _core
+from ._mesh import mesh_arrays
 from ._methods import Method, Methods
 from ._progress import Progress, watcher
 
@@ -55,7 +56,7 @@ class MeshIndex:
     """
 
     def __init__(self, V: Any, F: Any = None, *, workers: int = -1, progress: Progress = None):
-        positions, corners, offsets = _convert.mesh_arrays(V, F)
+        positions, corners, offsets = mesh_arrays(V, F)
         threads = _convert.threads(workers)
         with watcher(progress) as watch:
             self._hold(_core.exact(positions, corners, offsets=offsets, threads=threads, progress=watch))
@@ -218,7 +219,8 @@ class MeshIndex:
         """Writes the index to a file, for `load`: the same bytes on every machine for the same mesh.
 
         Positions and graph of the mesh are in it, faces are not. The file appears whole or not at all: it is written
-        beside the target under another name, brought to the disk and renamed. Raises OSError.
+        beside the target under another name, brought to the disk and renamed. Ctrl-C is heard when that is done. Raises
+        OSError.
         """
         _core.save(self._exact, path)
 

@@ -4,15 +4,19 @@
 import numpy as np
 
 from . import _convert
+from ._mesh import mesh_arrays
 
 # What each vertex is, the later over the earlier, and the colours of the paper.
 _LABELS = ("other", "ball", "paper", "exact")
 _COLORS = ("lightgray", "royalblue", "gold", "forestgreen")
 
+# In steps of depth, of which VTK has 2^16: from anywhere to the eye.
+_BEFORE_ALL = -66000
+
 
 def plot_neighborhood(index, v, r, V, F=None, *, plotter=None):
     """Shows the neighborhood of `v` within `r` on the mesh: green what is exact, yellow what the paper's search adds,
-    blue what a ball takes besides, and the vertex as a red dot.
+    blue what a ball takes besides, and the vertex as a red dot, whatever lies before it.
 
     index : the `MeshIndex` of the mesh.    V, F : the mesh, as `MeshIndex` takes it, but not a graph.
     plotter : a pyvista.Plotter to draw on; otherwise one is made and shown.
@@ -24,10 +28,11 @@ def plot_neighborhood(index, v, r, V, F=None, *, plotter=None):
     """
     import pyvista
 
+    v = _convert.vertex(v, len(index))
     labels = np.zeros(len(index), np.uint8)
     for label, method in enumerate(_LABELS[1:], start=1):
         labels[index.query_ball(v, r, method=method)] = label
-    mesh = _poly_data(pyvista, *_convert.mesh_arrays(V, F))
+    mesh = _poly_data(pyvista, *mesh_arrays(V, F))
     if mesh.n_points != len(index):
         raise ValueError(f"V: {mesh.n_points} vertices, but the index has {len(index)}")
     drawn = pyvista.Plotter() if plotter is None else plotter
@@ -39,7 +44,9 @@ def plot_neighborhood(index, v, r, V, F=None, *, plotter=None):
         interpolate_before_map=False,
         show_scalar_bar=False,
     )
-    drawn.add_points(mesh.points[[v]], color="red", point_size=12, render_points_as_spheres=True)
+    dot = drawn.add_points(mesh.points[[v]], color="red", point_size=12, render_points_as_spheres=True)
+    dot.mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    dot.mapper.SetRelativeCoincidentTopologyPointOffsetParameter(_BEFORE_ALL)
     if plotter is None:
         drawn.show()
     return drawn
