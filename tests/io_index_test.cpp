@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Index files: whole or not at all, kept by who has opened them, and told from meshes. Rows F3, F7 and F9 of the
 // catalogue of faults.
-#include <atomic>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -21,7 +18,6 @@
 #include "io/mesh_io.h"
 #include "refusal.h"
 #include "same_storage.h"
-#include "scale.h"
 #include "support/scratch.h"
 
 namespace meshhood::test {
@@ -124,32 +120,6 @@ TEST_F(IndexFile, F9WhoHasMappedTheOldFileKeepsIt) {
   EXPECT_THAT(differences(mapped, old), IsEmpty());
   std::filesystem::remove(file);
   EXPECT_THAT(differences(mapped, old), IsEmpty());
-}
-
-TEST_F(IndexFile, F9OfTwoWhoSaveAtOnceOneWins) {
-  const Index small = index_of(40);
-  const Index large = index_of(60);
-  io::save(file, small);
-  std::atomic<bool> done = false;
-  const auto keep_saving = [&](const Index& index) {
-    for (std::size_t i = 0; i < scaled(60, 5); ++i) io::save(file, index);
-  };
-  std::thread first([&] { keep_saving(small); });
-  std::thread second([&] { keep_saving(large); });
-  std::size_t seen = 0;
-  std::thread reader([&] {
-    while (!done || seen == 0) {
-      const Index index = io::map(file);
-      EXPECT_THAT(differences(index, index.vertex_count() == 1600 ? small : large), IsEmpty());
-      ++seen;
-    }
-  });
-  first.join();
-  second.join();
-  done = true;
-  reader.join();
-  std::printf("%zu times mapped meanwhile\n", seen);
-  EXPECT_EQ(files_in(scratch.path()), 1U) << "no temporary file stays";
 }
 
 TEST_F(IndexFile, AFailureLeavesTheOldFile) {

@@ -25,10 +25,11 @@ TEST_P(SaveRaces, WhoReadsSeesAWholeFile) {
     });
   }
   std::size_t reads = 0;
-  for (; savers_left > 0; ++reads) {
+  do {
     const Version found = held();
     ASSERT_TRUE(found == Version::Old || found == Version::New);
-  }
+    ++reads;
+  } while (savers_left > 0);
   savers.clear();
   EXPECT_EQ(remove_leftovers(), 0U);
   std::printf("%zu saves by two threads, %zu reads\n", 2 * saves, reads);
