@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -12,24 +13,23 @@
 namespace meshhood::cli {
 namespace {
 
-/// The fastest of up to twenty runs, and of no more than fit into 20 ms, for a single one may be disturbed. The first,
-/// which finds nothing in its place, does not count.
+/// The median of up to twenty runs, and of no more than fit into 20 ms. The first, which finds nothing in its place,
+/// does not count.
 template <class Ask>
-double fastest(Ask&& ask) {
+double median_seconds(Ask&& ask) {
   using Seconds = std::chrono::duration<double>;
   constexpr Seconds kPatience{0.02};
-  constexpr int kRuns = 20;
+  constexpr std::size_t kRuns = 20;
   ask();
-  Seconds best = Seconds::max();
-  Seconds spent{0};
-  for (int run = 0; run < kRuns && spent < kPatience; ++run) {
+  std::vector<Seconds> runs;
+  for (Seconds spent{0}; runs.size() < kRuns && spent < kPatience; spent += runs.back()) {
     const auto start = std::chrono::steady_clock::now();
     ask();
-    const Seconds elapsed = std::chrono::steady_clock::now() - start;
-    best = std::min(best, elapsed);
-    spent += elapsed;
+    runs.emplace_back(std::chrono::steady_clock::now() - start);
   }
-  return best.count();
+  const auto middle = runs.begin() + static_cast<std::ptrdiff_t>(runs.size() / 2);
+  std::nth_element(runs.begin(), middle, runs.end());
+  return middle->count();
 }
 
 }  // namespace
@@ -68,13 +68,13 @@ Method paper_method(const paper::Index& index, const paper::QueryOptions& option
 }
 
 double timed_query(const Method& method, VertexId v, double radius, std::vector<VertexId>& out) {
-  const double seconds = fastest([&] { method.neighborhood(v, radius, out); });
+  const double seconds = median_seconds([&] { method.neighborhood(v, radius, out); });
   std::sort(out.begin(), out.end());
   return seconds;
 }
 
 double timed_count(const Method& method, VertexId v, double radius, std::size_t& out) {
-  return fastest([&] { out = method.count(v, radius); });
+  return median_seconds([&] { out = method.count(v, radius); });
 }
 
 }  // namespace meshhood::cli

@@ -34,8 +34,8 @@ struct Method {
 /// The paper's answer. Borrows `index`.
 [[nodiscard]] Method paper_method(const paper::Index& index, const paper::QueryOptions& options = {});
 
-/// Asks some times, the first so that everything is in its place, and returns how many seconds the fastest of the
-/// others took. `out` is the answer, ascending.
+/// Asks some times, the first so that everything is in its place, and returns the median of the seconds that the others
+/// took. `out` is the answer, ascending.
 double timed_query(const Method& method, VertexId v, double radius, std::vector<VertexId>& out);
 
 /// The same by `method.count`.
