@@ -11,7 +11,7 @@
 
 #include "meshhood/meshhood.h"
 
-#include "exact_mesh.h"
+#include "mesh_argument.h"
 
 namespace meshhood::bench {
 namespace {

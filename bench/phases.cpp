@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "exact_mesh.h"
+#include "mesh_argument.h"
 #include "paper/query.cpp"
 
 namespace meshhood::paper {

@@ -26,7 +26,7 @@
 
 #include "meshhood/meshhood.h"
 
-#include "exact_mesh.h"
+#include "mesh_argument.h"
 #include "peers/quadric_fit.h"
 #include "point_cloud.h"
 

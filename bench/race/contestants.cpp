@@ -2,6 +2,7 @@
 #include "contestants.h"
 
 #include <sstream>
+#include <utility>
 
 #include "meshhood/error.h"
 
@@ -90,22 +91,22 @@ cli::Method Contestants::bfs_reordered() {
           .lists_vertices = false};  // in its own numbering, so that they cannot be compared
 }
 
-cli::Method Contestants::count_method() {
+template <class Ask>
+cli::Method Contestants::unlisted(std::string name, Ask ask) {
   auto searcher = std::make_shared<Searcher>(another_exact());
-  return {.name = "count",
-          .neighborhood = [searcher](VertexId v, double radius,
-                                     std::vector<VertexId>&) { static_cast<void>(searcher->count(v, radius)); },
+  return {.name = std::move(name),
+          .neighborhood = [searcher, ask](VertexId v, double radius,
+                                          std::vector<VertexId>&) { static_cast<void>(ask(*searcher, v, radius)); },
           .count = {},
           .lists_vertices = false};
 }
 
+cli::Method Contestants::count_method() {
+  return unlisted("count", [](Searcher& searcher, VertexId v, double radius) { return searcher.count(v, radius); });
+}
+
 cli::Method Contestants::ranges_method() {
-  auto searcher = std::make_shared<Searcher>(another_exact());
-  return {.name = "ranges",
-          .neighborhood = [searcher](VertexId v, double radius,
-                                     std::vector<VertexId>&) { static_cast<void>(searcher->ranges(v, radius)); },
-          .count = {},
-          .lists_vertices = false};
+  return unlisted("ranges", [](Searcher& searcher, VertexId v, double radius) { return searcher.ranges(v, radius); });
 }
 
 cli::Method Contestants::paper(const std::string& name) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Times methods against each other on one mesh, interleaved, and compares their answers with the first method's.
-// Prints one JSON document; bench/run.py calls it.
+// Prints one JSON document, which bench/programs.py reads.
 #include <exception>
 #include <iostream>
 #include <string>
@@ -14,7 +14,7 @@
 #include "cli/machine.h"
 #include "cli/measure.h"
 #include "contestants.h"
-#include "exact_mesh.h"
+#include "mesh_argument.h"
 
 namespace meshhood::bench {
 namespace {
