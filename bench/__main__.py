@@ -45,7 +45,7 @@ def accuracy(options):
 def scaling(options):
     from . import scaling as measuring
 
-    measuring.run(options.largest, options.queries or 1000)
+    measuring.run(options.largest, options.queries or 500)
 
 
 def peers(options):
@@ -70,7 +70,7 @@ def main():
     parser.add_argument("--meshes", nargs="+", choices=meshes.MESHES, metavar="NAME", help=", ".join(meshes.MESHES))
     parser.add_argument("--queries", type=int, help="a mesh and radius")
     parser.add_argument("--largest", type=int, default=10_000_000, help="vertices of the largest mesh of `scaling`")
-    parser.add_argument("--block-seconds", type=float, default=0.5, help="of a peer and block, about")
+    parser.add_argument("--block-seconds", type=float, default=0.3, help="of a peer and block, about")
     options = parser.parse_args()
     for part in options.parts:
         PARTS[part](options)

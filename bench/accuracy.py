@@ -18,7 +18,7 @@ def level_method(levels):
 
 
 def run(names, queries):
-    machine = results.begin("accuracy")
+    watched = results.begin("accuracy")
     methods = ["bfs", "ball", "ids", *map(factor_method, FACTORS),
                *(level_method(levels) for levels in LEVELS if levels != 5)]
     measured = {}
@@ -26,4 +26,4 @@ def run(names, queries):
         print(f"  {name}", flush=True)
         race = programs.race(meshes.argument(name), methods, radii=RADII, queries=queries)
         measured[name] = {**race, "mesh": meshes.described(name)}
-    results.save("accuracy", {"queries": queries, "meshes": measured}, machine)
+    results.save("accuracy", {"queries": queries, "meshes": measured}, watched)

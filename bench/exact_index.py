@@ -10,7 +10,7 @@ SHEETS = {"scroll": 1_000_000, "plates": 1_000_000, "folds": 1_000_000, "gyroid"
 
 
 def run(names, queries):
-    machine = results.begin("the exact index")
+    watched = results.begin("the exact index")
     arguments = {name: meshes.argument(name) for name in names or meshes.OF_PAPER}
     if not names:
         arguments |= {kind: f"{kind}:{vertices}" for kind, vertices in SHEETS.items()}
@@ -21,4 +21,4 @@ def run(names, queries):
                   for order in ("cold", "warm")}
         measured[name] = {"vertices": orders["cold"]["vertices"],
                           **{order: race["rows"] for order, race in orders.items()}}
-    results.save("exact_index", {"queries": queries, "meshes": measured}, machine)
+    results.save("exact_index", {"queries": queries, "meshes": measured}, watched)

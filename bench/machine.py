@@ -1,23 +1,54 @@
 # SPDX-License-Identifier: MIT
-"""What a figure was measured on, for it means nothing without."""
+"""What a figure was measured on, for it means nothing without: the machine, and how busy others kept it."""
 import datetime
 import os
 import platform
+import time
 
 # Above this share of the processors, somebody else was at work.
 BUSY = 0.25
+WAITED = 2  # seconds, to see what runs without us; the load average would tell of what we ran just before
 
 
-def describe():
-    """Taken before the measuring begins, so that the load is that of the others."""
-    return {
-        "processor": processor(),
-        "processors": os.cpu_count(),
-        "memory_gigabytes": round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30),
-        "python": platform.python_version(),
-        "date": datetime.date.today().isoformat(),
-        "load_before": round(os.getloadavg()[0], 2),
-    }
+class Watched:
+    """The machine from now on. Loads are processors that others keep busy, on average."""
+
+    def __init__(self):
+        self.before = Usage().others_since(WAITED)
+        self.begun = Usage()
+
+    def description(self):
+        """To be taken when all that was started has ended, for what runs still counts as others'."""
+        return {
+            "processor": processor(),
+            "processors": os.cpu_count(),
+            "memory_gigabytes": round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30),
+            "python": platform.python_version(),
+            "date": datetime.date.today().isoformat(),
+            "load_before": self.before,
+            "load_beside": self.begun.others_since(),
+        }
+
+
+class Usage:
+    """Processor time that the machine has spent so far, and this process with its children."""
+
+    def __init__(self):
+        self.when = time.monotonic()
+        self.all = busy_seconds()
+        self.own = sum(os.times()[:4])
+
+    def others_since(self, wait=0):
+        time.sleep(wait)
+        now = Usage()
+        others = (now.all - self.all) - (now.own - self.own)
+        return round(max(0, others) / (now.when - self.when), 2)
+
+
+def busy_seconds():
+    with open("/proc/stat", encoding="ascii") as lines:
+        user, nice, system, _, _, *interrupts = map(int, lines.readline().split()[1:9])
+    return (user + nice + system + sum(interrupts)) / os.sysconf("SC_CLK_TCK")
 
 
 def processor():
@@ -29,11 +60,12 @@ def processor():
 
 
 def is_busy(machine):
-    return machine["load_before"] > BUSY * machine["processors"]
+    return max(machine["load_before"], machine.get("load_beside", 0)) > BUSY * machine["processors"]
 
 
 def caption(machine):
     """One sentence for under a table."""
+    beside = f", {machine['load_beside']:g} beside it" if "load_beside" in machine else ""
     remark = " **The machine was busy: preliminary figures.**" if is_busy(machine) else ""
     return (f"{machine['processor']}, {machine['processors']} processors, {machine['memory_gigabytes']} GB, on"
-            f" {machine['date']}, load {machine['load_before']:g} when it began.{remark}")
+            f" {machine['date']}, load {machine['load_before']:g} when it began{beside}.{remark}")

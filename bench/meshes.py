@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The meshes, by name: those that lie beside the repository, or one by formula of the same size where they do not."""
 import os
-import struct
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
@@ -76,19 +75,3 @@ def unpacked(packed):
         subprocess.run(["zstd", "-dqf", packed, "-o", partial], check=True)
         partial.rename(target)
     return target
-
-
-def write_ply(path, positions, triangles):
-    """positions: #V by 3 float32. triangles: #F by 3 int32."""
-    import numpy as np
-
-    header = ("ply\nformat binary_little_endian 1.0\n"
-              f"element vertex {len(positions)}\nproperty float x\nproperty float y\nproperty float z\n"
-              f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n")
-    rows = np.empty(len(triangles), np.dtype([("size", "u1"), ("corners", "<i4", 3)]))
-    rows["size"], rows["corners"] = 3, triangles
-    assert rows.itemsize == struct.calcsize("<Biii")
-    with open(path, "wb") as file:
-        file.write(header.encode("ascii"))
-        file.write(np.ascontiguousarray(positions, "<f4").tobytes())
-        file.write(rows.tobytes())

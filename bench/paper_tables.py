@@ -22,7 +22,7 @@ PAPER_RANGE_SEARCH_SHARE = 85
 
 
 def tables(names, queries):
-    machine = results.begin("the paper's tables")
+    watched = results.begin("the paper's tables")
     measured = {}
     for name in names:
         print(f"  {name}", flush=True)
@@ -32,14 +32,14 @@ def tables(names, queries):
         table["builds"] = programs.race(mesh, builds=3)["builds"]
         table["phases"] = programs.ask(places.PROGRAMS / "phases", mesh, PROFILE_QUERIES, *RADII)
         measured[name] = {**table, "mesh": meshes.described(name)}
-    results.save("paper_tables", {"queries": queries, "meshes": measured}, machine)
+    results.save("paper_tables", {"queries": queries, "meshes": measured}, watched)
 
 
 def all_vertices(names):
     """Every vertex of the mesh asked in one call of the Python package, and its ids counted as they stream by."""
     import meshhood
 
-    machine = results.begin("the account of all vertices")
+    watched = results.begin("the account of all vertices")
     measured = {}
     for name in names:
         print(f"  {name}", flush=True)
@@ -47,7 +47,7 @@ def all_vertices(names):
         edge = programs.race(meshes.as_file(name))["average_edge"]
         measured[name] = {str(workers): account(meshhood, mesh, ACCOUNT_RADIUS * edge, workers) for workers in (1, -1)}
         measured[name]["vertices"] = len(mesh.vertices)
-    results.save("all_vertices", {"radius_edges": ACCOUNT_RADIUS, "meshes": measured}, machine)
+    results.save("all_vertices", {"radius_edges": ACCOUNT_RADIUS, "meshes": measured}, watched)
 
 
 def account(meshhood, mesh, radius, workers):

@@ -34,9 +34,9 @@ PICTURES = (
 
 
 def run(names):
-    machine = results.begin("Figure 4")
+    watched = results.begin("Figure 4")
     drawn = [draw(picture) for picture in PICTURES if not names or picture.mesh in names]
-    results.save("figure4", {"pictures": drawn}, machine)
+    results.save("figure4", {"pictures": drawn}, watched)
 
 
 def draw(picture):

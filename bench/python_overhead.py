@@ -4,10 +4,11 @@
 
     PYTHONPATH=build/release/python bench/python_overhead.py
 
-A grid of 250,000 vertices, the same vertex over and over, so that all is in the cache; the fastest of several rounds.
+A grid of 250,000 vertices, the same vertex over and over, so that all is in the cache; the median of several rounds.
 The query itself is a batch of one thread that only counts, so the overhead is no less than it should be.
 """
 
+import statistics
 import time
 
 import meshhood
@@ -32,44 +33,47 @@ def microseconds(work):
     return (time.perf_counter() - start) / CALLS * 1e6
 
 
-def main():
-    index = meshhood.MeshIndex(*grid(SIDE))
-    v = SIDE * SIDE // 2 + SIDE // 2
+def medians(*works):
+    """Of rounds in which each has its turn."""
+    rounds = [[microseconds(work) for work in works] for _ in range(ROUNDS)]
+    return [statistics.median(times) for times in zip(*rounds)]
+
+
+def print_calls(index, v, r):
     rows = np.full(CALLS, v)
-    print("   r  vertices  call us  query us  overhead us  call / query")
-    for r in RADII:
-
-        def calls(r=r):
-            for _ in range(CALLS):
-                index.query_ball(v, r)
-
-        def batch(r=r):
-            index.query_ball_count(rows, r, workers=1)
-
-        rounds = [(microseconds(calls), microseconds(batch)) for _ in range(ROUNDS)]
-        call, query = map(min, zip(*rounds))
-        count = index.query_ball_count(v, r)
-        print(f"{r:4.0f} {count:9d} {call:8.2f} {query:9.2f} {call - query:12.2f} {call / query:13.2f}")
-
-
-    print_batch(index, v, query)
-
-
-def print_batch(index, v, query):
-    """A batch is one call of the library, so what it costs beside its rows does not depend on how many they are."""
-    rows = np.array([v])
-    r = RADII[-1]
 
     def calls():
         for _ in range(CALLS):
-            index.query_ball(rows, r, workers=1)
+            index.query_ball(v, r)
 
-    beside = min(microseconds(calls) for _ in range(ROUNDS)) - query
-    everything = np.arange(SIDE * SIDE)
+    call, query = medians(calls, lambda: index.query_ball_count(rows, r, workers=1))
+    count = index.query_ball_count(v, r)
+    print(f"{r:4.0f} {count:9d} {call:8.2f} {query:9.2f} {call - query:12.2f} {call / query:13.2f}")
+
+
+def print_batch(index, v, r):
+    """A batch is one call of the library, so what it costs beside its rows does not depend on how many they are."""
+    one, rows, everything = np.array([v]), np.full(CALLS, v), np.arange(len(index))
+
+    def batches():
+        for _ in range(CALLS):
+            index.query_ball(one, r, workers=1)
+
+    batch, query = medians(batches, lambda: index.query_ball_count(rows, r, workers=1))
     start = time.perf_counter()
     index.query_ball(everything, r, workers=1)
     whole = (time.perf_counter() - start) * 1e6
-    print(f"a batch costs {beside:.1f} us beside its rows: {beside / whole:.5%} of one over all {SIDE * SIDE} vertices")
+    beside = batch - query
+    print(f"a batch costs {beside:.1f} us beside its rows: {beside / whole:.5%} of one over all {len(index)} vertices")
+
+
+def main():
+    index = meshhood.MeshIndex(*grid(SIDE))
+    v = SIDE * SIDE // 2 + SIDE // 2
+    print("   r  vertices  call us  query us  overhead us  call / query")
+    for r in RADII:
+        print_calls(index, v, r)
+    print_batch(index, v, RADII[-1])
 
 
 if __name__ == "__main__":

@@ -5,9 +5,15 @@ import json
 from . import machine, places
 
 
-def save(name, data, measured_on):
+def begin(what):
+    """What `save` is to be given: the machine, watched from now on."""
+    print(f"{what} ...", flush=True)
+    return machine.Watched()
+
+
+def save(name, data, watched):
     places.RESULTS.mkdir(parents=True, exist_ok=True)
-    document = {"machine": measured_on, **data}
+    document = {"machine": watched.description(), **data}
     (places.RESULTS / f"{name}.json").write_text(as_text(rounded(document)) + "\n", encoding="utf-8")
     print(f"wrote docs/benchmarks/{name}.json")
 
@@ -28,11 +34,6 @@ def as_text(value, indent=""):
         return "[\n" + ",\n".join(deeper + as_text(item, deeper) for item in value) + f"\n{indent}]"
     items = (f"{deeper}{json.dumps(key)}: {as_text(item, deeper)}" for key, item in value.items())
     return "{\n" + ",\n".join(items) + f"\n{indent}}}"
-
-
-def begin(what):
-    print(f"{what} ...", flush=True)
-    return machine.describe()
 
 
 def rounded(value):

@@ -12,7 +12,7 @@ RADII = (2, 3, 5, 7, 10, 15, 20, 30, 40, 65, 90, 130, 200)
 
 
 def run(largest, queries):
-    machine = results.begin("cost as work grows")
+    watched = results.begin("cost as work grows")
     by_size, by_radius = {}, {}
     for shape in SHAPES:
         by_size[shape] = [over_size(shape, size, queries) for size in SIZES if size <= largest]
@@ -20,7 +20,7 @@ def run(largest, queries):
         print(f"  {shape} of {size:,} vertices over the radius", flush=True)
         by_radius[shape] = programs.race(f"{shape}:{size}", METHODS, radii=RADII, queries=queries)
     results.save("scaling", {"queries": queries, "radius_edges": RADIUS, "by_size": by_size, "by_radius": by_radius},
-                 machine)
+                 watched)
 
 
 def over_size(shape, size, queries):

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The programs of the harness on a small shape, and whether docs/benchmarks.md is what the results say.
+"""The harness on a small shape, and whether docs/benchmarks.md is what the results say.
 
-usage: tests/bench_test.py FOLDER    FOLDER has the programs: build/release/bench
+usage: tests/bench_test.py FOLDER    FOLDER has the programs: build/release/bench; beside it lies meshhood
 """
 import array
 import json
@@ -10,11 +10,15 @@ import math
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
+from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from bench import places, programs, report, results, timing  # noqa: E402: from the checkout
+from bench import accuracy, exact_index, machine, paper_tables, places, programs, report  # noqa: E402: from the checkout
+from bench import results, scaling, timing  # noqa: E402
+from bench.sections import SECTIONS  # noqa: E402
 
 MESH = "scroll:3000"
 METHODS = ("bfs", "bfs-reordered", "ball", "ids", "count", "ranges", "paper", "paper,f=1", "paper,levels=4,discard=1")
@@ -82,6 +86,60 @@ class NativePeers(unittest.TestCase):
                            len(self.answers("bfs", MESH, 4, range(50))))
 
 
+class Parts(unittest.TestCase):
+    """Each part that needs no more than our programs, from the measuring to the page."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        for owner, name, value in ((places, "RESULTS", Path(folder.name)), (places, "SCRATCH", Path(folder.name)),
+                                   (machine, "WAITED", 0.1)):
+            patched = mock.patch.object(owner, name, value)
+            patched.start()
+            self.addCleanup(patched.stop)
+
+    def page(self, part):
+        """What the page says of the part, which has been run."""
+        data = results.load(part)
+        self.assertGreaterEqual(data["machine"]["load_beside"], 0)
+        text = SECTIONS[part].text(data)
+        self.assertGreater(text.count("|"), 100)
+        return text
+
+    def test_tables(self):
+        paper_tables.tables(["tiny"], 50)
+        self.assertIn("tiny", self.page("paper_tables"))
+        self.assertIn("3,000 vertices", SECTIONS["paper_tables"].head_table(results.load("paper_tables")))
+
+    def test_exact(self):
+        exact_index.run(["tiny"], 50)
+        self.assertIn("**tiny**, 3,000 vertices", self.page("exact_index"))
+
+    def test_accuracy(self):
+        accuracy.run(["tiny"], 50)
+        self.assertIn("tiny", self.page("accuracy"))
+
+    def test_scaling(self):
+        scaling.run(10_000, 50)
+        self.assertIn("k^", self.page("scaling"))
+
+
+class Watching(unittest.TestCase):
+    def test_what_we_run_is_not_taken_for_others(self):
+        usage = machine.Usage()
+        begin = time.process_time()
+        while time.process_time() < begin + 0.5:
+            pass
+        now = machine.Usage()
+        self.assertGreaterEqual(now.own - usage.own, 0.5)
+        self.assertGreaterEqual(now.all - usage.all, 0.4, "the machine has worked at least as much, in steps of a tick")
+
+    def test_a_load_at_either_time_makes_a_machine_busy(self):
+        for before, beside, busy in ((0, 0, False), (0.4, 0.4, False), (1, 0, True), (0, 1, True)):
+            watched = {"processors": 2, "load_before": before, "load_beside": beside}
+            self.assertEqual(machine.is_busy(watched), busy)
+
+
 class Figures(unittest.TestCase):
     def test_summary_is_median_and_quartiles(self):
         self.assertEqual(timing.summary([5, 1, 2, 4, 3]), {"median": 3, "quartiles": [2, 4], "runs": 5})
@@ -110,4 +168,5 @@ class Documents(unittest.TestCase):
 
 if __name__ == "__main__":
     places.PROGRAMS = Path(sys.argv.pop(1))
+    places.MESHHOOD = places.PROGRAMS.parent / "meshhood"
     unittest.main(verbosity=2)

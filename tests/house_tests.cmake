@@ -51,6 +51,6 @@ if(CMAKE_BUILD_TYPE STREQUAL "Release" AND TARGET guard)
 endif()
 
 # The harness on a small shape, and docs/benchmarks.md beside the results it is made from.
-if(TARGET race)
+if(TARGET race AND TARGET meshhood_cli)
   add_test(NAME bench.harness COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/bench_test.py $<TARGET_FILE_DIR:race>)
 endif()

@@ -16,11 +16,11 @@ class LibiglBall(Peer):
     largest_answer = 120_000_000
     use_rings = False
 
-    def __init__(self, positions, triangles, path, threads):
+    def __init__(self, mesh, threads):
         import igl
 
         self.igl = igl
-        self.positions, self.triangles = positions.astype(np.float64), triangles.astype(np.int64)
+        self.positions, self.triangles = mesh.positions.astype(np.float64), mesh.triangles.astype(np.int64)
         self.edge = igl.avg_edge_length(self.positions, self.triangles)
 
     def ask(self, vertices, radius):

@@ -1,21 +1,23 @@
 # SPDX-License-Identifier: MIT
 """We ourselves, through the Python package: many vertices in one call, and a call for each."""
-from .peer import Peer, rows_of
+from .peer import OneByOne, Peer, rows_of
 
 
-class MeshhoodBatch(Peer):
-    name = "meshhood, one call"
+class Meshhood(Peer):
     package = "meshhood"
     module = "meshhood"
     answers = "exact"
-    method = "exact"
 
-    def __init__(self, positions, triangles, path, threads):
+    def __init__(self, mesh, threads):
         import meshhood
 
         self.threads = threads
-        self.index = meshhood.MeshIndex(positions, triangles, workers=threads)
-        self.index.query_ball(0, 0.0, method=self.method)  # other methods build when first asked
+        self.index = meshhood.MeshIndex(mesh.positions, mesh.triangles, workers=threads)
+
+
+class MeshhoodBatch(Meshhood):
+    name = "meshhood, one call"
+    method = "exact"
 
     def ask(self, vertices, radius):
         return self.index.query_ball(vertices, radius, method=self.method, workers=self.threads)
@@ -28,20 +30,14 @@ class MeshhoodPaper(MeshhoodBatch):
     name = "meshhood, the paper's index"
     answers = "the paper's"
     method = "paper"
+    remark = "built after the exact index, from its graph"
+
+    def __init__(self, mesh, threads):
+        super().__init__(mesh, threads)
+        self.index.query_ball_count(0, 0.0, method=self.method)  # which builds it
 
 
-class MeshhoodCalls(MeshhoodBatch):
-    name = "meshhood, a call for each"
-    remark = "one thread in any case"
-
-    def ask(self, vertices, radius):
-        return [self.index.query_ball(v, radius) for v in vertices]
-
-    def rows(self, answer, vertices):
-        return answer
-
-
-class MeshhoodCount(MeshhoodBatch):
+class MeshhoodCount(Meshhood):
     name = "meshhood, counts only"
     answers = "how many"
 
@@ -50,3 +46,11 @@ class MeshhoodCount(MeshhoodBatch):
 
     def rows(self, answer, vertices):
         return None
+
+
+class MeshhoodCalls(OneByOne, Meshhood):
+    name = "meshhood, a call for each"
+    remark = "one thread in any case"
+
+    def neighborhood(self, v, radius):
+        return self.index.query_ball(v, radius)

@@ -16,11 +16,11 @@ PROGRAM = places.PROGRAMS / "native_peers"
 class Native(Peer):
     kind = ""
 
-    def __init__(self, positions, triangles, path, threads):
+    def __init__(self, mesh, threads):
         if not PROGRAM.exists():
             raise ImportError("native_peers is not built (libnanoflann-dev, libeigen3-dev)")
         count = len(os.sched_getaffinity(0)) if threads == -1 else threads
-        self.program = subprocess.Popen([PROGRAM, self.kind, path, str(count)], text=True, stdin=subprocess.PIPE,
+        self.program = subprocess.Popen([PROGRAM, self.kind, mesh.path, str(count)], text=True, stdin=subprocess.PIPE,
                                         stdout=subprocess.PIPE)
         self.build_seconds = float(self.program.stdout.readline())
         self.scratch = tempfile.TemporaryDirectory()
@@ -37,6 +37,10 @@ class Native(Peer):
             found.append(words[at + 1:at + 1 + words[at]])
             at += 1 + words[at]
         return found
+
+    def end(self):
+        self.program.stdin.close()
+        self.program.wait()
 
     def command(self, vertices, radius, *answers):
         queries = Path(self.scratch.name, "queries")

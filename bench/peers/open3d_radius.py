@@ -8,16 +8,17 @@ class Open3d(Peer):
     package = "open3d"
     module = "open3d"
     answers = "ball"
+    remark = "its index is made anew for each radius, which is not in `built`"
 
-    def __init__(self, positions, triangles, path, threads):
+    def __init__(self, mesh, threads):
         import open3d
 
-        self.points = open3d.core.Tensor(positions)
+        self.points = open3d.core.Tensor(mesh.positions)
         self.search = open3d.core.nns.NearestNeighborSearch(self.points)
         self.radius = None
 
     def ask(self, vertices, radius):
-        if radius != self.radius:  # the first time only, which is not timed
+        if radius != self.radius:  # when it is judged, which is not timed
             self.search.fixed_radius_index(radius)
             self.radius = radius
         return self.search.fixed_radius_search(self.points[vertices], radius, sort=False)

@@ -1,6 +1,15 @@
 # SPDX-License-Identifier: MIT
 """What every peer offers."""
 from importlib import metadata
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Mesh(NamedTuple):
+    positions: np.ndarray  # #V by 3 float32
+    triangles: np.ndarray  # #F by 3 int32
+    path: str  # the same as PLY
 
 
 class Peer:
@@ -12,10 +21,10 @@ class Peer:
     answers = ""  # which question: "exact", "ball", or what else
     remark = ""
     whole = False  # answers for all vertices at once, and for nothing less
-    largest_answer = None  # ids of all answers of one call, where more would not fit into memory or never end
+    largest_answer = None  # ids of all answers of one call, where more would not fit into memory or take too long
 
-    def __init__(self, positions, triangles, path, threads):
-        """positions: #V by 3 float32. triangles: #F by 3 int32. path: the same mesh as PLY. threads: 1, or all."""
+    def __init__(self, mesh, threads):
+        """threads: 1, or -1 for all."""
 
     def ask(self, vertices, radius):
         """The neighborhoods of `vertices` (int32; ignored by who answers for all), in whatever form this peer has."""
@@ -27,6 +36,22 @@ class Peer:
 
     def version(self):
         return metadata.version(self.package) if self.package else ""
+
+    def end(self):
+        """Ends what it has started."""
+
+
+class OneByOne(Peer):
+    """Who can be asked for one neighborhood at a time."""
+
+    remark = "a call for each; one thread in any case"
+
+    def ask(self, vertices, radius):
+        return [self.neighborhood(v, radius) for v in vertices]
+
+    def neighborhood(self, v, radius):
+        """An array of ids."""
+        raise NotImplementedError
 
 
 def rows_of(offsets, ids, places):

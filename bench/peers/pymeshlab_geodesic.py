@@ -2,26 +2,22 @@
 """PyMeshLab has no such query. Nearest comes its distance along the surface from a point, up to a limit."""
 import numpy as np
 
-from .peer import Peer
+from .peer import OneByOne
 
 
-class PyMeshLab(Peer):
+class PyMeshLab(OneByOne):
     name = "PyMeshLab geodesic distance, maxdistance"
     package = "pymeshlab"
     module = "pymeshlab"
     answers = "distance along the surface"
-    remark = "a call for each; one thread in any case"
 
-    def __init__(self, positions, triangles, path, threads):
+    def __init__(self, mesh, threads):
         import pymeshlab
 
         self.pymeshlab = pymeshlab
-        self.positions = positions.astype(np.float64)
+        self.positions = mesh.positions.astype(np.float64)
         self.meshes = pymeshlab.MeshSet()
-        self.meshes.add_mesh(pymeshlab.Mesh(self.positions, triangles))
-
-    def ask(self, vertices, radius):
-        return [self.neighborhood(v, radius) for v in vertices]
+        self.meshes.add_mesh(pymeshlab.Mesh(self.positions, mesh.triangles))
 
     def neighborhood(self, v, radius):
         self.meshes.compute_scalar_by_geodesic_distance_from_given_point_per_vertex(

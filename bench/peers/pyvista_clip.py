@@ -2,25 +2,21 @@
 """PyVista: cut the ball out of the mesh, then take the connected region of the vertex."""
 import numpy as np
 
-from .peer import Peer
+from .peer import OneByOne
 
 
-class PyVista(Peer):
+class PyVista(OneByOne):
     name = "PyVista extract_points, then connectivity"
     package = "pyvista"
     module = "pyvista"
     answers = "exact, by whole faces"
-    remark = "a call for each; one thread in any case"
 
-    def __init__(self, positions, triangles, path, threads):
+    def __init__(self, mesh, threads):
         import pyvista
 
-        self.positions = positions.astype(np.float64)
-        self.mesh = pyvista.PolyData.from_regular_faces(positions, triangles)
-        self.mesh["vertex"] = np.arange(len(positions))
-
-    def ask(self, vertices, radius):
-        return [self.neighborhood(v, radius) for v in vertices]
+        self.positions = mesh.positions.astype(np.float64)
+        self.mesh = pyvista.PolyData.from_regular_faces(mesh.positions, mesh.triangles)
+        self.mesh["vertex"] = np.arange(len(mesh.positions))
 
     def neighborhood(self, v, radius):
         inside = np.linalg.norm(self.positions - self.positions[v], axis=1) <= radius

@@ -2,22 +2,18 @@
 """What SciPy offers: the ball; the ball and the component of the vertex in it, which is exact; and paths along edges."""
 import numpy as np
 
-from .peer import Peer
+from .edges import edges_of, lengths_of
+from .peer import OneByOne, Peer
 
 
-def edges_of(triangles):
-    return np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-
-
-def graph_of(positions, triangles):
+def graph_of(mesh):
     """The edges as a matrix of their lengths, each in both directions once."""
     from scipy.sparse import csr_array
 
-    edges = edges_of(triangles)
-    edges = np.unique(np.sort(edges, axis=1), axis=0)
-    lengths = np.linalg.norm(positions[edges[:, 0]].astype(float) - positions[edges[:, 1]], axis=1)
+    edges = edges_of(mesh)
     rows, columns = np.concatenate([edges, edges[:, ::-1]]).T
-    return csr_array((np.tile(lengths, 2), (rows, columns)), shape=(len(positions), len(positions)))
+    lengths = np.tile(lengths_of(mesh, edges), 2)
+    return csr_array((lengths, (rows, columns)), shape=(len(mesh.positions), len(mesh.positions)))
 
 
 class KdTree(Peer):
@@ -26,47 +22,43 @@ class KdTree(Peer):
     module = "scipy.spatial"
     answers = "ball"
 
-    def __init__(self, positions, triangles, path, threads):
+    def __init__(self, mesh, threads):
         from scipy.spatial import cKDTree
 
-        self.positions, self.threads = positions, threads
-        self.tree = cKDTree(positions)
+        self.positions, self.threads = mesh.positions, threads
+        self.tree = cKDTree(mesh.positions)
 
     def ask(self, vertices, radius):
         return self.tree.query_ball_point(self.positions[vertices], radius, workers=self.threads)
 
 
-class Components(KdTree):
+class Components(OneByOne, KdTree):
     name = "scipy cKDTree, then connected_components"
     module = "scipy.sparse.csgraph"
     answers = "exact"
-    remark = "one thread in any case"
 
-    def __init__(self, positions, triangles, path, threads):
-        super().__init__(positions, triangles, path, threads)
-        self.graph = graph_of(positions, triangles)
+    def __init__(self, mesh, threads):
+        super().__init__(mesh, threads)
+        self.graph = graph_of(mesh)
 
-    def ask(self, vertices, radius):
-        return [self.component(v, np.array(self.tree.query_ball_point(self.positions[v], radius))) for v in vertices]
-
-    def component(self, v, ball):
+    def neighborhood(self, v, radius):
         from scipy.sparse.csgraph import connected_components
 
+        ball = np.array(self.tree.query_ball_point(self.positions[v], radius))
         _, labels = connected_components(self.graph[ball][:, ball], directed=False)
         return ball[labels == labels[np.flatnonzero(ball == v)[0]]]
 
 
-class Dijkstra(Peer):
+class Dijkstra(OneByOne):
     name = "scipy dijkstra, limit"
     package = "scipy"
     module = "scipy.sparse.csgraph"
     answers = "length of path along edges"
-    remark = "one thread in any case"
 
-    def __init__(self, positions, triangles, path, threads):
-        self.graph = graph_of(positions, triangles)
+    def __init__(self, mesh, threads):
+        self.graph = graph_of(mesh)
 
-    def ask(self, vertices, radius):
+    def neighborhood(self, v, radius):
         from scipy.sparse.csgraph import dijkstra
 
-        return [np.flatnonzero(np.isfinite(dijkstra(self.graph, indices=v, limit=radius))) for v in vertices]
+        return np.flatnonzero(np.isfinite(dijkstra(self.graph, indices=v, limit=radius)))

@@ -12,13 +12,13 @@ class Trueform(Peer):
     whole = True
     largest_answer = 1_000_000_000
 
-    def __init__(self, positions, triangles, path, threads):
+    def __init__(self, mesh, threads):
         import trueform
 
         self.trueform = trueform
-        self.positions = positions
-        membership = trueform.cell_membership(triangles, n_ids=len(positions))
-        self.links = trueform.vertex_link_faces(triangles, membership)
+        self.positions = mesh.positions
+        membership = trueform.cell_membership(mesh.triangles, n_ids=len(mesh.positions))
+        self.links = trueform.vertex_link_faces(mesh.triangles, membership)
 
     def ask(self, vertices, radius):
         return self.trueform.neighborhoods(self.links, self.positions, radius, inclusive=True)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The process of one peer: builds it, then answers and times blocks of queries as it is told to."""
+import contextlib
 import ctypes
 import gc
 import importlib
@@ -16,11 +17,12 @@ class Worker:
     """A peer in a process of its own, so that threads can be held to one processor and memory be told apart."""
 
     def __init__(self, name, mesh, threads):
-        """mesh: an .npz with positions and triangles, and the path of the same as PLY beside it."""
+        """mesh: the path of its arrays, see mesh_files.py."""
         context = multiprocessing.get_context("spawn")
         self.pipe, theirs = context.Pipe()
         self.process = context.Process(target=serve, args=(name, mesh, threads, theirs), daemon=True)
-        self.process.start()
+        with one_processor() if threads == ONE_THREAD else contextlib.nullcontext():
+            self.process.start()
         theirs.close()
 
     def ask(self, command, *arguments, timeout):
@@ -33,7 +35,7 @@ class Worker:
 
     def result(self, timeout):
         if not self.pipe.poll(timeout):
-            self.end()
+            self.end(patience=0)
             raise RuntimeError(f"took longer than {timeout:.0f} s")
         try:
             kind, value = self.pipe.recv()
@@ -43,14 +45,15 @@ class Worker:
             raise RuntimeError(value)
         return value
 
-    def end(self):
+    def end(self, patience=5):
+        """Lets it end by itself, if it does."""
+        self.pipe.close()
+        self.process.join(patience)
         self.process.kill()
         self.process.join()
 
 
 def serve(name, mesh, threads, pipe):
-    if threads == ONE_THREAD:
-        confine_to_one_processor()
     peer = None
     try:
         peer, built = build(name, mesh, threads)
@@ -64,27 +67,31 @@ def serve(name, mesh, threads, pipe):
     except Exception as error:  # whatever a foreign library raises is told, not raised
         traceback.print_exc()
         pipe.send(("error", f"{type(error).__name__}: {error}".splitlines()[0]))
+    finally:
+        if peer is not None:
+            peer.end()
 
 
-def confine_to_one_processor():
-    """Before any library starts its threads: they see a machine of one processor."""
-    os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
-    for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
-        os.environ[variable] = "1"
+@contextlib.contextmanager
+def one_processor():
+    """What is started meanwhile has but one, so that no library starts more threads than it should."""
+    mine = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {min(mine)})
+    try:
+        yield
+    finally:
+        os.sched_setaffinity(0, mine)
 
 
 def build(name, mesh, threads):
-    import numpy as np
+    from . import PEERS, mesh_files
 
-    from . import PEERS
-
-    with np.load(mesh) as arrays:
-        positions, triangles = arrays["positions"], arrays["triangles"]
+    mesh = mesh_files.load(mesh)
     kind = PEERS[name]
     if kind.module:
         importlib.import_module(kind.module)
     before, begin = resident_bytes(), time.perf_counter()
-    peer = kind(positions, triangles, str(mesh.with_suffix(".ply")), threads)
+    peer = kind(mesh, threads)
     seconds = getattr(peer, "build_seconds", time.perf_counter() - begin)
     return peer, {"build_seconds": seconds, "bytes": resident_bytes() - before, "version": peer.version()}
 

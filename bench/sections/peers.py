@@ -6,9 +6,10 @@ NOTE = """## Peers
 
 `make peers`: each product in a process of its own, all in one run on the same vertices, {blocks} blocks in turn of as many
 queries as about {seconds:g} s allow; microseconds a query by the clock on the wall, answers made but not read. One thread:
-the process is held to one processor. Who answers only for all vertices at once is asked so, and the time shared out.
-Extra and missing: vertices a query against the exact answer, on 20 vertices. Memory: what building added to the process.
-A product that answers another question is labelled so; a ball is the wrong answer wherever two sheets lie close.
+the process is held to one processor. Who answers only for all vertices at once is asked so, and the time shared out; who
+takes minutes for one step is given up, and the table says so. Extra and missing: vertices a query against the exact
+answer, on 20 vertices. Memory: what building added to the process. A product that answers another question is labelled
+so; a ball is the wrong answer wherever two sheets lie close.
 
 """
 

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: MIT
+"""One peer in a contest: how many queries there is time for, what its answers are worth, and how long it took."""
+import time
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .. import timing
+from . import PEERS
+from .worker import Worker
+
+BLOCKS = 5
+BLOCK_QUERIES = 2000
+PATIENCE = 300  # seconds for one step of one peer
+WHOLE_MESH_BLOCKS = 30  # for who answers for all vertices: as long as so many blocks take, and at least one run
+
+
+@dataclass
+class Judged:
+    """A few vertices, and what is right for them."""
+
+    vertices: np.ndarray
+    truth: list  # of sets of ids
+
+    def typical(self):
+        return float(np.mean([len(row) for row in self.truth]))
+
+    def difference(self, answers):
+        """Vertices an answer, on average."""
+        pairs = [(set(answer), right) for answer, right in zip(answers, self.truth)]
+        return {"extra": float(np.mean([len(answer - right) for answer, right in pairs])),
+                "missing": float(np.mean([len(right - answer) for answer, right in pairs]))}
+
+
+@dataclass
+class Contestant:
+    name: str
+    worker: Worker
+    built: dict = None
+    failure: str = None
+    spent: float = 0  # seconds, on all it was asked to do
+    # At this radius:
+    queries: int = 0  # a block
+    runs: int = 0  # blocks it has part in
+    microseconds: list = field(default_factory=list)
+    row: dict = field(default_factory=dict)
+
+    @classmethod
+    def started(cls, name, path, threads):
+        contestant = cls(name, Worker(name, path, threads))
+        contestant.built = contestant.attempt(contestant.worker.result)
+        return contestant
+
+    def is_running(self):
+        return self.built is not None and self.failure is None
+
+    def begin_radius(self, judged, radius, vertices, block_seconds):
+        """Judges the answers, and finds how many queries there is time for; both warm what must be warm."""
+        self.queries, self.runs, self.microseconds, self.row = 0, 0, [], {}
+        if not self.is_running():
+            return
+        peer = PEERS[self.name]
+        ids = judged.typical() * vertices
+        if peer.largest_answer and ids > peer.largest_answer:
+            self.row = {"left_out": f"{ids:.1e} ids in all would be too many"}
+            return
+        judgement = self.attempt(self.worker.ask, "judge", judged.vertices, radius)
+        if judgement is None:
+            return
+        seconds, answers = judgement
+        if peer.whole:
+            self.plan_whole(seconds, vertices, block_seconds)
+        else:
+            self.plan_blocks(seconds, judged.vertices, radius, block_seconds)
+        if answers is not None:
+            self.row = judged.difference(answers)
+
+    def plan_whole(self, seconds, vertices, block_seconds):
+        self.queries = vertices
+        self.microseconds.append(1e6 * seconds / vertices)  # too long for a run that does not count
+        self.runs = int(np.clip(WHOLE_MESH_BLOCKS * block_seconds / seconds, 1, BLOCKS)) - 1
+
+    def plan_blocks(self, seconds, vertices, radius, block_seconds):
+        if seconds < block_seconds:  # once more, without what only the first call does
+            seconds = self.attempt(self.worker.ask, "time", vertices, radius) or seconds
+        self.queries = int(np.clip(block_seconds * len(vertices) / seconds, 1, BLOCK_QUERIES))
+        self.runs = BLOCKS
+
+    def run_block(self, number, block, radius):
+        if not self.is_running() or number >= self.runs:
+            return
+        seconds = self.attempt(self.worker.ask, "time", block[:self.queries], radius)
+        if seconds is not None:
+            self.microseconds.append(1e6 * seconds / self.queries)
+
+    def result(self, judged):
+        peer = PEERS[self.name]
+        row = {"name": self.name, "answers": peer.answers, "remark": peer.remark, "whole": peer.whole,
+               "found": judged.typical(), **(self.built or {}), **self.row}
+        if self.failure:
+            row["failure"] = self.failure
+        if self.microseconds:
+            row.update(microseconds=timing.summary(self.microseconds), queries=self.queries)
+        return row
+
+    def attempt(self, call, *arguments):
+        """What the call of the worker returns, or None: a failure ends the part of this contestant, and is kept."""
+        begin = time.perf_counter()
+        try:
+            return call(*arguments, timeout=PATIENCE)
+        except RuntimeError as error:
+            self.failure = str(error)
+            return None
+        finally:
+            self.spent += time.perf_counter() - begin

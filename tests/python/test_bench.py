@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: MIT
+"""The parts of the harness that need Python packages, on a small shape; tests/bench_test.py has the others."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+
+from bench import machine, places, results  # noqa: E402: from the checkout
+from bench.peers import contest  # noqa: E402
+from bench.sections import SECTIONS  # noqa: E402
+
+
+@pytest.fixture
+def elsewhere(monkeypatch, tmp_path):
+    if not places.MESHHOOD.is_file():
+        pytest.skip(f"no {places.MESHHOOD}, which makes the shape")
+    monkeypatch.setattr(places, "RESULTS", tmp_path)
+    monkeypatch.setattr(places, "SCRATCH", tmp_path)
+    monkeypatch.setattr(machine, "WAITED", 0.1)
+
+
+def test_peers(elsewhere, monkeypatch):
+    monkeypatch.setattr(contest, "RUNS", (("shuffled", contest.ONE_THREAD),))
+    contest.run(["tiny"], block_seconds=0.01)
+    data = results.load("peers")
+    near, far = ({peer["name"]: peer for peer in part["peers"]} for part in data["contests"])
+    for rows in (near, far):
+        for name in ("meshhood, one call", "meshhood, a call for each", "scipy cKDTree, then connected_components"):
+            assert (rows[name]["extra"], rows[name]["missing"]) == (0, 0)
+            assert rows[name]["microseconds"]["median"] > 0
+    assert far["scipy cKDTree"]["extra"] > 0
+    assert far["scipy cKDTree"]["missing"] == 0
+    failed = [name for name, row in far.items() if "failure" in row]
+    assert not any(name.startswith(("meshhood", "scipy", "PyVista")) for name in failed)
+    print(f"{len(far) - len(failed)} peers; not here: {', '.join(failed) or 'none'}")
+    assert "tiny, 20 average edges, one thread, vertices shuffled" in SECTIONS["peers"].text(data)
