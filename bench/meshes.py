@@ -7,7 +7,7 @@ from pathlib import Path
 
 from . import places
 
-SHARED = Path(os.environ.get("MESHHOOD_SHARED", places.ROOT.parent / "shared" / "meshes"))
+SHARED = Path(os.environ.get("MESHHOOD_SHARED", places.ROOT.parent / "shared")) / "meshes"
 
 
 @dataclass(frozen=True)

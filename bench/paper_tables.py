@@ -16,9 +16,6 @@ PAPER_TABLE1 = {
     "Happy": (543652, 33.182, 18.665, 10.163, 6.652),
     "Raptor": (1000080, 61.040, 34.335, 18.824, 12.589),
 }
-# 4.2 and 4.3: one query within 65 edges on the Raptor, milliseconds; the share of the range search.
-PAPER_RAPTOR_65 = {"paper": 0.26, "bfs": 2.25}
-PAPER_RANGE_SEARCH_SHARE = 85
 
 
 def tables(names, queries):

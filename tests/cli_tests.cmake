@@ -18,7 +18,7 @@ if(MESHHOOD_BUILD_CLI)
   if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     add_test(NAME cli.manifest
       COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_manifest.py
-        $<TARGET_FILE:meshhood_cli> ${PROJECT_SOURCE_DIR}/../shared/meshes)
+        $<TARGET_FILE:meshhood_cli> ${PROJECT_SOURCE_DIR}/../shared)
     set_tests_properties(cli.manifest PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
   endif()
 endif()

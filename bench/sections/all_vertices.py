@@ -7,7 +7,7 @@ NOTE = """## Every vertex of a mesh (4.2)
 
 The paper reckons with one query of the Raptor within {radius} average edges, 0.26 ms, on its 1,000,080 vertices: 260 s,
 and 272 s with building, where breadth-first search would take 2,250 s. Reckoned in the same way from Table 2 above, and,
-for the exact index, really done: one call of the Python package, all ids streamed, by the clock on the wall.
+for the exact index, really done, once: one call of the Python package, all ids streamed, by the clock on the wall.
 
 """
 

@@ -37,9 +37,9 @@ and mri_head.
 PHASES_NOTE = """
 ### The phases of the paper's query (4.3)
 
-Per cent of the time of a query, the mean over {queries:,} random ones, by `phases`. The paper found 85 % in the range search over its whole
-benchmark. Our range search goes down to the children of clusters at the rim instead of testing every vertex, and has the
-copying of the ids with it.
+Per cent of the time of a query, the mean over {queries:,} random ones, by `phases`. The paper found 85 % in the range
+search over its whole benchmark. Our range search goes down to the children of clusters at the rim instead of testing
+every vertex, and has the copying of the ids with it.
 
 """
 

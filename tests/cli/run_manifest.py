@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: MIT
 """Compares what `meshhood info` says of every mesh beside the repository with the manifest that came with them.
 
-usage: run_manifest.py PROGRAM SHARED_MESHES_FOLDER
+usage: run_manifest.py PROGRAM SHARED
+
+SHARED is the folder that holds that of the meshes, unless MESHHOOD_SHARED names it.
 
 Files for which the manifest has no figures are left to the readers' own tests, packed ones are left out where there is no
 zstd. Exit code 77 where there is no folder.
 """
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -89,7 +92,7 @@ def differences(row, found):
 
 
 def main():
-    program, shared = sys.argv[1], Path(sys.argv[2])
+    program, shared = sys.argv[1], Path(os.environ.get("MESHHOOD_SHARED", sys.argv[2])) / "meshes"
     if not (shared / "MANIFEST.md").exists():
         print(f"skipped: no {shared}")
         return 77
