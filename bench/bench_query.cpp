@@ -42,6 +42,12 @@ void bm_ball(benchmark::State& state, const std::string& kind) {
   ask_everywhere(state, [&](VertexId v, double radius, auto& out) { ball(mesh.view().positions, v, radius, out); });
 }
 
+void bm_exact(benchmark::State& state, const std::string& kind) {
+  const Index index = build(shapes::find_kind(kind)->make(kVertices).view());
+  Searcher searcher(index);
+  ask_everywhere(state, [&](VertexId v, double radius, auto& out) { searcher.neighborhood(v, radius, out); });
+}
+
 void bm_paper(benchmark::State& state, const std::string& kind) {
   const paper::Index index = paper::build(shapes::find_kind(kind)->make(kVertices).view());
   paper::Searcher searcher(index);
@@ -51,6 +57,8 @@ void bm_paper(benchmark::State& state, const std::string& kind) {
 BENCHMARK_CAPTURE(bm_bfs, sphere, "sphere")->Arg(2)->Arg(10)->Arg(40);
 BENCHMARK_CAPTURE(bm_bfs, scroll, "scroll")->Arg(2)->Arg(10)->Arg(40);
 BENCHMARK_CAPTURE(bm_ball, sphere, "sphere")->Arg(10);
+BENCHMARK_CAPTURE(bm_exact, sphere, "sphere")->Arg(2)->Arg(10)->Arg(40);
+BENCHMARK_CAPTURE(bm_exact, scroll, "scroll")->Arg(2)->Arg(10)->Arg(40);
 BENCHMARK_CAPTURE(bm_paper, sphere, "sphere")->Arg(2)->Arg(10)->Arg(40);
 BENCHMARK_CAPTURE(bm_paper, scroll, "scroll")->Arg(2)->Arg(10)->Arg(40);
 
