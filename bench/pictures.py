@@ -52,7 +52,7 @@ def draw(picture):
     plotter = pyvista.Plotter(off_screen=True, window_size=PIXELS)
     plotter.background_color = "white"
     meshhood.plot_neighborhood(index, v, radius, positions, faces, plotter=plotter)
-    look(plotter, positions[v], radius, picture)
+    look(plotter, middle(positions[index.query_ball(v, radius, method="ball")]), radius, picture)
     places.RESULTS.mkdir(parents=True, exist_ok=True)
     plotter.screenshot(places.RESULTS / f"figure4{picture.letter}.png")
     plotter.close()
@@ -65,6 +65,10 @@ def nearest(positions, at):
 
     low, high = positions.min(0), positions.max(0)
     return int(np.argmin(np.linalg.norm(positions - (low + (high - low) * at), axis=1)))
+
+
+def middle(positions):
+    return (positions.min(0) + positions.max(0)) / 2
 
 
 def look(plotter, centre, radius, picture):
