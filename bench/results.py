@@ -14,8 +14,9 @@ def begin(what):
 def save(name, data, watched):
     places.RESULTS.mkdir(parents=True, exist_ok=True)
     document = {"machine": watched.description(), **data}
-    (places.RESULTS / f"{name}.json").write_text(as_text(rounded(document)) + "\n", encoding="utf-8")
-    print(f"wrote docs/benchmarks/{name}.json")
+    path = places.RESULTS / f"{name}.json"
+    path.write_text(as_text(rounded(document)) + "\n", encoding="utf-8")
+    print(f"wrote {path}")
 
 
 def load(name):

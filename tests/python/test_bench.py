@@ -9,15 +9,16 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from bench import machine, places, results  # noqa: E402: from the checkout
+from bench import machine, pictures, places, results  # noqa: E402: from the checkout
 from bench.peers import contest  # noqa: E402
 from bench.sections import SECTIONS  # noqa: E402
 
 
 @pytest.fixture
 def elsewhere(monkeypatch, tmp_path):
-    if not places.MESHHOOD.is_file():
-        pytest.skip(f"no {places.MESHHOOD}, which makes the shape")
+    for program in (places.MESHHOOD, places.PROGRAMS / "race"):
+        if not program.is_file():
+            pytest.skip(f"no {program}")
     monkeypatch.setattr(places, "RESULTS", tmp_path)
     monkeypatch.setattr(places, "SCRATCH", tmp_path)
     monkeypatch.setattr(machine, "WAITED", 0.1)
@@ -38,3 +39,16 @@ def test_peers(elsewhere, monkeypatch):
     assert not any(name.startswith(("meshhood", "scipy", "PyVista")) for name in failed)
     print(f"{len(far) - len(failed)} peers; not here: {', '.join(failed) or 'none'}")
     assert "tiny, 20 average edges, one thread, vertices shuffled" in SECTIONS["peers"].text(data)
+
+
+def test_pictures(elsewhere, monkeypatch):
+    pyvista = pytest.importorskip("pyvista")
+    above = pictures.Picture("z", "tiny", 20, (0.5, 0.5, 0.5), (0, 0, 1), (0, 1, 0))
+    monkeypatch.setattr(pictures, "PICTURES", (above,))
+    pictures.run(None)
+    found = results.load("figure4")["pictures"][0]["found"]
+    assert 1 < found["exact"] <= found["paper"] <= found["ball"]
+    colors = pyvista.read(places.RESULTS / "figure4z.png").active_scalars[:, :3].astype(int)
+    red = (colors[:, 0] > 150) & (colors[:, 1:] < 80).all(axis=1)
+    print(f"{red.sum()} red of {len(colors)} pixels")
+    assert red.sum() > 50

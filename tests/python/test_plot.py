@@ -33,6 +33,7 @@ def test_colours(tmp_path):
 
 def test_the_vertex_is_seen_through_what_lies_before_it():
     V, F = meshes.two_plates(20)
+    V[len(V) // 2 :, 2] += 10
     index = meshhood.MeshIndex(V, F)
     plotter = pyvista.Plotter(off_screen=True, window_size=(600, 400))
     meshhood.plot_neighborhood(index, 210, 3.0, V, F, plotter=plotter)  # on the lower plate, seen from above
