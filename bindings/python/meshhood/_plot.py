@@ -44,7 +44,7 @@ def plot_neighborhood(index, v, r, V, F=None, *, plotter=None):
         interpolate_before_map=False,
         show_scalar_bar=False,
     )
-    dot = drawn.add_points(mesh.points[[v]], color="red", point_size=12, render_points_as_spheres=True)
+    dot = drawn.add_points(mesh.points[[v]], color="red", point_size=16, render_points_as_spheres=True)
     dot.mapper.SetResolveCoincidentTopologyToPolygonOffset()
     dot.mapper.SetRelativeCoincidentTopologyPointOffsetParameter(_BEFORE_ALL)
     if plotter is None:
