@@ -131,8 +131,8 @@ class Watching(unittest.TestCase):
         while time.process_time() < begin + 0.5:
             pass
         now = machine.Usage()
-        self.assertGreaterEqual(now.own - usage.own, 0.5)
-        self.assertGreaterEqual(now.all - usage.all, 0.4, "the machine has worked at least as much, in steps of a tick")
+        self.assertGreaterEqual(now.own - usage.own, 0.4)
+        self.assertGreaterEqual(now.all - usage.all, 0.4, "the machine has worked at least as much, but for a few ticks")
 
     def test_a_load_at_either_time_makes_a_machine_busy(self):
         for before, beside, busy in ((0, 0, False), (0.4, 0.4, False), (1, 0, True), (0, 1, True)):

@@ -104,8 +104,7 @@ std::shared_ptr<ExactMethod> from_bytes(const Bytes& bytes) {
 void bind_files(nb::module_& module) {
   module.def("read_mesh", &read, nb::arg("path"), nb::arg("progress").none());
   module.def("save", &save_file, nb::arg(), nb::arg("path"));
-  module.def("load", &load_file, nb::arg("path"), nb::arg("mmap"), nb::arg("trusted"),
-             nb::arg("progress").none());
+  module.def("load", &load_file, nb::arg("path"), nb::arg("mmap"), nb::arg("trusted"), nb::arg("progress").none());
   module.def("to_bytes", &to_bytes);
   module.def("from_bytes", &from_bytes);
 }
