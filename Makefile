@@ -4,10 +4,11 @@
 #   make test                     the same, then builds and runs all tests, and each fuzzer for a moment
 #   make demo [MESH=some.ply]     every method on a mesh with a trap, or on your own
 #
-# And for who would see for himself what docs/benchmarks.md says; both end by writing it, and want a quiet machine:
+# And for who would see for himself what docs/benchmarks.md says; both end by writing it, say how long each part took, and
+# want a quiet machine, or the page says that it was busy:
 #
 #   make reproduce                the paper's tables and pictures, accuracy, growth; about half an hour
-#   make peers                    other products on the same queries; about three quarters of an hour
+#   make peers                    other products on the same queries; about 25 minutes
 #   make benchmarks               both
 .PHONY: build test demo reproduce peers benchmarks
 

@@ -13,6 +13,7 @@ shown is made from them.
 `make reproduce` and `make peers` install what is needed and run them. On a busy machine the figures say so.
 """
 import argparse
+import time
 
 from . import meshes
 
@@ -73,7 +74,9 @@ def main():
     parser.add_argument("--block-seconds", type=float, default=0.3, help="of a peer and block, about")
     options = parser.parse_args()
     for part in options.parts:
+        begin = time.monotonic()
         PARTS[part](options)
+        print(f"{part}: {(time.monotonic() - begin) / 60:.1f} minutes", flush=True)
 
 
 if __name__ == "__main__":
