@@ -6,6 +6,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdarg>
+#include <cstdint>
+#include <string>
+#include <utility>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -27,6 +30,13 @@ int fail() {
 template <class F>
 auto call_or_fail(Call call, F&& real) -> decltype(real()) {
   return next(call) == Mishap::Error ? fail() : real();
+}
+
+/// `result`, of which note is taken unless it is a failure.
+template <class Result>
+Result noted(Result result, Effect effect) {
+  if (active != nullptr && result >= 0) active->add(std::move(effect));
+  return result;
 }
 
 }  // namespace
@@ -71,13 +81,15 @@ int __real_unlink(const char* path);
 using meshhood::test::Call;
 using meshhood::test::call_or_fail;
 using meshhood::test::Mishap;
+using meshhood::test::noted;
 
 int __wrap_open(const char* path, int flags, ...) {
   va_list arguments;
   va_start(arguments, flags);
   const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(arguments, mode_t) : 0;
   va_end(arguments);
-  return call_or_fail(Call::Open, [=] { return __real_open(path, flags, mode); });
+  const int file = call_or_fail(Call::Open, [=] { return __real_open(path, flags, mode); });
+  return noted(file, {.call = Call::Open, .file = file, .path = path});
 }
 
 ssize_t __wrap_write(int file, const void* bytes, size_t size) {
@@ -86,11 +98,13 @@ ssize_t __wrap_write(int file, const void* bytes, size_t size) {
   const size_t taken = mishap == Mishap::None ? size : (size + 1) / 2;
   const ssize_t written = __real_write(file, bytes, taken);
   if (mishap == Mishap::KillWithin) static_cast<void>(std::raise(SIGKILL));
-  return written;
+  const auto count = static_cast<size_t>(written < 0 ? 0 : written);
+  return noted(written, {.call = Call::Write, .file = file, .bytes = {static_cast<const char*>(bytes), count}});
 }
 
 off_t __wrap_lseek(int file, off_t offset, int origin) {
-  return call_or_fail(Call::Seek, [=] { return __real_lseek(file, offset, origin); });
+  const off_t position = call_or_fail(Call::Seek, [=] { return __real_lseek(file, offset, origin); });
+  return noted(position, {.call = Call::Seek, .file = file, .position = static_cast<std::uint64_t>(position)});
 }
 
 int __wrap_stat(const char* path, struct stat* status) {
@@ -106,21 +120,24 @@ int __wrap_fchmod(int file, mode_t mode) {
 }
 
 int __wrap_fsync(int file) {
-  return call_or_fail(Call::Sync, [=] { return __real_fsync(file); });
+  const int status = call_or_fail(Call::Sync, [=] { return __real_fsync(file); });
+  return noted(status, {.call = Call::Sync, .file = file});
 }
 
 int __wrap_close(int file) {
   const Mishap mishap = meshhood::test::next(Call::Close);
-  const int closed = __real_close(file);
+  const int closed = noted(__real_close(file), {.call = Call::Close, .file = file});
   return mishap == Mishap::Error ? meshhood::test::fail() : closed;
 }
 
 int __wrap_rename(const char* from, const char* to) {
-  return call_or_fail(Call::Rename, [=] { return __real_rename(from, to); });
+  const int status = call_or_fail(Call::Rename, [=] { return __real_rename(from, to); });
+  return noted(status, {.call = Call::Rename, .path = from, .to = to});
 }
 
 int __wrap_unlink(const char* path) {
-  return call_or_fail(Call::Unlink, [=] { return __real_unlink(path); });
+  const int status = call_or_fail(Call::Unlink, [=] { return __real_unlink(path); });
+  return noted(status, {.call = Call::Unlink, .path = path});
 }
 
 }  // extern "C"

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 /// The calls of the operating system that write files, listed, with one of them going wrong on purpose. The calls come
@@ -30,6 +33,16 @@ struct Fault {
   bool stuck = false;  ///< no file can be removed either
 };
 
+/// A call that went well and has changed what a disk holds, or will hold.
+struct Effect {
+  Call call = Call::Open;
+  int file = -1;               ///< the number of the file; not of `Rename` and `Unlink`
+  std::string path = {};       ///< of `Open`, `Rename` and `Unlink`
+  std::string to = {};         ///< of `Rename`
+  std::string bytes = {};      ///< of `Write`: those that were taken
+  std::uint64_t position = 0;  ///< of `Seek`: where it led
+};
+
 /// Lists calls, and has one go wrong, while it lives. One object at a time, one thread.
 class SystemCalls {
  public:
@@ -40,14 +53,19 @@ class SystemCalls {
 
   /// In the order in which they were made.
   [[nodiscard]] const std::vector<Call>& made() const { return made_; }
+  [[nodiscard]] const std::vector<Effect>& effects() const { return effects_; }
 
   /// Takes note of a call that is about to be made, and returns what shall become of it.
   [[nodiscard]] Mishap next(Call call);
   [[nodiscard]] int error() const { return fault_.error; }
 
+  /// Takes note of what has come of it.
+  void add(Effect effect) { effects_.push_back(std::move(effect)); }
+
  private:
   Fault fault_;
   std::vector<Call> made_;
+  std::vector<Effect> effects_;
 };
 
 }  // namespace meshhood::test
