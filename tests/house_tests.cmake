@@ -20,6 +20,16 @@ if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND CMAKE_OBJDUMP)
     $<TARGET_OBJECTS:meshhood_fused_control> $<TARGET_OBJECTS:meshhood_haswell> COMMAND_EXPAND_LISTS)
 endif()
 
+# Bytes that reach a file without ever having been given a value.
+if(TARGET meshhood_cli)
+  add_executable(uninitialised_control uninitialised_control.cpp)
+  target_include_directories(uninitialised_control PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(uninitialised_control PRIVATE meshhood::io)
+  add_test(NAME no_uninitialised_bytes COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/no_uninitialised_bytes.sh
+    $<TARGET_FILE:uninitialised_control> $<TARGET_FILE:meshhood_cli>)
+  set_tests_properties(no_uninitialised_bytes PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: no valgrind" TIMEOUT 300)
+endif()
+
 add_test(NAME house.format COMMAND ${PROJECT_SOURCE_DIR}/tools/check format)
 add_test(NAME house.docs COMMAND ${PROJECT_SOURCE_DIR}/tools/check_docs.py $<$<TARGET_EXISTS:meshhood_cli>:$<TARGET_FILE:meshhood_cli>>)
 add_test(NAME house.drawings COMMAND python3 -B ${PROJECT_SOURCE_DIR}/tools/drawings --check)
