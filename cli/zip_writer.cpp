@@ -20,19 +20,20 @@
 namespace meshhood::cli {
 namespace {
 
-/// The file that minizip writes to. Minizip is C, and no exception may pass through it: the first is kept.
+/// The file that minizip writes to. Minizip is C, and no exception may pass through it: the first is kept, for `check`
+/// to throw. Minizip itself is told that all is well, for it loses memory where it cannot write; nothing is written any
+/// more.
 struct Target {
   io::FileWriter file;
   std::exception_ptr failure = nullptr;
 
   template <class F>
-  bool attempt(F&& f) noexcept {
+  void attempt(F&& f) noexcept {
+    if (failure) return;
     try {
       std::forward<F>(f)(file);
-      return true;
     } catch (...) {
-      if (!failure) failure = std::current_exception();
-      return false;
+      failure = std::current_exception();
     }
   }
 };
@@ -41,19 +42,21 @@ voidpf open_target(voidpf target, const void* /*path*/, int /*mode*/) { return t
 
 uLong write_to(voidpf target, voidpf /*stream*/, const void* bytes, uLong size) {
   const std::string_view text(static_cast<const char*>(bytes), size);
-  return static_cast<Target*>(target)->attempt([&](io::FileWriter& file) { file.write(text); }) ? size : 0;
+  static_cast<Target*>(target)->attempt([&](io::FileWriter& file) { file.write(text); });
+  return size;
 }
 
 ZPOS64_T position_in(voidpf target, voidpf /*stream*/) { return static_cast<Target*>(target)->file.position(); }
 
 /// Minizip seeks from the beginning alone where it writes a new file.
 long seek_in(voidpf target, voidpf /*stream*/, ZPOS64_T position, int /*origin*/) {
-  return static_cast<Target*>(target)->attempt([&](io::FileWriter& file) { file.seek(position); }) ? 0 : -1;
+  static_cast<Target*>(target)->attempt([&](io::FileWriter& file) { file.seek(position); });
+  return 0;
 }
 
 int close_target(voidpf /*target*/, voidpf /*stream*/) { return 0; }
 
-int has_failed(voidpf target, voidpf /*stream*/) { return static_cast<Target*>(target)->failure ? 1 : 0; }
+int has_failed(voidpf /*target*/, voidpf /*stream*/) { return 0; }
 
 zlib_filefunc64_def functions_of(Target& target) {
   return {.zopen64_file = open_target,

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -65,12 +66,12 @@ void FileWriter::open_in_place() {
 
 void FileWriter::open_beside() {
   for (;;) {
-    const auto name = target_.parent_path() / temporary_name(target_);
+    auto name = target_.parent_path() / temporary_name(target_);
     constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
     const int file = uninterrupted([&] { return ::open(name.c_str(), kFlags, kNewFileMode); });
     if (file >= 0) {
       file_ = Descriptor(file);
-      temporary_ = name;
+      temporary_ = std::move(name);  // a copy could fail, and leave the file behind
       return;
     }
     if (errno != EEXIST) fail("create");

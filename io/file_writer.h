@@ -14,9 +14,9 @@ namespace meshhood::io {
 /// which takes its place on `commit`. Where the process is killed, that one stays behind. A target that is no ordinary
 /// file (a pipe, a device) is written to directly.
 ///
-/// All errors are Error{IoFailure} and name the path and the reason; the target is then as it was. One error comes too
-/// late for that, and says so: where the folder cannot be synced, the new file is in place, but might not outlive a
-/// loss of power.
+/// All errors are Error{IoFailure} and name the path and the reason; the target is then as it was, as it is where
+/// memory runs out. One error comes too late for that, and says so: where the folder cannot be synced, the new file is
+/// in place, but might not outlive a loss of power.
 class FileWriter {
  public:
   explicit FileWriter(const std::filesystem::path& path);

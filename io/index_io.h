@@ -13,7 +13,7 @@ namespace meshhood::io {
 /// brought to the disk and renamed. Who has mapped or opened the old file keeps it; of several who save at once, the
 /// last wins.
 ///
-/// Throws Error{IoFailure}; the old file is then as it was.
+/// Throws Error{IoFailure}; the old file is then as it was, as it is where memory runs out.
 void save(const std::filesystem::path& path, const Index& index);
 
 /// The index in the file, read into memory and verified. What happens to the file later does not matter.

@@ -21,6 +21,9 @@ meshhood_test(index_threads meshhood_families meshhood_test_support)
 meshhood_test(reorder meshhood_families meshhood_test_support)
 meshhood_test(search_meshes meshhood_test_support meshhood_shapes)
 
+meshhood_test(allocation meshhood_families)
+target_sources(allocation_test PRIVATE support/failing_allocations.cpp)
+
 # On real meshes.
 meshhood_test(paper_meshes meshhood_test_support)
 meshhood_test(all_meshes meshhood_test_support)

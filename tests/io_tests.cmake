@@ -45,3 +45,7 @@ foreach(stem calls power)
   endforeach()
 endforeach()
 target_sources(io_save_power_test PRIVATE support/disk_model.cpp)
+
+meshhood_test(io_allocation meshhood_save_trial)
+target_sources(io_allocation_test PRIVATE support/failing_allocations.cpp)
+target_compile_definitions(io_allocation_test PRIVATE MESHHOOD_CORPUS="${PROJECT_SOURCE_DIR}/fuzz/corpus")

@@ -17,7 +17,7 @@ enum class ErrorCode {
   UnsupportedFormat,  ///< a file in a format, or a variant of one, that is not read
   MalformedIndex,     ///< a saved index that has been changed, is of another version, or belongs to another mesh
   IoFailure,          ///< the operating system could not open, read, write or close
-  TooLarge,           ///< more vertices, edges or bytes than the documented limits
+  TooLarge,           ///< more vertices, edges or bytes than the documented limits, or a file than there is memory for
   Cancelled,          ///< the caller's `Progress` said to stop
 };
 
@@ -26,6 +26,9 @@ enum class ErrorCode {
 
 /// The one exception that meshhood throws. `what()` is one line that names the culprit (file and place, face, corner,
 /// value) and what was expected. A failed call leaves its arguments and the object it was called on as they were.
+///
+/// Where memory runs out, `std::bad_alloc` is passed on, with the same promise; what reads files says so with
+/// `TooLarge` if it still can.
 ///
 /// A core compiled without exceptions (WebAssembly) traps instead.
 class Error : public std::exception {

@@ -17,6 +17,7 @@ namespace meshhood {
 /// How an index is built. The index does not depend on it.
 struct BuildOptions {
   /// The calling thread included; 0: as many as the processor has; at most `kMaxThreads`. With 1, none is started.
+  /// Fewer do where the system gives no more.
   unsigned threads = 1;
 
   /// Called between the parts of each step, which take some 50 ms for a million vertices at most.

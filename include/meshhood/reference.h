@@ -53,7 +53,8 @@ class ReferenceSearcher {
 /// takes whatever else of the surface passes through the ball.
 ///
 /// out     refilled, capacity reused: ids ascending, `v` included; a vertex at exactly `radius` counts.
-/// Throws Error{VertexOutOfRange, InvalidRadius}; `out` is then unchanged. The coordinates are taken as valid.
+/// Throws Error{VertexOutOfRange, InvalidRadius}; `out` is then unchanged. Where memory runs out, it has a part of the
+/// answer. The coordinates are taken as valid.
 void ball(const PositionsView& positions, VertexId v, double radius, std::vector<VertexId>& out);
 
 }  // namespace meshhood

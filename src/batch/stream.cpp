@@ -38,10 +38,11 @@ class Values {
   T* append(std::size_t count, std::size_t spare) {
     const std::size_t needed = size_ + count + spare;
     if (needed > capacity_) {
-      capacity_ = std::max(needed, 2 * capacity_);
-      auto larger = std::make_unique_for_overwrite<T[]>(capacity_);
+      const std::size_t capacity = std::max(needed, 2 * capacity_);
+      auto larger = std::make_unique_for_overwrite<T[]>(capacity);
       std::copy_n(values_.get(), size_, larger.get());
       values_ = std::move(larger);
+      capacity_ = capacity;
     }
     T* begin = values_.get() + size_;
     size_ += count;

@@ -34,6 +34,13 @@ class Searcher::Query {
     range_search();
   }
 
+  /// The size of the answer at most.
+  [[nodiscard]] std::size_t most() const {
+    std::size_t result = 0;
+    for (const Piece& piece : searcher_.pieces_) result += piece.size();
+    return result;
+  }
+
   void collect(std::vector<VertexId>& out) const;
   void collect(std::vector<VertexId>& out, std::vector<double>& distances) const;
   [[nodiscard]] std::size_t count() const;
@@ -112,9 +119,7 @@ class Searcher::Query {
 template <class Real>
 void Searcher::Query<Real>::collect(std::vector<VertexId>& out) const {
   const std::vector<VertexId>& vertices = hierarchy_.vertices;
-  std::size_t bound = 0;
-  for (const Piece& piece : searcher_.pieces_) bound += piece.size();
-  out.resize(bound);
+  out.resize(most());
   auto end = out.begin();
   for (const Piece& piece : searcher_.pieces_) {
     if (piece.inside) {
@@ -132,6 +137,9 @@ void Searcher::Query<Real>::collect(std::vector<VertexId>& out) const {
 
 template <class Real>
 void Searcher::Query<Real>::collect(std::vector<VertexId>& out, std::vector<double>& distances) const {
+  // First, for if there is no memory, neither may have changed.
+  out.reserve(most());
+  distances.reserve(most());
   out.clear();
   distances.clear();
   for (const Piece& piece : searcher_.pieces_) {

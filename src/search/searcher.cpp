@@ -42,6 +42,8 @@ void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& ou
 
 void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
   const Point centre = state_->search(v, radius);
+  // First, for if there is no memory, neither may have changed.
+  distances.reserve(meshhood::count(state_->answer));
   state_->refill(out);
   distances.resize(out.size());
   write_distances(state_->answer, *state_->index, centre, distances.data());

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <filesystem>
+#include <iterator>
+#include <new>
+#include <ostream>
+
+#include <gtest/gtest.h>
+
+#include "meshhood/error.h"
+
+#include "support/failing_allocations.h"
+
+/// A call for which there is not enough memory, over and over, each time from another allocation on.
+namespace meshhood::test {
+
+enum class Ending { Well, OutOfMemory };
+
+/// How `call()` ends. Any other exception is passed on.
+template <class Call>
+[[nodiscard]] Ending ending_of(Call&& call) {
+  try {
+    call();
+  } catch (const std::bad_alloc&) {
+    return Ending::OutOfMemory;
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::TooLarge) throw;
+    return Ending::OutOfMemory;
+  }
+  return Ending::Well;
+}
+
+/// What a program may run out of: memory, and files.
+struct InUse {
+  std::size_t blocks;
+  std::ptrdiff_t files;
+
+  friend bool operator==(const InUse&, const InUse&) = default;
+  friend void PrintTo(const InUse& in_use, std::ostream* out) {
+    *out << in_use.blocks << " blocks, " << in_use.files << " files";
+  }
+};
+
+[[nodiscard]] inline InUse in_use() {
+  const auto files = std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {});
+  return {blocks_in_use(), files};
+}
+
+/// Counts that a test prints in the end.
+class Shortages {
+ public:
+  ~Shortages() {
+    EXPECT_GT(failures_, 0U);
+    std::printf("%zu allocations failed; %zu of the calls did without\n", failures_, did_without_);
+  }
+  Shortages() = default;
+  Shortages(const Shortages&) = delete;
+  Shortages& operator=(const Shortages&) = delete;
+
+  /// From now on, tries only every `step`-th allocation.
+  void skip_to_every(std::size_t step) { step_ = step; }
+
+  /// Has each allocation of `call(scene)` fail, alone and with all that follow, on a scene that `prepare()` makes anew
+  /// each time. `judge(scene, ending)` sees what has become of it; first, where nothing has failed. No block and no
+  /// open file may be left when the scene is gone.
+  template <class Prepare, class Call, class Judge>
+  void fail_each(Prepare&& prepare, Call&& call, Judge&& judge);
+
+ private:
+  std::size_t step_ = 1;
+  std::size_t failures_ = 0;
+  std::size_t did_without_ = 0;  // as sorting does, and a build that gets no second thread
+};
+
+template <class Prepare, class Call, class Judge>
+void Shortages::fail_each(Prepare&& prepare, Call&& call, Judge&& judge) {
+  if (testing::Test::HasFailure()) return;
+  // Whether one has failed.
+  const auto attempt = [&](std::size_t at, Shortage shortage) {
+    auto scene = prepare();
+    Ending ending = Ending::Well;
+    bool happened = false;
+    {
+      const FailingAllocations failing(at, shortage);
+      ending = ending_of([&] { call(scene); });
+      happened = failing.happened();
+    }
+    failures_ += static_cast<std::size_t>(happened);
+    did_without_ += static_cast<std::size_t>(happened && ending == Ending::Well);
+    judge(scene, ending);
+    return happened;
+  };
+  constexpr std::size_t kBeyondAll = std::size_t{1} << 40;
+  ASSERT_FALSE(attempt(kBeyondAll, Shortage::Once));  // makes, too, what is made once and kept
+  for (const Shortage shortage : {Shortage::Once, Shortage::FromThereOn}) {
+    bool happened = true;
+    for (std::size_t at = 0; happened; at += step_) {
+      const InUse before = in_use();
+      happened = attempt(at, shortage);
+      ASSERT_FALSE(testing::Test::HasFailure()) << "when allocation " << at << " had failed";
+      ASSERT_EQ(in_use(), before) << "left behind after allocation " << at << " had failed";
+    }
+  }
+}
+
+}  // namespace meshhood::test
