@@ -2,7 +2,6 @@
 #include "contestants.h"
 
 #include <sstream>
-#include <utility>
 
 #include "meshhood/error.h"
 
@@ -33,7 +32,8 @@ PaperOptions paper_options(const std::string& name) {
     } else if (key == "discard") {
       options.build.discard = std::stoi(value);
     } else {
-      raise(ErrorCode::InvalidOption, name + ": " + word + " is neither f, levels nor discard");
+      raise(ErrorCode::InvalidOption,
+            std::string(name).append(": ").append(word).append(" is neither f, levels nor discard"));
     }
   }
   return options;
@@ -92,9 +92,9 @@ cli::Method Contestants::bfs_reordered() {
 }
 
 template <class Ask>
-cli::Method Contestants::unlisted(std::string name, Ask ask) {
+cli::Method Contestants::unlisted(const std::string& name, Ask ask) {
   auto searcher = std::make_shared<Searcher>(another_exact());
-  return {.name = std::move(name),
+  return {.name = name,
           .neighborhood = [searcher, ask](VertexId v, double radius,
                                           std::vector<VertexId>&) { static_cast<void>(ask(*searcher, v, radius)); },
           .count = {},

@@ -45,7 +45,7 @@ class Contestants {
   [[nodiscard]] const Index& another_exact();
   /// The exact index asked for less than ids: `ask(searcher, v, radius)`.
   template <class Ask>
-  [[nodiscard]] cli::Method unlisted(std::string name, Ask ask);
+  [[nodiscard]] cli::Method unlisted(const std::string& name, Ask ask);
   [[nodiscard]] cli::Method bfs_reordered();
   [[nodiscard]] cli::Method ids_method();
   [[nodiscard]] cli::Method count_method();
