@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the index promises of itself, and that `check` finds what is wrong: one index a statement, damaged by hand.
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <functional>
 #include <numbers>
@@ -13,7 +14,9 @@
 #include "families.h"
 #include "index/index_access.h"
 #include "index/kd_order.h"
+#include "index/leaves.h"
 #include "index_arrays.h"
+#include "refusal.h"
 #include "same_storage.h"
 
 namespace meshhood::test {
@@ -59,8 +62,15 @@ void expect_found(const char* fault, const std::function<void(IndexArrays&)>& da
 std::size_t first_group(const IndexArrays& index, std::size_t level) {
   const std::vector<std::size_t> nodes = tree_nodes(index.leaf_begin.size() - 1);
   std::size_t group = 0;
-  for (std::size_t below = 0; below < level; ++below) group += (nodes[below] + kFanOut - 1) / kFanOut;
+  for (std::size_t below = 0; below < level; ++below) group += group_count(nodes[below]);
   return group;
+}
+
+TEST(IndexLimits, PlacesOfAllLeavesHave32Bits) {
+  check_leaf_count(kMaxLeaves);
+  EXPECT_EQ(std::uint64_t{kMaxLeaves} * kLeafCapacity, std::uint64_t{1} << 32U);
+  expect_refused(ErrorCode::TooLarge, "134217729 leaves in the index, but the limit is 134217728",
+                 [] { check_leaf_count(kMaxLeaves + 1); });
 }
 
 TEST(IndexCheck, FindsNothingWhereNothingIsWrong) {

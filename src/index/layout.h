@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <variant>
@@ -21,6 +22,9 @@ using LeafId = std::uint32_t;
 
 inline constexpr unsigned kLeafCapacity = 32;
 inline constexpr unsigned kFanOut = 8;
+
+/// The largest number of leaves: a place, 32 times a leaf plus a lane, has 32 bits.
+inline constexpr std::size_t kMaxLeaves = std::numeric_limits<std::uint32_t>::max() / kLeafCapacity + std::size_t{1};
 
 /// The first `n` lanes; `n` <= 32.
 [[nodiscard]] constexpr Lanes first_lanes(unsigned n) { return n == 0 ? 0 : ~Lanes{0} >> (kLeafCapacity - n); }
@@ -109,8 +113,14 @@ struct IndexStorage {
   [[nodiscard]] std::size_t leaf_count() const { return leaf_begin.size() - 1; }
 };
 
+/// How many groups so many nodes make.
+[[nodiscard]] constexpr std::size_t group_count(std::size_t nodes) { return (nodes + kFanOut - 1) / kFanOut; }
+
 /// The number of nodes on each level above so many leaves, the leaves included.
 [[nodiscard]] std::vector<std::size_t> tree_nodes(std::size_t leaves);
+
+/// How many groups they make on all levels.
+[[nodiscard]] std::size_t tree_groups(std::size_t leaves);
 
 /// The levels of the tree above so many leaves. `groups` and `mean_radii` are as many as it has.
 [[nodiscard]] Tree make_levels(std::size_t leaves, std::span<const Group> groups, std::span<const double> mean_radii);

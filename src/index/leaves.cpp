@@ -8,7 +8,10 @@
 #include <bit>
 #include <numeric>
 #include <span>
+#include <string>
 #include <utility>
+
+#include "meshhood/error.h"
 
 #include "index/kd_order.h"
 #include "index/layout.h"
@@ -45,9 +48,9 @@ class Parts {
       : sites_(sites),
         adjacency_(adjacency),
         first_part_((sites.size() + kCellSize - 1) / kCellSize + 1),
-        place_(sites.size()),
+        site_of_(sites.size()),
         part_of_(sites.size()) {
-    for_each_cell(work, [&](std::size_t cell) { place_sites(cell); });
+    for_each_cell(work, [&](std::size_t cell) { number_sites(cell); });
     for_each_cell(work, [&](std::size_t cell) { split(cell); });
     std::partial_sum(first_part_.begin(), first_part_.end(), first_part_.begin());
     size_.resize(first_part_.back());
@@ -74,18 +77,15 @@ class Parts {
 
   [[nodiscard]] std::size_t begin_of(std::size_t cell) const { return std::min(cell * kCellSize, sites_.size()); }
 
-  void place_sites(std::size_t cell) {
+  void number_sites(std::size_t cell) {
     for (std::size_t site = begin_of(cell); site < begin_of(cell + 1); ++site) {
-      place_[sites_[site].id] = static_cast<std::uint32_t>(cell * kLeafCapacity + site % kCellSize);
+      site_of_[sites_[site].id] = static_cast<std::uint32_t>(site);
     }
   }
 
   template <class F>
   void for_each_neighbor_site(std::size_t site, F&& f) const {
-    for (const VertexId w : adjacency_[sites_[site].id]) {
-      const std::uint32_t place = place_[w];
-      f(std::size_t{place / kLeafCapacity} * kCellSize + place % kLeafCapacity);
-    }
+    for (const VertexId w : adjacency_[sites_[site].id]) f(std::size_t{site_of_[w]});
   }
 
   /// Finds the parts of a cell and numbers them from 0, the largest first.
@@ -193,7 +193,7 @@ class Parts {
   std::span<const Site> sites_;
   AdjacencyView adjacency_;
   std::vector<std::uint32_t> first_part_;  // by cell, and one more
-  std::vector<std::uint32_t> place_;       // by vertex: 32 times its cell, plus its lane
+  std::vector<std::uint32_t> site_of_;     // by vertex
   std::vector<std::uint32_t> part_of_;     // by site, before merging
   std::vector<std::uint32_t> merged_into_;
   std::vector<std::uint32_t> size_;
@@ -219,11 +219,18 @@ std::vector<Site> order_parts(std::span<const Site> sites, const Parts& parts) {
 
 }  // namespace
 
+void check_leaf_count(std::size_t leaves) {
+  if (leaves <= kMaxLeaves) return;
+  raise(ErrorCode::TooLarge,
+        std::to_string(leaves) + " leaves in the index, but the limit is " + std::to_string(kMaxLeaves));
+}
+
 LeafPartition make_leaves(const GraphView& graph, const Frame& frame, Work& work) {
   std::vector<Site> sites = make_sites(graph.positions, frame, work);
   kd_order(sites, kCellSize, work);
   const Parts parts(sites, graph.adjacency, work);
   const std::vector<Site> centres = order_parts(sites, parts);
+  check_leaf_count(centres.size());
 
   LeafPartition result;
   result.place.resize(sites.size());

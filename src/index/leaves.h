@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -20,7 +21,10 @@ struct LeafPartition {
 
 /// Cuts the vertices into leaves of at most 32 that lie close together and, wherever the mesh allows it without leaves
 /// of a few vertices, are connected. Eight, sixty-four, ... consecutive leaves lie close together again.
-/// The graph is valid. O(#V log #V + #E).
+/// The graph is valid. Throws Error{TooLarge} beyond `kMaxLeaves`. O(#V log #V + #E).
 [[nodiscard]] LeafPartition make_leaves(const GraphView& graph, const Frame& frame, Work& work);
+
+/// Throws Error{TooLarge} unless the places in so many leaves are numbers of 32 bits.
+void check_leaf_count(std::size_t leaves);
 
 }  // namespace meshhood

@@ -20,6 +20,7 @@ constexpr double kColumnRoom = 0x1p-20;
 // Farther than any vertex, and its square still a float.
 constexpr float kFarAway = 1e18F;
 
+/// At least `value`: rounded to the nearest float, and a step up.
 float round_up(double value) {
   return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
 }
@@ -80,7 +81,7 @@ void append_level(const NodeList& nodes, TreeArrays& tree) {
 NodeList make_parents(const NodeList& level, std::size_t leaves, std::span<const VertexId> leaf_begin,
                       std::span<const Point> points, Work& work) {
   const std::size_t leaf_count = leaf_begin.size() - 1;
-  NodeList parents((level.bounds.size() + kFanOut - 1) / kFanOut);
+  NodeList parents(group_count(level.bounds.size()));
   work.parallel_for(parents.bounds.size(), 1, [&](unsigned, std::size_t parent, std::size_t) {
     const std::size_t begin = parent * kFanOut;
     const std::size_t end = std::min(begin + kFanOut, level.bounds.size());
@@ -113,6 +114,7 @@ FrameSphere enclosing_sphere(std::span<const Point> points) {
 bool is_absent(const Group& group, std::size_t i) {
   Group other = group;
   set_absent(other, i);
+  // Bit for bit, for so it was made. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
   return std::memcmp(&other, &group, sizeof(Group)) == 0;
 }
 
@@ -125,12 +127,10 @@ double mean_radius(std::span<const Group> level, std::size_t nodes) {
 }
 
 TreeArrays make_tree(NodeList level, std::span<const VertexId> leaf_begin, std::span<const Point> points, Work& work) {
-  const std::vector<std::size_t> levels = tree_nodes(level.bounds.size());
+  const std::size_t levels = tree_nodes(level.bounds.size()).size();
   TreeArrays tree;
-  std::size_t groups = 0;
-  for (const std::size_t nodes : levels) groups += (nodes + kFanOut - 1) / kFanOut;
-  tree.groups.reserve(groups);
-  for (std::size_t leaves = 1; tree.mean_radii.size() < levels.size(); leaves *= kFanOut) {
+  tree.groups.reserve(tree_groups(level.bounds.size()));
+  for (std::size_t leaves = 1; tree.mean_radii.size() < levels; leaves *= kFanOut) {
     if (leaves > 1) level = make_parents(level, leaves / kFanOut, leaf_begin, points, work);
     append_level(level, tree);
   }
