@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
+// The exact index, step by step.
 #include <algorithm>
-#include <bit>
-#include <memory>
-#include <string>
+#include <span>
 #include <utility>
+#include <vector>
 
-#include "meshhood/error.h"
 #include "meshhood/index.h"
 
 #include "adjacency.h"
-#include "index/column.h"
 #include "index/index_access.h"
 #include "index/layout.h"
+#include "index/leaf_nodes.h"
 #include "index/leaves.h"
 #include "index/links.h"
 #include "index/tree.h"
@@ -49,61 +48,6 @@ std::vector<Real> permute_positions(std::span<const Real> xyz, std::span<const V
     }
   });
   return permuted;
-}
-
-/// What the tree says of each leaf.
-class LeafMeasure {
- public:
-  LeafMeasure(std::span<const VertexId> leaf_begin, const Links& links, std::span<const Point> points,
-              bool with_columns)
-      : leaf_begin_(leaf_begin), links_(links), points_(points), with_columns_(with_columns) {}
-
-  void measure(std::size_t leaf, NodeList& out) {
-    const std::size_t begin = leaf_begin_[leaf];
-    const std::size_t size = leaf_begin_[leaf + 1] - begin;
-    out.bounds[leaf] = enclosing_sphere(points_.subspan(begin, size));
-    out.columns[leaf] = kNoColumn;
-    if (!with_columns_) return;
-    edges_.clear();
-    gather_edges_within(begin, size);
-    gather_edges_out(leaf);
-    out.columns[leaf] = leaf_column(points_, begin, size, edges_, centre_of(out.bounds[leaf]));
-  }
-
- private:
-  void gather_edges_within(std::size_t begin, std::size_t size) {
-    for (std::uint32_t lane = 0; lane < size; ++lane) {
-      for (Lanes left = links_.adjacency[begin + lane]; left != 0; left &= left - 1) {
-        edges_.push_back(
-            {lane, static_cast<std::uint32_t>(begin) + static_cast<std::uint32_t>(std::countr_zero(left))});
-      }
-    }
-  }
-
-  void gather_edges_out(std::size_t leaf) {
-    for (std::size_t i = leaf == 0 ? 0 : links_.link_end[leaf - 1]; i < links_.link_end[leaf]; ++i) {
-      const std::uint32_t other = leaf_begin_[links_.links[i].leaf];
-      for (std::size_t k = links_.links[i].first_crossing; k < links_.links[i + 1].first_crossing; ++k) {
-        edges_.push_back({links_.crossings[k].mine, other + links_.crossings[k].other});
-      }
-    }
-  }
-
-  std::span<const VertexId> leaf_begin_;
-  const Links& links_;
-  std::span<const Point> points_;
-  bool with_columns_;
-  std::vector<LeafEdge> edges_;
-};
-
-NodeList measure_leaves(std::span<const VertexId> leaf_begin, const Links& links, std::span<const Point> points,
-                        bool with_columns, Work& work) {
-  NodeList result(leaf_begin.size() - 1);
-  work.parallel_for(result.bounds.size(), kLeafGrain, [&](unsigned, std::size_t begin, std::size_t end) {
-    LeafMeasure measure(leaf_begin, links, points, with_columns);
-    for (std::size_t leaf = begin; leaf < end; ++leaf) measure.measure(leaf, result);
-  });
-  return result;
 }
 
 std::vector<Leaf> make_leaf_records(const LeafPartition& partition, const Links& links,
@@ -159,8 +103,8 @@ IndexArrays IndexAccess::build_valid(const GraphView& graph, Work& work) {
   Links links = make_links(graph.adjacency, partition, work);
   work.advance(1);
   const std::vector<Point> points = place_points(graph.positions, arrays.frame, partition.permutation, work);
-  NodeList lowest =
-      measure_leaves(partition.leaf_begin, links, points, arrays.frame.scale <= kLargestScaleWithColumns, work);
+  const bool with_columns = arrays.frame.scale <= kLargestScaleWithColumns;
+  NodeList lowest = make_leaf_nodes(partition.leaf_begin, links, points, with_columns, work);
   work.advance(1);
   arrays.leaves = make_leaf_records(partition, links, lowest.bounds, work);
   TreeArrays tree = make_tree(std::move(lowest), partition.leaf_begin, points, work);
