@@ -115,21 +115,13 @@ Adjacency adjacency(const MeshView& mesh, Work& work) {
     raise(ErrorCode::TooLarge, std::to_string(mesh.faces.corners().size()) + " face corners, but the limit is " +
                                    std::to_string(kMaxNeighbors / 2));
   }
-  Adjacency result;
-  const std::size_t vertices = mesh.positions.size();
-  result.offsets.assign(vertices + 1, 0);
-  for_each_side(mesh.faces, [&](VertexId v, VertexId w) {
-    ++result.offsets[v];
-    ++result.offsets[w];
-  });
-  std::inclusive_scan(result.offsets.begin(), result.offsets.end(), result.offsets.begin());
-  result.neighbors.resize(result.offsets[vertices]);
-  // Each offset stands at the end of its row and moves to the beginning as the row fills.
-  for_each_side(mesh.faces, [&](VertexId v, VertexId w) {
-    result.neighbors[--result.offsets[v]] = w;
-    result.neighbors[--result.offsets[w]] = v;
-  });
-  return with_unique_rows(std::move(result), work);
+  const auto for_each_neighbor = [&](auto&& f) {
+    for_each_side(mesh.faces, [&](VertexId v, VertexId w) {
+      f(v, w);
+      f(w, v);
+    });
+  };
+  return with_unique_rows(gather_rows(mesh.positions.size(), for_each_neighbor), work);
 }
 
 void validate(const GraphView& graph) {

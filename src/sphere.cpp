@@ -12,6 +12,8 @@
 #include <optional>
 #include <utility>
 
+#include "vector.h"
+
 namespace meshhood {
 namespace {
 
@@ -21,10 +23,6 @@ constexpr int kMaxExchanges = 64;
 using Matrix = std::array<std::array<double, 3>, 3>;
 using Vector = std::array<double, 3>;
 
-Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-Point operator*(double s, const Point& a) { return {s * a.x, s * a.y, s * a.z}; }
-double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 double largest_component(const Point& a) { return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}); }
 
 struct Ball {

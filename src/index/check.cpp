@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
-#include <variant>
+#include <utility>
+#include <vector>
 
 #include "meshhood/index.h"
 
 #include "index/layout.h"
 #include "index/links.h"
+#include "index/tree.h"
 #include "search/simd.h"
 
 namespace meshhood {
@@ -162,8 +165,7 @@ class Check {
   }
 
   static bool encloses(const FrameSphere& sphere, const Point& p) {
-    const Point centre{static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
-    return std::sqrt(squared_distance(centre, p)) <= static_cast<double>(sphere.radius);
+    return std::sqrt(squared_distance(centre_of(sphere), p)) <= static_cast<double>(sphere.radius);
   }
 
   void check_columns() {

@@ -16,6 +16,7 @@
 #include <limits>
 
 #include "index/layout.h"
+#include "vector.h"
 
 namespace meshhood {
 namespace {
@@ -32,30 +33,22 @@ constexpr double kSmallestCross = 0x1p-22;
 // More edges of one vertex would hardly make its polygon smaller.
 constexpr std::size_t kMostEdges = 24;
 
-Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-Point operator*(double s, const Point& a) { return {s * a.x, s * a.y, s * a.z}; }
-double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-double length(const Point& a) { return std::sqrt(dot(a, a)); }
-Point cross(const Point& a, const Point& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 using Matrix = std::array<Point, 3>;
 
 Matrix covariance(std::span<const Point> points, const Point& centre) {
   Matrix sum{};
   for (const Point& p : points) {
     const Point d = p - centre;
-    sum[0] = sum[0] - -d.x * d;
-    sum[1] = sum[1] - -d.y * d;
-    sum[2] = sum[2] - -d.z * d;
+    sum[0] = sum[0] + d.x * d;
+    sum[1] = sum[1] + d.y * d;
+    sum[2] = sum[2] + d.z * d;
   }
   return sum;
 }
 
 Point mean(std::span<const Point> points) {
   Point sum{};
-  for (const Point& p : points) sum = sum - -1.0 * p;
+  for (const Point& p : points) sum = sum + p;
   return 1.0 / static_cast<double>(points.size()) * sum;
 }
 
@@ -222,7 +215,8 @@ Column leaf_column(std::span<const Point> points, std::size_t first, std::size_t
 
 Column enclosing_column(std::span<const Column> children, std::span<const Point> centres, const Point& centre) {
   Point sum{};
-  for (const Column& child : children) sum = sum - (dot(child.axis, sum) < 0 ? 1.0 : -1.0) * child.axis;
+  // An axis has no direction: each is turned to the side of those before.
+  for (const Column& child : children) sum = dot(child.axis, sum) < 0 ? sum - child.axis : sum + child.axis;
   const double norm = length(sum);
   if (!(norm > 0)) return kNoColumn;
   const Point axis = 1 / norm * sum;

@@ -2,11 +2,14 @@
 // The mesh's graph, taken back out of the leaves and the links between them.
 #include <algorithm>
 #include <bit>
-#include <numeric>
+#include <cstddef>
+#include <span>
+#include <variant>
+#include <vector>
 
-#include "meshhood/adjacency.h"
 #include "meshhood/index.h"
 
+#include "adjacency.h"
 #include "index/index_access.h"
 
 namespace meshhood {
@@ -45,13 +48,7 @@ void for_each_neighbor(const IndexStorage& index, F&& f) {
 }
 
 Adjacency adjacency_of(const IndexStorage& index) {
-  Adjacency result;
-  result.offsets.assign(index.vertex_count() + 1, 0);
-  for_each_neighbor(index, [&](VertexId v, VertexId) { ++result.offsets[v]; });
-  std::inclusive_scan(result.offsets.begin(), result.offsets.end(), result.offsets.begin());
-  result.neighbors.resize(result.offsets.back());
-  // Each offset stands at the end of its row and moves to the beginning as the row fills.
-  for_each_neighbor(index, [&](VertexId v, VertexId w) { result.neighbors[--result.offsets[v]] = w; });
+  Adjacency result = gather_rows(index.vertex_count(), [&](auto&& f) { for_each_neighbor(index, f); });
   for (std::size_t v = 0; v < index.vertex_count(); ++v) {
     std::sort(result.neighbors.begin() + static_cast<std::ptrdiff_t>(result.offsets[v]),
               result.neighbors.begin() + static_cast<std::ptrdiff_t>(result.offsets[v + 1]));

@@ -34,20 +34,17 @@ std::span<const VertexId> Index::permutation() const {
 std::vector<LevelSummary> Index::levels() const {
   std::vector<LevelSummary> result;
   for (const TreeLevel& level : storage_->tree) {
-    const auto mean = [&](double total) { return level.nodes == 0 ? 0.0 : total / static_cast<double>(level.nodes); };
     result.push_back({.level = static_cast<int>(result.size()),
                       .clusters = level.nodes,
-                      .mean_vertices = mean(static_cast<double>(vertex_count())),
-                      .mean_radius = level.nodes == 0 ? 0.0 : level.mean_radius / storage_->frame.scale,
+                      .mean_vertices = static_cast<double>(vertex_count()) / static_cast<double>(level.nodes),
+                      .mean_radius = level.mean_radius / storage_->frame.scale,
                       .mean_siblings = 0,
                       .bytes = bytes_of(level.groups)});
   }
   if (result.empty()) return result;
   // Only leaves have links; one more of them marks the end.
   LevelSummary& leaves = result.front();
-  if (leaves.clusters > 0) {
-    leaves.mean_siblings = static_cast<double>(storage_->links.size() - 1) / static_cast<double>(leaves.clusters);
-  }
+  leaves.mean_siblings = static_cast<double>(storage_->links.size() - 1) / static_cast<double>(leaves.clusters);
   leaves.bytes += bytes_of(storage_->leaves) + bytes_of(storage_->leaf_begin);
   return result;
 }
