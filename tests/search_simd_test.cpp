@@ -65,7 +65,8 @@ void expect_within_is_the_predicate(const Kernels& tried, Random& random) {
     const double tie = std::sqrt(squared_distance(p, centre));
     for (const double radius : {std::nextafter(tie, 0.0), tie, std::nextafter(tie, 1e300), tie * (1 + 1e-7),
                                 tie * (1 - 1e-7), random.uniform(0, 3 * extent), 0.0}) {
-      ASSERT_EQ(tried.within(xyz.data(), size, LeafBall(centre, radius)), by_predicate(xyz, size, centre, radius));
+      ASSERT_EQ(tried.within(xyz.data(), size, LeafBall(centre, LeafBounds(radius))),
+                by_predicate(xyz, size, centre, radius));
       ++balls;
     }
   }
@@ -81,7 +82,7 @@ void expect_nearest_is_by_the_predicate(const Kernels& tried, Random& random) {
   for (std::size_t round = 0; round < scaled(4000, 100); ++round) {
     const double extent = std::ldexp(1.0, static_cast<int>(random.below(120)) - 60);
     auto xyz = random_leaf<Real>(random, kLeafCapacity, extent);
-    const LeafBall ball({rounded<Real>(random.uniform(-extent, extent)), 0, 0}, extent);
+    const LeafBall ball({rounded<Real>(random.uniform(-extent, extent)), 0, 0}, LeafBounds(extent));
     for (std::size_t i = 0; i < xyz.size(); i += 3) {
       if (random.below(3) == 0) std::copy_n(xyz.begin(), 3, xyz.begin() + static_cast<std::ptrdiff_t>(i));
       if (random.below(3) == 0) xyz[i] = std::nextafter(xyz[0], static_cast<Real>(extent));

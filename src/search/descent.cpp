@@ -17,6 +17,11 @@ std::uint8_t existing(const TreeLevel& level, std::uint32_t group) {
 }
 
 /// More straddling nodes than a sheet of surface has where a ball of this size cuts it, with room for a curved one.
+///
+/// On a plane, nodes that are squares with a half diagonal of m have an area of 2 m^2, and those straddle whose centres
+/// lie within m of the circle that the ball cuts out: 4 pi r m / 2 m^2 = 6.3 r / m of them (a smooth scan has 5.6, see
+/// docs/engine.md). The factor is chosen, not derived: a little more than two such sheets have. So is the 12, for balls
+/// no larger than a node, of which this says nothing: a group of eight, and half of another.
 std::size_t most_straddling(double ball_radius, double mean_radius) {
   return 12 + static_cast<std::size_t>(std::min(14 * ball_radius / mean_radius, 1e9));
 }

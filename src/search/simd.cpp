@@ -19,9 +19,7 @@ float round_down(double value) {
 }
 
 /// The smallest float >= `value`.
-float round_up(double value) {
-  return -round_down(-value) < kInfinity && value > kLargest ? kInfinity : -round_down(-value);
-}
+float round_up(double value) { return -round_down(-value); }
 
 // The coordinates are floats, so a difference is off by 2^-24 of itself, a square by three times that, and the two sums
 // by two more: 5 * 2^-24 in all. Products below the smallest float add at most 2^-149 each.
@@ -58,7 +56,8 @@ TreeBall::TreeBall(const FramePoint& at, const TreeBounds& bounds) : TreeBounds(
 Isa best_isa() {
 #if defined(MESHHOOD_HAS_X86)
   if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&
-      __builtin_cpu_supports("avx512vl") != 0 && __builtin_cpu_supports("avx512dq") != 0) {
+      __builtin_cpu_supports("avx512vl") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
+      __builtin_cpu_supports("bmi2") != 0) {
     return Isa::Avx512;
   }
   if (__builtin_cpu_supports("avx2") != 0) return Isa::Avx2;

@@ -28,7 +28,7 @@ struct LeafBounds {
   float surely_inside;   // <=
   float surely_outside;  // >
 
-  LeafBounds(double radius);
+  explicit LeafBounds(double radius);
 };
 
 /// A search ball, prepared for comparing whole leaves.
