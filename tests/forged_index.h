@@ -69,7 +69,7 @@ class Forgery {
 
   [[nodiscard]] file::Section& entry(std::string_view name) {
     for (file::Section& section : table()) {
-      if (std::string_view(section.name.data(), std::strlen(section.name.data())) == name) return section;
+      if (name_of(section) == name) return section;
     }
     throw std::out_of_range("no such section");
   }
@@ -80,9 +80,29 @@ class Forgery {
     return {reinterpret_cast<T*>(bytes_.data() + found.begin), static_cast<std::size_t>(found.bytes) / sizeof(T)};
   }
 
+  /// Makes a section empty, and moves the others up.
+  void remove_content(std::string_view name) {
+    file::Section& removed = entry(name);
+    const std::uint64_t bytes = file::aligned(removed.bytes);
+    const auto begin = bytes_.begin() + static_cast<std::ptrdiff_t>(removed.begin);
+    bytes_.erase(begin, begin + static_cast<std::ptrdiff_t>(bytes));
+    header().bytes -= bytes;
+    bool is_behind = false;
+    for (file::Section& section : table()) {
+      if (is_behind) section.begin -= bytes;
+      is_behind = is_behind || name_of(section) == name;
+    }
+    entry(name).bytes = 0;
+  }
+
   [[nodiscard]] std::vector<std::byte>& bytes() { return bytes_; }
 
  private:
+  static std::string_view name_of(const file::Section& section) {
+    const std::string_view all(section.name.data(), section.name.size());
+    return all.substr(0, all.find('\0'));
+  }
+
   std::vector<std::byte> bytes_;
 };
 

@@ -101,6 +101,11 @@ TEST(IndexRules, F6Counts) {
     f.section<std::byte>("groups").back() = std::byte{0};
     f.entry("groups").bytes -= 1;
   });
+  // An empty section has the place of the one behind it, but not its name.
+  for (const char* name : {"leaves", "links", "crossings"}) {
+    expect_refused_after(("section " + std::string(name) + ", byte").c_str(),
+                         [name](Forgery& f) { f.remove_content(name); });
+  }
   expect_refused_after("section mean_radii", [](Forgery& f) { f.entry("mean_radii").bytes += sizeof(double); });
 }
 

@@ -29,19 +29,23 @@ inline constexpr std::size_t kIndexAlignment = 64;
 /// O(bytes of the index).
 void save(const Index& index, const Sink& sink);
 
+/// How an index is loaded.
 struct LoadOptions {
-  /// Called between the parts of the verification, which take some 50 ms for a million vertices at most.
+  /// Called between the parts of the verification: the checksum of each section, then passes over the arrays. The
+  /// longest takes O(bytes).
   Progress progress = {};
 };
 
 /// The index that was saved as `bytes`, which are copied: what happens to them later does not matter.
 ///
 /// Everything is verified: the checksums, and whatever a search relies on. An index that is accepted answers every
-/// query within its arrays, even where somebody has forged it; the answers may then be wrong. Throws
-/// Error{MalformedIndex}, naming the section, the byte, what stands there and what was expected; Error{Cancelled}.
-/// O(bytes).
+/// query within its arrays, even where somebody has forged it; the answers may then be wrong.
+///
+/// Throws Error{MalformedIndex}, naming the section, the byte, what stands there and what was expected;
+/// Error{Cancelled}. O(bytes).
 [[nodiscard]] Index load(std::span<const std::byte> bytes, const LoadOptions& options = {});
 
+/// How an index is mapped.
 struct MapOptions {
   /// Skip whatever needs a look at the data: the checksums of the sections, and the verification of what a search
   /// relies on. The header, and where the sections lie, are verified still. Then mapping takes no time, and bytes that
@@ -59,11 +63,12 @@ struct MapOptions {
 ///         that is truncated or overwritten in place changes under its mapping (one that is replaced by renaming does
 ///         not): who cannot exclude that takes `load`.
 /// owner   kept as long as the index lives; may be null where the caller keeps the bytes.
-/// Throws as `load`, and Error{InvalidOption} where the address is wrong. O(bytes), or O(1) if
-/// trusted.
+///
+/// Throws as `load`, and Error{InvalidOption} where the address is wrong. O(bytes), or O(1) if trusted.
 [[nodiscard]] Index map(std::span<const std::byte> bytes, std::shared_ptr<const void> owner,
                         const MapOptions& options = {});
 
+/// Which of the two indexes.
 enum class IndexKind : std::uint8_t {
   Exact = 1,  ///< `Index`
   Paper = 2,  ///< `paper::Index`
@@ -82,8 +87,17 @@ struct IndexHeader {
 /// Whether bytes that begin so are meant to be an index. Eight are enough to tell it from any mesh file.
 [[nodiscard]] bool is_index(std::span<const std::byte> first_bytes);
 
-/// The header of a saved index, verified; of the sections only where they lie.
+/// The first bytes of a saved index, so many of them, hold its header and the table of its sections.
+inline constexpr std::size_t kIndexHeadBytes = std::size_t{1} << 14;
+
+/// The header of a saved index of `size` bytes, verified by the checksum that it shares with the table. At what the
+/// table says, or the sections, it does not look.
+///
+/// first_bytes   the first `kIndexHeadBytes` or more, or all.
 /// Throws Error{MalformedIndex}. O(1).
+[[nodiscard]] IndexHeader read_header(std::span<const std::byte> first_bytes, std::uint64_t size);
+
+/// The same where all bytes are there.
 [[nodiscard]] IndexHeader read_header(std::span<const std::byte> bytes);
 
 /// Throws Error{MalformedIndex}, naming both fingerprints, unless `mesh` is that of the header.
@@ -92,7 +106,10 @@ void check_mesh(const IndexHeader& header, const Fingerprint& mesh);
 /// The same for the paper's index. It is read into memory, and cannot be mapped.
 namespace paper {
 
+/// O(bytes of the index).
 void save(const Index& index, const Sink& sink);
+
+/// Throws as its namesake. O(bytes).
 [[nodiscard]] Index load(std::span<const std::byte> bytes, const LoadOptions& options = {});
 
 }  // namespace paper

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <memory>
@@ -11,6 +12,8 @@
 
 namespace meshhood::file {
 
+// NOLINTBEGIN(modernize-avoid-c-arrays): a vector would write to all of its memory before the copy does.
+
 /// A copy of bytes, where `map` wants them.
 class AlignedCopy {
  public:
@@ -19,18 +22,22 @@ class AlignedCopy {
     if (!bytes.empty()) std::memcpy(lines_.get(), bytes.data(), bytes.size());
   }
 
-  [[nodiscard]] std::span<const std::byte> bytes() const { return {lines_[0].bytes, size_}; }
+  [[nodiscard]] std::span<const std::byte> bytes() const {
+    return {reinterpret_cast<const std::byte*>(lines_.get()), size_};
+  }
 
   /// Who keeps the bytes from now on.
   [[nodiscard]] std::shared_ptr<const void> take_owner() { return std::shared_ptr<const Line[]>(std::move(lines_)); }
 
  private:
   struct alignas(kIndexAlignment) Line {
-    std::byte bytes[kIndexAlignment];  // NOLINT(modernize-avoid-c-arrays)
+    std::array<std::byte, kIndexAlignment> bytes;
   };
 
-  std::unique_ptr<Line[]> lines_;  // NOLINT(modernize-avoid-c-arrays): a vector would write to all of it
+  std::unique_ptr<Line[]> lines_;
   std::size_t size_;
 };
+
+// NOLINTEND(modernize-avoid-c-arrays)
 
 }  // namespace meshhood::file

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "serialize/checksum.h"
 
-#define XXH_INLINE_ALL
+#define XXH_INLINE_ALL  // NOLINT(readability-identifier-naming): the library's own
 #include <xxhash.h>
 
 namespace meshhood {

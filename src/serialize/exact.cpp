@@ -34,15 +34,9 @@ std::span<const VertexId> take_permutation(file::SectionReader& file) {
   const auto ids = file.take<VertexId>("permutation");
   const std::uint64_t expected = file.header().vertices + kLeafCapacity;
   if (!ids.empty() && ids.size() != expected) {
-    file.refuse(ids.data(), std::to_string(ids.size()) + " vertices, expected none or " + std::to_string(expected));
+    file.refuse_last(std::to_string(ids.size()) + " vertices, expected none or " + std::to_string(expected));
   }
   return ids;
-}
-
-std::size_t group_count(std::span<const std::size_t> levels) {
-  std::size_t groups = 0;
-  for (const std::size_t nodes : levels) groups += (nodes + kFanOut - 1) / kFanOut;
-  return groups;
 }
 
 /// The arrays in place, as many of each as belong together; what stands in them is not looked at.
@@ -57,21 +51,20 @@ std::unique_ptr<IndexStorage> take_arrays(file::SectionReader& file) {
   // No leaf is empty, so there are no more of them than vertices, and none without vertices.
   const std::size_t leaves = storage->leaves.empty() ? 0 : storage->leaves.size() - 1;
   if (storage->leaves.empty() || leaves > vertices || (leaves == 0) != (vertices == 0)) {
-    file.refuse(storage->leaves.data(), std::to_string(storage->leaves.size()) + " records of leaves for " +
-                                            std::to_string(vertices) + " vertices");
+    file.refuse_last(std::to_string(storage->leaves.size()) + " records of leaves for " + std::to_string(vertices) +
+                     " vertices");
   }
   storage->leaf_begin = file.take<VertexId>("leaf_begin", leaves + 1);
   storage->links = file.take<Link>("links");
-  if (storage->links.empty()) file.refuse(storage->links.data(), "no link, expected one at the end at least");
+  if (storage->links.empty()) file.refuse_last("no link, expected one at the end at least");
   storage->crossings = file.take<Crossing>("crossings");
   if (storage->crossings.size() < kLeafCapacity) {
-    file.refuse(storage->crossings.data(), std::to_string(storage->crossings.size()) + " crossings, expected " +
-                                               std::to_string(kLeafCapacity) + " at the end at least");
+    file.refuse_last(std::to_string(storage->crossings.size()) + " crossings, expected " +
+                     std::to_string(kLeafCapacity) + " at the end at least");
   }
   storage->adjacency = file.take<Lanes>("adjacency", vertices + kLeafCapacity);
-  const std::vector<std::size_t> levels = tree_nodes(leaves);
-  storage->groups = file.take<Group>("groups", group_count(levels));
-  storage->mean_radii = file.take<double>("mean_radii", levels.size());
+  storage->groups = file.take<Group>("groups", tree_groups(leaves));
+  storage->mean_radii = file.take<double>("mean_radii", tree_nodes(leaves).size());
   storage->tree = make_levels(leaves, storage->groups, storage->mean_radii);
   return storage;
 }

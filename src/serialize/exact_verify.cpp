@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "serialize/exact_verify.h"
 
-#include <algorithm>
+#include <array>
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <string>
+#include <variant>
 
 #include "index/links.h"
+#include "serialize/coordinates.h"
 
 namespace meshhood::file {
 namespace {
@@ -38,6 +39,7 @@ void verify_leaf(const IndexStorage& index, std::size_t leaf, const SectionReade
 void verify_last_leaf(const IndexStorage& index, const SectionReader& file) {
   const Leaf& last = index.leaves.back();
   const Leaf expected{{}, static_cast<std::uint32_t>(index.vertex_count()), last.first_link, 0, false};
+  // Byte for byte, as it was saved. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
   if (std::memcmp(&last, &expected, sizeof(Leaf)) != 0) {
     file.refuse(&last, "not the end of " + std::to_string(index.vertex_count()) + " vertices");
   }
@@ -46,7 +48,9 @@ void verify_last_leaf(const IndexStorage& index, const SectionReader& file) {
 }  // namespace
 
 void verify(const IndexStorage& index, const SectionReader& file, Work& work) {
-  for (const auto part : {verify_numbering, verify_edges_within, verify_links, verify_positions, verify_tree}) {
+  constexpr std::array kParts{verify_numbering, verify_edges_within, verify_links, verify_positions, verify_tree};
+  static_assert(kParts.size() == kVerifyParts);
+  for (const auto part : kParts) {
     part(index, file);
     work.advance(1);
     work.report();
@@ -101,6 +105,20 @@ void verify_edges_within(const IndexStorage& index, const SectionReader& file) {
     }
   }
   verify_padding(index.adjacency.subspan(index.vertex_count()), file);
+}
+
+void verify_positions(const IndexStorage& index, const SectionReader& file) {
+  std::visit(
+      [&](auto xyz) {
+        const auto positions = xyz.first(3 * index.vertex_count());
+        verify_coordinates(positions, file);
+        verify_padding(xyz.subspan(positions.size()), file);
+        const Frame frame = make_frame(positions);
+        const bool is_same = frame.origin.x == index.frame.origin.x && frame.origin.y == index.frame.origin.y &&
+                             frame.origin.z == index.frame.origin.z && frame.scale == index.frame.scale;
+        if (!is_same) file.refuse(xyz.data(), "not the positions that belong to the frame");
+      },
+      index.positions);
 }
 
 }  // namespace meshhood::file

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "index/tree.h"
-#include "serialize/coordinates.h"
 #include "serialize/exact_verify.h"
 
 namespace meshhood::file {
@@ -61,6 +60,7 @@ class TreeCheck {
 
   void check_same_sphere(std::size_t leaf) const {
     const FrameSphere in_tree = sphere(0, leaf);
+    // Bit for bit, as both were made from one. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
     if (std::memcmp(&in_tree, &index_.leaves[leaf].bounds, sizeof(FrameSphere)) == 0) return;
     file_.refuse(&index_.leaves[leaf], "leaf " + std::to_string(leaf) + ": not the sphere that the tree has");
   }
@@ -88,20 +88,6 @@ class TreeCheck {
 };
 
 }  // namespace
-
-void verify_positions(const IndexStorage& index, const SectionReader& file) {
-  std::visit(
-      [&](auto xyz) {
-        const auto positions = xyz.first(3 * index.vertex_count());
-        verify_coordinates(positions, file);
-        verify_padding(xyz.subspan(positions.size()), file);
-        const Frame frame = make_frame(positions);
-        const bool is_same = frame.origin.x == index.frame.origin.x && frame.origin.y == index.frame.origin.y &&
-                             frame.origin.z == index.frame.origin.z && frame.scale == index.frame.scale;
-        if (!is_same) file.refuse(xyz.data(), "not the positions that belong to the frame");
-      },
-      index.positions);
-}
 
 void verify_tree(const IndexStorage& index, const SectionReader& file) { TreeCheck(index, file).run(); }
 

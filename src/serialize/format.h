@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "meshhood/fingerprint.h"
+#include "meshhood/paper.h"
 #include "meshhood/serialize.h"
 
 /// The bytes of a saved index: a header, a table of sections, and the sections, each at a multiple of 64, with zeros
@@ -52,5 +53,9 @@ static_assert(sizeof(Section) == 40);
 [[nodiscard]] constexpr std::uint64_t head_bytes(std::uint64_t sections) {
   return aligned(sizeof(Header) + sections * sizeof(Section));
 }
+
+/// The most that an index has: one of the paper with all levels, three sections and four a level.
+inline constexpr std::uint64_t kMostSections = 3 + 4 * paper::BuildOptions::kAllLevels;
+static_assert(head_bytes(kMostSections) <= kIndexHeadBytes);
 
 }  // namespace meshhood::file

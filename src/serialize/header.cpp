@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <cstring>
 
 #include "meshhood/error.h"
@@ -14,8 +13,10 @@ bool is_index(std::span<const std::byte> first_bytes) {
          std::memcmp(first_bytes.data(), file::kMagic.data(), file::kMagic.size()) == 0;
 }
 
-IndexHeader read_header(std::span<const std::byte> bytes) {
-  const file::Header header = file::read_header(bytes);
+IndexHeader read_header(std::span<const std::byte> bytes) { return read_header(bytes, bytes.size()); }
+
+IndexHeader read_header(std::span<const std::byte> first_bytes, std::uint64_t size) {
+  const file::Header header = file::read_header(first_bytes, size);
   return {.format = header.format,
           .kind = header.kind,
           .is_double = header.scalar_bytes == sizeof(double),

@@ -40,6 +40,7 @@ std::string parts_name(std::size_t level) { return level == 0 ? "first_vertex" :
 template <class Real>
 void save(const Hierarchy<Real>& hierarchy, const Fingerprint& mesh, const Sink& sink) {
   std::vector<LevelRecord> records;
+  records.reserve(hierarchy.levels.size());
   for (const Level<Real>& level : hierarchy.levels) {
     records.push_back({static_cast<std::uint32_t>(level.number), static_cast<std::uint32_t>(level.size())});
   }
@@ -62,8 +63,8 @@ void save(const Hierarchy<Real>& hierarchy, const Fingerprint& mesh, const Sink&
 std::span<const LevelRecord> take_records(SectionReader& file) {
   const auto records = file.take<LevelRecord>("levels");
   if (records.empty() || records.size() > BuildOptions::kAllLevels) {
-    file.refuse(records.data(),
-                std::to_string(records.size()) + " levels, expected 1 to " + std::to_string(BuildOptions::kAllLevels));
+    file.refuse_last(std::to_string(records.size()) + " levels, expected 1 to " +
+                     std::to_string(BuildOptions::kAllLevels));
   }
   for (const LevelRecord& record : records) {
     if (record.number >= BuildOptions::kAllLevels || record.number != records[0].number + (&record - records.data())) {

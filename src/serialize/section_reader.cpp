@@ -46,14 +46,14 @@ void verify_beginning(const Header& header) {
   }
 }
 
-void verify_header_checksum(const Header& header, std::span<const std::byte> bytes) {
+void verify_header_checksum(const Header& header, std::span<const std::byte> first_bytes) {
   const std::uint64_t end = head_bytes(header.sections);
-  if (end > bytes.size()) {
+  if (end > first_bytes.size()) {
     refuse_header(offsetof(Header, sections), std::to_string(header.sections) + " sections have no room in " +
-                                                  std::to_string(bytes.size()) + " bytes");
+                                                  std::to_string(first_bytes.size()) + " bytes");
   }
-  const auto rest = bytes.first(static_cast<std::size_t>(end)).subspan(sizeof(Header));
-  if (checksum({bytes.first(offsetof(Header, checksum)), rest}) != header.checksum) {
+  const auto rest = first_bytes.first(static_cast<std::size_t>(end)).subspan(sizeof(Header));
+  if (checksum({first_bytes.first(offsetof(Header, checksum)), rest}) != header.checksum) {
     refuse_header(offsetof(Header, checksum), "the checksum of header and table does not fit them");
   }
 }
@@ -81,28 +81,28 @@ void verify_fields(const Header& header) {
 
 }  // namespace
 
-Header read_header(std::span<const std::byte> bytes) {
+Header read_header(std::span<const std::byte> first_bytes, std::uint64_t size) {
   if constexpr (std::endian::native != std::endian::little) {
     raise(ErrorCode::MalformedIndex, "an index is saved and loaded on little-endian machines only");
   }
-  if (bytes.size() < sizeof(Header)) {
-    refuse_header(bytes.size(), "the end, expected " + std::to_string(sizeof(Header)) + " bytes or more");
+  if (first_bytes.size() < sizeof(Header)) {
+    refuse_header(first_bytes.size(), "the end, expected " + std::to_string(sizeof(Header)) + " bytes or more");
   }
   Header header;
-  std::memcpy(&header, bytes.data(), sizeof(Header));
+  std::memcpy(&header, first_bytes.data(), sizeof(Header));
   verify_beginning(header);
-  if (header.bytes != bytes.size()) {
-    refuse_header(offsetof(Header, bytes), "written with " + std::to_string(header.bytes) + " bytes, but there are " +
-                                               std::to_string(bytes.size()));
+  if (header.bytes != size) {
+    refuse_header(offsetof(Header, bytes),
+                  "written with " + std::to_string(header.bytes) + " bytes, but there are " + std::to_string(size));
   }
-  verify_header_checksum(header, bytes);
+  verify_header_checksum(header, first_bytes);
   verify_fields(header);
   return header;
 }
 
 SectionReader::SectionReader(std::span<const std::byte> bytes)
     : bytes_(bytes),
-      header_(read_header(bytes)),
+      header_(read_header(bytes, bytes.size())),
       table_(reinterpret_cast<const Section*>(bytes.data() + sizeof(Header)), header_.sections) {
   verify_table();
 }
@@ -163,8 +163,12 @@ void SectionReader::expect_end() const {
 }
 
 void SectionReader::refuse_count(std::uint64_t count, std::uint64_t wanted) const {
+  refuse_last(expected(count, wanted) + " values");
+}
+
+void SectionReader::refuse_last(const std::string& message) const {
   const Section& section = table_[taken_ - 1];
-  refuse_at(quoted(name_of(section)), section.begin, expected(count, wanted) + " values");
+  refuse_at(quoted(name_of(section)), section.begin, message);
 }
 
 void SectionReader::refuse(const void* place, const std::string& message) const {

@@ -13,8 +13,9 @@
 
 namespace meshhood::file {
 
-/// Throws Error{MalformedIndex} unless `bytes` begin with a header of this format and end where it says.
-[[nodiscard]] Header read_header(std::span<const std::byte> bytes);
+/// As the public one. Throws Error{MalformedIndex} unless `size` bytes that begin so have a header of this format, and
+/// end where it says.
+[[nodiscard]] Header read_header(std::span<const std::byte> first_bytes, std::uint64_t size);
 
 /// The sections of a saved index. All errors are Error{MalformedIndex} and name section and byte.
 class SectionReader {
@@ -50,6 +51,9 @@ class SectionReader {
 
   /// Refuses where `place` lies: the byte and its section go before the message.
   [[noreturn]] void refuse(const void* place, const std::string& message) const;
+
+  /// Refuses the section taken last as a whole; it may be empty, and so have no place of its own.
+  [[noreturn]] void refuse_last(const std::string& message) const;
 
  private:
   void verify_table() const;
