@@ -7,7 +7,6 @@
 #include <system_error>
 #include <utility>
 
-#include <fcntl.h>
 #include <poll.h>
 #include <sys/stat.h>
 
@@ -38,14 +37,13 @@ std::size_t MemorySource::read(std::span<char> out) {
 }
 
 FileSource::FileSource(const std::filesystem::path& path)
-    : name_(printable_name(path.string())),
-      // Without O_NONBLOCK the mere opening of a pipe may never end.
-      file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
+    : name_(printable_name(path.string())), file_(open_to_read(path)) {
   struct stat status = {};
   if (!file_.is_open() || ::fstat(file_.number(), &status) != 0) fail(std::generic_category().message(errno));
   if (S_ISDIR(status.st_mode)) fail("is a directory, expected a file");
+  is_ordinary_ = S_ISREG(status.st_mode);
   // A file of length 0 may still have content: /proc is full of them.
-  if (S_ISREG(status.st_mode) && status.st_size > 0) size_ = static_cast<std::uint64_t>(status.st_size);
+  if (is_ordinary_ && status.st_size > 0) size_ = static_cast<std::uint64_t>(status.st_size);
   may_lack_a_writer_ = S_ISFIFO(status.st_mode);
 }
 

@@ -51,6 +51,9 @@ class FileSource final : public ByteSource {
   [[nodiscard]] std::optional<std::uint64_t> size() const override { return size_; }
   [[nodiscard]] std::size_t read(std::span<char> out) override;
 
+  /// Whether it is neither pipe nor device.
+  [[nodiscard]] bool is_ordinary() const { return is_ordinary_; }
+
   /// Calls `f` whenever nothing has come for a moment, for whoever would rather stop. What it throws, `read` passes on.
   void while_waiting(std::function<void()> f) { while_waiting_ = std::move(f); }
 
@@ -61,6 +64,7 @@ class FileSource final : public ByteSource {
   std::string name_;
   Descriptor file_;
   std::optional<std::uint64_t> size_;
+  bool is_ordinary_ = false;
   bool may_lack_a_writer_ = false;
   std::function<void()> while_waiting_;
 };

@@ -2,9 +2,13 @@
 #pragma once
 
 #include <cerrno>
+#include <filesystem>
 #include <utility>
 
+#include <fcntl.h>
 #include <unistd.h>
+
+#include "io/uninterrupted.h"
 
 namespace meshhood::io {
 
@@ -33,5 +37,10 @@ class Descriptor {
  private:
   int number_;
 };
+
+/// Opens whatever `path` is, to be read. Without O_NONBLOCK the mere opening of a pipe may never end.
+[[nodiscard]] inline Descriptor open_to_read(const std::filesystem::path& path) {
+  return Descriptor(uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY); }));
+}
 
 }  // namespace meshhood::io

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "io/index_io.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
 #include <string>
 #include <system_error>
@@ -12,6 +15,7 @@
 
 #include "meshhood/error.h"
 
+#include "io/aligned_buffer.h"
 #include "io/byte_source.h"
 #include "io/file_writer.h"
 #include "io/mapped_file.h"
@@ -21,41 +25,46 @@
 namespace meshhood::io {
 namespace {
 
-struct alignas(kIndexAlignment) Line {
-  std::array<std::byte, kIndexAlignment> bytes;
-};
-using Lines = std::unique_ptr<Line[]>;  // NOLINT(modernize-avoid-c-arrays): a vector would write to all of it
-
-Lines make_lines(std::size_t bytes) { return std::make_unique_for_overwrite<Line[]>(bytes / sizeof(Line) + 1); }
-
-std::span<char> chars_of(const Lines& lines, std::size_t bytes) {
-  return {reinterpret_cast<char*>(lines.get()), bytes};
+/// Reads until `out` is full or the source ends, and returns how much that is.
+std::size_t fill(ByteSource& source, std::span<char> out) {
+  std::size_t size = 0;
+  while (size < out.size()) {
+    const std::size_t count = source.read(out.subspan(size));
+    if (count == 0) break;
+    size += count;
+  }
+  return size;
 }
 
-/// The bytes of a file, where `map` wants them.
-struct Content {
-  Lines lines;
-  std::size_t size = 0;
+using Head = std::array<char, kIndexHeadBytes>;
 
-  [[nodiscard]] std::span<const std::byte> bytes() const { return std::as_bytes(chars_of(lines, size)); }
-};
+std::span<const std::byte> bytes_of(const Head& head, std::size_t size) {
+  return std::as_bytes(std::span(head).first(size));
+}
 
-/// All there is, or enough to see that it is no index. Of a pipe nobody knows beforehand how much that will be.
-Content read_all(ByteSource& source) {
+/// Refuses what is no index, or not all of one, by its first bytes; of a pipe nobody knows how much will come.
+void check_head(std::span<const std::byte> first_bytes, const std::optional<std::uint64_t>& size) {
+  if (size) {
+    static_cast<void>(meshhood::read_header(first_bytes, *size));
+  } else if (!meshhood::is_index(first_bytes)) {
+    static_cast<void>(meshhood::read_header(first_bytes));
+  }
+}
+
+/// All there is, unless its beginning is refused, before anything is allocated for it.
+AlignedBuffer read_all(ByteSource& source) {
   constexpr std::size_t kFirstGuess = std::size_t{1} << 20;
-  // One byte more, so that the end is seen without another growth.
-  std::size_t capacity = source.size() ? static_cast<std::size_t>(*source.size()) + 1 : kFirstGuess;
-  Content content{make_lines(capacity), 0};
+  Head head;
+  const std::size_t known = fill(source, head);
+  check_head(bytes_of(head, known), source.size());
+  // One byte more than there are, so that the end is seen without another growth.
+  AlignedBuffer all(std::max(known, static_cast<std::size_t>(source.size().value_or(kFirstGuess))) + 1);
+  std::copy_n(head.begin(), known, all.room().begin());
+  all.add(known);
   for (;;) {
-    const std::size_t count = source.read(chars_of(content.lines, capacity).subspan(content.size));
-    if (count == 0) return content;
-    content.size += count;
-    if (content.size >= sizeof(Line) && !meshhood::is_index(content.bytes())) return content;
-    if (content.size < capacity) continue;
-    Lines wider = make_lines(2 * capacity);
-    std::ranges::copy(chars_of(content.lines, content.size), chars_of(wider, content.size).begin());
-    content.lines = std::move(wider);
-    capacity *= 2;
+    all.add(fill(source, all.room()));
+    if (!all.room().empty()) return all;
+    all.grow();
   }
 }
 
@@ -95,8 +104,6 @@ auto load_any(const std::filesystem::path& path, const LoadOptions& options, F&&
     return true;
   };
   return naming(path, [&] {
-    // What is no index, or not all of one, is not read into memory first.
-    if (file.size()) static_cast<void>(meshhood::read_header(MappedFile(path).bytes()));
     auto index = take(read_all(source), verifying);
     source.finish();
     return index;
@@ -109,14 +116,14 @@ void save(const std::filesystem::path& path, const Index& index) { save_any(path
 void save(const std::filesystem::path& path, const paper::Index& index) { save_any(path, index); }
 
 Index load(const std::filesystem::path& path, const LoadOptions& options) {
-  return load_any(path, options, [](Content content, const Progress& progress) {
+  return load_any(path, options, [](AlignedBuffer content, const Progress& progress) {
     const auto bytes = content.bytes();
-    return meshhood::map(bytes, std::shared_ptr<const Line[]>(std::move(content.lines)), {.progress = progress});
+    return meshhood::map(bytes, content.take_owner(), {.progress = progress});
   });
 }
 
 paper::Index load_paper(const std::filesystem::path& path, const LoadOptions& options) {
-  return load_any(path, options, [](const Content& content, const Progress& progress) {
+  return load_any(path, options, [](const AlignedBuffer& content, const Progress& progress) {
     return paper::load(content.bytes(), {.progress = progress});
   });
 }
@@ -131,13 +138,16 @@ bool is_index(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path, unknown)) return false;
   FileSource source(path);
   std::array<char, 8> first{};
-  const std::size_t count = source.read(first);
+  const std::size_t count = fill(source, first);
   return meshhood::is_index(std::as_bytes(std::span(first).first(count)));
 }
 
 IndexHeader read_header(const std::filesystem::path& path) {
-  const MappedFile file(path);
-  return naming(path, [&] { return meshhood::read_header(file.bytes()); });
+  FileSource source(path);
+  if (!source.is_ordinary()) raise(ErrorCode::IoFailure, printable_name(path.string()) + ": is no ordinary file");
+  Head head;
+  const std::size_t known = fill(source, head);
+  return naming(path, [&] { return meshhood::read_header(bytes_of(head, known), source.size().value_or(known)); });
 }
 
 }  // namespace meshhood::io

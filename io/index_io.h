@@ -18,7 +18,8 @@ void save(const std::filesystem::path& path, const Index& index);
 
 /// The index in the file, read into memory and verified. What happens to the file later does not matter.
 ///
-/// Progress is told while the file is read, as in `ReadOptions`, and between the parts of the verification.
+/// What is no index, or not all of one, is refused before it is read whole. Progress is told while the file is read, as
+/// in `ReadOptions`, and between the parts of the verification. O(bytes).
 /// Throws Error{IoFailure, MalformedIndex, TooLarge, Cancelled}: one line that begins with the file.
 [[nodiscard]] Index load(const std::filesystem::path& path, const LoadOptions& options = {});
 
@@ -37,7 +38,7 @@ void save(const std::filesystem::path& path, const paper::Index& index);
 /// Throws Error{IoFailure}.
 [[nodiscard]] bool is_index(const std::filesystem::path& path);
 
-/// The header of the index in an ordinary file. Throws as `load`.
+/// The header of the index in an ordinary file. Throws as `load`. O(1).
 [[nodiscard]] IndexHeader read_header(const std::filesystem::path& path);
 
 }  // namespace meshhood::io

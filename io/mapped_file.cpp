@@ -5,7 +5,6 @@
 #include <string>
 #include <system_error>
 
-#include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 
@@ -24,8 +23,7 @@ namespace {
 }  // namespace
 
 MappedFile::MappedFile(const std::filesystem::path& path) {
-  // Without O_NONBLOCK the mere opening of a pipe may never end.
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  const Descriptor file = open_to_read(path);
   struct stat status = {};
   if (!file.is_open() || ::fstat(file.number(), &status) != 0) fail(path, std::generic_category().message(errno));
   if (!S_ISREG(status.st_mode)) fail(path, "cannot be mapped, expected an ordinary file");

@@ -18,6 +18,7 @@
 #include "io/mesh_io.h"
 #include "refusal.h"
 #include "same_storage.h"
+#include "scale.h"
 #include "support/scratch.h"
 
 namespace meshhood::test {
@@ -110,6 +111,35 @@ TEST_F(IndexFile, F7WhatIsLoadedDoesNotNeedTheFile) {
   const Index loaded = io::load(file);
   std::filesystem::resize_file(file, 0);
   EXPECT_THAT(differences(loaded, index), IsEmpty());
+}
+
+TEST_F(IndexFile, F7AFileThatIsTruncatedWhileItIsLoadedIsRefused) {
+  const Index index = index_of(50);
+  io::save(file, index);
+  const std::uintmax_t bytes = std::filesystem::file_size(file);
+  std::atomic<bool> done = false;
+  std::thread vandal([&] {
+    while (!done) {
+      std::filesystem::resize_file(file, 0);
+      std::filesystem::resize_file(file, bytes);
+    }
+  });
+  std::size_t refused = 0;
+  const auto expect_to_survive = [&](auto&& read, std::size_t times) {
+    for (std::size_t i = 0; i < times; ++i) {
+      try {
+        static_cast<void>(read(file));
+      } catch (const Error&) {
+        ++refused;
+      }
+    }
+  };
+  expect_to_survive([](const auto& path) { return io::read_header(path); }, scaled(15000, 3000));
+  expect_to_survive([](const auto& path) { return io::load(path); }, scaled(1000, 200));
+  done = true;
+  vandal.join();
+  std::printf("%zu times refused\n", refused);
+  EXPECT_GT(refused, 0U);
 }
 
 TEST_F(IndexFile, F9WhoHasMappedTheOldFileKeepsIt) {
