@@ -117,8 +117,9 @@ class ObjReader {
   std::uint32_t resolve(std::int64_t index, uint64_t corner) {
     const auto declared = static_cast<std::int64_t>(draft_.positions.vertex_count());
     const bool names_one = index > 0 || (index < 0 && index >= -declared);
-    if (!names_one || index > static_cast<std::int64_t>(kMaxVertices))
+    if (!names_one || index > static_cast<std::int64_t>(kMaxVertices)) {
       refuse(text_.place(), draft_.faces.size(), corner, index);
+    }
     if (index > declared && index > forward_.index) forward_ = {index, draft_.faces.size(), corner, text_.place()};
     return static_cast<std::uint32_t>(index > 0 ? index - 1 : declared + index);
   }

@@ -8,6 +8,10 @@
 
 // `[ST][C][N]OFF` in text. What follows the position of a vertex or the corners of a face in its line (normals,
 // colours, texture coordinates) is not read. Vertices of 4 or n dimensions (4OFF, nOFF) and `OFF BINARY` are refused.
+//
+// Many programs write colours behind the vertices of a plain OFF, so these end with their line, too. Of several
+// vertices in one line all but the first are then passed over; but for want of them the file ends too early, and is
+// refused.
 
 namespace meshhood::io {
 namespace {
@@ -76,14 +80,20 @@ class OffReader {
     for (int i = 0; i < 3; ++i) {
       const char name = axis(draft_.positions.scalar_count());
       const auto token = text_.token();
-      if (token.empty()) text_.malformed("the file ends in vertex {} of {}", vertex, vertices_);
+      if (token.empty()) refuse_end("vertex", vertex, vertices_);
       const auto problem = draft_.positions.append(token);
       if (problem) text_.malformed("vertex {}, {} = {} {}", vertex, name, quote(token), *problem);
     }
     if (!has_attributes_ && !text_.at_line_end()) {
       draft_.warnings.add("more than three numbers in a line of a vertex", text_.place());
+      has_long_lines_ = true;
     }
     text_.skip_line();
+  }
+
+  [[noreturn]] void refuse_end(std::string_view element, uint64_t number, uint64_t count) const {
+    text_.malformed("the file ends in {} {} of {}{}", element, number, count,
+                    has_long_lines_ ? "; of each line with more than three numbers, one vertex was read" : "");
   }
 
   void read_face(uint64_t face) {
@@ -102,7 +112,7 @@ class OffReader {
 
   std::int64_t read_face_integer(uint64_t face, std::string_view what) {
     const auto token = text_.token();
-    if (token.empty()) text_.malformed("the file ends in face {} of {}", face, faces_);
+    if (token.empty()) refuse_end("face", face, faces_);
     const auto value = parse_integer(token);
     if (!value) text_.malformed("face {}: expected a {}, found {}", face, what, quote(token));
     return *value;
@@ -111,6 +121,7 @@ class OffReader {
   Text text_;
   Draft draft_;
   bool has_attributes_ = false;
+  bool has_long_lines_ = false;
   uint64_t vertices_ = 0;
   uint64_t faces_ = 0;
 };

@@ -10,8 +10,9 @@
 
 namespace meshhood::io {
 
-/// Reads all facets of an STL file in text, of any number of solids and in any letter case. A facet of more than three
-/// vertices is kept as a polygon, one of fewer is left out, both with a warning.
+/// Reads all facets of an STL file in text, of any number of solids and in any letter case. The format knows triangles
+/// alone; a facet of more vertices is kept as the polygon that it is, for to cut a vertex off would change the mesh,
+/// and one of fewer is left out, both with a warning.
 template <class Real>
 void read_stl_text(Input& input, Draft& draft, Weld<Real>& weld);
 

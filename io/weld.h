@@ -13,8 +13,8 @@ namespace meshhood::io {
 /// Makes one vertex of all corners of equal position (-0 equals 0), numbered in order of first appearance.
 ///
 /// Sorts rather than hashes, so that no file can be made slow. Corners are welded a batch at a time: at no time is the
-/// whole soup in memory. Memory beside the result: 4 bytes a vertex, and 24 a corner of a batch, which has an eighth as
-/// many corners as there are vertices. O(n log n).
+/// whole soup in memory. Memory beside the result: 4 bytes a vertex, and at most 28 (as double 40) a corner of a batch,
+/// which has an eighth as many corners as there are vertices. O(n log n).
 template <class Real>
 class Weld {
  public:

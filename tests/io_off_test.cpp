@@ -89,5 +89,13 @@ TEST(Off, M15_ColumnsBehindPlainVerticesAreAWarning) {
   EXPECT_EQ(warned(mesh, "more than three numbers"), 3U);
 }
 
+TEST(Off, SeveralVerticesInALineAreRefusedForWantOfTheRest) {
+  const std::string reason = "; of each line with more than three numbers, one vertex was read";
+  expect_refused("a.off", "OFF\n3 1 0\n0 0 0 1 0 0 0 1 0\n3 0 1 2\n", ErrorCode::MalformedFile,
+                 "the file ends in vertex 2 of 3" + reason);
+  expect_refused("a.off", "OFF\n2 2 0\n0 0 0 1 0 0\n2 0 1\n2 1 0\n", ErrorCode::MalformedFile,
+                 "the file ends in face 1 of 2" + reason);
+}
+
 }  // namespace
 }  // namespace meshhood::test
