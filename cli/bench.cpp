@@ -139,17 +139,14 @@ Json to_json(const Machine& machine) {
 
 std::string to_text(const Table1& t) {
   const auto megabytes = [](std::size_t bytes) { return fmt::format("{:.3f} MB", static_cast<double>(bytes) / 1e6); };
-  std::string text;
-  const auto row = [&](std::string_view name, const std::string& value) {
-    text += fmt::format("{:<13} {}\n", name, value);
-  };
-  row("vertices", std::to_string(t.vertices));
-  if (t.faces) row("faces", std::to_string(*t.faces));
-  if (t.mesh_bytes) row("plain mesh", megabytes(*t.mesh_bytes));
-  if (t.topology_bytes) row("with topology", megabytes(*t.topology_bytes));
-  row("paper's index", fmt::format("{}, built in {:.3f} s", megabytes(t.index_bytes), t.build_seconds));
-  row("exact index", fmt::format("{}, built in {:.3f} s", megabytes(t.exact_index_bytes), t.exact_build_seconds));
-  return text;
+  Rows rows(13);
+  rows.add("vertices", t.vertices);
+  if (t.faces) rows.add("faces", *t.faces);
+  if (t.mesh_bytes) rows.add("plain mesh", megabytes(*t.mesh_bytes));
+  if (t.topology_bytes) rows.add("with topology", megabytes(*t.topology_bytes));
+  rows.add("paper's index", fmt::format("{}, built in {:.3f} s", megabytes(t.index_bytes), t.build_seconds));
+  rows.add("exact index", fmt::format("{}, built in {:.3f} s", megabytes(t.exact_index_bytes), t.exact_build_seconds));
+  return rows.text();
 }
 
 std::string to_text(const std::vector<Measurement>& table) {

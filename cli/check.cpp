@@ -77,25 +77,22 @@ Json to_json(const Options& options, const IndexHeader& header) {
 }
 
 std::string to_text(const Options& options, const IndexHeader& header) {
-  std::string text;
-  const auto row = [&](std::string_view name, const std::string& value) {
-    text += fmt::format("{:<10} {}\n", name, value);
-  };
-  row("index", fmt::format("{} ({}, format {}, {} vertices, {} bytes)", printable(options.index),
-                           kind_name(header.kind), header.format, header.vertices, header.bytes));
-  row("checksums", "fit");
-  row("structure", "holds");
+  Rows rows(10);
+  rows.add("index", fmt::format("{} ({}, format {}, {} vertices, {} bytes)", printable(options.index),
+                                kind_name(header.kind), header.format, header.vertices, header.bytes));
+  rows.add("checksums", "fit");
+  rows.add("structure", "holds");
   const std::string mesh = options.mesh.empty() ? "not compared; --mesh names it" : printable(options.mesh) + " fits";
-  row("mesh", fmt::format("{} ({})", to_text(header.mesh), mesh));
-  return text;
+  rows.add("mesh", fmt::format("{} ({})", to_text(header.mesh), mesh));
+  return rows.text();
 }
 
 void check(const Options& options) {
   const IndexHeader header = io::read_header(options.index);
   if (header.kind == IndexKind::Paper) {
-    check_index(options, header, io::load_paper(options.index));
+    check_index(options, header, load_paper_index(options.index));
   } else {
-    check_index(options, header, io::load(options.index));
+    check_index(options, header, load_exact_index(options.index));
   }
   options.json ? print_json(to_json(options, header)) : print_text(to_text(options, header));
 }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// meshhood info: what a mesh is like.
+// meshhood info: what a mesh or an index is like.
+#include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -19,6 +22,8 @@
 
 namespace meshhood::cli {
 namespace {
+
+constexpr std::size_t kWidth = 19;  // of the names in the text
 
 struct Options {
   std::string file;
@@ -74,23 +79,20 @@ std::string to_text(const std::optional<Box>& bounds) {
 }
 
 std::string to_text(const std::string& file, const io::Mesh& mesh, const Statistics& s) {
-  std::string text;
-  const auto row = [&](std::string_view name, const std::string& value) {
-    text += fmt::format("{:<19} {}\n", name, value);
-  };
-  row("mesh", fmt::format("{} ({})", printable(file), format_name(mesh.format)));
-  row("vertices", std::to_string(s.vertices));
-  row("faces", std::to_string(s.faces));
-  row("corners of a face", to_text(s.polygon_degrees));
-  row("edges", std::to_string(s.edges));
-  row("components", std::to_string(s.components));
-  row("isolated vertices", std::to_string(s.isolated_vertices));
-  row("boundary edges", std::to_string(s.boundary_edges));
-  row("non-manifold edges", std::to_string(s.nonmanifold_edges));
-  row("average edge", fmt::format("{:.4g}", s.average_edge));
-  row("repeated positions", std::to_string(s.repeated_positions));
-  row("bounding box", to_text(s.bounds));
-  return text;
+  Rows rows(kWidth);
+  rows.add("mesh", fmt::format("{} ({})", printable(file), format_name(mesh.format)));
+  rows.add("vertices", s.vertices);
+  rows.add("faces", s.faces);
+  rows.add("corners of a face", to_text(s.polygon_degrees));
+  rows.add("edges", s.edges);
+  rows.add("components", s.components);
+  rows.add("isolated vertices", s.isolated_vertices);
+  rows.add("boundary edges", s.boundary_edges);
+  rows.add("non-manifold edges", s.nonmanifold_edges);
+  rows.add("average edge", fmt::format("{:.4g}", s.average_edge));
+  rows.add("repeated positions", s.repeated_positions);
+  rows.add("bounding box", to_text(s.bounds));
+  return rows.text();
 }
 
 Json to_json(const IndexHeader& header, Input& input) {
@@ -105,15 +107,13 @@ Json to_json(const IndexHeader& header, Input& input) {
 }
 
 std::string to_text(const IndexHeader& header, Input& input) {
-  std::string text;
-  const auto row = [&](std::string_view name, const std::string& value) {
-    text += fmt::format("{:<19} {}\n", name, value);
-  };
-  row("index", fmt::format("{} ({}, format {})", printable(input.name()), kind_name(header.kind), header.format));
-  row("vertices", std::to_string(header.vertices));
-  row("coordinates", std::string(precision_name(header)));
-  row("mesh", to_text(header.mesh));
-  return text + '\n' + (header.kind == IndexKind::Paper ? text_of(input.paper_index()) : text_of(input.exact_index()));
+  Rows rows(kWidth);
+  rows.add("index", fmt::format("{} ({}, format {})", printable(input.name()), kind_name(header.kind), header.format));
+  rows.add("vertices", header.vertices);
+  rows.add("coordinates", precision_name(header));
+  rows.add("mesh", to_text(header.mesh));
+  return rows.text() + '\n' +
+         (header.kind == IndexKind::Paper ? text_of(input.paper_index()) : text_of(input.exact_index()));
 }
 
 /// A mesh and, if asked for, what its indexes would be.

@@ -57,11 +57,10 @@ Input::Input(std::string file) : name_(std::move(file)) {
     mesh_ = read_mesh(name_);
     return;
   }
-  Progress progress("reading " + name_);
   if (io::read_header(name_).kind == IndexKind::Paper) {
-    paper_ = io::load_paper(name_, {.progress = telling(progress)});
+    paper_ = load_paper_index(name_);
   } else {
-    exact_ = io::load(name_, {.progress = telling(progress)});
+    exact_ = load_exact_index(name_);
   }
 }
 
@@ -114,6 +113,16 @@ io::Mesh read_mesh(const std::string& file) {
   io::Mesh mesh = io::read_mesh(file, {.progress = telling(progress)});
   complain_about(mesh, file);
   return mesh;
+}
+
+Index load_exact_index(const std::string& file) {
+  Progress progress("reading " + file);
+  return io::load(file, {.progress = telling(progress)});
+}
+
+paper::Index load_paper_index(const std::string& file) {
+  Progress progress("reading " + file);
+  return io::load_paper(file, {.progress = telling(progress)});
 }
 
 void refuse_same_file(const std::string& input, const std::string& output) {

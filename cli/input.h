@@ -63,6 +63,10 @@ class Input {
 /// Reads a mesh where an index will not do. As above.
 [[nodiscard]] io::Mesh read_mesh(const std::string& file);
 
+/// Reads an index where a mesh will not do, and verifies it, with progress. Throws what `io::load` throws.
+[[nodiscard]] Index load_exact_index(const std::string& file);
+[[nodiscard]] paper::Index load_paper_index(const std::string& file);
+
 /// Throws Error{InvalidOption} where `output` is a file that it is made from. Either may not exist.
 void refuse_same_file(const std::string& input, const std::string& output);
 

@@ -18,7 +18,7 @@ namespace meshhood::cli {
 namespace {
 
 constexpr const char* kDescription =
-    "The neighbourhood of a point on a polygonal mesh: what lies within a distance of it in space and is\n"
+    "The neighborhood of a point on a polygonal mesh: what lies within a distance of it in space and is\n"
     "joined to it along the surface within that distance.";
 
 void add_subcommands(CLI::App& program) {

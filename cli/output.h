@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -26,6 +28,21 @@ void close_output();
 
 /// `text` on one line: control characters, which could also steer a terminal, are written as `\x0a`.
 [[nodiscard]] std::string printable(std::string_view text);
+
+/// A table of two columns as text: names, filled up to one width, and what stands beside them.
+class Rows {
+ public:
+  explicit Rows(std::size_t width) : width_(width) {}
+
+  void add(std::string_view name, std::string_view value);
+  void add(std::string_view name, std::uint64_t value) { add(name, std::to_string(value)); }
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::size_t width_;
+  std::string text_;
+};
 
 /// One line on standard error. `severity` is "" for an error, "warning: " for less.
 void complain(std::string_view severity, std::string_view text);

@@ -16,6 +16,7 @@
 #include "meshhood/error.h"
 
 #include "io/file_writer.h"
+#include "io/place.h"
 
 namespace meshhood::cli {
 namespace {
@@ -72,7 +73,8 @@ zlib_filefunc64_def functions_of(Target& target) {
 }  // namespace
 
 struct ZipWriter::State {
-  explicit State(const std::filesystem::path& path) : target{io::FileWriter(path)} {
+  explicit State(const std::filesystem::path& path)
+      : name(io::printable_name(path.string())), target{io::FileWriter(path)} {
     target.file.seek(0);  // a pipe is refused before anything is written: sizes are filled in behind the values
     zlib_filefunc64_def functions = functions_of(target);
     zip = zipOpen2_64(path.c_str(), APPEND_STATUS_CREATE, nullptr, &functions);
@@ -86,10 +88,12 @@ struct ZipWriter::State {
 
   void check(int status) const {
     if (target.failure) std::rethrow_exception(target.failure);
-    if (status != ZIP_OK)
-      raise(ErrorCode::IoFailure, fmt::format("writing a zip file failed: minizip error {}", status));
+    if (status != ZIP_OK) {
+      raise(ErrorCode::IoFailure, fmt::format("{}: cannot write a zip file: minizip error {}", name, status));
+    }
   }
 
+  std::string name;
   Target target;
   zipFile zip = nullptr;
   bool in_member = false;
