@@ -8,7 +8,7 @@
 
 #include "meshhood/mesh.h"
 
-/// Meshes made by formula, each with a known trap for a neighbourhood search. For benchmarks, tests and the demo.
+/// Meshes made by formula, each with a known trap for a neighborhood search. For benchmarks, tests and the demo.
 ///
 /// The unit of length is about one edge. The same kind and number of vertices give the same bytes on every platform:
 /// only the four operations and square roots are used, which IEEE 754 defines to the last bit.

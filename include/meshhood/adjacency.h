@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <variant>
@@ -65,7 +66,7 @@ struct GraphData {
 
 /// The graph of a mesh (see `FacesView`). O(#V + #corners log(valence)); one thread.
 ///
-/// Throws Error{InvalidMesh, TooLarge}: see `validate`, and more than `kMaxNeighbors` corners times two.
+/// Throws Error{InvalidMesh, TooLarge}, as `validate`, and where there are more than `kMaxNeighbors / 2` corners.
 [[nodiscard]] Adjacency adjacency(const MeshView& mesh);
 
 /// Throws unless the positions are valid, and the adjacency is what `AdjacencyView` says: one row a vertex, ascending,
@@ -74,7 +75,8 @@ struct GraphData {
 /// Throws Error{InvalidMesh, TooLarge}, naming the vertex. O(#V + #E log(valence)).
 void validate(const GraphView& graph);
 
-/// The mean length of the different edges, in the unit of the positions; 0 where there is none.
+/// The mean length of the different edges, in the unit of the positions; 0 where there is none. The graph is valid.
+/// O(#V + #E).
 [[nodiscard]] double mean_edge_length(const GraphView& graph);
 
 }  // namespace meshhood

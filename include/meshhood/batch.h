@@ -42,7 +42,7 @@ struct BatchOptions {
   /// keep threads busy; the processor's cache holds fewer.
   std::size_t buffer_bytes = std::size_t{8} << 20;
 
-  /// Called at least every 100 ms, if no query takes longer; no further query is begun once it returns false.
+  /// Called between queries, twenty times a second at most; no further one is begun once it returns false.
   Progress progress = {};
 };
 
@@ -72,17 +72,18 @@ struct Neighborhoods {
 void for_each_neighborhood(const Index& index, const BatchQuery& query, const RowSink& sink,
                            const BatchOptions& options = {});
 
-/// The same rows, kept in memory. They are counted first, so that memory is taken once and no more than needed.
+/// The same rows, kept in memory. They are counted first, so that memory is taken once and no more than needed: each is
+/// asked twice. Throws as `for_each_neighborhood`.
 [[nodiscard]] Neighborhoods neighborhoods(const Index& index, const BatchQuery& query,
                                           const BatchOptions& options = {});
 
-/// How many vertices each row has.
+/// How many vertices each row has. Throws as `for_each_neighborhood`.
 [[nodiscard]] std::vector<std::uint64_t> counts(const Index& index, const BatchQuery& query,
                                                 const BatchOptions& options = {});
 
 }  // namespace meshhood
 
-/// The same for the answers of the paper's index.
+/// The same for the answers of the paper's index; Error{InvalidOption} where `query_options` are out of range, too.
 namespace meshhood::paper {
 
 void for_each_neighborhood(const Index& index, const BatchQuery& query, const RowSink& sink,

@@ -20,13 +20,13 @@ struct BuildOptions {
   /// Fewer do where the system gives no more.
   unsigned threads = 1;
 
-  /// Called between the parts of each step, which take some 50 ms for a million vertices at most.
+  /// Called between the parts of each step. The longest is a pass over the vertices and edges: linear in the mesh.
   Progress progress = {};
 };
 
-/// Memory of an index by part, in bytes.
+/// Memory of an index by part, in bytes; of a mapped one, in the file.
 struct IndexBytes {
-  std::size_t positions = 0;    ///< its copy of them
+  std::size_t positions = 0;    ///< of the vertices
   std::size_t permutation = 0;  ///< from the caller's numbering to its own, and back
   std::size_t graph = 0;        ///< the edges of the mesh
   std::size_t tree = 0;         ///< leaves, bounding spheres and columns
@@ -38,7 +38,8 @@ struct IndexStorage;
 
 /// What exact neighborhoods are searched with: the mesh in an order in which near vertices lie close together, cut into
 /// connected leaves of up to 32 vertices, and a tree of bounding spheres over them. Immutable: any number of threads
-/// may query it, each with its own `Searcher`. It keeps a copy of the positions and does not refer to the mesh.
+/// may query it, each with its own `Searcher`. It does not refer to the mesh: `build` and `load` copy what they need,
+/// and what `map` gives lies in the bytes that were mapped.
 class Index {
  public:
   Index(Index&&) noexcept;
@@ -67,7 +68,7 @@ class Index {
   ///  - each sphere encloses its vertices;
   ///  - from outside a column, tried from a number of vertices, no vertex is a local minimum of the distance.
   ///
-  /// Throws Error{InvalidMesh} where `mesh` is no mesh. O((#V + #E) log #V).
+  /// Throws Error{InvalidMesh, TooLarge} where `mesh` is no mesh. O((#V + #E) log #V).
   [[nodiscard]] std::vector<std::string> check(const MeshView& mesh) const;
   [[nodiscard]] std::vector<std::string> check(const GraphView& graph) const;
 
@@ -81,7 +82,8 @@ class Index {
 /// Computes the index. The same mesh gives the same index, whatever the number of threads.
 ///
 /// mesh    any polygonal mesh (see `validate`); borrowed for the call.
-/// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}. O(#V log #V + #E).
+/// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}; the second also beyond 2^27 leaves, which have 16
+/// vertices and more but for those around a vertex of very many neighbours. O(#V log #V + #E).
 [[nodiscard]] Index build(const MeshView& mesh, const BuildOptions& options = {});
 [[nodiscard]] Index build(const GraphView& graph, const BuildOptions& options = {});
 

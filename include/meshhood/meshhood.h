@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// meshhood: the neighbourhood of a point on a polygonal mesh.
+/// meshhood: the neighborhood of a point on a polygonal mesh.
 ///
 /// The neighborhood of vertex `v` with radius `r` is the part of the mesh inside the ball of radius `r` around `v` that
 /// hangs together with `v` inside that ball.

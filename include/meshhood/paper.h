@@ -32,7 +32,7 @@ struct BuildOptions {
   /// Fusion on level `l` dissolves clusters of fewer than `fusion_growth` to the power of `l` vertices; finite, >= 0.
   double fusion_growth = 4.0;
 
-  /// Called between the steps of each level, which take some 100 ms for a million vertices at most.
+  /// Called between the steps of each level. The longest takes O((#V + #E) log #V).
   Progress progress = {};
 
   static constexpr int kAllLevels = 64;
@@ -75,7 +75,7 @@ class Index {
   ///  - the averages are finite and what the clusters give.
   ///
   /// mesh    the mesh that the index was built from.
-  /// Throws Error{InvalidMesh} where `mesh` is no mesh. O((#V + #E) #levels).
+  /// Throws Error{InvalidMesh, TooLarge} where `mesh` is no mesh. O((#V + #E) #levels).
   [[nodiscard]] std::vector<std::string> check(const MeshView& mesh) const;
   [[nodiscard]] std::vector<std::string> check(const GraphView& graph) const;
 
@@ -110,8 +110,8 @@ struct QueryProfile {
   std::size_t vertices_tested = 0;   ///< vertices whose own distance was computed
 };
 
-/// Asks an `Index`. Owns the scratch memory of the search (12 bytes a cluster of the lowest level): one object a
-/// thread. The index must outlive it.
+/// Asks an `Index`. Owns the scratch memory of the search (about 24 bytes a cluster of the lowest level): one object
+/// a thread. The index must outlive it.
 class Searcher {
  public:
   explicit Searcher(const Index& index);
@@ -119,12 +119,15 @@ class Searcher {
   /// The vertices near `v` that are also joined to it along the surface: climb up, breadth-first search over siblings,
   /// range search (3.3).
   ///
-  /// v       in [0, #V).     radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius`
-  /// counts. out     refilled, capacity reused: ids in no stated order, without duplicates, `v` included. The answer
-  /// contains the exact neighborhood and is contained in the ball; extra vertices are rarer as `scale_factor` grows. It
-  /// need not grow with the radius, for the level may change. Cost is that of the clusters touched, not of the mesh.
-  /// Nothing is allocated once the buffers have grown. Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption};
-  /// `out` is then unchanged.
+  /// v       in [0, #V).
+  /// radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` counts.
+  /// out     refilled, capacity reused: ids in no stated order, without duplicates, `v` included.
+  ///
+  /// The answer contains the exact neighborhood and is contained in the ball; extra vertices are rarer as
+  /// `scale_factor` grows. It need not grow with the radius, for the level may change. Cost is that of the clusters
+  /// touched, not of the mesh. Nothing is allocated once the buffers have grown.
+  ///
+  /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}; `out` is then unchanged.
   void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, const QueryOptions& options = {});
 
   /// The same with the distance of each vertex from `v` (see `distance`), in the same order.

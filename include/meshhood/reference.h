@@ -15,14 +15,14 @@ namespace meshhood {
 /// stamp of a vertex share 16 bytes, nothing is allocated and nothing cleared per query, and what the search will soon
 /// look at is fetched ahead.
 ///
-/// Owns what it searches: 16 bytes a vertex (32 where the positions are double) and the adjacency. Each query writes to
-/// it, so one object a thread.
+/// Owns what it searches: 20 bytes a vertex (36 where the positions are double) and, unless it was given, the graph.
+/// Each query writes to it, so one object a thread.
 class ReferenceSearcher {
  public:
   /// Throws Error{InvalidMesh, TooLarge}.
   explicit ReferenceSearcher(const MeshView& mesh);
 
-  /// The same on a graph given directly, which must outlive the searcher.
+  /// The same on a graph given directly, whose adjacency must outlive the searcher.
   explicit ReferenceSearcher(const GraphView& graph);
 
   ReferenceSearcher(ReferenceSearcher&&) noexcept;
@@ -31,8 +31,11 @@ class ReferenceSearcher {
 
   /// The vertices of the connected component that holds `v` in the graph induced by the ball of `radius` around `v`.
   ///
-  /// v       in [0, #V).     radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius`
-  /// counts. out     refilled, capacity reused: ids in the order the search reaches them, `v` first, no duplicates.
+  /// v       in [0, #V).
+  /// radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` counts.
+  /// out     refilled, capacity reused: ids in the order the search reaches them, `v` first, no duplicates.
+  ///
+  /// O(vertices and edges of the answer); nothing is allocated but for `out`.
   /// Throws Error{VertexOutOfRange, InvalidRadius}; `out` is then unchanged.
   void neighborhood(VertexId v, double radius, std::vector<VertexId>& out);
 
@@ -47,14 +50,21 @@ class ReferenceSearcher {
 };
 
 /// One exact neighborhood of a mesh, for whoever asks once: as `ReferenceSearcher`, which it builds and throws away.
+/// O(#V + #corners log(valence)), whatever the radius.
+///
+/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidMesh, TooLarge}.
 [[nodiscard]] std::vector<VertexId> exact_neighborhood(const MeshView& mesh, VertexId v, double radius);
 
 /// Every vertex within `radius` of `v` in space, by a scan of all positions (sec. 4.3). Wrong as a neighborhood: it
 /// takes whatever else of the surface passes through the ball.
 ///
-/// out     refilled, capacity reused: ids ascending, `v` included; a vertex at exactly `radius` counts.
+/// v       in [0, #V).
+/// radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` counts.
+/// out     refilled, capacity reused: ids ascending, `v` included.
+/// The coordinates are taken as valid. O(#V).
+///
 /// Throws Error{VertexOutOfRange, InvalidRadius}; `out` is then unchanged. Where memory runs out, it has a part of the
-/// answer. The coordinates are taken as valid.
+/// answer.
 void ball(const PositionsView& positions, VertexId v, double radius, std::vector<VertexId>& out);
 
 }  // namespace meshhood

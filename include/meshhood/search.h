@@ -22,10 +22,13 @@ struct VertexRange {
 /// Asks an `Index` for exact neighborhoods: the connected component that holds `v` in the graph induced by the ball of
 /// `radius` around `v`. Every call gives exactly what `ReferenceSearcher` gives, on every processor.
 ///
-/// v       in [0, #V).     radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` counts.
+/// v       in [0, #V).
+/// radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` counts.
+///
 /// Cost is about that of the leaves at the rim of the answer, not of the answer or the mesh; on folded surfaces that of
 /// the leaves of the answer. Nothing is allocated once the buffers have grown. Owns the scratch memory (22 bytes a
 /// leaf): one object a thread. The index must outlive it.
+///
 /// Throws Error{VertexOutOfRange, InvalidRadius}; arguments are then unchanged.
 class Searcher {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows that are kept in memory: each is asked straight into its place.
+// Rows that are kept in memory, all in one array: they are counted first, so each goes to its place as it is found.
 #include <algorithm>
 #include <numeric>
 #include <vector>

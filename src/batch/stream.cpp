@@ -39,7 +39,7 @@ class Values {
     const std::size_t needed = size_ + count + spare;
     if (needed > capacity_) {
       const std::size_t capacity = std::max(needed, 2 * capacity_);
-      auto larger = std::make_unique_for_overwrite<T[]>(capacity);
+      auto larger = std::make_unique_for_overwrite<T[]>(capacity);  // NOLINT(modernize-avoid-c-arrays)
       std::copy_n(values_.get(), size_, larger.get());
       values_ = std::move(larger);
       capacity_ = capacity;
@@ -50,7 +50,7 @@ class Values {
   }
 
  private:
-  std::unique_ptr<T[]> values_;
+  std::unique_ptr<T[]> values_;  // NOLINT(modernize-avoid-c-arrays): a vector would write to all of it
   std::size_t size_ = 0;
   std::size_t capacity_ = 0;
 };
@@ -59,7 +59,7 @@ class Stream {
  public:
   Stream(Batch& batch, const RowSink& sink) : batch_(batch), sink_(sink), stores_(batch.work().threads()) {}
 
-  /// Windows depend on the rows alone, so that answers do, too (see `Batch::ask`).
+  /// Windows depend on the rows alone, so that answers do, too (see `Batch::for_each_row`).
   void run() {
     std::size_t window = kFirstWindow;
     for (std::size_t first = 0; first < batch_.rows().size();) {
