@@ -66,6 +66,7 @@ Input::Input(std::string file) : name_(std::move(file)) {
 
 std::size_t Input::vertex_count() const {
   if (mesh_) return mesh_->view().positions.size();
+  // One of the three is there. NOLINTNEXTLINE(bugprone-unchecked-optional-access)
   return exact_ ? exact_->vertex_count() : paper_->vertex_count();
 }
 
@@ -78,7 +79,7 @@ void Input::need_edges(const std::string& purpose) const {
 PositionsView Input::positions() {
   if (mesh_) return mesh_->view().positions;
   if (exact_) return graph().positions;
-  if (!positions_) positions_ = positions_of(*paper_);
+  if (!positions_) positions_ = positions_of(*paper_);  // NOLINT(bugprone-unchecked-optional-access): as above
   return std::visit([](const auto& xyz) { return PositionsView(xyz); }, *positions_);
 }
 
