@@ -7,8 +7,8 @@
 # And for who would see for himself what docs/benchmarks.md says; both end by writing it, say how long each part took, and
 # want a quiet machine, or the page says that it was busy:
 #
-#   make reproduce                the paper's tables and pictures, accuracy, growth; about half an hour
-#   make peers                    other products on the same queries; about 25 minutes
+#   make reproduce                the paper's tables and pictures, accuracy, growth; about 20 minutes
+#   make peers                    other products on the same queries; about a quarter of an hour
 #   make benchmarks               both
 .PHONY: build test demo reproduce peers benchmarks
 

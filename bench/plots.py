@@ -28,9 +28,20 @@ def draw_all():
     return [name for source, plot in plots.items() if results.load(source) for name in plot(results.load(source))]
 
 
-def panels(count):
-    figure, axes = pyplot.subplots(1, count, figsize=(3.4 * count, 2.9), squeeze=False, layout="constrained")
+def panels(count, height=3.2):
+    figure, axes = pyplot.subplots(1, count, figsize=(3.4 * count, height), squeeze=False, layout="constrained")
     return figure, axes[0]
+
+
+def common_legend(figure, axis):
+    """Above all panels, where it hides no line."""
+    handles, labels = axis.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=len(labels))
+
+
+def legend_below(axis):
+    """For a panel whose labels are its own."""
+    axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2))
 
 
 def save(figure, name):
@@ -59,7 +70,7 @@ def table2(data):
             line(below, list(rows), [row[method]["count"] for row in rows.values()], method)
         logarithmic(above, "", "µs a query", name)
         logarithmic(below, "radius / average edge", "vertices found", "")
-    axes[0][0].legend()
+    common_legend(figure, axes[0][0])
     return [save(figure, "table2")]
 
 
@@ -83,7 +94,7 @@ def extra_over_radius(tables):
             line(axis, radii, [100 * rows[radius][row]["extra"] / rows[radius]["bfs"]["count"] for radius in radii], method)
         axis.set_yscale("symlog", linthresh=0.1)
         axis.set(xscale="log", xlabel="radius / average edge", ylabel="extra vertices, % of the exact", title=name)
-    axes[0].legend()
+    common_legend(figure, axes[0])
     return save(figure, "accuracy")
 
 
@@ -101,7 +112,7 @@ def of_option(tables, values, method_of, what, plot):
         above.set_yscale("symlog", linthresh=0.1)
         above.set(xscale="log", ylabel="extra vertices, % of the exact", title=name)
         logarithmic(below, "radius / average edge", "µs a query", "")
-    axes[0][0].legend()
+    common_legend(figure, axes[0][0])
     return save(figure, plot)
 
 
@@ -110,14 +121,14 @@ def scaling_plots(data):
 
 
 def build_over_size(data):
-    figure, axes = panels(len(data["by_size"]))
+    figure, axes = panels(len(data["by_size"]), height=3.5)
     for axis, (shape, races) in zip(axes, data["by_size"].items()):
         sizes = [race["vertices"] for race in races]
         for method in ("exact", "paper"):
             seconds = [scaling.build_seconds(race, method) for race in races]
             line(axis, sizes, seconds, method, exponent_label(sizes, seconds))
         logarithmic(axis, "vertices", "s to build, one thread", shape)
-        axis.legend()
+        legend_below(axis)
     return save(figure, "build_over_size")
 
 
@@ -128,18 +139,18 @@ def query_over_size(data):
         for method in scaling.METHODS:
             line(axis, sizes, [scaling.microseconds(race, method, data["radius_edges"]) for race in races], method)
         logarithmic(axis, "vertices of the mesh", f"µs a query of {data['radius_edges']} edges", shape)
-    axes[0].legend()
+    common_legend(figure, axes[0])
     return save(figure, "query_over_size")
 
 
 def query_over_radius(data):
-    figure, axes = panels(len(data["by_radius"]))
+    figure, axes = panels(len(data["by_radius"]), height=4.2)
     for axis, (shape, race) in zip(axes, data["by_radius"].items()):
         for method in scaling.METHODS:
             found, costs = scaling.cost_by_found(race, method)
             line(axis, found, costs, method, exponent_label(*scaling.large(found, costs)))
         logarithmic(axis, "vertices found", "µs a query", shape)
-        axis.legend()
+        legend_below(axis)
     return save(figure, "query_over_radius")
 
 

@@ -44,6 +44,14 @@ class Programs(unittest.TestCase):
             self.assertNotIn("extra", row["ranges"])
         self.assertGreater(rows[20]["ball"]["extra"], 0, "a scroll whose ball is exact tests nothing")
 
+    def test_race_times_batches_beside_breadth_first_search(self):
+        for batch, radius in zip(programs.race(MESH, batches=(3, 20))["batches"], (3, 20)):
+            self.assertEqual(batch["radius_edges"], radius)
+            self.assertGreaterEqual(batch["rows"], 80)
+            for method in ("bfs", "bfs-reordered", "ids", "count"):
+                self.assertEqual(len(batch[method]), 15)
+                self.assertTrue(all(time > 0 for time in batch[method]))
+
     def test_race_refuses_what_it_does_not_know(self):
         for method in ("nope", "paper,x=3"):
             done = subprocess.run([places.PROGRAMS / "race", MESH, "--method", method], capture_output=True, text=True)

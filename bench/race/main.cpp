@@ -11,6 +11,7 @@
 
 #include "meshhood/meshhood.h"
 
+#include "batch.h"
 #include "cli/machine.h"
 #include "cli/measure.h"
 #include "contestants.h"
@@ -27,6 +28,7 @@ struct Options {
   std::string order = "cold";
   cli::Plan plan{.radii = {2, 3, 5, 10, 20, 40, 65, 90}, .queries = 200};
   int builds = 0;
+  std::vector<double> batches;
 };
 
 Json to_json(const Build& build) { return {{"name", build.name}, {"seconds", build.seconds}, {"bytes", build.bytes}}; }
@@ -38,6 +40,11 @@ Json to_json(const cli::Measurement& m, const cli::Method& method) {
            {"quartiles", {m.lower, m.upper}}};
   if (method.lists_vertices) row.update({{"count", m.count}, {"extra", m.extra}, {"missing", m.missing}});
   return row;
+}
+
+Json to_json(const BatchTimes& times) {
+  return {{"radius_edges", times.radius_edges},   {"rows", times.rows}, {"bfs", times.bfs},
+          {"bfs-reordered", times.bfs_reordered}, {"ids", times.ids},   {"count", times.count}};
 }
 
 Json race(const MeshView& mesh, Options& options) {
@@ -55,6 +62,12 @@ Json race(const MeshView& mesh, Options& options) {
   if (options.builds > 0) {
     for (const Build& build : contestants.time_builds(options.builds)) builds.push_back(to_json(build));
   }
+  Json batches = Json::array();
+  if (!options.batches.empty()) {
+    const Index index = build(mesh);
+    for (const double edges : options.batches)
+      batches.push_back(to_json(time_batches(contestants, index, edges, unit)));
+  }
   const cli::Machine machine = cli::this_machine();
   return {{"mesh", options.mesh},
           {"vertices", mesh.positions.size()},
@@ -64,6 +77,7 @@ Json race(const MeshView& mesh, Options& options) {
           {"order", options.order},
           {"queries", options.plan.queries},
           {"builds", builds},
+          {"batches", batches},
           {"rows", rows}};
 }
 
@@ -77,6 +91,7 @@ int run(int arguments, char** values) {
   program.add_option("--queries", options.plan.queries, "a radius")->capture_default_str();
   program.add_option("--order", options.order)->check(CLI::IsMember({"cold", "warm"}))->capture_default_str();
   program.add_option("--builds", options.builds, "how often each index is built")->capture_default_str();
+  program.add_option("--batches", options.batches, "radii of batches, in average edges")->delimiter(',');
   CLI11_PARSE(program, arguments, values);
   const MeshArgument mesh(options.mesh);
   std::cout << race(mesh.view(), options).dump() << '\n';

@@ -11,11 +11,20 @@ from an index of its own. Scroll, plates, folds and gyroid are made by formula (
 """
 
 
+BATCH_NOTE = """
+### Many vertices in one call
+
+A batch over a run of vertices as the file numbers them, one thread, all ids streamed or only counted, µs a row; beside
+it the breadth-first searches for the first vertices of each batch.
+
+"""
+
+
 def text(data):
     parts = [NOTE.format(queries=data["queries"])]
     for name, result in data["meshes"].items():
         parts.append(f"\n**{name}**, {result['vertices']:,} vertices\n\n{mesh_table(result)}")
-    return "".join(parts)
+    return "".join([*parts, BATCH_NOTE, batch_table(data["meshes"])])
 
 
 def mesh_table(result):
@@ -28,4 +37,17 @@ def mesh_table(result):
             times = [with_spread(m["microseconds"], m["quartiles"]) for m in (row["bfs"], row["bfs-reordered"], *asked)]
             rows.append([order, f"{radius:g}", number(row["bfs"]["count"]), *times,
                          *(f"{best / m['microseconds']:.1f}" for m in asked)])
+    return table(header, rows)
+
+
+def batch_table(meshes):
+    header = ["mesh", "radius", "rows", "bfs", "bfs reordered", "ids", "counts", "× ids", "× counts"]
+    rows = []
+    for name, result in meshes.items():
+        for batch in result["batches"]:
+            times = [batch[method] for method in ("bfs", "bfs-reordered", "ids", "count")]
+            best = min(time["median"] for time in times[:2])
+            rows.append([name, f"{batch['radius_edges']:g}", number(batch["rows"]),
+                         *(with_spread(time["median"], time["quartiles"]) for time in times),
+                         *(f"{best / time['median']:.1f}" for time in times[2:])])
     return table(header, rows)

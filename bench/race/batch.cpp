@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "batch.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <random>
+#include <span>
+
+#include "meshhood/error.h"
+
+#include "cli/processor_time.h"
+
+namespace meshhood::bench {
+namespace {
+
+constexpr std::size_t kBlocks = 15;
+constexpr std::size_t kSearched = 20;
+constexpr std::size_t kVerticesPerBatch = 8'000'000;
+
+/// So many that a batch takes a while, at least what is searched.
+std::size_t rows_of_a_batch(const Index& index, double radius, std::mt19937_64& random) {
+  constexpr std::size_t kProbes = 16;
+  Searcher searcher(index);
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < kProbes; ++i) {
+    found += searcher.count(static_cast<VertexId>(random() % index.vertex_count()), radius);
+  }
+  return std::min(index.vertex_count(),
+                  std::clamp<std::size_t>(kVerticesPerBatch * kProbes / found, 4 * kSearched, 2400));
+}
+
+template <class Run>
+double microseconds_a_row(std::size_t rows, Run&& run) {
+  const double begin = cli::processor_time();
+  run();
+  return 1e6 * (cli::processor_time() - begin) / static_cast<double>(rows);
+}
+
+double search(const cli::Method& method, std::span<const VertexId> asked, double radius) {
+  std::vector<VertexId> out;
+  return microseconds_a_row(asked.size(), [&] {
+    for (const VertexId v : asked) method.neighborhood(v, radius, out);
+  });
+}
+
+}  // namespace
+
+BatchTimes time_batches(Contestants& contestants, const Index& index, double radius_edges, double unit) {
+  const double radius = radius_edges * unit;
+  const cli::Method bfs = contestants.method("bfs");
+  const cli::Method bfs_reordered = contestants.method("bfs-reordered");
+  std::mt19937_64 random(11);
+  BatchTimes times{radius_edges, rows_of_a_batch(index, radius, random), {}, {}, {}, {}};
+  std::vector<VertexId> asked(times.rows);
+  std::uint64_t found = 0;
+  for (std::size_t block = 0; block < kBlocks; ++block) {
+    std::iota(asked.begin(), asked.end(), static_cast<VertexId>(random() % (index.vertex_count() - times.rows + 1)));
+    const auto searched = std::span(asked).first(std::min(kSearched, times.rows));
+    times.bfs.push_back(search(bfs, searched, radius));
+    times.bfs_reordered.push_back(search(bfs_reordered, searched, radius));
+    const BatchQuery query{.vertices = asked, .radius = radius};
+    times.ids.push_back(microseconds_a_row(times.rows, [&] {
+      for_each_neighborhood(index, query, [&](const BatchRow& row) { found += row.ids.size(); });
+    }));
+    times.count.push_back(microseconds_a_row(times.rows, [&] {
+      for (const std::uint64_t count : counts(index, query)) found -= count;
+    }));
+  }
+  if (found != 0) raise(ErrorCode::InvalidOption, "a batch counted other vertices than it found");
+  return times;
+}
+
+}  // namespace meshhood::bench
