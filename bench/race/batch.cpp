@@ -6,8 +6,7 @@
 #include <numeric>
 #include <random>
 #include <span>
-
-#include "meshhood/error.h"
+#include <stdexcept>
 
 #include "cli/processor_time.h"
 
@@ -67,7 +66,7 @@ BatchTimes time_batches(Contestants& contestants, const Index& index, double rad
       for (const std::uint64_t count : counts(index, query)) found -= count;
     }));
   }
-  if (found != 0) raise(ErrorCode::InvalidOption, "a batch counted other vertices than it found");
+  if (found != 0) throw std::logic_error("a batch counted other vertices than it found");
   return times;
 }
 
