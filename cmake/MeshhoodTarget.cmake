@@ -11,11 +11,22 @@ function(meshhood_own_target target)
     CXX_EXTENSIONS OFF COMPILE_WARNING_AS_ERROR ${meshhood_IS_TOP_LEVEL})
 endfunction()
 
-# For large programs that do nothing for long themselves: with sanitizers, to optimise them costs more than it saves.
+# For large programs that do nothing for long themselves: to optimise them costs more than it saves.
 function(meshhood_compile_quickly target)
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     target_compile_options(${target} PRIVATE -O0)
+  else()
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
+endfunction()
+
+# For sources that another target compiles one by one: here several at once, in a fraction of the time.
+function(meshhood_compile_together target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
+  # One kernel for each kind of processor, all of the same names.
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "/simd_[a-z0-9]+\\.cpp$")
+  set_source_files_properties(${sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 # For what touches foreign bytes: a mistake of ours ends the program at once instead of being carried further.

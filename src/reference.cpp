@@ -11,7 +11,6 @@
 #include "reference_access.h"
 
 namespace meshhood {
-namespace {
 
 /// What the search asks of a vertex, in one cache line: where it is, and which query saw it last.
 template <class Real>
@@ -21,6 +20,8 @@ struct alignas(4 * sizeof(Real)) Record {
   Real z;
   std::uint32_t seen;
 };
+
+namespace {
 
 template <class Real>
 std::vector<Record<Real>> make_records(std::span<const Real> xyz) {

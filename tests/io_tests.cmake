@@ -24,6 +24,7 @@ target_link_libraries(io_limits_test PRIVATE
   meshhood_narrow fmt::fmt FastFloat::fast_float GTest::gmock GTest::gtest_main)
 meshhood_own_target(io_limits_test)
 meshhood_compile_quickly(io_limits_test)
+meshhood_compile_together(io_limits_test)
 gtest_discover_tests(io_limits_test TEST_PREFIX io_limits. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 
 # Saves that fail, are killed, or meet a full disk: everything that writes a file is put through all of it.

@@ -33,10 +33,11 @@ constexpr double kSmallestCross = 0x1p-22;
 // More edges of one vertex would hardly make its polygon smaller.
 constexpr std::size_t kMostEdges = 24;
 
-using Matrix = std::array<Point, 3>;
+// Rows of a symmetric matrix.
+using Symmetric = std::array<Point, 3>;
 
-Matrix covariance(std::span<const Point> points, const Point& centre) {
-  Matrix sum{};
+Symmetric covariance(std::span<const Point> points, const Point& centre) {
+  Symmetric sum{};
   for (const Point& p : points) {
     const Point d = p - centre;
     sum[0] = sum[0] + d.x * d;
@@ -55,13 +56,13 @@ Point mean(std::span<const Point> points) {
 /// The direction in which the points spread least, or any where they leave it open. The cofactors of the covariance
 /// have the same eigenvectors in reverse order; squaring them again and again leaves the one that is wanted.
 Point flattest_direction(std::span<const Point> points) {
-  const Matrix c = covariance(points, mean(points));
-  Matrix power = {cross(c[1], c[2]), cross(c[2], c[0]), cross(c[0], c[1])};
+  const Symmetric c = covariance(points, mean(points));
+  Symmetric power = {cross(c[1], c[2]), cross(c[2], c[0]), cross(c[0], c[1])};
   for (int i = 0; i < 5; ++i) {
     const double trace = power[0].x + power[1].y + power[2].z;
     if (!(trace > 1e-280)) return {0, 0, 1};
     for (Point& row : power) row = 1 / trace * row;
-    const Matrix m = power;
+    const Symmetric m = power;
     for (std::size_t k = 0; k < 3; ++k) power[k] = {dot(m[k], m[0]), dot(m[k], m[1]), dot(m[k], m[2])};
   }
   const Point& longest = *std::max_element(power.begin(), power.end(),

@@ -26,12 +26,12 @@ constexpr std::size_t kCellSize = 30;
 constexpr std::uint32_t kSmallPart = 17;
 
 // So many vertices, or a like amount of work, keep a thread busy long enough.
-constexpr std::size_t kGrain = 4096;
+constexpr std::size_t kSitesATask = 4096;
 
 std::vector<Site> make_sites(const PositionsView& positions, const Frame& frame, Work& work) {
   return positions.visit([&](auto xyz) {
     std::vector<Site> sites(xyz.size() / 3);
-    work.parallel_for(sites.size(), kGrain, [&](unsigned, std::size_t begin, std::size_t end) {
+    work.parallel_for(sites.size(), kSitesATask, [&](unsigned, std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {
         const FramePoint p = frame.round(point(xyz, v));
         sites[v] = {{p.x, p.y, p.z}, static_cast<std::uint32_t>(v)};
@@ -70,9 +70,10 @@ class Parts {
  private:
   template <class F>
   void for_each_cell(Work& work, F&& f) const {
-    work.parallel_for(first_part_.size() - 1, kGrain / kCellSize, [&](unsigned, std::size_t begin, std::size_t end) {
-      for (std::size_t cell = begin; cell < end; ++cell) f(cell);
-    });
+    work.parallel_for(first_part_.size() - 1, kSitesATask / kCellSize,
+                      [&](unsigned, std::size_t begin, std::size_t end) {
+                        for (std::size_t cell = begin; cell < end; ++cell) f(cell);
+                      });
   }
 
   [[nodiscard]] std::size_t begin_of(std::size_t cell) const { return std::min(cell * kCellSize, sites_.size()); }
@@ -242,7 +243,7 @@ LeafPartition make_leaves(const GraphView& graph, const Frame& frame, Work& work
     leaf_of_part[part] = static_cast<LeafId>(leaf);
     result.leaf_begin[leaf + 1] = static_cast<VertexId>(result.leaf_begin[leaf] + parts.size(part));
   }
-  work.parallel_for(sites.size(), kGrain, [&](unsigned, std::size_t begin, std::size_t end) {
+  work.parallel_for(sites.size(), kSitesATask, [&](unsigned, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) result.place[sites[i].id] = leaf_of_part[parts.part_of(i)];
   });
   // In the order of the caller's vertices, so that neighbours in a leaf stay neighbours.

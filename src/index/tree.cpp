@@ -20,8 +20,8 @@ constexpr double kColumnRoom = 0x1p-20;
 // Farther than any vertex, and its square still a float.
 constexpr float kFarAway = 1e18F;
 
-/// At least `value`: rounded to the nearest float, and a step up.
-float round_up(double value) {
+/// The float after the one nearest to `value`: more than `value`.
+float step_above(double value) {
   return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
 }
 
@@ -50,7 +50,7 @@ void set_node(Group& group, std::size_t i, const FrameSphere& bounds, const Colu
   group.axis_x[i] = static_cast<float>(column.axis.x);
   group.axis_y[i] = static_cast<float>(column.axis.y);
   group.axis_z[i] = static_cast<float>(column.axis.z);
-  group.reach[i] = round_up(column.reach + kColumnRoom);
+  group.reach[i] = step_above(column.reach + kColumnRoom);
 }
 
 void set_absent(Group& group, std::size_t i) {
@@ -103,7 +103,7 @@ FrameSphere enclosing_sphere(std::span<const Point> points, const Point& centre)
   const Point rounded = centre_of(sphere);
   double farthest = 0;
   for (const Point& p : points) farthest = std::max(farthest, squared_distance(p, rounded));
-  sphere.radius = round_up(std::sqrt(farthest) * (1 + kRelativeRoom) + kAbsoluteRoom);
+  sphere.radius = step_above(std::sqrt(farthest) * (1 + kRelativeRoom) + kAbsoluteRoom);
   return sphere;
 }
 

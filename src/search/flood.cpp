@@ -9,7 +9,7 @@ namespace meshhood {
 namespace {
 
 // How many leaves of the queue, the present one included, have their neighbours fetched.
-constexpr std::size_t kAhead = 12;
+constexpr std::size_t kLeavesAhead = 12;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ void Flood::run(std::uint32_t place, const LeafBall& ball, const TreeBall& tree_
   const std::size_t fetched_at_most = is_small(tree_ball, *index_) ? 1 : queue_.max_size();
   std::size_t fetched = 0;
   for (std::size_t head = 0; head < queue_.size(); ++head) {
-    const std::size_t soon = std::min({head + kAhead, queue_.size(), fetched_at_most});
+    const std::size_t soon = std::min({head + kLeavesAhead, queue_.size(), fetched_at_most});
     for (; fetched < soon; ++fetched) walk.fetch_neighbors(queue_[fetched]);
     const LeafId leaf = queue_[head];
     const bool is_new = walk.find(leaf)->reached == 0;

@@ -12,7 +12,7 @@
 namespace meshhood {
 namespace {
 
-constexpr std::size_t kAhead = 4;
+constexpr std::size_t kPiecesAhead = 4;
 constexpr std::size_t kIdsPerLine = 64 / sizeof(VertexId);
 
 /// The number of lanes. As std::popcount, which is a call into a library where the oldest processors are compiled for.
@@ -29,8 +29,8 @@ void fetch_ids(const VertexId* first, std::size_t count) {
 
 VertexId* copy_runs(const Answer& answer, const VertexId* permutation, VertexId* out) {
   for (std::size_t i = 0; i < answer.runs.size(); ++i) {
-    if (i + kAhead < answer.runs.size()) {
-      const VertexRange next = answer.runs[i + kAhead];
+    if (i + kPiecesAhead < answer.runs.size()) {
+      const VertexRange next = answer.runs[i + kPiecesAhead];
       fetch_ids(permutation + next.begin, std::size_t{next.end} - next.begin);
     }
     const VertexRange run = answer.runs[i];
@@ -42,8 +42,8 @@ VertexId* copy_runs(const Answer& answer, const VertexId* permutation, VertexId*
 VertexId* copy_parts(const Answer& answer, const IndexStorage& index, const Kernels& kernels, VertexId* out) {
   const VertexId* permutation = index.permutation.data();
   for (std::size_t i = 0; i < answer.parts.size(); ++i) {
-    if (i + kAhead < answer.parts.size()) {
-      fetch_ids(permutation + index.leaf_begin[answer.parts[i + kAhead].leaf], kLeafCapacity);
+    if (i + kPiecesAhead < answer.parts.size()) {
+      fetch_ids(permutation + index.leaf_begin[answer.parts[i + kPiecesAhead].leaf], kLeafCapacity);
     }
     const PartialLeaf& part = answer.parts[i];
     out = kernels.append(permutation + index.leaf_begin[part.leaf], part.lanes, out);

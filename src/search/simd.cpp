@@ -8,14 +8,14 @@
 namespace meshhood {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr double kLargest = std::numeric_limits<float>::max();
 
 /// The largest float <= `value`.
 float round_down(double value) {
   if (std::isinf(value)) return static_cast<float>(value);
   const auto rounded = static_cast<float>(std::clamp(value, -kLargest, kLargest));
-  return static_cast<double>(rounded) > value ? std::nextafter(rounded, -kInfinity) : rounded;
+  return static_cast<double>(rounded) > value ? std::nextafter(rounded, -std::numeric_limits<float>::infinity())
+                                              : rounded;
 }
 
 /// The smallest float >= `value`.
