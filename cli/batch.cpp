@@ -185,6 +185,7 @@ void add_batch(CLI::App& program) {
   add_file(*command, options->file);
   add_radius(*command, options->radius);
   command->add_option("--vertices", options->vertices, "a text that lists the vertices to ask for, one a line")
+      ->check(file_name())
       ->type_name("FILE");
   command->add_option("--method", options->method, "exact; paper, with a few extra vertices")
       ->check(CLI::IsMember({"exact", "paper"}))
@@ -194,7 +195,7 @@ void add_batch(CLI::App& program) {
   CLI::Option* count = command->add_flag("--count", options->count, "only how many vertices each row has");
   command->add_flag("--distances", options->distances, "distances in space as the values of the matrix, not ones")
       ->excludes(count);
-  command->add_option("-o,--output", options->output, "the NPZ file to write")->type_name("FILE")->required();
+  add_output(*command, options->output, "the NPZ file to write")->required();
   command->add_flag("--json", options->json, "one JSON document");
   command->callback([options] { batch(*options); });
 }

@@ -28,6 +28,8 @@
 namespace meshhood::cli {
 namespace {
 
+constexpr std::uint64_t kMostQueries = 100'000'000;  // they are drawn before the first is asked
+
 struct Options {
   std::string file;
   std::string order = "cold";
@@ -199,7 +201,7 @@ void add_bench(CLI::App& program) {
       ->type_name("NUMBERS")
       ->capture_default_str();
   command->add_option("--queries", options->plan.queries, "how many a radius")
-      ->transform(whole_number())
+      ->transform(whole_number(kMostQueries))
       ->type_name("NUMBER")
       ->capture_default_str();
   command->add_option("--order", options->order, "cold: far apart; warm: each beside the one before")

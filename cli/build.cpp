@@ -95,7 +95,7 @@ void add_build(CLI::App& program) {
       ->type_name("")
       ->capture_default_str();
   add_threads(*command, options->threads);
-  command->add_option("-o,--output", options->output, "the index file to write")->type_name("FILE")->required();
+  add_output(*command, options->output, "the index file to write")->required();
   command->add_flag("--json", options->json, "one JSON document");
   command->callback([options] { build(*options); });
 }

@@ -14,6 +14,7 @@
 #include "input.h"
 #include "io/index_io.h"
 #include "output.h"
+#include "question.h"
 
 namespace meshhood::cli {
 namespace {
@@ -102,8 +103,13 @@ void check(const Options& options) {
 void add_check(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("check", "Whether an index file is whole, and that of a mesh");
-  command->add_option("INDEX", options->index, "index file (meshhood build)")->required()->type_name("");
-  command->add_option("--mesh", options->mesh, "the mesh it is said to be built from")->type_name("FILE");
+  command->add_option("INDEX", options->index, "index file (meshhood build)")
+      ->required()
+      ->check(file_name())
+      ->type_name("");
+  command->add_option("--mesh", options->mesh, "the mesh it is said to be built from")
+      ->check(file_name())
+      ->type_name("FILE");
   command->add_flag("--json", options->json, "one JSON document");
   command->callback([options] { check(*options); });
 }

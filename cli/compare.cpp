@@ -94,10 +94,8 @@ void add_compare(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "compare", "The methods side by side: what each finds, how it differs from bfs, and in what time");
   add_question(*command, options->question);
-  command
-      ->add_option("-o,--output", options->output,
-                   "also write the mesh as PLY: the vertex red, exact green, only paper yellow, only ball blue")
-      ->type_name("FILE");
+  add_output(*command, options->output,
+             "also write the mesh as PLY: the vertex red, exact green, only paper yellow, only ball blue");
   command->add_flag("--json", options->json, "one JSON document");
   command->callback([options] { compare(*options); });
 }

@@ -27,14 +27,23 @@ ExitCode exit_code(ErrorCode code) {
   throw std::logic_error("an error code without an exit code");
 }
 
+bool is_lack_of_memory(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
+         dynamic_cast<const std::length_error*>(&error) != nullptr;
+}
+
 }  // namespace
 
 ExitCode exit_code(const std::exception& error) {
   if (const auto* ours = dynamic_cast<const Error*>(&error)) return exit_code(ours->code());
-  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return ExitCode::Limit;
-  if (dynamic_cast<const std::length_error*>(&error) != nullptr) return ExitCode::Limit;
+  if (is_lack_of_memory(error)) return ExitCode::Limit;
   if (dynamic_cast<const std::system_error*>(&error) != nullptr) return ExitCode::InputOutput;
   throw;
+}
+
+// Of the standard library's own words for it, none says what is meant.
+const char* reason(const std::exception& error) {
+  return is_lack_of_memory(error) ? "not enough memory" : error.what();
 }
 
 }  // namespace meshhood::cli

@@ -19,4 +19,7 @@ enum class ExitCode {
 /// The code for an error that ended a command. Rethrows what is no known error, for it would be a bug.
 [[nodiscard]] ExitCode exit_code(const std::exception& error);
 
+/// What to tell of it, in one line.
+[[nodiscard]] const char* reason(const std::exception& error);
+
 }  // namespace meshhood::cli

@@ -78,7 +78,7 @@ void add_generate(CLI::App& program) {
       ->transform(whole_number())
       ->type_name("NUMBER")
       ->default_val(10000);
-  command->add_option("-o,--output", options->output, "the PLY file to write")->type_name("FILE");
+  add_output(*command, options->output, "the PLY file to write");
   command->add_flag("--list", options->list, "every kind and its trap");
   command->add_flag("--json", options->json, "one JSON document");
   command->callback([options] { generate(*options); });

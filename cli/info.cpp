@@ -61,6 +61,7 @@ Json to_json(const std::string& file, const io::Mesh& mesh, const Statistics& s)
           {"boundary_edges", s.boundary_edges},
           {"nonmanifold_edges", s.nonmanifold_edges},
           {"average_edge", s.average_edge},
+          {"repeated_corners", s.repeated_corners},
           {"repeated_positions", s.repeated_positions},
           {"bounding_box", s.bounds ? Json{{"min", s.bounds->min}, {"max", s.bounds->max}} : Json()},
           {"warnings", warnings}};
@@ -90,6 +91,7 @@ std::string to_text(const std::string& file, const io::Mesh& mesh, const Statist
   rows.add("boundary edges", s.boundary_edges);
   rows.add("non-manifold edges", s.nonmanifold_edges);
   rows.add("average edge", fmt::format("{:.4g}", s.average_edge));
+  rows.add("repeated corners", s.repeated_corners);
   rows.add("repeated positions", s.repeated_positions);
   rows.add("bounding box", to_text(s.bounds));
   return rows.text();

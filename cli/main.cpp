@@ -60,7 +60,7 @@ ExitCode run_or_complain(int argc, const char* const* argv) {
     return ExitCode::Usage;
   } catch (const std::exception& error) {
     const ExitCode code = exit_code(error);
-    complain("", error.what());
+    complain("", reason(error));
     return code;
   }
 }

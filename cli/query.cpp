@@ -120,8 +120,7 @@ void add_query(CLI::App& program) {
       ->type_name("NUMBER");
   CLI::Option* count = command->add_flag("--count", options->count, "only how many");
   command->add_flag("--distances", options->distances, "each vertex with its distance in space")->excludes(count);
-  command->add_option("-o,--output", options->output, "also write the mesh with the answer in colour, as PLY")
-      ->type_name("FILE");
+  add_output(*command, options->output, "also write the mesh with the answer in colour, as PLY");
   command->add_flag("--json", options->json, "one JSON document");
   command->callback([options] { query(*options); });
 }

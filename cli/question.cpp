@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <system_error>
 
@@ -12,6 +13,7 @@
 
 #include "meshhood/adjacency.h"
 #include "meshhood/error.h"
+#include "meshhood/progress.h"
 
 #include "input.h"
 
@@ -36,29 +38,45 @@ double parse_radius(const std::string& text) {
 
 }  // namespace
 
-CLI::Validator whole_number() {
-  const auto check = [](std::string& text) -> std::string {
+CLI::Validator whole_number(std::uint64_t most) {
+  const bool is_any = most == std::numeric_limits<std::uint64_t>::max();
+  const std::string limit = is_any ? "below 2^64" : fmt::format("up to {}", most);
+  const auto check = [most, limit](std::string& text) -> std::string {
     std::uint64_t number = 0;
     const char* end = text.data() + text.size();
     const auto [rest, error] = std::from_chars(text.data(), end, number);
-    if (error != std::errc() || rest != end) return fmt::format("'{}' is not a whole number below 2^64", text);
+    if (error != std::errc() || rest != end || number > most) {
+      return fmt::format("'{}' is not a whole number {}", text, limit);
+    }
     text = std::to_string(number);
     return {};
   };
   return {check, ""};
 }
 
+CLI::Validator file_name() {
+  const auto check = [](const std::string& name) -> std::string { return name.empty() ? "the name is empty" : ""; };
+  return {check, ""};
+}
+
 void add_file(CLI::App& command, std::string& file) {
-  command.add_option("FILE", file, "mesh (PLY, OBJ, OFF or STL), or index (meshhood build)")->required()->type_name("");
+  command.add_option("FILE", file, "mesh (PLY, OBJ, OFF or STL), or index (meshhood build)")
+      ->required()
+      ->check(file_name())
+      ->type_name("");
 }
 
 void add_mesh(CLI::App& command, std::string& file) {
-  command.add_option("MESH", file, "PLY, OBJ, OFF or STL")->required()->type_name("");
+  command.add_option("MESH", file, "PLY, OBJ, OFF or STL")->required()->check(file_name())->type_name("");
+}
+
+CLI::Option* add_output(CLI::App& command, std::string& file, const std::string& description) {
+  return command.add_option("-o,--output", file, description)->check(file_name())->type_name("FILE");
 }
 
 void add_threads(CLI::App& command, unsigned& threads) {
   command.add_option("--threads", threads, "how many; 0: as many as the processor has")
-      ->transform(whole_number())
+      ->transform(whole_number(kMaxThreads))
       ->type_name("NUMBER")
       ->capture_default_str();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -12,11 +13,17 @@
 
 namespace meshhood::cli {
 
+/// Refuses the empty name, which is what a shell makes of a variable that is not set.
+[[nodiscard]] CLI::Validator file_name();
+
 /// Adds FILE, a mesh or an index, to `command`; it ends up in `file`, which must outlive it. So do the options below.
 void add_file(CLI::App& command, std::string& file);
 
 /// Adds MESH, a mesh alone.
 void add_mesh(CLI::App& command, std::string& file);
+
+/// Adds --output, a file to write. May be left out unless it is made required.
+CLI::Option* add_output(CLI::App& command, std::string& file, const std::string& description);
 
 /// Adds --threads.
 void add_threads(CLI::App& command, unsigned& threads);
@@ -52,7 +59,8 @@ struct Query {
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}.
 [[nodiscard]] Query resolve(const Question& question, Input& input);
 
-/// Accepts decimal digits alone: CLI11 would read 010 as 8, and 2^64 as the largest number there is.
-[[nodiscard]] CLI::Validator whole_number();
+/// Accepts decimal digits alone, for a number up to `most`: CLI11 would read 010 as 8, and 2^64 as the largest number
+/// there is.
+[[nodiscard]] CLI::Validator whole_number(std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 
 }  // namespace meshhood::cli

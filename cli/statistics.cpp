@@ -20,6 +20,17 @@ std::map<std::size_t, std::size_t> polygon_degrees(const FacesView& faces) {
   return degrees;
 }
 
+std::size_t repeated_corners(const FacesView& faces) {
+  std::size_t repeated = 0;
+  std::vector<VertexId> sorted;
+  faces.for_each([&](std::size_t, auto corners) {
+    sorted.assign(corners.begin(), corners.end());
+    std::sort(sorted.begin(), sorted.end());
+    repeated += static_cast<std::size_t>(sorted.end() - std::unique(sorted.begin(), sorted.end()));
+  });
+  return repeated;
+}
+
 /// Every side of every face that is an edge, as a sorted list of ordered pairs: an edge stands in it once a face.
 std::vector<std::pair<VertexId, VertexId>> sides(const FacesView& faces) {
   std::vector<std::pair<VertexId, VertexId>> all;
@@ -112,6 +123,7 @@ Statistics statistics(const MeshView& mesh, const AdjacencyView& adjacency) {
   count_edges(mesh.faces, result);
   count_components(mesh, adjacency, result);
   result.average_edge = mean_edge_length({mesh.positions, adjacency});
+  result.repeated_corners = repeated_corners(mesh.faces);
   result.repeated_positions = repeated_positions(mesh.positions);
   result.bounds = bounds(mesh.positions);
   return result;

@@ -27,6 +27,7 @@ struct Statistics {
   std::size_t boundary_edges = 0;                      ///< in one face
   std::size_t nonmanifold_edges = 0;                   ///< in more than two faces
   double average_edge = 0;                             ///< over the different edges; 0 where there is none
+  std::size_t repeated_corners = 0;                    ///< corners at a vertex that their face has had before
   std::size_t repeated_positions = 0;                  ///< vertices less different positions, these rounded to float
   std::optional<Box> bounds;                           ///< none for a mesh without vertices
 };

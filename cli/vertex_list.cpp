@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +13,7 @@
 
 #include "io/byte_source.h"
 #include "io/input.h"
+#include "io/mesh_io.h"
 #include "io/number.h"
 #include "io/place.h"
 #include "io/text.h"
@@ -29,12 +29,7 @@ VertexId parse_vertex(const io::Text& text, std::string_view token, std::size_t 
   text.fail(ErrorCode::InvalidOption, io::quote(token) + " where " + expected);
 }
 
-}  // namespace
-
-std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vertices) {
-  io::FileSource source(file);
-  io::Input input(source, file, std::numeric_limits<std::uint64_t>::max());
-  io::Text text(input, {.hash_comments = true});
+std::vector<VertexId> read(io::Text& text, std::size_t vertices) {
   std::vector<VertexId> list;
   while (text.next_line()) {
     const std::string_view token = text.token_on_line();
@@ -45,6 +40,21 @@ std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vert
     }
   }
   return list;
+}
+
+}  // namespace
+
+std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vertices) {
+  io::FileSource source(file);
+  io::Input input(source, file, io::ReadOptions{}.max_bytes);
+  io::Text text(input, {.hash_comments = true});
+  try {
+    return read(text, vertices);
+  } catch (const Error& error) {
+    // What is no text at all is no mesh that was refused.
+    if (error.code() != ErrorCode::MalformedFile) throw;
+    raise(ErrorCode::InvalidOption, error.what());
+  }
 }
 
 }  // namespace meshhood::cli

@@ -21,12 +21,15 @@ namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
 constexpr mode_t kNewFileMode = 0666;  // less what the umask takes away
+constexpr mode_t kPrivateMode = 0600;
 
-// What a symbolic link stands for, so that the link survives.
+// What a symbolic link stands for, so that the link survives; even if nothing is there yet.
 std::filesystem::path resolved(const std::filesystem::path& path) {
-  std::error_code ignored;
-  auto target = std::filesystem::canonical(path, ignored);
-  return ignored ? path : target;
+  std::error_code failed;
+  auto target = std::filesystem::canonical(path, failed);
+  if (!failed) return target;
+  const auto missing = std::filesystem::read_symlink(path, failed);
+  return failed ? path : path.parent_path() / missing;
 }
 
 // Recognisable as a leftover, should the process be killed. No longer than a name may be, though the target's may be
@@ -55,7 +58,8 @@ FileWriter::FileWriter(const std::filesystem::path& path) : name_(path), target_
   if (is_special) {
     open_in_place();
   } else {
-    open_beside();
+    // What replaces a file that others may not read they may not read while it is written either.
+    open_beside(std::filesystem::exists(status) ? kPrivateMode : kNewFileMode);
   }
 }
 
@@ -64,11 +68,11 @@ void FileWriter::open_in_place() {
   if (!file_.is_open()) fail("open");
 }
 
-void FileWriter::open_beside() {
+void FileWriter::open_beside(mode_t mode) {
   for (;;) {
     auto name = target_.parent_path() / temporary_name(target_);
     constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
-    const int file = uninterrupted([&] { return ::open(name.c_str(), kFlags, kNewFileMode); });
+    const int file = uninterrupted([&] { return ::open(name.c_str(), kFlags, mode); });
     if (file >= 0) {
       file_ = Descriptor(file);
       temporary_ = std::move(name);  // a copy could fail, and leave the file behind

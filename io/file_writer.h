@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include <sys/types.h>
+
 #include "io/descriptor.h"
 
 namespace meshhood::io {
@@ -39,7 +41,7 @@ class FileWriter {
 
  private:
   void open_in_place();
-  void open_beside();
+  void open_beside(mode_t mode);
   void write_through(std::string_view bytes);
   void flush();
   void keep_owner_and_mode() const;

@@ -144,7 +144,9 @@ bool is_index(const std::filesystem::path& path) {
 
 IndexHeader read_header(const std::filesystem::path& path) {
   FileSource source(path);
-  if (!source.is_ordinary()) raise(ErrorCode::IoFailure, printable_name(path.string()) + ": is no ordinary file");
+  if (!source.is_ordinary()) {
+    raise(ErrorCode::IoFailure, printable_name(path.string()) + ": is no ordinary file, which an index has to be");
+  }
   Head head;
   const std::size_t known = fill(source, head);
   return naming(path, [&] { return meshhood::read_header(bytes_of(head, known), source.size().value_or(known)); });

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -29,6 +30,21 @@ namespace meshhood::test {
   table.resize(header.sections);
   if (!table.empty()) std::memcpy(table.data(), bytes.data() + sizeof(header), std::as_bytes(std::span(table)).size());
   return table;
+}
+
+/// How the message of a refusal must begin where byte `byte` was changed.
+[[nodiscard]] inline std::string culprit_of(std::span<const std::byte> bytes, std::size_t byte) {
+  std::string name = "header";
+  for (const file::Section& section : table_of(bytes)) {
+    if (section.begin <= byte) name = "section " + std::string(section.name.data());
+  }
+  return name + ", byte ";
+}
+
+/// Whether the message of a refusal says where, before it says what.
+[[nodiscard]] inline bool names_a_place(std::string_view message) {
+  const std::string_view where = message.substr(0, message.find(": "));
+  return (where.starts_with("header, ") || where.starts_with("section ")) && where.find("byte ") != where.npos;
 }
 
 /// Writes the checksum that belongs to the header and the table.

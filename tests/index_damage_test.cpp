@@ -31,19 +31,21 @@ TestMesh bumpy_sheets(std::size_t side, bool single) {
   return mesh.finish(single);
 }
 
-/// How the message of a refusal must begin where byte `byte` was changed.
-std::string culprit_of(std::span<const std::byte> bytes, std::size_t byte) {
-  std::string name = "header";
-  for (const file::Section& section : table_of(bytes)) {
-    if (section.begin <= byte) name = "section " + std::string(section.name.data());
-  }
-  return name + ", byte ";
-}
-
 /// What refuses the bytes; empty where they are accepted.
 std::string refusal_of(std::span<const std::byte> bytes) {
   try {
     static_cast<void>(map(bytes, nullptr));
+    return {};
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::MalformedIndex) << error.what();
+    EXPECT_TRUE(names_a_place(error.what())) << error.what();
+    return error.what();
+  }
+}
+
+std::string refusal_of_loading(std::span<const std::byte> bytes) {
+  try {
+    static_cast<void>(load(bytes));
     return {};
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::MalformedIndex) << error.what();
@@ -96,7 +98,7 @@ TEST(IndexDamage, F1EveryBitFlippedAndEveryByteReplacedIsRefused) {
   expect_every_change_refused("small", build(bumpy_sheets(5, true).view()));
   expect_every_change_refused("double", build(bumpy_sheets(12, false).view()));
   expect_every_change_refused("reordered", reorder(bumpy_sheets(12, true).view()).index);
-  expect_every_change_refused("large", build(bumpy_sheets(31, true).view()));
+  expect_every_change_refused("large", build(bumpy_sheets(32, true).view()));
 }
 
 /// Asks a forged index that was accepted. What it answers may be wrong, but lies within its arrays.
@@ -167,13 +169,13 @@ TEST(IndexDamage, F2ManyForgedBytesAreRefusedOrHarmless) {
 
 TEST(IndexDamage, F3EveryTruncationIsRefused) {
   std::size_t lengths = 0;
-  for (const std::size_t side : {1U, 5U, 31U}) {
+  for (const std::size_t side : {1U, 5U, 32U}) {
     const std::vector<std::byte> whole = saved(build(bumpy_sheets(side, true).view()));
     const std::size_t step = std::max<std::size_t>(1, whole.size() / scaled(whole.size()));
     for (std::size_t length = 0; length < whole.size(); length += step) {
       // Ends where the bytes end, so that a sanitizer sees a read of one more.
       const std::vector<std::byte> cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length));
-      EXPECT_THAT([&] { static_cast<void>(load(cut)); }, testing::Throws<Error>()) << length;
+      EXPECT_THAT(refusal_of_loading(cut), testing::StartsWith("header, byte ")) << length;
       ++lengths;
     }
   }
@@ -186,7 +188,7 @@ TEST(IndexDamage, F3AForgedTruncationIsRefusedOrHarmless) {
     Forgery cut(std::vector<std::byte>(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length)));
     cut.header().bytes = length;
     seal(cut.bytes());
-    EXPECT_THAT([&] { static_cast<void>(load(cut.bytes())); }, testing::Throws<Error>()) << length;
+    EXPECT_TRUE(names_a_place(refusal_of_loading(cut.bytes()))) << length;
   }
 }
 
@@ -195,10 +197,10 @@ TEST(IndexDamage, F3AppendedBytesAreRefused) {
   for (const std::size_t more : {1U, 64U, 4096U, 1U << 20U}) {
     Forgery longer(whole);
     longer.bytes().resize(whole.size() + more);
-    EXPECT_THAT([&] { static_cast<void>(load(longer.bytes())); }, testing::Throws<Error>()) << more;
+    EXPECT_THAT(refusal_of_loading(longer.bytes()), testing::StartsWith("header, byte ")) << more;
     longer.header().bytes = longer.bytes().size();
     seal(longer.bytes());
-    EXPECT_THAT([&] { static_cast<void>(load(longer.bytes())); }, testing::Throws<Error>()) << more << ", forged";
+    EXPECT_THAT(refusal_of_loading(longer.bytes()), testing::StartsWith("header, byte ")) << more << ", forged";
   }
 }
 

@@ -37,7 +37,9 @@ void expect_refused_after(const char* culprit, const Change& change) {
   Forgery forgery(saved(build(bumpy_grid().view())));
   change(forgery);
   seal(forgery.bytes());
-  expect_refused(ErrorCode::MalformedIndex, culprit, [&] { static_cast<void>(load(forgery.bytes())); });
+  const auto call = [&] { static_cast<void>(load(forgery.bytes())); };
+  expect_refused(ErrorCode::MalformedIndex, culprit, call);
+  EXPECT_THAT(call, testing::ThrowsMessage<Error>(testing::Truly(names_a_place)));
 }
 
 TEST(IndexRules, F4OtherVersionsAreRefusedByTheirNumber) {

@@ -16,6 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "io/file_writer.h"
 #include "support/hostile.h"
 #include "support/scratch.h"
 #include "support/shared_meshes.h"
@@ -178,6 +179,47 @@ TEST_F(WritePly, ReplacesWhatTheNameStandsForAndKeepsItsMode) {
   ASSERT_EQ(::stat(file.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777U, 0640U);
   EXPECT_EQ(files_in(scratch.path()), 2U);
+}
+
+TEST_F(WritePly, ALinkToWhatIsNotThereYetSurvives) {
+  const auto link = scratch.path() / "link.ply";
+  std::filesystem::create_symlink("out.ply", link);
+  io::write_ply(link, triangle);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(face_count(io::read_mesh(file)), 1U);
+  const auto loop = scratch.path() / "loop.ply";
+  std::filesystem::create_symlink("loop.ply", loop);
+  EXPECT_EQ(refused(loop, triangle).code, ErrorCode::IoFailure);
+  EXPECT_EQ(files_in(scratch.path()), 3U);
+}
+
+// The permissions that a file has, in octal digits.
+unsigned mode_of(const std::filesystem::path& path) {
+  struct stat status = {};
+  EXPECT_EQ(::stat(path.c_str(), &status), 0) << path;
+  return status.st_mode & 0777U;
+}
+
+TEST_F(WritePly, WhatReplacesAPrivateFileIsPrivateWhileItIsWritten) {
+  const auto before = ::umask(0022);
+  ASSERT_EQ(scratch.write("out.ply", "old"), file);
+  ASSERT_EQ(::chmod(file.c_str(), 0600), 0);
+  {
+    io::FileWriter writer(file);
+    writer.write("new");
+    std::size_t beside = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(scratch.path())) {
+      EXPECT_EQ(mode_of(entry.path()), 0600U) << entry.path();
+      ++beside;
+    }
+    EXPECT_EQ(beside, 2U);
+    writer.commit();
+  }
+  EXPECT_EQ(mode_of(file), 0600U);
+  std::filesystem::remove(file);
+  io::write_ply(file, triangle);
+  EXPECT_EQ(mode_of(file), 0644U) << "a new file is as the umask says";
+  ::umask(before);
 }
 
 TEST_F(WritePly, KeepsTheOwnerWhereItMayGiveFilesAway) {

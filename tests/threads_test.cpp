@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One index asked by many threads at once, in every way there is.
+// One index asked by many threads at once, in every way there is; and built by many.
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
@@ -9,12 +9,15 @@
 #include <thread>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "meshhood/meshhood.h"
 
 #include "families.h"
+#include "same_storage.h"
 #include "scale.h"
+#include "support/sanitized.h"
 
 namespace meshhood::test {
 namespace {
@@ -114,7 +117,7 @@ class Asker {
 };
 
 TEST(Threads, C1OneIndexIsAskedByManyInEveryWay) {
-  const std::size_t queries = scaled(100'000, 700);
+  const std::size_t queries = scaled(100'000, kThreadSanitized ? 50'000 : 700);
   std::atomic<std::size_t> wrong = 0;
   for (const TestMesh& mesh : meshes()) {
     ASSERT_EQ(mesh.size(), kVertices);
@@ -138,6 +141,34 @@ TEST(Threads, C1OneIndexIsAskedByManyInEveryWay) {
   }
   EXPECT_EQ(wrong, 0U);
   std::printf("%zu threads, %zu queries, %zu mismatches\n", kThreads, 2 * kThreads * queries, wrong.load());
+}
+
+// Of more vertices than a thread takes at once; one mesh is built from by two callers, one of whom gives up.
+TEST(Threads, C1AnIndexIsBuiltByMany) {
+  const TestMesh mesh = make_grid(250, 240, true).finish(true);
+  const Index expected = build(mesh.view());
+  std::thread other([&] {
+    std::size_t reports = 0;
+    const auto give_up = [&](std::size_t, std::size_t) { return ++reports < 2; };
+    EXPECT_THROW(static_cast<void>(build(mesh.view(), {.threads = kThreads, .progress = give_up})), Error);
+  });
+  EXPECT_THAT(differences(build(mesh.view(), {.threads = kThreads}), expected), testing::IsEmpty());
+  EXPECT_THAT(differences(reorder(mesh.view(), {.threads = kThreads}).index, reorder(mesh.view()).index),
+              testing::IsEmpty());
+  other.join();
+}
+
+// So many rows that every thread gets some.
+TEST(Threads, C1ABatchIsAnsweredByMany) {
+  const TestMesh mesh = make_grid(120, 100, false).finish(false);
+  const Index index = build(mesh.view());
+  const paper::Index paper_index = paper::build(mesh.view());
+  const BatchQuery query{.vertices = {}, .radius = 3.5};
+  const BatchOptions alone{.sorted = true};
+  const BatchOptions many{.threads = kThreads, .sorted = true};
+  EXPECT_EQ(neighborhoods(index, query, many).ids, neighborhoods(index, query, alone).ids);
+  EXPECT_EQ(paper::neighborhoods(paper_index, query, many).ids, paper::neighborhoods(paper_index, query, alone).ids);
+  EXPECT_EQ(counts(index, query, many), counts(index, query, alone));
 }
 
 }  // namespace

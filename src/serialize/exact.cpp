@@ -69,11 +69,6 @@ std::unique_ptr<IndexStorage> take_arrays(file::SectionReader& file) {
   return storage;
 }
 
-void verify_kind(const file::SectionReader& file) {
-  if (file.header().kind == IndexKind::Exact) return;
-  raise(ErrorCode::MalformedIndex, "an index of the paper, expected an exact one");
-}
-
 void verify_alignment(std::span<const std::byte> bytes) {
   const auto address = reinterpret_cast<std::uintptr_t>(bytes.data());
   if (address % kIndexAlignment == 0) return;
@@ -117,7 +112,7 @@ Index load(std::span<const std::byte> bytes, const LoadOptions& options) {
 Index map(std::span<const std::byte> bytes, std::shared_ptr<const void> owner, const MapOptions& options) {
   verify_alignment(bytes);
   file::SectionReader file(bytes);
-  verify_kind(file);
+  file::expect_kind(file.header().kind, IndexKind::Exact);
   Work work(1, options.progress, options.trusted ? 0 : file.header().sections + file::kVerifyParts);
   if (!options.trusted) file.verify_checksums(work);
   auto storage = take_arrays(file);

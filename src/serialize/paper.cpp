@@ -111,7 +111,7 @@ Hierarchy<Real> take_hierarchy(SectionReader& file) {
   }
   file.expect_end();
   complete(hierarchy);
-  file::verify_enclosed(hierarchy);
+  file::verify_enclosed(hierarchy, file);
   return hierarchy;
 }
 
@@ -124,9 +124,7 @@ void save(const Index& index, const Sink& sink) {
 
 Index load(std::span<const std::byte> bytes, const LoadOptions& options) {
   const IndexHeader header = read_header(bytes);
-  if (header.kind != IndexKind::Paper) {
-    raise(ErrorCode::MalformedIndex, "an exact index, expected one of the paper");
-  }
+  file::expect_kind(header.kind, IndexKind::Paper);
   const file::AlignedCopy copy(bytes);
   SectionReader file(copy.bytes());
   Work work(1, options.progress, file.header().sections + 1);

@@ -67,22 +67,23 @@ void verify_siblings(const AdjacencyView& siblings, const SectionReader& file) {
 }
 
 template <class Real>
-void verify_enclosed(const paper::Hierarchy<Real>& hierarchy) {
-  for (const paper::Level<Real>& level : hierarchy.levels) {
+void verify_enclosed(const paper::Hierarchy<Real>& hierarchy, const SectionReader& file) {
+  for (std::size_t l = 0; l < hierarchy.levels.size(); ++l) {
+    const paper::Level<Real>& level = hierarchy.levels[l];
     for (std::size_t c = 0; c < level.size(); ++c) {
       const Sphere<Real>& sphere = level.spheres[c];
       for (std::size_t i = level.first_vertex[c]; i < level.first_vertex[c + 1]; ++i) {
         const double d2 = squared_distance(centre_of(sphere), point<Real>(hierarchy.positions, i));
         if (std::sqrt(d2) <= static_cast<double>(sphere.radius)) continue;
-        raise(ErrorCode::MalformedIndex, "level " + std::to_string(level.number) + ", cluster " + std::to_string(c) +
-                                             ": its sphere does not enclose vertex " +
-                                             std::to_string(hierarchy.vertices[i]));
+        file.refuse_in(
+            "spheres " + std::to_string(l), c * sizeof(Sphere<Real>),
+            "cluster " + std::to_string(c) + ": does not enclose vertex " + std::to_string(hierarchy.vertices[i]));
       }
     }
   }
 }
 
-template void verify_enclosed(const paper::Hierarchy<float>& hierarchy);
-template void verify_enclosed(const paper::Hierarchy<double>& hierarchy);
+template void verify_enclosed(const paper::Hierarchy<float>& hierarchy, const SectionReader& file);
+template void verify_enclosed(const paper::Hierarchy<double>& hierarchy, const SectionReader& file);
 
 }  // namespace meshhood::file

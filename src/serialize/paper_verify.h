@@ -30,6 +30,6 @@ void verify_spheres(std::span<const Sphere<Real>> spheres, const SectionReader& 
 
 /// Spheres hold their vertices, as a query computes distances.
 template <class Real>
-void verify_enclosed(const paper::Hierarchy<Real>& hierarchy);
+void verify_enclosed(const paper::Hierarchy<Real>& hierarchy, const SectionReader& file);
 
 }  // namespace meshhood::file

@@ -100,6 +100,12 @@ Header read_header(std::span<const std::byte> first_bytes, std::uint64_t size) {
   return header;
 }
 
+void expect_kind(IndexKind kind, IndexKind expected) {
+  if (kind == expected) return;
+  refuse_header(offsetof(Header, kind), expected == IndexKind::Exact ? "an index of the paper, expected an exact one"
+                                                                     : "an exact index, expected one of the paper");
+}
+
 SectionReader::SectionReader(std::span<const std::byte> bytes)
     : bytes_(bytes),
       header_(read_header(bytes, bytes.size())),
@@ -169,6 +175,10 @@ void SectionReader::refuse_count(std::uint64_t count, std::uint64_t wanted) cons
 void SectionReader::refuse_last(const std::string& message) const {
   const Section& section = table_[taken_ - 1];
   refuse_at(quoted(name_of(section)), section.begin, message);
+}
+
+void SectionReader::refuse_in(std::string_view section, std::uint64_t byte, const std::string& message) const {
+  refuse_at(quoted(section), std::ranges::find(table_, section, name_of)->begin + byte, message);
 }
 
 void SectionReader::refuse(const void* place, const std::string& message) const {

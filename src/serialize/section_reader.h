@@ -17,6 +17,9 @@ namespace meshhood::file {
 /// end where it says.
 [[nodiscard]] Header read_header(std::span<const std::byte> first_bytes, std::uint64_t size);
 
+/// Throws Error{MalformedIndex} unless an index of `kind` is of the kind that is expected.
+void expect_kind(IndexKind kind, IndexKind expected);
+
 /// The sections of a saved index. All errors are Error{MalformedIndex} and name section and byte.
 class SectionReader {
  public:
@@ -51,6 +54,9 @@ class SectionReader {
 
   /// Refuses where `place` lies: the byte and its section go before the message.
   [[noreturn]] void refuse(const void* place, const std::string& message) const;
+
+  /// Refuses the byte of a section that was taken before, counted from its first.
+  [[noreturn]] void refuse_in(std::string_view section, std::uint64_t byte, const std::string& message) const;
 
   /// Refuses the section taken last as a whole; it may be empty, and so have no place of its own.
   [[noreturn]] void refuse_last(const std::string& message) const;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "meshhood/paper.h"
 #include "meshhood/reorder.h"
 #include "meshhood/serialize.h"
 
@@ -14,11 +15,13 @@
 
 namespace meshhood::test {
 
+enum class GoldenIndex { Exact, Reordered, Paper };
+
 /// What the golden files hold: a mesh a kind of content. Made without functions that differ between C libraries.
 struct GoldenShape {
   std::string name;
   TestMesh mesh;
-  bool reordered = false;
+  GoldenIndex index = GoldenIndex::Exact;
 };
 
 /// A wavy grid over another, in triangles or quads; every seventh vertex of the upper one in no face.
@@ -36,13 +39,22 @@ struct GoldenShape {
 [[nodiscard]] inline std::vector<GoldenShape> golden_shapes() {
   return {{"float", wavy_grids(15, false, true)},
           {"double", wavy_grids(12, true, false)},
-          {"reordered", wavy_grids(9, false, true), true},
-          {"empty", TestMesh().finish(true)}};
+          {"reordered", wavy_grids(9, false, true), GoldenIndex::Reordered},
+          {"empty", TestMesh().finish(true)},
+          {"paper", wavy_grids(14, false, true), GoldenIndex::Paper},
+          {"paper_double", wavy_grids(11, true, false), GoldenIndex::Paper},
+          {"paper_empty", TestMesh().finish(true), GoldenIndex::Paper}};
 }
 
+/// The paper's index is built by one thread.
 [[nodiscard]] inline std::vector<std::byte> golden_bytes(const GoldenShape& shape, unsigned threads = 1) {
-  if (shape.reordered) return saved(reorder(shape.mesh.view(), {.threads = threads}).index);
-  return saved(build(shape.mesh.view(), {.threads = threads}));
+  const MeshView mesh = shape.mesh.view();
+  switch (shape.index) {
+    case GoldenIndex::Exact: return saved(build(mesh, {.threads = threads}));
+    case GoldenIndex::Reordered: return saved(reorder(mesh, {.threads = threads}).index);
+    case GoldenIndex::Paper: return saved(paper::build(mesh));
+  }
+  return {};
 }
 
 }  // namespace meshhood::test
