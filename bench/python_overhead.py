@@ -18,6 +18,8 @@ SIDE = 500
 CALLS = 5_000
 ROUNDS = 7
 RADII = (1.0, 3.0, 10.0)
+LARGE_RADIUS = 65.0
+CHUNK = 1024
 
 
 def grid(side):
@@ -67,6 +69,19 @@ def print_batch(index, v, r):
     print(f"a batch costs {beside:.1f} us beside its rows: {beside / whole:.5%} of one over all {len(index)} vertices")
 
 
+def print_rows(index, v, r):
+    """Rows of many ids, kept in arrays chunk by chunk, beside the same that are only counted."""
+    rows = np.arange(v, v + CALLS)
+
+    def kept():
+        for chunk in index.iter_neighborhoods(r, rows, chunk=CHUNK, workers=1):
+            del chunk
+
+    ids, counted = medians(kept, lambda: index.query_ball_count(rows, r, workers=1))
+    count = index.query_ball_count(rows, r).mean()
+    print(f"a row of {count:.0f} ids takes {ids:.1f} us in chunks of {CHUNK}, {counted:.1f} us where it is only counted")
+
+
 def main():
     index = meshhood.MeshIndex(*grid(SIDE))
     v = SIDE * SIDE // 2 + SIDE // 2
@@ -74,6 +89,7 @@ def main():
     for r in RADII:
         print_calls(index, v, r)
     print_batch(index, v, RADII[-1])
+    print_rows(index, v, LARGE_RADIUS)
 
 
 if __name__ == "__main__":

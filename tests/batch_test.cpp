@@ -198,6 +198,86 @@ TEST_F(Batches, GiveDistancesOnlyWhenAsked) {
   EXPECT_EQ(*std::max_element(all.distances.begin(), all.distances.end()), 3.0);
 }
 
+/// Memory with something before and behind it that nobody may write to.
+template <class T>
+class Guarded {
+ public:
+  std::span<T> take(std::size_t count) {
+    values_.assign(count + 2 * kGuards, kUntouched);
+    return std::span(values_).subspan(kGuards, count);
+  }
+
+  /// What was taken, if its surroundings are as they were.
+  [[nodiscard]] std::vector<T> values() const {
+    const auto is_untouched = [](T value) { return value == kUntouched; };
+    EXPECT_TRUE(std::all_of(values_.begin(), values_.begin() + kGuards, is_untouched));
+    EXPECT_TRUE(std::all_of(values_.end() - kGuards, values_.end(), is_untouched));
+    return {values_.begin() + kGuards, values_.end() - kGuards};
+  }
+
+ private:
+  static constexpr std::ptrdiff_t kGuards = 64;
+  static constexpr T kUntouched = 123456789;
+  std::vector<T> values_;
+};
+
+template <class Index>
+void expect_same_in_callers_memory(const Index& index, const BatchQuery& query, const BatchOptions& options) {
+  const Neighborhoods expected = neighborhoods(index, query, options);
+  Guarded<VertexId> ids;
+  Guarded<double> distances;
+  std::vector<std::size_t> calls;
+  const auto caller = std::this_thread::get_id();
+  const auto allocate = [&](std::size_t count) -> BatchMemory {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    calls.push_back(count);
+    return {ids.take(count), distances.take(options.distances ? count : 0)};
+  };
+  EXPECT_EQ(neighborhoods_into(index, query, allocate, options), expected.offsets);
+  EXPECT_THAT(calls, ElementsAre(expected.ids.size()));
+  EXPECT_EQ(ids.values(), expected.ids);
+  EXPECT_EQ(distances.values(), expected.distances);
+}
+
+TEST_F(Batches, FillMemoryOfTheCallers) {
+  const paper::Index approximate = paper::build(mesh.view());
+  const RandomRows rows(mesh.view(), 500, 3);
+  for (const unsigned threads : kThreads) {
+    for (const bool distances : {false, true}) {
+      const BatchOptions options{.threads = threads, .distances = distances, .sorted = distances};
+      expect_same_in_callers_memory(index, rows.query(), options);
+      expect_same_in_callers_memory(approximate, rows.query(), options);
+    }
+  }
+  expect_same_in_callers_memory(build(MeshView{}), {.radius = 1.0}, {});
+}
+
+TEST_F(Batches, RefuseMemoryOfAnotherSize) {
+  std::vector<VertexId> ids(4000);
+  std::vector<double> distances(4000);
+  const auto refused = [&](const std::string& culprit, std::size_t with_ids, std::size_t with_distances) {
+    const auto allocate = [&](std::size_t) -> BatchMemory {
+      return {std::span(ids).first(with_ids), std::span(distances).first(with_distances)};
+    };
+    expect_refused(ErrorCode::InvalidOption, culprit, [&] {
+      static_cast<void>(neighborhoods_into(index, {.radius = 0.5}, allocate, {.threads = 2, .distances = true}));
+    });
+  };
+  refused("memory for 3599 ids, expected for 3600", 3599, 3600);
+  refused("memory for 3601 ids, expected for 3600", 3601, 3600);
+  refused("memory for 0 distances, expected for 3600", 3600, 0);
+  expect_refused(ErrorCode::InvalidOption, "allocate is empty",
+                 [&] { static_cast<void>(neighborhoods_into(index, {.radius = 1.0}, {})); });
+}
+
+TEST_F(Batches, PassOnWhatTheAllocatorThrows) {
+  for (const unsigned threads : kThreads) {
+    const auto allocate = [](std::size_t) -> BatchMemory { throw std::bad_alloc(); };
+    EXPECT_THROW(static_cast<void>(neighborhoods_into(index, {.radius = 2.0}, allocate, {.threads = threads})),
+                 std::bad_alloc);
+  }
+}
+
 TEST_F(Batches, OfManyRowsAreAskedInSeveralPieces) {
   const std::vector<VertexId> vertices((std::size_t{1} << 20) + 5, VertexId{7});
   const std::vector<std::uint64_t> all = counts(index, {.vertices = vertices, .radius = 1.0}, {.threads = 2});
@@ -217,6 +297,12 @@ void expect_all_refused(ErrorCode code, const std::string& culprit, const Index&
   expect_refused(code, culprit, [&] { for_each_neighborhood(index, query, never, options, query_options...); });
   expect_refused(code, culprit, [&] { static_cast<void>(neighborhoods(index, query, options, query_options...)); });
   expect_refused(code, culprit, [&] { static_cast<void>(counts(index, query, options, query_options...)); });
+  const auto no_memory = [&](std::size_t) -> BatchMemory {
+    ADD_FAILURE() << "asked for memory before: " << culprit;
+    return {};
+  };
+  expect_refused(code, culprit,
+                 [&] { static_cast<void>(neighborhoods_into(index, query, no_memory, options, query_options...)); });
 }
 
 TEST_F(Batches, RefuseWhatCannotBeBeforeTheFirstRow) {

@@ -40,4 +40,8 @@ IndicesView indices_of(const Input& array, const char* argument) {
   refuse(argument, "integers of 32 or 64 bits");
 }
 
+nb::object unset(std::size_t size, const char* dtype) {
+  return nb::module_::import_("numpy").attr("empty")(size, dtype);
+}
+
 }  // namespace meshhood::python

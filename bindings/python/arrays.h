@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -42,6 +43,17 @@ template <class T, class Value>
 auto owned(std::vector<Value>&& values) {
   const std::size_t size = values.size();
   return owned<T>(std::move(values), {size});
+}
+
+/// An array of NumPy's own memory, in one dimension, whose values are not set. Large ones are cheaper so than as a
+/// vector, which writes to all of itself first: NumPy asks the system for large pages.
+[[nodiscard]] nanobind::object unset(std::size_t size, const char* dtype);
+
+/// The values of such an array, whose type has as many bytes as `T`.
+template <class T>
+std::span<T> values_of(const nanobind::object& array) {
+  const auto values = nanobind::cast<nanobind::ndarray<nanobind::c_contig, nanobind::device::cpu>>(array);
+  return {static_cast<T*>(values.data()), values.size()};
 }
 
 }  // namespace meshhood::python

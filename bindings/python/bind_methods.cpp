@@ -62,13 +62,20 @@ auto many(Method& method, const std::optional<Rows>& vertices, const std::varian
           bool distances, bool sorted, unsigned threads, nb::handle progress) {
   const BatchQuery query = query_of(vertices, radius);
   const BatchOptions options{.threads = threads, .distances = distances, .sorted = sorted, .progress = watch(progress)};
-  Neighborhoods rows;
+  nb::object ids;
+  nb::object found_distances;
+  const auto allocate = [&](std::size_t count) -> BatchMemory {
+    const nb::gil_scoped_acquire lock;
+    ids = unset(count, "int32");
+    found_distances = unset(distances ? count : 0, "float64");
+    return {values_of<VertexId>(ids), values_of<double>(found_distances)};
+  };
+  std::vector<std::uint64_t> offsets;
   {
     const nb::gil_scoped_release unlocked;
-    rows = method.neighborhoods(query, options);
+    offsets = method.neighborhoods_into(query, allocate, options);
   }
-  return std::tuple(owned<std::int64_t>(std::move(rows.offsets)), owned<std::int32_t>(std::move(rows.ids)),
-                    owned<double>(std::move(rows.distances)));
+  return std::tuple(owned<std::int64_t>(std::move(offsets)), std::move(ids), std::move(found_distances));
 }
 
 Output<std::int64_t> many_counts(Method& method, const std::optional<Rows>& vertices,

@@ -34,9 +34,10 @@ class IndexMethod : public Base {
     return ask([&](Searcher& searcher) { return searcher.count(v, radius); });
   }
 
-  Neighborhoods neighborhoods(const BatchQuery& query, const BatchOptions& options) override {
-    using meshhood::neighborhoods;
-    return neighborhoods(index_, query, options);
+  std::vector<std::uint64_t> neighborhoods_into(const BatchQuery& query, const BatchAllocator& allocate,
+                                                const BatchOptions& options) override {
+    using meshhood::neighborhoods_into;
+    return neighborhoods_into(index_, query, allocate, options);
   }
 
   std::vector<std::uint64_t> counts(const BatchQuery& query, const BatchOptions& options) override {

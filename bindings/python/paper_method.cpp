@@ -38,8 +38,9 @@ class PaperSearcher {
   paper::QueryOptions options_;
 };
 
-Neighborhoods neighborhoods(const PaperIndex& index, const BatchQuery& query, const BatchOptions& options) {
-  return paper::neighborhoods(*index.hierarchy, query, options, index.options);
+std::vector<std::uint64_t> neighborhoods_into(const PaperIndex& index, const BatchQuery& query,
+                                              const BatchAllocator& allocate, const BatchOptions& options) {
+  return paper::neighborhoods_into(*index.hierarchy, query, allocate, options, index.options);
 }
 
 std::vector<std::uint64_t> counts(const PaperIndex& index, const BatchQuery& query, const BatchOptions& options) {

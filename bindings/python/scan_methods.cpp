@@ -55,7 +55,9 @@ class ScanMethod : public Method {
 
   std::size_t count(VertexId v, double radius) override { return find(v, radius).size(); }
 
-  Neighborhoods neighborhoods(const BatchQuery& query, const BatchOptions& options) override {
+  std::vector<std::uint64_t> neighborhoods_into(const BatchQuery& query, const BatchAllocator& allocate,
+                                                const BatchOptions& options) override {
+    // To find a row twice would take longer than to copy it.
     Neighborhoods result;
     result.offsets = {0};
     for_each_row(query, options, [&](VertexId v, std::vector<VertexId> ids) {
@@ -64,7 +66,10 @@ class ScanMethod : public Method {
       result.ids.insert(result.ids.end(), ids.begin(), ids.end());
       result.offsets.push_back(result.ids.size());
     });
-    return result;
+    const BatchMemory memory = allocate(result.ids.size());
+    std::copy(result.ids.begin(), result.ids.end(), memory.ids.begin());
+    std::copy(result.distances.begin(), result.distances.end(), memory.distances.begin());
+    return std::move(result.offsets);
   }
 
   std::vector<std::uint64_t> counts(const BatchQuery& query, const BatchOptions& options) override {

@@ -62,6 +62,15 @@ struct Neighborhoods {
   std::vector<double> distances;  ///< empty unless asked for
 };
 
+/// Where rows that are kept go: room for all their ids, and for as many distances if they are asked for.
+struct BatchMemory {
+  std::span<VertexId> ids;
+  std::span<double> distances = {};
+};
+
+/// Gives memory for `count` ids.
+using BatchAllocator = std::function<BatchMemory(std::size_t count)>;
+
 /// Hands the rows to `sink` one after the other, in their order, on the calling thread; the other threads rest
 /// meanwhile. Memory: `buffer_bytes`, and for each thread a `Searcher` and two answers.
 ///
@@ -77,6 +86,14 @@ void for_each_neighborhood(const Index& index, const BatchQuery& query, const Ro
 [[nodiscard]] Neighborhoods neighborhoods(const Index& index, const BatchQuery& query,
                                           const BatchOptions& options = {});
 
+/// The same rows in memory of the caller's own, and their offsets. `allocate` is called once, on the calling thread,
+/// once the rows are counted; all of the memory is then written, unless the batch ends before its time. What `allocate`
+/// throws is passed on.
+/// Throws as `for_each_neighborhood`, and Error{InvalidOption} where the memory is not of the size that was asked for.
+[[nodiscard]] std::vector<std::uint64_t> neighborhoods_into(const Index& index, const BatchQuery& query,
+                                                            const BatchAllocator& allocate,
+                                                            const BatchOptions& options = {});
+
 /// How many vertices each row has. Throws as `for_each_neighborhood`.
 [[nodiscard]] std::vector<std::uint64_t> counts(const Index& index, const BatchQuery& query,
                                                 const BatchOptions& options = {});
@@ -91,6 +108,11 @@ void for_each_neighborhood(const Index& index, const BatchQuery& query, const Ro
 
 [[nodiscard]] Neighborhoods neighborhoods(const Index& index, const BatchQuery& query, const BatchOptions& options = {},
                                           const QueryOptions& query_options = {});
+
+[[nodiscard]] std::vector<std::uint64_t> neighborhoods_into(const Index& index, const BatchQuery& query,
+                                                            const BatchAllocator& allocate,
+                                                            const BatchOptions& options = {},
+                                                            const QueryOptions& query_options = {});
 
 [[nodiscard]] std::vector<std::uint64_t> counts(const Index& index, const BatchQuery& query,
                                                 const BatchOptions& options = {},

@@ -76,6 +76,9 @@ void for_each_neighborhood(const BatchIndex& index, const BatchQuery& query, con
                            const BatchOptions& options);
 [[nodiscard]] Neighborhoods neighborhoods(const BatchIndex& index, const BatchQuery& query,
                                           const BatchOptions& options);
+[[nodiscard]] std::vector<std::uint64_t> neighborhoods_into(const BatchIndex& index, const BatchQuery& query,
+                                                            const BatchAllocator& allocate,
+                                                            const BatchOptions& options);
 [[nodiscard]] std::vector<std::uint64_t> counts(const BatchIndex& index, const BatchQuery& query,
                                                 const BatchOptions& options);
 

@@ -2,7 +2,11 @@
 // Rows that are kept in memory, all in one array: they are counted first, so each goes to its place as it is found.
 #include <algorithm>
 #include <numeric>
+#include <span>
+#include <string>
 #include <vector>
+
+#include "meshhood/error.h"
 
 #include "batch/batch.h"
 
@@ -26,6 +30,31 @@ void count_rows(Batch& batch, std::uint64_t* sizes) {
   for_every_row(batch, [&](unsigned thread, std::size_t row) { sizes[row] = batch.count(thread, row); });
 }
 
+BatchMemory allocated(const BatchAllocator& allocate, std::size_t count, bool distances) {
+  const BatchMemory memory = allocate(count);
+  const auto verify = [count](std::size_t size, const char* what) {
+    if (size == count) return;
+    raise(ErrorCode::InvalidOption,
+          "memory for " + std::to_string(size) + what + ", expected for " + std::to_string(count));
+  };
+  verify(memory.ids.size(), " ids");
+  if (distances) verify(memory.distances.size(), " distances");
+  return memory;
+}
+
+/// Every row where its offset says.
+void write_rows(Batch& batch, std::span<const std::uint64_t> offsets, const BatchMemory& memory) {
+  // Not straight into their place, for what is written beyond the end would hit the next row.
+  std::vector<std::vector<VertexId>> ids(batch.work().threads());
+  for_every_row(batch, [&](unsigned thread, std::size_t row) {
+    const std::size_t size = batch.search(thread, row);
+    ids[thread].resize(std::max(ids[thread].size(), size + BatchSearcher::kRoom));
+    batch.write(thread, size, ids[thread].data(),
+                batch.options().distances ? memory.distances.data() + offsets[row] : nullptr);
+    std::copy_n(ids[thread].begin(), size, memory.ids.data() + offsets[row]);
+  });
+}
+
 }  // namespace
 
 std::vector<std::uint64_t> counts(const BatchIndex& index, const BatchQuery& query, const BatchOptions& options) {
@@ -36,24 +65,26 @@ std::vector<std::uint64_t> counts(const BatchIndex& index, const BatchQuery& que
   return result;
 }
 
-Neighborhoods neighborhoods(const BatchIndex& index, const BatchQuery& query, const BatchOptions& options) {
+std::vector<std::uint64_t> neighborhoods_into(const BatchIndex& index, const BatchQuery& query,
+                                              const BatchAllocator& allocate, const BatchOptions& options) {
+  if (!allocate) raise(ErrorCode::InvalidOption, "allocate is empty, expected a function");
   Batch batch(index, query, options, 2);
-  Neighborhoods result;
-  result.offsets.resize(batch.rows().size() + 1);
-  count_rows(batch, result.offsets.data() + 1);
-  std::partial_sum(result.offsets.begin(), result.offsets.end(), result.offsets.begin());
-  result.ids.resize(result.offsets.back());
-  if (options.distances) result.distances.resize(result.offsets.back());
-  // Not straight into their place, for what is written beyond the end would hit the next row.
-  std::vector<std::vector<VertexId>> ids(batch.work().threads());
-  for_every_row(batch, [&](unsigned thread, std::size_t row) {
-    const std::size_t size = batch.search(thread, row);
-    ids[thread].resize(std::max(ids[thread].size(), size + BatchSearcher::kRoom));
-    batch.write(thread, size, ids[thread].data(),
-                options.distances ? result.distances.data() + result.offsets[row] : nullptr);
-    std::copy_n(ids[thread].begin(), size, result.ids.data() + result.offsets[row]);
-  });
+  std::vector<std::uint64_t> offsets(batch.rows().size() + 1);
+  count_rows(batch, offsets.data() + 1);
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  write_rows(batch, offsets, allocated(allocate, offsets.back(), options.distances));
   batch.work().report();
+  return offsets;
+}
+
+Neighborhoods neighborhoods(const BatchIndex& index, const BatchQuery& query, const BatchOptions& options) {
+  Neighborhoods result;
+  const auto allocate = [&](std::size_t count) -> BatchMemory {
+    result.ids.resize(count);
+    if (options.distances) result.distances.resize(count);
+    return {result.ids, result.distances};
+  };
+  result.offsets = neighborhoods_into(index, query, allocate, options);
   return result;
 }
 

@@ -57,6 +57,11 @@ Neighborhoods neighborhoods(const Index& index, const BatchQuery& query, const B
   return neighborhoods(ExactIndex(index), query, options);
 }
 
+std::vector<std::uint64_t> neighborhoods_into(const Index& index, const BatchQuery& query,
+                                              const BatchAllocator& allocate, const BatchOptions& options) {
+  return neighborhoods_into(ExactIndex(index), query, allocate, options);
+}
+
 std::vector<std::uint64_t> counts(const Index& index, const BatchQuery& query, const BatchOptions& options) {
   return counts(ExactIndex(index), query, options);
 }

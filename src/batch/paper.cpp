@@ -68,6 +68,12 @@ Neighborhoods neighborhoods(const Index& index, const BatchQuery& query, const B
   return meshhood::neighborhoods(PaperIndex(index, query_options), query, options);
 }
 
+std::vector<std::uint64_t> neighborhoods_into(const Index& index, const BatchQuery& query,
+                                              const BatchAllocator& allocate, const BatchOptions& options,
+                                              const QueryOptions& query_options) {
+  return meshhood::neighborhoods_into(PaperIndex(index, query_options), query, allocate, options);
+}
+
 std::vector<std::uint64_t> counts(const Index& index, const BatchQuery& query, const BatchOptions& options,
                                   const QueryOptions& query_options) {
   return meshhood::counts(PaperIndex(index, query_options), query, options);
