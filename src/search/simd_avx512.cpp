@@ -145,38 +145,6 @@ MESHHOOD_AVX512 Lanes spread(const Lanes* adjacency, Lanes among, Lanes from) {
   }
 }
 
-MESHHOOD_AVX512 inline Placements place_group(const Group& group, const TreeBall& ball) {
-  const __m256 x = _mm256_sub_ps(_mm256_set1_ps(ball.x), _mm256_load_ps(group.x.data()));
-  const __m256 y = _mm256_sub_ps(_mm256_set1_ps(ball.y), _mm256_load_ps(group.y.data()));
-  const __m256 z = _mm256_sub_ps(_mm256_set1_ps(ball.z), _mm256_load_ps(group.z.data()));
-  const __m256 square = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x, x), _mm256_mul_ps(y, y)), _mm256_mul_ps(z, z));
-  const __m256 radius = _mm256_load_ps(group.radius.data());
-  const __m256 far = _mm256_add_ps(_mm256_set1_ps(ball.outer), radius);
-  const __m256 near = _mm256_max_ps(_mm256_sub_ps(_mm256_set1_ps(ball.inner), radius), _mm256_setzero_ps());
-  const __mmask8 outside = _mm256_cmp_ps_mask(square, _mm256_mul_ps(far, far), _CMP_GT_OQ);
-  const __mmask8 inside = _mm256_cmp_ps_mask(square, _mm256_mul_ps(near, near), _CMP_LT_OQ);
-  const __m256 height = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x, _mm256_load_ps(group.axis_x.data())),
-                                                    _mm256_mul_ps(y, _mm256_load_ps(group.axis_y.data()))),
-                                      _mm256_mul_ps(z, _mm256_load_ps(group.axis_z.data())));
-  const __m256 reach =
-      _mm256_add_ps(_mm256_load_ps(group.reach.data()), _mm256_andnot_ps(_mm256_set1_ps(-0.0F), height));
-  const __mmask8 clear =
-      _mm256_cmp_ps_mask(_mm256_mul_ps(square, _mm256_set1_ps(kColumnMargin)), _mm256_mul_ps(reach, reach), _CMP_GT_OQ);
-  return {inside, static_cast<std::uint8_t>(~(outside | inside)), static_cast<std::uint8_t>(~clear)};
-}
-
-MESHHOOD_AVX512 void place(const Group* groups, std::span<const std::uint32_t> list, const TreeBall& ball,
-                           Placements* out) {
-  constexpr std::size_t kAhead = 4;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    if (i + kAhead < list.size()) {
-      const auto* next = reinterpret_cast<const char*>(groups + list[i + kAhead]);
-      for (std::size_t line = 0; line < sizeof(Group); line += 64) _mm_prefetch(next + line, _MM_HINT_T0);
-    }
-    out[i] = place_group(groups[list[i]], ball);
-  }
-}
-
 MESHHOOD_AVX512 VertexId* append(const VertexId* ids, Lanes lanes, VertexId* out) {
   const auto low = static_cast<__mmask16>(lanes);
   const auto high = static_cast<__mmask16>(lanes >> 16);
@@ -190,8 +158,9 @@ MESHHOOD_AVX512 VertexId* append(const VertexId* ids, Lanes lanes, VertexId* out
 }  // namespace
 
 const Kernels& avx512_kernels() {
-  static constexpr Kernels kAll{within_float, within_exact<double>, nearest, nearest_of<double>, cross, spread, place,
-                                append};
+  // A group is as wide as the registers of AVX2, which a processor with AVX-512 has too.
+  static const Kernels kAll{within_float, within_exact<double>, nearest, nearest_of<double>, cross,
+                            spread,       avx2_kernels().place, append};
   return kAll;
 }
 
