@@ -41,8 +41,8 @@ struct Summary {
 
 template <class AnyIndex>
 void save(const std::string& file, const AnyIndex& index) {
-  const Interrupt interrupt;  // Ctrl-C waits, for it would leave a part of the file beside it
-  io::save(file, index);
+  const Interrupt interrupt;  // outlives the file that it is to leave no trace of
+  io::save(file, index, {.progress = interrupt.watch()});
 }
 
 template <class Build>

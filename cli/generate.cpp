@@ -46,8 +46,8 @@ const shapes::Kind& find(const std::string& name) {
 }
 
 void save(const std::string& file, const MeshView& mesh) {
-  const Interrupt interrupt;  // Ctrl-C waits, for it would leave a part of the file beside it
-  io::write_ply(file, mesh);
+  const Interrupt interrupt;  // outlives the file that it is to leave no trace of
+  io::write_ply(file, mesh, {.progress = interrupt.watch()});
 }
 
 void generate(const Options& options) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <csignal>
+#include <cstddef>
 
 namespace meshhood::cli {
 namespace {
@@ -31,5 +32,9 @@ Interrupt::Interrupt() {
 Interrupt::~Interrupt() { set_handlers(remember, SIG_DFL); }
 
 bool Interrupt::requested() const { return caught != 0; }
+
+meshhood::Progress Interrupt::watch() const {
+  return [this](std::size_t, std::size_t) { return !requested(); };
+}
 
 }  // namespace meshhood::cli

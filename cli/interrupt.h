@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "meshhood/progress.h"
+
 namespace meshhood::cli {
 
 /// While it lives, Ctrl-C and the signals to hang up and to terminate do not end the program but are remembered, so
@@ -14,6 +16,9 @@ class Interrupt {
 
   /// Whether there has been such a signal.
   [[nodiscard]] bool requested() const;
+
+  /// For a call that is to end where there has been.
+  [[nodiscard]] meshhood::Progress watch() const;
 };
 
 }  // namespace meshhood::cli

@@ -27,8 +27,8 @@ void Painting::paint(std::span<const VertexId> vertices, const Color& color) {
 }
 
 void Painting::write(const std::string& file, const MeshView& mesh) const {
-  const Interrupt interrupt;  // Ctrl-C waits, for it would leave a part of the file beside it
-  io::write_ply(file, mesh, {.colors = colors_, .properties = {}});
+  const Interrupt interrupt;  // outlives the file that it is to leave no trace of
+  io::write_ply(file, mesh, {.colors = colors_, .properties = {}, .progress = interrupt.watch()});
 }
 
 }  // namespace meshhood::cli

@@ -115,9 +115,10 @@ void FileWriter::seek(std::uint64_t position) {
   flushed_ = position;
 }
 
-void FileWriter::commit() {
+void FileWriter::commit(const std::function<void()>& last_chance) {
   flush();
   if (temporary_.empty()) {
+    last_chance();
     if (!file_.close()) fail("close");
     return;
   }
@@ -125,6 +126,7 @@ void FileWriter::commit() {
   const Descriptor directory = open_directory();
   if (uninterrupted([this] { return ::fsync(file_.number()); }) != 0) fail("sync");
   if (!file_.close()) fail("close");
+  last_chance();
   if (uninterrupted([this] { return ::rename(temporary_.c_str(), target_.c_str()); }) != 0) fail("rename");
   temporary_.clear();
   sync(directory);

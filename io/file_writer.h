@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -36,8 +37,9 @@ class FileWriter {
   /// Goes to another place, to write over what stands there. Not every target that is no ordinary file can do it.
   void seek(std::uint64_t position);
 
-  /// Makes what was written durable and visible. To be called once, last.
-  void commit();
+  /// Makes what was written durable and visible. To be called once, last. In between, once what was written is on the
+  /// disk, `last_chance` is called, and may throw: then the target is as it was.
+  void commit(const std::function<void()>& last_chance = [] {});
 
  private:
   void open_in_place();

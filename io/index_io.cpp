@@ -20,6 +20,7 @@
 #include "io/file_writer.h"
 #include "io/mapped_file.h"
 #include "io/place.h"
+#include "io/tell.h"
 #include "io/watched_source.h"
 
 namespace meshhood::io {
@@ -83,13 +84,20 @@ auto naming(const std::filesystem::path& path, F&& call) {
 
 /// `save` of the core finds the kind of the index.
 template <class AnyIndex>
-void save_any(const std::filesystem::path& path, const AnyIndex& index) {
+void save_any(const std::filesystem::path& path, const AnyIndex& index, const SaveOptions& options) {
   FileWriter file(path);
+  const std::string name = path.string();
+  std::size_t all = 0;
+  const Progress progress = [&](std::size_t done, std::size_t total) {
+    all = total;
+    tell(options.progress, done, total, name);
+    return true;
+  };
   const Sink sink = [&](std::span<const std::byte> bytes) {
     file.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   };
-  save(index, sink);
-  file.commit();
+  save(index, sink, {.progress = progress});
+  file.commit([&] { tell(options.progress, all, all, name); });
 }
 
 /// The index that `take(content, progress)` makes of the whole file; who watches is told of the bytes, and told again
@@ -112,8 +120,13 @@ auto load_any(const std::filesystem::path& path, const LoadOptions& options, F&&
 
 }  // namespace
 
-void save(const std::filesystem::path& path, const Index& index) { save_any(path, index); }
-void save(const std::filesystem::path& path, const paper::Index& index) { save_any(path, index); }
+void save(const std::filesystem::path& path, const Index& index, const SaveOptions& options) {
+  save_any(path, index, options);
+}
+
+void save(const std::filesystem::path& path, const paper::Index& index, const SaveOptions& options) {
+  save_any(path, index, options);
+}
 
 Index load(const std::filesystem::path& path, const LoadOptions& options) {
   return load_any(path, options, [](AlignedBuffer content, const Progress& progress) {

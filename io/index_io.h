@@ -13,8 +13,9 @@ namespace meshhood::io {
 /// brought to the disk and renamed. Who has mapped or opened the old file keeps it; of several who save at once, the
 /// last wins.
 ///
-/// Throws Error{IoFailure}; the old file is then as it was, as it is where memory runs out.
-void save(const std::filesystem::path& path, const Index& index);
+/// Progress is told as by the core, and once more when all is on the disk, just before the file takes its name.
+/// Throws Error{IoFailure, Cancelled}; the old file is then as it was, as it is where memory runs out.
+void save(const std::filesystem::path& path, const Index& index, const SaveOptions& options = {});
 
 /// The index in the file, read into memory and verified. What happens to the file later does not matter.
 ///
@@ -24,7 +25,7 @@ void save(const std::filesystem::path& path, const Index& index);
 [[nodiscard]] Index load(const std::filesystem::path& path, const LoadOptions& options = {});
 
 /// The same for the paper's index.
-void save(const std::filesystem::path& path, const paper::Index& index);
+void save(const std::filesystem::path& path, const paper::Index& index, const SaveOptions& options = {});
 [[nodiscard]] paper::Index load_paper(const std::filesystem::path& path, const LoadOptions& options = {});
 
 /// The index in the file, in place: pages are read as queries need them, and shared with whoever maps the same file.

@@ -81,12 +81,16 @@ struct PlyOptions {
   std::span<const std::uint8_t> colors = {};  ///< #V by 3 (red, green, blue), or empty
   std::vector<VertexProperty> properties = {};
   bool ascii = false;  ///< binary little-endian otherwise
+
+  /// Called every some thousand rows, and once more when all is on the disk, just before the file takes its name. Parts
+  /// are vertices and faces.
+  Progress progress = {};
 };
 
 /// Writes `mesh` as PLY, positions in their own precision. The file appears whole or not at all: it is written beside
 /// the target under another name and renamed.
 ///
-/// Throws Error{InvalidMesh, InvalidOption, IoFailure}.
+/// Throws Error{InvalidMesh, InvalidOption, IoFailure, Cancelled}; the old file is then as it was.
 void write_ply(const std::filesystem::path& path, const MeshView& mesh, const PlyOptions& options = {});
 
 }  // namespace meshhood::io

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 
-#include "meshhood/error.h"
-
-#include "io/place.h"
+#include "io/tell.h"
 
 namespace meshhood::io {
 namespace {
@@ -15,7 +13,7 @@ constexpr std::size_t kMostAtOnce = std::size_t{4} << 20;
 }  // namespace
 
 WatchedSource::WatchedSource(ByteSource& source, const Progress& progress, const std::string& name)
-    : source_(source), progress_(progress), name_(printable_name(name)) {}
+    : source_(source), progress_(progress), file_(name) {}
 
 std::size_t WatchedSource::read(std::span<char> out) {
   tell();
@@ -25,11 +23,10 @@ std::size_t WatchedSource::read(std::span<char> out) {
 }
 
 void WatchedSource::tell() const {
-  if (!progress_) return;
   const auto total = static_cast<std::size_t>(size().value_or(0));
   // A file may grow while it is read.
   const auto done = static_cast<std::size_t>(total == 0 ? done_ : std::min<std::uint64_t>(done_, total));
-  if (!progress_(done, total)) raise(ErrorCode::Cancelled, name_ + ": cancelled");
+  io::tell(progress_, done, total, file_);
 }
 
 void WatchedSource::finish() {

@@ -34,7 +34,7 @@ class WatchedSource final : public ByteSource {
  private:
   ByteSource& source_;
   const Progress& progress_;
-  std::string name_;
+  std::string file_;
   std::uint64_t done_ = 0;
 };
 

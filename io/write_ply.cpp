@@ -3,8 +3,10 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <filesystem>
 #include <iterator>
 #include <limits>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -15,6 +17,7 @@
 #include "io/file_writer.h"
 #include "io/mesh_io.h"
 #include "io/place.h"
+#include "io/tell.h"
 
 namespace meshhood::io {
 namespace {
@@ -55,10 +58,30 @@ std::size_t largest_face(const FacesView& faces) {
   return largest;
 }
 
+// How many rows are written, for who watches.
+class Watch {
+ public:
+  Watch(const Progress& progress, const MeshView& mesh, const std::filesystem::path& path)
+      : progress_(progress), file_(path.string()), total_(mesh.positions.size() + mesh.faces.size()) {}
+
+  void tell() const { io::tell(progress_, done_, total_, file_); }
+
+  void add_row() {
+    constexpr std::size_t kRows = 4096;
+    if (++done_ % kRows == 0) tell();
+  }
+
+ private:
+  const Progress& progress_;
+  std::string file_;
+  std::size_t total_;
+  std::size_t done_ = 0;
+};
+
 // Values as text, a blank between them, a row a line; or as little-endian bytes.
 class Rows {
  public:
-  Rows(FileWriter& file, bool ascii) : file_(file), ascii_(ascii) {}
+  Rows(FileWriter& file, Watch& watch, bool ascii) : file_(file), watch_(watch), ascii_(ascii) {}
 
   template <class T>
   void value(T value) {
@@ -77,18 +100,20 @@ class Rows {
     if (ascii_) row_ += '\n';
     file_.write(row_);
     row_.clear();
+    watch_.add_row();
   }
 
  private:
   FileWriter& file_;
+  Watch& watch_;
   bool ascii_;
   std::string row_;
 };
 
 class PlyWriter {
  public:
-  PlyWriter(FileWriter& file, const MeshView& mesh, const PlyOptions& options)
-      : file_(file), rows_(file, options.ascii), mesh_(mesh), options_(options) {}
+  PlyWriter(FileWriter& file, Watch& watch, const MeshView& mesh, const PlyOptions& options)
+      : file_(file), rows_(file, watch, options.ascii), mesh_(mesh), options_(options) {}
 
   void write() {
     has_long_faces_ = largest_face(mesh_.faces) > std::numeric_limits<std::uint8_t>::max();
@@ -154,9 +179,11 @@ class PlyWriter {
 void write_ply(const std::filesystem::path& path, const MeshView& mesh, const PlyOptions& options) {
   validate(mesh);
   check(options, mesh.positions.size());
+  Watch watch(options.progress, mesh, path);
+  watch.tell();
   FileWriter file(path);
-  PlyWriter(file, mesh, options).write();
-  file.commit();
+  PlyWriter(file, watch, mesh, options).write();
+  file.commit([&] { watch.tell(); });
 }
 
 }  // namespace meshhood::io

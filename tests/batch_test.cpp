@@ -374,7 +374,7 @@ TEST_F(Batches, CanBeCancelledAtAnyReport) {
     std::size_t rows = 0;
     for (const std::size_t last : {2U, 3U, 5U, 8U}) {
       const std::size_t now = rows_before_cancel(index, threads, last);
-      EXPECT_GT(now, rows);
+      EXPECT_GE(now, rows);  // a slow machine may report twice between two rows
       rows = now;
     }
     EXPECT_LT(rows, index.vertex_count());

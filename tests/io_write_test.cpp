@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -232,6 +233,36 @@ TEST_F(WritePly, KeepsTheOwnerWhereItMayGiveFilesAway) {
   ASSERT_EQ(::stat(file.c_str(), &status), 0);
   EXPECT_EQ(status.st_uid, kSomebody);
   EXPECT_EQ(status.st_gid, kSomebody);
+}
+
+TEST_F(WritePly, EndedAtAnyReportLeavesTheOldFile) {
+  const auto xyz = random_positions<float>(10000);
+  const std::vector<std::uint32_t> triangles(3 * 20000, 7);
+  const MeshView mesh = {xyz, FacesView::triangles(triangles)};
+  ASSERT_EQ(scratch.write("out.ply", "old"), file);
+  std::size_t last = 0;
+  for (bool is_ended = true; is_ended; ++last) {
+    std::vector<std::size_t> reports;
+    const auto ended = refused(file, mesh, {.progress = [&](std::size_t done, std::size_t total) {
+                                 EXPECT_EQ(total, 30000U);
+                                 reports.push_back(done);
+                                 return reports.size() <= last;
+                               }});
+    is_ended = ended.refused;
+    EXPECT_EQ(reports.front(), 0U);
+    EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
+    EXPECT_EQ(files_in(scratch.path()), 1U);
+    if (!is_ended) {
+      EXPECT_EQ(reports.back(), 30000U);
+      break;
+    }
+    EXPECT_EQ(ended.code, ErrorCode::Cancelled);
+    EXPECT_EQ(ended.message, file.string() + ": cancelled");
+    EXPECT_EQ(content_of(file), "old");
+  }
+  EXPECT_EQ(face_count(io::read_mesh(file)), 20000U);
+  EXPECT_GE(last, 8U);
+  std::printf("ended at %zu reports\n", last);
 }
 
 TEST_F(WritePly, NamesMayBeAsLongAsTheFileSystemTakes) {

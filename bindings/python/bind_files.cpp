@@ -62,9 +62,10 @@ auto read(const std::filesystem::path& path, nb::handle progress) {
                     owned<std::int64_t>(std::move(mesh.offsets)), std::move(warnings));
 }
 
-void save_file(const ExactMethod& method, const std::filesystem::path& path) {
+void save_file(const ExactMethod& method, const std::filesystem::path& path, nb::handle progress) {
+  const SaveOptions options{.progress = watch(progress)};
   const nb::gil_scoped_release unlocked;
-  io::save(path, method.index());
+  io::save(path, method.index(), options);
 }
 
 std::shared_ptr<ExactMethod> loaded(Index index) {
@@ -82,12 +83,15 @@ std::shared_ptr<ExactMethod> load_file(const std::filesystem::path& path, bool m
 }
 
 Output<std::uint8_t> to_bytes(const ExactMethod& method) {
+  const SaveOptions options{.progress = watch(nb::handle(Py_None))};
   std::vector<std::byte> bytes;
   {
     const nb::gil_scoped_release unlocked;
     bytes.reserve(method.index().bytes().total());
-    save(method.index(),
-         [&](std::span<const std::byte> piece) { bytes.insert(bytes.end(), piece.begin(), piece.end()); });
+    const Sink append = [&](std::span<const std::byte> piece) {
+      bytes.insert(bytes.end(), piece.begin(), piece.end());
+    };
+    save(method.index(), append, options);
   }
   return owned<std::uint8_t>(std::move(bytes));
 }
@@ -103,7 +107,7 @@ std::shared_ptr<ExactMethod> from_bytes(const Bytes& bytes) {
 
 void bind_files(nb::module_& module) {
   module.def("read_mesh", &read, nb::arg("path"), nb::arg("progress").none());
-  module.def("save", &save_file, nb::arg(), nb::arg("path"));
+  module.def("save", &save_file, nb::arg(), nb::arg("path"), nb::arg("progress").none());
   module.def("load", &load_file, nb::arg("path"), nb::arg("mmap"), nb::arg("trusted"), nb::arg("progress").none());
   module.def("to_bytes", &to_bytes);
   module.def("from_bytes", &from_bytes);

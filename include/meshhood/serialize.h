@@ -25,9 +25,16 @@ using Sink = std::function<void(std::span<const std::byte>)>;
 /// Where bytes that are to be mapped must begin: at a multiple of this.
 inline constexpr std::size_t kIndexAlignment = 64;
 
+/// How an index is saved.
+struct SaveOptions {
+  /// Called now and then while the fingerprint of the mesh is found, then between parts: the checksum of each section,
+  /// and pieces of the bytes. The longest takes O(bytes).
+  Progress progress = {};
+};
+
 /// Gives the bytes of `index` to `sink`. They are not held as a whole; what is, for the fingerprint, is `graph(index)`.
-/// O(bytes of the index).
-void save(const Index& index, const Sink& sink);
+/// Throws Error{Cancelled}. O(bytes of the index).
+void save(const Index& index, const Sink& sink, const SaveOptions& options = {});
 
 /// How an index is loaded.
 struct LoadOptions {
@@ -106,8 +113,8 @@ void check_mesh(const IndexHeader& header, const Fingerprint& mesh);
 /// The same for the paper's index. It is read into memory, and cannot be mapped.
 namespace paper {
 
-/// O(bytes of the index).
-void save(const Index& index, const Sink& sink);
+/// Throws as its namesake. O(bytes of the index).
+void save(const Index& index, const Sink& sink, const SaveOptions& options = {});
 
 /// Throws as its namesake. O(bytes).
 [[nodiscard]] Index load(std::span<const std::byte> bytes, const LoadOptions& options = {});

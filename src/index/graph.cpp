@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The mesh's graph, taken back out of the leaves and the links between them.
+#include "index/graph.h"
+
 #include <algorithm>
 #include <bit>
 #include <cstddef>
@@ -15,12 +17,19 @@
 namespace meshhood {
 namespace {
 
+/// To be called for every vertex: asks seldom enough to cost nothing.
+void ask_to_proceed(Work& work, std::size_t vertex) {
+  constexpr std::size_t kBetween = 1024;
+  if (vertex % kBetween == 0) work.proceed(0);
+}
+
 /// The positions in the caller's order.
-PositionsData positions_of(const IndexStorage& index) {
+PositionsData positions_of(const IndexStorage& index, Work& work) {
   return std::visit(
       [&]<class Real>(std::span<const Real> xyz) -> PositionsData {
         std::vector<Real> result(3 * index.vertex_count());
         for (std::size_t i = 0; i < index.vertex_count(); ++i) {
+          ask_to_proceed(work, i);
           std::copy_n(&xyz[3 * i], 3, &result[3 * std::size_t{index.id(i)}]);
         }
         return result;
@@ -30,10 +39,11 @@ PositionsData positions_of(const IndexStorage& index) {
 
 /// Calls `f(v, w)` for every edge in both directions, by the caller's ids.
 template <class F>
-void for_each_neighbor(const IndexStorage& index, F&& f) {
+void for_each_neighbor(const IndexStorage& index, Work& work, F&& f) {
   for (std::size_t leaf = 0; leaf < index.leaf_count(); ++leaf) {
     const std::size_t begin = index.leaf_begin[leaf];
     for (std::size_t i = begin; i < index.leaf_begin[leaf + 1]; ++i) {
+      ask_to_proceed(work, i);
       for (Lanes left = index.adjacency[i]; left != 0; left &= left - 1) {
         f(index.id(i), index.id(begin + static_cast<std::size_t>(std::countr_zero(left))));
       }
@@ -47,9 +57,10 @@ void for_each_neighbor(const IndexStorage& index, F&& f) {
   }
 }
 
-Adjacency adjacency_of(const IndexStorage& index) {
-  Adjacency result = gather_rows(index.vertex_count(), [&](auto&& f) { for_each_neighbor(index, f); });
+Adjacency adjacency_of(const IndexStorage& index, Work& work) {
+  Adjacency result = gather_rows(index.vertex_count(), [&](auto&& f) { for_each_neighbor(index, work, f); });
   for (std::size_t v = 0; v < index.vertex_count(); ++v) {
+    ask_to_proceed(work, v);
     std::sort(result.neighbors.begin() + static_cast<std::ptrdiff_t>(result.offsets[v]),
               result.neighbors.begin() + static_cast<std::ptrdiff_t>(result.offsets[v + 1]));
   }
@@ -58,9 +69,15 @@ Adjacency adjacency_of(const IndexStorage& index) {
 
 }  // namespace
 
-GraphData graph(const Index& index) {
+GraphData graph(const Index& index, Work& work) {
   const IndexStorage& storage = IndexAccess::storage(index);
-  return {positions_of(storage), adjacency_of(storage)};
+  return {positions_of(storage, work), adjacency_of(storage, work)};
+}
+
+GraphData graph(const Index& index) {
+  const Progress nobody;
+  Work work(1, nobody, 0);
+  return graph(index, work);
 }
 
 }  // namespace meshhood

@@ -8,6 +8,7 @@
 #include "meshhood/error.h"
 #include "meshhood/serialize.h"
 
+#include "index/graph.h"
 #include "index/index_access.h"
 #include "index/layout.h"
 #include "parallel.h"
@@ -76,9 +77,15 @@ void verify_alignment(std::span<const std::byte> bytes) {
                                       " after a multiple of " + std::to_string(kIndexAlignment));
 }
 
+/// As `fingerprint(index)`, which would not be watched.
+Fingerprint fingerprint_of(const Index& index, Work& work) {
+  const GraphData mesh = graph(index, work);
+  return fingerprint(mesh.view());
+}
+
 }  // namespace
 
-void save(const Index& index, const Sink& sink) {
+void save(const Index& index, const Sink& sink, const SaveOptions& options) {
   const IndexStorage& storage = IndexAccess::storage(index);
   file::SectionWriter writer;
   writer.add("frame", std::span(&storage.frame, 1));
@@ -94,11 +101,14 @@ void save(const Index& index, const Sink& sink) {
   writer.add("mean_radii", storage.mean_radii);
   const bool is_double = std::holds_alternative<std::span<const double>>(storage.positions);
   const std::size_t scalar_bytes = is_double ? sizeof(double) : sizeof(float);
+  Work work(1, options.progress, writer.parts());
+  const Fingerprint mesh = fingerprint_of(index, work);
+  work.report();
   writer.write({.vertices = storage.vertex_count(),
-                .mesh = fingerprint(index),
+                .mesh = mesh,
                 .kind = IndexKind::Exact,
                 .scalar_bytes = static_cast<std::uint8_t>(scalar_bytes)},
-               sink);
+               sink, work);
 }
 
 Index load(std::span<const std::byte> bytes, const LoadOptions& options) {

@@ -38,7 +38,7 @@ std::vector<T> copy(std::span<const T> values) {
 std::string parts_name(std::size_t level) { return level == 0 ? "first_vertex" : on_level("first_child", level); }
 
 template <class Real>
-void save(const Hierarchy<Real>& hierarchy, const Fingerprint& mesh, const Sink& sink) {
+void save(const Hierarchy<Real>& hierarchy, const Fingerprint& mesh, const Sink& sink, const Progress& progress) {
   std::vector<LevelRecord> records;
   records.reserve(hierarchy.levels.size());
   for (const Level<Real>& level : hierarchy.levels) {
@@ -55,9 +55,10 @@ void save(const Hierarchy<Real>& hierarchy, const Fingerprint& mesh, const Sink&
     writer.add(on_level("sibling_rows", l), std::span<const EdgeOffset>(level.siblings.offsets));
     writer.add(on_level("siblings", l), std::span<const ClusterId>(level.siblings.neighbors));
   }
+  Work work(1, progress, writer.parts());
   writer.write(
       {.vertices = hierarchy.vertices.size(), .mesh = mesh, .kind = IndexKind::Paper, .scalar_bytes = sizeof(Real)},
-      sink);
+      sink, work);
 }
 
 std::span<const LevelRecord> take_records(SectionReader& file) {
@@ -117,8 +118,8 @@ Hierarchy<Real> take_hierarchy(SectionReader& file) {
 
 }  // namespace
 
-void save(const Index& index, const Sink& sink) {
-  std::visit([&](const auto& hierarchy) { save(hierarchy, IndexAccess::mesh(index), sink); },
+void save(const Index& index, const Sink& sink, const SaveOptions& options) {
+  std::visit([&](const auto& hierarchy) { save(hierarchy, IndexAccess::mesh(index), sink, options.progress); },
              IndexAccess::hierarchy(index));
 }
 

@@ -21,6 +21,18 @@ void pad(std::uint64_t bytes, const Sink& sink) {
   if (missing != 0) sink(std::span(kZeros).first(missing));
 }
 
+/// Piece by piece, so that nobody who watches waits for long.
+void hand_out(std::span<const std::byte> bytes, const Sink& sink, Work& work) {
+  constexpr std::size_t kPiece = std::size_t{4} << 20;
+  while (!bytes.empty()) {
+    const auto piece = bytes.first(std::min(bytes.size(), kPiece));
+    sink(piece);
+    bytes = bytes.subspan(piece.size());
+    work.advance(piece.size());
+    work.report();
+  }
+}
+
 }  // namespace
 
 void SectionWriter::add_bytes(std::string_view name, std::span<const std::byte> bytes) {
@@ -28,7 +40,13 @@ void SectionWriter::add_bytes(std::string_view name, std::span<const std::byte> 
   parts_.push_back({std::string(name), bytes});
 }
 
-std::vector<Section> SectionWriter::make_table() const {
+std::size_t SectionWriter::parts() const {
+  std::size_t bytes = 0;
+  for (const Part& part : parts_) bytes += part.bytes.size();
+  return 2 * bytes;  // each is summed up, then handed out
+}
+
+std::vector<Section> SectionWriter::make_table(Work& work) const {
   std::vector<Section> table;
   std::uint64_t begin = head_bytes(parts_.size());
   for (const Part& part : parts_) {
@@ -37,16 +55,18 @@ std::vector<Section> SectionWriter::make_table() const {
     section.begin = begin;
     section.bytes = part.bytes.size();
     section.checksum = checksum({part.bytes});
+    work.advance(part.bytes.size());
+    work.report();
     begin = aligned(begin + part.bytes.size());
   }
   return table;
 }
 
-void SectionWriter::write(Header header, const Sink& sink) const {
+void SectionWriter::write(Header header, const Sink& sink, Work& work) const {
   if constexpr (std::endian::native != std::endian::little) {
     raise(ErrorCode::MalformedIndex, "an index is saved and loaded on little-endian machines only");
   }
-  std::vector<Section> table = make_table();
+  std::vector<Section> table = make_table(work);
   header.sections = static_cast<std::uint32_t>(table.size());
   header.bytes = aligned(table.back().begin + table.back().bytes);
   // What follows the table up to the first section is zero and part of the header.
@@ -56,9 +76,10 @@ void SectionWriter::write(Header header, const Sink& sink) const {
   sink(bytes_of(header));
   sink(rest);
   for (const Part& part : parts_) {
-    if (!part.bytes.empty()) sink(part.bytes);
+    hand_out(part.bytes, sink, work);
     pad(part.bytes.size(), sink);
   }
+  work.report();
 }
 
 }  // namespace meshhood::file

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "parallel.h"
 #include "serialize/format.h"
 
 namespace meshhood::file {
@@ -21,12 +22,15 @@ class SectionWriter {
     add_bytes(name, std::as_bytes(values));
   }
 
-  /// `header`: what it does not know by itself: kind, vertices, precision, fingerprint.
-  void write(Header header, const Sink& sink) const;
+  /// Of how many parts the work is that `write` advances.
+  [[nodiscard]] std::size_t parts() const;
+
+  /// `header`: what it does not know by itself: kind, vertices, precision, fingerprint. Throws Error{Cancelled}.
+  void write(Header header, const Sink& sink, Work& work) const;
 
  private:
   void add_bytes(std::string_view name, std::span<const std::byte> bytes);
-  [[nodiscard]] std::vector<Section> make_table() const;
+  [[nodiscard]] std::vector<Section> make_table(Work& work) const;
 
   struct Part {
     std::string name;

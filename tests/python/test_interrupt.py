@@ -108,6 +108,38 @@ def test_ctrl_c_while_loading_an_index(index, tmp_path, ctrl_c, mmap):
     print(f"load: KeyboardInterrupt after {1000 * seconds:.0f} ms")
 
 
+def test_ctrl_c_while_saving_an_index(index, tmp_path, ctrl_c):
+    file = tmp_path / "index"
+
+    def saves_without_end():
+        while True:
+            index.save(file)
+
+    with nothing_stays_open():
+        seconds = ctrl_c(saves_without_end)
+    print(f"save: KeyboardInterrupt after {1000 * seconds:.0f} ms")
+    assert list(tmp_path.iterdir()) == [file]
+    assert len(meshhood.load(file)) == len(index)
+
+
+def test_ctrl_c_while_saving_leaves_the_old_file(index, tmp_path):
+    file = tmp_path / "index"
+    file.write_text("old")
+    with nothing_stays_open(), pytest.raises(KeyboardInterrupt):
+        index.save(file, progress=lambda done, total: done == total and signal.raise_signal(signal.SIGINT))
+    assert list(tmp_path.iterdir()) == [file]
+    assert file.read_text() == "old"
+
+
+def test_ctrl_c_in_pickling(index, ctrl_c):
+    def pickles_without_end():
+        while True:
+            pickle.dumps(index)
+
+    seconds = ctrl_c(pickles_without_end)
+    print(f"pickling: KeyboardInterrupt after {1000 * seconds:.0f} ms")
+
+
 def test_ctrl_c_in_unpickling(index, ctrl_c):
     pickled = pickle.dumps(index)
 

@@ -174,6 +174,33 @@ def test_what_progress_raises_ends_the_loading(file, mmap):
         meshhood.load(file, mmap=mmap, progress=enough)
 
 
+def test_progress_of_saving(index, tmp_path):
+    calls = []
+    index.save(tmp_path / "index", progress=lambda done, total: calls.append((done, total)))
+    assert calls[0][0] == 0 and calls[-1][0] == calls[-1][1] > 0
+    assert calls == sorted(calls) and len({total for _, total in calls}) == 1
+
+
+def test_what_progress_raises_leaves_the_old_file(index, file):
+    calls = []
+    index.save(file, progress=lambda done, total: calls.append(done))
+    old = file.read_bytes()
+    other = meshhood.MeshIndex(*meshes.two_plates(5))
+    for last in range(len(calls)):
+        reports = []
+
+        def enough(done, total):
+            reports.append(done)
+            if len(reports) > last:
+                raise LookupError("enough")
+
+        with pytest.raises(LookupError, match="enough"):
+            other.save(file, progress=enough)
+        assert file.read_bytes() == old
+        assert list(file.parent.iterdir()) == [file]
+    print(f"{len(calls)} reports of saving")
+
+
 @pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
 def test_pickling(index, protocol):
     assert_same(pickle.loads(pickle.dumps(index, protocol)), index)

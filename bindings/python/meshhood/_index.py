@@ -215,14 +215,17 @@ class MeshIndex:
 
         return chunks()
 
-    def save(self, path: str | os.PathLike) -> None:
+    def save(self, path: str | os.PathLike, *, progress: Progress = None) -> None:
         """Writes the index to a file, for `load`: the same bytes on every machine for the same mesh.
 
+        progress : as for the class; parts are bytes, each of which is gone through twice.
+
         Positions and graph of the mesh are in it, faces are not. The file appears whole or not at all: it is written
-        beside the target under another name, brought to the disk and renamed. Ctrl-C is heard when that is done. Raises
-        OSError.
+        beside the target under another name, brought to the disk and renamed. Raises OSError, and KeyboardInterrupt on
+        Ctrl-C; the old file, if any, is then still there.
         """
-        _core.save(self._exact, path)
+        with watcher(progress) as watch:
+            _core.save(self._exact, path, progress=watch)
 
     def _method(self, method):
         try:
