@@ -111,7 +111,7 @@ struct QueryProfile {
 };
 
 /// Asks an `Index`. Owns the scratch memory of the search (about 24 bytes a cluster of the lowest level): one object
-/// a thread. The index must outlive it.
+/// a thread. The index must outlive it, and may be moved meanwhile.
 class Searcher {
  public:
   explicit Searcher(const Index& index);

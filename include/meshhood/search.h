@@ -27,7 +27,7 @@ struct VertexRange {
 ///
 /// Cost is about that of the leaves at the rim of the answer, not of the answer or the mesh; on folded surfaces that of
 /// the leaves of the answer. Nothing is allocated once the buffers have grown. Owns the scratch memory (22 bytes a
-/// leaf): one object a thread. The index must outlive it.
+/// leaf): one object a thread. The index must outlive it, and may be moved meanwhile.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius}; arguments are then unchanged.
 class Searcher {

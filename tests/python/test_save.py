@@ -142,10 +142,17 @@ def test_saving_where_nothing_can_be_written(index, tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-GOLDEN = Path(__file__).resolve().parents[1] / "golden"
+GOLDEN = sorted(Path(__file__).resolve().parents[1].glob("golden/*/*.mhi"))
+GOLDEN_OF_THE_PAPER = [file for file in GOLDEN if file.stem.startswith("paper")]
 
 
-@pytest.mark.parametrize("file", sorted(GOLDEN.glob("*/*.mhi")), ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", GOLDEN_OF_THE_PAPER, ids=lambda file: file.stem)
+def test_an_index_of_the_paper_is_refused(file):
+    with pytest.raises(ValueError, match=f"{file.name}: header, byte 48: an index of the paper, expected an exact one"):
+        meshhood.load(file)
+
+
+@pytest.mark.parametrize("file", [file for file in GOLDEN if file not in GOLDEN_OF_THE_PAPER], ids=lambda file: file.stem)
 def test_what_the_cpp_library_has_saved(file):
     """Among them one of a mesh that was reordered, whose index holds no permutation."""
     index = meshhood.load(file)
