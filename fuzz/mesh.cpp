@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 #include "meshhood/error.h"
 #include "meshhood/index.h"
 
+#include "bytes.h"
 #include "families.h"
 #include "judge.h"
 #include "target.h"
@@ -20,29 +20,6 @@ namespace {
 
 using test::Random;
 using test::TestMesh;
-
-class Bytes {
- public:
-  explicit Bytes(std::span<const std::byte> bytes) : left_(bytes) {}
-
-  [[nodiscard]] bool empty() const { return left_.empty(); }
-
-  /// The next bytes as a number, or `otherwise` where there are too few.
-  template <class T>
-  T take(T otherwise) {
-    if (left_.size() < sizeof(T)) {
-      left_ = {};
-      return otherwise;
-    }
-    T value = otherwise;
-    std::memcpy(&value, left_.data(), sizeof(T));
-    left_ = left_.subspan(sizeof(T));
-    return value;
-  }
-
- private:
-  std::span<const std::byte> left_;
-};
 
 struct Header {
   std::uint16_t vertices;

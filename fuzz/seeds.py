@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Writes the first inputs of each fuzzer, small files that take the readers everywhere, into fuzz/corpus."""
 import pathlib
+import random
 import struct
 
 CORPUS = pathlib.Path(__file__).parent / "corpus"
@@ -97,6 +98,13 @@ SEEDS = {
         for seed, vertices, body in ((1, 30, range(64)), (2, 500, b""), (3, 300, [7, 1, 2, 200, 9, 40, 0, 3] * 40))
     },
 }
+# Calls, or numbers of any size after the kind of the kernel: where to begin matters little.
+DRAW = random.Random(1)
+SEEDS["calls"] = {f"random_{i}": DRAW.randbytes(40 + 4 * i) for i in range(40)}
+SEEDS["kernels"] = {f"random_{i}": bytes([i % 4]) + DRAW.randbytes(900) for i in range(40)}
+SEEDS["kernels"] |= {f"small_{i}": bytes([i % 4, 31, 255, 255, 255, 255, 3])
+                     + struct.pack("<99f" if i % 4 != 1 else "<99d", *(DRAW.uniform(-1, 1) for _ in range(99)))
+                     for i in range(20)}
 SEEDS["any"] = {f"{kind}_{name}": data for kind in ("ply", "obj", "off", "stl") for name, data in SEEDS[kind].items()}
 
 for target, seeds in SEEDS.items():

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+// Calls in any order: an input is a list of them. Indexes of both kinds are built, given up halfway, moved, saved,
+// loaded, mapped, destroyed, refused, and asked in between; what they answer is compared with the oracle.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "meshhood/meshhood.h"
+
+#include "bytes.h"
+#include "families.h"
+#include "index_bytes.h"
+#include "judge.h"
+#include "oracle.h"
+#include "sandwich.h"
+#include "target.h"
+
+namespace meshhood::fuzz {
+namespace {
+
+constexpr std::size_t kMostCalls = 60;
+
+/// A mesh and all that is right about it, which stays where it is, for the oracle looks at the mesh.
+struct Subject {
+  explicit Subject(test::TestMesh made) : mesh(std::move(made)), oracle(mesh) {}
+
+  test::TestMesh mesh;
+  test::Oracle oracle;
+};
+
+const std::deque<Subject>& subjects() {
+  static const std::deque<Subject> all = [] {
+    std::deque<Subject> made;
+    for (const test::Family& family : test::families()) made.emplace_back(test::make_mesh(family, made.size(), 90));
+    return made;
+  }();
+  return all;
+}
+
+/// Where an index may be, and a searcher that it must outlive.
+template <class Index, class Searcher>
+struct Place {
+  const Subject* subject = nullptr;  // none: there is no index
+  std::optional<Index> index;
+  std::optional<Searcher> searcher;
+
+  void put(const Subject& of, Index made) {
+    clear();
+    index = std::move(made);
+    searcher.emplace(*index);
+    subject = &of;
+  }
+
+  /// An index may be moved while it is being searched.
+  void move_to(Place& other) {
+    if (&other == this || subject == nullptr) return;
+    other.clear();
+    other.index = std::move(index);
+    other.searcher = std::move(searcher);
+    other.subject = subject;
+    clear();
+  }
+
+  void clear() {
+    searcher.reset();
+    index.reset();
+    subject = nullptr;
+  }
+};
+
+/// An index as bytes.
+struct File {
+  const Subject* subject = nullptr;  // none: there is no file
+  IndexKind kind = IndexKind::Exact;
+  std::shared_ptr<test::Mappable> bytes;
+};
+
+template <class Call>
+void expect_refused(ErrorCode code, Call&& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    if (error.code() == code) return;
+    fail(std::string("refused for another reason: ") + error.what());
+  }
+  fail("not refused");
+}
+
+class Session {
+ public:
+  explicit Session(std::span<const std::byte> input) : bytes_(input) {}
+
+  void run() {
+    for (std::size_t i = 0; i < kMostCalls && !bytes_.empty(); ++i) (this->*kCalls[below(kCalls.size())])();
+  }
+
+ private:
+  using Exact = Place<Index, Searcher>;
+  using Paper = Place<paper::Index, paper::Searcher>;
+
+  std::size_t below(std::size_t bound) { return bytes_.take<std::uint8_t>() % bound; }
+  const Subject& any_subject() { return subjects()[below(subjects().size())]; }
+  Exact& any_exact() { return exact_[below(exact_.size())]; }
+  Paper& any_paper() { return paper_[below(paper_.size())]; }
+  File& any_file() { return files_[below(files_.size())]; }
+
+  void build_exact() {
+    Exact& place = any_exact();
+    const Subject& subject = any_subject();
+    place.put(subject, build(subject.mesh.view(), {.threads = static_cast<unsigned>(1 + below(3))}));
+  }
+
+  void build_paper() {
+    Paper& place = any_paper();
+    const Subject& subject = any_subject();
+    place.put(subject, paper::build(subject.mesh.view(),
+                                    {.levels = static_cast<int>(1 + below(8)), .discard = static_cast<int>(below(4))}));
+  }
+
+  void build_from_graph() {
+    const Exact& source = any_exact();
+    if (source.subject == nullptr) return;
+    const GraphData data = graph(*source.index);
+    const Subject& subject = *source.subject;
+    any_exact().put(subject, build(data.view()));
+  }
+
+  /// What was there before stays.
+  void give_up_build() {
+    const Subject& subject = any_subject();
+    std::size_t left = below(32);
+    const Progress stop = [&](std::size_t, std::size_t) { return left-- > 0; };
+    try {
+      static_cast<void>(build(subject.mesh.view(), {.threads = 2, .progress = stop}));
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::Cancelled) fail(error.what());
+    }
+  }
+
+  void move_exact() {
+    Exact& from = any_exact();
+    from.move_to(any_exact());
+  }
+
+  void move_paper() {
+    Paper& from = any_paper();
+    from.move_to(any_paper());
+  }
+
+  void destroy_exact() { any_exact().clear(); }
+  void destroy_paper() { any_paper().clear(); }
+
+  template <class Indexed>
+  void save_to_file(const Indexed& place, IndexKind kind) {
+    File& file = any_file();
+    if (place.subject == nullptr) return;
+    file = {place.subject, kind, std::make_shared<test::Mappable>(test::saved(*place.index))};
+  }
+
+  void save_exact() { save_to_file(any_exact(), IndexKind::Exact); }
+  void save_paper() { save_to_file(any_paper(), IndexKind::Paper); }
+
+  void load_file() {
+    const File& file = any_file();
+    if (file.subject == nullptr) return;
+    if (read_header(file.bytes->bytes()).kind != file.kind) fail("another kind than was saved");
+    if (file.kind == IndexKind::Exact) {
+      any_exact().put(*file.subject, load(file.bytes->bytes()));
+    } else {
+      any_paper().put(*file.subject, paper::load(file.bytes->bytes()));
+    }
+  }
+
+  void load_other_kind() {
+    const File& file = any_file();
+    if (file.subject == nullptr) return;
+    if (file.kind == IndexKind::Exact) {
+      expect_refused(ErrorCode::MalformedIndex, [&] { static_cast<void>(paper::load(file.bytes->bytes())); });
+    } else {
+      expect_refused(ErrorCode::MalformedIndex, [&] { static_cast<void>(load(file.bytes->bytes())); });
+    }
+  }
+
+  void load_part() {
+    const File& file = any_file();
+    if (file.subject == nullptr) return;
+    const auto size = bytes_.take<std::uint32_t>() % file.bytes->bytes().size();
+    expect_refused(ErrorCode::MalformedIndex, [&] { static_cast<void>(load(file.bytes->bytes().first(size))); });
+  }
+
+  /// The file may go; its bytes stay for the index.
+  void map_file() {
+    const File& file = any_file();
+    if (file.subject == nullptr || file.kind != IndexKind::Exact) return;
+    const bool trusted = below(2) == 1;
+    any_exact().put(*file.subject, map(file.bytes->bytes(), file.bytes, {.trusted = trusted}));
+  }
+
+  void remove_file() { any_file() = {}; }
+
+  void check() {
+    const Exact& exact = any_exact();
+    if (exact.subject != nullptr && !exact.index->check(exact.subject->mesh.view()).empty())
+      fail("exact index: faults");
+    const Paper& paper = any_paper();
+    if (paper.subject != nullptr && !paper.index->check(paper.subject->mesh.view()).empty()) fail("paper's: faults");
+  }
+
+  struct Query {
+    VertexId vertex;
+    double radius;
+  };
+
+  Query any_query(const test::Oracle& oracle) {
+    const auto vertex = static_cast<VertexId>(below(oracle.size()));
+    const double radius = oracle.distance(vertex, below(oracle.size()));
+    return {vertex, below(16) == 0 ? std::numeric_limits<double>::infinity() : radius};
+  }
+
+  void ask_exact() {
+    Exact& place = any_exact();
+    if (place.subject == nullptr || place.subject->oracle.size() == 0) return;
+    const Query query = any_query(place.subject->oracle);
+    const std::vector<std::uint32_t> expected = place.subject->oracle.exact(query.vertex, query.radius);
+    place.searcher->neighborhood(query.vertex, query.radius, ids_, distances_);
+    std::sort(ids_.begin(), ids_.end());
+    if (ids_ != expected || distances_.size() != ids_.size()) fail("exact answer differs");
+    if (place.searcher->count(query.vertex, query.radius) != expected.size()) fail("exact count differs");
+  }
+
+  void ask_paper() {
+    Paper& place = any_paper();
+    if (place.subject == nullptr || place.subject->oracle.size() == 0) return;
+    const test::Oracle& oracle = place.subject->oracle;
+    const Query query = any_query(oracle);
+    place.searcher->neighborhood(query.vertex, query.radius, ids_);
+    test::Sandwich sandwich(oracle.size());
+    const auto inside = [&](VertexId w) {
+      return oracle.distance(query.vertex, w) <= query.radius && oracle.component(query.vertex) == oracle.component(w);
+    };
+    if (!sandwich.holds(oracle.exact(query.vertex, query.radius), ids_, inside)) fail("paper's answer differs");
+  }
+
+  void ask_batch() {
+    const Exact& place = any_exact();
+    if (place.subject == nullptr || place.subject->oracle.size() == 0) return;
+    const test::Oracle& oracle = place.subject->oracle;
+    const double radius = any_query(oracle).radius;
+    std::vector<VertexId> vertices(1 + below(20));
+    for (VertexId& v : vertices) v = static_cast<VertexId>(below(oracle.size()));
+    const BatchOptions options{
+        .threads = static_cast<unsigned>(1 + below(3)), .sorted = true, .buffer_bytes = std::size_t{1} << below(24)};
+    const Neighborhoods answer = neighborhoods(*place.index, {.vertices = vertices, .radius = radius}, options);
+    for (std::size_t row = 0; row < vertices.size(); ++row) {
+      const auto ids =
+          std::span(answer.ids).subspan(answer.offsets[row], answer.offsets[row + 1] - answer.offsets[row]);
+      if (!std::ranges::equal(ids, oracle.exact(vertices[row], radius))) fail("a row of the batch differs");
+    }
+  }
+
+  void ask_wrongly() {
+    Exact& place = any_exact();
+    if (place.subject == nullptr) return;
+    const auto behind = static_cast<VertexId>(place.subject->oracle.size());
+    expect_refused(ErrorCode::VertexOutOfRange, [&] { static_cast<void>(place.searcher->count(behind, 1)); });
+    if (behind == 0) return;
+    expect_refused(ErrorCode::InvalidRadius, [&] { static_cast<void>(place.searcher->count(0, -1)); });
+  }
+
+  using Call = void (Session::*)();
+  static constexpr std::array<Call, 20> kCalls{
+      &Session::build_exact, &Session::build_paper, &Session::build_from_graph, &Session::give_up_build,
+      &Session::move_exact,  &Session::move_paper,  &Session::destroy_exact,    &Session::destroy_paper,
+      &Session::save_exact,  &Session::save_paper,  &Session::load_file,        &Session::load_other_kind,
+      &Session::load_part,   &Session::map_file,    &Session::remove_file,      &Session::check,
+      &Session::ask_exact,   &Session::ask_paper,   &Session::ask_batch,        &Session::ask_wrongly};
+
+  Bytes bytes_;
+  std::array<Exact, 3> exact_;
+  std::array<Paper, 2> paper_;
+  std::array<File, 3> files_;
+  std::vector<VertexId> ids_;
+  std::vector<double> distances_;
+};
+
+}  // namespace
+
+void run(std::span<const std::byte> input) { Session(input).run(); }
+
+}  // namespace meshhood::fuzz

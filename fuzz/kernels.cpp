@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// The kernels of every processor beside the portable ones: an input is a leaf, a ball, crossings and a group of nodes,
+// of any numbers that an index may hold.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <type_traits>
+
+#include "bytes.h"
+#include "exact_answer.h"
+#include "judge.h"
+#include "search/simd.h"
+#include "target.h"
+
+namespace meshhood::fuzz {
+namespace {
+
+constexpr double kLargestCoordinate = 0x1p500;  // see `validate`
+constexpr double kLargestInFrame = 1e18;        // where nodes stand that do not exist
+
+/// The next number, or 0 for one that no index holds.
+template <class Real>
+Real take_real(Bytes& bytes, double most) {
+  const auto value = bytes.take<Real>();
+  return std::abs(static_cast<double>(value)) <= most ? value : Real{0};
+}
+
+template <class Real>
+std::array<Real, 3 * kLeafCapacity> take_leaf(Bytes& bytes, std::size_t size) {
+  std::array<Real, 3 * kLeafCapacity> xyz{};
+  xyz.fill(std::numeric_limits<Real>::quiet_NaN());  // what is behind the leaf may be anything
+  for (Real& x : std::span(xyz).first(3 * size)) x = take_real<Real>(bytes, kLargestCoordinate);
+  return xyz;
+}
+
+/// Any radius, or one at which a vertex ties, or a unit in the last place beside.
+double take_radius(Bytes& bytes, double tie) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  switch (bytes.take<std::uint8_t>() % 4) {
+    case 0: return tie;
+    case 1: return std::nextafter(tie, 0.0);
+    case 2: return std::nextafter(tie, kInfinity);
+    default: {
+      const double radius = std::abs(bytes.take<double>());
+      return std::isnan(radius) ? kInfinity : radius;
+    }
+  }
+}
+
+template <class Real>
+void compare_distances(Bytes bytes, const Kernels& tried) {
+  const std::size_t size = 1 + bytes.take<std::uint8_t>() % kLeafCapacity;
+  const auto lanes = bytes.take<Lanes>(1);
+  const std::size_t nearest_to = bytes.take<std::uint8_t>() % size;
+  const auto xyz = take_leaf<Real>(bytes, size);
+  const Point centre{static_cast<double>(take_real<Real>(bytes, kLargestCoordinate)),
+                     static_cast<double>(take_real<Real>(bytes, kLargestCoordinate)),
+                     static_cast<double>(take_real<Real>(bytes, kLargestCoordinate))};
+  const std::span<const Real> vertices(xyz);
+  const double radius = take_radius(bytes, std::sqrt(squared_distance(point(vertices, nearest_to), centre)));
+  const LeafBall ball(centre, LeafBounds(radius));
+
+  const Lanes inside = tried.within(xyz.data(), size, ball);
+  for (std::size_t i = 0; i < size; ++i) {
+    const bool expected = squared_distance(point(vertices, i), centre) <= ball.squared_radius;
+    if ((inside >> i & 1U) != static_cast<unsigned>(expected)) fail("within differs from the predicate");
+  }
+  if (size < kLeafCapacity && inside >> size != 0) fail("within has a vertex that is not there");
+
+  const Lanes there = ~Lanes{0} >> (kLeafCapacity - size);
+  const Lanes among = (lanes & there) != 0 ? lanes & there : there;
+  const Nearest found = tried.nearest(xyz.data(), among, ball);
+  const Nearest expected = nearest_of(xyz.data(), among, ball);
+  if (found.lane != expected.lane || found.square != expected.square) fail("nearest differs");
+}
+
+void compare_edges(Bytes bytes, const Kernels& tried) {
+  std::array<Crossing, 3 * kLeafCapacity> crossings{};
+  for (Crossing& crossing : crossings) {
+    crossing = {static_cast<std::uint8_t>(bytes.take<std::uint8_t>() % kLeafCapacity),
+                static_cast<std::uint8_t>(bytes.take<std::uint8_t>() % kLeafCapacity)};
+  }
+  const std::size_t count = bytes.take<std::uint8_t>() % (2 * kLeafCapacity);
+  const auto among = bytes.take<Lanes>();
+  const Lanes from = bytes.take<Lanes>() & among;
+  const Kernels& plain = portable_kernels();
+  if (tried.cross(crossings.data(), count, from) != plain.cross(crossings.data(), count, from)) fail("cross differs");
+
+  std::array<Lanes, kLeafCapacity> adjacency{};
+  for (const Crossing& edge : std::span(crossings).first(count)) {
+    adjacency[edge.mine] |= Lanes{1} << edge.other;
+    adjacency[edge.other] |= Lanes{1} << edge.mine;
+  }
+  if (tried.spread(adjacency.data(), among, from) != plain.spread(adjacency.data(), among, from)) {
+    fail("spread differs");
+  }
+
+  std::array<VertexId, kLeafCapacity> ids{};
+  for (VertexId& id : ids) id = bytes.take<VertexId>();
+  std::array<VertexId, std::size_t{2} * kLeafCapacity> found{};
+  std::array<VertexId, std::size_t{2} * kLeafCapacity> expected{};
+  const auto found_end = tried.append(ids.data(), among, found.data()) - found.data();
+  const auto expected_end = plain.append(ids.data(), among, expected.data()) - expected.data();
+  if (found_end != expected_end || !std::equal(found.begin(), found.begin() + found_end, expected.begin())) {
+    fail("append differs");
+  }
+}
+
+Group take_group(Bytes& bytes) {
+  Group group{};
+  for (Group::Row* row : {&group.x, &group.y, &group.z, &group.axis_x, &group.axis_y, &group.axis_z}) {
+    for (float& value : *row) value = take_real<float>(bytes, kLargestInFrame);
+  }
+  for (float& radius : group.radius) radius = std::abs(take_real<float>(bytes, kLargestInFrame));
+  for (float& reach : group.reach) {
+    reach = std::abs(bytes.take<float>());
+    if (std::isnan(reach)) reach = std::numeric_limits<float>::infinity();
+  }
+  return group;
+}
+
+void compare_places(Bytes bytes, const Kernels& tried) {
+  const std::array groups{take_group(bytes), take_group(bytes)};
+  const std::array<std::uint32_t, 3> list{1, 0, 1};
+  const Point centre{static_cast<double>(take_real<float>(bytes, kLargestInFrame)),
+                     static_cast<double>(take_real<float>(bytes, kLargestInFrame)),
+                     static_cast<double>(take_real<float>(bytes, kLargestInFrame))};
+  const TreeBall ball({}, centre, take_radius(bytes, 1));
+  std::array<Placements, list.size()> found{};
+  std::array<Placements, list.size()> expected{};
+  tried.place(groups.data(), list, ball, found.data());
+  portable_kernels().place(groups.data(), list, ball, expected.data());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (found[i].inside != expected[i].inside || found[i].straddling != expected[i].straddling ||
+        found[i].doubtful != expected[i].doubtful) {
+      fail("place differs");
+    }
+  }
+}
+
+}  // namespace
+
+void run(std::span<const std::byte> input) {
+  Bytes bytes(input);
+  const auto kind = bytes.take<std::uint8_t>();
+  for (const Isa isa : test::available_isas()) {
+    const Kernels& tried = kernels(isa);
+    switch (kind % 4) {
+      case 0: compare_distances<float>(bytes, tried); break;
+      case 1: compare_distances<double>(bytes, tried); break;
+      case 2: compare_edges(bytes, tried); break;
+      default: compare_places(bytes, tried);
+    }
+  }
+}
+
+}  // namespace meshhood::fuzz
