@@ -21,6 +21,7 @@
 #include "families.h"
 #include "family_name.h"
 #include "refusal.h"
+#include "scale.h"
 
 namespace meshhood::test {
 namespace {
@@ -134,7 +135,7 @@ class Families : public testing::TestWithParam<Family> {};
 
 TEST_P(Families, RowsAreTheAnswersToSingleQueries) {
   std::size_t rows = 0;
-  for (const std::size_t vertices : {1U, 40U, 1500U}) {
+  for (const std::size_t vertices : {std::size_t{1}, std::size_t{40}, scaled(1500, 400)}) {
     const TestMesh mesh = make_mesh(GetParam(), 5, vertices);
     SCOPED_TRACE(mesh.name);
     const RandomRows random(mesh.view(), 300, vertices);
@@ -146,7 +147,7 @@ TEST_P(Families, RowsAreTheAnswersToSingleQueries) {
 }
 
 TEST_P(Families, OrderDoesNotDependOnTheThreads) {
-  const TestMesh mesh = make_mesh(GetParam(), 6, 3000);
+  const TestMesh mesh = make_mesh(GetParam(), 6, scaled(3000, 800));
   const Index index = build(mesh.view());
   const RandomRows rows(mesh.view(), 600, 1);
   for (const std::size_t buffer : {std::size_t{5000}, std::size_t{1} << 24}) {
