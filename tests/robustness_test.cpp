@@ -17,6 +17,7 @@
 
 #include "exact_answer.h"
 #include "families.h"
+#include "index_bytes.h"
 #include "refusal.h"
 #include "sandwich.h"
 #include "scale.h"
@@ -105,19 +106,31 @@ std::vector<VertexId> whole_answer(const TestMesh& mesh, VertexId v) {
   return out;
 }
 
-TEST(Robustness, A4EmptyMesh) {
-  const paper::Index index = paper::build(MeshView{});
-  EXPECT_EQ(index.vertex_count(), 0U);
-  EXPECT_EQ(index.levels().size(), 1U);
-  EXPECT_THAT(index.check(MeshView{}), IsEmpty());
-  EXPECT_THAT(paper::build(GraphView{}).check(GraphView{}), IsEmpty());
-  paper::Searcher searcher(index);
-  ReferenceSearcher reference{MeshView{}};
+/// `searcher` of what has no vertex.
+template <class AnySearcher>
+void expect_no_vertex(AnySearcher&& searcher) {
   std::vector<VertexId> out;
   expect_refused(ErrorCode::VertexOutOfRange, "vertex 0, but the mesh has 0 vertices",
                  [&] { searcher.neighborhood(0, 1, out); });
-  expect_refused(ErrorCode::VertexOutOfRange, "vertex 0, but the mesh has 0 vertices",
-                 [&] { reference.neighborhood(0, 1, out); });
+}
+
+template <class AnySearcher, class AnyIndex>
+void expect_empty(const AnyIndex& index) {
+  EXPECT_EQ(index.vertex_count(), 0U);
+  EXPECT_THAT(index.check(MeshView{}), IsEmpty());
+  EXPECT_THAT(index.check(GraphView{}), IsEmpty());
+  expect_no_vertex(AnySearcher(index));
+}
+
+TEST(Robustness, A4EmptyMesh) {
+  expect_empty<Searcher>(build(MeshView{}));
+  expect_empty<Searcher>(build(GraphView{}));
+  expect_empty<Searcher>(load(saved(build(MeshView{}))));
+  expect_empty<paper::Searcher>(paper::build(MeshView{}));
+  expect_empty<paper::Searcher>(paper::build(GraphView{}));
+  expect_empty<paper::Searcher>(paper::load(saved(paper::build(MeshView{}))));
+  EXPECT_EQ(paper::build(MeshView{}).levels().size(), 1U);
+  expect_no_vertex(ReferenceSearcher{MeshView{}});
 }
 
 TEST(Robustness, A4OneVertex) {
