@@ -3,13 +3,10 @@
 // of any numbers that an index may hold.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <string>
-#include <type_traits>
 
 #include "bytes.h"
 #include "exact_answer.h"
@@ -72,7 +69,7 @@ void compare_distances(Bytes bytes, const Kernels& tried) {
   }
   if (size < kLeafCapacity && inside >> size != 0) fail("within has a vertex that is not there");
 
-  const Lanes there = ~Lanes{0} >> (kLeafCapacity - size);
+  const Lanes there = first_lanes(static_cast<unsigned>(size));
   const Lanes among = (lanes & there) != 0 ? lanes & there : there;
   const Nearest found = tried.nearest(xyz.data(), among, ball);
   const Nearest expected = nearest_of(xyz.data(), among, ball);

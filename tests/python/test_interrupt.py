@@ -27,10 +27,12 @@ def without_end(index, method="exact", progress=None):
         index.query_ball_count(None, SIDE / 3.0, method=method, progress=progress)
 
 
-def builds_without_end():
-    V, F = meshes.two_plates(SIDE)
-    while True:
-        meshhood.MeshIndex(V, F)
+def again_and_again(call):
+    def calls():
+        while True:
+            call()
+
+    return calls
 
 
 @pytest.fixture
@@ -67,7 +69,8 @@ def test_ctrl_c_in_a_batch(index, ctrl_c, method):
 
 
 def test_ctrl_c_in_a_build(ctrl_c):
-    seconds = ctrl_c(builds_without_end)
+    V, F = meshes.two_plates(SIDE)
+    seconds = ctrl_c(again_and_again(lambda: meshhood.MeshIndex(V, F)))
     print(f"build: KeyboardInterrupt after {1000 * seconds:.0f} ms")
 
 
@@ -84,13 +87,8 @@ def nothing_stays_open():
 def test_ctrl_c_while_reading_a_mesh(tmp_path, ctrl_c):
     file = tmp_path / "large.obj"
     file.write_text("v 1.25 2.5 3.75\n" * 1_000_000)
-
-    def reads_without_end():
-        while True:
-            meshhood.read_mesh(file)
-
     with nothing_stays_open():
-        seconds = ctrl_c(reads_without_end)
+        seconds = ctrl_c(again_and_again(lambda: meshhood.read_mesh(file)))
     print(f"read_mesh: KeyboardInterrupt after {1000 * seconds:.0f} ms")
     assert len(meshhood.read_mesh(file).vertices) == 1_000_000
 
@@ -98,25 +96,15 @@ def test_ctrl_c_while_reading_a_mesh(tmp_path, ctrl_c):
 @pytest.mark.parametrize("mmap", (False, True))
 def test_ctrl_c_while_loading_an_index(index, tmp_path, ctrl_c, mmap):
     index.save(tmp_path / "index")
-
-    def loads_without_end():
-        while True:
-            meshhood.load(tmp_path / "index", mmap=mmap)
-
     with nothing_stays_open():
-        seconds = ctrl_c(loads_without_end)
+        seconds = ctrl_c(again_and_again(lambda: meshhood.load(tmp_path / "index", mmap=mmap)))
     print(f"load: KeyboardInterrupt after {1000 * seconds:.0f} ms")
 
 
 def test_ctrl_c_while_saving_an_index(index, tmp_path, ctrl_c):
     file = tmp_path / "index"
-
-    def saves_without_end():
-        while True:
-            index.save(file)
-
     with nothing_stays_open():
-        seconds = ctrl_c(saves_without_end)
+        seconds = ctrl_c(again_and_again(lambda: index.save(file)))
     print(f"save: KeyboardInterrupt after {1000 * seconds:.0f} ms")
     assert list(tmp_path.iterdir()) == [file]
     assert len(meshhood.load(file)) == len(index)
@@ -132,22 +120,13 @@ def test_ctrl_c_while_saving_leaves_the_old_file(index, tmp_path):
 
 
 def test_ctrl_c_in_pickling(index, ctrl_c):
-    def pickles_without_end():
-        while True:
-            pickle.dumps(index)
-
-    seconds = ctrl_c(pickles_without_end)
+    seconds = ctrl_c(again_and_again(lambda: pickle.dumps(index)))
     print(f"pickling: KeyboardInterrupt after {1000 * seconds:.0f} ms")
 
 
 def test_ctrl_c_in_unpickling(index, ctrl_c):
     pickled = pickle.dumps(index)
-
-    def unpickles_without_end():
-        while True:
-            pickle.loads(pickled)
-
-    seconds = ctrl_c(unpickles_without_end)
+    seconds = ctrl_c(again_and_again(lambda: pickle.loads(pickled)))
     print(f"unpickling: KeyboardInterrupt after {1000 * seconds:.0f} ms")
 
 
