@@ -21,7 +21,7 @@ build:
 
 test:
 	@tools/setup test
-	@tools/test release asan tsan:threads
+	@tools/test release asan tsan:exact/threads
 
 demo: build
 	@tools/demo

@@ -34,7 +34,7 @@ struct SearcherAccess {
     at[0] = Clock::now();
     Searcher::Query<Real> query(searcher, hierarchy, v, radius);
     searcher.pieces_.clear();
-    query.climb_up(radius / QueryOptions{}.scale_factor);
+    query.climb_up(radius / QueryOptions{}.radius_ratio);
     at[1] = Clock::now();
     query.breadth_first();
     at[2] = Clock::now();

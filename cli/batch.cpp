@@ -25,7 +25,7 @@
 #include "npz_writer.h"
 #include "output.h"
 #include "progress.h"
-#include "question.h"
+#include "query_arguments.h"
 #include "vertex_list.h"
 
 namespace meshhood::cli {
@@ -60,7 +60,7 @@ class Writer {
       : index_(index), query_(query), options_(options), interrupt_(interrupt), npz_(npz) {}
 
   Total write() {
-    const std::vector<std::uint64_t> sizes = counts(index_, query_, next_pass());
+    const std::vector<std::uint64_t> sizes = neighborhood_sizes(index_, query_, next_pass());
     const Total total{sizes.size(), std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})};
     if (options_.count) {
       npz_.add<std::uint64_t>("count", sizes);

@@ -23,7 +23,7 @@
 #include "output.h"
 #include "processor_time.h"
 #include "progress.h"
-#include "question.h"
+#include "query_arguments.h"
 
 namespace meshhood::cli {
 namespace {

@@ -18,7 +18,7 @@
 #include "interrupt.h"
 #include "io/index_io.h"
 #include "output.h"
-#include "question.h"
+#include "query_arguments.h"
 
 namespace meshhood::cli {
 namespace {

@@ -8,7 +8,7 @@
 namespace meshhood::cli {
 namespace {
 
-auto reporting(Progress& progress) {
+auto on_progress(Progress& progress) {
   return [&progress](std::size_t done, std::size_t total) {
     progress.report(done, total);
     return true;
@@ -20,13 +20,13 @@ auto reporting(Progress& progress) {
 template <class Mesh>
 Index build_exact_index(const Mesh& mesh, unsigned threads) {
   Progress progress("building the index");
-  return build(mesh, {.threads = threads, .progress = reporting(progress)});
+  return build(mesh, {.threads = threads, .progress = on_progress(progress)});
 }
 
 template <class Mesh>
 paper::Index build_paper_index(const Mesh& mesh) {
   Progress progress("building the index of the paper");
-  return paper::build(mesh, {.progress = reporting(progress)});
+  return paper::build(mesh, {.progress = on_progress(progress)});
 }
 
 template Index build_exact_index(const MeshView& mesh, unsigned threads);

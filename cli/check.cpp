@@ -14,7 +14,7 @@
 #include "input.h"
 #include "io/index_io.h"
 #include "output.h"
-#include "question.h"
+#include "query_arguments.h"
 
 namespace meshhood::cli {
 namespace {
@@ -50,7 +50,7 @@ void check_against(const io::Mesh& mesh, const Options& options, const IndexHead
 
 /// It keeps the graph, so that even alone it can be compared with what it says to be built from.
 void check_alone(const Options& options, const IndexHeader& header, const Index& index) {
-  const GraphData graph = meshhood::graph(index);
+  const GraphData graph = meshhood::extract_graph(index);
   expect_built_from(options, header, fingerprint(graph.view()), "what it holds");
   expect_none(options, index.check(graph.view()));
 }

@@ -14,13 +14,13 @@
 #include "methods.h"
 #include "output.h"
 #include "painting.h"
-#include "question.h"
+#include "query_arguments.h"
 
 namespace meshhood::cli {
 namespace {
 
 struct Options {
-  Question question;
+  QueryArguments arguments;
   std::string output;
   bool json = false;
 };
@@ -76,10 +76,10 @@ void paint(const std::string& file, Input& input, const Query& query, const std:
 }
 
 void compare(const Options& options) {
-  refuse_same_file(options.question.file, options.output);
-  Input input(options.question.file);
+  refuse_same_file(options.arguments.file, options.output);
+  Input input(options.arguments.file);
   input.need_edges("compare");
-  const Query query = resolve(options.question, input);
+  const Query query = resolve(options.arguments, input);
   const std::vector<Method> methods{bfs_method(input.graph()), ball_method(input.positions()),
                                     paper_method(input.paper_index()), exact_method(input.exact_index())};
   const std::vector<Row> rows = answer(methods, query, input.vertex_count());
@@ -93,7 +93,7 @@ void add_compare(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand(
       "compare", "The methods side by side: what each finds, how it differs from bfs, and in what time");
-  add_question(*command, options->question);
+  add_query_arguments(*command, options->arguments);
   add_output(*command, options->output,
              "also write the mesh as PLY: the vertex red, exact green, only paper yellow, only ball blue");
   command->add_flag("--json", options->json, "one JSON document");

@@ -13,7 +13,7 @@
 #include "interrupt.h"
 #include "io/mesh_io.h"
 #include "output.h"
-#include "question.h"
+#include "query_arguments.h"
 #include "shapes/shapes.h"
 
 namespace meshhood::cli {

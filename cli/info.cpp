@@ -17,7 +17,7 @@
 #include "input.h"
 #include "io/index_io.h"
 #include "output.h"
-#include "question.h"
+#include "query_arguments.h"
 #include "statistics.h"
 
 namespace meshhood::cli {

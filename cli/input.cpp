@@ -26,7 +26,7 @@ void complain_about(const io::Mesh& mesh, const std::string& file) {
   for (const io::Warning& warning : mesh.warnings) {
     const std::string times = warning.count == 1 ? "" : fmt::format("{} times, first ", warning.count);
     const std::string place = warning.first_place.empty() ? "" : " (" + times + "at " + warning.first_place + ")";
-    complain("warning: ", fmt::format("{}: {}{}", file, warning.what, place));
+    print_error("warning: ", fmt::format("{}: {}{}", file, warning.what, place));
   }
 }
 
@@ -43,7 +43,7 @@ PositionsData positions_of(const paper::Index& index) {
 }
 
 /// What a reader tells, for the line on the terminal. Of a pipe it does not know how much there is.
-auto telling(Progress& progress) {
+auto on_progress(Progress& progress) {
   return [&progress](std::size_t done, std::size_t total) {
     if (total != 0) progress.report(done, total);
     return true;
@@ -89,13 +89,13 @@ GraphView Input::graph() {
     if (!adjacency_) adjacency_ = adjacency(mesh_->view());
     return {mesh_->view().positions, adjacency_->view()};
   }
-  if (!graph_) graph_ = meshhood::graph(*exact_);
+  if (!graph_) graph_ = meshhood::extract_graph(*exact_);
   return graph_->view();
 }
 
 MeshView Input::surface() {
   if (mesh_) return mesh_->view();
-  complain("warning: ", name_ + ": an index keeps no faces, so what is drawn of it are its vertices");
+  print_error("warning: ", name_ + ": an index keeps no faces, so what is drawn of it are its vertices");
   return {positions(), FacesView{}};
 }
 
@@ -111,19 +111,19 @@ const paper::Index& Input::paper_index() {
 
 io::Mesh read_mesh(const std::string& file) {
   Progress progress("reading " + file);
-  io::Mesh mesh = io::read_mesh(file, {.progress = telling(progress)});
+  io::Mesh mesh = io::read_mesh(file, {.progress = on_progress(progress)});
   complain_about(mesh, file);
   return mesh;
 }
 
 Index load_exact_index(const std::string& file) {
   Progress progress("reading " + file);
-  return io::load(file, {.progress = telling(progress)});
+  return io::load(file, {.progress = on_progress(progress)});
 }
 
 paper::Index load_paper_index(const std::string& file) {
   Progress progress("reading " + file);
-  return io::load_paper(file, {.progress = telling(progress)});
+  return io::load_paper(file, {.progress = on_progress(progress)});
 }
 
 void refuse_same_file(const std::string& input, const std::string& output) {

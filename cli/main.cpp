@@ -56,11 +56,11 @@ ExitCode run_or_complain(int argc, const char* const* argv) {
   } catch (const BrokenPipe&) {
     return ExitCode::InputOutput;
   } catch (const CLI::ParseError& error) {
-    complain("", error.what());
+    print_error("", error.what());
     return ExitCode::Usage;
   } catch (const std::exception& error) {
     const ExitCode code = exit_code(error);
-    complain("", reason(error));
+    print_error("", reason(error));
     return code;
   }
 }

@@ -53,7 +53,7 @@ Method bfs_method(const GraphView& graph) {
 Method ball_method(const PositionsView& positions) {
   return {.name = "ball",
           .neighborhood = [positions](VertexId v, double radius,
-                                      std::vector<VertexId>& out) { ball(positions, v, radius, out); },
+                                      std::vector<VertexId>& out) { vertices_in_ball(positions, v, radius, out); },
           .count = {},
           .visits_all_vertices = true};
 }

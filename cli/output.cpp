@@ -51,7 +51,7 @@ void Rows::add(std::string_view name, std::string_view value) {
   text_ += fmt::format("{:<{}} {}\n", name, width_, value);
 }
 
-void complain(std::string_view severity, std::string_view text) {
+void print_error(std::string_view severity, std::string_view text) {
   const std::string line = fmt::format("meshhood: {}{}\n", severity, printable(text));
   std::fwrite(line.data(), 1, line.size(), stderr);
 }

@@ -14,7 +14,7 @@ namespace meshhood::cli {
 /// Keeps its keys in the order they were given.
 using Json = nlohmann::ordered_json;
 
-/// Thrown where the reader of standard output has gone. No one is left to complain to.
+/// Thrown where the reader of standard output has gone. No one is left to print_error to.
 struct BrokenPipe {};
 
 /// Writes all of `text` to standard output, past every buffer. Throws Error{IoFailure}, BrokenPipe.
@@ -45,6 +45,6 @@ class Rows {
 };
 
 /// One line on standard error. `severity` is "" for an error, "warning: " for less.
-void complain(std::string_view severity, std::string_view text);
+void print_error(std::string_view severity, std::string_view text);
 
 }  // namespace meshhood::cli

@@ -15,13 +15,13 @@
 #include "methods.h"
 #include "output.h"
 #include "painting.h"
-#include "question.h"
+#include "query_arguments.h"
 
 namespace meshhood::cli {
 namespace {
 
 struct Options {
-  Question question;
+  QueryArguments arguments;
   std::string method = "exact";
   std::optional<double> factor;
   bool count = false;
@@ -54,7 +54,7 @@ Answer ask(const Options& options, Input& input, const Query& query) {
   if (options.method == "ball") return ask(options, ball_method(input.positions()), query);
   if (options.method == "exact") return ask(options, exact_method(input.exact_index()), query);
   const paper::QueryOptions defaults;
-  const paper::QueryOptions settings{.scale_factor = options.factor.value_or(defaults.scale_factor)};
+  const paper::QueryOptions settings{.radius_ratio = options.factor.value_or(defaults.radius_ratio)};
   return ask(options, paper_method(input.paper_index(), settings), query);
 }
 
@@ -95,9 +95,9 @@ void query(const Options& options) {
   if (options.factor && options.method != "paper") {
     raise(ErrorCode::InvalidOption, "--factor is an option of --method paper alone");
   }
-  refuse_same_file(options.question.file, options.output);
-  Input input(options.question.file);
-  const Query query = resolve(options.question, input);
+  refuse_same_file(options.arguments.file, options.output);
+  Input input(options.arguments.file);
+  const Query query = resolve(options.arguments, input);
   Answer answer = ask(options, input, query);
   if (options.distances) add_distances(input.positions(), query.vertex, answer);
   if (!options.output.empty()) paint(options, input, query, answer);
@@ -109,7 +109,7 @@ void query(const Options& options) {
 void add_query(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("query", "The neighborhood of a vertex: its vertices, one a line");
-  add_question(*command, options->question);
+  add_query_arguments(*command, options->arguments);
   command
       ->add_option("--method", options->method,
                    "exact; bfs, exact but slow; paper, with a few extra vertices; ball, with many")

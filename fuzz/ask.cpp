@@ -9,14 +9,14 @@
 #include "meshhood/search.h"
 
 #include "judge.h"
-#include "random.h"
+#include "support/random.h"
 
 namespace meshhood::fuzz {
 namespace {
 
 double draw_radius(const Index& index, VertexId v, test::Random& random) {
   if (random.below(8) == 0) return std::numeric_limits<double>::infinity();
-  const GraphData mesh = graph(index);
+  const GraphData mesh = extract_graph(index);
   const auto w = static_cast<VertexId>(random.below(index.vertex_count()));
   return distance(mesh.view().positions, v, w) * random.uniform(0, 1.5);
 }
@@ -25,7 +25,7 @@ double draw_radius(const Index& index, VertexId v, test::Random& random) {
 
 void ask(const Index& index) {
   const std::size_t vertices = index.vertex_count();
-  validate(graph(index).view());
+  validate(extract_graph(index).view());
   Searcher searcher(index);
   std::vector<VertexId> ids;
   std::vector<double> distances;

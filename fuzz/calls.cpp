@@ -15,11 +15,11 @@
 #include "meshhood/meshhood.h"
 
 #include "bytes.h"
-#include "families.h"
-#include "index_bytes.h"
 #include "judge.h"
-#include "oracle.h"
-#include "sandwich.h"
+#include "support/families.h"
+#include "support/index_bytes.h"
+#include "support/oracle.h"
+#include "support/sandwich.h"
 #include "target.h"
 
 namespace meshhood::fuzz {
@@ -127,7 +127,7 @@ class Session {
   void build_from_graph() {
     const Exact& source = any_exact();
     if (source.subject == nullptr) return;
-    const GraphData data = graph(*source.index);
+    const GraphData data = extract_graph(*source.index);
     const Subject& subject = *source.subject;
     any_exact().put(subject, build(data.view()));
   }

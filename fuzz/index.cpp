@@ -7,8 +7,8 @@
 #include "meshhood/serialize.h"
 
 #include "ask.h"
-#include "index_bytes.h"
 #include "judge.h"
+#include "support/index_bytes.h"
 #include "target.h"
 
 namespace meshhood::fuzz {

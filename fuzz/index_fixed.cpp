@@ -9,8 +9,8 @@
 #include "meshhood/serialize.h"
 
 #include "ask.h"
-#include "forged_index.h"
 #include "judge.h"
+#include "support/forged_index.h"
 #include "target.h"
 
 namespace meshhood::fuzz {

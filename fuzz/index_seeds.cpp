@@ -7,8 +7,8 @@
 
 #include "meshhood/reorder.h"
 
-#include "families.h"
-#include "index_bytes.h"
+#include "support/families.h"
+#include "support/index_bytes.h"
 
 namespace {
 
@@ -21,9 +21,9 @@ void write(const std::string& folder, const std::string& name, const Index& inde
   std::printf("%s: %zu bytes\n", name.c_str(), bytes.size());
 }
 
-test::TestMesh grid(std::size_t rows, std::size_t columns, bool single) {
+test::TestMesh grid(std::size_t rows, std::size_t regions, bool single) {
   test::Random random(rows);
-  test::TestMesh mesh = test::make_grid(rows, columns, false);
+  test::TestMesh mesh = test::make_grid(rows, regions, false);
   for (double& x : mesh.positions) x += random.uniform(-0.2, 0.2);
   return mesh.finish(single);
 }

@@ -11,9 +11,9 @@
 
 #include "meshhood/meshhood.h"
 
-#include "exact_answer.h"
-#include "oracle.h"
-#include "sandwich.h"
+#include "support/exact_answer.h"
+#include "support/oracle.h"
+#include "support/sandwich.h"
 
 namespace meshhood::fuzz {
 namespace {
@@ -54,8 +54,8 @@ class Judge {
     std::sort(answer_.begin(), answer_.end());
     if (exact_.mismatches() != 0 || answer_ != expected) refuse("exact", v, radius);
 
-    const double scale_factor = std::ldexp(1.0, static_cast<int>(random_.below(20)) - 4);
-    paper_searcher_.neighborhood(v, radius, answer_, {.scale_factor = scale_factor});
+    const double radius_ratio = std::ldexp(1.0, static_cast<int>(random_.below(20)) - 4);
+    paper_searcher_.neighborhood(v, radius, answer_, {.radius_ratio = radius_ratio});
     const auto inside = [&](VertexId w) {
       return oracle_.distance(v, w) <= radius && oracle_.component(v) == oracle_.component(w);
     };

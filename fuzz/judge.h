@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <string>
 
-#include "random.h"
-#include "test_mesh.h"
+#include "support/random.h"
+#include "support/test_mesh.h"
 
 namespace meshhood::fuzz {
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The kernels of every processor beside the portable ones: an input is a leaf, a ball, crossings and a group of nodes,
-// of any numbers that an index may hold.
+// The kernels of every processor beside the portable ones: an input is a leaf, a ball, cross_edges and a group of
+// nodes, of any numbers that an index may hold.
+#include "simd/kernels.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,9 +11,8 @@
 #include <span>
 
 #include "bytes.h"
-#include "exact_answer.h"
 #include "judge.h"
-#include "search/simd.h"
+#include "support/exact_answer.h"
 #include "target.h"
 
 namespace meshhood::fuzz {
@@ -52,7 +53,7 @@ double take_radius(Bytes& bytes, double tie) {
 template <class Real>
 void compare_distances(Bytes bytes, const Kernels& tried) {
   const std::size_t size = 1 + bytes.take<std::uint8_t>() % kLeafCapacity;
-  const auto lanes = bytes.take<Lanes>(1);
+  const auto lanes = bytes.take<LaneMask>(1);
   const std::size_t nearest_to = bytes.take<std::uint8_t>() % size;
   const auto xyz = take_leaf<Real>(bytes, size);
   const Point centre{static_cast<double>(take_real<Real>(bytes, kLargestCoordinate)),
@@ -62,38 +63,39 @@ void compare_distances(Bytes bytes, const Kernels& tried) {
   const double radius = take_radius(bytes, std::sqrt(squared_distance(point(vertices, nearest_to), centre)));
   const LeafBall ball(centre, LeafBounds(radius));
 
-  const Lanes inside = tried.within(xyz.data(), size, ball);
+  const LaneMask inside = tried.within(xyz.data(), size, ball);
   for (std::size_t i = 0; i < size; ++i) {
     const bool expected = squared_distance(point(vertices, i), centre) <= ball.squared_radius;
     if ((inside >> i & 1U) != static_cast<unsigned>(expected)) fail("within differs from the predicate");
   }
   if (size < kLeafCapacity && inside >> size != 0) fail("within has a vertex that is not there");
 
-  const Lanes there = first_lanes(static_cast<unsigned>(size));
-  const Lanes among = (lanes & there) != 0 ? lanes & there : there;
+  const LaneMask there = first_lanes(static_cast<unsigned>(size));
+  const LaneMask among = (lanes & there) != 0 ? lanes & there : there;
   const Nearest found = tried.nearest(xyz.data(), among, ball);
   const Nearest expected = nearest_of(xyz.data(), among, ball);
   if (found.lane != expected.lane || found.square != expected.square) fail("nearest differs");
 }
 
 void compare_edges(Bytes bytes, const Kernels& tried) {
-  std::array<Crossing, 3 * kLeafCapacity> crossings{};
-  for (Crossing& crossing : crossings) {
-    crossing = {static_cast<std::uint8_t>(bytes.take<std::uint8_t>() % kLeafCapacity),
-                static_cast<std::uint8_t>(bytes.take<std::uint8_t>() % kLeafCapacity)};
+  std::array<CrossEdge, 3 * kLeafCapacity> cross_edges{};
+  for (CrossEdge& cross_edge : cross_edges) {
+    cross_edge = {static_cast<std::uint8_t>(bytes.take<std::uint8_t>() % kLeafCapacity),
+                  static_cast<std::uint8_t>(bytes.take<std::uint8_t>() % kLeafCapacity)};
   }
   const std::size_t count = bytes.take<std::uint8_t>() % (2 * kLeafCapacity);
-  const auto among = bytes.take<Lanes>();
-  const Lanes from = bytes.take<Lanes>() & among;
+  const auto among = bytes.take<LaneMask>();
+  const LaneMask from = bytes.take<LaneMask>() & among;
   const Kernels& plain = portable_kernels();
-  if (tried.cross(crossings.data(), count, from) != plain.cross(crossings.data(), count, from)) fail("cross differs");
+  if (tried.cross_edges(cross_edges.data(), count, from) != plain.cross_edges(cross_edges.data(), count, from))
+    fail("cross differs");
 
-  std::array<Lanes, kLeafCapacity> adjacency{};
-  for (const Crossing& edge : std::span(crossings).first(count)) {
-    adjacency[edge.mine] |= Lanes{1} << edge.other;
-    adjacency[edge.other] |= Lanes{1} << edge.mine;
+  std::array<LaneMask, kLeafCapacity> adjacency{};
+  for (const CrossEdge& edge : std::span(cross_edges).first(count)) {
+    adjacency[edge.mine] |= LaneMask{1} << edge.other;
+    adjacency[edge.other] |= LaneMask{1} << edge.mine;
   }
-  if (tried.spread(adjacency.data(), among, from) != plain.spread(adjacency.data(), among, from)) {
+  if (tried.reachable(adjacency.data(), among, from) != plain.reachable(adjacency.data(), among, from)) {
     fail("spread differs");
   }
 
@@ -101,8 +103,8 @@ void compare_edges(Bytes bytes, const Kernels& tried) {
   for (VertexId& id : ids) id = bytes.take<VertexId>();
   std::array<VertexId, std::size_t{2} * kLeafCapacity> found{};
   std::array<VertexId, std::size_t{2} * kLeafCapacity> expected{};
-  const auto found_end = tried.append(ids.data(), among, found.data()) - found.data();
-  const auto expected_end = plain.append(ids.data(), among, expected.data()) - expected.data();
+  const auto found_end = tried.compress(ids.data(), among, found.data()) - found.data();
+  const auto expected_end = plain.compress(ids.data(), among, expected.data()) - expected.data();
   if (found_end != expected_end || !std::equal(found.begin(), found.begin() + found_end, expected.begin())) {
     fail("append differs");
   }
@@ -110,11 +112,11 @@ void compare_edges(Bytes bytes, const Kernels& tried) {
 
 Group take_group(Bytes& bytes) {
   Group group{};
-  for (Group::Row* row : {&group.x, &group.y, &group.z, &group.axis_x, &group.axis_y, &group.axis_z}) {
+  for (Group::Row* row : {&group.x, &group.y, &group.z, &group.slope_x, &group.slope_y, &group.slope_z}) {
     for (float& value : *row) value = take_real<float>(bytes, kLargestInFrame);
   }
   for (float& radius : group.radius) radius = std::abs(take_real<float>(bytes, kLargestInFrame));
-  for (float& reach : group.reach) {
+  for (float& reach : group.offset) {
     reach = std::abs(bytes.take<float>());
     if (std::isnan(reach)) reach = std::numeric_limits<float>::infinity();
   }
@@ -128,13 +130,13 @@ void compare_places(Bytes bytes, const Kernels& tried) {
                      static_cast<double>(take_real<float>(bytes, kLargestInFrame)),
                      static_cast<double>(take_real<float>(bytes, kLargestInFrame))};
   const TreeBall ball({}, centre, take_radius(bytes, 1));
-  std::array<Placements, list.size()> found{};
-  std::array<Placements, list.size()> expected{};
-  tried.place(groups.data(), list, ball, found.data());
-  portable_kernels().place(groups.data(), list, ball, expected.data());
+  std::array<GroupContainment, list.size()> found{};
+  std::array<GroupContainment, list.size()> expected{};
+  tried.classify(groups.data(), list, ball, found.data());
+  portable_kernels().classify(groups.data(), list, ball, expected.data());
   for (std::size_t i = 0; i < list.size(); ++i) {
-    if (found[i].inside != expected[i].inside || found[i].straddling != expected[i].straddling ||
-        found[i].doubtful != expected[i].doubtful) {
+    if (found[i].inside != expected[i].inside || found[i].intersecting != expected[i].intersecting ||
+        found[i].may_have_minimum != expected[i].may_have_minimum) {
       fail("place differs");
     }
   }

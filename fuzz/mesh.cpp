@@ -11,8 +11,8 @@
 #include "meshhood/index.h"
 
 #include "bytes.h"
-#include "families.h"
 #include "judge.h"
+#include "support/families.h"
 #include "target.h"
 
 namespace meshhood::fuzz {

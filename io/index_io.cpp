@@ -90,14 +90,14 @@ void save_any(const std::filesystem::path& path, const AnyIndex& index, const Sa
   std::size_t all = 0;
   const Progress progress = [&](std::size_t done, std::size_t total) {
     all = total;
-    tell(options.progress, done, total, name);
+    report(options.progress, done, total, name);
     return true;
   };
   const Sink sink = [&](std::span<const std::byte> bytes) {
     file.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   };
   save(index, sink, {.progress = progress});
-  file.commit([&] { tell(options.progress, all, all, name); });
+  file.commit([&] { report(options.progress, all, all, name); });
 }
 
 /// The index that `take(content, progress)` makes of the whole file; who watches is told of the bytes, and told again
@@ -106,9 +106,9 @@ template <class F>
 auto load_any(const std::filesystem::path& path, const LoadOptions& options, F&& take) {
   FileSource file(path);
   WatchedSource source(file, options.progress, path.string());
-  file.while_waiting([&source] { source.tell(); });
+  file.while_waiting([&source] { source.report(); });
   const Progress verifying = [&source](std::size_t, std::size_t) {
-    source.tell();
+    source.report();
     return true;
   };
   return naming(path, [&] {

@@ -52,7 +52,7 @@ MeshView Mesh::view() const {
 Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
   FileSource file(path);
   WatchedSource source(file, options.progress, path.string());
-  file.while_waiting([&source] { source.tell(); });
+  file.while_waiting([&source] { source.report(); });
   return read(source, path.string(), options);
 }
 

@@ -32,12 +32,12 @@ std::string printable_name(std::string_view name) {
   return escaped(name, [](unsigned char byte) { return byte >= 0x20 && byte != 0x7f; });
 }
 
-std::string shown(std::string_view text) {
+std::string escape(std::string_view text) {
   constexpr std::size_t kLongest = 64;
   const auto printable = [](unsigned char byte) { return byte >= 0x20 && byte < 0x7f && byte != '\\'; };
   return escaped(text.substr(0, kLongest), printable) + (text.size() > kLongest ? "..." : "");
 }
 
-std::string quote(std::string_view text) { return "'" + shown(text) + "'"; }
+std::string quote(std::string_view text) { return "'" + escape(text) + "'"; }
 
 }  // namespace meshhood::io

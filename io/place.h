@@ -31,7 +31,7 @@ struct Place {
 
 /// The first 64 bytes of a file's text, all that is not printable ASCII written as `\xNN`: no file writes to the
 /// terminal through us. "..." stands for what was cut.
-[[nodiscard]] std::string shown(std::string_view text);
+[[nodiscard]] std::string escape(std::string_view text);
 
 /// The same between quotation marks.
 [[nodiscard]] std::string quote(std::string_view text);

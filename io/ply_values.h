@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "io/draft.h"
 #include "io/input.h"
+#include "io/mesh_builder.h"
 #include "io/place.h"
 #include "io/ply_header.h"
 

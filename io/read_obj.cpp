@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "io/draft.h"
+#include "io/mesh_builder.h"
 #include "io/number.h"
 #include "io/readers.h"
 #include "io/text.h"
@@ -33,13 +33,13 @@ bool contains(const Words& words, std::string_view word) {
 class ObjReader {
  public:
   ObjReader(Input& input, const ReadOptions& options)
-      : text_(input, {.hash_comments = true}), draft_(input, options, false) {}
+      : text_(input, {.hash_comments = true}), builder_(input, options, false) {}
 
   Mesh read() {
     while (text_.next_line()) read_statement(text_.token_on_continued_line());
     if (unknown_ != 0 && !is_obj_) text_.malformed("not one statement of the OBJ format in the whole file");
     check_forward_reference();
-    return draft_.finish(Format::Obj);
+    return builder_.finish(Format::Obj);
   }
 
  private:
@@ -49,10 +49,10 @@ class ObjReader {
     if (keyword == "v") return read_vertex();
     if (keyword == "f") return read_face();
     if (contains(kOtherGeometry, keyword)) {
-      draft_.warnings.add(fmt::format("'{}' statements are not read", keyword), text_.place());
+      builder_.warnings.add(fmt::format("'{}' statements are not read", keyword), text_.place());
     } else if (!contains(kAttributes, keyword)) {
       ++unknown_;
-      draft_.warnings.add("unknown statements", text_.place());
+      builder_.warnings.add("unknown statements", text_.place());
     }
     while (!text_.token_on_continued_line().empty()) {
     }
@@ -60,7 +60,7 @@ class ObjReader {
 
   // x y z, then a weight, a colour or both.
   void read_vertex() {
-    const auto vertex = draft_.positions.vertex_count();
+    const auto vertex = builder_.positions.vertex_count();
     check_vertex_count(vertex + 1, text_.input().name(), text_.place());
     for (int i = 0; i < 3; ++i) read_coordinate(vertex);
     std::array<double, 4> rest = {};
@@ -72,26 +72,26 @@ class ObjReader {
       rest[count++] = *number;
     }
     const bool has_weight = count == 1 || count == 4;
-    if (has_weight && rest[0] != 1.0) draft_.warnings.add("weights other than 1 are not used", text_.place());
+    if (has_weight && rest[0] != 1.0) builder_.warnings.add("weights other than 1 are not used", text_.place());
   }
 
   void read_coordinate(uint64_t vertex) {
-    const char name = axis(draft_.positions.scalar_count());
+    const char name = axis(builder_.positions.scalar_count());
     const auto token = text_.token_on_continued_line();
     if (token.empty()) text_.malformed("vertex {} has no {}", vertex + 1, name);
-    const auto problem = draft_.positions.append(token);
+    const auto problem = builder_.positions.append(token);
     if (problem) text_.malformed("vertex {}, {} = {} {}", vertex + 1, name, quote(token), *problem);
   }
 
   void read_face() {
     uint64_t corners = 0;
     for (auto token = text_.token_on_continued_line(); !token.empty(); token = text_.token_on_continued_line()) {
-      draft_.faces.append_corner(resolve_corner(token, corners++));
+      builder_.faces.append_corner(resolve_corner(token, corners++));
     }
     if (corners == 0) {
-      draft_.warnings.add("faces without corners are left out", text_.place());
+      builder_.warnings.add("faces without corners are left out", text_.place());
     } else {
-      draft_.faces.end_face(corners);
+      builder_.faces.end_face(corners);
     }
   }
 
@@ -101,7 +101,7 @@ class ObjReader {
     const auto index = parse_integer(token.substr(0, slash));
     const bool rest_is_good = slash == std::string_view::npos || are_attribute_indices(token.substr(slash + 1));
     if (!index || !rest_is_good) {
-      text_.malformed("face {}, corner {}: {} is no vertex index", draft_.faces.size() + 1, corner + 1, quote(token));
+      text_.malformed("face {}, corner {}: {} is no vertex index", builder_.faces.size() + 1, corner + 1, quote(token));
     }
     return resolve(*index, corner);
   }
@@ -115,25 +115,25 @@ class ObjReader {
 
   // Positive indices count from 1, negative ones back from the vertex declared last.
   std::uint32_t resolve(std::int64_t index, uint64_t corner) {
-    const auto declared = static_cast<std::int64_t>(draft_.positions.vertex_count());
+    const auto declared = static_cast<std::int64_t>(builder_.positions.vertex_count());
     const bool names_one = index > 0 || (index < 0 && index >= -declared);
     if (!names_one || index > static_cast<std::int64_t>(kMaxVertices)) {
-      refuse(text_.place(), draft_.faces.size(), corner, index);
+      refuse(text_.place(), builder_.faces.size(), corner, index);
     }
-    if (index > declared && index > forward_.index) forward_ = {index, draft_.faces.size(), corner, text_.place()};
+    if (index > declared && index > forward_.index) forward_ = {index, builder_.faces.size(), corner, text_.place()};
     return static_cast<std::uint32_t>(index > 0 ? index - 1 : declared + index);
   }
 
   // A face may come before its vertices; whether they come at all is known at the end.
   void check_forward_reference() const {
-    const auto declared = static_cast<std::int64_t>(draft_.positions.vertex_count());
+    const auto declared = static_cast<std::int64_t>(builder_.positions.vertex_count());
     if (forward_.index > declared) refuse(forward_.place, forward_.face, forward_.corner, forward_.index);
   }
 
   [[noreturn]] void refuse(const Place& place, uint64_t face, uint64_t corner, std::int64_t index) const {
     fail_at(text_.input().name(), place, ErrorCode::MalformedFile,
             fmt::format("face {}, corner {} = {}, but there are {} vertices", face + 1, corner + 1, index,
-                        draft_.positions.vertex_count()));
+                        builder_.positions.vertex_count()));
   }
 
   // The largest index met so far among those of vertices not declared yet.
@@ -145,7 +145,7 @@ class ObjReader {
   };
 
   Text text_;
-  Draft draft_;
+  MeshBuilder builder_;
   ForwardReference forward_;
   uint64_t unknown_ = 0;
   bool is_obj_ = false;

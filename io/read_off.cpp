@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "io/draft.h"
+#include "io/mesh_builder.h"
 #include "io/number.h"
 #include "io/readers.h"
 #include "io/text.h"
@@ -25,15 +25,15 @@ constexpr uint64_t kLeastBytesOfFace = 2;
 class OffReader {
  public:
   OffReader(Input& input, const ReadOptions& options)
-      : text_(input, {.hash_comments = true}), draft_(input, options, false) {}
+      : text_(input, {.hash_comments = true}), builder_(input, options, false) {}
 
   Mesh read() {
     read_keyword();
     read_counts();
     for (uint64_t vertex = 0; vertex < vertices_; ++vertex) read_vertex(vertex);
     for (uint64_t face = 0; face < faces_; ++face) read_face(face);
-    if (!text_.token().empty()) draft_.warnings.add("data after the last face", text_.place());
-    return draft_.finish(Format::Off);
+    if (!text_.token().empty()) builder_.warnings.add("data after the last face", text_.place());
+    return builder_.finish(Format::Off);
   }
 
  private:
@@ -57,8 +57,8 @@ class OffReader {
     read_count("edges");
     const auto left = text_.input().left();
     if (!left) return;
-    draft_.positions.reserve(vertices_);
-    draft_.faces.reserve_corners(std::min(3 * faces_, *left / 2));
+    builder_.positions.reserve(vertices_);
+    builder_.faces.reserve_corners(std::min(3 * faces_, *left / 2));
   }
 
   uint64_t read_count(std::string_view what) {
@@ -78,14 +78,14 @@ class OffReader {
 
   void read_vertex(uint64_t vertex) {
     for (int i = 0; i < 3; ++i) {
-      const char name = axis(draft_.positions.scalar_count());
+      const char name = axis(builder_.positions.scalar_count());
       const auto token = text_.token();
       if (token.empty()) refuse_end("vertex", vertex, vertices_);
-      const auto problem = draft_.positions.append(token);
+      const auto problem = builder_.positions.append(token);
       if (problem) text_.malformed("vertex {}, {} = {} {}", vertex, name, quote(token), *problem);
     }
     if (!has_attributes_ && !text_.at_line_end()) {
-      draft_.warnings.add("more than three numbers in a line of a vertex", text_.place());
+      builder_.warnings.add("more than three numbers in a line of a vertex", text_.place());
       has_long_lines_ = true;
     }
     text_.skip_line();
@@ -104,9 +104,9 @@ class OffReader {
       if (index < 0 || static_cast<uint64_t>(index) >= vertices_) {
         text_.malformed("face {}, corner {} = {}, but there are {} vertices", face, corner, index, vertices_);
       }
-      draft_.faces.append_corner(static_cast<std::uint32_t>(index));
+      builder_.faces.append_corner(static_cast<std::uint32_t>(index));
     }
-    draft_.faces.end_face(static_cast<uint64_t>(corners));
+    builder_.faces.end_face(static_cast<uint64_t>(corners));
     text_.skip_line();
   }
 
@@ -119,7 +119,7 @@ class OffReader {
   }
 
   Text text_;
-  Draft draft_;
+  MeshBuilder builder_;
   bool has_attributes_ = false;
   bool has_long_lines_ = false;
   uint64_t vertices_ = 0;

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "io/draft.h"
+#include "io/mesh_builder.h"
 #include "io/ply_header.h"
 #include "io/ply_values.h"
 #include "io/readers.h"
@@ -78,7 +78,7 @@ class PlyReader {
         vertex_(vertex_element(input, header_)),
         axes_(find_axes(input, vertex_)),
         values_(ply_values(input, header_)),
-        draft_(input, options, has_double_axis(vertex_, axes_)) {}
+        builder_(input, options, has_double_axis(vertex_, axes_)) {}
 
   Mesh read() {
     for (const auto& element : header_.elements) {
@@ -87,8 +87,8 @@ class PlyReader {
       check_count();
       read_element();
     }
-    if (values_->anything_left()) draft_.warnings.add("data after the last element", values_->place());
-    return draft_.finish(Format::Ply);
+    if (values_->anything_left()) builder_.warnings.add("data after the last element", values_->place());
+    return builder_.finish(Format::Ply);
   }
 
  private:
@@ -119,7 +119,7 @@ class PlyReader {
   }
 
   void read_vertices() {
-    if (values_->bytes_left()) draft_.positions.reserve(vertex_.count);
+    if (values_->bytes_left()) builder_.positions.reserve(vertex_.count);
     Axes sorted = axes_;
     std::sort(sorted.begin(), sorted.end());
     for (; row_ < vertex_.count; ++row_) {
@@ -127,11 +127,11 @@ class PlyReader {
       for (const auto place : sorted) {
         skip_properties(next, place);
         property_ = &vertex_.properties[place];
-        require(values_->take_coordinate(property_->type, draft_.positions));
+        require(values_->take_coordinate(property_->type, builder_.positions));
         next = place + 1;
       }
       skip_properties(next, vertex_.properties.size());
-      if (sorted != axes_) draft_.positions.reorder_last(axes_);
+      if (sorted != axes_) builder_.positions.reorder_last(axes_);
     }
   }
 
@@ -167,15 +167,15 @@ class PlyReader {
     const auto left = values_->bytes_left();
     if (!left) return;
     const auto most = *left / values_->least_bytes(property_->type);
-    draft_.faces.reserve_corners(std::min(most, element_->count <= most ? 3 * element_->count : most));
+    builder_.faces.reserve_corners(std::min(most, element_->count <= most ? 3 * element_->count : most));
   }
 
   void read_face(uint64_t corners) {
     for (uint64_t corner = 0; corner < corners; ++corner) {
       const auto index = take_index();
-      draft_.faces.append_corner(checked(index, corner));
+      builder_.faces.append_corner(checked(index, corner));
     }
-    draft_.faces.end_face(corners);
+    builder_.faces.end_face(corners);
   }
 
   // A strip is a triangle for each corner from its third on, every other one turned over; -1 begins a new strip. A
@@ -197,10 +197,10 @@ class PlyReader {
 
   void append_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, bool turned) {
     if (a == b || b == c || c == a) return;
-    draft_.faces.append_corner(turned ? b : a);
-    draft_.faces.append_corner(turned ? a : b);
-    draft_.faces.append_corner(c);
-    draft_.faces.end_face(3);
+    builder_.faces.append_corner(turned ? b : a);
+    builder_.faces.append_corner(turned ? a : b);
+    builder_.faces.append_corner(c);
+    builder_.faces.end_face(3);
   }
 
   void skip_properties(std::size_t begin, std::size_t end) {
@@ -209,7 +209,7 @@ class PlyReader {
       if (!property_->is_list) {
         require(values_->skip(property_->type, 1));
       } else if (i > 0 && values_->row_is_over()) {
-        draft_.warnings.add("rows end before their last list, which is taken as empty", values_->place());
+        builder_.warnings.add("rows end before their last list, which is taken as empty", values_->place());
       } else {
         require(values_->skip(property_->type, take_list_count()));
       }
@@ -247,7 +247,7 @@ class PlyReader {
 
   [[noreturn]] void fail(std::string_view problem) const {
     fail_at(input_.name(), values_->place(), ErrorCode::MalformedFile,
-            fmt::format("{} {} of {}, {}: {}", shown(element_->name), row_, element_->count, shown(property_->name),
+            fmt::format("{} {} of {}, {}: {}", escape(element_->name), row_, element_->count, escape(property_->name),
                         problem));
   }
 
@@ -256,7 +256,7 @@ class PlyReader {
   const PlyElement& vertex_;
   Axes axes_;
   std::unique_ptr<PlyValues> values_;
-  Draft draft_;
+  MeshBuilder builder_;
 
   // What is being read, for messages.
   const PlyElement* element_ = nullptr;

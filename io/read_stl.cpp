@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "io/draft.h"
+#include "io/mesh_builder.h"
 #include "io/readers.h"
 #include "io/stl_text.h"
-#include "io/weld.h"
+#include "io/vertex_welder.h"
 
 // A file is binary where its size says so, even if it begins with "solid", as many do.
 
@@ -58,13 +58,14 @@ std::string why_not_binary(Input& input) {
 template <class Real>
 class BinaryStl {
  public:
-  BinaryStl(Input& input, Draft& draft, Weld<Real>& weld) : input_(input), draft_(draft), weld_(weld) {}
+  BinaryStl(Input& input, MeshBuilder& builder, VertexWelder<Real>& weld)
+      : input_(input), builder_(builder), weld_(weld) {}
 
   void read() {
     const auto facets = facet_count(input_.ahead(kHeaderBytes));
     input_.skip(kHeaderBytes);
     for (std::uint32_t facet = 0; facet < facets; ++facet) read_facet(facet, facets);
-    if (!input_.ahead(1).empty()) draft_.warnings.add("bytes after the last facet", {.byte = input_.offset()});
+    if (!input_.ahead(1).empty()) builder_.warnings.add("bytes after the last facet", {.byte = input_.offset()});
   }
 
  private:
@@ -74,7 +75,7 @@ class BinaryStl {
       fail_at(input_.name(), {.byte = input_.offset()}, ErrorCode::MalformedFile,
               fmt::format("the file ends in facet {} of {}", facet, facets));
     }
-    std::array<typename Weld<Real>::Point, 3> corners;
+    std::array<typename VertexWelder<Real>::Point, 3> corners;
     for (std::size_t i = 0; i < 9; ++i) {
       const std::size_t at = kNormalBytes + 4 * i;
       const double number = std::bit_cast<float>(little_endian_word(bytes.substr(at)));
@@ -83,32 +84,32 @@ class BinaryStl {
                 fmt::format("facet {}, vertex {}, {} {}", facet, i / 3, axis(i), *problem));
       }
     }
-    append_triangle(corners, {.byte = input_.offset()}, draft_, weld_);
+    append_triangle(corners, {.byte = input_.offset()}, builder_, weld_);
     input_.skip(kFacetBytes);
   }
 
   Input& input_;
-  Draft& draft_;
-  Weld<Real>& weld_;
+  MeshBuilder& builder_;
+  VertexWelder<Real>& weld_;
 };
 
 // Room for as many corners as the bytes can hold, all of them vertices of their own.
-void reserve(Draft& draft, const Input& input, bool binary) {
+void reserve(MeshBuilder& builder, const Input& input, bool binary) {
   constexpr uint64_t kLeastTextOfVertex = 13;  // "vertex 0 0 0 "
   const auto left = input.left();
   if (!left) return;
   const auto corners = binary ? 3 * (*left / kFacetBytes) : *left / kLeastTextOfVertex;
-  draft.positions.reserve(corners);
-  draft.faces.reserve_corners(corners);
+  builder.positions.reserve(corners);
+  builder.faces.reserve_corners(corners);
 }
 
 template <class Real>
-void read_soup(Input& input, bool binary, Draft& draft, std::vector<Real>& positions) {
-  Weld<Real> weld(positions, draft.faces.corners(), input.name());
+void read_soup(Input& input, bool binary, MeshBuilder& builder, std::vector<Real>& positions) {
+  VertexWelder<Real> weld(positions, builder.faces.corners(), input.name());
   if (binary) {
-    BinaryStl<Real>(input, draft, weld).read();
+    BinaryStl<Real>(input, builder, weld).read();
   } else {
-    read_stl_text(input, draft, weld);
+    read_stl_text(input, builder, weld);
   }
   weld.flush();
 }
@@ -125,15 +126,15 @@ Mesh read_stl(Input& input, const ReadOptions& options) {
   // What reads as binary garbage deserves to be told both reasons.
   const bool may_be_either = !binary && !is_text(input.ahead(kHeaderBytes).substr(0, kHeaderBytes));
   const std::string not_binary = binary ? "" : why_not_binary(input);
-  Draft draft(input, options, false);
-  reserve(draft, input, binary);
+  MeshBuilder builder(input, options, false);
+  reserve(builder, input, binary);
   try {
-    std::visit([&](auto& positions) { read_soup(input, binary, draft, positions); }, draft.positions.values());
+    std::visit([&](auto& positions) { read_soup(input, binary, builder, positions); }, builder.positions.values());
   } catch (const Error& error) {
     if (!may_be_either) throw;
     raise(error.code(), fmt::format("{}; and {}", error.what(), not_binary));
   }
-  return draft.finish(Format::Stl);
+  return builder.finish(Format::Stl);
 }
 
 }  // namespace meshhood::io

@@ -19,13 +19,14 @@ bool is_word(std::string_view token, std::string_view lower_case) {
 template <class Real>
 class StlText {
  public:
-  StlText(Input& input, Draft& draft, Weld<Real>& weld) : text_(input, {}), draft_(draft), weld_(weld) {}
+  StlText(Input& input, MeshBuilder& builder, VertexWelder<Real>& weld)
+      : text_(input, {}), builder_(builder), weld_(weld) {}
 
   void read() {
     if (!is_word(text_.token(), "solid")) text_.malformed("expected 'solid'");
     text_.skip_line();
     for (auto token = text_.token(); !token.empty(); token = text_.token()) read_item(token);
-    if (in_solid_) draft_.warnings.add("no 'endsolid' at the end", text_.place());
+    if (in_solid_) builder_.warnings.add("no 'endsolid' at the end", text_.place());
     if (facets_ == 0) text_.malformed("expected at least one 'facet'");
   }
 
@@ -73,17 +74,17 @@ class StlText {
 
   void end_loop(uint64_t count, const Place& place) {
     if (count < 3) {
-      draft_.warnings.add("facets of fewer than three vertices are left out", place);
+      builder_.warnings.add("facets of fewer than three vertices are left out", place);
     } else if (count == 3) {
-      append_triangle(first_, place, draft_, weld_);
+      append_triangle(first_, place, builder_, weld_);
     } else {
-      draft_.warnings.add("facets of more than three vertices", place);
-      draft_.faces.end_face(count);
+      builder_.warnings.add("facets of more than three vertices", place);
+      builder_.faces.end_face(count);
     }
   }
 
-  typename Weld<Real>::Point read_corner(uint64_t count) {
-    typename Weld<Real>::Point corner;
+  typename VertexWelder<Real>::Point read_corner(uint64_t count) {
+    typename VertexWelder<Real>::Point corner;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto token = text_.token();
       if (const auto problem = to_coordinate(token, corner[i])) {
@@ -100,9 +101,9 @@ class StlText {
   }
 
   Text text_;
-  Draft& draft_;
-  Weld<Real>& weld_;
-  std::array<typename Weld<Real>::Point, 3> first_ = {};
+  MeshBuilder& builder_;
+  VertexWelder<Real>& weld_;
+  std::array<typename VertexWelder<Real>::Point, 3> first_ = {};
   uint64_t facets_ = 0;
   bool in_solid_ = true;
 };
@@ -110,11 +111,11 @@ class StlText {
 }  // namespace
 
 template <class Real>
-void read_stl_text(Input& input, Draft& draft, Weld<Real>& weld) {
-  StlText<Real>(input, draft, weld).read();
+void read_stl_text(Input& input, MeshBuilder& builder, VertexWelder<Real>& weld) {
+  StlText<Real>(input, builder, weld).read();
 }
 
-template void read_stl_text(Input& input, Draft& draft, Weld<float>& weld);
-template void read_stl_text(Input& input, Draft& draft, Weld<double>& weld);
+template void read_stl_text(Input& input, MeshBuilder& builder, VertexWelder<float>& weld);
+template void read_stl_text(Input& input, MeshBuilder& builder, VertexWelder<double>& weld);
 
 }  // namespace meshhood::io

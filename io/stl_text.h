@@ -3,10 +3,10 @@
 
 #include <array>
 
-#include "io/draft.h"
 #include "io/input.h"
+#include "io/mesh_builder.h"
 #include "io/place.h"
-#include "io/weld.h"
+#include "io/vertex_welder.h"
 
 namespace meshhood::io {
 
@@ -14,19 +14,19 @@ namespace meshhood::io {
 /// alone; a facet of more vertices is kept as the polygon that it is, for to cut a vertex off would change the mesh,
 /// and one of fewer is left out, both with a warning.
 template <class Real>
-void read_stl_text(Input& input, Draft& draft, Weld<Real>& weld);
+void read_stl_text(Input& input, MeshBuilder& builder, VertexWelder<Real>& weld);
 
 /// Appends a facet of either kind of file.
 template <class Real>
-void append_triangle(const std::array<std::array<Real, 3>, 3>& corners, const Place& place, Draft& draft,
-                     Weld<Real>& weld) {
+void append_triangle(const std::array<std::array<Real, 3>, 3>& corners, const Place& place, MeshBuilder& builder,
+                     VertexWelder<Real>& weld) {
   const auto& [a, b, c] = corners;
-  if (a == b || b == c || c == a) draft.warnings.add("facets in which two corners coincide", place);
+  if (a == b || b == c || c == a) builder.warnings.add("facets in which two corners coincide", place);
   for (const auto& corner : corners) weld.append(corner);
-  draft.faces.end_face(3);
+  builder.faces.end_face(3);
 }
 
-extern template void read_stl_text(Input& input, Draft& draft, Weld<float>& weld);
-extern template void read_stl_text(Input& input, Draft& draft, Weld<double>& weld);
+extern template void read_stl_text(Input& input, MeshBuilder& builder, VertexWelder<float>& weld);
+extern template void read_stl_text(Input& input, MeshBuilder& builder, VertexWelder<double>& weld);
 
 }  // namespace meshhood::io

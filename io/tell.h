@@ -12,7 +12,7 @@
 namespace meshhood::io {
 
 /// Tells who watches, unless nobody does. Throws Error{Cancelled}, naming the file, if they have seen enough.
-inline void tell(const Progress& progress, std::size_t done, std::size_t total, const std::string& file) {
+inline void report(const Progress& progress, std::size_t done, std::size_t total, const std::string& file) {
   if (progress && !progress(done, total)) raise(ErrorCode::Cancelled, printable_name(file) + ": cancelled");
 }
 

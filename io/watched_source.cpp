@@ -16,22 +16,22 @@ WatchedSource::WatchedSource(ByteSource& source, const Progress& progress, const
     : source_(source), progress_(progress), file_(name) {}
 
 std::size_t WatchedSource::read(std::span<char> out) {
-  tell();
+  report();
   const std::size_t count = source_.read(out.first(std::min(out.size(), kMostAtOnce)));
   done_ += count;
   return count;
 }
 
-void WatchedSource::tell() const {
+void WatchedSource::report() const {
   const auto total = static_cast<std::size_t>(size().value_or(0));
   // A file may grow while it is read.
   const auto done = static_cast<std::size_t>(total == 0 ? done_ : std::min<std::uint64_t>(done_, total));
-  io::tell(progress_, done, total, file_);
+  io::report(progress_, done, total, file_);
 }
 
 void WatchedSource::finish() {
   done_ = std::max(done_, size().value_or(0));
-  tell();
+  report();
 }
 
 }  // namespace meshhood::io

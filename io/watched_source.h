@@ -26,7 +26,7 @@ class WatchedSource final : public ByteSource {
   [[nodiscard]] std::size_t read(std::span<char> out) override;
 
   /// Tells again how much has been read so far. Throws Error{Cancelled}.
-  void tell() const;
+  void report() const;
 
   /// Tells that nothing is left, whether or not all of it was wanted. Throws Error{Cancelled}.
   void finish();

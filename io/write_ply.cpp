@@ -64,11 +64,11 @@ class Watch {
   Watch(const Progress& progress, const MeshView& mesh, const std::filesystem::path& path)
       : progress_(progress), file_(path.string()), total_(mesh.positions.size() + mesh.faces.size()) {}
 
-  void tell() const { io::tell(progress_, done_, total_, file_); }
+  void report() const { io::report(progress_, done_, total_, file_); }
 
   void add_row() {
     constexpr std::size_t kRows = 4096;
-    if (++done_ % kRows == 0) tell();
+    if (++done_ % kRows == 0) report();
   }
 
  private:
@@ -180,10 +180,10 @@ void write_ply(const std::filesystem::path& path, const MeshView& mesh, const Pl
   validate(mesh);
   check(options, mesh.positions.size());
   Watch watch(options.progress, mesh, path);
-  watch.tell();
+  watch.report();
   FileWriter file(path);
   PlyWriter(file, watch, mesh, options).write();
-  file.commit([&] { watch.tell(); });
+  file.commit([&] { watch.report(); });
 }
 
 }  // namespace meshhood::io

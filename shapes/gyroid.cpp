@@ -81,7 +81,7 @@ class Net {
   /// The mean of the points in which the surface crosses the edges of a cell.
   [[nodiscard]] Point centre(std::size_t i, std::size_t j) const {
     Point sum;
-    double crossings = 0;
+    double cross_edges = 0;
     for (const unsigned axis : {1U, 2U, 4U}) {
       for (unsigned corner = 0; corner < 8; ++corner) {
         if ((corner & axis) != 0) continue;
@@ -90,10 +90,10 @@ class Net {
         if ((a < 0) == (b < 0)) continue;
         const Point from = offset(corner);
         sum = sum + from + (a / (a - b)) * (offset(corner | axis) - from);
-        ++crossings;
+        ++cross_edges;
       }
     }
-    return node(i, j, planes_ - 2) + (crossings > 0 ? 1 / crossings : 0) * sum;
+    return node(i, j, planes_ - 2) + (cross_edges > 0 ? 1 / cross_edges : 0) * sum;
   }
 
   static Point offset(unsigned corner) { return node(corner & 1U, corner >> 1U & 1U, corner >> 2U); }

@@ -1,5 +1,5 @@
 # The tests of the shapes, and of the program as its users see it.
-meshhood_test(shapes meshhood_shapes)
+meshhood_test(whole/shapes meshhood_shapes)
 
 if(MESHHOOD_BUILD_CLI)
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
@@ -14,7 +14,7 @@ if(MESHHOOD_BUILD_CLI)
   endforeach()
   add_test(NAME cli.interrupt
     COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_interrupt.py $<TARGET_FILE:meshhood_cli>)
-  # Under sanitizers the same meshes are read by io_shared_meshes, which is quicker.
+  # Under sanitizers the same meshes are read by io/shared_meshes, which is quicker.
   if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     add_test(NAME cli.manifest
       COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_manifest.py

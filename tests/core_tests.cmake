@@ -1,40 +1,43 @@
 # The tests of the core: its rooms one by one, then all of it against the oracle.
 add_library(meshhood_families STATIC
-  families.cpp
-  families_extremes.cpp
-  families_surfaces.cpp
-  families_traps.cpp
-  oracle.cpp)
+  support/families.cpp
+  support/families_extremes.cpp
+  support/families_surfaces.cpp
+  support/families_traps.cpp
+  support/oracle.cpp)
 target_include_directories(meshhood_families PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(meshhood_families PUBLIC meshhood::meshhood)
 meshhood_own_target(meshhood_families)
 
-foreach(stem adjacency mesh distance sphere reference error arguments robustness differential metamorphic parallel batch)
-  meshhood_test(${stem} meshhood_families)
+foreach(part
+    base/adjacency base/mesh base/distance base/sphere base/reference base/error base/parallel
+    batch/batch
+    exact/structure exact/file exact/damage exact/rules exact/search_families exact/search_differential exact/search_rare
+    exact/threads
+    paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
+    simd/kernels
+    whole/arguments whole/robustness whole/differential whole/metamorphic)
+  meshhood_test(${part} meshhood_families)
 endforeach()
-add_subdirectory(paper)
 add_subdirectory(golden)
-foreach(stem index_structure serialize serialize_paper index_damage index_rules search_families search_differential search_rare search_simd threads)
-  meshhood_test(${stem} meshhood_families)
-endforeach()
-meshhood_test(index_threads meshhood_families meshhood_test_support)
-meshhood_test(reorder meshhood_families meshhood_test_support)
-meshhood_test(search_meshes meshhood_test_support meshhood_shapes)
+meshhood_test(exact/build_threads meshhood_families meshhood_test_support)
+meshhood_test(exact/reorder meshhood_families meshhood_test_support)
+meshhood_test(exact/search_meshes meshhood_test_support meshhood_shapes)
 
-meshhood_test(allocation meshhood_families)
-target_sources(allocation_test PRIVATE support/failing_allocations.cpp)
+meshhood_test(whole/allocation meshhood_families)
+target_sources(whole_allocation_test PRIVATE support/failing_allocations.cpp)
 
 # On real meshes.
-meshhood_test(paper_meshes meshhood_test_support)
-meshhood_test(all_meshes meshhood_test_support)
+meshhood_test(paper/meshes meshhood_test_support)
+meshhood_test(whole/all_meshes meshhood_test_support)
 
 # Beside CGAL, which no part of the library needs.
 find_package(CGAL QUIET)
 if(CGAL_FOUND)
-  meshhood_test(sphere_cgal meshhood_families meshhood_test_support CGAL::CGAL)
+  meshhood_test(base/sphere_cgal meshhood_families meshhood_test_support CGAL::CGAL)
 else()
-  add_test(NAME sphere_cgal COMMAND ${CMAKE_COMMAND} -E echo "skipped: no CGAL (libcgal-dev)")
-  set_tests_properties(sphere_cgal PROPERTIES SKIP_REGULAR_EXPRESSION "skipped")
+  add_test(NAME base.sphere_cgal COMMAND ${CMAKE_COMMAND} -E echo "skipped: no CGAL (libcgal-dev)")
+  set_tests_properties(base.sphere_cgal PROPERTIES SKIP_REGULAR_EXPRESSION "skipped")
 endif()
 
 # The sources of the core, to be compiled in other ways than the library is.
@@ -46,5 +49,5 @@ add_subdirectory(narrow_ids)
 
 # Flushed denormals are set in a register of x86.
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
-  meshhood_test(float_modes meshhood_families)
+  meshhood_test(whole/float_modes meshhood_families)
 endif()

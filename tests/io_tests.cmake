@@ -1,12 +1,12 @@
 # The tests of files: format by format, row by row of the catalogue of faults, and beside other readers.
 foreach(stem shared_meshes ply obj off stl text file progress index_progress write memory mutation)
-  meshhood_test(io_${stem} meshhood_test_support)
+  meshhood_test(io/${stem} meshhood_test_support)
 endforeach()
-meshhood_test(io_index meshhood_test_support meshhood_families)
-meshhood_test(soak meshhood_test_support meshhood_families)
+meshhood_test(io/index meshhood_test_support meshhood_families)
+meshhood_test(whole/soak meshhood_test_support meshhood_families)
 add_subdirectory(interop)
 
-# What `io_memory` watches from outside.
+# What `io/memory` watches from outside.
 add_executable(read_peak support/read_peak.cpp)
 target_link_libraries(read_peak PRIVATE meshhood::io)
 meshhood_own_target(read_peak)
@@ -18,14 +18,14 @@ find_package(fmt REQUIRED)
 find_package(FastFloat REQUIRED)
 get_target_property(io_sources meshhood_io SOURCES)
 list(TRANSFORM io_sources PREPEND ${PROJECT_SOURCE_DIR}/io/)
-add_executable(io_limits_test io_limits_test.cpp ${io_sources})
+add_executable(io_limits_test io/limits_test.cpp ${io_sources})
 target_include_directories(io_limits_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR})
 target_link_libraries(io_limits_test PRIVATE
   meshhood_narrow fmt::fmt FastFloat::fast_float GTest::gmock GTest::gtest_main)
 meshhood_own_target(io_limits_test)
 meshhood_compile_quickly(io_limits_test)
 meshhood_compile_together(io_limits_test)
-gtest_discover_tests(io_limits_test TEST_PREFIX io_limits. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+gtest_discover_tests(io_limits_test TEST_PREFIX io.limits. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 
 # Saves that fail, are killed, or meet a full disk: everything that writes a file is put through all of it.
 pkg_check_modules(MINIZIP REQUIRED IMPORTED_TARGET minizip)
@@ -37,7 +37,7 @@ target_link_libraries(meshhood_save_trial PUBLIC
   meshhood::io meshhood_shapes fmt::fmt PkgConfig::MINIZIP GTest::gtest)
 meshhood_own_target(meshhood_save_trial)
 foreach(stem calls full kill power race)
-  meshhood_test(io_save_${stem} meshhood_save_trial)
+  meshhood_test(io/save_${stem} meshhood_save_trial)
 endforeach()
 foreach(stem calls power)
   target_sources(io_save_${stem}_test PRIVATE support/system_calls.cpp)
@@ -47,6 +47,6 @@ foreach(stem calls power)
 endforeach()
 target_sources(io_save_power_test PRIVATE support/disk_model.cpp)
 
-meshhood_test(io_allocation meshhood_save_trial)
+meshhood_test(io/allocation meshhood_save_trial)
 target_sources(io_allocation_test PRIVATE support/failing_allocations.cpp)
 target_compile_definitions(io_allocation_test PRIVATE MESHHOOD_CORPUS="${PROJECT_SOURCE_DIR}/fuzz/corpus")

@@ -9,7 +9,7 @@
 
 #include "meshhood/meshhood.h"
 
-#include "search/searcher_state.h"
+#include "exact/search/searcher_state.h"
 #include "shapes/shapes.h"
 
 /// All that is called from here is counted, and nothing else: guard.py toggles the counting on this name.

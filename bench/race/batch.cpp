@@ -63,7 +63,7 @@ BatchTimes time_batches(Contestants& contestants, const Index& index, double rad
       for_each_neighborhood(index, query, [&](const BatchRow& row) { found += row.ids.size(); });
     }));
     times.count.push_back(microseconds_a_row(times.rows, [&] {
-      for (const std::uint64_t count : counts(index, query)) found -= count;
+      for (const std::uint64_t count : neighborhood_sizes(index, query)) found -= count;
     }));
   }
   if (found != 0) throw std::logic_error("a batch counted other vertices than it found");

@@ -26,7 +26,7 @@ PaperOptions paper_options(const std::string& name) {
     const std::string key = word.substr(0, equals);
     const std::string value = equals == std::string::npos ? "" : word.substr(equals + 1);
     if (key == "f") {
-      options.query.scale_factor = std::stod(value);
+      options.query.radius_ratio = std::stod(value);
     } else if (key == "levels") {
       options.build.levels = std::stoi(value);
     } else if (key == "discard") {

@@ -38,7 +38,7 @@ std::shared_ptr<ExactMethod> make_exact(const Input& positions, const Input& cor
 
 std::shared_ptr<GraphData> make_graph(const ExactMethod& method) {
   const nb::gil_scoped_release unlocked;
-  return std::make_shared<GraphData>(graph(method.index()));
+  return std::make_shared<GraphData>(extract_graph(method.index()));
 }
 
 std::shared_ptr<paper::Index> make_hierarchy(const GraphData& graph, int levels, int discard, double fusion_growth) {
@@ -49,7 +49,7 @@ std::shared_ptr<paper::Index> make_hierarchy(const GraphData& graph, int levels,
 }
 
 std::shared_ptr<Method> make_paper(std::shared_ptr<paper::Index> hierarchy, double factor) {
-  return paper_method(std::move(hierarchy), {.scale_factor = factor});
+  return paper_method(std::move(hierarchy), {.radius_ratio = factor});
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ auto many(Method& method, const std::optional<Rows>& vertices, const std::varian
   std::vector<std::uint64_t> offsets;
   {
     const nb::gil_scoped_release unlocked;
-    offsets = method.neighborhoods_into(query, allocate, options);
+    offsets = method.neighborhoods(query, allocate, options);
   }
   return std::tuple(owned<std::int64_t>(std::move(offsets)), std::move(ids), std::move(found_distances));
 }
@@ -85,7 +85,7 @@ Output<std::int64_t> many_counts(Method& method, const std::optional<Rows>& vert
   std::vector<std::uint64_t> counts;
   {
     const nb::gil_scoped_release unlocked;
-    counts = method.counts(query, options);
+    counts = method.neighborhood_sizes(query, options);
   }
   return owned<std::int64_t>(std::move(counts));
 }

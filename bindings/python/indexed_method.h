@@ -34,15 +34,15 @@ class IndexMethod : public Base {
     return ask([&](Searcher& searcher) { return searcher.count(v, radius); });
   }
 
-  std::vector<std::uint64_t> neighborhoods_into(const BatchQuery& query, const BatchAllocator& allocate,
-                                                const BatchOptions& options) override {
-    using meshhood::neighborhoods_into;
-    return neighborhoods_into(index_, query, allocate, options);
+  std::vector<std::uint64_t> neighborhoods(const BatchQuery& query, const BatchAllocator& allocate,
+                                           const BatchOptions& options) override {
+    using meshhood::neighborhoods;
+    return neighborhoods(index_, query, allocate, options);
   }
 
-  std::vector<std::uint64_t> counts(const BatchQuery& query, const BatchOptions& options) override {
+  std::vector<std::uint64_t> neighborhood_sizes(const BatchQuery& query, const BatchOptions& options) override {
     using meshhood::counts;
-    return counts(index_, query, options);
+    return neighborhood_sizes(index_, query, options);
   }
 
  protected:

@@ -32,9 +32,9 @@ class Method {
 
   virtual Answer neighborhood(VertexId v, double radius, bool distances) = 0;
   virtual std::size_t count(VertexId v, double radius) = 0;
-  virtual std::vector<std::uint64_t> neighborhoods_into(const BatchQuery& query, const BatchAllocator& allocate,
-                                                        const BatchOptions& options) = 0;
-  virtual std::vector<std::uint64_t> counts(const BatchQuery& query, const BatchOptions& options) = 0;
+  virtual std::vector<std::uint64_t> neighborhoods(const BatchQuery& query, const BatchAllocator& allocate,
+                                                   const BatchOptions& options) = 0;
+  virtual std::vector<std::uint64_t> neighborhood_sizes(const BatchQuery& query, const BatchOptions& options) = 0;
 };
 
 /// The exact neighborhood by the index, and what only the index has.

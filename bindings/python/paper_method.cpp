@@ -38,13 +38,14 @@ class PaperSearcher {
   paper::QueryOptions options_;
 };
 
-std::vector<std::uint64_t> neighborhoods_into(const PaperIndex& index, const BatchQuery& query,
-                                              const BatchAllocator& allocate, const BatchOptions& options) {
-  return paper::neighborhoods_into(*index.hierarchy, query, allocate, options, index.options);
+std::vector<std::uint64_t> neighborhoods(const PaperIndex& index, const BatchQuery& query,
+                                         const BatchAllocator& allocate, const BatchOptions& options) {
+  return paper::neighborhoods(*index.hierarchy, query, allocate, options, index.options);
 }
 
-std::vector<std::uint64_t> counts(const PaperIndex& index, const BatchQuery& query, const BatchOptions& options) {
-  return paper::counts(*index.hierarchy, query, options, index.options);
+std::vector<std::uint64_t> neighborhood_sizes(const PaperIndex& index, const BatchQuery& query,
+                                              const BatchOptions& options) {
+  return paper::neighborhood_sizes(*index.hierarchy, query, options, index.options);
 }
 
 }  // namespace

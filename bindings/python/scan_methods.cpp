@@ -55,8 +55,8 @@ class ScanMethod : public Method {
 
   std::size_t count(VertexId v, double radius) override { return find(v, radius).size(); }
 
-  std::vector<std::uint64_t> neighborhoods_into(const BatchQuery& query, const BatchAllocator& allocate,
-                                                const BatchOptions& options) override {
+  std::vector<std::uint64_t> neighborhoods(const BatchQuery& query, const BatchAllocator& allocate,
+                                           const BatchOptions& options) override {
     // To find a row twice would take longer than to copy it.
     Neighborhoods result;
     result.offsets = {0};
@@ -72,7 +72,7 @@ class ScanMethod : public Method {
     return std::move(result.offsets);
   }
 
-  std::vector<std::uint64_t> counts(const BatchQuery& query, const BatchOptions& options) override {
+  std::vector<std::uint64_t> neighborhood_sizes(const BatchQuery& query, const BatchOptions& options) override {
     std::vector<std::uint64_t> result;
     for_each_row(query, options, [&](VertexId, const std::vector<VertexId>& ids) { result.push_back(ids.size()); });
     return result;
@@ -128,7 +128,7 @@ class BallMethod : public ScanMethod {
  protected:
   std::vector<VertexId> find(VertexId v, double radius) override {
     std::vector<VertexId> ids;
-    ball(graph().positions, v, radius, ids);
+    vertices_in_ball(graph().positions, v, radius, ids);
     return ids;
   }
 };

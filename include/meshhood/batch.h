@@ -90,13 +90,13 @@ void for_each_neighborhood(const Index& index, const BatchQuery& query, const Ro
 /// once the rows are counted; all of the memory is then written, unless the batch ends before its time. What `allocate`
 /// throws is passed on.
 /// Throws as `for_each_neighborhood`, and Error{InvalidOption} where the memory is not of the size that was asked for.
-[[nodiscard]] std::vector<std::uint64_t> neighborhoods_into(const Index& index, const BatchQuery& query,
-                                                            const BatchAllocator& allocate,
-                                                            const BatchOptions& options = {});
+[[nodiscard]] std::vector<std::uint64_t> neighborhoods(const Index& index, const BatchQuery& query,
+                                                       const BatchAllocator& allocate,
+                                                       const BatchOptions& options = {});
 
 /// How many vertices each row has. Throws as `for_each_neighborhood`.
-[[nodiscard]] std::vector<std::uint64_t> counts(const Index& index, const BatchQuery& query,
-                                                const BatchOptions& options = {});
+[[nodiscard]] std::vector<std::uint64_t> neighborhood_sizes(const Index& index, const BatchQuery& query,
+                                                            const BatchOptions& options = {});
 
 }  // namespace meshhood
 
@@ -109,13 +109,12 @@ void for_each_neighborhood(const Index& index, const BatchQuery& query, const Ro
 [[nodiscard]] Neighborhoods neighborhoods(const Index& index, const BatchQuery& query, const BatchOptions& options = {},
                                           const QueryOptions& query_options = {});
 
-[[nodiscard]] std::vector<std::uint64_t> neighborhoods_into(const Index& index, const BatchQuery& query,
-                                                            const BatchAllocator& allocate,
+[[nodiscard]] std::vector<std::uint64_t> neighborhoods(const Index& index, const BatchQuery& query,
+                                                       const BatchAllocator& allocate, const BatchOptions& options = {},
+                                                       const QueryOptions& query_options = {});
+
+[[nodiscard]] std::vector<std::uint64_t> neighborhood_sizes(const Index& index, const BatchQuery& query,
                                                             const BatchOptions& options = {},
                                                             const QueryOptions& query_options = {});
-
-[[nodiscard]] std::vector<std::uint64_t> counts(const Index& index, const BatchQuery& query,
-                                                const BatchOptions& options = {},
-                                                const QueryOptions& query_options = {});
 
 }  // namespace meshhood::paper

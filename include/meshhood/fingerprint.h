@@ -29,7 +29,8 @@ struct Fingerprint {
 /// The graph is valid. O(#V + #E).
 [[nodiscard]] Fingerprint fingerprint(const GraphView& graph);
 
-/// That of the mesh which the index was built from. O(#V + #E log(valence)), and as much memory as `graph(index)`.
+/// That of the mesh which the index was built from. O(#V + #E log(valence)), and as much memory as
+/// `extract_graph(index)`.
 [[nodiscard]] Fingerprint fingerprint(const Index& index);
 
 }  // namespace meshhood

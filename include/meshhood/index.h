@@ -34,7 +34,7 @@ struct IndexBytes {
   [[nodiscard]] std::size_t total() const { return positions + permutation + graph + tree; }
 };
 
-struct IndexStorage;
+struct IndexView;
 
 /// What exact neighborhoods are searched with: the mesh in an order in which near vertices lie close together, cut into
 /// connected leaves of up to 32 vertices, and a tree of bounding spheres over them. Immutable: any number of threads
@@ -75,8 +75,8 @@ class Index {
  private:
   friend struct IndexAccess;
 
-  explicit Index(std::unique_ptr<const IndexStorage> storage);
-  std::unique_ptr<const IndexStorage> storage_;
+  explicit Index(std::unique_ptr<const IndexView> storage);
+  std::unique_ptr<const IndexView> view_;
 };
 
 /// Computes the index. The same mesh gives the same index, whatever the number of threads.
@@ -90,6 +90,6 @@ class Index {
 /// The vertices and the graph of the mesh that `index` was built from, in the caller's order: what `ReferenceSearcher`,
 /// `paper::build`, `ball` and `mean_edge_length` want to know, for whoever has kept the index and not the mesh.
 /// O(#V + #E log(valence)).
-[[nodiscard]] GraphData graph(const Index& index);
+[[nodiscard]] GraphData extract_graph(const Index& index);
 
 }  // namespace meshhood

@@ -100,7 +100,7 @@ class Index {
 struct QueryOptions {
   /// `f` of sec. 3.3; finite, > 0. The climb ends on the first level whose mean radius is at least radius / f: a larger
   /// factor means smaller clusters, more of them, and fewer vertices that should not be in the answer.
-  double scale_factor = 10.0;
+  double radius_ratio = 10.0;
 };
 
 /// What the last query of a `Searcher` went through, for the profile of sec. 4.3.
@@ -124,7 +124,7 @@ class Searcher {
   /// out     refilled, capacity reused: ids in no stated order, without duplicates, `v` included.
   ///
   /// The answer contains the exact neighborhood and is contained in the ball; extra vertices are rarer as
-  /// `scale_factor` grows. It need not grow with the radius, for the level may change. Cost is that of the clusters
+  /// `radius_ratio` grows. It need not grow with the radius, for the level may change. Cost is that of the clusters
   /// touched, not of the mesh. Nothing is allocated once the buffers have grown.
   ///
   /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}; `out` is then unchanged.

@@ -65,6 +65,6 @@ class ReferenceSearcher {
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius}; `out` is then unchanged. Where memory runs out, it has a part of the
 /// answer.
-void ball(const PositionsView& positions, VertexId v, double radius, std::vector<VertexId>& out);
+void vertices_in_ball(const PositionsView& positions, VertexId v, double radius, std::vector<VertexId>& out);
 
 }  // namespace meshhood

@@ -32,8 +32,8 @@ struct SaveOptions {
   Progress progress = {};
 };
 
-/// Gives the bytes of `index` to `sink`. They are not held as a whole; what is, for the fingerprint, is `graph(index)`.
-/// Throws Error{Cancelled}. O(bytes of the index).
+/// Gives the bytes of `index` to `sink`. They are not held as a whole; what is, for the fingerprint, is
+/// `extract_graph(index)`. Throws Error{Cancelled}. O(bytes of the index).
 void save(const Index& index, const Sink& sink, const SaveOptions& options = {});
 
 /// How an index is loaded.

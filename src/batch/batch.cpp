@@ -9,13 +9,13 @@ Batch::Batch(const BatchIndex& index, const BatchQuery& query, const BatchOption
     : index_(index),
       options_(options),
       rows_(query, index.vertex_count()),
-      work_(options.threads, options.progress, passes * rows_.size()),
-      searchers_(work_.threads()) {}
+      task_(options.threads, options.progress, passes * rows_.size()),
+      searchers_(task_.threads()) {}
 
 void Batch::put_in_index_order(std::size_t first, std::size_t count) {
   in_order_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    in_order_[i] = (std::uint64_t{index_.place(rows_.vertex(first + i))} << 32) + i;
+    in_order_[i] = (std::uint64_t{index_.position_in_index(rows_.vertex(first + i))} << 32) + i;
   }
   std::sort(in_order_.begin(), in_order_.end());
 }

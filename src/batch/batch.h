@@ -10,9 +10,9 @@
 
 #include "meshhood/batch.h"
 
+#include "base/parallel.h"
 #include "batch/batch_index.h"
 #include "batch/rows.h"
-#include "parallel.h"
 
 namespace meshhood {
 
@@ -28,7 +28,7 @@ class Batch {
 
   [[nodiscard]] const Rows& rows() const { return rows_; }
   [[nodiscard]] const BatchOptions& options() const { return options_; }
-  [[nodiscard]] Work& work() { return work_; }
+  [[nodiscard]] TaskContext& task() { return task_; }
 
   /// Calls `f(thread, row)` for each of the rows `first .. first + count - 1`, at most `kMostRows`, on any thread, near
   /// ones one after the other. A thread drops the rest of its chunk when `f` returns false.
@@ -52,7 +52,7 @@ class Batch {
   const BatchIndex& index_;
   const BatchOptions& options_;
   Rows rows_;
-  Work work_;
+  TaskContext task_;
   std::vector<std::unique_ptr<BatchSearcher>> searchers_;  // by thread, each made by the thread itself
   std::vector<std::uint64_t> in_order_;                    // place and row, the latter from the first of its call
 };
@@ -62,10 +62,10 @@ void Batch::for_each_row(std::size_t first, std::size_t count, F&& f) {
   // Few rows, that may be large, are shared out one by one.
   constexpr std::size_t kChunk = 32;
   put_in_index_order(first, count);
-  work_.parallel_for(count, std::clamp<std::size_t>(count / kChunk, 1, kChunk),
+  task_.parallel_for(count, std::clamp<std::size_t>(count / kChunk, 1, kChunk),
                      [&](unsigned thread, std::size_t begin, std::size_t end) {
                        begin_chunk(thread);
-                       for (std::size_t i = begin; i < end && work_.proceed(thread); ++i) {
+                       for (std::size_t i = begin; i < end && task_.should_continue(thread); ++i) {
                          if (!f(thread, first + static_cast<std::uint32_t>(in_order_[i]))) return;
                        }
                      });
@@ -76,10 +76,9 @@ void for_each_neighborhood(const BatchIndex& index, const BatchQuery& query, con
                            const BatchOptions& options);
 [[nodiscard]] Neighborhoods neighborhoods(const BatchIndex& index, const BatchQuery& query,
                                           const BatchOptions& options);
-[[nodiscard]] std::vector<std::uint64_t> neighborhoods_into(const BatchIndex& index, const BatchQuery& query,
-                                                            const BatchAllocator& allocate,
+[[nodiscard]] std::vector<std::uint64_t> neighborhoods(const BatchIndex& index, const BatchQuery& query,
+                                                       const BatchAllocator& allocate, const BatchOptions& options);
+[[nodiscard]] std::vector<std::uint64_t> neighborhood_sizes(const BatchIndex& index, const BatchQuery& query,
                                                             const BatchOptions& options);
-[[nodiscard]] std::vector<std::uint64_t> counts(const BatchIndex& index, const BatchQuery& query,
-                                                const BatchOptions& options);
 
 }  // namespace meshhood

@@ -42,7 +42,7 @@ class BatchIndex {
   [[nodiscard]] virtual std::size_t vertex_count() const = 0;
 
   /// Ascends with the index order: vertices of near places lie close together.
-  [[nodiscard]] virtual std::uint32_t place(VertexId v) const = 0;
+  [[nodiscard]] virtual std::uint32_t position_in_index(VertexId v) const = 0;
 
   [[nodiscard]] virtual std::unique_ptr<BatchSearcher> make_searcher(bool with_distances) const = 0;
 };

@@ -20,7 +20,7 @@ void for_every_row(Batch& batch, F&& f) {
     const std::size_t count = std::min(Batch::kMostRows, batch.rows().size() - first);
     batch.for_each_row(first, count, [&](unsigned thread, std::size_t row) {
       f(thread, row);
-      batch.work().advance(1);
+      batch.task().advance(1);
       return true;
     });
   }
@@ -45,7 +45,7 @@ BatchMemory allocated(const BatchAllocator& allocate, std::size_t count, bool di
 /// Every row where its offset says.
 void write_rows(Batch& batch, std::span<const std::uint64_t> offsets, const BatchMemory& memory) {
   // Not straight into their place, for what is written beyond the end would hit the next row.
-  std::vector<std::vector<VertexId>> ids(batch.work().threads());
+  std::vector<std::vector<VertexId>> ids(batch.task().threads());
   for_every_row(batch, [&](unsigned thread, std::size_t row) {
     const std::size_t size = batch.search(thread, row);
     ids[thread].resize(std::max(ids[thread].size(), size + BatchSearcher::kRoom));
@@ -57,23 +57,24 @@ void write_rows(Batch& batch, std::span<const std::uint64_t> offsets, const Batc
 
 }  // namespace
 
-std::vector<std::uint64_t> counts(const BatchIndex& index, const BatchQuery& query, const BatchOptions& options) {
+std::vector<std::uint64_t> neighborhood_sizes(const BatchIndex& index, const BatchQuery& query,
+                                              const BatchOptions& options) {
   Batch batch(index, query, options, 1);
   std::vector<std::uint64_t> result(batch.rows().size());
   count_rows(batch, result.data());
-  batch.work().report();
+  batch.task().report_progress();
   return result;
 }
 
-std::vector<std::uint64_t> neighborhoods_into(const BatchIndex& index, const BatchQuery& query,
-                                              const BatchAllocator& allocate, const BatchOptions& options) {
+std::vector<std::uint64_t> neighborhoods(const BatchIndex& index, const BatchQuery& query,
+                                         const BatchAllocator& allocate, const BatchOptions& options) {
   if (!allocate) raise(ErrorCode::InvalidOption, "allocate is empty, expected a function");
   Batch batch(index, query, options, 2);
   std::vector<std::uint64_t> offsets(batch.rows().size() + 1);
   count_rows(batch, offsets.data() + 1);
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
   write_rows(batch, offsets, allocated(allocate, offsets.back(), options.distances));
-  batch.work().report();
+  batch.task().report_progress();
   return offsets;
 }
 
@@ -84,7 +85,7 @@ Neighborhoods neighborhoods(const BatchIndex& index, const BatchQuery& query, co
     if (options.distances) result.distances.resize(count);
     return {result.ids, result.distances};
   };
-  result.offsets = neighborhoods_into(index, query, allocate, options);
+  result.offsets = neighborhoods(index, query, allocate, options);
   return result;
 }
 

@@ -2,9 +2,9 @@
 #include "meshhood/search.h"
 
 #include "batch/batch.h"
-#include "index/index_access.h"
-#include "search/output.h"
-#include "search/searcher_state.h"
+#include "exact/index_access.h"
+#include "exact/search/output.h"
+#include "exact/search/searcher_state.h"
 
 namespace meshhood {
 namespace {
@@ -23,7 +23,7 @@ class ExactSearcher final : public BatchSearcher {
     write_ids(state().answer, *state().index, *state().kernels, ids);
     if (distances != nullptr) write_distances(state().answer, *state().index, centre_, distances);
   }
-  void forget() override { state().cover.forget(); }
+  void forget() override { state().ball_search.forget(); }
 
  private:
   SearcherAccess::State& state() { return SearcherAccess::state(searcher_); }
@@ -37,7 +37,7 @@ class ExactIndex final : public BatchIndex {
   explicit ExactIndex(const Index& index) : index_(index) {}
 
   [[nodiscard]] std::size_t vertex_count() const override { return index_.vertex_count(); }
-  [[nodiscard]] std::uint32_t place(VertexId v) const override { return IndexAccess::storage(index_).place[v]; }
+  [[nodiscard]] std::uint32_t position_in_index(VertexId v) const override { return IndexAccess::view(index_).slot[v]; }
   [[nodiscard]] std::unique_ptr<BatchSearcher> make_searcher(bool /*with_distances*/) const override {
     return std::make_unique<ExactSearcher>(index_);
   }
@@ -57,13 +57,14 @@ Neighborhoods neighborhoods(const Index& index, const BatchQuery& query, const B
   return neighborhoods(ExactIndex(index), query, options);
 }
 
-std::vector<std::uint64_t> neighborhoods_into(const Index& index, const BatchQuery& query,
-                                              const BatchAllocator& allocate, const BatchOptions& options) {
-  return neighborhoods_into(ExactIndex(index), query, allocate, options);
+std::vector<std::uint64_t> neighborhoods(const Index& index, const BatchQuery& query, const BatchAllocator& allocate,
+                                         const BatchOptions& options) {
+  return neighborhoods(ExactIndex(index), query, allocate, options);
 }
 
-std::vector<std::uint64_t> counts(const Index& index, const BatchQuery& query, const BatchOptions& options) {
-  return counts(ExactIndex(index), query, options);
+std::vector<std::uint64_t> neighborhood_sizes(const Index& index, const BatchQuery& query,
+                                              const BatchOptions& options) {
+  return neighborhood_sizes(ExactIndex(index), query, options);
 }
 
 }  // namespace meshhood

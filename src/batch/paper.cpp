@@ -43,7 +43,7 @@ class PaperIndex final : public BatchIndex {
   PaperIndex(const Index& index, const QueryOptions& options) : index_(index), options_(options) { check(options); }
 
   [[nodiscard]] std::size_t vertex_count() const override { return index_.vertex_count(); }
-  [[nodiscard]] std::uint32_t place(VertexId v) const override {
+  [[nodiscard]] std::uint32_t position_in_index(VertexId v) const override {
     return std::visit([v](const auto& hierarchy) { return static_cast<std::uint32_t>(hierarchy.lowest_cluster[v]); },
                       IndexAccess::hierarchy(index_));
   }
@@ -68,15 +68,14 @@ Neighborhoods neighborhoods(const Index& index, const BatchQuery& query, const B
   return meshhood::neighborhoods(PaperIndex(index, query_options), query, options);
 }
 
-std::vector<std::uint64_t> neighborhoods_into(const Index& index, const BatchQuery& query,
-                                              const BatchAllocator& allocate, const BatchOptions& options,
-                                              const QueryOptions& query_options) {
-  return meshhood::neighborhoods_into(PaperIndex(index, query_options), query, allocate, options);
+std::vector<std::uint64_t> neighborhoods(const Index& index, const BatchQuery& query, const BatchAllocator& allocate,
+                                         const BatchOptions& options, const QueryOptions& query_options) {
+  return meshhood::neighborhoods(PaperIndex(index, query_options), query, allocate, options);
 }
 
-std::vector<std::uint64_t> counts(const Index& index, const BatchQuery& query, const BatchOptions& options,
-                                  const QueryOptions& query_options) {
-  return meshhood::counts(PaperIndex(index, query_options), query, options);
+std::vector<std::uint64_t> neighborhood_sizes(const Index& index, const BatchQuery& query, const BatchOptions& options,
+                                              const QueryOptions& query_options) {
+  return meshhood::neighborhood_sizes(PaperIndex(index, query_options), query, options);
 }
 
 }  // namespace meshhood::paper

@@ -5,7 +5,7 @@
 
 #include "meshhood/error.h"
 
-#include "distance.h"
+#include "base/distance.h"
 
 namespace meshhood {
 

@@ -57,7 +57,7 @@ class Values {
 
 class Stream {
  public:
-  Stream(Batch& batch, const RowSink& sink) : batch_(batch), sink_(sink), stores_(batch.work().threads()) {}
+  Stream(Batch& batch, const RowSink& sink) : batch_(batch), sink_(sink), stores_(batch.task().threads()) {}
 
   /// Windows depend on the rows alone, so that answers do, too (see `Batch::for_each_row`).
   void run() {
@@ -125,8 +125,8 @@ class Stream {
       const auto distances =
           batch_.options().distances ? store.distances.part(row.begin, row.size) : std::span<const double>();
       sink_({first + i, store.ids.part(row.begin, row.size), distances});
-      batch_.work().advance(1);
-      batch_.work().proceed(0);
+      batch_.task().advance(1);
+      batch_.task().should_continue(0);
     }
   }
 
@@ -153,7 +153,7 @@ void for_each_neighborhood(const BatchIndex& index, const BatchQuery& query, con
   if (!sink) raise(ErrorCode::InvalidOption, "sink is empty, expected a function");
   Batch batch(index, query, options, 1);
   Stream(batch, sink).run();
-  batch.work().report();
+  batch.task().report_progress();
 }
 
 }  // namespace meshhood

@@ -8,6 +8,7 @@
 #include "meshhood/error.h"
 #include "meshhood/paper.h"
 
+#include "base/text.h"
 #include "paper/arrange.h"
 #include "paper/create.h"
 #include "paper/fusion.h"
@@ -16,7 +17,6 @@
 #include "paper/link.h"
 #include "paper/select.h"
 #include "paper/steps.h"
-#include "text.h"
 
 namespace meshhood::paper {
 namespace {

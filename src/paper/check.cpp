@@ -11,9 +11,9 @@
 
 #include "meshhood/paper.h"
 
-#include "distance.h"
+#include "base/distance.h"
+#include "base/text.h"
 #include "paper/hierarchy.h"
-#include "text.h"
 
 namespace meshhood::paper {
 namespace {

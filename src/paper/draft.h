@@ -7,7 +7,7 @@
 #include "meshhood/adjacency.h"
 #include "meshhood/paper.h"
 
-#include "distance.h"
+#include "base/distance.h"
 
 namespace meshhood::paper {
 

@@ -8,7 +8,7 @@
 #include "meshhood/fingerprint.h"
 #include "meshhood/paper.h"
 
-#include "distance.h"
+#include "base/distance.h"
 #include "paper/packed_ids.h"
 
 namespace meshhood::paper {

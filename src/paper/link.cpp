@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/sphere.h"
 #include "paper/group.h"
-#include "sphere.h"
 
 namespace meshhood::paper {
 namespace {

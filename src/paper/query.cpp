@@ -10,10 +10,10 @@
 #include "meshhood/error.h"
 #include "meshhood/paper.h"
 
-#include "distance.h"
+#include "base/distance.h"
+#include "base/text.h"
 #include "paper/hierarchy.h"
 #include "paper/query_options.h"
-#include "text.h"
 
 namespace meshhood::paper {
 
@@ -27,9 +27,9 @@ class Searcher::Query {
         ball_(position_of(v), radius) {}
 
   /// Leaves the pieces of the answer with the searcher.
-  void run(double radius, double scale_factor) {
+  void run(double radius, double radius_ratio) {
     searcher_.pieces_.clear();
-    climb_up(radius / scale_factor);
+    climb_up(radius / radius_ratio);
     breadth_first();
     range_search();
   }
@@ -74,7 +74,7 @@ class Searcher::Query {
     for (std::size_t head = 0; head < reached.size(); ++head) {
       for (const ClusterId sibling : level().siblings.view()[reached[head]]) {
         if (std::exchange(searcher_.visited_[sibling], query) == query) continue;
-        if (ball_.place(level().spheres[sibling]) != Placement::Outside) reached.push_back(sibling);
+        if (ball_.classify(level().spheres[sibling]) != Containment::Outside) reached.push_back(sibling);
       }
     }
     searcher_.profile_.clusters_reached = reached.size();
@@ -93,10 +93,10 @@ class Searcher::Query {
   }
 
   void search_cluster(ClusterId cluster) {
-    const Placement placement = ball_.place(level().spheres[cluster]);
-    if (placement == Placement::Outside) return;
-    if (placement == Placement::Inside || level_ == 0) {
-      add_piece({level().first_vertex[cluster], level().first_vertex[cluster + 1], placement == Placement::Inside});
+    const Containment containment = ball_.classify(level().spheres[cluster]);
+    if (containment == Containment::Outside) return;
+    if (containment == Containment::Inside || level_ == 0) {
+      add_piece({level().first_vertex[cluster], level().first_vertex[cluster + 1], containment == Containment::Inside});
       return;
     }
     for (ClusterId c = level().first_child[cluster]; c < level().first_child[cluster + 1]; ++c) {
@@ -168,9 +168,9 @@ std::size_t Searcher::Query<Real>::count() const {
 }
 
 void check(const QueryOptions& options) {
-  if (std::isfinite(options.scale_factor) && options.scale_factor > 0) return;
+  if (std::isfinite(options.radius_ratio) && options.radius_ratio > 0) return;
   raise(ErrorCode::InvalidOption,
-        "scale_factor is " + to_text(options.scale_factor) + ", expected a finite number > 0");
+        "scale_factor is " + to_text(options.radius_ratio) + ", expected a finite number > 0");
 }
 
 Searcher::Searcher(const Index& index) : storage_(index.storage_.get()) {
@@ -194,7 +194,7 @@ void Searcher::run(VertexId v, double radius, const QueryOptions& options, F&& a
         check_query(v, hierarchy.vertices.size(), radius);
         check(options);
         Query<Real> query(*this, hierarchy, v, radius);
-        query.run(radius, options.scale_factor);
+        query.run(radius, options.radius_ratio);
         answer(query);
       },
       storage_->hierarchy);

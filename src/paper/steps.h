@@ -6,7 +6,7 @@
 
 #include "meshhood/paper.h"
 
-#include "parallel.h"
+#include "base/parallel.h"
 
 namespace meshhood::paper {
 
@@ -17,7 +17,7 @@ class Steps {
   /// `options` must outlive the steps. All members throw Error{Cancelled}.
   explicit Steps(const BuildOptions& options)
       : total_(5 * static_cast<std::size_t>(std::min(options.levels, BuildOptions::kAllLevels))),
-        work_(1, options.progress, total_) {}
+        task_(1, options.progress, total_) {}
 
   void next() { advance(1); }
   void finish() { advance(total_ - done_); }
@@ -25,13 +25,13 @@ class Steps {
  private:
   void advance(std::size_t steps) {
     done_ += steps;
-    work_.advance(steps);
-    work_.report();
+    task_.advance(steps);
+    task_.report_progress();
   }
 
   std::size_t total_;
   std::size_t done_ = 0;
-  Work work_;
+  TaskContext task_;
 };
 
 }  // namespace meshhood::paper

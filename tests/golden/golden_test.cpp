@@ -10,10 +10,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "exact_answer.h"
+#include "base/checksum.h"
 #include "paper/same_index.h"
-#include "serialize/checksum.h"
 #include "shapes.h"
+#include "support/exact_answer.h"
 
 namespace meshhood::test {
 namespace {
@@ -27,7 +27,7 @@ std::vector<std::byte> golden_file(const std::string& folder, const std::string&
 
 /// Every path of this processor, against breadth-first search.
 std::size_t expect_right_answers(const Index& index) {
-  const GraphData mesh = graph(index);
+  const GraphData mesh = extract_graph(index);
   ReferenceSearcher reference(mesh.view());
   std::vector<Searcher> searchers = searchers_of(index);
   std::vector<VertexId> expected;

@@ -10,8 +10,8 @@
 #include "meshhood/reorder.h"
 #include "meshhood/serialize.h"
 
-#include "families.h"
-#include "index_bytes.h"
+#include "support/families.h"
+#include "support/index_bytes.h"
 
 namespace meshhood::test {
 

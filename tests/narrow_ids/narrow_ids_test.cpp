@@ -12,9 +12,9 @@
 
 #include "meshhood/meshhood.h"
 
-#include "index_bytes.h"
-#include "refusal.h"
-#include "test_mesh.h"
+#include "support/index_bytes.h"
+#include "support/refusal.h"
+#include "support/test_mesh.h"
 
 namespace meshhood::test {
 namespace {

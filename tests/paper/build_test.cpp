@@ -12,10 +12,10 @@
 
 #include "meshhood/meshhood.h"
 
-#include "families.h"
 #include "paper/same_index.h"
-#include "refusal.h"
-#include "scale.h"
+#include "support/families.h"
+#include "support/refusal.h"
+#include "support/scale.h"
 
 namespace meshhood::test {
 namespace {

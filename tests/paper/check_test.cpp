@@ -14,8 +14,8 @@
 
 #include "meshhood/meshhood.h"
 
-#include "families.h"
 #include "paper/index_access.h"
+#include "support/families.h"
 
 namespace meshhood::test {
 namespace {

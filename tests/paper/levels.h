@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "families.h"
-#include "oracle.h"
 #include "paper/draft.h"
+#include "support/families.h"
+#include "support/oracle.h"
 
 namespace meshhood::test {
 

@@ -12,7 +12,7 @@
 #include "paper/create.h"
 #include "paper/levels.h"
 #include "paper/select.h"
-#include "scale.h"
+#include "support/scale.h"
 
 namespace meshhood::test {
 namespace {

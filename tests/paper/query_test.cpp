@@ -10,9 +10,9 @@
 
 #include "meshhood/meshhood.h"
 
-#include "families.h"
 #include "paper/searcher_access.h"
-#include "refusal.h"
+#include "support/families.h"
+#include "support/refusal.h"
 
 namespace meshhood::test {
 namespace {
@@ -44,7 +44,7 @@ TEST(Query, ClimbsToTheFirstLevelWhoseMeanRadiusReaches) {
   for (const double factor : {1.0, 10.0, 50.0}) {
     for (int half = 0; half < 400; ++half) {
       const double radius = half / 2.0;
-      searcher.neighborhood(1234, radius, out, {.scale_factor = factor});
+      searcher.neighborhood(1234, radius, out, {.radius_ratio = factor});
       const auto wanted =
           std::ranges::find_if(levels, [&](const auto& level) { return level.mean_radius >= radius / factor; });
       const int expected = wanted == levels.end() ? levels.back().level : wanted->level;
@@ -59,8 +59,8 @@ TEST(Query, ReachesAcrossTheGapWhereClustersAreLarge) {
   paper::Searcher searcher(index);
   std::vector<VertexId> coarse;
   std::vector<VertexId> fine;
-  searcher.neighborhood(150, 10, coarse, {.scale_factor = 0.1});
-  searcher.neighborhood(150, 10, fine, {.scale_factor = 1000});
+  searcher.neighborhood(150, 10, coarse, {.radius_ratio = 0.1});
+  searcher.neighborhood(150, 10, fine, {.radius_ratio = 1000});
   const auto exact = exact_neighborhood(mesh.view(), 150, 10);
   EXPECT_THAT(sorted(fine), testing::ElementsAreArray(sorted(exact)));
   EXPECT_GT(coarse.size(), exact.size());
@@ -165,7 +165,7 @@ TEST(Query, A1A2RefusesWithoutTouchingTheAnswer) {
   paper::Searcher searcher(index);
   std::vector<VertexId> out{9, 8, 7};
   const auto ask = [&](VertexId v, double radius, double factor) {
-    return [&searcher, &out, v, radius, factor] { searcher.neighborhood(v, radius, out, {.scale_factor = factor}); };
+    return [&searcher, &out, v, radius, factor] { searcher.neighborhood(v, radius, out, {.radius_ratio = factor}); };
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   expect_refused(ErrorCode::VertexOutOfRange, "vertex 16, but the mesh has 16 vertices", ask(16, 1, 10));

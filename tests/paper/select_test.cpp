@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "paper/levels.h"
-#include "scale.h"
+#include "support/scale.h"
 
 namespace meshhood::test {
 namespace {

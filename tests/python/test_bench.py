@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The parts of the harness that need Python packages, on a small shape; tests/bench_test.py has the others."""
+"""The parts of the harness that need Python packages, on a small shape; tests/repo/bench_test.py has the others."""
 
 import sys
 from pathlib import Path

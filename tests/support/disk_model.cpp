@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "random.h"
+#include "support/random.h"
 
 namespace meshhood::test {
 
@@ -20,7 +20,7 @@ class DiskModel::Survivors {
   }
 
   void visit() const {
-    tell(0, file_.synced.size());
+    report(0, file_.synced.size());
     if (file_.writes.empty()) return;
     cut_off();
     tear();
@@ -36,19 +36,19 @@ class DiskModel::Survivors {
     for (std::size_t count = 1; count <= file_.writes.size(); ++count) {
       const Write& last = file_.writes[count - 1];
       const std::size_t middle = (last.position + last.end()) / 2;
-      tell(count, std::max(size, middle));
+      report(count, std::max(size, middle));
       size = std::max(size, last.end());
-      tell(count, size);
-      tell(count - 1, full_size_);
-      tell(count, full_size_, [&](std::size_t page) { return page < middle / kPage; });
+      report(count, size);
+      report(count - 1, full_size_);
+      report(count, full_size_, [&](std::size_t page) { return page < middle / kPage; });
     }
   }
 
   void tear() const {
     const std::size_t all = file_.writes.size();
     for (std::size_t torn = 0; torn < pages_; ++torn) {
-      tell(all, full_size_, [&](std::size_t page) { return page != torn; });
-      tell(all, full_size_, [&](std::size_t page) { return page == torn; });
+      report(all, full_size_, [&](std::size_t page) { return page != torn; });
+      report(all, full_size_, [&](std::size_t page) { return page == torn; });
     }
   }
 
@@ -59,12 +59,12 @@ class DiskModel::Survivors {
       const std::size_t count = 1 + random.below(file_.writes.size());
       std::vector<bool> kept(pages_);
       for (std::size_t page = 0; page < pages_; ++page) kept[page] = random.below(2) == 0;
-      tell(count, full_size_, [&](std::size_t page) { return kept[page]; });
+      report(count, full_size_, [&](std::size_t page) { return kept[page]; });
     }
   }
 
   /// The first `count` writes, where they fall on certain pages, in a file of a certain size.
-  void tell(std::size_t count, std::size_t size, const PageSet& has_come = {}) const {
+  void record(std::size_t count, std::size_t size, const PageSet& has_come = {}) const {
     std::string content = file_.synced;
     content.resize(full_size_, '\0');
     for (std::size_t i = 0; i < count; ++i) write(file_.writes[i], content, has_come);

@@ -1,4 +1,4 @@
-"""The column of a leaf, as src/index/column.cpp makes it: the cell of a vertex from above, the column from the side."""
+"""The column of a leaf, as src/exact/build/minimum_region.cpp makes it: the cell of a vertex from above, the column from the side."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""A ball that takes more than hangs together with v, in section: what src/search/foreign.cpp does."""
+"""A ball that takes more than hangs together with v, in section: what src/exact/search/other_components.cpp does."""
 
 import math
 

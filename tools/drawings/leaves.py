@@ -1,4 +1,4 @@
-"""A patch of a mesh with a slit in it, cut into leaves as src/index/leaves.cpp cuts it."""
+"""A patch of a mesh with a slit in it, cut into leaves as src/exact/build/leaves.cpp cuts it."""
 
 import random
 from collections import Counter

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "io/mesh_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "meshhood/mesh.h"
+
+#include "io/number.h"
+
+namespace meshhood::io {
+namespace {
+
+// Beyond it the core takes no coordinate (see `validate`).
+constexpr double kLargestCoordinate = 0x1p500;
+
+// The least double that rounds to a float beyond the largest.
+constexpr double kFloatOverflow = 0x1.ffffffp127;
+
+bool chooses_double(Precision precision, bool file_has_doubles) {
+  return precision == Precision::Double || (precision == Precision::FromFile && file_has_doubles);
+}
+
+// Why a token that reads as an infinite number, or none, is no coordinate.
+std::string_view reason_not_finite(std::string_view token) {
+  const bool has_digits = token.find_first_of("0123456789") != std::string_view::npos;
+  return has_digits ? "is too large" : "is not finite";
+}
+
+}  // namespace
+
+template <class Real>
+std::optional<std::string_view> to_coordinate(std::string_view token, Real& value) {
+  const auto number = parse_real<Real>(token);
+  if (!number) return "is not a number";
+  if (!std::isfinite(*number)) return reason_not_finite(token);
+  if (double{std::abs(*number)} > kLargestCoordinate) return "is too large";
+  value = *number;
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string_view> to_coordinate(double number, Real& value) {
+  if (!std::isfinite(number)) return "is not finite";
+  const bool fits =
+      std::is_same_v<Real, float> ? std::abs(number) < kFloatOverflow : std::abs(number) <= kLargestCoordinate;
+  if (!fits) return "is too large";
+  value = static_cast<Real>(number);
+  return std::nullopt;
+}
+
+template std::optional<std::string_view> to_coordinate(std::string_view token, float& value);
+template std::optional<std::string_view> to_coordinate(std::string_view token, double& value);
+template std::optional<std::string_view> to_coordinate(double number, float& value);
+template std::optional<std::string_view> to_coordinate(double number, double& value);
+
+void Positions::reserve(std::uint64_t vertices) {
+  const auto scalars = 3 * static_cast<std::size_t>(std::min<std::uint64_t>(vertices, kMaxVertices));
+  std::visit([scalars](auto& xyz) { xyz.reserve(scalars); }, xyz_);
+}
+
+template <class Source>
+std::optional<std::string_view> Positions::append_as(Source source) {
+  const auto visitor = [source](auto& xyz) {
+    typename std::remove_cvref_t<decltype(xyz)>::value_type value = 0;
+    const auto problem = to_coordinate(source, value);
+    if (!problem) xyz.push_back(value);
+    return problem;
+  };
+  return std::visit(visitor, xyz_);
+}
+
+template std::optional<std::string_view> Positions::append_as(std::string_view source);
+template std::optional<std::string_view> Positions::append_as(double source);
+
+void Positions::reorder_last(const std::array<std::size_t, 3>& ranks) {
+  const auto visitor = [&ranks](auto& xyz) {
+    const auto last = xyz.end() - 3;
+    const std::array stood = {last[0], last[1], last[2]};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto before = std::count_if(ranks.begin(), ranks.end(), [&](std::size_t rank) { return rank < ranks[i]; });
+      last[static_cast<std::ptrdiff_t>(i)] = stood[static_cast<std::size_t>(before)];
+    }
+  };
+  std::visit(visitor, xyz_);
+}
+
+std::size_t Positions::scalar_count() const {
+  return std::visit([](const auto& xyz) { return xyz.size(); }, xyz_);
+}
+
+void Faces::reserve_corners(std::uint64_t corners) { corners_.reserve(static_cast<std::size_t>(corners)); }
+
+void Faces::end_face(std::uint64_t corners) {
+  if (offsets_.empty() && corners != 3) {
+    for (std::uint64_t face = 0; face <= size_; ++face) offsets_.push_back(3 * face);
+  }
+  if (!offsets_.empty()) offsets_.push_back(offsets_.back() + corners);
+  ++size_;
+}
+
+void Warnings::add(std::string_view what, const Place& place, std::uint64_t count) {
+  if (strict_) fail_at(file_, place, ErrorCode::MalformedFile, fmt::format("{} (refused in strict mode)", what));
+  const auto same = std::find_if(list_.begin(), list_.end(), [what](const Warning& w) { return w.what == what; });
+  if (same != list_.end()) {
+    same->count += count;
+  } else {
+    list_.push_back({std::string(what), count, place.in_words()});
+  }
+}
+
+MeshBuilder::MeshBuilder(const Input& input, const ReadOptions& options, bool file_has_doubles)
+    : positions(chooses_double(options.precision, file_has_doubles)), warnings(input.name(), options.strict) {}
+
+Mesh MeshBuilder::finish(Format format) {
+  return {format, std::move(positions.values()), std::move(faces.offsets()), std::move(faces.corners()),
+          std::move(warnings.list())};
+}
+
+void check_vertex_count(std::uint64_t vertices, const std::string& file, const Place& place) {
+  if (vertices <= kMaxVertices) return;
+  fail_at(file, place, ErrorCode::TooLarge,
+          fmt::format("{} vertices, but at most {} are supported", vertices, kMaxVertices));
+}
+
+}  // namespace meshhood::io

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <numeric>
+
+#include "meshhood/adjacency.h"
+
+#include "base/parallel.h"
+
+namespace meshhood {
+
+/// Rows of neighbours, each in no order, from all pairs: `for_each(f)` calls `f(v, w)` for every `w` in the row of `v`,
+/// and does so twice. There are at most `kMaxNeighbors` pairs. O(#V + #pairs).
+template <class ForEach>
+[[nodiscard]] Adjacency gather_rows(std::size_t vertices, ForEach&& for_each) {
+  Adjacency result;
+  result.offsets.assign(vertices + 1, 0);
+  for_each([&](VertexId v, VertexId) { ++result.offsets[v]; });
+  std::inclusive_scan(result.offsets.begin(), result.offsets.end(), result.offsets.begin());
+  result.neighbors.resize(result.offsets.back());
+  // Each offset stands at the end of its row and moves to the beginning as the row fills.
+  for_each([&](VertexId v, VertexId w) { result.neighbors[--result.offsets[v]] = w; });
+  return result;
+}
+
+/// The graph of a mesh, on several threads.
+[[nodiscard]] Adjacency adjacency(const MeshView& mesh, TaskContext& task);
+
+}  // namespace meshhood

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "base/distance.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "meshhood/error.h"
+
+#include "base/text.h"
+
+namespace meshhood {
+
+double squared_radius(double radius) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double threshold = radius * radius;
+  if (threshold == kInfinity) return kInfinity;
+  // The product is rounded once and the root once more, so the answer is a step or two away. The steps are counted
+  // because where a host flushes denormals to zero, all of them have the root 0.
+  constexpr int kSteps = 4;
+  for (int i = 0; i < kSteps && std::sqrt(threshold) > radius; ++i) threshold = std::nextafter(threshold, 0.0);
+  for (int i = 0; i < kSteps; ++i) {
+    const double next = std::nextafter(threshold, kInfinity);
+    if (std::sqrt(next) > radius) break;
+    threshold = next;
+  }
+  return threshold;
+}
+
+void check_radius(double radius, std::string_view where) {
+  if (radius >= 0) [[likely]] {
+    return;
+  }
+  raise(ErrorCode::InvalidRadius, std::string(where) + "radius " + to_text(radius) + ", expected a number >= 0");
+}
+
+void check_query(VertexId v, std::size_t vertices, double radius, std::string_view where) {
+  if (v >= vertices) {
+    raise(ErrorCode::VertexOutOfRange, std::string(where) + "vertex " + std::to_string(v) + ", but the mesh has " +
+                                           std::to_string(vertices) + " vertices");
+  }
+  check_radius(radius, where);
+}
+
+double distance(const PositionsView& positions, VertexId v, VertexId w) {
+  check_query(v, positions.size(), 0);
+  check_query(w, positions.size(), 0);
+  return positions.visit([&](auto xyz) { return std::sqrt(squared_distance(point(xyz, v), point(xyz, w))); });
+}
+
+}  // namespace meshhood

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include "meshhood/mesh.h"
+
+// The predicate must round as it is written, on every machine.
+#if defined(__FAST_MATH__)
+#error "meshhood needs IEEE arithmetic: compile it without -ffast-math"
+#endif
+
+namespace meshhood {
+
+/// Beyond this the square of a distance overflows.
+inline constexpr double kLargestCoordinate = 0x1p500;
+
+struct Point {
+  double x;
+  double y;
+  double z;
+};
+
+/// Vertex `v` of `xyz`, `#V by 3`.
+template <class Real>
+[[nodiscard]] Point point(std::span<const Real> xyz, std::size_t v) {
+  return {static_cast<double>(xyz[3 * v]), static_cast<double>(xyz[3 * v + 1]), static_cast<double>(xyz[3 * v + 2])};
+}
+
+/// The one distance of the library. Contraction is off for all of our code, so that every path rounds alike.
+[[nodiscard]] inline double squared_distance(const Point& p, const Point& q) {
+  const double dx = p.x - q.x;
+  const double dy = p.y - q.y;
+  const double dz = p.z - q.z;
+  return (dx * dx + dy * dy) + dz * dz;
+}
+
+/// The largest double whose square root is at most `radius`: `sqrt(d2) <= radius` exactly if `d2 <=` this. Testing
+/// against `radius * radius` instead would lose a vertex whose distance is `radius` in about a quarter of the cases.
+[[nodiscard]] double squared_radius(double radius);
+
+/// Throws Error{InvalidRadius} unless `radius` is >= 0 or infinite. The message begins with `where`.
+void check_radius(double radius, std::string_view where = {});
+
+/// Throws Error{VertexOutOfRange} unless `v` < `vertices`, and as `check_radius`.
+void check_query(VertexId v, std::size_t vertices, double radius, std::string_view where = {});
+
+/// A sphere stored with an index, its centre and radius rounded so that it still encloses what it was made for.
+template <class Real>
+struct Sphere {
+  Real x;
+  Real y;
+  Real z;
+  Real radius;
+};
+
+template <class Real>
+[[nodiscard]] Point centre_of(const Sphere<Real>& sphere) {
+  return {static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
+}
+
+enum class Containment { Outside, Intersecting, Inside };
+
+/// The closed ball around a query vertex: decides single vertices exactly and whole spheres conservatively.
+class SearchBall {
+ public:
+  SearchBall(const Point& centre, double radius)
+      : centre_(centre),
+        squared_radius_(meshhood::squared_radius(radius)),
+        outer_radius_(radius * (1 + kSlack) + kTiny),
+        inner_radius_((radius - kTiny) * (1 - kSlack)) {}
+
+  [[nodiscard]] bool contains(const Point& p) const { return squared_distance(centre_, p) <= squared_radius_; }
+
+  [[nodiscard]] const Point& centre() const { return centre_; }
+
+  /// Outside: no vertex in `sphere` is contained. Inside: every one is. Intersecting: neither is certain.
+  template <class Real>
+  [[nodiscard]] Containment classify(const Sphere<Real>& sphere) const {
+    const double distance2 = squared_distance(centre_, centre_of(sphere));
+    const auto sphere_radius = static_cast<double>(sphere.radius);
+    const double far = outer_radius_ + sphere_radius * (1 + kSlack);
+    if (distance2 > far * far) return Containment::Outside;
+    const double near = inner_radius_ - sphere_radius * (1 + kSlack);
+    return near > 0 && distance2 < near * near ? Containment::Inside : Containment::Intersecting;
+  }
+
+ private:
+  // A computed distance is off by at most four units of 2^-53, and by 2^-537 where squares underflow. The bounds give
+  // way by far more than the few such errors that meet in one test, so that a sphere is never placed against the
+  // predicate.
+  static constexpr double kSlack = 1e-14;
+  static constexpr double kTiny = 0x1p-500;
+
+  Point centre_;
+  double squared_radius_;
+  double outer_radius_;
+  double inner_radius_;
+};
+
+}  // namespace meshhood

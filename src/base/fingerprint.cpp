@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "meshhood/fingerprint.h"
+
+#include <array>
+#include <span>
+
+#include "base/checksum.h"
+
+namespace meshhood {
+
+std::string to_text(const Fingerprint& fingerprint) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string result;
+  for (const std::uint64_t half : {fingerprint.high, fingerprint.low}) {
+    for (int shift = 60; shift >= 0; shift -= 4) result += kDigits[half >> shift & 15U];
+  }
+  return result;
+}
+
+Fingerprint fingerprint(const MeshView& mesh) {
+  const Adjacency graph = adjacency(mesh);
+  return fingerprint({mesh.positions, graph.view()});
+}
+
+Fingerprint fingerprint(const GraphView& graph) {
+  return graph.positions.visit([&](auto xyz) {
+    // Without the sizes, a coordinate could be taken for a neighbour.
+    const std::array<std::uint64_t, 3> sizes{sizeof(xyz[0]), xyz.size(), graph.adjacency.neighbors.size()};
+    const AdjacencyView& adjacency = graph.adjacency;
+    // A graph without vertices has one offset, or none.
+    const auto ends = adjacency.offsets.last(adjacency.size());
+    return wide_checksum(
+        {std::as_bytes(std::span(sizes)), std::as_bytes(xyz), std::as_bytes(ends), std::as_bytes(adjacency.neighbors)});
+  });
+}
+
+Fingerprint fingerprint(const Index& index) {
+  const GraphData mesh = extract_graph(index);
+  return fingerprint(mesh.view());
+}
+
+}  // namespace meshhood

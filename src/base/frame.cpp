@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "base/frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshhood {
+namespace {
+
+struct Box {
+  Point low;
+  Point high;
+};
+
+template <class Real>
+Box bounding_box(std::span<const Real> xyz) {
+  Box box{point(xyz, 0), point(xyz, 0)};
+  for (std::size_t v = 1; v < xyz.size() / 3; ++v) {
+    const Point p = point(xyz, v);
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+  }
+  return box;
+}
+
+/// A power of two by which lengths up to `extent` become at most 1.
+double unit_scale(double extent) {
+  if (!(extent > 0)) return 1;
+  // Within the exponents of a double; a mesh that small is searched without its tree.
+  return std::ldexp(1.0, std::min(-std::ilogb(extent) - 1, 1000));
+}
+
+}  // namespace
+
+Frame make_frame(const PositionsView& positions) {
+  if (positions.size() == 0) return {};
+  const Box box = positions.visit([](auto xyz) { return bounding_box(xyz); });
+  const Point origin{box.low.x / 2 + box.high.x / 2, box.low.y / 2 + box.high.y / 2, box.low.z / 2 + box.high.z / 2};
+  // From the centre, and not half the size, which may round to less.
+  const auto extent = [](double low, double centre, double high) { return std::max(centre - low, high - centre); };
+  return {origin, unit_scale(std::max({extent(box.low.x, origin.x, box.high.x), extent(box.low.y, origin.y, box.high.y),
+                                       extent(box.low.z, origin.z, box.high.z)}))};
+}
+
+}  // namespace meshhood

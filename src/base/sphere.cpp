@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// The smallest enclosing sphere is held by at most four of its points. We keep such a support, look for the point that
+// lies farthest outside, and exchange: the radius grows with every exchange, so a support never comes back. Where
+// rounding spoils an exchange (points almost on one line, plane or sphere) the search ends with the centre it has; the
+// radius is measured last, over all points, and is right for any centre.
+#include "base/sphere.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "base/vector.h"
+
+namespace meshhood {
+namespace {
+
+constexpr double kTolerance = 1e-3;
+constexpr int kMaxExchanges = 64;
+
+using Matrix = std::array<std::array<double, 3>, 3>;
+using Vector = std::array<double, 3>;
+
+double largest_component(const Point& a) { return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}); }
+
+struct Ball {
+  Point centre{};
+  double squared_radius = 0;
+};
+
+/// Up to four points.
+class Support {
+ public:
+  void add(const Point& p) { points_[size_++] = p; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] const Point& operator[](std::size_t i) const { return points_[i]; }
+
+ private:
+  std::array<Point, 4> points_{};
+  std::size_t size_ = 0;
+};
+
+/// Solves the first `n` equations of `a x = b` by elimination with pivots; nothing where they are (nearly) dependent.
+std::optional<Vector> solve(Matrix a, Vector b, std::size_t n) {
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < n; ++i) {
+      if (std::abs(a[i][k]) > std::abs(a[pivot][k])) pivot = i;
+    }
+    if (!(std::abs(a[pivot][k]) > 1e-14)) return std::nullopt;
+    std::swap(a[k], a[pivot]);
+    std::swap(b[k], b[pivot]);
+    for (std::size_t i = k + 1; i < n; ++i) {
+      const double factor = a[i][k] / a[k][k];
+      for (std::size_t j = k; j < n; ++j) a[i][j] -= factor * a[k][j];
+      b[i] -= factor * b[k];
+    }
+  }
+  Vector x{};
+  for (std::size_t k = n; k-- > 0;) {
+    x[k] = b[k];
+    for (std::size_t j = k + 1; j < n; ++j) x[k] -= a[k][j] * x[j];
+    x[k] /= a[k][k];
+  }
+  return x;
+}
+
+/// The ball with all of `support` on its boundary and its centre among them, if there is one. A centre beyond them
+/// would mean that fewer of them suffice.
+std::optional<Ball> circumscribed(const Support& support) {
+  const std::size_t n = support.size() - 1;
+  std::array<Point, 3> edge{};
+  double scale = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    edge[i] = support[i + 1] - support[0];
+    scale = std::max(scale, largest_component(edge[i]));
+  }
+  if (n > 0 && !(scale > 0)) return std::nullopt;
+  // In units of the largest edge, so that no product overflows.
+  for (std::size_t i = 0; i < n; ++i) edge[i] = {edge[i].x / scale, edge[i].y / scale, edge[i].z / scale};
+  Matrix gram{};
+  Vector half_square{};
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) gram[i][j] = dot(edge[i], edge[j]);
+    half_square[i] = gram[i][i] / 2;
+  }
+  const std::optional<Vector> weight = solve(gram, half_square, n);
+  if (!weight) return std::nullopt;
+  Point offset{};
+  double first_weight = 1;
+  for (std::size_t i = 0; i < n; ++i) {
+    if ((*weight)[i] < 0) return std::nullopt;
+    first_weight -= (*weight)[i];
+    offset = offset + (*weight)[i] * edge[i];
+  }
+  if (first_weight < 0) return std::nullopt;
+  const Point centre = support[0] + scale * offset;
+  return Ball{centre, squared_distance(centre, support[0])};
+}
+
+/// The smallest ball around `support` and `p`, a point outside its present ball and so on the boundary of the new one:
+/// some of the old points, with `p`, hold it. Makes those the support.
+std::optional<Ball> exchange(Support& support, const Point& p) {
+  for (unsigned chosen = 1; chosen < 1U << support.size(); ++chosen) {
+    Support candidate;
+    candidate.add(p);
+    bool fits = true;
+    for (std::size_t i = 0; i < support.size() && fits; ++i) {
+      if ((chosen >> i & 1U) == 0) continue;
+      fits = candidate.size() < 4;
+      if (fits) candidate.add(support[i]);
+    }
+    if (!fits) continue;
+    const std::optional<Ball> ball = circumscribed(candidate);
+    if (!ball) continue;
+    for (std::size_t i = 0; i < support.size() && fits; ++i) {
+      fits = squared_distance(ball->centre, support[i]) <= ball->squared_radius * (1 + 1e-10);
+    }
+    if (!fits) continue;
+    support = candidate;
+    return ball;
+  }
+  return std::nullopt;
+}
+
+template <class Real>
+std::pair<std::size_t, double> farthest(std::span<const Real> xyz, const Point& from) {
+  std::size_t index = 0;
+  double largest = -1;
+  for (std::size_t i = 0; i < xyz.size() / 3; ++i) {
+    const double d2 = squared_distance(from, point(xyz, i));
+    if (d2 > largest) {
+      largest = d2;
+      index = i;
+    }
+  }
+  return {index, largest};
+}
+
+template <class Real>
+Point smallest_ball_centre(std::span<const Real> xyz) {
+  Support support;
+  support.add(point(xyz, farthest(xyz, point(xyz, 0)).first));
+  Ball ball{support[0], 0};
+  for (int exchanges = 0; exchanges < kMaxExchanges; ++exchanges) {
+    const auto [index, d2] = farthest(xyz, ball.centre);
+    if (d2 <= ball.squared_radius * (1 + kTolerance) * (1 + kTolerance)) break;
+    const std::optional<Ball> larger = exchange(support, point(xyz, index));
+    if (!larger || larger->squared_radius <= ball.squared_radius) break;
+    ball = *larger;
+  }
+  return ball.centre;
+}
+
+template <class Real>
+Real round_up(double value) {
+  const auto rounded = static_cast<Real>(value);
+  return static_cast<double>(rounded) < value ? std::nextafter(rounded, std::numeric_limits<Real>::infinity())
+                                              : rounded;
+}
+
+}  // namespace
+
+template <class Real>
+Sphere<Real> bounding_sphere(std::span<const Real> xyz) {
+  const Point centre = smallest_ball_centre(xyz);
+  Sphere<Real> sphere{static_cast<Real>(centre.x), static_cast<Real>(centre.y), static_cast<Real>(centre.z), 0};
+  sphere.radius = round_up<Real>(std::sqrt(farthest(xyz, centre_of(sphere)).second));
+  return sphere;
+}
+
+template Sphere<float> bounding_sphere(std::span<const float> xyz);
+template Sphere<double> bounding_sphere(std::span<const double> xyz);
+
+}  // namespace meshhood

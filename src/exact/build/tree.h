@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "base/parallel.h"
+#include "exact/build/minimum_region.h"
+#include "exact/layout.h"
+
+namespace meshhood {
+
+/// The nodes of one level.
+struct NodeList {
+  explicit NodeList(std::size_t nodes) : bounds(nodes), regions(nodes) {}
+
+  std::vector<FrameSphere> bounds;
+  std::vector<MinimumRegion> regions;
+};
+
+/// The groups of all levels, leaves first, and the mean radius of the nodes on each.
+struct TreeArrays {
+  std::vector<Group> groups;
+  std::vector<double> mean_radii;
+};
+
+/// The mean radius of the first `nodes` nodes of a level, which every index of these nodes has bit for bit.
+[[nodiscard]] double mean_radius(std::span<const Group> level, std::size_t nodes);
+
+/// Whether a group has no `i`-th node.
+[[nodiscard]] bool is_absent(const Group& group, std::size_t i);
+
+/// The tree over the leaves. `points`: the vertices in index order, in the frame. O(#V log #V).
+[[nodiscard]] TreeArrays make_tree(NodeList leaves, std::span<const VertexId> leaf_begin, std::span<const Point> points,
+                                   TaskContext& task);
+
+/// A sphere around `points`, with the room that comparing it with a ball in single precision needs (see search/simd.h).
+[[nodiscard]] FrameSphere enclosing_sphere(std::span<const Point> points, const Point& centre);
+
+/// The smallest of them, nearly.
+[[nodiscard]] FrameSphere enclosing_sphere(std::span<const Point> points);
+
+[[nodiscard]] inline Point centre_of(const FrameSphere& sphere) {
+  return {static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
+}
+
+}  // namespace meshhood

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "meshhood/index.h"
+
+#include "exact/build/links.h"
+#include "exact/build/tree.h"
+#include "exact/layout.h"
+#include "simd/kernels.h"
+
+namespace meshhood {
+namespace {
+
+constexpr std::size_t kMostFaults = 16;
+
+// From how many vertices regions are tried.
+constexpr std::size_t kViewpoints = 24;
+
+/// What does not hold, as it is found.
+class Faults {
+ public:
+  /// `text()` is asked for only where there is a fault to be told.
+  template <class Text>
+  void expect(bool holds, Text&& text) {
+    if (!holds && found_.size() < kMostFaults) found_.push_back(text());
+  }
+
+  [[nodiscard]] bool none() const { return found_.empty(); }
+  [[nodiscard]] std::vector<std::string> take() { return std::move(found_); }
+
+ private:
+  std::vector<std::string> found_;
+};
+
+std::string leaf_name(std::size_t leaf) { return "leaf " + std::to_string(leaf); }
+std::string node_name(std::size_t level, std::size_t node) {
+  return "level " + std::to_string(level) + ": node " + std::to_string(node);
+}
+
+/// An index beside the mesh it claims to be made from.
+class Check {
+ public:
+  Check(const IndexView& index, const GraphView& graph) : index_(index), graph_(graph) {}
+
+  std::vector<std::string> run() {
+    check_numbering();
+    // What follows looks up vertices by their numbers.
+    if (!faults_.none()) return faults_.take();
+    check_positions();
+    check_edges();
+    check_connected();
+    check_spheres();
+    check_columns();
+    return faults_.take();
+  }
+
+ private:
+  [[nodiscard]] std::size_t leaf_end(std::size_t leaf) const { return index_.leaf_begin[leaf + 1]; }
+
+  void check_numbering() {
+    const std::size_t vertices = graph_.positions.size();
+    faults_.expect(index_.vertex_count() == vertices, [&] {
+      return "the index has " + std::to_string(index_.vertex_count()) + " vertices, the mesh " +
+             std::to_string(vertices);
+    });
+    if (!faults_.none()) return;
+    for (std::size_t leaf = 0; leaf < index_.leaf_count(); ++leaf) {
+      const std::size_t begin = index_.leaf_begin[leaf];
+      const std::size_t end = leaf_end(leaf);
+      const Leaf& record = index_.leaves[leaf];
+      faults_.expect(begin < end && end - begin <= kLeafCapacity && record.first == begin && record.size == end - begin,
+                     [&] { return leaf_name(leaf) + ": not 1 to 32 vertices, or not the same twice"; });
+      for (std::size_t v = begin; v < end && faults_.none(); ++v) {
+        const VertexId old = index_.id(v);
+        faults_.expect(old < vertices && index_.slot[old] == leaf * kLeafCapacity + (v - begin), [&] {
+          return leaf_name(leaf) + ": vertex " + std::to_string(old) + " is not where its place says";
+        });
+      }
+    }
+    const std::size_t numbered = index_.leaf_begin.back();
+    faults_.expect(numbered == vertices, [&] { return "leaves hold " + std::to_string(numbered) + " vertices"; });
+  }
+
+  void check_positions() {
+    for (std::size_t v = 0; v < index_.vertex_count(); ++v) {
+      const Point mine = position(v);
+      const Point given = graph_.positions.visit([&](auto xyz) { return point(xyz, v); });
+      faults_.expect(mine.x == given.x && mine.y == given.y && mine.z == given.z,
+                     [&] { return "vertex " + std::to_string(v) + ": not the position that the mesh gives it"; });
+    }
+  }
+
+  [[nodiscard]] Point position(std::size_t v) const {
+    return index_.position(leaf_of(index_.slot[v]), lane_of(index_.slot[v]));
+  }
+
+  void check_edges() {
+    std::vector<std::vector<VertexId>> rows(index_.vertex_count());
+    for (std::size_t leaf = 0; leaf < index_.leaf_count(); ++leaf) {
+      add_edges_within(leaf, rows);
+      add_edges_out(leaf, rows);
+    }
+    for (std::size_t v = 0; v < rows.size(); ++v) {
+      std::sort(rows[v].begin(), rows[v].end());
+      const auto given = graph_.adjacency[v];
+      faults_.expect(std::equal(rows[v].begin(), rows[v].end(), given.begin(), given.end()),
+                     [&] { return "vertex " + std::to_string(v) + ": not the neighbours that the mesh gives it"; });
+    }
+  }
+
+  void add_edges_within(std::size_t leaf, std::vector<std::vector<VertexId>>& rows) const {
+    const std::size_t begin = index_.leaf_begin[leaf];
+    for (std::size_t v = begin; v < leaf_end(leaf); ++v) {
+      for (unsigned lane = 0; lane < leaf_end(leaf) - begin; ++lane) {
+        if ((index_.adjacency[v] >> lane & 1U) == 0) continue;
+        rows[index_.id(v)].push_back(index_.id(begin + lane));
+      }
+    }
+  }
+
+  void add_edges_out(std::size_t leaf, std::vector<std::vector<VertexId>>& rows) {
+    const std::size_t mine = index_.leaf_begin[leaf];
+    for (std::size_t i = index_.leaves[leaf].first_link; i < index_.leaves[leaf + 1].first_link; ++i) {
+      const Link& link = index_.links[i];
+      const std::size_t others = index_.leaf_begin[link.leaf];
+      LaneMask boundary = 0;
+      for (std::size_t k = link.first_cross_edge; k < index_.links[i + 1].first_cross_edge; ++k) {
+        const CrossEdge& cross_edge = index_.cross_edges[k];
+        rows[index_.id(mine + cross_edge.from)].push_back(index_.id(others + cross_edge.to));
+        boundary |= LaneMask{1} << cross_edge.from;
+      }
+      faults_.expect(boundary == link.boundary, [&] {
+        return leaf_name(leaf) + ": its border to leaf " + std::to_string(link.leaf) + " is not where they are joined";
+      });
+    }
+  }
+
+  void check_connected() {
+    for (std::size_t leaf = 0; leaf < index_.leaf_count(); ++leaf) {
+      const Leaf& record = index_.leaves[leaf];
+      faults_.expect(record.connected == is_connected(&index_.adjacency[record.first], record.size),
+                     [&] { return leaf_name(leaf) + ": wrongly marked as connected, or as not"; });
+    }
+  }
+
+  void check_spheres() {
+    for (std::size_t v = 0; v < index_.vertex_count(); ++v) {
+      const Point p = index_.frame.to_frame(position(v));
+      std::size_t node = leaf_of(index_.slot[v]);
+      faults_.expect(encloses(index_.leaves[node].bounds, p),
+                     [&] { return leaf_name(node) + ": vertex " + std::to_string(v) + " lies outside of its sphere"; });
+      for (std::size_t level = 0; level < index_.tree.size(); ++level, node /= kFanOut) {
+        const Group& group = index_.tree[level].groups[node / kFanOut];
+        const std::size_t i = node % kFanOut;
+        faults_.expect(encloses({group.x[i], group.y[i], group.z[i], group.radius[i]}, p), [&] {
+          return node_name(level, node) + ": vertex " + std::to_string(v) + " lies outside of its sphere";
+        });
+      }
+    }
+  }
+
+  static bool encloses(const FrameSphere& sphere, const Point& p) {
+    return std::sqrt(squared_distance(centre_of(sphere), p)) <= static_cast<double>(sphere.radius);
+  }
+
+  void check_columns() {
+    const std::size_t vertices = index_.vertex_count();
+    const std::size_t step = std::max<std::size_t>(1, vertices / kViewpoints);
+    for (std::size_t v = 0; v < vertices; v += step) check_columns_from(v);
+  }
+
+  /// Every local minimum of the distance from `v` must lie in nodes whose regions hold `v`.
+  void check_columns_from(std::size_t v) {
+    const TreeBall ball(index_.frame, position(v), 0);
+    for (std::size_t w = 0; w < index_.vertex_count(); ++w) {
+      if (w == v || !is_minimum(w, position(v))) continue;
+      std::size_t node = leaf_of(index_.slot[w]);
+      for (std::size_t level = 0; level < index_.tree.size(); ++level, node /= kFanOut) {
+        const auto group = static_cast<std::uint32_t>(node / kFanOut);
+        GroupContainment found{};
+        portable_kernels().classify(index_.tree[level].groups.data(), std::span(&group, 1), ball, &found);
+        faults_.expect((found.may_have_minimum >> node % kFanOut & 1U) != 0, [&] {
+          return node_name(level, node) + ": vertex " + std::to_string(v) + " lies outside of its column, but vertex " +
+                 std::to_string(w) + " has no neighbour nearer to it";
+        });
+      }
+    }
+  }
+
+  [[nodiscard]] bool is_minimum(std::size_t w, const Point& from) const {
+    const double square = squared_distance(position(w), from);
+    const auto row = graph_.adjacency[w];
+    return std::none_of(row.begin(), row.end(),
+                        [&](VertexId u) { return squared_distance(position(u), from) < square; });
+  }
+
+  const IndexView& index_;
+  GraphView graph_;
+  Faults faults_;
+};
+
+}  // namespace
+
+std::vector<std::string> Index::check(const MeshView& mesh) const {
+  const Adjacency graph = adjacency(mesh);
+  return Check(*view_, {mesh.positions, graph.view()}).run();
+}
+
+std::vector<std::string> Index::check(const GraphView& graph) const {
+  validate(graph);
+  return Check(*view_, graph).run();
+}
+
+}  // namespace meshhood

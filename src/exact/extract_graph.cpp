@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// The mesh's graph, taken back out of the leaves and the links between them.
+#include "exact/extract_graph.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "meshhood/index.h"
+
+#include "base/adjacency.h"
+#include "exact/index_access.h"
+
+namespace meshhood {
+namespace {
+
+/// To be called for every vertex: asks seldom enough to cost nothing.
+void poll_cancel(TaskContext& task, std::size_t vertex) {
+  constexpr std::size_t kBetween = 1024;
+  if (vertex % kBetween == 0) task.should_continue(0);
+}
+
+/// The positions in the caller's order.
+PositionsData positions_of(const IndexView& index, TaskContext& task) {
+  return std::visit(
+      [&]<class Real>(std::span<const Real> xyz) -> PositionsData {
+        std::vector<Real> result(3 * index.vertex_count());
+        for (std::size_t i = 0; i < index.vertex_count(); ++i) {
+          poll_cancel(task, i);
+          std::copy_n(&xyz[3 * i], 3, &result[3 * std::size_t{index.id(i)}]);
+        }
+        return result;
+      },
+      index.positions);
+}
+
+/// Calls `f(v, w)` for every edge in both directions, by the caller's ids.
+template <class F>
+void for_each_neighbor(const IndexView& index, TaskContext& task, F&& f) {
+  for (std::size_t leaf = 0; leaf < index.leaf_count(); ++leaf) {
+    const std::size_t begin = index.leaf_begin[leaf];
+    for (std::size_t i = begin; i < index.leaf_begin[leaf + 1]; ++i) {
+      poll_cancel(task, i);
+      for (LaneMask left = index.adjacency[i]; left != 0; left &= left - 1) {
+        f(index.id(i), index.id(begin + static_cast<std::size_t>(std::countr_zero(left))));
+      }
+    }
+    for (std::size_t i = index.leaves[leaf].first_link; i < index.leaves[leaf + 1].first_link; ++i) {
+      const std::size_t other = index.leaf_begin[index.links[i].leaf];
+      for (std::size_t k = index.links[i].first_cross_edge; k < index.links[i + 1].first_cross_edge; ++k) {
+        f(index.id(begin + index.cross_edges[k].from), index.id(other + index.cross_edges[k].to));
+      }
+    }
+  }
+}
+
+Adjacency adjacency_of(const IndexView& index, TaskContext& task) {
+  Adjacency result = gather_rows(index.vertex_count(), [&](auto&& f) { for_each_neighbor(index, task, f); });
+  for (std::size_t v = 0; v < index.vertex_count(); ++v) {
+    poll_cancel(task, v);
+    std::sort(result.neighbors.begin() + static_cast<std::ptrdiff_t>(result.offsets[v]),
+              result.neighbors.begin() + static_cast<std::ptrdiff_t>(result.offsets[v + 1]));
+  }
+  return result;
+}
+
+}  // namespace
+
+GraphData extract_graph(const Index& index, TaskContext& task) {
+  const IndexView& storage = IndexAccess::view(index);
+  return {positions_of(storage, task), adjacency_of(storage, task)};
+}
+
+GraphData extract_graph(const Index& index) {
+  const Progress nobody;
+  TaskContext task(1, nobody, 0);
+  return extract_graph(index, task);
+}
+
+}  // namespace meshhood

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "meshhood/index.h"
+
+#include <utility>
+
+#include "exact/layout.h"
+
+namespace meshhood {
+namespace {
+
+template <class T>
+std::size_t bytes_of(std::span<const T> values) {
+  return values.size_bytes();
+}
+
+}  // namespace
+
+Index::Index(std::unique_ptr<const IndexView> storage) : view_(std::move(storage)) {}
+Index::Index(Index&&) noexcept = default;
+Index& Index::operator=(Index&&) noexcept = default;
+Index::~Index() = default;
+
+std::size_t Index::vertex_count() const { return view_->vertex_count(); }
+
+PositionsView Index::positions() const {
+  return std::visit([&](auto xyz) { return PositionsView(xyz.first(3 * vertex_count())); }, view_->positions);
+}
+
+std::span<const VertexId> Index::permutation() const {
+  const std::span<const VertexId> padded = view_->permutation;
+  return padded.empty() ? padded : padded.first(view_->vertex_count());
+}
+
+std::vector<LevelSummary> Index::levels() const {
+  std::vector<LevelSummary> result;
+  for (const TreeLevel& level : view_->tree) {
+    result.push_back({.level = static_cast<int>(result.size()),
+                      .clusters = level.nodes,
+                      .mean_vertices = static_cast<double>(vertex_count()) / static_cast<double>(level.nodes),
+                      .mean_radius = level.mean_radius / view_->frame.scale,
+                      .mean_siblings = 0,
+                      .bytes = bytes_of(level.groups)});
+  }
+  if (result.empty()) return result;
+  // Only leaves have links; one more of them marks the end.
+  LevelSummary& leaves = result.front();
+  leaves.mean_siblings = static_cast<double>(view_->links.size() - 1) / static_cast<double>(leaves.clusters);
+  leaves.bytes += bytes_of(view_->leaves) + bytes_of(view_->leaf_begin);
+  return result;
+}
+
+IndexBytes Index::bytes() const {
+  IndexBytes result;
+  result.positions = std::visit([](auto xyz) { return bytes_of(xyz); }, view_->positions);
+  result.permutation = bytes_of(view_->permutation) + bytes_of(view_->slot);
+  result.graph = bytes_of(view_->adjacency) + bytes_of(view_->links) + bytes_of(view_->cross_edges);
+  result.tree =
+      bytes_of(view_->leaves) + bytes_of(view_->leaf_begin) + bytes_of(view_->groups) + bytes_of(view_->mean_radii);
+  return result;
+}
+
+}  // namespace meshhood

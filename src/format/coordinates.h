@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <span>
+
+#include "base/distance.h"
+#include "format/section_reader.h"
+
+namespace meshhood::file {
+
+/// As `validate` asks of those of a mesh.
+template <class Real>
+void verify_coordinates(std::span<const Real> xyz, const SectionReader& file) {
+  for (const Real& value : xyz) {
+    if (std::abs(static_cast<double>(value)) <= kLargestCoordinate) continue;
+    file.refuse(&value, "a coordinate that is not finite, or beyond 2^500");
+  }
+}
+
+}  // namespace meshhood::file

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "format/section_reader.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "meshhood/error.h"
+
+#include "base/checksum.h"
+
+namespace meshhood::file {
+namespace {
+
+[[noreturn]] void refuse_at(const std::string& section, std::uint64_t byte, const std::string& message) {
+  raise(ErrorCode::MalformedIndex, section + ", byte " + std::to_string(byte) + ": " + message);
+}
+
+[[noreturn]] void refuse_header(std::size_t byte, const std::string& message) { refuse_at("header", byte, message); }
+
+std::string expected(std::uint64_t value, std::uint64_t wanted) {
+  return std::to_string(value) + ", expected " + std::to_string(wanted);
+}
+
+std::string_view name_of(const Section& section) {
+  const std::string_view all(section.name.data(), section.name.size());
+  return all.substr(0, all.find('\0'));
+}
+
+/// A forged name may be anything; that of a section is made of letters and digits.
+std::string quoted(std::string_view name) {
+  const bool is_plain = std::all_of(name.begin(), name.end(), [](char c) { return ' ' <= c && c <= '~'; });
+  return is_plain ? "section " + std::string(name) : "a section without a readable name";
+}
+
+/// What any format of this file has in common, so that a newer one is called by its number.
+void verify_beginning(const Header& header) {
+  if (header.magic != kMagic) refuse_header(0, "not a saved index");
+  if (header.byte_order == kOtherByteOrder) {
+    refuse_header(offsetof(Header, byte_order), "written in the other byte order, expected little-endian");
+  }
+  if (header.byte_order != kByteOrderMark) refuse_header(offsetof(Header, byte_order), "not a mark of the byte order");
+  if (header.format != kFormat) {
+    refuse_header(offsetof(Header, format),
+                  "written by format " + std::to_string(header.format) + ", this reads " + std::to_string(kFormat));
+  }
+}
+
+void verify_header_checksum(const Header& header, std::span<const std::byte> first_bytes) {
+  const std::uint64_t end = head_bytes(header.sections);
+  if (end > first_bytes.size()) {
+    refuse_header(offsetof(Header, sections), std::to_string(header.sections) + " sections have no room in " +
+                                                  std::to_string(first_bytes.size()) + " bytes");
+  }
+  const auto rest = first_bytes.first(static_cast<std::size_t>(end)).subspan(sizeof(Header));
+  if (checksum({first_bytes.first(offsetof(Header, checksum)), rest}) != header.checksum) {
+    refuse_header(offsetof(Header, checksum), "the checksum of header and table does not fit them");
+  }
+}
+
+/// What the checksum says is as it was written, but by whom?
+void verify_fields(const Header& header) {
+  if (header.kind != IndexKind::Exact && header.kind != IndexKind::Paper) {
+    refuse_header(offsetof(Header, kind), "an index of kind " + std::to_string(static_cast<unsigned>(header.kind)) +
+                                              ", expected 1 (exact) or 2 (paper)");
+  }
+  if (header.id_bytes != sizeof(VertexId)) {
+    refuse_header(offsetof(Header, id_bytes), "vertices have ids of " + std::to_string(8U * header.id_bytes) +
+                                                  " bits, this reads " + std::to_string(8 * sizeof(VertexId)));
+  }
+  if (header.scalar_bytes != sizeof(float) && header.scalar_bytes != sizeof(double)) {
+    refuse_header(offsetof(Header, scalar_bytes),
+                  "coordinates of " + std::to_string(header.scalar_bytes) + " bytes, expected 4 or 8");
+  }
+  if (header.unused != 0) refuse_header(offsetof(Header, unused), expected(header.unused, 0));
+  if (header.vertices > kMaxVertices) {
+    refuse_header(offsetof(Header, vertices),
+                  std::to_string(header.vertices) + " vertices, but the limit is " + std::to_string(kMaxVertices));
+  }
+}
+
+}  // namespace
+
+Header read_header(std::span<const std::byte> first_bytes, std::uint64_t size) {
+  if constexpr (std::endian::native != std::endian::little) {
+    raise(ErrorCode::MalformedIndex, "an index is saved and loaded on little-endian machines only");
+  }
+  if (first_bytes.size() < sizeof(Header)) {
+    refuse_header(first_bytes.size(), "the end, expected " + std::to_string(sizeof(Header)) + " bytes or more");
+  }
+  Header header;
+  std::memcpy(&header, first_bytes.data(), sizeof(Header));
+  verify_beginning(header);
+  if (header.bytes != size) {
+    refuse_header(offsetof(Header, bytes),
+                  "written with " + std::to_string(header.bytes) + " bytes, but there are " + std::to_string(size));
+  }
+  verify_header_checksum(header, first_bytes);
+  verify_fields(header);
+  return header;
+}
+
+void expect_kind(IndexKind kind, IndexKind expected) {
+  if (kind == expected) return;
+  refuse_header(offsetof(Header, kind), expected == IndexKind::Exact ? "an index of the paper, expected an exact one"
+                                                                     : "an exact index, expected one of the paper");
+}
+
+SectionReader::SectionReader(std::span<const std::byte> bytes)
+    : bytes_(bytes),
+      header_(read_header(bytes, bytes.size())),
+      table_(reinterpret_cast<const Section*>(bytes.data() + sizeof(Header)), header_.sections) {
+  verify_table();
+}
+
+void SectionReader::verify_table() const {
+  std::uint64_t next = head_bytes(table_.size());
+  for (const Section& section : table_) {
+    const auto byte = static_cast<std::uint64_t>(reinterpret_cast<const std::byte*>(&section) - bytes_.data());
+    const std::string where = "header, " + quoted(name_of(section));
+    if (section.begin != next) refuse_at(where, byte, "begins at " + expected(section.begin, next));
+    if (section.bytes > bytes_.size() - next) {
+      refuse_at(where, byte,
+                std::to_string(section.bytes) + " bytes from " + std::to_string(next) + " on, but there are " +
+                    std::to_string(bytes_.size()) + " in all");
+    }
+    next = aligned(next + section.bytes);
+  }
+  if (next != bytes_.size()) refuse_header(offsetof(Header, bytes), "sections end at " + expected(next, bytes_.size()));
+}
+
+std::span<const std::byte> SectionReader::bytes_of(const Section& section) const {
+  return bytes_.subspan(static_cast<std::size_t>(section.begin), static_cast<std::size_t>(section.bytes));
+}
+
+void SectionReader::verify_checksums(TaskContext& task) const {
+  for (const Section& section : table_) {
+    const std::string where = quoted(name_of(section));
+    if (checksum({bytes_of(section)}) != section.checksum) {
+      refuse_at(where, section.begin, "the checksum of its " + std::to_string(section.bytes) + " bytes does not fit");
+    }
+    const std::uint64_t end = section.begin + section.bytes;
+    for (std::uint64_t byte = end; byte < aligned(end); ++byte) {
+      const auto value = std::to_integer<unsigned>(bytes_[static_cast<std::size_t>(byte)]);
+      if (value != 0) refuse_at(where, byte, "behind its end stands " + expected(value, 0));
+    }
+    task.advance(1);
+    task.report_progress();
+  }
+}
+
+std::span<const std::byte> SectionReader::take_bytes(std::string_view name, std::size_t of_each) {
+  if (taken_ == table_.size()) refuse_header(offsetof(Header, sections), "no section " + std::string(name));
+  const Section& section = table_[taken_++];
+  std::array<char, 16> padded{};
+  std::copy(name.begin(), name.end(), padded.begin());
+  if (section.name != padded) {
+    refuse(&section, quoted(name_of(section)) + ", expected section " + std::string(name));
+  }
+  if (section.bytes % of_each != 0) {
+    refuse_at(quoted(name), section.begin,
+              std::to_string(section.bytes) + " bytes, expected a multiple of " + std::to_string(of_each));
+  }
+  return bytes_of(section);
+}
+
+void SectionReader::expect_end() const {
+  if (taken_ != table_.size()) refuse(&table_[taken_], quoted(name_of(table_[taken_])) + ", expected no more");
+}
+
+void SectionReader::refuse_count(std::uint64_t count, std::uint64_t wanted) const {
+  refuse_last(expected(count, wanted) + " values");
+}
+
+void SectionReader::refuse_last(const std::string& message) const {
+  const Section& section = table_[taken_ - 1];
+  refuse_at(quoted(name_of(section)), section.begin, message);
+}
+
+void SectionReader::refuse_in(std::string_view section, std::uint64_t byte, const std::string& message) const {
+  refuse_at(quoted(section), std::ranges::find(table_, section, name_of)->begin + byte, message);
+}
+
+void SectionReader::refuse(const void* place, const std::string& message) const {
+  const auto byte = static_cast<std::uint64_t>(static_cast<const std::byte*>(place) - bytes_.data());
+  const auto after = std::find_if(table_.begin(), table_.end(), [&](const Section& s) { return s.begin > byte; });
+  refuse_at(after == table_.begin() ? "header" : quoted(name_of(*(after - 1))), byte, message);
+}
+
+}  // namespace meshhood::file

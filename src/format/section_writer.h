@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "base/parallel.h"
+#include "format/format.h"
+
+namespace meshhood::file {
+
+/// Gathers sections, then gives the whole to a sink. The arrays are borrowed.
+class SectionWriter {
+ public:
+  template <class T>
+  void add(std::string_view name, std::span<const T> values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    add_bytes(name, std::as_bytes(values));
+  }
+
+  /// Of how many parts the work is that `write` advances.
+  [[nodiscard]] std::size_t parts() const;
+
+  /// `header`: what it does not know by itself: kind, vertices, precision, fingerprint. Throws Error{Cancelled}.
+  void write(Header header, const Sink& sink, TaskContext& task) const;
+
+ private:
+  void add_bytes(std::string_view name, std::span<const std::byte> bytes);
+  [[nodiscard]] std::vector<Section> make_table(TaskContext& task) const;
+
+  struct Part {
+    std::string name;
+    std::span<const std::byte> bytes;
+  };
+  std::vector<Part> parts_;
+};
+
+}  // namespace meshhood::file

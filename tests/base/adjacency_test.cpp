@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "meshhood/adjacency.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/families.h"
+#include "support/oracle.h"
+#include "support/refusal.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+TEST(Adjacency, JoinsConsecutiveCorners) {
+  const TestMesh mesh = make_grid(2, 2, true);  // 0 1 / 2 3
+  const Adjacency graph = adjacency(mesh.view());
+  EXPECT_THAT(graph.offsets, ElementsAre(0, 2, 4, 6, 8));
+  EXPECT_THAT(graph.neighbors, ElementsAre(1, 2, 0, 3, 0, 3, 1, 2));
+}
+
+TEST(Adjacency, M21ReadsAPolygonAsItsCycle) {
+  const TestMesh mesh = make_mesh(*std::ranges::find(trap_families(), "polygon", &Family::name), 1, 1000);
+  const Adjacency graph = adjacency(mesh.view());
+  EXPECT_EQ(graph.neighbors.size(), 2000U);
+}
+
+TEST(Adjacency, A6CountsAnEdgeOnceHoweverManyFacesHaveIt) {
+  const TestMesh mesh = make_grid(3, 3, false);
+  const Adjacency once = adjacency(mesh.view());
+  TestMesh doubled = mesh;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    std::vector<std::uint32_t> face(mesh.face(f).begin(), mesh.face(f).end());
+    doubled.add_face(face);
+    std::ranges::reverse(face);
+    doubled.add_face(face);
+  }
+  EXPECT_EQ(adjacency(doubled.view()).neighbors, once.neighbors);
+  EXPECT_EQ(adjacency(doubled.view()).offsets, once.offsets);
+}
+
+TEST(Adjacency, A7SkipsRepeatedCornersAndFacesOfFew) {
+  TestMesh mesh;
+  for (int v = 0; v < 5; ++v) mesh.add_vertex(v, 0, 0);
+  mesh.add_face({0, 0, 1, 1, 0});  // joins 0 and 1
+  mesh.add_face({3});
+  mesh.add_face(std::initializer_list<std::uint32_t>{});
+  mesh.add_face({4, 4});
+  mesh.add_face({2, 3});
+  const Adjacency graph = adjacency(mesh.finish(true).view());
+  EXPECT_THAT(graph.view()[0], ElementsAre(1));
+  EXPECT_THAT(graph.view()[1], ElementsAre(0));
+  EXPECT_THAT(graph.view()[2], ElementsAre(3));
+  EXPECT_THAT(graph.view()[3], ElementsAre(2));
+  EXPECT_THAT(graph.view()[4], IsEmpty());
+}
+
+TEST(Adjacency, A4TakesAMeshOfNothing) {
+  EXPECT_THAT(adjacency(MeshView{}).offsets, ElementsAre(0));
+  EXPECT_EQ(adjacency(MeshView{}).view().size(), 0U);
+}
+
+TEST(Adjacency, IsThatOfTheOracle) {
+  std::size_t meshes = 0;
+  std::size_t rows = 0;
+  for (const Family& family : families()) {
+    for (std::uint64_t seed = 0; seed < scaled(40, 2); ++seed, ++meshes) {
+      const TestMesh mesh = make_mesh(family, seed, seed == 0 ? 3000 : 5 + 7 * seed);
+      const Oracle oracle(mesh);
+      const Adjacency graph = adjacency(mesh.view());
+      ASSERT_EQ(graph.view().size(), mesh.size());
+      for (std::size_t v = 0; v < mesh.size(); ++v, ++rows) {
+        ASSERT_TRUE(std::ranges::equal(graph.view()[v], oracle.neighbors(v))) << mesh.name << ", vertex " << v;
+      }
+      EXPECT_NO_THROW(validate(GraphView{mesh.positions_view(), graph.view()})) << mesh.name;
+      const double mean = mean_edge_length({mesh.positions_view(), graph.view()});
+      EXPECT_NEAR(mean, oracle.mean_edge(), 1e-12 * oracle.mean_edge()) << mesh.name;
+    }
+  }
+  std::printf("%zu meshes, %zu rows\n", meshes, rows);
+}
+
+TEST(MeanEdgeLength, CountsEachEdgeOnce) {
+  TestMesh mesh;
+  for (const double x : {0, 1, 4}) mesh.add_vertex(x, 0, 0);
+  mesh.add_face({0, 1});
+  mesh.add_face({1, 2});
+  mesh.add_face({2, 1});
+  const Adjacency graph = adjacency(mesh.finish(true).view());
+  EXPECT_EQ(mean_edge_length({mesh.positions_view(), graph.view()}), 2);
+}
+
+TEST(MeanEdgeLength, IsZeroWithoutEdges) {
+  const std::vector<float> positions{0, 0, 0};
+  const Adjacency graph{{0, 0}, {}};
+  EXPECT_EQ(mean_edge_length({positions, graph.view()}), 0);
+}
+
+/// Three vertices with the rows that the case gives.
+void expect_graph_refused(const char* culprit, const Adjacency& graph) {
+  const std::vector<double> positions(9, 0.0);
+  expect_refused(ErrorCode::InvalidMesh, culprit, [&] { validate(GraphView{positions, graph.view()}); });
+}
+
+TEST(ValidateGraph, AcceptsASymmetricGraph) {
+  const std::vector<double> positions(9, 0.0);
+  const Adjacency graph{{0, 1, 3, 4}, {1, 0, 2, 1}};
+  EXPECT_NO_THROW(validate(GraphView{positions, graph.view()}));
+  EXPECT_NO_THROW(validate(GraphView{}));
+}
+
+TEST(ValidateGraph, NamesTheVertexThatLies) {
+  expect_graph_refused("2 rows of neighbours for 3 vertices", {{0, 1, 2}, {1, 0}});
+  expect_graph_refused("0 rows of neighbours for 3 vertices", {});
+  expect_graph_refused("neighbour offsets begin with 1, expected 0", {{1, 1, 2, 2}, {1, 0}});
+  expect_graph_refused("neighbours of vertex 1: from 2 to 1 in a list of 4", {{0, 2, 1, 4}, {1, 2, 0, 0}});
+  expect_graph_refused("neighbours of vertex 2: from 2 to 9 in a list of 2", {{0, 1, 2, 9}, {1, 0}});
+  expect_graph_refused("neighbour offsets end with 2, but there are 3 neighbours", {{0, 1, 2, 2}, {1, 0, 0}});
+  expect_graph_refused("neighbours of vertex 1: vertex 3, but the graph has 3 vertices", {{0, 1, 2, 2}, {1, 3}});
+  expect_graph_refused("neighbours of vertex 1: the vertex itself", {{0, 0, 1, 1}, {1}});
+  expect_graph_refused("neighbours of vertex 0: 1 after 2, expected ascending ids", {{0, 2, 3, 4}, {2, 1, 0, 0}});
+  expect_graph_refused("neighbours of vertex 0: 1 after 1, expected ascending ids", {{0, 2, 4, 4}, {1, 1, 0, 0}});
+  expect_graph_refused("neighbours of vertex 0: 1, but 0 is not among the neighbours of 1", {{0, 1, 1, 1}, {1}});
+}
+
+}  // namespace
+}  // namespace meshhood::test

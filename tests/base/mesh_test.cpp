@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "meshhood/mesh.h"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/refusal.h"
+
+namespace meshhood::test {
+namespace {
+
+using testing::ElementsAre;
+
+const std::vector<float> kThreePoints{0, 0, 0, 1, 0, 0, 0, 1, 0};
+
+void expect_mesh_refused(const char* culprit, const FacesView& faces) {
+  expect_refused(ErrorCode::InvalidMesh, culprit, [&] { validate(MeshView{kThreePoints, faces}); });
+}
+
+TEST(Views, KnowTheirSizes) {
+  const std::vector<double> positions(12, 0.0);
+  const std::vector<std::int64_t> corners{0, 1, 2, 2, 1, 3};
+  const std::vector<std::uint32_t> offsets{0, 2, 2, 6};
+  EXPECT_EQ(PositionsView(positions).size(), 4U);
+  EXPECT_EQ(PositionsView().size(), 0U);
+  EXPECT_EQ(FacesView::triangles(corners).size(), 2U);
+  EXPECT_EQ(FacesView::polygons(offsets, corners).size(), 3U);
+  EXPECT_EQ(FacesView().size(), 0U);
+}
+
+/// All faces in order, each as a list of corners.
+std::vector<std::vector<std::size_t>> listed(const FacesView& faces) {
+  std::vector<std::vector<std::size_t>> result;
+  faces.for_each([&](std::size_t face, auto corners) {
+    EXPECT_EQ(face, result.size());
+    result.emplace_back(corners.begin(), corners.end());
+  });
+  return result;
+}
+
+TEST(Views, GiveTheirFacesInOrder) {
+  const std::vector<std::int32_t> corners{0, 1, 2, 2, 1, 0};
+  const std::vector<std::uint64_t> offsets{0, 2, 2, 6};
+  EXPECT_THAT(listed(FacesView::triangles(corners)), ElementsAre(ElementsAre(0, 1, 2), ElementsAre(2, 1, 0)));
+  EXPECT_THAT(listed(FacesView::polygons(offsets, corners)),
+              ElementsAre(ElementsAre(0, 1), ElementsAre(), ElementsAre(2, 2, 1, 0)));
+}
+
+TEST(Validate, A17RefusesWhatIsNotFiniteAndNamesTheVertex) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const auto& [value, text] : {std::pair(nan, "nan"), {infinity, "inf"}, {-infinity, "-inf"}}) {
+    for (std::size_t i = 0; i < 9; ++i) {
+      std::vector<double> wide(9, 0.0);
+      wide[i] = value;
+      const std::vector<float> narrow(wide.begin(), wide.end());
+      const std::string culprit = "vertex " + std::to_string(i / 3) + ": " + "xyz"[i % 3] + " is " + text;
+      expect_refused(ErrorCode::InvalidMesh, culprit, [&] { validate(PositionsView(wide)); });
+      expect_refused(ErrorCode::InvalidMesh, culprit, [&] { validate(MeshView{narrow, {}}); });
+    }
+  }
+}
+
+TEST(Validate, A16RefusesDoublesWhoseSquareOverflows) {
+  const double limit = std::ldexp(1.0, 500);
+  EXPECT_NO_THROW(validate(PositionsView(std::vector{limit, -limit, 0.0})));
+  const std::vector<double> beyond{0, std::nextafter(limit, 1e300), 0};
+  expect_refused(ErrorCode::InvalidMesh, "vertex 0: y is 3.27", [&] { validate(PositionsView(beyond)); });
+}
+
+TEST(Validate, RefusesAHalfVertex) {
+  const std::vector<float> positions(7, 0.0F);
+  expect_refused(ErrorCode::InvalidMesh, "7 coordinates, expected three a vertex",
+                 [&] { validate(PositionsView(positions)); });
+}
+
+TEST(Validate, RefusesAHalfTriangle) {
+  const std::vector<std::uint32_t> corners{0, 1, 2, 0};
+  expect_mesh_refused("4 corners, expected three a triangle", FacesView::triangles(corners));
+}
+
+template <class Index>
+void expect_corner_refused(Index corner, const std::string& text) {
+  const std::vector<Index> corners{0, 1, 2, 0, corner, 1};
+  const std::string culprit = "face 1: corner 1 is vertex " + text + ", but the mesh has 3 vertices";
+  expect_mesh_refused(culprit.c_str(), FacesView::triangles(corners));
+}
+
+TEST(Validate, M6ComparesACornerBeforeNarrowingIt) {
+  expect_corner_refused<std::uint32_t>(3, "3");
+  expect_corner_refused<std::uint32_t>(0xFFFFFFFF, "4294967295");
+  expect_corner_refused<std::int32_t>(-1, "-1");
+  expect_corner_refused<std::int32_t>(std::numeric_limits<std::int32_t>::min(), "-2147483648");
+  expect_corner_refused<std::uint64_t>(std::uint64_t{1} << 32, "4294967296");
+  expect_corner_refused<std::int64_t>(-1, "-1");
+  expect_corner_refused<std::int64_t>(std::int64_t{1} << 32, "4294967296");
+}
+
+TEST(Validate, RefusesOffsetsThatLie) {
+  const std::vector<std::uint32_t> corners{0, 1, 2};
+  const auto expect = [&](const char* culprit, const std::vector<std::int64_t>& offsets) {
+    expect_mesh_refused(culprit, FacesView::polygons(offsets, corners));
+  };
+  expect("face offsets are empty, but there are 3 corners", {});
+  expect("face offsets begin with 1, expected 0", {1, 3});
+  expect("face offsets begin with -1, expected 0", {-1, 3});
+  expect("face 1 ends at corner 1, before it begins at 2", {0, 2, 1, 3});
+  expect("face 0 ends at corner -5, before it begins at 0", {0, -5, 3});
+  expect("face offsets end with 4, but there are 3 corners", {0, 4});
+  expect("face offsets end with 2, but there are 3 corners", {0, 2});
+  expect("face offsets end with 4294967299, but there are 3 corners", {0, (std::int64_t{1} << 32) + 3});
+}
+
+TEST(Validate, AcceptsWhatIsUgly) {
+  const std::vector<std::uint32_t> corners{0, 0, 0, 1, 2, 1, 2};
+  const std::vector<std::uint32_t> offsets{0, 0, 1, 3, 7};
+  EXPECT_NO_THROW(validate(MeshView{kThreePoints, FacesView::polygons(offsets, corners)}));
+  EXPECT_NO_THROW(validate(MeshView{}));
+  EXPECT_NO_THROW(validate(MeshView{kThreePoints, {}}));
+}
+
+TEST(Distance, IsThatOfTheOpenPredicate) {
+  const std::vector<double> positions{0, 0, 0, 3, 4, 12};
+  EXPECT_EQ(distance(positions, 0, 1), 13);
+  EXPECT_EQ(distance(positions, 1, 1), 0);
+}
+
+TEST(Distance, A2RefusesAVertexOutOfRange) {
+  const auto out_of_range = ErrorCode::VertexOutOfRange;
+  expect_refused(out_of_range, "vertex 3, but the mesh has 3", [] { static_cast<void>(distance(kThreePoints, 3, 0)); });
+  expect_refused(out_of_range, "vertex 9, but the mesh has 3", [] { static_cast<void>(distance(kThreePoints, 0, 9)); });
+}
+
+}  // namespace
+}  // namespace meshhood::test

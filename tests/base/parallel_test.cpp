@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "base/parallel.h"
+
+#include <array>
+#include <atomic>
+#include <functional>
+#include <new>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/error.h"
+
+#include "support/refusal.h"
+
+namespace meshhood::test {
+namespace {
+
+constexpr std::array kThreads{1U, 2U, 3U, 8U};
+const Progress kNobody;
+
+TEST(ParallelFor, ChunksCoverAllNumbersAndDoNotDependOnTheThreads) {
+  for (const unsigned threads : kThreads) {
+    for (const std::size_t count : {0U, 1U, 9U, 10U, 11U, 1000U}) {
+      TaskContext task(threads, kNobody, 0);
+      std::vector<std::atomic<int>> visits(count);
+      task.parallel_for(count, 10, [&](unsigned thread, std::size_t begin, std::size_t end) {
+        EXPECT_LT(thread, threads);
+        EXPECT_EQ(begin % 10, 0U);
+        EXPECT_EQ(end, std::min(begin + 10, count));
+        for (std::size_t i = begin; i < end; ++i) ++visits[i];
+      });
+      EXPECT_THAT(visits, testing::Each(testing::ResultOf([](const auto& n) { return n.load(); }, 1)));
+    }
+  }
+}
+
+TEST(ParallelFor, PassesOnOneExceptionOfMany) {
+  for (const unsigned threads : kThreads) {
+    TaskContext task(threads, kNobody, 0);
+    EXPECT_THROW(task.parallel_for(1000, 1, [](unsigned, std::size_t, std::size_t) { throw std::bad_alloc(); }),
+                 std::bad_alloc);
+  }
+}
+
+TEST(ParallelFor, BeginsNoChunkAfterAnException) {
+  for (const unsigned threads : kThreads) {
+    TaskContext task(threads, kNobody, 0);
+    std::atomic<std::size_t> after{0};
+    std::atomic<bool> thrown{false};
+    EXPECT_THROW(task.parallel_for(100000, 1,
+                                   [&](unsigned, std::size_t begin, std::size_t) {
+                                     if (thrown) ++after;
+                                     if (begin != 5) return;
+                                     thrown = true;
+                                     throw std::runtime_error("five");
+                                   }),
+                 std::runtime_error);
+    EXPECT_LT(after, 90000U);
+  }
+}
+
+TEST(TaskContext, UsesAsManyThreadsAsTheProcessorHas) {
+  EXPECT_GE(TaskContext(0, kNobody, 0).threads(), 1U);
+  EXPECT_EQ(TaskContext(kMaxThreads, kNobody, 0).threads(), kMaxThreads);
+  expect_refused(ErrorCode::InvalidOption, "threads is 1025", [] { const TaskContext task(1025, kNobody, 0); });
+}
+
+TEST(TaskContext, ReportsWhatWasDone) {
+  std::vector<std::pair<std::size_t, std::size_t>> reports;
+  const Progress progress = [&](std::size_t done, std::size_t total) {
+    reports.emplace_back(done, total);
+    return reports.size() < 3;
+  };
+  TaskContext task(1, progress, 7);
+  task.advance(4);
+  task.report_progress();
+  expect_refused(ErrorCode::Cancelled, "cancelled", [&] { task.report_progress(); });
+  EXPECT_THAT(reports, testing::ElementsAre(std::pair(0, 7), std::pair(4, 7), std::pair(4, 7)));
+}
+
+}  // namespace
+}  // namespace meshhood::test

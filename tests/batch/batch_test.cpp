@@ -1,0 +1,417 @@
+// SPDX-License-Identifier: MIT
+// Batches give what single queries give, in their order, the same for every number of threads; and they end as the
+// caller wants.
+#include "meshhood/batch.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <new>
+#include <numeric>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/meshhood.h"
+
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/refusal.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::array kThreads{1U, 2U, 3U, 8U};
+
+/// Rows as a sink was given them.
+struct Streamed {
+  std::vector<std::vector<VertexId>> ids;
+  std::vector<std::vector<double>> distances;
+
+  friend bool operator==(const Streamed&, const Streamed&) = default;
+};
+
+template <class Index>
+Streamed stream(const Index& index, const BatchQuery& query, const BatchOptions& options) {
+  Streamed result;
+  for_each_neighborhood(
+      index, query,
+      [&](const BatchRow& row) {
+        EXPECT_EQ(row.row, result.ids.size());
+        result.ids.emplace_back(row.ids.begin(), row.ids.end());
+        result.distances.emplace_back(row.distances.begin(), row.distances.end());
+      },
+      options);
+  return result;
+}
+
+Streamed rows_of(const Neighborhoods& all) {
+  Streamed result;
+  for (std::size_t row = 0; row + 1 < all.offsets.size(); ++row) {
+    const auto begin = static_cast<std::ptrdiff_t>(all.offsets[row]);
+    const auto end = static_cast<std::ptrdiff_t>(all.offsets[row + 1]);
+    result.ids.emplace_back(all.ids.begin() + begin, all.ids.begin() + end);
+    result.distances.emplace_back();
+    if (all.distances.empty()) continue;
+    result.distances.back().assign(all.distances.begin() + begin, all.distances.begin() + end);
+  }
+  return result;
+}
+
+std::vector<std::uint64_t> sizes_of(const Streamed& rows) {
+  std::vector<std::uint64_t> result(rows.ids.size());
+  std::transform(rows.ids.begin(), rows.ids.end(), result.begin(), [](const auto& ids) { return ids.size(); });
+  return result;
+}
+
+/// A row by a searcher of its own, ids ascending, with distances.
+template <class Searcher>
+void ask(Searcher& searcher, VertexId v, double radius, Streamed& out) {
+  std::vector<VertexId> ids;
+  std::vector<double> distances;
+  searcher.neighborhood(v, radius, ids, distances);
+  std::vector<std::size_t> order(ids.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
+  out.ids.emplace_back();
+  out.distances.emplace_back();
+  for (const std::size_t i : order) {
+    out.ids.back().push_back(ids[i]);
+    out.distances.back().push_back(distances[i]);
+  }
+}
+
+template <class Searcher, class Index>
+Streamed one_by_one(const Index& index, std::span<const VertexId> vertices, std::span<const double> radii) {
+  Streamed result;
+  Searcher searcher(index);
+  for (std::size_t row = 0; row < vertices.size(); ++row) ask(searcher, vertices[row], radii[row], result);
+  return result;
+}
+
+/// Rows of random vertices, some of them several times, each with a radius of its own.
+struct RandomRows {
+  std::vector<VertexId> vertices;
+  std::vector<double> radii;
+
+  RandomRows(const MeshView& mesh, std::size_t rows, std::uint64_t seed) {
+    Random random(seed);
+    if (mesh.positions.size() == 0) return;
+    for (std::size_t row = 0; row < rows; ++row) {
+      vertices.push_back(static_cast<VertexId>(random.below(mesh.positions.size())));
+      const auto other = static_cast<VertexId>(random.below(mesh.positions.size()));
+      radii.push_back(row % 50 == 0 ? kInfinity : 0.3 * distance(mesh.positions, vertices.back(), other));
+    }
+  }
+
+  [[nodiscard]] BatchQuery query() const { return {.vertices = vertices, .radius = radii}; }
+};
+
+template <class Searcher, class Index>
+void expect_right(const Index& index, const RandomRows& rows) {
+  const Streamed expected = one_by_one<Searcher>(index, rows.vertices, rows.radii);
+  for (const unsigned threads : kThreads) {
+    // The smaller buffers hold no row, or few.
+    for (const std::size_t buffer : {std::size_t{0}, std::size_t{2000}, std::size_t{1} << 24}) {
+      const BatchOptions options{.threads = threads, .distances = true, .sorted = true, .buffer_bytes = buffer};
+      EXPECT_EQ(stream(index, rows.query(), options), expected) << threads << " threads, " << buffer << " bytes";
+    }
+    EXPECT_EQ(rows_of(neighborhoods(index, rows.query(), {.threads = threads, .distances = true, .sorted = true})),
+              expected);
+    EXPECT_EQ(neighborhood_sizes(index, rows.query(), {.threads = threads}), sizes_of(expected));
+  }
+}
+
+class Families : public testing::TestWithParam<Family> {};
+
+TEST_P(Families, RowsAreTheAnswersToSingleQueries) {
+  std::size_t rows = 0;
+  for (const std::size_t vertices : {std::size_t{1}, std::size_t{40}, scaled(1500, 400)}) {
+    const TestMesh mesh = make_mesh(GetParam(), 5, vertices);
+    SCOPED_TRACE(mesh.name);
+    const RandomRows random(mesh.view(), 300, vertices);
+    expect_right<Searcher>(build(mesh.view()), random);
+    expect_right<paper::Searcher>(paper::build(mesh.view()), random);
+    rows += random.vertices.size();
+  }
+  std::printf("%s: %zu rows, %zu numbers of threads\n", std::string(GetParam().name).c_str(), rows, kThreads.size());
+}
+
+TEST_P(Families, OrderDoesNotDependOnTheThreads) {
+  const TestMesh mesh = make_mesh(GetParam(), 6, scaled(3000, 800));
+  const Index index = build(mesh.view());
+  const RandomRows rows(mesh.view(), 600, 1);
+  for (const std::size_t buffer : {std::size_t{5000}, std::size_t{1} << 24}) {
+    const Streamed expected = stream(index, rows.query(), {.distances = true, .buffer_bytes = buffer});
+    const Neighborhoods collected = neighborhoods(index, rows.query());
+    for (const unsigned threads : kThreads) {
+      EXPECT_EQ(stream(index, rows.query(), {.threads = threads, .distances = true, .buffer_bytes = buffer}), expected);
+      EXPECT_EQ(neighborhoods(index, rows.query(), {.threads = threads}).ids, collected.ids);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Families, testing::ValuesIn(families()), family_name);
+
+/// A grid of 60 by 60 vertices, and its index.
+class Batches : public testing::Test {
+ protected:
+  TestMesh mesh = make_grid(60, 60, false).finish(true);
+  Index index = build(mesh.view());
+};
+
+TEST_F(Batches, WithoutVerticesTakeAllInOrder) {
+  std::vector<VertexId> all(index.vertex_count());
+  std::iota(all.begin(), all.end(), VertexId{0});
+  const BatchOptions options{.threads = 2, .sorted = true};
+  EXPECT_EQ(stream(index, {.radius = 2.5}, options), stream(index, {.vertices = all, .radius = 2.5}, options));
+  EXPECT_EQ(neighborhood_sizes(index, {.radius = 0.5}), std::vector<std::uint64_t>(all.size(), 1));
+}
+
+TEST_F(Batches, OfNoRowsAreEmpty) {
+  const std::vector<VertexId> none;
+  const BatchQuery query{.vertices = none, .radius = 1.0};
+  EXPECT_THAT(neighborhood_sizes(index, query), IsEmpty());
+  EXPECT_THAT(neighborhoods(index, query).offsets, ElementsAre(0));
+  EXPECT_THAT(stream(index, query, {.threads = 2}).ids, IsEmpty());
+}
+
+TEST_F(Batches, OfAnEmptyMeshAreEmpty) {
+  const Index empty = build(MeshView{});
+  EXPECT_THAT(neighborhood_sizes(empty, {.radius = 1.0}), IsEmpty());
+  EXPECT_THAT(neighborhoods(empty, {.radius = 1.0}, {.threads = 2}).offsets, ElementsAre(0));
+  EXPECT_THAT(stream(paper::build(MeshView{}), {.radius = 1.0}, {}).ids, IsEmpty());
+}
+
+TEST_F(Batches, GiveDistancesOnlyWhenAsked) {
+  EXPECT_THAT(neighborhoods(index, {.radius = 3.0}).distances, IsEmpty());
+  const Neighborhoods all = neighborhoods(index, {.radius = 3.0}, {.distances = true});
+  ASSERT_EQ(all.distances.size(), all.ids.size());
+  EXPECT_EQ(*std::max_element(all.distances.begin(), all.distances.end()), 3.0);
+}
+
+/// Memory with something before and behind it that nobody may write to.
+template <class T>
+class Guarded {
+ public:
+  std::span<T> take(std::size_t count) {
+    values_.assign(count + 2 * kGuards, kUntouched);
+    return std::span(values_).subspan(kGuards, count);
+  }
+
+  /// What was taken, if its surroundings are as they were.
+  [[nodiscard]] std::vector<T> values() const {
+    const auto is_untouched = [](T value) { return value == kUntouched; };
+    EXPECT_TRUE(std::all_of(values_.begin(), values_.begin() + kGuards, is_untouched));
+    EXPECT_TRUE(std::all_of(values_.end() - kGuards, values_.end(), is_untouched));
+    return {values_.begin() + kGuards, values_.end() - kGuards};
+  }
+
+ private:
+  static constexpr std::ptrdiff_t kGuards = 64;
+  static constexpr T kUntouched = 123456789;
+  std::vector<T> values_;
+};
+
+template <class Index>
+void expect_same_in_callers_memory(const Index& index, const BatchQuery& query, const BatchOptions& options) {
+  const Neighborhoods expected = neighborhoods(index, query, options);
+  Guarded<VertexId> ids;
+  Guarded<double> distances;
+  std::vector<std::size_t> calls;
+  const auto caller = std::this_thread::get_id();
+  const auto allocate = [&](std::size_t count) -> BatchMemory {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    calls.push_back(count);
+    return {ids.take(count), distances.take(options.distances ? count : 0)};
+  };
+  EXPECT_EQ(neighborhoods(index, query, allocate, options), expected.offsets);
+  EXPECT_THAT(calls, ElementsAre(expected.ids.size()));
+  EXPECT_EQ(ids.values(), expected.ids);
+  EXPECT_EQ(distances.values(), expected.distances);
+}
+
+TEST_F(Batches, FillMemoryOfTheCallers) {
+  const paper::Index approximate = paper::build(mesh.view());
+  const RandomRows rows(mesh.view(), 500, 3);
+  for (const unsigned threads : kThreads) {
+    for (const bool distances : {false, true}) {
+      const BatchOptions options{.threads = threads, .distances = distances, .sorted = distances};
+      expect_same_in_callers_memory(index, rows.query(), options);
+      expect_same_in_callers_memory(approximate, rows.query(), options);
+    }
+  }
+  expect_same_in_callers_memory(build(MeshView{}), {.radius = 1.0}, {});
+}
+
+TEST_F(Batches, RefuseMemoryOfAnotherSize) {
+  std::vector<VertexId> ids(4000);
+  std::vector<double> distances(4000);
+  const auto refused = [&](const std::string& culprit, std::size_t with_ids, std::size_t with_distances) {
+    const auto allocate = [&](std::size_t) -> BatchMemory {
+      return {std::span(ids).first(with_ids), std::span(distances).first(with_distances)};
+    };
+    expect_refused(ErrorCode::InvalidOption, culprit, [&] {
+      static_cast<void>(neighborhoods(index, {.radius = 0.5}, allocate, {.threads = 2, .distances = true}));
+    });
+  };
+  refused("memory for 3599 ids, expected for 3600", 3599, 3600);
+  refused("memory for 3601 ids, expected for 3600", 3601, 3600);
+  refused("memory for 0 distances, expected for 3600", 3600, 0);
+  expect_refused(ErrorCode::InvalidOption, "allocate is empty",
+                 [&] { static_cast<void>(neighborhoods(index, {.radius = 1.0}, {})); });
+}
+
+TEST_F(Batches, PassOnWhatTheAllocatorThrows) {
+  for (const unsigned threads : kThreads) {
+    const auto allocate = [](std::size_t) -> BatchMemory { throw std::bad_alloc(); };
+    EXPECT_THROW(static_cast<void>(neighborhoods(index, {.radius = 2.0}, allocate, {.threads = threads})),
+                 std::bad_alloc);
+  }
+}
+
+TEST_F(Batches, OfManyRowsAreAskedInSeveralPieces) {
+  const std::vector<VertexId> vertices((std::size_t{1} << 20) + 5, VertexId{7});
+  const std::vector<std::uint64_t> all =
+      neighborhood_sizes(index, {.vertices = vertices, .radius = 1.0}, {.threads = 2});
+  EXPECT_EQ(all.size(), vertices.size());
+  EXPECT_EQ(std::count(all.begin(), all.end(), all.front()), static_cast<std::ptrdiff_t>(all.size()));
+}
+
+/// Expects each of the calls to refuse before it hands out or reports anything.
+template <class Index, class... Options>
+void expect_all_refused(ErrorCode code, const std::string& culprit, const Index& index, const BatchQuery& query,
+                        BatchOptions options, const Options&... query_options) {
+  const auto never = [&](const BatchRow&) { ADD_FAILURE() << "handed out before: " << culprit; };
+  options.progress = [&](std::size_t, std::size_t) {
+    ADD_FAILURE() << "reported before: " << culprit;
+    return true;
+  };
+  expect_refused(code, culprit, [&] { for_each_neighborhood(index, query, never, options, query_options...); });
+  expect_refused(code, culprit, [&] { static_cast<void>(neighborhoods(index, query, options, query_options...)); });
+  expect_refused(code, culprit,
+                 [&] { static_cast<void>(neighborhood_sizes(index, query, options, query_options...)); });
+  const auto no_memory = [&](std::size_t) -> BatchMemory {
+    ADD_FAILURE() << "asked for memory before: " << culprit;
+    return {};
+  };
+  expect_refused(code, culprit,
+                 [&] { static_cast<void>(neighborhoods(index, query, no_memory, options, query_options...)); });
+}
+
+TEST_F(Batches, RefuseWhatCannotBeBeforeTheFirstRow) {
+  const std::vector<VertexId> vertices{0, 1, 3600};
+  const std::vector<double> two{1, 1};
+  const std::vector<double> radii{1, -1, 1};
+  const std::vector<VertexId> three{0, 1, 2};
+  const auto refused = [&](ErrorCode code, const std::string& culprit, const BatchQuery& query,
+                           const BatchOptions& options = {}) {
+    expect_all_refused(code, culprit, index, query, options);
+    expect_all_refused(code, culprit, paper::build(mesh.view()), query, options);
+  };
+  refused(ErrorCode::VertexOutOfRange, "row 2: vertex 3600, but the mesh has 3600 vertices",
+          {.vertices = vertices, .radius = 1.0});
+  refused(ErrorCode::InvalidRadius, "radius -2, expected", {.radius = -2.0});
+  refused(ErrorCode::InvalidRadius, "radius nan, expected", {});
+  refused(ErrorCode::InvalidRadius, "row 1: radius -1, expected", {.vertices = three, .radius = radii});
+  refused(ErrorCode::InvalidRadius, "2 radii for 3 rows", {.vertices = three, .radius = two});
+  refused(ErrorCode::InvalidRadius, "2 radii for 3600 rows", {.radius = two});
+  refused(ErrorCode::InvalidOption, "threads is 1025, expected at most 1024", {.radius = 1.0}, {.threads = 1025});
+  expect_all_refused(ErrorCode::InvalidOption, "scale_factor is 0", paper::build(mesh.view()), {.radius = 1.0}, {},
+                     paper::QueryOptions{.radius_ratio = 0});
+  expect_refused(ErrorCode::InvalidOption, "sink is empty", [&] { for_each_neighborhood(index, {.radius = 1.0}, {}); });
+}
+
+TEST_F(Batches, ReportFromNothingToAllOnTheCallingThread) {
+  for (const unsigned threads : kThreads) {
+    std::vector<std::size_t> reports;
+    const auto caller = std::this_thread::get_id();
+    const BatchOptions options{.threads = threads, .progress = [&](std::size_t done, std::size_t total) {
+                                 EXPECT_EQ(std::this_thread::get_id(), caller);
+                                 EXPECT_EQ(total, index.vertex_count());
+                                 reports.push_back(done);
+                                 return true;
+                               }};
+    for_each_neighborhood(
+        index, {.radius = 2.0},
+        [&](const BatchRow& row) {
+          EXPECT_EQ(std::this_thread::get_id(), caller);
+          if (row.row % 1000 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(60));
+        },
+        options);
+    EXPECT_EQ(reports.front(), 0U);
+    EXPECT_EQ(reports.back(), index.vertex_count());
+    EXPECT_GE(reports.size(), 5U);
+    EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
+  }
+}
+
+/// Runs a slow batch whose progress says no at its `last` report; returns how many rows were handed out.
+std::size_t rows_before_cancel(const Index& index, unsigned threads, std::size_t last) {
+  std::size_t reports = 0;
+  std::size_t rows = 0;
+  const BatchOptions options{.threads = threads, .buffer_bytes = 20000, .progress = [&](std::size_t, std::size_t) {
+                               return ++reports < last;
+                             }};
+  const auto sink = [&](const BatchRow&) {
+    if (++rows % 500 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  };
+  expect_refused(ErrorCode::Cancelled, "cancelled",
+                 [&] { for_each_neighborhood(index, {.radius = 2.0}, sink, options); });
+  EXPECT_EQ(reports, last);
+  return rows;
+}
+
+TEST_F(Batches, CanBeCancelledAtAnyReport) {
+  for (const unsigned threads : kThreads) {
+    EXPECT_EQ(rows_before_cancel(index, threads, 1), 0U);
+    std::size_t rows = 0;
+    for (const std::size_t last : {2U, 3U, 5U, 8U}) {
+      const std::size_t now = rows_before_cancel(index, threads, last);
+      EXPECT_GE(now, rows);  // a slow machine may report twice between two rows
+      rows = now;
+    }
+    EXPECT_LT(rows, index.vertex_count());
+    const auto no = [](std::size_t, std::size_t) { return false; };
+    expect_refused(ErrorCode::Cancelled, "cancelled", [&] {
+      static_cast<void>(neighborhood_sizes(index, {.radius = 2.0}, {.threads = threads, .progress = no}));
+    });
+  }
+}
+
+TEST_F(Batches, PassOnWhatTheSinkThrows) {
+  for (const unsigned threads : kThreads) {
+    for (const std::size_t last : {0U, 1U, 255U, 256U, 3599U}) {
+      std::size_t rows = 0;
+      const auto sink = [&](const BatchRow& row) {
+        ++rows;
+        if (row.row == last) throw std::bad_alloc();
+      };
+      EXPECT_THROW(for_each_neighborhood(index, {.radius = 2.0}, sink, {.threads = threads}), std::bad_alloc);
+      EXPECT_EQ(rows, last + 1);
+    }
+    EXPECT_EQ(neighborhood_sizes(index, {.radius = kInfinity}, {.threads = threads}).back(), index.vertex_count());
+  }
+}
+
+TEST_F(Batches, PassOnWhatProgressThrows) {
+  for (const unsigned threads : kThreads) {
+    const BatchOptions options{.threads = threads, .progress = [](std::size_t done, std::size_t total) {
+                                 if (done == total) throw std::bad_alloc();
+                                 return true;
+                               }};
+    EXPECT_THROW(static_cast<void>(neighborhood_sizes(index, {.radius = 2.0}, options)), std::bad_alloc);
+  }
+}
+
+}  // namespace
+}  // namespace meshhood::test

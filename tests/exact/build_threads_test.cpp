@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// A build on several threads gives the same bytes, and ends as the caller wants.
+#include <array>
+#include <cstdio>
+#include <new>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/index.h"
+
+#include "support/families.h"
+#include "support/refusal.h"
+#include "support/same_storage.h"
+#include "support/shared_meshes.h"
+
+namespace meshhood::test {
+namespace {
+
+using testing::IsEmpty;
+
+void expect_the_same_for_any_threads(const MeshView& mesh) {
+  const Index expected = build(mesh);
+  for (const unsigned threads : {2U, 3U, 8U}) {
+    EXPECT_THAT(differences(build(mesh, {.threads = threads}), expected), IsEmpty()) << threads << " threads";
+  }
+}
+
+TEST(ThreadedBuild, GivesTheSameBytesOnAllFamilies) {
+  std::size_t meshes = 0;
+  for (const Family& family : families()) {
+    for (const std::size_t vertices : {50U, 20000U}) {
+      const TestMesh mesh = make_mesh(family, 3, vertices);
+      SCOPED_TRACE(mesh.name);
+      expect_the_same_for_any_threads(mesh.view());
+      ++meshes;
+    }
+  }
+  std::printf("%zu meshes\n", meshes);
+}
+
+TEST(ThreadedBuild, GivesTheSameBytesOnRealMeshes) {
+  MESHHOOD_NEED_SHARED_MESHES();
+  for (const char* name : {"paper/tosca_cat0.off", "paper/stanford_dragon_437k.ply.zst"}) {
+    SCOPED_TRACE(name);
+    const io::Mesh mesh = shared_mesh(name);
+    expect_the_same_for_any_threads(mesh.view());
+    std::printf("%s: %zu vertices\n", name, mesh.view().positions.size());
+  }
+}
+
+TEST(ThreadedBuild, RefusesTooManyThreads) {
+  expect_refused(ErrorCode::InvalidOption, "threads is 1025, expected at most 1024",
+                 [] { static_cast<void>(build(MeshView{}, {.threads = 1025})); });
+}
+
+/// How often a build of `mesh` reports.
+std::size_t count_reports(const MeshView& mesh, unsigned threads) {
+  std::size_t reports = 0;
+  std::size_t last = 0;
+  const auto caller = std::this_thread::get_id();
+  const auto progress = [&](std::size_t done, std::size_t total) {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    EXPECT_GE(done, last);
+    EXPECT_EQ(done == total, done == 6);
+    last = done;
+    ++reports;
+    return true;
+  };
+  static_cast<void>(build(mesh, {.threads = threads, .progress = progress}));
+  EXPECT_EQ(last, 6U);
+  return reports;
+}
+
+TEST(ThreadedBuild, ReportsAndCanBeCancelledAtAnyReport) {
+  const TestMesh mesh = make_grid(300, 300, false).finish(true);
+  for (const unsigned threads : {1U, 2U, 3U, 8U}) {
+    EXPECT_GE(count_reports(mesh.view(), threads), 2U);
+    for (const std::size_t last : {1U, 2U}) {
+      std::size_t reports = 0;
+      const auto progress = [&](std::size_t, std::size_t) { return ++reports < last; };
+      expect_refused(ErrorCode::Cancelled, "cancelled",
+                     [&] { static_cast<void>(build(mesh.view(), {.threads = threads, .progress = progress})); });
+      EXPECT_EQ(reports, last);
+    }
+  }
+}
+
+TEST(ThreadedBuild, PassesOnWhatProgressThrows) {
+  const TestMesh mesh = make_grid(300, 300, false).finish(true);
+  const auto progress = [](std::size_t done, std::size_t) -> bool {
+    if (done > 0) throw std::bad_alloc();
+    return true;
+  };
+  for (const unsigned threads : {1U, 2U, 8U}) {
+    EXPECT_THROW(static_cast<void>(build(mesh.view(), {.threads = threads, .progress = progress})), std::bad_alloc);
+  }
+}
+
+}  // namespace
+}  // namespace meshhood::test

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// An index that was saved and loaded, or mapped, is the same index.
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/reorder.h"
+#include "meshhood/search.h"
+#include "meshhood/serialize.h"
+
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/index_bytes.h"
+#include "support/refusal.h"
+#include "support/same_storage.h"
+
+namespace meshhood::test {
+namespace {
+
+using testing::IsEmpty;
+
+/// Loaded and mapped, `index` is the same array for array, gives the same bytes again, and the same answers.
+std::size_t expect_the_same_after_saving(const Index& index, const MeshView& mesh) {
+  const std::vector<std::byte> bytes = saved(index);
+  EXPECT_EQ(bytes.size() % kIndexAlignment, 0U);
+  const Index loaded = load(bytes);
+  Mappable mappable(bytes);
+  const Index mapped = map(mappable.bytes(), nullptr);
+  const Index trusted = map(mappable.bytes(), nullptr, {.trusted = true});
+  for (const Index* other : {&loaded, &mapped, &trusted}) {
+    EXPECT_THAT(differences(*other, index), IsEmpty());
+    EXPECT_THAT(other->check(mesh), IsEmpty());
+    EXPECT_EQ(other->bytes().total(), index.bytes().total());
+  }
+  EXPECT_EQ(saved(loaded), bytes);
+  EXPECT_EQ(saved(mapped), bytes);
+  EXPECT_EQ(read_header(bytes).mesh, fingerprint(mesh));
+  const auto head = std::span(bytes).first(std::min(bytes.size(), kIndexHeadBytes));
+  EXPECT_EQ(read_header(head, bytes.size()).mesh, fingerprint(mesh));
+
+  Searcher before(index);
+  Searcher after(mapped);
+  std::vector<VertexId> expected;
+  std::vector<VertexId> ids;
+  Random random(2);
+  std::size_t queries = 0;
+  for (; queries < 20 && index.vertex_count() > 0; ++queries) {
+    const auto v = static_cast<VertexId>(random.below(index.vertex_count()));
+    const auto w = static_cast<VertexId>(random.below(index.vertex_count()));
+    const double radius = queries == 0 ? std::numeric_limits<double>::infinity() : distance(mesh.positions, v, w);
+    before.neighborhood(v, radius, expected);
+    after.neighborhood(v, radius, ids);
+    EXPECT_EQ(ids, expected) << "vertex " << v << ", radius " << radius;
+  }
+  return queries;
+}
+
+class Serialize : public testing::TestWithParam<Family> {};
+
+TEST_P(Serialize, GivesTheSameIndexBack) {
+  std::size_t queries = 0;
+  for (const std::size_t vertices : {1U, 2U, 33U, 400U, 3000U}) {
+    const TestMesh mesh = make_mesh(GetParam(), 5, vertices);
+    SCOPED_TRACE(mesh.name);
+    queries += expect_the_same_after_saving(build(mesh.view()), mesh.view());
+    const ReorderedMesh reordered = reorder(mesh.view());
+    queries += expect_the_same_after_saving(reordered.index, reordered.view());
+  }
+  std::printf("%s: %zu queries\n", std::string(GetParam().name).c_str(), queries);
+}
+
+TEST_P(Serialize, GivesTheSameBytesForAnyThreads) {
+  const TestMesh mesh = make_mesh(GetParam(), 6, 5000);
+  const std::vector<std::byte> expected = saved(build(mesh.view()));
+  for (const unsigned threads : {2U, 3U, 8U}) {
+    EXPECT_EQ(saved(build(mesh.view(), {.threads = threads})), expected) << threads << " threads";
+  }
+}
+
+TEST_P(Serialize, GivesTheGraphOfTheMeshBack) {
+  const TestMesh mesh = make_mesh(GetParam(), 8, 1000);
+  const Adjacency expected = adjacency(mesh.view());
+  const GraphData found = extract_graph(build(mesh.view()));
+  EXPECT_EQ(found.adjacency.offsets, expected.offsets);
+  EXPECT_EQ(found.adjacency.neighbors, expected.neighbors);
+  std::visit(
+      [&]<class Real>(const std::vector<Real>& xyz) {
+        const bool is_single = std::is_same_v<Real, float>;
+        EXPECT_EQ(is_single, mesh.single_precision);
+        EXPECT_TRUE(std::equal(xyz.begin(), xyz.end(), mesh.positions.begin(), mesh.positions.end(),
+                               [](Real a, double b) { return static_cast<double>(a) == b; }));
+      },
+      found.positions);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Serialize, testing::ValuesIn(families()), family_name);
+
+TEST(SerializeEdges, NoVerticesOneVertexAndIsolatedOnes) {
+  const std::vector<float> none;
+  const std::vector<double> one{1, 2, 3};
+  std::vector<float> many;
+  for (int i = 0; i < 300; ++i) many.push_back(static_cast<float>(i % 7));
+  for (const PositionsView& positions : {PositionsView(none), PositionsView(one), PositionsView(many)}) {
+    const MeshView mesh{positions, {}};
+    expect_the_same_after_saving(build(mesh), mesh);
+    const ReorderedMesh reordered = reorder(mesh);
+    expect_the_same_after_saving(reordered.index, reordered.view());
+  }
+}
+
+TEST(SerializeEdges, AMappedIndexKeepsItsOwner) {
+  const TestMesh mesh = make_grid(20, 20, false).finish(true);
+  auto owner = std::make_shared<Mappable>(saved(build(mesh.view())));
+  std::weak_ptr<Mappable> watch = owner;
+  const auto bytes = owner->bytes();
+  {
+    const Index index = map(bytes, std::move(owner));
+    EXPECT_FALSE(watch.expired());
+    EXPECT_THAT(index.check(mesh.view()), IsEmpty());
+  }
+  EXPECT_TRUE(watch.expired());
+}
+
+TEST(SerializeEdges, BytesToBeMappedMustBeAligned) {
+  Mappable bytes(std::vector<std::byte>(256));
+  expect_refused(ErrorCode::InvalidOption, "begin 8 after a multiple of 64",
+                 [&] { static_cast<void>(map(bytes.bytes().subspan(8), nullptr)); });
+}
+
+TEST(SerializeEdges, PassesOnWhatTheSinkThrows) {
+  const TestMesh mesh = make_grid(20, 20, false).finish(true);
+  const Index index = build(mesh.view());
+  EXPECT_THROW(save(index, [](std::span<const std::byte>) { throw std::bad_alloc(); }), std::bad_alloc);
+  EXPECT_THAT(index.check(mesh.view()), IsEmpty());
+}
+
+TEST(Fingerprint, IsThatOfPositionsAndGraph) {
+  const TestMesh mesh = make_grid(4, 5, false).finish(true);
+  const Fingerprint expected = fingerprint(mesh.view());
+  EXPECT_EQ(to_text(expected).size(), 32U);
+  EXPECT_EQ(fingerprint(build(mesh.view())), expected);
+
+  TestMesh turned = mesh;  // the corners of each face, and the faces, in another order
+  std::reverse(turned.corners.begin(), turned.corners.end());
+  EXPECT_EQ(fingerprint(turned.view()), expected);
+
+  TestMesh moved = mesh;
+  moved.single_positions[7] = -0.0F;
+  EXPECT_NE(fingerprint(moved.view()), expected);
+  TestMesh cut = mesh;
+  cut.offsets.pop_back();
+  cut.corners.resize(cut.offsets.back());
+  EXPECT_NE(fingerprint(cut.view()), expected);
+  TestMesh in_double = mesh;
+  in_double.single_precision = false;
+  EXPECT_NE(fingerprint(in_double.view()), expected);
+}
+
+}  // namespace
+}  // namespace meshhood::test

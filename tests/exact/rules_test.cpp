@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+// What a saved index must not say of itself: a forgery a rule, all checksums right. Rows F4 to F6 of the catalogue of
+// faults, and F12.
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/error.h"
+
+#include "exact/layout.h"
+#include "support/families.h"
+#include "support/forged_index.h"
+#include "support/refusal.h"
+
+namespace meshhood::test {
+namespace {
+
+TestMesh bumpy_grid() {
+  Random random(4);
+  TestMesh mesh = make_grid(20, 20, false);
+  for (double& x : mesh.positions) x += random.uniform(-0.2, 0.2);
+  return mesh.finish(true);
+}
+
+using Change = std::function<void(Forgery&)>;
+
+void expect_refused_after(const char* culprit, const Change& change) {
+  Forgery forgery(saved(build(bumpy_grid().view())));
+  change(forgery);
+  seal(forgery.bytes());
+  const auto call = [&] { static_cast<void>(load(forgery.bytes())); };
+  expect_refused(ErrorCode::MalformedIndex, culprit, call);
+  EXPECT_THAT(call, testing::ThrowsMessage<Error>(testing::Truly(names_a_place)));
+}
+
+TEST(IndexRules, F4OtherVersionsAreRefusedByTheirNumber) {
+  expect_refused_after("header, byte 12: written by format 3, this reads 1", [](Forgery& f) { f.header().format = 3; });
+  expect_refused_after("written by format 0, this reads 1", [](Forgery& f) { f.header().format = 0; });
+}
+
+TEST(IndexRules, F4OtherMachinesAreRefused) {
+  expect_refused_after("written in the other byte order",
+                       [](Forgery& f) { f.header().byte_order = file::kOtherByteOrder; });
+  expect_refused_after("not a mark of the byte order", [](Forgery& f) { f.header().byte_order = 0; });
+  expect_refused_after("vertices have ids of 64 bits, this reads 32", [](Forgery& f) { f.header().id_bytes = 8; });
+  expect_refused_after("coordinates of 2 bytes", [](Forgery& f) { f.header().scalar_bytes = 2; });
+  expect_refused_after("an index of kind 3", [](Forgery& f) { f.header().kind = static_cast<IndexKind>(3); });
+  expect_refused_after("an index of the paper, expected an exact one",
+                       [](Forgery& f) { f.header().kind = IndexKind::Paper; });
+  expect_refused_after("header, byte 51: 1, expected 0", [](Forgery& f) { f.header().unused = 1; });
+}
+
+TEST(IndexRules, F5AnotherMeshIsRefusedWithBothFingerprints) {
+  const TestMesh mesh = bumpy_grid();
+  TestMesh other = mesh;
+  other.single_positions[100] += 1;
+  const IndexHeader header = read_header(saved(build(mesh.view())));
+  check_mesh(header, fingerprint(mesh.view()));
+  const Fingerprint given = fingerprint(other.view());
+  expect_refused(ErrorCode::MalformedIndex,
+                 "built from mesh " + to_text(header.mesh) + ", not from the one given, " + to_text(given),
+                 [&] { check_mesh(header, given); });
+}
+
+TEST(IndexRules, F6Table) {
+  expect_refused_after("section links", [](Forgery& f) { f.entry("links").begin -= 64; });
+  expect_refused_after("section links", [](Forgery& f) { f.entry("links").begin += 4; });
+  expect_refused_after("section links", [](Forgery& f) { f.entry("links").begin = ~std::uint64_t{63}; });
+  expect_refused_after("section links", [](Forgery& f) { f.entry("links").bytes = ~std::uint64_t{0}; });
+  expect_refused_after("section crossings", [](Forgery& f) { f.entry("links").bytes += 64; });
+  expect_refused_after("section link, expected section links", [](Forgery& f) { f.entry("links").name[4] = '\0'; });
+  expect_refused_after("a section without a readable name", [](Forgery& f) { f.entry("links").name[0] = '\n'; });
+  expect_refused_after("sections have no room", [](Forgery& f) { f.header().sections = 1U << 30U; });
+  expect_refused_after("begins at", [](Forgery& f) { f.header().sections -= 8; });
+  expect_refused_after("behind its end stands 1, expected 0", [](Forgery& f) {
+    const file::Section& frame = f.entry("frame");
+    f.bytes()[frame.begin + frame.bytes] = std::byte{1};
+  });
+}
+
+TEST(IndexRules, F6Counts) {
+  expect_refused_after("section positions", [](Forgery& f) { f.header().vertices += 1; });
+  expect_refused_after("but the limit is", [](Forgery& f) { f.header().vertices = ~std::uint64_t{0}; });
+  // As many bytes as the table says, but not as many as they should be.
+  expect_refused_after("section place", [](Forgery& f) { f.entry("place").bytes -= 4; });
+  expect_refused_after("expected a multiple of 28", [](Forgery& f) { f.entry("leaves").bytes -= 1; });
+  expect_refused_after("section permutation", [](Forgery& f) { f.entry("permutation").bytes -= 4; });
+  // What was the end of a section becomes padding, which is zero.
+  expect_refused_after("section leaf_begin", [](Forgery& f) {
+    f.section<Leaf>("leaves").back() = {};
+    f.entry("leaves").bytes -= sizeof(Leaf);
+  });
+  expect_refused_after("section groups, byte", [](Forgery& f) {
+    f.section<std::byte>("groups").back() = std::byte{0};
+    f.entry("groups").bytes -= 1;
+  });
+  // An empty section has the place of the one behind it, but not its name.
+  for (const char* name : {"leaves", "links", "crossings"}) {
+    expect_refused_after(("section " + std::string(name) + ", byte").c_str(),
+                         [name](Forgery& f) { f.remove_content(name); });
+  }
+  expect_refused_after("section mean_radii", [](Forgery& f) { f.entry("mean_radii").bytes += sizeof(double); });
+}
+
+TEST(IndexRules, F6Leaves) {
+  expect_refused_after("leaf 0 does not begin", [](Forgery& f) { f.section<VertexId>("leaf_begin")[0] = 1; });
+  expect_refused_after("expected 1 to 32", [](Forgery& f) { f.section<VertexId>("leaf_begin")[2] = 0; });
+  expect_refused_after("expected 1 to 32", [](Forgery& f) { f.section<VertexId>("leaf_begin")[2] = 4000000000U; });
+  expect_refused_after("leaf 3: ", [](Forgery& f) { f.section<Leaf>("leaves")[3].size = 33; });
+  expect_refused_after("leaf 3: ", [](Forgery& f) { f.section<Leaf>("leaves")[3].size = 0; });
+  expect_refused_after("leaf 3: ", [](Forgery& f) { ++f.section<Leaf>("leaves")[3].first; });
+  expect_refused_after("neither marked", [](Forgery& f) { f.section<Leaf>("leaves")[3].unused = 1; });
+  expect_refused_after("neither marked", [](Forgery& f) {
+    *reinterpret_cast<std::uint8_t*>(&f.section<Leaf>("leaves")[3].connected) = 2;
+  });
+  expect_refused_after("wrongly marked", [](Forgery& f) {
+    bool& connected = f.section<Leaf>("leaves")[3].connected;
+    connected = !connected;
+  });
+  expect_refused_after("not the end of 400 vertices", [](Forgery& f) { f.section<Leaf>("leaves").back().size = 1; });
+}
+
+TEST(IndexRules, F6Numbering) {
+  expect_refused_after("but there are 400", [](Forgery& f) { f.section<VertexId>("permutation")[5] = 400; });
+  expect_refused_after("expected", [](Forgery& f) {
+    const auto ids = f.section<VertexId>("permutation");
+    ids[5] = ids[6];  // one twice, another never
+  });
+  expect_refused_after("is at place", [](Forgery& f) { f.section<std::uint32_t>("place")[7] = 4000000000U; });
+  expect_refused_after("is at place", [](Forgery& f) {
+    const auto places = f.section<std::uint32_t>("place");
+    places[7] = places[8];
+  });
+  expect_refused_after("not 0 behind the last", [](Forgery& f) { f.section<VertexId>("permutation").back() = 1; });
+}
+
+TEST(IndexRules, F6EdgesWithin) {
+  expect_refused_after("has itself for a neighbour", [](Forgery& f) { f.section<LaneMask>("adjacency")[0] |= 1; });
+  expect_refused_after("has itself for a neighbour", [](Forgery& f) {
+    const Leaf& leaf = f.section<Leaf>("leaves")[1];
+    if (leaf.size < kLeafCapacity) f.section<LaneMask>("adjacency")[leaf.first] |= LaneMask{1} << leaf.size;
+    if (leaf.size == kLeafCapacity) f.section<LaneMask>("adjacency")[leaf.first] |= 1;
+  });
+  expect_refused_after("but none back", [](Forgery& f) { f.section<LaneMask>("adjacency")[0] = 0; });
+  expect_refused_after("not 0 behind the last", [](Forgery& f) { f.section<LaneMask>("adjacency").back() = 1; });
+}
+
+TEST(IndexRules, F6Links) {
+  expect_refused_after("do not begin with link 0", [](Forgery& f) { f.section<Leaf>("leaves")[0].first_link = 1; });
+  expect_refused_after("leaf 0: links from 0 to 4000000000",
+                       [](Forgery& f) { f.section<Leaf>("leaves")[1].first_link = 4000000000U; });
+  expect_refused_after("leaf 1: links from", [](Forgery& f) { f.section<Leaf>("leaves")[2].first_link = 0; });
+  expect_refused_after("links end with", [](Forgery& f) { --f.section<Leaf>("leaves").back().first_link; });
+  expect_refused_after("a link from leaf 0 to 4000000000",
+                       [](Forgery& f) { f.section<Link>("links")[0].leaf = 4000000000U; });
+  expect_refused_after("a link from leaf 0 to 0", [](Forgery& f) { f.section<Link>("links")[0].leaf = 0; });
+  expect_refused_after("in ascending order", [](Forgery& f) {
+    const auto links = f.section<Link>("links");
+    std::swap(links[0].leaf, links[1].leaf);
+  });
+  expect_refused_after("not where they cross", [](Forgery& f) { f.section<Link>("links")[0].boundary ^= 1; });
+  expect_refused_after("crossings from",
+                       [](Forgery& f) { f.section<Link>("links")[1].first_cross_edge = 4000000000U; });
+  expect_refused_after("crossings from", [](Forgery& f) {
+    const auto links = f.section<Link>("links");
+    links[1].first_cross_edge = links[0].first_cross_edge;
+  });
+  expect_refused_after("not the end of", [](Forgery& f) { f.section<Link>("links").back().boundary = 1; });
+  expect_refused_after("not the end of", [](Forgery& f) { ++f.section<Link>("links").back().first_cross_edge; });
+}
+
+TEST(IndexRules, F6Crossings) {
+  expect_refused_after("which the leaves do not have",
+                       [](Forgery& f) { f.section<CrossEdge>("crossings")[0].mine = 32; });
+  expect_refused_after("which the leaves do not have",
+                       [](Forgery& f) { f.section<CrossEdge>("crossings")[0].other = 255; });
+  expect_refused_after("crossings do not ascend", [](Forgery& f) {
+    const auto cross_edges = f.section<CrossEdge>("crossings");
+    cross_edges[1] = cross_edges[0];
+  });
+  expect_refused_after("not the same edges lead back", [](Forgery& f) {
+    // The last of a link may have any other lane beyond the one before it.
+    const Link& next = f.section<Link>("links")[1];
+    CrossEdge& last = f.section<CrossEdge>("crossings")[next.first_cross_edge - 1];
+    last.other = last.other == 0 ? 1 : static_cast<std::uint8_t>(last.other - 1);
+  });
+  expect_refused_after("not 0 behind the last", [](Forgery& f) { f.section<CrossEdge>("crossings").back().mine = 1; });
+}
+
+TEST(IndexRules, F6Positions) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  expect_refused_after("not finite", [](Forgery& f) { f.section<float>("positions")[10] = kNan; });
+  expect_refused_after("not finite", [](Forgery& f) { f.section<float>("positions")[10] = -kInfinity; });
+  expect_refused_after("belong to the frame", [](Forgery& f) { f.section<float>("positions")[10] = 1000; });
+  expect_refused_after("not 0 behind the last", [](Forgery& f) { f.section<float>("positions").back() = kNan; });
+  expect_refused_after("belong to the frame", [](Forgery& f) { f.section<Frame>("frame")[0].scale *= 2; });
+  expect_refused_after("belong to the frame",
+                       [](Forgery& f) { f.section<Frame>("frame")[0].scale = static_cast<double>(kNan); });
+  expect_refused_after("belong to the frame",
+                       [](Forgery& f) { f.section<Frame>("frame")[0].origin.x = static_cast<double>(kInfinity); });
+}
+
+TEST(IndexRules, F6Tree) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  const char* const none = "a sphere or column that is none";
+  for (const float value : {kNan, -1.0F, -std::numeric_limits<float>::infinity()}) {
+    expect_refused_after(none, [&](Forgery& f) { f.section<Group>("groups")[0].radius[1] = value; });
+    expect_refused_after(none, [&](Forgery& f) { f.section<Group>("groups").back().reach[0] = value; });
+  }
+  expect_refused_after(none, [](Forgery& f) { f.section<Group>("groups")[0].slope_y[1] = kNan; });
+  expect_refused_after(none, [](Forgery& f) { f.section<Group>("groups")[0].z[1] = kNan; });
+  expect_refused_after("should not exist", [](Forgery& f) { f.section<Group>("groups").back().slope_x[7] = 1; });
+  expect_refused_after("not the mean of its radii", [](Forgery& f) { f.section<double>("mean_radii")[0] = 1; });
+  expect_refused_after("not the sphere that the tree has",
+                       [](Forgery& f) { f.section<Leaf>("leaves")[2].bounds.x += 0.5F; });
+  expect_refused_after("level 1: node 0: does not enclose", [](Forgery& f) {
+    // Its radius stays, so that the mean does.
+    f.section<Group>("groups").back().x[0] += 0.5F;
+  });
+}
+
+TEST(IndexRules, F12EveryByteHasAValue) {
+  const TestMesh mesh = bumpy_grid();
+  const std::vector<std::byte> expected = saved(build(mesh.view()));
+#if defined(__GLIBC__) && defined(M_PERTURB)
+  // What is allocated is filled with the one byte or the other, so that what is not written to differs.
+  for (const int filling : {0x55, 0xAA}) {
+    mallopt(M_PERTURB, filling);
+    const std::vector<std::byte> bytes = saved(build(mesh.view(), {.threads = 2}));
+    mallopt(M_PERTURB, 0);
+    EXPECT_EQ(bytes, expected) << filling;
+  }
+#else
+  EXPECT_EQ(saved(build(mesh.view())), expected);
+#endif
+}
+
+}  // namespace
+}  // namespace meshhood::test

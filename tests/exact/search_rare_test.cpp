@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: MIT
+// Each path of the exact search that ordinary meshes hardly ever take, forced, and shown to have been taken.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/exact_answer.h"
+#include "support/families.h"
+#include "support/refusal.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Two grids one above the other, not joined.
+TestMesh plates(std::size_t side, double gap) {
+  TestMesh mesh = make_grid(side, side, false);
+  TestMesh upper = make_grid(side, side, false);
+  for (std::size_t i = 2; i < upper.positions.size(); i += 3) upper.positions[i] = gap;
+  append(mesh, upper);
+  return mesh;
+}
+
+TestMesh star(std::size_t vertices) {
+  TestMesh mesh;
+  mesh.add_vertex(0, 0, 0);
+  for (std::size_t i = 1; i < vertices; ++i) {
+    const auto angle = static_cast<double>(i);
+    const auto tip = mesh.add_vertex(std::cos(angle) * std::sqrt(angle), std::sin(angle) * std::sqrt(angle), 0);
+    mesh.add_face({0, tip});
+  }
+  return mesh.finish(true);
+}
+
+TestMesh points_at_random(std::size_t vertices) {
+  Random random(3);
+  TestMesh mesh;
+  for (std::size_t i = 0; i < vertices; ++i) mesh.add_vertex(random.uniform(), random.uniform(), random.uniform());
+  return mesh.finish(true);
+}
+
+void query_everywhere(ExactAnswer& exact, std::size_t vertices, std::initializer_list<double> radii) {
+  const std::size_t step = std::max<std::size_t>(1, vertices / scaled(300, 30));
+  for (std::size_t v = 0; v < vertices; v += step) {
+    for (const double radius : radii) exact.query(static_cast<VertexId>(v), radius);
+  }
+  ASSERT_EQ(exact.mismatches(), 0U);
+  std::printf("%zu queries, 0 mismatches\n", exact.queries());
+}
+
+bool last_was_proved(ExactAnswer& exact) {
+  return std::any_of(exact.searchers().begin(), exact.searchers().end(),
+                     [](Searcher& searcher) { return SearcherAccess::state(searcher).covered; });
+}
+
+TEST(Rare, BallOnOneSheetIsProved) {
+  const TestMesh mesh = make_grid(120, 120, false);
+  ExactAnswer exact(mesh.view());
+  for (Searcher& searcher : exact.searchers()) {
+    EXPECT_GT(searcher.count(60 * 120 + 60, 30), 2000U);
+    EXPECT_TRUE(SearcherAccess::state(searcher).covered);
+  }
+  query_everywhere(exact, mesh.size(), {9, 10, 20, 30, 50, 1000});
+}
+
+TEST(Rare, ForeignSheetIsNotProvedAndLeftOut) {
+  const TestMesh mesh = plates(60, 0.6);
+  ExactAnswer exact(mesh.view());
+  exact.query(30 * 60 + 30, 15);
+  EXPECT_FALSE(last_was_proved(exact));
+  EXPECT_LE(*std::max_element(exact.answer().begin(), exact.answer().end()), 3599U);
+  query_everywhere(exact, mesh.size(), {0.3, 0.6, 1, 2, 5, 10, 20, 40, 100});
+}
+
+TEST(Rare, SingleVerticesAreCutOffAtARoughRim) {
+  // Such a vertex has edges into the next leaf only to what lies outside, while others of its leaf have nearer
+  // neighbours there.
+  TestMesh mesh = make_grid(100, 100, false);
+  Random random(7);
+  for (double& coordinate : mesh.positions) coordinate += random.uniform(-0.4, 0.4);
+  ExactAnswer exact(mesh.finish(true).view());
+  for (VertexId v = 0; v < mesh.size(); ++v) {
+    for (const double radius : {7.0, 9.0, 12.0}) exact.query(v, radius);
+  }
+  EXPECT_EQ(exact.mismatches(), 0U);
+  std::printf("%zu queries\n", exact.queries());
+}
+
+/// A grid, small patches of surface hanging over it, and tongues: strips over it that are joined to it at one end.
+TestMesh grid_below(std::size_t patches, std::size_t tongues) {
+  constexpr std::uint32_t kSide = 100;
+  constexpr std::size_t kPatch = 9;
+  constexpr std::uint32_t kTongue = 24;
+  Random random(17);
+  TestMesh mesh = make_grid(kSide, kSide, false);
+  const auto hang = [&](std::size_t regions, std::size_t rows) {
+    TestMesh piece = make_grid(regions, rows, false);
+    const auto x = static_cast<double>(random.below(kSide - regions));
+    const auto y = static_cast<double>(random.below(kSide - rows));
+    const std::array<double, 3> shift{x, y, 0.7};
+    for (std::size_t i = 0; i < piece.positions.size(); ++i) piece.positions[i] += shift[i % 3];
+    const auto first = static_cast<std::uint32_t>(mesh.size());
+    append(mesh, piece);
+    return std::pair(first, static_cast<std::uint32_t>(x) + kSide * static_cast<std::uint32_t>(y));
+  };
+  for (std::size_t i = 0; i < patches; ++i) hang(kPatch, kPatch);
+  for (std::size_t i = 0; i < tongues; ++i) {
+    const auto [first, below] = hang(kTongue, 5);
+    for (std::uint32_t row = 0; row < 5; ++row) mesh.add_face({first + row * kTongue, below + row * kSide});
+  }
+  return mesh;
+}
+
+TEST(Rare, ForeignPatchesAreCutAway) {
+  const TestMesh mesh = grid_below(9, 0);
+  ExactAnswer exact(mesh.view());
+  exact.query(50 * 100 + 50, 45);
+  EXPECT_TRUE(last_was_proved(exact));
+  EXPECT_LT(*std::max_element(exact.answer().begin(), exact.answer().end()), 100 * 100U);
+  query_everywhere(exact, mesh.size(), {1, 5, 8, 12, 20, 33, 45, 60});
+}
+
+TEST(Rare, ForeignPatchesWhoseNearestVerticesTie) {
+  // Every vertex of the grid has two above it that are equally near, often of two leaves: neither may excuse the other.
+  TestMesh mesh = grid_below(9, 0);
+  for (std::size_t i = std::size_t{3} * 100 * 100; i < mesh.positions.size(); i += 3) mesh.positions[i] += 0.5;
+  ExactAnswer exact(mesh.finish(true).view());
+  for (VertexId v = 0; v < mesh.size(); ++v) {
+    for (const double radius : {12.0, 20.0}) exact.query(v, radius);
+  }
+  EXPECT_EQ(exact.mismatches(), 0U);
+  std::printf("%zu queries\n", exact.queries());
+}
+
+TEST(Rare, ForeignVerticesAreCutOutOfLeaves) {
+  // A vertex without edges shares a leaf with the surface around it.
+  TestMesh mesh = make_grid(100, 100, false);
+  Random random(23);
+  for (int i = 0; i < 12; ++i) mesh.add_vertex(random.uniform(20, 80), random.uniform(20, 80), 0.3);
+  ExactAnswer exact(mesh.finish(true).view());
+  exact.query(50 * 100 + 50, 45);
+  EXPECT_TRUE(last_was_proved(exact));
+  EXPECT_LT(*std::max_element(exact.answer().begin(), exact.answer().end()), 100 * 100U);
+  query_everywhere(exact, mesh.size(), {1, 5, 12, 20, 33, 45, 60, 200});
+}
+
+TEST(Rare, TonguesBelongToTheAnswerWhereTheirRootIsInTheBall) {
+  const TestMesh mesh = grid_below(2, 3);
+  ExactAnswer exact(mesh.view());
+  exact.query(50 * 100 + 50, 80);
+  EXPECT_TRUE(last_was_proved(exact));
+  EXPECT_EQ(exact.answer().size(), mesh.size() - 2 * 81);
+  query_everywhere(exact, mesh.size(), {1, 5, 8, 10, 12, 15, 18, 20, 25, 33, 45});
+}
+
+TEST(Rare, SheetsThatMeetAtTheRimAreOneOrTwoByTheRadius) {
+  TestMesh mesh = plates(40, 0.7);
+  for (std::uint32_t i = 0; i < 40; ++i) mesh.add_face({i, 1600 + i});  // joined along one side
+  ExactAnswer exact(mesh.view());
+  query_everywhere(exact, mesh.size(), {1, 3, 7, 12, 15, 18, 25, 39, 41, 60});
+}
+
+TEST(Rare, ManyStraddlingNodesEndTheDescent) {
+  // Sixty sheets: any ball of some size has far more rim than one sheet would.
+  TestMesh mesh = make_grid(24, 24, false);
+  for (int sheet = 1; sheet < 60; ++sheet) {
+    TestMesh next = make_grid(24, 24, false);
+    for (std::size_t i = 2; i < next.positions.size(); i += 3) next.positions[i] = 0.5 * sheet;
+    append(mesh, next);
+  }
+  ExactAnswer exact(mesh.view());
+  exact.query(30 * 24 * 24 + 12 * 24 + 12, 11);
+  EXPECT_FALSE(last_was_proved(exact));
+  query_everywhere(exact, mesh.size(), {0.5, 1, 3, 8, 11, 16, 30, kInfinity});
+}
+
+TEST(Rare, WholeMeshInside) {
+  const TestMesh mesh = make_grid(70, 70, true);
+  ExactAnswer exact(mesh.view());
+  exact.query(0, kInfinity);
+  EXPECT_EQ(exact.answer().size(), mesh.size());
+  query_everywhere(exact, mesh.size(), {98, 1e10, 1e300, kInfinity});
+}
+
+TEST(Rare, LeavesWithMoreThanEightLinks) {
+  const TestMesh mesh = star(20'000);
+  ExactAnswer exact(mesh.view());
+  const IndexView& index = exact.storage();
+  std::size_t most = 0;
+  for (std::size_t leaf = 0; leaf < index.leaf_count(); ++leaf) {
+    most = std::max<std::size_t>(most, index.leaves[leaf + 1].first_link - index.leaves[leaf].first_link);
+  }
+  EXPECT_GT(most, 100U);
+  query_everywhere(exact, mesh.size(), {0.5, 1, 5, 40, 100, 150, 300});
+}
+
+TEST(Rare, HubOfAHundredThousandEdges) {
+  const TestMesh mesh = star(100'001);
+  ExactAnswer exact(mesh.view());
+  exact.query(0, kInfinity);
+  EXPECT_EQ(exact.answer().size(), mesh.size());
+  for (const VertexId v : {1U, 2U, 50'000U, 100'000U}) {
+    for (const double radius : {0.0, 1.0, 20.0, 400.0, 700.0}) exact.query(v, radius);
+  }
+  EXPECT_EQ(exact.mismatches(), 0U);
+}
+
+TEST(Rare, LeavesThatAreNotConnected) {
+  // A hundred thousand components: leaves are full of them, and none may be taken for one.
+  const TestMesh mesh = points_at_random(scaled(100'000, 1000));
+  ExactAnswer exact(mesh.view());
+  const IndexView& index = exact.storage();
+  const auto last = index.leaves.begin() + static_cast<std::ptrdiff_t>(index.leaf_count());
+  const auto disconnected = std::count_if(index.leaves.begin(), last, [](const Leaf& leaf) { return !leaf.connected; });
+  EXPECT_GT(disconnected, 30);
+  EXPECT_LT(index.leaf_count(), mesh.size() / 25);
+  query_everywhere(exact, mesh.size(), {0, 0.01, 0.2, kInfinity});
+}
+
+TEST(Rare, PathOfAMillion) {
+  TestMesh mesh;
+  const std::size_t length = scaled(1'000'000, 5000);
+  for (std::size_t i = 0; i < length; ++i) {
+    const auto t = static_cast<double>(i);
+    mesh.add_vertex(std::cos(t / 50) * std::sqrt(t), std::sin(t / 50) * std::sqrt(t), 0);
+    if (i > 0) mesh.add_face({static_cast<std::uint32_t>(i - 1), static_cast<std::uint32_t>(i)});
+  }
+  mesh.finish(true);
+  ExactAnswer exact(mesh.view());
+  for (std::size_t v = 0; v < length; v += length / 100) {
+    for (const double radius : {1.0, 30.0, 300.0, 3000.0}) exact.query(static_cast<VertexId>(v), radius);
+  }
+  EXPECT_EQ(exact.mismatches(), 0U);
+  std::printf("%zu vertices, %zu queries\n", length, exact.queries());
+}
+
+TEST(Rare, CoincidentVertices) {
+  TestMesh mesh = make_grid(30, 30, false);
+  append(mesh, make_grid(30, 30, false));                  // every position twice, not joined
+  for (double& x : mesh.positions) x = std::floor(x / 2);  // and many more often, joined
+  mesh.finish(true);
+  ExactAnswer exact(mesh.view());
+  query_everywhere(exact, mesh.size(), {0, 1, std::numbers::sqrt2, 2, 5, 100});
+}
+
+TEST(Rare, VerticesThatFloatsCannotPlace) {
+  // Every distance on a sphere's surface is within a few units of float's last place from the radius.
+  Random random(5);
+  TestMesh mesh;
+  mesh.add_vertex(0, 0, 0);
+  for (std::uint32_t i = 1; i < 3000; ++i) {
+    const double height = random.uniform(-1, 1);
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    const double around_axis = std::sqrt(1 - height * height);
+    mesh.add_vertex(around_axis * std::cos(angle), around_axis * std::sin(angle), height);
+    mesh.add_face({0, i});
+  }
+  mesh.finish(true);
+  ExactAnswer exact(mesh.view());
+  for (std::uint32_t i = 1; i < 3000; i += 3) {
+    for (const double radius : around(distance(mesh.view().positions, 0, i))) exact.query(0, radius);
+  }
+  EXPECT_EQ(exact.mismatches(), 0U);
+  std::printf("%zu queries\n", exact.queries());
+}
+
+TEST(Rare, QueryNumbersRunOut) {
+  const TestMesh mesh = plates(40, 0.6);
+  ExactAnswer exact(mesh.view());
+  for (Searcher& searcher : exact.searchers()) SearcherAccess::state(searcher).walk.set_query((1U << 31) - 40);
+  query_everywhere(exact, mesh.size(), {1, 4, 9});
+}
+
+TEST(Rare, UnitsFromTheSmallestToTheLargest) {
+  for (const int exponent : {-1060, -1000, -520, -300, -100, -70, 0, 70, 120, 300, 490}) {
+    TestMesh mesh = make_grid(30, 30, false);
+    for (double& x : mesh.positions) x = std::ldexp(x, exponent);
+    mesh.finish(false);
+    if (exponent > -120 && exponent < 120) {
+      TestMesh single = mesh;
+      ExactAnswer in_float(single.finish(true).view());
+      for (const double radius : {0.5, 1.0, 3.0, 10.0, 50.0}) in_float.query(435, std::ldexp(radius, exponent));
+      EXPECT_EQ(in_float.mismatches(), 0U) << exponent;
+    }
+    ExactAnswer exact(mesh.view());
+    EXPECT_THAT(exact.index().check(mesh.view()), testing::IsEmpty()) << exponent;
+    for (const double radius : {0.0, 0.5, 1.0, 3.0, 10.0, 20.0, 50.0}) {
+      for (const VertexId v : {0U, 435U, 899U}) exact.query(v, std::ldexp(radius, exponent));
+    }
+    EXPECT_EQ(exact.mismatches(), 0U) << exponent;
+  }
+}
+
+TEST(Rare, FarFromTheOrigin) {
+  for (const double offset : {1e3, 1e6, 1e9, 1e15}) {
+    TestMesh mesh = make_grid(50, 50, false);
+    for (double& x : mesh.positions) x += offset;
+    ExactAnswer exact(mesh.finish(false).view());
+    query_everywhere(exact, mesh.size(), {1, 5, 12, 25, 60});
+  }
+}
+
+TEST(Rare, HardlyAnyVertices) {
+  const TestMesh none;
+  const Index index = build(none.view());
+  EXPECT_EQ(index.vertex_count(), 0U);
+  EXPECT_THAT(index.check(none.view()), testing::IsEmpty());
+  Searcher searcher(index);
+  expect_refused(ErrorCode::VertexOutOfRange, "vertex 0", [&] { static_cast<void>(searcher.count(0, 1)); });
+  for (const std::size_t vertices : {1U, 2U, 31U, 32U, 33U}) {
+    const TestMesh mesh = points_at_random(vertices);
+    ExactAnswer exact(mesh.view());
+    query_everywhere(exact, vertices, {0, 0.5, kInfinity});
+  }
+}
+
+TEST(Rare, RefusalsLeaveTheOutputAlone) {
+  const TestMesh mesh = make_grid(5, 5, false);
+  const Index index = build(mesh.view());
+  Searcher searcher(index);
+  std::vector<VertexId> ids{7};
+  std::vector<double> distances{3};
+  expect_refused(ErrorCode::VertexOutOfRange, "vertex 25, but the mesh has 25",
+                 [&] { searcher.neighborhood(25, 1, ids); });
+  expect_refused(ErrorCode::InvalidRadius, "radius -1", [&] { searcher.neighborhood(1, -1, ids, distances); });
+  expect_refused(ErrorCode::InvalidRadius, "nan", [&] { static_cast<void>(searcher.ranges(1, std::nan(""))); });
+  EXPECT_THAT(ids, testing::ElementsAre(7));
+  EXPECT_THAT(distances, testing::ElementsAre(3));
+  EXPECT_EQ(searcher.count(1, -0.0), 1U);
+}
+
+}  // namespace
+}  // namespace meshhood::test

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+// What the index promises of itself, and that `check` finds what is wrong: one index a statement, damaged by hand.
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/index.h"
+
+#include "exact/build/kd_order.h"
+#include "exact/build/leaves.h"
+#include "exact/index_access.h"
+#include "support/families.h"
+#include "support/index_arrays.h"
+#include "support/refusal.h"
+#include "support/same_storage.h"
+
+namespace meshhood::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+TestMesh bumpy_grid(std::size_t side) {
+  Random random(4);
+  TestMesh mesh = make_grid(side, side, false);
+  for (double& x : mesh.positions) x += random.uniform(-0.2, 0.2);
+  return mesh.finish(true);
+}
+
+/// One above the other, so that distances have local minima.
+TestMesh two_bumpy_grids(std::size_t side) {
+  TestMesh mesh = bumpy_grid(side);
+  TestMesh upper = mesh;
+  for (std::size_t i = 2; i < upper.positions.size(); i += 3) upper.positions[i] += 3;
+  append(mesh, upper);
+  return mesh;
+}
+
+/// What `check` has to say of an index after `damage`.
+std::vector<std::string> faults_after(const std::function<void(IndexData&)>& damage) {
+  const TestMesh mesh = two_bumpy_grids(50);
+  const Index index = build(mesh.view());
+  IndexData arrays = arrays_of(index);
+  damage(arrays);
+  return IndexAccess::make(std::move(arrays)).check(mesh.view());
+}
+
+void expect_found(const char* fault, const std::function<void(IndexData&)>& damage) {
+  const auto faults = faults_after(damage);
+  ASSERT_THAT(faults, Not(IsEmpty())) << "not noticed: " << fault;
+  EXPECT_THAT(faults.front(), HasSubstr(fault));
+  EXPECT_LE(faults.size(), 16U);
+}
+
+/// Where the groups of a level begin.
+std::size_t first_group(const IndexData& index, std::size_t level) {
+  const std::vector<std::size_t> nodes = tree_nodes(index.leaf_begin.size() - 1);
+  std::size_t group = 0;
+  for (std::size_t below = 0; below < level; ++below) group += group_count(nodes[below]);
+  return group;
+}
+
+TEST(IndexLimits, PlacesOfAllLeavesHave32Bits) {
+  check_leaf_count(kMaxLeaves);
+  EXPECT_EQ(std::uint64_t{kMaxLeaves} * kLeafCapacity, std::uint64_t{1} << 32U);
+  expect_refused(ErrorCode::TooLarge, "134217729 leaves in the index, but the limit is 134217728",
+                 [] { check_leaf_count(kMaxLeaves + 1); });
+}
+
+TEST(IndexCheck, FindsNothingWhereNothingIsWrong) {
+  EXPECT_THAT(faults_after([](IndexData&) {}), IsEmpty());
+}
+
+TEST(IndexCheck, FindsAWrongNumbering) {
+  expect_found("is not where its place says", [](IndexData& i) { std::swap(i.permutation[3], i.permutation[40]); });
+  expect_found("is not where its place says", [](IndexData& i) { i.slot[100] ^= 1; });
+  expect_found("not 1 to 32 vertices", [](IndexData& i) { --i.leaves[2].size; });
+}
+
+TEST(IndexCheck, FindsAWrongPosition) {
+  expect_found("not the position", [](IndexData& i) { std::get<std::vector<float>>(i.positions)[200] += 1; });
+}
+
+TEST(IndexCheck, FindsAWrongEdge) {
+  expect_found("not the neighbours", [](IndexData& i) { i.adjacency[5] = 0; });
+  expect_found("not the neighbours", [](IndexData& i) { i.cross_edges[9].to ^= 1; });
+  expect_found("its border", [](IndexData& i) { i.links[7].boundary = 0; });
+}
+
+TEST(IndexCheck, FindsAWrongConnection) {
+  expect_found("as connected", [](IndexData& i) { i.leaves[4].connected = !i.leaves[4].connected; });
+}
+
+TEST(IndexCheck, FindsASphereTooSmall) {
+  expect_found("outside of its sphere", [](IndexData& i) { i.leaves[3].bounds.radius *= 0.9F; });
+  for (std::size_t level = 0; level < 3; ++level) {
+    expect_found("outside of its sphere", [&](IndexData& i) { i.groups.at(first_group(i, level)).radius[1] *= 0.9F; });
+  }
+}
+
+TEST(IndexCheck, FindsAColumnTooNarrow) {
+  expect_found("outside of its column", [](IndexData& i) {
+    for (Group& group : i.groups) {
+      group.offset.fill(0);
+      for (Group::Row* row : {&group.slope_x, &group.slope_y, &group.slope_z}) row->fill(0);
+    }
+  });
+}
+
+TEST(IndexBuild, IsTheSameForTheSameMesh) {
+  const TestMesh mesh = bumpy_grid(80);
+  EXPECT_THAT(differences(build(mesh.view()), build(mesh.view())), IsEmpty());
+}
+
+TEST(IndexBuild, LeavesOfASurfaceAreFullAndConnected) {
+  const TestMesh mesh = bumpy_grid(200);
+  const Index built = build(mesh.view());
+  const IndexView& index = IndexAccess::view(built);
+  const auto last = index.leaves.begin() + static_cast<std::ptrdiff_t>(index.leaf_count());
+  EXPECT_TRUE(std::all_of(index.leaves.begin(), last, [](const Leaf& leaf) { return leaf.connected; }));
+  const double mean = static_cast<double>(mesh.size()) / static_cast<double>(index.leaf_count());
+  std::printf("%zu leaves, %.1f vertices a leaf\n", index.leaf_count(), mean);
+  EXPECT_GT(mean, 28);
+}
+
+TEST(IndexLevels, AreTheLeavesAndTheTreeAbove) {
+  const Index index = build(two_bumpy_grids(50).view());
+  const std::vector<LevelSummary> levels = index.levels();
+  const IndexData arrays = arrays_of(index);
+  ASSERT_EQ(levels.size(), tree_nodes(arrays.leaf_begin.size() - 1).size());
+  EXPECT_EQ(levels.front().clusters, arrays.leaf_begin.size() - 1);
+  EXPECT_EQ(levels.front().mean_siblings,
+            static_cast<double>(arrays.links.size() - 1) / static_cast<double>(levels.front().clusters));
+  double radius = 0;
+  for (const LevelSummary& level : levels) {
+    EXPECT_DOUBLE_EQ(level.mean_vertices * static_cast<double>(level.clusters), 5000);
+    EXPECT_GT(level.mean_radius, radius);
+    EXPECT_LT(level.mean_radius, 50 * std::numbers::sqrt2) << "in the unit of the positions";
+    radius = level.mean_radius;
+  }
+  EXPECT_GT(levels.front().mean_radius, 1);
+  EXPECT_THAT(build(TestMesh{}.view()).levels(), IsEmpty());
+}
+
+TEST(KdOrder, DoesNotDependOnTheOrderGiven) {
+  Random random(8);
+  std::vector<Site> sites;
+  for (std::uint32_t i = 0; i < 5000; ++i) {
+    const auto coordinate = [&] { return static_cast<float>(random.below(50)); };  // with many ties
+    sites.push_back({{coordinate(), coordinate(), coordinate()}, i});
+  }
+  std::vector<Site> shuffled;
+  for (const std::uint32_t i : random.permutation(sites.size())) shuffled.push_back(sites[i]);
+  kd_order(sites, 30);
+  kd_order(shuffled, 30);
+  for (std::size_t begin = 0; begin < sites.size(); begin += 30) {
+    std::vector<std::uint32_t> a;
+    std::vector<std::uint32_t> b;
+    for (std::size_t i = begin; i < std::min(begin + 30, sites.size()); ++i) {
+      a.push_back(sites[i].id);
+      b.push_back(shuffled[i].id);
+    }
+    EXPECT_THAT(a, testing::UnorderedElementsAreArray(b));
+  }
+}
+
+}  // namespace
+}  // namespace meshhood::test

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// An index that is being loaded or saved may be watched, and given up.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <iterator>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "meshhood/error.h"
+#include "meshhood/index.h"
+#include "meshhood/mesh.h"
+#include "meshhood/paper.h"
+#include "meshhood/serialize.h"
+
+#include "io/index_io.h"
+#include "support/index_bytes.h"
+#include "support/refusal.h"
+#include "support/scratch.h"
+
+namespace meshhood::test {
+namespace {
+
+/// One polygon of a thousand corners.
+struct Polygon {
+  std::vector<double> xyz;
+  std::vector<std::uint32_t> corners;
+  std::vector<std::uint64_t> offsets;
+
+  [[nodiscard]] MeshView view() const { return {xyz, FacesView::polygons(offsets, corners)}; }
+};
+
+Polygon make_polygon() {
+  constexpr std::uint32_t kCorners = 1000;
+  Polygon polygon{.xyz = {}, .corners = {}, .offsets = {0, kCorners}};
+  for (std::uint32_t i = 0; i < kCorners; ++i) {
+    polygon.xyz.insert(polygon.xyz.end(), {std::cos(i), std::sin(i), 0.001 * i});
+    polygon.corners.push_back(i);
+  }
+  return polygon;
+}
+
+using Reports = std::vector<std::pair<std::size_t, std::size_t>>;
+
+/// What `call(progress)` reports.
+template <class F>
+Reports reports_of(F&& call) {
+  Reports reports;
+  static_cast<void>(call([&](std::size_t done, std::size_t total) {
+    reports.emplace_back(done, total);
+    return true;
+  }));
+  return reports;
+}
+
+void expect_from_nothing_to_all(const Reports& reports) {
+  ASSERT_GE(reports.size(), 10U);
+  EXPECT_EQ(reports.front().first, 0U);
+  EXPECT_EQ(reports.back().first, reports.back().second);
+  EXPECT_GT(reports.back().second, 0U);
+  EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
+  for (const auto& [done, total] : reports) EXPECT_EQ(total, reports.back().second);
+  std::printf("%zu reports\n", reports.size());
+}
+
+/// Expects `call(progress)` to end at the report after `last` others.
+template <class F>
+void expect_ended_after(std::size_t last, F&& call) {
+  std::size_t reports = 0;
+  expect_refused(ErrorCode::Cancelled, "cancelled",
+                 [&] { static_cast<void>(call([&](std::size_t, std::size_t) { return reports++ < last; })); });
+  EXPECT_EQ(reports, last + 1);
+}
+
+/// Every way to take an index that is not trusted, each with a `Progress`.
+class IndexProgress : public testing::Test {
+ protected:
+  using Load = std::function<Index(const Progress&)>;
+
+  [[nodiscard]] std::vector<Load> loads() {
+    return {[this](const Progress& progress) { return load(bytes_, {.progress = progress}); },
+            [this](const Progress& progress) { return map(mappable_.bytes(), nullptr, {.progress = progress}); },
+            [this](const Progress& progress) { return io::load(path_, {.progress = progress}); },
+            [this](const Progress& progress) { return io::map(path_, {.progress = progress}); }};
+  }
+
+ private:
+  std::vector<std::byte> bytes_ = saved(build(make_polygon().view()));
+  Mappable mappable_{bytes_};
+  Scratch scratch_;
+  std::filesystem::path path_ = scratch_.write("index", {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()});
+};
+
+TEST_F(IndexProgress, TellsFromNothingToAll) {
+  for (const Load& load : loads()) expect_from_nothing_to_all(reports_of(load));
+}
+
+TEST_F(IndexProgress, EndsTheLoadingAtAnyReport) {
+  for (const Load& load : loads()) {
+    const std::size_t all = reports_of(load).size();
+    for (std::size_t last = 0; last < all; ++last) expect_ended_after(last, load);
+  }
+}
+
+/// Every way to save an index of either kind, each with a `Progress`.
+class IndexSaveProgress : public testing::Test {
+ protected:
+  /// Reports of the core there are at least; more where saving takes long.
+  static constexpr std::size_t kFewest = 25;
+
+  using Save = std::function<bool(const Progress&)>;
+
+  /// Into memory.
+  template <class AnyIndex>
+  static Save to_bytes(const AnyIndex& index) {
+    return [&index](const Progress& progress) {
+      save(index, [](std::span<const std::byte>) {}, {.progress = progress});
+      return true;
+    };
+  }
+
+  template <class AnyIndex>
+  Save to_file(const AnyIndex& index) {
+    return [this, &index](const Progress& progress) {
+      io::save(path, index, {.progress = progress});
+      return true;
+    };
+  }
+
+  Polygon polygon = make_polygon();
+  Index exact = build(polygon.view());
+  paper::Index approximate = paper::build(polygon.view());
+  Scratch scratch;
+  std::filesystem::path path = scratch.write("index", "old");
+};
+
+TEST_F(IndexSaveProgress, TellsFromNothingToAll) {
+  for (const Save& save : {to_bytes(exact), to_bytes(approximate), to_file(exact), to_file(approximate)}) {
+    expect_from_nothing_to_all(reports_of(save));
+  }
+}
+
+TEST_F(IndexSaveProgress, EndsTheSavingAtAnyReport) {
+  for (const Save& save : {to_bytes(exact), to_bytes(approximate)}) {
+    for (std::size_t last = 0; last < kFewest; ++last) expect_ended_after(last, save);
+  }
+}
+
+TEST_F(IndexSaveProgress, LeavesTheOldFileWhereItIsEnded) {
+  for (const Save& save : {to_file(exact), to_file(approximate)}) {
+    for (std::size_t last = 0; last <= kFewest; ++last) {
+      expect_ended_after(last, save);
+      EXPECT_EQ(std::filesystem::file_size(path), 3U);
+      EXPECT_EQ(std::distance(std::filesystem::directory_iterator(scratch.path()), {}), 1);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace meshhood::test

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// Index files: whole or not at all, kept by who has opened them, and told from meshes. Rows F3, F7 and F9 of the
+// catalogue of faults.
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "meshhood/search.h"
+
+#include "io/index_io.h"
+#include "io/mesh_io.h"
+#include "support/families.h"
+#include "support/refusal.h"
+#include "support/same_storage.h"
+#include "support/scale.h"
+#include "support/scratch.h"
+
+namespace meshhood::test {
+namespace {
+
+using testing::IsEmpty;
+
+Index index_of(std::size_t side) {
+  TestMesh mesh = make_grid(side, side, false);
+  return build(mesh.finish(true).view());
+}
+
+std::size_t files_in(const std::filesystem::path& folder) {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+class IndexFile : public testing::Test {
+ protected:
+  Scratch scratch;
+  const std::filesystem::path file = scratch.path() / "grid.mhi";
+};
+
+TEST_F(IndexFile, GivesTheSameIndexBack) {
+  const Index index = index_of(50);
+  io::save(file, index);
+  EXPECT_EQ(files_in(scratch.path()), 1U);
+  EXPECT_THAT(differences(io::load(file), index), IsEmpty());
+  EXPECT_THAT(differences(io::map(file), index), IsEmpty());
+  EXPECT_THAT(differences(io::map(file, {.trusted = true}), index), IsEmpty());
+  EXPECT_EQ(io::read_header(file).vertices, 2500U);
+  EXPECT_EQ(io::read_header(file).bytes, std::filesystem::file_size(file));
+}
+
+TEST_F(IndexFile, IsToldFromAMeshByItsContent) {
+  const auto misnamed = scratch.path() / "index.ply";
+  io::save(misnamed, index_of(5));
+  EXPECT_TRUE(io::is_index(misnamed));
+  for (const char* content : {"", "p", "ply\nformat ascii 1.0\n", "OFF\n0 0 0\n", "\x8bMHI\n\n\x1a\n"}) {
+    EXPECT_FALSE(io::is_index(scratch.write("mesh.mhi", content))) << content;
+  }
+  EXPECT_FALSE(io::is_index(scratch.path()));
+  EXPECT_FALSE(io::is_index("/dev/zero"));
+  EXPECT_FALSE(io::is_index(scratch.path() / "no such file"));
+  EXPECT_THAT([&] { static_cast<void>(io::read_mesh(misnamed)); }, testing::Throws<Error>());
+}
+
+TEST_F(IndexFile, ErrorsBeginWithTheFile) {
+  io::save(file, index_of(20));
+  std::filesystem::resize_file(file, 1000);
+  const std::string name = file.string() + ": header, byte 16: written with ";
+  expect_refused(ErrorCode::MalformedIndex, name, [&] { static_cast<void>(io::load(file)); });
+  expect_refused(ErrorCode::MalformedIndex, name, [&] { static_cast<void>(io::map(file)); });
+  expect_refused(ErrorCode::MalformedIndex, name, [&] { static_cast<void>(io::read_header(file)); });
+  const auto empty = scratch.write("empty.mhi", "");
+  expect_refused(ErrorCode::MalformedIndex, "empty.mhi: header, byte 0: the end, expected 64 bytes",
+                 [&] { static_cast<void>(io::load(empty)); });
+  const auto missing = scratch.path() / "missing.mhi";
+  expect_refused(ErrorCode::IoFailure, "missing.mhi: No such file", [&] { static_cast<void>(io::load(missing)); });
+  expect_refused(ErrorCode::IoFailure, "missing.mhi: No such file", [&] { static_cast<void>(io::map(missing)); });
+  expect_refused(ErrorCode::IoFailure, "is a directory", [&] { static_cast<void>(io::load(scratch.path())); });
+  expect_refused(ErrorCode::IoFailure, "expected an ordinary file",
+                 [&] { static_cast<void>(io::map(scratch.path())); });
+}
+
+TEST_F(IndexFile, F3AGigabyteAppendedIsRefusedBeforeItIsRead) {
+  io::save(file, index_of(20));
+  // A hole: no disk is needed for it. Where it was read, this would take as much memory.
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) + (std::uintmax_t{1} << 30U));
+  expect_refused(ErrorCode::MalformedIndex, "but there are 107", [&] { static_cast<void>(io::load(file)); });
+  expect_refused(ErrorCode::MalformedIndex, "but there are 107", [&] { static_cast<void>(io::map(file)); });
+}
+
+TEST_F(IndexFile, IsLoadedFromAPipe) {
+  const Index index = index_of(300);  // more than the first guess
+  io::save(file, index);
+  const auto pipe = scratch.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::thread writer([&] {
+    std::ifstream from(file, std::ios::binary);
+    std::ofstream(pipe, std::ios::binary) << from.rdbuf();
+  });
+  const Index loaded = io::load(pipe);
+  writer.join();
+  EXPECT_THAT(differences(loaded, index), IsEmpty());
+}
+
+TEST_F(IndexFile, F7WhatIsLoadedDoesNotNeedTheFile) {
+  const Index index = index_of(50);
+  io::save(file, index);
+  const Index loaded = io::load(file);
+  std::filesystem::resize_file(file, 0);
+  EXPECT_THAT(differences(loaded, index), IsEmpty());
+}
+
+TEST_F(IndexFile, F7AFileThatIsTruncatedWhileItIsLoadedIsRefused) {
+  const Index index = index_of(50);
+  io::save(file, index);
+  const std::uintmax_t bytes = std::filesystem::file_size(file);
+  std::atomic<bool> done = false;
+  std::thread vandal([&] {
+    while (!done) {
+      std::filesystem::resize_file(file, 0);
+      std::filesystem::resize_file(file, bytes);
+    }
+  });
+  std::size_t refused = 0;
+  const auto expect_to_survive = [&](auto&& read, std::size_t times) {
+    for (std::size_t i = 0; i < times; ++i) {
+      try {
+        static_cast<void>(read(file));
+      } catch (const Error&) {
+        ++refused;
+      }
+    }
+  };
+  expect_to_survive([](const auto& path) { return io::read_header(path); }, scaled(15000, 3000));
+  expect_to_survive([](const auto& path) { return io::load(path); }, scaled(1000, 200));
+  done = true;
+  vandal.join();
+  std::printf("%zu times refused\n", refused);
+  EXPECT_GT(refused, 0U);
+}
+
+TEST_F(IndexFile, F9WhoHasMappedTheOldFileKeepsIt) {
+  const Index old = index_of(50);
+  io::save(file, old);
+  const Index mapped = io::map(file, {.trusted = true});
+  io::save(file, index_of(60));
+  EXPECT_THAT(differences(mapped, old), IsEmpty());
+  std::filesystem::remove(file);
+  EXPECT_THAT(differences(mapped, old), IsEmpty());
+}
+
+TEST_F(IndexFile, AFailureLeavesTheOldFile) {
+  const Index old = index_of(10);
+  io::save(file, old);
+  expect_refused(ErrorCode::IoFailure, "cannot create", [&] { io::save(scratch.path() / "no" / "x.mhi", old); });
+  EXPECT_THAT(differences(io::load(file), old), IsEmpty());
+  if (!std::filesystem::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  expect_refused(ErrorCode::IoFailure, "/dev/full: cannot write: No space left", [&] { io::save("/dev/full", old); });
+}
+
+}  // namespace
+}  // namespace meshhood::test

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// The paper's index, saved and loaded: the same index; changed, refused; forged, refused or harmless.
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/error.h"
+#include "meshhood/paper.h"
+#include "meshhood/serialize.h"
+
+#include "paper/same_index.h"
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/forged_index.h"
+#include "support/refusal.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+class SerializePaper : public testing::TestWithParam<Family> {};
+
+TEST_P(SerializePaper, GivesTheSameIndexBack) {
+  for (const std::size_t vertices : {1U, 40U, 1500U}) {
+    const TestMesh mesh = make_mesh(GetParam(), 5, vertices);
+    SCOPED_TRACE(mesh.name);
+    for (const int discard : {0, 2, 9}) {
+      const paper::Index index = paper::build(mesh.view(), {.levels = 6, .discard = discard});
+      const std::vector<std::byte> bytes = saved(index);
+      const paper::Index loaded = paper::load(bytes);
+      EXPECT_TRUE(same_index(loaded, index));
+      EXPECT_EQ(saved(loaded), bytes);
+      EXPECT_THAT(loaded.check(mesh.view()), testing::IsEmpty());
+      EXPECT_EQ(read_header(bytes).kind, IndexKind::Paper);
+      EXPECT_EQ(read_header(bytes).mesh, fingerprint(mesh.view()));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SerializePaper, testing::ValuesIn(families()), family_name);
+
+std::vector<std::byte> saved_grid() {
+  Random random(6);
+  TestMesh mesh = make_grid(11, 12, false);
+  for (double& x : mesh.positions) x += random.uniform(-0.2, 0.2);
+  return saved(paper::build(mesh.finish(true).view(), {.levels = 5, .discard = 1}));
+}
+
+std::string refusal_of(std::span<const std::byte> bytes) {
+  try {
+    static_cast<void>(paper::load(bytes));
+    return {};
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::MalformedIndex) << error.what();
+    EXPECT_TRUE(names_a_place(error.what())) << error.what();
+    return error.what();
+  }
+}
+
+void expect_harmless(const paper::Index& index, Random& random) {
+  paper::Searcher searcher(index);
+  std::vector<VertexId> ids;
+  for (std::size_t query = 0; query < 32; ++query) {
+    const auto v = static_cast<VertexId>(random.below(index.vertex_count()));
+    const double radius = query == 0 ? std::numeric_limits<double>::infinity() : random.uniform(0, 8);
+    searcher.neighborhood(v, radius, ids, {.radius_ratio = random.uniform(0.1, 20)});
+    ASSERT_LE(ids.size(), index.vertex_count());
+    ASSERT_TRUE(std::all_of(ids.begin(), ids.end(), [&](VertexId w) { return w < index.vertex_count(); }));
+  }
+}
+
+TEST(SerializePaperFaults, EveryBitFlippedIsRefused) {
+  const std::vector<std::byte> original = saved_grid();
+  std::vector<std::byte> bytes = original;
+  const std::size_t step = std::max<std::size_t>(1, 8 * bytes.size() / scaled(8 * bytes.size()));
+  std::size_t flips = 0;
+  std::size_t missed = 0;
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); bit += step, ++flips) {
+    bytes[bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
+    if (!refusal_of(bytes).starts_with(culprit_of(original, bit / 8))) ++missed;
+    bytes[bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
+  }
+  std::printf("%zu bytes, %zu flips, %zu missed\n", bytes.size(), flips, missed);
+  EXPECT_EQ(missed, 0U);
+}
+
+TEST(SerializePaperFaults, AForgedBitIsRefusedOrHarmless) {
+  const std::vector<std::byte> original = saved_grid();
+  std::vector<std::byte> bytes = original;
+  const std::size_t step = std::max<std::size_t>(1, 8 * bytes.size() / scaled(8 * bytes.size()));
+  std::size_t accepted = 0;
+  Random random(7);
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); bit += step) {
+    bytes[bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
+    seal(bytes);
+    if (refusal_of(bytes).empty()) {
+      expect_harmless(paper::load(bytes), random);
+      ++accepted;
+    }
+    bytes = original;
+  }
+  std::printf("%zu forgeries accepted and asked\n", accepted);
+  EXPECT_GT(accepted, 0U);
+}
+
+template <class Change>
+void expect_refused_after(const char* culprit, Change&& change) {
+  Forgery forgery(saved_grid());
+  change(forgery);
+  seal(forgery.bytes());
+  const auto call = [&] { static_cast<void>(paper::load(forgery.bytes())); };
+  expect_refused(ErrorCode::MalformedIndex, culprit, call);
+  EXPECT_THAT(call, testing::ThrowsMessage<Error>(testing::Truly(names_a_place)));
+}
+
+TEST(SerializePaperFaults, ARuleAForgery) {
+  using paper::ClusterId;
+  expect_refused_after("an exact index", [](Forgery& f) { f.header().kind = IndexKind::Exact; });
+  expect_refused_after("expected ascending numbers", [](Forgery& f) { ++f.section<std::uint32_t>("levels")[0]; });
+  expect_refused_after("section first_vertex", [](Forgery& f) { ++f.section<std::uint32_t>("levels")[1]; });
+  expect_refused_after("vertex 132, expected", [](Forgery& f) { f.section<VertexId>("vertices")[3] = 132; });
+  expect_refused_after("once",
+                       [](Forgery& f) { f.section<VertexId>("vertices")[3] = f.section<VertexId>("vertices")[4]; });
+  expect_refused_after("section positions",
+                       [](Forgery& f) { f.section<float>("positions")[5] = std::numeric_limits<float>::quiet_NaN(); });
+  expect_refused_after("cluster 2: from", [](Forgery& f) { f.section<ClusterId>("first_vertex")[3] = 0; });
+  expect_refused_after("section first_child 1", [](Forgery& f) { f.section<ClusterId>("first_child 1")[1] = 0; });
+  expect_refused_after("begins with 1", [](Forgery& f) { f.section<ClusterId>("first_child 1")[0] = 1; });
+  expect_refused_after("section first_child 1", [](Forgery& f) { --f.section<ClusterId>("first_child 1").back(); });
+  expect_refused_after("a sphere that is none",
+                       [](Forgery& f) { f.section<Sphere<float>>("spheres 0")[1].radius = -1; });
+  expect_refused_after("does not enclose", [](Forgery& f) { f.section<Sphere<float>>("spheres 1")[0].x += 9; });
+  expect_refused_after("rows do not ascend", [](Forgery& f) { f.section<EdgeOffset>("sibling_rows 0")[1] = 100000; });
+  expect_refused_after("not from 0", [](Forgery& f) { ++f.section<EdgeOffset>("sibling_rows 0").back(); });
+  expect_refused_after("expected another of", [](Forgery& f) { f.section<ClusterId>("siblings 0")[0] = 4000000000U; });
+  expect_refused_after("expected another of", [](Forgery& f) { f.section<ClusterId>("siblings 0")[0] = 0; });
+  expect_refused_after("has no way back", [](Forgery& f) {
+    // Another cluster than the first sibling of the last, which it still precedes.
+    const auto row = f.section<EdgeOffset>("sibling_rows 0");
+    ClusterId& sibling = f.section<ClusterId>("siblings 0")[row[row.size() - 2]];
+    sibling = sibling == 0 ? 1 : 0;
+  });
+}
+
+TEST(SerializePaperFaults, EveryTruncationIsRefused) {
+  const std::vector<std::byte> whole = saved_grid();
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    const std::vector<std::byte> cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length));
+    EXPECT_THAT(refusal_of(cut), testing::StartsWith("header, byte ")) << length;
+  }
+}
+
+TEST(SerializePaperFaults, TheOtherKindIsRefused) {
+  const TestMesh mesh = make_grid(3, 3, false).finish(true);
+  expect_refused(ErrorCode::MalformedIndex, "an exact index, expected one of the paper",
+                 [&] { static_cast<void>(paper::load(saved(build(mesh.view())))); });
+  expect_refused(ErrorCode::MalformedIndex, "an index of the paper, expected an exact one",
+                 [&] { static_cast<void>(load(saved(paper::build(mesh.view())))); });
+}
+
+}  // namespace
+}  // namespace meshhood::test

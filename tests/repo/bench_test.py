@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The harness on a small shape, and whether docs/benchmarks.md is what the results say.
+
+usage: tests/repo/bench_test.py FOLDER    FOLDER has the programs: build/release/bench; beside it lies meshhood
+"""
+import array
+import json
+import math
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+from unittest import mock
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from bench import accuracy, exact_index, machine, paper_tables, places, programs, report  # noqa: E402: from the checkout
+from bench import results, scaling, timing  # noqa: E402
+from bench.sections import SECTIONS  # noqa: E402
+
+MESH = "scroll:3000"
+METHODS = ("bfs", "bfs-reordered", "ball", "ids", "count", "ranges", "paper", "paper,f=1", "paper,levels=4,discard=1")
+
+
+class Programs(unittest.TestCase):
+    def test_race_compares_every_method_with_the_first(self):
+        race = programs.race(MESH, METHODS, radii=(3, 20), queries=60, builds=2)
+        self.assertEqual(race["vertices"], 3000)
+        self.assertEqual([len(build["seconds"]) for build in race["builds"]], [2, 2])
+        rows = programs.by_radius(race["rows"])
+        self.assertEqual(list(rows), [3, 20])
+        for row in rows.values():
+            self.assertEqual(tuple(row), METHODS)
+            for method in ("bfs", "ids"):
+                self.assertEqual((row[method]["extra"], row[method]["missing"]), (0, 0))
+            for method in METHODS[-3:]:
+                self.assertEqual(row[method]["missing"], 0)
+                self.assertLessEqual(row[method]["extra"], row["ball"]["extra"])
+            for method in METHODS:
+                lower, upper = row[method]["quartiles"]
+                self.assertTrue(0 < lower <= row[method]["microseconds"] <= upper)
+            self.assertNotIn("extra", row["ranges"])
+        self.assertGreater(rows[20]["ball"]["extra"], 0, "a scroll whose ball is exact tests nothing")
+
+    def test_race_times_batches_beside_breadth_first_search(self):
+        for batch, radius in zip(programs.race(MESH, batches=(3, 20))["batches"], (3, 20)):
+            self.assertEqual(batch["radius_edges"], radius)
+            self.assertGreaterEqual(batch["rows"], 80)
+            for method in ("bfs", "bfs-reordered", "ids", "count"):
+                self.assertEqual(len(batch[method]), 15)
+                self.assertTrue(all(time > 0 for time in batch[method]))
+
+    def test_race_refuses_what_it_does_not_know(self):
+        for method in ("nope", "paper,x=3"):
+            done = subprocess.run([places.PROGRAMS / "race", MESH, "--method", method], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(method, done.stderr)
+
+    def test_phases_are_shares_of_a_whole(self):
+        for row in programs.ask(places.PROGRAMS / "phases", MESH, 50, 3, 20):
+            shares = [row[phase] for phase in ("climb_up", "breadth_first", "range_search")]
+            self.assertTrue(all(share > 0 for share in shares))
+            self.assertAlmostEqual(sum(shares), 100, delta=0.1)
+
+
+class NativePeers(unittest.TestCase):
+    PROGRAM = "native_peers"
+
+    def answers(self, kind, mesh, radius, vertices):
+        program = places.PROGRAMS / self.PROGRAM
+        if not program.exists():
+            self.skipTest(f"no {self.PROGRAM} (libnanoflann-dev, libeigen3-dev)")
+        with tempfile.TemporaryDirectory() as folder:
+            queries, answers = Path(folder, "queries"), Path(folder, "answers")
+            queries.write_bytes(array.array("I", vertices).tobytes())
+            subprocess.run([program, kind, mesh, "2"], input=f"{radius} {queries} {answers}\n", text=True, check=True,
+                           capture_output=True)
+            return array.array("I", answers.read_bytes())
+
+    def test_curvature_of_a_sphere_is_that_of_its_radius(self):
+        vertices = range(0, 3000, 7)
+        expected = 1 / math.sqrt(3000 * math.sqrt(0.75) / (4 * math.pi))  # its mean edge is 1
+        by_index = self.answers("curvature", "sphere:3000", 5, vertices)
+        self.assertEqual(by_index, self.answers("curvature-bfs", "sphere:3000", 5, vertices))
+        self.assertEqual(len(by_index), 3 * len(vertices))
+        for at in range(0, len(by_index), 3):
+            for value in array.array("f", by_index[at + 1:at + 3].tobytes()):
+                self.assertAlmostEqual(value / expected, 1, delta=0.05)
+
+    def test_a_ball_takes_more_than_breadth_first_search(self):
+        self.assertGreater(len(self.answers("nanoflann", MESH, 4, range(50))),
+                           len(self.answers("bfs", MESH, 4, range(50))))
+
+
+class Parts(unittest.TestCase):
+    """Each part that needs no more than our programs, from the measuring to the page."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        for owner, name, value in ((places, "RESULTS", Path(folder.name)), (places, "SCRATCH", Path(folder.name)),
+                                   (machine, "WAITED", 0.1)):
+            patched = mock.patch.object(owner, name, value)
+            patched.start()
+            self.addCleanup(patched.stop)
+
+    def page(self, part):
+        """What the page says of the part, which has been run."""
+        data = results.load(part)
+        self.assertGreaterEqual(data["machine"]["load_beside"], 0)
+        text = SECTIONS[part].text(data)
+        self.assertGreater(text.count("|"), 50)
+        return text
+
+    def test_tables(self):
+        paper_tables.tables(["tiny"], 50)
+        self.assertIn("tiny", self.page("paper_tables"))
+        self.assertIn("3,000 vertices", SECTIONS["paper_tables"].head_table(results.load("paper_tables")))
+
+    def test_exact(self):
+        exact_index.run(["tiny"], 50)
+        self.assertIn("**tiny**, 3,000 vertices", self.page("exact_index"))
+
+    def test_accuracy(self):
+        accuracy.run(["tiny"], 50)
+        self.assertIn("tiny", self.page("accuracy"))
+
+    def test_scaling(self):
+        scaling.run(10_000, 50)
+        self.assertIn("k^", self.page("scaling"))
+
+
+class Watching(unittest.TestCase):
+    def test_what_we_run_is_not_taken_for_others(self):
+        usage = machine.Usage()
+        begin = time.process_time()
+        while time.process_time() < begin + 0.5:
+            pass
+        now = machine.Usage()
+        self.assertGreaterEqual(now.own - usage.own, 0.4)
+        self.assertGreaterEqual(now.all - usage.all, 0.4, "the machine has worked at least as much, but for a few ticks")
+
+    def test_a_load_at_either_time_makes_a_machine_busy(self):
+        for before, beside, busy in ((0, 0, False), (0.4, 0.4, False), (1, 0, True), (0, 1, True)):
+            watched = {"processors": 2, "load_before": before, "load_beside": beside}
+            self.assertEqual(machine.is_busy(watched), busy)
+
+
+class Figures(unittest.TestCase):
+    def test_summary_is_median_and_quartiles(self):
+        self.assertEqual(timing.summary([5, 1, 2, 4, 3]), {"median": 3, "quartiles": [2, 4], "runs": 5})
+        self.assertEqual(timing.summary([7]), {"median": 7, "quartiles": [7, 7], "runs": 1})
+
+    def test_exponent_of_a_power(self):
+        sizes = [10, 100, 1000]
+        self.assertAlmostEqual(timing.fitted_exponent(sizes, [3 * size**0.5 for size in sizes]), 0.5)
+
+
+class Documents(unittest.TestCase):
+    def test_benchmarks_are_what_the_results_say(self):
+        self.assertEqual(places.DOCUMENT.read_text(encoding="utf-8"), report.document(), "run python3 -m bench report")
+
+    def test_readme_has_the_table_of_the_results(self):
+        written = places.README.read_text(encoding="utf-8")
+        self.assertEqual(written, report.readme(results.load("paper_tables")), "run python3 -m bench report")
+
+    def test_every_result_names_its_machine(self):
+        files = list(places.RESULTS.glob("*.json"))
+        self.assertGreater(len(files), 5)
+        for file in files:
+            machine = json.loads(file.read_text(encoding="utf-8"))["machine"]
+            self.assertIn("load_before", machine, file.name)
+
+
+if __name__ == "__main__":
+    places.PROGRAMS = Path(sys.argv.pop(1))
+    places.MESHHOOD = places.PROGRAMS.parent / "meshhood"
+    unittest.main(verbosity=2)

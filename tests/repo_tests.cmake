@@ -1,0 +1,67 @@
+# What need be checked only once, in a plain build: the package, other compilers' targets, the instructions, the state
+# of the tree.
+if(CMAKE_CXX_FLAGS MATCHES "-fsanitize|--coverage")
+  return()
+endif()
+
+add_subdirectory(install)
+add_subdirectory(portability)
+
+# For a processor with fused multiply-add, which the distance must not use.
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND CMAKE_OBJDUMP)
+  add_library(meshhood_haswell OBJECT ${core_sources})
+  target_include_directories(meshhood_haswell PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
+  target_compile_features(meshhood_haswell PRIVATE cxx_std_20)
+  meshhood_own_target(meshhood_haswell)
+  meshhood_compile_together(meshhood_haswell)
+  target_compile_options(meshhood_haswell PRIVATE -march=haswell -O3)
+  add_library(meshhood_fused_control OBJECT repo/fused_control.cpp)
+  target_compile_options(meshhood_fused_control PRIVATE -march=haswell -O3 -ffp-contract=fast)
+  add_test(NAME no_fma COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/repo/no_fma.sh
+    $<TARGET_OBJECTS:meshhood_fused_control> $<TARGET_OBJECTS:meshhood_haswell> COMMAND_EXPAND_LISTS)
+endif()
+
+# Bytes that reach a file without ever having been given a value.
+if(TARGET meshhood_cli)
+  add_executable(uninitialised_control repo/uninitialised_control.cpp)
+  target_include_directories(uninitialised_control PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(uninitialised_control PRIVATE meshhood::io)
+  add_test(NAME no_uninitialised_bytes COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/repo/no_uninitialised_bytes.sh
+    $<TARGET_FILE:uninitialised_control> $<TARGET_FILE:meshhood_cli>)
+  set_tests_properties(no_uninitialised_bytes PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: no valgrind" TIMEOUT 300)
+endif()
+
+add_test(NAME repo.format COMMAND ${PROJECT_SOURCE_DIR}/tools/check format)
+add_test(NAME repo.docs COMMAND ${PROJECT_SOURCE_DIR}/tools/check_docs.py $<$<TARGET_EXISTS:meshhood_cli>:$<TARGET_FILE:meshhood_cli>>)
+add_test(NAME repo.drawings COMMAND python3 -B ${PROJECT_SOURCE_DIR}/tools/drawings --check)
+
+# Exact answers against breadth-first search on large meshes: a part of what tools/verify --full does.
+if(TARGET exact_verify)
+  foreach(part shared shapes)
+    add_test(NAME verify.${part} COMMAND ${PROJECT_SOURCE_DIR}/tools/verify ${part})
+    set_tests_properties(verify.${part} PROPERTIES
+      ENVIRONMENT "MESHHOOD_VERIFY=$<TARGET_FILE:exact_verify>"
+      SKIP_REGULAR_EXPRESSION "skipped: no meshes" TIMEOUT 3000 COST 1000)
+  endforeach()
+endif()
+
+# Every seeded fault must be noticed.
+if(CMAKE_BUILD_TYPE STREQUAL "Release")
+  add_test(NAME mutants COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mutants/run ${PROJECT_BINARY_DIR}
+    --killers $<TARGET_OBJECTS:exact_search_differential_test> $<TARGET_OBJECTS:exact_search_rare_test>
+    --libraries $<TARGET_FILE:meshhood_families> $<TARGET_FILE:meshhood>
+      $<TARGET_FILE:GTest::gmock> $<TARGET_FILE:GTest::gtest_main> $<TARGET_FILE:GTest::gtest>
+    COMMAND_EXPAND_LISTS)
+  set_tests_properties(mutants PROPERTIES TIMEOUT 1800 COST 1000)
+endif()
+
+# Instructions of fixed queries and builds against the committed baseline.
+if(CMAKE_BUILD_TYPE STREQUAL "Release" AND TARGET guard)
+  add_test(NAME bench.guard COMMAND python3 -B ${PROJECT_SOURCE_DIR}/bench/guard/guard.py $<TARGET_FILE:guard>)
+  set_tests_properties(bench.guard PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
+endif()
+
+# The harness on a small shape, and docs/benchmarks.md beside the results it is made from.
+if(TARGET race AND TARGET meshhood_cli)
+  add_test(NAME bench.harness COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/repo/bench_test.py $<TARGET_FILE_DIR:race>)
+endif()

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// That every processor's path does the same, bit for bit, also where a float cannot decide.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <span>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/exact_answer.h"
+#include "support/random.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+class EveryPath : public testing::TestWithParam<Isa> {
+ protected:
+  const Kernels& tried = kernels(GetParam());
+  const Kernels& plain = portable_kernels();
+  Random random{9};
+};
+
+/// A leaf of `size` vertices, with what may be read beyond its end.
+template <class Real>
+std::vector<Real> random_leaf(Random& random, std::size_t size, double extent) {
+  std::vector<Real> xyz(3 * kLeafCapacity, std::numeric_limits<Real>::quiet_NaN());
+  for (std::size_t i = 0; i < 3 * size; ++i) xyz[i] = static_cast<Real>(random.uniform(-extent, extent));
+  return xyz;
+}
+
+/// As a coordinate of a mesh is. Through memory, for g++ 12 takes several roundings side by side for none at all.
+template <class Real>
+double rounded(double value) {
+  const volatile Real result = static_cast<Real>(value);
+  return static_cast<double>(result);
+}
+
+/// What the predicate itself says.
+template <class Real>
+LaneMask by_predicate(const std::vector<Real>& xyz, std::size_t size, const Point& centre, double radius) {
+  const SearchBall ball(centre, radius);
+  LaneMask lanes = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    const Point p = point(std::span(xyz), i);
+    lanes |= LaneMask{ball.contains(p)} << i;
+  }
+  return lanes;
+}
+
+template <class Real>
+void expect_within_is_the_predicate(const Kernels& tried, Random& random) {
+  std::size_t balls = 0;
+  for (std::size_t round = 0; round < scaled(4000, 100); ++round) {
+    const std::size_t size = 1 + random.below(kLeafCapacity);
+    const double extent = std::ldexp(1.0, static_cast<int>(random.below(120)) - 60);
+    const auto xyz = random_leaf<Real>(random, size, extent);
+    const Point centre{rounded<Real>(random.uniform(-extent, extent)), rounded<Real>(random.uniform(-extent, extent)),
+                       rounded<Real>(random.uniform(-extent, extent))};
+    const std::size_t lane = random.below(size);
+    const Point p = point(std::span(xyz), lane);
+    const double tie = std::sqrt(squared_distance(p, centre));
+    for (const double radius : {std::nextafter(tie, 0.0), tie, std::nextafter(tie, 1e300), tie * (1 + 1e-7),
+                                tie * (1 - 1e-7), random.uniform(0, 3 * extent), 0.0}) {
+      ASSERT_EQ(tried.within(xyz.data(), size, LeafBall(centre, LeafBounds(radius))),
+                by_predicate(xyz, size, centre, radius));
+      ++balls;
+    }
+  }
+  std::printf("%zu balls\n", balls);
+}
+
+TEST_P(EveryPath, WithinIsThePredicateOnFloats) { expect_within_is_the_predicate<float>(tried, random); }
+TEST_P(EveryPath, WithinIsThePredicateOnDoubles) { expect_within_is_the_predicate<double>(tried, random); }
+
+/// Also among vertices that a float cannot tell apart by their distance, and where several are equally near.
+template <class Real>
+void expect_nearest_is_by_the_predicate(const Kernels& tried, Random& random) {
+  for (std::size_t round = 0; round < scaled(4000, 100); ++round) {
+    const double extent = std::ldexp(1.0, static_cast<int>(random.below(120)) - 60);
+    auto xyz = random_leaf<Real>(random, kLeafCapacity, extent);
+    const LeafBall ball({rounded<Real>(random.uniform(-extent, extent)), 0, 0}, LeafBounds(extent));
+    for (std::size_t i = 0; i < xyz.size(); i += 3) {
+      if (random.below(3) == 0) std::copy_n(xyz.begin(), 3, xyz.begin() + static_cast<std::ptrdiff_t>(i));
+      if (random.below(3) == 0) xyz[i] = std::nextafter(xyz[0], static_cast<Real>(extent));
+    }
+    const LaneMask lanes = static_cast<LaneMask>(random.bits()) | LaneMask{1} << random.below(kLeafCapacity);
+    const Nearest found = tried.nearest(xyz.data(), lanes, ball);
+    Nearest expected{std::numeric_limits<double>::infinity(), 0};
+    for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
+      const double square = squared_distance(point(std::span<const Real>(xyz), lane), ball.centre);
+      if ((lanes >> lane & 1U) != 0 && square < expected.square) expected = {square, lane};
+    }
+    ASSERT_EQ(found.lane, expected.lane);
+    ASSERT_EQ(found.square, expected.square);
+  }
+}
+
+TEST_P(EveryPath, NearestIsByThePredicateOnFloats) { expect_nearest_is_by_the_predicate<float>(tried, random); }
+TEST_P(EveryPath, NearestIsByThePredicateOnDoubles) { expect_nearest_is_by_the_predicate<double>(tried, random); }
+
+TEST_P(EveryPath, CrossFollowsEveryCrossing) {
+  for (std::size_t round = 0; round < 4000; ++round) {
+    std::vector<CrossEdge> cross_edges(random.below(70) + kLeafCapacity);
+    for (CrossEdge& cross_edge : cross_edges) {
+      cross_edge = {static_cast<std::uint8_t>(random.below(32)), static_cast<std::uint8_t>(random.below(32))};
+    }
+    const std::size_t count = cross_edges.size() - kLeafCapacity;
+    const auto from = static_cast<LaneMask>(random.bits() & random.bits());
+    ASSERT_EQ(tried.cross_edges(cross_edges.data(), count, from), plain.cross_edges(cross_edges.data(), count, from));
+  }
+}
+
+TEST_P(EveryPath, SpreadGoesAsFarAsItCan) {
+  std::size_t grown = 0;
+  for (std::size_t round = 0; round < 4000; ++round) {
+    std::vector<LaneMask> adjacency(kLeafCapacity);
+    const std::size_t edges = random.below(60);
+    for (std::size_t i = 0; i < edges; ++i) {
+      const std::size_t a = random.below(kLeafCapacity);
+      const std::size_t b = random.below(kLeafCapacity);
+      adjacency[a] |= LaneMask{1} << b;
+      adjacency[b] |= LaneMask{1} << a;
+    }
+    const auto among = static_cast<LaneMask>(random.bits() | random.bits());
+    const auto from = static_cast<LaneMask>(random.bits() & random.bits() & random.bits()) & among;
+    const LaneMask reached = tried.reachable(adjacency.data(), among, from);
+    ASSERT_EQ(reached, plain.reachable(adjacency.data(), among, from));
+    ASSERT_EQ(reached & among, reached);
+    grown += static_cast<std::size_t>(std::popcount(reached & ~from));
+  }
+  EXPECT_GT(grown, 10'000U);
+}
+
+TEST_P(EveryPath, PlaceComparesAllEight) {
+  std::vector<Group> groups(64);
+  std::vector<std::uint32_t> list;
+  for (std::uint32_t i = 0; i < groups.size(); ++i) list.push_back(i);
+  std::vector<GroupContainment> expected(groups.size());
+  std::vector<GroupContainment> found(groups.size());
+  std::size_t seen = 0;
+  for (std::size_t round = 0; round < 300; ++round) {
+    for (Group& group : groups) {
+      for (Group::Row* row : {&group.x, &group.y, &group.z, &group.radius, &group.slope_x, &group.slope_y,
+                              &group.slope_z, &group.offset}) {
+        for (float& value : *row) value = static_cast<float>(random.uniform(-1, 1));
+      }
+      for (float& radius : group.radius) radius = std::abs(radius) / 4;
+      for (float& reach : group.offset)
+        reach = random.below(20) == 0 ? std::numeric_limits<float>::infinity() : std::abs(reach);
+    }
+    const Point centre{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+    const double radius = round == 0 ? std::numeric_limits<double>::infinity() : random.uniform(0, 2);
+    const TreeBall ball({}, centre, radius);
+    plain.classify(groups.data(), list, ball, expected.data());
+    tried.classify(groups.data(), list, ball, found.data());
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      ASSERT_EQ(found[i].inside, expected[i].inside);
+      ASSERT_EQ(found[i].intersecting, expected[i].intersecting);
+      ASSERT_EQ(found[i].may_have_minimum, expected[i].may_have_minimum);
+      ASSERT_EQ(found[i].inside & found[i].intersecting, 0);
+      seen += static_cast<std::size_t>(std::popcount(found[i].inside));
+    }
+  }
+  EXPECT_GT(seen, 1000U);
+}
+
+TEST_P(EveryPath, AppendKeepsTheOrder) {
+  std::vector<VertexId> ids(kLeafCapacity);
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<VertexId>(100 + i);
+  std::vector<VertexId> out(std::size_t{2} * kLeafCapacity);
+  for (std::size_t round = 0; round < 10'000; ++round) {
+    const auto lanes = static_cast<LaneMask>(round == 0 ? 0 : random.bits());
+    const VertexId* const end = tried.compress(ids.data(), lanes, out.data());
+    ASSERT_EQ(end - out.data(), std::popcount(lanes));
+    const VertexId* next = out.data();
+    for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
+      if ((lanes >> lane & 1U) == 0) continue;
+      ASSERT_EQ(*next++, 100 + lane);
+    }
+  }
+}
+
+std::string case_name(const testing::TestParamInfo<Isa>& isa) {
+  switch (isa.param) {
+    case Isa::Portable: return "Portable";
+    case Isa::Avx2: return "Avx2";
+    case Isa::Avx512: return "Avx512";
+  }
+  return "";
+}
+
+INSTANTIATE_TEST_SUITE_P(Isas, EveryPath, testing::ValuesIn(available_isas()), case_name);
+
+}  // namespace
+}  // namespace meshhood::test

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/checksum.h"
+#include "format/format.h"
+#include "support/index_bytes.h"
+
+namespace meshhood::test {
+
+/// The header as it stands in the bytes of an index.
+[[nodiscard]] inline file::Header header_of(std::span<const std::byte> bytes) {
+  file::Header header;
+  std::memcpy(&header, bytes.data(), sizeof(header));
+  return header;
+}
+
+/// The table as it stands there; of what has no room, nothing.
+[[nodiscard]] inline std::vector<file::Section> table_of(std::span<const std::byte> bytes) {
+  std::vector<file::Section> table;
+  const file::Header header = header_of(bytes);
+  if (file::head_bytes(header.sections) > bytes.size()) return table;
+  table.resize(header.sections);
+  if (!table.empty()) std::memcpy(table.data(), bytes.data() + sizeof(header), std::as_bytes(std::span(table)).size());
+  return table;
+}
+
+/// How the message of a refusal must begin where byte `byte` was changed.
+[[nodiscard]] inline std::string culprit_of(std::span<const std::byte> bytes, std::size_t byte) {
+  std::string name = "header";
+  for (const file::Section& section : table_of(bytes)) {
+    if (section.begin <= byte) name = "section " + std::string(section.name.data());
+  }
+  return name + ", byte ";
+}
+
+/// Whether the message of a refusal says where, before it says what.
+[[nodiscard]] inline bool names_a_place(std::string_view message) {
+  const std::string_view where = message.substr(0, message.find(": "));
+  return (where.starts_with("header, ") || where.starts_with("section ")) && where.find("byte ") != where.npos;
+}
+
+/// Writes the checksum that belongs to the header and the table.
+inline void seal_header(std::span<std::byte> bytes) {
+  file::Header header = header_of(bytes);
+  const std::uint64_t head = file::head_bytes(header.sections);
+  if (head > bytes.size()) return;
+  const std::span<const std::byte> all = bytes;
+  header.checksum = checksum(
+      {all.first(offsetof(file::Header, checksum)), all.first(static_cast<std::size_t>(head)).subspan(sizeof(header))});
+  std::memcpy(bytes.data(), &header, sizeof(header));
+}
+
+/// Writes all checksums anew, as whoever forges an index can.
+inline void seal(std::span<std::byte> bytes) {
+  if (bytes.size() < sizeof(file::Header)) return;
+  std::vector<file::Section> table = table_of(bytes);
+  for (file::Section& section : table) {
+    if (section.begin > bytes.size() || section.bytes > bytes.size() - section.begin) continue;
+    section.checksum =
+        checksum({bytes.subspan(static_cast<std::size_t>(section.begin), static_cast<std::size_t>(section.bytes))});
+  }
+  if (!table.empty()) std::memcpy(bytes.data() + sizeof(file::Header), table.data(), table.size() * sizeof(table[0]));
+  seal_header(bytes);
+}
+
+/// A saved index that is changed by hand.
+class Forgery {
+ public:
+  explicit Forgery(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}
+
+  /// To be changed in place.
+  [[nodiscard]] file::Header& header() { return *reinterpret_cast<file::Header*>(bytes_.data()); }
+
+  [[nodiscard]] std::span<file::Section> table() {
+    return {reinterpret_cast<file::Section*>(bytes_.data() + sizeof(file::Header)), header().sections};
+  }
+
+  [[nodiscard]] file::Section& entry(std::string_view name) {
+    for (file::Section& section : table()) {
+      if (name_of(section) == name) return section;
+    }
+    throw std::out_of_range("no such section");
+  }
+
+  template <class T>
+  [[nodiscard]] std::span<T> section(std::string_view name) {
+    const file::Section& found = entry(name);
+    return {reinterpret_cast<T*>(bytes_.data() + found.begin), static_cast<std::size_t>(found.bytes) / sizeof(T)};
+  }
+
+  /// Makes a section empty, and moves the others up.
+  void remove_content(std::string_view name) {
+    file::Section& removed = entry(name);
+    const std::uint64_t bytes = file::aligned(removed.bytes);
+    const auto begin = bytes_.begin() + static_cast<std::ptrdiff_t>(removed.begin);
+    bytes_.erase(begin, begin + static_cast<std::ptrdiff_t>(bytes));
+    header().bytes -= bytes;
+    bool is_behind = false;
+    for (file::Section& section : table()) {
+      if (is_behind) section.begin -= bytes;
+      is_behind = is_behind || name_of(section) == name;
+    }
+    entry(name).bytes = 0;
+  }
+
+  [[nodiscard]] std::vector<std::byte>& bytes() { return bytes_; }
+
+ private:
+  static std::string_view name_of(const file::Section& section) {
+    const std::string_view all(section.name.data(), section.name.size());
+    return all.substr(0, all.find('\0'));
+  }
+
+  std::vector<std::byte> bytes_;
+};
+
+}  // namespace meshhood::test

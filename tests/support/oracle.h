@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <vector>
+
+#include "support/test_mesh.h"
+
+namespace meshhood::test {
+
+/// What is right, by the plainest means. Shares nothing with the library but the definition of distance.
+class Oracle {
+ public:
+  explicit Oracle(const TestMesh& mesh);
+
+  [[nodiscard]] std::size_t size() const { return neighbors_.size(); }
+  [[nodiscard]] const std::set<std::uint32_t>& neighbors(std::size_t v) const { return neighbors_[v]; }
+
+  /// Vertices in the same component of the mesh have the same number.
+  [[nodiscard]] std::size_t component(std::size_t v) const { return component_[v]; }
+
+  [[nodiscard]] double distance(std::size_t v, std::size_t w) const;
+
+  /// The mean over the different edges; 0 where there is none.
+  [[nodiscard]] double mean_edge() const;
+
+  /// Ids ascending.
+  [[nodiscard]] std::vector<std::uint32_t> exact(std::uint32_t v, double radius) const;
+  [[nodiscard]] std::vector<std::uint32_t> ball(std::uint32_t v, double radius) const;
+
+ private:
+  const std::vector<double>* positions_;
+  std::vector<std::set<std::uint32_t>> neighbors_;
+  std::vector<std::size_t> component_;
+};
+
+/// A breadth-first search from `v` over vertices for which `inside(w)` holds; ids ascending.
+template <class Inside>
+std::vector<std::uint32_t> connected(const std::vector<std::set<std::uint32_t>>& neighbors, std::uint32_t v,
+                                     Inside&& inside) {
+  std::vector<bool> seen(neighbors.size());
+  std::vector<std::uint32_t> reached{v};
+  seen[v] = true;
+  for (std::size_t head = 0; head < reached.size(); ++head) {
+    for (const std::uint32_t w : neighbors[reached[head]]) {
+      if (seen[w]) continue;
+      seen[w] = true;
+      if (inside(w)) reached.push_back(w);
+    }
+  }
+  std::sort(reached.begin(), reached.end());
+  return reached;
+}
+
+}  // namespace meshhood::test

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Every mesh beside the repository that can be read, by folder: built with few levels and with all, checked and asked.
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "meshhood/error.h"
+
+#include "support/real_mesh.h"
+#include "support/scale.h"
+#include "support/shared_meshes.h"
+
+namespace meshhood::test {
+namespace {
+
+class AllMeshes : public testing::TestWithParam<const char*> {};
+
+/// What cannot be read is the business of the tests of the readers.
+std::optional<io::Mesh> readable(const std::string& file) {
+  try {
+    return shared_mesh(file);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+TEST_P(AllMeshes, AreBuiltCheckedAndAsked) {
+  MESHHOOD_NEED_SHARED_MESHES();
+  std::size_t meshes = 0;
+  std::size_t refused = 0;
+  std::size_t queries = 0;
+  for (const ManifestRow& row : read_manifest()) {
+    if (!row.file.starts_with(GetParam())) continue;
+    SCOPED_TRACE(row.file);
+    const std::optional<io::Mesh> mesh = readable(row.file);
+    refused += static_cast<std::size_t>(!mesh);
+    if (!mesh) continue;
+    ++meshes;
+    for (const int levels : {5, paper::BuildOptions::kAllLevels}) {
+      RealMesh real(mesh->view(), {.levels = levels, .discard = levels == 5 ? 2 : 0});
+      Random random(1);
+      for (const double edges : {0, 2, 5, 10, 20, 40, 65, 90, 1000}) real.query(edges, scaled(30, 2), random);
+      queries += real.tally().queries;
+    }
+  }
+  std::printf("%s: %zu meshes, %zu refused by the readers, %zu queries\n", GetParam(), meshes, refused, queries);
+  EXPECT_GT(meshes, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Folders, AllMeshes,
+                         testing::Values("scan/", "cad/", "nonmanifold/", "components/", "poly/", "boundary/",
+                                         "broken/"),
+                         [](const auto& folder) {
+                           const std::string name = folder.param;
+                           return name.substr(0, name.size() - 1);
+                         });
+
+}  // namespace
+}  // namespace meshhood::test

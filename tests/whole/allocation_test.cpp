@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+// Every allocation of a build, a save, a load, a query and a batch fails once: row R2 of the catalogue, and C5. The
+// call ends with an exception, or does without; nothing is left behind, and what there was answers as before.
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "meshhood/batch.h"
+#include "meshhood/index.h"
+#include "meshhood/paper.h"
+#include "meshhood/reference.h"
+#include "meshhood/reorder.h"
+#include "meshhood/search.h"
+#include "meshhood/serialize.h"
+
+#include "batch/sort_answer.h"
+#include "support/fail_each_allocation.h"
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/index_bytes.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Sheets that touch, many components, and a graph without any order.
+std::vector<Family> three_families() {
+  std::vector<Family> all = families();
+  std::erase_if(all, [](const Family& family) {
+    return family.name != "touching sheets" && family.name != "shells" && family.name != "random faces";
+  });
+  return all;
+}
+
+/// What a call makes, once it has.
+template <class T>
+auto nothing_yet() {
+  return [] { return std::optional<T>(); };
+}
+
+class Allocation : public testing::TestWithParam<Family> {
+ protected:
+  static constexpr std::size_t kVertices = 400;
+
+  TestMesh mesh = make_mesh(GetParam(), 1, kVertices);
+  Index index = build(mesh.view());
+  paper::Index paper_index = paper::build(mesh.view());
+  Shortages shortages;
+
+  /// A call that makes an index, which is to have the given bytes. Where it has failed, it is made again.
+  template <class AnyIndex, class Call>
+  void expect_made(const std::vector<std::byte>& bytes, Call&& call) {
+    const auto make = [&](std::optional<AnyIndex>& made) { made = call(); };
+    shortages.fail_each(nothing_yet<AnyIndex>(), make, [&](std::optional<AnyIndex>& made, Ending ending) {
+      EXPECT_EQ(made.has_value(), ending == Ending::Well);
+      if (!made) made = call();
+      EXPECT_EQ(saved(*made), bytes);
+    });
+  }
+
+  /// A call that saves `any_index`; where it has failed, the index is as it was.
+  template <class AnyIndex>
+  void expect_saved(const AnyIndex& any_index) {
+    const std::vector<std::byte> bytes = saved(any_index);
+    const auto save = [&](std::vector<std::byte>& out) { out = saved(any_index); };
+    shortages.fail_each([] { return std::vector<std::byte>(); }, save,
+                        [&](const auto& out, Ending ending) {
+                          EXPECT_EQ(out, ending == Ending::Well ? bytes : std::vector<std::byte>());
+                          EXPECT_EQ(saved(any_index), bytes);
+                        });
+  }
+};
+
+TEST_P(Allocation, FailsInABuild) {
+  expect_made<Index>(saved(index), [&] { return build(mesh.view()); });
+}
+
+TEST_P(Allocation, FailsInABuildOfThePapersIndex) {
+  expect_made<paper::Index>(saved(paper_index), [&] { return paper::build(mesh.view()); });
+}
+
+TEST_P(Allocation, FailsInAReordering) {
+  const std::vector<std::byte> bytes = saved(reorder(mesh.view()).index);
+  expect_made<Index>(bytes, [&] { return reorder(mesh.view()).index; });
+}
+
+TEST_P(Allocation, FailsInASave) {
+  expect_saved(index);
+  expect_saved(paper_index);
+}
+
+TEST_P(Allocation, FailsInALoad) {
+  const std::vector<std::byte> bytes = saved(index);
+  expect_made<Index>(bytes, [&] { return load(bytes); });
+  const std::vector<std::byte> paper_bytes = saved(paper_index);
+  expect_made<paper::Index>(paper_bytes, [&] { return paper::load(paper_bytes); });
+  Mappable place(bytes);
+  expect_made<Index>(bytes, [&] { return map(place.bytes(), nullptr); });
+}
+
+/// The answer to one query, in the vectors of whoever asks.
+struct Answers {
+  std::vector<VertexId> ids{3, 1, 2};
+  std::vector<double> distances{0.5};
+  std::size_t count = 0;
+
+  friend bool operator==(const Answers&, const Answers&) = default;
+};
+
+/// By ascending ids, for a searcher that has failed may give them in another order than a new one.
+Answers in_order(Answers answers) {
+  const bool with_distances = answers.distances.size() == answers.ids.size();
+  sort_answer(answers.ids, with_distances ? std::span(answers.distances) : std::span<double>());
+  return answers;
+}
+
+/// Queries of a new searcher each, some small, some large, and all of the component. Where one fails, what it was to
+/// fill is as it was, and the same searcher can be asked again.
+template <class AnySearcher, class Made, class Ask>
+void expect_answered(Shortages& shortages, const TestMesh& mesh, const Made& from, Ask&& ask) {
+  struct Scene {
+    AnySearcher searcher;
+    Answers answers = {};
+  };
+  const auto far = static_cast<VertexId>(mesh.size() - 1);
+  const double size = distance(mesh.view().positions, 0, far);
+  for (const VertexId v : {VertexId{0}, far / 2}) {
+    for (const double radius : {0.0, size / 10, size / 3, kInfinity}) {
+      Scene well{AnySearcher(from)};
+      ask(well.searcher, v, radius, well.answers);
+      shortages.fail_each([&] { return Scene{AnySearcher(from)}; },
+                          [&](Scene& scene) { ask(scene.searcher, v, radius, scene.answers); },
+                          [&](Scene& scene, Ending ending) {
+                            if (ending == Ending::OutOfMemory) {
+                              EXPECT_EQ(scene.answers, Answers());
+                              ask(scene.searcher, v, radius, scene.answers);
+                            }
+                            EXPECT_EQ(in_order(scene.answers), in_order(well.answers));
+                          });
+    }
+  }
+}
+
+/// What both indexes can be asked.
+template <class AnySearcher, class AnyIndex>
+void expect_queries(Shortages& shortages, const TestMesh& mesh, const AnyIndex& index) {
+  expect_answered<AnySearcher>(shortages, mesh, index, [](AnySearcher& s, VertexId v, double r, Answers& answers) {
+    s.neighborhood(v, r, answers.ids);
+  });
+  expect_answered<AnySearcher>(shortages, mesh, index, [](AnySearcher& s, VertexId v, double r, Answers& answers) {
+    s.neighborhood(v, r, answers.ids, answers.distances);
+  });
+  expect_answered<AnySearcher>(shortages, mesh, index, [](AnySearcher& s, VertexId v, double r, Answers& answers) {
+    answers.count = s.count(v, r);
+  });
+}
+
+TEST_P(Allocation, FailsInAQuery) {
+  expect_queries<Searcher>(shortages, mesh, index);
+  expect_answered<Searcher>(shortages, mesh, index, [](Searcher& s, VertexId v, double r, Answers& answers) {
+    std::size_t count = 0;
+    for (const VertexRange& range : s.ranges(v, r)) count += range.end - range.begin;
+    answers.count = count;
+  });
+}
+
+TEST_P(Allocation, FailsInAQueryOfThePapersIndex) { expect_queries<paper::Searcher>(shortages, mesh, paper_index); }
+
+TEST_P(Allocation, FailsInABreadthFirstSearch) {
+  const auto ask = [](ReferenceSearcher& s, VertexId v, double r, Answers& answers) {
+    s.neighborhood(v, r, answers.ids);
+  };
+  expect_answered<ReferenceSearcher>(shortages, mesh, mesh.view(), ask);
+}
+
+template <class AnySearcher, class From>
+void expect_constructed(Shortages& shortages, const From& from) {
+  shortages.fail_each(
+      nothing_yet<AnySearcher>(), [&](std::optional<AnySearcher>& made) { made.emplace(from); },
+      [&](const std::optional<AnySearcher>& made, Ending ending) {
+        EXPECT_EQ(made.has_value(), ending == Ending::Well);
+      });
+}
+
+TEST_P(Allocation, FailsInTheConstructionOfASearcher) {
+  expect_constructed<Searcher>(shortages, index);
+  expect_constructed<paper::Searcher>(shortages, paper_index);
+  expect_constructed<ReferenceSearcher>(shortages, mesh.view());
+}
+
+bool operator==(const Neighborhoods& a, const Neighborhoods& b) {
+  return a.offsets == b.offsets && a.ids == b.ids && a.distances == b.distances;
+}
+
+/// Rows as they were handed out, one after the other.
+struct Stream {
+  std::vector<VertexId> ids = {};
+  std::size_t rows = 0;
+  std::size_t whole = 0;  // ids of these rows
+
+  void take(const BatchRow& row) {
+    ids.insert(ids.end(), row.ids.begin(), row.ids.end());
+    whole = ids.size();
+    ++rows;
+  }
+};
+
+template <class AnyIndex>
+void expect_batches(Shortages& shortages, const TestMesh& mesh, const AnyIndex& index, unsigned threads) {
+  std::vector<VertexId> vertices(150);
+  std::iota(vertices.begin(), vertices.end(), 0);
+  const BatchQuery query{.vertices = vertices,
+                         .radius = distance(mesh.view().positions, 0, static_cast<VertexId>(mesh.size() / 2)) / 4};
+  const BatchOptions options{.threads = threads, .distances = true, .sorted = true};
+  const Neighborhoods all = neighborhoods(index, query, options);
+  shortages.fail_each([] { return Neighborhoods(); },
+                      [&](Neighborhoods& rows) { rows = neighborhoods(index, query, options); },
+                      [&](const Neighborhoods& rows, Ending ending) {
+                        EXPECT_TRUE(rows == (ending == Ending::Well ? all : Neighborhoods()));
+                      });
+  EXPECT_TRUE(neighborhoods(index, query, options) == all);
+
+  // In small windows, so that there is something to begin again.
+  const BatchOptions windows{.threads = threads, .sorted = true, .buffer_bytes = 2000};
+  const auto stream = [&](Stream& out) {
+    for_each_neighborhood(index, query, [&](const BatchRow& row) { out.take(row); }, windows);
+  };
+  shortages.fail_each(
+      [] { return Stream(); }, stream,
+      [&](const Stream& out, Ending ending) {
+        ASSERT_LE(out.rows, vertices.size());
+        EXPECT_TRUE(ending == Ending::OutOfMemory || out.rows == vertices.size());
+        EXPECT_EQ(out.whole, all.offsets[out.rows]);
+        EXPECT_TRUE(
+            std::equal(all.ids.begin(), all.ids.begin() + static_cast<std::ptrdiff_t>(out.whole), out.ids.begin()));
+      });
+}
+
+TEST_P(Allocation, FailsInABatch) {
+  expect_batches(shortages, mesh, index, 1);
+  expect_batches(shortages, mesh, paper_index, 1);
+}
+
+// The other thread is joined, and what it threw is passed on once.
+TEST_P(Allocation, FailsInABatchOnTwoThreads) {
+  expect_batches(shortages, mesh, index, 2);
+  expect_batches(shortages, mesh, paper_index, 2);
+}
+
+TEST_P(Allocation, FailsInABuildOnTwoThreads) {
+  // Large enough for each step to be cut in two.
+  const TestMesh large = make_mesh(GetParam(), 1, 5000);
+  // Which allocation is the tenth is chance, and each has failed in a build on one thread.
+  shortages.skip_to_every(8 * (20 / scaled(20)));
+  const std::vector<std::byte> bytes = saved(build(large.view()));
+  expect_made<Index>(bytes, [&] { return build(large.view(), {.threads = 2}); });
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Allocation, testing::ValuesIn(three_families()), family_name);
+
+}  // namespace
+}  // namespace meshhood::test

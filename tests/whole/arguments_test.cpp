@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// Arguments that are no query, or just one, to every method: rows A1 to A3 and A18 of the catalogue of faults. The
+// meshes of rows A4 to A16 are in robustness_test, A13 and A14 in paper/fusion_test, A17 in error_test.
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/meshhood.h"
+
+#include "support/families.h"
+#include "support/refusal.h"
+
+namespace meshhood::test {
+namespace {
+
+using testing::Each;
+using testing::ElementsAre;
+using testing::SizeIs;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// Every method, asked about the same mesh: two grids of nine vertices each, not joined, a hundred apart.
+class Arguments : public testing::Test {
+ protected:
+  using Method = std::function<void(VertexId, double, std::vector<VertexId>&)>;
+
+  static TestMesh two_grids() {
+    TestMesh mesh = make_grid(3, 3, false);
+    TestMesh far = make_grid(3, 3, false);
+    for (double& x : far.positions) x += 100;
+    append(mesh, far);
+    return mesh.finish(true);
+  }
+
+  /// Each answer to a query, by method.
+  std::vector<std::vector<VertexId>> answers(VertexId v, double radius) {
+    std::vector<std::vector<VertexId>> result;
+    for (const auto& [name, ask] : methods) ask(v, radius, result.emplace_back());
+    return result;
+  }
+
+  /// Every method refuses, and leaves the answer before as it was.
+  void expect_all_refused(ErrorCode code, const std::string& culprit, VertexId v, double radius) {
+    for (const auto& [name, ask] : methods) {
+      SCOPED_TRACE(name);
+      std::vector<VertexId> out{7};
+      expect_refused(code, culprit, [&] { ask(v, radius, out); });
+      EXPECT_THAT(out, ElementsAre(7));
+    }
+  }
+
+  TestMesh mesh = two_grids();
+  Index index = build(mesh.view());
+  paper::Index paper_index = paper::build(mesh.view());
+  Searcher searcher{index};
+  paper::Searcher paper_searcher{paper_index};
+  ReferenceSearcher reference{mesh.view()};
+  std::vector<std::pair<std::string, Method>> methods{
+      {"exact", [this](VertexId v, double r, auto& out) { searcher.neighborhood(v, r, out); }},
+      {"paper", [this](VertexId v, double r, auto& out) { paper_searcher.neighborhood(v, r, out); }},
+      {"reference", [this](VertexId v, double r, auto& out) { reference.neighborhood(v, r, out); }},
+      {"exact, ranges",
+       [this](VertexId v, double r, auto& out) {
+         const std::span<const VertexRange> ranges = searcher.ranges(v, r);
+         out.clear();
+         for (const VertexRange& range : ranges) {
+           const auto part = index.permutation().subspan(range.begin, range.end - range.begin);
+           out.insert(out.end(), part.begin(), part.end());
+         }
+       }},
+      {"exact, count", [this](VertexId v, double r, auto& out) { out.assign(searcher.count(v, r), v); }},
+      {"paper, count", [this](VertexId v, double r, auto& out) { out.assign(paper_searcher.count(v, r), v); }}};
+};
+
+TEST_F(Arguments, A1RadiusNaNOrNegativeIsRefused) {
+  expect_all_refused(ErrorCode::InvalidRadius, "radius nan, expected a number >= 0", 0, kNan);
+  expect_all_refused(ErrorCode::InvalidRadius, "radius -0.5, expected a number >= 0", 0, -0.5);
+  expect_all_refused(ErrorCode::InvalidRadius, "radius -inf, expected a number >= 0", 0, -kInfinity);
+}
+
+TEST_F(Arguments, A1RadiusMinusZeroIsZero) { EXPECT_THAT(answers(4, -0.0), Each(ElementsAre(4))); }
+
+TEST_F(Arguments, A1RadiusInfiniteIsTheComponent) {
+  EXPECT_THAT(answers(4, kInfinity), Each(SizeIs(9)));
+  EXPECT_THAT(answers(4, std::numeric_limits<double>::max()), Each(SizeIs(9)));
+}
+
+TEST_F(Arguments, A1ScaleFactorIsPositiveAndFinite) {
+  std::vector<VertexId> out{7};
+  for (const double factor : {kNan, 0.0, -0.0, -1.0, kInfinity}) {
+    expect_refused(ErrorCode::InvalidOption, "scale_factor is ",
+                   [&] { paper_searcher.neighborhood(0, 1, out, {.radius_ratio = factor}); });
+  }
+  EXPECT_THAT(out, ElementsAre(7));
+}
+
+TEST_F(Arguments, A2VertexOutOfRangeIsRefusedAndNeverWraps) {
+  expect_all_refused(ErrorCode::VertexOutOfRange, "vertex 18, but the mesh has 18 vertices", 18, 1);
+  expect_all_refused(ErrorCode::VertexOutOfRange, "vertex 4294967295, but", static_cast<VertexId>(-1), 1);
+}
+
+TEST_F(Arguments, A3ArraysOfTheWrongLengthAreRefused) {
+  const std::vector<float> seven(7, 0.0F);
+  expect_refused(ErrorCode::InvalidMesh, "7 coordinates, expected three a vertex",
+                 [&] { static_cast<void>(build(MeshView{seven, {}})); });
+  const std::vector<std::uint32_t> four(4, 0);
+  expect_refused(ErrorCode::InvalidMesh, "4 corners, expected three a triangle",
+                 [&] { static_cast<void>(build(MeshView{mesh.positions_view(), FacesView::triangles(four)})); });
+}
+
+TEST_F(Arguments, A3AnswersMayReuseAnyBuffer) {
+  std::vector<VertexId> out(1000, 7);
+  for (const auto& [name, ask] : methods) {
+    ask(4, kInfinity, out);
+    EXPECT_THAT(out, SizeIs(9)) << name;
+  }
+}
+
+TEST_F(Arguments, A18ACallbackThatThrowsOrAsksAgainLeavesTheIndexUsable) {
+  const auto thrower = [](const BatchRow&) { throw std::runtime_error("enough"); };
+  EXPECT_THROW(for_each_neighborhood(index, {.radius = 1.0}, thrower, {.threads = 2}), std::runtime_error);
+  EXPECT_THROW(paper::for_each_neighborhood(paper_index, {.radius = 1.0}, thrower, {.threads = 2}), std::runtime_error);
+  std::size_t rows = 0;
+  for_each_neighborhood(index, {.radius = 1.0}, [&](const BatchRow& row) {
+    // The rows are asked about again while they are handed over.
+    rows += static_cast<std::size_t>(neighborhoods(index, {.radius = 1.0}, {.threads = 2}).offsets.size() == 19);
+    EXPECT_EQ(searcher.count(static_cast<VertexId>(row.row), 1), row.ids.size());
+  });
+  EXPECT_EQ(rows, 18U);
+  EXPECT_THAT(answers(4, kInfinity), Each(SizeIs(9)));
+}
+
+TEST_F(Arguments, A18ABuildThatIsStoppedLeavesNothing) {
+  expect_refused(ErrorCode::Cancelled, "",
+                 [&] { static_cast<void>(build(mesh.view(), {.progress = [](auto&&...) { return false; }})); });
+}
+
+}  // namespace
+}  // namespace meshhood::test

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// What may not change an exact answer: the same mesh told in another way. The paper's answer must contain the exact one
+// of the mesh as it was before.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <ostream>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/meshhood.h"
+
+#include "support/families.h"
+#include "support/oracle.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+/// A mesh told in another way: where each vertex went, and by what its distances are multiplied.
+struct Retold {
+  TestMesh mesh;
+  std::vector<std::uint32_t> place;  // by old vertex
+  double scale = 1;
+};
+
+using Retelling = std::function<Retold(const TestMesh&, Random&)>;
+
+Retold in_place(TestMesh mesh) {
+  std::vector<std::uint32_t> same(mesh.size());
+  std::iota(same.begin(), same.end(), 0U);
+  mesh.finish(mesh.single_precision);
+  return {std::move(mesh), std::move(same)};
+}
+
+/// `mesh` with the faces that `change(corners)` makes of its own, in the order `faces`.
+template <class Change>
+TestMesh with_faces(const TestMesh& mesh, const std::vector<std::uint32_t>& faces, Change&& change) {
+  TestMesh result = mesh;
+  result.offsets = {0};
+  result.corners.clear();
+  for (const std::uint32_t f : faces) {
+    std::vector<std::uint32_t> corners(mesh.face(f).begin(), mesh.face(f).end());
+    change(corners);
+    result.add_face(corners);
+  }
+  return result;
+}
+
+std::vector<std::uint32_t> in_order(const TestMesh& mesh) {
+  std::vector<std::uint32_t> faces(mesh.face_count());
+  std::iota(faces.begin(), faces.end(), 0U);
+  return faces;
+}
+
+Retold vertices_shuffled(const TestMesh& mesh, Random& random) {
+  const auto place = random.permutation(mesh.size());
+  return {renumbered(mesh, place), place};
+}
+
+Retold faces_shuffled(const TestMesh& mesh, Random& random) {
+  return in_place(with_faces(mesh, random.permutation(mesh.face_count()), [](auto&) {}));
+}
+
+Retold corners_rotated(const TestMesh& mesh, Random& random) {
+  return in_place(with_faces(mesh, in_order(mesh), [&](auto& corners) {
+    if (corners.empty()) return;
+    std::ranges::rotate(corners, corners.begin() + static_cast<std::ptrdiff_t>(random.below(corners.size())));
+  }));
+}
+
+Retold faces_flipped(const TestMesh& mesh, Random&) {
+  return in_place(with_faces(mesh, in_order(mesh), [](auto& corners) { std::ranges::reverse(corners); }));
+}
+
+Retold faces_doubled(const TestMesh& mesh, Random&) {
+  auto faces = in_order(mesh);
+  faces.insert(faces.end(), faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(mesh.face_count()));
+  return in_place(with_faces(mesh, faces, [](auto&) {}));
+}
+
+Retold isolated_added(const TestMesh& mesh, Random& random) {
+  Retold result = in_place(mesh);
+  for (int i = 0; i < 20; ++i) {
+    const std::size_t at = random.below(mesh.size());
+    result.mesh.add_vertex(mesh.positions[3 * at], mesh.positions[3 * at + 1], mesh.positions[3 * at + 2]);
+  }
+  result.mesh.finish(mesh.single_precision);
+  return result;
+}
+
+Retold united_with_a_copy(const TestMesh& mesh, Random&) {
+  Retold result = in_place(mesh);
+  append(result.mesh, mesh);
+  return result;
+}
+
+Retold mirrored(const TestMesh& mesh, Random& random) {
+  TestMesh result = mesh;
+  const std::size_t axis = random.below(3);
+  for (std::size_t v = 0; v < mesh.size(); ++v) result.positions[3 * v + axis] *= -1;
+  return in_place(std::move(result));
+}
+
+Retold scaled_by_a_power(const TestMesh& mesh, Random& random) {
+  TestMesh result = mesh;
+  const double scale = std::ldexp(1.0, static_cast<int>(random.below(41)) - 20);
+  for (double& x : result.positions) x *= scale;
+  Retold retold = in_place(std::move(result));
+  retold.scale = scale;
+  return retold;
+}
+
+struct NamedRetelling {
+  const char* name;
+  Retelling retell;
+
+  friend void PrintTo(const NamedRetelling& retelling, std::ostream* out) { *out << retelling.name; }
+};
+
+class Metamorphic : public testing::TestWithParam<NamedRetelling> {};
+
+std::vector<std::uint32_t> sorted(const std::vector<VertexId>& ids) {
+  std::vector<std::uint32_t> result(ids.begin(), ids.end());
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+void compare(const TestMesh& mesh, const Retold& retold, Random& random) {
+  ReferenceSearcher before(mesh.view());
+  ReferenceSearcher after(retold.mesh.view());
+  const paper::Index index = paper::build(retold.mesh.view());
+  ASSERT_THAT(index.check(retold.mesh.view()), testing::IsEmpty()) << mesh.name;
+  paper::Searcher searcher(index);
+  const Index exact_index = build(retold.mesh.view());
+  Searcher exact_searcher(exact_index);
+  std::vector<VertexId> out;
+  for (int i = 0; i < 40; ++i) {
+    const auto v = static_cast<VertexId>(random.below(mesh.size()));
+    const auto w = static_cast<VertexId>(random.below(mesh.size()));
+    const double radius = i == 0 ? std::numeric_limits<double>::infinity() : distance(mesh.positions_view(), v, w);
+    before.neighborhood(v, radius, out);
+    for (VertexId& id : out) id = static_cast<VertexId>(retold.place[id]);
+    const auto expected = sorted(out);
+    const auto place = static_cast<VertexId>(retold.place[v]);
+    after.neighborhood(place, radius * retold.scale, out);
+    ASSERT_EQ(sorted(out), expected) << mesh.name << ", vertex " << v << ", radius " << radius;
+    exact_searcher.neighborhood(place, radius * retold.scale, out);
+    ASSERT_EQ(sorted(out), expected) << mesh.name << ", vertex " << v << ", radius " << radius;
+    searcher.neighborhood(place, radius * retold.scale, out);
+    ASSERT_TRUE(std::ranges::includes(sorted(out), expected)) << mesh.name << ", vertex " << v << ", radius " << radius;
+  }
+}
+
+TEST_P(Metamorphic, ExactAnswersStay) {
+  std::size_t meshes = 0;
+  for (const auto some : {surface_families(), trap_families()}) {
+    for (const Family& family : some) {
+      for (std::uint64_t seed = 1; seed <= scaled(20, 1); ++seed, ++meshes) {
+        const TestMesh mesh = make_mesh(family, seed, 10 + 20 * seed);
+        Random random(seed);
+        compare(mesh, GetParam().retell(mesh, random), random);
+      }
+    }
+  }
+  std::printf("%s: %zu meshes, %zu queries, 0 mismatches\n", GetParam().name, meshes, 80 * meshes);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Retellings, Metamorphic,
+    testing::Values(NamedRetelling{"vertices_shuffled", vertices_shuffled},
+                    NamedRetelling{"faces_shuffled", faces_shuffled},
+                    NamedRetelling{"corners_rotated", corners_rotated}, NamedRetelling{"faces_flipped", faces_flipped},
+                    NamedRetelling{"faces_doubled", faces_doubled}, NamedRetelling{"isolated_added", isolated_added},
+                    NamedRetelling{"united_with_a_copy", united_with_a_copy}, NamedRetelling{"mirrored", mirrored},
+                    NamedRetelling{"scaled_by_a_power", scaled_by_a_power}),
+    [](const auto& retelling) { return std::string(retelling.param.name); });
+
+TEST(MetamorphicLattice, ExactAnswersStayUnderAShift) {
+  const Family& lattice = *std::ranges::find(surface_families(), "lattice", &Family::name);
+  for (std::uint64_t seed = 1; seed <= scaled(100, 3); ++seed) {
+    const TestMesh mesh = make_mesh(lattice, seed, 200);
+    TestMesh shifted = mesh;
+    for (double& x : shifted.positions) x += static_cast<double>(seed * 1000);
+    Random random(seed);
+    compare(mesh, in_place(std::move(shifted)), random);
+  }
+}
+
+TEST(Metamorphic, InfinityIsTheComponent) {
+  std::size_t queries = 0;
+  for (const Family& family : families()) {
+    const TestMesh mesh = make_mesh(family, 5, 300);
+    if (mesh.size() == 0) continue;
+    const Oracle oracle(mesh);
+    const paper::Index index = paper::build(mesh.view());
+    paper::Searcher searcher(index);
+    std::vector<std::size_t> sizes(mesh.size(), 0);
+    for (std::size_t v = 0; v < mesh.size(); ++v) ++sizes[oracle.component(v)];
+    for (std::size_t v = 0; v < mesh.size(); ++v, ++queries) {
+      const std::size_t count = searcher.count(static_cast<VertexId>(v), std::numeric_limits<double>::infinity());
+      ASSERT_EQ(count, sizes[oracle.component(v)]) << mesh.name << ", vertex " << v;
+    }
+  }
+  std::printf("%zu queries, 0 mismatches\n", queries);
+}
+
+}  // namespace
+}  // namespace meshhood::test

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Sixteen threads that build, save, map, load, ask and replace the same few files, over and over: what a server does
+// that never stops. Nothing may pile up: no memory, no open file, no file left behind.
+#include <array>
+#include <atomic>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <latch>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <malloc.h>
+#include <unistd.h>
+
+#include "meshhood/meshhood.h"
+
+#include "io/index_io.h"
+#include "support/families.h"
+#include "support/sanitized.h"
+#include "support/scale.h"
+#include "support/scratch.h"
+
+namespace meshhood::test {
+namespace {
+
+constexpr std::size_t kThreads = 16;
+constexpr std::size_t kFiles = 3;
+constexpr double kRadius = 6;
+
+/// A mesh and how many vertices each of its neighborhoods has. No two have as many vertices: they are known by that.
+struct Sample {
+  TestMesh mesh;
+  std::vector<std::size_t> sizes;
+};
+
+std::vector<Sample> samples() {
+  std::vector<Sample> result;
+  for (const std::size_t side : {12U, 25U, 40U, 55U}) {
+    Sample sample{make_grid(side, side, side % 2 == 0), {}};
+    ReferenceSearcher reference(sample.mesh.view());
+    std::vector<VertexId> found;
+    for (VertexId v = 0; v < sample.mesh.size(); ++v) {
+      reference.neighborhood(v, kRadius, found);
+      sample.sizes.push_back(found.size());
+    }
+    result.push_back(std::move(sample));
+  }
+  return result;
+}
+
+std::size_t resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  std::size_t all = 0;
+  std::size_t resident = 0;
+  file >> all >> resident;
+  return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+std::ptrdiff_t open_files() { return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {}); }
+
+class Soak : public testing::Test {
+ protected:
+  /// All threads at once, `rounds` times each.
+  void run(std::size_t rounds) {
+    std::latch begin(kThreads);
+    std::vector<std::jthread> threads;
+    for (std::size_t thread = 0; thread < kThreads; ++thread) {
+      threads.emplace_back([&, thread] {
+        begin.arrive_and_wait();
+        for (std::size_t i = 0; i < rounds; ++i) replace_and_ask(7 * thread + i, thread % 2 == 0);
+      });
+    }
+  }
+
+  [[nodiscard]] std::size_t wrong() const { return wrong_; }
+  [[nodiscard]] std::size_t queries() const { return queries_; }
+  [[nodiscard]] const std::filesystem::path& folder() const { return scratch_.path(); }
+
+ private:
+  void replace_and_ask(std::size_t round, bool in_place) {
+    const std::filesystem::path file = folder() / (std::to_string(round % kFiles) + ".mhi");
+    const Sample& sample = samples_[round % samples_.size()];
+    const Index built = build(sample.mesh.view(), {.threads = 1 + static_cast<unsigned>(round % 2)});
+    ask(built, sample, round);
+    io::save(file, built);
+    const Index found = in_place ? io::map(file) : io::load(file);  // perhaps another's, saved meanwhile
+    for (const Sample& other : samples_) {
+      if (other.mesh.size() == found.vertex_count()) ask(found, other, round);
+    }
+  }
+
+  void ask(const Index& index, const Sample& sample, std::size_t seed) {
+    Searcher searcher(index);
+    for (std::size_t v = seed % 13; v < sample.mesh.size(); v += 13) {
+      if (searcher.count(static_cast<VertexId>(v), kRadius) != sample.sizes[v]) ++wrong_;
+      ++queries_;
+    }
+  }
+
+  const std::vector<Sample> samples_ = samples();
+  const Scratch scratch_;
+  std::atomic<std::size_t> wrong_ = 0;
+  std::atomic<std::size_t> queries_ = 0;
+};
+
+TEST_F(Soak, NothingPilesUp) {
+  const std::size_t rounds = scaled(60, 10);
+  run(rounds);  // threads get their arenas, the library its tables
+  const std::ptrdiff_t files = open_files();
+  std::array<std::size_t, 2> resident{};
+  for (std::size_t& bytes : resident) {
+    run(2 * rounds);
+    ::malloc_trim(0);
+    bytes = resident_bytes();
+  }
+  EXPECT_EQ(wrong(), 0U);
+  EXPECT_EQ(open_files(), files);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder()), {}), static_cast<std::ptrdiff_t>(kFiles));
+  std::printf("%zu rounds, %zu queries, %zu KiB resident, then %zu KiB\n", 5 * rounds * kThreads, queries(),
+              resident[0] >> 10, resident[1] >> 10);
+  // An index of these meshes takes some 100 KiB: one kept in a hundred rounds would be seen.
+  if (!kSanitized) {
+    EXPECT_LT(resident[1], resident[0] + 2 * rounds * kThreads * 1024);
+  }
+}
+
+}  // namespace
+}  // namespace meshhood::test
