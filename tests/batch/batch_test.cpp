@@ -268,7 +268,7 @@ TEST_F(Batches, RefuseMemoryOfAnotherSize) {
   refused("memory for 3601 ids, expected for 3600", 3601, 3600);
   refused("memory for 0 distances, expected for 3600", 3600, 0);
   expect_refused(ErrorCode::InvalidOption, "allocate is empty",
-                 [&] { static_cast<void>(neighborhoods(index, {.radius = 1.0}, {})); });
+                 [&] { static_cast<void>(neighborhoods(index, {.radius = 1.0}, BatchAllocator{})); });
 }
 
 TEST_F(Batches, PassOnWhatTheAllocatorThrows) {

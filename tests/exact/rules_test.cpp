@@ -180,9 +180,9 @@ TEST(IndexRules, F6Links) {
 
 TEST(IndexRules, F6Crossings) {
   expect_refused_after("which the leaves do not have",
-                       [](Forgery& f) { f.section<CrossEdge>("crossings")[0].mine = 32; });
+                       [](Forgery& f) { f.section<CrossEdge>("crossings")[0].from = 32; });
   expect_refused_after("which the leaves do not have",
-                       [](Forgery& f) { f.section<CrossEdge>("crossings")[0].other = 255; });
+                       [](Forgery& f) { f.section<CrossEdge>("crossings")[0].to = 255; });
   expect_refused_after("crossings do not ascend", [](Forgery& f) {
     const auto cross_edges = f.section<CrossEdge>("crossings");
     cross_edges[1] = cross_edges[0];
@@ -191,9 +191,9 @@ TEST(IndexRules, F6Crossings) {
     // The last of a link may have any other lane beyond the one before it.
     const Link& next = f.section<Link>("links")[1];
     CrossEdge& last = f.section<CrossEdge>("crossings")[next.first_cross_edge - 1];
-    last.other = last.other == 0 ? 1 : static_cast<std::uint8_t>(last.other - 1);
+    last.to = last.to == 0 ? 1 : static_cast<std::uint8_t>(last.to - 1);
   });
-  expect_refused_after("not 0 behind the last", [](Forgery& f) { f.section<CrossEdge>("crossings").back().mine = 1; });
+  expect_refused_after("not 0 behind the last", [](Forgery& f) { f.section<CrossEdge>("crossings").back().from = 1; });
 }
 
 TEST(IndexRules, F6Positions) {
@@ -215,7 +215,7 @@ TEST(IndexRules, F6Tree) {
   const char* const none = "a sphere or column that is none";
   for (const float value : {kNan, -1.0F, -std::numeric_limits<float>::infinity()}) {
     expect_refused_after(none, [&](Forgery& f) { f.section<Group>("groups")[0].radius[1] = value; });
-    expect_refused_after(none, [&](Forgery& f) { f.section<Group>("groups").back().reach[0] = value; });
+    expect_refused_after(none, [&](Forgery& f) { f.section<Group>("groups").back().offset[0] = value; });
   }
   expect_refused_after(none, [](Forgery& f) { f.section<Group>("groups")[0].slope_y[1] = kNan; });
   expect_refused_after(none, [](Forgery& f) { f.section<Group>("groups")[0].z[1] = kNan; });

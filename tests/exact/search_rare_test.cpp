@@ -61,7 +61,7 @@ void query_everywhere(ExactAnswer& exact, std::size_t vertices, std::initializer
 
 bool last_was_proved(ExactAnswer& exact) {
   return std::any_of(exact.searchers().begin(), exact.searchers().end(),
-                     [](Searcher& searcher) { return SearcherAccess::state(searcher).covered; });
+                     [](Searcher& searcher) { return SearcherAccess::state(searcher).by_ball_search; });
 }
 
 TEST(Rare, BallOnOneSheetIsProved) {
@@ -69,7 +69,7 @@ TEST(Rare, BallOnOneSheetIsProved) {
   ExactAnswer exact(mesh.view());
   for (Searcher& searcher : exact.searchers()) {
     EXPECT_GT(searcher.count(60 * 120 + 60, 30), 2000U);
-    EXPECT_TRUE(SearcherAccess::state(searcher).covered);
+    EXPECT_TRUE(SearcherAccess::state(searcher).by_ball_search);
   }
   query_everywhere(exact, mesh.size(), {9, 10, 20, 30, 50, 1000});
 }
