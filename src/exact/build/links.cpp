@@ -18,7 +18,7 @@ Exit make_exit(unsigned lane, std::uint32_t slot) {
   return (leaf * kLeafCapacity + lane) * kLeafCapacity + lane_of(slot);
 }
 
-LeafId leaf_of(Exit exit) { return static_cast<LeafId>(exit / (kLeafCapacity * kLeafCapacity)); }
+LeafId target_leaf(Exit exit) { return static_cast<LeafId>(exit / (kLeafCapacity * kLeafCapacity)); }
 
 CrossEdge cross_edge_of(Exit exit) {
   return {static_cast<std::uint8_t>(exit / kLeafCapacity % kLeafCapacity),
@@ -28,8 +28,8 @@ CrossEdge cross_edge_of(Exit exit) {
 /// `exits` ascend, so those to one leaf come together.
 void append_links(const std::vector<Exit>& exits, Links& out) {
   for (std::size_t i = 0; i < exits.size(); ++i) {
-    if (i == 0 || leaf_of(exits[i]) != leaf_of(exits[i - 1])) {
-      out.links.push_back({leaf_of(exits[i]), 0, static_cast<std::uint32_t>(out.cross_edges.size())});
+    if (i == 0 || target_leaf(exits[i]) != target_leaf(exits[i - 1])) {
+      out.links.push_back({target_leaf(exits[i]), 0, static_cast<std::uint32_t>(out.cross_edges.size())});
     }
     const CrossEdge cross_edge = cross_edge_of(exits[i]);
     out.links.back().boundary |= LaneMask{1} << cross_edge.from;
