@@ -1,15 +1,20 @@
-"""Draws the pictures of docs/design.md, or says whether they are as drawn. Usage: python3 tools/drawings [--check]"""
+"""Writes the drawings of docs/design.md, or checks that they are up to date. Usage: python3 tools/drawings [--check]"""
 
 import sys
 from pathlib import Path
 
-import column
-import foreign
 import leaves
+import minimum_region
+import other_components
 import tree
 
 IMAGES = Path(__file__).resolve().parents[2] / "docs" / "images"
-DRAWINGS = {"leaves": leaves, "tree": tree, "column": column, "foreign": foreign}
+DRAWINGS = {
+    "leaves": leaves,
+    "tree": tree,
+    "minimum_region": minimum_region,
+    "other_components": other_components,
+}
 
 
 def update(path, text):
@@ -17,9 +22,9 @@ def update(path, text):
     print(f"{path.name}: {len(text)} bytes")
 
 
-def is_as_drawn(path, text):
+def is_current(path, text):
     same = path.exists() and path.read_text(encoding="utf-8") == text
-    print(f"{path.name}: {'as drawn' if same else 'not as drawn, run python3 tools/drawings'}")
+    print(f"{path.name}: {'up to date' if same else 'out of date, run python3 tools/drawings'}")
     return same
 
 
@@ -28,7 +33,7 @@ def main(arguments):
         return f"tools/drawings: expected nothing or --check, not {' '.join(arguments)}"
     pictures = [(IMAGES / f"{name}.svg", drawing.draw().finish()) for name, drawing in DRAWINGS.items()]
     if arguments:
-        return 0 if all([is_as_drawn(path, text) for path, text in pictures]) else 1
+        return 0 if all([is_current(path, text) for path, text in pictures]) else 1
     for path, text in pictures:
         update(path, text)
     return 0

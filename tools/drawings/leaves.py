@@ -109,20 +109,20 @@ def draw_patch(picture, places, leaves, within, between):
 
 
 def draw_links(picture, places, leaf, edges, leaf_of):
-    """The edges of one leaf: those within, and by linked leaf those that leave it. Returns the latter."""
-    crossings = {}
+    """The edges of one leaf: those within it, and by linked leaf the cross edges. Returns the latter."""
+    cross_edges = {}
     for a, b in edges:
         if leaf in (leaf_of[a], leaf_of[b]) and leaf_of[a] != leaf_of[b]:
-            mine, other = (a, b) if leaf_of[a] == leaf else (b, a)
-            crossings.setdefault(leaf_of[other], []).append((mine, other))
+            start, other = (a, b) if leaf_of[a] == leaf else (b, a)
+            cross_edges.setdefault(leaf_of[other], []).append((start, other))
     own = [(a, b) for a, b in edges if leaf_of[a] == leaf_of[b] == leaf]
     picture.segments([(places[a], places[b]) for a, b in own], stroke=BLUE, stroke_width=2.4)
-    for pairs in crossings.values():
+    for pairs in cross_edges.values():
         picture.segments([(places[a], places[b]) for a, b in pairs], stroke=ORANGE, stroke_width=2.4)
     picture.dots([places[v] for v in leaf_of if leaf_of[v] == leaf], 3.6, fill=BLUE)
-    border = sorted({mine for pairs in crossings.values() for mine, _ in pairs})
-    picture.dots([places[v] for v in border], 4.6, fill="#ffffff", stroke=ORANGE, stroke_width=2)
-    return crossings
+    boundary = sorted({start for pairs in cross_edges.values() for start, _ in pairs})
+    picture.dots([places[v] for v in boundary], 4.6, fill="#ffffff", stroke=ORANGE, stroke_width=2)
+    return cross_edges
 
 
 def draw_names(picture, places, leaves):
@@ -141,31 +141,30 @@ def draw_names(picture, places, leaves):
         )
 
 
-def draw_legend(picture, left, leaves, leaf, crossings):
+def draw_legend(picture, left, leaves, leaf, cross_edges):
     name = chr(ord("A") + leaf)
     picture.text(
         left,
         40,
         f"Leaf {name}: {len(leaves[leaf])} vertices,",
-        f"bits 0 to {len(leaves[leaf]) - 1} of a word.",
+        f"lanes 0 to {len(leaves[leaf]) - 1}.",
         font_weight="bold",
     )
     picture.segments([((left, 90), (left + 30, 90))], stroke=BLUE, stroke_width=2.4)
-    picture.text(left + 40, 95, "edges within the leaf:", "a word per vertex")
+    picture.text(left + 40, 95, "edges within the leaf:", "a lane mask per vertex")
     picture.segments([((left, 138), (left + 30, 138))], stroke=ORANGE, stroke_width=2.4)
-    picture.text(left + 40, 143, "crossings: edges to", "another leaf, as a", "pair of lanes")
+    picture.text(left + 40, 143, "cross edges: edges to", "another leaf, stored", "as a pair of lanes")
     picture.dots([(left + 15, 205)], 4.6, fill="#ffffff", stroke=ORANGE, stroke_width=2)
-    picture.text(left + 40, 210, "border: vertices of the", "leaf with a crossing")
+    picture.text(left + 40, 210, "boundary: vertices of the", "leaf with a cross edge")
     picture.text(left, 262, f"Links of {name}:", font_weight="bold")
-    for i, other in enumerate(sorted(crossings)):
-        border = {mine for mine, _ in crossings[other]}
-        picture.text(
-            left, 284 + 20 * i, f"to {chr(ord('A') + other)}: border {len(border)}, crossings {len(crossings[other])}"
-        )
+    for i, other in enumerate(sorted(cross_edges)):
+        boundary = {start for start, _ in cross_edges[other]}
+        count = len(cross_edges[other])
+        picture.text(left, 284 + 20 * i, f"to {chr(ord('A') + other)}: boundary {len(boundary)}, cross edges {count}")
     picture.text(
         40,
         425,
-        "The slit cuts two cells of the kd tree in two. Their small parts, above the slit, together make the leaf C.",
+        "The slit splits two cells of the kd-tree. Their small parts, above the slit, are merged into the leaf C.",
     )
 
 
@@ -181,7 +180,7 @@ def draw():
     shown = leaf_of[SHOWN]
     picture = Picture(840, 440, "A patch of a mesh cut into leaves")
     draw_patch(picture, places, leaves, within, between)
-    crossings = draw_links(picture, places, shown, edges, leaf_of)
+    cross_edges = draw_links(picture, places, shown, edges, leaf_of)
     draw_names(picture, places, leaves)
-    draw_legend(picture, 590, leaves, shown, crossings)
+    draw_legend(picture, 590, leaves, shown, cross_edges)
     return picture

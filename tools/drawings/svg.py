@@ -1,4 +1,4 @@
-"""An SVG picture, written line by line: the same calls give the same bytes."""
+"""An SVG picture. The same calls give the same bytes."""
 
 from xml.sax.saxutils import escape
 
@@ -27,7 +27,7 @@ def points(pairs):
 
 
 class Picture:
-    """Coordinates are pixels from the upper left corner. Styles are SVG's attributes, with _ for -."""
+    """Coordinates are pixels from the upper left corner. Styles are SVG attributes, with _ for -."""
 
     def __init__(self, width, height, title):
         self.lines = [
@@ -68,7 +68,7 @@ class Picture:
         self.segments([(start, end)], **{"stroke": INK, "stroke_width": 1.3, "marker_end": "url(#tip)", **style})
 
     def text(self, x, y, *rows, **style):
-        """Rows of text one below the other."""
+        """Rows of text, one below the other."""
         for i, row in enumerate(rows):
             self._add(f'<text x="{number(x)}" y="{number(y + 18 * i)}"{attributes(style)}>{escape(row)}</text>')
 

@@ -9,12 +9,12 @@ SIDE = 470
 LEFT, TOP = 20, 40
 FAN_OUT = 8
 CENTRE, RADIUS = (0.47, 0.53), 0.31
-INSIDE, STRADDLING, OUTSIDE = "inside", "straddling", "outside"
-FILL = {INSIDE: SKY, STRADDLING: PEACH, OUTSIDE: "#ffffff"}
+INSIDE, INTERSECTING, OUTSIDE = "inside", "intersecting", "outside"
+FILL = {INSIDE: SKY, INTERSECTING: PEACH, OUTSIDE: "#ffffff"}
 
 
 def cut(box, leaves, ratio):
-    """Boxes of `leaves` leaves, a power of two, in the order of a kd tree."""
+    """Boxes of `leaves` leaves, a power of two, in the order of a kd-tree."""
     if leaves == 1:
         return [box]
     left, top, right, bottom = box
@@ -34,20 +34,20 @@ def parents(boxes):
 
 
 def side_of(box):
-    """Of the bounding circle of a box, to the ball."""
+    """How the bounding circle of a box lies relative to the ball."""
     radius = math.dist(box[:2], box[2:]) / 2
     distance = math.dist(((box[0] + box[2]) / 2, (box[1] + box[3]) / 2), CENTRE)
-    return INSIDE if distance + radius <= RADIUS else OUTSIDE if distance - radius > RADIUS else STRADDLING
+    return INSIDE if distance + radius <= RADIUS else OUTSIDE if distance - radius > RADIUS else INTERSECTING
 
 
 def descend(levels):
-    """By level, from the last to the leaves: the side of each node that is looked at."""
+    """By level, from the highest to the leaves: the side of each visited node."""
     found = []
-    looked_at = range(len(levels[-1]))
+    visited = range(len(levels[-1]))
     for level in reversed(levels):
-        sides = {node: side_of(level[node]) for node in looked_at}
+        sides = {node: side_of(level[node]) for node in visited}
         found.append(sides)
-        looked_at = [FAN_OUT * n + k for n, side in sides.items() if side == STRADDLING for k in range(FAN_OUT)]
+        visited = [FAN_OUT * n + k for n, side in sides.items() if side == INTERSECTING for k in range(FAN_OUT)]
     return found[::-1]
 
 
@@ -57,7 +57,7 @@ def on_page(box):
 
 def draw_map(picture, levels, found):
     for level in range(len(levels)):
-        for side in (INSIDE, STRADDLING) if level == 0 else (INSIDE,):
+        for side in (INSIDE, INTERSECTING) if level == 0 else (INSIDE,):
             boxes = [on_page(levels[level][node]) for node, at in found[level].items() if at == side]
             picture.boxes(boxes, fill=FILL[side], stroke="#ffffff", stroke_width=0.8)
     for level, width in (0, 0.5), (1, 1.3), (2, 2.6):
@@ -71,7 +71,7 @@ def draw_map(picture, levels, found):
 
 
 def draw_row(picture, left, top, sides, label, chosen=0):
-    """Eight nodes and their label, which makes room for the arrow to the one they are children of."""
+    """Eight nodes and their label, placed beside the arrow from their parent."""
     for i, side in enumerate(sides):
         box = (left + 38 * i, top, left + 38 * i + 32, top + 26)
         picture.boxes([box], fill=FILL[side], stroke=INK, stroke_width=1)
@@ -84,19 +84,19 @@ def draw_row(picture, left, top, sides, label, chosen=0):
 
 
 def draw_tree(picture, left, found):
-    """From the last level down, by straddling nodes whose children are of as many kinds as any."""
+    """From the highest level down, along intersecting nodes whose children lie in as many ways as possible."""
 
     def children(level, node):
         return [found[level][FAN_OUT * node + k] for k in range(FAN_OUT)]
 
     top = 64
-    draw_row(picture, left, top, [found[2][k] for k in range(FAN_OUT)], "the group of the last level")
+    draw_row(picture, left, top, [found[2][k] for k in range(FAN_OUT)], "the highest level: one group")
     pairs = [
         (node, child)
         for node, side in found[2].items()
-        if side == STRADDLING
+        if side == INTERSECTING
         for child in range(FAN_OUT * node, FAN_OUT * node + FAN_OUT)
-        if found[1][child] == STRADDLING
+        if found[1][child] == INTERSECTING
     ]
     middle, last = max(pairs, key=lambda p: (len(set(children(1, p[0]))) + len(set(children(0, p[1]))), p[0] > 0, p[1]))
     draw_row(picture, left, top + 80, children(1, middle), "its children, level 1", middle)
@@ -107,9 +107,9 @@ def draw_tree(picture, left, found):
 
 def draw_legend(picture, left, top):
     rows = [
-        (INSIDE, "inside: all its vertices are copied", "as one run of the index order"),
-        (STRADDLING, "straddling: its eight children are", "compared; a leaf: its vertices are"),
-        (OUTSIDE, "outside: dropped, with all below it", ""),
+        (INSIDE, "inside: all its vertices are in the", "answer, one run of the index order"),
+        (INTERSECTING, "intersecting: its eight children are", "compared; in a leaf, its vertices"),
+        (OUTSIDE, "outside: skipped, with all below it", ""),
     ]
     for i, (side, first, second) in enumerate(rows):
         y = top + 46 * i
@@ -118,13 +118,13 @@ def draw_legend(picture, left, top):
 
 
 def draw_order(picture, top, levels, found):
-    """The index order as a strip: runs inside, and straddling leaves."""
+    """The index order as a strip: runs inside, and intersecting leaves."""
     width = 800 / len(levels[0])
-    for side in INSIDE, STRADDLING:
+    for side in INSIDE, INTERSECTING:
         strips = []
         for level, sides in enumerate(found):
             leaves = FAN_OUT**level
-            if side == STRADDLING and level > 0:
+            if side == INTERSECTING and level > 0:
                 continue
             strips += [
                 (LEFT + width * n * leaves, top, LEFT + width * (n + 1) * leaves, top + 26)

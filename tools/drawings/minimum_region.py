@@ -1,4 +1,4 @@
-"""The column of a leaf, as src/exact/build/minimum_region.cpp makes it: the cell of a vertex from above, the column from the side."""
+"""The minimum region of a leaf (src/exact/build/minimum_region.cpp): a vertex from above, a leaf from the side."""
 
 import math
 
@@ -8,7 +8,7 @@ NEIGHBORS = [(104, 8), (58, 92), (-46, 100), (-108, 18), (-70, -84), (48, -96)]
 
 
 def clip(polygon, edge):
-    """The part of `polygon` from which the far end of `edge`, which begins at the origin, is not nearer."""
+    """The part of `polygon` not nearer to the far end of `edge` than to the origin, where `edge` begins."""
     half = (edge[0] ** 2 + edge[1] ** 2) / 2
 
     def value(p):
@@ -55,7 +55,7 @@ def height(i):
 
 
 class Profile:
-    """A line of vertices seen from the side, and a leaf of it: what the columns are in one dimension less."""
+    """A line of vertices seen from the side, and a leaf of it: the minimum region in two dimensions."""
 
     def __init__(self, step, before, size):
         self.first, self.size = before, size
@@ -63,27 +63,27 @@ class Profile:
         self.vertices = [(step * (i - middle), height(i)) for i in range(2 * before + size)]
 
     def cell(self, i):
-        """By neighbour of vertex `i`: where its bisector cuts the axis, and how that moves with the height."""
+        """For each neighbor of vertex `i`: where its bisector cuts the axis, and how that moves with the height."""
         x, y = self.vertices[i]
         for k in (i - 1, i + 1):
             d, h = self.vertices[k][0] - x, self.vertices[k][1] - y
             yield (d * d + h * h) / 2 / d, -h / d
 
     def strip(self, i, n):
-        """The part of height `n` that lies in the cell of vertex `i`."""
+        """The interval at height `n` that lies in the cell of vertex `i`."""
         x, y = self.vertices[i]
         ends = sorted(x + at + slope * (n - y) for at, slope in self.cell(i))
         return ends[0], ends[1]
 
-    def column(self):
+    def region(self):
         own = range(self.first, self.first + self.size)
         slope = max(abs(s) for i in own for _, s in self.cell(i))
-        reach = 0
+        offset = 0
         for i in own:
             x, y = self.vertices[i]
             bound = max(abs(at) for at, _ in self.cell(i)), max(abs(s) for _, s in self.cell(i))
-            reach = max(reach, abs(x) + bound[0] + bound[1] * abs(y))
-        return reach, math.sqrt(1 + slope * slope)
+            offset = max(offset, abs(x) + bound[0] + bound[1] * abs(y))
+        return offset, math.sqrt(1 + slope * slope)
 
 
 def draw_side(picture, x, y, half):
@@ -92,9 +92,9 @@ def draw_side(picture, x, y, half):
     def place(p):
         return x + p[0], y - p[1]
 
-    reach, stretch = profile.column()
+    offset, stretch = profile.region()
     heights = range(-half, half + 1, 10)
-    rim = [(math.sqrt((reach + stretch * abs(n)) ** 2 - n * n), n) for n in heights]
+    rim = [(math.sqrt((offset + stretch * abs(n)) ** 2 - n * n), n) for n in heights]
     right, left = [place(p) for p in rim], [place((-a, n)) for a, n in rim]
     picture.polygon(right + left[::-1], fill=PEACH)
     own = range(profile.first, profile.first + profile.size)
@@ -113,18 +113,18 @@ def draw_side(picture, x, y, half):
 
 
 def draw():
-    picture = Picture(900, 465, "The column of a leaf")
+    picture = Picture(900, 465, "The minimum region of a leaf")
     picture.text(20, 30, "From above: one vertex", font_weight="bold")
     draw_cell(picture, 165, 180)
     picture.text(
         20,
         330,
         "Shaded: the cell of u, bounded by the",
-        "bisectors of its edges. From v, outside it,",
-        "the neighbour w is nearer than u: u is no",
-        "local minimum of the distance from v.",
+        "bisectors of its edges. v lies outside it,",
+        "and the neighbor w is nearer to v than u.",
+        "So u is not a local minimum.",
     )
-    picture.text(400, 30, "From the side: a leaf of a surface, and its column", font_weight="bold")
+    picture.text(400, 30, "From the side: a leaf and its minimum region", font_weight="bold")
     profile, place = draw_side(picture, 630, 210, 150)
     v, w = place(profile.vertices[-1]), place((30, 118))
     picture.dots([v], 6, fill=GREEN)
@@ -134,9 +134,9 @@ def draw():
     picture.text(
         400,
         392,
-        "Thin strips: the cells of the vertices of the leaf (blue), tilted as",
-        "the edges are. The column encloses them: x lies in it where",
-        "|x| \u2264 reach + |x . axis|, from the leaf's centre. From x the leaf",
-        "is in doubt. From v each of its vertices has a nearer neighbour.",
+        "Thin strips: the cells of the leaf's vertices (blue). The region",
+        "contains them: |x| \u2264 offset + |x \u00b7 slope_axis|, from the leaf's center.",
+        "If the query vertex is at x, the leaf is a candidate. If it is at v,",
+        "each vertex of the leaf has a neighbor nearer to v.",
     )
     return picture

@@ -1,4 +1,4 @@
-"""A ball that takes more than hangs together with v, in section: what src/exact/search/other_components.cpp does."""
+"""A ball with a second component, in section: how src/exact/search/other_components.cpp finds and removes it."""
 
 import math
 
@@ -37,7 +37,7 @@ def home_sheet():
     return [(i / 200, y(i / 200)) for i in range(-560, 561)]
 
 
-def foreign_sheet():
+def other_sheet():
     return [(i / 200, -1.05 + 0.1 * math.cos(1.3 * i / 200 + 0.5) + 0.04 * (i / 200) ** 2) for i in range(-560, 561)]
 
 
@@ -46,13 +46,13 @@ def inside(p):
 
 
 def minima(sheet):
-    """The vertices in the ball that have no nearer neighbour."""
+    """The vertices in the ball that have no nearer neighbor."""
     d = [math.hypot(*p) for p in sheet]
     return [i for i in range(1, len(d) - 1) if inside(sheet[i]) and d[i] <= min(d[i - 1], d[i + 1])]
 
 
-def walk(sheet, start):
-    """The nearest next vertex first, until one nearer than `start` is met: the first and last reached, and whether."""
+def traverse(sheet, start):
+    """Nearest vertex first, until one nearer than `start`: the first and last vertex, and whether one was met."""
     limit = math.hypot(*sheet[start])
     low = high = start
     while True:
@@ -72,9 +72,9 @@ def draw_sheet(picture, sheet, colour):
     picture.dots([place(p) for p in shown if inside(p)], 3.6, fill=colour)
 
 
-def draw_walk(picture, sheet, start, aside, colour):
-    """Arrows beside the sheet from `start` to both ends of the walk."""
-    low, high, _ = walk(sheet, start)
+def draw_traversal(picture, sheet, start, aside, colour):
+    """Arrows beside the sheet from `start` to both ends of the traversal."""
+    low, high, _ = traverse(sheet, start)
     for end in low, high:
         step = 1 if end > start else -1
         path = [(sheet[k][0], sheet[k][1] + aside) for k in range(start + step, end + step, step)]
@@ -84,43 +84,43 @@ def draw_walk(picture, sheet, start, aside, colour):
 
 def draw_legend(picture, left):
     entries = [
-        (BLUE, "hangs together with v"),
-        (RED, "foreign: in the ball, but joined to", "v outside of it at most"),
-        (INK, "outside of the ball"),
+        (BLUE, "connected to v inside the ball"),
+        (RED, "another component: in the ball, but", "not connected to v inside it"),
+        (INK, "outside the ball"),
     ]
     y = 60
     for colour, *rows in entries:
         picture.dots([(left + 6, y - 5)], 4, fill=colour)
         picture.text(left + 22, y, *rows)
         y += 18 * len(rows) + 8
-    picture.text(left, y + 20, "Circles: local minima of the distance.", "They are taken nearest first.")
-    picture.text(left, y + 76, "1: the walk exhausts a component.", "It is foreign, and is cut away.", fill=RED)
+    picture.text(left, y + 20, "Circles: local minima of the distance,", "processed nearest first.")
+    picture.text(left, y + 76, "1: the traversal exhausts a component.", "It is removed from the answer.", fill=RED)
     picture.text(
         left,
         y + 132,
-        "2: the walk meets a vertex nearer",
-        "than where it began. A foreign one",
-        "would have been cut away before:",
-        "so this hangs together with v.",
+        "2: the traversal meets a vertex nearer",
+        "than its start. Other components with",
+        "nearer vertices are already removed,",
+        "so it is connected to v.",
         fill=GREEN,
     )
 
 
 def draw():
     picture = Picture(860, 430, "A second sheet and a hump in the ball")
-    home, foreign = resample(home_sheet(), STEP), resample(foreign_sheet(), STEP)
+    home, other = resample(home_sheet(), STEP), resample(other_sheet(), STEP)
     v = min(range(len(home)), key=lambda i: math.hypot(*home[i]))
     home = [(x - home[v][0], y - home[v][1]) for x, y in home]
     picture.dots([CENTRE], UNIT * RADIUS, fill="#f4f8fc", stroke=ORANGE, stroke_width=2.5)
     draw_sheet(picture, home, BLUE)
-    draw_sheet(picture, foreign, RED)
+    draw_sheet(picture, other, RED)
     starts = [
-        (math.hypot(*sheet[i]), i, sheet) for sheet in (home, foreign) for i in minima(sheet) if sheet[i] != (0, 0)
+        (math.hypot(*sheet[i]), i, sheet) for sheet in (home, other) for i in minima(sheet) if sheet[i] != (0, 0)
     ]
     for rank, (_, start, sheet) in enumerate(sorted(starts), 1):
         aside = 0.14 if sheet is home else -0.14
-        met = walk(sheet, start)[2]
-        draw_walk(picture, sheet, start, aside, GREEN if met else RED)
+        met = traverse(sheet, start)[2]
+        draw_traversal(picture, sheet, start, aside, GREEN if met else RED)
         x, y = place(sheet[start])
         picture.dots([(x, y)], 8, fill="none", stroke=INK, stroke_width=2)
         picture.text(x - 22 if met else x - 4, y + 5 if met else y - 16, str(rank), font_size=17, font_weight="bold")
