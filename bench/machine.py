@@ -64,8 +64,8 @@ def is_busy(machine):
 
 
 def caption(machine):
-    """One sentence for under a table."""
-    beside = f", {machine['load_beside']:g} beside it" if "load_beside" in machine else ""
+    """One sentence to go below a table."""
+    beside = f" and {machine['load_beside']:g} during the run" if "load_beside" in machine else ""
     remark = " **The machine was busy: preliminary figures.**" if is_busy(machine) else ""
     return (f"{machine['processor']}, {machine['processors']} processors, {machine['memory_gigabytes']} GB, on"
-            f" {machine['date']}, load {machine['load_before']:g} when it began{beside}.{remark}")
+            f" {machine['date']}. Load from other programs: {machine['load_before']:g} before{beside}.{remark}")

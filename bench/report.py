@@ -1,49 +1,79 @@
 # SPDX-License-Identifier: MIT
-"""docs/benchmarks.md and the head table of the README, made from the results. Nothing there is written by hand."""
+"""Writes docs/benchmarks.md, docs/benchmarks/*.md and the table of the README, all from the results."""
 import re
 
 from . import machine, places, results
 from .sections import SECTIONS
+from .sections.markdown import image
 
 HEAD = """# Benchmarks
 
-Written by `python3 -m bench report` from `docs/benchmarks/*.json`. Not edited by hand. `make reproduce` measures the
-paper's tables, pictures, accuracy and growth again, `make peers` the other products; either ends by writing this page.
+Written by `python3 -m bench report` from `docs/benchmarks/*.json`; do not edit. `make reproduce` measures the paper's
+tables, Figure 4, accuracy and growth again, `make peers` the other libraries. Both end by writing these pages.
 
-How it is measured: all methods of a table take the same queries in turn, block by block, in one run; a time is the
-median over the blocks, in parentheses the quartiles where there is room. Never the best of several. *Cold* is a query
-far from the one before, *warm* one beside it. Radii in average edges of the mesh. Extra and missing are vertices a
-query, against breadth-first search, which is exact. Where another is faster, the table says so.
+How we measure: all methods of a table answer the same queries in alternating blocks of one run. A time is the median over
+the blocks, with the quartiles in parentheses; never the best of several. *Cold*: each query is far from the one before.
+*Warm*: it is next to it. Radii are in mean edge lengths of the mesh. *Extra* and *missing* count vertices compared with
+breadth-first search, which is exact.
+
 """
+
+PLOTS = (("table2", "Above: time of a query over the radius, by method. Below: vertices found"),
+         ("accuracy", "Extra vertices of the paper's answer and of the ball, over the radius"),
+         ("query_over_size", "Time of a query over the size of the mesh"))
+
+PAGE_HEAD = "# {title}\n\nPart of the [benchmarks](../benchmarks.md), where the terms are explained. Generated; do not edit.\n\n"
 
 MARKERS = re.compile(r"(<!-- from the benchmarks -->\n).*?(<!-- to here -->)", re.DOTALL)
 
 
 def write():
-    from . import plots  # matplotlib, which the text does without
+    from . import plots  # needs matplotlib, which the text does not
 
     drawn = plots.draw_all()
-    places.DOCUMENT.write_text(document(), encoding="utf-8")
-    print(f"wrote docs/benchmarks.md and {len(drawn)} plots")
-    tables = results.load("paper_tables")
-    if tables is not None:
-        places.README.write_text(readme(tables), encoding="utf-8")
+    texts = documents()
+    for path, text in texts.items():
+        path.write_text(text, encoding="utf-8")
+    print(f"wrote {len(texts)} pages and {len(drawn)} plots")
+    speed = results.load("exact_index")
+    if speed is not None:
+        places.README.write_text(readme(speed), encoding="utf-8")
 
 
-def document():
-    """docs/benchmarks.md, as the results want it."""
+def documents():
+    """Every page by its path."""
+    measured = {source: data for source in SECTIONS if (data := results.load(source)) is not None}
+    texts = {places.RESULTS / f"{source}.md": page(source, data) for source, data in measured.items()}
+    return {places.DOCUMENT: overview(measured), **texts}
+
+
+def page(source, data):
+    section = SECTIONS[source]
+    return f"{PAGE_HEAD.format(title=section.TITLE)}{section.text(data)}{measured_on(data)}"
+
+
+def overview(measured):
+    """The page that a person reads: plots, the main tables, and links to the others."""
     parts = [HEAD]
-    for source, section in SECTIONS.items():
-        data = results.load(source)
-        if data is not None:
-            parts.append(f"{section.text(data)}\n*Measured on {machine.caption(data['machine'])}*\n")
-    return "\n".join(parts)
+    parts += [image(name, text, folder="benchmarks/") + "\n" for name, text in PLOTS]
+    more = []
+    for source, data in measured.items():
+        section = SECTIONS[source]
+        if hasattr(section, "summary"):
+            parts.append(f"## {section.TITLE}\n\n{section.summary(data)}{measured_on(data)}\n")
+        else:
+            more.append(f"- [{section.TITLE}](benchmarks/{source}.md)\n")
+    return "".join([*parts, "## More\n\n", *more])
 
 
-def readme(tables):
-    """README.md with its table as the results want it."""
+def measured_on(data):
+    return f"\n*Measured on {machine.caption(data['machine'])}*\n"
+
+
+def readme(speed):
+    """README.md with its table replaced by that of the results."""
     text = places.README.read_text(encoding="utf-8")
     if not MARKERS.search(text):
-        raise SystemExit("bench: README.md has lost the marks between which its table stands")
-    table = SECTIONS["paper_tables"].head_table(tables)
+        raise SystemExit("bench: README.md lacks the two comments that enclose its table")
+    table = SECTIONS["exact_index"].head_table(speed)
     return MARKERS.sub(lambda found: f"{found[1]}{table}{found[2]}", text)

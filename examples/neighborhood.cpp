@@ -12,10 +12,10 @@
 
 std::vector<meshhood::VertexId> near(const char* file, meshhood::VertexId vertex, double radius) {
   const auto mesh = meshhood::io::read_mesh(file);  // PLY, OBJ, OFF or STL
-  const auto index = meshhood::build(mesh.view());  // once a mesh
-  meshhood::Searcher searcher(index);               // one a thread, for any number of queries
+  const auto index = meshhood::build(mesh.view());  // once for each mesh
+  meshhood::Searcher searcher(index);               // one for each thread; answers any number of queries
   std::vector<meshhood::VertexId> answer;
-  searcher.neighborhood(vertex, radius, answer);  // the radius in the unit of the positions
+  searcher.neighborhood(vertex, radius, answer);  // the radius has the unit of the positions
   return answer;
 }
 // [readme]
@@ -28,7 +28,7 @@ int main(int argc, char** argv) try {
   }
   const auto vertex = static_cast<meshhood::VertexId>(std::strtoul(argv[2], nullptr, 10));
   const double radius = std::strtod(argv[3], nullptr);
-  std::printf("%zu vertices within %g of vertex %u along the surface\n", near(argv[1], vertex, radius).size(), radius,
+  std::printf("%zu vertices within %g of vertex %u and connected to it there\n", near(argv[1], vertex, radius).size(), radius,
               unsigned{vertex});
   return 0;
 } catch (const std::exception& error) {

@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: MIT
-"""The sections of docs/benchmarks.md in their order, by the results each is made from."""
+"""The sections of the benchmarks, by the results each is made from. A section has
+
+    TITLE           its heading
+    text(data)      its page, docs/benchmarks/NAME.md
+    summary(data)   what docs/benchmarks.md shows of it; may be absent
+"""
 from . import accuracy, all_vertices, exact_index, figure4, paper_tables, peers, scaling
 
 SECTIONS = {
-    "paper_tables": paper_tables,
-    "all_vertices": all_vertices,
     "exact_index": exact_index,
-    "figure4": figure4,
+    "paper_tables": paper_tables,
     "accuracy": accuracy,
-    "scaling": scaling,
+    "all_vertices": all_vertices,
     "peers": peers,
+    "scaling": scaling,
+    "figure4": figure4,
 }

@@ -3,20 +3,26 @@
 from .. import accuracy, programs
 from .markdown import image, number, table
 
-NOTE = """## Accuracy
+TITLE = "Accuracy of the paper's method and of the ball"
+SHOWN_RADII = (5, 20, 65)
 
-{queries:,} random queries a mesh and radius. Neither the paper's answer nor the ball ever misses a vertex of the exact
-neighborhood; how many they take besides, as a share of the exact answer:
+NOTE = """`python3 -m bench accuracy`: {queries:,} random queries for each mesh and radius. The paper's answer and the ball never miss
+a vertex of the exact neighborhood. How many extra vertices they have, relative to the exact answer:
 
 """
 
 FACTOR_NOTE = """
-The factor `f` decides how small the clusters are that the paper's query begins with, hence error and time:
+The factor `f` decides how small the clusters are with which the paper's query starts, and thus error and time:
 
 """
 
 LEVELS_NOTE = """
-The number of levels computed, the lowest two of them dropped as in the paper:
+The number of levels computed, with the lowest two discarded as in the paper:
+
+"""
+
+SUMMARY_NOTE = """`python3 -m bench accuracy`: extra vertices in percent of the exact answer, at {radii} mean edges. Neither method misses a
+vertex; the exact index has no extra vertices. [All radii, factors and levels](benchmarks/accuracy.md).
 
 """
 
@@ -27,8 +33,22 @@ def text(data):
     if missing:
         raise SystemExit("bench: a method missed vertices; the text on accuracy is wrong")
     return (NOTE.format(queries=data["queries"]) + listed + "\n\n" + image("accuracy", "Extra vertices over the radius")
-            + "\n" + extra_table(data) + FACTOR_NOTE + image("factor", "Error and time over the radius by f") + LEVELS_NOTE
-            + image("levels", "Error and time over the radius by the number of levels"))
+            + "\n" + extra_table(data) + FACTOR_NOTE + image("factor", "Error and time over the radius for each f")
+            + LEVELS_NOTE + image("levels", "Error and time over the radius for each number of levels"))
+
+
+def summary(data):
+    header = ["mesh", *(f"paper, {radius}" for radius in SHOWN_RADII), *(f"ball, {radius}" for radius in SHOWN_RADII)]
+    rows = []
+    for name, race in data["meshes"].items():
+        by_radius = programs.by_radius(race["rows"])
+        rows.append([name, *(extra_percent(by_radius[radius], method) for method in (accuracy.factor_method(10), "ball")
+                             for radius in SHOWN_RADII)])
+    return SUMMARY_NOTE.format(radii=", ".join(map(str, SHOWN_RADII))) + table(header, rows)
+
+
+def extra_percent(row, method):
+    return f"{number(100 * row[method]['extra'] / row['bfs']['count'])} %"
 
 
 def extra_table(data):

@@ -1,30 +1,88 @@
 # SPDX-License-Identifier: MIT
-"""The exact index beside the best breadth-first search."""
-from .. import programs
+"""The exact index compared with breadth-first search."""
+from .. import machine, programs
 from .markdown import number, table, with_spread
 
-NOTE = """## The exact index beside the best breadth-first search
+TITLE = "Speed over the radius"
+COMMAND = "python3 -m bench exact"
+BFS = ("bfs", "bfs-reordered")
+SHOWN_RADII = (2, 5, 10, 20, 65)
+KINDS = {"head_skin": "a smooth scan", "dragon": "a scan with folds", "mri_head": "strongly folded",
+         "plates": "two sheets close together"}
 
-{queries:,} queries a mesh and radius, one thread, processor time, µs a query. The search runs on the vertices as the file
-has them and in index order (`reordered`); the better of the two counts. Answers as ids, as a count, and as ranges, each
-from an index of its own. Scroll, plates, folds and gyroid are made by formula (`meshhood generate`).
+NOTE = """`{command}`. {queries:,} queries for each mesh and radius, one thread, processor time in µs a query. Breadth-first
+search runs twice, with the vertices in the order of the file (`bfs`) and in index order (`bfs reordered`); the ratios
+(×) compare with the faster of the two. The exact index returns ids, a count, or ranges of the index order. Each of the
+three has an index of its own, so that none profits from the cache of another. Scroll, plates, folds and gyroid are
+generated (`meshhood generate`).
 """
 
-
 BATCH_NOTE = """
-### Many vertices in one call
+## Many vertices in one call
 
-A batch over a run of vertices as the file numbers them, one thread, all ids streamed or only counted, µs a row; beside
-it the breadth-first searches for the first vertices of each batch.
+A batch over consecutive vertices of the file, one thread, µs a row. `ids`: all ids are streamed. `counts`: only the sizes
+are computed. The breadth-first searches run for the first vertices of each batch.
+
+"""
+
+SUMMARY_NOTE = """`{command}`: µs a query, one thread, processor time. `bfs` is breadth-first search, in the order of the file
+or in index order, whichever is faster. All meshes and radii, with quartiles:
+[benchmarks/exact_index.md](benchmarks/exact_index.md).
+
+"""
+
+BATCH_SUMMARY = """
+### Many queries in one call
+
+µs a row, one thread. [All meshes](benchmarks/exact_index.md#many-vertices-in-one-call).
 
 """
 
 
 def text(data):
-    parts = [NOTE.format(queries=data["queries"])]
+    parts = [NOTE.format(command=COMMAND, queries=data["queries"])]
     for name, result in data["meshes"].items():
         parts.append(f"\n**{name}**, {result['vertices']:,} vertices\n\n{mesh_table(result)}")
     return "".join([*parts, BATCH_NOTE, batch_table(data["meshes"])])
+
+
+def summary(data):
+    header = ["mesh", "radius", "found", "bfs, cold", "exact, cold", "× cold", "× cold, count", "× warm", "× warm, count"]
+    rows = []
+    for name, result in shown(data).items():
+        cold, warm = (programs.by_radius(result[order]) for order in ("cold", "warm"))
+        for radius in filter(cold.__contains__, SHOWN_RADII):
+            rows.append([f"{name} ({KINDS[name]})" if name in KINDS else name, f"{radius:g}",
+                         number(cold[radius]["bfs"]["count"]), number(best_bfs(cold[radius])),
+                         number(cold[radius]["ids"]["microseconds"]),
+                         *(f"{ratio(order[radius], method):.1f}" for order in (cold, warm) for method in ("ids", "count"))])
+    return (SUMMARY_NOTE.format(command=COMMAND) + table(header, rows) + "\n" + extremes(data["meshes"])
+            + BATCH_SUMMARY + batch_table(shown(data)))
+
+
+def shown(data):
+    """The meshes of KINDS, or all where there is none of them."""
+    return {name: data["meshes"][name] for name in KINDS if name in data["meshes"]} or data["meshes"]
+
+
+def best_bfs(row):
+    return min(row[method]["microseconds"] for method in BFS)
+
+
+def ratio(row, method):
+    return best_bfs(row) / row[method]["microseconds"]
+
+
+def extremes(meshes):
+    """The smallest and the largest ratio of all, each with its place."""
+    ratios = [(ratio(row, "ids"), name, radius, order) for name, result in meshes.items() for order in ("cold", "warm")
+              for radius, row in programs.by_radius(result[order]).items()]
+
+    def said(found):
+        return f"{found[0]:.1f} ({found[1]}, {found[3]}, {found[2]:g} edges)"
+
+    return (f"Over all {len(meshes)} meshes, {len(ratios) // len(meshes) // 2} radii and both orders, the ratio for ids is"
+            f" smallest at {said(min(ratios))}\nand largest at {said(max(ratios))}.\n")
 
 
 def mesh_table(result):
@@ -32,11 +90,10 @@ def mesh_table(result):
     rows = []
     for order in ("cold", "warm"):
         for radius, row in programs.by_radius(result[order]).items():
-            best = min(row[method]["microseconds"] for method in ("bfs", "bfs-reordered"))
             asked = [row[method] for method in ("ids", "count", "ranges")]
             times = [with_spread(m["microseconds"], m["quartiles"]) for m in (row["bfs"], row["bfs-reordered"], *asked)]
             rows.append([order, f"{radius:g}", number(row["bfs"]["count"]), *times,
-                         *(f"{best / m['microseconds']:.1f}" for m in asked)])
+                         *(f"{best_bfs(row) / m['microseconds']:.1f}" for m in asked)])
     return table(header, rows)
 
 
@@ -45,9 +102,29 @@ def batch_table(meshes):
     rows = []
     for name, result in meshes.items():
         for batch in result["batches"]:
-            times = [batch[method] for method in ("bfs", "bfs-reordered", "ids", "count")]
+            times = [batch[method] for method in (*BFS, "ids", "count")]
             best = min(time["median"] for time in times[:2])
             rows.append([name, f"{batch['radius_edges']:g}", number(batch["rows"]),
                          *(with_spread(time["median"], time["quartiles"]) for time in times),
                          *(f"{best / time['median']:.1f}" for time in times[2:])])
     return table(header, rows)
+
+
+def head_table(data):
+    """The table of the README: one smooth mesh and one folded mesh, cold."""
+    meshes = data["meshes"]
+    smooth = next((name for name in ("head_skin", *meshes) if name in meshes))
+    folded = next((name for name in ("mri_head", *meshes) if name in meshes))
+    header = ["radius", *(cell for name in (smooth, folded) for cell in (f"{name}: found", "bfs µs", "exact µs", "×"))]
+    columns = [programs.by_radius(meshes[name]["cold"]) for name in (smooth, folded)]
+    rows = [[f"{radius:g}", *(cell for rows in columns for cell in head_cells(rows[radius]))]
+            for radius in SHOWN_RADII if all(radius in rows for rows in columns)]
+    busy = " **Preliminary: the machine was busy.**" if machine.is_busy(data["machine"]) else ""
+    return (f"One query, cold, on one thread of an {data['machine']['processor']} (`{COMMAND}`). `{smooth}` is"
+            f" {KINDS.get(smooth, 'a mesh')}\nof {meshes[smooth]['vertices']:,} vertices, `{folded}` is"
+            f" {KINDS.get(folded, 'a mesh')}, with {meshes[folded]['vertices']:,}. The radius is in mean edge lengths,\nand `bfs`"
+            f" the fastest breadth-first search we could write.{busy}\n\n" + table(header, rows) + "\n" + extremes(meshes))
+
+
+def head_cells(row):
+    return [number(row["bfs"]["count"]), number(best_bfs(row)), number(row["ids"]["microseconds"]), f"{ratio(row, 'ids'):.1f}"]

@@ -2,11 +2,12 @@
 """The paper's Figure 4."""
 from .markdown import image, table
 
-NOTE = """## Figure 4: what each method takes
+TITLE = "The paper's Figure 4"
 
-Green: the exact neighborhood. Yellow: what the paper's search adds. Blue: what a ball takes besides. Red: the vertex.
-The paper's radii; its vertices and poses are not known, so these were chosen where the methods differ: (a) in another
-pose of the same cat, (b) on the leg, since Victoria's hand is far from all else here.
+NOTE = """`python3 -m bench pictures`. Green: the exact neighborhood. Yellow: extra vertices of the paper's answer. Blue: further
+vertices of the ball. Red: the query vertex. Radii are the paper's. Its vertices and poses are not known, so we chose some
+where the methods differ: (a) is another pose of the same cat; (b) is on the leg, because the hand of this Victoria is far
+from everything else.
 
 """
 
@@ -14,7 +15,7 @@ pose of the same cat, (b) on the leg, since Victoria's hand is far from all else
 def text(data):
     pictures = data["pictures"]
     shown = "\n".join(image(f"figure4{p['letter']}", f"({p['letter']}) {p['mesh'].partition(';')[0]}, radius"
-                            f" {p['radius_edges']} average edges", "png") for p in pictures)
+                            f" {p['radius_edges']} mean edges", "png") for p in pictures)
     rows = [[f"({p['letter']}) {p['mesh'].partition(';')[0]}", f"{p['radius_edges']}", str(p["vertex"]),
              *(f"{p['found'][method]:,}" for method in ("exact", "paper", "ball"))] for p in pictures]
     return NOTE + table(["", "radius", "vertex", "exact", "paper", "ball"], rows) + "\n" + shown

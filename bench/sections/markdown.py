@@ -7,12 +7,13 @@ def table(header, rows):
     return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
 
 
-def image(name, text, kind="svg"):
-    return f"![{text}](benchmarks/{name}.{kind})\n"
+def image(name, text, kind="svg", folder=""):
+    """`folder` leads from the page to docs/benchmarks."""
+    return f"![{text}]({folder}{name}.{kind})\n"
 
 
 def number(value):
-    """Three significant digits, and thousands told apart."""
+    """Three significant digits, with a thousands separator."""
     if value == 0 or abs(value) >= 1000:
         return f"{value:,.0f}"
     digits = f"{value:.3g}"
@@ -24,5 +25,5 @@ def with_spread(median, quartiles):
 
 
 def megabytes(count):
-    """Of 2^20 bytes, as the paper's."""
+    """Of 2^20 bytes, as in the paper."""
     return f"{count / 2**20:.3f}"

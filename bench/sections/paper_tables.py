@@ -1,45 +1,49 @@
 # SPDX-License-Identifier: MIT
-"""Table 1, Table 2 and the phases of the query, the paper's figures beside ours."""
-from .. import machine, meshes, paper_tables, programs
+"""The paper's Table 1, Table 2 and profile of the query, with the paper's figures beside ours."""
+from .. import meshes, paper_tables, programs
 from .markdown import image, megabytes, number, table, with_spread
 
+TITLE = "The paper's tables"
 METHODS = ("bfs", "ball", "paper", "exact")
 
-NOTE = """## The paper's tables
-
-`make reproduce`, which runs `meshhood bench --json` on each mesh: one thread, processor time, {queries:,} random queries
-a mesh and radius, cold. `bfs`: a breadth-first search over compressed adjacency that owns its memory, clears nothing
-between queries and fetches ahead. `ball`: a scan of all vertices, as in the paper. `paper`: the paper's index and query
-with its parameters (five levels computed, the last three kept, f = 10). `exact`: our index, all ids listed.
+NOTE = """`make reproduce`, which runs `meshhood bench --json` on each mesh: one thread, processor time, {queries:,} random queries
+for each mesh and radius, cold. `bfs`: breadth-first search over an adjacency in CSR form; it owns its memory, clears
+nothing between queries and prefetches. `ball`: a scan of all vertices, as in the paper. `paper`: the paper's index and
+query with the paper's parameters (five levels computed, the last three kept, f = 10). `exact`: the exact index, with all
+ids.
 
 The meshes:
 
 {meshes}
 
-### Table 1: space and building time
+## Table 1: space and building time
 
-Megabytes of 2^20 bytes, as in the paper. A plain mesh is 12 bytes a vertex (24 where the file has doubles) and 4 bytes a
-corner; topology adds the adjacency, 4 bytes a vertex and 8 an edge, where the paper has the pointers of VCG. All arrays
-of an index are counted, its copy of the positions too. Seconds of one thread's processor time, adjacency included: the
-median of three builds in turn. The paper had a Core i5 at 2.67 GHz.
+Megabytes of 2^20 bytes, as in the paper. A plain mesh has 12 bytes for each vertex (24 if the file has doubles) and 4
+bytes for each corner. Topology adds the adjacency: 4 bytes for each vertex and 8 for each edge, where the paper has the
+pointers of VCG. The size of an index includes all arrays and its copy of the positions. Building time is processor time
+of one thread with the adjacency included, the median of three builds. The paper used a Core i5 at 2.67 GHz.
 
 """
 
 TABLE2_NOTE = """
-### Table 2: time and vertices found
+## Table 2: time and vertices found
 
-The paper gives its Table 2 as plots. Its text states one pair of figures: on the Raptor at 65 average edges, 0.26 ms with
-the index and 2.25 ms by breadth-first search, 8.65 times as fast. Ours at that place stand in the tables of head_skin
-and mri_head.
+The paper shows its Table 2 as plots. Its text states one pair of figures: on the Raptor at 65 mean edges, 0.26 ms with
+the index and 2.25 ms by breadth-first search, a ratio of 8.65. Compare the tables of head_skin and mri_head.
 
 """
 
 PHASES_NOTE = """
-### The phases of the paper's query (4.3)
+## The phases of the paper's query (4.3)
 
-Per cent of the time of a query, the mean over {queries:,} random ones, by `phases`. The paper found 85 % in the range
-search over its whole benchmark. Our range search goes down to the children of clusters at the rim instead of testing
-every vertex, and has the copying of the ids with it.
+Percent of the time of a query, the mean of {queries:,} random queries, by `bench/phases.cpp`. The paper measured 85 % in
+the range search over its whole benchmark. Our range search continues with the children of intersecting clusters instead
+of testing every vertex, and includes the copying of the ids.
+
+"""
+
+SUMMARY_NOTE = """`make reproduce`: megabytes of 2^20 bytes, and seconds of one thread. The index sizes include a copy of the positions. With
+the paper's own figures and Table 2: [benchmarks/paper_tables.md](benchmarks/paper_tables.md).
 
 """
 
@@ -48,10 +52,23 @@ def text(data):
     measured = data["meshes"]
     listed = "\n".join(f"- `{name}`: {result['mesh']}" for name, result in measured.items())
     parts = [NOTE.format(queries=data["queries"], meshes=listed), table1(measured), TABLE2_NOTE,
-             image("table2", "Time and vertices found over the radius, mesh by mesh")]
+             image("table2", "Time and vertices found over the radius, for each mesh")]
     parts += [f"\n**{name}**, µs a query\n\n{table2(result)}" for name, result in measured.items()]
     parts += [PHASES_NOTE.format(queries=paper_tables.PROFILE_QUERIES), phases(measured)]
     return "".join(parts)
+
+
+def summary(data):
+    header = ["mesh", "vertices", "plain mesh", "exact index", "built", "paper's index", "built"]
+    rows = []
+    for name, result in data["meshes"].items():
+        space = result["table1"]
+        cells = [f"{space['vertices']:,}", megabytes(space["mesh_bytes"])]
+        for kind in ("exact", "paper"):
+            build = paper_tables.build_summary(result, kind)
+            cells += [megabytes(build["bytes"]), f"{build['median']:.3f} s"]
+        rows.append([name, *cells])
+    return SUMMARY_NOTE + table(header, rows)
 
 
 def table1(measured):
@@ -98,17 +115,4 @@ def phases(measured):
         for row in result["phases"]:
             rows.append([name, f"{row['radius_edges']:g}",
                          *(f"{row[phase]:.0f} %" for phase in ("climb_up", "breadth_first", "range_search"))])
-    return table(["mesh", "radius", "climb up", "breadth first", "range search"], rows)
-
-
-def head_table(data):
-    """For the README: one query on the largest mesh, of the radius that the paper names."""
-    name = next((name for name in ("head_skin", *data["meshes"]) if name in data["meshes"]))
-    result = data["meshes"][name]
-    radius = paper_tables.ACCOUNT_RADIUS
-    row = programs.by_radius(result["table2"])[radius]
-    header = ["breadth-first search", "scan for the ball", "the paper's index", "the exact index"]
-    busy = " **Preliminary: the machine was busy.**" if machine.is_busy(data["machine"]) else ""
-    return (f"One neighborhood within {radius:g} average edges on {name}, {result['table1']['vertices']:,} vertices"
-            f" ({row['bfs']['count']:,.0f} found; {data['machine']['processor']}, one thread, far-apart queries):{busy}\n\n"
-            + table(header, [[f"{number(row[method]['microseconds'])} µs" for method in METHODS]]))
+    return table(["mesh", "radius", "climb up", "breadth-first search", "range search"], rows)

@@ -1,15 +1,21 @@
 # SPDX-License-Identifier: MIT
-"""Other products on the same queries."""
+"""Other libraries on the same queries."""
 from .markdown import number, table, with_spread
 
-NOTE = """## Peers
+TITLE = "Other libraries"
 
-`make peers`: each product in a process of its own, all in one run on the same vertices, {blocks} blocks in turn of as many
-queries as about {seconds:g} s allow; microseconds a query by the clock on the wall, answers made but not read. One thread:
-the process is held to one processor. Who answers only for all vertices at once is asked so, and the time shared out; who
-takes minutes for one step is given up, and the table says so. Extra and missing: vertices a query against the exact
-answer, on 20 vertices. Memory: what building added to the process. A product that answers another question is labelled
-so; a ball is the wrong answer wherever two sheets lie close.
+NOTE = """`make peers`: each library runs in a process of its own, all in one run on the same vertices, in {blocks} alternating blocks
+of about {seconds:g} s. Times are µs a query, wall clock; answers are computed but not read. One thread: the process is
+bound to one processor. A library that only answers for all vertices at once is called so, and its time is divided by
+their number. A library that takes minutes for one step is stopped, and the table says so. Extra and missing: vertices of
+a query compared with the exact answer, on 20 vertices. MB: what building added to the process. The column `answers` says
+which question a library answers; a ball is wrong wherever two sheets lie close together.
+
+"""
+
+SUMMARY_NOTE = """`make peers`: {name}, {radius:g} mean edges, {found:,.0f} vertices found, {threads}, vertices in the order of the file; µs a
+query, wall clock. Extra and missing vertices are compared with the exact answer. Other meshes, radii, threads, shuffled
+vertices and curvature: [benchmarks/peers.md](benchmarks/peers.md).
 
 """
 
@@ -19,10 +25,22 @@ def text(data):
     for contest in data["contests"]:
         order = "as in the file" if contest["order"] == "file" else "shuffled"
         found = next((peer["found"] for peer in contest["peers"]), 0)
-        parts.append(f"\n### {contest['name']}, {contest['radius_edges']:g} average edges, {contest['threads']} thread"
+        parts.append(f"\n## {contest['name']}, {contest['radius_edges']:g} mean edges, {contest['threads']} thread"
                      f"{'s' if contest['threads'] == 'all' else ''}, vertices {order}\n\n{contest['mesh']};"
                      f" {contest['vertices']:,} vertices, {found:,.0f} found a query.\n\n{contest_table(contest)}")
     return "".join(parts)
+
+
+def summary(data):
+    """The contest of the largest mesh on one thread, with the libraries that search neighborhoods."""
+    contests = [c for c in data["contests"] if c["order"] == "file" and c["threads"] == "one"] or data["contests"]
+    contest = max(contests, key=lambda c: (c["vertices"], c["radius_edges"]))
+    header = ["", "answers", "µs a query (quartiles)", "extra", "missing", "built s"]
+    timed = sorted((peer for peer in contest["peers"] if "microseconds" in peer and "curvature" not in peer["answers"]),
+                   key=lambda peer: peer["microseconds"]["median"])
+    note = SUMMARY_NOTE.format(name=contest["name"], radius=contest["radius_edges"], found=timed[0]["found"],
+                               threads="one thread" if contest["threads"] == "one" else "all threads")
+    return note + table(header, [timed_row(peer)[:6] for peer in timed])
 
 
 def versions(data):

@@ -1,29 +1,30 @@
 # SPDX-License-Identifier: MIT
-"""Cost as work grows."""
+"""Cost as mesh and radius grow."""
 from .. import scaling
 from ..timing import fitted_exponent
 from .markdown import image, number, table
 
-NOTE = """## Cost as work grows
+TITLE = "Cost as mesh and radius grow"
 
-Shapes by formula (`meshhood generate`); one thread, processor time, {queries:,} random queries, cold; each method has an
-index of its own, so that none finds in the cache what another has read. Exponents are the slopes in log-log.
+NOTE = """`python3 -m bench scaling`: generated shapes (`meshhood generate`), one thread, processor time, {queries:,} random queries,
+cold. Each method has an index of its own, so that none profits from the cache of another. Exponents are slopes in log-log
+scale.
 
 """
 
 RADIUS_NOTE = """
-Over the radius, fitted where at least {large:,} vertices are found (k). What is expected: where one sheet fills the ball
-(sphere), ranges and counts cost the rim of the answer, k^0.5, and ids on top what it takes to copy them, k^1. Where
-sheets lie close (scroll) or a surface is all spikes (noise), the search goes through the leaves of the answer, and all
-three tend to k^1; the paper's index does not ask what hangs together there, and can be the faster for it.
+Over the radius, fitted to answers of at least {large:,} vertices (k). Expected: where one sheet fills the ball (sphere),
+ranges and counts cost as much as the boundary of the answer, k^0.5; ids add the cost of copying them, k^1. Where sheets
+lie close together (scroll), or where the surface is rough everywhere (noise), the search visits the leaves of the answer,
+and all three approach k^1. The paper's index does not test connectivity there, and can be faster.
 
 """
 
 
 def text(data):
-    return (NOTE.format(queries=data["queries"]) + image("build_over_size", "Building over the size of the mesh") + "\n"
-            + image("query_over_size", "One query over the size of the mesh") + "\n" + size_table(data)
-            + RADIUS_NOTE.format(large=scaling.LARGE) + image("query_over_radius", "One query over what it finds") + "\n"
+    return (NOTE.format(queries=data["queries"]) + image("build_over_size", "Building time over the size of the mesh") + "\n"
+            + image("query_over_size", "Query time over the size of the mesh") + "\n" + size_table(data)
+            + RADIUS_NOTE.format(large=scaling.LARGE) + image("query_over_radius", "Query time over the vertices found") + "\n"
             + exponent_table(data))
 
 
