@@ -15,7 +15,7 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 from bench import accuracy, exact_index, machine, paper_tables, places, programs, report  # noqa: E402: from the checkout
 from bench import results, scaling, timing  # noqa: E402
 from bench.sections import SECTIONS  # noqa: E402
