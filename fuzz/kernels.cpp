@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernels of every processor beside the portable ones: an input is a leaf, a ball, cross_edges and a group of
-// nodes, of any numbers that an index may hold.
+// Compares the kernels of every instruction set with the portable ones. An input is a leaf and a ball, edges, or groups
+// of nodes, with any numbers that an index may hold.
 #include "simd/kernels.h"
 
 #include <algorithm>
@@ -19,9 +19,9 @@ namespace meshhood::fuzz {
 namespace {
 
 constexpr double kLargestCoordinate = 0x1p500;  // see `validate`
-constexpr double kLargestInFrame = 1e18;        // where nodes stand that do not exist
+constexpr double kLargestInFrame = 1e18;        // the centres of nodes that do not exist
 
-/// The next number, or 0 for one that no index holds.
+/// The next number; 0 instead of a number that no index holds.
 template <class Real>
 Real take_real(Bytes& bytes, double most) {
   const auto value = bytes.take<Real>();
@@ -31,12 +31,12 @@ Real take_real(Bytes& bytes, double most) {
 template <class Real>
 std::array<Real, 3 * kLeafCapacity> take_leaf(Bytes& bytes, std::size_t size) {
   std::array<Real, 3 * kLeafCapacity> xyz{};
-  xyz.fill(std::numeric_limits<Real>::quiet_NaN());  // what is behind the leaf may be anything
+  xyz.fill(std::numeric_limits<Real>::quiet_NaN());  // the padding may hold anything
   for (Real& x : std::span(xyz).first(3 * size)) x = take_real<Real>(bytes, kLargestCoordinate);
   return xyz;
 }
 
-/// Any radius, or one at which a vertex ties, or a unit in the last place beside.
+/// Any radius, or the distance `tie` of a vertex, or one of the two doubles next to it.
 double take_radius(Bytes& bytes, double tie) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   switch (bytes.take<std::uint8_t>() % 4) {
@@ -68,35 +68,34 @@ void compare_distances(Bytes bytes, const Kernels& tried) {
     const bool expected = squared_distance(point(vertices, i), centre) <= ball.squared_radius;
     if ((inside >> i & 1U) != static_cast<unsigned>(expected)) fail("within differs from the predicate");
   }
-  if (size < kLeafCapacity && inside >> size != 0) fail("within has a vertex that is not there");
+  if (size < kLeafCapacity && inside >> size != 0) fail("within returns a lane beyond the size");
 
-  const LaneMask there = first_lanes(static_cast<unsigned>(size));
-  const LaneMask among = (lanes & there) != 0 ? lanes & there : there;
+  const LaneMask all = first_lanes(static_cast<unsigned>(size));
+  const LaneMask among = (lanes & all) != 0 ? lanes & all : all;
   const Nearest found = tried.nearest(xyz.data(), among, ball);
   const Nearest expected = nearest_of(xyz.data(), among, ball);
   if (found.lane != expected.lane || found.square != expected.square) fail("nearest differs");
 }
 
 void compare_edges(Bytes bytes, const Kernels& tried) {
-  std::array<CrossEdge, 3 * kLeafCapacity> cross_edges{};
-  for (CrossEdge& cross_edge : cross_edges) {
-    cross_edge = {static_cast<std::uint8_t>(bytes.take<std::uint8_t>() % kLeafCapacity),
-                  static_cast<std::uint8_t>(bytes.take<std::uint8_t>() % kLeafCapacity)};
+  std::array<CrossEdge, 3 * kLeafCapacity> padded{};
+  for (CrossEdge& edge : padded) {
+    edge = {static_cast<std::uint8_t>(bytes.take<std::uint8_t>() % kLeafCapacity),
+            static_cast<std::uint8_t>(bytes.take<std::uint8_t>() % kLeafCapacity)};
   }
-  const std::size_t count = bytes.take<std::uint8_t>() % (2 * kLeafCapacity);
+  const auto edges = std::span<const CrossEdge>(padded).first(bytes.take<std::uint8_t>() % (2 * kLeafCapacity));
   const auto among = bytes.take<LaneMask>();
   const LaneMask from = bytes.take<LaneMask>() & among;
   const Kernels& plain = portable_kernels();
-  if (tried.cross_edges(cross_edges.data(), count, from) != plain.cross_edges(cross_edges.data(), count, from))
-    fail("cross differs");
+  if (tried.cross_edges(edges, from) != plain.cross_edges(edges, from)) fail("cross_edges differs");
 
   std::array<LaneMask, kLeafCapacity> adjacency{};
-  for (const CrossEdge& edge : std::span(cross_edges).first(count)) {
-    adjacency[edge.mine] |= LaneMask{1} << edge.other;
-    adjacency[edge.other] |= LaneMask{1} << edge.mine;
+  for (const CrossEdge& edge : edges) {
+    adjacency[edge.from] |= LaneMask{1} << edge.to;
+    adjacency[edge.to] |= LaneMask{1} << edge.from;
   }
   if (tried.reachable(adjacency.data(), among, from) != plain.reachable(adjacency.data(), among, from)) {
-    fail("spread differs");
+    fail("reachable differs");
   }
 
   std::array<VertexId, kLeafCapacity> ids{};
@@ -106,7 +105,7 @@ void compare_edges(Bytes bytes, const Kernels& tried) {
   const auto found_end = tried.compress(ids.data(), among, found.data()) - found.data();
   const auto expected_end = plain.compress(ids.data(), among, expected.data()) - expected.data();
   if (found_end != expected_end || !std::equal(found.begin(), found.begin() + found_end, expected.begin())) {
-    fail("append differs");
+    fail("compress differs");
   }
 }
 
@@ -116,14 +115,14 @@ Group take_group(Bytes& bytes) {
     for (float& value : *row) value = take_real<float>(bytes, kLargestInFrame);
   }
   for (float& radius : group.radius) radius = std::abs(take_real<float>(bytes, kLargestInFrame));
-  for (float& reach : group.offset) {
-    reach = std::abs(bytes.take<float>());
-    if (std::isnan(reach)) reach = std::numeric_limits<float>::infinity();
+  for (float& offset : group.offset) {
+    offset = std::abs(bytes.take<float>());
+    if (std::isnan(offset)) offset = std::numeric_limits<float>::infinity();
   }
   return group;
 }
 
-void compare_places(Bytes bytes, const Kernels& tried) {
+void compare_groups(Bytes bytes, const Kernels& tried) {
   const std::array groups{take_group(bytes), take_group(bytes)};
   const std::array<std::uint32_t, 3> list{1, 0, 1};
   const Point centre{static_cast<double>(take_real<float>(bytes, kLargestInFrame)),
@@ -137,7 +136,7 @@ void compare_places(Bytes bytes, const Kernels& tried) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (found[i].inside != expected[i].inside || found[i].intersecting != expected[i].intersecting ||
         found[i].may_have_minimum != expected[i].may_have_minimum) {
-      fail("place differs");
+      fail("classify differs");
     }
   }
 }
@@ -153,7 +152,7 @@ void run(std::span<const std::byte> input) {
       case 0: compare_distances<float>(bytes, tried); break;
       case 1: compare_distances<double>(bytes, tried); break;
       case 2: compare_edges(bytes, tried); break;
-      default: compare_places(bytes, tried);
+      default: compare_groups(bytes, tried);
     }
   }
 }

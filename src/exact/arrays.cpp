@@ -4,6 +4,18 @@
 #include <utility>
 
 namespace meshhood {
+namespace {
+
+template <class T>
+void borrow(std::span<const T>& span, const std::vector<T>& array) {
+  span = array;
+}
+
+void borrow(PositionsInOrder& span, const PositionsData& array) {
+  std::visit([&](const auto& xyz) { span = std::span(xyz); }, array);
+}
+
+}  // namespace
 
 std::vector<std::size_t> tree_nodes(std::size_t leaves) {
   std::vector<std::size_t> result;
@@ -29,20 +41,11 @@ Tree make_levels(std::size_t leaves, std::span<const Group> groups, std::span<co
   return tree;
 }
 
-std::unique_ptr<const IndexView> make_view(IndexData arrays) {
-  const auto owner = std::make_shared<const IndexData>(std::move(arrays));
+std::unique_ptr<const IndexView> make_view(IndexData data) {
+  const auto owner = std::make_shared<const IndexData>(std::move(data));
   auto view = std::make_unique<IndexView>();
   view->frame = owner->frame;
-  std::visit([&](const auto& xyz) { view->positions = std::span(xyz); }, owner->positions);
-  view->permutation = owner->permutation;
-  view->slot = owner->slot;
-  view->leaf_begin = owner->leaf_begin;
-  view->leaves = owner->leaves;
-  view->links = owner->links;
-  view->cross_edges = owner->cross_edges;
-  view->adjacency = owner->adjacency;
-  view->groups = owner->groups;
-  view->mean_radii = owner->mean_radii;
+  for_each_array([](ArrayInfo, auto& span, const auto& array) { borrow(span, array); }, *view, *owner);
   view->tree = make_levels(view->leaf_count(), view->groups, view->mean_radii);
   view->owner = owner;
   return view;

@@ -3,21 +3,22 @@
 
 #include <cstdint>
 #include <memory>
-#include <variant>
 #include <vector>
+
+#include "meshhood/adjacency.h"
 
 #include "exact/layout.h"
 
 namespace meshhood {
 
-/// The arrays of an `IndexView` in memory of our own, as `build` fills them.
+/// The arrays of an `IndexView` in vectors, filled by `build`.
 struct IndexData {
   Frame frame;
-  std::variant<std::vector<float>, std::vector<double>> positions;
+  PositionsData positions;
   std::vector<VertexId> permutation;
   std::vector<std::uint32_t> slot;
-  std::vector<VertexId> leaf_begin;
   std::vector<Leaf> leaves;
+  std::vector<VertexId> leaf_begin;
   std::vector<Link> links;
   std::vector<CrossEdge> cross_edges;
   std::vector<LaneMask> adjacency;
@@ -25,7 +26,7 @@ struct IndexData {
   std::vector<double> mean_radii;
 };
 
-/// What is searched, from what was built.
-[[nodiscard]] std::unique_ptr<const IndexView> make_view(IndexData arrays);
+/// A view that owns `data`.
+[[nodiscard]] std::unique_ptr<const IndexView> make_view(IndexData data);
 
 }  // namespace meshhood

@@ -125,12 +125,10 @@ class Check {
 
   void add_edges_out(std::size_t leaf, std::vector<std::vector<VertexId>>& rows) {
     const std::size_t mine = index_.leaf_begin[leaf];
-    for (std::size_t i = index_.leaves[leaf].first_link; i < index_.leaves[leaf + 1].first_link; ++i) {
-      const Link& link = index_.links[i];
+    for (const Link& link : index_.links_of(leaf)) {
       const std::size_t others = index_.leaf_begin[link.leaf];
       LaneMask boundary = 0;
-      for (std::size_t k = link.first_cross_edge; k < index_.links[i + 1].first_cross_edge; ++k) {
-        const CrossEdge& cross_edge = index_.cross_edges[k];
+      for (const CrossEdge& cross_edge : index_.cross_edges_of(link)) {
         rows[index_.id(mine + cross_edge.from)].push_back(index_.id(others + cross_edge.to));
         boundary |= LaneMask{1} << cross_edge.from;
       }

@@ -48,11 +48,10 @@ void for_each_neighbor(const IndexView& index, TaskContext& task, F&& f) {
         f(index.id(i), index.id(begin + static_cast<std::size_t>(std::countr_zero(left))));
       }
     }
-    for (std::size_t i = index.leaves[leaf].first_link; i < index.leaves[leaf + 1].first_link; ++i) {
-      const std::size_t other = index.leaf_begin[index.links[i].leaf];
-      for (std::size_t k = index.links[i].first_cross_edge; k < index.links[i + 1].first_cross_edge; ++k) {
-        f(index.id(begin + index.cross_edges[k].from), index.id(other + index.cross_edges[k].to));
-      }
+    for (const Link& link : index.links_of(leaf)) {
+      const std::size_t other = index.leaf_begin[link.leaf];
+      for (const CrossEdge& edge : index.cross_edges_of(link))
+        f(index.id(begin + edge.from), index.id(other + edge.to));
     }
   }
 }

@@ -24,50 +24,68 @@ namespace {
 static_assert(sizeof(Frame) == 32 && sizeof(Leaf) == 28 && sizeof(Link) == 12 && sizeof(CrossEdge) == 2 &&
               sizeof(Group) == 256);
 
-PositionsInOrder take_positions(file::SectionReader& file) {
-  const std::uint64_t scalars = 3 * (file.header().vertices + kLeafCapacity);
-  if (file.header().scalar_bytes == sizeof(float)) return file.take<float>("positions", scalars);
-  return file.take<double>("positions", scalars);
+template <class T>
+void take(file::SectionReader& file, const char* section, std::span<const T>& array) {
+  array = file.take<T>(section);
 }
 
-/// One of the vertices and the padding, or none where the caller's order is that of the index.
-std::span<const VertexId> take_permutation(file::SectionReader& file) {
-  const auto ids = file.take<VertexId>("permutation");
-  const std::uint64_t expected = file.header().vertices + kLeafCapacity;
-  if (!ids.empty() && ids.size() != expected) {
-    file.refuse_last(std::to_string(ids.size()) + " vertices, expected none or " + std::to_string(expected));
+void take(file::SectionReader& file, const char* section, PositionsInOrder& positions) {
+  if (file.header().scalar_bytes == sizeof(float)) {
+    positions = file.take<float>(section);
+  } else {
+    positions = file.take<double>(section);
   }
-  return ids;
 }
 
-/// The arrays in place, as many of each as belong together; what stands in them is not looked at.
-std::unique_ptr<IndexView> take_arrays(file::SectionReader& file) {
+/// Throws unless each array has as many elements as the others imply. Does not read the elements.
+void verify_sizes(const IndexView& view, const file::SectionReader& file) {
   const std::uint64_t vertices = file.header().vertices;
+  const auto expect = [&](const char* section, std::uint64_t size, std::uint64_t expected, const char* what) {
+    if (size == expected) return;
+    file.refuse_in(section, 0, std::to_string(size) + ", expected " + std::to_string(expected) + what);
+  };
+  const auto refuse = [&](const char* section, const std::string& message) { file.refuse_in(section, 0, message); };
+  const std::uint64_t padded = vertices + kLeafCapacity;
+  expect("positions", std::visit([](auto xyz) { return xyz.size(); }, view.positions), 3 * padded, " values");
+  if (!view.permutation.empty() && view.permutation.size() != padded) {
+    refuse("permutation",
+           std::to_string(view.permutation.size()) + " vertices, expected none or " + std::to_string(padded));
+  }
+  expect("place", view.slot.size(), vertices, " values");
+  // No leaf is empty, so there are at most as many leaves as vertices, and none without vertices.
+  const std::size_t leaves = view.leaves.empty() ? 0 : view.leaves.size() - 1;
+  if (view.leaves.empty() || leaves > vertices || (leaves == 0) != (vertices == 0)) {
+    refuse("leaves",
+           std::to_string(view.leaves.size()) + " records of leaves for " + std::to_string(vertices) + " vertices");
+  }
+  expect("leaf_begin", view.leaf_begin.size(), leaves + 1, " values");
+  if (view.links.empty()) refuse("links", "no link, expected one at the end at least");
+  if (view.cross_edges.size() < kLeafCapacity) {
+    refuse("crossings", std::to_string(view.cross_edges.size()) + " crossings, expected " +
+                            std::to_string(kLeafCapacity) + " at the end at least");
+  }
+  expect("adjacency", view.adjacency.size(), padded, " values");
+  expect("groups", view.groups.size(), tree_groups(leaves), " values");
+  expect("mean_radii", view.mean_radii.size(), tree_nodes(leaves).size(), " values");
+}
+
+/// A view of the arrays in the file; only their sizes are verified.
+std::unique_ptr<IndexView> take_arrays(file::SectionReader& file) {
   auto view = std::make_unique<IndexView>();
   view->frame = file.take<Frame>("frame", 1).front();
-  view->positions = take_positions(file);
-  view->permutation = take_permutation(file);
-  view->slot = file.take<std::uint32_t>("place", vertices);
-  view->leaves = file.take<Leaf>("leaves");
-  // No leaf is empty, so there are no more of them than vertices, and none without vertices.
-  const std::size_t leaves = view->leaves.empty() ? 0 : view->leaves.size() - 1;
-  if (view->leaves.empty() || leaves > vertices || (leaves == 0) != (vertices == 0)) {
-    file.refuse_last(std::to_string(view->leaves.size()) + " records of leaves for " + std::to_string(vertices) +
-                     " vertices");
-  }
-  view->leaf_begin = file.take<VertexId>("leaf_begin", leaves + 1);
-  view->links = file.take<Link>("links");
-  if (view->links.empty()) file.refuse_last("no link, expected one at the end at least");
-  view->cross_edges = file.take<CrossEdge>("crossings");
-  if (view->cross_edges.size() < kLeafCapacity) {
-    file.refuse_last(std::to_string(view->cross_edges.size()) + " crossings, expected " +
-                     std::to_string(kLeafCapacity) + " at the end at least");
-  }
-  view->adjacency = file.take<LaneMask>("adjacency", vertices + kLeafCapacity);
-  view->groups = file.take<Group>("groups", tree_groups(leaves));
-  view->mean_radii = file.take<double>("mean_radii", tree_nodes(leaves).size());
-  view->tree = make_levels(leaves, view->groups, view->mean_radii);
+  for_each_array([&](ArrayInfo info, auto& array) { take(file, info.section, array); }, *view);
+  verify_sizes(*view, file);
+  view->tree = make_levels(view->leaf_count(), view->groups, view->mean_radii);
   return view;
+}
+
+template <class T>
+void add(file::SectionWriter& writer, const char* section, std::span<const T> array) {
+  writer.add(section, array);
+}
+
+void add(file::SectionWriter& writer, const char* section, const PositionsInOrder& positions) {
+  std::visit([&](auto xyz) { writer.add(section, xyz); }, positions);
 }
 
 void verify_alignment(std::span<const std::byte> bytes) {
@@ -89,16 +107,7 @@ void save(const Index& index, const Sink& sink, const SaveOptions& options) {
   const IndexView& view = IndexAccess::view(index);
   file::SectionWriter writer;
   writer.add("frame", std::span(&view.frame, 1));
-  std::visit([&](auto xyz) { writer.add("positions", xyz); }, view.positions);
-  writer.add("permutation", view.permutation);
-  writer.add("place", view.slot);
-  writer.add("leaves", view.leaves);
-  writer.add("leaf_begin", view.leaf_begin);
-  writer.add("links", view.links);
-  writer.add("crossings", view.cross_edges);
-  writer.add("adjacency", view.adjacency);
-  writer.add("groups", view.groups);
-  writer.add("mean_radii", view.mean_radii);
+  for_each_array([&](ArrayInfo info, const auto& array) { add(writer, info.section, array); }, view);
   const bool is_double = std::holds_alternative<std::span<const double>>(view.positions);
   const std::size_t scalar_bytes = is_double ? sizeof(double) : sizeof(float);
   TaskContext task(1, options.progress, writer.parts());

@@ -13,9 +13,13 @@ std::size_t bytes_of(std::span<const T> values) {
   return values.size_bytes();
 }
 
+std::size_t bytes_of(const PositionsInOrder& positions) {
+  return std::visit([](auto xyz) { return xyz.size_bytes(); }, positions);
+}
+
 }  // namespace
 
-Index::Index(std::unique_ptr<const IndexView> storage) : view_(std::move(storage)) {}
+Index::Index(std::unique_ptr<const IndexView> view) : view_(std::move(view)) {}
 Index::Index(Index&&) noexcept = default;
 Index& Index::operator=(Index&&) noexcept = default;
 Index::~Index() = default;
@@ -42,7 +46,7 @@ std::vector<LevelSummary> Index::levels() const {
                       .bytes = bytes_of(level.groups)});
   }
   if (result.empty()) return result;
-  // Only leaves have links; one more of them marks the end.
+  // Only leaves have links. The last link is an end marker.
   LevelSummary& leaves = result.front();
   leaves.mean_siblings = static_cast<double>(view_->links.size() - 1) / static_cast<double>(leaves.clusters);
   leaves.bytes += bytes_of(view_->leaves) + bytes_of(view_->leaf_begin);
@@ -51,11 +55,7 @@ std::vector<LevelSummary> Index::levels() const {
 
 IndexBytes Index::bytes() const {
   IndexBytes result;
-  result.positions = std::visit([](auto xyz) { return bytes_of(xyz); }, view_->positions);
-  result.permutation = bytes_of(view_->permutation) + bytes_of(view_->slot);
-  result.graph = bytes_of(view_->adjacency) + bytes_of(view_->links) + bytes_of(view_->cross_edges);
-  result.tree =
-      bytes_of(view_->leaves) + bytes_of(view_->leaf_begin) + bytes_of(view_->groups) + bytes_of(view_->mean_radii);
+  for_each_array([&](ArrayInfo info, const auto& array) { result.*info.bytes += bytes_of(array); }, *view_);
   return result;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "simd/kernels.h"
-#include "simd/lane_list.h"
 
 #if defined(MESHHOOD_HAS_X86)
 #include <bit>
@@ -35,7 +34,7 @@ MESHHOOD_AVX2 inline Points4 load_points4(const Real* xyz) {
           _mm256_shuffle_pd(between, odd, 0b1010)};
 }
 
-/// The predicate on four vertices.
+/// The predicate for four vertices.
 template <class Real>
 MESHHOOD_AVX2 inline LaneMask within4(const Real* xyz, const LeafBall& ball) {
   const Points4 points = load_points4(xyz);
@@ -57,7 +56,7 @@ MESHHOOD_AVX2 LaneMask within_exact(const Real* xyz, std::size_t size, const Lea
   return result & first_lanes(static_cast<unsigned>(size));
 }
 
-/// The first half of the result is at `low`, the second at `high`.
+/// Four floats from `low`, then four from `high`.
 MESHHOOD_AVX2 inline __m256 load_halves(const float* low, const float* high) {
   return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(low)), _mm_loadu_ps(high), 1);
 }
@@ -96,7 +95,7 @@ MESHHOOD_AVX2 LaneMask within_float(const float* xyz, std::size_t size, const Le
 
 MESHHOOD_AVX2 inline unsigned bits(__m256 mask) { return static_cast<unsigned>(_mm256_movemask_ps(mask)); }
 
-/// Eight squared distances in float; of vertices not in `lanes`, infinity.
+/// Eight squared distances in single precision; infinity for vertices that are not in `lanes`.
 MESHHOOD_AVX2 inline __m256 some_squares8(const float* xyz, LaneMask lanes, const LeafBall& ball) {
   const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
   const __m256i is_set = _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(static_cast<int>(lanes)), bit), bit);
@@ -110,7 +109,7 @@ MESHHOOD_AVX2 inline float least_of(__m256 values) {
   return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
 }
 
-/// Those of eight that are at most as large.
+/// Those of eight values that are at most `most`.
 MESHHOOD_AVX2 inline LaneMask at_most8(__m256 values, __m256 most) {
   return bits(_mm256_cmp_ps(values, most, _CMP_LE_OQ));
 }
@@ -126,16 +125,16 @@ MESHHOOD_AVX2 Nearest nearest(const float* xyz, LaneMask lanes, const LeafBall& 
   return nearest_of(xyz, near & lanes, ball);
 }
 
-MESHHOOD_AVX2 LaneMask cross_edges(const CrossEdge* cross_edges, std::size_t count, LaneMask from) {
+MESHHOOD_AVX2 LaneMask cross_edges(std::span<const CrossEdge> edges, LaneMask from) {
   const __m256i one = _mm256_set1_epi32(1);
   const __m256i source = _mm256_set1_epi32(static_cast<int>(from));
   __m256i result = _mm256_setzero_si256();
-  for (std::size_t i = 0; i < count; i += 8) {
-    const __m256i pairs = _mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(cross_edges + i)));
-    const __m256i mine = _mm256_and_si256(pairs, _mm256_set1_epi32(31));
+  for (std::size_t i = 0; i < edges.size(); i += 8) {
+    const __m256i pairs = _mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(edges.data() + i)));
+    const __m256i start = _mm256_and_si256(pairs, _mm256_set1_epi32(31));
     const __m256i rank = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-    const __m256i live = _mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(count - i)), rank);
-    const __m256i begins = _mm256_and_si256(_mm256_and_si256(_mm256_srlv_epi32(source, mine), one), live);
+    const __m256i live = _mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(edges.size() - i)), rank);
+    const __m256i begins = _mm256_and_si256(_mm256_and_si256(_mm256_srlv_epi32(source, start), one), live);
     result = _mm256_or_si256(result, _mm256_sllv_epi32(begins, _mm256_srli_epi32(pairs, 8)));
   }
   const __m128i half = _mm_or_si128(_mm256_castsi256_si128(result), _mm256_extracti128_si256(result, 1));
@@ -164,7 +163,7 @@ MESHHOOD_AVX2 LaneMask reachable(const LaneMask* adjacency, LaneMask among, Lane
   }
 }
 
-MESHHOOD_AVX2 inline GroupContainment place_group(const Group& group, const TreeBall& ball) {
+MESHHOOD_AVX2 inline GroupContainment classify_group(const Group& group, const TreeBall& ball) {
   const __m256 x = _mm256_sub_ps(_mm256_set1_ps(ball.x), _mm256_load_ps(group.x.data()));
   const __m256 y = _mm256_sub_ps(_mm256_set1_ps(ball.y), _mm256_load_ps(group.y.data()));
   const __m256 z = _mm256_sub_ps(_mm256_set1_ps(ball.z), _mm256_load_ps(group.z.data()));
@@ -177,12 +176,12 @@ MESHHOOD_AVX2 inline GroupContainment place_group(const Group& group, const Tree
   const __m256 height = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x, _mm256_load_ps(group.slope_x.data())),
                                                     _mm256_mul_ps(y, _mm256_load_ps(group.slope_y.data()))),
                                       _mm256_mul_ps(z, _mm256_load_ps(group.slope_z.data())));
-  const __m256 reach =
+  const __m256 extent =
       _mm256_add_ps(_mm256_load_ps(group.offset.data()), _mm256_andnot_ps(_mm256_set1_ps(-0.0F), height));
-  const unsigned clear = bits(
-      _mm256_cmp_ps(_mm256_mul_ps(square, _mm256_set1_ps(kRegionMargin)), _mm256_mul_ps(reach, reach), _CMP_GT_OQ));
+  const unsigned beyond_region = bits(
+      _mm256_cmp_ps(_mm256_mul_ps(square, _mm256_set1_ps(kRegionMargin)), _mm256_mul_ps(extent, extent), _CMP_GT_OQ));
   return {static_cast<std::uint8_t>(inside), static_cast<std::uint8_t>(~(outside | inside)),
-          static_cast<std::uint8_t>(~clear)};
+          static_cast<std::uint8_t>(~beyond_region)};
 }
 
 MESHHOOD_AVX2 void classify(const Group* groups, std::span<const std::uint32_t> list, const TreeBall& ball,
@@ -193,14 +192,14 @@ MESHHOOD_AVX2 void classify(const Group* groups, std::span<const std::uint32_t> 
       const auto* next = reinterpret_cast<const char*>(groups + list[i + kAhead]);
       for (std::size_t line = 0; line < sizeof(Group); line += 64) _mm_prefetch(next + line, _MM_HINT_T0);
     }
-    out[i] = place_group(groups[list[i]], ball);
+    out[i] = classify_group(groups[list[i]], ball);
   }
 }
 
 MESHHOOD_AVX2 VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId* out) {
   for (std::size_t i = 0; i < kLeafCapacity; i += 8) {
     const unsigned set = lanes >> i & 0xFFU;
-    const auto* list = reinterpret_cast<const __m128i*>(kLaneLists[set].data());
+    const auto* list = reinterpret_cast<const __m128i*>(kBitPositions[set].data());
     const __m256i order = _mm256_cvtepu8_epi32(_mm_loadl_epi64(list));
     const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids + i));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), _mm256_permutevar8x32_epi32(all, order));

@@ -2,7 +2,7 @@
 #include "simd/kernels.h"
 
 #if defined(MESHHOOD_HAS_X86)
-// g++ 12 takes the values that its own intrinsics leave undefined on purpose for forgotten ones.
+// g++ 12 warns about values that its own intrinsics leave undefined on purpose.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
@@ -34,7 +34,7 @@ MESHHOOD_AVX512 inline Points8 load_points8(const Real* xyz) {
   const __m512d a = load8(xyz);
   const __m512d b = load8(xyz + 8);
   const __m512d c = load8(xyz + 16);
-  // Numbers from 8 on stand for the second source; what belongs to `c` is put in afterwards.
+  // Indices from 8 on select from `b`. The values of `c` are inserted afterwards.
   const __m512d x = _mm512_permutex2var_pd(a, _mm512_setr_epi64(0, 3, 6, 9, 12, 15, 0, 0), b);
   const __m512d y = _mm512_permutex2var_pd(a, _mm512_setr_epi64(1, 4, 7, 10, 13, 0, 0, 0), b);
   const __m512d z = _mm512_permutex2var_pd(a, _mm512_setr_epi64(2, 5, 8, 11, 14, 0, 0, 0), b);
@@ -43,7 +43,7 @@ MESHHOOD_AVX512 inline Points8 load_points8(const Real* xyz) {
           _mm512_mask_permutexvar_pd(z, 0xE0, _mm512_setr_epi64(0, 0, 0, 0, 0, 1, 4, 7), c)};
 }
 
-/// The predicate on eight vertices.
+/// The predicate for eight vertices.
 template <class Real>
 MESHHOOD_AVX512 inline LaneMask within8(const Real* xyz, const LeafBall& ball) {
   const Points8 points = load_points8(xyz);
@@ -78,7 +78,7 @@ MESHHOOD_AVX512 inline Points16 load_points16(const float* xyz) {
   const __m512i xs = _mm512_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21, 24, 27, 30, 1, 4, 7, 10, 13);
   const __m512i ys = _mm512_setr_epi32(1, 4, 7, 10, 13, 16, 19, 22, 25, 28, 31, 2, 5, 8, 11, 14);
   const __m512i zs = _mm512_setr_epi32(2, 5, 8, 11, 14, 17, 20, 23, 26, 29, 0, 3, 6, 9, 12, 15);
-  // Numbers from 16 on stand for the second source; what belongs to `c` is put in afterwards.
+  // Indices from 16 on select from `b`. The values of `c` are inserted afterwards.
   return {_mm512_mask_permutexvar_ps(_mm512_permutex2var_ps(a, xs, b), 0xF800, xs, c),
           _mm512_mask_permutexvar_ps(_mm512_permutex2var_ps(a, ys, b), 0xF800, ys, c),
           _mm512_mask_permutexvar_ps(_mm512_permutex2var_ps(a, zs, b), 0xFC00, zs, c)};
@@ -118,15 +118,15 @@ MESHHOOD_AVX512 Nearest nearest(const float* xyz, LaneMask lanes, const LeafBall
   return nearest_of(xyz, near & lanes, ball);
 }
 
-MESHHOOD_AVX512 LaneMask cross_edges(const CrossEdge* cross_edges, std::size_t count, LaneMask from) {
+MESHHOOD_AVX512 LaneMask cross_edges(std::span<const CrossEdge> edges, LaneMask from) {
   const __m512i one = _mm512_set1_epi32(1);
   const __m512i source = _mm512_set1_epi32(static_cast<int>(from));
   __m512i result = _mm512_setzero_si512();
-  for (std::size_t i = 0; i < count; i += 16) {
-    const auto live = static_cast<__mmask16>((1U << std::min<std::size_t>(count - i, 16)) - 1);
-    const __m512i pairs = _mm512_cvtepu16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(cross_edges + i)));
-    const __m512i mine = _mm512_and_si512(pairs, _mm512_set1_epi32(31));
-    const __m512i begins = _mm512_and_si512(_mm512_srlv_epi32(source, mine), one);
+  for (std::size_t i = 0; i < edges.size(); i += 16) {
+    const auto live = static_cast<__mmask16>((1U << std::min<std::size_t>(edges.size() - i, 16)) - 1);
+    const __m512i pairs = _mm512_cvtepu16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(edges.data() + i)));
+    const __m512i start = _mm512_and_si512(pairs, _mm512_set1_epi32(31));
+    const __m512i begins = _mm512_and_si512(_mm512_srlv_epi32(source, start), one);
     result = _mm512_mask_or_epi32(result, live, result, _mm512_sllv_epi32(begins, _mm512_srli_epi32(pairs, 8)));
   }
   return static_cast<LaneMask>(_mm512_reduce_or_epi32(result));
@@ -148,7 +148,7 @@ MESHHOOD_AVX512 LaneMask reachable(const LaneMask* adjacency, LaneMask among, La
 MESHHOOD_AVX512 VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId* out) {
   const auto low = static_cast<__mmask16>(lanes);
   const auto high = static_cast<__mmask16>(lanes >> 16);
-  // Compressed in a register and stored whole: compressing stores are slow on some processors.
+  // Compresses in a register, because compressing stores are slow on some processors.
   _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(low, _mm512_loadu_si512(ids)));
   out += std::popcount(lanes & 0xFFFFU);
   _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(high, _mm512_loadu_si512(ids + 16)));
@@ -158,7 +158,7 @@ MESHHOOD_AVX512 VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId
 }  // namespace
 
 const Kernels& avx512_kernels() {
-  // A group is as wide as the registers of AVX2, which a processor with AVX-512 has too.
+  // A group has eight floats a row, the width of an AVX2 register.
   static const Kernels kAll{within_float, within_exact<double>,    nearest, nearest_of<double>, cross_edges,
                             reachable,    avx2_kernels().classify, compress};
   return kAll;

@@ -17,9 +17,9 @@ LaneMask within(const Real* xyz, std::size_t size, const LeafBall& ball) {
   return result;
 }
 
-LaneMask cross_edges(const CrossEdge* cross_edges, std::size_t count, LaneMask from) {
+LaneMask cross_edges(std::span<const CrossEdge> edges, LaneMask from) {
   LaneMask result = 0;
-  for (std::size_t i = 0; i < count; ++i) result |= (from >> cross_edges[i].from & 1U) << cross_edges[i].to;
+  for (const CrossEdge& edge : edges) result |= (from >> edge.from & 1U) << edge.to;
   return result;
 }
 
@@ -33,7 +33,7 @@ LaneMask reachable(const LaneMask* adjacency, LaneMask among, LaneMask from) {
   return reached;
 }
 
-GroupContainment place_group(const Group& group, const TreeBall& ball) {
+GroupContainment classify_group(const Group& group, const TreeBall& ball) {
   GroupContainment result{0, 0, 0};
   for (unsigned i = 0; i < kFanOut; ++i) {
     const float x = ball.x - group.x[i];
@@ -45,17 +45,17 @@ GroupContainment place_group(const Group& group, const TreeBall& ball) {
     const bool outside = square > far * far;
     const bool inside = near > 0 && square < near * near;
     const float height = (x * group.slope_x[i] + y * group.slope_y[i]) + z * group.slope_z[i];
-    const float reach = group.offset[i] + (height < 0 ? -height : height);
-    const bool clear = square * kRegionMargin > reach * reach;
+    const float extent = group.offset[i] + (height < 0 ? -height : height);
+    const bool beyond_region = square * kRegionMargin > extent * extent;
     result.inside = static_cast<std::uint8_t>(result.inside | unsigned{inside} << i);
     result.intersecting = static_cast<std::uint8_t>(result.intersecting | unsigned{!outside && !inside} << i);
-    result.may_have_minimum = static_cast<std::uint8_t>(result.may_have_minimum | unsigned{!clear} << i);
+    result.may_have_minimum = static_cast<std::uint8_t>(result.may_have_minimum | unsigned{!beyond_region} << i);
   }
   return result;
 }
 
 void classify(const Group* groups, std::span<const std::uint32_t> list, const TreeBall& ball, GroupContainment* out) {
-  for (const std::uint32_t group : list) *out++ = place_group(groups[group], ball);
+  for (const std::uint32_t group : list) *out++ = classify_group(groups[group], ball);
 }
 
 VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId* out) {

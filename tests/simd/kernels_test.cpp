@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// That every processor's path does the same, bit for bit, also where a float cannot decide.
+// Every instruction set gives the same bits, also where single precision cannot decide.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -17,14 +17,14 @@
 namespace meshhood::test {
 namespace {
 
-class EveryPath : public testing::TestWithParam<Isa> {
+class EveryIsa : public testing::TestWithParam<Isa> {
  protected:
   const Kernels& tried = kernels(GetParam());
   const Kernels& plain = portable_kernels();
   Random random{9};
 };
 
-/// A leaf of `size` vertices, with what may be read beyond its end.
+/// A leaf of `size` vertices, followed by padding.
 template <class Real>
 std::vector<Real> random_leaf(Random& random, std::size_t size, double extent) {
   std::vector<Real> xyz(3 * kLeafCapacity, std::numeric_limits<Real>::quiet_NaN());
@@ -32,14 +32,15 @@ std::vector<Real> random_leaf(Random& random, std::size_t size, double extent) {
   return xyz;
 }
 
-/// As a coordinate of a mesh is. Through memory, for g++ 12 takes several roundings side by side for none at all.
+/// `value` rounded to the precision of the coordinates. Goes through memory, because g++ 12 drops several such
+/// roundings side by side.
 template <class Real>
 double rounded(double value) {
   const volatile Real result = static_cast<Real>(value);
   return static_cast<double>(result);
 }
 
-/// What the predicate itself says.
+/// The result of the predicate.
 template <class Real>
 LaneMask by_predicate(const std::vector<Real>& xyz, std::size_t size, const Point& centre, double radius) {
   const SearchBall ball(centre, radius);
@@ -73,10 +74,10 @@ void expect_within_is_the_predicate(const Kernels& tried, Random& random) {
   std::printf("%zu balls\n", balls);
 }
 
-TEST_P(EveryPath, WithinIsThePredicateOnFloats) { expect_within_is_the_predicate<float>(tried, random); }
-TEST_P(EveryPath, WithinIsThePredicateOnDoubles) { expect_within_is_the_predicate<double>(tried, random); }
+TEST_P(EveryIsa, WithinIsThePredicateOnFloats) { expect_within_is_the_predicate<float>(tried, random); }
+TEST_P(EveryIsa, WithinIsThePredicateOnDoubles) { expect_within_is_the_predicate<double>(tried, random); }
 
-/// Also among vertices that a float cannot tell apart by their distance, and where several are equally near.
+/// Includes vertices whose distances are equal in single precision, and ties.
 template <class Real>
 void expect_nearest_is_by_the_predicate(const Kernels& tried, Random& random) {
   for (std::size_t round = 0; round < scaled(4000, 100); ++round) {
@@ -99,10 +100,10 @@ void expect_nearest_is_by_the_predicate(const Kernels& tried, Random& random) {
   }
 }
 
-TEST_P(EveryPath, NearestIsByThePredicateOnFloats) { expect_nearest_is_by_the_predicate<float>(tried, random); }
-TEST_P(EveryPath, NearestIsByThePredicateOnDoubles) { expect_nearest_is_by_the_predicate<double>(tried, random); }
+TEST_P(EveryIsa, NearestUsesThePredicateOnFloats) { expect_nearest_is_by_the_predicate<float>(tried, random); }
+TEST_P(EveryIsa, NearestUsesThePredicateOnDoubles) { expect_nearest_is_by_the_predicate<double>(tried, random); }
 
-TEST_P(EveryPath, CrossFollowsEveryCrossing) {
+TEST_P(EveryIsa, CrossEdgesReturnsTheOtherEndsOfTheEdges) {
   for (std::size_t round = 0; round < 4000; ++round) {
     std::vector<CrossEdge> cross_edges(random.below(70) + kLeafCapacity);
     for (CrossEdge& cross_edge : cross_edges) {
@@ -110,11 +111,12 @@ TEST_P(EveryPath, CrossFollowsEveryCrossing) {
     }
     const std::size_t count = cross_edges.size() - kLeafCapacity;
     const auto from = static_cast<LaneMask>(random.bits() & random.bits());
-    ASSERT_EQ(tried.cross_edges(cross_edges.data(), count, from), plain.cross_edges(cross_edges.data(), count, from));
+    const auto edges = std::span<const CrossEdge>(cross_edges).first(count);
+    ASSERT_EQ(tried.cross_edges(edges, from), plain.cross_edges(edges, from));
   }
 }
 
-TEST_P(EveryPath, SpreadGoesAsFarAsItCan) {
+TEST_P(EveryIsa, ReachableFindsAllConnectedLanes) {
   std::size_t grown = 0;
   for (std::size_t round = 0; round < 4000; ++round) {
     std::vector<LaneMask> adjacency(kLeafCapacity);
@@ -135,7 +137,7 @@ TEST_P(EveryPath, SpreadGoesAsFarAsItCan) {
   EXPECT_GT(grown, 10'000U);
 }
 
-TEST_P(EveryPath, PlaceComparesAllEight) {
+TEST_P(EveryIsa, ClassifyComparesAllEightNodes) {
   std::vector<Group> groups(64);
   std::vector<std::uint32_t> list;
   for (std::uint32_t i = 0; i < groups.size(); ++i) list.push_back(i);
@@ -149,8 +151,9 @@ TEST_P(EveryPath, PlaceComparesAllEight) {
         for (float& value : *row) value = static_cast<float>(random.uniform(-1, 1));
       }
       for (float& radius : group.radius) radius = std::abs(radius) / 4;
-      for (float& reach : group.offset)
-        reach = random.below(20) == 0 ? std::numeric_limits<float>::infinity() : std::abs(reach);
+      for (float& offset : group.offset) {
+        offset = random.below(20) == 0 ? std::numeric_limits<float>::infinity() : std::abs(offset);
+      }
     }
     const Point centre{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
     const double radius = round == 0 ? std::numeric_limits<double>::infinity() : random.uniform(0, 2);
@@ -168,7 +171,7 @@ TEST_P(EveryPath, PlaceComparesAllEight) {
   EXPECT_GT(seen, 1000U);
 }
 
-TEST_P(EveryPath, AppendKeepsTheOrder) {
+TEST_P(EveryIsa, CompressKeepsTheOrder) {
   std::vector<VertexId> ids(kLeafCapacity);
   for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<VertexId>(100 + i);
   std::vector<VertexId> out(std::size_t{2} * kLeafCapacity);
@@ -193,7 +196,7 @@ std::string case_name(const testing::TestParamInfo<Isa>& isa) {
   return "";
 }
 
-INSTANTIATE_TEST_SUITE_P(Isas, EveryPath, testing::ValuesIn(available_isas()), case_name);
+INSTANTIATE_TEST_SUITE_P(Isas, EveryIsa, testing::ValuesIn(available_isas()), case_name);
 
 }  // namespace
 }  // namespace meshhood::test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -11,24 +12,21 @@
 
 namespace meshhood::test {
 
-/// A copy of what `index` is made of, to be damaged.
+template <class T>
+void copy_array(std::vector<T>& to, std::span<const T> from) {
+  to.assign(from.begin(), from.end());
+}
+
+inline void copy_array(PositionsData& to, const PositionsInOrder& from) {
+  std::visit([&]<class Real>(std::span<const Real> xyz) { to = std::vector<Real>(xyz.begin(), xyz.end()); }, from);
+}
+
+/// A copy of the arrays of `index`, for tests that damage them.
 [[nodiscard]] inline IndexData arrays_of(const Index& index) {
   const IndexView& from = IndexAccess::view(index);
-  const auto copy = [](auto values) {
-    return std::vector<typename decltype(values)::value_type>(values.begin(), values.end());
-  };
   IndexData to;
   to.frame = from.frame;
-  std::visit([&](auto xyz) { to.positions = copy(xyz); }, from.positions);
-  to.permutation = copy(from.permutation);
-  to.slot = copy(from.slot);
-  to.leaf_begin = copy(from.leaf_begin);
-  to.leaves = copy(from.leaves);
-  to.links = copy(from.links);
-  to.cross_edges = copy(from.cross_edges);
-  to.adjacency = copy(from.adjacency);
-  to.groups = copy(from.groups);
-  to.mean_radii = copy(from.mean_radii);
+  for_each_array([](ArrayInfo, auto& copy, const auto& array) { copy_array(copy, array); }, to, from);
   return to;
 }
 

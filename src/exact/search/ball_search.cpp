@@ -18,9 +18,8 @@ std::size_t most_candidates(std::size_t leaves) { return std::min(leaves, 16 + l
 std::size_t most_walked(std::size_t leaves) { return std::min(leaves / 2, 16 + leaves / 10); }
 
 bool are_linked(const IndexView& index, LeafId a, LeafId b) {
-  const auto first = index.links.begin() + index.leaves[a].first_link;
-  const auto last = index.links.begin() + index.leaves[a + 1].first_link;
-  return std::any_of(first, last, [b](const Link& link) { return link.leaf == b; });
+  const std::span<const Link> links = index.links_of(a);
+  return std::any_of(links.begin(), links.end(), [b](const Link& link) { return link.leaf == b; });
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <bit>
 #include <utility>
 
-#include "simd/lane_list.h"
 
 namespace meshhood {
 namespace {
@@ -36,7 +35,7 @@ void NodeQueue::make_room(std::size_t groups) {
 void NodeQueue::append(std::uint32_t group, std::uint8_t set) {
   // All eight are written, and those not in the set overwritten by what comes next: no jump to be foretold.
   std::uint32_t* out = nodes_.data() + size_;
-  for (std::size_t i = 0; i < kFanOut; ++i) out[i] = group * kFanOut + kLaneLists[set][i];
+  for (std::size_t i = 0; i < kFanOut; ++i) out[i] = group * kFanOut + kBitPositions[set][i];
   size_ += static_cast<std::size_t>(std::popcount(set));
 }
 

@@ -61,17 +61,12 @@ LaneMask LeafTraversal::reach(LeafId leaf) {
 }
 
 void LeafTraversal::push_on(LeafId leaf, LaneMask added, std::vector<LeafId>& waiting) {
-  const std::uint32_t end = index_->leaves[leaf + 1].first_link;
-  for (std::uint32_t i = index_->leaves[leaf].first_link; i < end; ++i) {
-    const Link& link = index_->links[i];
+  for (const Link& link : index_->links_of(leaf)) {
     if ((link.boundary & added) == 0) continue;
     State& other = touch(link.leaf);
     const LaneMask open = other.inside & ~(other.reached | other.pending);
     if (open == 0) continue;
-    const std::uint32_t cross_edges = index_->links[i + 1].first_cross_edge - link.first_cross_edge;
-    const LaneMask met =
-        other.whole ? open
-                    : kernels_->cross_edges(&index_->cross_edges[link.first_cross_edge], cross_edges, added) & open;
+    const LaneMask met = other.whole ? open : kernels_->cross_edges(index_->cross_edges_of(link), added) & open;
     if (met == 0) continue;
     if (other.pending == 0) waiting.push_back(link.leaf);
     other.pending |= met;
@@ -79,10 +74,9 @@ void LeafTraversal::push_on(LeafId leaf, LaneMask added, std::vector<LeafId>& wa
 }
 
 void LeafTraversal::fetch_neighbors(LeafId leaf) const {
-  const std::uint32_t end = index_->leaves[leaf + 1].first_link;
-  for (std::uint32_t i = index_->leaves[leaf].first_link; i < end; ++i) {
-    prefetch(&states_[index_->links[i].leaf]);
-    prefetch(&index_->leaves[index_->links[i].leaf]);
+  for (const Link& link : index_->links_of(leaf)) {
+    prefetch(&states_[link.leaf]);
+    prefetch(&index_->leaves[link.leaf]);
   }
 }
 

@@ -7,13 +7,11 @@ namespace meshhood {
 namespace {
 
 bool has_nearer_neighbor_outside(const IndexView& index, const LocalMinimum& vertex, const Point& centre) {
-  for (std::uint32_t i = index.leaves[vertex.leaf].first_link; i < index.leaves[vertex.leaf + 1].first_link; ++i) {
-    const Link& link = index.links[i];
+  for (const Link& link : index.links_of(vertex.leaf)) {
     if ((link.boundary >> vertex.lane & 1U) == 0) continue;
-    for (std::uint32_t k = link.first_cross_edge; k < index.links[i + 1].first_cross_edge; ++k) {
-      const CrossEdge& cross_edge = index.cross_edges[k];
-      if (cross_edge.from != vertex.lane) continue;
-      if (squared_distance(index.position(link.leaf, cross_edge.to), centre) < vertex.square) return true;
+    for (const CrossEdge& edge : index.cross_edges_of(link)) {
+      if (edge.from != vertex.lane) continue;
+      if (squared_distance(index.position(link.leaf, edge.to), centre) < vertex.square) return true;
     }
   }
   return false;

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <variant>
+
+namespace meshhood {
+
+inline constexpr unsigned kLeafCapacity = 32;
+
+/// A set of vertices of one leaf: bit `i` stands for the leaf's vertex number `i`, its *lane*.
+using LaneMask = std::uint32_t;
+
+/// The first `n` lanes; `n` <= 32.
+[[nodiscard]] constexpr LaneMask first_lanes(unsigned n) { return n == 0 ? 0 : ~LaneMask{0} >> (kLeafCapacity - n); }
+
+/// An edge between two leaves, by the lanes of its ends: `from` in this leaf, `to` in the linked one.
+struct CrossEdge {
+  std::uint8_t from;
+  std::uint8_t to;
+};
+
+/// In index order, #V by 3, followed by `kLeafCapacity` vertices of padding, so that a kernel may read 32 vertices from
+/// any vertex on.
+using PositionsInOrder = std::variant<std::span<const float>, std::span<const double>>;
+
+/// For every set of eight bits: the positions of its bits in ascending order, followed by zeros.
+inline constexpr std::array<std::array<std::uint8_t, 8>, 256> kBitPositions = [] {
+  std::array<std::array<std::uint8_t, 8>, 256> lists{};
+  for (unsigned set = 0; set < 256; ++set) {
+    std::size_t size = 0;
+    for (std::uint8_t bit = 0; bit < 8; ++bit) {
+      if ((set >> bit & 1U) != 0) lists[set][size++] = bit;
+    }
+  }
+  return lists;
+}();
+
+}  // namespace meshhood
