@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes the first inputs of the fuzzers of the index: small ones of all kinds, of at most 4 KiB.
-// Usage: index_seeds FOLDER...
+// Writes the first inputs of the index fuzzers: small indexes of every kind, of at most 4 KiB each.
+// Usage: index_seeds FOLDER, as build/fuzz/corpus/index; `tools/fuzz --keep` then adds them to the archive.
 #include <cstdio>
 #include <fstream>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs a target on the files of folders: the corpus, without a fuzzer. Usage: replay_TARGET FOLDER...
+// Runs a target on all files of the given folders, without a fuzzer. Usage: replay_TARGET FOLDER...
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -21,7 +21,7 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder)
 void replay(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  // Named before it is run, so that what ends the program is known.
+  // Printed first, so that the output names the input if it ends the program.
   std::printf("%s, %zu bytes\n", path.c_str(), bytes.size());
   std::fflush(stdout);
   meshhood::fuzz::run(std::as_bytes(std::span(bytes)));

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Writes the first inputs of each fuzzer, small files that take the readers everywhere, into fuzz/corpus."""
-import pathlib
+"""Adds the first inputs of each fuzzer, small files that reach all parts of the readers, to its archive in fuzz/corpus."""
 import random
 import struct
 
-CORPUS = pathlib.Path(__file__).parent / "corpus"
+import corpus
+
 ELEMENTS = (
     "element vertex 3\nproperty float x\nproperty double y\nproperty short z\nproperty list uchar float extra\n"
     "element face 2\nproperty list uchar int vertex_indices\n"
@@ -98,7 +98,7 @@ SEEDS = {
         for seed, vertices, body in ((1, 30, range(64)), (2, 500, b""), (3, 300, [7, 1, 2, 200, 9, 40, 0, 3] * 40))
     },
 }
-# Calls, or numbers of any size after the kind of the kernel: where to begin matters little.
+# Calls, or numbers of any size after the kind of the kernel.
 DRAW = random.Random(1)
 SEEDS["calls"] = {f"random_{i}": DRAW.randbytes(40 + 4 * i) for i in range(40)}
 SEEDS["kernels"] = {f"random_{i}": bytes([i % 4]) + DRAW.randbytes(900) for i in range(40)}
@@ -108,8 +108,5 @@ SEEDS["kernels"] |= {f"small_{i}": bytes([i % 4, 31, 255, 255, 255, 255, 3])
 SEEDS["any"] = {f"{kind}_{name}": data for kind in ("ply", "obj", "off", "stl") for name, data in SEEDS[kind].items()}
 
 for target, seeds in SEEDS.items():
-    folder = CORPUS / target
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, data in seeds.items():
-        (folder / name).write_bytes(data)
+    corpus.write(target, corpus.read(target) | seeds)
     print(f"{target}: {len(seeds)} seeds")

@@ -49,4 +49,4 @@ target_sources(io_save_power_test PRIVATE support/disk_model.cpp)
 
 meshhood_test(io/allocation meshhood_save_trial)
 target_sources(io_allocation_test PRIVATE support/failing_allocations.cpp)
-target_compile_definitions(io_allocation_test PRIVATE MESHHOOD_CORPUS="${PROJECT_SOURCE_DIR}/fuzz/corpus")
+target_compile_definitions(io_allocation_test PRIVATE MESHHOOD_CORPUS="${PROJECT_BINARY_DIR}/fuzz/corpus")

@@ -91,7 +91,7 @@ bool same(const Reading& a, const Reading& b) {
 
 class ReadAllocation : public testing::Test {
  protected:
-  /// Each file of the fuzzers' corpus of a format: all its variants, and what is refused.
+  /// Reads each file of the fuzzing corpus of a format, which has all variants and all faults.
   void read_corpus(const std::string& format) {
     for (const auto& file : std::filesystem::directory_iterator(MESHHOOD_CORPUS "/" + format)) read(file.path());
   }
