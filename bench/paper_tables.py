@@ -51,7 +51,7 @@ def account(meshhood, mesh, radius, workers):
     begin = time.perf_counter()
     index = meshhood.MeshIndex(*mesh, workers=workers)
     built = time.perf_counter()
-    listed = sum(len(chunk.indices) for chunk in index.iter_neighborhoods(radius, chunk=1024, workers=workers))
+    listed = sum(len(chunk.indices) for chunk in index.iter_neighborhoods(None, radius, chunk=1024, workers=workers))
     asked = time.perf_counter()
     counted = int(index.query_ball_count(None, radius, workers=workers).sum())
     end = time.perf_counter()

@@ -74,7 +74,7 @@ def print_rows(index, v, r):
     rows = np.arange(v, v + CALLS)
 
     def kept():
-        for chunk in index.iter_neighborhoods(r, rows, chunk=CHUNK, workers=1):
+        for chunk in index.iter_neighborhoods(rows, r, chunk=CHUNK, workers=1):
             del chunk
 
     ids, counted = medians(kept, lambda: index.query_ball_count(rows, r, workers=1))

@@ -34,7 +34,7 @@ def evidence(first, second):
 def searchlight(index, radius, values):
     """Per vertex, the mean of `values` over its neighborhood; memory does not grow with the mesh."""
     result = np.empty(len(index))
-    for part in index.iter_neighborhoods(radius, chunk=10_000):
+    for part in index.iter_neighborhoods(None, radius, chunk=10_000):
         result[part.vertices] = np.add.reduceat(values[part.indices], part.indptr[:-1]) / np.diff(part.indptr)
     return result
 

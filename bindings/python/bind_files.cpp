@@ -24,10 +24,10 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "graph_copy.h"
+#include "interpreter.h"
 #include "io/index_io.h"
 #include "io/mesh_io.h"
 #include "methods.h"
-#include "watch.h"
 
 namespace nb = nanobind;
 
@@ -36,14 +36,11 @@ namespace {
 
 using Bytes = nb::ndarray<const std::uint8_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 
-/// Positions (#V by 3), corners, offsets (empty where all are triangles), warnings.
+/// Returns positions (#V by 3), corners, offsets (empty if all faces are triangles) and warnings.
 auto read(const std::filesystem::path& path, nb::handle progress) {
-  const io::ReadOptions options{.progress = watch(progress)};
-  io::Mesh mesh;
-  {
-    const nb::gil_scoped_release unlocked;
-    mesh = io::read_mesh(path, options);
-  }
+  const io::ReadOptions options{.progress = progress_to(progress)};
+  io::Mesh mesh = without_lock([&] { return io::read_mesh(path, options); });
+  check_vertex_count(mesh.view().positions.size());
   nb::object positions = std::visit(
       [](auto& xyz) {
         using Real = typename std::decay_t<decltype(xyz)>::value_type;
@@ -58,14 +55,13 @@ auto read(const std::filesystem::path& path, nb::handle progress) {
     warning.append(": ").append(what);
     if (count > 1) warning.append(" (").append(std::to_string(count)).append(" times)");
   }
-  return std::tuple(std::move(positions), owned<std::uint32_t>(std::move(mesh.corners)),
+  return std::tuple(std::move(positions), owned<std::int32_t>(std::move(mesh.corners)),
                     owned<std::int64_t>(std::move(mesh.offsets)), std::move(warnings));
 }
 
 void save_file(const ExactMethod& method, const std::filesystem::path& path, nb::handle progress) {
-  const SaveOptions options{.progress = watch(progress)};
-  const nb::gil_scoped_release unlocked;
-  io::save(path, method.index(), options);
+  const SaveOptions options{.progress = progress_to(progress)};
+  without_lock([&] { io::save(path, method.index(), options); });
 }
 
 std::shared_ptr<ExactMethod> loaded(Index index) {
@@ -76,31 +72,28 @@ std::shared_ptr<ExactMethod> loaded(Index index) {
 /// `trusted` is for what is mapped alone.
 std::shared_ptr<ExactMethod> load_file(const std::filesystem::path& path, bool mmap, bool trusted,
                                        nb::handle progress) {
-  const Progress watched = watch(progress);
-  const nb::gil_scoped_release unlocked;
-  if (mmap) return loaded(io::map(path, {.trusted = trusted, .progress = watched}));
-  return loaded(io::load(path, {.progress = watched}));
+  const Progress reported = progress_to(progress);
+  return without_lock([&] {
+    if (mmap) return loaded(io::map(path, {.trusted = trusted, .progress = reported}));
+    return loaded(io::load(path, {.progress = reported}));
+  });
 }
 
 Output<std::uint8_t> to_bytes(const ExactMethod& method) {
-  const SaveOptions options{.progress = watch(nb::handle(Py_None))};
+  const SaveOptions options{.progress = progress_to(nb::handle(Py_None))};
   std::vector<std::byte> bytes;
-  {
-    const nb::gil_scoped_release unlocked;
+  const Sink append = [&](std::span<const std::byte> piece) { bytes.insert(bytes.end(), piece.begin(), piece.end()); };
+  without_lock([&] {
     bytes.reserve(method.index().bytes().total());
-    const Sink append = [&](std::span<const std::byte> piece) {
-      bytes.insert(bytes.end(), piece.begin(), piece.end());
-    };
     save(method.index(), append, options);
-  }
+  });
   return owned<std::uint8_t>(std::move(bytes));
 }
 
 std::shared_ptr<ExactMethod> from_bytes(const Bytes& bytes) {
   const auto all = std::as_bytes(std::span(bytes.data(), bytes.size()));
-  const LoadOptions options{.progress = watch(nb::handle(Py_None))};
-  const nb::gil_scoped_release unlocked;
-  return loaded(load(all, options));
+  const LoadOptions options{.progress = progress_to(nb::handle(Py_None))};
+  return without_lock([&] { return loaded(load(all, options)); });
 }
 
 }  // namespace

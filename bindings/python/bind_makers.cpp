@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
@@ -15,8 +17,8 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "graph_copy.h"
+#include "interpreter.h"
 #include "methods.h"
-#include "watch.h"
 
 namespace nb = nanobind;
 
@@ -31,37 +33,50 @@ FacesView faces_of(const Input& corners, const std::optional<Input>& offsets) {
 std::shared_ptr<ExactMethod> make_exact(const Input& positions, const Input& corners,
                                         const std::optional<Input>& offsets, unsigned threads, nb::handle progress) {
   const MeshView mesh{positions_of(positions, "V"), faces_of(corners, offsets)};
-  const BuildOptions options{.threads = threads, .progress = watch(progress)};
-  const nb::gil_scoped_release unlocked;
-  return exact_method(build(graph_copy(mesh).view(), options));
+  const BuildOptions options{.threads = threads, .progress = progress_to(progress)};
+  return without_lock([&] { return exact_method(build(graph_copy(mesh).view(), options)); });
 }
 
 std::shared_ptr<GraphData> make_graph(const ExactMethod& method) {
-  const nb::gil_scoped_release unlocked;
-  return std::make_shared<GraphData>(extract_graph(method.index()));
+  return without_lock([&] { return std::make_shared<GraphData>(extract_graph(method.index())); });
+}
+
+/// Not a copy: the array is read-only and keeps the graph alive.
+nb::object positions(const nb::object& self) {
+  const GraphData& graph = nb::cast<const GraphData&>(self);
+  return std::visit(
+      [&](const auto& xyz) {
+        using Real = typename std::decay_t<decltype(xyz)>::value_type;
+        return nb::cast(Output<const Real>(xyz.data(), {xyz.size() / 3, 3}, self), nb::rv_policy::reference);
+      },
+      graph.positions);
 }
 
 std::shared_ptr<paper::Index> make_hierarchy(const GraphData& graph, int levels, int discard, double fusion_growth) {
-  const Progress progress = watch(nb::handle(Py_None));
-  const nb::gil_scoped_release unlocked;
-  return std::make_shared<paper::Index>(paper::build(
-      graph.view(), {.levels = levels, .discard = discard, .fusion_growth = fusion_growth, .progress = progress}));
+  const paper::BuildOptions options{.levels = levels,
+                                    .discard = discard,
+                                    .fusion_growth = fusion_growth,
+                                    .progress = progress_to(nb::handle(Py_None))};
+  return without_lock([&] { return std::make_shared<paper::Index>(paper::build(graph.view(), options)); });
 }
 
-std::shared_ptr<Method> make_paper(std::shared_ptr<paper::Index> hierarchy, double factor) {
-  return paper_method(std::move(hierarchy), {.radius_ratio = factor});
+std::shared_ptr<Method> make_paper(std::shared_ptr<paper::Index> hierarchy, double radius_ratio) {
+  return paper_method(std::move(hierarchy), {.radius_ratio = radius_ratio});
 }
 
 }  // namespace
 
 void bind_makers(nb::module_& module) {
-  static_cast<void>(nb::class_<GraphData>(module, "Graph"));
+  nb::class_<GraphData>(module, "Graph")
+      .def_prop_ro("positions", &positions)
+      .def("mean_edge_length",
+           [](const GraphData& graph) { return without_lock([&] { return mean_edge_length(graph.view()); }); });
   static_cast<void>(nb::class_<paper::Index>(module, "Hierarchy"));
   module.def("exact", &make_exact, nb::arg(), nb::arg(), nb::arg("offsets").none(), nb::arg("threads"),
              nb::arg("progress").none());
   module.def("graph", &make_graph);
   module.def("hierarchy", &make_hierarchy, nb::arg(), nb::arg("levels"), nb::arg("discard"), nb::arg("fusion_growth"));
-  module.def("paper", &make_paper, nb::arg(), nb::arg("factor"));
+  module.def("paper", &make_paper, nb::arg(), nb::arg("radius_ratio"));
   module.def("bfs", [](std::shared_ptr<GraphData> graph) { return bfs_method(std::move(graph)); });
   module.def("ball", [](std::shared_ptr<GraphData> graph) { return ball_method(std::move(graph)); });
 }

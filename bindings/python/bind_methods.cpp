@@ -18,8 +18,8 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "interpreter.h"
 #include "methods.h"
-#include "watch.h"
 
 namespace nb = nanobind;
 
@@ -30,20 +30,12 @@ using Rows = nb::ndarray<const std::int32_t, nb::shape<-1>, nb::c_contig, nb::de
 using Radii = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 
 Output<std::int32_t> one(Method& method, VertexId v, double radius) {
-  Answer answer;
-  {
-    const nb::gil_scoped_release unlocked;
-    answer = method.neighborhood(v, radius, false);
-  }
+  Answer answer = method.neighborhood(v, radius, false);
   return owned<std::int32_t>(std::move(answer.ids));
 }
 
 auto one_with_distances(Method& method, VertexId v, double radius) {
-  Answer answer;
-  {
-    const nb::gil_scoped_release unlocked;
-    answer = method.neighborhood(v, radius, true);
-  }
+  Answer answer = method.neighborhood(v, radius, true);
   return std::pair(owned<std::int32_t>(std::move(answer.ids)), owned<double>(std::move(answer.distances)));
 }
 
@@ -61,42 +53,31 @@ BatchQuery query_of(const std::optional<Rows>& vertices, const std::variant<doub
 auto many(Method& method, const std::optional<Rows>& vertices, const std::variant<double, Radii>& radius,
           bool distances, bool sorted, unsigned threads, nb::handle progress) {
   const BatchQuery query = query_of(vertices, radius);
-  const BatchOptions options{.threads = threads, .distances = distances, .sorted = sorted, .progress = watch(progress)};
+  const BatchOptions options{
+      .threads = threads, .distances = distances, .sorted = sorted, .progress = progress_to(progress)};
   nb::object ids;
   nb::object found_distances;
   const auto allocate = [&](std::size_t count) -> BatchMemory {
-    const nb::gil_scoped_acquire lock;
-    ids = unset(count, "int32");
-    found_distances = unset(distances ? count : 0, "float64");
-    return {values_of<VertexId>(ids), values_of<double>(found_distances)};
+    return with_lock([&]() -> BatchMemory {
+      ids = unset(count, "int32");
+      found_distances = unset(distances ? count : 0, "float64");
+      return {values_of<VertexId>(ids), values_of<double>(found_distances)};
+    });
   };
-  std::vector<std::uint64_t> offsets;
-  {
-    const nb::gil_scoped_release unlocked;
-    offsets = method.neighborhoods(query, allocate, options);
-  }
+  std::vector<std::uint64_t> offsets = method.neighborhoods(query, allocate, options);
   return std::tuple(owned<std::int64_t>(std::move(offsets)), std::move(ids), std::move(found_distances));
 }
 
 Output<std::int64_t> many_counts(Method& method, const std::optional<Rows>& vertices,
                                  const std::variant<double, Radii>& radius, unsigned threads, nb::handle progress) {
   const BatchQuery query = query_of(vertices, radius);
-  const BatchOptions options{.threads = threads, .progress = watch(progress)};
-  std::vector<std::uint64_t> counts;
-  {
-    const nb::gil_scoped_release unlocked;
-    counts = method.neighborhood_sizes(query, options);
-  }
-  return owned<std::int64_t>(std::move(counts));
+  const BatchOptions options{.threads = threads, .progress = progress_to(progress)};
+  return owned<std::int64_t>(method.neighborhood_sizes(query, options));
 }
 
 Output<std::int32_t> ranges(ExactMethod& method, VertexId v, double radius) {
   static_assert(sizeof(VertexRange) == 2 * sizeof(std::int32_t));
-  std::vector<VertexRange> ranges;
-  {
-    const nb::gil_scoped_release unlocked;
-    ranges = method.ranges(v, radius);
-  }
+  std::vector<VertexRange> ranges = method.ranges(v, radius);
   const std::size_t size = ranges.size();
   return owned<std::int32_t>(std::move(ranges), {size, 2});
 }
@@ -119,10 +100,11 @@ void bind_methods(nb::module_& module) {
   nb::class_<Method>(module, "Method")
       .def("neighborhood", &one, nb::arg(), nb::arg())
       .def("neighborhood_and_distances", &one_with_distances, nb::arg(), nb::arg())
-      .def("count", &Method::count, nb::arg(), nb::arg(), nb::call_guard<nb::gil_scoped_release>())
+      .def("count", &Method::count, nb::arg(), nb::arg())
       .def("neighborhoods", &many, nb::arg().none(), nb::arg(), nb::arg("distances"), nb::arg("sorted"),
            nb::arg("threads"), nb::arg("progress").none())
-      .def("counts", &many_counts, nb::arg().none(), nb::arg(), nb::arg("threads"), nb::arg("progress").none());
+      .def("neighborhood_sizes", &many_counts, nb::arg().none(), nb::arg(), nb::arg("threads"),
+           nb::arg("progress").none());
   nb::class_<ExactMethod, Method>(module, "ExactMethod")
       .def("ranges", &ranges, nb::arg(), nb::arg())
       .def_prop_ro("permutation", &permutation, nb::rv_policy::reference)

@@ -32,9 +32,10 @@ void check_positions(const PositionsView& positions) {
 }  // namespace
 
 GraphData graph_copy(const MeshView& mesh) {
-  about("V", [&] { check_positions(mesh.positions); });
+  // The copy is validated, not the original: another thread may write to that at any time.
   GraphData copy;
   mesh.positions.visit([&](auto xyz) { copy.positions = std::vector(xyz.begin(), xyz.end()); });
+  about("V", [&] { check_positions(copy.view().positions); });
   copy.adjacency = about("F", [&] { return adjacency({copy.view().positions, mesh.faces}); });
   return copy;
 }

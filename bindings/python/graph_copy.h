@@ -8,10 +8,9 @@
 
 namespace meshhood::python {
 
-/// What an index is built from, so that the arrays cannot change under it: a function that is told of the progress may
-/// do anything.
+/// The graph of a mesh whose positions other threads may write to. Copies them first.
 ///
-/// Throws Error{InvalidMesh, TooLarge}, beginning with the argument: `V` or `F`.
+/// Throws Error{InvalidMesh, TooLarge}. The message begins with the argument: `V` or `F`.
 [[nodiscard]] GraphData graph_copy(const MeshView& mesh);
 
 /// Throws Error{TooLarge} for more vertices than there are ids in Python.

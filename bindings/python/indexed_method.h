@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter.h"
 #include "methods.h"
 #include "pool.h"
 
@@ -37,12 +38,12 @@ class IndexMethod : public Base {
   std::vector<std::uint64_t> neighborhoods(const BatchQuery& query, const BatchAllocator& allocate,
                                            const BatchOptions& options) override {
     using meshhood::neighborhoods;
-    return neighborhoods(index_, query, allocate, options);
+    return without_lock([&] { return neighborhoods(index_, query, allocate, options); });
   }
 
   std::vector<std::uint64_t> neighborhood_sizes(const BatchQuery& query, const BatchOptions& options) override {
-    using meshhood::counts;
-    return neighborhood_sizes(index_, query, options);
+    using meshhood::neighborhood_sizes;
+    return without_lock([&] { return neighborhood_sizes(index_, query, options); });
   }
 
  protected:

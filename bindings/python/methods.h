@@ -15,14 +15,14 @@
 
 namespace meshhood::python {
 
-/// The answer to one query. `distances` is empty unless asked for.
+/// The answer to one query. `distances` is empty unless requested.
 struct Answer {
   std::vector<VertexId> ids;
   std::vector<double> distances;
 };
 
-/// One way to find neighborhoods. Any number of threads may ask it at the same time. No Python object is touched, so
-/// the interpreter lock may be released meanwhile. Errors are those of the C++ calls of the same names.
+/// One way to find neighborhoods. Any number of threads may use it at the same time. Each call is made with the
+/// interpreter lock, which is released while the call works. Throws as the C++ calls of the same names.
 class Method {
  public:
   Method() = default;

@@ -5,6 +5,7 @@
 #include <nanobind/nanobind.h>
 
 #include "meshhood/error.h"
+#include "meshhood/version.h"
 
 #include "bindings.h"
 
@@ -42,8 +43,11 @@ void translate(const std::exception_ptr& exception, void*) {
 }  // namespace meshhood::python
 
 NB_MODULE(_core, module) {
+  // A daemon thread that sleeps while the process ends keeps its objects.
+  nb::set_leak_warnings(false);
   nb::register_exception_translator(meshhood::python::translate);
   meshhood::python::bind_methods(module);
   meshhood::python::bind_makers(module);
   meshhood::python::bind_files(module);
+  module.attr("__version__") = meshhood::kVersion.data();
 }

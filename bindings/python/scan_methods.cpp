@@ -12,6 +12,7 @@
 #include "meshhood/error.h"
 #include "meshhood/reference.h"
 
+#include "interpreter.h"
 #include "methods.h"
 #include "pool.h"
 
@@ -42,34 +43,60 @@ class Steps {
   Clock::time_point told_ = Clock::now();
 };
 
-/// A method that only knows how to find the ids of one neighborhood.
+class BfsScan {
+ public:
+  explicit BfsScan(const GraphView& graph) : searcher_(graph) {}
+  void find(VertexId v, double radius, std::vector<VertexId>& ids) { searcher_.neighborhood(v, radius, ids); }
+
+ private:
+  ReferenceSearcher searcher_;
+};
+
+class BallScan {
+ public:
+  explicit BallScan(const GraphView& graph) : positions_(graph.positions) {}
+  void find(VertexId v, double radius, std::vector<VertexId>& ids) const {
+    vertices_in_ball(positions_, v, radius, ids);
+  }
+
+ private:
+  PositionsView positions_;
+};
+
+/// A method that finds the ids of one neighborhood at a time.
+template <class Scan>
 class ScanMethod : public Method {
  public:
   explicit ScanMethod(std::shared_ptr<const GraphData> graph) : graph_(std::move(graph)) {}
 
   Answer neighborhood(VertexId v, double radius, bool distances) override {
-    Answer answer{find(v, radius), {}};
-    if (distances) append_distances(v, answer.ids, answer.distances);
-    return answer;
+    return with_scan([&](Scan& scan) {
+      Answer answer;
+      scan.find(v, radius, answer.ids);
+      if (distances) append_distances(v, answer.ids, answer.distances);
+      return answer;
+    });
   }
 
-  std::size_t count(VertexId v, double radius) override { return find(v, radius).size(); }
+  std::size_t count(VertexId v, double radius) override { return neighborhood(v, radius, false).ids.size(); }
 
   std::vector<std::uint64_t> neighborhoods(const BatchQuery& query, const BatchAllocator& allocate,
                                            const BatchOptions& options) override {
-    // To find a row twice would take longer than to copy it.
+    // To find each row twice would take longer than to copy it.
     Neighborhoods result;
     result.offsets = {0};
-    for_each_row(query, options, [&](VertexId v, std::vector<VertexId> ids) {
+    for_each_row(query, options, [&](VertexId v, std::vector<VertexId>& ids) {
       if (options.sorted) std::sort(ids.begin(), ids.end());
       if (options.distances) append_distances(v, ids, result.distances);
       result.ids.insert(result.ids.end(), ids.begin(), ids.end());
       result.offsets.push_back(result.ids.size());
     });
-    const BatchMemory memory = allocate(result.ids.size());
-    std::copy(result.ids.begin(), result.ids.end(), memory.ids.begin());
-    std::copy(result.distances.begin(), result.distances.end(), memory.distances.begin());
-    return std::move(result.offsets);
+    return without_lock([&] {
+      const BatchMemory memory = allocate(result.ids.size());
+      std::copy(result.ids.begin(), result.ids.end(), memory.ids.begin());
+      std::copy(result.distances.begin(), result.distances.end(), memory.distances.begin());
+      return std::move(result.offsets);
+    });
   }
 
   std::vector<std::uint64_t> neighborhood_sizes(const BatchQuery& query, const BatchOptions& options) override {
@@ -78,69 +105,46 @@ class ScanMethod : public Method {
     return result;
   }
 
- protected:
-  [[nodiscard]] virtual std::vector<VertexId> find(VertexId v, double radius) = 0;
-  [[nodiscard]] GraphView graph() const { return graph_->view(); }
-
  private:
+  template <class F>
+  auto with_scan(F&& f) {
+    return scans_.with([&] { return Scan(graph_->view()); }, std::forward<F>(f));
+  }
+
   void append_distances(VertexId v, const std::vector<VertexId>& ids, std::vector<double>& distances) const {
-    const PositionsView positions = graph().positions;
+    const PositionsView positions = graph_->view().positions;
     for (const VertexId w : ids) distances.push_back(distance(positions, v, w));
   }
 
   template <class F>
   void for_each_row(const BatchQuery& query, const BatchOptions& options, F&& f) {
-    const std::size_t rows = query.vertices ? query.vertices->size() : graph().positions.size();
+    const std::size_t rows = query.vertices ? query.vertices->size() : graph_->view().positions.size();
     const auto* const radii = std::get_if<std::span<const double>>(&query.radius);
-    Steps steps(options.progress, rows);
-    for (std::size_t row = 0; row < rows; ++row) {
-      const VertexId v = query.vertices ? (*query.vertices)[row] : static_cast<VertexId>(row);
-      f(v, find(v, radii != nullptr ? (*radii)[row] : std::get<double>(query.radius)));
-      steps.done(row + 1);
-    }
+    with_scan([&](Scan& scan) {
+      Steps steps(options.progress, rows);
+      std::vector<VertexId> ids;
+      for (std::size_t row = 0; row < rows; ++row) {
+        const VertexId v = query.vertices ? (*query.vertices)[row] : static_cast<VertexId>(row);
+        scan.find(v, radii != nullptr ? (*radii)[row] : std::get<double>(query.radius), ids);
+        f(v, ids);
+        steps.done(row + 1);
+      }
+      return rows;
+    });
   }
 
   std::shared_ptr<const GraphData> graph_;
-};
-
-class BfsMethod : public ScanMethod {
- public:
-  using ScanMethod::ScanMethod;
-
- protected:
-  std::vector<VertexId> find(VertexId v, double radius) override {
-    return searchers_.with([&] { return ReferenceSearcher(graph()); },
-                           [&](ReferenceSearcher& searcher) {
-                             std::vector<VertexId> ids;
-                             searcher.neighborhood(v, radius, ids);
-                             return ids;
-                           });
-  }
-
- private:
-  Pool<ReferenceSearcher> searchers_;
-};
-
-class BallMethod : public ScanMethod {
- public:
-  using ScanMethod::ScanMethod;
-
- protected:
-  std::vector<VertexId> find(VertexId v, double radius) override {
-    std::vector<VertexId> ids;
-    vertices_in_ball(graph().positions, v, radius, ids);
-    return ids;
-  }
+  Pool<Scan> scans_;
 };
 
 }  // namespace
 
 std::shared_ptr<Method> bfs_method(std::shared_ptr<const GraphData> graph) {
-  return std::make_shared<BfsMethod>(std::move(graph));
+  return std::make_shared<ScanMethod<BfsScan>>(std::move(graph));
 }
 
 std::shared_ptr<Method> ball_method(std::shared_ptr<const GraphData> graph) {
-  return std::make_shared<BallMethod>(std::move(graph));
+  return std::make_shared<ScanMethod<BallScan>>(std::move(graph));
 }
 
 }  // namespace meshhood::python

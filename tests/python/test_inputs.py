@@ -110,7 +110,7 @@ def test_nothing(faces):
     assert [len(a) for a in empty.query_ball(None, 1.0, return_distance=True)] == [1, 0, 0]
     assert empty.query_ball_count([], 1.0).shape == (0,)
     assert empty.radius_neighbors_graph(1.0).shape == (0, 0)
-    assert list(empty.iter_neighborhoods(1.0)) == []
+    assert list(empty.iter_neighborhoods(None, 1.0)) == []
     lonely = meshhood.MeshIndex(V, faces)
     np.testing.assert_array_equal(lonely.query_ball(3, np.inf), [3])
 
@@ -181,13 +181,17 @@ INDEX = meshhood.MeshIndex(V, F)
         (True, 1, TypeError, "v: .*bool"),
         (np.True_, 1, TypeError, "v: .*bool"),
         (np.array(True), 1, TypeError, "v: "),
-        ([True], 1, TypeError, "v: .*bool"),
-        (np.ones(len(V), bool), 1, TypeError, "v: .*bool"),
+        ([0, True], 1, TypeError, "v: .*bool"),
+        ([True], 1, ValueError, r"v: a bool mask of shape \(1,\), expected \(36,\)"),
+        (np.ones((len(V), 1), bool), 1, ValueError, r"v: a bool mask of shape \(36, 1\)"),
         ([[0, 1]], 1, ValueError, r"v: .*\(1, 2\)"),
         (0, -1, ValueError, "r: .*-1"),
         (0, np.nan, ValueError, "r: .*nan"),
         (0, True, TypeError, "r: .*bool"),
         ([0, 1], [True, True], TypeError, "r: .*bool"),
+        ([0, 1], [1.0, True], TypeError, "r: .*bool"),
+        ([], -1, ValueError, "r: .*-1"),
+        ([], np.nan, ValueError, "r: .*nan"),
         (0, None, TypeError, "r: "),
         (0, "1", TypeError, "r: "),
         (0, 10**400, TypeError, "r: "),
@@ -199,9 +203,12 @@ INDEX = meshhood.MeshIndex(V, F)
 )
 @pytest.mark.parametrize("method", ("exact", "paper", "bfs", "ball"))
 def test_refused_queries(v, r, error, message, method):
-    for ask in (INDEX.query_ball, INDEX.query_ball_count):
+    calls = [INDEX.query_ball, INDEX.query_ball_count]
+    if np.ndim(v):
+        calls.append(INDEX.iter_neighborhoods)
+    for call in calls:
         with pytest.raises(error, match=message):
-            ask(v, r, method=method)
+            call(v, r, method=method)
 
 
 @pytest.mark.parametrize(
@@ -216,16 +223,16 @@ def test_refused_queries(v, r, error, message, method):
         (lambda: meshhood.Paper(discard=-1), ValueError, "discard: -1, expected 0 to 64"),
         (lambda: meshhood.Paper(fusion_growth=-0.5), ValueError, "fusion_growth: -0.5, expected .* >= 0"),
         (lambda: meshhood.Paper(fusion_growth=np.inf), ValueError, "fusion_growth: inf"),
-        (lambda: meshhood.Paper(factor=0), ValueError, "factor: 0.0, expected .* > 0"),
-        (lambda: meshhood.Paper(factor=np.nan), ValueError, "factor: nan"),
-        (lambda: meshhood.Paper(factor="10"), TypeError, "factor: .*<U2"),
+        (lambda: meshhood.Paper(radius_ratio=0), ValueError, "radius_ratio: 0.0, expected .* > 0"),
+        (lambda: meshhood.Paper(radius_ratio=np.nan), ValueError, "radius_ratio: nan"),
+        (lambda: meshhood.Paper(radius_ratio="10"), TypeError, "radius_ratio: .*<U2"),
         (lambda: INDEX.query_ball([0], 1, workers=0), ValueError, "workers: 0"),
         (lambda: INDEX.query_ball([0], 1, workers=1.5), TypeError, "workers: .*float"),
         (lambda: INDEX.query_ball([0], 1, workers=True), TypeError, "workers: .*bool"),
         (lambda: INDEX.query_ranges(True, 1), TypeError, "v: .*bool"),
         (lambda: INDEX.query_ball([0], 1, progress=3), TypeError, "progress: .*int"),
         (lambda: INDEX.radius_neighbors_graph(1, mode="far"), ValueError, "mode: 'far'"),
-        (lambda: INDEX.iter_neighborhoods(1, chunk=0), ValueError, "chunk: 0"),
+        (lambda: INDEX.iter_neighborhoods(None, 1, chunk=0), ValueError, "chunk: 0"),
         (lambda: meshhood.MeshIndex(V, F, workers=5000), ValueError, "workers: 5000"),
     ),
 )

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-METHODS = ("exact", "paper", "bfs", "ball", meshhood.Paper(levels=4, discard=1, fusion_growth=2, factor=3))
+METHODS = ("exact", "paper", "bfs", "ball", meshhood.Paper(levels=4, discard=1, fusion_growth=2, radius_ratio=3))
 RADII = (0.0, 0.3, 1.0, 2.5, 5.0, np.inf)
 
 
@@ -60,9 +60,9 @@ def test_paper_with_parameters_of_ones_own():
     assert (exact < ball).any()
 
 
-def test_a_larger_factor_adds_fewer_vertices():
+def test_a_larger_radius_ratio_adds_fewer_vertices():
     index = meshhood.MeshIndex(*meshes.folded(40))
-    few, many = (index.query_ball_count(None, 12.0, method=meshhood.Paper(factor=f)).sum() for f in (100, 1))
+    few, many = (index.query_ball_count(None, 12.0, method=meshhood.Paper(radius_ratio=ratio)).sum() for ratio in (100, 1))
     assert few < many
 
 
@@ -125,7 +125,7 @@ def test_graph_with_a_radius_for_each_vertex(plates):
 def test_chunks_are_the_rows(plates, chunk):
     index = plates[3]
     r = np.linspace(0, 4, len(index))
-    parts = list(index.iter_neighborhoods(r, chunk=chunk, return_distance=True))
+    parts = list(index.iter_neighborhoods(None, r, chunk=chunk, return_distance=True))
     np.testing.assert_array_equal(np.concatenate([p.vertices for p in parts]), np.arange(len(index)))
     assert all(len(p.vertices) <= chunk for p in parts)
     indptr, _, distances = index.query_ball(None, r, return_distance=True)
@@ -135,7 +135,7 @@ def test_chunks_are_the_rows(plates, chunk):
 
 def test_chunks_of_some_vertices(plates):
     index = plates[3]
-    parts = list(index.iter_neighborhoods(1.0, [7, 3, 9], chunk=2, sort=True))
+    parts = list(index.iter_neighborhoods([7, 3, 9], 1.0, chunk=2, sort=True))
     assert [list(p.vertices) for p in parts] == [[7, 3], [9]]
     assert parts[0].distances is None
     np.testing.assert_array_equal(parts[1].indices, index.query_ball(9, 1.0, sort=True))
@@ -168,6 +168,7 @@ def random_meshes(draw):
     return V.astype(draw(st.sampled_from([np.float32, np.float64]))), faces
 
 
+@pytest.mark.filterwarnings("ignore:.*Weld the mesh")
 @settings(deadline=None, max_examples=200, derandomize=True)
 @given(mesh=random_meshes(), r=st.sampled_from([0.0, 0.5, 1.0, 1.5, 3.0]))
 def test_random_meshes(mesh, r):

@@ -13,7 +13,7 @@ import meshhood
 import numpy as np
 import pytest
 
-METHODS = ("exact", "paper", "bfs", "ball", meshhood.Paper(levels=4, discard=1, factor=3))
+METHODS = ("exact", "paper", "bfs", "ball", meshhood.Paper(levels=4, discard=1, radius_ratio=3))
 
 
 def make():

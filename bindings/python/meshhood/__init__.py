@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""meshhood: the neighborhood of a point on a polygonal mesh.
+"""meshhood: the connected component of a mesh inside a ball around a vertex. Exact, by an index.
 
-The neighborhood of vertex v with radius r is the part of the mesh inside the ball of radius r around v that hangs
-together with v inside that ball.
+The neighborhood of vertex v with radius r is the connected component that holds v of the mesh inside the ball of radius
+r around v.
 
     V, F = meshhood.read_mesh("hand.ply")
     index = meshhood.MeshIndex(V, F)
@@ -10,9 +10,10 @@ together with v inside that ball.
     indptr, indices = index.query_ball([42, 43], 1.5)
 """
 
+from ._core import __version__
 from ._files import Mesh, load, read_mesh
 from ._index import Chunk, MeshIndex
 from ._methods import Paper
 from ._plot import plot_neighborhood
 
-__all__ = ["Chunk", "Mesh", "MeshIndex", "Paper", "load", "plot_neighborhood", "read_mesh"]
+__all__ = ["Chunk", "Mesh", "MeshIndex", "Paper", "__version__", "load", "plot_neighborhood", "read_mesh"]

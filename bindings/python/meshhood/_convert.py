@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What callers say of a query, as the C++ library takes it. What is not checked here is there; each error names the
-argument."""
+"""Checks and converts the arguments of queries. Errors name the argument. What is not checked here, the C++ library
+checks."""
 
 import operator
 
@@ -10,19 +10,26 @@ _MOST_THREADS = 1024
 
 
 def vertices(v, count):
-    """`v` as int32 in C order, each in [0, count)."""
-    array = as_array(v, "v")
+    """`v` as a new int32 array in C order, each value in [0, count). `v` may be a boolean mask of `count` values.
+
+    The result is a copy even if `v` already has this type: another thread, or a `progress` function, may write to `v`
+    during the call."""
+    array = np.array(as_array(v, "v"))
     if array.size == 0 and not isinstance(v, np.ndarray):
         array = array.astype(np.int32)
+    if array.dtype.kind == "b" and array.ndim:
+        if array.shape != (count,):
+            raise ValueError(f"v: a bool mask of shape {array.shape}, expected ({count},)")
+        array = np.flatnonzero(array)
     if array.dtype.kind not in "iu":
         raise TypeError(f"v: expected integers, not {array.dtype}")
     if array.ndim != 1:
-        raise ValueError(f"v: expected one vertex or a list of them, not an array of shape {array.shape}")
+        raise ValueError(f"v: expected one vertex or a list of vertices, not an array of shape {array.shape}")
     wrong = np.flatnonzero((array < 0) | (array >= count))
     if wrong.size:
         row = wrong[0]
         raise ValueError(f"v: row {row}: vertex {array[row]}, but the mesh has {count} vertices")
-    return np.ascontiguousarray(array, np.int32)
+    return array.astype(np.int32, copy=False)
 
 
 def vertex(v, count):
@@ -39,13 +46,17 @@ def is_single(v):
 
 
 def radius(r):
-    """`r` as a float, if it is one number."""
-    return r if isinstance(r, float) else _number(r, "r")
+    """`r`, one number, as a float >= 0."""
+    if not isinstance(r, float):
+        r = _number(r, "r")
+    if not r >= 0:
+        raise ValueError(f"r: radius {r}, expected a number >= 0")
+    return r
 
 
 def radii(r, rows):
-    """`r` as a float, or as float64 in C order, one for each row."""
-    array = as_array(r, "r")
+    """`r` as a float, or as a new float64 array in C order with one radius for each row. All are >= 0."""
+    array = np.array(as_array(r, "r"))
     if array.ndim == 0:
         return radius(array)
     if array.dtype.kind not in "iuf":
@@ -55,7 +66,7 @@ def radii(r, rows):
     wrong = np.flatnonzero(~(array >= 0))
     if wrong.size:
         raise ValueError(f"r: row {wrong[0]}: radius {array[wrong[0]]}, expected a number >= 0")
-    return np.ascontiguousarray(array, np.float64)
+    return array.astype(np.float64, copy=False)
 
 
 def threads(workers):
@@ -68,6 +79,13 @@ def threads(workers):
     return workers
 
 
+def choice(value, name, choices):
+    """`value`, one of `choices`."""
+    if not isinstance(value, str) or value not in choices:
+        raise ValueError(f"{name}: {value!r}, expected {' or '.join(map(repr, choices))}")
+    return value
+
+
 def integer(value, name, lowest, highest):
     value = _integer(value, name)
     if not lowest <= value <= highest:
@@ -76,7 +94,7 @@ def integer(value, name, lowest, highest):
 
 
 def finite(value, name, *, or_zero):
-    """`value` as a float beyond zero, or at it."""
+    """`value` as a finite float > 0, or >= 0."""
     value = _number(value, name)
     if not (0 < value < np.inf or (or_zero and value == 0)):
         raise ValueError(f"{name}: {value}, expected a finite number {'>=' if or_zero else '>'} 0")
@@ -91,7 +109,7 @@ def positive(value, name):
 
 
 def _integer(value, name):
-    if isinstance(value, bool):  # which Python counts among the integers
+    if isinstance(value, bool):  # a subclass of int
         raise TypeError(f"{name}: expected an integer, not bool")
     try:
         return operator.index(value)
@@ -116,4 +134,11 @@ def as_array(values, name):
         array = np.asarray(values)
     except ValueError as error:
         raise ValueError(f"{name}: {error}") from None
+    if array.dtype.kind in "iuf" and isinstance(values, (list, tuple)) and _holds_bool(values):
+        raise TypeError(f"{name}: has values of type bool among the numbers")
     return array if array.dtype.isnative else array.astype(array.dtype.newbyteorder("="))
+
+
+def _holds_bool(values):
+    """NumPy takes True beside numbers for 1."""
+    return any(isinstance(value, (bool, np.bool_)) for value in values)

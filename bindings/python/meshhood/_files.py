@@ -8,58 +8,62 @@ import warnings
 from typing import NamedTuple, Union
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _core
 from ._index import MeshIndex
-from ._progress import Progress, watcher
+from ._progress import Progress, reporter
 
 
 class Mesh(NamedTuple):
     """Positions and faces, as `MeshIndex` takes them."""
 
-    vertices: np.ndarray
-    faces: Union[np.ndarray, tuple[np.ndarray, np.ndarray]]
+    vertices: Union[NDArray[np.float32], NDArray[np.float64]]
+    faces: Union[NDArray[np.int32], tuple[NDArray[np.int64], NDArray[np.int32]]]
 
 
-def read_mesh(path: str | os.PathLike, *, progress: Progress = None) -> Mesh:
-    """Reads a PLY, OBJ, OFF or STL file, told apart by content.
+def read_mesh(path: Union[str, os.PathLike[str]], *, progress: Progress = None) -> Mesh:
+    """Reads a PLY, OBJ, OFF or STL file. The format is recognized by content.
 
-    progress : as for `MeshIndex`; parts are bytes, and their total is 0 where nobody knows it (a pipe).
+    progress : as for `MeshIndex`; the parts are bytes. Their total is 0 if the size is unknown (a pipe).
 
-    Returns `Mesh(vertices, faces)`: positions (#V, 3), float64 where the file declares them so, else float32; triangles
-    (#F, 3) uint32, or polygons as a tuple (offsets, corners). Vertices and faces are those of the file, in its order;
-    STL corners of equal position are one vertex. What is odd but was read gives a warning.
+    Returns `Mesh(vertices, faces)`: positions (#V, 3), float64 if the file declares that, else float32; triangles
+    (#F, 3) int32, or polygons as a tuple (offsets int64, corners int32). Vertices and faces are in the order of the
+    file; STL corners with equal positions become one vertex. Irregularities that could be read cause a warning.
 
-    Raises OSError, ValueError that names file, place and element, and KeyboardInterrupt on Ctrl-C.
+    Raises OSError, with errno and filename; ValueError, naming the file, place and element; KeyboardInterrupt on Ctrl-C.
     """
-    os.stat(path)  # for FileNotFoundError, as everybody expects it
-    with watcher(progress) as watch:
-        vertices, corners, offsets, oddities = _core.read_mesh(path, progress=watch)
-    for oddity in oddities:
-        warnings.warn(f"{path}: {oddity}", stacklevel=2)
+    path = os.fspath(path)
+    os.stat(path)
+    with reporter(progress) as report:
+        vertices, corners, offsets, irregularities = _core.read_mesh(path, progress=report)
+    for irregularity in irregularities:
+        warnings.warn(f"{path}: {irregularity}", stacklevel=2)
     return Mesh(vertices, (offsets, corners) if len(offsets) else corners.reshape(-1, 3))
 
 
 def load(
-    path: str | os.PathLike, *, mmap: bool = False, trusted: bool = False, progress: Progress = None
+    path: Union[str, os.PathLike[str]], *, mmap: bool = False, trusted: bool = False, progress: Progress = None
 ) -> MeshIndex:
-    """The index in a file that `MeshIndex.save`, or the C++ library, has written: an exact one, not the paper's.
+    """Loads an exact index that `MeshIndex.save` or the C++ library has written.
 
-    mmap : leave it in the file, whose pages are then read as queries need them, and shared by all processes that map
-        it. The file may be replaced by `save`, but whoever truncates or overwrites it in place ends those processes.
-    trusted : with `mmap`, do not verify what stands in the file but its header and where its parts lie, so that no
-        page is read before a query needs it. Bytes that have been changed then lead to anything: wrong answers, a
-        crash, a query that does not end. Only for files that nobody but oneself can write.
+    mmap : leave the data in the file. Pages are read when queries need them, and are shared by all processes that map
+        the file. The file may be replaced by `save`; truncating or overwriting it in place ends those processes.
+    trusted : with `mmap`, verify only the header and the layout of the file, so that no other page is read before a
+        query needs it. Altered data can then have any effect: wrong results, a crash, an endless query. Only for files
+        that nobody else can write.
     progress : as for `read_mesh`.
 
-    Unless the file is trusted, everything is verified, so that even a forged file is refused, or answers within its
-    arrays; the answers may then be wrong. The index is the one that was saved, for every method. Cost: of reading the
-    file once, or nothing to speak of where it is trusted.
+    Unless `trusted`, all data is verified: a damaged file is refused; a forged one is refused or gives wrong results
+    within its arrays. The loaded index supports every method. Cost: that of reading the file once; almost nothing if
+    `trusted`.
 
-    Raises OSError, ValueError that names file, place and what was expected, and KeyboardInterrupt on Ctrl-C.
+    Raises OSError, with errno and filename; ValueError, naming the file, place and what was expected;
+    KeyboardInterrupt on Ctrl-C.
     """
     if trusted and not mmap:
-        raise ValueError("trusted: expected with mmap=True alone, for what is copied is read anyway")
+        raise ValueError("trusted: expected only with mmap=True")
+    path = os.fspath(path)
     os.stat(path)
-    with watcher(progress) as watch:
-        return MeshIndex._holding(_core.load(path, mmap=bool(mmap), trusted=bool(trusted), progress=watch))
+    with reporter(progress) as report:
+        return MeshIndex._holding(_core.load(path, mmap=bool(mmap), trusted=bool(trusted), progress=report))

@@ -1,233 +1,383 @@
 # SPDX-License-Identifier: MIT
-"""The index, as SciPy would have it."""
+"""The index of a mesh, with an interface like that of SciPy's trees."""
 
 from __future__ import annotations
 
+import copyreg
 import os
 import pickle
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _convert, _core
-from ._mesh import mesh_arrays
+from ._mesh import mesh_arrays, warn_if_unwelded
 from ._methods import Method, Methods
-from ._progress import Progress, watcher
+from ._progress import Progress, reporter
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
 Ids = NDArray[np.int32]
-Vertices = Union[int, ArrayLike, None]
-Radius = Union[float, ArrayLike]
+Offsets = NDArray[np.int64]
+Counts = NDArray[np.int64]
+Reals = NDArray[np.float64]
+Vertex = Union[int, "np.integer[Any]"]
+Vertices = Union[Sequence[int], "NDArray[np.integer[Any]]", NDArray[np.bool_], None]
+Number = Union[float, "np.floating[Any]", "np.integer[Any]"]
+Radii = Union[Number, Sequence[float], "NDArray[np.floating[Any]]", "NDArray[np.integer[Any]]"]
+Unit = Literal["mesh", "edge"]
 
 
 class Chunk(NamedTuple):
-    """Some rows of all neighborhoods: row i is that of vertices[i] (see `MeshIndex.query_ball`)."""
+    """Some rows of a batch: row i is the neighborhood of vertices[i] (see `MeshIndex.query_ball`)."""
 
     vertices: Ids
-    indptr: NDArray[np.int64]
+    indptr: Offsets
     indices: Ids
-    distances: Optional[NDArray[np.float64]]
+    distances: Optional[Reals]
 
 
 class MeshIndex:
-    """Neighborhoods on a mesh: what lies within a distance of a vertex *and* hangs together with it there.
+    """An index of a mesh that finds the neighborhood of a vertex v with a radius r: the connected component that holds
+    v of the mesh inside the ball of radius r around v.
 
-    V : (#V, 3) float32 or float64, the positions, in any unit. Or a mesh of trimesh, PyVista or meshio, F left out.
+    V : (#V, 3) float32 or float64, the positions, in any unit. Or a mesh of trimesh, PyVista or meshio, without F.
     F : the faces, of any integer type; one of
         (#F, 3) triangles, (#F, 4) quads, (#F, k);
         a tuple (offsets, corners): polygon i has the corners corners[offsets[i]:offsets[i + 1]];
-        one dimension, VTK's padded faces: the number of corners before each face;
-        a scipy.sparse matrix (#V, #V): a graph, every stored entry an edge, in either direction, whatever its value.
-    workers : threads, -1 for all processors. The index does not depend on it.
-    progress : True for a bar of tqdm, or a function called with how many of how many equal parts are done; what it
-        raises ends the call.
+        one dimension, VTK's padded faces: each face begins with the number of its corners;
+        a scipy.sparse matrix (#V, #V): a graph. Each stored entry is an edge, in either direction, whatever its value.
+    workers : number of threads, -1 for one per processor. The index does not depend on it.
+    progress : True shows a bar of tqdm. A function is called as progress(done, total); an exception from it ends the
+        call.
 
-    Vertices are int32, in the numbering of V, and at most 2^31 - 1. V and F are copied, and may change afterwards, but
-    must not during the call; before that they are converted only where they are not in C order, of another byte order,
-    or of a type that is not read as it is (float32, float64; int32, int64, uint32, uint64).
+    Vertices are numbered as in V, with int32 ids; at most 2^31 - 1 vertices. V and F are copied: later changes have no
+    effect. V and F may have any memory layout; types other than float32, float64, int32, int64, uint32 and uint64 are
+    converted. Cost: O(#V log #V + #E).
 
-    Immutable. Any number of threads may ask at the same time; the interpreter lock is released. It can be saved, and
-    pickled as the same bytes. Every method raises ValueError or TypeError, naming the argument and the element, and
-    KeyboardInterrupt on Ctrl-C.
+    Warns if faces with coinciding corners are not connected (an unwelded mesh).
+
+    Immutable. Any number of threads may use it at the same time; the interpreter lock is released during calls. An
+    index can be saved, pickled (the same bytes), and used in a forked process. Every method raises ValueError or
+    TypeError, naming the argument and the element, and KeyboardInterrupt on Ctrl-C.
     """
 
-    def __init__(self, V: Any, F: Any = None, *, workers: int = -1, progress: Progress = None):
+    _exact: Any
+    _methods: Methods
+    _count: int
+
+    def __init__(self, V: Any, F: Any = None, *, workers: int = -1, progress: Progress = None) -> None:
         positions, corners, offsets = mesh_arrays(V, F)
         threads = _convert.threads(workers)
-        with watcher(progress) as watch:
-            self._hold(_core.exact(positions, corners, offsets=offsets, threads=threads, progress=watch))
+        with reporter(progress) as report:
+            self._hold(_core.exact(positions, corners, offsets=offsets, threads=threads, progress=report))
+        warn_if_unwelded(positions, corners, offsets, stacklevel=3)
 
     @classmethod
-    def _holding(cls, exact):
+    def _holding(cls, exact: Any) -> MeshIndex:
         self = cls.__new__(cls)
         self._hold(exact)
         return self
 
-    def _hold(self, exact):
+    def _hold(self, exact: Any) -> None:
         self._exact = exact
         self._methods = Methods(exact)
         self._count = exact.vertex_count
 
     def __len__(self) -> int:
-        """#V."""
+        """The number of vertices."""
         return self._count
 
     def __repr__(self) -> str:
-        return f"<meshhood.MeshIndex of {self._count} vertices>"
+        return f"<meshhood.MeshIndex: {self._count} vertices, {_as_size(self.nbytes)}>"
 
-    def __reduce_ex__(self, protocol: int) -> tuple:
-        """The bytes of an index file, verified when they are loaded. With protocol 5 they may travel out of band."""
+    def __reduce_ex__(self, protocol: Any) -> tuple[Any, ...]:
+        """The bytes of an index file, which are verified when they are loaded, and the attributes of a subclass. With
+        protocol 5 the bytes may travel out of band."""
         saved = _core.to_bytes(self._exact)
-        return _unpickled, (type(self), pickle.PickleBuffer(saved) if protocol >= 5 else saved.tobytes())
+        buffer = pickle.PickleBuffer(saved) if protocol >= 5 else saved.tobytes()
+        return _unpickled, (type(self), buffer), self.__getstate__()
+
+    def __getstate__(self) -> Any:
+        """The attributes that a subclass has added; None if there are none."""
+        attributes = {name: value for name, value in vars(self).items() if name not in MeshIndex.__annotations__}
+        names = copyreg._slotnames(type(self))  # type: ignore[attr-defined]
+        slots = {name: getattr(self, name) for name in names if hasattr(self, name)}
+        return (attributes, slots) if slots else attributes or None
 
     def __copy__(self) -> MeshIndex:
         return self
 
-    def __deepcopy__(self, memo: dict) -> MeshIndex:
+    def __deepcopy__(self, memo: dict[int, Any]) -> MeshIndex:
         return self
 
     @property
+    def n_vertices(self) -> int:
+        """The number of vertices."""
+        return self._count
+
+    @property
     def nbytes(self) -> int:
-        """Memory of the index, in bytes, its copy of the positions included. What other methods need comes on top."""
-        return self._exact.nbytes
+        """Memory of the index in bytes, including its copy of the positions. The other methods, `positions` and
+        `mean_edge_length` need additional memory once they are used."""
+        return self._exact.nbytes  # type: ignore[no-any-return]
+
+    @property
+    def positions(self) -> Union[NDArray[np.float32], NDArray[np.float64]]:
+        """The positions: (#V, 3), in the numbering and precision of V, read-only. Extracted at the first use, then
+        kept."""
+        return self._methods.graph().positions  # type: ignore[no-any-return]
+
+    @property
+    def mean_edge_length(self) -> float:
+        """The mean length of the edges, each counted once, in the unit of the positions; 0 if there are none. O(#V +
+        #E)."""
+        return self._methods.mean_edge_length
 
     @property
     def permutation(self) -> Ids:
-        """The vertices in index order: (#V,) int32, read-only, not copied. Outlives the index."""
-        return self._exact.permutation
+        """The vertices in index order: (#V,) int32, read-only, not copied. It keeps the index alive."""
+        return self._exact.permutation  # type: ignore[no-any-return]
 
+    @overload
+    def query_ball(
+        self,
+        v: Vertex,
+        r: Number,
+        *,
+        return_distance: Literal[False] = False,
+        sort: bool = False,
+        method: Method = "exact",
+        unit: Unit = "mesh",
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> Ids: ...
+
+    @overload
+    def query_ball(
+        self,
+        v: Vertex,
+        r: Number,
+        *,
+        return_distance: Literal[True],
+        sort: bool = False,
+        method: Method = "exact",
+        unit: Unit = "mesh",
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> tuple[Ids, Reals]: ...
+
+    @overload
     def query_ball(
         self,
         v: Vertices,
-        r: Radius,
+        r: Radii,
+        *,
+        return_distance: Literal[False] = False,
+        sort: bool = False,
+        method: Method = "exact",
+        unit: Unit = "mesh",
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> tuple[Offsets, Ids]: ...
+
+    @overload
+    def query_ball(
+        self,
+        v: Vertices,
+        r: Radii,
+        *,
+        return_distance: Literal[True],
+        sort: bool = False,
+        method: Method = "exact",
+        unit: Unit = "mesh",
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> tuple[Offsets, Ids, Reals]: ...
+
+    def query_ball(
+        self,
+        v: Any,
+        r: Any,
         *,
         return_distance: bool = False,
         sort: bool = False,
         method: Method = "exact",
+        unit: Unit = "mesh",
         workers: int = -1,
         progress: Progress = None,
     ) -> Any:
         """The vertices of the neighborhood of each `v`, itself included.
 
-        v : a vertex, a sequence of vertices, or None for all.
-        r : the radius, >= 0 or inf, in the unit of V; for many vertices also one for each. A vertex at exactly `r`
-            counts.
-        return_distance : also the distance of each from its `v`, in a straight line (float64, by any method).
-        sort : vertices of a neighborhood ascend; otherwise in no stated order, but always the same.
-        method : "exact", what breadth-first search gives, by the index;
-                 "paper", the approximate answer of the paper, between exact and ball, or `Paper` with other parameters;
-                 "bfs", breadth-first search;
-                 "ball", every vertex within `r` in space.
-            "paper" builds an index of its own when first asked; "bfs" and "ball" use one thread.
-        workers, progress : as for the class, for many vertices. Answers do not depend on `workers`.
+        v : a vertex, a sequence of vertices, a bool mask (#V,), or None for all.
+        r : the radius, >= 0 or inf; for many vertices optionally one per vertex. A vertex at exactly `r` is inside.
+        return_distance : also return the straight-line distance of each vertex from its `v` (float64).
+        sort : vertices of a neighborhood ascend; otherwise their order is unspecified but reproducible.
+        method : "exact", the exact neighborhood, by the index;
+                 "paper", the approximate neighborhood of the paper, a superset of "exact" and a subset of "ball", or
+                 `Paper` with other parameters;
+                 "bfs", the exact neighborhood by breadth-first search, for comparison;
+                 "ball", every vertex within `r` in space, connected or not.
+            "paper" builds an index of its own at the first use.
+        unit : of `r`: "mesh" is that of V, "edge" is `mean_edge_length`.
+        workers, progress : as for the class, for many vertices. The result does not depend on `workers`.
 
-        Returns for one vertex `indices` (int32) or `indices, distances`; for many `indptr, indices` or
-        `indptr, indices, distances`: row i is indices[indptr[i]:indptr[i + 1]] (indptr int64). The arrays are the
-        caller's own. Cost: about that of the rim of each answer ("exact"); all answers are in memory at once, see
-        `iter_neighborhoods`.
+        Returns for one vertex `indices` (int32) or `indices, distances`; for many vertices `indptr, indices` or
+        `indptr, indices, distances`: row i is indices[indptr[i]:indptr[i + 1]] (indptr int64). The arrays are new.
+
+        The cost of "exact" grows with the boundary of each neighborhood rather than its size. All rows are in memory at
+        once; see `iter_neighborhoods`.
         """
-        asked = self._method(method)
+        searched, scale = self._method(method), self._scale(unit)
         if v is not None and _convert.is_single(v):
-            return self._query_one(asked, v, r, return_distance, sort)
-        rows, radius, threads = self._batch(v, r, workers)
-        with watcher(progress) as watch:
-            indptr, indices, distances = asked.neighborhoods(
-                rows, radius, distances=bool(return_distance), sorted=bool(sort), threads=threads, progress=watch
+            v, r = _convert.vertex(v, self._count), scale * _convert.radius(r)
+            return _query_one(searched, v, r, return_distance, sort)
+        rows, radius, threads = self._batch(v, r, scale, workers)
+        with reporter(progress) as report:
+            indptr, indices, distances = searched.neighborhoods(
+                rows, radius, distances=bool(return_distance), sorted=bool(sort), threads=threads, progress=report
             )
         return (indptr, indices, distances) if return_distance else (indptr, indices)
 
+    @overload
     def query_ball_count(
-        self, v: Vertices, r: Radius, *, method: Method = "exact", workers: int = -1, progress: Progress = None
-    ) -> Any:
-        """How many vertices each neighborhood has: an int for one vertex, else int64 for each. See `query_ball`."""
-        asked = self._method(method)
-        if v is not None and _convert.is_single(v):
-            return asked.count(_convert.vertex(v, self._count), _convert.radius(r))
-        rows, radius, threads = self._batch(v, r, workers)
-        with watcher(progress) as watch:
-            return asked.counts(rows, radius, threads=threads, progress=watch)
+        self,
+        v: Vertex,
+        r: Number,
+        *,
+        method: Method = "exact",
+        unit: Unit = "mesh",
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> int: ...
 
-    def query_ranges(self, v: int, r: float) -> NDArray[np.int32]:
-        """The exact neighborhood of one vertex as ranges in index order, (#ranges, 2) int32: its vertices are
-        permutation[begin:end] for each row `begin, end`, without copying them. Disjoint, in no stated order."""
-        return self._exact.ranges(_convert.vertex(v, self._count), _convert.radius(r))
+    @overload
+    def query_ball_count(
+        self,
+        v: Vertices,
+        r: Radii,
+        *,
+        method: Method = "exact",
+        unit: Unit = "mesh",
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> Counts: ...
+
+    def query_ball_count(
+        self,
+        v: Any,
+        r: Any,
+        *,
+        method: Method = "exact",
+        unit: Unit = "mesh",
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> Any:
+        """The number of vertices of each neighborhood: an int for one vertex, else an int64 array. See `query_ball`."""
+        searched, scale = self._method(method), self._scale(unit)
+        if v is not None and _convert.is_single(v):
+            return searched.count(_convert.vertex(v, self._count), scale * _convert.radius(r))
+        rows, radius, threads = self._batch(v, r, scale, workers)
+        with reporter(progress) as report:
+            return searched.neighborhood_sizes(rows, radius, threads=threads, progress=report)
+
+    def query_ranges(self, v: Vertex, r: Number, *, unit: Unit = "mesh") -> Ids:
+        """The exact neighborhood of one vertex as ranges in index order: (#ranges, 2) int32. The vertices are
+        permutation[begin:end] for each row `begin, end`. The ranges are disjoint, in unspecified order. No ids are
+        copied."""
+        scale = self._scale(unit)
+        return self._exact.ranges(  # type: ignore[no-any-return]
+            _convert.vertex(v, self._count), scale * _convert.radius(r)
+        )
 
     def radius_neighbors_graph(
         self,
-        r: Radius,
+        r: Radii,
         *,
         mode: Literal["connectivity", "distance"] = "connectivity",
         method: Method = "exact",
+        unit: Unit = "mesh",
         workers: int = -1,
         progress: Progress = None,
     ) -> csr_array:
-        """All neighborhoods as a scipy.sparse.csr_array, (#V, #V): row i is that of vertex i, itself included, sorted.
+        """All neighborhoods as a scipy.sparse.csr_array (#V, #V): row v holds the neighborhood of v, itself included.
 
-        r : one radius, or one for each vertex (the matrix is then not symmetric).
-        mode : "connectivity", True for every neighbor, or "distance", the distances (float64; stored where 0).
-        Needs SciPy. See `query_ball` for the rest.
+        r : one radius, or one per vertex (the matrix is then not symmetric).
+        mode : "connectivity", 1.0 for each neighbor, or "distance", the straight-line distances, zeros stored. Both
+            float64, as those of scikit-learn.
+        Needs SciPy. See `query_ball` for the other arguments.
         """
         from scipy.sparse import csr_array
 
-        if mode not in ("connectivity", "distance"):
-            raise ValueError(f"mode: {mode!r}, expected 'connectivity' or 'distance'")
-        with_distances = mode == "distance"
-        indptr, indices, *distances = self.query_ball(
-            None, r, return_distance=with_distances, sort=True, method=method, workers=workers, progress=progress
+        with_distances = _convert.choice(mode, "mode", ("connectivity", "distance")) == "distance"
+        indptr, indices, *distances = self.query_ball(  # type: ignore[call-overload]
+            None,
+            r,
+            return_distance=with_distances,
+            sort=True,
+            method=method,
+            unit=unit,
+            workers=workers,
+            progress=progress,
         )
         if len(indices) <= np.iinfo(np.int32).max:
             indptr = indptr.astype(np.int32)  # or SciPy would widen the indices to the same type
-        data = distances[0] if with_distances else np.ones(len(indices), bool)
+        data = distances[0] if with_distances else np.ones(len(indices))
         graph = csr_array((data, indices, indptr), shape=(self._count, self._count))
         graph.has_sorted_indices = graph.has_canonical_format = True
         return graph
 
     def iter_neighborhoods(
         self,
-        r: Radius,
-        v: Vertices = None,
+        v: Vertices,
+        r: Radii,
         *,
         chunk: int = 4096,
         return_distance: bool = False,
         sort: bool = False,
         method: Method = "exact",
+        unit: Unit = "mesh",
         workers: int = -1,
     ) -> Iterator[Chunk]:
-        """The same as `query_ball` on many vertices, `chunk` of them at a time, so that memory stays bounded.
+        """As `query_ball` for many vertices, `chunk` rows at a time, so that memory stays bounded.
 
-        Yields `Chunk(vertices, indptr, indices, distances)`, `distances` None unless asked for.
+        Yields `Chunk(vertices, indptr, indices, distances)`; `distances` is None unless `return_distance`. The
+        arguments are checked and copied when this is called: later changes to `v` or `r` have no effect.
         """
         chunk = _convert.positive(chunk, "chunk")
-        rows = np.arange(self._count, dtype=np.int32) if v is None else _convert.vertices(v, self._count)
-        radii = _convert.radii(r, len(rows))
-        options = {"return_distance": return_distance, "sort": sort, "method": method, "workers": workers}
+        searched = self._method(method)
+        rows, radius, threads = self._batch(v, r, self._scale(unit), workers)
+        if rows is None:
+            rows = np.arange(self._count, dtype=np.int32)
+        options = {"distances": bool(return_distance), "sorted": bool(sort), "threads": threads, "progress": None}
 
-        def chunks():
+        def chunks() -> Iterator[Chunk]:
             for begin in range(0, len(rows), chunk):
                 part = slice(begin, begin + chunk)
-                radius = radii if isinstance(radii, float) else radii[part]
-                answer = self.query_ball(rows[part], radius, **options)
-                yield Chunk(rows[part], *answer, *(() if return_distance else (None,)))
+                vertices = rows[part].copy()
+                radii = radius if isinstance(radius, float) else radius[part]
+                indptr, indices, distances = searched.neighborhoods(rows[part], radii, **options)
+                yield Chunk(vertices, indptr, indices, distances if return_distance else None)
 
         return chunks()
 
-    def save(self, path: str | os.PathLike, *, progress: Progress = None) -> None:
-        """Writes the index to a file, for `load`: the same bytes on every machine for the same mesh.
+    def save(self, path: Union[str, os.PathLike[str]], *, progress: Progress = None) -> None:
+        """Writes the index to a file for `load`. The same mesh gives the same bytes on every machine.
 
-        progress : as for the class; parts are bytes, each of which is gone through twice.
+        progress : as for the class; the parts are bytes, each of which is processed twice.
 
-        Positions and graph of the mesh are in it, faces are not. The file appears whole or not at all: it is written
-        beside the target under another name, brought to the disk and renamed. Raises OSError, and KeyboardInterrupt on
-        Ctrl-C; the old file, if any, is then still there.
+        The file holds the positions and the graph of the mesh, but not its faces. It appears whole or not at all: it is
+        written beside the target under another name, synchronized to disk and renamed. Raises OSError, with errno and
+        filename, and KeyboardInterrupt on Ctrl-C; an old file of that name is then unchanged.
         """
-        with watcher(progress) as watch:
-            _core.save(self._exact, path, progress=watch)
+        path = os.fspath(path)
+        with reporter(progress) as report:
+            _core.save(self._exact, path, progress=report)
 
-    def _method(self, method):
+    def _method(self, method: Any) -> Any:
         try:
             return self._methods[method]
         except TypeError:
@@ -235,24 +385,42 @@ class MeshIndex:
                 raise
             raise TypeError(f"method: expected a name or a Paper, not {type(method).__name__}") from None
 
-    def _query_one(self, asked, v, r, return_distance, sort):
-        v, r = _convert.vertex(v, self._count), _convert.radius(r)
-        if not return_distance:
-            indices = asked.neighborhood(v, r)
-            if sort:
-                indices.sort()
-            return indices
-        indices, distances = asked.neighborhood_and_distances(v, r)
-        if not sort:
-            return indices, distances
-        order = np.argsort(indices)
-        return indices[order], distances[order]
+    def _scale(self, unit: Any) -> float:
+        """The factor from `unit` to the unit of the positions."""
+        if unit == "mesh":
+            return 1.0
+        _convert.choice(unit, "unit", ("mesh", "edge"))
+        length = self.mean_edge_length
+        if length == 0:
+            raise ValueError("unit: 'edge', but the mesh has no edges of positive length")
+        return length
 
-    def _batch(self, v, r, workers):
+    def _batch(self, v: Any, r: Any, scale: float, workers: Any) -> Any:
         rows = None if v is None else _convert.vertices(v, self._count)
         radius = _convert.radii(r, self._count if rows is None else len(rows))
-        return rows, radius, _convert.threads(workers)
+        return rows, scale * radius, _convert.threads(workers)
 
 
-def _unpickled(cls, saved):
+def _query_one(searched: Any, v: int, r: float, return_distance: bool, sort: bool) -> Any:
+    if not return_distance:
+        indices = searched.neighborhood(v, r)
+        if sort:
+            indices.sort()
+        return indices
+    indices, distances = searched.neighborhood_and_distances(v, r)
+    if not sort:
+        return indices, distances
+    order = np.argsort(indices)
+    return indices[order], distances[order]
+
+
+def _as_size(count: float) -> str:
+    for unit in ("bytes", "kB", "MB"):
+        if count < 1000:
+            return f"{count:.4g} {unit}"
+        count /= 1000
+    return f"{count:.4g} GB"
+
+
+def _unpickled(cls: type[MeshIndex], saved: Any) -> MeshIndex:
     return cls._holding(_core.from_bytes(np.frombuffer(saved, np.uint8)))

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""What callers have as a mesh, as the arrays that the index is made from. What is not checked here is in the C++
-library; each error names the argument."""
+"""Converts a mesh, in any accepted form, to the arrays that an index is built from. Errors name the argument. What is
+not checked here, the C++ library checks."""
+
+import itertools
+import warnings
 
 import numpy as np
 
@@ -37,6 +40,7 @@ def _as_float64(array):
 
 
 def _integers(F, name):
+    """`F` as a new array of 32 or 64 bits in C order. A copy, for another thread may write to `F` once it is checked."""
     array = as_array(F, name)
     if array.size == 0 and not isinstance(F, np.ndarray):
         array = array.astype(np.int32)
@@ -44,7 +48,7 @@ def _integers(F, name):
         raise TypeError(f"{name}: expected integers, not {array.dtype}")
     if array.dtype.itemsize < 4:
         array = array.astype(np.int32)
-    return np.asarray(array, order="C")
+    return np.array(array, order="C")
 
 
 def _faces(F):
@@ -93,30 +97,91 @@ def _polygons(F):
 
 
 def _edges(graph, vertex_count):
-    """Every entry that a sparse matrix stores, as a polygon of two corners."""
+    """Each stored entry of a sparse matrix as a polygon of two corners."""
     if graph.shape != (vertex_count, vertex_count):
         raise ValueError(f"F: a graph of shape {graph.shape}, expected {(vertex_count, vertex_count)}")
-    entries = graph.tocoo()
-    corners = np.column_stack([entries.row, entries.col]).ravel()
-    return _integers(corners, "F"), np.arange(len(entries.row) + 1, dtype=np.int64) * 2
+    if hasattr(graph, "indptr"):
+        rows, columns = _compressed_entries(graph, vertex_count)
+    elif getattr(graph, "format", None) == "lil":
+        rows, columns = _list_entries(graph, vertex_count)
+    else:
+        rows, columns = _coordinate_entries(graph)
+    corners = np.column_stack([rows, columns]).ravel()
+    return _integers(corners, "F"), np.arange(len(rows) + 1, dtype=np.int64) * 2
+
+
+def _compressed_entries(graph, vertex_count):
+    """The entries of a CSR, CSC or BSR matrix. SciPy trusts `indptr` and may read beyond the arrays."""
+    block_rows, block_columns = getattr(graph, "blocksize", (1, 1))
+    indptr, indices = _integers(graph.indptr, "F.indptr"), _integers(graph.indices, "F.indices")
+    major = "column" if graph.format == "csc" else "row"
+    _check_indptr(indptr, indices, vertex_count // max(block_rows, 1), major)
+    blocks = np.repeat(np.arange(len(indptr) - 1), np.diff(indptr))
+    rows, columns = np.broadcast_arrays(
+        blocks[:, None, None] * block_rows + np.arange(block_rows)[:, None],
+        indices[: len(blocks), None, None].astype(np.int64) * block_columns + np.arange(block_columns),
+    )
+    rows, columns = rows.ravel(), columns.ravel()
+    wrong = np.flatnonzero((columns < 0) | (columns >= vertex_count))
+    if wrong.size:
+        at = wrong[0]
+        raise ValueError(f"F: {major} {rows[at]}: an edge to {columns[at]}, but the mesh has {vertex_count} vertices")
+    return rows, columns
+
+
+def _check_indptr(indptr, indices, count, major):
+    if indptr.shape != (count + 1,) or indices.ndim != 1:
+        raise ValueError(
+            f"F: indptr of shape {indptr.shape} and indices of shape {indices.shape}, "
+            f"expected ({count + 1},) and one dimension"
+        )
+    if indptr[0] != 0:
+        raise ValueError(f"F: {major} 0: indptr begins with {indptr[0]}, expected 0")
+    wrong = np.flatnonzero((indptr[1:] < indptr[:-1]) | (indptr[1:] > len(indices)))
+    if wrong.size:
+        at = wrong[0]
+        raise ValueError(
+            f"F: {major} {at}: indptr goes from {indptr[at]} to {indptr[at + 1]}, "
+            f"expected ascending values up to the {len(indices)} entries"
+        )
+
+
+def _list_entries(graph, vertex_count):
+    """The entries of a LIL matrix."""
+    if graph.rows.shape != (vertex_count,):
+        raise ValueError(f"F: rows of shape {graph.rows.shape}, expected ({vertex_count},)")
+    lists = [list(row) for row in graph.rows]
+    columns = _integers(list(itertools.chain.from_iterable(lists)), "F")
+    return np.repeat(np.arange(vertex_count), [len(row) for row in lists]), columns
+
+
+def _coordinate_entries(graph):
+    try:
+        entries = graph.tocoo()
+        rows, columns = np.array(entries.row), np.array(entries.col)
+    except (ValueError, IndexError) as error:
+        raise ValueError(f"F: {error}") from None
+    if rows.ndim != 1 or rows.shape != columns.shape:
+        raise ValueError(f"F: {rows.shape} rows and {columns.shape} columns, expected one of each for every entry")
+    return rows, columns
 
 
 def _parts(mesh):
-    """Positions and faces of an object of trimesh, PyVista, meshio or this package."""
+    """Positions and faces of a mesh of trimesh, PyVista, meshio or this package."""
     if hasattr(mesh, "points") and isinstance(getattr(mesh, "cells", None), list):
         return mesh.points, _meshio_polygons(mesh)
     if hasattr(mesh, "points") and hasattr(mesh, "faces"):
         for kind in ("n_strips", "n_lines"):
             if getattr(mesh, kind, 0):
-                raise ValueError(f"V: has {getattr(mesh, kind)} {kind[2:]}, expected polygons alone")
+                raise ValueError(f"V: has {getattr(mesh, kind)} {kind[2:]}, expected only polygons")
         return mesh.points, _pyvista_faces(mesh)
     if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
         return mesh.vertices, mesh.faces
-    raise TypeError(f"V: expected a mesh of trimesh, PyVista or meshio where F is not given, not {type(mesh).__name__}")
+    raise TypeError(f"V: expected a mesh of trimesh, PyVista or meshio if F is omitted, not {type(mesh).__name__}")
 
 
 def _pyvista_faces(mesh):
-    """VTK keeps offsets and corners; where this object shows them, no padded array is made."""
+    """The offsets and corners that VTK stores. Without them, PyVista would make a padded array."""
     if hasattr(mesh, "GetPolys"):
         polygons = mesh.GetPolys()
         offsets, corners = np.asarray(polygons.GetOffsetsArray()), np.asarray(polygons.GetConnectivityArray())
@@ -124,15 +189,45 @@ def _pyvista_faces(mesh):
     return mesh.faces
 
 
+_MESHIO_CORNERS = {"vertex": 1, "line": 2, "triangle": 3, "quad": 4, "polygon": None}
+
+
 def _meshio_polygons(mesh):
     offsets, corners = [np.zeros(1, np.int64)], []
     end = 0
     for block in mesh.cells:
-        if block.type not in ("vertex", "line", "triangle", "quad", "polygon"):
-            raise ValueError(f"V: has cells of type {block.type!r}, expected a surface: triangle, quad or polygon")
-        data = np.asarray(block.data)
+        data = _meshio_block(block)
         count, sides = data.shape
         offsets.append(end + sides * np.arange(1, count + 1, dtype=np.int64))
         corners.append(data.ravel().astype(np.int64, copy=False))
         end += count * sides
     return np.concatenate(offsets), np.concatenate([np.zeros(0, np.int64), *corners])
+
+
+def _meshio_block(block):
+    """(#cells, #corners)"""
+    if block.type not in _MESHIO_CORNERS:
+        raise ValueError(f"V: has cells of type {block.type!r}, expected a surface: triangle, quad or polygon")
+    data = _integers(block.data, "V")
+    sides = _MESHIO_CORNERS[block.type]
+    if data.ndim != 2 or sides not in (None, data.shape[1]):
+        raise ValueError(f"V: has cells of type {block.type!r} in an array of shape {data.shape}")
+    return data
+
+
+def warn_if_unwelded(positions, corners, offsets, stacklevel):
+    """Warns if the faces are separate although their corners coincide, as loaders leave an STL file."""
+    faces = len(corners) // 3 if offsets is None else len(offsets) - 1
+    triangles = len(corners) - 2 * faces
+    # A connected surface of n vertices has at least n - 2 triangles; separate polygons have a third of n to nearly n.
+    if faces < 2 or not 0.3 * len(positions) <= triangles < 0.9 * len(positions):
+        return
+    x, y, z = positions.T.astype(np.float64)
+    distinct = len(np.unique(x + 0.7548776662466927 * y + 0.5698402909980532 * z))
+    if 2 * distinct <= len(positions):
+        warnings.warn(
+            f"V: {len(positions)} vertices at {distinct} different positions: the faces are not connected, and a "
+            "neighborhood cannot cross from one to the next. Weld the mesh first: V, same = np.unique(V, axis=0, "
+            "return_inverse=True); F = same.ravel()[F]",
+            stacklevel=stacklevel,
+        )

@@ -1,44 +1,46 @@
 # SPDX-License-Identifier: MIT
-"""Who answers: the methods of an index, by what callers name them."""
+"""The methods that answer queries, by the names that callers use."""
 
 from __future__ import annotations
 
+import os
 import threading
 from dataclasses import dataclass
 from typing import Literal, Union
 
 from . import _convert, _core
 
-_MOST_LEVELS = 64  # of no mesh are there more
+_MOST_LEVELS = 64  # no mesh has more
 _SCANS = {"bfs": _core.bfs, "ball": _core.ball}
 
 
 @dataclass(frozen=True)
 class Paper:
-    """The approximate search of the paper with parameters of one's own: `method=Paper(factor=20)`.
+    """The approximate search of the paper with other parameters: `method=Paper(radius_ratio=20)`.
 
-    Of the hierarchy of clusters (section 3.2), which is built when first asked for:
-    levels : how many to compute, 1 to 64, the one of single vertices included. It has fewer where every component of
-        the mesh becomes one cluster before; 64 always goes on until then.
-    discard : how many of the lowest to drop afterwards, 0 to 64. The highest is kept in any case.
+    Parameters of the hierarchy of clusters (section 3.2), which is built at the first use:
+    levels : number of levels to compute, 1 to 64, including the level of single vertices. The hierarchy has fewer if
+        every component of the mesh becomes one cluster before that; 64 always continues until then.
+    discard : number of lowest levels to drop afterwards, 0 to 64. The highest level is always kept.
     fusion_growth : fusion on level l dissolves clusters of fewer than fusion_growth ** l vertices. Finite, >= 0.
 
-    Of the search (3.3):
-    factor : a query begins on the first level whose clusters have a mean radius of at least radius / factor: more means
-        smaller clusters, more of them, and fewer vertices that should not be in the answer. Finite, > 0.
+    Parameter of the search (section 3.3):
+    radius_ratio : the paper's factor f. A query begins on the first level whose clusters have a mean radius of at least
+        radius / radius_ratio. A larger ratio means smaller clusters, more of them, and fewer vertices that do not
+        belong to the answer. Finite, > 0.
 
-    The defaults are the paper's. Raises ValueError or TypeError, naming the parameter.
+    The defaults are those of the paper. Raises ValueError or TypeError, naming the parameter.
     """
 
     levels: int = 5
     discard: int = 2
     fusion_growth: float = 4.0
-    factor: float = 10.0
+    radius_ratio: float = 10.0
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name, lowest in (("levels", 1), ("discard", 0)):
             object.__setattr__(self, name, _convert.integer(getattr(self, name), name, lowest, _MOST_LEVELS))
-        for name, zero in (("fusion_growth", True), ("factor", False)):
+        for name, zero in (("fusion_growth", True), ("radius_ratio", False)):
             object.__setattr__(self, name, _convert.finite(getattr(self, name), name, or_zero=zero))
 
 
@@ -46,37 +48,53 @@ Method = Union[Literal["exact", "paper", "bfs", "ball"], Paper]
 
 
 class Methods(dict):
-    """By name, or `Paper`. Each is made from the index when it is first asked for, and kept."""
+    """The methods of an index, by name or `Paper`. Each is made at its first use and then kept."""
 
     def __init__(self, exact):
         super().__init__(exact=exact)
         self._graph = None
+        self._mean_edge_length = None
         self._hierarchies = {}
-        self._making = threading.Lock()
+        self._locks = {}
 
     def __missing__(self, method):
-        with self._making:
+        with self._making():
             if method not in self:
                 self[method] = self._make(method)
         return self[method]
 
+    def _making(self):
+        """The lock of this process: a fork copies a lock as it is, perhaps held by a thread that the child does not
+        have. Reentrant, for a signal handler may ask for a method while its thread makes another."""
+        return self._locks.setdefault(os.getpid(), threading.RLock())
+
     def _make(self, method):
         if method in _SCANS:
-            return _SCANS[method](self._mesh_graph())
+            return _SCANS[method](self.graph())
         paper = Paper() if method == "paper" else method
         if not isinstance(paper, Paper):
             raise ValueError(f"method: {method!r}, expected 'exact', 'paper', 'bfs', 'ball' or a Paper")
-        return _core.paper(self._hierarchy(paper.levels, paper.discard, paper.fusion_growth), factor=paper.factor)
+        hierarchy = self._hierarchy(paper.levels, paper.discard, paper.fusion_growth)
+        return _core.paper(hierarchy, radius_ratio=paper.radius_ratio)
 
     def _hierarchy(self, levels, discard, fusion_growth):
         options = levels, discard, fusion_growth
         if options not in self._hierarchies:
             self._hierarchies[options] = _core.hierarchy(
-                self._mesh_graph(), levels=levels, discard=discard, fusion_growth=fusion_growth
+                self.graph(), levels=levels, discard=discard, fusion_growth=fusion_growth
             )
         return self._hierarchies[options]
 
-    def _mesh_graph(self):
-        if self._graph is None:
-            self._graph = _core.graph(self["exact"])
-        return self._graph
+    def graph(self):
+        """The mesh as a graph, extracted from the index at the first use."""
+        with self._making():
+            if self._graph is None:
+                self._graph = _core.graph(self["exact"])
+            return self._graph
+
+    @property
+    def mean_edge_length(self):
+        with self._making():
+            if self._mean_edge_length is None:
+                self._mean_edge_length = self.graph().mean_edge_length()
+            return self._mean_edge_length

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What watches a long call."""
+"""Progress reports of long calls."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ Progress = Union[bool, Callable[[int, int], object], None]
 
 
 @contextlib.contextmanager
-def watcher(progress):
-    """None, or a function of how many of how many equal parts are done."""
+def reporter(progress):
+    """The function that a long call reports its progress to, or None."""
     if progress is True:
-        with _bar() as watch:
-            yield watch
+        with _bar() as report:
+            yield report
     elif progress is None or progress is False:
         yield None
     elif callable(progress):
@@ -35,8 +35,8 @@ def _bar():
         return
     with tqdm() as bar:
 
-        def watch(done, total):
+        def report(done, total):
             bar.total = total
             bar.update(done - bar.n)
 
-        yield watch
+        yield report

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: MIT
+"""Arguments that a callback, another thread or the caller of a generator changes during a call. The answer is that of
+the arguments as they were when the call began; a thread that writes all the time may get any answer or an error, but
+never ends the process. Each attack runs in a process of its own."""
+
+import subprocess
+import sys
+
+import meshes
+import meshhood
+import numpy as np
+import pytest
+
+METHODS = ("exact", "paper", "bfs", "ball")
+TIMES = 20
+
+PREPARE = f"""
+import itertools, sys, threading, warnings
+sys.path.insert(0, {str(meshes.__file__.rsplit("/", 1)[0])!r})
+import meshes, meshhood, numpy as np
+index = meshhood.MeshIndex(*meshes.two_plates(30))
+"""
+
+
+def run(program):
+    done = subprocess.run([sys.executable, "-c", PREPARE + program], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("name", ("query_ball", "query_ball_count"))
+@pytest.mark.parametrize("which", ("v", "r"))
+def test_a_progress_function_may_write_to_the_arguments(method, name, which):
+    run(f"""
+v, r = np.arange(len(index), dtype=np.int32), np.full(len(index), 3.0)
+call = lambda **options: getattr(index, {name!r})(v, r, method={method!r}, **options)
+wanted = call()
+written = {which}
+value = {{"v": -2**31, "r": np.nan}}[{which!r}]
+def write(done, total):
+    written[:] = value
+np.testing.assert_equal(call(progress=write), wanted)
+""")
+
+
+WRITES = """
+def write():
+    for value in itertools.cycle(values):
+        written[:] = value
+threading.Thread(target=write, daemon=True).start()
+for _ in range({times}):
+    try:
+        call()
+    except (ValueError, TypeError):
+        pass
+"""
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_thread_may_write_to_the_vertices(method):
+    run(f"""
+written, values = np.arange(len(index), dtype=np.int32), (0, 2**31 - 1, -1)
+call = lambda: index.query_ball(written, 2.0, method={method!r})
+""" + WRITES.format(times=TIMES))
+
+
+@pytest.mark.parametrize("faces", ("triangles", "polygons", "padded", "graph"))
+def test_a_thread_may_write_to_the_faces(faces):
+    run(f"""
+V, quads = meshes.grid(200)
+quads = quads.astype(np.int32)
+offsets = 4 * np.arange(len(quads) + 1)
+padded = np.column_stack([np.full(len(quads), 4, np.int32), quads]).ravel()
+from scipy.sparse import csr_array
+graph = csr_array((np.ones(quads.size), (quads.ravel(), np.roll(quads, -1, axis=1).ravel())), shape=2 * (len(V),))
+written, F = {{
+    "triangles": (quads, quads),
+    "polygons": (offsets, (offsets, quads.ravel())),
+    "padded": (padded, padded),
+    "graph": (graph.indptr, graph),
+}}[{faces!r}]
+values = (written.copy(), 2**30, -1)
+call = lambda: meshhood.MeshIndex(V, F)
+""" + WRITES.format(times=TIMES // 4))
+
+
+def test_a_thread_may_write_to_the_positions():
+    run("""
+V, F = meshes.grid(200)
+written, values = V, (0.0, np.nan, np.inf)
+call = lambda: meshhood.MeshIndex(V, F)
+""" + WRITES.format(times=TIMES // 4))
+
+
+def test_a_thread_may_write_to_a_pickle_that_is_loaded():
+    run("""
+import pickle
+buffers = []
+pickled = pickle.dumps(index, protocol=5, buffer_callback=buffers.append)
+whole = bytearray(buffers[0].raw())
+written = np.frombuffer(whole, np.uint8)
+values = (written.copy(), 255, 0)
+call = lambda: pickle.loads(pickled, buffers=[whole])
+""" + WRITES.format(times=TIMES))
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_chunks_are_those_of_the_arguments_at_the_call(method):
+    index = meshhood.MeshIndex(*meshes.two_plates(12))
+    v, r = np.arange(100, dtype=np.int32), np.linspace(0, 3, 100)
+    wanted = index.query_ball(v, r, method=method)
+    rows = []
+    parts = index.iter_neighborhoods(v, r, chunk=9, method=method)
+    v[:50] = -1
+    for part in parts:
+        rows.append(part)
+        v[:], r[:] = -7, np.nan
+        part.vertices[:] = 0
+    np.testing.assert_array_equal(np.concatenate([part.indices for part in rows]), wanted[1])
+
+
+def test_the_arguments_of_chunks_are_checked_at_the_call():
+    index = meshhood.MeshIndex(*meshes.two_plates(5))
+    for arguments, options, error in (
+        (([50], 1.0), {}, ValueError),
+        (([0], -1.0), {}, ValueError),
+        (([0], 1.0), {"workers": 0}, ValueError),
+        (([0], 1.0), {"method": "fast"}, ValueError),
+        (([0], 1.0), {"unit": "mile"}, ValueError),
+    ):
+        with pytest.raises(error):
+            index.iter_neighborhoods(*arguments, **options)

@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: MIT
+"""Calls within calls, and forks during calls: by signal handlers, progress functions, finalizers and other threads."""
+
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import threading
+
+import meshes
+import meshhood
+import numpy as np
+import pytest
+
+METHODS = ("exact", "paper", "bfs", "ball")
+SECONDS = 120
+
+
+def run(program, times=1):
+    """Runs it in a process of its own, which must end."""
+    tests = os.path.dirname(meshes.__file__)
+    prepare = f"import sys; sys.path.insert(0, {tests!r})\nimport meshes, meshhood\n"
+    for _ in range(times):
+        command = [sys.executable, "-W", "ignore", "-c", prepare + program]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=SECONDS)
+        assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("made", ("paper", "bfs", "ball"))
+@pytest.mark.parametrize("asked", METHODS)
+def test_a_signal_handler_may_use_any_method_while_its_thread_makes_one(made, asked):
+    """The signal arrives while the main thread holds the lock under which a method is made."""
+    run(f"""
+import os, signal
+from meshhood import _core
+index = meshhood.MeshIndex(*meshes.two_plates(30))
+answers = []
+signal.signal(signal.SIGUSR1, lambda number, frame: answers.append(index.query_ball_count(0, 2.0, method={asked!r})))
+graph = _core.graph
+def interrupted(exact):
+    _core.graph = graph
+    os.kill(os.getpid(), signal.SIGUSR1)
+    return graph(exact)
+_core.graph = interrupted
+index.query_ball(0, 2.0, method={made!r})
+assert len(answers) == 1 and answers[0] == index.query_ball_count(0, 2.0, method={asked!r})
+""")
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+@pytest.mark.parametrize("asked", METHODS)
+def test_a_fork_while_another_thread_makes_a_method_leaves_a_child_that_works(asked):
+    """The fork happens while another thread holds the lock, which the child's copy of the index must not wait for."""
+    run(f"""
+import os, threading
+from meshhood import _core
+index = meshhood.MeshIndex(*meshes.two_plates(30))
+making, forked = threading.Event(), threading.Event()
+graph = _core.graph
+def slow(exact):
+    making.set()
+    forked.wait()
+    return graph(exact)
+_core.graph = slow
+thread = threading.Thread(target=lambda: index.query_ball(0, 2.0, method="paper"))
+thread.start()
+making.wait()
+child = os.fork()
+if child == 0:
+    _core.graph = graph
+    os._exit(0 if index.query_ball_count(0, 2.0, method={asked!r}) > 3 else 1)
+forked.set()
+thread.join()
+assert os.waitpid(child, 0)[1] == 0
+""")
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+@pytest.mark.parametrize("method", METHODS)
+def test_a_fork_at_any_moment_of_other_threads_leaves_a_child_that_works(method):
+    run(f"""
+import os, threading
+index = meshhood.MeshIndex(*meshes.two_plates(20))
+wanted = index.query_ball_count(5, 3.0, method={method!r})
+stop = threading.Event()
+def ask():
+    while not stop.is_set():
+        index.query_ball(5, 3.0, method={method!r})
+        index.query_ball(range(20), 3.0, method={method!r}, workers=2)
+threads = [threading.Thread(target=ask) for _ in range(3)]
+for thread in threads:
+    thread.start()
+for _ in range(50):
+    child = os.fork()
+    if child == 0:
+        answers = index.query_ball_count(5, 3.0, method={method!r}), *index.query_ball_count([5, 5], 3.0, workers=2)
+        os._exit(0 if answers[0] == wanted else 1)
+    assert os.waitpid(child, 0)[1] == 0
+stop.set()
+for thread in threads:
+    thread.join()
+""")
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_progress_function_may_query_the_same_index(method):
+    index = meshhood.MeshIndex(*meshes.two_plates(12))
+    wanted = index.query_ball(None, 2.5, method=method)
+    inner = []
+
+    def query(done, total):
+        for other in METHODS:
+            inner.append(index.query_ball(None, 2.5, method=other)[1] if other == method else 0)
+            index.query_ball(3, 2.5, method=other)
+
+    got = index.query_ball(None, 2.5, method=method, progress=query)
+    np.testing.assert_array_equal(got[1], wanted[1])
+    assert sum(isinstance(answer, np.ndarray) for answer in inner) >= 2
+    for answer in inner:
+        if isinstance(answer, np.ndarray):
+            np.testing.assert_array_equal(answer, wanted[1])
+
+
+def test_a_progress_function_may_build_save_and_load(tmp_path):
+    V, F = meshes.two_plates(10)
+    index = meshhood.MeshIndex(V, F)
+    count = []
+
+    def work(done, total):
+        other = meshhood.MeshIndex(V, F)
+        other.save(tmp_path / "inner")
+        count.append(len(meshhood.load(tmp_path / "inner")))
+
+    meshhood.MeshIndex(V, F, progress=work)
+    index.save(tmp_path / "outer", progress=work)
+    meshhood.load(tmp_path / "outer", progress=work)
+    assert set(count) == {len(V)}
+    assert (tmp_path / "inner").read_bytes() == (tmp_path / "outer").read_bytes()
+
+
+def test_threads_that_make_the_same_method_make_it_once():
+    index = meshhood.MeshIndex(*meshes.two_plates(20))
+    start = threading.Barrier(4)
+    made = []
+
+    def ask():
+        start.wait()
+        index.query_ball(0, 1.0, method="paper")
+        made.append(index._methods["paper"])
+
+    threads = [threading.Thread(target=ask) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len({id(method) for method in made}) == 1
+
+
+def test_a_signal_during_a_batch_may_query(tmp_path):
+    if threading.current_thread() is not threading.main_thread():
+        pytest.skip("signals reach only the main thread")
+    index = meshhood.MeshIndex(*meshes.two_plates(30))
+    answers = []
+    old = signal.signal(signal.SIGUSR1, lambda number, frame: answers.append(index.query_ball_count(0, 2.0, method="bfs")))
+    try:
+        index.query_ball(None, 3.0, progress=lambda done, total: signal.raise_signal(signal.SIGUSR1))
+    finally:
+        signal.signal(signal.SIGUSR1, old)
+    assert len(answers) >= 2
+    assert set(answers) == {index.query_ball_count(0, 2.0)}
+
+
+def test_a_child_that_was_forked_by_multiprocessing_may_make_every_method():
+    if "fork" not in multiprocessing.get_all_start_methods():
+        pytest.skip("no fork here")
+    run("""
+import multiprocessing
+index = meshhood.MeshIndex(*meshes.two_plates(12))
+def count(method):
+    return index.query_ball_count(None, 2.0, method=method).sum()
+with multiprocessing.get_context("fork").Pool(2) as pool:
+    counts = pool.map(count, ["exact", "paper", "bfs", "ball"])
+assert counts[0] == counts[2] <= counts[1] <= counts[3]
+""")
