@@ -24,7 +24,7 @@ def test_code_runs(name, tmp_path, monkeypatch):
 
 
 def test_everything_public_is_described():
-    for name in meshhood.__all__:
+    for name in set(meshhood.__all__) - {"__version__"}:
         thing = getattr(meshhood, name)
         assert thing.__doc__
         public = [part for part in vars(thing) if callable(getattr(thing, part)) and not part.startswith("_")]
