@@ -21,7 +21,7 @@ function(meshhood_compile_quickly target)
 endfunction()
 
 # One kernel for each kind of processor, all of the same names: never in one piece with each other.
-set(meshhood_kernels "/simd/(portable|avx2|avx512)\\.cpp$")
+set(meshhood_kernels "/simd/(joint_)?(portable|avx2|avx512)\\.cpp$")
 
 # For sources that another target compiles one by one: here several at once, in a fraction of the time.
 function(meshhood_compile_together target)

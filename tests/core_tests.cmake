@@ -12,10 +12,10 @@ meshhood_own_target(meshhood_families)
 foreach(part
     base/adjacency base/mesh base/distance base/sphere base/reference base/error base/parallel
     batch/batch
-    exact/structure exact/file exact/damage exact/rules exact/search_families exact/search_differential exact/search_rare
+    exact/joint_search exact/structure exact/file exact/damage exact/rules exact/search_families exact/search_differential exact/search_rare
     exact/threads
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
-    simd/kernels
+    simd/joint_kernels simd/kernels
     whole/arguments whole/robustness whole/differential whole/metamorphic)
   meshhood_test(${part} meshhood_families)
 endforeach()

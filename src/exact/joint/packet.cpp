@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "exact/joint/packet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/vector.h"
+
+namespace meshhood {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// Longer than any distance in the frame, so that larger radii may be replaced by it.
+constexpr double kLargestRadius = 8;
+
+// Let every vertex that is compared, and every query, lie within `a` of the centre of the group, and u = 2^-24. The
+// coordinates of both are rounded by u, which moves a squared distance by 8 u a^2; `2 p.q - p.p` is computed with an
+// error of 12 u a^2, and a threshold is rounded by u a^2: 21 u a^2 in all, less than 2^-19 a^2. A squared distance from
+// the centre of the leaf is off by 28 u a^2, less than four times as much.
+constexpr double kRelativeError = 0x1p-19;
+
+float next_above(double value) { return std::nextafter(static_cast<float>(value), kInfinity); }
+float next_below(double value) { return -next_above(-value); }
+
+double inner_of(const TreeBounds& bounds) { return std::min(static_cast<double>(bounds.inner), kLargestRadius); }
+double outer_of(const TreeBounds& bounds) { return std::min(static_cast<double>(bounds.outer), kLargestRadius); }
+
+}  // namespace
+
+Packet::Packet(const IndexView& index, const JointGroup& group, LeafId leaf, std::span<const JointQuery> queries)
+    : leaf_(leaf), size_(queries.size()), ball_({0, 0, 0}, queries.front().radius.bounds) {
+  for (std::size_t i = 0; i < size_; ++i) {
+    lanes_[i] = queries[i].lane;
+    centres_[i] = index.position(leaf, queries[i].lane);
+    squared_radii_[i] = queries[i].radius.squared;
+    ball_.inner = std::min(ball_.inner, queries[i].radius.bounds.inner);
+    ball_.outer = std::max(ball_.outer, queries[i].radius.bounds.outer);
+  }
+  set_balls(index, group, queries);
+  const FrameSphere& bounds = index.leaves[leaf].bounds;
+  ball_.x = bounds.x;
+  ball_.y = bounds.y;
+  ball_.z = bounds.z;
+  ball_.inner = next_below(static_cast<double>(ball_.inner) - static_cast<double>(bounds.radius));
+  ball_.outer = next_above(static_cast<double>(ball_.outer) + static_cast<double>(bounds.radius));
+}
+
+void Packet::set_balls(const IndexView& index, const JointGroup& group, std::span<const JointQuery> queries) {
+  const FrameSphere& bounds = index.leaves[leaf_].bounds;
+  const auto leaf_radius = static_cast<double>(bounds.radius);
+  const double low = inner_of(ball_) - leaf_radius;
+  const double high = outer_of(ball_) + leaf_radius;
+  const double reach = high + leaf_radius + group.radius();
+  const double error = kRelativeError * reach * reach;
+  const Point centre = centre_of(Sphere<float>{bounds.x, bounds.y, bounds.z, 0}) - group.centre_in_frame();
+  balls_ = {};
+  balls_.centre_x = static_cast<float>(centre.x);
+  balls_.centre_y = static_cast<float>(centre.y);
+  balls_.centre_z = static_cast<float>(centre.z);
+  balls_.inside_all = low > 0 ? static_cast<float>(low * low - 4 * error) : 0;
+  balls_.outside_all = static_cast<float>(high * high + 4 * error);
+  balls_.queries = first_lanes(static_cast<unsigned>(size_));
+  balls_.surely_inside.fill(kInfinity);
+  balls_.maybe_inside.fill(kInfinity);
+  for (std::size_t i = 0; i < size_; ++i) {
+    const Point exact = index.frame.scale * (centres_[i] - group.centre());
+    const Point q{static_cast<double>(static_cast<float>(exact.x)), static_cast<double>(static_cast<float>(exact.y)),
+                  static_cast<double>(static_cast<float>(exact.z))};
+    balls_.x[i] = static_cast<float>(2 * q.x);
+    balls_.y[i] = static_cast<float>(2 * q.y);
+    balls_.z[i] = static_cast<float>(2 * q.z);
+    const double inner = inner_of(queries[i].radius.bounds);
+    const double outer = outer_of(queries[i].radius.bounds);
+    if (inner > 0) balls_.surely_inside[i] = static_cast<float>(dot(q, q) - inner * inner + error);
+    balls_.maybe_inside[i] = static_cast<float>(dot(q, q) - outer * outer - error);
+  }
+}
+
+}  // namespace meshhood

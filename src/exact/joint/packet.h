@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "exact/joint/group.h"
+#include "exact/layout.h"
+#include "simd/joint.h"
+
+namespace meshhood {
+
+/// What a radius is compared by, in the frame and exactly.
+struct JointRadius {
+  double radius;
+  double squared;  // of the predicate
+  TreeBounds bounds;
+
+  JointRadius(const Frame& frame, double at) : radius(at), squared(squared_radius(at)), bounds(frame, at) {}
+};
+
+/// A query of a packet: a vertex of its leaf, and a radius.
+struct JointQuery {
+  unsigned lane;
+  JointRadius radius;
+};
+
+/// Up to 32 queries from one leaf, ready to be compared with spheres and vertices.
+class Packet {
+ public:
+  /// `queries` are 1 to 32 from `leaf`, which is one of those that `group` began with.
+  Packet(const IndexView& index, const JointGroup& group, LeafId leaf, std::span<const JointQuery> queries);
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] QueryWord queries() const { return balls_.queries; }
+  [[nodiscard]] const PacketBalls& balls() const { return balls_; }
+  [[nodiscard]] LeafId leaf() const { return leaf_; }
+  [[nodiscard]] unsigned lane(std::size_t query) const { return lanes_[query]; }
+  [[nodiscard]] const Point& centre(std::size_t query) const { return centres_[query]; }
+
+  /// How a leaf with these bounds lies to the balls: outside of all, inside of all, or neither.
+  [[nodiscard]] Containment classify(const FrameSphere& bounds) const { return meshhood::classify(bounds, ball_); }
+
+  /// The exact predicate.
+  [[nodiscard]] bool holds(std::size_t query, const Point& vertex) const {
+    return squared_distance(vertex, centres_[query]) <= squared_radii_[query];
+  }
+
+ private:
+  void set_balls(const IndexView& index, const JointGroup& group, std::span<const JointQuery> queries);
+
+  LeafId leaf_;
+  std::size_t size_;
+  TreeBall ball_;  // around the leaf: `outer` around all balls, `inner` within each
+  PacketBalls balls_;
+  std::array<unsigned, kPacketCapacity> lanes_{};
+  std::array<Point, kPacketCapacity> centres_{};
+  std::array<double, kPacketCapacity> squared_radii_{};
+};
+
+}  // namespace meshhood

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace meshhood {
+
+/// A set of slots that wait for their turn, a bit each. They are taken in ascending order, sweep by sweep: slots near
+/// the group come first, and a slot that gains several times in one sweep is taken once.
+class Worklist {
+ public:
+  /// Empty, for slots below `size`.
+  void reset(std::size_t size) { words_.assign((size + 63) / 64, 0); }
+
+  void add(std::uint32_t slot) {
+    words_[slot / 64] |= std::uint64_t{1} << slot % 64;
+    again_ |= slot / 64 < at_;
+  }
+
+  /// Calls `f(slot)`, which may add slots, until none is left.
+  template <class F>
+  void run(F&& f) {
+    do {
+      again_ = false;
+      for (at_ = 0; at_ < words_.size(); ++at_) {
+        while (words_[at_] != 0) {
+          const auto bit = static_cast<std::uint32_t>(std::countr_zero(words_[at_]));
+          words_[at_] &= words_[at_] - 1;
+          f(static_cast<std::uint32_t>(at_) * 64 + bit);
+        }
+      }
+    } while (again_);
+  }
+
+ private:
+  std::vector<std::uint64_t> words_;
+  std::size_t at_ = 0;
+  bool again_ = false;
+};
+
+}  // namespace meshhood

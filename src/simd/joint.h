@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "meshhood/mesh.h"
+
+#include "simd/kernels.h"
+
+/// The inner loops of the joint search, which answers up to 32 queries of one leaf at once. As in `Kernels`, each
+/// function gives the same result on every processor, bit for bit.
+namespace meshhood {
+
+/// A set of queries of a packet: bit `i` stands for query `i`. Kept once for each vertex, where a `LaneMask` is kept
+/// once for each query.
+using QueryWord = std::uint32_t;
+
+inline constexpr unsigned kPacketCapacity = 32;
+
+/// A value for each lane of a leaf, or for each query of a packet.
+template <class T>
+using PerLane = std::array<T, kLeafCapacity>;
+
+/// What a packet knows of a leaf, a word for each vertex.
+struct alignas(64) LeafWords {
+  PerLane<QueryWord> inside;   // the queries whose ball holds the vertex
+  PerLane<QueryWord> reached;  // the queries whose answer holds the vertex, so far
+  PerLane<QueryWord> pending;  // the queries that reach a neighbor in another leaf; not yet compared with `inside`
+};
+
+/// The vertices of a leaf in frame units, relative to the centre of a group. Lanes without a vertex hold zeros.
+struct alignas(64) LeafPoints {
+  PerLane<float> x;
+  PerLane<float> y;
+  PerLane<float> z;
+  PerLane<float> square;  // of the length
+};
+
+/// The balls of a packet, relative to the same centre. A vertex p is compared with the ball around q by
+/// `2 p.q - p.p`, which is at least `q.q - r^2` where p is inside.
+struct alignas(64) PacketBalls {
+  // Twice the coordinates of the query vertices.
+  PerLane<float> x;
+  PerLane<float> y;
+  PerLane<float> z;
+  PerLane<float> surely_inside;  // >=; infinite for queries that do not exist
+  PerLane<float> maybe_inside;   // >=; likewise
+  // The centre of the leaf of the queries, and squared distances from it.
+  float centre_x;
+  float centre_y;
+  float centre_z;
+  float inside_all;   // a vertex nearer than this is in all balls
+  float outside_all;  // a vertex farther than this is in none
+  QueryWord queries;  // those that exist
+};
+
+struct BallWords {
+  QueryWord all;      // the queries whose ball holds every vertex of the leaf; without those in doubt
+  LaneMask in_doubt;  // the lanes whose word in `doubts` is not 0
+};
+
+struct SpreadWords {
+  LaneMask gained;  // the lanes whose word in `reached` has grown
+  bool closed;      // every vertex is reached by all queries that hold it: nothing can be added
+};
+
+/// A leaf of an answer: its words, and its first vertex in index order.
+struct LeafOfWords {
+  std::uint32_t words;
+  std::uint32_t first;
+};
+
+struct JointKernels {
+  /// Fills `inside` with the queries that surely hold each vertex, and `doubts` of the lanes `in_doubt` with those that
+  /// only the exact predicate can decide. `lanes`: the vertices that exist; the others get empty words.
+  BallWords (*ball_words)(const LeafPoints& points, LaneMask lanes, const PacketBalls& balls,
+                          PerLane<QueryWord>& inside, PerLane<QueryWord>& doubts);
+
+  /// Moves what is pending to `reached`, and on along the edges within the leaf, for each query through the vertices in
+  /// its ball. `whole`: queries that reach all vertices if they reach one. Reads all 32 rows of `adjacency`.
+  SpreadWords (*spread_words)(LeafWords& words, const LaneMask* adjacency, QueryWord whole);
+
+  /// Adds to `counts` how many vertices each query reaches in the leaves of `list`.
+  void (*count_words)(const LeafWords* words, std::span<const LeafOfWords> list, PerLane<std::uint64_t>& counts);
+
+  /// Which vertices of a leaf the query reaches.
+  LaneMask (*lanes_of)(const PerLane<QueryWord>& reached, unsigned query);
+
+  /// Writes the vertices that the query reaches in the leaves of `list`, and returns where they end: those of
+  /// `permutation`, or in index order where it is null. May write up to 32 behind the end.
+  VertexId* (*write_words)(const LeafWords* words, std::span<const LeafOfWords> list, unsigned query,
+                           const VertexId* permutation, VertexId* out);
+};
+
+/// Pushes words over the edges between two leaves. Scalar on every processor: a link has six edges on average.
+inline void push_words(std::span<const CrossEdge> edges, const PerLane<QueryWord>& reached,
+                       PerLane<QueryWord>& pending) {
+  for (const CrossEdge& edge : edges) pending[edge.to] |= reached[edge.from];
+}
+
+/// Those for `isa`, which the processor must have.
+[[nodiscard]] const JointKernels& joint_kernels(Isa isa);
+
+const JointKernels& portable_joint_kernels();
+#if defined(MESHHOOD_HAS_X86)
+const JointKernels& avx2_joint_kernels();
+const JointKernels& avx512_joint_kernels();
+#endif
+
+}  // namespace meshhood

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+#include "simd/joint.h"
+
+#if defined(MESHHOOD_HAS_X86)
+// g++ 12 warns of values that its own intrinsics leave undefined on purpose.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+
+#include <bit>
+#include <cstddef>
+
+#include <immintrin.h>
+
+#define MESHHOOD_AVX512 __attribute__((target("avx512f,avx512bw,avx512vl,avx512dq,bmi,bmi2,popcnt")))
+
+namespace meshhood {
+namespace {
+
+/// A word for each of 32 lanes.
+struct Words32 {
+  __m512i low;
+  __m512i high;
+};
+
+MESHHOOD_AVX512 inline Words32 load(const PerLane<QueryWord>& words) {
+  return {_mm512_load_si512(words.data()), _mm512_load_si512(words.data() + 16)};
+}
+
+MESHHOOD_AVX512 inline void store(PerLane<QueryWord>& words, const Words32& value) {
+  _mm512_store_si512(words.data(), value.low);
+  _mm512_store_si512(words.data() + 16, value.high);
+}
+
+MESHHOOD_AVX512 inline Words32 operator&(const Words32& a, const Words32& b) {
+  return {_mm512_and_si512(a.low, b.low), _mm512_and_si512(a.high, b.high)};
+}
+
+MESHHOOD_AVX512 inline Words32 operator|(const Words32& a, const Words32& b) {
+  return {_mm512_or_si512(a.low, b.low), _mm512_or_si512(a.high, b.high)};
+}
+
+MESHHOOD_AVX512 inline LaneMask join(__mmask16 low, __mmask16 high) {
+  return static_cast<LaneMask>(_mm512_kunpackw(high, low));
+}
+
+/// The lanes in which the words differ.
+MESHHOOD_AVX512 inline LaneMask differing(const Words32& a, const Words32& b) {
+  return join(_mm512_cmpneq_epi32_mask(a.low, b.low), _mm512_cmpneq_epi32_mask(a.high, b.high));
+}
+
+/// `word` in the lanes of `lanes`, 0 in the others.
+MESHHOOD_AVX512 inline Words32 in_lanes(LaneMask lanes, QueryWord word) {
+  const auto value = static_cast<int>(word);
+  return {_mm512_maskz_set1_epi32(static_cast<__mmask16>(lanes), value),
+          _mm512_maskz_set1_epi32(static_cast<__mmask16>(lanes >> 16), value)};
+}
+
+/// Sixteen balls of a packet.
+struct Balls16 {
+  __m512 x;
+  __m512 y;
+  __m512 z;
+  __m512 surely_inside;
+  __m512 maybe_inside;
+};
+
+MESHHOOD_AVX512 inline Balls16 load_balls(const PacketBalls& balls, std::size_t i) {
+  return {_mm512_load_ps(&balls.x[i]), _mm512_load_ps(&balls.y[i]), _mm512_load_ps(&balls.z[i]),
+          _mm512_load_ps(&balls.surely_inside[i]), _mm512_load_ps(&balls.maybe_inside[i])};
+}
+
+/// `2 p.q - p.p` for sixteen queries.
+MESHHOOD_AVX512 inline __m512 heights(const LeafPoints& points, std::size_t lane, const Balls16& balls) {
+  const __m512 x = _mm512_mul_ps(_mm512_set1_ps(points.x[lane]), balls.x);
+  const __m512 y = _mm512_mul_ps(_mm512_set1_ps(points.y[lane]), balls.y);
+  const __m512 z = _mm512_mul_ps(_mm512_set1_ps(points.z[lane]), balls.z);
+  return _mm512_sub_ps(_mm512_add_ps(_mm512_add_ps(x, y), z), _mm512_set1_ps(points.square[lane]));
+}
+
+MESHHOOD_AVX512 inline __m512 squares_from_centre(const LeafPoints& points, std::size_t i, const PacketBalls& balls) {
+  const __m512 x = _mm512_sub_ps(_mm512_load_ps(&points.x[i]), _mm512_set1_ps(balls.centre_x));
+  const __m512 y = _mm512_sub_ps(_mm512_load_ps(&points.y[i]), _mm512_set1_ps(balls.centre_y));
+  const __m512 z = _mm512_sub_ps(_mm512_load_ps(&points.z[i]), _mm512_set1_ps(balls.centre_z));
+  return _mm512_add_ps(_mm512_add_ps(_mm512_mul_ps(x, x), _mm512_mul_ps(y, y)), _mm512_mul_ps(z, z));
+}
+
+MESHHOOD_AVX512 BallWords ball_words(const LeafPoints& points, LaneMask lanes, const PacketBalls& balls,
+                                     PerLane<QueryWord>& inside, PerLane<QueryWord>& doubts) {
+  const __m512 low = squares_from_centre(points, 0, balls);
+  const __m512 high = squares_from_centre(points, 16, balls);
+  const __m512 nearest = _mm512_set1_ps(balls.inside_all);
+  const __m512 farthest = _mm512_set1_ps(balls.outside_all);
+  const LaneMask in_all =
+      lanes & join(_mm512_cmp_ps_mask(low, nearest, _CMP_LT_OQ), _mm512_cmp_ps_mask(high, nearest, _CMP_LT_OQ));
+  const LaneMask in_none =
+      lanes & join(_mm512_cmp_ps_mask(low, farthest, _CMP_GT_OQ), _mm512_cmp_ps_mask(high, farthest, _CMP_GT_OQ));
+  store(inside, in_lanes(in_all & ~in_none, balls.queries));
+  BallWords result{in_none == 0 ? balls.queries : 0, 0};
+  const Balls16 first = load_balls(balls, 0);
+  const Balls16 second = load_balls(balls, 16);
+  for (LaneMask left = lanes & ~(in_all | in_none); left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    const __m512 a = heights(points, lane, first);
+    const __m512 b = heights(points, lane, second);
+    const QueryWord sure = join(_mm512_cmp_ps_mask(a, first.surely_inside, _CMP_GE_OQ),
+                                _mm512_cmp_ps_mask(b, second.surely_inside, _CMP_GE_OQ));
+    const QueryWord maybe = join(_mm512_cmp_ps_mask(a, first.maybe_inside, _CMP_GE_OQ),
+                                 _mm512_cmp_ps_mask(b, second.maybe_inside, _CMP_GE_OQ));
+    inside[lane] = sure;
+    result.all &= sure;
+    doubts[lane] = maybe & ~sure;
+    result.in_doubt |= LaneMask{maybe != sure} << lane;
+  }
+  return result;
+}
+
+/// Moves what is pending to `reached`.
+MESHHOOD_AVX512 inline Words32 take_pending(LeafWords& words, const Words32& inside, QueryWord whole) {
+  Words32 reached = load(words.reached) | (load(words.pending) & inside);
+  const Words32 zero{_mm512_setzero_si512(), _mm512_setzero_si512()};
+  store(words.pending, zero);
+  if (whole != 0) {
+    const auto any = static_cast<QueryWord>(_mm512_reduce_or_epi32(_mm512_or_si512(reached.low, reached.high)));
+    reached = reached | (in_lanes(~LaneMask{0}, any & whole) & inside);
+  }
+  return reached;
+}
+
+MESHHOOD_AVX512 SpreadWords spread_words(LeafWords& words, const LaneMask* adjacency, QueryWord whole) {
+  const Words32 inside = load(words.inside);
+  const Words32 before = load(words.reached);
+  Words32 reached = take_pending(words, inside, whole);
+  store(words.reached, reached);
+  LaneMask open = differing(reached, inside);
+  for (LaneMask fresh = differing(reached, before); fresh != 0 && open != 0;) {
+    Words32 arriving{_mm512_setzero_si512(), _mm512_setzero_si512()};
+    for (; fresh != 0; fresh &= fresh - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(fresh));
+      const LaneMask to = adjacency[lane] & open;
+      if (to != 0) arriving = arriving | in_lanes(to, words.reached[lane]);
+    }
+    const Words32 grown = reached | (arriving & inside);
+    fresh = differing(grown, reached);
+    reached = grown;
+    store(words.reached, reached);
+    open = differing(reached, inside);
+  }
+  return {differing(reached, before), open == 0};
+}
+
+/// Adds words to counters for each bit, a plane for each binary digit: of every 2^n vectors of words, one carry reaches
+/// plane n.
+class BitCounters {
+ public:
+  MESHHOOD_AVX512 void add(const Words32& words) {
+    __m512i carry = add_to_plane(0, words.low, words.high);
+    std::size_t plane = 1;
+    for (; (leaves_ >> (plane - 1) & 1U) != 0; ++plane) carry = add_to_plane(plane, waiting_[plane], carry);
+    waiting_[plane] = carry;
+    if (plane == used_) planes_[used_++] = _mm512_setzero_si512();
+    ++leaves_;
+  }
+
+  MESHHOOD_AVX512 void add_to(PerLane<std::uint64_t>& counts) const {
+    for (std::size_t plane = 0; plane < used_; ++plane) {
+      add_plane(planes_[plane], plane, counts);
+      if (plane > 0 && (leaves_ >> (plane - 1) & 1U) != 0) add_plane(waiting_[plane], plane, counts);
+    }
+  }
+
+ private:
+  /// The sum of three bits each stays in the plane, the carry is returned.
+  MESHHOOD_AVX512 __m512i add_to_plane(std::size_t plane, __m512i a, __m512i b) {
+    const __m512i old = planes_[plane];
+    planes_[plane] = _mm512_ternarylogic_epi32(old, a, b, 0x96);
+    return _mm512_ternarylogic_epi32(old, a, b, 0xE8);
+  }
+
+  MESHHOOD_AVX512 static void add_plane(__m512i plane, std::size_t digit, PerLane<std::uint64_t>& counts) {
+    for (unsigned query = 0; query < kPacketCapacity; ++query) {
+      const __mmask16 set = _mm512_test_epi32_mask(plane, _mm512_set1_epi32(static_cast<int>(1U << query)));
+      counts[query] += static_cast<std::uint64_t>(_mm_popcnt_u32(set)) << digit;
+    }
+  }
+
+  static constexpr std::size_t kPlanes = 34;  // enough for all leaves of an index
+  alignas(64) __m512i planes_[kPlanes]{};     // NOLINT(modernize-avoid-c-arrays): std::array drops the alignment
+  alignas(64) __m512i waiting_[kPlanes];      // NOLINT(modernize-avoid-c-arrays)
+  std::size_t used_ = 1;
+  std::uint64_t leaves_ = 0;
+};
+
+MESHHOOD_AVX512 void count_words(const LeafWords* words, std::span<const LeafOfWords> list,
+                                 PerLane<std::uint64_t>& counts) {
+  BitCounters counters;
+  for (const LeafOfWords& leaf : list) counters.add(load(words[leaf.words].reached));
+  counters.add_to(counts);
+}
+
+MESHHOOD_AVX512 inline LaneMask lanes_with(const PerLane<QueryWord>& reached, __m512i bit) {
+  const Words32 words = load(reached);
+  return join(_mm512_test_epi32_mask(words.low, bit), _mm512_test_epi32_mask(words.high, bit));
+}
+
+MESHHOOD_AVX512 LaneMask lanes_of(const PerLane<QueryWord>& reached, unsigned query) {
+  return lanes_with(reached, _mm512_set1_epi32(static_cast<int>(1U << query)));
+}
+
+/// Writes those of sixteen ids whose lane is set. Compressed in a register and stored whole: compressing stores are
+/// slow on some processors.
+MESHHOOD_AVX512 inline VertexId* write16(__m512i ids, LaneMask lanes, VertexId* out) {
+  _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(static_cast<__mmask16>(lanes), ids));
+  return out + _mm_popcnt_u32(lanes & 0xFFFFU);
+}
+
+MESHHOOD_AVX512 VertexId* write_words(const LeafWords* words, std::span<const LeafOfWords> list, unsigned query,
+                                      const VertexId* permutation, VertexId* out) {
+  const __m512i bit = _mm512_set1_epi32(static_cast<int>(1U << query));
+  const __m512i count = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  for (const LeafOfWords& leaf : list) {
+    const LaneMask lanes = lanes_with(words[leaf.words].reached, bit);
+    if (permutation == nullptr) {
+      const __m512i first = _mm512_add_epi32(_mm512_set1_epi32(static_cast<int>(leaf.first)), count);
+      out = write16(first, lanes, out);
+      out = write16(_mm512_add_epi32(first, _mm512_set1_epi32(16)), lanes >> 16, out);
+    } else {
+      out = write16(_mm512_loadu_si512(permutation + leaf.first), lanes, out);
+      out = write16(_mm512_loadu_si512(permutation + leaf.first + 16), lanes >> 16, out);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+const JointKernels& avx512_joint_kernels() {
+  static constexpr JointKernels kAll{ball_words, spread_words, count_words, lanes_of, write_words};
+  return kAll;
+}
+
+}  // namespace meshhood
+#endif

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include <bit>
+#include <cstddef>
+
+#include "simd/joint.h"
+
+namespace meshhood {
+namespace {
+
+/// The words of one vertex: compares it with all balls of the packet.
+QueryWord compare(const LeafPoints& points, std::size_t lane, const PacketBalls& balls, QueryWord& maybe) {
+  QueryWord sure = 0;
+  for (std::size_t i = 0; i < kPacketCapacity; ++i) {
+    const float product = (points.x[lane] * balls.x[i] + points.y[lane] * balls.y[i]) + points.z[lane] * balls.z[i];
+    const float height = product - points.square[lane];
+    sure |= QueryWord{height >= balls.surely_inside[i]} << i;
+    maybe |= QueryWord{height >= balls.maybe_inside[i]} << i;
+  }
+  return sure;
+}
+
+float squared_distance_to_centre(const LeafPoints& points, std::size_t lane, const PacketBalls& balls) {
+  const float x = points.x[lane] - balls.centre_x;
+  const float y = points.y[lane] - balls.centre_y;
+  const float z = points.z[lane] - balls.centre_z;
+  return (x * x + y * y) + z * z;
+}
+
+BallWords ball_words(const LeafPoints& points, LaneMask lanes, const PacketBalls& balls, PerLane<QueryWord>& inside,
+                     PerLane<QueryWord>& doubts) {
+  BallWords result{balls.queries, 0};
+  inside = {};
+  for (LaneMask left = lanes; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    const float square = squared_distance_to_centre(points, lane, balls);
+    if (square > balls.outside_all) {
+      result.all = 0;
+    } else if (square < balls.inside_all) {
+      inside[lane] = balls.queries;
+    } else {
+      QueryWord maybe = 0;
+      inside[lane] = compare(points, lane, balls, maybe);
+      result.all &= inside[lane];
+      doubts[lane] = maybe & ~inside[lane];
+      result.in_doubt |= LaneMask{doubts[lane] != 0} << lane;
+    }
+  }
+  return result;
+}
+
+/// Reaches the neighbors of the lanes `from`; returns those that have gained.
+LaneMask spread_once(LeafWords& words, const LaneMask* adjacency, LaneMask from) {
+  LaneMask gained = 0;
+  for (; from != 0; from &= from - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(from));
+    for (LaneMask left = adjacency[lane]; left != 0; left &= left - 1) {
+      const auto neighbor = static_cast<std::size_t>(std::countr_zero(left));
+      const QueryWord grown = words.reached[neighbor] | (words.reached[lane] & words.inside[neighbor]);
+      gained |= LaneMask{grown != words.reached[neighbor]} << neighbor;
+      words.reached[neighbor] = grown;
+    }
+  }
+  return gained;
+}
+
+/// Moves what is pending to `reached`; returns the lanes that gained.
+LaneMask take_pending(LeafWords& words, QueryWord whole) {
+  QueryWord any = 0;
+  for (std::size_t i = 0; i < kLeafCapacity; ++i) any |= words.reached[i] | (words.pending[i] & words.inside[i]);
+  LaneMask gained = 0;
+  for (std::size_t i = 0; i < kLeafCapacity; ++i) {
+    const QueryWord grown = words.reached[i] | ((words.pending[i] | (any & whole)) & words.inside[i]);
+    gained |= LaneMask{grown != words.reached[i]} << i;
+    words.reached[i] = grown;
+  }
+  words.pending = {};
+  return gained;
+}
+
+SpreadWords spread_words(LeafWords& words, const LaneMask* adjacency, QueryWord whole) {
+  SpreadWords result{take_pending(words, whole), true};
+  for (LaneMask fresh = result.gained; fresh != 0;) {
+    fresh = spread_once(words, adjacency, fresh);
+    result.gained |= fresh;
+  }
+  for (std::size_t i = 0; i < kLeafCapacity; ++i) result.closed &= words.reached[i] == words.inside[i];
+  return result;
+}
+
+/// Counters for each bit of a word, a plane for each binary digit, so that a word is added to all of them at once.
+class BitCounters {
+ public:
+  void add(QueryWord word) {
+    for (std::size_t digit = 0; word != 0; ++digit) {
+      const QueryWord carry = planes_[digit] & word;
+      planes_[digit] ^= word;
+      word = carry;
+    }
+  }
+
+  void add_to(PerLane<std::uint64_t>& counts) const {
+    for (std::size_t digit = 0; digit < planes_.size(); ++digit) {
+      for (QueryWord left = planes_[digit]; left != 0; left &= left - 1) {
+        counts[static_cast<std::size_t>(std::countr_zero(left))] += std::uint64_t{1} << digit;
+      }
+    }
+  }
+
+ private:
+  std::array<QueryWord, 40> planes_{};  // enough for every vertex of an index
+};
+
+void count_words(const LeafWords* words, std::span<const LeafOfWords> list, PerLane<std::uint64_t>& counts) {
+  BitCounters counters;
+  for (const LeafOfWords& leaf : list) {
+    for (const QueryWord word : words[leaf.words].reached) counters.add(word);
+  }
+  counters.add_to(counts);
+}
+
+LaneMask lanes_of(const PerLane<QueryWord>& reached, unsigned query) {
+  LaneMask lanes = 0;
+  for (std::size_t i = 0; i < kLeafCapacity; ++i) lanes |= (reached[i] >> query & 1U) << i;
+  return lanes;
+}
+
+VertexId* write_words(const LeafWords* words, std::span<const LeafOfWords> list, unsigned query,
+                      const VertexId* permutation, VertexId* out) {
+  for (const LeafOfWords& leaf : list) {
+    for (LaneMask lanes = lanes_of(words[leaf.words].reached, query); lanes != 0; lanes &= lanes - 1) {
+      const auto vertex = leaf.first + static_cast<std::uint32_t>(std::countr_zero(lanes));
+      *out++ = permutation == nullptr ? static_cast<VertexId>(vertex) : permutation[vertex];
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+const JointKernels& portable_joint_kernels() {
+  static constexpr JointKernels kAll{ball_words, spread_words, count_words, lanes_of, write_words};
+  return kAll;
+}
+
+const JointKernels& joint_kernels(Isa isa) {
+#if defined(MESHHOOD_HAS_X86)
+  if (isa == Isa::Avx512) return avx512_joint_kernels();
+  if (isa == Isa::Avx2) return avx2_joint_kernels();
+#endif
+  static_cast<void>(isa);
+  return portable_joint_kernels();
+}
+
+}  // namespace meshhood

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+// The kernels of the joint search give the same bits on every processor, and what their definitions say.
+#include <bit>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "simd/joint.h"
+#include "support/exact_answer.h"
+#include "support/random.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+class EveryJointPath : public testing::TestWithParam<Isa> {
+ protected:
+  QueryWord random_word() { return static_cast<QueryWord>(random.bits()); }
+
+  PerLane<QueryWord> random_words() {
+    PerLane<QueryWord> words;
+    for (QueryWord& word : words) word = random_word() & random_word();
+    return words;
+  }
+
+  float coordinate() { return static_cast<float>(random.uniform(-1, 1)); }
+
+  const JointKernels& tried = joint_kernels(GetParam());
+  const JointKernels& plain = portable_joint_kernels();
+  Random random{11};
+};
+
+TEST_P(EveryJointPath, BallWordsAreThoseOfThePortableKernel) {
+  std::size_t doubts = 0;
+  for (std::size_t round = 0; round < scaled(4000, 200); ++round) {
+    const unsigned size = 1 + static_cast<unsigned>(random.below(kLeafCapacity));
+    LeafPoints points{};
+    for (std::size_t i = 0; i < size; ++i) {
+      points.x[i] = coordinate();
+      points.y[i] = coordinate();
+      points.z[i] = coordinate();
+      points.square[i] = (points.x[i] * points.x[i] + points.y[i] * points.y[i]) + points.z[i] * points.z[i];
+    }
+    PacketBalls balls{};
+    balls.queries = random_word();
+    for (std::size_t i = 0; i < kPacketCapacity; ++i) {
+      balls.x[i] = coordinate();
+      balls.y[i] = coordinate();
+      balls.z[i] = coordinate();
+      const float threshold = coordinate();
+      const bool exists = (balls.queries >> i & 1U) != 0;
+      balls.surely_inside[i] = exists ? threshold : std::numeric_limits<float>::infinity();
+      balls.maybe_inside[i] = exists ? threshold - 0.05F : std::numeric_limits<float>::infinity();
+    }
+    balls.centre_x = coordinate();
+    balls.inside_all = static_cast<float>(random.uniform(0, 0.5));
+    balls.outside_all = balls.inside_all + static_cast<float>(random.uniform(0, 2));
+    PerLane<QueryWord> expected;
+    PerLane<QueryWord> found;
+    PerLane<QueryWord> expected_doubts{};
+    PerLane<QueryWord> found_doubts{};
+    const BallWords a = plain.ball_words(points, first_lanes(size), balls, expected, expected_doubts);
+    const BallWords b = tried.ball_words(points, first_lanes(size), balls, found, found_doubts);
+    ASSERT_EQ(found, expected);
+    ASSERT_EQ(b.all, a.all);
+    ASSERT_EQ(b.in_doubt, a.in_doubt);
+    QueryWord all = balls.queries;
+    for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
+      const LaneMask bit = LaneMask{1} << lane;
+      ASSERT_TRUE(lane < size || found[lane] == 0);
+      ASSERT_TRUE((a.in_doubt & bit) == 0 || found_doubts[lane] == expected_doubts[lane]);
+      if (lane < size) all &= found[lane];
+    }
+    ASSERT_EQ(b.all, all);
+    doubts += static_cast<std::size_t>(std::popcount(a.in_doubt));
+  }
+  ASSERT_GT(doubts, 0U);
+  std::printf("%zu lanes in doubt\n", doubts);
+}
+
+/// What the words must become: bits move along edges between lanes whose `inside` has them, until none can.
+PerLane<QueryWord> spread_by_definition(const LeafWords& words, const std::vector<LaneMask>& adjacency) {
+  PerLane<QueryWord> reached = words.reached;
+  for (std::size_t i = 0; i < kLeafCapacity; ++i) reached[i] |= words.pending[i] & words.inside[i];
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (std::size_t i = 0; i < kLeafCapacity; ++i) {
+      for (std::size_t j = 0; j < kLeafCapacity; ++j) {
+        if ((adjacency[i] >> j & 1U) == 0) continue;
+        const QueryWord grown = reached[j] | (reached[i] & words.inside[j]);
+        grows |= grown != reached[j];
+        reached[j] = grown;
+      }
+    }
+  }
+  return reached;
+}
+
+TEST_P(EveryJointPath, SpreadingFollowsEveryEdgeWithinTheBalls) {
+  std::size_t closed = 0;
+  for (std::size_t round = 0; round < scaled(4000, 200); ++round) {
+    std::vector<LaneMask> adjacency(kLeafCapacity);
+    for (std::size_t edge = 0; edge < 20 + random.below(60); ++edge) {
+      const std::size_t i = random.below(kLeafCapacity);
+      const std::size_t j = random.below(kLeafCapacity);
+      adjacency[i] |= LaneMask{1} << j;
+      adjacency[j] |= LaneMask{1} << i;
+    }
+    LeafWords words;
+    words.inside = random_words();
+    if (random.below(2) == 0) words.inside.fill(random_word());
+    words.pending = random_words();
+    words.reached = random_words();
+    for (std::size_t i = 0; i < kLeafCapacity; ++i) words.reached[i] &= words.inside[i] & random_word();
+    // What was reached before has been spread before.
+    LeafWords before = words;
+    before.pending = {};
+    words.reached = spread_by_definition(before, adjacency);
+    const PerLane<QueryWord> expected = spread_by_definition(words, adjacency);
+    LeafWords found = words;
+    const SpreadWords result = tried.spread_words(found, adjacency.data(), 0);
+    ASSERT_EQ(found.reached, expected);
+    ASSERT_EQ(found.inside, words.inside);
+    ASSERT_EQ(found.pending, PerLane<QueryWord>{});
+    ASSERT_EQ(result.closed, expected == words.inside);
+    for (std::size_t i = 0; i < kLeafCapacity; ++i) {
+      ASSERT_EQ((result.gained >> i & 1U) != 0, expected[i] != words.reached[i]);
+    }
+    closed += static_cast<std::size_t>(result.closed);
+  }
+  ASSERT_GT(closed, 0U);
+}
+
+TEST_P(EveryJointPath, QueriesThatHoldAConnectedLeafReachAllOfItAtOnce) {
+  for (std::size_t round = 0; round < 1000; ++round) {
+    const unsigned size = 2 + static_cast<unsigned>(random.below(kLeafCapacity - 1));
+    std::vector<LaneMask> path(kLeafCapacity);
+    for (unsigned i = 0; i + 1 < size; ++i) {
+      path[i] |= LaneMask{2} << i;
+      path[i + 1] |= LaneMask{1} << i;
+    }
+    LeafWords words{};
+    const QueryWord whole = random_word();
+    for (unsigned i = 0; i < size; ++i) words.inside[i] = random_word() | whole;
+    words.pending = random_words();
+    LeafWords expected = words;
+    static_cast<void>(plain.spread_words(expected, path.data(), 0));
+    static_cast<void>(tried.spread_words(words, path.data(), whole));
+    ASSERT_EQ(words.reached, expected.reached);
+  }
+}
+
+TEST_P(EveryJointPath, CountsAndLanesAndIdsAgree) {
+  for (const std::size_t leaves : {0U, 1U, 2U, 3U, 4U, 7U, 8U, 15U, 16U, 31U, 33U, 100U, 1025U}) {
+    std::vector<LeafWords> words(leaves);
+    std::vector<LeafOfWords> list(leaves);
+    std::vector<VertexId> permutation(kLeafCapacity * (leaves + 1));
+    for (VertexId& id : permutation) id = static_cast<VertexId>(random.bits() % 60000);
+    for (std::size_t i = 0; i < leaves; ++i) {
+      words[i].reached = random_words();
+      if (random.below(8) == 0) words[i].reached.fill(~QueryWord{0});
+      list[i] = {static_cast<std::uint32_t>(leaves - 1 - i), static_cast<std::uint32_t>(kLeafCapacity * i)};
+    }
+    PerLane<std::uint64_t> counts;
+    counts.fill(3);
+    tried.count_words(words.data(), list, counts);
+    for (unsigned query = 0; query < kPacketCapacity; ++query) {
+      std::vector<VertexId> by_place;
+      std::vector<VertexId> by_id;
+      for (const LeafOfWords& leaf : list) {
+        LaneMask lanes = 0;
+        for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
+          if ((words[leaf.words].reached[lane] >> query & 1U) == 0) continue;
+          lanes |= LaneMask{1} << lane;
+          by_place.push_back(static_cast<VertexId>(leaf.first + lane));
+          by_id.push_back(permutation[leaf.first + lane]);
+        }
+        ASSERT_EQ(tried.lanes_of(words[leaf.words].reached, query), lanes);
+      }
+      ASSERT_EQ(counts[query], by_id.size() + 3);
+      std::vector<VertexId> found(by_id.size() + kLeafCapacity);
+      VertexId* end = tried.write_words(words.data(), list, query, permutation.data(), found.data());
+      ASSERT_EQ(end - found.data(), static_cast<std::ptrdiff_t>(by_id.size()));
+      found.resize(by_id.size());
+      ASSERT_EQ(found, by_id);
+      found.resize(by_place.size() + kLeafCapacity);
+      end = tried.write_words(words.data(), list, query, nullptr, found.data());
+      found.resize(static_cast<std::size_t>(end - found.data()));
+      ASSERT_EQ(found, by_place);
+    }
+  }
+}
+
+TEST_P(EveryJointPath, WordsArePushedOverEveryEdge) {
+  for (std::size_t round = 0; round < 1000; ++round) {
+    std::vector<CrossEdge> edges(random.below(60));
+    const PerLane<QueryWord> reached = random_words();
+    PerLane<QueryWord> pending = random_words();
+    PerLane<QueryWord> expected = pending;
+    for (CrossEdge& edge : edges) {
+      edge = {static_cast<std::uint8_t>(random.below(32)), static_cast<std::uint8_t>(random.below(32))};
+      expected[edge.to] |= reached[edge.from];
+    }
+    push_words(edges, reached, pending);
+    ASSERT_EQ(pending, expected);
+  }
+}
+
+std::string path_name(const testing::TestParamInfo<Isa>& info) {
+  return info.param == Isa::Portable ? "Portable" : info.param == Isa::Avx2 ? "Avx2" : "Avx512";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryJointPath, testing::ValuesIn(available_isas()), path_name);
+
+}  // namespace
+}  // namespace meshhood::test
