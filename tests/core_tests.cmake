@@ -10,9 +10,11 @@ target_link_libraries(meshhood_families PUBLIC meshhood::meshhood)
 meshhood_own_target(meshhood_families)
 
 foreach(part
-    base/adjacency base/mesh base/distance base/sphere base/reference base/error base/parallel
+    base/adjacency base/frame base/mesh base/distance base/sphere base/reference base/error base/parallel
     batch/batch
-    exact/joint_search exact/structure exact/file exact/damage exact/rules exact/search_families exact/search_differential exact/search_rare
+    exact/cell_components exact/halfplane_polygon exact/joint_search exact/kd_order exact/leaf_nodes exact/leaves
+    exact/links exact/minimum_region exact/tree exact/structure exact/file exact/damage exact/rules
+    exact/search_families exact/search_differential exact/search_rare
     exact/threads
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
     simd/joint_kernels simd/kernels

@@ -12,10 +12,10 @@ namespace meshhood {
 
 using ByteSpans = std::initializer_list<std::span<const std::byte>>;
 
-/// XXH3 of `parts`, one after the other: 64 bits.
+/// The 64-bit XXH3 hash of the concatenation of `parts`.
 [[nodiscard]] std::uint64_t checksum(ByteSpans parts);
 
-/// The same with 128 bits.
+/// The 128-bit XXH3 hash of the concatenation of `parts`.
 [[nodiscard]] Fingerprint wide_checksum(ByteSpans parts);
 
 }  // namespace meshhood

@@ -26,8 +26,8 @@ Box bounding_box(std::span<const Real> xyz) {
 /// A power of two by which lengths up to `extent` become at most 1.
 double unit_scale(double extent) {
   if (!(extent > 0)) return 1;
-  // Within the exponents of a double; a mesh that small is searched without its tree.
-  return std::ldexp(1.0, std::min(-std::ilogb(extent) - 1, 1000));
+  // The bound keeps the scale finite; for a mesh that small the tree is not used.
+  return std::ldexp(1.0, std::min(-std::ilogb(extent) - 1, 1000));  // mutant: frame-twice-too-large
 }
 
 }  // namespace
@@ -36,7 +36,8 @@ Frame make_frame(const PositionsView& positions) {
   if (positions.size() == 0) return {};
   const Box box = positions.visit([](auto xyz) { return bounding_box(xyz); });
   const Point origin{box.low.x / 2 + box.high.x / 2, box.low.y / 2 + box.high.y / 2, box.low.z / 2 + box.high.z / 2};
-  // From the centre, and not half the size, which may round to less.
+  // Measured from the rounded centre: half the width of the box may round to less.
+  // mutant: box-width-for-extent
   const auto extent = [](double low, double centre, double high) { return std::max(centre - low, high - centre); };
   return {origin, unit_scale(std::max({extent(box.low.x, origin.x, box.high.x), extent(box.low.y, origin.y, box.high.y),
                                        extent(box.low.z, origin.z, box.high.z)}))};

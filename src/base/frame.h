@@ -7,13 +7,14 @@
 
 namespace meshhood {
 
-/// A point and a sphere in the coordinates of a `Frame`.
+/// A point in the coordinates of a `Frame`.
 struct FramePoint {
   float x;
   float y;
   float z;
 };
 
+/// A sphere in the coordinates of a `Frame`.
 struct FrameSphere {
   float x;
   float y;
@@ -21,11 +22,11 @@ struct FrameSphere {
   float radius;
 };
 
-/// Coordinates in which every vertex lies in [-1, 1]: what the tree is kept in, as floats, whatever the unit and the
-/// precision of the positions. A vertex is rounded by at most 2^-25 along each axis.
+/// Coordinates in which every vertex lies in [-1, 1]^3, whatever the unit of the positions. The tree stores floats,
+/// which rounds a vertex by at most 2^-25 along each axis.
 struct Frame {
   Point origin{0, 0, 0};
-  double scale = 1;  // a power of two, so that lengths are scaled without rounding
+  double scale = 1;  // a power of two, so that scaling does not round
 
   [[nodiscard]] Point to_frame(const Point& p) const {
     return {(p.x - origin.x) * scale, (p.y - origin.y) * scale, (p.z - origin.z) * scale};
@@ -37,7 +38,7 @@ struct Frame {
   }
 };
 
-/// The frame of valid positions.
+/// The frame centred at the bounding box of the positions, which must be valid.
 [[nodiscard]] Frame make_frame(const PositionsView& positions);
 
 }  // namespace meshhood

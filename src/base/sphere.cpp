@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The smallest enclosing sphere is held by at most four of its points. We keep such a support, look for the point that
-// lies farthest outside, and exchange: the radius grows with every exchange, so a support never comes back. Where
-// rounding spoils an exchange (points almost on one line, plane or sphere) the search ends with the centre it has; the
-// radius is measured last, over all points, and is right for any centre.
+// The smallest enclosing ball has at most four of the points on its boundary that determine it: its support.
+// Repeatedly, the point farthest outside the ball of the present support is exchanged into it. This is the pivot rule
+// of Gaertner, "Fast and robust smallest enclosing balls" (ESA 1999), with the basis computation of Matousek, Sharir
+// and Welzl, "A subexponential bound for linear programming" (1996), done by trying all supports. The radius grows with
+// every exchange, so no support comes back and the loop ends. If rounding spoils an exchange (points almost on one
+// line, plane or sphere), the loop ends with the centre it has: the radius is measured last, over all points, and is
+// right for any centre.
 #include "base/sphere.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -42,7 +46,7 @@ class Support {
   std::size_t size_ = 0;
 };
 
-/// Solves the first `n` equations of `a x = b` by elimination with pivots; nothing where they are (nearly) dependent.
+/// Solves the first `n` equations of `a x = b` by elimination with pivots, unless they are (nearly) dependent.
 std::optional<Vector> solve(Matrix a, Vector b, std::size_t n) {
   for (std::size_t k = 0; k < n; ++k) {
     std::size_t pivot = k;
@@ -67,8 +71,8 @@ std::optional<Vector> solve(Matrix a, Vector b, std::size_t n) {
   return x;
 }
 
-/// The ball with all of `support` on its boundary and its centre among them, if there is one. A centre beyond them
-/// would mean that fewer of them suffice.
+/// The ball with all of `support` on its boundary and its centre in their convex hull, if there is one. If the centre
+/// lies outside the hull, fewer of the points determine the smallest ball.
 std::optional<Ball> circumscribed(const Support& support) {
   const std::size_t n = support.size() - 1;
   std::array<Point, 3> edge{};
@@ -78,7 +82,7 @@ std::optional<Ball> circumscribed(const Support& support) {
     scale = std::max(scale, largest_component(edge[i]));
   }
   if (n > 0 && !(scale > 0)) return std::nullopt;
-  // In units of the largest edge, so that no product overflows.
+  // In units of the longest edge, so that no product overflows.
   for (std::size_t i = 0; i < n; ++i) edge[i] = {edge[i].x / scale, edge[i].y / scale, edge[i].z / scale};
   Matrix gram{};
   Vector half_square{};
@@ -100,26 +104,33 @@ std::optional<Ball> circumscribed(const Support& support) {
   return Ball{centre, squared_distance(centre, support[0])};
 }
 
-/// The smallest ball around `support` and `p`, a point outside its present ball and so on the boundary of the new one:
-/// some of the old points, with `p`, hold it. Makes those the support.
+/// `p` and the points of `support` whose bits are set in `chosen`, at most three.
+Support select(const Support& support, unsigned chosen, const Point& p) {
+  Support result;
+  result.add(p);
+  for (std::size_t i = 0; i < support.size(); ++i) {
+    if ((chosen >> i & 1U) != 0) result.add(support[i]);
+  }
+  return result;
+}
+
+bool encloses(const Ball& ball, const Support& support) {
+  for (std::size_t i = 0; i < support.size(); ++i) {
+    if (!(squared_distance(ball.centre, support[i]) <= ball.squared_radius * (1 + 1e-10))) return false;
+  }
+  return true;
+}
+
+/// The smallest ball around `support` and `p`, a point outside the present ball. The new ball has `p` on its boundary,
+/// so its support is `p` with some of the old points: tests each selection of them, and makes the right one the
+/// support.
 std::optional<Ball> exchange(Support& support, const Point& p) {
   for (unsigned chosen = 1; chosen < 1U << support.size(); ++chosen) {
-    Support candidate;
-    candidate.add(p);
-    bool fits = true;
-    for (std::size_t i = 0; i < support.size() && fits; ++i) {
-      if ((chosen >> i & 1U) == 0) continue;
-      fits = candidate.size() < 4;
-      if (fits) candidate.add(support[i]);
-    }
-    if (!fits) continue;
+    if (std::popcount(chosen) > 3) continue;
+    const Support candidate = select(support, chosen, p);
     const std::optional<Ball> ball = circumscribed(candidate);
-    if (!ball) continue;
-    for (std::size_t i = 0; i < support.size() && fits; ++i) {
-      fits = squared_distance(ball->centre, support[i]) <= ball->squared_radius * (1 + 1e-10);
-    }
-    if (!fits) continue;
-    support = candidate;
+    if (!ball || !encloses(*ball, support)) continue;  // mutant: old-support-not-enclosed
+    support = candidate;                               // mutant: support-not-exchanged
     return ball;
   }
   return std::nullopt;
@@ -157,6 +168,7 @@ Point smallest_ball_centre(std::span<const Real> xyz) {
 template <class Real>
 Real round_up(double value) {
   const auto rounded = static_cast<Real>(value);
+  // mutant: radius-rounded-down
   return static_cast<double>(rounded) < value ? std::nextafter(rounded, std::numeric_limits<Real>::infinity())
                                               : rounded;
 }

@@ -7,9 +7,9 @@
 
 namespace meshhood {
 
-/// The smallest sphere around the points `xyz` (`#points by 3`, at least one) to within a thousandth of its radius; the
-/// centre is rounded to `Real`, and the radius upwards, so that every point lies within it as distances are computed.
-/// A single point, however often repeated, has radius 0. Always ends; O(#points), about ten passes.
+/// A sphere around the points `xyz` (`#points by 3`, at least one), at most a thousandth larger than the smallest,
+/// except that its centre is rounded to `Real`. The radius is rounded up, so that every point is inside as distances
+/// are computed. If all points coincide, the radius is 0. O(#points), about ten passes and never more than 66.
 template <class Real>
 [[nodiscard]] Sphere<Real> bounding_sphere(std::span<const Real> xyz);
 

@@ -7,7 +7,7 @@
 
 namespace meshhood {
 
-// Points as vectors. Each operation rounds as it is written.
+// Vector arithmetic on points. Every operation is rounded on its own, in the order written.
 
 [[nodiscard]] inline Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 [[nodiscard]] inline Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Rows A15 and A16 of the catalogue in docs/reliability.md.
 #include "base/sphere.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace {
 
 using Points = std::vector<double>;  // #points by 3
 
-/// Whether every point is inside under the arithmetic of the queries, and nearly so in a longer one.
+/// Whether every point is inside as distances are computed in double, and nearly inside in long double.
 template <class Real>
 bool encloses(const Sphere<Real>& sphere, const std::vector<Real>& xyz) {
   const Point centre{static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
@@ -43,7 +44,7 @@ Sphere<Real> sphere_of(const std::vector<Real>& xyz) {
   return sphere;
 }
 
-/// Within a thousandth of `smallest` in double; in float too, where the centre can be.
+/// Within a thousandth of `smallest` in double, and in float up to the rounding of the centre.
 void expect_tight(const Points& points, double smallest) {
   EXPECT_LE(sphere_of(points).radius, smallest * 1.001 * (1 + 1e-12));
   const std::vector<float> single(points.begin(), points.end());
@@ -95,7 +96,7 @@ Points icosahedron() {
   return points;
 }
 
-TEST(BoundingSphere, OfASinglePlaceIsThatPlace) {
+TEST(BoundingSphere, OfCoincidentPointsHasRadiusZero) {
   for (const std::size_t copies : {1U, 2U, 3U, 4U, 1000U}) {
     std::vector<float> xyz(3 * copies, -7);
     for (std::size_t i = 0; i < copies; ++i) {
@@ -116,18 +117,18 @@ TEST(BoundingSphere, IsTightAroundKnownSolids) {
     expect_tight(scaled_by(scale, kOctahedron), scale);
     expect_tight(scaled_by(scale, icosahedron()), scale * std::hypot(1, std::numbers::phi));
     expect_tight(scaled_by(scale, {0, 0, 0, 2, 0, 0}), scale);
-    expect_tight(scaled_by(scale, {0, 0, 0, 2, 0, 0, 1, 0.1, 0}), scale);  // obtuse: the long side holds it
+    expect_tight(scaled_by(scale, {0, 0, 0, 2, 0, 0, 1, 0.1, 0}), scale);  // obtuse: the ball of the longest side
   }
 }
 
-TEST(BoundingSphere, A15IsTightAroundCocircularPoints) {
+TEST(BoundingSphere, IsTightAroundCocircularPoints) {
   for (const std::size_t n : {3U, 4U, 5U, 6U, 7U, 12U, 17U, 1000U}) {
     SCOPED_TRACE(n);
     expect_tight(regular_polygon(n), 1);
   }
 }
 
-TEST(BoundingSphere, A15IsTightAroundCosphericalPoints) {
+TEST(BoundingSphere, IsTightAroundCosphericalPoints) {
   Random random(1);
   Points points = kOctahedron;  // so that the unit sphere is the smallest
   for (int i = 0; i < 1000; ++i) {
@@ -138,7 +139,7 @@ TEST(BoundingSphere, A15IsTightAroundCosphericalPoints) {
   expect_tight(points, 1);
 }
 
-TEST(BoundingSphere, A15IsTightAroundCollinearPoints) {
+TEST(BoundingSphere, IsTightAroundCollinearPoints) {
   Random random(2);
   for (std::size_t i = 0; i < scaled(2000, 50); ++i) {
     Points points;
@@ -156,7 +157,7 @@ TEST(BoundingSphere, A15IsTightAroundCollinearPoints) {
   }
 }
 
-TEST(BoundingSphere, A15EndsAndEnclosesWhatIsNearlyFlat) {
+TEST(BoundingSphere, EnclosesNearlyFlatPoints) {
   Random random(3);
   std::size_t sets = 0;
   for (const double thin : {0.0, 1e-300, 1e-30, 1e-16, 1e-12, 1e-8, 1e-4}) {
@@ -170,7 +171,7 @@ TEST(BoundingSphere, A15EndsAndEnclosesWhatIsNearlyFlat) {
   std::printf("%zu sets of points\n", sets);
 }
 
-TEST(BoundingSphere, A16EndsAndEnclosesAtTheEndsOfTheRange) {
+TEST(BoundingSphere, EnclosesPointsAtTheEndsOfTheRange) {
   Random random(4);
   std::size_t sets = 0;
   for (int exponent = -1074; exponent <= 500; ++exponent) {

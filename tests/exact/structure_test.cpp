@@ -11,12 +11,9 @@
 
 #include "meshhood/index.h"
 
-#include "exact/build/kd_order.h"
-#include "exact/build/leaves.h"
 #include "exact/index_access.h"
 #include "support/families.h"
 #include "support/index_arrays.h"
-#include "support/refusal.h"
 #include "support/same_storage.h"
 
 namespace meshhood::test {
@@ -66,46 +63,41 @@ std::size_t first_group(const IndexData& index, std::size_t level) {
   return group;
 }
 
-TEST(IndexLimits, PlacesOfAllLeavesHave32Bits) {
-  check_leaf_count(kMaxLeaves);
-  EXPECT_EQ(std::uint64_t{kMaxLeaves} * kLeafCapacity, std::uint64_t{1} << 32U);
-  expect_refused(ErrorCode::TooLarge, "134217729 leaves in the index, but the limit is 134217728",
-                 [] { check_leaf_count(kMaxLeaves + 1); });
-}
-
 TEST(IndexCheck, FindsNothingWhereNothingIsWrong) {
   EXPECT_THAT(faults_after([](IndexData&) {}), IsEmpty());
 }
 
 TEST(IndexCheck, FindsAWrongNumbering) {
-  expect_found("is not where its place says", [](IndexData& i) { std::swap(i.permutation[3], i.permutation[40]); });
-  expect_found("is not where its place says", [](IndexData& i) { i.slot[100] ^= 1; });
-  expect_found("not 1 to 32 vertices", [](IndexData& i) { --i.leaves[2].size; });
+  expect_found("does not have the slot of its position",
+               [](IndexData& i) { std::swap(i.permutation[3], i.permutation[40]); });
+  expect_found("does not have the slot of its position", [](IndexData& i) { i.slot[100] ^= 1; });
+  expect_found("does not hold 1 to 32 vertices", [](IndexData& i) { --i.leaves[2].size; });
 }
 
 TEST(IndexCheck, FindsAWrongPosition) {
-  expect_found("not the position", [](IndexData& i) { std::get<std::vector<float>>(i.positions)[200] += 1; });
+  expect_found("its position differs", [](IndexData& i) { std::get<std::vector<float>>(i.positions)[200] += 1; });
 }
 
 TEST(IndexCheck, FindsAWrongEdge) {
-  expect_found("not the neighbours", [](IndexData& i) { i.adjacency[5] = 0; });
-  expect_found("not the neighbours", [](IndexData& i) { i.cross_edges[9].to ^= 1; });
-  expect_found("its border", [](IndexData& i) { i.links[7].boundary = 0; });
+  expect_found("its neighbours differ", [](IndexData& i) { i.adjacency[5] = 0; });
+  expect_found("its neighbours differ", [](IndexData& i) { i.cross_edges[9].to ^= 1; });
+  expect_found("the boundary of its link", [](IndexData& i) { i.links[7].boundary = 0; });
 }
 
 TEST(IndexCheck, FindsAWrongConnection) {
-  expect_found("as connected", [](IndexData& i) { i.leaves[4].connected = !i.leaves[4].connected; });
+  expect_found("its mark as connected", [](IndexData& i) { i.leaves[4].connected = !i.leaves[4].connected; });
 }
 
 TEST(IndexCheck, FindsASphereTooSmall) {
-  expect_found("outside of its sphere", [](IndexData& i) { i.leaves[3].bounds.radius *= 0.9F; });
+  expect_found("outside the bounding sphere", [](IndexData& i) { i.leaves[3].bounds.radius *= 0.9F; });
   for (std::size_t level = 0; level < 3; ++level) {
-    expect_found("outside of its sphere", [&](IndexData& i) { i.groups.at(first_group(i, level)).radius[1] *= 0.9F; });
+    expect_found("outside the bounding sphere",
+                 [&](IndexData& i) { i.groups.at(first_group(i, level)).radius[1] *= 0.9F; });
   }
 }
 
 TEST(IndexCheck, FindsAColumnTooNarrow) {
-  expect_found("outside of its column", [](IndexData& i) {
+  expect_found("outside the minimum region", [](IndexData& i) {
     for (Group& group : i.groups) {
       group.offset.fill(0);
       for (Group::Row* row : {&group.slope_x, &group.slope_y, &group.slope_z}) row->fill(0);
@@ -146,28 +138,6 @@ TEST(IndexLevels, AreTheLeavesAndTheTreeAbove) {
   }
   EXPECT_GT(levels.front().mean_radius, 1);
   EXPECT_THAT(build(TestMesh{}.view()).levels(), IsEmpty());
-}
-
-TEST(KdOrder, DoesNotDependOnTheOrderGiven) {
-  Random random(8);
-  std::vector<Site> sites;
-  for (std::uint32_t i = 0; i < 5000; ++i) {
-    const auto coordinate = [&] { return static_cast<float>(random.below(50)); };  // with many ties
-    sites.push_back({{coordinate(), coordinate(), coordinate()}, i});
-  }
-  std::vector<Site> shuffled;
-  for (const std::uint32_t i : random.permutation(sites.size())) shuffled.push_back(sites[i]);
-  kd_order(sites, 30);
-  kd_order(shuffled, 30);
-  for (std::size_t begin = 0; begin < sites.size(); begin += 30) {
-    std::vector<std::uint32_t> a;
-    std::vector<std::uint32_t> b;
-    for (std::size_t i = begin; i < std::min(begin + 30, sites.size()); ++i) {
-      a.push_back(sites[i].id);
-      b.push_back(shuffled[i].id);
-    }
-    EXPECT_THAT(a, testing::UnorderedElementsAreArray(b));
-  }
 }
 
 }  // namespace

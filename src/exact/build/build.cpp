@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The exact index, step by step.
+// The steps that build the exact index.
 #include <algorithm>
 #include <span>
 #include <utility>
@@ -19,16 +19,16 @@
 namespace meshhood {
 namespace {
 
-// In a mesh smaller than the inverse, squares of distances underflow, and so does what regions say of them.
-constexpr double kLargestScaleWithColumns = 0x1p480;
+// Squares of distances underflow in a mesh smaller than the inverse, so regions would be wrong.
+constexpr double kLargestScaleWithRegions = 0x1p480;
 
-// So many vertices, or leaves, keep a thread busy long enough.
+// Enough vertices, or leaves, to be worth a thread's while.
 constexpr std::size_t kVertexGrain = 8192;
 constexpr std::size_t kLeafGrain = 64;
 
 /// The vertices in index order, in the frame.
-std::vector<Point> place_points(const PositionsView& positions, const Frame& frame,
-                                std::span<const VertexId> permutation, TaskContext& task) {
+std::vector<Point> permute_points(const PositionsView& positions, const Frame& frame,
+                                  std::span<const VertexId> permutation, TaskContext& task) {
   return positions.visit([&](auto xyz) {
     std::vector<Point> points(permutation.size());
     task.parallel_for(points.size(), kVertexGrain, [&](unsigned, std::size_t begin, std::size_t end) {
@@ -103,8 +103,8 @@ IndexData IndexAccess::build_valid(const GraphView& graph, TaskContext& task) {
   task.advance(1);
   Links links = make_links(graph.adjacency, partition, task);
   task.advance(1);
-  const std::vector<Point> points = place_points(graph.positions, arrays.frame, partition.permutation, task);
-  const bool with_regions = arrays.frame.scale <= kLargestScaleWithColumns;
+  const std::vector<Point> points = permute_points(graph.positions, arrays.frame, partition.permutation, task);
+  const bool with_regions = arrays.frame.scale <= kLargestScaleWithRegions;
   NodeList lowest = make_leaf_nodes(partition.leaf_begin, links, points, with_regions, task);
   task.advance(1);
   arrays.leaves = make_leaf_records(partition, links, lowest.bounds, task);

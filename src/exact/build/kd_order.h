@@ -10,21 +10,21 @@
 
 namespace meshhood {
 
-/// A point to be put in order, and whose it is.
-struct Site {
+struct KdPoint {
   std::array<float, 3> at;
   std::uint32_t id;
 };
 
-/// Reorders `sites` so that every `unit` consecutive ones, counted from the first, lie close together: cuts across the
-/// widest side, at a multiple of `unit` near the middle, and so on. Which sites come together is the same for any
-/// order in which they are given. O(n log(n / unit)).
-void kd_order(std::span<Site> sites, std::size_t unit);
+/// Reorders `points` so that every `unit` consecutive ones, counted from the first, lie close together: cuts the set
+/// across the widest side of its bounding box, at the multiple of `unit` nearest to the middle from below, and
+/// continues with both halves. Ties are broken by id, so the sets of `unit` points do not depend on the order given;
+/// the order within each does. O(n log(n / unit)).
+void kd_order(std::span<KdPoint> points, std::size_t unit);
 
-/// The same on several threads.
-void kd_order(std::span<Site> sites, std::size_t unit, TaskContext& task);
+/// The same on several threads, with the same result. Throws Error{Cancelled}.
+void kd_order(std::span<KdPoint> points, std::size_t unit, TaskContext& task);
 
-/// Reorders `sites` so that this holds for runs of every power of `fan_out`.
-void kd_order_nested(std::span<Site> sites, std::size_t fan_out);
+/// Reorders `points` so that this holds for every power of `fan_out` as the unit. O(n log n).
+void kd_order_nested(std::span<KdPoint> points, std::size_t fan_out);
 
 }  // namespace meshhood

@@ -12,22 +12,22 @@
 namespace meshhood {
 namespace {
 
-/// One leaf after the other, in memory that is used again.
+/// Computes the nodes of leaves one after the other, with one list of edges for all.
 class LeafMeasure {
  public:
   LeafMeasure(std::span<const VertexId> leaf_begin, const Links& links, std::span<const Point> points,
               bool with_regions)
-      : leaf_begin_(leaf_begin), links_(links), points_(points), with_columns_(with_regions) {}
+      : leaf_begin_(leaf_begin), links_(links), points_(points), with_regions_(with_regions) {}
 
   void measure(std::size_t leaf, NodeList& out) {
     const std::size_t begin = leaf_begin_[leaf];
     const std::size_t size = leaf_begin_[leaf + 1] - begin;
     out.bounds[leaf] = enclosing_sphere(points_.subspan(begin, size));
     out.regions[leaf] = kUnboundedRegion;
-    if (!with_columns_) return;
+    if (!with_regions_) return;
     edges_.clear();
-    gather_edges_within(begin, size);
-    gather_edges_out(leaf);
+    gather_edges_within(begin, size);  // mutant: edges-within-leaf-ignored
+    gather_edges_out(leaf);            // mutant: edges-to-other-leaves-ignored
     out.regions[leaf] = leaf_minimum_region(points_, begin, size, edges_, centre_of(out.bounds[leaf]));
   }
 
@@ -53,7 +53,7 @@ class LeafMeasure {
   std::span<const VertexId> leaf_begin_;
   const Links& links_;
   std::span<const Point> points_;
-  bool with_columns_;
+  bool with_regions_;
   std::vector<LeafEdge> edges_;
 };
 
@@ -61,7 +61,7 @@ class LeafMeasure {
 
 NodeList make_leaf_nodes(std::span<const VertexId> leaf_begin, const Links& links, std::span<const Point> points,
                          bool with_regions, TaskContext& task) {
-  // So many leaves keep a thread busy long enough.
+  // Enough leaves to be worth a thread's while.
   constexpr std::size_t kGrain = 64;
   NodeList result(leaf_begin.size() - 1);
   task.parallel_for(result.bounds.size(), kGrain, [&](unsigned, std::size_t begin, std::size_t end) {

@@ -12,19 +12,23 @@
 
 namespace meshhood {
 
-/// Which vertices make up a leaf, and the order of the leaves and of their vertices.
+/// The vertices of each leaf, and the order of leaves and of vertices in them: the index order.
 struct LeafPartition {
-  std::vector<std::uint32_t> slot;    // by the caller's vertex: 32 times its leaf, plus its lane
+  std::vector<std::uint32_t> slot;    // by the caller's vertex: 32 times its leaf plus its lane
   std::vector<VertexId> permutation;  // in index order: the caller's vertex
-  std::vector<VertexId> leaf_begin;   // by leaf, and one more
+  std::vector<VertexId> leaf_begin;   // by leaf, and one more: its first vertex in index order
 };
 
-/// Cuts the vertices into leaves of at most 32 that lie close together and, wherever the mesh allows it without leaves
-/// of a few vertices, are connected. Eight, sixty-four, ... consecutive leaves lie close together again.
-/// The graph is valid. Throws Error{TooLarge} beyond `kMaxLeaves`. O(#V log #V + #E).
+/// Divides the vertices into leaves of 1 to 32 vertices that lie close together and are connected, unless that would
+/// take leaves of few vertices. Runs of 8, 64, 512 ... leaves lie close together as well. Vertices within a leaf keep
+/// the caller's order.
+///
+/// graph  valid
+/// frame  the frame of its positions
+/// Throws Error{TooLarge} for more than `kMaxLeaves` leaves, and Error{Cancelled}. O(#V log #V + #E).
 [[nodiscard]] LeafPartition make_leaves(const GraphView& graph, const Frame& frame, TaskContext& task);
 
-/// Throws Error{TooLarge} unless the places in so many leaves are numbers of 32 bits.
+/// Throws Error{TooLarge} if the slots of so many leaves do not fit into 32 bits.
 void check_leaf_count(std::size_t leaves);
 
 }  // namespace meshhood

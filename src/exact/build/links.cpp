@@ -2,15 +2,14 @@
 #include "exact/build/links.h"
 
 #include <algorithm>
-#include <bit>
-#include <string>
 
-#include "meshhood/error.h"
+#include "exact/lane_search.h"
 
 namespace meshhood {
 namespace {
 
-/// An edge that leaves a leaf as one number: the other leaf, the lane here, the lane there.
+/// An edge that leaves a leaf as one number, which orders edges by the other leaf, then the lane in this leaf, then the
+/// lane in the other.
 using Exit = std::uint64_t;
 
 Exit make_exit(unsigned lane, std::uint32_t slot) {
@@ -25,19 +24,19 @@ CrossEdge cross_edge_of(Exit exit) {
           static_cast<std::uint8_t>(exit % kLeafCapacity)};
 }
 
-/// `exits` ascend, so those to one leaf come together.
+/// `exits` are in ascending order, so those to one leaf are consecutive.
 void append_links(const std::vector<Exit>& exits, Links& out) {
   for (std::size_t i = 0; i < exits.size(); ++i) {
     if (i == 0 || target_leaf(exits[i]) != target_leaf(exits[i - 1])) {
       out.links.push_back({target_leaf(exits[i]), 0, static_cast<std::uint32_t>(out.cross_edges.size())});
     }
     const CrossEdge cross_edge = cross_edge_of(exits[i]);
-    out.links.back().boundary |= LaneMask{1} << cross_edge.from;
+    out.links.back().boundary |= LaneMask{1} << cross_edge.from;  // mutant: boundary-of-last-edge-only
     out.cross_edges.push_back(cross_edge);
   }
 }
 
-/// The links of the leaves `begin .. end - 1`, counted from the first of them. Their part of `adjacency` is filled.
+/// The links of the leaves `begin .. end - 1`, numbered from 0. Fills their part of `adjacency`.
 Links link_leaves(const AdjacencyView& graph, const LeafPartition& leaves, std::size_t begin, std::size_t end,
                   std::vector<LaneMask>& adjacency) {
   Links result;
@@ -49,26 +48,28 @@ Links link_leaves(const AdjacencyView& graph, const LeafPartition& leaves, std::
       for (const VertexId w : graph[leaves.permutation[v]]) {
         const std::uint32_t slot = leaves.slot[w];
         if (leaf_of(slot) == leaf) {
-          adjacency[v] |= LaneMask{1} << lane_of(slot);
+          adjacency[v] |= LaneMask{1} << lane_of(slot);  // mutant: only-last-neighbor-in-leaf
         } else {
           exits.push_back(make_exit(static_cast<unsigned>(v - first), slot));
         }
       }
     }
-    std::sort(exits.begin(), exits.end());
+    std::sort(exits.begin(), exits.end());  // mutant: fourth-exit-dropped
     append_links(exits, result);
     result.link_end.push_back(static_cast<std::uint32_t>(result.links.size()));
   }
   return result;
 }
 
-/// Appends the links of the leaves that follow.
+/// Appends the links of the leaves after those in `all`.
 void append(const Links& next, Links& all) {
   const auto links = static_cast<std::uint32_t>(all.links.size());
   const auto cross_edges = static_cast<std::uint32_t>(all.cross_edges.size());
+  // mutant: links-of-later-leaves-not-moved
   for (const std::uint32_t end : next.link_end) all.link_end.push_back(links + end);
-  for (const Link& link : next.links)
+  for (const Link& link : next.links) {
     all.links.push_back({link.leaf, link.boundary, cross_edges + link.first_cross_edge});
+  }
   all.cross_edges.insert(all.cross_edges.end(), next.cross_edges.begin(), next.cross_edges.end());
 }
 
@@ -90,14 +91,7 @@ Links make_links(const AdjacencyView& graph, const LeafPartition& leaves, TaskCo
 }
 
 bool is_connected(const LaneMask* adjacency, unsigned size) {
-  if (size == 0) return true;
-  LaneMask reached = 1;
-  for (LaneMask todo = 1; todo != 0;) {
-    const LaneMask added = adjacency[std::countr_zero(todo)] & ~reached;
-    todo = (todo & (todo - 1)) | added;
-    reached |= added;
-  }
-  return reached == first_lanes(size);
+  return size == 0 || reachable_lanes(adjacency, 1) == first_lanes(size);  // mutant: every-leaf-connected
 }
 
 }  // namespace meshhood

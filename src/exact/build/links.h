@@ -11,18 +11,18 @@
 
 namespace meshhood {
 
-/// The edges of the mesh, as the leaves see them.
+/// The edges of the mesh, by leaf.
 struct Links {
-  std::vector<LaneMask> adjacency;      // in index order: the neighbours within the leaf
-  std::vector<std::uint32_t> link_end;  // by leaf: where its links end
-  std::vector<Link> links;              // one more, for the end of the last cross_edges
-  std::vector<CrossEdge> cross_edges;
+  std::vector<LaneMask> adjacency;      // in index order: the neighbours in the same leaf
+  std::vector<std::uint32_t> link_end;  // by leaf: the end of its links
+  std::vector<Link> links;              // by leaf, then by linked leaf; one more, for the end of the last cross edges
+  std::vector<CrossEdge> cross_edges;   // by link, then by `from`, then by `to`
 };
 
-/// O(#V + #E log(edges that leave a leaf)).
+/// Every edge of the mesh in both directions. O(#V + #E log(edges that leave a leaf)).
 [[nodiscard]] Links make_links(const AdjacencyView& adjacency, const LeafPartition& leaves, TaskContext& task);
 
-/// Whether the first `size` vertices of a leaf hang together by the edges between them.
+/// Whether the `size` vertices of a leaf are connected by the edges between them; true for one and for none.
 [[nodiscard]] bool is_connected(const LaneMask* adjacency, unsigned size);
 
 }  // namespace meshhood

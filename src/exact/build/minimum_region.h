@@ -12,31 +12,35 @@
 
 namespace meshhood {
 
-/// Where a query vertex may stand so that some vertex of a leaf is a local minimum of the distance to it: none of its
-/// neighbours is nearer. On a nearly flat leaf that is a region over the leaf along its normal, above and below. Seen
-/// from outside the region, every vertex of the leaf has a nearer neighbour.
+/// The points from which some vertex of a set may be a local minimum of the distance, which means that none of its
+/// neighbours is nearer. Seen from any point outside the region, every vertex of the set has a nearer neighbour. For a
+/// nearly flat set the region extends along the normal to both sides, like a double cone with a rounded waist.
 ///
-/// A point `x` from the centre of the leaf's bounding sphere lies in the region where `|x| <= reach + |x . axis|`.
+/// The point `x`, relative to the centre of the set's bounding sphere, lies in the region if
+/// `|x| <= offset + |x . slope_axis|`.
 struct MinimumRegion {
-  Point axis{0, 0, 0};  // longer than 1: the more so, the wider the region opens
-  double reach;         // infinite where no region is known
+  Point slope_axis{0, 0, 0};  // its length is at least 1, and grows with the opening angle
+  double offset;              // infinite if no smaller region is known than all of space
 };
 
-/// Around everything.
 inline constexpr MinimumRegion kUnboundedRegion{{0, 0, 0}, std::numeric_limits<double>::infinity()};
 
-/// An edge of a leaf's vertex, to any vertex of the mesh.
+/// An edge from a vertex of a leaf to any vertex of the mesh.
 struct LeafEdge {
   std::uint32_t lane;
   std::uint32_t neighbor;  // in index order
 };
 
-/// The region of the vertices `first .. first + size - 1` of `points`, which are all vertices of the mesh in index
-/// order, in the frame. `edges`: theirs, in any order.
+/// A region of the vertices `first .. first + size - 1`, 1 to 32 of them.
+///
+/// points  all vertices of the mesh in index order, in the frame
+/// edges   all edges of these vertices, in any order
+/// centre  the centre of the leaf's bounding sphere
+/// O(edges log(valence)).
 [[nodiscard]] MinimumRegion leaf_minimum_region(std::span<const Point> points, std::size_t first, std::size_t size,
                                                 std::span<const LeafEdge> edges, const Point& centre);
 
-/// A region around the regions of `children`, which stand at `centres`, seen from `centre`.
+/// A region, relative to `centre`, that contains the regions of `children`, which are relative to `centres`.
 [[nodiscard]] MinimumRegion enclosing_minimum_region(std::span<const MinimumRegion> children,
                                                      std::span<const Point> centres, const Point& centre);
 

@@ -11,16 +11,16 @@
 namespace meshhood {
 namespace {
 
-// What floats may lose: the roundings of a vertex, of the query and of a centre in the frame, 2^-24.2 each; and those
-// of the comparison, some 2^-22 of the radius.
+// The margin that single precision needs: a vertex, the query vertex and a centre are each rounded by up to 2^-24.2 in
+// the frame, and the comparison of a distance with a radius by about 2^-22 of the radius.
 constexpr double kRelativeRoom = 0x1p-20;
 constexpr double kAbsoluteRoom = 0x1p-22;
 constexpr double kRegionRoom = 0x1p-20;
 
-// Farther than any vertex, and its square still a float.
+// Farther than any vertex; its square is still a float.
 constexpr float kFarAway = 1e18F;
 
-/// The float after the one nearest to `value`: more than `value`.
+/// A float greater than `value`: the one after the nearest.
 float step_above(double value) {
   return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
 }
@@ -47,17 +47,17 @@ void set_node(Group& group, std::size_t i, const FrameSphere& bounds, const Mini
   group.y[i] = bounds.y;
   group.z[i] = bounds.z;
   group.radius[i] = bounds.radius;
-  group.slope_x[i] = static_cast<float>(region.axis.x);
-  group.slope_y[i] = static_cast<float>(region.axis.y);
-  group.slope_z[i] = static_cast<float>(region.axis.z);
-  group.offset[i] = step_above(region.reach + kRegionRoom);
+  group.slope_x[i] = static_cast<float>(region.slope_axis.x);
+  group.slope_y[i] = static_cast<float>(region.slope_axis.y);
+  group.slope_z[i] = static_cast<float>(region.slope_axis.z);
+  group.offset[i] = step_above(region.offset + kRegionRoom);  // mutant: region-too-narrow
 }
 
 void set_absent(Group& group, std::size_t i) {
   set_node(group, i, {kFarAway, kFarAway, kFarAway, 0}, MinimumRegion{{0, 0, 0}, 0});
 }
 
-/// The eight nodes from `begin` on, side by side.
+/// The eight nodes from `begin` on.
 Group make_group(const NodeList& level, std::size_t begin) {
   Group group;
   for (std::size_t i = 0; i < kFanOut; ++i) {
@@ -77,14 +77,14 @@ void append_level(const NodeList& nodes, TreeArrays& tree) {
   tree.mean_radii.push_back(mean_radius(std::span(tree.groups).subspan(begin), count));
 }
 
-/// The nodes above those of `level`; each of the latter covers `leaves` leaves.
+/// The parents of the nodes of `level`, each of which covers `leaves` leaves.
 NodeList make_parents(const NodeList& level, std::size_t leaves, std::span<const VertexId> leaf_begin,
                       std::span<const Point> points, TaskContext& task) {
   const std::size_t leaf_count = leaf_begin.size() - 1;
   NodeList parents(group_count(level.bounds.size()));
   task.parallel_for(parents.bounds.size(), 1, [&](unsigned, std::size_t parent, std::size_t) {
     const std::size_t begin = parent * kFanOut;
-    const std::size_t end = std::min(begin + kFanOut, level.bounds.size());
+    const std::size_t end = std::min(begin + kFanOut, level.bounds.size());  // mutant: parent-without-last-child
     std::vector<Point> centres;
     for (std::size_t i = begin; i < end; ++i) centres.push_back(centre_of(level.bounds[i]));
     const std::size_t first = leaf_begin[begin * leaves];
@@ -103,7 +103,7 @@ FrameSphere enclosing_sphere(std::span<const Point> points, const Point& centre)
   const Point rounded = centre_of(sphere);
   double farthest = 0;
   for (const Point& p : points) farthest = std::max(farthest, squared_distance(p, rounded));
-  sphere.radius = step_above(std::sqrt(farthest) * (1 + kRelativeRoom) + kAbsoluteRoom);
+  sphere.radius = step_above(std::sqrt(farthest) * (1 + kRelativeRoom) + kAbsoluteRoom);  // mutant: sphere-too-small
   return sphere;
 }
 
@@ -114,7 +114,7 @@ FrameSphere enclosing_sphere(std::span<const Point> points) {
 bool is_absent(const Group& group, std::size_t i) {
   Group other = group;
   set_absent(other, i);
-  // Bit for bit, for so it was made. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
+  // Absent nodes are made by `set_absent`, bit for bit. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
   return std::memcmp(&other, &group, sizeof(Group)) == 0;
 }
 
@@ -123,7 +123,7 @@ double mean_radius(std::span<const Group> level, std::size_t nodes) {
   for (std::size_t node = 0; node < nodes; ++node) {
     sum += static_cast<double>(level[node / kFanOut].radius[node % kFanOut]);
   }
-  return sum / static_cast<double>(nodes);
+  return sum / static_cast<double>(nodes);  // mutant: mean-over-absent-nodes
 }
 
 TreeArrays make_tree(NodeList level, std::span<const VertexId> leaf_begin, std::span<const Point> points,

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace meshhood {
+
+/// The points `p` of a plane with `p . (x, y) <= offset - height * tilt`, for any height: a half plane whose boundary
+/// moves as the height grows. The normal (x, y) is not normalised.
+struct Halfplane {
+  double x;
+  double y;
+  double tilt;
+  double offset;  // at least 0, so that the origin lies in the half plane at height 0
+};
+
+/// Every point of a polygon at the given height lies within `width + slope * |height|` of the origin.
+struct PolygonExtent {
+  double width = 0;
+  double slope = 0;
+};
+
+/// The intersection of half planes, as a function of the height.
+class HalfplanePolygon {
+ public:
+  /// Keeps the first `kMaxHalfplanes`: without the others the polygon is larger, and its extent still an upper bound.
+  void add(const Halfplane& halfplane);
+
+  /// An upper bound on the extent, which is infinite where the polygon is unbounded or nearly so. Removes redundant
+  /// half planes. O(size^2) in the worst case, mostly O(size).
+  [[nodiscard]] PolygonExtent extent();
+
+  // A vertex has six neighbours on average; more would hardly make its polygon smaller.
+  static constexpr std::size_t kMaxHalfplanes = 24;
+
+ private:
+  struct Line {
+    double angle;
+    Halfplane halfplane;
+  };
+
+  void remove_redundant();
+  [[nodiscard]] bool is_redundant(std::size_t i) const;
+  void remove(std::size_t i);
+
+  std::array<Line, kMaxHalfplanes> lines_;  // the first `size_`, by the angle of their normals
+  std::size_t size_ = 0;
+};
+
+}  // namespace meshhood

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "exact/build/cell_components.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "base/adjacency.h"
+#include "base/frame.h"
+#include "exact/layout.h"
+#include "support/families.h"
+#include "support/family_name.h"
+
+namespace meshhood::test {
+namespace {
+
+/// The vertices of a mesh in kd order, and its graph.
+struct Cells {
+  explicit Cells(const TestMesh& mesh, unsigned threads = 1)
+      : task(threads, silent, 0),
+        adjacency(meshhood::adjacency(mesh.view())),
+        points(kd_points(mesh)),
+        graph((kd_order(points, kCellSize), points), adjacency.view(), task) {}
+
+  static std::vector<KdPoint> kd_points(const TestMesh& mesh) {
+    const Frame frame = make_frame(mesh.positions_view());
+    std::vector<KdPoint> result;
+    for (std::uint32_t v = 0; v < mesh.size(); ++v) {
+      const FramePoint p = frame.round(mesh.positions_view().visit([&](auto xyz) { return point(xyz, v); }));
+      result.push_back({{p.x, p.y, p.z}, v});
+    }
+    return result;
+  }
+
+  [[nodiscard]] std::vector<std::size_t> neighbors(std::size_t i) const {
+    std::vector<std::size_t> result;
+    graph.for_each_neighbor(i, [&](std::size_t other) { result.push_back(other); });
+    return result;
+  }
+
+  Progress silent;
+  TaskContext task;
+  Adjacency adjacency;
+  std::vector<KdPoint> points;
+  CellGraph graph;
+};
+
+/// For each vertex in kd order the first vertex that is connected to it within its cell.
+std::vector<std::size_t> connected_within_cells(const Cells& cells) {
+  std::vector<std::size_t> first(cells.graph.size());
+  std::iota(first.begin(), first.end(), 0);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      for (const std::size_t other : cells.neighbors(i)) {
+        if (other / kCellSize != i / kCellSize || first[other] >= first[i]) continue;
+        first[i] = first[other];
+        changed = true;
+      }
+    }
+  }
+  return first;
+}
+
+std::vector<std::uint32_t> sizes_of(const CellComponents& components) {
+  std::vector<std::uint32_t> result(components.size.size());
+  for (const std::uint32_t c : components.of) ++result[c];
+  return result;
+}
+
+class Families : public testing::TestWithParam<Family> {};
+
+TEST_P(Families, ComponentsOfCellsAreThoseOfTheGraphWithinEachCell) {
+  std::size_t count = 0;
+  for (const std::size_t vertices : {1U, 50U, 2000U}) {
+    Cells cells(make_mesh(GetParam(), 3, vertices));
+    const CellComponents components = split_cells(cells.graph, cells.task);
+    const std::vector<std::size_t> expected = connected_within_cells(cells);
+    ASSERT_EQ(components.of.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const std::uint32_t c = components.of[i];
+      ASSERT_EQ(c, components.of[expected[i]]) << "vertices connected within a cell";
+      ASSERT_GE(c, components.first[i / kCellSize]) << "numbered by cell";
+      ASSERT_LT(c, components.first[i / kCellSize + 1]) << "numbered by cell";
+    }
+    const std::size_t roots = static_cast<std::size_t>(std::count_if(
+        expected.begin(), expected.end(), [&, i = std::size_t{0}](std::size_t e) mutable { return e == i++; }));
+    ASSERT_EQ(components.size.size(), roots) << "vertices not connected lie in different components";
+    ASSERT_EQ(components.size, sizes_of(components));
+    count += roots;
+  }
+  std::printf("%s: %zu components\n", std::string(GetParam().name).c_str(), count);
+}
+
+TEST_P(Families, TheFirstComponentOfACellIsTheLargest) {
+  Cells cells(make_mesh(GetParam(), 4, 1000));
+  const CellComponents components = split_cells(cells.graph, cells.task);
+  for (std::size_t cell = 0; cell < cells.graph.cells(); ++cell) {
+    for (std::uint32_t c = components.first[cell]; c < components.first[cell + 1]; ++c) {
+      ASSERT_LE(components.size[c], components.size[components.first[cell]]);
+    }
+  }
+}
+
+TEST_P(Families, MergingKeepsComponentsTogetherAndFillsNoLeafOverItsCapacity) {
+  for (const std::size_t vertices : {1U, 50U, 3000U}) {
+    Cells cells(make_mesh(GetParam(), 5, vertices));
+    const CellComponents before = split_cells(cells.graph, cells.task);
+    CellComponents after = before;
+    merge_small(cells.graph, after);
+    std::vector<std::uint32_t> moved_to(before.size.size(), 0);
+    for (std::size_t i = 0; i < before.of.size(); ++i) moved_to[before.of[i]] = after.of[i];
+    for (std::size_t i = 0; i < before.of.size(); ++i) ASSERT_EQ(after.of[i], moved_to[before.of[i]]);
+    ASSERT_EQ(after.size, sizes_of(after));
+    for (const std::uint32_t size : after.size) ASSERT_LE(size, kLeafCapacity);
+  }
+}
+
+TEST_P(Families, AComponentStaysSmallOnlyIfNoNeighborHasRoom) {
+  Cells cells(make_mesh(GetParam(), 6, 3000));
+  const CellComponents before = split_cells(cells.graph, cells.task);
+  CellComponents after = before;
+  merge_small(cells.graph, after);
+  for (std::size_t i = 0; i < after.of.size(); ++i) {
+    const std::uint32_t c = after.of[i];
+    // Nothing has been merged into it, so that it had this size when it was its turn.
+    if (after.size[c] >= kSmallComponent || before.of[i] != c || before.size[c] != after.size[c]) continue;
+    for (const std::size_t other : cells.neighbors(i)) {
+      if (after.of[other] == c) continue;
+      ASSERT_GT(after.size[c] + after.size[after.of[other]], kLeafCapacity) << "component " << c;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(CellComponents, Families, testing::ValuesIn(families()), family_name);
+
+TEST(CellComponents, PointsWithoutEdgesShareTheirCell) {
+  TestMesh mesh;
+  Random random(1);
+  for (int i = 0; i < 300; ++i) mesh.add_vertex(random.uniform(), random.uniform(), random.uniform());
+  Cells cells(mesh.finish(true));
+  CellComponents components = split_cells(cells.graph, cells.task);
+  EXPECT_EQ(components.size.size(), 300U);
+  merge_small(cells.graph, components);
+  for (std::size_t i = 0; i < 300; ++i) EXPECT_EQ(components.of[i], components.of[i / kCellSize * kCellSize]);
+}
+
+/// Two sheets of `columns` columns, so near to each other that cells hold vertices of both.
+TestMesh two_sheets(std::size_t columns) {
+  TestMesh mesh = make_grid(4, columns, false);
+  TestMesh other = mesh;
+  for (std::size_t i = 2; i < other.positions.size(); i += 3) other.positions[i] = 0.01;
+  append(mesh, other);
+  return mesh.finish(true);
+}
+
+TEST(CellComponents, SheetsThatTouchInSpaceAreNotMerged) {
+  Cells cells(two_sheets(300));
+  CellComponents components = split_cells(cells.graph, cells.task);
+  merge_small(cells.graph, components);
+  std::vector<int> sheet(components.size.size(), -1);
+  for (std::size_t i = 0; i < components.of.size(); ++i) {
+    int& known = sheet[components.of[i]];
+    const int mine = cells.points[i].id < 1200 ? 0 : 1;
+    EXPECT_TRUE(known == -1 || known == mine) << "vertex " << cells.points[i].id;
+    known = mine;
+  }
+  const auto leaves = std::count_if(components.size.begin(), components.size.end(), [](auto size) { return size > 0; });
+  std::printf("%td leaves of 2400 vertices\n", leaves);
+  EXPECT_LE(leaves, 2400 / static_cast<std::ptrdiff_t>(kSmallComponent)) << "small components are merged";
+}
+
+TEST(CellComponents, AreTheSameForAnyNumberOfThreads) {
+  const TestMesh mesh = two_sheets(5000);
+  Cells one(mesh);
+  const CellComponents expected = split_cells(one.graph, one.task);
+  for (const unsigned threads : {2U, 5U}) {
+    Cells cells(mesh, threads);
+    const CellComponents components = split_cells(cells.graph, cells.task);
+    EXPECT_EQ(components.of, expected.of);
+    EXPECT_EQ(components.first, expected.first);
+    EXPECT_EQ(components.size, expected.size);
+  }
+}
+
+}  // namespace
+}  // namespace meshhood::test

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "exact/build/links.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "base/adjacency.h"
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+using Edge = std::pair<VertexId, VertexId>;
+
+struct Linked {
+  explicit Linked(const TestMesh& mesh, unsigned threads = 1) : graph(adjacency(mesh.view())) {
+    const Progress silent;
+    TaskContext task(threads, silent, 0);
+    leaves = make_leaves({mesh.positions_view(), graph.view()}, make_frame(mesh.positions_view()), task);
+    links = make_links(graph.view(), leaves, task);
+  }
+
+  [[nodiscard]] std::size_t leaf_count() const { return leaves.leaf_begin.size() - 1; }
+  [[nodiscard]] std::size_t first_link(std::size_t leaf) const { return leaf == 0 ? 0 : links.link_end[leaf - 1]; }
+
+  [[nodiscard]] std::span<const CrossEdge> cross_edges(std::size_t link) const {
+    const std::size_t first = links.links[link].first_cross_edge;
+    return std::span(links.cross_edges).subspan(first, links.links[link + 1].first_cross_edge - first);
+  }
+
+  [[nodiscard]] VertexId vertex(std::size_t leaf, std::size_t lane) const {
+    return leaves.permutation[leaves.leaf_begin[leaf] + lane];
+  }
+
+  Adjacency graph;
+  LeafPartition leaves;
+  Links links;
+};
+
+/// All edges, in both directions, as leaves and links hold them.
+std::vector<Edge> edges_of(const Linked& mesh) {
+  std::vector<Edge> result;
+  for (std::size_t leaf = 0; leaf < mesh.leaf_count(); ++leaf) {
+    const std::size_t begin = mesh.leaves.leaf_begin[leaf];
+    for (std::size_t i = begin; i < mesh.leaves.leaf_begin[leaf + 1]; ++i) {
+      for (LaneMask left = mesh.links.adjacency[i]; left != 0; left &= left - 1) {
+        result.emplace_back(mesh.vertex(leaf, i - begin),
+                            mesh.vertex(leaf, static_cast<std::size_t>(std::countr_zero(left))));
+      }
+    }
+    for (std::size_t link = mesh.first_link(leaf); link < mesh.links.link_end[leaf]; ++link) {
+      for (const CrossEdge& edge : mesh.cross_edges(link)) {
+        result.emplace_back(mesh.vertex(leaf, edge.from), mesh.vertex(mesh.links.links[link].leaf, edge.to));
+      }
+    }
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::vector<Edge> edges_of(const AdjacencyView& graph) {
+  std::vector<Edge> result;
+  for (std::size_t v = 0; v < graph.size(); ++v) {
+    for (const VertexId w : graph[v]) result.emplace_back(static_cast<VertexId>(v), w);
+  }
+  return result;
+}
+
+class Families : public testing::TestWithParam<Family> {};
+
+TEST_P(Families, HoldEveryEdgeOfTheMeshOnceInEachDirection) {
+  std::size_t edges = 0;
+  for (const std::size_t vertices : {1U, 50U, 3000U}) {
+    const Linked mesh(make_mesh(GetParam(), 2, vertices));
+    const std::vector<Edge> found = edges_of(mesh);
+    ASSERT_EQ(found, edges_of(mesh.graph.view()));
+    edges += found.size();
+  }
+  std::printf("%s: %zu edges\n", std::string(GetParam().name).c_str(), edges);
+}
+
+TEST_P(Families, AscendByLeafThenByLane) {
+  const Linked mesh(make_mesh(GetParam(), 3, 2000));
+  const auto number = [](const CrossEdge& edge) { return edge.from * kLeafCapacity + edge.to; };
+  for (std::size_t leaf = 0; leaf < mesh.leaf_count(); ++leaf) {
+    for (std::size_t link = mesh.first_link(leaf); link < mesh.links.link_end[leaf]; ++link) {
+      const Link& record = mesh.links.links[link];
+      ASSERT_NE(record.leaf, leaf);
+      ASSERT_TRUE(link == mesh.first_link(leaf) || mesh.links.links[link - 1].leaf < record.leaf);
+      const std::span<const CrossEdge> edges = mesh.cross_edges(link);
+      ASSERT_FALSE(edges.empty());
+      for (std::size_t i = 1; i < edges.size(); ++i) ASSERT_LT(number(edges[i - 1]), number(edges[i]));
+    }
+  }
+}
+
+TEST_P(Families, TheBoundaryOfALinkAreTheVerticesWithANeighborThere) {
+  const Linked mesh(make_mesh(GetParam(), 4, 2000));
+  for (std::size_t link = 0; link + 1 < mesh.links.links.size(); ++link) {
+    LaneMask expected = 0;
+    for (const CrossEdge& edge : mesh.cross_edges(link)) expected |= LaneMask{1} << edge.from;
+    ASSERT_EQ(mesh.links.links[link].boundary, expected);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Links, Families, testing::ValuesIn(families()), family_name);
+
+TEST(Links, AreTheSameForAnyNumberOfThreads) {
+  const TestMesh mesh = make_grid(150, 150, false).finish(true);
+  const Linked expected(mesh);
+  const Linked linked(mesh, 4);
+  EXPECT_EQ(linked.links.adjacency, expected.links.adjacency);
+  EXPECT_EQ(linked.links.link_end, expected.links.link_end);
+  EXPECT_EQ(edges_of(linked), edges_of(expected));
+}
+
+TEST(IsConnected, AgreesWithTheTransitiveClosure) {
+  Random random(1);
+  std::size_t connected = 0;
+  const std::size_t leaves = scaled(20000, 1000);
+  for (std::size_t i = 0; i < leaves; ++i) {
+    const unsigned size = static_cast<unsigned>(random.below(kLeafCapacity + 1));
+    std::vector<LaneMask> adjacency(kLeafCapacity, 0);
+    for (std::size_t edge = 0; size > 0 && edge < random.below(3 * size); ++edge) {
+      const std::size_t a = random.below(size);
+      const std::size_t b = random.below(size);
+      adjacency[a] |= LaneMask{1} << b;
+      adjacency[b] |= LaneMask{1} << a;
+    }
+    std::vector<LaneMask> closure = adjacency;
+    for (unsigned through = 0; through < size; ++through) {
+      for (LaneMask& row : closure) {
+        if ((row >> through & 1U) != 0) row |= closure[through];
+      }
+    }
+    const bool expected = size <= 1 || std::all_of(closure.begin(), closure.begin() + size,
+                                                   [&](LaneMask row) { return row == first_lanes(size); });
+    ASSERT_EQ(is_connected(adjacency.data(), size), expected) << size << " vertices";
+    connected += expected ? 1 : 0;
+  }
+  std::printf("%zu leaves, %zu connected\n", leaves, connected);
+  EXPECT_GT(connected, leaves / 100);
+  EXPECT_LT(connected, leaves);
+}
+
+}  // namespace
+}  // namespace meshhood::test

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "exact/build/tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "base/sphere.h"
+#include "base/vector.h"
+#include "support/random.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+Point random_point(Random& random, double size) {
+  return {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
+}
+
+Point unit(const Point& p) { return 1 / length(p) * p; }
+
+/// Leaves of three random vertices each, with random regions around a common normal.
+struct RandomLeaves {
+  RandomLeaves(Random& random, std::size_t leaves) : nodes(leaves), leaf_begin(leaves + 1) {
+    const Point normal = unit(random_point(random, 1));
+    for (std::size_t leaf = 0; leaf < leaves; ++leaf) {
+      leaf_begin[leaf] = static_cast<VertexId>(points.size());
+      const Point at = random_point(random, 0.9);
+      for (int i = 0; i < 3; ++i) points.push_back(at + random_point(random, 0.05));
+      nodes.bounds[leaf] = enclosing_sphere(std::span(points).last(3));
+      const Point axis = unit(normal + 0.1 * random_point(random, 1));
+      nodes.regions[leaf] = {random.uniform(1, 1.1) * axis, random.uniform(0.01, 0.2)};
+    }
+    leaf_begin[leaves] = static_cast<VertexId>(points.size());
+  }
+
+  [[nodiscard]] TreeArrays tree(unsigned threads = 1) const {
+    const Progress silent;
+    TaskContext task(threads, silent, 0);
+    return make_tree(nodes, leaf_begin, points, task);
+  }
+
+  NodeList nodes;
+  std::vector<VertexId> leaf_begin;
+  std::vector<Point> points;
+};
+
+Point centre(const Group& group, std::size_t i) {
+  return {static_cast<double>(group.x[i]), static_cast<double>(group.y[i]), static_cast<double>(group.z[i])};
+}
+
+MinimumRegion region(const Group& group, std::size_t i) {
+  return {{static_cast<double>(group.slope_x[i]), static_cast<double>(group.slope_y[i]),
+           static_cast<double>(group.slope_z[i])},
+          static_cast<double>(group.offset[i])};
+}
+
+bool contains(const MinimumRegion& region, const Point& x) {
+  return length(x) <= region.offset + std::abs(dot(x, region.slope_axis));
+}
+
+/// Calls `f(level, group, i)` for the node above a leaf on every level, the leaf itself first.
+template <class F>
+void for_each_node_above(const Tree& tree, std::size_t leaf, F&& f) {
+  std::size_t node = leaf;
+  for (std::size_t level = 0; level < tree.size(); ++level, node /= kFanOut) {
+    f(level, tree[level].groups[node / kFanOut], node % kFanOut);
+  }
+}
+
+constexpr std::size_t kSizes[] = {1, 2, 7, 8, 9, 64, 65, 600};
+
+TEST(Tree, SpheresEncloseTheVerticesBelowWithRoomForSinglePrecision) {
+  Random random(1);
+  std::size_t tests = 0;
+  for (const std::size_t size : kSizes) {
+    const RandomLeaves leaves(random, size);
+    const TreeArrays arrays = leaves.tree();
+    const Tree tree = make_levels(size, arrays.groups, arrays.mean_radii);
+    for (std::size_t leaf = 0; leaf < size; ++leaf) {
+      for (std::size_t v = leaves.leaf_begin[leaf]; v < leaves.leaf_begin[leaf + 1]; ++v) {
+        for_each_node_above(tree, leaf, [&](std::size_t level, const Group& group, std::size_t i) {
+          const double distance = length(leaves.points[v] - centre(group, i));
+          ASSERT_GT(static_cast<double>(group.radius[i]), distance * (1 + 0x1p-20) + 0x1p-22 - 1e-15) << level;
+          ++tests;
+        });
+      }
+    }
+  }
+  std::printf("%zu vertices in spheres\n", tests);
+}
+
+TEST(Tree, RegionsContainThoseOfTheLeavesBelow) {
+  Random random(2);
+  std::size_t tests = 0;
+  for (const std::size_t size : kSizes) {
+    const RandomLeaves leaves(random, size);
+    const TreeArrays arrays = leaves.tree();
+    const Tree tree = make_levels(size, arrays.groups, arrays.mean_radii);
+    for (std::size_t n = 0; n < 30 * size; ++n) {
+      const std::size_t leaf = n % size;
+      const MinimumRegion& own = leaves.nodes.regions[leaf];
+      // The surface of the leaf's region, as far away as two vertices can be.
+      const Point direction = unit(random_point(random, 1));
+      const double rest = 1 - std::abs(dot(direction, own.slope_axis));
+      const double far = rest > 0 ? std::min(own.offset / rest, 3.5) : 3.5;
+      const Point at = centre_of(leaves.nodes.bounds[leaf]) + far * direction;
+      for_each_node_above(tree, leaf, [&](std::size_t level, const Group& group, std::size_t i) {
+        ASSERT_TRUE(contains(region(group, i), at - centre(group, i))) << "level " << level;
+        ++tests;
+      });
+    }
+  }
+  std::printf("%zu points of regions\n", tests);
+}
+
+TEST(Tree, NodesThatDoNotExistAreAbsentAndNoOthers) {
+  Random random(3);
+  for (const std::size_t size : kSizes) {
+    const TreeArrays arrays = RandomLeaves(random, size).tree();
+    for (const TreeLevel& level : make_levels(size, arrays.groups, arrays.mean_radii)) {
+      for (std::size_t node = 0; node < level.groups.size() * kFanOut; ++node) {
+        EXPECT_EQ(is_absent(level.groups[node / kFanOut], node % kFanOut), node >= level.nodes);
+      }
+    }
+  }
+}
+
+TEST(Tree, MeanRadiiAreThoseOfTheNodesOfTheirLevel) {
+  Random random(4);
+  const TreeArrays arrays = RandomLeaves(random, 600).tree();
+  for (const TreeLevel& level : make_levels(600, arrays.groups, arrays.mean_radii)) {
+    double sum = 0;
+    for (std::size_t node = 0; node < level.nodes; ++node) {
+      sum += static_cast<double>(level.groups[node / kFanOut].radius[node % kFanOut]);
+    }
+    EXPECT_DOUBLE_EQ(level.mean_radius, sum / static_cast<double>(level.nodes));
+    EXPECT_EQ(mean_radius(level.groups, level.nodes), level.mean_radius);
+  }
+}
+
+TEST(Tree, OfNoLeafHasNoLevel) {
+  Random random(5);
+  const TreeArrays arrays = RandomLeaves(random, 0).tree();
+  EXPECT_TRUE(arrays.groups.empty());
+  EXPECT_TRUE(arrays.mean_radii.empty());
+}
+
+TEST(Tree, IsTheSameForAnyNumberOfThreads) {
+  Random random(6);
+  const RandomLeaves leaves(random, 3000);
+  const TreeArrays expected = leaves.tree();
+  const TreeArrays tree = leaves.tree(4);
+  EXPECT_EQ(tree.mean_radii, expected.mean_radii);
+  ASSERT_EQ(tree.groups.size(), expected.groups.size());
+  for (std::size_t i = 0; i < tree.groups.size(); ++i) {
+    EXPECT_EQ(tree.groups[i].radius, expected.groups[i].radius);
+    EXPECT_EQ(tree.groups[i].offset, expected.groups[i].offset);
+  }
+}
+
+TEST(EnclosingSphere, IsHardlyLargerThanTheSmallest) {
+  Random random(7);
+  for (std::size_t i = 0; i < scaled(2000, 100); ++i) {
+    std::vector<Point> points;
+    std::vector<double> xyz;
+    for (std::size_t k = 0; k <= i % 32; ++k) {
+      points.push_back(random_point(random, 0.5));
+      xyz.insert(xyz.end(), {points.back().x, points.back().y, points.back().z});
+    }
+    const double smallest = bounding_sphere(std::span<const double>(xyz)).radius;
+    const auto radius = static_cast<double>(enclosing_sphere(points).radius);
+    // The smallest sphere is itself found to within a thousandth.
+    ASSERT_LE(radius, smallest * 1.002 + 1e-6);
+    ASSERT_GE(radius, smallest * 0.999);
+  }
+}
+
+TEST(EnclosingSphere, HasTheGivenCentre) {
+  const std::vector<Point> points{{0.5, 0, 0}, {0, 0.25, 0}};
+  const FrameSphere sphere = enclosing_sphere(points, {0, 0, 0});
+  EXPECT_EQ(sphere.x, 0);
+  EXPECT_GT(sphere.radius, 0.5F);
+  EXPECT_LT(sphere.radius, 0.500002F);
+}
+
+}  // namespace
+}  // namespace meshhood::test
