@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/fingerprint.h"
 #include "meshhood/level.h"
 #include "meshhood/mesh.h"
 #include "meshhood/progress.h"
@@ -91,5 +92,9 @@ class Index {
 /// `paper::build`, `ball` and `mean_edge_length` want to know, for whoever has kept the index and not the mesh.
 /// O(#V + #E log(valence)).
 [[nodiscard]] GraphData extract_graph(const Index& index);
+
+/// The fingerprint of the mesh that the index was built from. O(#V + #E log(valence)); needs as much memory as
+/// `extract_graph(index)`.
+[[nodiscard]] Fingerprint fingerprint(const Index& index);
 
 }  // namespace meshhood

@@ -24,7 +24,7 @@ Fingerprint fingerprint(const MeshView& mesh) {
 
 Fingerprint fingerprint(const GraphView& graph) {
   return graph.positions.visit([&](auto xyz) {
-    // Without the sizes, a coordinate could be taken for a neighbour.
+    // The sizes separate the arrays: without them, two meshes could have the same bytes.
     const std::array<std::uint64_t, 3> sizes{sizeof(xyz[0]), xyz.size(), graph.adjacency.neighbors.size()};
     const AdjacencyView& adjacency = graph.adjacency;
     // A graph without vertices has one offset, or none.
@@ -32,11 +32,6 @@ Fingerprint fingerprint(const GraphView& graph) {
     return wide_checksum(
         {std::as_bytes(std::span(sizes)), std::as_bytes(xyz), std::as_bytes(ends), std::as_bytes(adjacency.neighbors)});
   });
-}
-
-Fingerprint fingerprint(const Index& index) {
-  const GraphData mesh = extract_graph(index);
-  return fingerprint(mesh.view());
 }
 
 }  // namespace meshhood

@@ -16,18 +16,18 @@
 namespace meshhood {
 namespace {
 
-constexpr std::size_t kMostFaults = 16;
+constexpr std::size_t kMaxFaults = 16;
 
-// From how many vertices regions are tried.
+// The number of vertices from which the minimum regions are tested.
 constexpr std::size_t kViewpoints = 24;
 
-/// What does not hold, as it is found.
+/// Collects the faults found, up to a limit.
 class Faults {
  public:
-  /// `text()` is asked for only where there is a fault to be told.
+  /// Calls `text()` only if there is a fault to describe.
   template <class Text>
   void expect(bool holds, Text&& text) {
-    if (!holds && found_.size() < kMostFaults) found_.push_back(text());
+    if (!holds && found_.size() < kMaxFaults) found_.push_back(text());
   }
 
   [[nodiscard]] bool none() const { return found_.empty(); }
@@ -42,20 +42,20 @@ std::string node_name(std::size_t level, std::size_t node) {
   return "level " + std::to_string(level) + ": node " + std::to_string(node);
 }
 
-/// An index beside the mesh it claims to be made from.
+/// Compares an index with the mesh that it should be built from.
 class Check {
  public:
   Check(const IndexView& index, const GraphView& graph) : index_(index), graph_(graph) {}
 
   std::vector<std::string> run() {
     check_numbering();
-    // What follows looks up vertices by their numbers.
+    // The other checks look up vertices by their numbers.
     if (!faults_.none()) return faults_.take();
     check_positions();
     check_edges();
     check_connected();
     check_spheres();
-    check_columns();
+    check_regions();
     return faults_.take();
   }
 
@@ -65,7 +65,7 @@ class Check {
   void check_numbering() {
     const std::size_t vertices = graph_.positions.size();
     faults_.expect(index_.vertex_count() == vertices, [&] {
-      return "the index has " + std::to_string(index_.vertex_count()) + " vertices, the mesh " +
+      return "the index has " + std::to_string(index_.vertex_count()) + " vertices, but the mesh has " +
              std::to_string(vertices);
     });
     if (!faults_.none()) return;
@@ -73,17 +73,20 @@ class Check {
       const std::size_t begin = index_.leaf_begin[leaf];
       const std::size_t end = leaf_end(leaf);
       const Leaf& record = index_.leaves[leaf];
-      faults_.expect(begin < end && end - begin <= kLeafCapacity && record.first == begin && record.size == end - begin,
-                     [&] { return leaf_name(leaf) + ": not 1 to 32 vertices, or not the same twice"; });
+      faults_.expect(
+          begin < end && end - begin <= kLeafCapacity && record.first == begin && record.size == end - begin,
+          [&] { return leaf_name(leaf) + ": does not hold 1 to 32 vertices, or its record differs from leaf_begin"; });
       for (std::size_t v = begin; v < end && faults_.none(); ++v) {
         const VertexId old = index_.id(v);
         faults_.expect(old < vertices && index_.slot[old] == leaf * kLeafCapacity + (v - begin), [&] {
-          return leaf_name(leaf) + ": vertex " + std::to_string(old) + " is not where its place says";
+          return leaf_name(leaf) + ": vertex " + std::to_string(old) + " does not have the slot of its position";
         });
       }
     }
     const std::size_t numbered = index_.leaf_begin.back();
-    faults_.expect(numbered == vertices, [&] { return "leaves hold " + std::to_string(numbered) + " vertices"; });
+    faults_.expect(numbered == vertices, [&] {
+      return "the leaves hold " + std::to_string(numbered) + " vertices, but the mesh has " + std::to_string(vertices);
+    });
   }
 
   void check_positions() {
@@ -91,7 +94,7 @@ class Check {
       const Point mine = position(v);
       const Point given = graph_.positions.visit([&](auto xyz) { return point(xyz, v); });
       faults_.expect(mine.x == given.x && mine.y == given.y && mine.z == given.z,
-                     [&] { return "vertex " + std::to_string(v) + ": not the position that the mesh gives it"; });
+                     [&] { return "vertex " + std::to_string(v) + ": its position differs from the mesh"; });
     }
   }
 
@@ -109,7 +112,7 @@ class Check {
       std::sort(rows[v].begin(), rows[v].end());
       const auto given = graph_.adjacency[v];
       faults_.expect(std::equal(rows[v].begin(), rows[v].end(), given.begin(), given.end()),
-                     [&] { return "vertex " + std::to_string(v) + ": not the neighbours that the mesh gives it"; });
+                     [&] { return "vertex " + std::to_string(v) + ": its neighbours differ from the mesh"; });
     }
   }
 
@@ -133,7 +136,8 @@ class Check {
         boundary |= LaneMask{1} << cross_edge.from;
       }
       faults_.expect(boundary == link.boundary, [&] {
-        return leaf_name(leaf) + ": its border to leaf " + std::to_string(link.leaf) + " is not where they are joined";
+        return leaf_name(leaf) + ": the boundary of its link to leaf " + std::to_string(link.leaf) +
+               " does not match the cross edges";
       });
     }
   }
@@ -142,7 +146,7 @@ class Check {
     for (std::size_t leaf = 0; leaf < index_.leaf_count(); ++leaf) {
       const Leaf& record = index_.leaves[leaf];
       faults_.expect(record.connected == is_connected(&index_.adjacency[record.first], record.size),
-                     [&] { return leaf_name(leaf) + ": wrongly marked as connected, or as not"; });
+                     [&] { return leaf_name(leaf) + ": its mark as connected or not is wrong"; });
     }
   }
 
@@ -150,13 +154,14 @@ class Check {
     for (std::size_t v = 0; v < index_.vertex_count(); ++v) {
       const Point p = index_.frame.to_frame(position(v));
       std::size_t node = leaf_of(index_.slot[v]);
-      faults_.expect(encloses(index_.leaves[node].bounds, p),
-                     [&] { return leaf_name(node) + ": vertex " + std::to_string(v) + " lies outside of its sphere"; });
+      faults_.expect(encloses(index_.leaves[node].bounds, p), [&] {
+        return leaf_name(node) + ": vertex " + std::to_string(v) + " lies outside the bounding sphere";
+      });
       for (std::size_t level = 0; level < index_.tree.size(); ++level, node /= kFanOut) {
         const Group& group = index_.tree[level].groups[node / kFanOut];
         const std::size_t i = node % kFanOut;
         faults_.expect(encloses({group.x[i], group.y[i], group.z[i], group.radius[i]}, p), [&] {
-          return node_name(level, node) + ": vertex " + std::to_string(v) + " lies outside of its sphere";
+          return node_name(level, node) + ": vertex " + std::to_string(v) + " lies outside the bounding sphere";
         });
       }
     }
@@ -166,14 +171,14 @@ class Check {
     return std::sqrt(squared_distance(centre_of(sphere), p)) <= static_cast<double>(sphere.radius);
   }
 
-  void check_columns() {
+  void check_regions() {
     const std::size_t vertices = index_.vertex_count();
     const std::size_t step = std::max<std::size_t>(1, vertices / kViewpoints);
-    for (std::size_t v = 0; v < vertices; v += step) check_columns_from(v);
+    for (std::size_t v = 0; v < vertices; v += step) check_regions_from(v);
   }
 
-  /// Every local minimum of the distance from `v` must lie in nodes whose regions hold `v`.
-  void check_columns_from(std::size_t v) {
+  /// Every local minimum of the distance from `v` must lie in nodes whose minimum regions contain `v`.
+  void check_regions_from(std::size_t v) {
     const TreeBall ball(index_.frame, position(v), 0);
     for (std::size_t w = 0; w < index_.vertex_count(); ++w) {
       if (w == v || !is_minimum(w, position(v))) continue;
@@ -183,8 +188,8 @@ class Check {
         GroupContainment found{};
         portable_kernels().classify(index_.tree[level].groups.data(), std::span(&group, 1), ball, &found);
         faults_.expect((found.may_have_minimum >> node % kFanOut & 1U) != 0, [&] {
-          return node_name(level, node) + ": vertex " + std::to_string(v) + " lies outside of its column, but vertex " +
-                 std::to_string(w) + " has no neighbour nearer to it";
+          return node_name(level, node) + ": vertex " + std::to_string(v) +
+                 " lies outside the minimum region, but sees vertex " + std::to_string(w) + " as a local minimum";
         });
       }
     }

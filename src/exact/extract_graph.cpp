@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The mesh's graph, taken back out of the leaves and the links between them.
+// The graph of the mesh, from the leaves and the links between them.
 #include "exact/extract_graph.h"
 
 #include <algorithm>
@@ -17,10 +17,10 @@
 namespace meshhood {
 namespace {
 
-/// To be called for every vertex: asks seldom enough to cost nothing.
+/// Called for every vertex; polls seldom enough to cost nothing.
 void poll_cancel(TaskContext& task, std::size_t vertex) {
-  constexpr std::size_t kBetween = 1024;
-  if (vertex % kBetween == 0) task.should_continue(0);
+  constexpr std::size_t kInterval = 1024;
+  if (vertex % kInterval == 0) task.should_continue(0);
 }
 
 /// The positions in the caller's order.
@@ -69,14 +69,20 @@ Adjacency adjacency_of(const IndexView& index, TaskContext& task) {
 }  // namespace
 
 GraphData extract_graph(const Index& index, TaskContext& task) {
-  const IndexView& storage = IndexAccess::view(index);
-  return {positions_of(storage, task), adjacency_of(storage, task)};
+  const IndexView& view = IndexAccess::view(index);
+  return {positions_of(view, task), adjacency_of(view, task)};
 }
 
 GraphData extract_graph(const Index& index) {
-  const Progress nobody;
-  TaskContext task(1, nobody, 0);
+  const Progress silent;
+  TaskContext task(1, silent, 0);
   return extract_graph(index, task);
 }
+
+Fingerprint fingerprint(const Index& index, TaskContext& task) {
+  return fingerprint(extract_graph(index, task).view());
+}
+
+Fingerprint fingerprint(const Index& index) { return fingerprint(extract_graph(index).view()); }
 
 }  // namespace meshhood

@@ -8,8 +8,8 @@
 
 namespace meshhood {
 
-/// As `extract_graph(index)`. Who watches the work is asked now and then whether to go on, and told of no progress.
-/// Throws Error{Cancelled}.
+/// The same as without `task`, which it polls for cancellation; reports no progress. Throws Error{Cancelled}.
 [[nodiscard]] GraphData extract_graph(const Index& index, TaskContext& task);
+[[nodiscard]] Fingerprint fingerprint(const Index& index, TaskContext& task);
 
 }  // namespace meshhood

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sections of the exact index: its arrays as they lie in memory, which is what can be mapped.
+// Saves and loads the exact index. Its sections are its arrays as they are in memory, so that a file can be mapped.
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -20,7 +20,7 @@
 namespace meshhood {
 namespace {
 
-// Without a byte between or behind the fields: all of them have a value.
+// No padding bytes: every byte in the file has a defined value.
 static_assert(sizeof(Frame) == 32 && sizeof(Leaf) == 28 && sizeof(Link) == 12 && sizeof(CrossEdge) == 2 &&
               sizeof(Group) == 256);
 
@@ -56,13 +56,13 @@ void verify_sizes(const IndexView& view, const file::SectionReader& file) {
   const std::size_t leaves = view.leaves.empty() ? 0 : view.leaves.size() - 1;
   if (view.leaves.empty() || leaves > vertices || (leaves == 0) != (vertices == 0)) {
     refuse("leaves",
-           std::to_string(view.leaves.size()) + " records of leaves for " + std::to_string(vertices) + " vertices");
+           std::to_string(view.leaves.size()) + " leaf records for " + std::to_string(vertices) + " vertices");
   }
   expect("leaf_begin", view.leaf_begin.size(), leaves + 1, " values");
-  if (view.links.empty()) refuse("links", "no link, expected one at the end at least");
+  if (view.links.empty()) refuse("links", "no link record, expected at least the one that marks the end");
   if (view.cross_edges.size() < kLeafCapacity) {
-    refuse("crossings", std::to_string(view.cross_edges.size()) + " crossings, expected " +
-                            std::to_string(kLeafCapacity) + " at the end at least");
+    refuse("crossings", std::to_string(view.cross_edges.size()) + " cross edges, expected at least " +
+                            std::to_string(kLeafCapacity) + " of padding");
   }
   expect("adjacency", view.adjacency.size(), padded, " values");
   expect("groups", view.groups.size(), tree_groups(leaves), " values");
@@ -91,14 +91,8 @@ void add(file::SectionWriter& writer, const char* section, const PositionsInOrde
 void verify_alignment(std::span<const std::byte> bytes) {
   const auto address = reinterpret_cast<std::uintptr_t>(bytes.data());
   if (address % kIndexAlignment == 0) return;
-  raise(ErrorCode::InvalidOption, "bytes to be mapped begin " + std::to_string(address % kIndexAlignment) +
-                                      " after a multiple of " + std::to_string(kIndexAlignment));
-}
-
-/// As `fingerprint(index)`, which would not be watched.
-Fingerprint fingerprint_of(const Index& index, TaskContext& task) {
-  const GraphData mesh = extract_graph(index, task);
-  return fingerprint(mesh.view());
+  raise(ErrorCode::InvalidOption, "the bytes to map begin " + std::to_string(address % kIndexAlignment) +
+                                      " bytes after a multiple of " + std::to_string(kIndexAlignment));
 }
 
 }  // namespace
@@ -111,7 +105,7 @@ void save(const Index& index, const Sink& sink, const SaveOptions& options) {
   const bool is_double = std::holds_alternative<std::span<const double>>(view.positions);
   const std::size_t scalar_bytes = is_double ? sizeof(double) : sizeof(float);
   TaskContext task(1, options.progress, writer.parts());
-  const Fingerprint mesh = fingerprint_of(index, task);
+  const Fingerprint mesh = fingerprint(index, task);
   task.report_progress();
   writer.write({.vertices = view.vertex_count(),
                 .mesh = mesh,
@@ -121,7 +115,7 @@ void save(const Index& index, const Sink& sink, const SaveOptions& options) {
 }
 
 Index load(std::span<const std::byte> bytes, const LoadOptions& options) {
-  // Before anything is allocated for it.
+  // Before the copy is allocated.
   static_cast<void>(read_header(bytes));
   file::AlignedCopy copy(bytes);
   const auto at = copy.bytes();

@@ -16,7 +16,7 @@
 namespace meshhood {
 namespace {
 
-/// Makes the index order that of the mesh, and returns the caller's vertices in it.
+/// Makes the index order the caller's order: the index then needs no permutation. Returns the former permutation.
 std::vector<VertexId> adopt_order(IndexData& index) {
   std::vector<VertexId> permutation = std::exchange(index.permutation, {});
   permutation.resize(index.slot.size());
@@ -35,8 +35,9 @@ std::vector<VertexId> inverse(std::span<const VertexId> permutation) {
   return result;
 }
 
-/// Where each face goes: by its first vertex in the new order, those without corners last; else as they came.
-std::vector<std::uint32_t> place_faces(const FacesView& faces, std::span<const VertexId> new_id) {
+/// The new number of each face. Faces are sorted by their first vertex in the new order, those without corners last,
+/// and keep their order otherwise.
+std::vector<std::uint32_t> number_faces(const FacesView& faces, std::span<const VertexId> new_id) {
   const auto first_vertex = [&](auto corners) {
     std::size_t first = new_id.size();
     for (const auto corner : corners) first = std::min<std::size_t>(first, new_id[static_cast<std::size_t>(corner)]);
@@ -45,23 +46,23 @@ std::vector<std::uint32_t> place_faces(const FacesView& faces, std::span<const V
   std::vector<std::uint32_t> next(new_id.size() + 2, 0);
   faces.for_each([&](std::size_t, auto corners) { ++next[first_vertex(corners) + 1]; });
   std::partial_sum(next.begin(), next.end(), next.begin());
-  std::vector<std::uint32_t> place(faces.size());
-  faces.for_each([&](std::size_t face, auto corners) { place[face] = next[first_vertex(corners)]++; });
-  return place;
+  std::vector<std::uint32_t> number(faces.size());
+  faces.for_each([&](std::size_t face, auto corners) { number[face] = next[first_vertex(corners)]++; });
+  return number;
 }
 
 void add_faces(const FacesView& faces, std::span<const VertexId> new_id, ReorderedMesh& out) {
-  const std::vector<std::uint32_t> place = place_faces(faces, new_id);
+  const std::vector<std::uint32_t> number = number_faces(faces, new_id);
   out.face_permutation.resize(faces.size());
   out.face_offsets.resize(faces.size() + 1);
   faces.for_each([&](std::size_t face, auto corners) {
-    out.face_permutation[place[face]] = static_cast<std::uint32_t>(face);
-    out.face_offsets[place[face] + std::size_t{1}] = static_cast<std::uint32_t>(corners.size());
+    out.face_permutation[number[face]] = static_cast<std::uint32_t>(face);
+    out.face_offsets[number[face] + std::size_t{1}] = static_cast<std::uint32_t>(corners.size());
   });
   std::partial_sum(out.face_offsets.begin(), out.face_offsets.end(), out.face_offsets.begin());
   out.corners.resize(out.face_offsets.back());
   faces.for_each([&](std::size_t face, auto corners) {
-    std::transform(corners.begin(), corners.end(), out.corners.begin() + out.face_offsets[place[face]],
+    std::transform(corners.begin(), corners.end(), out.corners.begin() + out.face_offsets[number[face]],
                    [&](auto corner) { return new_id[static_cast<std::size_t>(corner)]; });
   });
   if (faces.are_triangles()) out.face_offsets = {};

@@ -15,33 +15,35 @@ namespace {
 
 std::string name(const char* what, std::size_t number) { return what + (" " + std::to_string(number)); }
 
-/// As it lies in memory: what a file has put there need not be a bool.
+/// Reads the byte: a file may contain bytes that are not a valid bool.
 bool is_bool(const bool& value) { return std::to_integer<unsigned>(*reinterpret_cast<const std::byte*>(&value)) <= 1; }
 
 void verify_leaf(const IndexView& index, std::size_t leaf, const SectionReader& file) {
   const std::size_t begin = index.leaf_begin[leaf];
   const std::size_t end = index.leaf_begin[leaf + 1];
-  if (begin >= end || end - begin > kLeafCapacity) {
-    file.refuse(&index.leaf_begin[leaf + 1], name("leaf", leaf) + ": from vertex " + std::to_string(begin) + " to " +
-                                                 std::to_string(end) + ", expected 1 to 32 of them");
+  if (begin >= end || end - begin > kLeafCapacity) {  // mutant: oversized-leaf-accepted
+    file.refuse(&index.leaf_begin[leaf + 1], name("leaf", leaf) + ": vertices " + std::to_string(begin) + " to " +
+                                                 std::to_string(end) + ", expected 1 to 32 vertices");
   }
   const Leaf& record = index.leaves[leaf];
-  if (record.first != begin || record.size != end - begin) {
-    file.refuse(&record, name("leaf", leaf) + ": " + std::to_string(record.size) + " vertices from " +
-                             std::to_string(record.first) + " on, expected " + std::to_string(end - begin) + " from " +
-                             std::to_string(begin) + " on");
+  if (record.first != begin || record.size != end - begin) {  // mutant: leaf-record-not-compared
+    file.refuse(&record, name("leaf", leaf) + ": " + std::to_string(record.size) + " vertices from vertex " +
+                             std::to_string(record.first) + ", expected " + std::to_string(end - begin) +
+                             " from vertex " + std::to_string(begin));
   }
   if (!is_bool(record.connected) || record.unused != 0) {
-    file.refuse(&record.connected, name("leaf", leaf) + ": neither marked as connected nor as not");
+    file.refuse(&record.connected,
+                name("leaf", leaf) + ": the mark as connected is neither 0 nor 1, or unused bytes are not 0");
   }
 }
 
 void verify_last_leaf(const IndexView& index, const SectionReader& file) {
   const Leaf& last = index.leaves.back();
   const Leaf expected{{}, static_cast<std::uint32_t>(index.vertex_count()), last.first_link, 0, false};
-  // Byte for byte, as it was saved. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
+  // All bytes are defined. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
   if (std::memcmp(&last, &expected, sizeof(Leaf)) != 0) {
-    file.refuse(&last, "not the end of " + std::to_string(index.vertex_count()) + " vertices");
+    file.refuse(&last,
+                "the last record does not mark the end of " + std::to_string(index.vertex_count()) + " vertices");
   }
 }
 
@@ -59,10 +61,10 @@ void verify(const IndexView& index, const SectionReader& file, TaskContext& task
 
 void verify_numbering(const IndexView& index, const SectionReader& file) {
   const std::size_t vertices = index.vertex_count();
-  if (index.leaf_begin.front() != 0) file.refuse(&index.leaf_begin.front(), "leaf 0 does not begin with vertex 0");
+  if (index.leaf_begin.front() != 0) file.refuse(&index.leaf_begin.front(), "leaf 0 does not begin at vertex 0");
   for (std::size_t leaf = 0; leaf < index.leaf_count(); ++leaf) verify_leaf(index, leaf, file);
   if (index.leaf_begin.back() != vertices) {
-    file.refuse(&index.leaf_begin.back(), "leaves hold " + std::to_string(index.leaf_begin.back()) +
+    file.refuse(&index.leaf_begin.back(), "the leaves hold " + std::to_string(index.leaf_begin.back()) +
                                               " vertices, expected " + std::to_string(vertices));
   }
   verify_last_leaf(index, file);
@@ -71,12 +73,13 @@ void verify_numbering(const IndexView& index, const SectionReader& file) {
       const std::size_t v = index.id(i);
       const std::size_t slot = leaf * kLeafCapacity + (i - index.leaf_begin[leaf]);
       if (v >= vertices) {
-        file.refuse(&index.permutation[i], name("vertex", v) + ", but there are " + std::to_string(vertices));
+        file.refuse(&index.permutation[i],
+                    name("vertex", v) + ", but there are " + std::to_string(vertices) + " vertices");
       }
-      // Different places for different vertices in index order: so no id comes twice.
-      if (index.slot[v] != slot) {
-        file.refuse(&index.slot[v], name("vertex", v) + " is at place " + std::to_string(index.slot[v]) +
-                                        ", expected " + std::to_string(slot));
+      // The slots of different positions differ, so no id occurs twice.
+      if (index.slot[v] != slot) {  // mutant: slots-not-compared
+        file.refuse(&index.slot[v], name("vertex", v) + " has slot " + std::to_string(index.slot[v]) + ", expected " +
+                                        std::to_string(slot));
       }
     }
   }
@@ -90,18 +93,18 @@ void verify_edges_within(const IndexView& index, const SectionReader& file) {
     for (unsigned lane = 0; lane < record.size; ++lane) {
       if ((rows[lane] & (~first_lanes(record.size) | LaneMask{1} << lane)) != 0) {
         file.refuse(&rows[lane], name("leaf", leaf) + ": lane " + std::to_string(lane) +
-                                     " has itself for a neighbour, or one that the leaf does not have");
+                                     " is a neighbour of itself or of a lane that the leaf does not have");
       }
       for (LaneMask left = rows[lane]; left != 0; left &= left - 1) {
         const auto other = static_cast<unsigned>(std::countr_zero(left));
-        if ((rows[other] >> lane & 1U) == 0) {
-          file.refuse(&rows[lane], name("leaf", leaf) + ": an edge leads from lane " + std::to_string(lane) + " to " +
-                                       std::to_string(other) + ", but none back");
+        if ((rows[other] >> lane & 1U) == 0) {  // mutant: one-way-edge-accepted
+          file.refuse(&rows[lane], name("leaf", leaf) + ": an edge leads from lane " + std::to_string(lane) +
+                                       " to lane " + std::to_string(other) + ", but none leads back");
         }
       }
     }
-    if (record.connected != is_connected(rows.data(), record.size)) {
-      file.refuse(&record.connected, name("leaf", leaf) + ": wrongly marked as connected, or as not");
+    if (record.connected != is_connected(rows.data(), record.size)) {  // mutant: connected-mark-not-compared
+      file.refuse(&record.connected, name("leaf", leaf) + ": its mark as connected or not is wrong");
     }
   }
   verify_padding(index.adjacency.subspan(index.vertex_count()), file);
@@ -116,7 +119,7 @@ void verify_positions(const IndexView& index, const SectionReader& file) {
         const Frame frame = make_frame(positions);
         const bool is_same = frame.origin.x == index.frame.origin.x && frame.origin.y == index.frame.origin.y &&
                              frame.origin.z == index.frame.origin.z && frame.scale == index.frame.scale;
-        if (!is_same) file.refuse(xyz.data(), "not the positions that belong to the frame");
+        if (!is_same) file.refuse(xyz.data(), "the positions do not match the frame");  // mutant: frame-not-compared
       },
       index.positions);
 }

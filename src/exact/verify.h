@@ -9,38 +9,39 @@
 
 namespace meshhood::file {
 
-/// Verifies that what an exact index says of itself agrees, so that every query ends and stays within the arrays,
-/// whoever wrote them. Of regions and spheres it is not shown that they are those of the mesh: answers may be wrong.
+/// Verifies that the arrays of an exact index are consistent, so that every query ends and reads within the arrays,
+/// whatever the file contains. Does not verify the minimum regions against the mesh: forged regions give wrong answers,
+/// never unsafe ones.
 ///
-/// index   borrowed from `file`; its arrays have the lengths that belong together.
-/// Throws Error{MalformedIndex}. One pass over each array, `kVerifyParts` parts of the work.
+/// index   a view of the arrays in `file`, whose sizes are verified already
+/// Throws Error{MalformedIndex, Cancelled}. One pass over each array; advances `task` by `kVerifyParts`.
 void verify(const IndexView& index, const SectionReader& file, TaskContext& task);
 
 inline constexpr std::size_t kVerifyParts = 5;
 
-// Its parts, in this order: each relies on those before.
+// The parts of the verification, in this order: each relies on those before.
 
-/// Leaves hold 1 to 32 vertices each and all of them together, and both numberings are inverse to each other.
+/// Leaves hold 1 to 32 vertices each and all vertices together; `permutation` and `slot` are inverse to each other.
 void verify_numbering(const IndexView& index, const SectionReader& file);
 
-/// Edges within leaves go both ways, and leaves are marked as connected if they are.
+/// Edges within leaves are symmetric, and leaves are marked as connected if and only if they are.
 void verify_edges_within(const IndexView& index, const SectionReader& file);
 
-/// Links and their cross_edges lead where there is something, are in order, and go both ways.
+/// Links and cross edges refer to existing leaves and lanes, are in order, and are symmetric.
 void verify_links(const IndexView& index, const SectionReader& file);
 
-/// Positions are finite, in the frame that is theirs.
+/// Positions are finite, and the frame is that of the positions.
 void verify_positions(const IndexView& index, const SectionReader& file);
 
-/// Spheres enclose their vertices, regions are numbers, and means are those of the level.
+/// Spheres enclose their vertices, regions are not NaN, and mean radii are those of their levels.
 void verify_tree(const IndexView& index, const SectionReader& file);
 
-/// The values behind the last, for kernels to read, are 0.
+/// The padding after the last element, which kernels may read, is 0.
 template <class T>
 void verify_padding(std::span<const T> padding, const SectionReader& file) {
   const auto bytes = std::as_bytes(padding);
   for (const std::byte& byte : bytes) {
-    if (byte != std::byte{0}) file.refuse(&byte, "not 0 behind the last");
+    if (byte != std::byte{0}) file.refuse(&byte, "the padding is not 0");
   }
 }
 

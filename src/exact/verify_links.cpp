@@ -9,8 +9,8 @@
 namespace meshhood::file {
 namespace {
 
-/// An edge across a link as one number, ascending as cross_edges do.
-unsigned number_of(unsigned mine, unsigned other) { return mine * kLeafCapacity + other; }
+/// A cross edge as one number, which orders cross edges by `from`, then `to`.
+unsigned number_of(unsigned from, unsigned to) { return from * kLeafCapacity + to; }
 
 class LinkCheck {
  public:
@@ -18,14 +18,14 @@ class LinkCheck {
       : index_(index),
         file_(file),
         links_(index.links.size() - 1),
-        crossings_(index.cross_edges.size() - kLeafCapacity) {}
+        cross_edges_(index.cross_edges.size() - kLeafCapacity) {}
 
   void run() {
     check_ends();
     for (std::size_t leaf = 0; leaf < index_.leaf_count(); ++leaf) check_leaf(leaf);
     check_count();
     check_back();
-    verify_padding(index_.cross_edges.subspan(crossings_), file_);
+    verify_padding(index_.cross_edges.subspan(cross_edges_), file_);
   }
 
  private:
@@ -37,67 +37,69 @@ class LinkCheck {
     return index_.cross_edges.subspan(first, index_.links[link + 1].first_cross_edge - first);
   }
 
-  /// Leaves have links, and links have cross_edges, without a gap and to the last.
+  /// The links of consecutive leaves follow one another without a gap, up to the last link.
   void check_ends() const {
-    if (begin(0) != 0) file_.refuse(&index_.leaves.front().first_link, "links of leaf 0 do not begin with link 0");
+    if (begin(0) != 0) file_.refuse(&index_.leaves.front().first_link, "the links of leaf 0 do not begin at link 0");
     for (std::size_t leaf = 0; leaf < index_.leaf_count(); ++leaf) {
       if (begin(leaf) > end(leaf) || end(leaf) > links_) {
         file_.refuse(&index_.leaves[leaf + 1].first_link,
-                     "leaf " + std::to_string(leaf) + ": links from " + std::to_string(begin(leaf)) + " to " +
-                         std::to_string(end(leaf)) + ", but there are " + std::to_string(links_));
+                     "leaf " + std::to_string(leaf) + ": links " + std::to_string(begin(leaf)) + " to " +
+                         std::to_string(end(leaf)) + ", but there are " + std::to_string(links_) + " links");
       }
     }
     if (index_.leaves.back().first_link != links_) {
-      file_.refuse(&index_.leaves.back().first_link, "links end with " +
+      file_.refuse(&index_.leaves.back().first_link, "the links end at " +
                                                          std::to_string(index_.leaves.back().first_link) +
-                                                         ", but there are " + std::to_string(links_));
+                                                         ", but there are " + std::to_string(links_) + " links");
     }
     const Link& last = index_.links.back();
     if (index_.links.front().first_cross_edge != 0 || last.leaf != 0 || last.boundary != 0 ||
-        last.first_cross_edge != crossings_) {
-      file_.refuse(&last, "not the end of " + std::to_string(crossings_) + " crossings that begin with 0");
+        last.first_cross_edge != cross_edges_) {
+      file_.refuse(&last, "the last record does not mark the end of " + std::to_string(cross_edges_) + " cross edges");
     }
   }
 
   void check_leaf(std::size_t leaf) const {
     for (std::size_t i = begin(leaf); i < end(leaf); ++i) {
       const Link& link = index_.links[i];
-      const bool is_next = i == begin(leaf) || index_.links[i - 1].leaf < link.leaf;
+      const bool is_next = i == begin(leaf) || index_.links[i - 1].leaf < link.leaf;  // mutant: links-in-any-order
       if (link.leaf >= index_.leaf_count() || link.leaf == leaf || !is_next) {
         file_.refuse(&link, name(leaf, link) + ": expected another of " + std::to_string(index_.leaf_count()) +
                                 " leaves, in ascending order");
       }
       if (link.first_cross_edge >= index_.links[i + 1].first_cross_edge ||
-          index_.links[i + 1].first_cross_edge > crossings_) {
+          index_.links[i + 1].first_cross_edge > cross_edges_) {
         file_.refuse(&link.first_cross_edge,
-                     name(leaf, link) + ": crossings from " + std::to_string(link.first_cross_edge) + " to " +
-                         std::to_string(index_.links[i + 1].first_cross_edge) + " of " + std::to_string(crossings_));
+                     name(leaf, link) + ": cross edges " + std::to_string(link.first_cross_edge) + " to " +
+                         std::to_string(index_.links[i + 1].first_cross_edge) + " of " + std::to_string(cross_edges_));
       }
-      check_crossings(leaf, i);
+      check_cross_edges(leaf, i);
     }
   }
 
-  void check_crossings(std::size_t leaf, std::size_t i) const {
+  void check_cross_edges(std::size_t leaf, std::size_t i) const {
     const Link& link = index_.links[i];
     LaneMask boundary = 0;
     int last = -1;
     for (const CrossEdge& cross_edge : cross_edges(i)) {
       if (cross_edge.from >= index_.leaves[leaf].size || cross_edge.to >= index_.leaves[link.leaf].size) {
-        file_.refuse(&cross_edge, name(leaf, link) + ": a crossing from lane " + std::to_string(cross_edge.from) +
-                                      " to " + std::to_string(cross_edge.to) + ", which the leaves do not have");
+        file_.refuse(&cross_edge, name(leaf, link) + ": cross edge from lane " + std::to_string(cross_edge.from) +
+                                      " to lane " + std::to_string(cross_edge.to) + ", but a leaf has no such lane");
       }
       const auto number = static_cast<int>(number_of(cross_edge.from, cross_edge.to));
-      if (number <= last) file_.refuse(&cross_edge, name(leaf, link) + ": crossings do not ascend");
+      // mutant: cross-edges-in-any-order
+      if (number <= last) file_.refuse(&cross_edge, name(leaf, link) + ": the cross edges are not in ascending order");
       last = number;
       boundary |= LaneMask{1} << cross_edge.from;
     }
-    if (boundary != link.boundary)
-      file_.refuse(&link.boundary, name(leaf, link) + ": a border that is not where they cross");
+    if (boundary != link.boundary) {  // mutant: boundary-not-compared
+      file_.refuse(&link.boundary, name(leaf, link) + ": the boundary does not match the cross edges");
+    }
   }
 
-  /// What `graph` gives has room in its own type.
+  /// `extract_graph` needs the number of neighbours to fit into its type.
   void check_count() const {
-    std::uint64_t neighbors = crossings_;
+    std::uint64_t neighbors = cross_edges_;
     for (const LaneMask row : index_.adjacency) neighbors += static_cast<std::uint64_t>(std::popcount(row));
     if (neighbors > kMaxNeighbors) {
       file_.refuse(&index_.links.back(),
@@ -105,7 +107,8 @@ class LinkCheck {
     }
   }
 
-  /// As leaves come in ascending order, the links back to them must follow one another in each leaf.
+  /// The loop visits leaves in ascending order, and so do the links of each leaf: the link back to this leaf must be
+  /// the next one of the linked leaf that has not been matched yet.
   void check_back() {
     std::vector<std::uint32_t> next;
     next.reserve(index_.leaf_count());
@@ -114,8 +117,9 @@ class LinkCheck {
       for (std::size_t i = begin(leaf); i < end(leaf); ++i) {
         const Link& link = index_.links[i];
         const std::size_t back = next[link.leaf]++;
+        // mutant: edges-back-not-compared
         if (back >= end(link.leaf) || index_.links[back].leaf != leaf || !is_same_edge_list(i, back)) {
-          file_.refuse(&link, name(leaf, link) + ": not the same edges lead back");
+          file_.refuse(&link, name(leaf, link) + ": no link back with the same edges");
         }
       }
     }
@@ -132,13 +136,13 @@ class LinkCheck {
   }
 
   static std::string name(std::size_t leaf, const Link& link) {
-    return "a link from leaf " + std::to_string(leaf) + " to " + std::to_string(link.leaf);
+    return "link from leaf " + std::to_string(leaf) + " to leaf " + std::to_string(link.leaf);
   }
 
   const IndexView& index_;
   const SectionReader& file_;
   std::size_t links_;
-  std::size_t crossings_;
+  std::size_t cross_edges_;
   std::vector<unsigned> reversed_;
 };
 

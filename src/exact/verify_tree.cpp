@@ -20,7 +20,7 @@ class TreeCheck {
       check_absent(level);
       const double mean = mean_radius(index_.tree[level].groups, index_.tree[level].nodes);
       if (std::bit_cast<std::uint64_t>(mean) != std::bit_cast<std::uint64_t>(index_.mean_radii[level])) {
-        file_.refuse(&index_.mean_radii[level], "level " + std::to_string(level) + ": not the mean of its radii");
+        file_.refuse(&index_.mean_radii[level], "level " + std::to_string(level) + ": the mean radius is wrong");
       }
     }
     for (std::size_t leaf = 0; leaf < index_.leaf_count(); ++leaf) {
@@ -40,29 +40,31 @@ class TreeCheck {
     return {g.x[i], g.y[i], g.z[i], g.radius[i]};
   }
 
-  /// A reach may be infinite: then there is no region. One that is not a number is refused by the comparison.
+  /// The offset may be infinite, which means an unbounded region; the comparison rejects NaN.
   void check_numbers(std::size_t level, std::size_t node) const {
     const Group& g = group(level, node);
     const std::size_t i = node % kFanOut;
     const bool is_finite = std::isfinite(g.x[i]) && std::isfinite(g.y[i]) && std::isfinite(g.z[i]) &&
                            std::isfinite(g.radius[i]) && std::isfinite(g.slope_x[i]) && std::isfinite(g.slope_y[i]) &&
                            std::isfinite(g.slope_z[i]);
-    if (is_finite && g.radius[i] > 0 && g.offset[i] > 0) return;
-    file_.refuse(&g, name(level, node) + ": a sphere or column that is none");
+    if (is_finite && g.radius[i] > 0 && g.offset[i] > 0) return;  // mutant: empty-sphere-accepted
+    file_.refuse(&g, name(level, node) + ": the bounding sphere or minimum region is not valid");
   }
 
   void check_absent(std::size_t level) const {
     const Group& last = index_.tree[level].groups.back();
     for (std::size_t node = index_.tree[level].nodes; node % kFanOut != 0; ++node) {
-      if (!is_absent(last, node % kFanOut)) file_.refuse(&last, name(level, node) + ": should not exist");
+      // mutant: unused-node-accepted
+      if (!is_absent(last, node % kFanOut)) file_.refuse(&last, name(level, node) + ": expected an absent node");
     }
   }
 
   void check_same_sphere(std::size_t leaf) const {
     const FrameSphere in_tree = sphere(0, leaf);
-    // Bit for bit, as both were made from one. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
+    // Both are copies of the same sphere. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
     if (std::memcmp(&in_tree, &index_.leaves[leaf].bounds, sizeof(FrameSphere)) == 0) return;
-    file_.refuse(&index_.leaves[leaf], "leaf " + std::to_string(leaf) + ": not the sphere that the tree has");
+    file_.refuse(&index_.leaves[leaf],
+                 "leaf " + std::to_string(leaf) + ": the bounding sphere differs from that in the tree");
   }
 
   void check_enclosed(std::size_t leaf) const {
@@ -72,9 +74,9 @@ class TreeCheck {
       for (std::size_t level = 0; level < index_.tree.size(); ++level, node /= kFanOut) {
         const FrameSphere bounds = sphere(level, node);
         const auto radius = static_cast<double>(bounds.radius);
-        if (squared_distance(centre_of(bounds), p) <= radius * radius) continue;
-        file_.refuse(&group(level, node), name(level, node) + ": does not enclose lane " + std::to_string(lane) +
-                                              " of leaf " + std::to_string(leaf));
+        if (squared_distance(centre_of(bounds), p) <= radius * radius) continue;  // mutant: sphere-need-not-enclose
+        file_.refuse(&group(level, node), name(level, node) + ": the bounding sphere does not enclose lane " +
+                                              std::to_string(lane) + " of leaf " + std::to_string(leaf));
       }
     }
   }

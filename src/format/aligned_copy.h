@@ -12,9 +12,9 @@
 
 namespace meshhood::file {
 
-// NOLINTBEGIN(modernize-avoid-c-arrays): a vector would write to all of its memory before the copy does.
+// NOLINTBEGIN(modernize-avoid-c-arrays): a vector would initialise its memory before the copy.
 
-/// A copy of bytes, where `map` wants them.
+/// A copy of bytes at an address with the alignment that `map` needs.
 class AlignedCopy {
  public:
   explicit AlignedCopy(std::span<const std::byte> bytes)
@@ -26,7 +26,7 @@ class AlignedCopy {
     return {reinterpret_cast<const std::byte*>(lines_.get()), size_};
   }
 
-  /// Who keeps the bytes from now on.
+  /// Transfers the ownership of the bytes.
   [[nodiscard]] std::shared_ptr<const void> take_owner() { return std::shared_ptr<const Line[]>(std::move(lines_)); }
 
  private:

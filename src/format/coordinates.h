@@ -9,12 +9,12 @@
 
 namespace meshhood::file {
 
-/// As `validate` asks of those of a mesh.
+/// Throws if a coordinate is one that `validate` rejects.
 template <class Real>
 void verify_coordinates(std::span<const Real> xyz, const SectionReader& file) {
   for (const Real& value : xyz) {
     if (std::abs(static_cast<double>(value)) <= kLargestCoordinate) continue;
-    file.refuse(&value, "a coordinate that is not finite, or beyond 2^500");
+    file.refuse(&value, "a coordinate is not finite or exceeds 2^500");
   }
 }
 

@@ -28,7 +28,7 @@ IndexHeader read_header(std::span<const std::byte> first_bytes, std::uint64_t si
 void check_mesh(const IndexHeader& header, const Fingerprint& mesh) {
   if (header.mesh == mesh) return;
   raise(ErrorCode::MalformedIndex,
-        "built from mesh " + to_text(header.mesh) + ", not from the one given, " + to_text(mesh));
+        "built from mesh " + to_text(header.mesh) + ", but the given mesh is " + to_text(mesh));
 }
 
 }  // namespace meshhood

@@ -27,46 +27,47 @@ std::string_view name_of(const Section& section) {
   return all.substr(0, all.find('\0'));
 }
 
-/// A forged name may be anything; that of a section is made of letters and digits.
+/// A forged name may contain any bytes; only printable ones are shown.
 std::string quoted(std::string_view name) {
   const bool is_plain = std::all_of(name.begin(), name.end(), [](char c) { return ' ' <= c && c <= '~'; });
   return is_plain ? "section " + std::string(name) : "a section without a readable name";
 }
 
-/// What any format of this file has in common, so that a newer one is called by its number.
+/// The fields that all formats have in common, so that the error for a newer format states its number.
 void verify_beginning(const Header& header) {
   if (header.magic != kMagic) refuse_header(0, "not a saved index");
   if (header.byte_order == kOtherByteOrder) {
-    refuse_header(offsetof(Header, byte_order), "written in the other byte order, expected little-endian");
+    refuse_header(offsetof(Header, byte_order), "big-endian byte order, expected little-endian");
   }
-  if (header.byte_order != kByteOrderMark) refuse_header(offsetof(Header, byte_order), "not a mark of the byte order");
+  if (header.byte_order != kByteOrderMark)
+    refuse_header(offsetof(Header, byte_order), "the byte order mark is not valid");
   if (header.format != kFormat) {
-    refuse_header(offsetof(Header, format),
-                  "written by format " + std::to_string(header.format) + ", this reads " + std::to_string(kFormat));
+    refuse_header(offsetof(Header, format), "format " + std::to_string(header.format) +
+                                                ", but this version reads format " + std::to_string(kFormat));
   }
 }
 
 void verify_header_checksum(const Header& header, std::span<const std::byte> first_bytes) {
   const std::uint64_t end = head_bytes(header.sections);
   if (end > first_bytes.size()) {
-    refuse_header(offsetof(Header, sections), std::to_string(header.sections) + " sections have no room in " +
+    refuse_header(offsetof(Header, sections), std::to_string(header.sections) + " sections do not fit into " +
                                                   std::to_string(first_bytes.size()) + " bytes");
   }
   const auto rest = first_bytes.first(static_cast<std::size_t>(end)).subspan(sizeof(Header));
   if (checksum({first_bytes.first(offsetof(Header, checksum)), rest}) != header.checksum) {
-    refuse_header(offsetof(Header, checksum), "the checksum of header and table does not fit them");
+    refuse_header(offsetof(Header, checksum), "the checksum of the header and the section table does not match");
   }
 }
 
-/// What the checksum says is as it was written, but by whom?
+/// A valid checksum does not make the input trusted: every field is validated.
 void verify_fields(const Header& header) {
   if (header.kind != IndexKind::Exact && header.kind != IndexKind::Paper) {
-    refuse_header(offsetof(Header, kind), "an index of kind " + std::to_string(static_cast<unsigned>(header.kind)) +
+    refuse_header(offsetof(Header, kind), "index kind " + std::to_string(static_cast<unsigned>(header.kind)) +
                                               ", expected 1 (exact) or 2 (paper)");
   }
   if (header.id_bytes != sizeof(VertexId)) {
-    refuse_header(offsetof(Header, id_bytes), "vertices have ids of " + std::to_string(8U * header.id_bytes) +
-                                                  " bits, this reads " + std::to_string(8 * sizeof(VertexId)));
+    refuse_header(offsetof(Header, id_bytes), "vertex ids of " + std::to_string(8U * header.id_bytes) +
+                                                  " bits, expected " + std::to_string(8 * sizeof(VertexId)));
   }
   if (header.scalar_bytes != sizeof(float) && header.scalar_bytes != sizeof(double)) {
     refuse_header(offsetof(Header, scalar_bytes),
@@ -93,7 +94,7 @@ Header read_header(std::span<const std::byte> first_bytes, std::uint64_t size) {
   verify_beginning(header);
   if (header.bytes != size) {
     refuse_header(offsetof(Header, bytes),
-                  "written with " + std::to_string(header.bytes) + " bytes, but there are " + std::to_string(size));
+                  "expected " + std::to_string(header.bytes) + " bytes in all, but there are " + std::to_string(size));
   }
   verify_header_checksum(header, first_bytes);
   verify_fields(header);
@@ -102,8 +103,8 @@ Header read_header(std::span<const std::byte> first_bytes, std::uint64_t size) {
 
 void expect_kind(IndexKind kind, IndexKind expected) {
   if (kind == expected) return;
-  refuse_header(offsetof(Header, kind), expected == IndexKind::Exact ? "an index of the paper, expected an exact one"
-                                                                     : "an exact index, expected one of the paper");
+  refuse_header(offsetof(Header, kind), expected == IndexKind::Exact ? "a paper index, expected an exact index"
+                                                                     : "an exact index, expected a paper index");
 }
 
 SectionReader::SectionReader(std::span<const std::byte> bytes)
@@ -118,11 +119,12 @@ void SectionReader::verify_table() const {
   for (const Section& section : table_) {
     const auto byte = static_cast<std::uint64_t>(reinterpret_cast<const std::byte*>(&section) - bytes_.data());
     const std::string where = "header, " + quoted(name_of(section));
+    // mutant: gap-between-sections-accepted
     if (section.begin != next) refuse_at(where, byte, "begins at " + expected(section.begin, next));
-    if (section.bytes > bytes_.size() - next) {
+    if (section.bytes > bytes_.size() - next) {  // mutant: section-beyond-end-accepted
       refuse_at(where, byte,
-                std::to_string(section.bytes) + " bytes from " + std::to_string(next) + " on, but there are " +
-                    std::to_string(bytes_.size()) + " in all");
+                std::to_string(section.bytes) + " bytes from byte " + std::to_string(next) + ", but there are " +
+                    std::to_string(bytes_.size()) + " bytes in all");
     }
     next = aligned(next + section.bytes);
   }
@@ -136,13 +138,13 @@ std::span<const std::byte> SectionReader::bytes_of(const Section& section) const
 void SectionReader::verify_checksums(TaskContext& task) const {
   for (const Section& section : table_) {
     const std::string where = quoted(name_of(section));
-    if (checksum({bytes_of(section)}) != section.checksum) {
-      refuse_at(where, section.begin, "the checksum of its " + std::to_string(section.bytes) + " bytes does not fit");
+    if (checksum({bytes_of(section)}) != section.checksum) {  // mutant: checksum-not-compared
+      refuse_at(where, section.begin, "the checksum of its " + std::to_string(section.bytes) + " bytes does not match");
     }
     const std::uint64_t end = section.begin + section.bytes;
     for (std::uint64_t byte = end; byte < aligned(end); ++byte) {
       const auto value = std::to_integer<unsigned>(bytes_[static_cast<std::size_t>(byte)]);
-      if (value != 0) refuse_at(where, byte, "behind its end stands " + expected(value, 0));
+      if (value != 0) refuse_at(where, byte, "padding byte " + expected(value, 0));  // mutant: padding-not-verified
     }
     task.advance(1);
     task.report_progress();
@@ -150,11 +152,12 @@ void SectionReader::verify_checksums(TaskContext& task) const {
 }
 
 std::span<const std::byte> SectionReader::take_bytes(std::string_view name, std::size_t of_each) {
-  if (taken_ == table_.size()) refuse_header(offsetof(Header, sections), "no section " + std::string(name));
+  if (taken_ == table_.size())
+    refuse_header(offsetof(Header, sections), "section " + std::string(name) + " is missing");
   const Section& section = table_[taken_++];
   std::array<char, 16> padded{};
   std::copy(name.begin(), name.end(), padded.begin());
-  if (section.name != padded) {
+  if (section.name != padded) {  // mutant: section-name-not-compared
     refuse(&section, quoted(name_of(section)) + ", expected section " + std::string(name));
   }
   if (section.bytes % of_each != 0) {
@@ -165,11 +168,11 @@ std::span<const std::byte> SectionReader::take_bytes(std::string_view name, std:
 }
 
 void SectionReader::expect_end() const {
-  if (taken_ != table_.size()) refuse(&table_[taken_], quoted(name_of(table_[taken_])) + ", expected no more");
+  if (taken_ != table_.size()) refuse(&table_[taken_], quoted(name_of(table_[taken_])) + ", expected no more sections");
 }
 
 void SectionReader::refuse_count(std::uint64_t count, std::uint64_t wanted) const {
-  refuse_last(expected(count, wanted) + " values");
+  refuse_last(expected(count, wanted) + " elements");
 }
 
 void SectionReader::refuse_last(const std::string& message) const {

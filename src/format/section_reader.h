@@ -13,23 +13,24 @@
 
 namespace meshhood::file {
 
-/// As the public one. Throws Error{MalformedIndex} unless `size` bytes that begin so have a header of this format, and
-/// end where it says.
+/// The header of an index file of `size` bytes that begins with `first_bytes`. Throws Error{MalformedIndex} if it is
+/// not valid, not of this format, or states another size.
 [[nodiscard]] Header read_header(std::span<const std::byte> first_bytes, std::uint64_t size);
 
-/// Throws Error{MalformedIndex} unless an index of `kind` is of the kind that is expected.
+/// Throws Error{MalformedIndex} if the kinds differ.
 void expect_kind(IndexKind kind, IndexKind expected);
 
-/// The sections of a saved index. All errors are Error{MalformedIndex} and name section and byte.
+/// Reads the sections of an index file in order. All errors are Error{MalformedIndex} and name the section and the
+/// byte.
 class SectionReader {
  public:
-  /// Verifies the header, and that the sections follow one another without a gap, to the end.
-  /// `bytes` begin at a multiple of `kIndexAlignment` and outlive the reader.
+  /// Verifies the header, and that the sections follow one another without a gap to the end of the file.
+  /// `bytes` must begin at a multiple of `kIndexAlignment` and outlive the reader.
   explicit SectionReader(std::span<const std::byte> bytes);
 
   [[nodiscard]] const Header& header() const { return header_; }
 
-  /// The next section, which must be `name`, in place.
+  /// The next section, which must have this name; a view of the bytes.
   template <class T>
   [[nodiscard]] std::span<const T> take(std::string_view name) {
     static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= kIndexAlignment);
@@ -37,7 +38,7 @@ class SectionReader {
     return {reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)};
   }
 
-  /// The same, of `count` values.
+  /// The same, which must have `count` elements.
   template <class T>
   [[nodiscard]] std::span<const T> take(std::string_view name, std::uint64_t count) {
     const std::span<const T> values = take<T>(name);
@@ -45,20 +46,20 @@ class SectionReader {
     return values;
   }
 
-  /// Refuses where a section is left that was not taken.
+  /// Throws if a section has not been taken.
   void expect_end() const;
 
-  /// Refuses unless the bytes of every section are those that were saved, and those between them are zero. A part of
-  /// the work for each section.
+  /// Throws if the checksum of a section does not match, or if the padding between sections is not 0. Advances `task`
+  /// by 1 for each section.
   void verify_checksums(TaskContext& task) const;
 
-  /// Refuses where `place` lies: the byte and its section go before the message.
+  /// Throws an error that begins with the section and the byte at `place`, which points into the bytes.
   [[noreturn]] void refuse(const void* place, const std::string& message) const;
 
-  /// Refuses the byte of a section that was taken before, counted from its first.
+  /// The same for a byte of a section, counted from the first byte of the section.
   [[noreturn]] void refuse_in(std::string_view section, std::uint64_t byte, const std::string& message) const;
 
-  /// Refuses the section taken last as a whole; it may be empty, and so have no place of its own.
+  /// The same for the section taken last, which may be empty.
   [[noreturn]] void refuse_last(const std::string& message) const;
 
  private:

@@ -14,21 +14,21 @@ namespace {
 
 std::span<const std::byte> bytes_of(const Header& header) { return std::as_bytes(std::span(&header, 1)); }
 
-/// Zeros up to the next multiple of the alignment.
+/// Writes zeros up to the next multiple of the alignment.
 void pad(std::uint64_t bytes, const Sink& sink) {
   static constexpr std::array<std::byte, kIndexAlignment> kZeros{};
   const auto missing = static_cast<std::size_t>(aligned(bytes) - bytes);
   if (missing != 0) sink(std::span(kZeros).first(missing));
 }
 
-/// Piece by piece, so that nobody who watches waits for long.
-void hand_out(std::span<const std::byte> bytes, const Sink& sink, TaskContext& task) {
-  constexpr std::size_t kPiece = std::size_t{4} << 20;
+/// Writes in chunks, so that progress and cancellation stay responsive.
+void write_chunks(std::span<const std::byte> bytes, const Sink& sink, TaskContext& task) {
+  constexpr std::size_t kChunk = std::size_t{4} << 20;
   while (!bytes.empty()) {
-    const auto piece = bytes.first(std::min(bytes.size(), kPiece));
-    sink(piece);
-    bytes = bytes.subspan(piece.size());
-    task.advance(piece.size());
+    const auto chunk = bytes.first(std::min(bytes.size(), kChunk));
+    sink(chunk);
+    bytes = bytes.subspan(chunk.size());
+    task.advance(chunk.size());
     task.report_progress();
   }
 }
@@ -43,7 +43,7 @@ void SectionWriter::add_bytes(std::string_view name, std::span<const std::byte> 
 std::size_t SectionWriter::parts() const {
   std::size_t bytes = 0;
   for (const Part& part : parts_) bytes += part.bytes.size();
-  return 2 * bytes;  // each is summed up, then handed out
+  return 2 * bytes;  // one pass for the checksums, one to write
 }
 
 std::vector<Section> SectionWriter::make_table(TaskContext& task) const {
@@ -52,9 +52,9 @@ std::vector<Section> SectionWriter::make_table(TaskContext& task) const {
   for (const Part& part : parts_) {
     Section& section = table.emplace_back();
     std::copy(part.name.begin(), part.name.end(), section.name.begin());
-    section.begin = begin;
+    section.begin = begin;  // mutant: section-begin-not-saved
     section.bytes = part.bytes.size();
-    section.checksum = checksum({part.bytes});
+    section.checksum = checksum({part.bytes});  // mutant: checksum-not-saved
     task.advance(part.bytes.size());
     task.report_progress();
     begin = aligned(begin + part.bytes.size());
@@ -64,20 +64,20 @@ std::vector<Section> SectionWriter::make_table(TaskContext& task) const {
 
 void SectionWriter::write(Header header, const Sink& sink, TaskContext& task) const {
   if constexpr (std::endian::native != std::endian::little) {
-    raise(ErrorCode::MalformedIndex, "an index is saved and loaded on little-endian machines only");
+    raise(ErrorCode::MalformedIndex, "saving an index requires a little-endian machine");
   }
   std::vector<Section> table = make_table(task);
   header.sections = static_cast<std::uint32_t>(table.size());
   header.bytes = aligned(table.back().begin + table.back().bytes);
-  // What follows the table up to the first section is zero and part of the header.
+  // The section table and the zeros up to the first section, which the header's checksum covers.
   std::vector<std::byte> rest(static_cast<std::size_t>(head_bytes(table.size())) - sizeof(Header));
   std::ranges::copy(std::as_bytes(std::span(table)), rest.begin());
   header.checksum = checksum({bytes_of(header).first(offsetof(Header, checksum)), rest});
   sink(bytes_of(header));
   sink(rest);
   for (const Part& part : parts_) {
-    hand_out(part.bytes, sink, task);
-    pad(part.bytes.size(), sink);
+    write_chunks(part.bytes, sink, task);
+    pad(part.bytes.size(), sink);  // mutant: padding-not-saved
   }
   task.report_progress();
 }

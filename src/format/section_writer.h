@@ -13,7 +13,7 @@
 
 namespace meshhood::file {
 
-/// Gathers sections, then gives the whole to a sink. The arrays are borrowed.
+/// Collects sections, then writes the index file to a sink. The arrays are borrowed.
 class SectionWriter {
  public:
   template <class T>
@@ -22,10 +22,10 @@ class SectionWriter {
     add_bytes(name, std::as_bytes(values));
   }
 
-  /// Of how many parts the work is that `write` advances.
+  /// By how much `write` advances its task.
   [[nodiscard]] std::size_t parts() const;
 
-  /// `header`: what it does not know by itself: kind, vertices, precision, fingerprint. Throws Error{Cancelled}.
+  /// Completes `header`, of which the caller sets kind, vertices, precision and fingerprint. Throws Error{Cancelled}.
   void write(Header header, const Sink& sink, TaskContext& task) const;
 
  private:

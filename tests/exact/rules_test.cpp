@@ -43,18 +43,18 @@ void expect_refused_after(const char* culprit, const Change& change) {
 }
 
 TEST(IndexRules, F4OtherVersionsAreRefusedByTheirNumber) {
-  expect_refused_after("header, byte 12: written by format 3, this reads 1", [](Forgery& f) { f.header().format = 3; });
-  expect_refused_after("written by format 0, this reads 1", [](Forgery& f) { f.header().format = 0; });
+  expect_refused_after("header, byte 12: format 3, but this version reads format 1",
+                       [](Forgery& f) { f.header().format = 3; });
+  expect_refused_after("format 0, but this version reads format 1", [](Forgery& f) { f.header().format = 0; });
 }
 
 TEST(IndexRules, F4OtherMachinesAreRefused) {
-  expect_refused_after("written in the other byte order",
-                       [](Forgery& f) { f.header().byte_order = file::kOtherByteOrder; });
-  expect_refused_after("not a mark of the byte order", [](Forgery& f) { f.header().byte_order = 0; });
-  expect_refused_after("vertices have ids of 64 bits, this reads 32", [](Forgery& f) { f.header().id_bytes = 8; });
+  expect_refused_after("big-endian byte order", [](Forgery& f) { f.header().byte_order = file::kOtherByteOrder; });
+  expect_refused_after("the byte order mark is not valid", [](Forgery& f) { f.header().byte_order = 0; });
+  expect_refused_after("vertex ids of 64 bits, expected 32", [](Forgery& f) { f.header().id_bytes = 8; });
   expect_refused_after("coordinates of 2 bytes", [](Forgery& f) { f.header().scalar_bytes = 2; });
-  expect_refused_after("an index of kind 3", [](Forgery& f) { f.header().kind = static_cast<IndexKind>(3); });
-  expect_refused_after("an index of the paper, expected an exact one",
+  expect_refused_after("index kind 3", [](Forgery& f) { f.header().kind = static_cast<IndexKind>(3); });
+  expect_refused_after("a paper index, expected an exact index",
                        [](Forgery& f) { f.header().kind = IndexKind::Paper; });
   expect_refused_after("header, byte 51: 1, expected 0", [](Forgery& f) { f.header().unused = 1; });
 }
@@ -67,7 +67,7 @@ TEST(IndexRules, F5AnotherMeshIsRefusedWithBothFingerprints) {
   check_mesh(header, fingerprint(mesh.view()));
   const Fingerprint given = fingerprint(other.view());
   expect_refused(ErrorCode::MalformedIndex,
-                 "built from mesh " + to_text(header.mesh) + ", not from the one given, " + to_text(given),
+                 "built from mesh " + to_text(header.mesh) + ", but the given mesh is " + to_text(given),
                  [&] { check_mesh(header, given); });
 }
 
@@ -79,9 +79,9 @@ TEST(IndexRules, F6Table) {
   expect_refused_after("section crossings", [](Forgery& f) { f.entry("links").bytes += 64; });
   expect_refused_after("section link, expected section links", [](Forgery& f) { f.entry("links").name[4] = '\0'; });
   expect_refused_after("a section without a readable name", [](Forgery& f) { f.entry("links").name[0] = '\n'; });
-  expect_refused_after("sections have no room", [](Forgery& f) { f.header().sections = 1U << 30U; });
+  expect_refused_after("sections do not fit", [](Forgery& f) { f.header().sections = 1U << 30U; });
   expect_refused_after("begins at", [](Forgery& f) { f.header().sections -= 8; });
-  expect_refused_after("behind its end stands 1, expected 0", [](Forgery& f) {
+  expect_refused_after("padding byte 1, expected 0", [](Forgery& f) {
     const file::Section& frame = f.entry("frame");
     f.bytes()[frame.begin + frame.bytes] = std::byte{1};
   });
@@ -118,15 +118,16 @@ TEST(IndexRules, F6Leaves) {
   expect_refused_after("leaf 3: ", [](Forgery& f) { f.section<Leaf>("leaves")[3].size = 33; });
   expect_refused_after("leaf 3: ", [](Forgery& f) { f.section<Leaf>("leaves")[3].size = 0; });
   expect_refused_after("leaf 3: ", [](Forgery& f) { ++f.section<Leaf>("leaves")[3].first; });
-  expect_refused_after("neither marked", [](Forgery& f) { f.section<Leaf>("leaves")[3].unused = 1; });
-  expect_refused_after("neither marked", [](Forgery& f) {
+  expect_refused_after("neither 0 nor 1", [](Forgery& f) { f.section<Leaf>("leaves")[3].unused = 1; });
+  expect_refused_after("neither 0 nor 1", [](Forgery& f) {
     *reinterpret_cast<std::uint8_t*>(&f.section<Leaf>("leaves")[3].connected) = 2;
   });
-  expect_refused_after("wrongly marked", [](Forgery& f) {
+  expect_refused_after("its mark as connected", [](Forgery& f) {
     bool& connected = f.section<Leaf>("leaves")[3].connected;
     connected = !connected;
   });
-  expect_refused_after("not the end of 400 vertices", [](Forgery& f) { f.section<Leaf>("leaves").back().size = 1; });
+  expect_refused_after("does not mark the end of 400 vertices",
+                       [](Forgery& f) { f.section<Leaf>("leaves").back().size = 1; });
 }
 
 TEST(IndexRules, F6Numbering) {
@@ -135,65 +136,65 @@ TEST(IndexRules, F6Numbering) {
     const auto ids = f.section<VertexId>("permutation");
     ids[5] = ids[6];  // one twice, another never
   });
-  expect_refused_after("is at place", [](Forgery& f) { f.section<std::uint32_t>("place")[7] = 4000000000U; });
-  expect_refused_after("is at place", [](Forgery& f) {
+  expect_refused_after("has slot", [](Forgery& f) { f.section<std::uint32_t>("place")[7] = 4000000000U; });
+  expect_refused_after("has slot", [](Forgery& f) {
     const auto places = f.section<std::uint32_t>("place");
     places[7] = places[8];
   });
-  expect_refused_after("not 0 behind the last", [](Forgery& f) { f.section<VertexId>("permutation").back() = 1; });
+  expect_refused_after("the padding is not 0", [](Forgery& f) { f.section<VertexId>("permutation").back() = 1; });
 }
 
 TEST(IndexRules, F6EdgesWithin) {
-  expect_refused_after("has itself for a neighbour", [](Forgery& f) { f.section<LaneMask>("adjacency")[0] |= 1; });
-  expect_refused_after("has itself for a neighbour", [](Forgery& f) {
+  expect_refused_after("is a neighbour of itself", [](Forgery& f) { f.section<LaneMask>("adjacency")[0] |= 1; });
+  expect_refused_after("is a neighbour of itself", [](Forgery& f) {
     const Leaf& leaf = f.section<Leaf>("leaves")[1];
     if (leaf.size < kLeafCapacity) f.section<LaneMask>("adjacency")[leaf.first] |= LaneMask{1} << leaf.size;
     if (leaf.size == kLeafCapacity) f.section<LaneMask>("adjacency")[leaf.first] |= 1;
   });
-  expect_refused_after("but none back", [](Forgery& f) { f.section<LaneMask>("adjacency")[0] = 0; });
-  expect_refused_after("not 0 behind the last", [](Forgery& f) { f.section<LaneMask>("adjacency").back() = 1; });
+  expect_refused_after("but none leads back", [](Forgery& f) { f.section<LaneMask>("adjacency")[0] = 0; });
+  expect_refused_after("the padding is not 0", [](Forgery& f) { f.section<LaneMask>("adjacency").back() = 1; });
 }
 
 TEST(IndexRules, F6Links) {
-  expect_refused_after("do not begin with link 0", [](Forgery& f) { f.section<Leaf>("leaves")[0].first_link = 1; });
-  expect_refused_after("leaf 0: links from 0 to 4000000000",
+  expect_refused_after("do not begin at link 0", [](Forgery& f) { f.section<Leaf>("leaves")[0].first_link = 1; });
+  expect_refused_after("leaf 0: links 0 to 4000000000",
                        [](Forgery& f) { f.section<Leaf>("leaves")[1].first_link = 4000000000U; });
-  expect_refused_after("leaf 1: links from", [](Forgery& f) { f.section<Leaf>("leaves")[2].first_link = 0; });
-  expect_refused_after("links end with", [](Forgery& f) { --f.section<Leaf>("leaves").back().first_link; });
-  expect_refused_after("a link from leaf 0 to 4000000000",
+  expect_refused_after("leaf 1: links ", [](Forgery& f) { f.section<Leaf>("leaves")[2].first_link = 0; });
+  expect_refused_after("the links end at", [](Forgery& f) { --f.section<Leaf>("leaves").back().first_link; });
+  expect_refused_after("link from leaf 0 to leaf 4000000000",
                        [](Forgery& f) { f.section<Link>("links")[0].leaf = 4000000000U; });
-  expect_refused_after("a link from leaf 0 to 0", [](Forgery& f) { f.section<Link>("links")[0].leaf = 0; });
+  expect_refused_after("link from leaf 0 to leaf 0", [](Forgery& f) { f.section<Link>("links")[0].leaf = 0; });
   expect_refused_after("in ascending order", [](Forgery& f) {
     const auto links = f.section<Link>("links");
     std::swap(links[0].leaf, links[1].leaf);
   });
-  expect_refused_after("not where they cross", [](Forgery& f) { f.section<Link>("links")[0].boundary ^= 1; });
-  expect_refused_after("crossings from",
-                       [](Forgery& f) { f.section<Link>("links")[1].first_cross_edge = 4000000000U; });
-  expect_refused_after("crossings from", [](Forgery& f) {
+  expect_refused_after("the boundary does not match", [](Forgery& f) { f.section<Link>("links")[0].boundary ^= 1; });
+  expect_refused_after("cross edges ", [](Forgery& f) { f.section<Link>("links")[1].first_cross_edge = 4000000000U; });
+  expect_refused_after("cross edges ", [](Forgery& f) {
     const auto links = f.section<Link>("links");
     links[1].first_cross_edge = links[0].first_cross_edge;
   });
-  expect_refused_after("not the end of", [](Forgery& f) { f.section<Link>("links").back().boundary = 1; });
-  expect_refused_after("not the end of", [](Forgery& f) { ++f.section<Link>("links").back().first_cross_edge; });
+  expect_refused_after("does not mark the end of", [](Forgery& f) { f.section<Link>("links").back().boundary = 1; });
+  expect_refused_after("does not mark the end of",
+                       [](Forgery& f) { ++f.section<Link>("links").back().first_cross_edge; });
 }
 
 TEST(IndexRules, F6Crossings) {
-  expect_refused_after("which the leaves do not have",
+  expect_refused_after("but a leaf has no such lane",
                        [](Forgery& f) { f.section<CrossEdge>("crossings")[0].from = 32; });
-  expect_refused_after("which the leaves do not have",
+  expect_refused_after("but a leaf has no such lane",
                        [](Forgery& f) { f.section<CrossEdge>("crossings")[0].to = 255; });
-  expect_refused_after("crossings do not ascend", [](Forgery& f) {
+  expect_refused_after("the cross edges are not in ascending order", [](Forgery& f) {
     const auto cross_edges = f.section<CrossEdge>("crossings");
     cross_edges[1] = cross_edges[0];
   });
-  expect_refused_after("not the same edges lead back", [](Forgery& f) {
+  expect_refused_after("no link back with the same edges", [](Forgery& f) {
     // The last of a link may have any other lane beyond the one before it.
     const Link& next = f.section<Link>("links")[1];
     CrossEdge& last = f.section<CrossEdge>("crossings")[next.first_cross_edge - 1];
     last.to = last.to == 0 ? 1 : static_cast<std::uint8_t>(last.to - 1);
   });
-  expect_refused_after("not 0 behind the last", [](Forgery& f) { f.section<CrossEdge>("crossings").back().from = 1; });
+  expect_refused_after("the padding is not 0", [](Forgery& f) { f.section<CrossEdge>("crossings").back().from = 1; });
 }
 
 TEST(IndexRules, F6Positions) {
@@ -201,29 +202,29 @@ TEST(IndexRules, F6Positions) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   expect_refused_after("not finite", [](Forgery& f) { f.section<float>("positions")[10] = kNan; });
   expect_refused_after("not finite", [](Forgery& f) { f.section<float>("positions")[10] = -kInfinity; });
-  expect_refused_after("belong to the frame", [](Forgery& f) { f.section<float>("positions")[10] = 1000; });
-  expect_refused_after("not 0 behind the last", [](Forgery& f) { f.section<float>("positions").back() = kNan; });
-  expect_refused_after("belong to the frame", [](Forgery& f) { f.section<Frame>("frame")[0].scale *= 2; });
-  expect_refused_after("belong to the frame",
+  expect_refused_after("do not match the frame", [](Forgery& f) { f.section<float>("positions")[10] = 1000; });
+  expect_refused_after("the padding is not 0", [](Forgery& f) { f.section<float>("positions").back() = kNan; });
+  expect_refused_after("do not match the frame", [](Forgery& f) { f.section<Frame>("frame")[0].scale *= 2; });
+  expect_refused_after("do not match the frame",
                        [](Forgery& f) { f.section<Frame>("frame")[0].scale = static_cast<double>(kNan); });
-  expect_refused_after("belong to the frame",
+  expect_refused_after("do not match the frame",
                        [](Forgery& f) { f.section<Frame>("frame")[0].origin.x = static_cast<double>(kInfinity); });
 }
 
 TEST(IndexRules, F6Tree) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  const char* const none = "a sphere or column that is none";
+  const char* const none = "the bounding sphere or minimum region is not valid";
   for (const float value : {kNan, -1.0F, -std::numeric_limits<float>::infinity()}) {
     expect_refused_after(none, [&](Forgery& f) { f.section<Group>("groups")[0].radius[1] = value; });
     expect_refused_after(none, [&](Forgery& f) { f.section<Group>("groups").back().offset[0] = value; });
   }
   expect_refused_after(none, [](Forgery& f) { f.section<Group>("groups")[0].slope_y[1] = kNan; });
   expect_refused_after(none, [](Forgery& f) { f.section<Group>("groups")[0].z[1] = kNan; });
-  expect_refused_after("should not exist", [](Forgery& f) { f.section<Group>("groups").back().slope_x[7] = 1; });
-  expect_refused_after("not the mean of its radii", [](Forgery& f) { f.section<double>("mean_radii")[0] = 1; });
-  expect_refused_after("not the sphere that the tree has",
+  expect_refused_after("expected an absent node", [](Forgery& f) { f.section<Group>("groups").back().slope_x[7] = 1; });
+  expect_refused_after("the mean radius is wrong", [](Forgery& f) { f.section<double>("mean_radii")[0] = 1; });
+  expect_refused_after("the bounding sphere differs from that in the tree",
                        [](Forgery& f) { f.section<Leaf>("leaves")[2].bounds.x += 0.5F; });
-  expect_refused_after("level 1: node 0: does not enclose", [](Forgery& f) {
+  expect_refused_after("level 1: node 0: the bounding sphere does not enclose", [](Forgery& f) {
     // Its radius stays, so that the mean does.
     f.section<Group>("groups").back().x[0] += 0.5F;
   });

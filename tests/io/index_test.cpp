@@ -68,7 +68,7 @@ TEST_F(IndexFile, IsToldFromAMeshByItsContent) {
 TEST_F(IndexFile, ErrorsBeginWithTheFile) {
   io::save(file, index_of(20));
   std::filesystem::resize_file(file, 1000);
-  const std::string name = file.string() + ": header, byte 16: written with ";
+  const std::string name = file.string() + ": header, byte 16: expected ";
   expect_refused(ErrorCode::MalformedIndex, name, [&] { static_cast<void>(io::load(file)); });
   expect_refused(ErrorCode::MalformedIndex, name, [&] { static_cast<void>(io::map(file)); });
   expect_refused(ErrorCode::MalformedIndex, name, [&] { static_cast<void>(io::read_header(file)); });

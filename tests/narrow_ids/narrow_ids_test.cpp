@@ -90,7 +90,7 @@ TEST(NarrowIds, F4AnIndexWithWideIdsIsRefused) {
   std::ifstream file(MESHHOOD_GOLDEN_DIR "/format1/float.mhi", std::ios::binary);
   const std::vector<char> wide{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   ASSERT_FALSE(wide.empty());
-  expect_refused(ErrorCode::MalformedIndex, "header, byte 49: vertices have ids of 32 bits, this reads 16",
+  expect_refused(ErrorCode::MalformedIndex, "header, byte 49: vertex ids of 32 bits, expected 16",
                  [&] { static_cast<void>(load(std::as_bytes(std::span(wide)))); });
 }
 

@@ -157,9 +157,9 @@ TEST(SerializePaperFaults, EveryTruncationIsRefused) {
 
 TEST(SerializePaperFaults, TheOtherKindIsRefused) {
   const TestMesh mesh = make_grid(3, 3, false).finish(true);
-  expect_refused(ErrorCode::MalformedIndex, "an exact index, expected one of the paper",
+  expect_refused(ErrorCode::MalformedIndex, "an exact index, expected a paper index",
                  [&] { static_cast<void>(paper::load(saved(build(mesh.view())))); });
-  expect_refused(ErrorCode::MalformedIndex, "an index of the paper, expected an exact one",
+  expect_refused(ErrorCode::MalformedIndex, "a paper index, expected an exact index",
                  [&] { static_cast<void>(load(saved(paper::build(mesh.view())))); });
 }
 

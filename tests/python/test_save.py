@@ -148,7 +148,7 @@ GOLDEN_OF_THE_PAPER = [file for file in GOLDEN if file.stem.startswith("paper")]
 
 @pytest.mark.parametrize("file", GOLDEN_OF_THE_PAPER, ids=lambda file: file.stem)
 def test_an_index_of_the_paper_is_refused(file):
-    with pytest.raises(ValueError, match=f"{file.name}: header, byte 48: an index of the paper, expected an exact one"):
+    with pytest.raises(ValueError, match=f"{file.name}: header, byte 48: a paper index, expected an exact index"):
         meshhood.load(file)
 
 
