@@ -13,7 +13,7 @@ namespace meshhood {
 
 double squared_radius(double radius) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  double threshold = radius * radius;
+  double threshold = radius * radius;  // mutant: threshold-one-step-low
   if (threshold == kInfinity) return kInfinity;
   // The product is rounded once and the root once more, so the answer is a step or two away. The steps are counted
   // because where a host flushes denormals to zero, all of them have the root 0.

@@ -31,7 +31,7 @@ bool BallSearch::run(std::uint32_t slot, const LeafBall& ball, const TreeBall& t
   if (is_small(tree_ball, *index_) || !failures_.should_try(home, radius)) return false;
   const bool found = find(slot, ball, tree_ball, walk, answer);
   failures_.record(home, radius, found);
-  if (!found) answer.clear();
+  if (!found) answer.clear();  // mutant: failed-search-leaves-answer
   return found;
 }
 
@@ -41,7 +41,7 @@ bool BallSearch::find(std::uint32_t slot, const LeafBall& ball, const TreeBall& 
   const std::size_t leaves = count(answer) / kLeafCapacity + descent_.intersecting_leaves().size();
   if (descent_.candidate_leaves().size() > most_candidates(leaves)) return false;
   collect_minima(slot, ball, tree_ball);
-  const bool is_whole_ball = minima_.empty();
+  const bool is_whole_ball = minima_.empty();  // mutant: one-minimum-ignored
   if (!is_whole_ball && !other_components_.find(slot, minima_, most_walked(leaves), ball, tree_ball, walk)) {
     return false;
   }
@@ -55,7 +55,7 @@ void BallSearch::collect_minima(std::uint32_t slot, const LeafBall& ball, const 
   const LeafId home = leaf_of(slot);
   const bool home_is_whole = is_whole(home, tree_ball);
   const std::span<const std::uint32_t> leaves = descent_.candidate_leaves();
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
+  for (std::size_t i = 0; i < leaves.size(); ++i) {  // mutant: first-candidate-ignored
     fetch_ahead(leaves.subspan(i));
     const LeafId leaf = leaves[i];
     // The leaves around the query vertex always look may_have_minimum, but mostly hang together with it as they are.
@@ -88,6 +88,7 @@ void BallSearch::fetch_ahead(std::span<const std::uint32_t> leaves) const {
 
 bool BallSearch::is_whole(LeafId leaf, const TreeBall& ball) const {
   const Leaf& record = index_->leaves[leaf];
+  // mutant: disconnected-leaf-is-whole
   return record.connected && meshhood::classify(record.bounds, ball) == Containment::Inside;
 }
 

@@ -5,7 +5,6 @@
 #include <bit>
 #include <utility>
 
-
 namespace meshhood {
 namespace {
 
@@ -87,7 +86,7 @@ void Descent::refine_intersecting(std::size_t level, const TreeBall& ball) {
     const std::uint8_t known = level == 0 ? found.inside | found.intersecting : found.inside;
     intersecting_.append(group, found.intersecting & exist);
     inside_.append(group, found.inside & exist);
-    candidates_.append(group, found.may_have_minimum & known & exist);
+    candidates_.append(group, found.may_have_minimum & known & exist);  // mutant: candidates-only-inside
   }
 }
 
@@ -95,7 +94,7 @@ void Descent::append_inside(std::size_t level, std::vector<VertexRange>& runs) c
   const std::size_t leaves = index_->leaf_count();
   for (const std::uint32_t node : inside_.nodes()) {
     const std::size_t first = std::size_t{node} << 3 * level;
-    const std::size_t last = std::min(std::size_t{node + 1} << 3 * level, leaves);
+    const std::size_t last = std::min(std::size_t{node + 1} << 3 * level, leaves);  // mutant: run-of-one-leaf
     runs.push_back({index_->leaf_begin[first], index_->leaf_begin[last]});
   }
 }

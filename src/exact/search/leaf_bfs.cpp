@@ -31,7 +31,7 @@ void LeafBfs::run(std::uint32_t slot, const LeafBall& ball, const TreeBall& tree
     const bool is_new = walk.find(leaf)->reached == 0;
     const LaneMask added = walk.reach(leaf);
     if (added == 0) continue;
-    if (is_new) reached_.push_back(leaf);
+    if (is_new) reached_.push_back(leaf);  // mutant: leaf-reached-twice
     walk.push_on(leaf, added, queue_);
   }
   append_to(walk, answer);
@@ -41,7 +41,7 @@ void LeafBfs::append_to(const LeafTraversal& walk, VertexSet& answer) const {
   for (const LeafId leaf : reached_) {
     const Leaf& record = index_->leaves[leaf];
     const LaneMask lanes = walk.find(leaf)->reached;
-    if (lanes == first_lanes(record.size)) {
+    if (lanes == first_lanes(record.size)) {  // mutant: leaf-full-without-first-lane
       answer.runs.push_back({static_cast<VertexId>(record.first), static_cast<VertexId>(record.first + record.size)});
     } else {
       answer.subsets.push_back({leaf, lanes});

@@ -14,7 +14,7 @@ LeafTraversal::LeafTraversal(const IndexView& index, const Kernels& kernels)
 void LeafTraversal::start(const LeafBall& ball, const TreeBall& tree_ball) {
   ball_ = &ball;
   tree_ball_ = &tree_ball;
-  if (query_ == kLastQuery) {
+  if (query_ == kLastQuery) {  // mutant: query-counter-never-wraps
     std::fill(states_.begin(), states_.end(), State{});
     query_ = 0;
   }
@@ -28,8 +28,8 @@ LeafTraversal::State& LeafTraversal::touch(LeafId leaf) {
   const Containment side = classify(record.bounds, *tree_ball_);
   const LaneMask all = first_lanes(record.size);
   state = {.query = query_ & kLastQuery,
-           .whole = side == Containment::Inside && record.connected,
-           .inside = side == Containment::Outside ? 0 : all,
+           .whole = side == Containment::Inside && record.connected,  // mutant: disconnected-leaf-taken-whole
+           .inside = side == Containment::Outside ? 0 : all,          // mutant: inside-leaf-taken-as-outside
            .reached = 0,
            .pending = 0,
            .settled = 0};
@@ -62,10 +62,11 @@ LaneMask LeafTraversal::reach(LeafId leaf) {
 
 void LeafTraversal::push_on(LeafId leaf, LaneMask added, std::vector<LeafId>& waiting) {
   for (const Link& link : index_->links_of(leaf)) {
-    if ((link.boundary & added) == 0) continue;
+    if ((link.boundary & added) == 0) continue;  // mutant: link-needs-whole-boundary
     State& other = touch(link.leaf);
     const LaneMask open = other.inside & ~(other.reached | other.pending);
     if (open == 0) continue;
+    // mutant: link-reaches-every-lane
     const LaneMask met = other.whole ? open : kernels_->cross_edges(index_->cross_edges_of(link), added) & open;
     if (met == 0) continue;
     if (other.pending == 0) waiting.push_back(link.leaf);

@@ -10,7 +10,8 @@ bool has_nearer_neighbor_outside(const IndexView& index, const LocalMinimum& ver
   for (const Link& link : index.links_of(vertex.leaf)) {
     if ((link.boundary >> vertex.lane & 1U) == 0) continue;
     for (const CrossEdge& edge : index.cross_edges_of(link)) {
-      if (edge.from != vertex.lane) continue;
+      if (edge.from != vertex.lane) continue;  // mutant: cross-edges-of-every-lane
+      // mutant: tied-neighbor-taken-as-nearer
       if (squared_distance(index.position(link.leaf, edge.to), centre) < vertex.square) return true;
     }
   }
@@ -28,7 +29,7 @@ void append_local_minima(const IndexView& index, const Kernels& kernels, LeafId 
     const bool is_one = record.connected && left == first_lanes(record.size);
     const LaneMask part = is_one ? left : kernels.reachable(&index.adjacency[record.first], left, left & -left);
     left &= ~part;
-    if ((part & query_lane) != 0) continue;
+    if ((part & query_lane) != 0) continue;  // mutant: query-leaf-has-no-minimum
     const Nearest nearest = kernels.nearest(index.positions, record.first, part, ball);
     const LocalMinimum vertex{nearest.square, leaf, nearest.lane};
     if (!has_nearer_neighbor_outside(index, vertex, ball.centre)) out.push_back(vertex);

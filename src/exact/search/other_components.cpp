@@ -24,7 +24,7 @@ bool OtherComponents::find(std::uint32_t slot, std::span<const LocalMinimum> min
     start_walk(minimum.leaf, lane, walk);
     const End end = finish_walk(minimum.square, walk);
     if (end == End::OverBudget) return false;
-    if (end == End::Exhausted) append_reached(walk);
+    if (end == End::Exhausted) append_reached(walk);  // mutant: other-components-kept
     settle(walk);
   }
   put_in_order();
@@ -120,7 +120,7 @@ void OtherComponents::append_what_is_left(const VertexRange& run, std::vector<Le
     const VertexId end = index_->leaf_begin[it->leaf + 1];
     if (begin < first) runs_.push_back({begin, first});
     const LaneMask left = first_lanes(end - first) & ~it->lanes;
-    if (left != 0) subsets.push_back({it->leaf, left});
+    if (left != 0) subsets.push_back({it->leaf, left});  // mutant: rest-of-cut-leaf-dropped
     begin = end;
   }
   if (begin < run.end) runs_.push_back({begin, run.end});
