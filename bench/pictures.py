@@ -51,7 +51,7 @@ def draw(picture):
     v = nearest(positions, picture.at)
     plotter = pyvista.Plotter(off_screen=True, window_size=PIXELS)
     plotter.background_color = "white"
-    meshhood.plot_neighborhood(index, v, radius, positions, faces, plotter=plotter)
+    meshhood.plot_neighborhood(index, v, radius, positions, faces, legend=False, plotter=plotter)
     look(plotter, middle(positions[index.query_ball(v, radius, method="ball")]), radius, picture)
     places.RESULTS.mkdir(parents=True, exist_ok=True)
     plotter.screenshot(places.RESULTS / f"figure4{picture.letter}.png")

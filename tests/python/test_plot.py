@@ -56,3 +56,35 @@ def test_another_mesh_is_refused():
     index = meshhood.MeshIndex(V, F)
     with pytest.raises(ValueError, match="V: 36 vertices, but the index has 50"):
         meshhood.plot_neighborhood(index, 0, 1.0, *meshes.grid(6), plotter=object())
+
+
+@pytest.mark.parametrize("edges", (0, 3, 15, np.inf))
+@pytest.mark.parametrize("scale", (1e-6, 1e-3, 1.0, 1e3, 1e6))
+def test_the_camera_shows_the_region_at_any_scale_and_radius(scale, edges):
+    V, F = meshes.two_plates(40)
+    V = scale * (V + 1000)
+    index = meshhood.MeshIndex(V, F)
+    v = 15 * 40 + 20
+    plotter = pyvista.Plotter(off_screen=True, window_size=(600, 400))
+    meshhood.plot_neighborhood(index, v, edges, V, F, unit="edge", plotter=plotter, legend=False)
+    picture = plotter.screenshot(return_img=True)
+    plotter.close()
+    red = np.argwhere((picture[:, :, 0] > 150) & (picture[:, :, 1:] < 80).all(axis=2))
+    is_green = picture[:, :, 1] > picture[:, :, ::2].max(axis=2).astype(int) + 20  # fades out over one edge
+    green = int(is_green.sum())
+    print(f"{green} green pixels, red around {red.mean(axis=0)}")
+    np.testing.assert_allclose(red.mean(axis=0), (200, 300), atol=5)
+    assert green > 500
+    if edges < 20:
+        assert not np.concatenate([is_green[0], is_green[-1], is_green[:, 0], is_green[:, -1]]).any()
+
+
+def test_the_legend_explains_every_color():
+    V, F = meshes.two_plates(10)
+    index = meshhood.MeshIndex(V, F)
+    for legend, entries in ((True, 5), (False, 0)):
+        plotter = pyvista.Plotter(off_screen=True)
+        meshhood.plot_neighborhood(index, 55, 3.0, V, F, plotter=plotter, legend=legend)
+        drawn = plotter.renderer.legend
+        assert (drawn.GetNumberOfEntries() if drawn else 0) == entries
+        plotter.close()

@@ -10,10 +10,12 @@ r around v.
     indptr, indices = index.query_ball([42, 43], 1.5)
 """
 
-from ._core import __version__
+from . import _core
 from ._files import Mesh, load, read_mesh
 from ._index import Chunk, MeshIndex
 from ._methods import Paper
 from ._plot import plot_neighborhood
+
+__version__: str = _core.__version__
 
 __all__ = ["Chunk", "Mesh", "MeshIndex", "Paper", "__version__", "load", "plot_neighborhood", "read_mesh"]

@@ -104,7 +104,7 @@ class MeshIndex:
     def __getstate__(self) -> Any:
         """The attributes that a subclass has added; None if there are none."""
         attributes = {name: value for name, value in vars(self).items() if name not in MeshIndex.__annotations__}
-        names = copyreg._slotnames(type(self))  # type: ignore[attr-defined]
+        names = copyreg._slotnames(type(self))
         slots = {name: getattr(self, name) for name in names if hasattr(self, name)}
         return (attributes, slots) if slots else attributes or None
 
@@ -123,13 +123,13 @@ class MeshIndex:
     def nbytes(self) -> int:
         """Memory of the index in bytes, including its copy of the positions. The other methods, `positions` and
         `mean_edge_length` need additional memory once they are used."""
-        return self._exact.nbytes  # type: ignore[no-any-return]
+        return self._exact.nbytes
 
     @property
     def positions(self) -> Union[NDArray[np.float32], NDArray[np.float64]]:
         """The positions: (#V, 3), in the numbering and precision of V, read-only. Extracted at the first use, then
         kept."""
-        return self._methods.graph().positions  # type: ignore[no-any-return]
+        return self._methods.graph().positions
 
     @property
     def mean_edge_length(self) -> float:
@@ -140,7 +140,7 @@ class MeshIndex:
     @property
     def permutation(self) -> Ids:
         """The vertices in index order: (#V,) int32, read-only, not copied. It keeps the index alive."""
-        return self._exact.permutation  # type: ignore[no-any-return]
+        return self._exact.permutation
 
     @overload
     def query_ball(
@@ -289,7 +289,7 @@ class MeshIndex:
         permutation[begin:end] for each row `begin, end`. The ranges are disjoint, in unspecified order. No ids are
         copied."""
         scale = self._scale(unit)
-        return self._exact.ranges(  # type: ignore[no-any-return]
+        return self._exact.ranges(
             _convert.vertex(v, self._count), scale * _convert.radius(r)
         )
 
@@ -313,7 +313,7 @@ class MeshIndex:
         from scipy.sparse import csr_array
 
         with_distances = _convert.choice(mode, "mode", ("connectivity", "distance")) == "distance"
-        indptr, indices, *distances = self.query_ball(  # type: ignore[call-overload]
+        indptr, indices, *distances = self.query_ball(
             None,
             r,
             return_distance=with_distances,

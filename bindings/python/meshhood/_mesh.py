@@ -97,13 +97,16 @@ def _polygons(F):
 
 
 def _edges(graph, vertex_count):
-    """Each stored entry of a sparse matrix as a polygon of two corners."""
+    """Each stored entry of a sparse matrix as a polygon of two corners. Read from its arrays: the conversions of SciPy
+    trust them, and may read beyond their ends."""
     if graph.shape != (vertex_count, vertex_count):
         raise ValueError(f"F: a graph of shape {graph.shape}, expected {(vertex_count, vertex_count)}")
     if hasattr(graph, "indptr"):
         rows, columns = _compressed_entries(graph, vertex_count)
     elif getattr(graph, "format", None) == "lil":
         rows, columns = _list_entries(graph, vertex_count)
+    elif getattr(graph, "format", None) == "dia":
+        rows, columns = _diagonal_entries(graph, vertex_count)
     else:
         rows, columns = _coordinate_entries(graph)
     corners = np.column_stack([rows, columns]).ravel()
@@ -111,7 +114,7 @@ def _edges(graph, vertex_count):
 
 
 def _compressed_entries(graph, vertex_count):
-    """The entries of a CSR, CSC or BSR matrix. SciPy trusts `indptr` and may read beyond the arrays."""
+    """The entries of a CSR, CSC or BSR matrix."""
     block_rows, block_columns = getattr(graph, "blocksize", (1, 1))
     indptr, indices = _integers(graph.indptr, "F.indptr"), _integers(graph.indices, "F.indices")
     major = "column" if graph.format == "csc" else "row"
@@ -155,6 +158,17 @@ def _list_entries(graph, vertex_count):
     return np.repeat(np.arange(vertex_count), [len(row) for row in lists]), columns
 
 
+def _diagonal_entries(graph, vertex_count):
+    """The entries of a DIA matrix, which stores whole diagonals, that are not zero."""
+    offsets, data = np.array(graph.offsets), np.array(graph.data)
+    if offsets.ndim != 1 or data.ndim != 2 or len(data) != len(offsets):
+        raise ValueError(f"F: offsets of shape {offsets.shape} and data of shape {data.shape}, expected a row for each")
+    diagonals, columns = np.nonzero(data)
+    rows = columns - offsets[diagonals]
+    inside = (rows >= 0) & (rows < vertex_count) & (columns < vertex_count)
+    return rows[inside], columns[inside]
+
+
 def _coordinate_entries(graph):
     try:
         entries = graph.tocoo()
@@ -170,7 +184,7 @@ def _parts(mesh):
     """Positions and faces of a mesh of trimesh, PyVista, meshio or this package."""
     if hasattr(mesh, "points") and isinstance(getattr(mesh, "cells", None), list):
         return mesh.points, _meshio_polygons(mesh)
-    if hasattr(mesh, "points") and hasattr(mesh, "faces"):
+    if hasattr(mesh, "points") and (hasattr(mesh, "GetPolys") or hasattr(mesh, "faces")):
         for kind in ("n_strips", "n_lines"):
             if getattr(mesh, kind, 0):
                 raise ValueError(f"V: has {getattr(mesh, kind)} {kind[2:]}, expected only polygons")
@@ -181,11 +195,11 @@ def _parts(mesh):
 
 
 def _pyvista_faces(mesh):
-    """The offsets and corners that VTK stores. Without them, PyVista would make a padded array."""
+    """The offsets and corners that VTK stores. To make the padded array `faces` of them, PyVista trusts the offsets and
+    may read beyond the corners."""
     if hasattr(mesh, "GetPolys"):
         polygons = mesh.GetPolys()
-        offsets, corners = np.asarray(polygons.GetOffsetsArray()), np.asarray(polygons.GetConnectivityArray())
-        return offsets, corners
+        return np.asarray(polygons.GetOffsetsArray()), np.asarray(polygons.GetConnectivityArray())
     return mesh.faces
 
 

@@ -1,25 +1,48 @@
 # SPDX-License-Identifier: MIT
-"""The paper's Figure 4, for a mesh of one's own."""
+"""Draws a neighborhood as in Figure 4 of the paper."""
+
+from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 
 from . import _convert
+from ._index import MeshIndex, Number, Unit, Vertex
 from ._mesh import mesh_arrays
 
-# What each vertex is, the later over the earlier, and the colours of the paper.
+# What a vertex belongs to, each a subset of the one before, in the colors of the paper.
 _LABELS = ("other", "ball", "paper", "exact")
 _COLORS = ("lightgray", "royalblue", "gold", "forestgreen")
 
-# In steps of depth, of which VTK has 2^16: from anywhere to the eye.
-_BEFORE_ALL = -66000
+# In steps of depth, of which VTK has 2^16: in front of everything.
+_IN_FRONT = -66000
+
+_VIEW_ANGLE = 30.0  # degrees
 
 
-def plot_neighborhood(index, v, r, V, F=None, *, plotter=None):
-    """Shows the neighborhood of `v` within `r` on the mesh: green what is exact, yellow what the paper's search adds,
-    blue what a ball takes besides, and the vertex as a red dot, whatever lies before it.
+def plot_neighborhood(
+    index: MeshIndex,
+    v: Vertex,
+    r: Number,
+    V: Any,
+    F: Any = None,
+    *,
+    unit: Unit = "mesh",
+    legend: bool = True,
+    plotter: Any = None,
+) -> Any:
+    """Draws the neighborhood of `v` within `r` on the mesh: the exact neighborhood in green, what the search of the
+    paper adds in yellow, what the ball adds in blue, the rest in gray, and the vertex as a red dot that nothing hides.
 
-    index : the `MeshIndex` of the mesh.    V, F : the mesh, as `MeshIndex` takes it, but not a graph.
+    index : the `MeshIndex` of the mesh.
+    v, r, unit : the query, as for `MeshIndex.query_ball`.
+    V, F : the mesh, as for `MeshIndex`, but not a graph.
+    legend : explain the colors, with the number of vertices of each.
     plotter : a pyvista.Plotter to draw on; otherwise one is made and shown.
+
+    The camera looks at the vertex along the normal of the surface, from a distance at which the whole ball is visible.
+    Parts of the mesh that lie between the camera and the ball are cut away.
 
     Returns the plotter. Needs PyVista. For a picture without a window:
 
@@ -31,7 +54,7 @@ def plot_neighborhood(index, v, r, V, F=None, *, plotter=None):
     v = _convert.vertex(v, len(index))
     labels = np.zeros(len(index), np.uint8)
     for label, method in enumerate(_LABELS[1:], start=1):
-        labels[index.query_ball(v, r, method=method)] = label
+        labels[index.query_ball(v, r, method=method, unit=unit)] = label
     mesh = _poly_data(pyvista, *mesh_arrays(V, F))
     if mesh.n_points != len(index):
         raise ValueError(f"V: {mesh.n_points} vertices, but the index has {len(index)}")
@@ -44,12 +67,61 @@ def plot_neighborhood(index, v, r, V, F=None, *, plotter=None):
         interpolate_before_map=False,
         show_scalar_bar=False,
     )
-    dot = drawn.add_points(mesh.points[[v]], color="red", point_size=16, render_points_as_spheres=True)
-    dot.mapper.SetResolveCoincidentTopologyToPolygonOffset()
-    dot.mapper.SetRelativeCoincidentTopologyPointOffsetParameter(_BEFORE_ALL)
+    _add_dot(drawn, mesh.points[[v]])
+    if legend:
+        _add_legend(drawn, v, labels)
+    _aim(drawn, mesh, v, labels)
     if plotter is None:
         drawn.show()
     return drawn
+
+
+def _add_dot(plotter, point):
+    dot = plotter.add_points(point, color="red", point_size=16, render_points_as_spheres=True)
+    dot.mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    dot.mapper.SetRelativeCoincidentTopologyPointOffsetParameter(_IN_FRONT)
+
+
+def _add_legend(plotter, v, labels):
+    other, ball, paper, exact = (int((labels == label).sum()) for label in range(len(_LABELS)))
+    entries = [
+        [f"vertex {v}", "red"],
+        [f"exact: {exact}", _COLORS[3]],
+        [f"paper adds {paper}", _COLORS[2]],
+        [f"ball adds {ball}", _COLORS[1]],
+        [f"other: {other}", _COLORS[0]],
+    ]
+    plotter.add_legend(entries, bcolor="#303030", border=True, face="rectangle", size=(0.3, 0.25), loc="lower right")
+
+
+def _aim(plotter, mesh, v, labels):
+    """Looks at vertex `v` along its normal, so that what is not "other" fills the picture."""
+    offsets = mesh.points.astype(np.float64) - mesh.points[v]
+    normal, edge = _normal_and_edge(mesh, offsets, v)
+    # From the side on which fewer of the other parts lie, for they would hide the exact neighborhood.
+    if np.sign(offsets[(labels == 1) | (labels == 2)] @ normal).sum() > 0:
+        normal = -normal
+    extent = np.linalg.norm(offsets[labels > 0], axis=1).max() + 1.5 * edge or 1.0
+    distance = extent / np.sin(np.radians(_VIEW_ANGLE / 2))
+    camera = plotter.camera
+    camera.view_angle = _VIEW_ANGLE
+    camera.focal_point = mesh.points[v]
+    camera.position = mesh.points[v] + distance * normal
+    camera.up = np.roll((0.0, 0.0, 1.0), np.abs(normal[::-1]).argmin() * -1)
+    camera.clipping_range = (distance - extent, distance + np.linalg.norm(offsets, axis=1).max() + extent)
+    camera.is_set = True
+
+
+def _normal_and_edge(mesh, offsets, v):
+    """The unit normal of the faces at `v`, and the length of their longest edge."""
+    normal, edge = np.zeros(3), 0.0
+    for face in mesh.point_cell_ids(v):
+        corners = offsets[mesh.get_cell(face).point_ids]
+        following = np.roll(corners, -1, axis=0)
+        normal += np.cross(corners, following).sum(axis=0)
+        edge = max(edge, np.linalg.norm(following - corners, axis=1).max())
+    length = np.linalg.norm(normal)
+    return (normal / length if length > 0 else np.array([0.0, 0.0, 1.0])), edge
 
 
 def _poly_data(pyvista, positions, corners, offsets):

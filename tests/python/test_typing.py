@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: MIT
+"""What a type checker sees: `mypy --strict` accepts these programs, with exactly these types."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import meshhood
+import pytest
+
+PROGRAM = """
+from typing import TYPE_CHECKING, Any, Union
+
+import meshhood
+import numpy as np
+from numpy.typing import NDArray
+from typing_extensions import assert_type
+
+Ids = NDArray[np.int32]
+Longs = NDArray[np.int64]
+Reals = NDArray[np.float64]
+
+mesh = meshhood.read_mesh("hand.ply")
+assert_type(mesh.vertices, Union[NDArray[np.float32], Reals])
+assert_type(mesh.faces, Union[Ids, tuple[Longs, Ids]])
+index = meshhood.MeshIndex(*mesh, workers=2, progress=lambda done, total: print(done))
+assert_type(len(index), int)
+assert_type(index.n_vertices, int)
+assert_type(index.nbytes, int)
+assert_type(index.mean_edge_length, float)
+assert_type(index.positions, Union[NDArray[np.float32], Reals])
+assert_type(index.permutation, Ids)
+assert_type(meshhood.__version__, str)
+
+assert_type(index.query_ball(1, 2), Ids)
+assert_type(index.query_ball(np.int64(1), np.float32(2), sort=True, unit="edge"), Ids)
+assert_type(index.query_ball(1, 2.0, return_distance=True), tuple[Ids, Reals])
+assert_type(index.query_ball([1, 2], 2.0, method="bfs"), tuple[Longs, Ids])
+assert_type(index.query_ball(None, [2.0, 3.0]), tuple[Longs, Ids])
+assert_type(index.query_ball(np.arange(3), np.ones(3), return_distance=True), tuple[Longs, Ids, Reals])
+assert_type(index.query_ball(index.permutation, 1.0), tuple[Longs, Ids])
+assert_type(index.query_ball(np.ones(9, bool), 1.0), tuple[Longs, Ids])
+assert_type(index.query_ball_count(1, 2.0, method=meshhood.Paper(radius_ratio=20)), int)
+assert_type(index.query_ball_count(range(3), 2.0), Longs)
+assert_type(index.query_ranges(1, 2.0), Ids)
+for part in index.iter_neighborhoods(None, 1.0, return_distance=True):
+    assert_type(part.vertices, Ids)
+    assert_type(part.indptr, Longs)
+    assert_type(part.distances, Union[Reals, None])
+index.save("hand.index")
+assert_type(meshhood.load("hand.index", mmap=True), meshhood.MeshIndex)
+"""
+
+REFUSED = (
+    'index.query_ball("1", 2.0)',
+    "index.query_ball(1)",
+    "index.query_ball(1, [2.0])",
+    'index.query_ball(1, 2.0, method="fast")',
+    'index.query_ball(1, 2.0, unit="mile")',
+    "index.iter_neighborhoods(1.0)",
+    "meshhood.Paper(factor=20)",
+    "meshhood.load(3)",
+)
+
+
+def check(tmp_path, program):
+    pytest.importorskip("mypy")
+    file = tmp_path / "program.py"
+    file.write_text(program)
+    package = Path(meshhood.__file__).parents[1]
+    done = subprocess.run(
+        [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path / "cache"), "program.py"],
+        cwd=tmp_path,
+        env={"MYPYPATH": str(package), "PATH": "/usr/bin:/bin"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    return [line for line in done.stdout.splitlines() if line.startswith("program.py") or "Traceback" in line], done
+
+
+def test_the_types_are_exact(tmp_path):
+    errors, done = check(tmp_path, PROGRAM)
+    assert not errors, done.stdout
+    assert done.returncode in (0, 1), done.stderr
+
+
+def test_wrong_calls_are_found(tmp_path):
+    head = 'import meshhood\nindex = meshhood.load("hand.index")\n'
+    errors, done = check(tmp_path, head + "\n".join(REFUSED))
+    lines = {int(line.split(":")[1]) for line in errors if " error: " in line}
+    assert lines == {number for number, _ in enumerate(REFUSED, start=3)}, done.stdout
