@@ -9,13 +9,14 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "io/descriptor.h"
 
 namespace meshhood::io {
 
-/// Where the bytes of a mesh or an index come from.
+/// A sequence of bytes to read once.
 class ByteSource {
  public:
   ByteSource() = default;
@@ -23,10 +24,10 @@ class ByteSource {
   ByteSource& operator=(const ByteSource&) = delete;
   virtual ~ByteSource() = default;
 
-  /// How many bytes there are in all, where that is known beforehand: not for a pipe or a device.
+  /// The total number of bytes, if it is known in advance: not for a pipe or a device.
   [[nodiscard]] virtual std::optional<std::uint64_t> size() const = 0;
 
-  /// Fills the front of `out` and returns how much of it; 0 at the end only.
+  /// Fills the front of `out` and returns the number of bytes; 0 only at the end.
   [[nodiscard]] virtual std::size_t read(std::span<char> out) = 0;
 };
 
@@ -51,20 +52,25 @@ class FileSource final : public ByteSource {
   [[nodiscard]] std::optional<std::uint64_t> size() const override { return size_; }
   [[nodiscard]] std::size_t read(std::span<char> out) override;
 
-  /// Whether it is neither pipe nor device.
-  [[nodiscard]] bool is_ordinary() const { return is_ordinary_; }
+  /// The first bytes of the file, `count` of them unless it has fewer. To be called before `read`, which returns them
+  /// again.
+  [[nodiscard]] std::string_view peek(std::size_t count);
 
-  /// Calls `f` whenever nothing has come for a moment, for whoever would rather stop. What it throws, `read` passes on.
+  /// Whether it is neither a pipe nor a device.
+  [[nodiscard]] bool is_regular() const { return is_regular_; }
+
+  /// Calls `f` about ten times a second while there is nothing to read. `read` passes on what it throws.
   void while_waiting(std::function<void()> f) { while_waiting_ = std::move(f); }
 
  private:
-  [[nodiscard]] bool wait_for_bytes(std::chrono::steady_clock::duration patience) const;
-  [[noreturn]] void fail(const std::string& reason) const;
+  [[nodiscard]] std::size_t read_file(std::span<char> out);
+  [[nodiscard]] bool wait_for_bytes(std::chrono::steady_clock::duration limit) const;
 
-  std::string name_;
+  std::filesystem::path path_;
   Descriptor file_;
+  std::string peeked_;  // not yet returned by `read`
   std::optional<std::uint64_t> size_;
-  bool is_ordinary_ = false;
+  bool is_regular_ = false;
   bool may_lack_a_writer_ = false;
   std::function<void()> while_waiting_;
 };

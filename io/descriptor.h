@@ -27,8 +27,8 @@ class Descriptor {
   [[nodiscard]] bool is_open() const { return number_ >= 0; }
   [[nodiscard]] int number() const { return number_; }
 
-  /// Whether it closed without error; it counts as closed in any case. A signal is none: Linux has let go of the file
-  /// by then, and to close it again might hit another that was opened since.
+  /// Closes the file and returns whether there was no error. An interruption by a signal is no error: Linux has
+  /// released the descriptor by then, and a second close might hit a file that another thread has opened since.
   [[nodiscard]] bool close() {
     const int number = std::exchange(number_, -1);
     return number < 0 || ::close(number) == 0 || errno == EINTR;
@@ -38,7 +38,7 @@ class Descriptor {
   int number_;
 };
 
-/// Opens whatever `path` is, to be read. Without O_NONBLOCK the mere opening of a pipe may never end.
+/// Opens `path` for reading. O_NONBLOCK, because the opening of a pipe without a writer would block.
 [[nodiscard]] inline Descriptor open_to_read(const std::filesystem::path& path) {
   return Descriptor(uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY); }));
 }

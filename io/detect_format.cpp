@@ -3,10 +3,12 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "meshhood/serialize.h"
 
-#include "io/place.h"
+#include "io/messages.h"
 #include "io/readers.h"
 
 namespace meshhood::io {
@@ -14,6 +16,7 @@ namespace {
 
 constexpr std::size_t kHead = std::size_t{1} << 16;
 constexpr std::size_t kIndexMark = 8;
+constexpr std::string_view kLfsMark = "version https://git-lfs.github.com/spec/";
 
 std::string lower_case(std::string text) {
   for (char& c : text) {
@@ -22,14 +25,14 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-bool begins_index(Input& input) { return meshhood::is_index(std::as_bytes(std::span(input.ahead(kIndexMark)))); }
+bool is_index_start(Input& input) { return meshhood::is_index(std::as_bytes(std::span(input.ahead(kIndexMark)))); }
 
-std::optional<Format> format_of_ending(const std::string& name) {
-  const auto ending = lower_case(std::filesystem::path(name).extension().string());
-  if (ending == ".ply") return Format::Ply;
-  if (ending == ".obj") return Format::Obj;
-  if (ending == ".off") return Format::Off;
-  if (ending == ".stl") return Format::Stl;
+std::optional<Format> format_of_extension(const std::string& name) {
+  const auto extension = lower_case(std::filesystem::path(name).extension().string());
+  if (extension == ".ply") return Format::Ply;
+  if (extension == ".obj") return Format::Obj;
+  if (extension == ".off") return Format::Off;
+  if (extension == ".stl") return Format::Stl;
   return std::nullopt;
 }
 
@@ -37,11 +40,11 @@ void take_byte_order_mark(Input& input) {
   const auto head = input.ahead(3);
   if (head.starts_with("\xef\xbb\xbf")) input.skip(3);
   if (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff")) {
-    raise(ErrorCode::UnsupportedFormat, input.name() + ": UTF-16 text is not read, only UTF-8 and ASCII");
+    raise(ErrorCode::UnsupportedFormat, input.name() + ": UTF-16 text is not supported, expected UTF-8 or ASCII");
   }
 }
 
-// The first word that is in no comment; empty where the head has none.
+// The first word outside comments; empty if there is none.
 std::string_view first_word(std::string_view head) {
   constexpr std::string_view kBlanks = " \t\v\f\r\n";
   for (;;) {
@@ -51,7 +54,7 @@ std::string_view first_word(std::string_view head) {
   }
 }
 
-// A keyword and something behind it. A letter alone is no evidence.
+// A keyword followed by a blank: a letter alone could begin any text.
 bool begins_obj(std::string_view head, std::string_view word) {
   const auto behind = static_cast<std::size_t>(word.data() - head.data()) + word.size();
   return is_obj_statement(word) && behind < head.size() && (head[behind] == ' ' || head[behind] == '\t');
@@ -72,19 +75,24 @@ std::optional<Format> format_of_content(Input& input) {
 
 Format detect_format(Input& input, const std::string& name) {
   take_byte_order_mark(input);
-  const auto ending = format_of_ending(name);
-  if (begins_index(input)) {
-    raise(ErrorCode::UnsupportedFormat, input.name() + ": an index, where a mesh was expected");
+  const auto extension = format_of_extension(name);
+  if (is_index_start(input)) {
+    raise(ErrorCode::UnsupportedFormat, input.name() + ": is an index, expected a mesh");
+  }
+  if (input.ahead(kLfsMark.size()).starts_with(kLfsMark)) {
+    raise(ErrorCode::UnsupportedFormat,
+          input.name() + ": is a Git LFS pointer, not the mesh; 'git lfs pull' downloads the mesh");
   }
   if (input.ahead(1).empty()) {
-    // Of the four only an OBJ file may be empty: it is a mesh of no vertices.
-    if (ending == Format::Obj) return Format::Obj;
+    // Of the four formats, only OBJ allows an empty file: a mesh without vertices.
+    if (extension == Format::Obj) return Format::Obj;
     raise(ErrorCode::MalformedFile, input.name() + ": the file is empty");
   }
   const auto format = format_of_content(input);
   if (format) return *format;
-  if (ending) return *ending;
-  raise(ErrorCode::UnsupportedFormat, input.name() + ": neither PLY, OBJ, OFF nor STL, by its first bytes or its name");
+  if (extension) return *extension;
+  raise(ErrorCode::UnsupportedFormat,
+        input.name() + ": is neither PLY, OBJ, OFF nor STL, by its first bytes or its extension");
 }
 
 }  // namespace meshhood::io

@@ -3,6 +3,8 @@
 
 #include <atomic>
 #include <cerrno>
+#include <csignal>
+#include <ctime>
 #include <system_error>
 #include <utility>
 
@@ -11,19 +13,17 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "meshhood/error.h"
-
-#include "io/place.h"
+#include "io/messages.h"
 #include "io/uninterrupted.h"
 
 namespace meshhood::io {
 namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
-constexpr mode_t kNewFileMode = 0666;  // less what the umask takes away
+constexpr mode_t kNewFileMode = 0666;  // reduced by the umask
 constexpr mode_t kPrivateMode = 0600;
 
-// What a symbolic link stands for, so that the link survives; even if nothing is there yet.
+// The target of a symbolic link, even if it does not exist yet: the link itself is kept.
 std::filesystem::path resolved(const std::filesystem::path& path) {
   std::error_code failed;
   auto target = std::filesystem::canonical(path, failed);
@@ -32,15 +32,44 @@ std::filesystem::path resolved(const std::filesystem::path& path) {
   return failed ? path : path.parent_path() / missing;
 }
 
-// Recognisable as a leftover, should the process be killed. No longer than a name may be, though the target's may be
-// so.
+// Recognisable as a leftover if the process is killed. Short enough even if the name of the target has maximal length.
 std::string temporary_name(const std::filesystem::path& target) {
   static std::atomic<unsigned> serial = 0;
   constexpr std::size_t kMost = 200;
   return fmt::format(".{}.meshhood-{}-{}.tmp", target.filename().string().substr(0, kMost), ::getpid(), serial++);
 }
 
+/// While it lives, a write beyond the file-size limit (`ulimit -f`) fails with EFBIG and does not raise SIGXFSZ, which
+/// would end the process and leave the temporary file. The signal goes to the writing thread: it is blocked there and
+/// removed, and the disposition of the process, which is not ours, stays as it is.
+class BlockedFileSizeSignal {
+ public:
+  BlockedFileSizeSignal() {
+    ::sigemptyset(&signal_);
+    ::sigaddset(&signal_, SIGXFSZ);
+    sigset_t pending;
+    ::sigpending(&pending);
+    was_pending_ = ::sigismember(&pending, SIGXFSZ) == 1;
+    ::pthread_sigmask(SIG_BLOCK, &signal_, &previous_mask_);
+  }
+  BlockedFileSizeSignal(const BlockedFileSizeSignal&) = delete;
+  BlockedFileSizeSignal& operator=(const BlockedFileSizeSignal&) = delete;
+  ~BlockedFileSizeSignal() {
+    const int error = errno;
+    constexpr timespec kNoWait{};
+    if (!was_pending_) static_cast<void>(uninterrupted([&] { return ::sigtimedwait(&signal_, nullptr, &kNoWait); }));
+    ::pthread_sigmask(SIG_SETMASK, &previous_mask_, nullptr);
+    errno = error;
+  }
+
+ private:
+  sigset_t signal_{};
+  sigset_t previous_mask_{};
+  bool was_pending_ = false;
+};
+
 bool write_all(int file, std::string_view bytes) {
+  const BlockedFileSizeSignal blocked;
   while (!bytes.empty()) {
     const ssize_t count = uninterrupted([&] { return ::write(file, bytes.data(), bytes.size()); });
     if (count < 0) return false;
@@ -58,7 +87,7 @@ FileWriter::FileWriter(const std::filesystem::path& path) : name_(path), target_
   if (is_special) {
     open_in_place();
   } else {
-    // What replaces a file that others may not read they may not read while it is written either.
+    // Create the temporary file private if it replaces a file, so that a private file is never briefly readable.
     open_beside(std::filesystem::exists(status) ? kPrivateMode : kNewFileMode);
   }
 }
@@ -89,8 +118,7 @@ FileWriter::~FileWriter() {
 
 void FileWriter::write(std::string_view bytes) {
   if (bytes.size() >= kBufferBytes) {
-    // Gains nothing from being copied.
-    flush();
+    flush();  // large enough to write without the copy into the buffer
     write_through(bytes);
     return;
   }
@@ -115,10 +143,10 @@ void FileWriter::seek(std::uint64_t position) {
   flushed_ = position;
 }
 
-void FileWriter::commit(const std::function<void()>& last_chance) {
+void FileWriter::commit(const std::function<void()>& before_rename) {
   flush();
   if (temporary_.empty()) {
-    last_chance();
+    before_rename();
     if (!file_.close()) fail("close");
     return;
   }
@@ -126,27 +154,27 @@ void FileWriter::commit(const std::function<void()>& last_chance) {
   const Descriptor directory = open_directory();
   if (uninterrupted([this] { return ::fsync(file_.number()); }) != 0) fail("sync");
   if (!file_.close()) fail("close");
-  last_chance();
+  before_rename();
   if (uninterrupted([this] { return ::rename(temporary_.c_str(), target_.c_str()); }) != 0) fail("rename");
   temporary_.clear();
   sync(directory);
 }
 
-// A file that is replaced keeps its permissions, and its owner where we may give files away.
+// A replaced file keeps its permissions, and its owner where the process may change owners.
 void FileWriter::keep_owner_and_mode() const {
   struct stat old = {};
   if (uninterrupted([&] { return ::stat(target_.c_str(), &old); }) != 0) {
     if (errno == ENOENT) return;
-    fail("look at");
+    fail("stat");
   }
-  // Owner first, for a change of owner may take permissions away.
+  // Owner first: a change of owner may remove permissions.
   const int given = uninterrupted([&] { return ::fchown(file_.number(), old.st_uid, old.st_gid); });
   if (given != 0 && errno != EPERM && errno != EINVAL) fail("set its owner");
   if (uninterrupted([&] { return ::fchmod(file_.number(), old.st_mode & 07777U); }) != 0) fail("set its mode");
 }
 
-// Opened before the rename, so that an error finds the old file in place. None where we may write to it but not read
-// it: all that is lost is the promise for a loss of power.
+// Opened before the rename, so that on an error the old file is still in place. Not opened where the folder is writable
+// but not readable: then the new file may not survive a loss of power.
 Descriptor FileWriter::open_directory() const {
   const auto directory = target_.has_parent_path() ? target_.parent_path() : std::filesystem::path(".");
   const int file = uninterrupted([&] { return ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
@@ -154,15 +182,12 @@ Descriptor FileWriter::open_directory() const {
   return Descriptor(file);
 }
 
-// Not every file system has a notion of it.
+// Not every file system supports it.
 void FileWriter::sync(const Descriptor& directory) const {
   if (!directory.is_open() || uninterrupted([&] { return ::fsync(directory.number()); }) == 0) return;
   if (errno != EINVAL && errno != ENOTSUP) fail("sync its folder (the new file is in place)");
 }
 
-void FileWriter::fail(std::string_view action) const {
-  const auto reason = std::generic_category().message(errno);
-  raise(ErrorCode::IoFailure, fmt::format("{}: cannot {}: {}", printable_name(name_.string()), action, reason));
-}
+void FileWriter::fail(std::string_view action) const { raise_errno(name_, errno, action); }
 
 }  // namespace meshhood::io

@@ -13,33 +13,33 @@
 
 namespace meshhood::io {
 
-/// Writes a file that appears whole or not at all: under another name beside the target, `.NAME.meshhood-PID-N.tmp`,
-/// which takes its place on `commit`. Where the process is killed, that one stays behind. A target that is no ordinary
-/// file (a pipe, a device) is written to directly.
+/// Writes a file atomically: to a temporary file beside the target, `.NAME.meshhood-PID-N.tmp`, which is renamed to the
+/// target by `commit`. If the process is killed, the temporary file remains. A target that is not a regular file (a
+/// pipe, a device) is written directly.
 ///
-/// All errors are Error{IoFailure} and name the path and the reason; the target is then as it was, as it is where
-/// memory runs out. One error comes too late for that, and says so: where the folder cannot be synced, the new file is
-/// in place, but might not outlive a loss of power.
+/// All errors are Error{IoFailure} with the path and errno, also a file-size limit (EFBIG; no SIGXFSZ reaches the
+/// process). The target is then unchanged, as it is when memory runs out. One error comes after the rename and says so:
+/// if the folder cannot be synced, the new file is in place but might not survive a loss of power.
 class FileWriter {
  public:
   explicit FileWriter(const std::filesystem::path& path);
   FileWriter(const FileWriter&) = delete;
   FileWriter& operator=(const FileWriter&) = delete;
 
-  /// Removes what was written, unless it was committed.
+  /// Removes the temporary file, unless it was committed.
   ~FileWriter();
 
   void write(std::string_view bytes);
 
-  /// Where the next byte goes, counted from the beginning.
+  /// The offset of the next byte.
   [[nodiscard]] std::uint64_t position() const { return flushed_ + buffer_.size(); }
 
-  /// Goes to another place, to write over what stands there. Not every target that is no ordinary file can do it.
+  /// Moves to another offset, to overwrite the bytes there. Fails for a pipe.
   void seek(std::uint64_t position);
 
-  /// Makes what was written durable and visible. To be called once, last. In between, once what was written is on the
-  /// disk, `last_chance` is called, and may throw: then the target is as it was.
-  void commit(const std::function<void()>& last_chance = [] {});
+  /// Syncs the file and renames it to the target. Call it once, last. `before_rename` is called when the data is on the
+  /// disk; if it throws, the target is unchanged.
+  void commit(const std::function<void()>& before_rename = [] {});
 
  private:
   void open_in_place();
@@ -51,12 +51,12 @@ class FileWriter {
   void sync(const Descriptor& directory) const;
   [[noreturn]] void fail(std::string_view action) const;
 
-  std::filesystem::path name_;  // as it was given, for messages
+  std::filesystem::path name_;  // as given, for messages
   std::filesystem::path target_;
-  std::filesystem::path temporary_;  // empty where the target is written to directly
+  std::filesystem::path temporary_;  // empty if the target is written directly
   Descriptor file_;
   std::string buffer_;
-  std::uint64_t flushed_ = 0;  // where the buffer goes
+  std::uint64_t flushed_ = 0;  // offset of the buffer in the file
 };
 
 }  // namespace meshhood::io

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -12,21 +13,23 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <variant>
 
 #include "meshhood/error.h"
 
-#include "io/aligned_buffer.h"
+#include "base/aligned_buffer.h"
 #include "io/byte_source.h"
 #include "io/file_writer.h"
+#include "io/load_any.h"
 #include "io/mapped_file.h"
-#include "io/place.h"
-#include "io/tell.h"
+#include "io/messages.h"
+#include "io/readers.h"
 #include "io/watched_source.h"
 
 namespace meshhood::io {
 namespace {
 
-/// Reads until `out` is full or the source ends, and returns how much that is.
+/// Reads until `out` is full or the source ends. Returns the number of bytes read.
 std::size_t fill(ByteSource& source, std::span<char> out) {
   std::size_t size = 0;
   while (size < out.size()) {
@@ -43,7 +46,12 @@ std::span<const std::byte> bytes_of(const Head& head, std::size_t size) {
   return std::as_bytes(std::span(head).first(size));
 }
 
-/// Refuses what is no index, or not all of one, by its first bytes; of a pipe nobody knows how much will come.
+bool begins_index(FileSource& file) {
+  constexpr std::size_t kMagicBytes = 8;
+  return meshhood::is_index(std::as_bytes(std::span(file.peek(kMagicBytes))));
+}
+
+/// Refuses a file whose first bytes are not those of an index of its size. The size of a pipe is unknown.
 void check_head(std::span<const std::byte> first_bytes, const std::optional<std::uint64_t>& size) {
   if (size) {
     static_cast<void>(meshhood::read_header(first_bytes, *size));
@@ -52,13 +60,13 @@ void check_head(std::span<const std::byte> first_bytes, const std::optional<std:
   }
 }
 
-/// All there is, unless its beginning is refused, before anything is allocated for it.
+/// Reads the whole source. A wrong beginning is refused before memory is allocated for the rest.
 AlignedBuffer read_all(ByteSource& source) {
   constexpr std::size_t kFirstGuess = std::size_t{1} << 20;
   Head head;
   const std::size_t known = fill(source, head);
   check_head(bytes_of(head, known), source.size());
-  // One byte more than there are, so that the end is seen without another growth.
+  // One byte more than the size, so that the end is found without growing the buffer.
   AlignedBuffer all(std::max(known, static_cast<std::size_t>(source.size().value_or(kFirstGuess))) + 1);
   std::copy_n(head.begin(), known, all.room().begin());
   all.add(known);
@@ -69,7 +77,7 @@ AlignedBuffer read_all(ByteSource& source) {
   }
 }
 
-/// What `call` returns; what is wrong with the file's content is told with the file's name.
+/// Returns `call()`. Adds the name of the file to errors about its content.
 template <class F>
 auto naming(const std::filesystem::path& path, F&& call) {
   try {
@@ -82,7 +90,7 @@ auto naming(const std::filesystem::path& path, F&& call) {
   }
 }
 
-/// `save` of the core finds the kind of the index.
+/// `AnyIndex`: Index or paper::Index.
 template <class AnyIndex>
 void save_any(const std::filesystem::path& path, const AnyIndex& index, const SaveOptions& options) {
   FileWriter file(path);
@@ -100,12 +108,11 @@ void save_any(const std::filesystem::path& path, const AnyIndex& index, const Sa
   file.commit([&] { report(options.progress, all, all, name); });
 }
 
-/// The index that `take(content, progress)` makes of the whole file; who watches is told of the bytes, and told again
-/// while they are verified.
+/// Reads the whole file and returns `take(content, progress)`. Progress counts bytes; while the content is verified,
+/// it is called again with the same count so that the caller can cancel.
 template <class F>
-auto load_any(const std::filesystem::path& path, const LoadOptions& options, F&& take) {
-  FileSource file(path);
-  WatchedSource source(file, options.progress, path.string());
+auto load_with(FileSource& file, const std::filesystem::path& path, const Progress& progress, F&& take) {
+  WatchedSource source(file, progress, path.string());
   file.while_waiting([&source] { source.report(); });
   const Progress verifying = [&source](std::size_t, std::size_t) {
     source.report();
@@ -116,6 +123,21 @@ auto load_any(const std::filesystem::path& path, const LoadOptions& options, F&&
     source.finish();
     return index;
   });
+}
+
+Index take_exact(AlignedBuffer content, const Progress& progress) {
+  const auto bytes = content.bytes();
+  return meshhood::map(bytes, content.take_owner(), {.progress = progress});
+}
+
+paper::Index take_paper(const AlignedBuffer& content, const Progress& progress) {
+  return paper::load(content.bytes(), {.progress = progress});
+}
+
+LoadedIndex take_any(AlignedBuffer content, const Progress& progress) {
+  const IndexHeader header = meshhood::read_header(content.bytes());
+  if (header.kind == IndexKind::Paper) return {header, take_paper(content, progress)};
+  return {header, take_exact(std::move(content), progress)};
 }
 
 }  // namespace
@@ -129,16 +151,24 @@ void save(const std::filesystem::path& path, const paper::Index& index, const Sa
 }
 
 Index load(const std::filesystem::path& path, const LoadOptions& options) {
-  return load_any(path, options, [](AlignedBuffer content, const Progress& progress) {
-    const auto bytes = content.bytes();
-    return meshhood::map(bytes, content.take_owner(), {.progress = progress});
-  });
+  FileSource file(path);
+  return load_with(file, path, options.progress, take_exact);
 }
 
 paper::Index load_paper(const std::filesystem::path& path, const LoadOptions& options) {
-  return load_any(path, options, [](const AlignedBuffer& content, const Progress& progress) {
-    return paper::load(content.bytes(), {.progress = progress});
-  });
+  FileSource file(path);
+  return load_with(file, path, options.progress, take_paper);
+}
+
+LoadedIndex load_any(const std::filesystem::path& path, const LoadOptions& options) {
+  FileSource file(path);
+  return load_with(file, path, options.progress, take_any);
+}
+
+std::variant<Mesh, LoadedIndex> read_mesh_or_index(const std::filesystem::path& path, const ReadOptions& options) {
+  FileSource file(path);
+  if (!begins_index(file)) return read_mesh(file, path.string(), options);
+  return load_with(file, path, options.progress, take_any);
 }
 
 Index map(const std::filesystem::path& path, const MapOptions& options) {
@@ -149,16 +179,14 @@ Index map(const std::filesystem::path& path, const MapOptions& options) {
 bool is_index(const std::filesystem::path& path) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(path, unknown)) return false;
-  FileSource source(path);
-  std::array<char, 8> first{};
-  const std::size_t count = fill(source, first);
-  return meshhood::is_index(std::as_bytes(std::span(first).first(count)));
+  FileSource file(path);
+  return begins_index(file);
 }
 
 IndexHeader read_header(const std::filesystem::path& path) {
   FileSource source(path);
-  if (!source.is_ordinary()) {
-    raise(ErrorCode::IoFailure, printable_name(path.string()) + ": is no ordinary file, which an index has to be");
+  if (!source.is_regular()) {
+    raise_io(path, EINVAL, "is not a regular file, expected an index file");
   }
   Head head;
   const std::size_t known = fill(source, head);

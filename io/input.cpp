@@ -10,7 +10,7 @@
 
 #include "meshhood/error.h"
 
-#include "io/place.h"
+#include "io/messages.h"
 
 namespace meshhood::io {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kWindow = std::size_t{1} << 20;
 
 [[noreturn]] void refuse_size(const std::string& name, std::uint64_t max_bytes) {
-  raise(ErrorCode::TooLarge, fmt::format("{}: more than the {} bytes that may be read", name, max_bytes));
+  raise(ErrorCode::TooLarge, fmt::format("{}: larger than the limit of {} bytes", name, max_bytes));
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ void Input::make_room(std::size_t count) {
     std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
   } else {
     const std::size_t capacity = std::max({kWindow, 2 * capacity_, count});
-    // Not initialised: what no byte of the file reaches takes no memory. NOLINTNEXTLINE(modernize-avoid-c-arrays)
+    // Not initialised, so that unused pages take no memory. NOLINTNEXTLINE(modernize-avoid-c-arrays)
     auto wider = std::make_unique_for_overwrite<char[]>(capacity);
     if (end_ != begin_) std::memcpy(wider.get(), buffer_.get() + begin_, end_ - begin_);
     buffer_ = std::move(wider);
@@ -56,7 +56,7 @@ void Input::make_room(std::size_t count) {
 }
 
 void Input::read_more() {
-  // A file that grows while it is read ends where it ended when it was opened.
+  // Of a file that grows while it is read, only the bytes that were there at the opening are read.
   const auto size = source_.size();
   const std::uint64_t expected = size ? *size - offset_ - (end_ - begin_) : capacity_;
   const auto room = static_cast<std::size_t>(std::min<std::uint64_t>(capacity_ - end_, expected));

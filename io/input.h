@@ -12,36 +12,37 @@
 
 namespace meshhood::io {
 
-/// A file seen through a window that moves forward. Only the window is in memory, so that text, which takes more room
-/// than the numbers it stands for, is never held whole.
+/// A file read through a window that moves forward. Only the window is in memory: a text takes more memory than the
+/// numbers it contains.
 class Input {
  public:
-  /// `name` stands for the file in messages. Throws Error{TooLarge} where the source says, or turns out, to hold more
-  /// than `max_bytes`.
+  /// `name` is the file in messages. Throws Error{TooLarge} if the source declares, or turns out to hold, more than
+  /// `max_bytes`.
   Input(ByteSource& source, const std::string& name, std::uint64_t max_bytes);
 
+  /// Printable.
   [[nodiscard]] const std::string& name() const { return name_; }
 
-  /// The size of the whole file, where it is known beforehand.
+  /// The size of the whole file, if it is known in advance.
   [[nodiscard]] std::optional<std::uint64_t> size() const { return source_.size(); }
 
-  /// The number of bytes skipped so far: where the window begins in the file.
+  /// The number of bytes skipped so far: the offset of the window in the file.
   [[nodiscard]] std::uint64_t offset() const { return offset_; }
 
-  /// The bytes that follow, all of those in memory: at least `count` of them unless the file ends before. Valid until
-  /// the next call.
+  /// The following bytes, as many as are in memory: at least `count` unless the file ends before. Valid until the next
+  /// call.
   [[nodiscard]] std::string_view ahead(std::size_t count) {
     if (end_ - begin_ < count) fill(count);
     return {buffer_.get() + begin_, end_ - begin_};
   }
 
-  /// Moves past `count` bytes that `ahead` has shown.
+  /// Moves past `count` bytes that `ahead` has returned.
   void skip(std::size_t count) {
     begin_ += count;
     offset_ += count;
   }
 
-  /// The number of bytes that follow, where it is known beforehand.
+  /// The number of bytes that follow, if it is known in advance.
   [[nodiscard]] std::optional<std::uint64_t> left() const;
 
  private:
@@ -52,7 +53,7 @@ class Input {
   ByteSource& source_;
   std::string name_;
   std::uint64_t max_bytes_;
-  std::unique_ptr<char[]> buffer_;  // NOLINT(modernize-avoid-c-arrays): a vector would write to all of it
+  std::unique_ptr<char[]> buffer_;  // NOLINT(modernize-avoid-c-arrays): a vector would initialise it
   std::size_t capacity_ = 0;
   std::size_t begin_ = 0;
   std::size_t end_ = 0;

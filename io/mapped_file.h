@@ -7,9 +7,9 @@
 
 namespace meshhood::io {
 
-/// A file in the address space, to be read. The file may be replaced meanwhile, but must not be truncated or changed.
+/// A file mapped into memory, read-only. The file may be replaced by renaming, but must not be truncated or changed.
 ///
-/// All errors are Error{IoFailure} and name the path and the reason.
+/// All errors are Error{IoFailure} with the path and errno.
 class MappedFile {
  public:
   explicit MappedFile(const std::filesystem::path& path);
@@ -17,7 +17,7 @@ class MappedFile {
   MappedFile& operator=(const MappedFile&) = delete;
   ~MappedFile();
 
-  /// All of it; begins at a page.
+  /// The whole file; page-aligned.
   [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
 
  private:

@@ -15,17 +15,17 @@
 namespace meshhood::io {
 namespace {
 
-// Beyond it the core takes no coordinate (see `validate`).
+// The limit of `validate`.
 constexpr double kLargestCoordinate = 0x1p500;
 
-// The least double that rounds to a float beyond the largest.
+// The least double that overflows when it is rounded to float.
 constexpr double kFloatOverflow = 0x1.ffffffp127;
 
 bool chooses_double(Precision precision, bool file_has_doubles) {
   return precision == Precision::Double || (precision == Precision::FromFile && file_has_doubles);
 }
 
-// Why a token that reads as an infinite number, or none, is no coordinate.
+// Tells an overflow ("1e999") from "inf" and "nan".
 std::string_view reason_not_finite(std::string_view token) {
   const bool has_digits = token.find_first_of("0123456789") != std::string_view::npos;
   return has_digits ? "is too large" : "is not finite";
@@ -80,10 +80,10 @@ template std::optional<std::string_view> Positions::append_as(double source);
 void Positions::reorder_last(const std::array<std::size_t, 3>& ranks) {
   const auto visitor = [&ranks](auto& xyz) {
     const auto last = xyz.end() - 3;
-    const std::array stood = {last[0], last[1], last[2]};
+    const std::array appended = {last[0], last[1], last[2]};
     for (std::size_t i = 0; i < 3; ++i) {
       const auto before = std::count_if(ranks.begin(), ranks.end(), [&](std::size_t rank) { return rank < ranks[i]; });
-      last[static_cast<std::ptrdiff_t>(i)] = stood[static_cast<std::size_t>(before)];
+      last[static_cast<std::ptrdiff_t>(i)] = appended[static_cast<std::size_t>(before)];
     }
   };
   std::visit(visitor, xyz_);
@@ -103,13 +103,13 @@ void Faces::end_face(std::uint64_t corners) {
   ++size_;
 }
 
-void Warnings::add(std::string_view what, const Place& place, std::uint64_t count) {
-  if (strict_) fail_at(file_, place, ErrorCode::MalformedFile, fmt::format("{} (refused in strict mode)", what));
+void Warnings::add(std::string_view what, const Location& location, std::uint64_t count) {
+  if (strict_) fail_at(file_, location, ErrorCode::MalformedFile, fmt::format("{} (refused in strict mode)", what));
   const auto same = std::find_if(list_.begin(), list_.end(), [what](const Warning& w) { return w.what == what; });
   if (same != list_.end()) {
     same->count += count;
   } else {
-    list_.push_back({std::string(what), count, place.in_words()});
+    list_.push_back({std::string(what), count, location.in_words()});
   }
 }
 
@@ -121,9 +121,9 @@ Mesh MeshBuilder::finish(Format format) {
           std::move(warnings.list())};
 }
 
-void check_vertex_count(std::uint64_t vertices, const std::string& file, const Place& place) {
+void check_vertex_count(std::uint64_t vertices, const std::string& file, const Location& location) {
   if (vertices <= kMaxVertices) return;
-  fail_at(file, place, ErrorCode::TooLarge,
+  fail_at(file, location, ErrorCode::TooLarge,
           fmt::format("{} vertices, but at most {} are supported", vertices, kMaxVertices));
 }
 

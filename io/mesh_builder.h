@@ -13,32 +13,34 @@
 
 #include "io/input.h"
 #include "io/mesh_io.h"
-#include "io/place.h"
+#include "io/messages.h"
 
-/// A mesh while it is read: arrays that grow as the bytes arrive.
+/// The arrays of a mesh that is being read.
 namespace meshhood::io {
 
-/// Reads a coordinate into `value`. Nothing, or why it is none: "is not a number", "is not finite", "is too large".
+/// Reads a coordinate into `value`. Returns nothing, or the problem: "is not a number", "is not finite", "is too
+/// large".
 template <class Real>
 [[nodiscard]] std::optional<std::string_view> to_coordinate(std::string_view token, Real& value);
 template <class Real>
 [[nodiscard]] std::optional<std::string_view> to_coordinate(double number, Real& value);
 
-/// Positions in the precision chosen for the file.
+/// Positions in the chosen precision.
 class Positions {
  public:
   explicit Positions(bool as_double) {
     if (as_double) xyz_.emplace<std::vector<double>>();
   }
 
-  /// Makes room for `vertices` in one piece, so that growing copies nothing.
+  /// Reserves memory, so that appending does not copy.
   void reserve(std::uint64_t vertices);
 
-  /// Appends the next coordinate, where `to_coordinate` makes one of it.
+  /// Appends the next coordinate, or returns the problem as `to_coordinate`.
   [[nodiscard]] std::optional<std::string_view> append(std::string_view token) { return append_as(token); }
   [[nodiscard]] std::optional<std::string_view> append(double number) { return append_as(number); }
 
-  /// Puts the last three coordinates in the order x, y, z. `ranks` has what x, y and z are sorted by as they stand.
+  /// Sorts the last three coordinates into the order x, y, z. They were appended in ascending order of `ranks`, which
+  /// has one value for each of x, y, z.
   void reorder_last(const std::array<std::size_t, 3>& ranks);
 
   /// The number of coordinates so far.
@@ -54,16 +56,16 @@ class Positions {
   std::variant<std::vector<float>, std::vector<double>> xyz_;
 };
 
-/// 'x', 'y' or 'z', for coordinate `scalar` of a list of positions.
+/// 'x', 'y' or 'z': the axis of coordinate `scalar` in a list of positions.
 [[nodiscard]] inline char axis(std::uint64_t scalar) { return "xyz"[scalar % 3]; }
 
-/// Faces one after the other. The offsets are written from the first face on that is no triangle.
+/// Faces in order. Offsets are stored from the first face on that is not a triangle.
 class Faces {
  public:
   void reserve_corners(std::uint64_t corners);
   void append_corner(std::uint32_t vertex) { corners_.push_back(vertex); }
 
-  /// Makes the next `corners` corners a face, be they appended already or not.
+  /// Ends a face of `corners` corners. The corners may be appended before or after.
   void end_face(std::uint64_t corners);
 
   [[nodiscard]] std::uint64_t size() const { return size_; }
@@ -77,13 +79,13 @@ class Faces {
   std::vector<std::uint32_t> corners_;
 };
 
-/// What was odd but accepted, each kind once. In strict mode the first is an error.
+/// Accepted deviations, each kind once. In strict mode the first is an error.
 class Warnings {
  public:
   Warnings(std::string file, bool strict) : file_(std::move(file)), strict_(strict) {}
 
   /// Throws Error{MalformedFile} in strict mode.
-  void add(std::string_view what, const Place& place, std::uint64_t count = 1);
+  void add(std::string_view what, const Location& location, std::uint64_t count = 1);
 
   [[nodiscard]] std::vector<Warning>& list() { return list_; }
 
@@ -100,11 +102,11 @@ struct MeshBuilder {
 
   MeshBuilder(const Input& input, const ReadOptions& options, bool file_has_doubles);
 
-  /// Hands the arrays over.
+  /// Moves the arrays out.
   [[nodiscard]] Mesh finish(Format format);
 };
 
-/// Throws Error{TooLarge} where a mesh of `vertices` vertices has no place in memory or in an id.
-void check_vertex_count(std::uint64_t vertices, const std::string& file, const Place& place);
+/// Throws Error{TooLarge} if `vertices` exceeds `kMaxVertices`.
+void check_vertex_count(std::uint64_t vertices, const std::string& file, const Location& location);
 
 }  // namespace meshhood::io

@@ -51,9 +51,13 @@ MeshView Mesh::view() const {
 
 Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
   FileSource file(path);
-  WatchedSource source(file, options.progress, path.string());
+  return read_mesh(file, path.string(), options);
+}
+
+Mesh read_mesh(FileSource& file, const std::string& name, const ReadOptions& options) {
+  WatchedSource source(file, options.progress, name);
   file.while_waiting([&source] { source.report(); });
-  return read(source, path.string(), options);
+  return read(source, name, options);
 }
 
 Mesh read_mesh(std::span<const std::byte> bytes, const std::string& name, const ReadOptions& options) {

@@ -12,44 +12,44 @@
 #include "meshhood/mesh.h"
 #include "meshhood/progress.h"
 
-/// Mesh files in and out. Readers keep the file's numbering of the vertices and its polygons as they are.
+/// Reading and writing mesh files. Readers keep the vertex numbering and the polygons of the file.
 namespace meshhood::io {
 
 enum class Format { Ply, Obj, Off, Stl };
 
-/// How coordinates are kept.
+/// The precision of the coordinates in memory.
 enum class Precision {
-  FromFile,  ///< double where the file declares double (PLY), float elsewhere
+  FromFile,  ///< double if the file declares double (PLY), float otherwise
   Float,     ///< rounded to float
-  Double,    ///< as exact as the file's text or type
+  Double,    ///< the double nearest to the text or value in the file
 };
 
 struct ReadOptions {
   Precision precision = Precision::FromFile;
 
-  /// Refuse what is otherwise read with a warning.
+  /// Throw an error instead of recording a warning.
   bool strict = false;
 
-  /// Refuse a file of more bytes than this. Bounds endless devices too.
+  /// Refuse a file of more bytes. Also limits endless devices.
   std::uint64_t max_bytes = std::uint64_t{16} << 30;
 
-  /// Called for each megabyte at least, and ten times a second while a pipe has nothing to read. Parts are bytes;
-  /// without a size beforehand, as of a pipe, their total is 0.
+  /// Called at least once per 4 MB, and ten times a second while a pipe has nothing to read. Counts bytes; the total is
+  /// 0 if the size is unknown (a pipe).
   Progress progress = {};
 };
 
-/// Something odd that was accepted, how often, and where it was first seen.
+/// A deviation from the format that was accepted.
 struct Warning {
-  std::string what;  ///< "bytes after the last element", ...
-  std::uint64_t count = 1;
-  std::string first_place;  ///< "line 12", "byte 1048621"
+  std::string what;         ///< "data after the last element", ...
+  std::uint64_t count = 1;  ///< how often it occurs
+  std::string first_place;  ///< where it occurs first: "line 12", "byte 1048621"
 };
 
 /// A mesh read from a file, owned.
 struct Mesh {
   Format format = Format::Ply;
   std::variant<std::vector<float>, std::vector<double>> positions;  ///< #V by 3
-  std::vector<std::uint64_t> offsets;                               ///< #F + 1, or empty where every face is a triangle
+  std::vector<std::uint64_t> offsets;                               ///< #F + 1, or empty if every face is a triangle
   std::vector<std::uint32_t> corners;                               ///< the corners of all faces, face after face
   std::vector<Warning> warnings;
 
@@ -57,21 +57,21 @@ struct Mesh {
   [[nodiscard]] MeshView view() const;
 };
 
-/// Reads a PLY (ascii or binary of either byte order), OBJ, OFF or STL (ascii or binary) file. The format is told by
-/// content; the name's ending decides only where the content fits none or is empty. STL corners are welded by exact
-/// equality of position (-0 equals 0), numbered in order of first appearance.
+/// Reads a PLY (ASCII or binary of either byte order), OBJ, OFF or STL (ASCII or binary) file. The format is detected
+/// by content; the extension is used only if the content fits no format or is empty. STL corners are welded by exact
+/// equality of positions (-0 equals 0) and numbered in order of first appearance.
 ///
-/// Peak memory is at most twice the decoded arrays and 64 MB. A count in a header allocates nothing before the bytes
-/// that it promises are there. Parsing does not depend on the locale. No second file is ever opened.
-/// Throws Error{IoFailure, MalformedFile, UnsupportedFormat, TooLarge, InvalidMesh, Cancelled}: one line that begins
-/// with the file and the line and column, or byte, and names the element and what was expected.
+/// Peak memory is at most twice the decoded arrays plus 64 MB. A count in a header allocates no memory unless the file
+/// is long enough for it. Parsing does not depend on the locale. No other file is opened.
+/// Throws Error{IoFailure, MalformedFile, UnsupportedFormat, TooLarge, InvalidMesh, Cancelled}: one line with the file,
+/// the line and column or the byte, the element, its value and what was expected.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// The same on bytes in memory. `name` stands for the file in messages, and its ending is the hint of the format.
+/// The same for bytes in memory. `name` is the file in messages; its extension is used as that of a file.
 [[nodiscard]] Mesh read_mesh(std::span<const std::byte> bytes, const std::string& name,
                              const ReadOptions& options = {});
 
-/// A column that a written PLY gives its vertices beside the position.
+/// An additional value for each vertex of a written PLY file.
 struct VertexProperty {
   std::string name;               ///< a PLY property name: no blanks
   std::span<const float> values;  ///< #V
@@ -82,15 +82,15 @@ struct PlyOptions {
   std::vector<VertexProperty> properties = {};
   bool ascii = false;  ///< binary little-endian otherwise
 
-  /// Called every some thousand rows, and once more when all is on the disk, just before the file takes its name. Parts
-  /// are vertices and faces.
+  /// Called every few thousand rows, and once more when the data is on the disk, just before the rename. Counts
+  /// vertices and faces.
   Progress progress = {};
 };
 
-/// Writes `mesh` as PLY, positions in their own precision. The file appears whole or not at all: it is written beside
-/// the target under another name and renamed.
+/// Writes `mesh` as PLY, with positions in their own precision. The file is written atomically: to a temporary file
+/// beside the target, which is renamed.
 ///
-/// Throws Error{InvalidMesh, InvalidOption, IoFailure, Cancelled}; the old file is then as it was.
+/// Throws Error{InvalidMesh, InvalidOption, IoFailure, Cancelled}; the old file is then unchanged.
 void write_ply(const std::filesystem::path& path, const MeshView& mesh, const PlyOptions& options = {});
 
 }  // namespace meshhood::io

@@ -31,7 +31,7 @@ std::optional<Real> parse_real(std::string_view token) {
   if (token.empty()) return std::nullopt;
   Real value = 0;
   const auto [end, error] = fast_float::from_chars(token.data(), token.data() + token.size(), value);
-  // Newer releases report what is out of range, and give the infinite or tiny value nevertheless.
+  // Newer releases report overflow and underflow, but still set the infinite or tiny value.
   const bool is_number = error == std::errc() || error == std::errc::result_out_of_range;
   if (!is_number || end != token.data() + token.size()) return std::nullopt;
   return value;

@@ -7,15 +7,15 @@
 
 namespace meshhood::io {
 
-/// The number that the whole of `token` spells in decimal, correctly rounded, whatever the locale; a leading `+` is
-/// allowed. `nan` and `inf`, in C's spellings, are numbers; one too large for `Real` becomes infinite.
+/// Parses the whole token as a decimal number, correctly rounded, independent of the locale. Accepts a leading `+`, and
+/// `nan` and `inf` in the spellings of C. A number too large for `Real` becomes infinite, one too small becomes 0.
 template <class Real>
 [[nodiscard]] std::optional<Real> parse_real(std::string_view token);
 
-/// The integer that the whole of `token` spells in decimal, with an optional sign, where it fits.
+/// Parses the whole token as a decimal integer with an optional sign. Empty if it is none or does not fit.
 [[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view token);
 
-/// As `parse_integer`, for counts: the range reaches to 2^64 - 1 and ends at 0.
+/// The same for counts: 0 to 2^64 - 1.
 [[nodiscard]] std::optional<std::uint64_t> parse_count(std::string_view token);
 
 }  // namespace meshhood::io

@@ -11,7 +11,7 @@
 namespace meshhood::io {
 namespace {
 
-// Far beyond any header; keeps a forged one from filling the memory with properties.
+// Keeps a forged header from filling the memory with properties.
 constexpr std::uint64_t kLongestHeader = std::uint64_t{16} << 20;
 
 constexpr std::array<std::pair<std::string_view, PlyType>, 16> kTypeNames = {{
@@ -33,7 +33,7 @@ constexpr std::array<std::pair<std::string_view, PlyType>, 16> kTypeNames = {{
     {"float64", PlyType::Float64},
 }};
 
-// The byte that ends the header's lines. A CR before an LF is a blank.
+// The byte that ends the header lines. A CR before an LF counts as a blank.
 char line_end_of(Input& input) {
   const auto head = input.ahead(256);
   const auto end = head.find_first_of("\r\n");
@@ -48,16 +48,17 @@ class HeaderParser {
   PlyHeader parse() {
     if (!text_.next_line() || text_.token_on_line() != "ply") text_.malformed("expected 'ply'");
     while (parse_line()) {
-      if (text_.input().offset() > kLongestHeader) text_.malformed("a header longer than {} bytes", kLongestHeader);
+      if (text_.input().offset() > kLongestHeader)
+        text_.malformed("the header is longer than {} bytes", kLongestHeader);
     }
     if (!has_format_) text_.malformed("the header has no line 'format'");
     text_.leave_line();
-    header_.lines = text_.place().line;
+    header_.lines = text_.location().line;
     return std::move(header_);
   }
 
  private:
-  // False behind `end_header`.
+  // False after `end_header`.
   bool parse_line() {
     if (!text_.next_line()) text_.malformed("the file ends before 'end_header'");
     const auto keyword = text_.token_on_line();
@@ -71,7 +72,8 @@ class HeaderParser {
     } else if (keyword == "property") {
       parse_property();
     } else {
-      text_.malformed("expected 'element', 'property' or 'end_header', found {}", quote(keyword));
+      // Not skipped: it may be a misspelt line that changes the layout of the values.
+      text_.malformed("expected 'element', 'property', 'comment' or 'end_header', found {}", quote(keyword));
     }
     if (!text_.at_line_end()) text_.malformed("unexpected {}", quote(text_.token_on_line()));
     return true;
@@ -102,7 +104,7 @@ class HeaderParser {
     const auto digits = word("a count");
     const auto count = parse_count(digits);
     if (!count) text_.malformed("expected the number of elements {}, found {}", quote(name), quote(digits));
-    header_.elements.push_back({name, *count, {}, text_.place()});
+    header_.elements.push_back({name, *count, {}, text_.location()});
   }
 
   void parse_property() {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "io/input.h"
-#include "io/place.h"
+#include "io/messages.h"
 
-/// What a PLY file says about itself before its values begin.
+/// The header of a PLY file.
 namespace meshhood::io {
 
 enum class PlyEncoding { Ascii, LittleEndian, BigEndian };
@@ -21,16 +21,16 @@ enum class PlyType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64
 
 [[nodiscard]] inline bool is_integer(PlyType type) { return type != PlyType::Float32 && type != PlyType::Float64; }
 
-/// Whether a float holds every value of the type.
+/// Whether float represents every value of the type.
 [[nodiscard]] inline bool fits_float(PlyType type) { return size_of(type) <= 2 || type == PlyType::Float32; }
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::Float32;  ///< of the value, or of each value of a list
+  PlyType type = PlyType::Float32;  ///< of the value, or of the values of a list
   bool is_list = false;
   PlyType count_type = PlyType::Uint8;  ///< of the length of a list; an integer type
 
-  /// Of the first value that a row has for the property.
+  /// The type of the first value of the property in a row.
   [[nodiscard]] PlyType first_type() const { return is_list ? count_type : type; }
 };
 
@@ -38,17 +38,17 @@ struct PlyElement {
   std::string name;
   std::uint64_t count;
   std::vector<PlyProperty> properties;
-  Place place;  ///< of its count in the header
+  Location location;  ///< of its count in the header
 };
 
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::Ascii;
-  std::vector<PlyElement> elements;  ///< no two of the same name
+  std::vector<PlyElement> elements;  ///< names are unique
   std::uint64_t lines = 0;
 };
 
-/// Leaves `input` at the first byte of the values. The header's lines end as its first one does, in CR, LF or CRLF, and
-/// exactly one such end is taken behind `end_header`.
+/// Leaves `input` at the first byte of the values. All header lines end as the first one, with CR, LF or CRLF; exactly
+/// one line end after `end_header` belongs to the header.
 ///
 /// Throws Error{MalformedFile, UnsupportedFormat}.
 [[nodiscard]] PlyHeader read_ply_header(Input& input);

@@ -16,9 +16,7 @@
 namespace meshhood::io {
 namespace {
 
-constexpr std::string_view kEnd = "the file ends here";
-
-// Calls `f` with a value of the C++ type that stands for `type`.
+// Calls `f` with a value of the C++ type of `type`.
 template <class F>
 decltype(auto) with_type(PlyType type, F&& f) {
   switch (type) {
@@ -48,7 +46,7 @@ class TextValues final : public PlyValues {
 
   Problem take_coordinate(PlyType /*type*/, Positions& positions) override {
     const auto token = text_.token();
-    if (token.empty()) return std::string(kEnd);
+    if (token.empty()) return std::string(kFileEnds);
     const auto problem = positions.append(token);
     if (!problem) return std::nullopt;
     return fmt::format("{} {}", quote(token), *problem);
@@ -56,21 +54,22 @@ class TextValues final : public PlyValues {
 
   Problem take_integer(PlyType type, std::int64_t& value) override {
     const auto token = text_.token();
-    if (token.empty()) return std::string(kEnd);
+    if (token.empty()) return std::string(kFileEnds);
     const auto integer = parse_integer(token);
-    if (!integer || !is_in_range(*integer, type)) return fmt::format("{} is no integer of its type", quote(token));
+    if (!integer || !is_in_range(*integer, type))
+      return fmt::format("{} is not an integer of the declared type", quote(token));
     value = *integer;
     return std::nullopt;
   }
 
   Problem skip(PlyType /*type*/, std::uint64_t count) override {
     for (std::uint64_t i = 0; i < count; ++i) {
-      if (text_.token().empty()) return std::string(kEnd);
+      if (text_.token().empty()) return std::string(kFileEnds);
     }
     return std::nullopt;
   }
 
-  // A digit and what separates it from the next.
+  // A digit and a separator.
   [[nodiscard]] std::uint64_t least_bytes(PlyType /*type*/) const override { return 2; }
 
   // The last value needs no separator.
@@ -82,13 +81,13 @@ class TextValues final : public PlyValues {
 
   [[nodiscard]] bool row_is_over() const override { return text_.at_line_end(); }
   bool anything_left() override { return !text_.token().empty(); }
-  [[nodiscard]] Place place() const override { return text_.place(); }
+  [[nodiscard]] Location location() const override { return text_.location(); }
 
  private:
   Text text_;
 };
 
-/// Takes the bytes of the next value, in the byte order of the file; false at its end.
+/// Reads the next value; false at the end of the file.
 template <class T>
 bool load(Input& input, bool swaps, T& value) {
   const auto bytes = input.ahead(sizeof(T));
@@ -109,7 +108,7 @@ class BinaryValues final : public PlyValues {
   Problem take_coordinate(PlyType type, Positions& positions) override {
     begin_ = input_.offset();
     return with_type(type, [&](auto example) -> Problem {
-      if (!load(input_, swaps_, example)) return std::string(kEnd);
+      if (!load(input_, swaps_, example)) return std::string(kFileEnds);
       const auto problem = positions.append(static_cast<double>(example));
       if (!problem) return std::nullopt;
       return std::string(*problem);
@@ -119,7 +118,7 @@ class BinaryValues final : public PlyValues {
   Problem take_integer(PlyType type, std::int64_t& value) override {
     begin_ = input_.offset();
     return with_type(type, [&](auto example) -> Problem {
-      if (!load(input_, swaps_, example)) return std::string(kEnd);
+      if (!load(input_, swaps_, example)) return std::string(kFileEnds);
       value = static_cast<std::int64_t>(+example);
       return std::nullopt;
     });
@@ -130,7 +129,7 @@ class BinaryValues final : public PlyValues {
     begin_ = input_.offset();
     for (std::uint64_t left = count * size_of(type); left != 0;) {
       const auto step = static_cast<std::size_t>(std::min(left, kStep));
-      if (input_.ahead(step).size() < step) return std::string(kEnd);
+      if (input_.ahead(step).size() < step) return std::string(kFileEnds);
       input_.skip(step);
       left -= step;
     }
@@ -146,7 +145,7 @@ class BinaryValues final : public PlyValues {
     return !input_.ahead(1).empty();
   }
 
-  [[nodiscard]] Place place() const override { return {.byte = begin_}; }
+  [[nodiscard]] Location location() const override { return {.byte = begin_}; }
 
  private:
   Input& input_;

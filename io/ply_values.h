@@ -5,18 +5,22 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "io/input.h"
 #include "io/mesh_builder.h"
-#include "io/place.h"
+#include "io/messages.h"
 #include "io/ply_header.h"
 
 namespace meshhood::io {
 
-/// Why a value was not taken.
+/// Why a value could not be read; empty if it could.
 using Problem = std::optional<std::string>;
 
-/// The values of a PLY file, one after the other, be they text or bytes.
+/// The problem of a file that is too short.
+inline constexpr std::string_view kFileEnds = "the file ends here";
+
+/// The values of a PLY file in order, from text or bytes.
 class PlyValues {
  public:
   PlyValues() = default;
@@ -24,32 +28,32 @@ class PlyValues {
   PlyValues& operator=(const PlyValues&) = delete;
   virtual ~PlyValues() = default;
 
-  /// Appends the next value to `positions`.
+  /// Reads the next value and appends it to `positions`.
   [[nodiscard]] virtual Problem take_coordinate(PlyType type, Positions& positions) = 0;
 
-  /// Takes the next value, of an integer type, into `value`.
+  /// Reads the next value, of an integer type.
   [[nodiscard]] virtual Problem take_integer(PlyType type, std::int64_t& value) = 0;
 
-  /// Passes over `count` values.
+  /// Skips `count` values.
   [[nodiscard]] virtual Problem skip(PlyType type, std::uint64_t count) = 0;
 
-  /// The least number of bytes that a value takes in the file.
+  /// The least number of bytes of a value in the file.
   [[nodiscard]] virtual std::uint64_t least_bytes(PlyType type) const = 0;
 
-  /// The number of bytes that values may still take, where it is known.
+  /// The number of bytes left for values, if it is known.
   [[nodiscard]] virtual std::optional<std::uint64_t> bytes_left() const = 0;
 
-  /// Whether the row, already begun, certainly holds no further value.
+  /// Whether the current row certainly has no further value.
   [[nodiscard]] virtual bool row_is_over() const = 0;
 
-  /// Whether there is anything left; if so, it becomes the place.
+  /// Whether there is data left; if so, it becomes the location.
   [[nodiscard]] virtual bool anything_left() = 0;
 
-  /// Of the value taken last, or of the end of the file.
-  [[nodiscard]] virtual Place place() const = 0;
+  /// Of the last value, or of the end of the file.
+  [[nodiscard]] virtual Location location() const = 0;
 };
 
-/// The values behind a header that was read from `input`, which must outlive them.
+/// The values after a header that was read from `input`, which must outlive them.
 [[nodiscard]] std::unique_ptr<PlyValues> ply_values(Input& input, const PlyHeader& header);
 
 }  // namespace meshhood::io

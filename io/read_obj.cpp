@@ -9,8 +9,8 @@
 #include "io/readers.h"
 #include "io/text.h"
 
-// Only `v` and `f` make the mesh. Every other statement is passed over, those that name a file or a program to run
-// (`mtllib`, `call`, `csh`) like the rest; what adds to the geometry, or is unknown, is counted.
+// Only `v` and `f` are read. All other statements are skipped, also those that name a file or a program to run
+// (`mtllib`, `call`, `csh`). Unknown statements, and those that would add geometry, are counted as warnings.
 
 namespace meshhood::io {
 namespace {
@@ -37,7 +37,7 @@ class ObjReader {
 
   Mesh read() {
     while (text_.next_line()) read_statement(text_.token_on_continued_line());
-    if (unknown_ != 0 && !is_obj_) text_.malformed("not one statement of the OBJ format in the whole file");
+    if (unknown_ != 0 && !is_obj_) text_.malformed("the file has no OBJ statement");
     check_forward_reference();
     return builder_.finish(Format::Obj);
   }
@@ -49,19 +49,20 @@ class ObjReader {
     if (keyword == "v") return read_vertex();
     if (keyword == "f") return read_face();
     if (contains(kOtherGeometry, keyword)) {
-      builder_.warnings.add(fmt::format("'{}' statements are not read", keyword), text_.place());
+      builder_.warnings.add(fmt::format("'{}' statements are not read", keyword), text_.location());
     } else if (!contains(kAttributes, keyword)) {
       ++unknown_;
-      builder_.warnings.add("unknown statements", text_.place());
+      builder_.warnings.add("unknown statements", text_.location());
     }
     while (!text_.token_on_continued_line().empty()) {
     }
   }
 
-  // x y z, then a weight, a colour or both.
+  // x y z, then optionally a weight, a colour or both. Two coordinates are refused: a lost number is likelier than z =
+  // 0.
   void read_vertex() {
     const auto vertex = builder_.positions.vertex_count();
-    check_vertex_count(vertex + 1, text_.input().name(), text_.place());
+    check_vertex_count(vertex + 1, text_.input().name(), text_.location());
     for (int i = 0; i < 3; ++i) read_coordinate(vertex);
     std::array<double, 4> rest = {};
     std::size_t count = 0;
@@ -72,13 +73,13 @@ class ObjReader {
       rest[count++] = *number;
     }
     const bool has_weight = count == 1 || count == 4;
-    if (has_weight && rest[0] != 1.0) builder_.warnings.add("weights other than 1 are not used", text_.place());
+    if (has_weight && rest[0] != 1.0) builder_.warnings.add("weights other than 1 are not used", text_.location());
   }
 
   void read_coordinate(uint64_t vertex) {
     const char name = axis(builder_.positions.scalar_count());
     const auto token = text_.token_on_continued_line();
-    if (token.empty()) text_.malformed("vertex {} has no {}", vertex + 1, name);
+    if (token.empty()) text_.malformed("vertex {} has no {}, expected x y z", vertex + 1, name);
     const auto problem = builder_.positions.append(token);
     if (problem) text_.malformed("vertex {}, {} = {} {}", vertex + 1, name, quote(token), *problem);
   }
@@ -89,7 +90,7 @@ class ObjReader {
       builder_.faces.append_corner(resolve_corner(token, corners++));
     }
     if (corners == 0) {
-      builder_.warnings.add("faces without corners are left out", text_.place());
+      builder_.warnings.add("faces without corners are left out", text_.location());
     } else {
       builder_.faces.end_face(corners);
     }
@@ -101,47 +102,48 @@ class ObjReader {
     const auto index = parse_integer(token.substr(0, slash));
     const bool rest_is_good = slash == std::string_view::npos || are_attribute_indices(token.substr(slash + 1));
     if (!index || !rest_is_good) {
-      text_.malformed("face {}, corner {}: {} is no vertex index", builder_.faces.size() + 1, corner + 1, quote(token));
+      text_.malformed("face {}, corner {}: {} is not a vertex index", builder_.faces.size() + 1, corner + 1,
+                      quote(token));
     }
     return resolve(*index, corner);
   }
 
-  // `vt`, `/vn` or `vt/vn`, where either may be missing.
+  // `vt`, `/vn` or `vt/vn`; either may be missing.
   static bool are_attribute_indices(std::string_view rest) {
     const auto slash = rest.find('/');
     const auto is_index = [](std::string_view part) { return part.empty() || parse_integer(part).has_value(); };
     return is_index(rest.substr(0, slash)) && (slash == std::string_view::npos || is_index(rest.substr(slash + 1)));
   }
 
-  // Positive indices count from 1, negative ones back from the vertex declared last.
+  // Positive indices count from 1, negative ones backwards from the last vertex.
   std::uint32_t resolve(std::int64_t index, uint64_t corner) {
     const auto declared = static_cast<std::int64_t>(builder_.positions.vertex_count());
     const bool names_one = index > 0 || (index < 0 && index >= -declared);
     if (!names_one || index > static_cast<std::int64_t>(kMaxVertices)) {
-      refuse(text_.place(), builder_.faces.size(), corner, index);
+      refuse(text_.location(), builder_.faces.size(), corner, index);
     }
-    if (index > declared && index > forward_.index) forward_ = {index, builder_.faces.size(), corner, text_.place()};
+    if (index > declared && index > forward_.index) forward_ = {index, builder_.faces.size(), corner, text_.location()};
     return static_cast<std::uint32_t>(index > 0 ? index - 1 : declared + index);
   }
 
-  // A face may come before its vertices; whether they come at all is known at the end.
+  // A face may precede its vertices, so the check is possible only at the end.
   void check_forward_reference() const {
     const auto declared = static_cast<std::int64_t>(builder_.positions.vertex_count());
-    if (forward_.index > declared) refuse(forward_.place, forward_.face, forward_.corner, forward_.index);
+    if (forward_.index > declared) refuse(forward_.location, forward_.face, forward_.corner, forward_.index);
   }
 
-  [[noreturn]] void refuse(const Place& place, uint64_t face, uint64_t corner, std::int64_t index) const {
-    fail_at(text_.input().name(), place, ErrorCode::MalformedFile,
+  [[noreturn]] void refuse(const Location& location, uint64_t face, uint64_t corner, std::int64_t index) const {
+    fail_at(text_.input().name(), location, ErrorCode::MalformedFile,
             fmt::format("face {}, corner {} = {}, but there are {} vertices", face + 1, corner + 1, index,
                         builder_.positions.vertex_count()));
   }
 
-  // The largest index met so far among those of vertices not declared yet.
+  // The largest index so far of a vertex that was not declared before the face.
   struct ForwardReference {
     std::int64_t index = 0;
     uint64_t face = 0;
     uint64_t corner = 0;
-    Place place;
+    Location location;
   };
 
   Text text_;

@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <string>
+#include <utility>
 
 #include "io/mesh_builder.h"
 #include "io/number.h"
 #include "io/readers.h"
 #include "io/text.h"
 
-// `[ST][C][N]OFF` in text. What follows the position of a vertex or the corners of a face in its line (normals,
-// colours, texture coordinates) is not read. Vertices of 4 or n dimensions (4OFF, nOFF) and `OFF BINARY` are refused.
+// `[ST][C][N]OFF` in text. The rest of a line after the position of a vertex or the corners of a face (normals,
+// colours, texture coordinates) is skipped. Vertices of 4 or n dimensions (4OFF, nOFF) and `OFF BINARY` are refused.
+// Many files of ModelNet40 lack the separator before the counts (`OFF8 6 12`); they are read with a warning.
 //
-// Many programs write colours behind the vertices of a plain OFF, so these end with their line, too. Of several
-// vertices in one line all but the first are then passed over; but for want of them the file ends too early, and is
-// refused.
+// Many programs write colours after the vertices of a plain OFF file, so a vertex ends with its line there too. If a
+// line holds several vertices, the rest are skipped, the file ends too early and is refused.
 
 namespace meshhood::io {
 namespace {
 
 using std::uint64_t;
 
-// Digits with what separates them: "0 0 0\n" and "0\n".
+// "0 0 0\n" and "0\n".
 constexpr uint64_t kLeastBytesOfVertex = 6;
 constexpr uint64_t kLeastBytesOfFace = 2;
 
@@ -32,18 +34,21 @@ class OffReader {
     read_counts();
     for (uint64_t vertex = 0; vertex < vertices_; ++vertex) read_vertex(vertex);
     for (uint64_t face = 0; face < faces_; ++face) read_face(face);
-    if (!text_.token().empty()) builder_.warnings.add("data after the last face", text_.place());
+    if (!text_.token().empty()) builder_.warnings.add("data after the last face", text_.location());
     return builder_.finish(Format::Off);
   }
 
  private:
   void read_keyword() {
-    const auto keyword = text_.token();
-    if (!is_off_keyword(keyword)) text_.malformed("expected 'OFF', found {}", quote(keyword));
+    const auto word = text_.token();
+    if (!is_off_keyword(word)) text_.malformed("expected 'OFF', found {}", quote(word));
+    const auto keyword = word.substr(0, word.find("OFF") + 3);
+    first_count_ = word.substr(keyword.size());
+    if (!first_count_.empty()) builder_.warnings.add("no blank between 'OFF' and the counts", text_.location());
     const auto dimension = keyword.find_first_of("4n");
     if (dimension != std::string_view::npos) {
       text_.fail(ErrorCode::UnsupportedFormat,
-                 fmt::format("{}: only vertices of three coordinates are read", quote(keyword)));
+                 fmt::format("{} is not supported, expected vertices of three coordinates", quote(keyword)));
     }
     has_attributes_ = keyword != "OFF";
   }
@@ -51,7 +56,7 @@ class OffReader {
   void read_counts() {
     vertices_ = read_count("vertices");
     check_bytes(vertices_, kLeastBytesOfVertex, "vertices");
-    check_vertex_count(vertices_, text_.input().name(), text_.place());
+    check_vertex_count(vertices_, text_.input().name(), text_.location());
     faces_ = read_count("faces");
     check_bytes(faces_, kLeastBytesOfFace, "faces");
     read_count("edges");
@@ -62,18 +67,20 @@ class OffReader {
   }
 
   uint64_t read_count(std::string_view what) {
-    const auto token = text_.token();
-    if (token == "BINARY") text_.fail(ErrorCode::UnsupportedFormat, "'OFF BINARY' is not read, only OFF as text");
+    const std::string token = first_count_.empty() ? std::string(text_.token()) : std::exchange(first_count_, {});
+    if (token == "BINARY")
+      text_.fail(ErrorCode::UnsupportedFormat, "'OFF BINARY' is not supported, expected OFF as text");
     const auto count = parse_count(token);
     if (!count) text_.malformed("expected the number of {}, found {}", what, quote(token));
     return *count;
   }
 
-  // No allocation before the bytes are there that a count promises.
+  // Before any allocation: the file must be long enough for the count.
   void check_bytes(uint64_t count, uint64_t least, std::string_view what) const {
     const auto left = text_.input().left();
     if (!left || count <= (*left + 1) / least) return;
-    text_.malformed("{} {} take at least {} bytes each, but {} bytes are left", count, what, least, *left);
+    text_.malformed("{} {} take at least {} bytes each, but {} bytes are left: at least {} are missing", count, what,
+                    least, *left, count - (*left + 1) / least);
   }
 
   void read_vertex(uint64_t vertex) {
@@ -85,7 +92,7 @@ class OffReader {
       if (problem) text_.malformed("vertex {}, {} = {} {}", vertex, name, quote(token), *problem);
     }
     if (!has_attributes_ && !text_.at_line_end()) {
-      builder_.warnings.add("more than three numbers in a line of a vertex", text_.place());
+      builder_.warnings.add("more than three numbers in a line of a vertex", text_.location());
       has_long_lines_ = true;
     }
     text_.skip_line();
@@ -93,12 +100,12 @@ class OffReader {
 
   [[noreturn]] void refuse_end(std::string_view element, uint64_t number, uint64_t count) const {
     text_.malformed("the file ends in {} {} of {}{}", element, number, count,
-                    has_long_lines_ ? "; of each line with more than three numbers, one vertex was read" : "");
+                    has_long_lines_ ? "; only one vertex was read from each line with more than three numbers" : "");
   }
 
   void read_face(uint64_t face) {
     const auto corners = read_face_integer(face, "number of corners");
-    if (corners < 0) text_.malformed("face {} has {} corners", face, corners);
+    if (corners < 0) text_.malformed("face {} has {} corners, expected at least 0", face, corners);
     for (std::int64_t corner = 0; corner < corners; ++corner) {
       const auto index = read_face_integer(face, "vertex index");
       if (index < 0 || static_cast<uint64_t>(index) >= vertices_) {
@@ -120,6 +127,7 @@ class OffReader {
 
   Text text_;
   MeshBuilder builder_;
+  std::string first_count_;  // where it follows the keyword without a separator
   bool has_attributes_ = false;
   bool has_long_lines_ = false;
   uint64_t vertices_ = 0;
@@ -136,7 +144,7 @@ bool take_prefix(std::string_view& word, std::string_view prefix) {
 
 bool is_off_keyword(std::string_view word) {
   for (const std::string_view prefix : {"ST", "C", "N", "4", "n"}) take_prefix(word, prefix);
-  return word == "OFF";
+  return take_prefix(word, "OFF") && (word.empty() || parse_count(word));
 }
 
 Mesh read_off(Input& input, const ReadOptions& options) { return OffReader(input, options).read(); }

@@ -11,22 +11,22 @@
 #include "io/ply_values.h"
 #include "io/readers.h"
 
-// Elements are read in the order of the file. Only `vertex` (x, y, z), `face` and `tristrips` (vertex_indices or
-// vertex_index) are kept; all others are passed over.
+// Elements are read in the order of the file. `vertex` (x, y, z), `face` and `tristrips` (vertex_indices or
+// vertex_index) are kept; all others are skipped.
 
 namespace meshhood::io {
 namespace {
 
 using std::uint64_t;
 
-// The place of the one property called by one of `names` among those of `element`; none where there is none.
+// The index of the property of `element` that has one of `names`, if there is one.
 std::optional<std::size_t> find_property(const Input& input, const PlyElement& element,
                                          std::initializer_list<std::string_view> names) {
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
     if (std::find(names.begin(), names.end(), element.properties[i].name) == names.end()) continue;
     if (found) {
-      fail_at(input.name(), element.place, ErrorCode::MalformedFile,
+      fail_at(input.name(), element.location, ErrorCode::MalformedFile,
               fmt::format("element {} has the property {} twice", element.name, *names.begin()));
     }
     found = i;
@@ -40,7 +40,7 @@ const PlyElement* find_element(const PlyHeader& header, std::string_view name) {
   return found == header.elements.end() ? nullptr : &*found;
 }
 
-// The places of x, y and z among the properties of a vertex.
+// The indices of x, y and z among the properties of a vertex.
 using Axes = std::array<std::size_t, 3>;
 
 Axes find_axes(const Input& input, const PlyElement& vertex) {
@@ -49,7 +49,7 @@ Axes find_axes(const Input& input, const PlyElement& vertex) {
     const std::string name(1, axis(i));
     const auto found = find_property(input, vertex, {name});
     if (!found || vertex.properties[*found].is_list) {
-      fail_at(input.name(), vertex.place, ErrorCode::MalformedFile,
+      fail_at(input.name(), vertex.location, ErrorCode::MalformedFile,
               fmt::format("element vertex has no scalar property {}", name));
     }
     axes[i] = *found;
@@ -87,21 +87,23 @@ class PlyReader {
       check_count();
       read_element();
     }
-    if (values_->anything_left()) builder_.warnings.add("data after the last element", values_->place());
+    if (values_->anything_left()) builder_.warnings.add("data after the last element", values_->location());
     return builder_.finish(Format::Ply);
   }
 
  private:
-  // No loop and no allocation before the bytes are there that the header promises.
+  // Before any loop or allocation: the file must be long enough for the count.
   void check_count() const {
     const auto least = least_bytes(*element_);
     const auto left = values_->bytes_left();
     if (left && least != 0 && element_->count > *left / least) {
-      fail_at(input_.name(), element_->place, ErrorCode::MalformedFile,
-              fmt::format("{} elements {} take at least {} bytes each, but {} bytes are left", element_->count,
-                          quote(element_->name), least, input_.left().value_or(0)));
+      fail_at(input_.name(), element_->location, ErrorCode::MalformedFile,
+              fmt::format(
+                  "{} elements {} take at least {} bytes each, but {} bytes are left: at least {} elements are missing",
+                  element_->count, quote(element_->name), least, input_.left().value_or(0),
+                  element_->count - *left / least));
     }
-    if (element_ == &vertex_) check_vertex_count(vertex_.count, input_.name(), vertex_.place);
+    if (element_ == &vertex_) check_vertex_count(vertex_.count, input_.name(), vertex_.location);
   }
 
   [[nodiscard]] uint64_t least_bytes(const PlyElement& element) const {
@@ -111,7 +113,7 @@ class PlyReader {
   }
 
   void read_element() {
-    if (element_->properties.empty()) return;  // its rows take no bytes, however many there are
+    if (element_->properties.empty()) return;  // rows without bytes
     if (element_ == &vertex_) return read_vertices();
     if (element_->name == "face") return read_lists(&PlyReader::read_face);
     if (element_->name == "tristrips") return read_lists(&PlyReader::read_strip);
@@ -124,28 +126,28 @@ class PlyReader {
     std::sort(sorted.begin(), sorted.end());
     for (; row_ < vertex_.count; ++row_) {
       std::size_t next = 0;
-      for (const auto place : sorted) {
-        skip_properties(next, place);
-        property_ = &vertex_.properties[place];
+      for (const auto axis_property : sorted) {
+        skip_properties(next, axis_property);
+        property_ = &vertex_.properties[axis_property];
         require(values_->take_coordinate(property_->type, builder_.positions));
-        next = place + 1;
+        next = axis_property + 1;
       }
       skip_properties(next, vertex_.properties.size());
       if (sorted != axes_) builder_.positions.reorder_last(axes_);
     }
   }
 
-  // Reads the list of vertices in each row of the element and gives it to `read_list`, which takes its corners.
+  // Calls `read_list` for the list of vertices in each row of the element.
   void read_lists(void (PlyReader::*read_list)(uint64_t corners)) {
     if (element_->count == 0 && !find_list()) return;
-    const std::size_t place = list_place();
-    property_ = &element_->properties[place];
+    const std::size_t list = list_property();
+    property_ = &element_->properties[list];
     reserve_corners();
     for (; row_ < element_->count; ++row_) {
-      skip_properties(0, place);
-      property_ = &element_->properties[place];
+      skip_properties(0, list);
+      property_ = &element_->properties[list];
       (this->*read_list)(take_list_count());
-      skip_properties(place + 1, element_->properties.size());
+      skip_properties(list + 1, element_->properties.size());
     }
   }
 
@@ -153,13 +155,13 @@ class PlyReader {
     return find_property(input_, *element_, {"vertex_indices", "vertex_index"});
   }
 
-  [[nodiscard]] std::size_t list_place() const {
-    const auto place = find_list();
-    if (place) {
-      const auto& property = element_->properties[*place];
-      if (property.is_list && is_integer(property.type)) return *place;
+  [[nodiscard]] std::size_t list_property() const {
+    const auto list = find_list();
+    if (list) {
+      const auto& property = element_->properties[*list];
+      if (property.is_list && is_integer(property.type)) return *list;
     }
-    fail_at(input_.name(), element_->place, ErrorCode::MalformedFile,
+    fail_at(input_.name(), element_->location, ErrorCode::MalformedFile,
             fmt::format("element {} has no list of integers vertex_indices or vertex_index", element_->name));
   }
 
@@ -178,8 +180,8 @@ class PlyReader {
     builder_.faces.end_face(corners);
   }
 
-  // A strip is a triangle for each corner from its third on, every other one turned over; -1 begins a new strip. A
-  // triangle that repeats a corner only carries the strip to another place, and is none.
+  // A strip has a triangle for each corner from the third on, every other one reversed; -1 begins a new strip. A
+  // triangle that repeats a corner only connects two parts of the strip and is left out.
   void read_strip(uint64_t corners) {
     std::array<std::uint32_t, 2> last = {};
     uint64_t length = 0;
@@ -195,10 +197,10 @@ class PlyReader {
     }
   }
 
-  void append_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, bool turned) {
+  void append_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, bool reversed) {
     if (a == b || b == c || c == a) return;
-    builder_.faces.append_corner(turned ? b : a);
-    builder_.faces.append_corner(turned ? a : b);
+    builder_.faces.append_corner(reversed ? b : a);
+    builder_.faces.append_corner(reversed ? a : b);
     builder_.faces.append_corner(c);
     builder_.faces.end_face(3);
   }
@@ -209,7 +211,7 @@ class PlyReader {
       if (!property_->is_list) {
         require(values_->skip(property_->type, 1));
       } else if (i > 0 && values_->row_is_over()) {
-        builder_.warnings.add("rows end before their last list, which is taken as empty", values_->place());
+        builder_.warnings.add("rows end before their last list, which is read as empty", values_->location());
       } else {
         require(values_->skip(property_->type, take_list_count()));
       }
@@ -219,7 +221,7 @@ class PlyReader {
   uint64_t take_list_count() {
     std::int64_t count = 0;
     require(values_->take_integer(property_->count_type, count));
-    if (count < 0) fail(fmt::format("a list of {} values", count));
+    if (count < 0) fail(fmt::format("a list of {} values, expected at least 0", count));
     const auto length = static_cast<uint64_t>(count);
     const auto left = values_->bytes_left();
     if (left && length > *left / values_->least_bytes(property_->type)) {
@@ -236,7 +238,7 @@ class PlyReader {
 
   [[nodiscard]] std::uint32_t checked(std::int64_t index, uint64_t corner) const {
     if (index >= 0 && static_cast<uint64_t>(index) < vertex_.count) return static_cast<std::uint32_t>(index);
-    fail_at(input_.name(), values_->place(), ErrorCode::MalformedFile,
+    fail_at(input_.name(), values_->location(), ErrorCode::MalformedFile,
             fmt::format("{} {}, {}[{}] = {}, but there are {} vertices", element_->name, row_, property_->name, corner,
                         index, vertex_.count));
   }
@@ -246,9 +248,11 @@ class PlyReader {
   }
 
   [[noreturn]] void fail(std::string_view problem) const {
-    fail_at(input_.name(), values_->place(), ErrorCode::MalformedFile,
-            fmt::format("{} {} of {}, {}: {}", escape(element_->name), row_, element_->count, escape(property_->name),
-                        problem));
+    const std::string missing =
+        problem == kFileEnds ? fmt::format(", {} of {} rows are missing", element_->count - row_, element_->count) : "";
+    fail_at(input_.name(), values_->location(), ErrorCode::MalformedFile,
+            fmt::format("{} {} of {}, {}: {}{}", escape(element_->name), row_, element_->count, escape(property_->name),
+                        problem, missing));
   }
 
   Input& input_;
@@ -258,7 +262,7 @@ class PlyReader {
   std::unique_ptr<PlyValues> values_;
   MeshBuilder builder_;
 
-  // What is being read, for messages.
+  // The current value, for messages.
   const PlyElement* element_ = nullptr;
   uint64_t row_ = 0;
   const PlyProperty* property_ = nullptr;

@@ -12,7 +12,7 @@
 #include "io/stl_text.h"
 #include "io/vertex_welder.h"
 
-// A file is binary where its size says so, even if it begins with "solid", as many do.
+// A file of the size of a binary STL is binary, even if it begins with "solid", as many do.
 
 namespace meshhood::io {
 namespace {
@@ -50,16 +50,16 @@ bool is_binary(Input& input) {
 
 std::string why_not_binary(Input& input) {
   const auto header = input.ahead(kHeaderBytes);
-  if (header.size() < kHeaderBytes) return "not a binary STL, which has at least 84 bytes";
-  return fmt::format("not a binary STL, which would have {} bytes for the {} facets of its header", binary_size(header),
-                     facet_count(header));
+  if (header.size() < kHeaderBytes) return "it is not a binary STL, which has at least 84 bytes";
+  return fmt::format("it is not a binary STL, which would have {} bytes for the {} facets of its header",
+                     binary_size(header), facet_count(header));
 }
 
 template <class Real>
 class BinaryStl {
  public:
-  BinaryStl(Input& input, MeshBuilder& builder, VertexWelder<Real>& weld)
-      : input_(input), builder_(builder), weld_(weld) {}
+  BinaryStl(Input& input, MeshBuilder& builder, VertexWelder<Real>& welder)
+      : input_(input), builder_(builder), welder_(welder) {}
 
   void read() {
     const auto facets = facet_count(input_.ahead(kHeaderBytes));
@@ -73,7 +73,7 @@ class BinaryStl {
     const auto bytes = input_.ahead(kFacetBytes);
     if (bytes.size() < kFacetBytes) {
       fail_at(input_.name(), {.byte = input_.offset()}, ErrorCode::MalformedFile,
-              fmt::format("the file ends in facet {} of {}", facet, facets));
+              fmt::format("the file ends in facet {} of {}, {} facets are missing", facet, facets, facets - facet));
     }
     std::array<typename VertexWelder<Real>::Point, 3> corners;
     for (std::size_t i = 0; i < 9; ++i) {
@@ -84,16 +84,16 @@ class BinaryStl {
                 fmt::format("facet {}, vertex {}, {} {}", facet, i / 3, axis(i), *problem));
       }
     }
-    append_triangle(corners, {.byte = input_.offset()}, builder_, weld_);
+    append_triangle(corners, {.byte = input_.offset()}, builder_, welder_);
     input_.skip(kFacetBytes);
   }
 
   Input& input_;
   MeshBuilder& builder_;
-  VertexWelder<Real>& weld_;
+  VertexWelder<Real>& welder_;
 };
 
-// Room for as many corners as the bytes can hold, all of them vertices of their own.
+// Reserves memory for the largest possible number of corners, each with its own vertex.
 void reserve(MeshBuilder& builder, const Input& input, bool binary) {
   constexpr uint64_t kLeastTextOfVertex = 13;  // "vertex 0 0 0 "
   const auto left = input.left();
@@ -105,13 +105,13 @@ void reserve(MeshBuilder& builder, const Input& input, bool binary) {
 
 template <class Real>
 void read_soup(Input& input, bool binary, MeshBuilder& builder, std::vector<Real>& positions) {
-  VertexWelder<Real> weld(positions, builder.faces.corners(), input.name());
+  VertexWelder<Real> welder(positions, builder.faces.corners(), input.name());
   if (binary) {
-    BinaryStl<Real>(input, builder, weld).read();
+    BinaryStl<Real>(input, builder, welder).read();
   } else {
-    read_stl_text(input, builder, weld);
+    read_stl_text(input, builder, welder);
   }
-  weld.flush();
+  welder.flush();
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ bool has_binary_stl_size(Input& input) {
 
 Mesh read_stl(Input& input, const ReadOptions& options) {
   const bool binary = is_binary(input);
-  // What reads as binary garbage deserves to be told both reasons.
+  // If the file may be either, the error names both reasons.
   const bool may_be_either = !binary && !is_text(input.ahead(kHeaderBytes).substr(0, kHeaderBytes));
   const std::string not_binary = binary ? "" : why_not_binary(input);
   MeshBuilder builder(input, options, false);

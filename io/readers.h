@@ -4,28 +4,32 @@
 #include <string>
 #include <string_view>
 
+#include "io/byte_source.h"
 #include "io/input.h"
 #include "io/mesh_io.h"
 
-/// One reader a format. Each begins at the front of `input` and throws as `read_mesh` does.
+/// One reader for each format. Each begins at the front of `input` and throws as `read_mesh` does.
 namespace meshhood::io {
+
+/// Reads a file of any format.
+[[nodiscard]] Mesh read_mesh(FileSource& file, const std::string& name, const ReadOptions& options);
 
 [[nodiscard]] Mesh read_ply(Input& input, const ReadOptions& options);
 [[nodiscard]] Mesh read_obj(Input& input, const ReadOptions& options);
 [[nodiscard]] Mesh read_off(Input& input, const ReadOptions& options);
 [[nodiscard]] Mesh read_stl(Input& input, const ReadOptions& options);
 
-/// Tells the format by content, and where that fits none by the ending of `name`. Takes a byte-order mark off the front
-/// of `input`. Throws Error{UnsupportedFormat, MalformedFile}.
+/// Detects the format by content or, if the content fits none, by the extension of `name`. Removes a byte-order mark
+/// from the front of `input`. Throws Error{UnsupportedFormat, MalformedFile}.
 [[nodiscard]] Format detect_format(Input& input, const std::string& name);
 
-/// Whether a line of an OBJ file may begin so.
+/// Whether a line of an OBJ file may begin with `word`.
 [[nodiscard]] bool is_obj_statement(std::string_view word);
 
-/// Whether an OFF file may begin so: `[ST][C][N][4][n]OFF`.
+/// Whether an OFF file may begin with `word`: `[ST][C][N][4][n]OFF`, or this and the number of vertices (`OFF8`).
 [[nodiscard]] bool is_off_keyword(std::string_view word);
 
-/// Whether a file of known size is, to the byte, as long as the number of facets in a binary STL header asks for.
+/// Whether the file has exactly the size that the number of facets in a binary STL header requires.
 [[nodiscard]] bool has_binary_stl_size(Input& input);
 
 }  // namespace meshhood::io

@@ -26,8 +26,9 @@ class StlText {
     if (!is_word(text_.token(), "solid")) text_.malformed("expected 'solid'");
     text_.skip_line();
     for (auto token = text_.token(); !token.empty(); token = text_.token()) read_item(token);
-    if (in_solid_) builder_.warnings.add("no 'endsolid' at the end", text_.place());
-    if (facets_ == 0) text_.malformed("expected at least one 'facet'");
+    // A text that only begins with "solid" is not an empty mesh.
+    if (in_solid_ && facets_ == 0) text_.malformed("expected 'facet' or 'endsolid', but the file ends");
+    if (in_solid_) builder_.warnings.add("no 'endsolid' at the end", text_.location());
   }
 
  private:
@@ -37,11 +38,11 @@ class StlText {
     if (!in_solid_ && !is_word(token, "endsolid")) {
       text_.malformed("expected 'facet', 'endsolid' or 'solid', found {}", quote(token));
     }
-    text_.skip_line();  // a name of any words
+    text_.skip_line();  // the name
   }
 
   void read_facet() {
-    const Place place = text_.place();
+    const Location location = text_.location();
     auto token = text_.token();
     if (is_word(token, "normal")) {
       for (int i = 0; i < 3; ++i) text_.token();
@@ -49,12 +50,12 @@ class StlText {
     }
     check(token, "outer");
     check(text_.token(), "loop");
-    read_loop(place);
+    read_loop(location);
     check(text_.token(), "endfacet");
     ++facets_;
   }
 
-  void read_loop(const Place& place) {
+  void read_loop(const Location& location) {
     uint64_t count = 0;
     for (auto token = text_.token(); !is_word(token, "endloop"); token = text_.token()) {
       check(token, "vertex");
@@ -64,21 +65,21 @@ class StlText {
       if (count < 3) first_[count] = corner;
       ++count;
     }
-    end_loop(count, place);
+    end_loop(count, location);
   }
 
-  // The first three wait: a facet that turns out to have fewer is left out.
+  // Not before the third: a facet of fewer vertices is left out.
   void append_first_three() {
     for (const auto& corner : first_) weld_.append(corner);
   }
 
-  void end_loop(uint64_t count, const Place& place) {
+  void end_loop(uint64_t count, const Location& location) {
     if (count < 3) {
-      builder_.warnings.add("facets of fewer than three vertices are left out", place);
+      builder_.warnings.add("facets of fewer than three vertices are left out", location);
     } else if (count == 3) {
-      append_triangle(first_, place, builder_, weld_);
+      append_triangle(first_, location, builder_, weld_);
     } else {
-      builder_.warnings.add("facets of more than three vertices", place);
+      builder_.warnings.add("facets of more than three vertices", location);
       builder_.faces.end_face(count);
     }
   }

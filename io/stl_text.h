@@ -5,23 +5,23 @@
 
 #include "io/input.h"
 #include "io/mesh_builder.h"
-#include "io/place.h"
+#include "io/messages.h"
 #include "io/vertex_welder.h"
 
 namespace meshhood::io {
 
-/// Reads all facets of an STL file in text, of any number of solids and in any letter case. The format knows triangles
-/// alone; a facet of more vertices is kept as the polygon that it is, for to cut a vertex off would change the mesh,
-/// and one of fewer is left out, both with a warning.
+/// Reads all facets of an ASCII STL file, of any number of solids and in any letter case. A solid may be empty. The
+/// format allows only triangles: a facet of more vertices is kept as a polygon, so that no vertex is lost, and one of
+/// fewer is left out, both with a warning.
 template <class Real>
 void read_stl_text(Input& input, MeshBuilder& builder, VertexWelder<Real>& weld);
 
-/// Appends a facet of either kind of file.
+/// Appends a facet of an ASCII or binary file.
 template <class Real>
-void append_triangle(const std::array<std::array<Real, 3>, 3>& corners, const Place& place, MeshBuilder& builder,
+void append_triangle(const std::array<std::array<Real, 3>, 3>& corners, const Location& location, MeshBuilder& builder,
                      VertexWelder<Real>& weld) {
   const auto& [a, b, c] = corners;
-  if (a == b || b == c || c == a) builder.warnings.add("facets in which two corners coincide", place);
+  if (a == b || b == c || c == a) builder.warnings.add("facets in which two corners coincide", location);
   for (const auto& corner : corners) weld.append(corner);
   builder.faces.end_face(3);
 }

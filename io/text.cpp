@@ -65,7 +65,7 @@ bool Text::at_line_end() const {
 }
 
 bool Text::ends_line(char c) const {
-  if (c == '\0') return true;  // ends the text, in fact: `take_line` refuses it
+  if (c == '\0') return true;  // `take_line` refuses it
   return syntax_.line_end == kAnyLineEnd ? c == '\n' || c == '\r' : c == syntax_.line_end;
 }
 
@@ -89,7 +89,7 @@ void Text::take_line(std::size_t length) {
   const auto end = seen.substr(length, 2);
   if (end.starts_with('\0')) {
     token_begin_ = length;
-    malformed("a NUL byte in text");
+    malformed("found a NUL byte, expected text");
   }
   const bool pair = end == "\r\n" && syntax_.line_end == kAnyLineEnd;
   whole_length_ = length + (pair ? 2 : std::min<std::size_t>(end.size(), 1));

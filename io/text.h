@@ -11,55 +11,55 @@
 #include "meshhood/error.h"
 
 #include "io/input.h"
-#include "io/place.h"
+#include "io/messages.h"
 
 namespace meshhood::io {
 
 inline constexpr char kAnyLineEnd = 0;
 
-/// How a text format is laid out.
+/// The lexical rules of a text format.
 struct TextSyntax {
   bool hash_comments = false;      ///< `#` at the start of a token makes the rest of the line a comment
-  char line_end = kAnyLineEnd;     ///< the one byte that ends a line, or LF, CR and CRLF all alike
-  std::uint64_t lines_before = 0;  ///< lines of the file before the text
+  char line_end = kAnyLineEnd;     ///< the byte that ends a line, or any of LF, CR and CRLF
+  std::uint64_t lines_before = 0;  ///< number of lines before the text
 };
 
-/// A text file as lines and the tokens in them. Blanks, tabs, vertical tabs and form feeds separate tokens. Lines may
-/// have any length up to 64 MiB.
+/// Splits a text file into lines and tokens. Blanks, tabs, vertical tabs and form feeds separate tokens. A line has at
+/// most 64 MiB.
 class Text {
  public:
-  /// Begins before the line at the front of `input`.
+  /// Starts before the line at the front of `input`.
   Text(Input& input, const TextSyntax& syntax) : input_(input), syntax_(syntax), line_number_(syntax.lines_before) {}
 
-  /// Moves to the next line; false at the end of the file. Throws Error{MalformedFile} on a NUL byte and on a line that
-  /// is too long.
+  /// Moves to the next line; false at the end of the file. Throws Error{MalformedFile} for a NUL byte and for a line
+  /// that is too long.
   bool next_line();
 
-  /// The next token of this line, empty at its end.
+  /// The next token of this line; empty at its end.
   std::string_view token_on_line();
 
-  /// The next token of this line or of those after it, empty at the end of the file.
+  /// The next token of this or a later line; empty at the end of the file.
   std::string_view token();
 
   void skip_line() { cursor_ = line_.size(); }
 
-  /// Leaves the input behind the current line and its end.
+  /// Moves the input past the current line and its end.
   void leave_line() { input_.skip(std::exchange(whole_length_, 0)); }
 
   /// Whether this line holds no further token.
   [[nodiscard]] bool at_line_end() const;
 
-  /// As `token_on_line`, but a backslash at the end of a line makes the next one part of it.
+  /// As `token_on_line`, but a backslash at the end of a line continues it on the next.
   std::string_view token_on_continued_line();
 
-  /// The place of the token taken last; the end of the file, if there was none.
-  [[nodiscard]] Place place() const { return {.line = line_number_, .column = token_begin_ + 1}; }
+  /// The location of the last token; of the end of the file, if there was none.
+  [[nodiscard]] Location location() const { return {.line = line_number_, .column = token_begin_ + 1}; }
 
   [[nodiscard]] Input& input() const { return input_; }
 
-  /// Throws Error{code}: the message after the place of the token taken last.
+  /// Throws Error{code} at the location of the last token.
   [[noreturn]] void fail(ErrorCode code, std::string_view message) const {
-    fail_at(input_.name(), place(), code, message);
+    fail_at(input_.name(), location(), code, message);
   }
 
   template <class... Args>

@@ -5,7 +5,7 @@
 
 namespace meshhood::io {
 
-/// What `call()` returns, a call of the operating system that is made again where a signal cut it short.
+/// Makes the system call `call()`, again if a signal interrupted it, and returns its result.
 template <class F>
 [[nodiscard]] auto uninterrupted(F&& call) {
   for (;;) {

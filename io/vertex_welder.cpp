@@ -43,8 +43,7 @@ void VertexWelder<Real>::sort_batch() {
   });
 }
 
-// Walks the sorted batch and the sorted vertices side by side. Each group of equal corners finds its vertex, or becomes
-// a new one.
+// Merges the sorted batch with the sorted vertices: each group of equal corners gets its vertex, or becomes a new one.
 template <class Real>
 void VertexWelder<Real>::match_groups() {
   first_.resize(batch_.size());
@@ -52,27 +51,27 @@ void VertexWelder<Real>::match_groups() {
   new_.clear();
   auto known = sorted_vertices_.begin();
   std::uint32_t group = kNone;
-  for (const auto place : sorted_batch_) {
-    if (group != kNone && batch_[group] == batch_[place]) {
-      first_[place] = group;
+  for (const auto corner : sorted_batch_) {
+    if (group != kNone && batch_[group] == batch_[corner]) {
+      first_[corner] = group;
       continue;
     }
-    group = first_[place] = place;
+    group = first_[corner] = corner;
     known =
-        std::find_if(known, sorted_vertices_.end(), [&](std::uint32_t id) { return !(vertex(id) < batch_[place]); });
-    const bool is_known = known != sorted_vertices_.end() && vertex(*known) == batch_[place];
+        std::find_if(known, sorted_vertices_.end(), [&](std::uint32_t id) { return !(vertex(id) < batch_[corner]); });
+    const bool is_known = known != sorted_vertices_.end() && vertex(*known) == batch_[corner];
     if (is_known) {
-      id_[place] = *known;
+      id_[corner] = *known;
     } else {
-      new_.push_back(place);
+      new_.push_back(corner);
     }
   }
 }
 
 template <class Real>
 void VertexWelder<Real>::number_corners() {
-  for (std::uint32_t place = 0; place < batch_.size(); ++place) {
-    const auto first = first_[place];
+  for (std::uint32_t corner = 0; corner < batch_.size(); ++corner) {
+    const auto first = first_[corner];
     if (id_[first] == kNone) {
       if (vertex_count() == kMaxVertices) {
         raise(ErrorCode::TooLarge, fmt::format("{}: more than {} vertices", file_, kMaxVertices));
@@ -84,17 +83,17 @@ void VertexWelder<Real>::number_corners() {
   }
 }
 
-// From the back, so that no second array is needed.
+// Merges from the back, in corner.
 template <class Real>
 void VertexWelder<Real>::merge_new_vertices() {
   std::size_t old_end = sorted_vertices_.size();
   sorted_vertices_.resize(old_end + new_.size());
   std::size_t write = sorted_vertices_.size();
-  for (const auto place : std::views::reverse(new_)) {
-    while (old_end > 0 && batch_[place] < vertex(sorted_vertices_[old_end - 1])) {
+  for (const auto corner : std::views::reverse(new_)) {
+    while (old_end > 0 && batch_[corner] < vertex(sorted_vertices_[old_end - 1])) {
       sorted_vertices_[--write] = sorted_vertices_[--old_end];
     }
-    sorted_vertices_[--write] = id_[place];
+    sorted_vertices_[--write] = id_[corner];
   }
 }
 

@@ -10,27 +10,29 @@
 
 namespace meshhood::io {
 
-/// Makes one vertex of all corners of equal position (-0 equals 0), numbered in order of first appearance.
+/// Merges all corners of equal position (-0 equals 0) into one vertex. Vertices are numbered in order of first
+/// appearance.
 ///
-/// Sorts rather than hashes, so that no file can be made slow. Corners are welded a batch at a time: at no time is the
-/// whole soup in memory. Memory beside the result: 4 bytes a vertex, and at most 28 (as double 40) a corner of a batch,
-/// which has an eighth as many corners as there are vertices. O(n log n).
+/// Sorts instead of hashing, so that no file is slow on purpose. Corners are welded in batches, so the unwelded
+/// triangles are never in memory as a whole. Memory beside the result: 4 bytes per vertex, and at most 28 (for double
+/// 40) per corner of a batch, which has an eighth as many corners as there are vertices. O(n log n).
 template <class Real>
 class VertexWelder {
  public:
   using Point = std::array<Real, 3>;
 
-  /// `positions` (#V by 3) and `corners` receive the result; both must be empty and outlive this. `file` is for errors.
+  /// `positions` (#V by 3) and `corners` receive the result; both must be empty and outlive this. `file` is for
+  /// messages.
   VertexWelder(std::vector<Real>& positions, std::vector<std::uint32_t>& corners, std::string file)
       : positions_(positions), corners_(corners), file_(std::move(file)) {}
 
-  /// Takes finite coordinates. Throws Error{TooLarge}.
+  /// The coordinates are finite. Throws Error{TooLarge}.
   void append(const Point& corner) {
     batch_.push_back(corner);
     if (batch_.size() >= batch_limit_) flush();
   }
 
-  /// Welds the corners that still wait. Throws Error{TooLarge}.
+  /// Welds the remaining corners. Throws Error{TooLarge}.
   void flush();
 
  private:
@@ -48,10 +50,10 @@ class VertexWelder {
 
   std::vector<Point> batch_;
   std::size_t batch_limit_ = std::size_t{1} << 16;
-  std::vector<std::uint32_t> sorted_batch_;  // places in the batch, by position and then by place
-  std::vector<std::uint32_t> first_;         // by place in the batch: the first place of equal position
-  std::vector<std::uint32_t> id_;            // by place in the batch: the vertex
-  std::vector<std::uint32_t> new_;           // first places of positions that no vertex had, by position
+  std::vector<std::uint32_t> sorted_batch_;  // indices into the batch, by position and then by index
+  std::vector<std::uint32_t> first_;         // for each corner of the batch: the first corner of equal position
+  std::vector<std::uint32_t> id_;            // for each corner of the batch: the vertex
+  std::vector<std::uint32_t> new_;           // first corners at positions without a vertex, by position
 };
 
 extern template class VertexWelder<float>;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "io/tell.h"
+#include "io/messages.h"
 
 namespace meshhood::io {
 namespace {
@@ -24,7 +24,7 @@ std::size_t WatchedSource::read(std::span<char> out) {
 
 void WatchedSource::report() const {
   const auto total = static_cast<std::size_t>(size().value_or(0));
-  // A file may grow while it is read.
+  // The file may grow while it is read.
   const auto done = static_cast<std::size_t>(total == 0 ? done_ : std::min<std::uint64_t>(done_, total));
   io::report(progress_, done, total, file_);
 }

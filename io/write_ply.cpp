@@ -16,8 +16,7 @@
 
 #include "io/file_writer.h"
 #include "io/mesh_io.h"
-#include "io/place.h"
-#include "io/tell.h"
+#include "io/messages.h"
 
 namespace meshhood::io {
 namespace {
@@ -34,11 +33,13 @@ bool is_property_name(std::string_view name) {
 
 void check_property(const VertexProperty& property, std::size_t vertices, std::vector<std::string_view>& taken) {
   const auto name = quote(property.name);
-  if (!is_property_name(property.name)) refuse("PLY property " + name + ": a name is printable ASCII without blanks");
-  if (std::find(taken.begin(), taken.end(), property.name) != taken.end()) refuse("PLY property " + name + " twice");
+  if (!is_property_name(property.name)) refuse("PLY property " + name + ": expected printable ASCII without blanks");
+  if (std::find(taken.begin(), taken.end(), property.name) != taken.end())
+    refuse("PLY property " + name + " occurs twice");
   taken.push_back(property.name);
   if (property.values.size() == vertices) return;
-  refuse(fmt::format("PLY property {} has {} values for {} vertices", name, property.values.size(), vertices));
+  refuse(fmt::format("PLY property {} has {} values, expected one for each of {} vertices", name,
+                     property.values.size(), vertices));
 }
 
 void check(const PlyOptions& options, std::size_t vertices) {
@@ -46,7 +47,7 @@ void check(const PlyOptions& options, std::size_t vertices) {
   if (!options.colors.empty()) {
     taken.insert(taken.end(), kColors.begin(), kColors.end());
     if (options.colors.size() != 3 * vertices) {
-      refuse(fmt::format("{} colour values for {} vertices, expected three each", options.colors.size(), vertices));
+      refuse(fmt::format("{} colour values, expected three for each of {} vertices", options.colors.size(), vertices));
     }
   }
   for (const auto& property : options.properties) check_property(property, vertices, taken);
@@ -58,10 +59,10 @@ std::size_t largest_face(const FacesView& faces) {
   return largest;
 }
 
-// How many rows are written, for who watches.
-class Watch {
+// Counts the rows written.
+class RowProgress {
  public:
-  Watch(const Progress& progress, const MeshView& mesh, const std::filesystem::path& path)
+  RowProgress(const Progress& progress, const MeshView& mesh, const std::filesystem::path& path)
       : progress_(progress), file_(path.string()), total_(mesh.positions.size() + mesh.faces.size()) {}
 
   void report() const { io::report(progress_, done_, total_, file_); }
@@ -78,15 +79,15 @@ class Watch {
   std::size_t done_ = 0;
 };
 
-// Values as text, a blank between them, a row a line; or as little-endian bytes.
+// Writes rows of values as lines of text or as little-endian bytes.
 class Rows {
  public:
-  Rows(FileWriter& file, Watch& watch, bool ascii) : file_(file), watch_(watch), ascii_(ascii) {}
+  Rows(FileWriter& file, RowProgress& progress, bool ascii) : file_(file), progress_(progress), ascii_(ascii) {}
 
   template <class T>
   void value(T value) {
     if (ascii_) {
-      // The shortest text that reads back as the same number.
+      // The shortest text that parses to the same number.
       fmt::format_to(std::back_inserter(row_), "{}{}", row_.empty() ? "" : " ", value);
     } else {
       std::array<char, sizeof(T)> bytes;
@@ -100,20 +101,20 @@ class Rows {
     if (ascii_) row_ += '\n';
     file_.write(row_);
     row_.clear();
-    watch_.add_row();
+    progress_.add_row();
   }
 
  private:
   FileWriter& file_;
-  Watch& watch_;
+  RowProgress& progress_;
   bool ascii_;
   std::string row_;
 };
 
 class PlyWriter {
  public:
-  PlyWriter(FileWriter& file, Watch& watch, const MeshView& mesh, const PlyOptions& options)
-      : file_(file), rows_(file, watch, options.ascii), mesh_(mesh), options_(options) {}
+  PlyWriter(FileWriter& file, RowProgress& progress, const MeshView& mesh, const PlyOptions& options)
+      : file_(file), rows_(file, progress, options.ascii), mesh_(mesh), options_(options) {}
 
   void write() {
     has_long_faces_ = largest_face(mesh_.faces) > std::numeric_limits<std::uint8_t>::max();
@@ -179,11 +180,11 @@ class PlyWriter {
 void write_ply(const std::filesystem::path& path, const MeshView& mesh, const PlyOptions& options) {
   validate(mesh);
   check(options, mesh.positions.size());
-  Watch watch(options.progress, mesh, path);
-  watch.report();
+  RowProgress progress(options.progress, mesh, path);
+  progress.report();
   FileWriter file(path);
-  PlyWriter(file, watch, mesh, options).write();
-  file.commit([&] { watch.report(); });
+  PlyWriter(file, progress, mesh, options).write();
+  file.commit([&] { progress.report(); });
 }
 
 }  // namespace meshhood::io

@@ -19,7 +19,8 @@ find_package(FastFloat REQUIRED)
 get_target_property(io_sources meshhood_io SOURCES)
 list(TRANSFORM io_sources PREPEND ${PROJECT_SOURCE_DIR}/io/)
 add_executable(io_limits_test io/limits_test.cpp ${io_sources})
-target_include_directories(io_limits_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR})
+target_include_directories(io_limits_test PRIVATE
+  ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src)
 target_link_libraries(io_limits_test PRIVATE
   meshhood_narrow fmt::fmt FastFloat::fast_float GTest::gmock GTest::gtest_main)
 meshhood_own_target(io_limits_test)
@@ -28,13 +29,10 @@ meshhood_compile_together(io_limits_test)
 gtest_discover_tests(io_limits_test TEST_PREFIX io.limits. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 
 # Saves that fail, are killed, or meet a full disk: everything that writes a file is put through all of it.
-pkg_check_modules(MINIZIP REQUIRED IMPORTED_TARGET minizip)
-add_library(meshhood_save_trial STATIC
-  support/save_trial.cpp support/savers.cpp support/small_disk.cpp
-  ${PROJECT_SOURCE_DIR}/cli/npz_writer.cpp ${PROJECT_SOURCE_DIR}/cli/zip_writer.cpp)
+add_library(meshhood_save_trial STATIC support/save_trial.cpp support/savers.cpp support/small_disk.cpp)
 target_include_directories(meshhood_save_trial PUBLIC ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR})
 target_link_libraries(meshhood_save_trial PUBLIC
-  meshhood::io meshhood_shapes fmt::fmt PkgConfig::MINIZIP GTest::gtest)
+  meshhood_npz meshhood::io meshhood_shapes GTest::gtest)
 meshhood_own_target(meshhood_save_trial)
 foreach(stem calls full kill power race)
   meshhood_test(io/save_${stem} meshhood_save_trial)

@@ -34,17 +34,27 @@ enum class ErrorCode {
 /// A core compiled without exceptions (WebAssembly) traps instead.
 class Error : public std::exception {
  public:
-  Error(ErrorCode code, std::string message) : code_(code), message_(std::move(message)) {}
+  Error(ErrorCode code, std::string message, std::string path = {}, int error_number = 0)
+      : code_(code), message_(std::move(message)), path_(std::move(path)), error_number_(error_number) {}
 
   [[nodiscard]] ErrorCode code() const noexcept { return code_; }
   [[nodiscard]] const char* what() const noexcept override { return message_.c_str(); }
 
+  /// With `IoFailure`: the file, as it was given; empty otherwise.
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+
+  /// With `IoFailure`: the `errno` value of the failed system call; 0 where there is none.
+  [[nodiscard]] int error_number() const noexcept { return error_number_; }
+
  private:
   ErrorCode code_;
   std::string message_;
+  std::string path_;
+  int error_number_;
 };
 
-/// Throws `Error{code, message}`, or traps where exceptions are off. All errors of the library pass through here.
-[[noreturn]] void raise(ErrorCode code, std::string message);
+/// Throws `Error{code, message, path, error_number}`, or traps where exceptions are off. All errors of the library pass
+/// through here.
+[[noreturn]] void raise(ErrorCode code, std::string message, std::string path = {}, int error_number = 0);
 
 }  // namespace meshhood

@@ -22,12 +22,14 @@ std::string_view describe(ErrorCode code) noexcept {
   return "unknown error";
 }
 
-void raise(ErrorCode code, std::string message) {
+void raise(ErrorCode code, std::string message, std::string path, int error_number) {
 #if defined(__cpp_exceptions)
-  throw Error(code, std::move(message));
+  throw Error(code, std::move(message), std::move(path), error_number);
 #else
   static_cast<void>(code);
   static_cast<void>(message);
+  static_cast<void>(path);
+  static_cast<void>(error_number);
   std::abort();
 #endif
 }

@@ -8,12 +8,12 @@
 #include "meshhood/error.h"
 #include "meshhood/serialize.h"
 
+#include "base/aligned_buffer.h"
 #include "base/parallel.h"
 #include "exact/extract_graph.h"
 #include "exact/index_access.h"
 #include "exact/layout.h"
 #include "exact/verify.h"
-#include "format/aligned_copy.h"
 #include "format/section_reader.h"
 #include "format/section_writer.h"
 
@@ -117,7 +117,7 @@ void save(const Index& index, const Sink& sink, const SaveOptions& options) {
 Index load(std::span<const std::byte> bytes, const LoadOptions& options) {
   // Before the copy is allocated.
   static_cast<void>(read_header(bytes));
-  file::AlignedCopy copy(bytes);
+  AlignedBuffer copy = AlignedBuffer::copy_of(bytes);
   const auto at = copy.bytes();
   return map(at, copy.take_owner(), {.progress = options.progress});
 }

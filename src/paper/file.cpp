@@ -7,8 +7,8 @@
 #include "meshhood/error.h"
 #include "meshhood/serialize.h"
 
+#include "base/aligned_buffer.h"
 #include "base/parallel.h"
-#include "format/aligned_copy.h"
 #include "format/coordinates.h"
 #include "format/section_reader.h"
 #include "format/section_writer.h"
@@ -126,7 +126,7 @@ void save(const Index& index, const Sink& sink, const SaveOptions& options) {
 Index load(std::span<const std::byte> bytes, const LoadOptions& options) {
   const IndexHeader header = read_header(bytes);
   file::expect_kind(header.kind, IndexKind::Paper);
-  const file::AlignedCopy copy(bytes);
+  const AlignedBuffer copy = AlignedBuffer::copy_of(bytes);
   SectionReader file(copy.bytes());
   TaskContext task(1, options.progress, file.header().sections + 1);
   file.verify_checksums(task);

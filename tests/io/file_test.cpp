@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -12,6 +13,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "meshhood/index.h"
+
+#include "io/index_io.h"
 #include "support/hostile.h"
 #include "support/scratch.h"
 
@@ -39,7 +43,8 @@ class Files : public ::testing::Test {
   Scratch scratch;
 };
 
-TEST_F(Files, M22_WhatIsNoFileIsAnError) {
+// M22
+TEST_F(Files, FoldersAndMissingFilesAreErrors) {
   const auto directory = file_refusal(scratch.path());
   EXPECT_EQ(directory.code, ErrorCode::IoFailure);
   EXPECT_THAT(directory.message, StartsWith(scratch.path().string() + ": is a directory"));
@@ -52,7 +57,47 @@ TEST_F(Files, M22_WhatIsNoFileIsAnError) {
   EXPECT_EQ(vertex_count(io::read_mesh(scratch.write("empty.obj", ""))), 0U);
 }
 
-TEST_F(Files, M22_EndlessDevicesEnd) {
+// What a binding needs for an error of its own, as OSError of Python.
+TEST_F(Files, ErrorsOfTheSystemHavePathAndErrno) {
+  const auto expect_errno = [](const std::filesystem::path& path, int error_number, auto&& call) {
+    try {
+      call(path);
+      ADD_FAILURE() << path << " was accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::IoFailure) << error.what();
+      EXPECT_EQ(error.path(), path.string()) << error.what();
+      EXPECT_EQ(error.error_number(), error_number) << error.what();
+    }
+  };
+  const auto read = [](const auto& path) { static_cast<void>(io::read_mesh(path)); };
+  const auto load = [](const auto& path) { static_cast<void>(io::load(path)); };
+  const auto load_paper = [](const auto& path) { static_cast<void>(io::load_paper(path)); };
+  const auto map = [](const auto& path) { static_cast<void>(io::map(path)); };
+  const auto header = [](const auto& path) { static_cast<void>(io::read_header(path)); };
+  const auto write = [](const auto& path) { io::write_ply(path, MeshView{}); };
+  const auto save = [](const auto& path) { io::save(path, build(MeshView{})); };
+  const auto missing = scratch.path() / "missing\n" / "file.ply";
+  expect_errno(missing, ENOENT, read);
+  expect_errno(missing, ENOENT, load);
+  expect_errno(missing, ENOENT, load_paper);
+  expect_errno(missing, ENOENT, map);
+  expect_errno(missing, ENOENT, header);
+  expect_errno(missing, ENOENT, write);
+  expect_errno(missing, ENOENT, save);
+  expect_errno(scratch.path(), EISDIR, read);
+  expect_errno(scratch.path(), EISDIR, load);
+  expect_errno("/dev/full", ENOSPC, write);
+  expect_errno("/dev/full", ENOSPC, save);
+  try {
+    static_cast<void>(io::read_mesh(scratch.write("bad.ply", "")));
+  } catch (const Error& error) {
+    EXPECT_EQ(error.path(), "");
+    EXPECT_EQ(error.error_number(), 0);
+  }
+}
+
+// M22
+TEST_F(Files, EndlessDevicesAreRefused) {
   for (const std::string device : {"/dev/zero", "/dev/urandom"}) {
     const auto result = file_refusal(device);
     EXPECT_TRUE(result.refused) << device;
@@ -66,7 +111,8 @@ TEST_F(Files, M22_EndlessDevicesEnd) {
   }
 }
 
-TEST_F(Files, M22_APipeIsReadToItsEnd) {
+// M22
+TEST_F(Files, APipeIsReadToItsEnd) {
   const auto pipe = scratch.path() / "pipe.obj";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const std::jthread writer([&pipe] {
@@ -78,15 +124,17 @@ TEST_F(Files, M22_APipeIsReadToItsEnd) {
   EXPECT_EQ(face_count(io::read_mesh(pipe)), 1U);
 }
 
-TEST_F(Files, M22_APipeThatNobodyWritesToIsGivenUp) {
+// M22
+TEST_F(Files, APipeWithoutWriterIsRefused) {
   const auto pipe = scratch.path() / "pipe.obj";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const auto result = file_refusal(pipe.parent_path() / "pipe.obj");
   EXPECT_EQ(result.code, ErrorCode::IoFailure);
-  EXPECT_THAT(result.message, HasSubstr("nobody writes to this pipe"));
+  EXPECT_THAT(result.message, HasSubstr("no process writes to this pipe"));
 }
 
-TEST_F(Files, M22_AnEndlessPipeIsReadUpToTheLimit) {
+// M22
+TEST_F(Files, AnEndlessPipeIsReadUpToTheLimit) {
   const auto pipe = scratch.path() / "pipe.obj";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const std::jthread writer([&pipe] {
@@ -104,13 +152,15 @@ TEST_F(Files, M22_AnEndlessPipeIsReadUpToTheLimit) {
   EXPECT_THAT(result.message, HasSubstr("4194304 bytes"));
 }
 
-TEST_F(Files, M22_TheLimitHoldsForFilesAndMemory) {
+// M22
+TEST_F(Files, TheLimitHoldsForFilesAndMemory) {
   EXPECT_EQ(file_refusal(scratch.write("a.obj", kObj), {.max_bytes = 10}).code, ErrorCode::TooLarge);
   EXPECT_EQ(refusal("a.obj", kObj, {.max_bytes = 10}).code, ErrorCode::TooLarge);
   EXPECT_FALSE(refusal("a.obj", kObj, {.max_bytes = kObj.size()}).refused);
 }
 
-TEST_F(Files, M22_AFileThatShrinksWhileReadIsAnError) {
+// M22
+TEST_F(Files, AFileThatShrinksWhileReadIsAnError) {
   const std::string vertex = "v 0.123456 0.123456 0.123456\n";
   std::string vertices;
   while (vertices.size() < (std::size_t{8} << 20)) vertices += vertex;

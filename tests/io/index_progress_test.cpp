@@ -98,11 +98,11 @@ class IndexProgress : public testing::Test {
   std::filesystem::path path_ = scratch_.write("index", {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()});
 };
 
-TEST_F(IndexProgress, TellsFromNothingToAll) {
+TEST_F(IndexProgress, ReportsFromZeroToTheTotal) {
   for (const Load& load : loads()) expect_from_nothing_to_all(reports_of(load));
 }
 
-TEST_F(IndexProgress, EndsTheLoadingAtAnyReport) {
+TEST_F(IndexProgress, CancelsLoadingAtAnyReport) {
   for (const Load& load : loads()) {
     const std::size_t all = reports_of(load).size();
     for (std::size_t last = 0; last < all; ++last) expect_ended_after(last, load);
@@ -147,13 +147,13 @@ TEST_F(IndexSaveProgress, TellsFromNothingToAll) {
   }
 }
 
-TEST_F(IndexSaveProgress, EndsTheSavingAtAnyReport) {
+TEST_F(IndexSaveProgress, CancelsSavingAtAnyReport) {
   for (const Save& save : {to_bytes(exact), to_bytes(approximate)}) {
     for (std::size_t last = 0; last < kFewest; ++last) expect_ended_after(last, save);
   }
 }
 
-TEST_F(IndexSaveProgress, LeavesTheOldFileWhereItIsEnded) {
+TEST_F(IndexSaveProgress, KeepsTheOldFileWhenCancelled) {
   for (const Save& save : {to_file(exact), to_file(approximate)}) {
     for (std::size_t last = 0; last <= kFewest; ++last) {
       expect_ended_after(last, save);

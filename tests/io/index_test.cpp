@@ -41,7 +41,7 @@ class IndexFile : public testing::Test {
   const std::filesystem::path file = scratch.path() / "grid.mhi";
 };
 
-TEST_F(IndexFile, GivesTheSameIndexBack) {
+TEST_F(IndexFile, RoundTripsTheIndex) {
   const Index index = index_of(50);
   io::save(file, index);
   EXPECT_EQ(files_in(scratch.path()), 1U);
@@ -52,7 +52,7 @@ TEST_F(IndexFile, GivesTheSameIndexBack) {
   EXPECT_EQ(io::read_header(file).bytes, std::filesystem::file_size(file));
 }
 
-TEST_F(IndexFile, IsToldFromAMeshByItsContent) {
+TEST_F(IndexFile, IsDetectedByContent) {
   const auto misnamed = scratch.path() / "index.ply";
   io::save(misnamed, index_of(5));
   EXPECT_TRUE(io::is_index(misnamed));
@@ -79,11 +79,11 @@ TEST_F(IndexFile, ErrorsBeginWithTheFile) {
   expect_refused(ErrorCode::IoFailure, "missing.mhi: No such file", [&] { static_cast<void>(io::load(missing)); });
   expect_refused(ErrorCode::IoFailure, "missing.mhi: No such file", [&] { static_cast<void>(io::map(missing)); });
   expect_refused(ErrorCode::IoFailure, "is a directory", [&] { static_cast<void>(io::load(scratch.path())); });
-  expect_refused(ErrorCode::IoFailure, "expected an ordinary file",
-                 [&] { static_cast<void>(io::map(scratch.path())); });
+  expect_refused(ErrorCode::IoFailure, "expected a regular file", [&] { static_cast<void>(io::map(scratch.path())); });
 }
 
-TEST_F(IndexFile, F3AGigabyteAppendedIsRefusedBeforeItIsRead) {
+// F3
+TEST_F(IndexFile, AGigabyteAppendedIsRefusedBeforeItIsRead) {
   io::save(file, index_of(20));
   // A hole: no disk is needed for it. Where it was read, this would take as much memory.
   std::filesystem::resize_file(file, std::filesystem::file_size(file) + (std::uintmax_t{1} << 30U));
@@ -105,7 +105,8 @@ TEST_F(IndexFile, IsLoadedFromAPipe) {
   EXPECT_THAT(differences(loaded, index), IsEmpty());
 }
 
-TEST_F(IndexFile, F7WhatIsLoadedDoesNotNeedTheFile) {
+// F7
+TEST_F(IndexFile, ALoadedIndexDoesNotNeedTheFile) {
   const Index index = index_of(50);
   io::save(file, index);
   const Index loaded = io::load(file);
@@ -113,7 +114,8 @@ TEST_F(IndexFile, F7WhatIsLoadedDoesNotNeedTheFile) {
   EXPECT_THAT(differences(loaded, index), IsEmpty());
 }
 
-TEST_F(IndexFile, F7AFileThatIsTruncatedWhileItIsLoadedIsRefused) {
+// F7
+TEST_F(IndexFile, AFileTruncatedDuringLoadingIsRefused) {
   const Index index = index_of(50);
   io::save(file, index);
   const std::uintmax_t bytes = std::filesystem::file_size(file);
@@ -142,7 +144,8 @@ TEST_F(IndexFile, F7AFileThatIsTruncatedWhileItIsLoadedIsRefused) {
   EXPECT_GT(refused, 0U);
 }
 
-TEST_F(IndexFile, F9WhoHasMappedTheOldFileKeepsIt) {
+// F9
+TEST_F(IndexFile, AMappingKeepsTheOldFile) {
   const Index old = index_of(50);
   io::save(file, old);
   const Index mapped = io::map(file, {.trusted = true});
@@ -152,7 +155,7 @@ TEST_F(IndexFile, F9WhoHasMappedTheOldFileKeepsIt) {
   EXPECT_THAT(differences(mapped, old), IsEmpty());
 }
 
-TEST_F(IndexFile, AFailureLeavesTheOldFile) {
+TEST_F(IndexFile, AFailureKeepsTheOldFile) {
   const Index old = index_of(10);
   io::save(file, old);
   expect_refused(ErrorCode::IoFailure, "cannot create", [&] { io::save(scratch.path() / "no" / "x.mhi", old); });

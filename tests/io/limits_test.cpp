@@ -45,7 +45,8 @@ std::string stl_text(std::size_t vertices) {
   return file + "endloop\nendfacet\nendsolid\n";
 }
 
-TEST(Limits, M20_TheLastVertexThatHasAnIdIsReadAndTheNextIsRefused) {
+// M20
+TEST(Limits, TheLastVertexThatHasAnIdIsReadAndTheNextIsRefused) {
   const std::vector<std::pair<std::string, std::string (*)(std::size_t)>> formats = {
       {"a.ply", ply}, {"a.off", off}, {"a.obj", obj}, {"a.stl", stl}, {"text.stl", stl_text}};
   for (const auto& [name, file] : formats) {
@@ -56,7 +57,8 @@ TEST(Limits, M20_TheLastVertexThatHasAnIdIsReadAndTheNextIsRefused) {
   std::printf("%zu formats reach the limit and stop behind it\n", formats.size());
 }
 
-TEST(Limits, M20_MoreCornersThanIdsAreNoProblem) {
+// M20
+TEST(Limits, MoreCornersThanIdsAreNoProblem) {
   std::string file = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (int face = 0; face < 50000; ++face) file += "f 1 2 3\n";
   const auto mesh = read("a.obj", file + "f 1 2\n");
@@ -64,7 +66,8 @@ TEST(Limits, M20_MoreCornersThanIdsAreNoProblem) {
   EXPECT_EQ(mesh.offsets.back(), 150002U);
 }
 
-TEST(Limits, M20_IndicesAreComparedBeforeTheyAreNarrowed) {
+// M20
+TEST(Limits, IndicesAreComparedBeforeTheyAreNarrowed) {
   // 65536 narrows to 0, which would be a vertex.
   expect_refused("a.obj", "v 0 0 0\nf 65537\n", ErrorCode::MalformedFile, "corner 1 = 65537");
   expect_refused("a.off", "OFF 1 1 0\n0 0 0\n1 65536\n", ErrorCode::MalformedFile, "corner 0 = 65536");

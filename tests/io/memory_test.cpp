@@ -87,7 +87,8 @@ std::string ply_header(const std::string& format) {
          "\nproperty list uchar int vertex_indices\nend_header\n";
 }
 
-TEST_F(Memory, R1_PlyBinary) {
+// R1
+TEST_F(Memory, PlyBinary) {
   expect_bounded("binary.ply", [](std::ofstream& file) {
     file << ply_header("binary_little_endian");
     each_vertex([&file](float x, float y) { file << little(x, y, 0.F); });
@@ -95,7 +96,8 @@ TEST_F(Memory, R1_PlyBinary) {
   });
 }
 
-TEST_F(Memory, R1_PlyText) {
+// R1
+TEST_F(Memory, PlyText) {
   expect_bounded("text.ply", [](std::ofstream& file) {
     file << ply_header("ascii");
     each_vertex([&file](float x, float y) { file << x << ' ' << y << " 0\n"; });
@@ -103,14 +105,16 @@ TEST_F(Memory, R1_PlyText) {
   });
 }
 
-TEST_F(Memory, R1_Obj) {
+// R1
+TEST_F(Memory, Obj) {
   expect_bounded("mesh.obj", [](std::ofstream& file) {
     each_vertex([&file](float x, float y) { file << "v " << x << ' ' << y << " 0\n"; });
     each_face([&file](auto a, auto b, auto c) { file << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n'; });
   });
 }
 
-TEST_F(Memory, R1_ObjWithPolygonsLast) {
+// R1
+TEST_F(Memory, ObjWithPolygonsLast) {
   expect_bounded("polygons.obj", [](std::ofstream& file) {
     each_vertex([&file](float x, float y) { file << "v " << x << ' ' << y << " 0\n"; });
     each_face([&file](auto a, auto b, auto c) { file << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n'; });
@@ -118,7 +122,8 @@ TEST_F(Memory, R1_ObjWithPolygonsLast) {
   });
 }
 
-TEST_F(Memory, R1_Off) {
+// R1
+TEST_F(Memory, Off) {
   expect_bounded("mesh.off", [](std::ofstream& file) {
     file << "OFF\n" << 2 * kPairs << ' ' << 2 * kPairs - 2 << " 0\n";
     each_vertex([&file](float x, float y) { file << x << ' ' << y << " 0\n"; });
@@ -137,14 +142,16 @@ void write_facet(std::ofstream& file, std::uint32_t a, std::uint32_t b, std::uin
 
 void write_stl_header(std::ofstream& file, std::uint32_t facets) { file << std::string(80, ' ') << little(facets); }
 
-TEST_F(Memory, R1_StlBinary) {
+// R1
+TEST_F(Memory, StlBinary) {
   expect_bounded("binary.stl", [](std::ofstream& file) {
     write_stl_header(file, 2 * kPairs - 2);
     each_face([&file](auto a, auto b, auto c) { write_facet(file, a, b, c); });
   });
 }
 
-TEST_F(Memory, R1_StlBinaryOfUnconnectedTriangles) {
+// R1
+TEST_F(Memory, StlBinaryOfUnconnectedTriangles) {
   constexpr std::uint32_t kFacets = 1'500'000;
   expect_bounded("unconnected.stl", [](std::ofstream& file) {
     write_stl_header(file, kFacets);
@@ -152,7 +159,8 @@ TEST_F(Memory, R1_StlBinaryOfUnconnectedTriangles) {
   });
 }
 
-TEST_F(Memory, R1_StlBinaryOfOnePosition) {
+// R1
+TEST_F(Memory, StlBinaryOfOnePosition) {
   constexpr std::uint32_t kFacets = 4'000'000;
   expect_bounded("one_position.stl", [](std::ofstream& file) {
     write_stl_header(file, kFacets);
@@ -160,7 +168,8 @@ TEST_F(Memory, R1_StlBinaryOfOnePosition) {
   });
 }
 
-TEST_F(Memory, R1_StlText) {
+// R1
+TEST_F(Memory, StlText) {
   expect_bounded("text.stl", [](std::ofstream& file) {
     file << "solid\n";
     const auto vertex = [&file](std::uint32_t v) { file << "vertex " << v / 2 << ' ' << v % 2 << " 0\n"; };
@@ -175,7 +184,8 @@ TEST_F(Memory, R1_StlText) {
   });
 }
 
-TEST_F(Memory, M1_ARefusedCountCostsNoMemory) {
+// M1
+TEST_F(Memory, ARefusedCountCostsNoMemory) {
   const std::string axes = "property float x\nproperty float y\nproperty float z\nend_header\n";
   const std::vector<std::pair<std::string, std::string>> files = {
       {"a.ply", "ply\nformat ascii 1.0\nelement vertex 1099511627776\n" + axes},

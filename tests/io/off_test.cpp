@@ -15,7 +15,8 @@ using ::testing::ElementsAre;
 
 const std::string kVertices = "0 0 0\n1 0 0\n0 1 0\n";
 
-TEST(Off, M1_HugeCountsAreRefusedBeforeTheyAllocate) {
+// M1
+TEST(Off, HugeCountsAreRefusedBeforeTheyAllocate) {
   for (const std::string counts :
        {"2000000000 1 0", "3 2000000000 0", "1099511627776 0 0", "18446744073709551615 0 0"}) {
     expect_refused("a.off", "OFF\n" + counts + "\n" + kVertices + "3 0 1 2\n", ErrorCode::MalformedFile,
@@ -26,7 +27,8 @@ TEST(Off, M1_HugeCountsAreRefusedBeforeTheyAllocate) {
   expect_refused("a.off", "OFF\n-1 0 0\n", ErrorCode::MalformedFile, "'-1'");
 }
 
-TEST(Off, M3_TruncationAtAnyByteIsRefused) {
+// M3
+TEST(Off, TruncationAtAnyByteIsRefused) {
   const std::string whole = "OFF\n3 1 0\n" + kVertices + "3 0 1 2";
   EXPECT_EQ(face_count(read("a.off", whole)), 1U);
   for (std::size_t length = 0; length < whole.size(); ++length) {
@@ -36,27 +38,31 @@ TEST(Off, M3_TruncationAtAnyByteIsRefused) {
                  "the file ends in face 0 of 1");
 }
 
-TEST(Off, M4_DataAfterTheLastFaceIsAWarning) {
+// M4
+TEST(Off, DataAfterTheLastFaceIsAWarning) {
   const std::string file = "OFF\n3 1 0\n" + kVertices + "3 0 1 2\n3 2 1 0\n";
   EXPECT_EQ(warned(read("a.off", file), "after the last face"), 1U);
   EXPECT_TRUE(refusal("a.off", file, {.strict = true}).refused);
 }
 
-TEST(Off, M5_FaceCountsThatLieAreRefused) {
+// M5
+TEST(Off, WrongFaceCountsAreRefused) {
   expect_refused("a.off", "OFF 3 1 0\n" + kVertices + "-3 0 1 2\n", ErrorCode::MalformedFile, "face 0 has -3 corners");
   expect_refused("a.off", "OFF 3 1 0\n" + kVertices + "9223372036854775807 0 1 2\n", ErrorCode::MalformedFile,
                  "the file ends in face 0 of 1");
   expect_refused("a.off", "OFF 3 1 0\n" + kVertices + "3.0 0 1 2\n", ErrorCode::MalformedFile, "'3.0'");
 }
 
-TEST(Off, M6_IndicesOutOfRangeAreRefusedByFaceAndCorner) {
+// M6
+TEST(Off, IndicesOutOfRangeAreRefusedByFaceAndCorner) {
   for (const std::string index : {"3", "-1", "4294967295", "2147483648", "4294967296"}) {
     expect_refused("a.off", "OFF 3 1 0\n" + kVertices + "3 0 1 " + index + "\n", ErrorCode::MalformedFile,
                    "a.off:5:7: face 0, corner 2 = " + index + ", but there are 3 vertices");
   }
 }
 
-TEST(Off, M15_TheDocumentedFamilyIsRead) {
+// M15
+TEST(Off, TheDocumentedFamilyIsRead) {
   const std::string rest = "# a comment\n3 1 3\n\n";
   const std::string face = "3 0 1 2 255 0 0\n";
   const auto expect_triangle = [](const std::string& file) {
@@ -74,7 +80,19 @@ TEST(Off, M15_TheDocumentedFamilyIsRead) {
   expect_triangle("OFF\n3\n1\n0\n0\n0 0\n1 0\n0\n0 1 0\n3 0\n1 2\n");
 }
 
-TEST(Off, M15_TheOthersAreRefusedByName) {
+TEST(Off, CountsWithoutABlankAfterTheKeywordAreAWarning) {
+  const auto mesh = read("a.off", "OFF3 1 0\n" + kVertices + "3 0 1 2\n");
+  EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 2));
+  EXPECT_EQ(vertex_count(mesh), 3U);
+  EXPECT_EQ(warned(mesh, "no blank between 'OFF' and the counts"), 1U);
+  EXPECT_TRUE(refusal("a.off", "OFF3 1 0\n" + kVertices + "3 0 1 2\n", {.strict = true}).refused);
+  EXPECT_EQ(vertex_count(read("a", "COFF1 0 0\n0 0 0 1 1 1 1\n")), 1U);
+  expect_refused("a.off", "OFF3x 1 0\n", ErrorCode::MalformedFile, "expected 'OFF', found 'OFF3x'");
+  expect_refused("a.off", "OFF-3 1 0\n", ErrorCode::MalformedFile, "expected 'OFF', found 'OFF-3'");
+}
+
+// M15
+TEST(Off, UnsupportedVariantsAreRefusedByName) {
   for (const std::string keyword : {"4OFF", "nOFF", "C4OFF", "STCN4nOFF"}) {
     expect_refused("a.off", keyword + "\n3 1 0\n", ErrorCode::UnsupportedFormat, "'" + keyword + "'");
   }
@@ -83,14 +101,15 @@ TEST(Off, M15_TheOthersAreRefusedByName) {
   expect_refused("a.off", "FOFF\n3 1 0\n", ErrorCode::MalformedFile, "'FOFF'");
 }
 
-TEST(Off, M15_ColumnsBehindPlainVerticesAreAWarning) {
+// M15
+TEST(Off, ColumnsAfterPlainVerticesAreAWarning) {
   const auto mesh = read("a.off", "OFF 3 1 0\n0 0 0 9\n1 0 0 9\n0 1 0 9\n3 0 1 2\n");
   EXPECT_THAT(floats(mesh), ElementsAre(0, 0, 0, 1, 0, 0, 0, 1, 0));
   EXPECT_EQ(warned(mesh, "more than three numbers"), 3U);
 }
 
-TEST(Off, SeveralVerticesInALineAreRefusedForWantOfTheRest) {
-  const std::string reason = "; of each line with more than three numbers, one vertex was read";
+TEST(Off, SeveralVerticesInALineAreRefused) {
+  const std::string reason = "; only one vertex was read from each line with more than three numbers";
   expect_refused("a.off", "OFF\n3 1 0\n0 0 0 1 0 0 0 1 0\n3 0 1 2\n", ErrorCode::MalformedFile,
                  "the file ends in vertex 2 of 3" + reason);
   expect_refused("a.off", "OFF\n2 2 0\n0 0 0 1 0 0\n2 0 1\n2 1 0\n", ErrorCode::MalformedFile,

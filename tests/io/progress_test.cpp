@@ -47,7 +47,7 @@ void expect_ascending(const Reports& reports, std::size_t bytes, std::size_t tot
   std::printf("%zu reports for %zu bytes\n", reports.size(), bytes);
 }
 
-TEST(Progress, TellsTheBytesOfAFileAndOfMemory) {
+TEST(Progress, CountsTheBytesOfAFileAndOfMemory) {
   const Scratch scratch;
   const std::string file = large_obj();
   Reports of_file;
@@ -58,7 +58,7 @@ TEST(Progress, TellsTheBytesOfAFileAndOfMemory) {
   expect_ascending(of_memory, file.size(), file.size());
 }
 
-TEST(Progress, EndsWithAllBytesWhereTheLastAreNotRead) {
+TEST(Progress, EndsWithTheTotalIfTheLastBytesAreNotRead) {
   const Scratch scratch;
   const std::string file = "OFF\n1 0 0\n0 0 0\n" + std::string(3U << 20, '\n');
   Reports reports;
@@ -66,7 +66,7 @@ TEST(Progress, EndsWithAllBytesWhereTheLastAreNotRead) {
   expect_ascending(reports, file.size(), file.size());
 }
 
-TEST(Progress, EndsTheReadingAtAnyReport) {
+TEST(Progress, CancelsReadingAtAnyReport) {
   const Scratch scratch;
   const auto path = scratch.write("large.obj", large_obj());
   Reports all;
@@ -85,13 +85,13 @@ TEST(Progress, EndsTheReadingAtAnyReport) {
   }
 }
 
-TEST(Progress, PassesOnWhatIsThrown) {
+TEST(Progress, PropagatesExceptions) {
   const io::ReadOptions options{
       .progress = [](std::size_t, std::size_t) -> bool { throw std::domain_error("enough"); }};
   EXPECT_THROW(static_cast<void>(read("large.obj", "v 0 0 0\n", options)), std::domain_error);
 }
 
-TEST(Progress, EndsTheWaitForAPipe) {
+TEST(Progress, CancelsWaitingForAPipe) {
   const Scratch scratch;
   const auto path = scratch.path() / "pipe.obj";
   ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);

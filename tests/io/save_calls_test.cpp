@@ -75,7 +75,7 @@ std::string label(const std::vector<Call>& calls, std::size_t at, Version before
 }
 
 // So that none escapes the trials below.
-TEST_P(SaveCalls, AreAllSeen) {
+TEST_P(SaveCalls, AreAllIntercepted) {
   const auto calls = calls_of_a_save(Version::Old);
   EXPECT_EQ(calls.front(), Call::Open);
   EXPECT_GE(std::count(calls.begin(), calls.end(), Call::Write), 2);
@@ -111,7 +111,7 @@ TEST_P(SaveCalls, EachFailureIsAnErrorAndLeavesTheOldFile) {
   std::printf("%zu failed calls\n", failures);
 }
 
-TEST_P(SaveCalls, WhereEvenRemovingFailsTheFirstErrorIsTold) {
+TEST_P(SaveCalls, TheFirstErrorIsReportedIfRemovingFailsToo) {
   const auto calls = calls_of_a_save(Version::Old);
   for (std::size_t at = 1; at <= rename_in(calls); ++at) {
     SCOPED_TRACE(label(calls, at, Version::Old));
@@ -139,7 +139,7 @@ TEST_P(SaveCalls, SignalsAndShortWritesAreNoErrors) {
 }
 
 // A folder that may be written to but not read, a file of somebody else, a file system without a notion of it.
-TEST_P(SaveCalls, WhatCannotBeHadIsDoneWithout) {
+TEST_P(SaveCalls, OptionalCallsMayFail) {
   const auto calls = calls_of_a_save(Version::Old);
   const std::size_t rename = rename_in(calls);
   for (const Fault& fault : {Fault{Mishap::Error, rename - 5, EPERM}, Fault{Mishap::Error, rename - 5, EINVAL},
@@ -150,7 +150,7 @@ TEST_P(SaveCalls, WhatCannotBeHadIsDoneWithout) {
   }
 }
 
-TEST_P(SaveCalls, EachMayBeTheLast) {
+TEST_P(SaveCalls, TheProcessMayEndBeforeAnyCall) {
   std::size_t kills = 0;
   for (const Version before : kBefore) {
     const auto calls = calls_of_a_save(before);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // A disk that is full after any number of pages: row F10 of the catalogue.
+#include <cerrno>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <string>
+#include <system_error>
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>
@@ -23,17 +26,17 @@ class SaveToFullDisk : public SaveTrial {
   /// Saves the new version over the old with room for none of its pages, for one, and so on. `limit(n)` leaves room for
   /// `n`, `lift()` for any number.
   template <class Limit, class Lift>
-  void fill_up_at_every_page(const std::string& reason, Limit&& limit, Lift&& lift) {
+  void fill_up_at_every_page(int reason, Limit&& limit, Lift&& lift) {
     const std::uint64_t pages = (content(Version::New).size() + SmallDisk::kPage - 1) / SmallDisk::kPage;
     for (std::uint64_t room = 0; room <= pages; ++room) {
       SCOPED_TRACE(room);
       lift();
       restore(Version::Old);
       limit(room);
-      const std::string message = save_new();
+      const std::string message = save_new(reason);
       lift();
       if (room < pages) {
-        EXPECT_THAT(message, AllOf(HasSubstr(file.string()), HasSubstr(reason)));
+        EXPECT_THAT(message, AllOf(HasSubstr(file.string()), HasSubstr(std::generic_category().message(reason))));
         EXPECT_EQ(held(), Version::Old);
       } else {
         EXPECT_EQ(message, "");
@@ -46,12 +49,14 @@ class SaveToFullDisk : public SaveTrial {
   }
 
  private:
-  [[nodiscard]] std::string save_new() const {
+  [[nodiscard]] std::string save_new(int reason) const {
     try {
       save(Version::New);
       return {};
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::IoFailure);
+      EXPECT_EQ(error.path(), file.string());
+      EXPECT_EQ(error.error_number(), reason);
       return error.what();
     }
   }
@@ -62,13 +67,27 @@ TEST_P(SaveToFullDisk, LeavesTheOldFileAtEveryPage) {
   if (disk == nullptr) GTEST_SKIP() << "no tmpfs may be mounted here";
   constexpr std::uint64_t kPlenty = 4096;
   fill_up_at_every_page(
-      "No space left on device", [&](std::uint64_t room) { disk->leave_free(room); },
-      [&] { disk->leave_free(kPlenty); });
+      ENOSPC, [&](std::uint64_t room) { disk->leave_free(room); }, [&] { disk->leave_free(kPlenty); });
 }
 
-// The same wherever there is no such disk: what a file may not exceed.
-TEST_P(SaveToFullDisk, LeavesTheOldFileAtEveryLimitOfItsSize) {
-  std::signal(SIGXFSZ, SIG_IGN);
+bool is_set(const sigset_t& signals) { return ::sigismember(&signals, SIGXFSZ) == 1; }
+
+bool is_blocked() {
+  sigset_t mask;
+  ::pthread_sigmask(SIG_SETMASK, nullptr, &mask);
+  return is_set(mask);
+}
+
+bool is_pending() {
+  sigset_t pending;
+  ::sigpending(&pending);
+  return is_set(pending);
+}
+
+// A limit on the size of files (`ulimit -f`), under the default disposition of SIGXFSZ, which ends the process. The
+// disposition and the mask are those of the caller, and stay.
+TEST_P(SaveToFullDisk, LeavesTheOldFileAtEveryFileSizeLimit) {
+  std::signal(SIGXFSZ, SIG_DFL);
   rlimit before = {};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
   const auto set = [&](rlim_t bytes) {
@@ -76,7 +95,24 @@ TEST_P(SaveToFullDisk, LeavesTheOldFileAtEveryLimitOfItsSize) {
     EXPECT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
   };
   fill_up_at_every_page(
-      "File too large", [&](std::uint64_t room) { set(room * SmallDisk::kPage); }, [&] { set(before.rlim_cur); });
+      EFBIG, [&](std::uint64_t room) { set(room * SmallDisk::kPage); }, [&] { set(before.rlim_cur); });
+  EXPECT_FALSE(is_blocked());
+  EXPECT_FALSE(is_pending());
+  EXPECT_EQ(std::signal(SIGXFSZ, SIG_DFL), SIG_DFL);
+}
+
+TEST_P(SaveToFullDisk, LeavesAPendingSignalOfTheCaller) {
+  sigset_t signal;
+  ::sigemptyset(&signal);
+  ::sigaddset(&signal, SIGXFSZ);
+  ASSERT_EQ(::pthread_sigmask(SIG_BLOCK, &signal, nullptr), 0);
+  ::raise(SIGXFSZ);
+  save(Version::New);
+  EXPECT_TRUE(is_blocked());
+  EXPECT_TRUE(is_pending());
+  int taken = 0;
+  ::sigwait(&signal, &taken);
+  ASSERT_EQ(::pthread_sigmask(SIG_UNBLOCK, &signal, nullptr), 0);
 }
 
 MESHHOOD_TRY_ALL_SAVERS(SaveToFullDisk);

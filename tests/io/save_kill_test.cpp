@@ -82,7 +82,7 @@ class SaveKilled : public SaveTrial {
   }
 };
 
-TEST_P(SaveKilled, TheFileIsTheOldOneOrTheNew) {
+TEST_P(SaveKilled, TheFileIsOldOrNew) {
   const Tally tally = kill_often(scaled(200, 40));
   EXPECT_EQ(tally.of(Version::Torn), 0U);
   EXPECT_EQ(tally.of(Version::None), 0U);
@@ -94,7 +94,7 @@ MESHHOOD_TRY_ALL_SAVERS(SaveKilled);
 // The trial itself is tried with a writer that does what ours must not do.
 class SaveInPlaceKilled : public SaveKilled {};
 
-TEST_P(SaveInPlaceKilled, IsSeenToBeTorn) { EXPECT_GT(kill_often(40).of(Version::Torn), 0U); }
+TEST_P(SaveInPlaceKilled, TheTrialDetectsATornFile) { EXPECT_GT(kill_often(40).of(Version::Torn), 0U); }
 
 void save_in_place(const std::filesystem::path& path, Version version) {
   std::ofstream file(path, std::ios::binary);

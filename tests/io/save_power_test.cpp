@@ -91,7 +91,7 @@ Trace with_sync_after_rename(Trace trace) {
   return trace;
 }
 
-TEST_P(PowerLoss, LeavesTheOldFileOrTheNew) {
+TEST_P(PowerLoss, KeepsTheOldOrTheNewFile) {
   Found sum;
   std::size_t cuts = 0;
   for (const Version before : {Version::Old, Version::None}) {
@@ -120,7 +120,7 @@ TEST_P(PowerLoss, TearsAFileThatIsNotSynced) {
               late.torn);
 }
 
-TEST_P(PowerLoss, MayTakeTheNewFileWhereTheFolderIsNotSynced) {
+TEST_P(PowerLoss, MayLoseTheNewFileIfTheFolderIsNotSynced) {
   const Trace trace = without_sync_of_folder(trace_of_a_save(Version::Old));
   const Found in_the_end = lose_power(Version::Old, trace, trace.size());
   EXPECT_EQ(in_the_end.before, 1U);
@@ -131,7 +131,7 @@ TEST_P(PowerLoss, MayTakeTheNewFileWhereTheFolderIsNotSynced) {
 MESHHOOD_TRY_ALL_SAVERS(PowerLoss);
 
 // One page is written over and one added.
-TEST(DiskModel, KnowsWhatMayBeLeftOfTwoPages) {
+TEST(DiskModel, EnumeratesTheStatesOfTwoPages) {
   const std::string old_page(DiskModel::kPage, 'o');
   const std::string new_page(DiskModel::kPage, 'n');
   const std::string zeros(DiskModel::kPage, '\0');

@@ -13,7 +13,7 @@ namespace {
 
 class SaveRaces : public SaveTrial {};
 
-TEST_P(SaveRaces, WhoReadsSeesAWholeFile) {
+TEST_P(SaveRaces, ReadersSeeACompleteFile) {
   const std::size_t saves = scaled(100, 20);
   restore(Version::Old);
   std::atomic<unsigned> savers_left = 2;

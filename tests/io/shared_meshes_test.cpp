@@ -78,7 +78,7 @@ void judge(const ManifestRow& row, const Expectation& expected, Tally& tally) {
   }
 }
 
-TEST(SharedMeshes, AreReadOrRefusedAsTheManifestSays) {
+TEST(SharedMeshes, AgreeWithTheManifest) {
   MESHHOOD_NEED_SHARED_MESHES();
   Tally tally;
   const auto rows = read_manifest();

@@ -60,13 +60,15 @@ void expect_numbers_with_points() {
   }
 }
 
-TEST(Text, M16_ParsingIgnoresTheLocaleOfStreams) {
+// M16
+TEST(Text, ParsingIgnoresTheLocaleOfStreams) {
   const LocaleGuard guard;
   std::locale::global(std::locale(std::locale::classic(), new DecimalComma));
   expect_numbers_with_points();
 }
 
-TEST(Text, M16_ParsingIgnoresTheLocaleOfTheCLibrary) {
+// M16
+TEST(Text, ParsingIgnoresTheLocaleOfTheCLibrary) {
   const LocaleGuard guard;
   const char* found = nullptr;
   for (const char* name : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "fr_FR.utf8", "de_DE", "nl_NL.utf8"}) {
@@ -79,7 +81,8 @@ TEST(Text, M16_ParsingIgnoresTheLocaleOfTheCLibrary) {
 
 float read_number(const std::string& token) { return floats(read("a.obj", "v " + token + " 0 0\n"))[0]; }
 
-TEST(Text, M17_NumbersThatAreRead) {
+// M17
+TEST(Text, NumbersThatAreRead) {
   EXPECT_EQ(read_number("+1.5"), 1.5F);
   EXPECT_EQ(read_number(".5"), 0.5F);
   EXPECT_EQ(read_number("5."), 5.F);
@@ -95,7 +98,8 @@ TEST(Text, M17_NumbersThatAreRead) {
   EXPECT_EQ(read_number("1" + std::string(100000, '0') + "e-100000"), 1.F);
 }
 
-TEST(Text, M17_TokensThatAreNone) {
+// M17
+TEST(Text, TokensThatAreNotNumbers) {
   const std::vector<std::string> none = {"1.#QNAN", "0x1p3", "1.5f",  "1,5", "--1",      "+-1",
                                          "++1",     "1e",    "e5",    ".",   "-",        "+",
                                          "1.5.2",   "1e5e5", "1_000", "1d5", "\xc2\xa0", "1\xe2\x80\x83"};
@@ -113,7 +117,8 @@ TEST(Text, M17_TokensThatAreNone) {
   std::printf("%zu tokens refused\n", none.size() + infinite.size() + 3);
 }
 
-TEST(Text, M17_EveryFloatReadsBackFromItsShortestText) {
+// M17
+TEST(Text, EveryFloatReadsBackFromItsShortestText) {
   std::mt19937 random(17);
   std::string file;
   std::vector<float> numbers;
@@ -137,7 +142,8 @@ TEST(Text, M17_EveryFloatReadsBackFromItsShortestText) {
   std::printf("%zu floats\n", numbers.size());
 }
 
-TEST(Text, M18_LineEndsMarksAndNulBytes) {
+// M18
+TEST(Text, LineEndsMarksAndNulBytes) {
   const std::string obj = "# first\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   const std::string stl =
       "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n";
@@ -161,14 +167,16 @@ TEST(Text, M18_LineEndsMarksAndNulBytes) {
   }
 }
 
-TEST(Text, M18_LinesAreCountedWhateverEndsThem) {
+// M18
+TEST(Text, LinesAreCountedForEveryLineEnd) {
   for (const std::string end : {"\n", "\r\n", "\r"}) {
     expect_refused("a.obj", "v 0 0 0" + end + end + "# c" + end + "\tv 0 x 0" + end, ErrorCode::MalformedFile,
                    "a.obj:4:6: ");
   }
 }
 
-TEST(Text, M18_Utf16IsRefusedByName) {
+// M18
+TEST(Text, Utf16IsRefusedByName) {
   for (const bool big : {true, false}) {
     std::string file = big ? "\xfe\xff" : "\xff\xfe";
     for (const char c : kOff) {
@@ -180,7 +188,7 @@ TEST(Text, M18_Utf16IsRefusedByName) {
   }
 }
 
-TEST(Text, EchoedTextIsCutAndEscaped) {
+TEST(Text, QuotedTextIsCutAndEscaped) {
   const auto result = refusal("a.obj", "v 0 \x1b[31m\x07" + std::string(1000, 'x') + " 0\n");
   EXPECT_THAT(result.message, HasSubstr("\\x1b[31m\\x07xxx"));
   EXPECT_THAT(result.message, HasSubstr("xxx...'"));
@@ -189,7 +197,14 @@ TEST(Text, EchoedTextIsCutAndEscaped) {
   EXPECT_THAT(name.message, HasSubstr("a\\x0ab.obj:1:3: "));
 }
 
-TEST(Format, IsToldByContentAndOnlyThenByName) {
+TEST(Format, AGitLfsPointerIsRefusedWithAHint) {
+  for (const std::string name : {"a.ply", "a.obj", "a.off", "a.stl", "a"}) {
+    expect_refused(name, "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n",
+                   ErrorCode::UnsupportedFormat, name + ": is a Git LFS pointer", "'git lfs pull'");
+  }
+}
+
+TEST(Format, IsDetectedByContentThenByExtension) {
   EXPECT_EQ(read("wrong.obj", kOff).format, io::Format::Off);
   EXPECT_EQ(read("wrong.stl", "v 0 0 0\n").format, io::Format::Obj);
   EXPECT_EQ(read("wrong.ply", binary_stl({{0, 0, 0, 1, 0, 0, 0, 1, 0}})).format, io::Format::Stl);
@@ -198,7 +213,7 @@ TEST(Format, IsToldByContentAndOnlyThenByName) {
   expect_refused("no_ending", "something else\n", ErrorCode::UnsupportedFormat, "neither PLY, OBJ, OFF nor STL");
   expect_refused("no_ending", std::string(4096, '\0'), ErrorCode::UnsupportedFormat, "neither");
   expect_refused("a.ply", "something else\n", ErrorCode::MalformedFile, "expected 'ply'");
-  expect_refused("a.ply", "\x8bMHI\r\n\x1a\n", ErrorCode::UnsupportedFormat, "an index, where a mesh was expected");
+  expect_refused("a.ply", "\x8bMHI\r\n\x1a\n", ErrorCode::UnsupportedFormat, "is an index, expected a mesh");
 }
 
 }  // namespace

@@ -109,7 +109,7 @@ TEST_F(WritePly, FacesMayHaveMoreThan255Corners) {
   }
 }
 
-TEST_F(WritePly, ColoursAndPropertiesStandBesideThePositions) {
+TEST_F(WritePly, ColoursAndPropertiesAreWritten) {
   const std::vector<std::uint8_t> colors = {255, 0, 0, 0, 128, 0, 1, 2, 3};
   const std::vector<float> distance = {0.5F, std::numeric_limits<float>::infinity(), 2};
   const std::vector<float> level = {1, 2, 3};
@@ -168,7 +168,7 @@ TEST_F(WritePly, AFullDeviceIsAnErrorAndStaysADevice) {
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
 }
 
-TEST_F(WritePly, ReplacesWhatTheNameStandsForAndKeepsItsMode) {
+TEST_F(WritePly, ReplacesTheTargetOfALinkAndKeepsItsMode) {
   ASSERT_EQ(scratch.write("out.ply", "old"), file);
   ASSERT_EQ(::chmod(file.c_str(), 0640), 0);
   const auto link = scratch.path() / "link.ply";
@@ -182,7 +182,7 @@ TEST_F(WritePly, ReplacesWhatTheNameStandsForAndKeepsItsMode) {
   EXPECT_EQ(files_in(scratch.path()), 2U);
 }
 
-TEST_F(WritePly, ALinkToWhatIsNotThereYetSurvives) {
+TEST_F(WritePly, ALinkWithoutTargetSurvives) {
   const auto link = scratch.path() / "link.ply";
   std::filesystem::create_symlink("out.ply", link);
   io::write_ply(link, triangle);
@@ -201,7 +201,7 @@ unsigned mode_of(const std::filesystem::path& path) {
   return status.st_mode & 0777U;
 }
 
-TEST_F(WritePly, WhatReplacesAPrivateFileIsPrivateWhileItIsWritten) {
+TEST_F(WritePly, TheTemporaryFileOfAPrivateFileIsPrivate) {
   const auto before = ::umask(0022);
   ASSERT_EQ(scratch.write("out.ply", "old"), file);
   ASSERT_EQ(::chmod(file.c_str(), 0600), 0);
@@ -223,7 +223,7 @@ TEST_F(WritePly, WhatReplacesAPrivateFileIsPrivateWhileItIsWritten) {
   ::umask(before);
 }
 
-TEST_F(WritePly, KeepsTheOwnerWhereItMayGiveFilesAway) {
+TEST_F(WritePly, KeepsTheOwnerWherePermitted) {
   if (::geteuid() != 0) GTEST_SKIP() << "only root may";
   constexpr uid_t kSomebody = 1234;
   ASSERT_EQ(scratch.write("out.ply", "old"), file);
@@ -235,7 +235,7 @@ TEST_F(WritePly, KeepsTheOwnerWhereItMayGiveFilesAway) {
   EXPECT_EQ(status.st_gid, kSomebody);
 }
 
-TEST_F(WritePly, EndedAtAnyReportLeavesTheOldFile) {
+TEST_F(WritePly, CancelledAtAnyReportKeepsTheOldFile) {
   const auto xyz = random_positions<float>(10000);
   const std::vector<std::uint32_t> triangles(3 * 20000, 7);
   const MeshView mesh = {xyz, FacesView::triangles(triangles)};
@@ -265,7 +265,7 @@ TEST_F(WritePly, EndedAtAnyReportLeavesTheOldFile) {
   std::printf("ended at %zu reports\n", last);
 }
 
-TEST_F(WritePly, NamesMayBeAsLongAsTheFileSystemTakes) {
+TEST_F(WritePly, NamesMayHaveTheMaximalLength) {
   const auto longest = scratch.path() / std::string(255, 'x');
   io::write_ply(longest, triangle);
   EXPECT_EQ(face_count(io::read_mesh(longest)), 1U);

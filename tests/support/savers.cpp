@@ -4,9 +4,9 @@
 
 #include "meshhood/index.h"
 
-#include "cli/npz_writer.h"
 #include "io/index_io.h"
 #include "io/mesh_io.h"
+#include "io/npz_writer.h"
 #include "shapes/shapes.h"
 #include "support/save_trial.h"
 
@@ -24,7 +24,7 @@ void save_ply(const std::filesystem::path& file, Version version) { io::write_pl
 void save_npz(const std::filesystem::path& file, Version version) {
   std::vector<std::int64_t> numbers(version == Version::Old ? 50000 : 40000);
   std::iota(numbers.begin(), numbers.end(), 0);
-  cli::NpzWriter npz(file);
+  io::NpzWriter npz(file);
   npz.add_text("format", "csr");
   npz.add<std::int64_t>("indices", numbers);
   npz.commit();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "zip_writer.h"
+#include "io/zip_writer.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -13,19 +13,16 @@
 #include <fmt/format.h>
 #include <minizip/zip.h>
 
-#include "meshhood/error.h"
-
 #include "io/file_writer.h"
-#include "io/place.h"
+#include "io/messages.h"
 
-namespace meshhood::cli {
+namespace meshhood::io {
 namespace {
 
-/// The file that minizip writes to. Minizip is C, and no exception may pass through it: the first is kept, for `check`
-/// to throw. Minizip itself is told that all is well, for it loses memory where it cannot write; nothing is written any
-/// more.
+/// The file that minizip writes to. Minizip is C, so no exception may pass through it: the first is kept for `check` to
+/// throw, and nothing is written after it. Minizip itself gets no error, because it leaks memory if a write fails.
 struct Target {
-  io::FileWriter file;
+  FileWriter file;
   std::exception_ptr failure = nullptr;
 
   template <class F>
@@ -43,15 +40,15 @@ voidpf open_target(voidpf target, const void* /*path*/, int /*mode*/) { return t
 
 uLong write_to(voidpf target, voidpf /*stream*/, const void* bytes, uLong size) {
   const std::string_view text(static_cast<const char*>(bytes), size);
-  static_cast<Target*>(target)->attempt([&](io::FileWriter& file) { file.write(text); });
+  static_cast<Target*>(target)->attempt([&](FileWriter& file) { file.write(text); });
   return size;
 }
 
 ZPOS64_T position_in(voidpf target, voidpf /*stream*/) { return static_cast<Target*>(target)->file.position(); }
 
-/// Minizip seeks from the beginning alone where it writes a new file.
+/// For a new file, minizip seeks only from the beginning.
 long seek_in(voidpf target, voidpf /*stream*/, ZPOS64_T position, int /*origin*/) {
-  static_cast<Target*>(target)->attempt([&](io::FileWriter& file) { file.seek(position); });
+  static_cast<Target*>(target)->attempt([&](FileWriter& file) { file.seek(position); });
   return 0;
 }
 
@@ -73,9 +70,8 @@ zlib_filefunc64_def functions_of(Target& target) {
 }  // namespace
 
 struct ZipWriter::State {
-  explicit State(const std::filesystem::path& path)
-      : name(io::printable_name(path.string())), target{io::FileWriter(path)} {
-    target.file.seek(0);  // a pipe is refused before anything is written: sizes are filled in behind the values
+  explicit State(const std::filesystem::path& file) : path(file), target{FileWriter(file)} {
+    target.file.seek(0);  // refuses a pipe: the sizes in the headers are written after the values
     zlib_filefunc64_def functions = functions_of(target);
     zip = zipOpen2_64(path.c_str(), APPEND_STATUS_CREATE, nullptr, &functions);
     if (zip == nullptr) throw std::bad_alloc();
@@ -89,11 +85,11 @@ struct ZipWriter::State {
   void check(int status) const {
     if (target.failure) std::rethrow_exception(target.failure);
     if (status != ZIP_OK) {
-      raise(ErrorCode::IoFailure, fmt::format("{}: cannot write a zip file: minizip error {}", name, status));
+      raise_io(path, 0, fmt::format("cannot write a zip file: minizip error {}", status));
     }
   }
 
-  std::string name;
+  std::filesystem::path path;
   Target target;
   zipFile zip = nullptr;
   bool in_member = false;
@@ -103,7 +99,7 @@ ZipWriter::ZipWriter(const std::filesystem::path& path) : state_(std::make_uniqu
 ZipWriter::~ZipWriter() = default;
 
 void ZipWriter::begin(const std::string& name, std::uint64_t bytes, Packing packing) {
-  constexpr std::uint64_t kLargestWithoutZip64 = 0xff000000;  // 2^32 - 1, less what packing in vain may add
+  constexpr std::uint64_t kLargestWithoutZip64 = 0xff000000;  // 2^32 - 1, less what compression may add
   if (std::exchange(state_->in_member, true)) state_->check(zipCloseFileInZip(state_->zip));
   const zip_fileinfo info{
       .tmz_date = {.tm_sec = 0, .tm_min = 0, .tm_hour = 0, .tm_mday = 1, .tm_mon = 0, .tm_year = 1980},
@@ -116,7 +112,7 @@ void ZipWriter::begin(const std::string& name, std::uint64_t bytes, Packing pack
 }
 
 void ZipWriter::write(std::string_view bytes) {
-  constexpr std::size_t kMost = std::size_t{1} << 30;  // minizip counts them in 32 bits
+  constexpr std::size_t kMost = std::size_t{1} << 30;  // minizip counts in 32 bits
   while (!bytes.empty()) {
     const std::string_view part = bytes.substr(0, kMost);
     state_->check(zipWriteInFileInZip(state_->zip, part.data(), static_cast<unsigned>(part.size())));
@@ -129,4 +125,4 @@ void ZipWriter::commit() {
   state_->target.file.commit();
 }
 
-}  // namespace meshhood::cli
+}  // namespace meshhood::io

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// NumPy's format: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html, version 1.0.
-#include "npz_writer.h"
+// The format of NumPy: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html, version 1.0.
+#include "io/npz_writer.h"
 
 #include <bit>
 #include <cassert>
@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-namespace meshhood::cli {
+namespace meshhood::io {
 namespace {
 
 template <class T>
@@ -22,8 +22,8 @@ std::string type_of() {
   return fmt::format("{}{}{}", order, kind, sizeof(T));
 }
 
-/// What stands before the values: a mark, the version, a length of two bytes, and a dictionary of Python, filled up
-/// with blanks so that the values are aligned.
+/// The bytes before the values: a magic string, the version, a length of two bytes, and a Python dictionary padded with
+/// blanks so that the values are aligned.
 std::string header(std::string_view type, std::string_view shape) {
   constexpr std::size_t kAlignment = 64;
   constexpr std::size_t kBeforeDictionary = 10;
@@ -50,7 +50,7 @@ void NpzWriter::begin_member(std::string_view name, std::string_view type, std::
 
 template <class T>
 void NpzWriter::begin(std::string_view name, std::uint64_t count) {
-  // Numbers hardly shrink, and take long to try.
+  // Numbers hardly compress.
   const auto packing = std::is_same_v<T, bool> ? ZipWriter::Packing::Deflated : ZipWriter::Packing::Stored;
   begin_member(name, type_of<T>(), fmt::format("({},)", count), count * sizeof(T), packing);
 }
@@ -83,4 +83,4 @@ template void NpzWriter::append<std::int64_t>(std::span<const std::int64_t>);
 template void NpzWriter::append<std::uint64_t>(std::span<const std::uint64_t>);
 template void NpzWriter::append<double>(std::span<const double>);
 
-}  // namespace meshhood::cli
+}  // namespace meshhood::io

@@ -7,12 +7,12 @@
 #include <string>
 #include <string_view>
 
-namespace meshhood::cli {
+namespace meshhood::io {
 
-/// A zip file that appears whole or not at all (see `io::FileWriter`), member after member, each of any size. The same
-/// members make the same bytes: all are dated 1980-01-01, where the time of a zip file begins.
+/// Writes a zip file atomically (see `FileWriter`), with members of any size. The same members give the same bytes: all
+/// have the date 1980-01-01, the first that the format can represent.
 ///
-/// All errors are Error{IoFailure} and name the path and the reason.
+/// All errors are Error{IoFailure} with the path. A pipe is refused.
 class ZipWriter {
  public:
   enum class Packing { Stored, Deflated };
@@ -21,15 +21,15 @@ class ZipWriter {
   ZipWriter(const ZipWriter&) = delete;
   ZipWriter& operator=(const ZipWriter&) = delete;
 
-  /// Removes what was written, unless it was committed.
+  /// Removes the temporary file, unless it was committed.
   ~ZipWriter();
 
-  /// Ends the member before and begins the next, of `bytes` bytes.
+  /// Ends the current member and begins the next, of `bytes` bytes.
   void begin(const std::string& name, std::uint64_t bytes, Packing packing);
 
   void write(std::string_view bytes);
 
-  /// Ends the last member and puts the file into its place. To be called once, last.
+  /// Ends the last member and renames the file to the target. Call it once, last.
   void commit();
 
  private:
@@ -37,4 +37,4 @@ class ZipWriter {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace meshhood::cli
+}  // namespace meshhood::io

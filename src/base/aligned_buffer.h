@@ -4,40 +4,48 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <utility>
 
 #include "meshhood/serialize.h"
 
-namespace meshhood::io {
+namespace meshhood {
 
-// NOLINTBEGIN(modernize-avoid-c-arrays): a vector would write to all of its memory before the file is read into it.
+// NOLINTBEGIN(modernize-avoid-c-arrays): a vector would initialise its memory before it is overwritten.
 
-/// Bytes as they are read, where `map` of the core wants them.
+/// Growing bytes at the alignment that `map` requires.
 class AlignedBuffer {
  public:
   explicit AlignedBuffer(std::size_t capacity) : lines_(make_lines(capacity)), capacity_(capacity) {}
 
-  /// Where the next bytes go.
+  [[nodiscard]] static AlignedBuffer copy_of(std::span<const std::byte> bytes) {
+    AlignedBuffer copy(bytes.size());
+    if (!bytes.empty()) std::memcpy(copy.chars(), bytes.data(), bytes.size());
+    copy.add(bytes.size());
+    return copy;
+  }
+
+  /// The unused memory at the end.
   [[nodiscard]] std::span<char> room() { return {chars() + size_, capacity_ - size_}; }
 
-  /// So many have been written there.
+  /// Appends the first `bytes` of `room()`.
   void add(std::size_t bytes) { size_ += bytes; }
 
-  /// Makes room for as many again.
+  /// Doubles the capacity.
   void grow() {
-    AlignedBuffer wider(2 * capacity_);
-    std::copy_n(chars(), size_, wider.chars());
-    wider.size_ = size_;
-    *this = std::move(wider);
+    AlignedBuffer larger(2 * capacity_);
+    std::copy_n(chars(), size_, larger.chars());
+    larger.size_ = size_;
+    *this = std::move(larger);
   }
 
   [[nodiscard]] std::span<const std::byte> bytes() const {
     return {reinterpret_cast<const std::byte*>(lines_.get()), size_};
   }
 
-  /// Who keeps the bytes from now on.
+  /// Moves the ownership of the bytes out; `bytes()` taken before stay valid as long as the result lives.
   [[nodiscard]] std::shared_ptr<const void> take_owner() { return std::shared_ptr<const Line[]>(std::move(lines_)); }
 
  private:
@@ -59,4 +67,4 @@ class AlignedBuffer {
 
 // NOLINTEND(modernize-avoid-c-arrays)
 
-}  // namespace meshhood::io
+}  // namespace meshhood

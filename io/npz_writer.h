@@ -8,18 +8,18 @@
 #include <string>
 #include <string_view>
 
-#include "zip_writer.h"
+#include "io/zip_writer.h"
 
-namespace meshhood::cli {
+namespace meshhood::io {
 
-/// Arrays by name, in a file that `numpy.load` reads. It appears whole or not at all.
+/// Writes named arrays to a file for `numpy.load`, atomically (see `FileWriter`).
 ///
 /// T: bool, std::int32_t, std::int64_t, std::uint64_t or double. All errors are Error{IoFailure}.
 class NpzWriter {
  public:
   explicit NpzWriter(const std::filesystem::path& path) : zip_(path) {}
 
-  /// Begins an array of one dimension; `count` values in all are to follow by `append`.
+  /// Begins a one-dimensional array; exactly `count` values must follow by `append`.
   template <class T>
   void begin(std::string_view name, std::uint64_t count);
 
@@ -32,10 +32,10 @@ class NpzWriter {
     append(values);
   }
 
-  /// A single text of ASCII: an array without dimensions.
+  /// Adds an ASCII string as an array without dimensions.
   void add_text(std::string_view name, std::string_view text);
 
-  /// To be called once, last.
+  /// Call it once, last.
   void commit();
 
  private:
@@ -43,7 +43,7 @@ class NpzWriter {
                     ZipWriter::Packing packing);
 
   ZipWriter zip_;
-  std::uint64_t bytes_left_ = 0;  // of the array begun last
+  std::uint64_t bytes_left_ = 0;  // of the current array
 };
 
-}  // namespace meshhood::cli
+}  // namespace meshhood::io
