@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How long both indexes take to build, and the adjacency alone, on shapes with different traps.
+// The time to build the adjacency and both indexes, on different shapes.
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How long one query takes, by method and radius, from vertices all over a shape.
+// The time of one query, by method and radius, for vertices all over a shape.
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -14,9 +14,9 @@ namespace meshhood {
 namespace {
 
 constexpr std::size_t kVertices = 200'000;
-constexpr std::size_t kStride = 7919;  // a prime, so that every vertex has its turn and neighbours are far apart
+constexpr std::size_t kStride = 7919;  // a prime, so that all vertices are used and consecutive ones are far apart
 
-/// Asks `answer(v, radius, out)` from vertex after vertex, the radius being the argument.
+/// Runs `answer(v, radius, out)` for one vertex after the other; the radius is the argument of the benchmark.
 template <class F>
 void ask_everywhere(benchmark::State& state, F&& answer) {
   const auto radius = static_cast<double>(state.range(0));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Exact answers against the reference, vertex by vertex: the work of tools/verify.
-// Usage: exact_verify MESH STEP RADIUS...; every STEP-th vertex, radii in mean edges ("inf" allowed). Also at each
-// vertex the distance to one random vertex of the answer, and its two neighbouring numbers.
+// Compares exact answers with the reference, for tools/verify.
+// Usage: exact_verify MESH STEP RADIUS...: every STEP-th vertex, radii in mean edge lengths ("inf" allowed). For each
+// vertex also with the distance to a random vertex of the answer as the radius, and the two adjacent numbers.
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -44,7 +44,7 @@ class Verify {
     }
   }
 
-  /// At the distance of a vertex of the last answer, which then just counts.
+  /// At the distance of a vertex of the last answer, which is then on the boundary of the ball.
   void query_ties(VertexId v) {
     const double tie = distance(mesh_.positions, v, expected_[random_() % expected_.size()]);
     for (const double radius :
@@ -58,7 +58,7 @@ class Verify {
     for (const VertexId w : expected_) stamp_[w] = round_;
     for (const VertexId w : found_) {
       if (stamp_[w] != round_) return false;
-      stamp_[w] = 0;  // so that it is not found twice
+      stamp_[w] = 0;  // so that a repeated vertex is detected
     }
     return found_.size() == expected_.size();
   }

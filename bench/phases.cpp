@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The profile of sec. 4.3: how long the paper's query spends in each of its phases. Prints one JSON document.
-// Usage: phases MESH QUERIES RADIUS...; radii in mean edges.
+// The profile of sec. 4.3: the share of each phase in the time of the paper's query. Prints one JSON document.
+// Usage: phases MESH QUERIES RADIUS...: radii in mean edge lengths.
 //
-// The phases are private to the query, so that its source is a part of this program.
+// The phases are private to the query, so this program includes its source.
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -16,7 +16,7 @@
 
 namespace meshhood::paper {
 
-/// Climb up, breadth first, range search; the last with the copying of the ids, which it leaves to the end.
+/// Climb up, breadth-first search, range search; the last includes the copy of the ids.
 using PhaseSeconds = std::array<double, 3>;
 
 struct SearcherAccess {
@@ -51,7 +51,7 @@ struct SearcherAccess {
 namespace meshhood::bench {
 namespace {
 
-/// The phases in per cent of a query, the mean over the queries: one that was interrupted counts no more than another.
+/// The phases in per cent of a query; the mean of the shares, so that an interrupted query has no larger weight.
 class Shares {
  public:
   void add(const paper::PhaseSeconds& phases) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// meshhood batch: the neighborhoods of all vertices, or of those listed, as a sparse matrix.
+// meshhood batch: the neighborhoods of all vertices, or of a list, as a sparse matrix.
 #include "meshhood/batch.h"
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,12 +22,11 @@
 
 #include "commands.h"
 #include "input.h"
-#include "interrupt.h"
-#include "npz_writer.h"
+#include "io/npz_writer.h"
+#include "options.h"
 #include "output.h"
-#include "progress.h"
-#include "query_arguments.h"
-#include "vertex_list.h"
+#include "size_limit.h"
+#include "task.h"
 
 namespace meshhood::cli {
 namespace {
@@ -34,34 +34,48 @@ namespace {
 struct Options {
   std::string file;
   Radius radius;
-  std::string vertices;  ///< a file that lists them; empty for all
+  std::string vertices;  ///< a file with a list; empty for all
   std::string method = "exact";
   unsigned threads = kAllThreads;
   bool count = false;
   bool distances = false;
   bool json = false;
+  std::optional<std::uint64_t> max_bytes;
   std::string output;
 };
 
-/// What a batch came to.
-struct Total {
-  std::size_t rows = 0;
-  std::uint64_t count = 0;  ///< of vertices, over all rows
-};
+/// SciPy uses 32-bit indices where they suffice, and would convert others.
+bool fits_32_bits(const BatchSize& total, std::size_t columns) {
+  constexpr std::uint64_t kMost = std::numeric_limits<std::int32_t>::max();
+  return total.count <= kMost && columns <= kMost;
+}
 
-/// Writes the answers of one index. How long an array is stands before its values, so the rows are counted first; and
-/// they are asked for once an array, always the same, for then no array need be kept while another is written: memory
-/// is that of a few numbers a row, and nothing but the target is written to.
+/// The size of the file, about: the members without the zip headers. The ones of a matrix without distances compress to
+/// a thousandth.
+double file_bytes(const Options& options, const BatchSize& total, std::size_t columns) {
+  const auto rows = static_cast<double>(total.rows);
+  const auto count = static_cast<double>(total.count);
+  if (options.count) return 8 * rows;
+  const double index_bytes = fits_32_bits(total, columns) ? 4 : 8;
+  return index_bytes * (rows + count) + (options.distances ? 8 : 1e-3) * count;
+}
+
+/// One for each array of the file whose length is that of the answer, and one to count.
+std::size_t number_of_passes(const Options& options) { return options.count ? 1 : options.distances ? 3 : 2; }
+
+/// Writes the answers of one index. The length of an array precedes its values, so the rows are counted first. Then
+/// each array is computed and written in a pass of its own, so that memory holds only a few numbers per row.
 template <class Index>
 class Writer {
  public:
-  Writer(const Index& index, const BatchQuery& query, const Options& options, const Interrupt& interrupt,
-         NpzWriter& npz)
-      : index_(index), query_(query), options_(options), interrupt_(interrupt), npz_(npz) {}
+  Writer(const Index& index, const BatchQuery& query, const Options& options, const SizeLimit& limit, Task& task,
+         io::NpzWriter& npz)
+      : index_(index), query_(query), options_(options), limit_(limit), task_(task), npz_(npz) {}
 
-  Total write() {
+  BatchSize write() {
     const std::vector<std::uint64_t> sizes = neighborhood_sizes(index_, query_, next_pass());
-    const Total total{sizes.size(), std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})};
+    const BatchSize total{sizes.size(), std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})};
+    limit_.check(total, file_bytes(options_, total, index_.vertex_count()));
     if (options_.count) {
       npz_.add<std::uint64_t>("count", sizes);
     } else {
@@ -72,14 +86,12 @@ class Writer {
 
  private:
   /// As `scipy.sparse.load_npz` reads it.
-  void write_matrix(std::span<const std::uint64_t> sizes, const Total& total) {
+  void write_matrix(std::span<const std::uint64_t> sizes, const BatchSize& total) {
     const std::array<std::int64_t, 2> shape{static_cast<std::int64_t>(total.rows),
                                             static_cast<std::int64_t>(index_.vertex_count())};
     npz_.add_text("format", "csr");
     npz_.add<std::int64_t>("shape", shape);
-    // SciPy's own choice: it would convert what comes in other integers.
-    constexpr std::uint64_t kNarrow = std::numeric_limits<std::int32_t>::max();
-    if (total.count <= kNarrow && index_.vertex_count() <= kNarrow) {
+    if (fits_32_bits(total, index_.vertex_count())) {
       write_pattern<std::int32_t>(sizes, total);
     } else {
       write_pattern<std::int64_t>(sizes, total);
@@ -88,7 +100,7 @@ class Writer {
   }
 
   template <class Integer>
-  void write_pattern(std::span<const std::uint64_t> sizes, const Total& total) {
+  void write_pattern(std::span<const std::uint64_t> sizes, const BatchSize& total) {
     std::vector<Integer> offsets(sizes.size() + 1);
     std::transform_inclusive_scan(sizes.begin(), sizes.end(), offsets.begin() + 1, std::plus<>(),
                                   [](std::uint64_t size) { return static_cast<Integer>(size); });
@@ -102,14 +114,14 @@ class Writer {
     for_each_neighborhood(index_, query_, write, next_pass());
   }
 
-  void write_distances(const Total& total) {
+  void write_distances(const BatchSize& total) {
     npz_.begin<double>("data", total.count);
     BatchOptions pass = next_pass();
     pass.distances = true;
     for_each_neighborhood(index_, query_, [&](const BatchRow& row) { npz_.append(row.distances); }, pass);
   }
 
-  void write_ones(const Total& total) {
+  void write_ones(const BatchSize& total) {
     constexpr auto kOnes = [] {
       std::array<bool, std::size_t{1} << 16> ones{};
       ones.fill(true);
@@ -124,41 +136,50 @@ class Writer {
   }
 
   BatchOptions next_pass() {
-    const double passes = options_.count ? 1 : options_.distances ? 3 : 2;
-    const double before = passes_begun_++;
-    const auto report = [this, passes, before](std::size_t done, std::size_t total) {
-      const double part = static_cast<double>(done) / static_cast<double>(std::max<std::size_t>(total, 1));
-      progress_.report((before + part) / passes);
-      return !interrupt_.requested();
+    const std::size_t pass = passes_begun_++;
+    const auto progress = [this, pass](std::size_t done, std::size_t total) {
+      task_.report(pass * total + done, number_of_passes(options_) * total);
+      return !Task::is_cancelled();
     };
-    return {.threads = options_.threads, .sorted = true, .progress = report};
+    return {.threads = options_.threads, .sorted = true, .progress = progress};
   }
 
   const Index& index_;
   const BatchQuery& query_;
   const Options& options_;
-  const Interrupt& interrupt_;
-  NpzWriter& npz_;
-  Progress progress_{"asking"};
-  int passes_begun_ = 0;
+  const SizeLimit& limit_;
+  Task& task_;
+  io::NpzWriter& npz_;
+  std::size_t passes_begun_ = 0;
 };
 
+std::string task_name(const Options& options, const std::optional<BatchEstimate>& estimate, std::size_t columns) {
+  if (!estimate) return "computing";
+  return fmt::format("computing {} rows, about {:.3g} MB", estimate->mean.rows,
+                     file_bytes(options, estimate->mean, columns) / 1e6);
+}
+
 template <class Index>
-Total write(const Index& index, const BatchQuery& query, const Options& options) {
-  const Interrupt interrupt;  // outlives the file that it is to leave no trace of
-  NpzWriter npz(options.output);
+BatchSize write(const Index& index, const BatchQuery& query, const Options& options) {
+  const SizeLimit limit(options.output, options.max_bytes);
+  const std::optional<BatchEstimate> expected = estimate(index, query);
+  const std::size_t columns = index.vertex_count();
+  if (expected) limit.check(expected->lower, file_bytes(options, expected->lower, columns), "at least ");
+  Task task(task_name(options, expected, columns),
+            {"rows", static_cast<double>(number_of_passes(options))});  // outlives the temporary file
+  io::NpzWriter npz(options.output);
   if (query.vertices) {
     const std::vector<std::int64_t> listed(query.vertices->begin(), query.vertices->end());
     npz.add<std::int64_t>("vertices", listed);
   }
-  const Total total = Writer(index, query, options, interrupt, npz).write();
-  if (interrupt.requested()) raise(ErrorCode::Cancelled, "cancelled");
+  const BatchSize total = Writer(index, query, options, limit, task, npz).write();
+  if (Task::is_cancelled()) raise(ErrorCode::Cancelled, "cancelled");
   npz.commit();
   return total;
 }
 
 void batch(const Options& options) {
-  for (const std::string& read : {options.file, options.vertices}) refuse_same_file(read, options.output);
+  check_output(options.output, {options.file, options.vertices});
   Input input(options.file);
   if (options.method == "exact") input.need_edges("--method exact");
   BatchQuery query{.vertices = {}, .radius = resolve(options.radius, input)};
@@ -167,13 +188,14 @@ void batch(const Options& options) {
     listed = read_vertex_list(options.vertices, input.vertex_count());
     query.vertices = listed;
   }
-  const Total total = options.method == "exact" ? write(input.exact_index(options.threads), query, options)
-                                                : write(input.paper_index(), query, options);
+  const BatchSize total = options.method == "exact" ? write(input.exact_index(options.threads), query, options)
+                                                    : write(input.paper_index(), query, options);
   if (options.json) {
     print_json(
         Json{{"output", options.output}, {"method", options.method}, {"rows", total.rows}, {"count", total.count}});
   } else {
-    print_text(fmt::format("{}: {} rows, {} vertices in them\n", printable(options.output), total.rows, total.count));
+    print_text(
+        fmt::format("{}: {} rows, {} vertices in them\n", printable_name(options.output), total.rows, total.count));
   }
 }
 
@@ -181,22 +203,30 @@ void batch(const Options& options) {
 
 void add_batch(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("batch", "The neighborhoods of all vertices, as a sparse matrix of SciPy");
+  CLI::App* command =
+      program.add_subcommand("batch", "Write the neighborhoods of all vertices as a sparse matrix for SciPy");
   add_file(*command, options->file);
   add_radius(*command, options->radius);
-  command->add_option("--vertices", options->vertices, "a text that lists the vertices to ask for, one a line")
+  command->add_option("--vertices", options->vertices, "text file with the query vertices, one per line (default: all)")
       ->check(file_name())
       ->type_name("FILE");
-  command->add_option("--method", options->method, "exact; paper, with a few extra vertices")
-      ->check(CLI::IsMember({"exact", "paper"}))
+  command->add_option("--method", options->method, "exact; paper: with a few extra vertices")
+      ->check(one_of({"exact", "paper"}))
       ->type_name("")
       ->capture_default_str();
   add_threads(*command, options->threads);
-  CLI::Option* count = command->add_flag("--count", options->count, "only how many vertices each row has");
-  command->add_flag("--distances", options->distances, "distances in space as the values of the matrix, not ones")
+  CLI::Option* count = command->add_flag("--count", options->count, "write only the number of vertices of each row");
+  command
+      ->add_flag("--distances", options->distances,
+                 "write straight-line distances as the values of the matrix, not ones")
       ->excludes(count);
-  add_output(*command, options->output, "the NPZ file to write")->required();
-  command->add_flag("--json", options->json, "one JSON document");
+  command
+      ->add_option("--max-bytes", options->max_bytes,
+                   "refuse a larger answer, if possible before it is computed (default: the free space of the disk)")
+      ->transform(whole_number())
+      ->type_name("NUMBER");
+  add_output(*command, ".npz", "file to write", options->output)->required();
+  add_json(*command, options->json);
   command->callback([options] { batch(*options); });
 }
 

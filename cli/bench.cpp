@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// meshhood bench: the paper's Table 1 and Table 2 on one mesh.
+// meshhood bench: the paper's Table 1 and Table 2 for one mesh.
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -14,37 +14,39 @@
 
 #include "meshhood/error.h"
 
-#include "building.h"
 #include "commands.h"
 #include "input.h"
-#include "machine.h"
-#include "measure.h"
-#include "methods.h"
+#include "measure/methods.h"
+#include "measure/radius_table.h"
+#include "measure/timing.h"
+#include "options.h"
 #include "output.h"
-#include "processor_time.h"
-#include "progress.h"
-#include "query_arguments.h"
+#include "task.h"
 
 namespace meshhood::cli {
 namespace {
 
-constexpr std::uint64_t kMostQueries = 100'000'000;  // they are drawn before the first is asked
+constexpr std::uint64_t kMostQueries = 100'000'000;
+
+using measure::Machine;
+using measure::Measurement;
 
 struct Options {
   std::string file;
+  std::string radii = "2,3,5,10,20,40,65,90";
   std::string order = "cold";
-  Plan plan{.radii = {2, 3, 5, 10, 20, 40, 65, 90}};
+  measure::Plan plan;
   bool json = false;
 };
 
-/// Space in bytes, counted as the paper does. What hangs on faces is unknown where an index was given.
+/// Memory in bytes, counted as in the paper. An index file has no faces, so their figures are empty.
 struct Table1 {
   std::size_t vertices;
   std::optional<std::size_t> faces;
-  std::optional<std::size_t> mesh_bytes;      ///< positions and corners; offsets too where not all are triangles
+  std::optional<std::size_t> mesh_bytes;      ///< positions and corners, and offsets unless all faces are triangles
   std::optional<std::size_t> topology_bytes;  ///< the same and the adjacency
   std::size_t index_bytes;                    ///< of the paper's index
-  double build_seconds;                       ///< of processor time
+  double build_seconds;                       ///< processor time
   std::size_t exact_index_bytes;
   double exact_build_seconds;
 };
@@ -67,9 +69,9 @@ struct Timed {
 
 template <class Build>
 auto timed(Build&& build) {
-  const double start = processor_time();
+  const double start = measure::processor_time();
   auto index = build();
-  return Timed<decltype(index)>{std::move(index), processor_time() - start};
+  return Timed<decltype(index)>{std::move(index), measure::processor_time() - start};
 }
 
 struct Indexes {
@@ -77,7 +79,7 @@ struct Indexes {
   Timed<Index> exact;
 };
 
-/// Both are built anew for the sake of the time, by one thread. `Mesh`: MeshView or GraphView.
+/// Builds both indexes for the timing, with one thread. `Mesh`: MeshView or GraphView.
 template <class Mesh>
 Indexes build_indexes(const Mesh& mesh) {
   return {timed([&] { return build_paper_index(mesh); }), timed([&] { return build_exact_index(mesh, 1); })};
@@ -100,12 +102,16 @@ Table1 table1(Input& input, const Indexes& built) {
   return table;
 }
 
-std::vector<Measurement> table2(Input& input, const Indexes& built, const Plan& plan) {
-  const std::vector<Method> methods{bfs_method(input.graph()), ball_method(input.positions()),
-                                    paper_method(built.paper.index), exact_method(built.exact.index)};
-  Progress progress("measuring");
-  return measure(methods, plan, mean_edge_length(input.graph()), built.paper.index.permutation(),
-                 [&](double fraction) { progress.report(fraction); });
+std::vector<Measurement> table2(Input& input, const Indexes& built, const measure::Plan& plan) {
+  const std::vector<measure::Method> methods{
+      measure::bfs_method(input.graph()), measure::ball_method(input.positions()),
+      measure::paper_method(built.paper.index), measure::exact_method(built.exact.index)};
+  Task task("measuring");
+  const Progress progress = task.progress();
+  return measure::measure_radii(methods, plan, mean_edge_length(input.graph()), built.paper.index.permutation(),
+                                [&](std::size_t done, std::size_t total) {
+                                  if (!progress(done, total)) raise(ErrorCode::Cancelled, "cancelled");
+                                });
 }
 
 Json or_null(const std::optional<std::size_t>& value) { return value ? Json(*value) : Json(); }
@@ -160,33 +166,35 @@ std::string to_text(const std::vector<Measurement>& table) {
   return text;
 }
 
-void check(const Options& options) {
-  if (options.plan.queries == 0) raise(ErrorCode::InvalidOption, "--queries: at least one query is needed");
-  for (const double radius : options.plan.radii) {
-    if (!(radius >= 0)) raise(ErrorCode::InvalidRadius, fmt::format("--radii: {} is not a number >= 0", radius));
+measure::Plan plan_of(const Options& options) {
+  measure::Plan plan = options.plan;
+  if (plan.queries == 0) raise(ErrorCode::InvalidOption, "--queries 0, expected at least 1");
+  plan.order = options.order == "warm" ? measure::Order::Warm : measure::Order::Cold;
+  for (const std::string& radius : CLI::detail::split(options.radii, ',')) {
+    plan.radii.push_back(parse_radius("--radii", radius));
   }
+  return plan;
 }
 
-void bench(Options& options) {
-  check(options);
-  options.plan.order = options.order == "warm" ? Order::Warm : Order::Cold;
+void bench(const Options& options) {
+  const measure::Plan plan = plan_of(options);
   Input input(options.file);
   input.need_edges("bench");
   if (input.graph().adjacency.neighbors.empty()) {
-    raise(ErrorCode::InvalidMesh, options.file + ": it has no edges, so there is nothing to measure");
+    raise(ErrorCode::InvalidMesh, options.file + ": has no edges, so there is nothing to measure");
   }
   const Indexes built = input.mesh() != nullptr ? build_indexes(input.mesh()->view()) : build_indexes(input.graph());
   const Table1 space = table1(input, built);
-  const std::vector<Measurement> curves = table2(input, built, options.plan);
-  const Machine machine = this_machine();
+  const std::vector<Measurement> curves = table2(input, built, plan);
+  const Machine machine = measure::this_machine();
   if (options.json) {
     print_json(Json{{"mesh", input.name()},
                     {"machine", to_json(machine)},
                     {"table1", to_json(space)},
                     {"table2", to_json(curves)}});
   } else {
-    print_text(fmt::format("{} on {}, {}, {}\n\n{}\n{}", printable(input.name()), machine.processor, machine.compiler,
-                           machine.build, to_text(space), to_text(curves)));
+    print_text(fmt::format("{} on {}, {}, {}\n\n{}\n{}", printable_name(input.name()), machine.processor,
+                           machine.compiler, machine.build, to_text(space), to_text(curves)));
   }
 }
 
@@ -194,25 +202,24 @@ void bench(Options& options) {
 
 void add_bench(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("bench", "The paper's Table 1 and Table 2 on a mesh of yours");
+  CLI::App* command = program.add_subcommand("bench", "Measure the paper's Table 1 and Table 2 on a mesh");
   add_file(*command, options->file);
-  command->add_option("--radii", options->plan.radii, "in average edges")
-      ->delimiter(',')
+  command->add_option("--radii", options->radii, "radii, in mean edge lengths")
       ->type_name("NUMBERS")
       ->capture_default_str();
-  command->add_option("--queries", options->plan.queries, "how many a radius")
+  command->add_option("--queries", options->plan.queries, "number of queries per radius")
       ->transform(whole_number(kMostQueries))
       ->type_name("NUMBER")
       ->capture_default_str();
-  command->add_option("--order", options->order, "cold: far apart; warm: each beside the one before")
-      ->check(CLI::IsMember({"cold", "warm"}))
+  command->add_option("--order", options->order, "cold: query vertices far apart; warm: each next to the one before")
+      ->check(one_of({"cold", "warm"}))
       ->type_name("")
       ->capture_default_str();
-  command->add_option("--seed", options->plan.seed, "which queries")
+  command->add_option("--seed", options->plan.seed, "seed of the random query vertices")
       ->transform(whole_number())
       ->type_name("NUMBER")
       ->capture_default_str();
-  command->add_flag("--json", options->json, "one JSON document");
+  add_json(*command, options->json);
   command->callback([options] { bench(*options); });
 }
 

@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-/// The subcommands, one file each. Each adds itself, with its options, to the program; it runs within `parse`.
+/// The subcommands, one file each. Each function adds a subcommand with its options; the command runs inside `parse`.
 namespace meshhood::cli {
 
 void add_batch(CLI::App& program);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// meshhood compare: the methods side by side on one query.
+// meshhood compare: all methods on one query.
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -9,18 +11,23 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "difference.h"
 #include "input.h"
-#include "methods.h"
+#include "measure/difference.h"
+#include "measure/methods.h"
+#include "measure/timing.h"
+#include "options.h"
 #include "output.h"
 #include "painting.h"
-#include "query_arguments.h"
 
 namespace meshhood::cli {
 namespace {
 
+using measure::Method;
+
 struct Options {
-  QueryArguments arguments;
+  std::string file;
+  std::uint64_t vertex = 0;
+  Radius radius;
   std::string output;
   bool json = false;
 };
@@ -28,23 +35,23 @@ struct Options {
 struct Row {
   std::string method;
   std::vector<VertexId> vertices;
-  Difference difference;  ///< from the first row
+  measure::Difference difference;  ///< from the first row
   double microseconds;
 };
 
-std::vector<Row> answer(const std::vector<Method>& methods, const Query& query, std::size_t vertices) {
+std::vector<Row> answer(const std::vector<Method>& methods, VertexId v, double radius, std::size_t vertices) {
   std::vector<Row> rows;
-  Comparison comparison(vertices);
+  measure::Comparison comparison(vertices);
   for (const Method& method : methods) {
-    std::vector<VertexId> found;
-    const double seconds = timed_query(method, query.vertex, query.radius, found);
-    const Difference difference = rows.empty() ? Difference{} : comparison.compare(rows.front().vertices, found);
-    rows.push_back({method.name, std::move(found), difference, 1e6 * seconds});
+    Row row{method.name, {}, {}, 0};
+    row.microseconds = 1e6 * measure::median_seconds([&] { method.neighborhood(v, radius, row.vertices); });
+    if (!rows.empty()) row.difference = comparison.compare(rows.front().vertices, row.vertices);
+    rows.push_back(std::move(row));
   }
   return rows;
 }
 
-Json to_json(const Query& query, const std::vector<Row>& rows) {
+Json to_json(VertexId v, double radius, const std::vector<Row>& rows) {
   Json methods = Json::array();
   for (const Row& row : rows) {
     methods.push_back({{"method", row.method},
@@ -53,7 +60,7 @@ Json to_json(const Query& query, const std::vector<Row>& rows) {
                        {"missing", row.difference.missing},
                        {"microseconds", row.microseconds}});
   }
-  return {{"vertex", query.vertex}, {"radius", query.radius}, {"methods", methods}};
+  return {{"vertex", v}, {"radius", radius}, {"methods", methods}};
 }
 
 std::string to_text(const std::vector<Row>& rows) {
@@ -65,26 +72,28 @@ std::string to_text(const std::vector<Row>& rows) {
   return text;
 }
 
-/// The least exact answer at the bottom, as in the paper's Figure 4. `rows`: bfs, ball, paper, ...
-void paint(const std::string& file, Input& input, const Query& query, const std::vector<Row>& rows) {
+/// Exact answers on top, as in the paper's Figure 4. `rows`: bfs, ball, paper, exact.
+void paint(const std::string& file, Input& input, VertexId v, const std::vector<Row>& rows) {
   Painting painting(input.vertex_count());
   painting.paint(rows[1].vertices, kBallColor);
   painting.paint(rows[2].vertices, kPaperColor);
   painting.paint(rows[0].vertices, kExactColor);
-  painting.paint(std::span(&query.vertex, 1), kQueryColor);
+  painting.paint(std::span(&v, 1), kQueryColor);
   painting.write(file, input.surface());
 }
 
 void compare(const Options& options) {
-  refuse_same_file(options.arguments.file, options.output);
-  Input input(options.arguments.file);
+  check_output(options.output, {options.file});
+  Input input(options.file);
   input.need_edges("compare");
-  const Query query = resolve(options.arguments, input);
-  const std::vector<Method> methods{bfs_method(input.graph()), ball_method(input.positions()),
-                                    paper_method(input.paper_index()), exact_method(input.exact_index())};
-  const std::vector<Row> rows = answer(methods, query, input.vertex_count());
-  if (!options.output.empty()) paint(options.output, input, query, rows);
-  options.json ? print_json(to_json(query, rows)) : print_text(to_text(rows));
+  const VertexId v = resolve_vertex(options.vertex, input);
+  const double radius = resolve(options.radius, input);
+  const std::vector<Method> methods{measure::bfs_method(input.graph()), measure::ball_method(input.positions()),
+                                    measure::paper_method(input.paper_index()),
+                                    measure::exact_method(input.exact_index())};
+  const std::vector<Row> rows = answer(methods, v, radius, input.vertex_count());
+  if (!options.output.empty()) paint(options.output, input, v, rows);
+  options.json ? print_json(to_json(v, radius, rows)) : print_text(to_text(rows));
 }
 
 }  // namespace
@@ -92,11 +101,18 @@ void compare(const Options& options) {
 void add_compare(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand(
-      "compare", "The methods side by side: what each finds, how it differs from bfs, and in what time");
-  add_query_arguments(*command, options->arguments);
-  add_output(*command, options->output,
-             "also write the mesh as PLY: the vertex red, exact green, only paper yellow, only ball blue");
-  command->add_flag("--json", options->json, "one JSON document");
+      "compare", "Compare the methods on one query: size, difference from breadth-first search, time");
+  add_file(*command, options->file);
+  command->add_option("-v,--vertex", options->vertex, "query vertex, by its number in the file from 0")
+      ->transform(whole_number())
+      ->type_name("NUMBER")
+      ->required();
+  add_radius(*command, options->radius);
+  add_output(
+      *command, ".ply",
+      "also write the mesh in colour: the query vertex red, exact green, only in paper yellow, only in ball blue",
+      options->output);
+  add_json(*command, options->json);
   command->callback([options] { compare(*options); });
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// meshhood generate: a mesh made by formula.
+// meshhood generate: writes a synthetic mesh.
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -10,18 +11,18 @@
 #include "meshhood/error.h"
 
 #include "commands.h"
-#include "interrupt.h"
 #include "io/mesh_io.h"
+#include "options.h"
 #include "output.h"
-#include "query_arguments.h"
 #include "shapes/shapes.h"
+#include "task.h"
 
 namespace meshhood::cli {
 namespace {
 
 struct Options {
   std::string kind;
-  std::uint64_t vertices = 0;
+  std::uint64_t vertices = 10000;
   std::string output;
   bool list = false;
   bool json = false;
@@ -38,22 +39,23 @@ void list(bool json) {
 }
 
 const shapes::Kind& find(const std::string& name) {
-  const shapes::Kind* kind = shapes::find_kind(name);
-  if (kind == nullptr) {
-    raise(ErrorCode::InvalidOption, "there is no shape '" + name + "'; meshhood generate --list names them all");
-  }
-  return *kind;
+  if (const shapes::Kind* kind = shapes::find_kind(name)) return *kind;
+  std::vector<std::string> names;
+  for (const shapes::Kind& kind : shapes::kinds()) names.emplace_back(kind.name);
+  raise(ErrorCode::InvalidOption,
+        fmt::format("unknown shape '{}'; meshhood generate --list prints all{}", name, suggestion(name, names)));
 }
 
 void save(const std::string& file, const MeshView& mesh) {
-  const Interrupt interrupt;  // outlives the file that it is to leave no trace of
-  io::write_ply(file, mesh, {.progress = interrupt.watch()});
+  Task task("writing " + file);
+  io::write_ply(file, mesh, {.progress = task.progress()});
 }
 
 void generate(const Options& options) {
   if (options.list) return list(options.json);
-  if (options.kind.empty()) raise(ErrorCode::InvalidOption, "generate: KIND is missing; --list names them all");
+  if (options.kind.empty()) raise(ErrorCode::InvalidOption, "generate: KIND is missing; --list prints all");
   if (options.output.empty()) raise(ErrorCode::InvalidOption, "generate: --output is missing");
+  check_output(options.output);
   const shapes::Shape shape = find(options.kind).make(options.vertices);
   const MeshView mesh = shape.view();
   save(options.output, mesh);
@@ -63,7 +65,7 @@ void generate(const Options& options) {
                     {"faces", mesh.faces.size()},
                     {"output", options.output}});
   } else {
-    print_text(fmt::format("{}: {} vertices, {} faces\n", printable(options.output), mesh.positions.size(),
+    print_text(fmt::format("{}: {} vertices, {} faces\n", printable_name(options.output), mesh.positions.size(),
                            mesh.faces.size()));
   }
 }
@@ -72,15 +74,15 @@ void generate(const Options& options) {
 
 void add_generate(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("generate", "A mesh with a known trap, for benchmarks and tests");
-  command->add_option("KIND", options->kind, "which; see --list")->type_name("");
-  command->add_option("--vertices", options->vertices, "how many, exactly or within 5 %")
+  CLI::App* command = program.add_subcommand("generate", "Write a synthetic mesh for benchmarks and tests");
+  command->add_option("KIND", options->kind, "kind of shape; see --list")->type_name("");
+  command->add_option("--vertices", options->vertices, "number of vertices, exact or within 5 %")
       ->transform(whole_number())
       ->type_name("NUMBER")
-      ->default_val(10000);
-  add_output(*command, options->output, "the PLY file to write");
-  command->add_flag("--list", options->list, "every kind and its trap");
-  command->add_flag("--json", options->json, "one JSON document");
+      ->capture_default_str();
+  add_output(*command, ".ply", "mesh file to write", options->output);
+  command->add_flag("--list", options->list, "print all kinds and what is difficult about them");
+  add_json(*command, options->json);
   command->callback([options] { generate(*options); });
 }
 

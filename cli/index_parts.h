@@ -10,7 +10,7 @@
 
 #include "output.h"
 
-/// What indexes are made of, and how much memory each part takes.
+/// The parts of an index, and the memory of each.
 namespace meshhood::cli {
 
 [[nodiscard]] std::string_view kind_name(IndexKind kind);

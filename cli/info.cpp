@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// meshhood info: what a mesh or an index is like.
+// meshhood info: properties of a mesh or an index.
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -15,9 +15,8 @@
 #include "commands.h"
 #include "index_parts.h"
 #include "input.h"
-#include "io/index_io.h"
+#include "options.h"
 #include "output.h"
-#include "query_arguments.h"
 #include "statistics.h"
 
 namespace meshhood::cli {
@@ -81,23 +80,24 @@ std::string to_text(const std::optional<Box>& bounds) {
 
 std::string to_text(const std::string& file, const io::Mesh& mesh, const Statistics& s) {
   Rows rows(kWidth);
-  rows.add("mesh", fmt::format("{} ({})", printable(file), format_name(mesh.format)));
+  rows.add("mesh", fmt::format("{} ({})", printable_name(file), format_name(mesh.format)));
   rows.add("vertices", s.vertices);
   rows.add("faces", s.faces);
-  rows.add("corners of a face", to_text(s.polygon_degrees));
+  rows.add("corners per face", to_text(s.polygon_degrees));
   rows.add("edges", s.edges);
   rows.add("components", s.components);
   rows.add("isolated vertices", s.isolated_vertices);
   rows.add("boundary edges", s.boundary_edges);
   rows.add("non-manifold edges", s.nonmanifold_edges);
-  rows.add("average edge", fmt::format("{:.4g}", s.average_edge));
+  rows.add("mean edge length", fmt::format("{:.4g}", s.average_edge));
   rows.add("repeated corners", s.repeated_corners);
   rows.add("repeated positions", s.repeated_positions);
   rows.add("bounding box", to_text(s.bounds));
   return rows.text();
 }
 
-Json to_json(const IndexHeader& header, Input& input) {
+Json to_json(Input& input) {
+  const IndexHeader& header = input.header();
   Json document{{"index", input.name()},
                 {"format", header.format},
                 {"kind", kind_name(header.kind)},
@@ -108,9 +108,11 @@ Json to_json(const IndexHeader& header, Input& input) {
   return document;
 }
 
-std::string to_text(const IndexHeader& header, Input& input) {
+std::string to_text(Input& input) {
+  const IndexHeader& header = input.header();
   Rows rows(kWidth);
-  rows.add("index", fmt::format("{} ({}, format {})", printable(input.name()), kind_name(header.kind), header.format));
+  rows.add("index",
+           fmt::format("{} ({}, format {})", printable_name(input.name()), kind_name(header.kind), header.format));
   rows.add("vertices", header.vertices);
   rows.add("coordinates", precision_name(header));
   rows.add("mesh", to_text(header.mesh));
@@ -118,7 +120,7 @@ std::string to_text(const IndexHeader& header, Input& input) {
          (header.kind == IndexKind::Paper ? text_of(input.paper_index()) : text_of(input.exact_index()));
 }
 
-/// A mesh and, if asked for, what its indexes would be.
+/// With --index, also builds both indexes.
 void info_of_mesh(const Options& options, Input& input) {
   const Statistics summary = statistics(input.mesh()->view(), input.graph().adjacency);
   Json document = to_json(input.name(), *input.mesh(), summary);
@@ -131,12 +133,7 @@ void info_of_mesh(const Options& options, Input& input) {
 }
 
 void info_of_index(const Options& options, Input& input) {
-  const IndexHeader header = io::read_header(options.file);
-  if (options.json) {
-    print_json(to_json(header, input));
-  } else {
-    print_text(to_text(header, input));
-  }
+  options.json ? print_json(to_json(input)) : print_text(to_text(input));
 }
 
 void info(const Options& options) {
@@ -149,11 +146,10 @@ void info(const Options& options) {
 void add_info(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand(
-      "info", "What a mesh or an index is like: its size, components, borders and flaws; its levels");
+      "info", "Print the size, components, boundary and defects of a mesh, or the parts of an index");
   add_file(*command, options->file);
-  command->add_flag("--index", options->index,
-                    "of a mesh, also build the exact index and that of the paper, and list their parts");
-  command->add_flag("--json", options->json, "one JSON document");
+  command->add_flag("--index", options->index, "for a mesh: also build both indexes and print their parts");
+  add_json(*command, options->json);
   command->callback([options] { info(*options); });
 }
 

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
-#include <filesystem>
+#include <cstdint>
 #include <span>
-#include <system_error>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -15,18 +16,25 @@
 
 #include "meshhood/error.h"
 
-#include "io/index_io.h"
+#include "io/byte_source.h"
+#include "io/input.h"
+#include "io/number.h"
+#include "io/text.h"
 #include "output.h"
-#include "progress.h"
+#include "task.h"
 
 namespace meshhood::cli {
 namespace {
 
-void complain_about(const io::Mesh& mesh, const std::string& file) {
+constexpr Unit kMegabytes{"MB", 1e6};
+
+std::string reading(const std::string& file) { return "reading " + file; }
+
+void print_warnings(const io::Mesh& mesh, const std::string& file) {
   for (const io::Warning& warning : mesh.warnings) {
     const std::string times = warning.count == 1 ? "" : fmt::format("{} times, first ", warning.count);
-    const std::string place = warning.first_place.empty() ? "" : " (" + times + "at " + warning.first_place + ")";
-    print_error("warning: ", fmt::format("{}: {}{}", file, warning.what, place));
+    const std::string location = warning.first_place.empty() ? "" : " (" + times + "at " + warning.first_place + ")";
+    print_error("warning: ", fmt::format("{}: {}{}", file, warning.what, location));
   }
 }
 
@@ -42,44 +50,61 @@ PositionsData positions_of(const paper::Index& index) {
   });
 }
 
-/// What a reader tells, for the line on the terminal. Of a pipe it does not know how much there is.
-auto on_progress(Progress& progress) {
-  return [&progress](std::size_t done, std::size_t total) {
-    if (total != 0) progress.report(done, total);
-    return true;
-  };
+VertexId parse_vertex(const io::Text& text, std::string_view token, std::size_t vertices) {
+  const std::uint64_t vertex = io::parse_count(token).value_or(vertices);
+  if (vertex < vertices) return static_cast<VertexId>(vertex);
+  const std::string expected =
+      vertices == 0 ? "no vertex: the mesh has none" : fmt::format("a vertex from 0 to {}", vertices - 1);
+  text.fail(ErrorCode::InvalidOption, fmt::format("{}, expected {}", io::quote(token), expected));
+}
+
+std::vector<VertexId> read_vertices(io::Text& text, std::size_t vertices) {
+  std::vector<VertexId> list;
+  while (text.next_line()) {
+    const std::string_view token = text.token_on_line();
+    if (token.empty()) continue;
+    list.push_back(parse_vertex(text, token, vertices));
+    if (const std::string_view second = text.token_on_line(); !second.empty()) {
+      text.fail(ErrorCode::InvalidOption, fmt::format("{}, expected the end of the line", io::quote(second)));
+    }
+  }
+  return list;
 }
 
 }  // namespace
 
 Input::Input(std::string file) : name_(std::move(file)) {
-  if (!io::is_index(name_)) {
-    mesh_ = read_mesh(name_);
+  auto content = [this] {
+    Task task(reading(name_), kMegabytes);
+    return io::read_mesh_or_index(name_, {.progress = task.progress()});
+  }();
+  if (auto* mesh = std::get_if<io::Mesh>(&content)) {
+    mesh_ = std::move(*mesh);
+    print_warnings(*mesh_, name_);
     return;
   }
-  if (io::read_header(name_).kind == IndexKind::Paper) {
-    paper_ = load_paper_index(name_);
-  } else {
-    exact_ = load_exact_index(name_);
-  }
+  auto& loaded = std::get<io::LoadedIndex>(content);
+  header_ = loaded.header;
+  if (auto* exact = std::get_if<Index>(&loaded.index)) exact_ = std::move(*exact);
+  if (auto* paper = std::get_if<paper::Index>(&loaded.index)) paper_ = std::move(*paper);
 }
 
 std::size_t Input::vertex_count() const {
-  if (mesh_) return mesh_->view().positions.size();
-  // One of the three is there. NOLINTNEXTLINE(bugprone-unchecked-optional-access)
-  return exact_ ? exact_->vertex_count() : paper_->vertex_count();
+  return mesh_ ? mesh_->view().positions.size() : static_cast<std::size_t>(header().vertices);
 }
 
 void Input::need_edges(const std::string& purpose) const {
   if (mesh_ || exact_) return;
   raise(ErrorCode::InvalidOption,
-        fmt::format("{}: {} needs the edges of the mesh, which an index of the paper does not keep", name_, purpose));
+        fmt::format("{}: {} needs the edges of the mesh, which an index of the paper does not "
+                    "contain; name the mesh or an exact index",
+                    printable_name(name_), purpose));
 }
 
 PositionsView Input::positions() {
   if (mesh_) return mesh_->view().positions;
   if (exact_) return graph().positions;
-  if (!positions_) positions_ = positions_of(*paper_);  // NOLINT(bugprone-unchecked-optional-access): as above
+  if (!positions_) positions_ = positions_of(*paper_);  // NOLINT(bugprone-unchecked-optional-access): one is set
   return std::visit([](const auto& xyz) { return PositionsView(xyz); }, *positions_);
 }
 
@@ -89,13 +114,13 @@ GraphView Input::graph() {
     if (!adjacency_) adjacency_ = adjacency(mesh_->view());
     return {mesh_->view().positions, adjacency_->view()};
   }
-  if (!graph_) graph_ = meshhood::extract_graph(*exact_);
+  if (!graph_) graph_ = extract_graph(*exact_);
   return graph_->view();
 }
 
 MeshView Input::surface() {
   if (mesh_) return mesh_->view();
-  print_error("warning: ", name_ + ": an index keeps no faces, so what is drawn of it are its vertices");
+  print_error("warning: ", name_ + ": an index has no faces, so the picture has only vertices");
   return {positions(), FacesView{}};
 }
 
@@ -110,27 +135,47 @@ const paper::Index& Input::paper_index() {
 }
 
 io::Mesh read_mesh(const std::string& file) {
-  Progress progress("reading " + file);
-  io::Mesh mesh = io::read_mesh(file, {.progress = on_progress(progress)});
-  complain_about(mesh, file);
+  io::Mesh mesh = [&] {
+    Task task(reading(file), kMegabytes);
+    return io::read_mesh(file, {.progress = task.progress()});
+  }();
+  print_warnings(mesh, file);
   return mesh;
 }
 
-Index load_exact_index(const std::string& file) {
-  Progress progress("reading " + file);
-  return io::load(file, {.progress = on_progress(progress)});
+io::LoadedIndex load_index(const std::string& file) {
+  Task task(reading(file), kMegabytes);
+  return io::load_any(file, {.progress = task.progress()});
 }
 
-paper::Index load_paper_index(const std::string& file) {
-  Progress progress("reading " + file);
-  return io::load_paper(file, {.progress = on_progress(progress)});
-}
-
-void refuse_same_file(const std::string& input, const std::string& output) {
-  std::error_code missing;
-  if (std::filesystem::equivalent(input, output, missing)) {
-    raise(ErrorCode::InvalidOption, output + ": " + input + " would be overwritten; name another file for the output");
+std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vertices) {
+  io::FileSource source(file);
+  io::Input input(source, file, io::ReadOptions{}.max_bytes);
+  io::Text text(input, {.hash_comments = true});
+  try {
+    return read_vertices(text, vertices);
+  } catch (const Error& error) {
+    // A malformed list is a wrong option, not a wrong mesh.
+    if (error.code() != ErrorCode::MalformedFile) throw;
+    raise(ErrorCode::InvalidOption, error.what());
   }
 }
+
+template <class Mesh>
+Index build_exact_index(const Mesh& mesh, unsigned threads) {
+  Task task("building the index");
+  return build(mesh, {.threads = threads, .progress = task.progress()});
+}
+
+template <class Mesh>
+paper::Index build_paper_index(const Mesh& mesh) {
+  Task task("building the index of the paper");
+  return paper::build(mesh, {.progress = task.progress()});
+}
+
+template Index build_exact_index(const MeshView& mesh, unsigned threads);
+template Index build_exact_index(const GraphView& graph, unsigned threads);
+template paper::Index build_paper_index(const MeshView& mesh);
+template paper::Index build_paper_index(const GraphView& graph);
 
 }  // namespace meshhood::cli

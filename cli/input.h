@@ -3,71 +3,86 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "meshhood/adjacency.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/paper.h"
+#include "meshhood/serialize.h"
 
-#include "building.h"
-#include "io/mesh_io.h"
+#include "io/load_any.h"
 
 namespace meshhood::cli {
 
-/// FILE: a mesh, or an index, which stands for the mesh it was built from. Told apart by content.
+/// Use as many threads as the processor has.
+inline constexpr unsigned kAllThreads = 0;
+
+/// FILE: a mesh, or an index, which represents the mesh it was built from.
 ///
-/// Commands ask for what they need; what the file does not hold is made from what it does, when first asked for. Faces
-/// only a mesh has; an index of the paper keeps no edges either, and whoever wants them says so by `need_edges`.
+/// What a command needs is derived from the content of the file at the first call. Only a mesh has faces. An index of
+/// the paper has no edges; commands that need edges call `need_edges` first.
 class Input {
  public:
-  /// Reads `file`. What the reader finds odd is said on standard error. Throws what `io::read_mesh` and `io::load`
-  /// throw.
+  /// Reads `file` and prints the warnings of the reader. Throws as `io::read_mesh` and `io::load`.
   explicit Input(std::string file);
 
   /// As on the command line.
   [[nodiscard]] const std::string& name() const { return name_; }
 
-  /// The mesh, if that is what the file holds; null where it is an index.
+  /// The mesh; null if the file is an index.
   [[nodiscard]] const io::Mesh* mesh() const { return mesh_ ? &*mesh_ : nullptr; }
+
+  /// The header of the index. The file must be an index.
+  [[nodiscard]] const IndexHeader& header() const { return *header_; }
 
   [[nodiscard]] std::size_t vertex_count() const;
 
-  /// Throws Error{InvalidOption} where the file does not tell the edges, which `purpose` needs: "--method bfs".
+  /// Throws Error{InvalidOption} if the file has no edges. `purpose` is for the message: "--method bfs".
   void need_edges(const std::string& purpose) const;
 
-  /// Of the mesh, in its numbering. Borrowed.
+  /// In the numbering of the mesh. Borrowed, as all views below.
   [[nodiscard]] PositionsView positions();
 
-  /// The same and the edges, which must be there.
+  /// The file must have edges.
   [[nodiscard]] GraphView graph();
 
-  /// What can be drawn of it: the mesh, or its vertices alone, which is said on standard error.
+  /// The mesh for a picture; of an index the vertices without faces, with a warning.
   [[nodiscard]] MeshView surface();
 
-  /// The edges must be there.
+  /// The file must have edges.
   [[nodiscard]] const Index& exact_index(unsigned threads = kAllThreads);
 
-  /// The edges must be there, unless this is what the file holds.
+  /// The file must have edges or be an index of the paper.
   [[nodiscard]] const paper::Index& paper_index();
 
  private:
   std::string name_;
   std::optional<io::Mesh> mesh_;
   std::optional<Adjacency> adjacency_;  // of the mesh
+  std::optional<IndexHeader> header_;
   std::optional<Index> exact_;
-  std::optional<GraphData> graph_;  // where that is what the file holds
+  std::optional<GraphData> graph_;  // of the exact index in the file
   std::optional<paper::Index> paper_;
-  std::optional<PositionsData> positions_;  // where that is
+  std::optional<PositionsData> positions_;  // of the paper's index in the file
 };
 
-/// Reads a mesh where an index will not do. As above.
+/// Reads a mesh, with progress, and prints the warnings of the reader. Throws as `io::read_mesh`.
 [[nodiscard]] io::Mesh read_mesh(const std::string& file);
 
-/// Reads an index where a mesh will not do, and verifies it, with progress. Throws what `io::load` throws.
-[[nodiscard]] Index load_exact_index(const std::string& file);
-[[nodiscard]] paper::Index load_paper_index(const std::string& file);
+/// Reads and verifies an index, with progress. Throws as `io::load`.
+[[nodiscard]] io::LoadedIndex load_index(const std::string& file);
 
-/// Throws Error{InvalidOption} where `output` is a file that it is made from. Either may not exist.
-void refuse_same_file(const std::string& input, const std::string& output);
+/// Reads a list of vertices of a mesh of `vertices`: a text with one vertex per line, in any order, repeats allowed.
+/// Blank lines and the text after `#` are skipped.
+///
+/// Throws Error{InvalidOption} with the line and what was expected; Error{IoFailure}.
+[[nodiscard]] std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vertices);
+
+/// Builds an index of a `MeshView` or a `GraphView`, with progress.
+template <class Mesh>
+[[nodiscard]] Index build_exact_index(const Mesh& mesh, unsigned threads);
+template <class Mesh>
+[[nodiscard]] paper::Index build_paper_index(const Mesh& mesh);
 
 }  // namespace meshhood::cli

@@ -8,30 +8,36 @@
 
 #include <nlohmann/json.hpp>
 
-/// Results on standard output, everything else on standard error.
+#include "io/messages.h"
+
+/// Results go to standard output, everything else to standard error.
 namespace meshhood::cli {
 
-/// Keeps its keys in the order they were given.
+/// Keeps the order of its keys.
 using Json = nlohmann::ordered_json;
 
-/// Thrown where the reader of standard output has gone. No one is left to print_error to.
-struct BrokenPipe {};
+using io::printable_name;
 
-/// Writes all of `text` to standard output, past every buffer. Throws Error{IoFailure}, BrokenPipe.
+/// Thrown if the reader of standard output has closed it, as `head` does: the program then ends quietly.
+struct OutputClosed {};
+
+/// Writes `text` to standard output and flushes. Throws Error{IoFailure}, OutputClosed.
 void print_text(std::string_view text);
 
-/// The one JSON document of a `--json` run. Bytes of a file name that are not UTF-8 become U+FFFD.
+/// Prints the JSON document of a `--json` run. Bytes that are not UTF-8 become U+FFFD.
 void print_json(const Json& document);
 
-/// Closes standard output, for some file systems tell only then that they could not write. Throws as `print_text`.
+/// Closes standard output: some file systems report errors only then. Throws as `print_text`.
 void close_output();
 
-/// `text` on one line: control characters, which could also steer a terminal, are written as `\x0a`.
-[[nodiscard]] std::string printable(std::string_view text);
+/// Prints one line on standard error: "meshhood: " + `severity` + `text`. `severity` is "" for an error, otherwise
+/// "warning: " or "note: ".
+void print_error(std::string_view severity, std::string_view text);
 
-/// A table of two columns as text: names, filled up to one width, and what stands beside them.
+/// A text table of names and values.
 class Rows {
  public:
+  /// `width` is that of the names.
   explicit Rows(std::size_t width) : width_(width) {}
 
   void add(std::string_view name, std::string_view value);
@@ -43,8 +49,5 @@ class Rows {
   std::size_t width_;
   std::string text_;
 };
-
-/// One line on standard error. `severity` is "" for an error, "warning: " for less.
-void print_error(std::string_view severity, std::string_view text);
 
 }  // namespace meshhood::cli

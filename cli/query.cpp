@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
-// meshhood query: one neighborhood.
+// meshhood query: the neighborhoods of single vertices.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,18 +16,23 @@
 
 #include "commands.h"
 #include "input.h"
-#include "methods.h"
+#include "measure/methods.h"
+#include "measure/timing.h"
+#include "options.h"
 #include "output.h"
 #include "painting.h"
-#include "query_arguments.h"
 
 namespace meshhood::cli {
 namespace {
 
+using measure::Method;
+
 struct Options {
-  QueryArguments arguments;
+  std::string file;
+  std::vector<std::uint64_t> vertices;
+  Radius radius;
   std::string method = "exact";
-  std::optional<double> factor;
+  std::optional<std::string> factor;
   bool count = false;
   bool distances = false;
   bool json = false;
@@ -31,97 +40,147 @@ struct Options {
 };
 
 struct Answer {
+  VertexId vertex;
   std::size_t count = 0;
-  std::vector<VertexId> vertices;  ///< ascending; none where they are neither printed nor painted
-  std::vector<double> distances;   ///< beside the vertices, if asked for
+  std::vector<VertexId> vertices;  ///< ascending; empty if they are neither printed nor painted
+  std::vector<double> distances;   ///< of `vertices`, if requested
   double seconds = 0;
 };
 
-Answer ask(const Options& options, const Method& method, const Query& query) {
-  Answer answer;
+Method make_method(const Options& options, Input& input) {
+  if (options.method == "exact" || options.method == "bfs") input.need_edges("--method " + options.method);
+  if (options.method == "bfs") return measure::bfs_method(input.graph());
+  if (options.method == "ball") return measure::ball_method(input.positions());
+  if (options.method == "exact") return measure::exact_method(input.exact_index());
+  paper::QueryOptions settings;
+  if (options.factor) settings.radius_ratio = parse_radius("--factor", *options.factor);
+  return measure::paper_method(input.paper_index(), settings);
+}
+
+Answer answer(const Options& options, const Method& method, VertexId v, double radius) {
+  Answer answer{.vertex = v, .vertices = {}, .distances = {}};
   if (options.count && options.output.empty() && method.count) {
-    answer.seconds = timed_count(method, query.vertex, query.radius, answer.count);
-  } else {
-    answer.seconds = timed_query(method, query.vertex, query.radius, answer.vertices);
-    answer.count = answer.vertices.size();
+    answer.seconds = measure::median_seconds([&] { answer.count = method.count(v, radius); });
+    return answer;
   }
+  answer.seconds = measure::median_seconds([&] { method.neighborhood(v, radius, answer.vertices); });
+  std::sort(answer.vertices.begin(), answer.vertices.end());
+  answer.count = answer.vertices.size();
   return answer;
 }
 
-Answer ask(const Options& options, Input& input, const Query& query) {
-  if (options.method == "exact" || options.method == "bfs") input.need_edges("--method " + options.method);
-  if (options.method == "bfs") return ask(options, bfs_method(input.graph()), query);
-  if (options.method == "ball") return ask(options, ball_method(input.positions()), query);
-  if (options.method == "exact") return ask(options, exact_method(input.exact_index()), query);
-  const paper::QueryOptions defaults;
-  const paper::QueryOptions settings{.radius_ratio = options.factor.value_or(defaults.radius_ratio)};
-  return ask(options, paper_method(input.paper_index(), settings), query);
+/// A radius in the wrong unit, and a mesh of unconnected triangles, often show by such an answer.
+void note_whole_component(const Method& method, double radius, const Answer& answer) {
+  if (std::isinf(radius)) return;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::vector<VertexId> component;
+  if (!method.count) method.neighborhood(answer.vertex, kInfinity, component);
+  const std::size_t size = method.count ? method.count(answer.vertex, kInfinity) : component.size();
+  if (answer.count != size) return;
+  print_error("note: ",
+              fmt::format("the neighborhood of vertex {} is its whole component ({} {}): a larger radius finds "
+                          "no more",
+                          answer.vertex, size, size == 1 ? "vertex" : "vertices"));
 }
 
-void add_distances(const PositionsView& positions, VertexId from, Answer& answer) {
-  answer.distances.reserve(answer.vertices.size());
-  for (const VertexId v : answer.vertices) answer.distances.push_back(distance(positions, from, v));
-}
-
-Json to_json(const Options& options, const Query& query, const Answer& answer) {
-  Json document{
-      {"vertex", query.vertex}, {"radius", query.radius}, {"method", options.method}, {"count", answer.count}};
+Json to_json(const Options& options, double radius, const Answer& answer) {
+  Json document{{"vertex", answer.vertex}, {"radius", radius}, {"method", options.method}, {"count", answer.count}};
   if (!options.count) document["vertices"] = answer.vertices;
   if (options.distances) document["distances"] = answer.distances;
   document["seconds"] = answer.seconds;
   return document;
 }
 
-std::string to_text(const Options& options, const Answer& answer) {
-  if (options.count) return fmt::format("{}\n", answer.count);
+/// With several answers, each line begins with the query vertex.
+std::string to_text(const Options& options, const Answer& answer, bool is_single) {
+  const std::string prefix = is_single ? "" : fmt::format("{} ", answer.vertex);
+  if (options.count) return fmt::format("{}{}\n", prefix, answer.count);
   std::string text;
   for (std::size_t i = 0; i < answer.vertices.size(); ++i) {
-    text += std::to_string(answer.vertices[i]);
+    text += prefix + std::to_string(answer.vertices[i]);
     if (options.distances) text += fmt::format(" {}", answer.distances[i]);
     text += '\n';
   }
   return text;
 }
 
-void paint(const Options& options, Input& input, const Query& query, const Answer& answer) {
+void print(const Options& options, double radius, const std::vector<Answer>& answers) {
+  if (!options.json) {
+    for (const Answer& answer : answers) print_text(to_text(options, answer, answers.size() == 1));
+  } else if (answers.size() == 1) {
+    print_json(to_json(options, radius, answers.front()));
+  } else {
+    Json documents = Json::array();
+    for (const Answer& answer : answers) documents.push_back(to_json(options, radius, answer));
+    print_json(documents);
+  }
+}
+
+void paint(const Options& options, Input& input, const std::vector<Answer>& answers) {
   const Color color = options.method == "ball" ? kBallColor : options.method == "paper" ? kPaperColor : kExactColor;
   Painting painting(input.vertex_count());
-  painting.paint(answer.vertices, color);
-  painting.paint(std::span(&query.vertex, 1), kQueryColor);
+  for (const Answer& answer : answers) painting.paint(answer.vertices, color);
+  for (const Answer& answer : answers) painting.paint(std::span(&answer.vertex, 1), kQueryColor);
   painting.write(options.output, input.surface());
 }
 
 void query(const Options& options) {
   if (options.factor && options.method != "paper") {
-    raise(ErrorCode::InvalidOption, "--factor is an option of --method paper alone");
+    raise(ErrorCode::InvalidOption, "--factor requires --method paper");
   }
-  refuse_same_file(options.arguments.file, options.output);
-  Input input(options.arguments.file);
-  const Query query = resolve(options.arguments, input);
-  Answer answer = ask(options, input, query);
-  if (options.distances) add_distances(input.positions(), query.vertex, answer);
-  if (!options.output.empty()) paint(options, input, query, answer);
-  options.json ? print_json(to_json(options, query, answer)) : print_text(to_text(options, answer));
+  check_output(options.output, {options.file});
+  Input input(options.file);
+  std::vector<VertexId> vertices;
+  for (const std::uint64_t v : options.vertices) vertices.push_back(resolve_vertex(v, input));
+  const double radius = resolve(options.radius, input);
+  const Method method = make_method(options, input);
+  std::vector<Answer> answers;
+  for (const VertexId v : vertices) {
+    answers.push_back(answer(options, method, v, radius));
+    if (options.method == "exact" || options.method == "bfs") note_whole_component(method, radius, answers.back());
+    if (!options.distances) continue;
+    for (const VertexId w : answers.back().vertices) {
+      answers.back().distances.push_back(distance(input.positions(), v, w));
+    }
+  }
+  if (!options.output.empty()) paint(options, input, answers);
+  print(options, radius, answers);
 }
 
 }  // namespace
 
 void add_query(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("query", "The neighborhood of a vertex: its vertices, one a line");
-  add_query_arguments(*command, options->arguments);
+  CLI::App* command = program.add_subcommand("query", "Print the neighborhood of one or more vertices");
+  add_file(*command, options->file);
+  command
+      ->add_option(
+          "-v,--vertex", options->vertices,
+          "query vertex, by its number in the file from 0; several: -v 3,7 or -v 3 -v 7, then each line of the "
+          "answer begins with the query vertex")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->transform(whole_number())
+      ->type_name("NUMBER")
+      ->required();
+  add_radius(*command, options->radius);
   command
       ->add_option("--method", options->method,
-                   "exact; bfs, exact but slow; paper, with a few extra vertices; ball, with many")
-      ->check(CLI::IsMember({"exact", "bfs", "paper", "ball"}))
+                   "exact: by the index; bfs: exact by breadth-first search, slower; paper: with a few extra vertices; "
+                   "ball: all vertices in the ball")
+      ->check(one_of({"exact", "bfs", "paper", "ball"}))
       ->type_name("")
       ->capture_default_str();
-  command->add_option("--factor", options->factor, "f of the paper's query: greater is more exact (default 10)")
+  command
+      ->add_option("--factor", options->factor,
+                   "f of the paper's query, the ratio of the radius to that of the clusters: greater is more exact "
+                   "(default 10)")
       ->type_name("NUMBER");
-  CLI::Option* count = command->add_flag("--count", options->count, "only how many");
-  command->add_flag("--distances", options->distances, "each vertex with its distance in space")->excludes(count);
-  add_output(*command, options->output, "also write the mesh with the answer in colour, as PLY");
-  command->add_flag("--json", options->json, "one JSON document");
+  CLI::Option* count = command->add_flag("--count", options->count, "print only the number of vertices");
+  command->add_flag("--distances", options->distances, "print each vertex with its straight-line distance")
+      ->excludes(count);
+  add_output(*command, ".ply", "also write the mesh with the neighborhood in colour", options->output);
+  add_json(*command, options->json);
   command->callback([options] { query(*options); });
 }
 

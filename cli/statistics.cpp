@@ -31,7 +31,7 @@ std::size_t repeated_corners(const FacesView& faces) {
   return repeated;
 }
 
-/// Every side of every face that is an edge, as a sorted list of ordered pairs: an edge stands in it once a face.
+/// The edges of all faces as sorted pairs, sorted: an edge occurs once for each of its faces.
 std::vector<std::pair<VertexId, VertexId>> sides(const FacesView& faces) {
   std::vector<std::pair<VertexId, VertexId>> all;
   all.reserve(faces.corners().size());
@@ -57,7 +57,7 @@ void count_edges(const FacesView& faces, Statistics& result) {
   }
 }
 
-/// By vertex: whether it is in no face, or in a component that has been counted.
+/// For each vertex: whether it is in no face. `count_components` then also marks visited vertices.
 std::vector<char> mark_isolated(const MeshView& mesh) {
   std::vector<char> done(mesh.positions.size(), 1);
   mesh.faces.for_each([&](std::size_t, auto corners) {
@@ -66,7 +66,8 @@ std::vector<char> mark_isolated(const MeshView& mesh) {
   return done;
 }
 
-void flood(const AdjacencyView& adjacency, std::size_t start, std::vector<char>& done, std::vector<VertexId>& stack) {
+void mark_component(const AdjacencyView& adjacency, std::size_t start, std::vector<char>& done,
+                    std::vector<VertexId>& stack) {
   stack.assign(1, static_cast<VertexId>(start));
   done[start] = 1;
   while (!stack.empty()) {
@@ -85,7 +86,7 @@ void count_components(const MeshView& mesh, const AdjacencyView& adjacency, Stat
   result.isolated_vertices = static_cast<std::size_t>(std::count(done.begin(), done.end(), 1));
   for (std::size_t v = 0; v < done.size(); ++v) {
     if (done[v] != 0) continue;
-    flood(adjacency, v, done, stack);
+    mark_component(adjacency, v, done, stack);
     ++result.components;
   }
 }

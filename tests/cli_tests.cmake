@@ -1,9 +1,9 @@
-# The tests of the shapes, and of the program as its users see it.
+# The tests of the shapes and of the command line.
 meshhood_test(whole/shapes meshhood_shapes)
 
 if(MESHHOOD_BUILD_CLI)
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
-  set(transcripts batch bench build check compare errors generate help index info names paper query)
+  set(transcripts batch bench build check compare errors generate help index info names paper query shell)
   if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     list(APPEND transcripts memory)
   endif()
@@ -14,6 +14,8 @@ if(MESHHOOD_BUILD_CLI)
   endforeach()
   add_test(NAME cli.interrupt
     COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_interrupt.py $<TARGET_FILE:meshhood_cli>)
+  add_test(NAME cli.terminal
+    COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_terminal.py $<TARGET_FILE:meshhood_cli>)
   # Under sanitizers the same meshes are read by io/shared_meshes, which is quicker.
   if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     add_test(NAME cli.manifest

@@ -8,7 +8,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "cli/processor_time.h"
+#include "measure/timing.h"
 
 namespace meshhood::bench {
 namespace {
@@ -17,7 +17,7 @@ constexpr std::size_t kBlocks = 15;
 constexpr std::size_t kSearched = 20;
 constexpr std::size_t kVerticesPerBatch = 8'000'000;
 
-/// So many that a batch takes a while, at least what is searched.
+/// Enough rows for a batch of about eight million vertices, and more than are searched one by one.
 std::size_t rows_of_a_batch(const Index& index, double radius, std::mt19937_64& random) {
   constexpr std::size_t kProbes = 16;
   Searcher searcher(index);
@@ -31,15 +31,15 @@ std::size_t rows_of_a_batch(const Index& index, double radius, std::mt19937_64& 
 
 template <class Run>
 double microseconds_a_row(std::size_t rows, Run&& run) {
-  const double begin = cli::processor_time();
+  const double begin = measure::processor_time();
   run();
-  return 1e6 * (cli::processor_time() - begin) / static_cast<double>(rows);
+  return 1e6 * (measure::processor_time() - begin) / static_cast<double>(rows);
 }
 
-double search(const cli::Method& method, std::span<const VertexId> asked, double radius) {
+double search(const measure::Method& method, std::span<const VertexId> vertices, double radius) {
   std::vector<VertexId> out;
-  return microseconds_a_row(asked.size(), [&] {
-    for (const VertexId v : asked) method.neighborhood(v, radius, out);
+  return microseconds_a_row(vertices.size(), [&] {
+    for (const VertexId v : vertices) method.neighborhood(v, radius, out);
   });
 }
 
@@ -47,18 +47,19 @@ double search(const cli::Method& method, std::span<const VertexId> asked, double
 
 BatchTimes time_batches(Contestants& contestants, const Index& index, double radius_edges, double unit) {
   const double radius = radius_edges * unit;
-  const cli::Method bfs = contestants.method("bfs");
-  const cli::Method bfs_reordered = contestants.method("bfs-reordered");
+  const measure::Method bfs = contestants.method("bfs");
+  const measure::Method bfs_reordered = contestants.method("bfs-reordered");
   std::mt19937_64 random(11);
   BatchTimes times{radius_edges, rows_of_a_batch(index, radius, random), {}, {}, {}, {}};
-  std::vector<VertexId> asked(times.rows);
+  std::vector<VertexId> vertices(times.rows);
   std::uint64_t found = 0;
   for (std::size_t block = 0; block < kBlocks; ++block) {
-    std::iota(asked.begin(), asked.end(), static_cast<VertexId>(random() % (index.vertex_count() - times.rows + 1)));
-    const auto searched = std::span(asked).first(std::min(kSearched, times.rows));
+    std::iota(vertices.begin(), vertices.end(),
+              static_cast<VertexId>(random() % (index.vertex_count() - times.rows + 1)));
+    const auto searched = std::span(vertices).first(std::min(kSearched, times.rows));
     times.bfs.push_back(search(bfs, searched, radius));
     times.bfs_reordered.push_back(search(bfs_reordered, searched, radius));
-    const BatchQuery query{.vertices = asked, .radius = radius};
+    const BatchQuery query{.vertices = vertices, .radius = radius};
     times.ids.push_back(microseconds_a_row(times.rows, [&] {
       for_each_neighborhood(index, query, [&](const BatchRow& row) { found += row.ids.size(); });
     }));
@@ -66,7 +67,7 @@ BatchTimes time_batches(Contestants& contestants, const Index& index, double rad
       for (const std::uint64_t count : neighborhood_sizes(index, query)) found -= count;
     }));
   }
-  if (found != 0) throw std::logic_error("a batch counted other vertices than it found");
+  if (found != 0) throw std::logic_error("the counts of a batch differ from its rows");
   return times;
 }
 

@@ -8,7 +8,7 @@
 
 namespace meshhood::bench {
 
-/// Microseconds a row of processor time, block by block: one thread.
+/// Processor time per row in microseconds, for each block; one thread.
 struct BatchTimes {
   double radius_edges;
   std::size_t rows;  ///< of a batch
@@ -18,10 +18,10 @@ struct BatchTimes {
   std::vector<double> count;
 };
 
-/// Batches over runs of vertices as the mesh numbers them, and breadth-first search over the first vertices of each, as
-/// many as there is time for; the blocks in turn.
+/// Times batches of consecutive vertices of the mesh, and breadth-first search for the first vertices of each, in
+/// alternating blocks.
 ///
-/// unit    one average edge, in the unit of the positions.
+/// unit    the mean edge length, in the unit of the positions.
 [[nodiscard]] BatchTimes time_batches(Contestants& contestants, const Index& index, double radius_edges, double unit);
 
 }  // namespace meshhood::bench

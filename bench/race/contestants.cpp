@@ -5,7 +5,7 @@
 
 #include "meshhood/error.h"
 
-#include "cli/processor_time.h"
+#include "measure/timing.h"
 
 namespace meshhood::bench {
 namespace {
@@ -15,7 +15,7 @@ struct PaperOptions {
   paper::QueryOptions query;
 };
 
-/// Of "paper,f=3,levels=4": what follows the first comma.
+/// Parses the part of "paper,f=3,levels=4" after the first comma.
 PaperOptions paper_options(const std::string& name) {
   PaperOptions options;
   std::istringstream words(name);
@@ -33,7 +33,7 @@ PaperOptions paper_options(const std::string& name) {
       options.build.discard = std::stoi(value);
     } else {
       raise(ErrorCode::InvalidOption,
-            std::string(name).append(": ").append(word).append(" is neither f, levels nor discard"));
+            std::string(name).append(": ").append(word).append(" is not one of f, levels, discard"));
     }
   }
   return options;
@@ -41,22 +41,22 @@ PaperOptions paper_options(const std::string& name) {
 
 template <class BuildIndex>
 double seconds_of(BuildIndex&& build_index) {
-  const double start = cli::processor_time();
+  const double start = measure::processor_time();
   static_cast<void>(build_index());
-  return cli::processor_time() - start;
+  return measure::processor_time() - start;
 }
 
 }  // namespace
 
-cli::Method Contestants::method(const std::string& name) {
-  if (name == "bfs") return cli::bfs_method(graph());
+measure::Method Contestants::method(const std::string& name) {
+  if (name == "bfs") return measure::bfs_method(graph());
   if (name == "bfs-reordered") return bfs_reordered();
-  if (name == "ball") return cli::ball_method(mesh_.positions);
+  if (name == "ball") return measure::ball_method(mesh_.positions);
   if (name == "ids") return ids_method();
   if (name == "count") return count_method();
   if (name == "ranges") return ranges_method();
   if (name.starts_with("paper")) return paper(name);
-  raise(ErrorCode::InvalidOption, name + ": no such method");
+  raise(ErrorCode::InvalidOption, name + ": unknown method");
 }
 
 std::vector<Build> Contestants::time_builds(int times) const {
@@ -73,46 +73,46 @@ const Index& Contestants::another_exact() {
   return *exacts_.back();
 }
 
-cli::Method Contestants::ids_method() {
-  cli::Method method = cli::exact_method(another_exact());
+measure::Method Contestants::ids_method() {
+  measure::Method method = measure::exact_method(another_exact());
   method.name = "ids";
   return method;
 }
 
-cli::Method Contestants::bfs_reordered() {
+measure::Method Contestants::bfs_reordered() {
   if (!reordered_) reordered_ = std::make_unique<Reordered>(graph(), order());
   auto searcher = std::make_shared<ReferenceSearcher>(reordered_->view());
   return {.name = "bfs-reordered",
           .neighborhood =
               [searcher, this](VertexId v, double radius, std::vector<VertexId>& out) {
-                searcher->neighborhood(reordered_->place[v], radius, out);
+                searcher->neighborhood(reordered_->new_id[v], radius, out);
               },
           .count = {},
-          .lists_vertices = false};  // in its own numbering, so that they cannot be compared
+          .lists_vertices = false};  // its answers have another numbering
 }
 
-template <class Ask>
-cli::Method Contestants::unlisted(const std::string& name, Ask ask) {
+template <class Query>
+measure::Method Contestants::unlisted(const std::string& name, Query query) {
   auto searcher = std::make_shared<Searcher>(another_exact());
   return {.name = name,
-          .neighborhood = [searcher, ask](VertexId v, double radius,
-                                          std::vector<VertexId>&) { static_cast<void>(ask(*searcher, v, radius)); },
+          .neighborhood = [searcher, query](VertexId v, double radius,
+                                            std::vector<VertexId>&) { static_cast<void>(query(*searcher, v, radius)); },
           .count = {},
           .lists_vertices = false};
 }
 
-cli::Method Contestants::count_method() {
+measure::Method Contestants::count_method() {
   return unlisted("count", [](Searcher& searcher, VertexId v, double radius) { return searcher.count(v, radius); });
 }
 
-cli::Method Contestants::ranges_method() {
+measure::Method Contestants::ranges_method() {
   return unlisted("ranges", [](Searcher& searcher, VertexId v, double radius) { return searcher.ranges(v, radius); });
 }
 
-cli::Method Contestants::paper(const std::string& name) {
+measure::Method Contestants::paper(const std::string& name) {
   const PaperOptions options = paper_options(name);
   papers_.push_back(std::make_unique<paper::Index>(paper::build(graph(), options.build)));
-  cli::Method method = cli::paper_method(*papers_.back(), options.query);
+  measure::Method method = measure::paper_method(*papers_.back(), options.query);
   method.name = name;
   return method;
 }

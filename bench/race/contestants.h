@@ -8,24 +8,25 @@
 
 #include "meshhood/meshhood.h"
 
-#include "cli/methods.h"
+#include "measure/methods.h"
 #include "reordered.h"
 
 namespace meshhood::bench {
 
-/// How long an index took to build, time after time, and what it takes in memory.
+/// The times of several builds of an index, and its memory.
 struct Build {
   std::string name;
-  std::vector<double> seconds;  ///< of processor time, one thread
+  std::vector<double> seconds;  ///< processor time, one thread
   std::size_t bytes;
 };
 
-/// The methods that may run. Each has an index of its own, so that none finds in the cache what another has read.
+/// The methods to compare. Each has an index of its own, so that no method finds data in the cache that another has
+/// read.
 ///
-/// bfs              breadth-first search, the vertices as the mesh has them
-/// bfs-reordered    the same on the vertices in index order
-/// ball             a scan of all vertices
-/// ids, count, ranges   the exact index, by what is asked for
+/// bfs                  breadth-first search, with the vertex numbering of the mesh
+/// bfs-reordered        the same with the vertices in index order
+/// ball                 a scan of all vertices
+/// ids, count, ranges   the exact index, with this kind of answer
 /// paper[,f=10][,levels=5][,discard=2]   the index of the paper
 class Contestants {
  public:
@@ -33,24 +34,25 @@ class Contestants {
 
   [[nodiscard]] GraphView graph() const { return {mesh_.positions, adjacency_.view()}; }
 
-  /// The vertices, neighbours near each other.
+  /// The vertices in an order that keeps neighbours close.
   [[nodiscard]] std::span<const VertexId> order() const { return order_.permutation(); }
-  /// Throws Error{InvalidOption} where no method is called so.
-  [[nodiscard]] cli::Method method(const std::string& name);
 
-  /// Builds the exact index and the one of the paper in turn, so many times.
+  /// Throws Error{InvalidOption} if there is no method `name`.
+  [[nodiscard]] measure::Method method(const std::string& name);
+
+  /// Builds both indexes alternately, `times` times.
   [[nodiscard]] std::vector<Build> time_builds(int times) const;
 
  private:
   [[nodiscard]] const Index& another_exact();
-  /// The exact index asked for less than ids: `ask(searcher, v, radius)`.
-  template <class Ask>
-  [[nodiscard]] cli::Method unlisted(const std::string& name, Ask ask);
-  [[nodiscard]] cli::Method bfs_reordered();
-  [[nodiscard]] cli::Method ids_method();
-  [[nodiscard]] cli::Method count_method();
-  [[nodiscard]] cli::Method ranges_method();
-  [[nodiscard]] cli::Method paper(const std::string& name);
+  /// The exact index with an answer other than ids: `query(searcher, v, radius)`.
+  template <class Query>
+  [[nodiscard]] measure::Method unlisted(const std::string& name, Query query);
+  [[nodiscard]] measure::Method bfs_reordered();
+  [[nodiscard]] measure::Method ids_method();
+  [[nodiscard]] measure::Method count_method();
+  [[nodiscard]] measure::Method ranges_method();
+  [[nodiscard]] measure::Method paper(const std::string& name);
 
   MeshView mesh_;
   Adjacency adjacency_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Times methods against each other on one mesh, interleaved, and compares their answers with the first method's.
-// Prints one JSON document, which bench/programs.py reads.
+// Times methods in alternation on one mesh, and compares their answers with those of the first method. Prints one JSON
+// document, which bench/programs.py reads.
 #include <exception>
 #include <iostream>
 #include <string>
@@ -12,9 +12,9 @@
 #include "meshhood/meshhood.h"
 
 #include "batch.h"
-#include "cli/machine.h"
-#include "cli/measure.h"
 #include "contestants.h"
+#include "measure/radius_table.h"
+#include "measure/timing.h"
 #include "mesh_argument.h"
 
 namespace meshhood::bench {
@@ -26,14 +26,14 @@ struct Options {
   std::string mesh;
   std::vector<std::string> methods;
   std::string order = "cold";
-  cli::Plan plan{.radii = {2, 3, 5, 10, 20, 40, 65, 90}, .queries = 200};
+  measure::Plan plan{.radii = {2, 3, 5, 10, 20, 40, 65, 90}, .queries = 200};
   int builds = 0;
   std::vector<double> batches;
 };
 
 Json to_json(const Build& build) { return {{"name", build.name}, {"seconds", build.seconds}, {"bytes", build.bytes}}; }
 
-Json to_json(const cli::Measurement& m, const cli::Method& method) {
+Json to_json(const measure::Measurement& m, const measure::Method& method) {
   Json row{{"radius_edges", m.radius_edges},
            {"method", m.method},
            {"microseconds", m.microseconds},
@@ -49,13 +49,14 @@ Json to_json(const BatchTimes& times) {
 
 Json race(const MeshView& mesh, Options& options) {
   Contestants contestants(mesh);
-  std::vector<cli::Method> methods;
+  std::vector<measure::Method> methods;
   for (const std::string& name : options.methods) methods.push_back(contestants.method(name));
   const double unit = mean_edge_length(contestants.graph());
   Json rows = Json::array();
   if (!methods.empty()) {
-    options.plan.order = options.order == "warm" ? cli::Order::Warm : cli::Order::Cold;
-    const auto table = cli::measure(methods, options.plan, unit, contestants.order(), [](double /*fraction*/) {});
+    options.plan.order = options.order == "warm" ? measure::Order::Warm : measure::Order::Cold;
+    const auto table = measure::measure_radii(methods, options.plan, unit, contestants.order(),
+                                              [](std::size_t /*done*/, std::size_t /*total*/) {});
     for (std::size_t i = 0; i < table.size(); ++i) rows.push_back(to_json(table[i], methods[i % methods.size()]));
   }
   Json builds = Json::array();
@@ -68,7 +69,7 @@ Json race(const MeshView& mesh, Options& options) {
     for (const double edges : options.batches)
       batches.push_back(to_json(time_batches(contestants, index, edges, unit)));
   }
-  const cli::Machine machine = cli::this_machine();
+  const measure::Machine machine = measure::this_machine();
   return {{"mesh", options.mesh},
           {"vertices", mesh.positions.size()},
           {"faces", mesh.faces.size()},
@@ -84,14 +85,14 @@ Json race(const MeshView& mesh, Options& options) {
 int run(int arguments, char** values) {
   CLI::App program{"Times methods against each other on one mesh; one JSON document on standard output"};
   Options options;
-  program.add_option("mesh", options.mesh, "a file, or a shape as scroll:1000000")->required();
-  program.add_option("--method", options.methods, "may be repeated; the first is taken as exact")
+  program.add_option("mesh", options.mesh, "mesh file, or a shape and its size: scroll:1000000")->required();
+  program.add_option("--method", options.methods, "may be repeated; the others are compared with the first")
       ->allow_extra_args(false);
-  program.add_option("--radii", options.plan.radii, "in average edges")->delimiter(',');
-  program.add_option("--queries", options.plan.queries, "a radius")->capture_default_str();
+  program.add_option("--radii", options.plan.radii, "in mean edge lengths")->delimiter(',');
+  program.add_option("--queries", options.plan.queries, "number per radius")->capture_default_str();
   program.add_option("--order", options.order)->check(CLI::IsMember({"cold", "warm"}))->capture_default_str();
-  program.add_option("--builds", options.builds, "how often each index is built")->capture_default_str();
-  program.add_option("--batches", options.batches, "radii of batches, in average edges")->delimiter(',');
+  program.add_option("--builds", options.builds, "number of builds of each index")->capture_default_str();
+  program.add_option("--batches", options.batches, "radii of batches, in mean edge lengths")->delimiter(',');
   CLI11_PARSE(program, arguments, values);
   const MeshArgument mesh(options.mesh);
   std::cout << race(mesh.view(), options).dump() << '\n';

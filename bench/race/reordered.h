@@ -9,14 +9,14 @@
 
 namespace meshhood::bench {
 
-/// The graph of a mesh with its vertices in another order, positions as floats.
+/// The graph of a mesh with its vertices in another order, and positions as floats.
 struct Reordered {
   std::vector<float> positions;
   Adjacency adjacency;
-  std::vector<VertexId> place;  ///< by old vertex
+  std::vector<VertexId> new_id;  ///< of each vertex of the mesh
 
-  Reordered(const GraphView& graph, std::span<const VertexId> order) : place(order.size()) {
-    for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<VertexId>(i);
+  Reordered(const GraphView& graph, std::span<const VertexId> order) : new_id(order.size()) {
+    for (std::size_t i = 0; i < order.size(); ++i) new_id[order[i]] = static_cast<VertexId>(i);
     adjacency.offsets.push_back(0);
     for (const VertexId v : order) {
       add_position(graph.positions, v);
@@ -37,7 +37,7 @@ struct Reordered {
 
   void add_row(std::span<const VertexId> neighbors) {
     const auto row = static_cast<std::ptrdiff_t>(adjacency.neighbors.size());
-    for (const VertexId w : neighbors) adjacency.neighbors.push_back(place[w]);
+    for (const VertexId w : neighbors) adjacency.neighbors.push_back(new_id[w]);
     std::sort(adjacency.neighbors.begin() + row, adjacency.neighbors.end());
     adjacency.offsets.push_back(static_cast<EdgeOffset>(adjacency.neighbors.size()));
   }

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Ends commands by a signal while they write, and looks for what they left behind: nothing, and the old file.
+"""Interrupts commands by a signal while they write: the old file must stay, and no temporary file may remain.
 
 usage: run_interrupt.py PROGRAM
 """
@@ -14,67 +14,67 @@ import time
 from pathlib import Path
 
 VERTICES = "30000"
-PATIENCE_SECONDS = 120
+TIMEOUT_SECONDS = 120
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-BATCH = ("batch", "sphere.ply", "-r", "inf")
+BATCH = ("batch", "sphere.ply", "-r", "inf", "--max-bytes", "1000000000000")
 SAVES = (
     ("build", "sphere.ply"),
-    ("build", "sphere.ply", "--clustering", "paper"),
+    ("build", "sphere.ply", "--index", "paper"),
     ("generate", "sphere", "--vertices", VERTICES),
     ("query", "sphere.ply", "-v", "0", "-r", "1"),
     ("compare", "sphere.ply", "-v", "0", "-r", "1"),
 )
 
 
-def hear_signals():
-    """What runs in the background, or under nohup, hands down that some are ignored, and the program keeps to that."""
+def reset_signals():
+    """A background job or nohup passes ignored signals on, and the program leaves ignored signals ignored."""
     for number in SIGNALS:
         signal.signal(number, signal.SIG_DFL)
 
 
 @contextlib.contextmanager
 def running(program, folder, command, output):
-    """The command while it runs, killed if it outlives what is done with it."""
+    """The running command; killed at the end."""
     with subprocess.Popen([program, *command, "-o", output], cwd=folder, stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, preexec_fn=hear_signals) as process:
+                          stderr=subprocess.PIPE, preexec_fn=reset_signals) as process:
         try:
             yield process
         finally:
             process.kill()
 
 
-def ended(process, what):
-    """Whether it ended as one that was interrupted, with one line of complaint."""
-    stdout, stderr = process.communicate(timeout=PATIENCE_SECONDS)
+def was_interrupted(process, what):
+    """Whether it ended with the exit code of an interrupt and one line on standard error."""
+    stdout, stderr = process.communicate(timeout=TIMEOUT_SECONDS)
     print(f"{what}: exit code {process.returncode}, {stderr.decode().strip()}")
     return process.returncode == 130 and not stdout and stderr.count(b"\n") == 1
 
 
 def wait_for_file(folder, before, process):
-    """Until there is a new file in the folder, which is the one being written."""
-    end = time.monotonic() + PATIENCE_SECONDS
+    """Waits for a new file in the folder: the temporary file."""
+    end = time.monotonic() + TIMEOUT_SECONDS
     while set(folder.iterdir()) == before:
         if process.poll() is not None or time.monotonic() > end:
-            sys.exit(f"no file was begun: {process.communicate()[1].decode()}")
+            sys.exit(f"no file was created: {process.communicate()[1].decode()}")
         time.sleep(0.01)
 
 
-def leaves_the_old_file(program, folder, number):
-    """A batch takes so long that the signal finds it in the midst of its file."""
+def batch_keeps_old_file(program, folder, number):
+    """A batch is slow enough for the signal to arrive while it writes."""
     target = folder / "out.npz"
     target.write_text("old")
     before = set(folder.iterdir())
     with running(program, folder, BATCH, target.name) as process:
         wait_for_file(folder, before, process)
         process.send_signal(number)
-        was_ended = ended(process, f"{number.name} in batch")
+        interrupted = was_interrupted(process, f"{number.name} in batch")
     left = set(folder.iterdir()) - before
-    print(f"  left behind: {left or 'nothing'}")
-    return was_ended and not left and target.read_text() == "old"
+    print(f"  remaining files: {left or 'none'}")
+    return interrupted and not left and target.read_text() == "old"
 
 
 def is_whole_or_old(program, folder, command):
-    """A save may be over before the signal comes: then the code is 0, and the file whole."""
+    """The save may finish before the signal arrives: then the exit code is 0 and the file is complete."""
     target = folder / "out"
     target.write_text("old")
     before = set(folder.iterdir())
@@ -82,17 +82,17 @@ def is_whole_or_old(program, folder, command):
         while set(folder.iterdir()) == before and process.poll() is None:
             pass
         process.send_signal(signal.SIGINT)
-        code = process.wait(timeout=PATIENCE_SECONDS)
+        code = process.wait(timeout=TIMEOUT_SECONDS)
     left = set(folder.iterdir()) - before
     is_old = target.read_bytes() == b"old"
     is_whole = subprocess.run([program, "info", target], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                               check=False).returncode == 0
-    print(f"SIGINT in {command[0]}: exit code {code}, the file is {'old' if is_old else 'whole' if is_whole else 'torn'}")
+    print(f"SIGINT in {command[0]}: exit code {code}, the file is {'old' if is_old else 'complete' if is_whole else 'torn'}")
     return not left and (code == 130 and is_old or code == 0 and is_whole)
 
 
-def hears_in_the_midst(program, folder, command, number):
-    """Into a pipe that nobody empties, no save ends before the signal comes."""
+def pipe_is_interrupted(program, folder, command, number):
+    """A save into a pipe that is not read cannot finish before the signal arrives."""
     pipe = folder / "pipe"
     os.mkfifo(pipe)
     try:
@@ -100,7 +100,7 @@ def hears_in_the_midst(program, folder, command, number):
             reader.read(1)
             process.send_signal(number)
             written = 1 + len(reader.readall())
-            return ended(process, f"{number.name} in {command[0]}, after {written} bytes")
+            return was_interrupted(process, f"{number.name} in {command[0]}, after {written} bytes")
     finally:
         pipe.unlink()
 
@@ -111,10 +111,10 @@ def main():
         folder = Path(name)
         subprocess.run([program, "generate", "sphere", "--vertices", VERTICES, "-o", "sphere.ply"], cwd=folder,
                        check=True, stdout=subprocess.DEVNULL)
-        held = [leaves_the_old_file(program, folder, number) for number in SIGNALS]
-        held += [is_whole_or_old(program, folder, command) for command in SAVES]
-        held += [hears_in_the_midst(program, folder, command, number) for command in SAVES for number in SIGNALS]
-    return 0 if all(held) else 1
+        passed = [batch_keeps_old_file(program, folder, number) for number in SIGNALS]
+        passed += [is_whole_or_old(program, folder, command) for command in SAVES]
+        passed += [pipe_is_interrupted(program, folder, command, number) for command in SAVES for number in SIGNALS]
+    return 0 if all(passed) else 1
 
 
 if __name__ == "__main__":

@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Compares what `meshhood info` says of every mesh beside the repository with the manifest that came with them.
+"""Compares the output of `meshhood info` for every shared mesh with the manifest of the meshes.
 
 usage: run_manifest.py PROGRAM SHARED
 
-SHARED is the folder that holds that of the meshes, unless MESHHOOD_SHARED names it.
+SHARED is the folder that contains `meshes`, unless MESHHOOD_SHARED names it.
 
-Files for which the manifest has no figures are left to the readers' own tests, packed ones are left out where there is no
-zstd. Exit code 77 where there is no folder.
+Files without figures in the manifest are skipped, and packed files if there is no zstd. Exit code 77 without the folder.
 """
 import json
 import os
@@ -26,7 +25,7 @@ COLUMNS = {
     "repeated positions": "repeated_positions",
 }
 
-# The manifest counts triangles alone in STL; the reader keeps a facet of four corners as the quad it is.
+# The manifest counts only triangles in STL; the reader keeps a facet of four corners as a quad.
 OTHERWISE = {"toomanyvertices.stl", "quad.ascii.stl"}
 
 
@@ -100,7 +99,7 @@ def main():
     rows = [row for row in rows if Path(row["file"].strip("`")).name not in OTHERWISE]
     if shutil.which("zstd") is None:
         rows = [row for row in rows if ".zst" not in row["file"]]
-        print("packed meshes left out: no zstd")
+        print("packed meshes skipped: no zstd")
     failures = 0
     with tempfile.TemporaryDirectory() as folder:
         for row in rows:
@@ -109,7 +108,7 @@ def main():
             failures += bool(wrong)
             for line in wrong:
                 print(f"{file.name}: {line}")
-    print(f"{len(rows) - failures} of {len(rows)} meshes as the manifest says")
+    print(f"{len(rows) - failures} of {len(rows)} meshes agree with the manifest")
     return 1 if failures or not rows else 0
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs a transcript and compares what the program says with what stands there.
+"""Runs a transcript and compares the output of the program with it.
 
 usage: run_transcript.py PROGRAM TRANSCRIPT
 
@@ -11,8 +11,8 @@ A transcript is a text of
     ! a line of standard error
     ? the exit code, where it is not 0
 
-`<number>` stands for any number, `<any>` for anything on the line; `#` begins a comment. All commands of a transcript
-share one empty folder to work in.
+`<number>` matches any number, `<any>` anything on the line; `#` begins a comment. All commands of a transcript run in
+one folder, which is empty at the start, with the default disposition of SIGPIPE and SIGXFSZ.
 """
 import os
 import re
@@ -54,7 +54,7 @@ def matches(expected, line):
 
 
 def compare(stream, expected, output):
-    """What is wrong with a stream, line by line; blank lines do not count."""
+    """The differences in a stream, line by line, without blank lines."""
     lines = [line for line in output.decode("utf-8", "backslashreplace").splitlines() if line.strip()]
     wrong = [
         f"{stream}: expected '{want}', got '{got}'" for want, got in zip(expected, lines) if not matches(want, got)

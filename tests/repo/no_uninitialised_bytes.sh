@@ -25,7 +25,7 @@ fi
 
 watched "$meshhood" generate folds --vertices 1500 -o mesh.ply
 watched "$meshhood" build mesh.ply -o exact.mhi
-watched "$meshhood" build mesh.ply --clustering paper -o paper.mhi
+watched "$meshhood" build mesh.ply --index paper -o paper.mhi
 watched "$meshhood" query exact.mhi -v 7 -r 8 --unit edge --distances -o part.ply >/dev/null
 watched "$meshhood" compare mesh.ply -v 7 -r 8 --unit edge -o compared.ply
 watched "$meshhood" batch exact.mhi -r 3 --unit edge --distances --threads 2 -o rows.npz

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "measure.h"
+#include "measure/radius_table.h"
 
 #include <algorithm>
 #include <random>
@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "difference.h"
-#include "processor_time.h"
+#include "measure/difference.h"
+#include "measure/timing.h"
 
-namespace meshhood::cli {
+namespace meshhood::measure {
 namespace {
 
 constexpr std::size_t kBlocks = 50;
@@ -18,57 +18,57 @@ constexpr std::size_t kVerticesPerBlock = 2'000'000;
 
 using Vertices = std::vector<VertexId>;
 
-/// Where the queries start. The same seed gives the same vertices on every platform, which the distributions of the
-/// standard library do not promise.
-class Starts {
+/// Draws the query vertices. The same seed gives the same vertices on every platform, which the distributions of the
+/// standard library do not guarantee.
+class QueryVertices {
  public:
-  Starts(std::span<const VertexId> permutation, const Plan& plan)
+  QueryVertices(std::span<const VertexId> permutation, const Plan& plan)
       : permutation_(permutation), order_(plan.order), random_(plan.seed) {}
 
   Vertices next(std::size_t count) {
     Vertices block(count);
-    std::size_t place = anywhere();
+    std::size_t i = random_index();
     for (VertexId& v : block) {
-      v = permutation_[place];
-      place = order_ == Order::Cold ? anywhere() : (place + 1) % permutation_.size();
+      v = permutation_[i];
+      i = order_ == Order::Cold ? random_index() : (i + 1) % permutation_.size();
     }
     return block;
   }
 
  private:
-  std::size_t anywhere() { return random_() % permutation_.size(); }
+  std::size_t random_index() { return random_() % permutation_.size(); }
 
   std::span<const VertexId> permutation_;
   Order order_;
   std::mt19937_64 random_;
 };
 
-/// The value below which `part` of `values` lie.
-double quantile(std::vector<double> values, double part) {
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
+double quantile(std::vector<double> values, double fraction) {
+  const double last = static_cast<double>(values.size() - 1);
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(fraction * last + 0.5);
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
 }
 
-/// What one method has done at one radius so far.
+/// The sums of one method at one radius so far.
 struct Tally {
-  std::vector<double> microseconds;  // a query, by block
+  std::vector<double> microseconds;  // per query, by block
   double count = 0;
   double extra = 0;
   double missing = 0;
 };
 
 /// All methods at one radius.
-class Race {
+class RadiusRun {
  public:
-  Race(std::span<const Method> methods, double radius, std::size_t vertices)
+  RadiusRun(std::span<const Method> methods, double radius, std::size_t vertices)
       : methods_(methods), radius_(radius), vertices_(vertices), comparison_(vertices), tallies_(methods.size()) {}
 
-  void run(std::span<const VertexId> block) {
-    // Each method in turn is the first, and finds the caches as the last one of the block before left them.
+  void run_block(std::span<const VertexId> block) {
+    // Rotate the order: the first method of a block finds the caches as another method left them.
     ++first_;
     for (std::size_t i = 0; i < methods_.size(); ++i) time((first_ + i) % methods_.size(), block);
-    for (const VertexId v : block) judge(v);
+    for (const VertexId v : block) compare(v);
   }
 
   [[nodiscard]] Measurement result(std::size_t method, double radius_edges, std::size_t queries) const {
@@ -95,7 +95,7 @@ class Race {
     tallies_[i].microseconds.push_back(1e6 * (processor_time() - start) / static_cast<double>(block.size()));
   }
 
-  void judge(VertexId v) {
+  void compare(VertexId v) {
     for (std::size_t i = 0; i < methods_.size(); ++i) {
       if (!methods_[i].lists_vertices) continue;
       Vertices& answer = i == 0 ? exact_ : answer_;
@@ -117,29 +117,30 @@ class Race {
   Vertices answer_;
 };
 
-/// `total` in as even parts as possible, block `i` of `blocks`.
+/// The size of block `i` of `blocks` if `total` is divided as evenly as possible.
 std::size_t share(std::size_t total, std::size_t i, std::size_t blocks) {
   return total * (i + 1) / blocks - total * i / blocks;
 }
 
 }  // namespace
 
-std::vector<Measurement> measure(std::span<const Method> methods, const Plan& plan, double unit,
-                                 std::span<const VertexId> permutation, const std::function<void(double)>& report) {
+std::vector<Measurement> measure_radii(std::span<const Method> methods, const Plan& plan, double unit,
+                                       std::span<const VertexId> permutation,
+                                       const std::function<void(std::size_t done, std::size_t total)>& report) {
   std::vector<Measurement> table;
-  Starts starts(permutation, plan);
+  QueryVertices vertices(permutation, plan);
   const std::size_t blocks = std::min(kBlocks, plan.queries);
-  const auto steps = static_cast<double>(plan.radii.size() * blocks);
+  const std::size_t steps = plan.radii.size() * blocks;
   std::size_t step = 0;
   for (const double radius : plan.radii) {
-    Race race(methods, unit * radius, permutation.size());
+    RadiusRun run(methods, unit * radius, permutation.size());
     for (std::size_t i = 0; i < blocks; ++i) {
-      race.run(starts.next(share(plan.queries, i, blocks)));
-      report(static_cast<double>(++step) / steps);
+      run.run_block(vertices.next(share(plan.queries, i, blocks)));
+      report(++step, steps);
     }
-    for (std::size_t i = 0; i < methods.size(); ++i) table.push_back(race.result(i, radius, plan.queries));
+    for (std::size_t i = 0; i < methods.size(); ++i) table.push_back(run.result(i, radius, plan.queries));
   }
   return table;
 }
 
-}  // namespace meshhood::cli
+}  // namespace meshhood::measure

@@ -8,9 +8,9 @@
 
 #include "meshhood/mesh.h"
 
-namespace meshhood::cli {
+namespace meshhood::measure {
 
-/// How an answer departs from the exact one.
+/// How an answer differs from the exact one.
 struct Difference {
   std::size_t extra = 0;
   std::size_t missing = 0;
@@ -25,8 +25,8 @@ class Comparison {
   [[nodiscard]] Difference compare(std::span<const VertexId> exact, std::span<const VertexId> answer);
 
  private:
-  std::vector<std::uint64_t> stamps_;  // by vertex: the last comparison whose exact answer held it
+  std::vector<std::uint64_t> stamps_;  // by vertex: the last comparison whose exact answer contains it
   std::uint64_t current_ = 0;
 };
 
-}  // namespace meshhood::cli
+}  // namespace meshhood::measure

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "difference.h"
+#include "measure/difference.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <span>
 
-namespace meshhood::cli {
+namespace meshhood::measure {
 
 Difference Comparison::compare(std::span<const VertexId> exact, std::span<const VertexId> answer) {
   ++current_;
@@ -15,4 +15,4 @@ Difference Comparison::compare(std::span<const VertexId> exact, std::span<const 
   return {answer.size() - common, exact.size() - common};
 }
 
-}  // namespace meshhood::cli
+}  // namespace meshhood::measure

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "machine.h"
+#include "measure/timing.h"
 
+#include <ctime>
 #include <fstream>
 #include <string>
 
-namespace meshhood::cli {
+namespace meshhood::measure {
 namespace {
 
-std::string processor() {
+std::string processor_name() {
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);) {
     const std::size_t colon = line.find(": ");
@@ -18,13 +19,19 @@ std::string processor() {
 
 }  // namespace
 
+double processor_time() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 Machine this_machine() {
 #if defined(__clang__)
   const std::string compiler = __VERSION__;
 #else
   const std::string compiler = "g++ " __VERSION__;
 #endif
-  return {processor(), compiler, MESHHOOD_BUILD_TYPE};
+  return {processor_name(), compiler, MESHHOOD_BUILD_TYPE};
 }
 
-}  // namespace meshhood::cli
+}  // namespace meshhood::measure

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include "options.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include "meshhood/adjacency.h"
+#include "meshhood/error.h"
+#include "meshhood/progress.h"
+
+#include "io/messages.h"
+#include "io/number.h"
+#include "output.h"
+
+namespace meshhood::cli {
+namespace {
+
+double edge_unit(Input& input) {
+  input.need_edges("--unit edge");
+  const double mean = mean_edge_length(input.graph());
+  if (mean > 0) return mean;
+  raise(ErrorCode::InvalidOption,
+        "--unit edge: the mean edge length of " + printable_name(input.name()) + " is 0, expected a length > 0");
+}
+
+/// The number of characters to insert, delete, replace or swap to turn `a` into `b`.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before;
+  std::vector<std::size_t> last(b.size() + 1);
+  std::iota(last.begin(), last.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::vector<std::size_t> row(b.size() + 1, i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0U : 1U)});
+      const bool is_swap = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (is_swap) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    before = std::exchange(last, row);
+  }
+  return last.back();
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text) {
+    if ('A' <= c && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
+/// A name without extension may be a pipe or a device, and is accepted.
+CLI::Validator output_name(const std::string& extension) {
+  const auto check = [extension](const std::string& name) -> std::string {
+    const std::string found = lower_case(std::filesystem::path(name).extension().string());
+    if (found.empty() || found == extension) return {};
+    return fmt::format("'{}' has the extension {}, but the file will be {}", name, found, extension);
+  };
+  return {check, ""};
+}
+
+}  // namespace
+
+CLI::Validator file_name() {
+  const auto check = [](const std::string& name) -> std::string { return name.empty() ? "the name is empty" : ""; };
+  return {check, ""};
+}
+
+CLI::Validator whole_number(std::uint64_t most) {
+  const bool is_any = most == std::numeric_limits<std::uint64_t>::max();
+  const std::string limit = is_any ? "below 2^64" : fmt::format("up to {}", most);
+  const auto check = [most, limit](std::string& text) -> std::string {
+    std::uint64_t number = 0;
+    const char* end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc() || rest != end || number > most) {
+      return fmt::format("'{}' is not a whole number {}", text, limit);
+    }
+    text = std::to_string(number);
+    return {};
+  };
+  return {check, ""};
+}
+
+CLI::Validator one_of(std::vector<std::string> values) {
+  const auto check = [values = std::move(values)](const std::string& word) -> std::string {
+    if (std::find(values.begin(), values.end(), word) != values.end()) return {};
+    return fmt::format("'{}' is not one of {}{}", word, fmt::join(values, ", "), suggestion(word, values));
+  };
+  return {check, ""};
+}
+
+void add_file(CLI::App& command, std::string& file) {
+  command.add_option("FILE", file, "mesh (PLY, OBJ, OFF or STL) or index (made by meshhood build)")
+      ->required()
+      ->check(file_name())
+      ->type_name("");
+}
+
+void add_mesh(CLI::App& command, std::string& file) {
+  command.add_option("MESH", file, "PLY, OBJ, OFF or STL")->required()->check(file_name())->type_name("");
+}
+
+CLI::Option* add_output(CLI::App& command, const std::string& extension, const std::string& description,
+                        std::string& file) {
+  return command.add_option("-o,--output", file, fmt::format("{} ({})", description, extension))
+      ->check(file_name())
+      ->check(output_name(extension))
+      ->type_name("FILE");
+}
+
+void add_threads(CLI::App& command, unsigned& threads) {
+  command.add_option("--threads", threads, "number of threads; 0: as many as the processor has")
+      ->transform(whole_number(kMaxThreads))
+      ->type_name("NUMBER")
+      ->capture_default_str();
+}
+
+void add_json(CLI::App& command, bool& json) { command.add_flag("--json", json, "print one JSON document"); }
+
+void add_radius(CLI::App& command, Radius& radius) {
+  command.add_option("-r,--radius", radius.value, "radius of the ball; a vertex at exactly this distance is inside")
+      ->type_name("NUMBER")
+      ->required();
+  command
+      .add_option("--unit", radius.unit,
+                  "unit of the radius; mesh: that of the positions; edge: the mean edge length of the mesh")
+      ->check(one_of({"mesh", "edge"}))
+      ->type_name("")
+      ->capture_default_str();
+}
+
+double parse_radius(std::string_view name, const std::string& text) {
+  const auto number = io::parse_real<double>(text);
+  const bool is_overflow = number && std::isinf(*number) && text.find_first_of("0123456789") != std::string::npos;
+  if (!number || is_overflow) {
+    raise(ErrorCode::InvalidRadius,
+          fmt::format("{} {}, expected a number >= 0 in the range of double", name, io::quote(text)));
+  }
+  if (!(*number >= 0)) raise(ErrorCode::InvalidRadius, fmt::format("{} {}, expected a number >= 0", name, text));
+  return *number;
+}
+
+double resolve(const Radius& radius, Input& input) {
+  const double value = parse_radius("radius", radius.value);
+  return radius.unit == "edge" ? edge_unit(input) * value : value;
+}
+
+VertexId resolve_vertex(std::uint64_t v, const Input& input) {
+  const std::size_t vertices = input.vertex_count();
+  if (v < vertices) return static_cast<VertexId>(v);
+  raise(ErrorCode::VertexOutOfRange,
+        fmt::format("vertex {} is out of range: {} has {} vertices", v, printable_name(input.name()), vertices));
+}
+
+void check_output(const std::string& output, std::initializer_list<std::string> inputs) {
+  namespace fs = std::filesystem;
+  if (output.empty()) return;
+  std::error_code ignored;
+  for (const std::string& input : inputs) {
+    if (!fs::equivalent(input, output, ignored)) continue;
+    raise(ErrorCode::InvalidOption, printable_name(output) + ": " + printable_name(input) +
+                                        " would be overwritten; name another file for the output");
+  }
+  const fs::file_status status = fs::status(output, ignored);
+  if (fs::is_directory(status)) io::raise_errno(output, EISDIR, "create");
+  if (fs::exists(status) && !fs::is_regular_file(status)) return;  // a pipe or a device
+  const fs::path folder = fs::path(output).parent_path();
+  const fs::file_status status_of_folder = fs::status(folder.empty() ? "." : folder, ignored);
+  if (fs::exists(status_of_folder) && !fs::is_directory(status_of_folder)) io::raise_errno(output, ENOTDIR, "create");
+  if (::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0) io::raise_errno(output, errno, "create");
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
+  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+  std::string best;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance < least) {
+      least = distance;
+      best = candidate;
+    }
+  }
+  return best.empty() ? "" : fmt::format("; did you mean '{}'?", best);
+}
+
+}  // namespace meshhood::cli

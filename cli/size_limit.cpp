@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "size_limit.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <random>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <sys/statvfs.h>
+
+#include "meshhood/error.h"
+
+#include "io/messages.h"
+
+namespace meshhood::cli {
+namespace {
+
+std::optional<double> free_space(const std::filesystem::path& output) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(output, ignored);
+  const bool is_special = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+  struct statvfs disk = {};
+  const std::string folder = output.has_parent_path() ? output.parent_path().string() : ".";
+  if (is_special || ::statvfs(folder.c_str(), &disk) != 0 || disk.f_blocks == 0) return std::nullopt;
+  return static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize);
+}
+
+/// The sizes of rows, one after the other.
+struct Sample {
+  double rows = 0;
+  double sum = 0;
+  double squares = 0;
+
+  void add(double size) {
+    rows += 1;
+    sum += size;
+    squares += size * size;
+  }
+
+  [[nodiscard]] double mean() const { return sum / rows; }
+  [[nodiscard]] double standard_error() const {
+    return std::sqrt(std::max(0.0, squares / rows - mean() * mean()) / rows);
+  }
+};
+
+}  // namespace
+
+template <class AnyIndex>
+std::optional<BatchEstimate> estimate(const AnyIndex& index, const BatchQuery& query) {
+  constexpr std::size_t kSamples = 256;
+  constexpr std::size_t kSamplesPerStep = 4;
+  constexpr auto kTimeLimit = std::chrono::milliseconds(500);
+  const std::size_t rows = query.vertices ? query.vertices->size() : index.vertex_count();
+  if (rows <= kSamples) return std::nullopt;
+  std::mt19937_64 random(1);
+  std::vector<VertexId> vertices(kSamplesPerStep);
+  Sample sample;
+  const auto start = std::chrono::steady_clock::now();
+  while (sample.rows < kSamples && std::chrono::steady_clock::now() - start < kTimeLimit) {
+    for (VertexId& v : vertices) {
+      const std::size_t row = random() % rows;
+      v = query.vertices ? (*query.vertices)[row] : static_cast<VertexId>(row);
+    }
+    for (const std::uint64_t size : neighborhood_sizes(index, {.vertices = vertices, .radius = query.radius})) {
+      sample.add(static_cast<double>(size));
+    }
+  }
+  const auto of_all_rows = [rows](double size) {
+    return BatchSize{rows, static_cast<std::uint64_t>(static_cast<double>(rows) * size)};
+  };
+  return BatchEstimate{of_all_rows(sample.mean()),
+                       of_all_rows(std::max(1.0, sample.mean() - 3 * sample.standard_error()))};
+}
+
+template std::optional<BatchEstimate> estimate(const Index& index, const BatchQuery& query);
+template std::optional<BatchEstimate> estimate(const paper::Index& index, const BatchQuery& query);
+
+SizeLimit::SizeLimit(std::string output, std::optional<std::uint64_t> max_bytes)
+    : output_(std::move(output)), is_free_space_(!max_bytes) {
+  if (max_bytes) {
+    bytes_ = static_cast<double>(*max_bytes);
+  } else if (const std::optional<double> space = free_space(output_)) {
+    bytes_ = *space;
+  }
+}
+
+void SizeLimit::check(const BatchSize& size, double bytes, std::string_view about) const {
+  if (bytes <= bytes_) return;
+  const std::string limit = is_free_space_ ? fmt::format("the disk has {:.4g} MB free", bytes_ / 1e6)
+                                           : fmt::format("the limit is {:.4g} MB", bytes_ / 1e6);
+  raise(ErrorCode::TooLarge,
+        fmt::format("{}: {} rows with {}{} vertices take {}{:.4g} MB, but {}; --max-bytes sets another limit",
+                    io::printable_name(output_), size.rows, about, size.count, about, bytes / 1e6, limit));
+}
+
+}  // namespace meshhood::cli

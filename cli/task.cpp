@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "task.h"
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "io/messages.h"
+
+namespace meshhood::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kDelay = std::chrono::seconds(1);
+constexpr auto kRefresh = std::chrono::milliseconds(200);
+constexpr const char* kClearLine = "\r\x1b[K";
+
+constexpr std::array kSignals{SIGINT, SIGHUP, SIGTERM, SIGXCPU};
+
+volatile std::sig_atomic_t caught = 0;
+
+void remember(int /*signal*/) { caught = 1; }
+
+void replace_handlers(void (*expected)(int), void (*handler)(int)) {
+  for (const int signal : kSignals) {
+    // An ignored signal stays ignored: nohup and background jobs rely on it.
+    const auto previous = std::signal(signal, handler);
+    if (previous != expected) std::signal(signal, previous);
+  }
+}
+
+}  // namespace
+
+Task::Task(std::string_view description, Unit unit) : description_(io::printable_name(description)), unit_(unit) {
+  caught = 0;
+  replace_handlers(SIG_DFL, remember);
+  if (isatty(STDERR_FILENO) == 0) return;
+  display_ = std::jthread([this](const std::stop_token& stop) { show(stop); });
+}
+
+Task::~Task() { replace_handlers(remember, SIG_DFL); }
+
+bool Task::is_cancelled() { return caught != 0; }
+
+Progress Task::progress() {
+  return [this](std::size_t done, std::size_t total) {
+    report(done, total);
+    return !is_cancelled();
+  };
+}
+
+void Task::report(std::size_t done, std::size_t total) {
+  done_ = done;
+  total_ = total;
+}
+
+void Task::show(const std::stop_token& stop) {
+  const auto start = Clock::now();
+  std::unique_lock lock(mutex_);
+  const auto wait = [&](auto time) {
+    finished_.wait_for(lock, stop, time, [] { return false; });
+    return !stop.stop_requested();
+  };
+  if (!wait(kDelay)) return;
+  do {
+    draw(std::chrono::duration<double>(Clock::now() - start).count());
+  } while (wait(kRefresh));
+  std::fputs(kClearLine, stderr);
+}
+
+void Task::draw(double seconds) const {
+  const auto done = static_cast<double>(done_);
+  const auto total = static_cast<double>(total_);
+  std::string line = fmt::format("{}:", description_);
+  if (total > 0) line += fmt::format(" {:.0f} %,", 100 * done / total);
+  line += fmt::format(" {:.0f} s", seconds);
+  if (done > 0 && !unit_.name.empty()) line += fmt::format(", {:.4g} {}/s", done / unit_.parts / seconds, unit_.name);
+  if (done > 0 && total > 0) line += fmt::format(", {:.0f} s left", seconds * (total - done) / done);
+  fmt::print(stderr, "{}{}", kClearLine, line);
+  std::fflush(stderr);
+}
+
+}  // namespace meshhood::cli

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include "meshhood/progress.h"
+
+namespace meshhood::cli {
+
+/// What the parts of a task are, for the displayed rate.
+struct Unit {
+  std::string_view name = {};  ///< "rows"; empty: no rate is displayed
+  double parts = 1;            ///< parts per unit
+};
+
+/// One long operation of a command; one object at a time. While it lives
+///  - a line on standard error shows the progress, the rate and the time left: only on a terminal, only after a second,
+///    and removed at the end;
+///  - SIGINT, SIGHUP, SIGTERM and SIGXCPU do not end the program. `progress()` then returns false, so that the
+///  operation
+///    throws Error{Cancelled} and removes its temporary file.
+class Task {
+ public:
+  explicit Task(std::string_view description, Unit unit = {});
+  ~Task();
+  Task(const Task&) = delete;
+  Task& operator=(const Task&) = delete;
+
+  /// For the operation. Borrows the task.
+  [[nodiscard]] Progress progress();
+
+  /// Sets how much is done. A total of 0 means that it is unknown.
+  void report(std::size_t done, std::size_t total);
+
+  /// Whether a signal has arrived.
+  [[nodiscard]] static bool is_cancelled();
+
+ private:
+  void show(const std::stop_token& stop);
+  void draw(double seconds) const;
+
+  std::string description_;
+  Unit unit_;
+  std::atomic<std::size_t> done_ = 0;
+  std::atomic<std::size_t> total_ = 0;
+  std::mutex mutex_;
+  std::condition_variable_any finished_;
+  std::jthread display_;  // last, so that it ends before the members it uses
+};
+
+}  // namespace meshhood::cli
