@@ -12,7 +12,7 @@
 namespace meshhood::shapes {
 namespace {
 
-/// Vertices `first .. first + size - 1`, evenly around an axis from angle 0 on. A single one is a pole.
+/// Vertices `first .. first + size - 1`, evenly spaced around an axis, starting at angle 0. A single vertex is a pole.
 struct Ring {
   std::size_t first;
   std::size_t size;
@@ -21,7 +21,7 @@ struct Ring {
   [[nodiscard]] std::size_t operator[](std::size_t i) const { return first + i % size; }
 };
 
-/// The band of triangles between two rings, walking around both together.
+/// Adds the band of triangles between two rings.
 void add_band(Shape& shape, const Ring& upper, const Ring& lower) {
   std::size_t i = 0;
   std::size_t j = 0;
@@ -37,10 +37,10 @@ void add_band(Shape& shape, const Ring& upper, const Ring& lower) {
   }
 }
 
-/// Where equilateral triangles of edge 1 cover the sphere.
+/// The radius of a sphere of `n` vertices whose triangles are about equilateral with edges of 1.
 double sphere_radius(double vertices) { return std::sqrt(vertices * std::sqrt(0.75) / (4 * kPi)); }
 
-/// How many vertices each ring gets, pole to pole: as its circumference, and `n` in all.
+/// The number of vertices of each ring, from pole to pole: proportional to its circumference, `n` in total.
 std::vector<std::size_t> ring_sizes(std::size_t n, double radius) {
   const auto gaps = std::max<std::size_t>(2, static_cast<std::size_t>(kPi * radius / std::sqrt(0.75)));
   std::vector<double> up_to(gaps, 0);
@@ -74,8 +74,8 @@ void add_sphere(Shape& shape, std::size_t n, const Point& centre) {
   }
 }
 
-/// A point of the (2, 3) torus knot, twice around the axis of a torus of radius 1 and three times around its tube, and
-/// the two directions across it.
+/// A point of the (2, 3) torus knot, which runs twice around the axis of a torus of radius 1 and three times around its
+/// tube, and two directions perpendicular to the knot.
 struct KnotPoint {
   Point centre;
   Point outwards;
@@ -102,7 +102,7 @@ Shape sphere(std::size_t n) {
   return shape;
 }
 
-// Balls of about forty vertices in a cubic lattice, half an edge apart.
+// Spheres of about forty vertices in a cubic lattice, half an edge apart.
 Shape soup(std::size_t n) {
   const std::size_t balls = std::max<std::size_t>(1, n / 40);
   const std::size_t side = cube_root(balls);

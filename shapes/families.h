@@ -5,7 +5,7 @@
 
 #include "shapes.h"
 
-/// Each makes a shape of `n` vertices, `n` at least its minimum (see the table of `kinds`).
+/// Each function generates a shape of `n` vertices; `n` is at least the minimum of the kind (see `kinds`).
 namespace meshhood::shapes {
 
 // flat.cpp

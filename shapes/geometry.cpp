@@ -6,7 +6,7 @@
 namespace meshhood::shapes {
 namespace {
 
-/// Their power series by Horner's rule, for |x| <= pi / 4, where the first term left out is below 1e-18.
+/// The power series by Horner's rule, for |x| <= pi / 4; the first omitted term is below 1e-18.
 Direction small_angle(double x) {
   const double square = x * x;
   double sin = 1.0;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-/// What the shapes need of geometry, made of operations that IEEE 754 rounds in one way only. The sine and cosine of
-/// the C library are not among them: their last bit differs between platforms.
+/// Geometry from operations that IEEE 754 defines to the last bit. The sine and cosine of the C library are not used:
+/// their last bit differs between platforms.
 namespace meshhood::shapes {
 
 struct Point {
@@ -32,7 +32,7 @@ struct Direction {
   double sin;
 };
 
-/// The direction at an angle given in whole turns. Accurate to about 1e-15.
+/// The direction at an angle given in turns. Accurate to about 1e-15.
 [[nodiscard]] Direction direction(double turns);
 
 }  // namespace meshhood::shapes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hardly surfaces at all: an edge is a polygon of two corners.
+// Graphs: an edge is a polygon of two corners.
 #include <cmath>
 #include <cstddef>
 
@@ -9,15 +9,15 @@
 
 namespace meshhood::shapes {
 
-// To and fro over a square, rows closer than the steps along them.
+// A path that runs back and forth over a square; its rows are closer than its steps.
 Shape path(std::size_t n) {
   constexpr double kGap = 0.75;
   const Sheet sheet{n, root(static_cast<double>(n), 2)};
   Shape shape;
   for (std::size_t v = 0; v < n; ++v) {
     const bool forwards = sheet.row(v) % 2 == 0;
-    const std::size_t place = forwards ? sheet.place(v) : sheet.width - 1 - sheet.place(v);
-    add_vertex(shape, {static_cast<double>(place), kGap * static_cast<double>(sheet.row(v)), 0});
+    const std::size_t column = forwards ? sheet.column(v) : sheet.width - 1 - sheet.column(v);
+    add_vertex(shape, {static_cast<double>(column), kGap * static_cast<double>(sheet.row(v)), 0});
   }
   for (std::size_t v = 1; v < n; ++v) add_polygon(shape, {v - 1, v});
   return shape;
@@ -38,7 +38,7 @@ Shape isolated(std::size_t n) {
   const Sheet sheet{n, root(static_cast<double>(n), 2)};
   Shape shape;
   for (std::size_t v = 0; v < n; ++v) {
-    add_vertex(shape, {static_cast<double>(sheet.place(v)), static_cast<double>(sheet.row(v)), 0});
+    add_vertex(shape, {static_cast<double>(sheet.column(v)), static_cast<double>(sheet.row(v)), 0});
   }
   return shape;
 }

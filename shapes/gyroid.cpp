@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The gyroid, sin x cos y + sin y cos z + sin z cos x = 0, by surface nets (Gibson 1998): a vertex in every cell of a
-// lattice that the surface crosses, and two triangles for every edge of the lattice that it crosses, between the cells
-// around that edge.
+// The gyroid, sin x cos y + sin y cos z + sin z cos x = 0, by surface nets (Gibson 1998): a vertex in every lattice
+// cell that the surface crosses, and two triangles for every lattice edge that it crosses, with corners in the cells
+// around the edge.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kPeriod = 10.4;
 
-/// The field whose zeros are the surface, in periods of length 1.
+/// The field whose zeros are the surface; its period is 1.
 double field(const Point& p) {
   const Direction x = direction(p.x);
   const Direction y = direction(p.y);
@@ -26,7 +26,7 @@ double field(const Point& p) {
   return x.sin * y.cos + y.sin * z.cos + z.sin * x.cos;
 }
 
-/// The surface in a square column of cells, layer by layer upwards.
+/// The surface in a square column of cells, layer by layer from below.
 class Net {
  public:
   explicit Net(std::size_t side) : side_(side), upper_(plane()), cells_(side * side) {}
@@ -78,7 +78,7 @@ class Net {
     return cells;
   }
 
-  /// The mean of the points in which the surface crosses the edges of a cell.
+  /// The mean of the points where the surface crosses the edges of a cell.
   [[nodiscard]] Point centre(std::size_t i, std::size_t j) const {
     Point sum;
     double cross_edges = 0;
@@ -121,7 +121,7 @@ class Net {
   Cell* here(std::size_t i, std::size_t j) { return &cells_[j * side_ + i]; }
   Cell* below(std::size_t i, std::size_t j) { return &cells_below_[j * side_ + i]; }
 
-  /// Two triangles between the cells around an edge from a node of value `a` to one of value `b`.
+  /// Adds two triangles between the cells around an edge from a node of value `a` to one of value `b`.
   void join(double a, double b, const std::array<Cell*, 4>& ring) {
     if ((a < 0) == (b < 0)) return;
     const std::size_t first = vertex(*ring[0]);
@@ -149,7 +149,7 @@ class Net {
 
 }  // namespace
 
-// As many layers of a column about twice as high as wide as come nearest to `n`.
+// The column is about twice as high as wide; the number of layers is that whose size is nearest to `n`.
 Shape gyroid(std::size_t n) {
   constexpr std::size_t kSmallest = 4;
   Net net(std::max(kSmallest, cube_root(n)));  // about 0.45 vertices a cell

@@ -18,33 +18,33 @@ MeshView Shape::view() const {
 }
 
 Shape Kind::make(std::size_t vertices) const {
-  const auto asked = [&] { return std::string(name) + " with " + std::to_string(vertices) + " vertices: "; };
-  if (vertices < minimum) raise(ErrorCode::InvalidOption, asked() + "it takes at least " + std::to_string(minimum));
+  const auto shape = [&] { return std::string(name) + " with " + std::to_string(vertices) + " vertices: "; };
+  if (vertices < minimum) raise(ErrorCode::InvalidOption, shape() + "expected at least " + std::to_string(minimum));
   if (vertices > kMaxVertices) {
-    raise(ErrorCode::TooLarge, asked() + "at most " + std::to_string(kMaxVertices) + " are possible");
+    raise(ErrorCode::TooLarge, shape() + "expected at most " + std::to_string(kMaxVertices));
   }
   return generate(vertices);
 }
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all{
-      {"book", "eight pages on one spine, close together: a ball turns the page", 6, book},
-      {"comb", "long flat teeth, half an edge apart: a ball jumps from tooth to tooth", 24, comb},
-      {"folds", "an accordion, its walls 1.5 edges apart: a ball goes through the walls", 4, folds},
-      {"grid", "a flat square grid of triangles, many vertices at equal distances: none but ties", 3, grid},
-      {"gyroid", "a smooth sheet that winds through a box: a ball meets it many times, nearly all joined", 4, gyroid},
-      {"isolated", "points without faces: every neighborhood is the vertex alone", 1, isolated},
-      {"knot", "a trefoil tube whose strands pass close: a ball leaves the strand", 9, knot},
-      {"ngons", "a honeycomb of hexagons: corners across a hexagon are near, and three edges apart", 6, ngons},
-      {"noise", "a height field of spikes: steep uneven triangles, around which spheres are loose", 3, noise},
-      {"path", "one long polyline, to and fro: its graph is as deep as it has vertices", 2, path},
-      {"plates", "two parallel sheets 0.6 edges apart, joined at one rim: a ball takes both", 4, plates},
-      {"quads", "a flat grid of squares: corners across a square are not joined", 3, quads},
-      {"scroll", "a rolled sheet, its turns 2.5 edges apart: a ball takes the turns above and below", 4, scroll},
-      {"soup", "balls of about forty vertices half an edge apart: one component for each", 5, soup},
-      {"sphere", "a round ball: the case without a trap, until the radius reaches round it", 5, sphere},
-      {"star", "a hub and its spokes: one vertex has all the neighbours, the rim is near but not joined", 2, star},
-      {"strip", "a ribbon rolled flat: neighbouring turns are near, and far apart along it", 3, strip},
+      {"book", "eight pages on one spine, close together: a ball contains several pages", 6, book},
+      {"comb", "long flat teeth, half an edge apart: a ball contains neighbouring teeth", 24, comb},
+      {"folds", "an accordion with walls 1.5 edges apart: a ball contains several walls", 4, folds},
+      {"grid", "a flat square grid of triangles: many vertices at equal distances", 3, grid},
+      {"gyroid", "a smooth sheet that fills a box: a ball contains many parts, nearly all connected", 4, gyroid},
+      {"isolated", "points without faces: every neighborhood is a single vertex", 1, isolated},
+      {"knot", "a trefoil tube whose strands pass close: a ball contains several strands", 9, knot},
+      {"ngons", "a honeycomb of hexagons: opposite corners are near, but three edges apart", 6, ngons},
+      {"noise", "a height field of spikes: steep uneven triangles, for which bounding spheres are loose", 3, noise},
+      {"path", "one long folded polyline: the depth of its graph is the number of vertices", 2, path},
+      {"plates", "two parallel sheets 0.6 edges apart, connected at one side: a ball contains both", 4, plates},
+      {"quads", "a flat grid of squares: opposite corners are not connected", 3, quads},
+      {"scroll", "a rolled sheet with turns 2.5 edges apart: a ball contains several turns", 4, scroll},
+      {"soup", "spheres of about forty vertices half an edge apart: each is a component", 5, soup},
+      {"sphere", "a sphere: no difficulty, until the radius is close to its size", 5, sphere},
+      {"star", "a hub and its spokes: one vertex has all neighbours, the others are near but not connected", 2, star},
+      {"strip", "a flat spiral ribbon: neighbouring turns are near, but far along the ribbon", 3, strip},
   };
   return all;
 }
