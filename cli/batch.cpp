@@ -65,10 +65,9 @@ std::size_t number_of_passes(const Options& options) { return options.count ? 1 
 
 /// Writes the answers of one index. The length of an array precedes its values, so the rows are counted first. Then
 /// each array is computed and written in a pass of its own, so that memory holds only a few numbers per row.
-template <class Index>
 class Writer {
  public:
-  Writer(const Index& index, const BatchQuery& query, const Options& options, const SizeLimit& limit, Task& task,
+  Writer(const SearchMethod& index, const BatchQuery& query, const Options& options, const SizeLimit& limit, Task& task,
          io::NpzWriter& npz)
       : index_(index), query_(query), options_(options), limit_(limit), task_(task), npz_(npz) {}
 
@@ -144,7 +143,7 @@ class Writer {
     return {.threads = options_.threads, .sorted = true, .progress = progress};
   }
 
-  const Index& index_;
+  const SearchMethod& index_;
   const BatchQuery& query_;
   const Options& options_;
   const SizeLimit& limit_;
@@ -159,8 +158,7 @@ std::string task_name(const Options& options, const std::optional<BatchEstimate>
                      file_bytes(options, estimate->mean, columns) / 1e6);
 }
 
-template <class Index>
-BatchSize write(const Index& index, const BatchQuery& query, const Options& options) {
+BatchSize write(const SearchMethod& index, const BatchQuery& query, const Options& options) {
   const SizeLimit limit(options.output, options.max_bytes);
   const std::optional<BatchEstimate> expected = estimate(index, query);
   const std::size_t columns = index.vertex_count();
@@ -168,8 +166,8 @@ BatchSize write(const Index& index, const BatchQuery& query, const Options& opti
   Task task(task_name(options, expected, columns),
             {"rows", static_cast<double>(number_of_passes(options))});  // outlives the temporary file
   io::NpzWriter npz(options.output);
-  if (query.vertices) {
-    const std::vector<std::int64_t> listed(query.vertices->begin(), query.vertices->end());
+  if (const auto& list = query.vertices.list()) {
+    const std::vector<std::int64_t> listed(list->begin(), list->end());
     npz.add<std::int64_t>("vertices", listed);
   }
   const BatchSize total = Writer(index, query, options, limit, task, npz).write();
@@ -188,8 +186,9 @@ void batch(const Options& options) {
     listed = read_vertex_list(options.vertices, input.vertex_count());
     query.vertices = listed;
   }
-  const BatchSize total = options.method == "exact" ? write(input.exact_index(options.threads), query, options)
-                                                    : write(input.paper_index(), query, options);
+  const SearchMethod method =
+      options.method == "exact" ? SearchMethod(input.exact_index(options.threads)) : SearchMethod(input.paper_index());
+  const BatchSize total = write(method, query, options);
   if (options.json) {
     print_json(
         Json{{"output", options.output}, {"method", options.method}, {"rows", total.rows}, {"count", total.count}});

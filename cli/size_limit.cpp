@@ -55,12 +55,12 @@ struct Sample {
 
 }  // namespace
 
-template <class AnyIndex>
-std::optional<BatchEstimate> estimate(const AnyIndex& index, const BatchQuery& query) {
+std::optional<BatchEstimate> estimate(const SearchMethod& method, const BatchQuery& query) {
   constexpr std::size_t kSamples = 256;
   constexpr std::size_t kSamplesPerStep = 4;
   constexpr auto kTimeLimit = std::chrono::milliseconds(500);
-  const std::size_t rows = query.vertices ? query.vertices->size() : index.vertex_count();
+  const auto& list = query.vertices.list();
+  const std::size_t rows = list ? list->size() : method.vertex_count();
   if (rows <= kSamples) return std::nullopt;
   std::mt19937_64 random(1);
   std::vector<VertexId> vertices(kSamplesPerStep);
@@ -69,9 +69,9 @@ std::optional<BatchEstimate> estimate(const AnyIndex& index, const BatchQuery& q
   while (sample.rows < kSamples && std::chrono::steady_clock::now() - start < kTimeLimit) {
     for (VertexId& v : vertices) {
       const std::size_t row = random() % rows;
-      v = query.vertices ? (*query.vertices)[row] : static_cast<VertexId>(row);
+      v = list ? (*list)[row] : static_cast<VertexId>(row);
     }
-    for (const std::uint64_t size : neighborhood_sizes(index, {.vertices = vertices, .radius = query.radius})) {
+    for (const std::uint64_t size : neighborhood_sizes(method, {.vertices = vertices, .radius = query.radius})) {
       sample.add(static_cast<double>(size));
     }
   }
@@ -81,9 +81,6 @@ std::optional<BatchEstimate> estimate(const AnyIndex& index, const BatchQuery& q
   return BatchEstimate{of_all_rows(sample.mean()),
                        of_all_rows(std::max(1.0, sample.mean() - 3 * sample.standard_error()))};
 }
-
-template std::optional<BatchEstimate> estimate(const Index& index, const BatchQuery& query);
-template std::optional<BatchEstimate> estimate(const paper::Index& index, const BatchQuery& query);
 
 SizeLimit::SizeLimit(std::string output, std::optional<std::uint64_t> max_bytes)
     : output_(std::move(output)), is_free_space_(!max_bytes) {

@@ -25,9 +25,7 @@ struct BatchEstimate {
 };
 
 /// Takes about half a second. Empty for few rows, which are counted as fast.
-/// `AnyIndex`: Index or paper::Index.
-template <class AnyIndex>
-[[nodiscard]] std::optional<BatchEstimate> estimate(const AnyIndex& index, const BatchQuery& query);
+[[nodiscard]] std::optional<BatchEstimate> estimate(const SearchMethod& method, const BatchQuery& query);
 
 /// How large an output file may become: as the user says, otherwise the free space of its disk; unlimited if that is
 /// unknown.

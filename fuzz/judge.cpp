@@ -55,7 +55,8 @@ class Judge {
     if (exact_.mismatches() != 0 || answer_ != expected) refuse("exact", v, radius);
 
     const double radius_ratio = std::ldexp(1.0, static_cast<int>(random_.below(20)) - 4);
-    paper_searcher_.neighborhood(v, radius, answer_, {.radius_ratio = radius_ratio});
+    paper_searcher_.set_options({.radius_ratio = radius_ratio});
+    paper_searcher_.neighborhood(v, radius, answer_);
     const auto inside = [&](VertexId w) {
       return oracle_.distance(v, w) <= radius && oracle_.component(v) == oracle_.component(w);
     };

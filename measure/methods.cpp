@@ -37,11 +37,11 @@ Method ball_method(const PositionsView& positions) {
 }
 
 Method paper_method(const paper::Index& index, const paper::QueryOptions& options) {
-  auto searcher = std::make_shared<paper::Searcher>(index);
-  return {.name = "paper",
-          .neighborhood = [searcher, options](VertexId v, double radius,
-                                              Vertices& out) { searcher->neighborhood(v, radius, out, options); },
-          .count = [searcher, options](VertexId v, double radius) { return searcher->count(v, radius, options); }};
+  auto searcher = std::make_shared<paper::Searcher>(index, options);
+  return {
+      .name = "paper",
+      .neighborhood = [searcher](VertexId v, double radius, Vertices& out) { searcher->neighborhood(v, radius, out); },
+      .count = [searcher](VertexId v, double radius) { return searcher->count(v, radius); }};
 }
 
 }  // namespace meshhood::measure

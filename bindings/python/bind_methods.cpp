@@ -41,7 +41,7 @@ auto one_with_distances(Method& method, VertexId v, double radius) {
 
 BatchQuery query_of(const std::optional<Rows>& vertices, const std::variant<double, Radii>& radius) {
   BatchQuery query;
-  if (vertices) query.vertices = {reinterpret_cast<const VertexId*>(vertices->data()), vertices->size()};
+  if (vertices) query.vertices = std::span(reinterpret_cast<const VertexId*>(vertices->data()), vertices->size());
   if (const auto* const radii = std::get_if<Radii>(&radius)) {
     query.radius = std::span(radii->data(), radii->size());
   } else {

@@ -50,10 +50,10 @@ class ExactMethod : public Method {
 [[nodiscard]] std::shared_ptr<Method> paper_method(std::shared_ptr<const paper::Index> hierarchy,
                                                    const paper::QueryOptions& options);
 
-/// Breadth-first search. Batches run on the calling thread.
+/// Breadth-first search.
 [[nodiscard]] std::shared_ptr<Method> bfs_method(std::shared_ptr<const GraphData> graph);
 
-/// Every vertex within the radius in space, by a scan of all. Batches run on the calling thread.
+/// Every vertex within the radius in space, by a scan of all.
 [[nodiscard]] std::shared_ptr<Method> ball_method(std::shared_ptr<const GraphData> graph);
 
 }  // namespace meshhood::python

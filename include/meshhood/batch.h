@@ -5,116 +5,181 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
-#include <variant>
+#include <type_traits>
 #include <vector>
 
+#include "meshhood/adjacency.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/paper.h"
 #include "meshhood/progress.h"
 
-/// Many neighborhoods in one call, on as many threads as wanted.
+/// Many neighborhoods in one call, on one or more threads.
 ///
 ///     const auto [offsets, ids, distances] = meshhood::neighborhoods(index, {.radius = 1.5}, {.threads = 0});
 namespace meshhood {
 
-/// Which neighborhoods a batch asks for, one a row. Borrowed for the call.
-struct BatchQuery {
-  /// The vertex of each row, in [0, #V), in any order, repeats allowed. Nothing: all vertices in order.
-  std::optional<std::span<const VertexId>> vertices = std::nullopt;
+class SearcherFactory;
 
-  /// One radius for all rows or one for each, >= 0 or infinite, in the unit of the positions; a vertex at exactly the
-  /// radius counts. To be given: what stands here is refused.
-  std::variant<double, std::span<const double>> radius = std::numeric_limits<double>::quiet_NaN();
+/// What a batch searches, and how. Converts from either index. Borrows what it is made from, which must outlive it.
+class SearchMethod {
+ public:
+  /// The exact neighborhoods (see `Searcher`).
+  SearchMethod(const Index& index);
+  SearchMethod(const Index&&) = delete;
+
+  /// The approximate neighborhoods of the paper (see `paper::Searcher`). Throws Error{InvalidOption}.
+  SearchMethod(const paper::Index& index, const paper::QueryOptions& options = {});
+  SearchMethod(const paper::Index&&, const paper::QueryOptions& = {}) = delete;
+
+  /// The exact neighborhoods without an index (see `ReferenceSearcher`). Each thread copies the positions.
+  /// Throws Error{InvalidMesh, TooLarge} if the graph is invalid.
+  [[nodiscard]] static SearchMethod breadth_first(const GraphView& graph);
+
+  /// The vertices within the radius in space (see `BallSearcher`). The coordinates must be valid.
+  [[nodiscard]] static SearchMethod ball_scan(const PositionsView& positions);
+
+  /// #V.
+  [[nodiscard]] std::size_t vertex_count() const;
+
+  /// For the batch itself.
+  [[nodiscard]] const SearcherFactory& searchers() const { return *searchers_; }
+
+ private:
+  explicit SearchMethod(std::shared_ptr<const SearcherFactory> searchers);
+
+  std::shared_ptr<const SearcherFactory> searchers_;
 };
 
-/// How a batch is worked off. The answers, and their order, do not depend on `threads`.
+/// The query vertices of a batch: all of the mesh in order, or a borrowed list.
+class BatchVertices {
+ public:
+  /// All vertices, in order.
+  BatchVertices() = default;
+
+  /// `vertices` in [0, #V), in any order; repeats are allowed. A temporary container is rejected by the compiler.
+  template <BorrowedArray<VertexId> Range>
+  BatchVertices(Range&& vertices) : list_(std::span<const VertexId>(vertices)) {}
+
+  /// The list; none if all vertices are meant.
+  [[nodiscard]] const std::optional<std::span<const VertexId>>& list() const { return list_; }
+
+ private:
+  std::optional<std::span<const VertexId>> list_;
+};
+
+/// The radius of every row, or a borrowed list with one radius per row. Each is >= 0 or infinite, in the unit of the
+/// positions.
+class BatchRadius {
+ public:
+  /// No radius: refused by every batch.
+  BatchRadius() = default;
+
+  /// The same radius for every row, of any integer or floating-point type.
+  template <class Number>
+    requires std::is_arithmetic_v<Number>
+  BatchRadius(Number radius) : common_(static_cast<double>(radius)) {}
+
+  /// One radius per row. A temporary container is rejected by the compiler.
+  template <BorrowedArray<double> Range>
+  BatchRadius(Range&& radii) : list_(std::span<const double>(radii)) {}
+
+  /// The radius of all rows, unless there is a list.
+  [[nodiscard]] double common() const { return common_; }
+
+  /// The list, if there is one.
+  [[nodiscard]] const std::optional<std::span<const double>>& list() const { return list_; }
+
+ private:
+  double common_ = std::numeric_limits<double>::quiet_NaN();
+  std::optional<std::span<const double>> list_;
+};
+
+/// Which neighborhoods a batch computes, one per row. The lists are copied when the call begins; later changes by the
+/// caller, a callback or another thread have no effect.
+struct BatchQuery {
+  BatchVertices vertices = {};
+
+  /// Required. A vertex at exactly the radius is inside.
+  BatchRadius radius = {};
+};
+
+/// How a batch runs. The result, including the order of its ids, does not depend on `threads`.
 struct BatchOptions {
-  /// The calling thread included; 0: as many as the processor has; at most `kMaxThreads`. With 1, none is started.
+  static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
+
+  /// The calling thread included; 0 means one per processor; at most `kMaxThreads`. 1 starts no thread.
   unsigned threads = 1;
 
-  bool distances = false;  ///< the distance of each vertex as well (see `distance`); where only counted, ignored
-  bool sorted = false;     ///< ids of a row ascend; otherwise in no stated order, but always the same
+  bool distances = false;  ///< also compute the distance of each vertex (see `distance`); ignored when only counting
+  bool sorted = false;     ///< ids of a row ascend; otherwise their order is unspecified but reproducible
 
-  /// How many bytes of answers may wait for their turn. More let rows in any order be worked off in index order, and
-  /// keep threads busy; the processor's cache holds fewer.
+  /// Bytes of results that may wait until earlier rows are done (`for_each_neighborhood`). A larger buffer lets more
+  /// rows run in index order and keeps threads busy; a smaller one stays in the processor's cache.
   std::size_t buffer_bytes = std::size_t{8} << 20;
 
-  /// Called between queries, twenty times a second at most; no further one is begun once it returns false.
+  /// The most bytes of ids and distances that `neighborhoods` may return. A larger result is refused before memory is
+  /// allocated: at once if a sample of the rows shows that it will not fit, else as soon as the rows counted so far
+  /// exceed the limit.
+  std::uint64_t max_bytes = kUnlimited;
+
+  /// Called between rows, at most twenty times a second. If it returns false, no further row is begun.
   Progress progress = {};
 };
 
-/// One neighborhood of a batch; lives as long as the call of the sink.
+/// One neighborhood of a batch. Valid during the call of the sink.
 struct BatchRow {
   std::size_t row;                    ///< ascends from 0
   std::span<const VertexId> ids;      ///< without duplicates, the query vertex included
-  std::span<const double> distances;  ///< in the order of `ids`; empty unless asked for
+  std::span<const double> distances;  ///< in the order of `ids`; empty unless `BatchOptions::distances`
 };
 
 using RowSink = std::function<void(const BatchRow&)>;
 
-/// All rows in CSR form: row `i` has the ids `ids[offsets[i]] .. ids[offsets[i + 1] - 1]`, and so the distances.
+/// All rows in CSR form: row `i` has the ids `ids[offsets[i]] .. ids[offsets[i + 1] - 1]`, and the distances likewise.
 struct Neighborhoods {
   std::vector<std::uint64_t> offsets;  ///< #rows + 1
   std::vector<VertexId> ids;
-  std::vector<double> distances;  ///< empty unless asked for
+  std::vector<double> distances;  ///< empty unless `BatchOptions::distances`
 };
 
-/// Where rows that are kept go: room for all their ids, and for as many distances if they are asked for.
+/// Memory for the rows: room for all ids, and for as many distances if they are computed.
 struct BatchMemory {
   std::span<VertexId> ids;
   std::span<double> distances = {};
 };
 
-/// Gives memory for `count` ids.
+/// Returns memory for `count` ids.
 using BatchAllocator = std::function<BatchMemory(std::size_t count)>;
 
-/// Hands the rows to `sink` one after the other, in their order, on the calling thread; the other threads rest
-/// meanwhile. Memory: `buffer_bytes`, and for each thread a `Searcher` and two answers.
+/// Passes each row to `sink`, in order, on the calling thread; the other threads wait meanwhile. Memory:
+/// `buffer_bytes`, a copy of the query, and per thread a searcher and two rows.
 ///
-/// All arguments are checked before the first row is worked off. An exception from `sink` or `options.progress`, or
-/// from a lack of memory, ends the batch once all threads have come to rest, and is passed on; the index may be asked
-/// again.
+/// All arguments are checked before the first row is computed. An exception from `sink` or `options.progress`, or a
+/// lack of memory, ends the batch; it is passed on once all threads have stopped, and the method can be used again.
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
-void for_each_neighborhood(const Index& index, const BatchQuery& query, const RowSink& sink,
+void for_each_neighborhood(const SearchMethod& method, const BatchQuery& query, const RowSink& sink,
                            const BatchOptions& options = {});
 
-/// The same rows, kept in memory. They are counted first, so that memory is taken once and no more than needed: each is
-/// asked twice. Throws as `for_each_neighborhood`.
-[[nodiscard]] Neighborhoods neighborhoods(const Index& index, const BatchQuery& query,
+/// Returns all rows. With an index they are counted first, so that memory is allocated once and exactly: each row is
+/// searched twice. Other methods search each row once, and hold the result twice.
+/// Throws as `for_each_neighborhood`, and Error{TooLarge} if the result exceeds `options.max_bytes`.
+[[nodiscard]] Neighborhoods neighborhoods(const SearchMethod& method, const BatchQuery& query,
                                           const BatchOptions& options = {});
 
-/// The same rows in memory of the caller's own, and their offsets. `allocate` is called once, on the calling thread,
-/// once the rows are counted; all of the memory is then written, unless the batch ends before its time. What `allocate`
-/// throws is passed on.
-/// Throws as `for_each_neighborhood`, and Error{InvalidOption} where the memory is not of the size that was asked for.
-[[nodiscard]] std::vector<std::uint64_t> neighborhoods(const Index& index, const BatchQuery& query,
+/// Writes all rows into memory of the caller, and returns their offsets. `allocate` is called once, on the calling
+/// thread, after the rows are counted. All of the memory is written unless the call throws. Exceptions of `allocate`
+/// are passed on.
+/// Throws as the overload above, and Error{InvalidOption} if the memory does not have the requested size.
+[[nodiscard]] std::vector<std::uint64_t> neighborhoods(const SearchMethod& method, const BatchQuery& query,
                                                        const BatchAllocator& allocate,
                                                        const BatchOptions& options = {});
 
-/// How many vertices each row has. Throws as `for_each_neighborhood`.
-[[nodiscard]] std::vector<std::uint64_t> neighborhood_sizes(const Index& index, const BatchQuery& query,
+/// Returns the number of vertices of each row. Throws as `for_each_neighborhood`.
+[[nodiscard]] std::vector<std::uint64_t> neighborhood_sizes(const SearchMethod& method, const BatchQuery& query,
                                                             const BatchOptions& options = {});
 
 }  // namespace meshhood
-
-/// The same for the answers of the paper's index; Error{InvalidOption} where `query_options` are out of range, too.
-namespace meshhood::paper {
-
-void for_each_neighborhood(const Index& index, const BatchQuery& query, const RowSink& sink,
-                           const BatchOptions& options = {}, const QueryOptions& query_options = {});
-
-[[nodiscard]] Neighborhoods neighborhoods(const Index& index, const BatchQuery& query, const BatchOptions& options = {},
-                                          const QueryOptions& query_options = {});
-
-[[nodiscard]] std::vector<std::uint64_t> neighborhoods(const Index& index, const BatchQuery& query,
-                                                       const BatchAllocator& allocate, const BatchOptions& options = {},
-                                                       const QueryOptions& query_options = {});
-
-[[nodiscard]] std::vector<std::uint64_t> neighborhood_sizes(const Index& index, const BatchQuery& query,
-                                                            const BatchOptions& options = {},
-                                                            const QueryOptions& query_options = {});
-
-}  // namespace meshhood::paper

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <ranges>
 #include <span>
 #include <utility>
 #include <variant>
@@ -21,6 +22,11 @@ using VertexId = std::uint32_t;
 
 /// The largest number of vertices: one id is kept free.
 inline constexpr std::size_t kMaxVertices = std::numeric_limits<VertexId>::max() - std::size_t{1};
+
+/// A contiguous range of `T` that may be borrowed: an lvalue or a view. A temporary container is neither, so that a
+/// view of one does not compile.
+template <class Range, class T>
+concept BorrowedArray = std::ranges::borrowed_range<Range> && std::convertible_to<Range, std::span<const T>>;
 
 /// Positions of the vertices, `#V by 3`, row after row, float or double, in any unit. Borrowed, never copied.
 class PositionsView {

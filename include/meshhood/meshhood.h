@@ -30,4 +30,5 @@
 #include "meshhood/reference.h"    // IWYU pragma: export
 #include "meshhood/reorder.h"      // IWYU pragma: export
 #include "meshhood/search.h"       // IWYU pragma: export
+#include "meshhood/searcher.h"     // IWYU pragma: export
 #include "meshhood/serialize.h"    // IWYU pragma: export

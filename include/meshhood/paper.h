@@ -12,6 +12,7 @@
 #include "meshhood/level.h"
 #include "meshhood/mesh.h"
 #include "meshhood/progress.h"
+#include "meshhood/searcher.h"
 
 /// The index and the query of *Fast neighborhood search on polygonal meshes*, sections 3.2 and 3.3.
 /// `docs/paper.md` lists where the code departs from the printed page, and why.
@@ -96,12 +97,15 @@ class Index {
 [[nodiscard]] Index build(const MeshView& mesh, const BuildOptions& options = {});
 [[nodiscard]] Index build(const GraphView& graph, const BuildOptions& options = {});
 
-/// How a query is made (3.3).
+/// The parameter of a query (3.3).
 struct QueryOptions {
   /// `f` of sec. 3.3; finite, > 0. The climb ends on the first level whose mean radius is at least radius / f: a larger
-  /// factor means smaller clusters, more of them, and fewer vertices that should not be in the answer.
+  /// ratio means smaller clusters, more of them, and fewer vertices that do not belong to the exact neighborhood.
   double radius_ratio = 10.0;
 };
+
+/// Throws Error{InvalidOption} unless `options` are in their ranges.
+void validate(const QueryOptions& options);
 
 /// What the last query of a `Searcher` went through, for the profile of sec. 4.3.
 struct QueryProfile {
@@ -110,32 +114,46 @@ struct QueryProfile {
   std::size_t vertices_tested = 0;   ///< vertices whose own distance was computed
 };
 
-/// Asks an `Index`. Owns the scratch memory of the search (about 24 bytes a cluster of the lowest level): one object
-/// a thread. The index must outlive it, and may be moved meanwhile.
+/// Finds the approximate neighborhoods of the paper by an `Index` (3.3): climb up, breadth-first search over siblings,
+/// range search. The result contains the exact neighborhood and is contained in the ball.
+///
+/// v       in [0, #V).
+/// radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` is inside.
+///
+/// The result need not grow with the radius, because the level may change. The cost is that of the clusters touched,
+/// not of the mesh. Nothing is allocated once the buffers have grown.
+///
+/// Use one object per thread: it owns scratch memory, about 24 bytes per cluster of the lowest level. The index must
+/// outlive it, and may be moved meanwhile.
+///
+/// Throws Error{VertexOutOfRange, InvalidRadius}; arguments are then unchanged.
 class Searcher {
  public:
-  explicit Searcher(const Index& index);
+  /// Throws Error{InvalidOption}.
+  explicit Searcher(const Index& index, const QueryOptions& options = {});
+  explicit Searcher(const Index&&, const QueryOptions& = {}) = delete;
 
-  /// The vertices near `v` that are also joined to it along the surface: climb up, breadth-first search over siblings,
-  /// range search (3.3).
-  ///
-  /// v       in [0, #V).
-  /// radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` counts.
-  /// out     refilled, capacity reused: ids in no stated order, without duplicates, `v` included.
-  ///
-  /// The answer contains the exact neighborhood and is contained in the ball; extra vertices are rarer as
-  /// `radius_ratio` grows. It need not grow with the radius, for the level may change. Cost is that of the clusters
-  /// touched, not of the mesh. Nothing is allocated once the buffers have grown.
-  ///
-  /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}; `out` is then unchanged.
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, const QueryOptions& options = {});
+  /// The options of the queries that follow. Throws Error{InvalidOption}; the old options then stay.
+  void set_options(const QueryOptions& options);
 
-  /// The same with the distance of each vertex from `v` (see `distance`), in the same order.
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances,
-                    const QueryOptions& options = {});
+  /// #V.
+  [[nodiscard]] std::size_t vertex_count() const;
 
-  /// How many vertices `neighborhood` would return. As it, without the ids.
-  [[nodiscard]] std::size_t count(VertexId v, double radius, const QueryOptions& options = {});
+  /// That of the index.
+  [[nodiscard]] std::span<const VertexId> permutation() const;
+
+  /// out     replaced, its capacity reused: ids in no stated order, without duplicates, `v` included.
+  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out);
+
+  /// Also returns the distance of each vertex from `v` (see `distance`), in the order of the ids.
+  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
+
+  /// The neighborhood as ranges in index order, without copying ids. In no stated order, disjoint, none empty; valid
+  /// until the next call. See `visit` and `reduce` in searcher.h.
+  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius);
+
+  /// The number of vertices of the neighborhood.
+  [[nodiscard]] std::size_t count(VertexId v, double radius);
 
   /// About the last successful query.
   [[nodiscard]] const QueryProfile& profile() const { return profile_; }
@@ -157,17 +175,19 @@ class Searcher {
   class Query;
 
   template <class F>
-  void run(VertexId v, double radius, const QueryOptions& options, F&& answer);
+  void run(VertexId v, double radius, F&& answer);
 
   /// A number that no cluster carries in `visited_`.
   std::uint32_t next_query();
 
   const Index::Storage* storage_;
+  QueryOptions options_;
   std::vector<std::uint32_t> visited_;  // by cluster: the last query that saw it
   std::uint32_t query_ = 0;
   std::vector<ClusterId> reached_;
   std::vector<ClusterId> refined_;
   std::vector<Piece> pieces_;
+  std::vector<VertexRange> ranges_;
   QueryProfile profile_;
 };
 

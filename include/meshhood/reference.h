@@ -1,43 +1,59 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "meshhood/adjacency.h"
 #include "meshhood/mesh.h"
+#include "meshhood/searcher.h"
 
 namespace meshhood {
 
-/// The exact neighborhood by breadth-first search on the graph of the mesh: the yardstick of sec. 4.3 for what is right
-/// and for how long it takes. It is meant to be the fastest breadth-first search one can write: positions and visited
-/// stamp of a vertex share 16 bytes, nothing is allocated and nothing cleared per query, and what the search will soon
-/// look at is fetched ahead.
+/// Finds exact neighborhoods by breadth-first search on the graph of the mesh: the reference of sec. 4.3 for
+/// correctness and speed. It is meant to be the fastest breadth-first search possible: the position of a vertex and the
+/// mark of the query that visited it share 16 bytes, nothing is cleared between queries, and memory is prefetched.
 ///
-/// Owns what it searches: 20 bytes a vertex (36 where the positions are double) and, unless it was given, the graph.
-/// Each query writes to it, so one object a thread.
+/// v       in [0, #V).
+/// radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` is inside.
+///
+/// A query costs O(vertices and edges of the result). Nothing is allocated but for the result.
+///
+/// Use one object per thread. It owns a copy of the positions, 20 bytes per vertex (36 for double), and the graph
+/// unless that was given.
+///
+/// Throws Error{VertexOutOfRange, InvalidRadius}; arguments are then unchanged.
 class ReferenceSearcher {
  public:
-  /// Throws Error{InvalidMesh, TooLarge}.
+  /// Throws Error{InvalidMesh, TooLarge}. O(#V + #corners log(valence)).
   explicit ReferenceSearcher(const MeshView& mesh);
 
-  /// The same on a graph given directly, whose adjacency must outlive the searcher.
+  /// Searches a graph given directly. Its adjacency must outlive the searcher. Throws Error{InvalidMesh, TooLarge}.
   explicit ReferenceSearcher(const GraphView& graph);
 
   ReferenceSearcher(ReferenceSearcher&&) noexcept;
   ReferenceSearcher& operator=(ReferenceSearcher&&) noexcept;
   ~ReferenceSearcher();
 
-  /// The vertices of the connected component that holds `v` in the graph induced by the ball of `radius` around `v`.
-  ///
-  /// v       in [0, #V).
-  /// radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` counts.
-  /// out     refilled, capacity reused: ids in the order the search reaches them, `v` first, no duplicates.
-  ///
-  /// O(vertices and edges of the answer); nothing is allocated but for `out`.
-  /// Throws Error{VertexOutOfRange, InvalidRadius}; `out` is then unchanged.
+  /// #V.
+  [[nodiscard]] std::size_t vertex_count() const;
+
+  /// Empty: ranges are in the caller's order.
+  [[nodiscard]] std::span<const VertexId> permutation() const { return {}; }
+
+  /// out     replaced, its capacity reused: ids in the order of the search, `v` first, no duplicates.
   void neighborhood(VertexId v, double radius, std::vector<VertexId>& out);
+
+  /// Also returns the distance of each vertex from `v` (see `distance`), in the order of the ids.
+  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
+
+  /// The neighborhood as ranges of ids, disjoint, none empty, in the order of the search; valid until the next call.
+  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius);
+
+  /// The number of vertices of the neighborhood.
+  [[nodiscard]] std::size_t count(VertexId v, double radius);
 
   /// The graph that is searched. Lives as long as the searcher.
   [[nodiscard]] AdjacencyView adjacency() const;
@@ -49,22 +65,45 @@ class ReferenceSearcher {
   std::unique_ptr<State> state_;
 };
 
-/// One exact neighborhood of a mesh, for whoever asks once: as `ReferenceSearcher`, which it builds and throws away.
-/// O(#V + #corners log(valence)), whatever the radius.
+/// Finds every vertex within `radius` of `v` in space, by a scan of all positions (sec. 4.3). This is no neighborhood:
+/// it contains vertices of other parts of the surface that pass through the ball.
+///
+/// Arguments and errors are those of `ReferenceSearcher`. Each query costs O(#V). The coordinates must be valid (see
+/// `validate`) and outlive the searcher. One object per thread.
+class BallSearcher {
+ public:
+  explicit BallSearcher(const PositionsView& positions) : positions_(positions) {}
+
+  /// #V.
+  [[nodiscard]] std::size_t vertex_count() const { return positions_.size(); }
+
+  /// Empty: ranges are in the caller's order.
+  [[nodiscard]] std::span<const VertexId> permutation() const { return {}; }
+
+  /// out     replaced, its capacity reused: ids ascending, `v` included.
+  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out);
+
+  /// Also returns the distance of each vertex from `v` (see `distance`), in the order of the ids.
+  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
+
+  /// The vertices as ascending ranges of ids, disjoint, none empty; valid until the next call.
+  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius);
+
+  /// The number of vertices in the ball.
+  [[nodiscard]] std::size_t count(VertexId v, double radius);
+
+ private:
+  PositionsView positions_;
+  std::vector<VertexRange> ranges_;
+};
+
+/// One exact neighborhood of a mesh, by a `ReferenceSearcher` that is built for this call. For a single query; for
+/// more, keep a searcher or an index. O(#V + #corners log(valence)), whatever the radius.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidMesh, TooLarge}.
 [[nodiscard]] std::vector<VertexId> exact_neighborhood(const MeshView& mesh, VertexId v, double radius);
 
-/// Every vertex within `radius` of `v` in space, by a scan of all positions (sec. 4.3). Wrong as a neighborhood: it
-/// takes whatever else of the surface passes through the ball.
-///
-/// v       in [0, #V).
-/// radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` counts.
-/// out     refilled, capacity reused: ids ascending, `v` included.
-/// The coordinates are taken as valid. O(#V).
-///
-/// Throws Error{VertexOutOfRange, InvalidRadius}; `out` is then unchanged. Where memory runs out, it has a part of the
-/// answer.
+/// One query of a `BallSearcher`. Throws as it does.
 void vertices_in_ball(const PositionsView& positions, VertexId v, double radius, std::vector<VertexId>& out);
 
 }  // namespace meshhood

@@ -8,46 +8,50 @@
 
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
+#include "meshhood/searcher.h"
 
 namespace meshhood {
 
-/// Vertices in index order: `Index::permutation()[begin] .. [end - 1]`.
-struct VertexRange {
-  VertexId begin;
-  VertexId end;
-
-  friend bool operator==(const VertexRange&, const VertexRange&) = default;
-};
-
-/// Asks an `Index` for exact neighborhoods: the connected component that holds `v` in the graph induced by the ball of
-/// `radius` around `v`. Every call gives exactly what `ReferenceSearcher` gives, on every processor.
+/// Finds exact neighborhoods by an `Index`: the connected component that holds `v` of the mesh inside the ball of
+/// `radius` around `v`. More precisely, of the graph induced by the vertices in the ball. The result is the same set as
+/// that of `ReferenceSearcher`, on every processor.
 ///
 /// v       in [0, #V).
-/// radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` counts.
+/// radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` is inside.
 ///
-/// Cost is about that of the leaves at the rim of the answer, not of the answer or the mesh; on folded surfaces that of
-/// the leaves of the answer. Nothing is allocated once the buffers have grown. Owns the scratch memory (22 bytes a
-/// leaf): one object a thread. The index must outlive it, and may be moved meanwhile.
+/// The cost grows with the number of leaves at the boundary of the ball, not with the size of the result or the mesh;
+/// on folded surfaces it grows with the number of leaves of the result. Nothing is allocated once the buffers have
+/// grown.
+///
+/// Use one object per thread: it owns scratch memory, about 22 bytes per leaf. The index must outlive it, and may be
+/// moved meanwhile.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius}; arguments are then unchanged.
 class Searcher {
  public:
   explicit Searcher(const Index& index);
+  explicit Searcher(const Index&&) = delete;
   Searcher(Searcher&&) noexcept;
   Searcher& operator=(Searcher&&) noexcept;
   ~Searcher();
 
-  /// out     refilled, capacity reused: ids in no stated order, without duplicates, `v` included.
+  /// #V.
+  [[nodiscard]] std::size_t vertex_count() const;
+
+  /// That of the index.
+  [[nodiscard]] std::span<const VertexId> permutation() const;
+
+  /// out     replaced, its capacity reused: ids in no stated order, without duplicates, `v` included.
   void neighborhood(VertexId v, double radius, std::vector<VertexId>& out);
 
-  /// The same with the distance of each vertex from `v` (see `distance`), in the same order.
+  /// Also returns the distance of each vertex from `v` (see `distance`), in the order of the ids.
   void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
 
-  /// The same as ranges in index order, without copying ids. In no stated order, disjoint, none empty; valid until the
-  /// next call.
+  /// The neighborhood as ranges in index order, without copying ids. In no stated order, disjoint, none empty; valid
+  /// until the next call. See `visit` and `reduce` in searcher.h.
   [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius);
 
-  /// How many vertices the neighborhood has.
+  /// The number of vertices of the neighborhood.
   [[nodiscard]] std::size_t count(VertexId v, double radius);
 
  private:

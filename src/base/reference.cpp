@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The yardsticks of sec. 4.3. They share nothing with the indexes but the graph and the distance predicate.
+// The methods of sec. 4.3 that need no index. They share with the indexes only the graph and the distance predicate.
 #include "meshhood/reference.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -12,7 +13,7 @@
 
 namespace meshhood {
 
-/// What the search asks of a vertex, in one cache line: where it is, and which query saw it last.
+/// What the search reads of a vertex, in one cache line: its position, and the last query that visited it.
 template <class Real>
 struct alignas(4 * sizeof(Real)) Record {
   Real x;
@@ -37,6 +38,15 @@ Point position(const Record<Real>& record) {
   return {static_cast<double>(record.x), static_cast<double>(record.y), static_cast<double>(record.z)};
 }
 
+/// Appends `v`, to the last range if it follows.
+void append(std::vector<VertexRange>& ranges, VertexId v) {
+  if (!ranges.empty() && ranges.back().end == v) {
+    ++ranges.back().end;
+  } else {
+    ranges.push_back({v, static_cast<VertexId>(v + 1)});
+  }
+}
+
 }  // namespace
 
 struct ReferenceSearcher::State {
@@ -44,13 +54,14 @@ struct ReferenceSearcher::State {
   AdjacencyView adjacency;
   std::variant<std::vector<Record<float>>, std::vector<Record<double>>> records;
   std::vector<VertexId> queue;
+  std::vector<VertexRange> ranges;
   std::uint32_t query = 0;
 
   explicit State(const GraphView& graph) : adjacency(graph.adjacency), queue(graph.positions.size() + 1) {
     graph.positions.visit([&](auto xyz) { records = make_records(xyz); });
   }
 
-  /// A number no record carries yet. Once in 2^32 queries all records are cleared.
+  /// A number that marks no record yet. All marks are cleared once in 2^32 queries.
   std::uint32_t next_query() {
     if (++query == 0) {
       std::visit(
@@ -63,16 +74,16 @@ struct ReferenceSearcher::State {
     return query;
   }
 
-  /// Where the rows of the vertices that come next begin, and a little later the rows. (Their records too would be
-  /// faster where all is cold, and far slower where it is not.)
+  /// Prefetches the row offsets of vertices further down the queue, then their rows. Prefetching the records as well is
+  /// faster on cold caches and much slower on warm ones.
   void fetch_ahead(std::size_t head, std::size_t end) const {
     if (head + 16 < end) prefetch(&adjacency.offsets[queue[head + 16]]);
     if (head + 8 < end) prefetch(adjacency.neighbors.data() + adjacency.offsets[queue[head + 8]]);
   }
 
-  /// Leaves the component in the first places of the queue and returns its size.
+  /// Leaves the component at the beginning of the queue and returns it.
   template <class Real>
-  std::size_t search(VertexId v, double radius, std::vector<Record<Real>>& all) {
+  std::span<const VertexId> search(VertexId v, double radius, std::vector<Record<Real>>& all) {
     const std::uint32_t current = next_query();
     const SearchBall ball(position(all[v]), radius);
     all[v].seen = current;
@@ -84,12 +95,29 @@ struct ReferenceSearcher::State {
         Record<Real>& record = all[w];
         if (record.seen == current) continue;
         record.seen = current;
-        // Written always, kept if it is inside: cheaper than a second jump that cannot be foretold.
+        // Branch-free: avoids mispredictions.
         queue[end] = w;
         end += static_cast<std::size_t>(ball.contains(position(record)));
       }
     }
-    return end;
+    return std::span(queue).first(end);
+  }
+
+  std::span<const VertexId> search(VertexId v, double radius) {
+    check_query(v, adjacency.size(), radius);
+    return std::visit([&](auto& all) { return search(v, radius, all); }, records);
+  }
+
+  /// The distances of `ids` from `v`.
+  void measure(VertexId v, std::span<const VertexId> ids, std::vector<double>& out) const {
+    std::visit(
+        [&](const auto& all) {
+          const Point centre = position(all[v]);
+          out.resize(ids.size());
+          std::transform(ids.begin(), ids.end(), out.begin(),
+                         [&](VertexId w) { return std::sqrt(squared_distance(position(all[w]), centre)); });
+        },
+        records);
   }
 };
 
@@ -108,12 +136,30 @@ ReferenceSearcher::ReferenceSearcher(ReferenceSearcher&&) noexcept = default;
 ReferenceSearcher& ReferenceSearcher::operator=(ReferenceSearcher&&) noexcept = default;
 ReferenceSearcher::~ReferenceSearcher() = default;
 
+std::size_t ReferenceSearcher::vertex_count() const { return state_->adjacency.size(); }
+
 void ReferenceSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
-  check_query(v, state_->adjacency.size(), radius);
-  const std::size_t count = std::visit([&](auto& all) { return state_->search(v, radius, all); }, state_->records);
-  const auto first = state_->queue.begin();
-  out.assign(first, first + static_cast<std::ptrdiff_t>(count));
+  const std::span<const VertexId> found = state_->search(v, radius);
+  out.assign(found.begin(), found.end());
 }
+
+void ReferenceSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out,
+                                     std::vector<double>& distances) {
+  const std::span<const VertexId> found = state_->search(v, radius);
+  // Reserved first: if memory runs out, neither has changed.
+  distances.reserve(found.size());
+  out.assign(found.begin(), found.end());
+  state_->measure(v, found, distances);
+}
+
+std::span<const VertexRange> ReferenceSearcher::ranges(VertexId v, double radius) {
+  const std::span<const VertexId> found = state_->search(v, radius);
+  state_->ranges.clear();
+  for (const VertexId w : found) append(state_->ranges, w);
+  return state_->ranges;
+}
+
+std::size_t ReferenceSearcher::count(VertexId v, double radius) { return state_->search(v, radius).size(); }
 
 void ReferenceAccess::set_query(ReferenceSearcher& searcher, std::uint32_t queries) {
   searcher.state_->query = queries;
@@ -128,15 +174,53 @@ std::vector<VertexId> exact_neighborhood(const MeshView& mesh, VertexId v, doubl
   return result;
 }
 
-void vertices_in_ball(const PositionsView& positions, VertexId v, double radius, std::vector<VertexId>& out) {
+namespace {
+
+/// Calls `f(w, position, centre)` for every vertex of the ball, in ascending order.
+template <class F>
+void scan(const PositionsView& positions, VertexId v, double radius, F&& f) {
   check_query(v, positions.size(), radius);
   positions.visit([&](auto xyz) {
     const SearchBall ball(point(xyz, v), radius);
-    out.clear();
-    for (std::size_t w = 0; w < xyz.size() / 3; ++w) {
-      if (ball.contains(point(xyz, w))) out.push_back(static_cast<VertexId>(w));
+    for (std::size_t w = 0; w < positions.size(); ++w) {
+      const Point p = point(xyz, w);
+      if (ball.contains(p)) f(static_cast<VertexId>(w), p, ball.centre());
     }
   });
+}
+
+}  // namespace
+
+void BallSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
+  check_query(v, vertex_count(), radius);
+  out.clear();
+  scan(positions_, v, radius, [&](VertexId w, const Point&, const Point&) { out.push_back(w); });
+}
+
+void BallSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
+  check_query(v, vertex_count(), radius);
+  out.clear();
+  distances.clear();
+  scan(positions_, v, radius, [&](VertexId w, const Point& p, const Point& centre) {
+    out.push_back(w);
+    distances.push_back(std::sqrt(squared_distance(p, centre)));
+  });
+}
+
+std::span<const VertexRange> BallSearcher::ranges(VertexId v, double radius) {
+  ranges_.clear();
+  scan(positions_, v, radius, [&](VertexId w, const Point&, const Point&) { append(ranges_, w); });
+  return ranges_;
+}
+
+std::size_t BallSearcher::count(VertexId v, double radius) {
+  std::size_t result = 0;
+  scan(positions_, v, radius, [&](VertexId, const Point&, const Point&) { ++result; });
+  return result;
+}
+
+void vertices_in_ball(const PositionsView& positions, VertexId v, double radius, std::vector<VertexId>& out) {
+  BallSearcher(positions).neighborhood(v, radius, out);
 }
 
 }  // namespace meshhood

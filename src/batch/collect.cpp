@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Rows that are kept in memory, all in one array: they are counted first, so each goes to its place as it is found.
+// Rows kept in memory, all in one array. They are counted first, so that each is written to its final place.
 #include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <numeric>
 #include <span>
 #include <string>
@@ -9,25 +11,81 @@
 #include "meshhood/error.h"
 
 #include "batch/batch.h"
+#include "batch/sort_answer.h"
 
 namespace meshhood {
 namespace {
 
-/// Calls `f(thread, row)` for every row.
+/// Calls `f(thread, worker, chunk)` for chunks of all rows.
 template <class F>
-void for_every_row(Batch& batch, F&& f) {
-  for (std::size_t first = 0; first < batch.rows().size(); first += Batch::kMostRows) {
-    const std::size_t count = std::min(Batch::kMostRows, batch.rows().size() - first);
-    batch.for_each_row(first, count, [&](unsigned thread, std::size_t row) {
-      f(thread, row);
-      batch.task().advance(1);
-      return true;
-    });
+void for_all_chunks(Batch& batch, F&& f) {
+  for (std::size_t first = 0; first < batch.rows().size(); first += Batch::kMaxRows) {
+    const std::size_t count = std::min(Batch::kMaxRows, batch.rows().size() - first);
+    batch.for_each_chunk(count, [first](std::size_t i) { return first + i; }, f);
   }
 }
 
-void count_rows(Batch& batch, std::uint64_t* sizes) {
-  for_every_row(batch, [&](unsigned thread, std::size_t row) { sizes[row] = batch.count(thread, row); });
+/// Refuses a result of more bytes than the caller allows.
+class SizeLimit {
+ public:
+  SizeLimit(const BatchOptions& options, std::size_t rows)
+      : rows_(rows),
+        max_bytes_(options.max_bytes),
+        max_ids_(options.max_bytes / (sizeof(VertexId) + (options.distances ? sizeof(double) : 0))) {}
+
+  [[nodiscard]] bool allows(double ids) const { return ids <= static_cast<double>(max_ids_); }
+
+  /// Any thread: counts the ids of a row.
+  void add(std::uint64_t ids) {
+    if (total_.fetch_add(ids, std::memory_order_relaxed) + ids > max_ids_) refuse("");
+  }
+
+  [[noreturn]] void refuse(const std::string& detail) const {
+    raise(ErrorCode::TooLarge, "the result of " + std::to_string(rows_) + " rows" + detail + " exceeds max_bytes, " +
+                                   std::to_string(max_bytes_));
+  }
+
+ private:
+  std::size_t rows_;
+  std::uint64_t max_bytes_;
+  std::uint64_t max_ids_;
+  std::atomic<std::uint64_t> total_{0};
+};
+
+/// Refuses a result that is far too large, by the mean size of a sample. Counting all rows would show it only after
+/// most of the time is spent.
+void check_sample(Batch& batch, const SizeLimit& limit) {
+  constexpr std::size_t kSample = 256;
+  constexpr std::size_t kWorthwhile = 64;  // as many rows per row of the sample
+  constexpr double kDeviations = 4;        // so that chance refuses nothing
+  const auto rows = static_cast<double>(batch.rows().size());
+  if (rows < kWorthwhile * kSample || limit.allows(rows * static_cast<double>(batch.vertex_count()))) return;
+  // One row from each stretch of the batch. The multiplier scatters them, so that rows that alternate are no trap.
+  const std::size_t stretch = batch.rows().size() / kSample;
+  const auto row_of = [stretch](std::size_t i) { return i * stretch + i * std::size_t{0x9E37'79B1} % stretch; };
+  std::vector<double> sizes(kSample);
+  batch.for_each_chunk(kSample, row_of, [&](unsigned thread, BatchWorker& worker, std::span<const BatchItem> chunk) {
+    worker.count(chunk, [&](std::size_t row, std::size_t size) {
+      sizes[row / stretch] = static_cast<double>(size);
+      return batch.task().should_continue(thread);
+    });
+  });
+  const double mean = std::accumulate(sizes.begin(), sizes.end(), 0.0) / kSample;
+  double variance = 0;
+  for (const double size : sizes) variance += (size - mean) * (size - mean) / kSample;
+  if (limit.allows(rows * (mean - kDeviations * std::sqrt(variance / kSample)))) return;
+  limit.refuse(", about " + std::to_string(std::llround(mean)) + " vertices each,");
+}
+
+void count_rows(Batch& batch, std::uint64_t* sizes, SizeLimit* limit) {
+  for_all_chunks(batch, [&](unsigned thread, BatchWorker& worker, std::span<const BatchItem> chunk) {
+    worker.count(chunk, [&](std::size_t row, std::size_t size) {
+      sizes[row] = size;
+      if (limit != nullptr) limit->add(size);
+      batch.task().advance(1);
+      return batch.task().should_continue(thread);
+    });
+  });
 }
 
 BatchMemory allocated(const BatchAllocator& allocate, std::size_t count, bool distances) {
@@ -42,50 +100,76 @@ BatchMemory allocated(const BatchAllocator& allocate, std::size_t count, bool di
   return memory;
 }
 
-/// Every row where its offset says.
+/// Searches each row once. The rows wait in memory of our own until their number of ids is known.
+std::vector<std::uint64_t> stream_and_copy(const SearchMethod& method, const BatchQuery& query,
+                                           const BatchAllocator& allocate, const BatchOptions& options) {
+  const auto& list = query.vertices.list();
+  SizeLimit limit(options, list ? list->size() : method.vertex_count());
+  Neighborhoods rows{{0}, {}, {}};
+  const auto append = [&](const BatchRow& row) {
+    limit.add(row.ids.size());
+    rows.ids.insert(rows.ids.end(), row.ids.begin(), row.ids.end());
+    rows.distances.insert(rows.distances.end(), row.distances.begin(), row.distances.end());
+    rows.offsets.push_back(rows.ids.size());
+  };
+  for_each_neighborhood(method, query, append, options);
+  const BatchMemory memory = allocated(allocate, rows.ids.size(), options.distances);
+  std::copy(rows.ids.begin(), rows.ids.end(), memory.ids.begin());
+  std::copy(rows.distances.begin(), rows.distances.end(), memory.distances.begin());
+  return std::move(rows.offsets);
+}
+
+/// Writes each row where its offset says.
 void write_rows(Batch& batch, std::span<const std::uint64_t> offsets, const BatchMemory& memory) {
-  // Not straight into their place, for what is written beyond the end would hit the next row.
-  std::vector<std::vector<VertexId>> ids(batch.task().threads());
-  for_every_row(batch, [&](unsigned thread, std::size_t row) {
-    const std::size_t size = batch.search(thread, row);
-    ids[thread].resize(std::max(ids[thread].size(), size + BatchSearcher::kRoom));
-    batch.write(thread, size, ids[thread].data(),
-                batch.options().distances ? memory.distances.data() + offsets[row] : nullptr);
-    std::copy_n(ids[thread].begin(), size, memory.ids.data() + offsets[row]);
+  const BatchOptions& options = batch.options();
+  for_all_chunks(batch, [&](unsigned thread, BatchWorker& worker, std::span<const BatchItem> chunk) {
+    worker.find(chunk, options.distances, [&](const BatchRow& row) {
+      const std::span<VertexId> ids = memory.ids.subspan(offsets[row.row], row.ids.size());
+      std::copy(row.ids.begin(), row.ids.end(), ids.begin());
+      std::span<double> distances;
+      if (options.distances) distances = memory.distances.subspan(offsets[row.row], row.ids.size());
+      std::copy_n(row.distances.begin(), distances.size(), distances.begin());
+      if (options.sorted) sort_answer(ids, distances);
+      batch.task().advance(1);
+      return batch.task().should_continue(thread);
+    });
   });
 }
 
 }  // namespace
 
-std::vector<std::uint64_t> neighborhood_sizes(const BatchIndex& index, const BatchQuery& query,
+std::vector<std::uint64_t> neighborhood_sizes(const SearchMethod& method, const BatchQuery& query,
                                               const BatchOptions& options) {
-  Batch batch(index, query, options, 1);
+  Batch batch(method, query, options, 1);
   std::vector<std::uint64_t> result(batch.rows().size());
-  count_rows(batch, result.data());
+  count_rows(batch, result.data(), nullptr);
   batch.task().report_progress();
   return result;
 }
 
-std::vector<std::uint64_t> neighborhoods(const BatchIndex& index, const BatchQuery& query,
+std::vector<std::uint64_t> neighborhoods(const SearchMethod& method, const BatchQuery& query,
                                          const BatchAllocator& allocate, const BatchOptions& options) {
   if (!allocate) raise(ErrorCode::InvalidOption, "allocate is empty, expected a function");
-  Batch batch(index, query, options, 2);
+  if (!method.searchers().is_count_cheap()) return stream_and_copy(method, query, allocate, options);
+  Batch batch(method, query, options, 2);
+  SizeLimit limit(options, batch.rows().size());
+  check_sample(batch, limit);
   std::vector<std::uint64_t> offsets(batch.rows().size() + 1);
-  count_rows(batch, offsets.data() + 1);
+  count_rows(batch, offsets.data() + 1, &limit);
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
   write_rows(batch, offsets, allocated(allocate, offsets.back(), options.distances));
   batch.task().report_progress();
   return offsets;
 }
 
-Neighborhoods neighborhoods(const BatchIndex& index, const BatchQuery& query, const BatchOptions& options) {
+Neighborhoods neighborhoods(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options) {
   Neighborhoods result;
   const auto allocate = [&](std::size_t count) -> BatchMemory {
     result.ids.resize(count);
     if (options.distances) result.distances.resize(count);
     return {result.ids, result.distances};
   };
-  result.offsets = neighborhoods(index, query, allocate, options);
+  result.offsets = neighborhoods(method, query, allocate, options);
   return result;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "batch/rows.h"
 
+#include <span>
 #include <string>
 
 #include "meshhood/error.h"
@@ -8,17 +9,25 @@
 #include "base/distance.h"
 
 namespace meshhood {
+namespace {
+
+template <class T>
+std::optional<std::vector<T>> copy(const std::optional<std::span<const T>>& list) {
+  if (!list) return std::nullopt;
+  return std::vector<T>(list->begin(), list->end());
+}
+
+}  // namespace
 
 Rows::Rows(const BatchQuery& query, std::size_t vertex_count)
-    : vertices_(query.vertices), size_(vertices_ ? vertices_->size() : vertex_count) {
-  if (const double* radius = std::get_if<double>(&query.radius)) {
-    radius_ = *radius;
+    : vertices_(copy(query.vertices.list())),
+      radii_(copy(query.radius.list())),
+      size_(vertices_ ? vertices_->size() : vertex_count),
+      radius_(query.radius.common()) {
+  if (!radii_) {
     check_radius(radius_);
-  } else {
-    radii_ = std::get<std::span<const double>>(query.radius);
-    if (radii_.size() != size_) {
-      raise(ErrorCode::InvalidRadius, std::to_string(radii_.size()) + " radii for " + std::to_string(size_) + " rows");
-    }
+  } else if (radii_->size() != size_) {
+    raise(ErrorCode::InvalidRadius, std::to_string(radii_->size()) + " radii for " + std::to_string(size_) + " rows");
   }
   for (std::size_t row = 0; row < size_; ++row) {
     if (vertex(row) < vertex_count && radius(row) >= 0) [[likely]] {

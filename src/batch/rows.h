@@ -2,14 +2,14 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
-#include <variant>
+#include <optional>
+#include <vector>
 
 #include "meshhood/batch.h"
 
 namespace meshhood {
 
-/// What a batch asks for, checked, row by row.
+/// The rows of a batch, checked. A copy: nothing that the caller changes later has an effect.
 class Rows {
  public:
   /// Throws Error{VertexOutOfRange, InvalidRadius}, naming the row.
@@ -21,13 +21,13 @@ class Rows {
     return vertices_ ? (*vertices_)[row] : static_cast<VertexId>(row);
   }
 
-  [[nodiscard]] double radius(std::size_t row) const { return radii_.empty() ? radius_ : radii_[row]; }
+  [[nodiscard]] double radius(std::size_t row) const { return radii_ ? (*radii_)[row] : radius_; }
 
  private:
-  std::optional<std::span<const VertexId>> vertices_;
+  std::optional<std::vector<VertexId>> vertices_;
+  std::optional<std::vector<double>> radii_;
   std::size_t size_;
-  std::span<const double> radii_;
-  double radius_ = 0;  // of all rows, where `radii_` is empty
+  double radius_;  // of all rows, unless there are `radii_`
 };
 
 }  // namespace meshhood

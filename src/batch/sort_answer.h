@@ -7,7 +7,7 @@
 
 namespace meshhood {
 
-/// Puts `ids` in ascending order, and `distances`, unless empty, along with them.
+/// Sorts `ids` in ascending order, and `distances`, unless empty, along with them.
 void sort_answer(std::span<VertexId> ids, std::span<double> distances);
 
 }  // namespace meshhood

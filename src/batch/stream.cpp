@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows in their order and in bounded memory, though asked in index order: a window of rows is worked off in any order,
-// then handed out in theirs.
+// Rows in order and in bounded memory: a window of rows is computed in index order, then passed on in row order.
 #include <algorithm>
 #include <atomic>
 #include <memory>
@@ -11,20 +10,21 @@
 #include "meshhood/error.h"
 
 #include "batch/batch.h"
+#include "batch/sort_answer.h"
 
 namespace meshhood {
 namespace {
 
-// Before anything is known of how large rows are.
+// The first windows, before the size of rows is known.
 constexpr std::size_t kFirstWindow = 256;
 constexpr std::size_t kGrowth = 4;
 
-// Large rows take as long to be written to memory as to be found, unless what waits stays in the cache. Small ones gain
-// more from a long window, in which more of them lie close together.
+// Writing large rows to memory takes as long as finding them, unless the window stays in the cache. Small rows gain
+// more from a long window, in which more of them lie close together. In bytes.
 constexpr double kLargeRow = 1024;
 constexpr double kCached = 1 << 20;
 
-/// Values one after the other in memory that is not set to zero first.
+/// A growing array whose memory is not set to zero first.
 template <class T>
 class Values {
  public:
@@ -34,9 +34,9 @@ class Values {
     return {values_.get() + begin, size};
   }
 
-  /// Makes room for `count` more, and for `spare` that may be written but do not stay, and returns where.
-  T* append(std::size_t count, std::size_t spare) {
-    const std::size_t needed = size_ + count + spare;
+  /// Copies `more` to the end and returns the copy.
+  std::span<T> append(std::span<const T> more) {
+    const std::size_t needed = size_ + more.size();
     if (needed > capacity_) {
       const std::size_t capacity = std::max(needed, 2 * capacity_);
       auto larger = std::make_unique_for_overwrite<T[]>(capacity);  // NOLINT(modernize-avoid-c-arrays)
@@ -44,9 +44,9 @@ class Values {
       values_ = std::move(larger);
       capacity_ = capacity;
     }
-    T* begin = values_.get() + size_;
-    size_ += count;
-    return begin;
+    T* begin = std::copy(more.begin(), more.end(), values_.get() + size_) - more.size();
+    size_ = needed;
+    return {begin, more.size()};
   }
 
  private:
@@ -59,13 +59,13 @@ class Stream {
  public:
   Stream(Batch& batch, const RowSink& sink) : batch_(batch), sink_(sink), stores_(batch.task().threads()) {}
 
-  /// Windows depend on the rows alone, so that answers do, too (see `Batch::for_each_row`).
+  /// Windows depend on the rows alone, and so does the order of the ids (see `Batch::for_each_chunk`).
   void run() {
     std::size_t window = kFirstWindow;
     for (std::size_t first = 0; first < batch_.rows().size();) {
       window = std::min(window, batch_.rows().size() - first);
       if (fill(first, window)) {
-        hand_out(first);
+        pass_on(first);
         first += window;
         window = next_window(window);
       } else {
@@ -75,20 +75,20 @@ class Stream {
   }
 
  private:
-  /// The answers of one thread that wait for their turn.
+  /// The rows of the window that one thread computed.
   struct Store {
     Values<VertexId> ids;
     Values<double> distances;
   };
 
-  /// A row's part of a store.
+  /// Where a row is: `store[begin .. begin + size - 1]` of the thread's store.
   struct Waiting {
     unsigned thread;
     std::size_t begin;
     std::size_t size;
   };
 
-  /// Asks `window` rows; false if they need more memory than they may have, and are more than one.
+  /// Computes `window` rows; false if they need more memory than they may have, and are more than one.
   bool fill(std::size_t first, std::size_t window) {
     const std::size_t room = batch_.options().buffer_bytes;
     waiting_.resize(window);
@@ -97,28 +97,33 @@ class Stream {
       store.distances.clear();
     }
     bytes_ = 0;
-    batch_.for_each_row(first, window, [&](unsigned thread, std::size_t row) {
-      if (bytes_ > room && window > 1) return false;
-      waiting_[row - first] = keep(thread, batch_.search(thread, row));
-      bytes_ += bytes_of(waiting_[row - first]);
-      return true;
-    });
+    batch_.for_each_chunk(
+        window, [first](std::size_t i) { return first + i; },
+        [&](unsigned thread, BatchWorker& worker, std::span<const BatchItem> chunk) {
+          worker.find(chunk, batch_.options().distances, [&](const BatchRow& row) {
+            const Waiting& kept = waiting_[row.row - first] = keep(thread, row);
+            bytes_ += bytes_of(kept);
+            return (bytes_ <= room || window == 1) && batch_.task().should_continue(thread);
+          });
+        });
     return bytes_ <= room || window == 1;
   }
 
-  Waiting keep(unsigned thread, std::size_t size) {
+  Waiting keep(unsigned thread, const BatchRow& row) {
     Store& store = stores_[thread];
-    const Waiting row{thread, store.ids.size(), size};
-    VertexId* ids = store.ids.append(size, BatchSearcher::kRoom);
-    batch_.write(thread, size, ids, batch_.options().distances ? store.distances.append(size, 0) : nullptr);
-    return row;
+    const Waiting kept{thread, store.ids.size(), row.ids.size()};
+    const std::span<VertexId> ids = store.ids.append(row.ids);
+    std::span<double> distances;
+    if (batch_.options().distances) distances = store.distances.append(row.distances);
+    if (batch_.options().sorted) sort_answer(ids, distances);
+    return kept;
   }
 
   [[nodiscard]] std::size_t bytes_of(const Waiting& row) const {
     return sizeof(Waiting) + row.size * (sizeof(VertexId) + (batch_.options().distances ? sizeof(double) : 0));
   }
 
-  void hand_out(std::size_t first) {
+  void pass_on(std::size_t first) {
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
       const Waiting& row = waiting_[i];
       const Store& store = stores_[row.thread];
@@ -130,13 +135,13 @@ class Stream {
     }
   }
 
-  /// As many rows as will probably fit, some room left over.
+  /// As many rows as will probably fit, with some room to spare.
   [[nodiscard]] std::size_t next_window(std::size_t window) const {
     const double row = static_cast<double>(bytes_) / static_cast<double>(window);
     const auto most = static_cast<double>(batch_.options().buffer_bytes);
     const double room = row < kLargeRow ? 0.75 * most : std::min(0.75 * most, kCached);
     const double rows = std::min(room / row, static_cast<double>(kGrowth * window));
-    return std::clamp<std::size_t>(static_cast<std::size_t>(rows), 1, Batch::kMostRows);
+    return std::clamp<std::size_t>(static_cast<std::size_t>(rows), 1, Batch::kMaxRows);
   }
 
   Batch& batch_;
@@ -148,10 +153,10 @@ class Stream {
 
 }  // namespace
 
-void for_each_neighborhood(const BatchIndex& index, const BatchQuery& query, const RowSink& sink,
+void for_each_neighborhood(const SearchMethod& method, const BatchQuery& query, const RowSink& sink,
                            const BatchOptions& options) {
   if (!sink) raise(ErrorCode::InvalidOption, "sink is empty, expected a function");
-  Batch batch(index, query, options, 1);
+  Batch batch(method, query, options, 1);
   Stream(batch, sink).run();
   batch.task().report_progress();
 }

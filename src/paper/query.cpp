@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The query of sec. 3.3 in its three phases: climb up, breadth first, range search. The answer is first a list of
-// pieces of the index order; only then are ids copied, or vertices counted.
+// ranges of the index order; ids are copied, or vertices counted, afterwards.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -13,7 +13,6 @@
 #include "base/distance.h"
 #include "base/text.h"
 #include "paper/hierarchy.h"
-#include "paper/query_options.h"
 
 namespace meshhood::paper {
 
@@ -44,6 +43,7 @@ class Searcher::Query {
   void collect(std::vector<VertexId>& out) const;
   void collect(std::vector<VertexId>& out, std::vector<double>& distances) const;
   [[nodiscard]] std::size_t count() const;
+  void collect(std::vector<VertexRange>& out) const;
 
  private:
   friend struct SearcherAccess;  // which may time the phases one by one
@@ -53,8 +53,8 @@ class Searcher::Query {
   /// The position of `v`, found among the few vertices of its lowest cluster.
   [[nodiscard]] Point position_of(VertexId v) const {
     const auto first = hierarchy_.vertices.begin() + hierarchy_.levels.front().first_vertex[cluster_];
-    const auto place = std::find(first, hierarchy_.vertices.end(), v) - hierarchy_.vertices.begin();
-    return point<Real>(hierarchy_.positions, static_cast<std::size_t>(place));
+    const auto position = std::find(first, hierarchy_.vertices.end(), v) - hierarchy_.vertices.begin();
+    return point<Real>(hierarchy_.positions, static_cast<std::size_t>(position));
   }
 
   void climb_up(double wanted_radius) {
@@ -65,7 +65,7 @@ class Searcher::Query {
     searcher_.profile_ = {.level = level().number};
   }
 
-  /// Leaves in `reached_` the clusters that meet the ball and hang together, through such clusters, with that of `v`.
+  /// Leaves in `reached_` the clusters that meet the ball and are connected to that of `v` through such clusters.
   void breadth_first() {
     std::vector<ClusterId>& reached = searcher_.reached_;
     const std::uint32_t query = searcher_.next_query();
@@ -80,8 +80,8 @@ class Searcher::Query {
     searcher_.profile_.clusters_reached = reached.size();
   }
 
-  /// Deviation: the search goes down to the children of a cluster that lies across the surface of the ball, and takes
-  /// whole what lies inside; the paper tests every vertex. The answer is the same, its cost that of the rim.
+  /// Deviation: the search descends to the children of clusters that intersect the surface of the ball, and takes
+  /// clusters inside it as a whole; the paper tests every vertex. The answer is the same, and costs only its boundary.
   void range_search() {
     std::vector<ClusterId>& clusters = searcher_.reached_;
     for (;; --level_) {
@@ -127,7 +127,7 @@ void Searcher::Query<Real>::collect(std::vector<VertexId>& out) const {
       continue;
     }
     for (std::size_t i = piece.begin; i < piece.end; ++i) {
-      // Written always, kept if it is inside: cheaper than a jump that cannot be foretold.
+      // Branch-free: avoids mispredictions.
       *end = vertices[i];
       end += static_cast<std::ptrdiff_t>(ball_.contains(point<Real>(hierarchy_.positions, i)));
     }
@@ -137,7 +137,7 @@ void Searcher::Query<Real>::collect(std::vector<VertexId>& out) const {
 
 template <class Real>
 void Searcher::Query<Real>::collect(std::vector<VertexId>& out, std::vector<double>& distances) const {
-  // First, for if there is no memory, neither may have changed.
+  // Reserved first: if memory runs out, neither has changed.
   out.reserve(most());
   distances.reserve(most());
   out.clear();
@@ -167,16 +167,47 @@ std::size_t Searcher::Query<Real>::count() const {
   return total;
 }
 
-void check(const QueryOptions& options) {
-  if (std::isfinite(options.radius_ratio) && options.radius_ratio > 0) return;
-  raise(ErrorCode::InvalidOption,
-        "scale_factor is " + to_text(options.radius_ratio) + ", expected a finite number > 0");
+template <class Real>
+void Searcher::Query<Real>::collect(std::vector<VertexRange>& out) const {
+  out.clear();
+  for (const Piece& piece : searcher_.pieces_) {
+    if (piece.inside) {
+      out.push_back({piece.begin, piece.end});
+      continue;
+    }
+    for (VertexId i = piece.begin; i < piece.end; ++i) {
+      if (!ball_.contains(point<Real>(hierarchy_.positions, i))) continue;
+      if (!out.empty() && out.back().end == i) {
+        ++out.back().end;
+      } else {
+        out.push_back({i, static_cast<VertexId>(i + 1)});
+      }
+    }
+  }
 }
 
-Searcher::Searcher(const Index& index) : storage_(index.storage_.get()) {
+void validate(const QueryOptions& options) {
+  if (std::isfinite(options.radius_ratio) && options.radius_ratio > 0) return;
+  raise(ErrorCode::InvalidOption,
+        "radius_ratio is " + to_text(options.radius_ratio) + ", expected a finite number > 0");
+}
+
+Searcher::Searcher(const Index& index, const QueryOptions& options) : storage_(index.storage_.get()) {
+  set_options(options);
   const std::size_t clusters =
       std::visit([](const auto& hierarchy) { return hierarchy.levels.front().size(); }, storage_->hierarchy);
   visited_.assign(clusters, 0);
+}
+
+void Searcher::set_options(const QueryOptions& options) {
+  validate(options);
+  options_ = options;
+}
+
+std::size_t Searcher::vertex_count() const { return permutation().size(); }
+
+std::span<const VertexId> Searcher::permutation() const {
+  return std::visit([](const auto& hierarchy) { return std::span(hierarchy.vertices); }, storage_->hierarchy);
 }
 
 std::uint32_t Searcher::next_query() {
@@ -188,30 +219,33 @@ std::uint32_t Searcher::next_query() {
 }
 
 template <class F>
-void Searcher::run(VertexId v, double radius, const QueryOptions& options, F&& answer) {
+void Searcher::run(VertexId v, double radius, F&& answer) {
   std::visit(
       [&]<class Real>(const Hierarchy<Real>& hierarchy) {
         check_query(v, hierarchy.vertices.size(), radius);
-        check(options);
         Query<Real> query(*this, hierarchy, v, radius);
-        query.run(radius, options.radius_ratio);
+        query.run(radius, options_.radius_ratio);
         answer(query);
       },
       storage_->hierarchy);
 }
 
-void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, const QueryOptions& options) {
-  run(v, radius, options, [&](auto& query) { query.collect(out); });
+void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
+  run(v, radius, [&](auto& query) { query.collect(out); });
 }
 
-void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances,
-                            const QueryOptions& options) {
-  run(v, radius, options, [&](auto& query) { query.collect(out, distances); });
+void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
+  run(v, radius, [&](auto& query) { query.collect(out, distances); });
 }
 
-std::size_t Searcher::count(VertexId v, double radius, const QueryOptions& options) {
+std::span<const VertexRange> Searcher::ranges(VertexId v, double radius) {
+  run(v, radius, [&](auto& query) { query.collect(ranges_); });
+  return ranges_;
+}
+
+std::size_t Searcher::count(VertexId v, double radius) {
   std::size_t result = 0;
-  run(v, radius, options, [&](auto& query) { result = query.count(); });
+  run(v, radius, [&](auto& query) { result = query.count(); });
   return result;
 }
 

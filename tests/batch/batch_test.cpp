@@ -40,8 +40,7 @@ struct Streamed {
   friend bool operator==(const Streamed&, const Streamed&) = default;
 };
 
-template <class Index>
-Streamed stream(const Index& index, const BatchQuery& query, const BatchOptions& options) {
+Streamed stream(const SearchMethod& index, const BatchQuery& query, const BatchOptions& options) {
   Streamed result;
   for_each_neighborhood(
       index, query,
@@ -116,9 +115,9 @@ struct RandomRows {
   [[nodiscard]] BatchQuery query() const { return {.vertices = vertices, .radius = radii}; }
 };
 
-template <class Searcher, class Index>
-void expect_right(const Index& index, const RandomRows& rows) {
-  const Streamed expected = one_by_one<Searcher>(index, rows.vertices, rows.radii);
+template <class Searcher, class Source>
+void expect_right(const SearchMethod& index, const Source& source, const RandomRows& rows) {
+  const Streamed expected = one_by_one<Searcher>(source, rows.vertices, rows.radii);
   for (const unsigned threads : kThreads) {
     // The smaller buffers hold no row, or few.
     for (const std::size_t buffer : {std::size_t{0}, std::size_t{2000}, std::size_t{1} << 24}) {
@@ -139,8 +138,14 @@ TEST_P(Families, RowsAreTheAnswersToSingleQueries) {
     const TestMesh mesh = make_mesh(GetParam(), 5, vertices);
     SCOPED_TRACE(mesh.name);
     const RandomRows random(mesh.view(), 300, vertices);
-    expect_right<Searcher>(build(mesh.view()), random);
-    expect_right<paper::Searcher>(paper::build(mesh.view()), random);
+    const Index exact = build(mesh.view());
+    const paper::Index approximate = paper::build(mesh.view());
+    const Adjacency edges = adjacency(mesh.view());
+    const GraphView graph{mesh.view().positions, edges.view()};
+    expect_right<Searcher>(exact, exact, random);
+    expect_right<paper::Searcher>(approximate, approximate, random);
+    expect_right<ReferenceSearcher>(SearchMethod::breadth_first(graph), graph, random);
+    expect_right<BallSearcher>(SearchMethod::ball_scan(graph.positions), graph.positions, random);
     rows += random.vertices.size();
   }
   std::printf("%s: %zu rows, %zu numbers of threads\n", std::string(GetParam().name).c_str(), rows, kThreads.size());
@@ -189,7 +194,10 @@ TEST_F(Batches, OfAnEmptyMeshAreEmpty) {
   const Index empty = build(MeshView{});
   EXPECT_THAT(neighborhood_sizes(empty, {.radius = 1.0}), IsEmpty());
   EXPECT_THAT(neighborhoods(empty, {.radius = 1.0}, {.threads = 2}).offsets, ElementsAre(0));
-  EXPECT_THAT(stream(paper::build(MeshView{}), {.radius = 1.0}, {}).ids, IsEmpty());
+  const paper::Index empty_paper = paper::build(MeshView{});
+  EXPECT_THAT(stream(empty_paper, {.radius = 1.0}, {}).ids, IsEmpty());
+  EXPECT_THAT(stream(SearchMethod::breadth_first({}), {.radius = 1.0}, {}).ids, IsEmpty());
+  EXPECT_THAT(stream(SearchMethod::ball_scan({}), {.radius = 1.0}, {}).ids, IsEmpty());
 }
 
 TEST_F(Batches, GiveDistancesOnlyWhenAsked) {
@@ -199,7 +207,7 @@ TEST_F(Batches, GiveDistancesOnlyWhenAsked) {
   EXPECT_EQ(*std::max_element(all.distances.begin(), all.distances.end()), 3.0);
 }
 
-/// Memory with something before and behind it that nobody may write to.
+/// Memory between guards that must not be written to.
 template <class T>
 class Guarded {
  public:
@@ -222,8 +230,7 @@ class Guarded {
   std::vector<T> values_;
 };
 
-template <class Index>
-void expect_same_in_callers_memory(const Index& index, const BatchQuery& query, const BatchOptions& options) {
+void expect_same_in_callers_memory(const SearchMethod& index, const BatchQuery& query, const BatchOptions& options) {
   const Neighborhoods expected = neighborhoods(index, query, options);
   Guarded<VertexId> ids;
   Guarded<double> distances;
@@ -250,7 +257,8 @@ TEST_F(Batches, FillMemoryOfTheCallers) {
       expect_same_in_callers_memory(approximate, rows.query(), options);
     }
   }
-  expect_same_in_callers_memory(build(MeshView{}), {.radius = 1.0}, {});
+  const Index empty = build(MeshView{});
+  expect_same_in_callers_memory(empty, {.radius = 1.0}, {});
 }
 
 TEST_F(Batches, RefuseMemoryOfAnotherSize) {
@@ -288,24 +296,21 @@ TEST_F(Batches, OfManyRowsAreAskedInSeveralPieces) {
 }
 
 /// Expects each of the calls to refuse before it hands out or reports anything.
-template <class Index, class... Options>
-void expect_all_refused(ErrorCode code, const std::string& culprit, const Index& index, const BatchQuery& query,
-                        BatchOptions options, const Options&... query_options) {
+void expect_all_refused(ErrorCode code, const std::string& culprit, const SearchMethod& index, const BatchQuery& query,
+                        BatchOptions options) {
   const auto never = [&](const BatchRow&) { ADD_FAILURE() << "handed out before: " << culprit; };
   options.progress = [&](std::size_t, std::size_t) {
     ADD_FAILURE() << "reported before: " << culprit;
     return true;
   };
-  expect_refused(code, culprit, [&] { for_each_neighborhood(index, query, never, options, query_options...); });
-  expect_refused(code, culprit, [&] { static_cast<void>(neighborhoods(index, query, options, query_options...)); });
-  expect_refused(code, culprit,
-                 [&] { static_cast<void>(neighborhood_sizes(index, query, options, query_options...)); });
+  expect_refused(code, culprit, [&] { for_each_neighborhood(index, query, never, options); });
+  expect_refused(code, culprit, [&] { static_cast<void>(neighborhoods(index, query, options)); });
+  expect_refused(code, culprit, [&] { static_cast<void>(neighborhood_sizes(index, query, options)); });
   const auto no_memory = [&](std::size_t) -> BatchMemory {
     ADD_FAILURE() << "asked for memory before: " << culprit;
     return {};
   };
-  expect_refused(code, culprit,
-                 [&] { static_cast<void>(neighborhoods(index, query, no_memory, options, query_options...)); });
+  expect_refused(code, culprit, [&] { static_cast<void>(neighborhoods(index, query, no_memory, options)); });
 }
 
 TEST_F(Batches, RefuseWhatCannotBeBeforeTheFirstRow) {
@@ -313,10 +318,12 @@ TEST_F(Batches, RefuseWhatCannotBeBeforeTheFirstRow) {
   const std::vector<double> two{1, 1};
   const std::vector<double> radii{1, -1, 1};
   const std::vector<VertexId> three{0, 1, 2};
+  const paper::Index approximate = paper::build(mesh.view());
   const auto refused = [&](ErrorCode code, const std::string& culprit, const BatchQuery& query,
                            const BatchOptions& options = {}) {
     expect_all_refused(code, culprit, index, query, options);
-    expect_all_refused(code, culprit, paper::build(mesh.view()), query, options);
+    expect_all_refused(code, culprit, approximate, query, options);
+    expect_all_refused(code, culprit, SearchMethod::ball_scan(mesh.view().positions), query, options);
   };
   refused(ErrorCode::VertexOutOfRange, "row 2: vertex 3600, but the mesh has 3600 vertices",
           {.vertices = vertices, .radius = 1.0});
@@ -326,9 +333,77 @@ TEST_F(Batches, RefuseWhatCannotBeBeforeTheFirstRow) {
   refused(ErrorCode::InvalidRadius, "2 radii for 3 rows", {.vertices = three, .radius = two});
   refused(ErrorCode::InvalidRadius, "2 radii for 3600 rows", {.radius = two});
   refused(ErrorCode::InvalidOption, "threads is 1025, expected at most 1024", {.radius = 1.0}, {.threads = 1025});
-  expect_all_refused(ErrorCode::InvalidOption, "scale_factor is 0", paper::build(mesh.view()), {.radius = 1.0}, {},
-                     paper::QueryOptions{.radius_ratio = 0});
+  expect_refused(ErrorCode::InvalidOption, "radius_ratio is 0",
+                 [&] { const SearchMethod method(approximate, {.radius_ratio = 0}); });
   expect_refused(ErrorCode::InvalidOption, "sink is empty", [&] { for_each_neighborhood(index, {.radius = 1.0}, {}); });
+}
+
+TEST_F(Batches, RefuseAGraphThatIsNone) {
+  const std::vector<EdgeOffset> offsets{0, 1, 1};
+  const std::vector<VertexId> neighbors{1};
+  const std::vector<float> positions(6);
+  expect_refused(ErrorCode::InvalidMesh, "0 is not among the neighbours of 1",
+                 [&] { static_cast<void>(SearchMethod::breadth_first({positions, {offsets, neighbors}})); });
+}
+
+TEST_F(Batches, ReadTheirQueryOnce) {
+  const paper::Index approximate = paper::build(mesh.view());
+  const Adjacency edges = adjacency(mesh.view());
+  const GraphView graph{mesh.view().positions, edges.view()};
+  const RandomRows rows(mesh.view(), 500, 8);
+  for (const SearchMethod& method : {SearchMethod(index), SearchMethod(approximate), SearchMethod::breadth_first(graph),
+                                     SearchMethod::ball_scan(graph.positions)}) {
+    const Neighborhoods expected = neighborhoods(method, rows.query());
+    RandomRows changed = rows;
+    const BatchOptions options{.progress = [&](std::size_t, std::size_t) {
+      std::fill(changed.vertices.begin(), changed.vertices.end(), VertexId{4'000'000'000});
+      std::fill(changed.radii.begin(), changed.radii.end(), std::numeric_limits<double>::quiet_NaN());
+      return true;
+    }};
+    EXPECT_EQ(neighborhoods(method, changed.query(), options).ids, expected.ids);
+    changed = rows;
+    EXPECT_EQ(neighborhood_sizes(method, changed.query(), options), sizes_of(rows_of(expected)));
+    changed = rows;
+    EXPECT_EQ(stream(method, changed.query(), options).ids.size(), rows.vertices.size());
+  }
+}
+
+TEST_F(Batches, RefuseAResultBeyondTheLimit) {
+  const std::uint64_t ids = neighborhoods(index, {.radius = 3}).ids.size();
+  for (const unsigned threads : kThreads) {
+    for (const bool distances : {false, true}) {
+      const std::uint64_t bytes = ids * (sizeof(VertexId) + (distances ? sizeof(double) : 0));
+      BatchOptions options{.threads = threads, .distances = distances, .max_bytes = bytes};
+      EXPECT_EQ(neighborhoods(index, {.radius = 3}, options).ids.size(), ids);
+      --options.max_bytes;
+      expect_refused(ErrorCode::TooLarge,
+                     "the result of 3600 rows exceeds max_bytes, " + std::to_string(options.max_bytes),
+                     [&] { static_cast<void>(neighborhoods(index, {.radius = 3}, options)); });
+    }
+  }
+}
+
+TEST_F(Batches, RefuseAResultFarBeyondTheLimitByASample) {
+  const std::vector<VertexId> vertices(100'000, VertexId{7});
+  std::size_t most = 0;
+  const BatchOptions options{.max_bytes = std::uint64_t{1} << 30, .progress = [&](std::size_t done, std::size_t) {
+                               most = std::max(most, done);
+                               return true;
+                             }};
+  expect_refused(ErrorCode::TooLarge, "about 3600 vertices each, exceeds max_bytes, 1073741824", [&] {
+    static_cast<void>(neighborhoods(index, {.vertices = vertices, .radius = kInfinity}, options));
+  });
+  EXPECT_EQ(most, 0U) << "all rows of the refused batch were counted";
+}
+
+TEST_F(Batches, CountASampleOnlyToRefuse) {
+  // Half of the rows are large: their sample does not prove that the result is too large.
+  std::vector<VertexId> vertices(20'000, VertexId{7});
+  std::vector<double> radii(vertices.size(), 0.0);
+  for (std::size_t row = 0; row < radii.size(); row += 2) radii[row] = 3;
+  const BatchQuery query{.vertices = vertices, .radius = radii};
+  const std::uint64_t ids = neighborhoods(index, query).ids.size();
+  EXPECT_EQ(neighborhoods(index, query, {.max_bytes = ids * sizeof(VertexId)}).ids.size(), ids);
 }
 
 TEST_F(Batches, ReportFromNothingToAllOnTheCallingThread) {

@@ -68,7 +68,8 @@ void expect_harmless(const paper::Index& index, Random& random) {
   for (std::size_t query = 0; query < 32; ++query) {
     const auto v = static_cast<VertexId>(random.below(index.vertex_count()));
     const double radius = query == 0 ? std::numeric_limits<double>::infinity() : random.uniform(0, 8);
-    searcher.neighborhood(v, radius, ids, {.radius_ratio = random.uniform(0.1, 20)});
+    searcher.set_options({.radius_ratio = random.uniform(0.1, 20)});
+    searcher.neighborhood(v, radius, ids);
     ASSERT_LE(ids.size(), index.vertex_count());
     ASSERT_TRUE(std::all_of(ids.begin(), ids.end(), [&](VertexId w) { return w < index.vertex_count(); }));
   }

@@ -44,7 +44,8 @@ TEST(Query, ClimbsToTheFirstLevelWhoseMeanRadiusReaches) {
   for (const double factor : {1.0, 10.0, 50.0}) {
     for (int half = 0; half < 400; ++half) {
       const double radius = half / 2.0;
-      searcher.neighborhood(1234, radius, out, {.radius_ratio = factor});
+      searcher.set_options({.radius_ratio = factor});
+      searcher.neighborhood(1234, radius, out);
       const auto wanted =
           std::ranges::find_if(levels, [&](const auto& level) { return level.mean_radius >= radius / factor; });
       const int expected = wanted == levels.end() ? levels.back().level : wanted->level;
@@ -59,8 +60,10 @@ TEST(Query, ReachesAcrossTheGapWhereClustersAreLarge) {
   paper::Searcher searcher(index);
   std::vector<VertexId> coarse;
   std::vector<VertexId> fine;
-  searcher.neighborhood(150, 10, coarse, {.radius_ratio = 0.1});
-  searcher.neighborhood(150, 10, fine, {.radius_ratio = 1000});
+  searcher.set_options({.radius_ratio = 0.1});
+  searcher.neighborhood(150, 10, coarse);
+  searcher.set_options({.radius_ratio = 1000});
+  searcher.neighborhood(150, 10, fine);
   const auto exact = exact_neighborhood(mesh.view(), 150, 10);
   EXPECT_THAT(sorted(fine), testing::ElementsAreArray(sorted(exact)));
   EXPECT_GT(coarse.size(), exact.size());
@@ -165,7 +168,10 @@ TEST(Query, A1A2RefusesWithoutTouchingTheAnswer) {
   paper::Searcher searcher(index);
   std::vector<VertexId> out{9, 8, 7};
   const auto ask = [&](VertexId v, double radius, double factor) {
-    return [&searcher, &out, v, radius, factor] { searcher.neighborhood(v, radius, out, {.radius_ratio = factor}); };
+    return [&searcher, &out, v, radius, factor] {
+      searcher.set_options({.radius_ratio = factor});
+      searcher.neighborhood(v, radius, out);
+    };
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   expect_refused(ErrorCode::VertexOutOfRange, "vertex 16, but the mesh has 16 vertices", ask(16, 1, 10));
@@ -173,10 +179,10 @@ TEST(Query, A1A2RefusesWithoutTouchingTheAnswer) {
   expect_refused(ErrorCode::InvalidRadius, "radius -1", ask(0, -1, 10));
   expect_refused(ErrorCode::InvalidRadius, "radius nan", ask(0, nan, 10));
   expect_refused(ErrorCode::InvalidRadius, "radius -inf", ask(0, -kInfinity, 10));
-  expect_refused(ErrorCode::InvalidOption, "scale_factor is 0", ask(0, 1, 0));
-  expect_refused(ErrorCode::InvalidOption, "scale_factor is -2", ask(0, 1, -2));
-  expect_refused(ErrorCode::InvalidOption, "scale_factor is nan", ask(0, 1, nan));
-  expect_refused(ErrorCode::InvalidOption, "scale_factor is inf", ask(0, 1, kInfinity));
+  expect_refused(ErrorCode::InvalidOption, "radius_ratio is 0", ask(0, 1, 0));
+  expect_refused(ErrorCode::InvalidOption, "radius_ratio is -2", ask(0, 1, -2));
+  expect_refused(ErrorCode::InvalidOption, "radius_ratio is nan", ask(0, 1, nan));
+  expect_refused(ErrorCode::InvalidOption, "radius_ratio is inf", ask(0, 1, kInfinity));
   expect_refused(ErrorCode::InvalidRadius, "radius nan", [&] { static_cast<void>(searcher.count(0, nan)); });
   EXPECT_THAT(out, testing::ElementsAre(9, 8, 7));
   searcher.neighborhood(5, -0.0, out);

@@ -93,11 +93,11 @@ TEST_F(Arguments, A1RadiusInfiniteIsTheComponent) {
   EXPECT_THAT(answers(4, std::numeric_limits<double>::max()), Each(SizeIs(9)));
 }
 
-TEST_F(Arguments, A1ScaleFactorIsPositiveAndFinite) {
+TEST_F(Arguments, A1RadiusRatioIsPositiveAndFinite) {
   std::vector<VertexId> out{7};
   for (const double factor : {kNan, 0.0, -0.0, -1.0, kInfinity}) {
-    expect_refused(ErrorCode::InvalidOption, "scale_factor is ",
-                   [&] { paper_searcher.neighborhood(0, 1, out, {.radius_ratio = factor}); });
+    expect_refused(ErrorCode::InvalidOption, "radius_ratio is ",
+                   [&] { paper_searcher.set_options({.radius_ratio = factor}); });
   }
   EXPECT_THAT(out, ElementsAre(7));
 }
@@ -127,7 +127,7 @@ TEST_F(Arguments, A3AnswersMayReuseAnyBuffer) {
 TEST_F(Arguments, A18ACallbackThatThrowsOrAsksAgainLeavesTheIndexUsable) {
   const auto thrower = [](const BatchRow&) { throw std::runtime_error("enough"); };
   EXPECT_THROW(for_each_neighborhood(index, {.radius = 1.0}, thrower, {.threads = 2}), std::runtime_error);
-  EXPECT_THROW(paper::for_each_neighborhood(paper_index, {.radius = 1.0}, thrower, {.threads = 2}), std::runtime_error);
+  EXPECT_THROW(for_each_neighborhood(paper_index, {.radius = 1.0}, thrower, {.threads = 2}), std::runtime_error);
   std::size_t rows = 0;
   for_each_neighborhood(index, {.radius = 1.0}, [&](const BatchRow& row) {
     // The rows are asked about again while they are handed over.

@@ -76,13 +76,13 @@ class Comparison {
   }
 
   void query_paper(paper::Searcher& searcher, std::uint32_t v, double radius) {
-    const paper::QueryOptions options{.radius_ratio = pick(random_, {0.1, 1.0, 3.0, 10.0, 100.0, 1e6})};
-    searcher.neighborhood(static_cast<VertexId>(v), radius, answer_, options);
+    searcher.set_options({.radius_ratio = pick(random_, {0.1, 1.0, 3.0, 10.0, 100.0, 1e6})});
+    searcher.neighborhood(static_cast<VertexId>(v), radius, answer_);
     const auto inside = [&](VertexId w) {
       return oracle_.distance(v, w) <= radius && oracle_.component(v) == oracle_.component(w);
     };
     expect(sandwich_.holds(exact_, answer_, inside), "paper", v, radius);
-    expect(searcher.count(static_cast<VertexId>(v), radius, options) == answer_.size(), "count", v, radius);
+    expect(searcher.count(static_cast<VertexId>(v), radius) == answer_.size(), "count", v, radius);
   }
 
   void expect(bool holds, const char* what, std::uint32_t v, double radius) {

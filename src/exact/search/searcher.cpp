@@ -35,6 +35,13 @@ Searcher::Searcher(Searcher&&) noexcept = default;
 Searcher& Searcher::operator=(Searcher&&) noexcept = default;
 Searcher::~Searcher() = default;
 
+std::size_t Searcher::vertex_count() const { return state_->index->vertex_count(); }
+
+std::span<const VertexId> Searcher::permutation() const {
+  const std::span<const VertexId> padded = state_->index->permutation;
+  return padded.empty() ? padded : padded.first(vertex_count());
+}
+
 void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
   state_->search(v, radius);
   state_->refill(out);

@@ -6,21 +6,25 @@
 #include <utility>
 #include <vector>
 
+#include "meshhood/batch.h"
+
 #include "interpreter.h"
 #include "methods.h"
 #include "pool.h"
 
 namespace meshhood::python {
 
-/// A method by an index. `Base` is the interface to fill; a `Searcher` asks the `Index`, and the calls for batches are
-/// found in its namespace.
-template <class Base, class Index, class Searcher>
-class IndexMethod : public Base {
+/// A method whose `Source` has `searcher()`, which makes a searcher, and `method()`, which is the same for batches.
+/// `Base` is the interface to implement.
+template <class Base, class Source>
+class SearcherMethod : public Base {
  public:
-  explicit IndexMethod(Index index) : index_(std::move(index)) {}
+  using Searcher = decltype(std::declval<const Source&>().searcher());
+
+  explicit SearcherMethod(Source source) : source_(std::move(source)) {}
 
   Answer neighborhood(VertexId v, double radius, bool distances) override {
-    return ask([&](Searcher& searcher) {
+    return with_searcher([&](Searcher& searcher) {
       Answer answer;
       if (distances) {
         searcher.neighborhood(v, radius, answer.ids, answer.distances);
@@ -32,30 +36,28 @@ class IndexMethod : public Base {
   }
 
   std::size_t count(VertexId v, double radius) override {
-    return ask([&](Searcher& searcher) { return searcher.count(v, radius); });
+    return with_searcher([&](Searcher& searcher) { return searcher.count(v, radius); });
   }
 
   std::vector<std::uint64_t> neighborhoods(const BatchQuery& query, const BatchAllocator& allocate,
                                            const BatchOptions& options) override {
-    using meshhood::neighborhoods;
-    return without_lock([&] { return neighborhoods(index_, query, allocate, options); });
+    return without_lock([&] { return meshhood::neighborhoods(source_.method(), query, allocate, options); });
   }
 
   std::vector<std::uint64_t> neighborhood_sizes(const BatchQuery& query, const BatchOptions& options) override {
-    using meshhood::neighborhood_sizes;
-    return without_lock([&] { return neighborhood_sizes(index_, query, options); });
+    return without_lock([&] { return meshhood::neighborhood_sizes(source_.method(), query, options); });
   }
 
  protected:
   template <class F>
-  auto ask(F&& f) {
-    return searchers_.with([&] { return Searcher(index_); }, std::forward<F>(f));
+  auto with_searcher(F&& f) {
+    return searchers_.with([&] { return source_.searcher(); }, std::forward<F>(f));
   }
 
-  [[nodiscard]] const Index& built() const { return index_; }
+  [[nodiscard]] const Source& source() const { return source_; }
 
  private:
-  Index index_;
+  Source source_;
   Pool<Searcher> searchers_;
 };
 

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "meshhood/batch.h"
+#include "meshhood/searcher.h"
+
+namespace meshhood {
+
+/// One row of a batch.
+struct BatchItem {
+  std::size_t row;
+  VertexId vertex;
+  double radius;
+};
+
+/// Receive the result of a row. They return false to drop the rest of the chunk.
+using SizeSink = std::function<bool(std::size_t row, std::size_t size)>;
+using ChunkSink = std::function<bool(const BatchRow&)>;
+
+/// Computes chunks of rows, on one thread. The vertices of a chunk ascend in index order. The result of a chunk must
+/// not depend on earlier chunks, for it is chance which chunks a thread gets.
+class BatchWorker {
+ public:
+  BatchWorker() = default;
+  BatchWorker(const BatchWorker&) = delete;
+  BatchWorker& operator=(const BatchWorker&) = delete;
+  virtual ~BatchWorker() = default;
+
+  virtual void count(std::span<const BatchItem> chunk, const SizeSink& sink) = 0;
+
+  /// The spans of the row that `sink` receives may be overwritten as soon as it returns.
+  virtual void find(std::span<const BatchItem> chunk, bool distances, const ChunkSink& sink) = 0;
+};
+
+/// Makes the workers of a batch, one per thread. Any thread may call it.
+class SearcherFactory {
+ public:
+  SearcherFactory() = default;
+  SearcherFactory(const SearcherFactory&) = delete;
+  SearcherFactory& operator=(const SearcherFactory&) = delete;
+  virtual ~SearcherFactory() = default;
+
+  [[nodiscard]] virtual std::size_t vertex_count() const = 0;
+
+  /// Ascends with the order in which vertices are best searched: near vertices have near positions.
+  [[nodiscard]] virtual std::uint32_t position(VertexId v) const = 0;
+
+  /// Whether counting takes much less time than listing. If not, rows to be kept are searched once, and copied.
+  [[nodiscard]] virtual bool is_count_cheap() const = 0;
+
+  [[nodiscard]] virtual std::unique_ptr<BatchWorker> make_worker() const = 0;
+};
+
+/// The worker of any searcher. `Begin` is called with the searcher before each chunk.
+template <NeighborhoodSearcher S, std::invocable<S&> Begin>
+class SearcherWorker final : public BatchWorker {
+ public:
+  SearcherWorker(S searcher, Begin begin) : searcher_(std::move(searcher)), begin_(std::move(begin)) {}
+
+  void count(std::span<const BatchItem> chunk, const SizeSink& sink) override {
+    begin_(searcher_);
+    for (const BatchItem& item : chunk) {
+      if (!sink(item.row, searcher_.count(item.vertex, item.radius))) return;
+    }
+  }
+
+  void find(std::span<const BatchItem> chunk, bool distances, const ChunkSink& sink) override {
+    begin_(searcher_);
+    for (const BatchItem& item : chunk) {
+      if (distances) {
+        searcher_.neighborhood(item.vertex, item.radius, ids_, distances_);
+      } else {
+        searcher_.neighborhood(item.vertex, item.radius, ids_);
+      }
+      if (!sink({item.row, ids_, distances_})) return;
+    }
+  }
+
+ private:
+  S searcher_;
+  Begin begin_;
+  std::vector<VertexId> ids_;
+  std::vector<double> distances_;
+};
+
+/// A factory from two functions: `make()` returns a worker, `position(v)` is as above.
+template <class Make, class Position>
+class FactoryOf final : public SearcherFactory {
+ public:
+  FactoryOf(std::size_t vertex_count, bool is_count_cheap, Make make, Position position)
+      : vertex_count_(vertex_count),
+        is_count_cheap_(is_count_cheap),
+        make_(std::move(make)),
+        position_(std::move(position)) {}
+
+  [[nodiscard]] std::size_t vertex_count() const override { return vertex_count_; }
+  [[nodiscard]] std::uint32_t position(VertexId v) const override { return position_(v); }
+  [[nodiscard]] bool is_count_cheap() const override { return is_count_cheap_; }
+  [[nodiscard]] std::unique_ptr<BatchWorker> make_worker() const override { return make_(); }
+
+ private:
+  std::size_t vertex_count_;
+  bool is_count_cheap_;
+  Make make_;
+  Position position_;
+};
+
+}  // namespace meshhood
