@@ -1,75 +1,90 @@
 // SPDX-License-Identifier: MIT
-// The order of the index. From the highest level down, the children of a cluster are numbered one after the other; on
-// the base level this puts the vertices of every cluster of every level side by side in memory (sec. 3: "precomputed
-// groups of vertices contiguously stored").
+// The index order. From the highest level down, the children of each cluster get consecutive numbers. The vertices of
+// each cluster of each level then form one range (sec. 3: "precomputed groups of vertices contiguously stored").
 #include "paper/arrange.h"
 
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
-#include "paper/group.h"
+#include "paper/child_lists.h"
+#include "paper/derive.h"
 
 namespace meshhood::paper {
 namespace {
 
-/// order[i]: the cluster of a level that comes at place `i`; place: the inverse.
-struct Order {
-  std::vector<ClusterId> order;
-  std::vector<ClusterId> place;
+/// The new numbers of the clusters of a level: a permutation and its inverse.
+struct Numbering {
+  std::vector<ClusterId> old_id;  // by new number
+  std::vector<ClusterId> new_id;  // by old number
+
+  explicit Numbering(std::vector<ClusterId> order) : old_id(std::move(order)), new_id(old_id.size()) {
+    for (std::size_t i = 0; i < old_id.size(); ++i) new_id[old_id[i]] = static_cast<ClusterId>(i);
+  }
 };
 
-Order identity(std::size_t size) {
-  Order result{std::vector<ClusterId>(size), std::vector<ClusterId>(size)};
-  std::iota(result.order.begin(), result.order.end(), ClusterId{0});
-  result.place = result.order;
-  return result;
+Numbering identity(std::size_t size) {
+  std::vector<ClusterId> order(size);
+  std::iota(order.begin(), order.end(), ClusterId{0});
+  return Numbering(std::move(order));
 }
 
-/// The clusters of a level in the order of their parents, and by number among the children of one.
-Order below(const Order& parents, const std::vector<ClusterId>& parent) {
-  std::vector<ClusterId> parent_place(parent.size());
-  for (std::size_t c = 0; c < parent.size(); ++c) parent_place[c] = parents.place[parent[c]];
-  Order result{group(parent_place, parents.order.size()).members, std::vector<ClusterId>(parent.size())};
-  for (std::size_t i = 0; i < result.order.size(); ++i) result.place[result.order[i]] = static_cast<ClusterId>(i);
-  return result;
+/// Numbers the clusters of a level in the new order of their parents; the children of one keep their order.
+Numbering number_below(const Numbering& above, const std::vector<ClusterId>& parent) {
+  std::vector<ClusterId> new_parent(parent.size());
+  for (std::size_t c = 0; c < parent.size(); ++c) new_parent[c] = above.new_id[parent[c]];
+  return Numbering(child_lists(new_parent, above.old_id.size()).children);
 }
 
-/// orders[l]: of level `l`, from the base level to the highest.
-std::vector<Order> order_levels(const std::vector<std::vector<ClusterId>>& parents, std::size_t highest_size) {
-  std::vector<Order> orders(parents.size() + 1);
-  orders.back() = identity(highest_size);
-  for (std::size_t l = parents.size(); l-- > 0;) orders[l] = below(orders[l + 1], parents[l]);
-  return orders;
+/// By level, the base level first.
+std::vector<Numbering> number_levels(const std::vector<std::vector<ClusterId>>& parents, std::size_t highest_size) {
+  std::vector<Numbering> levels{identity(highest_size)};
+  for (std::size_t l = parents.size(); l-- > 0;) levels.push_back(number_below(levels.back(), parents[l]));
+  std::reverse(levels.begin(), levels.end());
+  return levels;
 }
 
-Adjacency rename(const AdjacencyView& siblings, const Order& order) {
+/// Skips the levels below `lowest`: for each vertex, its cluster on that level.
+std::vector<ClusterId> drop_lower(const std::vector<std::vector<ClusterId>>& parents, std::size_t vertices,
+                                  std::size_t lowest) {
+  std::vector<ClusterId> cluster(vertices);
+  std::iota(cluster.begin(), cluster.end(), ClusterId{0});
+  for (std::size_t l = 0; l < lowest; ++l) {
+    for (ClusterId& c : cluster) c = parents[l][c];
+  }
+  return cluster;
+}
+
+/// Where the members of each cluster begin in the new order, and where they all end. cluster: by member, old numbers.
+std::vector<ClusterId> first_members(const std::vector<ClusterId>& cluster, const Numbering& numbering) {
+  std::vector<ClusterId> first(numbering.old_id.size() + 1, 0);
+  for (const ClusterId c : cluster) ++first[numbering.new_id[c] + std::size_t{1}];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  return first;
+}
+
+Adjacency renumber(const AdjacencyView& siblings, const Numbering& numbering) {
   Adjacency result;
   result.offsets.reserve(siblings.size() + 1);
   result.neighbors.reserve(siblings.neighbors.size());
   result.offsets.push_back(0);
-  for (const ClusterId cluster : order.order) {
+  for (const ClusterId cluster : numbering.old_id) {
     const auto row_begin = static_cast<std::ptrdiff_t>(result.neighbors.size());
-    for (const ClusterId sibling : siblings[cluster]) result.neighbors.push_back(order.place[sibling]);
+    for (const ClusterId sibling : siblings[cluster]) result.neighbors.push_back(numbering.new_id[sibling]);
     std::sort(result.neighbors.begin() + row_begin, result.neighbors.end());
     result.offsets.push_back(static_cast<EdgeOffset>(result.neighbors.size()));
   }
   return result;
 }
 
-/// Where the parents of the clusters of a level come on the level above; the clusters in their new order.
-std::vector<ClusterId> parent_places(const Order& level, const std::vector<ClusterId>& parent, const Order& above) {
-  std::vector<ClusterId> result(level.order.size());
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] = above.place[parent[level.order[i]]];
-  return result;
-}
-
-/// Where the children of each of `size` parents begin. parent: of the children in order, so ascending.
-std::vector<ClusterId> first_children(const std::vector<ClusterId>& parent, std::size_t size) {
-  std::vector<ClusterId> first(size + 1, 0);
-  for (const ClusterId p : parent) ++first[p + std::size_t{1}];
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  return first;
+/// members: of each cluster, where its vertices begin on the lowest level, and its children above.
+template <class Real>
+Level<Real> fill_level(std::size_t number, std::vector<ClusterId> members, Adjacency siblings, bool is_lowest) {
+  Level<Real> level;
+  level.number = static_cast<int>(number);
+  (is_lowest ? level.first_vertex : level.first_child) = std::move(members);
+  level.siblings = std::move(siblings);
+  return level;
 }
 
 template <class Real>
@@ -82,43 +97,20 @@ std::vector<Real> permute(std::span<const Real> xyz, const std::vector<VertexId>
 
 }  // namespace
 
-PackedIds cluster_of_vertex(const std::vector<VertexId>& first_vertex, const std::vector<VertexId>& vertices) {
-  const std::size_t clusters = first_vertex.size() - 1;
-  PackedIds result(vertices.size(), clusters);
-  for (std::size_t c = 0; c < clusters; ++c) {
-    for (std::size_t i = first_vertex[c]; i < first_vertex[c + 1]; ++i) result.set(vertices[i], c);
-  }
-  return result;
-}
-
 template <class Real>
 Hierarchy<Real> arrange(std::span<const Real> xyz, const std::vector<std::vector<ClusterId>>& parents,
                         const std::vector<AdjacencyView>& siblings, std::size_t lowest) {
-  const std::vector<Order> orders = order_levels(parents, siblings.back().size());
+  std::vector<Numbering> levels = number_levels(parents, siblings.back().size());
   Hierarchy<Real> result;
-  result.vertices = orders[0].order;
-  result.positions = permute(xyz, result.vertices);
-
-  std::vector<VertexId> first_vertex(result.vertices.size() + 1);
-  std::iota(first_vertex.begin(), first_vertex.end(), VertexId{0});
-  for (std::size_t l = 0; l < orders.size(); ++l) {
-    Level<Real> level;
-    level.number = static_cast<int>(l);
-    if (l > 0) {
-      std::vector<ClusterId> parent = parent_places(orders[l - 1], parents[l - 1], orders[l]);
-      level.first_child = first_children(parent, orders[l].order.size());
-      std::vector<VertexId> first(level.first_child.size());
-      for (std::size_t c = 0; c < first.size(); ++c) first[c] = first_vertex[level.first_child[c]];
-      first_vertex = std::move(first);
-      if (l > lowest) result.levels.back().parent = std::move(parent);
-    }
-    if (l < lowest) continue;
-    level.first_vertex = first_vertex;
-    level.siblings = rename(siblings[l], orders[l]);
-    result.levels.push_back(std::move(level));
+  for (std::size_t l = lowest; l < levels.size(); ++l) {
+    const bool is_lowest = l == lowest;
+    const auto members = is_lowest ? first_members(drop_lower(parents, xyz.size() / 3, lowest), levels[l])
+                                   : first_members(parents[l - 1], levels[l]);
+    result.levels.push_back(fill_level<Real>(l, members, renumber(siblings[l], levels[l]), is_lowest));
   }
-  result.levels.front().first_child = {};
-  result.lowest_cluster = cluster_of_vertex(result.levels.front().first_vertex, result.vertices);
+  result.vertices = std::move(levels.front().old_id);
+  result.positions = permute(xyz, result.vertices);
+  derive(result);
   return result;
 }
 

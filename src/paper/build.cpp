@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The level loop of sec. 3.2, and nothing else.
+// The level loop of sec. 3.2. Each step has a file of its own.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -44,12 +44,12 @@ DraftLevel base_level(std::span<const Real> xyz, const AdjacencyView& graph) {
   return level;
 }
 
-/// Every component is a single cluster. (Deviation: the printed rule, one cluster in all, never holds on a mesh of
-/// several components.)
+/// Whether each component is a single cluster. Deviation: the paper continues until the whole mesh is one cluster,
+/// which never happens on a mesh of several components.
 bool is_complete(const DraftLevel& level) { return level.siblings.neighbors.empty(); }
 
-/// Drops the lowest levels (4.1), and gives spheres to those that stay. Deviation: spheres come last, once for every
-/// cluster, when no fusion can change it any more.
+/// Discards the lowest levels (4.1) and computes the spheres of the others. Deviation: spheres are computed last, once
+/// for each cluster that is kept, because fusion would change them.
 template <class Real>
 Hierarchy<Real> keep(std::span<const Real> xyz, const std::vector<DraftLevel>& levels,
                      const std::vector<std::vector<ClusterId>>& parents, int discard, Steps& steps) {
@@ -93,7 +93,7 @@ Hierarchy<Real> compute(std::span<const Real> xyz, const AdjacencyView& graph, c
   return hierarchy;
 }
 
-/// A radius around coordinates near the end of the range of float would not be finite as float.
+/// Whether all radii are finite as float.
 bool fits_float_spheres(std::span<const float> xyz) {
   return std::all_of(xyz.begin(), xyz.end(), [](float x) { return std::abs(x) <= 0x1p125F; });
 }
@@ -108,7 +108,7 @@ AnyHierarchy compute_any(std::span<const float> xyz, const AdjacencyView& graph,
   return compute<double>(wide, graph, options);
 }
 
-/// `graph` and `options` have been checked.
+/// `graph` and `options` are valid.
 Index make_index(const GraphView& graph, const BuildOptions& options) {
   return IndexAccess::make(graph.positions.visit([&](auto xyz) { return compute_any(xyz, graph.adjacency, options); }),
                            fingerprint(graph));

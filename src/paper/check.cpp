@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The definitions of sec. 3.1, verified one by one on a finished index. What they are compared with is read off the
-// mesh anew; nothing that builds the index is called, but for the distance. I1 to I8 number the statements as
-// docs/paper.md does.
+// Verifies the definitions of sec. 3.1 on a finished index, one by one. The expected values are computed from the mesh
+// again; of the code that builds the index, only the distance is used. docs/paper.md lists the invariants I1 to I8.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -19,18 +18,18 @@ namespace meshhood::paper {
 namespace {
 
 constexpr std::size_t kMostFaults = 16;
-constexpr VertexId kUnplaced = static_cast<VertexId>(-1);
+constexpr VertexId kNoPosition = static_cast<VertexId>(-1);
 
 template <class Real>
 class Check {
  public:
   Check(const Hierarchy<Real>& hierarchy, const GraphView& graph) : hierarchy_(hierarchy), graph_(graph) {}
 
-  /// A test relies on the structure that those before it have found sound; so where that fails the check ends.
+  /// Each test relies on the structure that the tests before it have verified, so a fault there ends the check.
   std::vector<std::string> run() {
     if (!vertices_agree()) return std::move(faults_);
     for (level_ = 0; level_ < hierarchy_.levels.size(); ++level_) {
-      if (!is_partition() || !links_agree() || !siblings_are_edges()) break;
+      if (!is_partition() || !families_agree() || !siblings_are_edges()) break;
       clusters_are_connected();
       spheres_enclose();
       averages_agree();
@@ -54,56 +53,56 @@ class Check {
     return fault("level " + std::to_string(level().number) + ", cluster " + std::to_string(cluster) + ": " + text);
   }
 
-  /// The index order is a permutation of the vertices of the mesh and carries their positions.
+  /// The index order is a permutation of the vertices of the mesh, with their positions.
   bool vertices_agree() {
     const auto& vertices = hierarchy_.vertices;
     if (vertices.size() != graph_.positions.size()) {
       return fault(std::to_string(vertices.size()) + " vertices in the index, but the mesh has " +
                    std::to_string(graph_.positions.size()));
     }
-    place_.assign(vertices.size(), kUnplaced);
+    position_.assign(vertices.size(), kNoPosition);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const VertexId v = vertices[i];
-      if (v >= vertices.size() || place_[v] != kUnplaced) {
-        return fault("index order, place " + std::to_string(i) + ": vertex " + std::to_string(v) +
-                     " does not exist or stands there twice");
+      if (v >= vertices.size() || position_[v] != kNoPosition) {
+        return fault("index order, position " + std::to_string(i) + ": vertex " + std::to_string(v) +
+                     " is out of range or occurs twice");
       }
-      place_[v] = static_cast<VertexId>(i);
-      if (!same_position(i, v)) fault("vertex " + std::to_string(v) + ": its position is not that of the mesh");
+      position_[v] = static_cast<VertexId>(i);
+      if (!same_position(i, v)) fault("vertex " + std::to_string(v) + ": its position differs from that of the mesh");
     }
     return faults_.empty();
   }
 
   [[nodiscard]] bool same_position(std::size_t i, VertexId v) const {
     return graph_.positions.visit([&](auto xyz) {
-      const Point mine = point<Real>(hierarchy_.positions, i);
-      const Point theirs = point(xyz, v);
-      return mine.x == theirs.x && mine.y == theirs.y && mine.z == theirs.z;
+      const Point kept = point<Real>(hierarchy_.positions, i);
+      const Point given = point(xyz, v);
+      return kept.x == given.x && kept.y == given.y && kept.z == given.z;
     });
   }
 
-  /// I1: the ranges of the clusters follow each other, none empty, from the first vertex to the last.
+  /// I1: the ranges of the clusters are consecutive and not empty, from the first vertex to the last.
   bool is_partition() {
     const std::vector<VertexId>& first = level().first_vertex;
     if (first.empty() || first.front() != 0 || first.back() != hierarchy_.vertices.size()) {
-      return level_fault("its clusters do not span all vertices");
+      return level_fault("its clusters do not cover all vertices");
     }
     cluster_at_.resize(hierarchy_.vertices.size());
     for (std::size_t c = 0; c < level().size(); ++c) {
-      if (first[c] >= first[c + 1] || first[c + 1] > cluster_at_.size()) return cluster_fault(c, "no vertices");
+      if (first[c] >= first[c + 1] || first[c + 1] > cluster_at_.size()) return cluster_fault(c, "it has no vertices");
       std::fill(cluster_at_.begin() + first[c], cluster_at_.begin() + first[c + 1], static_cast<ClusterId>(c));
     }
     return true;
   }
 
-  /// I2: a vertex names its lowest cluster; a parent has the vertices of its children, and they name it.
-  bool links_agree() { return level_ == 0 ? vertices_name_clusters() : children_agree(); }
+  /// I2: a vertex refers to its lowest cluster; a parent is the union of its children, and they refer to it.
+  bool families_agree() { return level_ == 0 ? lowest_clusters_agree() : children_agree(); }
 
-  bool vertices_name_clusters() {
+  bool lowest_clusters_agree() {
     for (std::size_t i = 0; i < cluster_at_.size(); ++i) {
       const VertexId v = hierarchy_.vertices[i];
       if (hierarchy_.lowest_cluster[v] != cluster_at_[i]) {
-        cluster_fault(cluster_at_[i], "its vertex " + std::to_string(v) + " names another cluster");
+        cluster_fault(cluster_at_[i], "its vertex " + std::to_string(v) + " refers to another cluster");
       }
     }
     return faults_.empty();
@@ -116,33 +115,34 @@ class Check {
       return level_fault("its children are not the clusters of the level below");
     }
     for (std::size_t c = 0; c < level().size(); ++c) {
-      if (first[c] >= first[c + 1] || first[c + 1] > below().size()) return cluster_fault(c, "no children");
+      if (first[c] >= first[c + 1] || first[c + 1] > below().size()) return cluster_fault(c, "it has no children");
       if (below().first_vertex[first[c]] != level().first_vertex[c] ||
           below().first_vertex[first[c + 1]] != level().first_vertex[c + 1]) {
         cluster_fault(c, "its vertices are not those of its children");
       }
       const auto begin = below().parent.begin();
       if (std::any_of(begin + first[c], begin + first[c + 1], [&](ClusterId parent) { return parent != c; })) {
-        cluster_fault(c, "a child names another parent");
+        cluster_fault(c, "a child refers to another parent");
       }
     }
     return faults_.empty();
   }
 
-  /// I5: the siblings are exactly the clusters that an edge of the mesh leads to, from both sides.
+  /// I5: the siblings are exactly the clusters that an edge of the mesh joins to this one.
   bool siblings_are_edges() {
     const AdjacencyView siblings = level().siblings.view();
-    if (siblings.size() != level().size()) return level_fault("not one row of siblings a cluster");
+    if (siblings.size() != level().size())
+      return level_fault("the number of sibling rows differs from the number of clusters");
     if (siblings.offsets.front() != 0 || siblings.offsets.back() != siblings.neighbors.size() ||
         !std::is_sorted(siblings.offsets.begin(), siblings.offsets.end())) {
-      return level_fault("the rows of siblings do not follow each other");
+      return level_fault("the sibling rows are not in order");
     }
     std::vector<ClusterId> joined;
     for (std::size_t c = 0; c < level().size(); ++c) {
       clusters_joined_to(c, joined);
       const auto row = siblings[c];
       if (!std::equal(row.begin(), row.end(), joined.begin(), joined.end())) {
-        cluster_fault(c, "its siblings are not the clusters that an edge joins it to");
+        cluster_fault(c, "its siblings are not the clusters that an edge of the mesh joins to it");
       }
     }
     return faults_.empty();
@@ -152,14 +152,14 @@ class Check {
     joined.clear();
     for (std::size_t i = level().first_vertex[c]; i < level().first_vertex[c + 1]; ++i) {
       for (const VertexId w : graph_.adjacency[hierarchy_.vertices[i]]) {
-        if (cluster_at_[place_[w]] != c) joined.push_back(cluster_at_[place_[w]]);
+        if (cluster_at_[position_[w]] != c) joined.push_back(cluster_at_[position_[w]]);
       }
     }
     std::sort(joined.begin(), joined.end());
     joined.erase(std::unique(joined.begin(), joined.end()), joined.end());
   }
 
-  /// I3, and I6 with it: what is connected on the mesh lies in one component.
+  /// I3, and so I6: vertices that are connected on the mesh lie in one component.
   void clusters_are_connected() {
     std::vector<bool> reached(hierarchy_.vertices.size(), false);
     std::vector<VertexId> queue;
@@ -169,20 +169,20 @@ class Check {
       queue.assign(1, first);
       for (std::size_t head = 0; head < queue.size(); ++head) {
         for (const VertexId w : graph_.adjacency[hierarchy_.vertices[queue[head]]]) {
-          const VertexId i = place_[w];
+          const VertexId i = position_[w];
           if (cluster_at_[i] != c || reached[i]) continue;
           reached[i] = true;
           queue.push_back(i);
         }
       }
-      if (queue.size() != level().first_vertex[c + 1] - std::size_t{first}) cluster_fault(c, "not connected");
+      if (queue.size() != level().first_vertex[c + 1] - std::size_t{first}) cluster_fault(c, "it is not connected");
     }
   }
 
-  /// I4, as the query computes distances; a cluster of one vertex is that vertex.
+  /// I4, with the distances of the query; the sphere of a single vertex has radius 0.
   void spheres_enclose() {
     if (level().spheres.size() != level().size()) {
-      level_fault("not one sphere a cluster");
+      level_fault("the number of spheres differs from the number of clusters");
       return;
     }
     for (std::size_t c = 0; c < level().size(); ++c) {
@@ -200,7 +200,7 @@ class Check {
     }
   }
 
-  /// I8.
+  /// I8: the mean radius is that of the spheres.
   void averages_agree() {
     double sum = 0;
     for (const Sphere<Real>& sphere : level().spheres) sum += static_cast<double>(sphere.radius);
@@ -209,20 +209,21 @@ class Check {
     level_fault("mean radius " + to_text(level().mean_radius) + ", but the spheres give " + to_text(mean));
   }
 
-  /// I7: a level has at most half the clusters of the one below, component by component, until one cluster is left.
+  /// I7: a cluster with siblings has at least two children, so each level has at most half the clusters of the one
+  /// below.
   void level_shrinks() {
     if (level_ == 0) return;
     for (std::size_t c = 0; c < level().size(); ++c) {
       if (level().first_child[c + 1] - level().first_child[c] > 1 || level().siblings.view()[c].empty()) continue;
-      cluster_fault(c, "a single child, though it has siblings");
+      cluster_fault(c, "it has a single child although it has siblings");
     }
   }
 
   const Hierarchy<Real>& hierarchy_;
   const GraphView& graph_;
-  std::size_t level_ = 0;              // under test, among those kept
-  std::vector<VertexId> place_;        // by vertex: its place in the index order
-  std::vector<ClusterId> cluster_at_;  // by place: its cluster on the level under test
+  std::size_t level_ = 0;              // the level under test, counted from the lowest one kept
+  std::vector<VertexId> position_;     // by vertex: its position in the index order
+  std::vector<ClusterId> cluster_at_;  // by position: its cluster on the level under test
   std::vector<std::string> faults_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Step 1 of sec. 3.2, create: a candidate for every cluster of the level below, in a queue that gives the one whose
-// number of children is nearest to the average first.
+// Step 1 of sec. 3.2, create: one candidate for each cluster of the level below, in a priority queue ordered by how far
+// its number of children is from the average.
 #include "paper/create.h"
 
 #include <cmath>

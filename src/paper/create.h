@@ -9,15 +9,15 @@
 
 namespace meshhood::paper {
 
-/// The priority queue `Q` of sec. 3.2. The candidate made from cluster `C` has as children `C` and the siblings of `C`
-/// that no selected cluster has taken; so a number says which candidate it is, and only its count of children is kept.
+/// The priority queue `Q` of sec. 3.2. The candidate of cluster `C` has as children those of `C` and its siblings that
+/// have no parent yet. So the number of `C` identifies the candidate, and only the count of its children is stored.
 class CandidateQueue {
  public:
-  /// children[c]: of the candidate made from cluster `c`.
+  /// children[c]: the number of children of the candidate of cluster `c`.
   explicit CandidateQueue(const std::vector<VertexId>& children);
 
   struct Candidate {
-    double from_average;  ///< its key: how far its number of children is from the average
+    double from_average;  ///< the key: distance of its number of children from the average
     VertexId children;
     ClusterId cluster;
   };
@@ -27,7 +27,7 @@ class CandidateQueue {
   void insert(ClusterId cluster, VertexId children);
 
  private:
-  /// Equal keys go by id, so that the order is total.
+  /// Ties are broken by id, so the order is total.
   struct ComesLater {
     bool operator()(const Candidate& a, const Candidate& b) const {
       return a.from_average != b.from_average ? a.from_average > b.from_average : a.cluster > b.cluster;
@@ -40,7 +40,7 @@ class CandidateQueue {
   std::priority_queue<Candidate, std::vector<Candidate>, ComesLater> queue_;
 };
 
-/// How many children each candidate begins with: its cluster and all siblings of it.
+/// The number of children of each candidate at first: its cluster and all siblings.
 [[nodiscard]] std::vector<VertexId> create(const DraftLevel& below);
 
 }  // namespace meshhood::paper

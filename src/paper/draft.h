@@ -11,17 +11,17 @@
 
 namespace meshhood::paper {
 
-/// A level in the making (3.2): what the step from one level to the next reads of it.
+/// A level during construction (3.2): what the computation of the next level needs.
 struct DraftLevel {
-  AdjacencyView siblings;              // of every cluster; on the base level the graph of the mesh itself
-  Adjacency own_siblings;              // what `siblings` refers to above the base level
+  AdjacencyView siblings;              // of each cluster; on the base level, the graph of the mesh
+  Adjacency own_siblings;              // what `siblings` refers to, above the base level
   std::vector<VertexId> vertex_count;  // by cluster
-  std::vector<Point> position_sum;     // by cluster: the sum over its vertices, from which fusion has their mean
+  std::vector<Point> position_sum;     // by cluster: the sum over its vertices; fusion needs the mean
 
   [[nodiscard]] std::size_t size() const { return vertex_count.size(); }
 };
 
-/// To which cluster of the next level each cluster goes.
+/// The parent of each cluster, on the next level.
 struct Partition {
   std::vector<ClusterId> parent;
   std::size_t clusters = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sections of the paper's index. What follows from the rest is not written: parents, the vertices of the clusters
-// above the lowest level, the cluster of each vertex, the mean radii. So it cannot contradict the rest either.
+// The sections of the paper's index. Data that follows from other data is not stored and so cannot contradict it:
+// parents, the vertices of clusters above the lowest level, the cluster of each vertex, mean radii.
 #include <string>
 #include <utility>
 
@@ -12,8 +12,9 @@
 #include "format/coordinates.h"
 #include "format/section_reader.h"
 #include "format/section_writer.h"
-#include "paper/file_levels.h"
+#include "paper/derive.h"
 #include "paper/index_access.h"
+#include "paper/link.h"
 #include "paper/verify.h"
 
 namespace meshhood::paper {
@@ -34,8 +35,8 @@ std::vector<T> copy(std::span<const T> values) {
   return {values.begin(), values.end()};
 }
 
-/// Where the parts of each cluster begin: vertices on the lowest level, children above.
-std::string parts_name(std::size_t level) { return level == 0 ? "first_vertex" : on_level("first_child", level); }
+/// The section that says where the members of each cluster begin: vertices on the lowest level, children above.
+std::string members_name(std::size_t level) { return level == 0 ? "first_vertex" : on_level("first_child", level); }
 
 template <class Real>
 void save(const Hierarchy<Real>& hierarchy, const Fingerprint& mesh, const Sink& sink, const Progress& progress) {
@@ -50,7 +51,7 @@ void save(const Hierarchy<Real>& hierarchy, const Fingerprint& mesh, const Sink&
   writer.add("vertices", std::span<const VertexId>(hierarchy.vertices));
   for (std::size_t l = 0; l < hierarchy.levels.size(); ++l) {
     const Level<Real>& level = hierarchy.levels[l];
-    writer.add(parts_name(l), std::span<const ClusterId>(l == 0 ? level.first_vertex : level.first_child));
+    writer.add(members_name(l), std::span<const ClusterId>(l == 0 ? level.first_vertex : level.first_child));
     writer.add(on_level("spheres", l), std::span<const Sphere<Real>>(level.spheres));
     writer.add(on_level("sibling_rows", l), std::span<const EdgeOffset>(level.siblings.offsets));
     writer.add(on_level("siblings", l), std::span<const ClusterId>(level.siblings.neighbors));
@@ -76,15 +77,15 @@ std::span<const LevelRecord> take_records(SectionReader& file) {
   return records;
 }
 
-/// `below`: the level below; where there is none, the vertices.
+/// below: the levels below, and the vertices.
 template <class Real>
 Level<Real> take_level(SectionReader& file, std::size_t l, const LevelRecord& record, const Hierarchy<Real>& below) {
   const std::size_t clusters = record.clusters;
-  const std::size_t parts = l == 0 ? below.vertices.size() : below.levels.back().spheres.size();
+  const std::size_t members = l == 0 ? below.vertices.size() : below.levels.back().spheres.size();
   Level<Real> level;
   level.number = static_cast<int>(record.number);
-  const auto first = file.take<ClusterId>(parts_name(l), std::uint64_t{clusters} + 1);
-  file::verify_starts(first, parts, file);
+  const auto first = file.take<ClusterId>(members_name(l), std::uint64_t{clusters} + 1);
+  file::verify_starts(first, members, file);
   (l == 0 ? level.first_vertex : level.first_child) = copy(first);
   const auto spheres = file.take<Sphere<Real>>(on_level("spheres", l), clusters);
   file::verify_spheres(spheres, file);
@@ -111,7 +112,8 @@ Hierarchy<Real> take_hierarchy(SectionReader& file) {
     hierarchy.levels.push_back(take_level(file, l, records[l], hierarchy));
   }
   file.expect_end();
-  complete(hierarchy);
+  derive(hierarchy);
+  for (Level<Real>& level : hierarchy.levels) level.mean_radius = mean_radius(level);
   file::verify_enclosed(hierarchy, file);
   return hierarchy;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Step 4 of sec. 3.2, fusion: Algorithm 2. It comes before step 3 here, for all it needs of that is which cluster is
-// whose parent; so neither siblings nor spheres exist yet that it could leave stale (Deviation: the printed order
-// patches the one and forgets the other).
+// Step 4 of sec. 3.2, fusion: Algorithm 2. Deviation: it runs before step 3, because it only needs to know which
+// cluster is whose parent. So there are no siblings or spheres yet that would have to be updated.
 #include "paper/fusion.h"
 
 #include <limits>
@@ -22,11 +21,11 @@ class Fusion {
         child_count_(partition.clusters, 0),
         vertex_count_(partition.clusters, 0),
         position_sum_(partition.clusters, Point{}) {
-    // Backwards, so that every list of children ascends.
+    // Backwards, so that each list of children ascends.
     for (std::size_t c = below.size(); c-- > 0;) add_child(partition.parent[c], static_cast<ClusterId>(c));
   }
 
-  /// Smallest first: what a dissolved cluster gives goes to clusters at least as large, so nothing moves often.
+  /// Smallest first: children move to clusters at least as large, so none moves often.
   void run() {
     for (std::size_t c = 0; c < partition_.clusters; ++c) queue_if_small(static_cast<ClusterId>(c));
     while (!small_.empty()) {
@@ -35,7 +34,7 @@ class Fusion {
       if (vertices == vertex_count_[cluster]) {
         dissolve(cluster);
       } else {
-        queue_if_small(cluster);  // it has grown since
+        queue_if_small(cluster);  // it has grown since it was queued
       }
     }
     number_survivors();
@@ -44,8 +43,8 @@ class Fusion {
  private:
   using Entry = std::pair<VertexId, ClusterId>;
 
-  /// Deviation: a cluster with a single child is dissolved however large it is. Nothing else makes the levels shrink:
-  /// select alone can take one cluster off a level (a star), and would again and again.
+  /// Deviation: a cluster with a single child is dissolved, however large it is. Otherwise levels need not shrink: on a
+  /// star, select alone removes one cluster from each level.
   void queue_if_small(ClusterId cluster) {
     if (static_cast<double>(vertex_count_[cluster]) < threshold_ || child_count_[cluster] < 2) {
       small_.emplace(vertex_count_[cluster], cluster);
@@ -62,30 +61,30 @@ class Fusion {
     total = {total.x + sum.x, total.y + sum.y, total.z + sum.z};
   }
 
-  /// Algorithm 2. Deviation: a child goes to the nearest of the clusters *that it touches*; the printed one takes the
-  /// nearest sibling of its parent, which need not touch it and then is no longer connected. Children inside the
-  /// donor, which touch none, follow when a neighbour of theirs has gone.
-  /// Deviation: a donor without siblings stays; the printed one would lose its vertices.
+  /// Algorithm 2. Deviation: a child goes to the nearest cluster that it touches. In the paper it goes to the nearest
+  /// sibling of the donor, which it need not touch; that cluster would be disconnected. Children inside the donor,
+  /// which touch no other cluster, follow after a neighbor has moved. Deviation: a donor without siblings stays; in the
+  /// paper its vertices would be lost.
   void dissolve(ClusterId donor) {
-    given_.clear();
+    moved_.clear();
     for (ClusterId child = first_child_[donor]; child != kNoCluster; child = next_child_[child]) {
-      if (nearest_touching(child, donor) != kNoCluster) given_.push_back(child);
+      if (nearest_touching(child, donor) != kNoCluster) moved_.push_back(child);
     }
-    if (given_.empty()) return;
+    if (moved_.empty()) return;
     first_child_[donor] = kNoCluster;
     child_count_[donor] = 0;
     vertex_count_[donor] = 0;
-    for (std::size_t i = 0; i < given_.size(); ++i) {
-      const ClusterId child = given_[i];
+    for (std::size_t i = 0; i < moved_.size(); ++i) {
+      const ClusterId child = moved_[i];
       if (partition_.parent[child] != donor) continue;
       add_child(nearest_touching(child, donor), child);
       for (const ClusterId sibling : below_.siblings[child]) {
-        if (partition_.parent[sibling] == donor) given_.push_back(sibling);
+        if (partition_.parent[sibling] == donor) moved_.push_back(sibling);
       }
     }
   }
 
-  /// Deviation: distances are those between mean positions, which stay exact as clusters grow.
+  /// Deviation: the distance between clusters is that of the means of their vertices, which stays exact as they grow.
   [[nodiscard]] ClusterId nearest_touching(ClusterId child, ClusterId donor) const {
     const Point centre = mean(below_.position_sum[child], below_.vertex_count[child]);
     ClusterId nearest = kNoCluster;
@@ -119,14 +118,14 @@ class Fusion {
   const DraftLevel& below_;
   double threshold_;
   Partition& partition_;
-  // The children of each cluster, as linked lists: a cluster is given new ones and asked for all, never for one.
+  // The children of each cluster, as linked lists.
   std::vector<ClusterId> first_child_;
   std::vector<ClusterId> next_child_;
   std::vector<VertexId> child_count_;
   std::vector<VertexId> vertex_count_;
   std::vector<Point> position_sum_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> small_;
-  std::vector<ClusterId> given_;
+  std::vector<ClusterId> moved_;
 };
 
 }  // namespace

@@ -5,9 +5,9 @@
 
 namespace meshhood::paper {
 
-/// Dissolves the clusters of `partition` with fewer than `threshold` vertices, or with a single child, into those they
-/// touch; what is left is numbered in the order of the first child. A cluster that touches none, being a whole
-/// component of the mesh, is kept as it is.
+/// Dissolves the clusters of `partition` that have fewer than `threshold` vertices or a single child into the clusters
+/// they touch. The others are numbered in the order of their first children. A cluster that touches no other is a whole
+/// component of the mesh and stays.
 void fuse(const DraftLevel& below, double threshold, Partition& partition);
 
 }  // namespace meshhood::paper

@@ -8,8 +8,7 @@
 
 namespace meshhood::paper {
 
-/// The door between an index and what it is made of: for `build`, for files, and for tests that damage an index on
-/// purpose.
+/// Access to the data of an index, for `build`, for files, and for tests that damage an index on purpose.
 struct IndexAccess {
   [[nodiscard]] static Index make(AnyHierarchy hierarchy, const Fingerprint& mesh = {}) {
     return Index(std::make_unique<const Index::Storage>(Index::Storage{std::move(hierarchy), mesh}));

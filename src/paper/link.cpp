@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Step 3 of sec. 3.2, link and sphere. A cluster has the vertices of its children, and as siblings the clusters, other
-// than itself, that the siblings of its children have as parent.
+// Step 3 of sec. 3.2, link and sphere. A cluster has the vertices of its children. Its siblings are the other clusters
+// that are parents of siblings of its children.
 #include "paper/link.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "base/sphere.h"
-#include "paper/group.h"
+#include "paper/child_lists.h"
 
 namespace meshhood::paper {
 namespace {
 
 void link_siblings(const DraftLevel& below, const Partition& partition, DraftLevel& level) {
-  const Groups children = group(partition.parent, partition.clusters);
+  const ChildLists children = child_lists(partition.parent, partition.clusters);
   Adjacency& siblings = level.own_siblings;
   siblings.offsets.reserve(partition.clusters + 1);
   siblings.offsets.push_back(0);

@@ -8,21 +8,21 @@
 
 namespace meshhood::paper {
 
-/// A list of numbers below a common bound, each in as few bits as the bound needs: the reference of every vertex to its
-/// lowest cluster would otherwise be a tenth of the index.
+/// A list of numbers below a common bound, each in as few bits as the bound requires. The lowest cluster of each vertex
+/// would otherwise take a tenth of the index.
 class PackedIds {
  public:
   PackedIds() = default;
   PackedIds(std::size_t size, std::uint64_t bound)
       : width_(bound > 1 ? static_cast<unsigned>(std::bit_width(bound - 1)) : 1),
-        // One word more, so that a number that ends in the last word can be read like any other.
+        // One word more, because reading a number always reads two words.
         words_(size * width_ / 64 + 2) {}
 
   void set(std::size_t i, std::uint64_t value) {
     const std::size_t bit = i * width_;
     const unsigned shift = bit % 64;
     words_[bit / 64] |= value << shift;
-    // Two shifts, for a shift by 64 is undefined.
+    // Two shifts, because a shift by 64 is undefined.
     words_[bit / 64 + 1] |= value >> 1 >> (63 - shift);
   }
 

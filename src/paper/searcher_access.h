@@ -7,9 +7,9 @@
 
 namespace meshhood::paper {
 
-/// For tests that force what is rare.
+/// For tests of rare cases.
 struct SearcherAccess {
-  /// As if so many queries had been asked.
+  /// Continues as if there had been `queries` queries.
   static void set_query(Searcher& searcher, std::uint32_t queries) { searcher.query_ = queries; }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Step 2 of sec. 3.2, select: Algorithm 1, a greedy cover. A candidate that has lost children since it was queued goes
-// back with its new count; one that has all of them becomes a cluster. O(#siblings log #clusters).
+// Step 2 of sec. 3.2, select: Algorithm 1, a greedy set cover. A candidate that has lost children since it was queued
+// is queued again with its new count; any other becomes a cluster. O(#siblings log #clusters).
 #include "paper/select.h"
 
 #include <utility>
@@ -18,9 +18,9 @@ class Selection {
     CandidateQueue queue(children_);
     while (!queue.empty()) {
       const CandidateQueue::Candidate top = queue.pop();
-      // Deviation: a candidate whose own cluster has been taken is dropped whole, where Algorithm 1 goes on with what
-      // is left of it. The rest hangs together through that cluster alone, and each of the rest still has a candidate
-      // of its own; so every cluster made here is connected, as sec. 3.1 demands.
+      // Deviation: a candidate whose own cluster already has a parent is dropped, where Algorithm 1 continues with its
+      // other children. Those are connected through that cluster alone, and each still has a candidate of its own. So
+      // each cluster made here is connected, as sec. 3.1 requires.
       if (visited(top.cluster)) continue;
       if (children_[top.cluster] != top.children) {
         queue.insert(top.cluster, children_[top.cluster]);
@@ -42,7 +42,7 @@ class Selection {
     }
   }
 
-  /// The visited child is deleted from every candidate that counts it.
+  /// Removes the visited child from each candidate that counts it.
   void visit(ClusterId child, ClusterId parent) {
     partition_.parent[child] = parent;
     --children_[child];
@@ -50,7 +50,7 @@ class Selection {
   }
 
   const DraftLevel& below_;
-  std::vector<VertexId> children_;  // that are not visited, by candidate
+  std::vector<VertexId> children_;  // by candidate: those not yet visited
   Partition partition_;
 };
 

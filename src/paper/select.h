@@ -6,8 +6,8 @@
 
 namespace meshhood::paper {
 
-/// Chooses clusters for the next level until every cluster of `below` is the child of exactly one.
-/// children: as `create` gives them.
+/// Chooses clusters for the next level until each cluster of `below` is the child of exactly one.
+/// children: the result of `create`.
 [[nodiscard]] Partition select(const DraftLevel& below, std::vector<VertexId> children);
 
 }  // namespace meshhood::paper

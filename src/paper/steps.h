@@ -10,11 +10,11 @@
 
 namespace meshhood::paper {
 
-/// Tells the caller's `Progress` how far the build is. Nobody knows beforehand how many levels there will be, so it is
-/// told of as many as are asked for: four steps each, and one for its spheres.
+/// Reports the progress of a build. The number of levels is not known in advance, so the total assumes as many as
+/// requested: four steps for each, and one for its spheres.
 class Steps {
  public:
-  /// `options` must outlive the steps. All members throw Error{Cancelled}.
+  /// `options` must outlive this object. All members throw Error{Cancelled}.
   explicit Steps(const BuildOptions& options)
       : total_(5 * static_cast<std::size_t>(std::min(options.levels, BuildOptions::kAllLevels))),
         task_(1, options.progress, total_) {}

@@ -36,8 +36,9 @@ void verify_starts(std::span<const paper::ClusterId> starts, std::size_t end, co
   if (starts.front() != 0) file.refuse(starts.data(), "begins with " + std::to_string(starts.front()) + ", expected 0");
   for (std::size_t c = 0; c + 1 < starts.size(); ++c) {
     if (starts[c] < starts[c + 1] && starts[c + 1] <= end) continue;
-    file.refuse(&starts[c], "cluster " + std::to_string(c) + ": from " + std::to_string(starts[c]) + " to " +
-                                std::to_string(starts[c + 1]) + " of " + std::to_string(end));
+    file.refuse(&starts[c], "cluster " + std::to_string(c) + ": range from " + std::to_string(starts[c]) + " to " +
+                                std::to_string(starts[c + 1]) + ", expected a range that is not empty and ends by " +
+                                std::to_string(end));
   }
   if (starts.back() != end) {
     file.refuse(&starts.back(), "ends with " + std::to_string(starts.back()) + ", expected " + std::to_string(end));
@@ -47,21 +48,21 @@ void verify_starts(std::span<const paper::ClusterId> starts, std::size_t end, co
 void verify_siblings(const AdjacencyView& siblings, const SectionReader& file) {
   const std::size_t end = siblings.neighbors.size();
   if (siblings.offsets.front() != 0 || siblings.offsets.back() != end) {
-    file.refuse(siblings.offsets.data(), "not from 0 to " + std::to_string(end));
+    file.refuse(siblings.offsets.data(), "rows do not run from 0 to " + std::to_string(end));
   }
   for (std::size_t c = 0; c < siblings.size(); ++c) {
     if (siblings.offsets[c] <= siblings.offsets[c + 1] && siblings.offsets[c + 1] <= end) continue;
     file.refuse(&siblings.offsets[c], "cluster " + std::to_string(c) + ": rows do not ascend");
   }
   for (std::size_t c = 0; c < siblings.size(); ++c) verify_row(siblings, c, file);
-  // As clusters come in ascending order, those that lead back to them must follow one another in each row.
+  // Clusters are visited in ascending order, so their entries must come in that order in each sibling's row.
   std::vector<EdgeOffset> next(siblings.offsets.begin(), siblings.offsets.end());
   for (std::size_t c = 0; c < siblings.size(); ++c) {
     for (const VertexId& sibling : siblings[c]) {
       const std::size_t back = next[sibling]++;
       if (back < siblings.offsets[sibling + std::size_t{1}] && siblings.neighbors[back] == c) continue;
-      file.refuse(&sibling,
-                  "cluster " + std::to_string(c) + ": sibling " + std::to_string(sibling) + " has no way back");
+      file.refuse(&sibling, "cluster " + std::to_string(c) + ": sibling " + std::to_string(sibling) +
+                                " does not list it as a sibling");
     }
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Files of every format that was released: they are read, they answer, and an index built today is the same file. Every
-// compiler and preset runs this, so that all of them agree byte for byte.
+// Files of each released format can be read and searched, and an index built today gives the same bytes. All compilers
+// and presets run this test, so they agree byte for byte.
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -25,7 +25,7 @@ std::vector<std::byte> golden_file(const std::string& folder, const std::string&
   return {bytes.begin(), bytes.end()};
 }
 
-/// Every path of this processor, against breadth-first search.
+/// Compares the answers with breadth-first search, for each instruction set of this processor.
 std::size_t expect_right_answers(const Index& index) {
   const GraphData mesh = extract_graph(index);
   ReferenceSearcher reference(mesh.view());
@@ -44,7 +44,7 @@ std::size_t expect_right_answers(const Index& index) {
   return queries;
 }
 
-TEST(Golden, FilesOfFormat1AreReadAndAnswer) {
+TEST(Golden, FilesOfFormat1CanBeReadAndSearched) {
   for (const GoldenShape& shape : golden_shapes()) {
     if (shape.index == GoldenIndex::Paper) continue;
     SCOPED_TRACE(shape.name);
@@ -60,7 +60,7 @@ TEST(Golden, FilesOfFormat1AreReadAndAnswer) {
   }
 }
 
-TEST(Golden, PaperFilesOfFormat1AreReadAsWhatIsBuiltToday) {
+TEST(Golden, PaperFilesOfFormat1EqualTheIndexBuiltToday) {
   for (const GoldenShape& shape : golden_shapes()) {
     if (shape.index != GoldenIndex::Paper) continue;
     SCOPED_TRACE(shape.name);
@@ -74,7 +74,7 @@ TEST(Golden, PaperFilesOfFormat1AreReadAsWhatIsBuiltToday) {
   }
 }
 
-TEST(Golden, TodaysBytesAreThoseOfFormat1) {
+TEST(Golden, BytesBuiltTodayAreThoseOfFormat1) {
   for (const GoldenShape& shape : golden_shapes()) {
     const std::vector<std::byte> expected = golden_file("format1", shape.name);
     for (const unsigned threads : {1U, 2U, 3U, 8U}) {
@@ -83,7 +83,7 @@ TEST(Golden, TodaysBytesAreThoseOfFormat1) {
   }
 }
 
-/// Indexes too large to be kept: of several levels, and of more vertices than a thread takes at once.
+/// Indexes too large to commit: with several levels, and more vertices than one thread processes at once.
 struct LargeIndex {
   GoldenShape shape;
   std::string digest;  ///< XXH3 (128 bits) of its bytes
@@ -98,7 +98,7 @@ std::vector<LargeIndex> large_indexes() {
       {{"large paper double", wavy_grids(190, true, false), GoldenIndex::Paper}, "e72fe30f0da96d3831f16d2b7b52da6a"}};
 }
 
-TEST(Golden, TodaysBytesOfLargeIndexesAreThoseOfFormat1) {
+TEST(Golden, BytesOfLargeIndexesBuiltTodayAreThoseOfFormat1) {
   for (const auto& [shape, digest] : large_indexes()) {
     for (const unsigned threads : {1U, 8U}) {
       if (threads > 1 && shape.index == GoldenIndex::Paper) continue;

@@ -17,14 +17,14 @@ namespace meshhood::test {
 
 enum class GoldenIndex { Exact, Reordered, Paper };
 
-/// What the golden files hold: a mesh a kind of content. Made without functions that differ between C libraries.
+/// The meshes of the golden files, made without functions that differ between C libraries.
 struct GoldenShape {
   std::string name;
   TestMesh mesh;
   GoldenIndex index = GoldenIndex::Exact;
 };
 
-/// A wavy grid over another, in triangles or quads; every seventh vertex of the upper one in no face.
+/// A wavy grid above another one, in triangles or quads, and 40 vertices without faces.
 [[nodiscard]] inline TestMesh wavy_grids(std::size_t side, bool quads, bool single) {
   Random random(side);
   TestMesh mesh = make_grid(side, side + 3, quads);
@@ -46,7 +46,7 @@ struct GoldenShape {
           {"paper_empty", TestMesh().finish(true), GoldenIndex::Paper}};
 }
 
-/// The paper's index is built by one thread.
+/// The paper's index always uses one thread.
 [[nodiscard]] inline std::vector<std::byte> golden_bytes(const GoldenShape& shape, unsigned threads = 1) {
   const MeshView mesh = shape.mesh.view();
   switch (shape.index) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes the golden files of the present format. To be run once a format, never to make a test pass: what was released
-// must be read for ever. Usage: write_golden FOLDER
+// Writes the golden files of the current format. Run it once for each format, never to make a test pass: released files
+// must stay readable. Usage: write_golden FOLDER
 #include <cstdio>
 #include <fstream>
 

@@ -32,7 +32,7 @@ struct Example {
   }
 };
 
-TEST(Arrange, PutsTheVerticesOfEveryClusterSideBySide) {
+TEST(Arrange, VerticesOfEachClusterAreContiguous) {
   const Hierarchy<double> hierarchy = Example().arranged(0);
   EXPECT_THAT(hierarchy.vertices, ElementsAre(0, 3, 2, 5, 1, 4));
   ASSERT_EQ(hierarchy.levels.size(), 3U);
@@ -45,16 +45,16 @@ TEST(Arrange, PutsTheVerticesOfEveryClusterSideBySide) {
   EXPECT_THAT(hierarchy.levels[2].parent, IsEmpty());
 }
 
-TEST(Arrange, CarriesPositionsAndRenamesSiblings) {
+TEST(Arrange, PositionsAndSiblingsFollowTheNewOrder) {
   const Hierarchy<double> hierarchy = Example().arranged(1);
   EXPECT_THAT(hierarchy.positions, ElementsAre(0, 0, 0, 3, 0, 0, 2, 0, 0, 5, 0, 0, 1, 0, 0, 4, 0, 0));
-  // The old middle cluster 1 is the new 2, and had both others as siblings.
+  // The old middle cluster 1 is the new 2. It has both others as siblings.
   EXPECT_THAT(hierarchy.levels[0].siblings.view()[0], ElementsAre(2));
   EXPECT_THAT(hierarchy.levels[0].siblings.view()[1], ElementsAre(2));
   EXPECT_THAT(hierarchy.levels[0].siblings.view()[2], ElementsAre(0, 1));
 }
 
-TEST(Arrange, DropsTheLevelsBelowTheLowest) {
+TEST(Arrange, LevelsBelowTheLowestAreDropped) {
   for (std::size_t lowest = 0; lowest < 3; ++lowest) {
     const Hierarchy<double> hierarchy = Example().arranged(lowest);
     ASSERT_EQ(hierarchy.levels.size(), 3 - lowest);
@@ -65,13 +65,13 @@ TEST(Arrange, DropsTheLevelsBelowTheLowest) {
   }
 }
 
-TEST(Arrange, LetsEveryVertexNameItsLowestCluster) {
+TEST(Arrange, EachVertexRefersToItsLowestCluster) {
   const Hierarchy<double> hierarchy = Example().arranged(1);
   const std::vector<std::uint64_t> expected{0, 2, 1, 0, 2, 1};
   for (std::size_t v = 0; v < expected.size(); ++v) EXPECT_EQ(hierarchy.lowest_cluster[v], expected[v]) << v;
 }
 
-TEST(Arrange, TakesAMeshWithoutVertices) {
+TEST(Arrange, AMeshWithoutVerticesGivesOneEmptyLevel) {
   const Adjacency none{{0}, {}};
   const Hierarchy<double> hierarchy = paper::arrange<double>({}, {}, {none.view()}, 0);
   EXPECT_THAT(hierarchy.vertices, IsEmpty());
@@ -79,7 +79,7 @@ TEST(Arrange, TakesAMeshWithoutVertices) {
   EXPECT_EQ(hierarchy.levels[0].size(), 0U);
 }
 
-TEST(Arrange, KeepsRandomFamiliesTogether) {
+TEST(Arrange, ChildrenOfRandomParentsAreContiguous) {
   std::size_t cases = 0;
   for (std::uint64_t seed = 0; seed < scaled(300, 20); ++seed, ++cases) {
     Random random(seed);
@@ -104,7 +104,7 @@ TEST(Arrange, KeepsRandomFamiliesTogether) {
   std::printf("%zu arrangements\n", cases);
 }
 
-TEST(PackedIds, GivesBackWhatWasSet) {
+TEST(PackedIds, NumbersReadBackAsSet) {
   std::size_t numbers = 0;
   for (unsigned width = 0; width <= 32; ++width) {
     const std::uint64_t bound = std::uint64_t{1} << width;

@@ -30,15 +30,15 @@ std::vector<int> level_numbers(const paper::Index& index) {
   return numbers;
 }
 
-/// All clusters are whole components.
+/// Whether each cluster is a whole component.
 bool is_complete(const paper::Index& index) { return index.levels().back().mean_siblings == 0; }
 
-TEST(Build, ComputesFiveLevelsAndKeepsThreeByDefault) {
+TEST(Build, DefaultIsFiveLevelsOfWhichThreeAreKept) {
   const TestMesh mesh = make_grid(60, 60, false);
   EXPECT_THAT(level_numbers(paper::build(mesh.view())), ElementsAre(2, 3, 4));
 }
 
-TEST(Build, KeepsWhatTheOptionsSay) {
+TEST(Build, OptionsDecideWhichLevelsAreKept) {
   const TestMesh mesh = make_grid(60, 60, true);
   EXPECT_THAT(level_numbers(paper::build(mesh.view(), {.levels = 4, .discard = 0})), ElementsAre(0, 1, 2, 3));
   EXPECT_THAT(level_numbers(paper::build(mesh.view(), {.levels = 1, .discard = 0})), ElementsAre(0));
@@ -46,7 +46,7 @@ TEST(Build, KeepsWhatTheOptionsSay) {
   EXPECT_THAT(level_numbers(paper::build(mesh.view(), {.levels = 3, .discard = 1000})), ElementsAre(2));
 }
 
-TEST(Build, KeepsThePositionsInIndexOrder) {
+TEST(Build, PositionsAreInIndexOrder) {
   const TestMesh mesh = make_grid(60, 60, true);
   const paper::Index index = paper::build(mesh.view());
   const PositionsView of_mesh = mesh.view().positions;
@@ -60,7 +60,7 @@ TEST(Build, KeepsThePositionsInIndexOrder) {
   index.positions().visit(expect_in_order);
 }
 
-TEST(Build, GoesOnUntilEveryComponentIsOneCluster) {
+TEST(Build, AllLevelsEndWithOneClusterForEachComponent) {
   TestMesh mesh = make_grid(20, 20, false);
   append(mesh, make_grid(3, 3, false));
   mesh.add_vertex(100, 0, 0);
@@ -71,31 +71,31 @@ TEST(Build, GoesOnUntilEveryComponentIsOneCluster) {
   EXPECT_THAT(index.check(mesh.view()), IsEmpty());
 }
 
-TEST(Build, TellsHowFarItIsAndStopsAtAnyReport) {
+TEST(Build, ProgressAscendsAndAnyReportCanCancel) {
   const TestMesh mesh = make_grid(60, 60, false);
   for (const int levels : {1, 5, BuildOptions::kAllLevels}) {
     std::vector<std::pair<std::size_t, std::size_t>> reports;
-    const auto watch = [&](std::size_t done, std::size_t total) {
+    const auto record = [&](std::size_t done, std::size_t total) {
       reports.emplace_back(done, total);
       return true;
     };
-    static_cast<void>(paper::build(mesh.view(), {.levels = levels, .progress = watch}));
+    static_cast<void>(paper::build(mesh.view(), {.levels = levels, .progress = record}));
     ASSERT_GE(reports.size(), 3U);
     EXPECT_EQ(reports.front().first, 0U);
     EXPECT_EQ(reports.back().first, reports.back().second);
     EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
     for (const auto& report : reports) EXPECT_EQ(report.second, reports.back().second);
     for (std::size_t last = 0; last < reports.size(); ++last) {
-      std::size_t told = 0;
-      const auto stop = [&](std::size_t, std::size_t) { return told++ < last; };
+      std::size_t calls = 0;
+      const auto stop = [&](std::size_t, std::size_t) { return calls++ < last; };
       expect_refused(ErrorCode::Cancelled, "cancelled",
                      [&] { static_cast<void>(paper::build(mesh.view(), {.levels = levels, .progress = stop})); });
-      EXPECT_EQ(told, last + 1);
+      EXPECT_EQ(calls, last + 1);
     }
   }
 }
 
-TEST(Build, HalvesUntilItIsComplete) {
+TEST(Build, LevelsShrinkByHalfUntilComplete) {
   std::size_t meshes = 0;
   for (const Family& family : families()) {
     for (std::uint64_t seed = 0; seed < scaled(10, 2); ++seed, ++meshes) {
@@ -110,7 +110,7 @@ TEST(Build, HalvesUntilItIsComplete) {
   std::printf("%zu meshes\n", meshes);
 }
 
-TEST(Build, FusesMoreWhereTheGrowthIsLarger) {
+TEST(Build, LargerFusionGrowthGivesFewerClusters) {
   const TestMesh mesh = make_grid(60, 60, false);
   const auto clusters = [&](double growth) {
     return paper::build(mesh.view(), {.levels = 2, .discard = 1, .fusion_growth = growth}).levels().back().clusters;
@@ -120,7 +120,7 @@ TEST(Build, FusesMoreWhereTheGrowthIsLarger) {
   EXPECT_EQ(clusters(1e9), 1U);
 }
 
-TEST(Build, SummarisesItsLevels) {
+TEST(Build, LevelSummariesAgreeWithTheMesh) {
   const TestMesh mesh = make_grid(50, 40, false);
   const paper::Index index = paper::build(mesh.view(), {.levels = 3, .discard = 0});
   EXPECT_EQ(index.vertex_count(), 2000U);
@@ -137,11 +137,11 @@ TEST(Build, SummarisesItsLevels) {
     bytes += level.bytes;
   }
   EXPECT_GT(levels[2].mean_radius, levels[1].mean_radius);
-  EXPECT_GT(index.bytes(), bytes);  // and the references of the vertices to their clusters
+  EXPECT_GT(index.bytes(), bytes);  // plus the lowest cluster of each vertex
   EXPECT_LT(index.bytes(), bytes + std::size_t{4} * 2000);
 }
 
-TEST(Build, PermutesTheVertices) {
+TEST(Build, PermutationHasEachVertexOnce) {
   const TestMesh mesh = make_grid(30, 30, false);
   const paper::Index index = paper::build(mesh.view());
   std::vector<VertexId> ids(index.permutation().begin(), index.permutation().end());
@@ -149,7 +149,7 @@ TEST(Build, PermutesTheVertices) {
   for (std::size_t v = 0; v < mesh.size(); ++v) ASSERT_EQ(ids[v], v);
 }
 
-TEST(Build, OutlivesTheMeshAndMoves) {
+TEST(Build, IndexOutlivesTheMeshAndCanBeMoved) {
   const TestMesh mesh = make_grid(10, 10, false);
   paper::Index index = [&] {
     const TestMesh copy = mesh;
@@ -160,7 +160,7 @@ TEST(Build, OutlivesTheMeshAndMoves) {
   EXPECT_TRUE(same_index(index, moved));
 }
 
-TEST(Build, IsDeterministic) {
+TEST(Build, SameMeshAndOptionsGiveTheSameIndex) {
   std::size_t indexes = 0;
   for (const Family& family : families()) {
     for (std::uint64_t seed = 0; seed < scaled(10, 2); ++seed) {
@@ -183,7 +183,7 @@ std::vector<Index> widened(const TestMesh& mesh) {
   return {mesh.corners.begin(), mesh.corners.end()};
 }
 
-TEST(Build, DoesNotDependOnTheTypeOfTheIndices) {
+TEST(Build, IndexTypeOfTheFacesDoesNotMatter) {
   const TestMesh mesh = make_grid(30, 30, false);
   const auto of = [&](const auto& corners) {
     return paper::build({mesh.positions_view(), FacesView::triangles(corners)}, {.levels = 3, .discard = 0});
@@ -195,7 +195,7 @@ TEST(Build, DoesNotDependOnTheTypeOfTheIndices) {
   EXPECT_TRUE(same_index(index, paper::build(mesh.view(), {.levels = 3, .discard = 0})));
 }
 
-TEST(Build, MakesTheSameClustersInEitherPrecision) {
+TEST(Build, FloatAndDoublePositionsGiveTheSameClusters) {
   const TestMesh single = make_grid(30, 30, false);
   TestMesh wide = single;
   wide.finish(false);
@@ -204,7 +204,8 @@ TEST(Build, MakesTheSameClustersInEitherPrecision) {
   EXPECT_TRUE(std::ranges::equal(a.permutation(), b.permutation()));
 }
 
-TEST(Build, A1RefusesOptionsOutOfRange) {
+// Row A1 of docs/reliability.md.
+TEST(Build, OptionsOutOfRangeAreRefused) {
   const TestMesh mesh = make_grid(3, 3, false);
   const auto refuse = [&](const BuildOptions& options, const char* culprit) {
     expect_refused(ErrorCode::InvalidOption, culprit, [&] { static_cast<void>(paper::build(mesh.view(), options)); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// That `check` finds what is wrong: one index a statement of sec. 3.1, damaged by hand.
+// For each statement of sec. 3.1: `check` finds an index in which it does not hold. I1 to I8: see docs/paper.md.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -35,7 +35,7 @@ TestMesh two_sheets() {
   return mesh;
 }
 
-/// What `check` has to say of an index of four levels after `damage`.
+/// The faults that `check` finds in an index of four levels after `damage`.
 std::vector<std::string> faults_after(const Damage& damage) {
   const TestMesh mesh = two_sheets();
   const paper::Index index = paper::build(mesh.view(), {.levels = 4, .discard = 0});
@@ -46,7 +46,7 @@ std::vector<std::string> faults_after(const Damage& damage) {
 
 void expect_found(const char* fault, const Damage& damage) {
   const auto faults = faults_after(damage);
-  ASSERT_THAT(faults, Not(IsEmpty())) << "not noticed: " << fault;
+  ASSERT_THAT(faults, Not(IsEmpty())) << "not found: " << fault;
   EXPECT_THAT(faults.front(), HasSubstr(fault));
   EXPECT_LE(faults.size(), 16U);
 }
@@ -59,29 +59,29 @@ void expect_found_on_every_level(const char* fault, const std::function<void(Lev
   }
 }
 
-TEST(Check, FindsNothingInASoundIndex) {
+TEST(Check, FindsNoFaultInASoundIndex) {
   EXPECT_THAT(faults_after([](Hierarchy<float>&) {}), IsEmpty());
 }
 
-TEST(Check, FindsAVertexThatStandsTwice) {
-  expect_found("stands there twice", [](Hierarchy<float>& h) {
+TEST(Check, FindsADuplicateVertex) {
+  expect_found("occurs twice", [](Hierarchy<float>& h) {
     h.vertices[3] = h.vertices[4];
     std::copy_n(h.positions.begin() + 12, 3, h.positions.begin() + 9);
   });
 }
 
 TEST(Check, FindsAVertexOutOfRange) {
-  expect_found("vertex 500 does not exist",
+  expect_found("vertex 500 is out of range",
                [](Hierarchy<float>& h) { h.vertices[3] = static_cast<VertexId>(h.vertices.size()); });
 }
 
-TEST(Check, FindsVerticesExchanged) {
-  expect_found("its position is not that of the mesh",
+TEST(Check, FindsExchangedVertices) {
+  expect_found("its position differs from that of the mesh",
                [](Hierarchy<float>& h) { std::swap(h.vertices[0], h.vertices[200]); });
 }
 
 TEST(Check, FindsAMovedPosition) {
-  expect_found("its position is not that of the mesh", [](Hierarchy<float>& h) { h.positions[7] += 1; });
+  expect_found("its position differs from that of the mesh", [](Hierarchy<float>& h) { h.positions[7] += 1; });
 }
 
 TEST(Check, FindsAnotherMesh) {
@@ -90,36 +90,43 @@ TEST(Check, FindsAnotherMesh) {
   EXPECT_THAT(index.check(other.view()).front(), HasSubstr("500 vertices in the index, but the mesh has 25"));
 }
 
-TEST(Check, I1FindsAGapBetweenClusters) {
-  expect_found_on_every_level("do not span all vertices", [](Level<float>& level) { ++level.first_vertex.front(); });
-  expect_found_on_every_level("do not span all vertices", [](Level<float>& level) { --level.first_vertex.back(); });
+// I1.
+TEST(Check, FindsAGapBetweenClusters) {
+  expect_found_on_every_level("do not cover all vertices", [](Level<float>& level) { ++level.first_vertex.front(); });
+  expect_found_on_every_level("do not cover all vertices", [](Level<float>& level) { --level.first_vertex.back(); });
 }
 
-TEST(Check, I1FindsAnEmptyCluster) {
+// I1.
+TEST(Check, FindsAnEmptyCluster) {
   expect_found("no vertices", [](Hierarchy<float>& h) { h.levels[1].first_vertex[2] = h.levels[1].first_vertex[1]; });
 }
 
-TEST(Check, I2FindsAVertexThatNamesAnotherCluster) {
-  expect_found("names another cluster", [](Hierarchy<float>& h) { h.lowest_cluster.set(h.vertices[0], 3); });
+// I2.
+TEST(Check, FindsAVertexThatRefersToAnotherCluster) {
+  expect_found("refers to another cluster", [](Hierarchy<float>& h) { h.lowest_cluster.set(h.vertices[0], 3); });
 }
 
-TEST(Check, I2FindsAWrongParent) {
+// I2.
+TEST(Check, FindsAWrongParent) {
   for (std::size_t l = 0; l < 3; ++l) {
-    expect_found("names another parent", [&](Hierarchy<float>& h) { h.levels[l].parent[1] ^= 1U; });
+    expect_found("refers to another parent", [&](Hierarchy<float>& h) { h.levels[l].parent[1] ^= 1U; });
   }
 }
 
-TEST(Check, I2FindsAChildTakenFromItsParent) {
+// I2.
+TEST(Check, FindsAChildTakenFromItsParent) {
   expect_found("its vertices are not those of its children", [](Hierarchy<float>& h) { --h.levels[1].first_child[1]; });
 }
 
-TEST(Check, I2FindsAMissingLevel) {
+// I2.
+TEST(Check, FindsAMissingLevel) {
   expect_found("its children are not the clusters of the level below",
                [](Hierarchy<float>& h) { h.levels.erase(h.levels.begin() + 1); });
 }
 
-/// The path 0 to 5 in the clusters {0}, {1, 4} and {5, 2, 3}; all else is as it should be.
-TEST(Check, I3FindsADisconnectedCluster) {
+/// The path 0 to 5 with the clusters {0}, {1, 4} and {5, 2, 3}; all else is correct.
+/// I3.
+TEST(Check, FindsADisconnectedCluster) {
   TestMesh mesh;
   for (std::uint32_t i = 0; i < 6; ++i) {
     mesh.add_vertex(i, 0, 0);
@@ -139,11 +146,12 @@ TEST(Check, I3FindsADisconnectedCluster) {
   for (const VertexId v : {1U, 4U}) h.lowest_cluster.set(v, 1);
   for (const VertexId v : {2U, 3U, 5U}) h.lowest_cluster.set(v, 2);
   const auto faults = paper::IndexAccess::make(h).check(mesh.view());
-  EXPECT_THAT(faults,
-              testing::ElementsAre(HasSubstr("cluster 1: not connected"), HasSubstr("cluster 2: not connected")));
+  EXPECT_THAT(faults, testing::ElementsAre(HasSubstr("cluster 1: it is not connected"),
+                                           HasSubstr("cluster 2: it is not connected")));
 }
 
-TEST(Check, I4FindsASphereTooSmall) {
+// I4.
+TEST(Check, FindsASphereThatIsTooSmall) {
   for (std::size_t l = 1; l < 4; ++l) {
     expect_found("lies outside its sphere", [&](Hierarchy<float>& h) {
       float& radius = h.levels[l].spheres.front().radius;
@@ -152,11 +160,13 @@ TEST(Check, I4FindsASphereTooSmall) {
   }
 }
 
-TEST(Check, I4FindsABaseClusterWithARadius) {
+// I4.
+TEST(Check, FindsABaseClusterWithARadius) {
   expect_found("1 vertices, but radius", [](Hierarchy<float>& h) { h.levels[0].spheres[5].radius = 1e-30F; });
 }
 
-TEST(Check, I4FindsARadiusThatIsNoLength) {
+// I4.
+TEST(Check, FindsARadiusThatIsNotFiniteOrNegative) {
   expect_found_on_every_level(
       "radius nan", [](Level<float>& level) { level.spheres[0].radius = std::numeric_limits<float>::quiet_NaN(); });
   expect_found_on_every_level(
@@ -164,11 +174,12 @@ TEST(Check, I4FindsARadiusThatIsNoLength) {
   expect_found_on_every_level("radius -1", [](Level<float>& level) { level.spheres[0].radius = -1; });
 }
 
-TEST(Check, I4FindsASphereMissing) {
-  expect_found_on_every_level("not one sphere a cluster", [](Level<float>& level) { level.spheres.pop_back(); });
+// I4.
+TEST(Check, FindsAMissingSphere) {
+  expect_found_on_every_level("the number of spheres differs", [](Level<float>& level) { level.spheres.pop_back(); });
 }
 
-/// Puts `row` in place of the siblings of cluster 0.
+/// Replaces the siblings of cluster 0 by `row`.
 void replace_first_row(Adjacency& siblings, const std::vector<ClusterId>& row) {
   const EdgeOffset old_size = siblings.offsets[1];
   siblings.neighbors.erase(siblings.neighbors.begin(), siblings.neighbors.begin() + old_size);
@@ -182,9 +193,10 @@ std::vector<ClusterId> first_row(const Adjacency& siblings) {
   return {siblings.neighbors.begin(), siblings.neighbors.begin() + siblings.offsets[1]};
 }
 
-constexpr const char* kWrongSiblings = "its siblings are not the clusters that an edge joins it to";
+constexpr const char* kWrongSiblings = "its siblings are not the clusters that an edge of the mesh joins to it";
 
-TEST(Check, I5FindsASiblingFromOneSideOnly) {
+// I5.
+TEST(Check, FindsASiblingInOneDirectionOnly) {
   expect_found_on_every_level(kWrongSiblings, [](Level<float>& level) {
     std::vector<ClusterId> row = first_row(level.siblings);
     if (row.empty()) {
@@ -196,7 +208,8 @@ TEST(Check, I5FindsASiblingFromOneSideOnly) {
   });
 }
 
-TEST(Check, I5FindsAnExtraSibling) {
+// I5.
+TEST(Check, FindsAnExtraSibling) {
   expect_found_on_every_level(kWrongSiblings, [](Level<float>& level) {
     std::vector<ClusterId> row = first_row(level.siblings);
     row.push_back(static_cast<ClusterId>(level.size() - 1));
@@ -204,7 +217,8 @@ TEST(Check, I5FindsAnExtraSibling) {
   });
 }
 
-TEST(Check, I5FindsAClusterThatIsItsOwnSibling) {
+// I5.
+TEST(Check, FindsAClusterThatIsItsOwnSibling) {
   expect_found_on_every_level(kWrongSiblings, [](Level<float>& level) {
     std::vector<ClusterId> row = first_row(level.siblings);
     row.insert(row.begin(), 0);
@@ -212,20 +226,23 @@ TEST(Check, I5FindsAClusterThatIsItsOwnSibling) {
   });
 }
 
-TEST(Check, I5FindsNoSiblingsAtAll) {
-  expect_found_on_every_level("not one row of siblings a cluster", [](Level<float>& level) { level.siblings = {}; });
+// I5.
+TEST(Check, FindsMissingSiblingRows) {
+  expect_found_on_every_level("the number of sibling rows differs", [](Level<float>& level) { level.siblings = {}; });
 }
 
-TEST(Check, I5FindsRowsOutOfOrder) {
-  expect_found("the rows of siblings do not follow each other", [](Hierarchy<float>& h) {
+// I5.
+TEST(Check, FindsRowsOutOfOrder) {
+  expect_found("the sibling rows are not in order", [](Hierarchy<float>& h) {
     std::swap(h.levels[1].siblings.offsets[3], h.levels[1].siblings.offsets[5]);
   });
-  expect_found("the rows of siblings do not follow each other",
+  expect_found("the sibling rows are not in order",
                [](Hierarchy<float>& h) { h.levels[1].siblings.neighbors.push_back(0); });
 }
 
-/// Two components, each a pair, in one cluster.
-TEST(Check, I6FindsAClusterOfTwoComponents) {
+/// Two components of two vertices each, in one cluster.
+/// I6.
+TEST(Check, FindsAClusterOfTwoComponents) {
   TestMesh mesh;
   for (std::uint32_t i = 0; i < 4; ++i) mesh.add_vertex(i, 0, 0);
   mesh.add_face({0, 1});
@@ -244,8 +261,9 @@ TEST(Check, I6FindsAClusterOfTwoComponents) {
 }
 
 /// The highest level repeats the one below it.
-TEST(Check, I7FindsALevelThatDoesNotShrink) {
-  expect_found("a single child, though it has siblings", [](Hierarchy<float>& h) {
+/// I7.
+TEST(Check, FindsALevelThatDoesNotShrink) {
+  expect_found("it has a single child although it has siblings", [](Hierarchy<float>& h) {
     h.levels.erase(h.levels.begin() + 2, h.levels.end());
     Level<float> copy = h.levels.back();
     copy.number = 2;
@@ -259,14 +277,15 @@ TEST(Check, I7FindsALevelThatDoesNotShrink) {
   });
 }
 
-TEST(Check, I8FindsAWrongAverage) {
+// I8.
+TEST(Check, FindsAWrongMeanRadius) {
   expect_found_on_every_level("but the spheres give", [](Level<float>& level) { level.mean_radius += 1e-6; });
   expect_found_on_every_level("but the spheres give", [](Level<float>& level) {
     level.mean_radius = std::numeric_limits<double>::quiet_NaN();
   });
 }
 
-TEST(Check, SpeaksOfSixteenFaultsAtMost) {
+TEST(Check, ReportsAtMostSixteenFaults) {
   const auto faults = faults_after([](Hierarchy<float>& h) {
     for (auto& sphere : h.levels[0].spheres) sphere.radius = 1;
   });

@@ -23,30 +23,30 @@ std::vector<ClusterId> order_of(CandidateQueue& queue) {
   return order;
 }
 
-TEST(Create, CountsAClusterAndItsSiblings) {
+TEST(Create, ACandidateHasItsClusterAndAllSiblings) {
   EXPECT_THAT(paper::create(path_level(4)), ElementsAre(2, 3, 3, 2));
   EXPECT_THAT(paper::create(star_level(3)), ElementsAre(4, 2, 2, 2));
   EXPECT_THAT(paper::create(level_on_line({0, 1}, {})), ElementsAre(1, 1));
 }
 
-TEST(CandidateQueue, GivesTheNearestToTheAverageFirst) {
+TEST(CandidateQueue, NearestToTheAverageComesFirst) {
   CandidateQueue queue({2, 9, 4, 5});  // average 5
   EXPECT_THAT(order_of(queue), ElementsAre(3, 2, 0, 1));
 }
 
-TEST(CandidateQueue, BreaksTiesById) {
+TEST(CandidateQueue, TiesAreBrokenById) {
   CandidateQueue queue({4, 6, 4, 6});
   EXPECT_THAT(order_of(queue), ElementsAre(0, 1, 2, 3));
 }
 
-TEST(CandidateQueue, KeepsTheFirstAverageWhenCandidatesComeBack) {
+TEST(CandidateQueue, TheAverageStaysWhenACandidateIsQueuedAgain) {
   CandidateQueue queue({4, 6, 5});  // average 5
   EXPECT_EQ(queue.pop().cluster, 2U);
   queue.insert(2, 1);
   EXPECT_THAT(order_of(queue), ElementsAre(0, 1, 2));
 }
 
-TEST(CandidateQueue, CarriesTheCount) {
+TEST(CandidateQueue, ACandidateCarriesItsCountAndKey) {
   CandidateQueue queue({7});
   const CandidateQueue::Candidate top = queue.pop();
   EXPECT_EQ(top.children, 7U);
@@ -54,7 +54,7 @@ TEST(CandidateQueue, CarriesTheCount) {
   EXPECT_TRUE(queue.empty());
 }
 
-TEST(CandidateQueue, IsASortByKeyAndId) {
+TEST(CandidateQueue, OrderIsByKeyThenId) {
   Random random(1);
   std::vector<VertexId> children(1000);
   double sum = 0;

@@ -129,18 +129,18 @@ TEST(SerializePaperFaults, ARuleAForgery) {
                        [](Forgery& f) { f.section<VertexId>("vertices")[3] = f.section<VertexId>("vertices")[4]; });
   expect_refused_after("section positions",
                        [](Forgery& f) { f.section<float>("positions")[5] = std::numeric_limits<float>::quiet_NaN(); });
-  expect_refused_after("cluster 2: from", [](Forgery& f) { f.section<ClusterId>("first_vertex")[3] = 0; });
+  expect_refused_after("cluster 2: range from", [](Forgery& f) { f.section<ClusterId>("first_vertex")[3] = 0; });
   expect_refused_after("section first_child 1", [](Forgery& f) { f.section<ClusterId>("first_child 1")[1] = 0; });
   expect_refused_after("begins with 1", [](Forgery& f) { f.section<ClusterId>("first_child 1")[0] = 1; });
   expect_refused_after("section first_child 1", [](Forgery& f) { --f.section<ClusterId>("first_child 1").back(); });
-  expect_refused_after("a sphere that is none",
+  expect_refused_after("a sphere whose center or radius is not finite",
                        [](Forgery& f) { f.section<Sphere<float>>("spheres 0")[1].radius = -1; });
   expect_refused_after("does not enclose", [](Forgery& f) { f.section<Sphere<float>>("spheres 1")[0].x += 9; });
   expect_refused_after("rows do not ascend", [](Forgery& f) { f.section<EdgeOffset>("sibling_rows 0")[1] = 100000; });
-  expect_refused_after("not from 0", [](Forgery& f) { ++f.section<EdgeOffset>("sibling_rows 0").back(); });
+  expect_refused_after("rows do not run from 0", [](Forgery& f) { ++f.section<EdgeOffset>("sibling_rows 0").back(); });
   expect_refused_after("expected another of", [](Forgery& f) { f.section<ClusterId>("siblings 0")[0] = 4000000000U; });
   expect_refused_after("expected another of", [](Forgery& f) { f.section<ClusterId>("siblings 0")[0] = 0; });
-  expect_refused_after("has no way back", [](Forgery& f) {
+  expect_refused_after("does not list it as a sibling", [](Forgery& f) {
     // Another cluster than the first sibling of the last, which it still precedes.
     const auto row = f.section<EdgeOffset>("sibling_rows 0");
     ClusterId& sibling = f.section<ClusterId>("siblings 0")[row[row.size() - 2]];

@@ -27,24 +27,24 @@ std::vector<ClusterId> fused(const DraftLevel& level, double threshold, std::vec
   return partition.parent;
 }
 
-TEST(Fusion, LeavesWhatIsLargeEnough) {
+TEST(Fusion, LargeClustersStay) {
   EXPECT_THAT(fused(path_level(6), 3, {0, 0, 0, 1, 1, 1}), ElementsAre(0, 0, 0, 1, 1, 1));
   EXPECT_THAT(fused(path_level(6), 0, {0, 0, 1, 1, 2, 2}), ElementsAre(0, 0, 1, 1, 2, 2));
 }
 
-TEST(Fusion, DissolvesTheSmallestFirst) {
-  // Cluster 0 goes to cluster 1, which then is large enough.
+TEST(Fusion, TheSmallestClusterIsDissolvedFirst) {
+  // Cluster 0 joins cluster 1, which is then large enough.
   EXPECT_THAT(fused(path_level(7), 3, {0, 0, 1, 1, 2, 2, 2}), ElementsAre(0, 0, 0, 0, 1, 1, 1));
 }
 
-TEST(Fusion, DissolvesASingleChildHoweverLarge) {
+TEST(Fusion, AClusterWithASingleChildIsDissolvedHoweverLarge) {
   EXPECT_THAT(fused(path_level(3), 0, {0, 0, 1}), ElementsAre(0, 0, 0));
   DraftLevel level = path_level(3);
   level.vertex_count = {1, 1, 1000};
   EXPECT_THAT(fused(level, 2, {0, 0, 1}), ElementsAre(0, 0, 0));
 }
 
-TEST(Fusion, CountsVerticesNotChildren) {
+TEST(Fusion, TheThresholdCountsVerticesNotChildren) {
   DraftLevel level = path_level(4);
   level.vertex_count = {1, 1, 10, 10};
   EXPECT_THAT(fused(level, 3, {0, 0, 1, 1}), ElementsAre(0, 0, 0, 0));
@@ -52,33 +52,34 @@ TEST(Fusion, CountsVerticesNotChildren) {
   EXPECT_THAT(fused(level, 3, {0, 0, 1, 1}), ElementsAre(0, 0, 1, 1));
 }
 
-TEST(Fusion, A13KeepsADonorWithoutSiblings) {
+// Row A13 of docs/reliability.md.
+TEST(Fusion, ADonorWithoutSiblingsStays) {
   const DraftLevel pairs = level_on_line({0, 1, 10, 11}, {{0, 1}, {2, 3}});
   EXPECT_THAT(fused(pairs, 1e9, {0, 0, 1, 1}), ElementsAre(0, 0, 1, 1));
   EXPECT_THAT(fused(level_on_line({0, 1}, {}), 1e9, {0, 1}), ElementsAre(0, 1));
 }
 
-TEST(Fusion, MergesAComponentThatIsTooSmallIntoOne) {
+TEST(Fusion, ASmallComponentBecomesOneCluster) {
   EXPECT_THAT(fused(path_level(6), 100, {0, 0, 1, 1, 2, 2}), ElementsAre(0, 0, 0, 0, 0, 0));
 }
 
-TEST(Fusion, GivesToTheNearestThatIsTouched) {
-  // The donor {1, 2, 3} is a path. Its end 1 touches {0, 4}, its end 3 touches {5, 6}; but 3 lies beside the former.
+TEST(Fusion, AChildJoinsTheNearestClusterThatItTouches) {
+  // The donor {1, 2, 3} is a path. Vertex 1 touches {0, 4}; vertex 3 touches {5, 6}, although it lies near {0, 4}.
   const std::vector<double> xs{0, 1, 2, 0.5, 0.4, 50, 51};
   DraftLevel heavy = level_on_line(xs, {{0, 4}, {0, 1}, {1, 2}, {2, 3}, {3, 5}, {5, 6}});
   for (const std::size_t c : {0U, 4U, 5U, 6U}) {
     heavy.vertex_count[c] = 10;
     heavy.position_sum[c].x *= 10;
   }
-  // 2 touches none at first, and follows 1 into the nearer of the two that it then touches.
+  // 2 touches no other cluster at first. It follows 1 into the nearer of the two that it touches then.
   EXPECT_THAT(fused(heavy, 4, {0, 1, 1, 1, 0, 2, 2}), ElementsAre(0, 0, 0, 1, 0, 1, 1));
 }
 
-TEST(Fusion, NumbersTheSurvivorsByTheirFirstChild) {
+TEST(Fusion, RemainingClustersAreNumberedByTheirFirstChild) {
   EXPECT_THAT(fused(path_level(4), 0, {1, 1, 0, 0}), ElementsAre(0, 0, 1, 1));
 }
 
-/// What must hold of a cluster after fusion, unless it is a whole component.
+/// Clusters are large enough after fusion, unless they are whole components.
 void expect_large_enough(const TestMesh& mesh, const DraftLevel& level, const Partition& partition, double threshold) {
   for (const auto& children : children_of(partition)) {
     bool touches = false;
@@ -91,7 +92,8 @@ void expect_large_enough(const TestMesh& mesh, const DraftLevel& level, const Pa
   }
 }
 
-TEST(Fusion, A14KeepsEveryClusterConnected) {
+// Row A14 of docs/reliability.md.
+TEST(Fusion, ClustersStayConnected) {
   std::size_t fusions = 0;
   const std::size_t levels = for_each_small_level(scaled(600, 40), [&](const TestMesh& mesh, const DraftLevel& level) {
     for (const double threshold : {0.0, 2.0, 4.0, 16.0, 1e9}) {

@@ -17,7 +17,7 @@ using paper::ClusterId;
 using paper::DraftLevel;
 using paper::Partition;
 
-/// A level of one-vertex clusters at the vertices of `mesh`, siblings along its edges.
+/// The base level of `mesh`: one cluster for each vertex, siblings along the edges.
 inline DraftLevel base_level(const TestMesh& mesh) {
   DraftLevel level;
   level.own_siblings = adjacency(mesh.view());
@@ -29,7 +29,7 @@ inline DraftLevel base_level(const TestMesh& mesh) {
   return level;
 }
 
-/// The same from points on a line and edges.
+/// The base level of points on a line with these edges.
 inline DraftLevel level_on_line(const std::vector<double>& xs,
                                 const std::vector<std::pair<std::uint32_t, std::uint32_t>>& edges) {
   TestMesh mesh;
@@ -58,7 +58,7 @@ inline DraftLevel star_level(std::uint32_t leaves) {
   return level_on_line(xs, edges);
 }
 
-/// The children of every cluster; a child without a parent in range is left out.
+/// The children of each cluster, without those whose parent is out of range.
 inline std::vector<std::vector<std::uint32_t>> children_of(const Partition& partition) {
   std::vector<std::vector<std::uint32_t>> children(partition.clusters);
   for (std::uint32_t c = 0; c < partition.parent.size(); ++c) {
@@ -76,8 +76,8 @@ inline std::vector<std::set<std::uint32_t>> sibling_sets(const DraftLevel& level
   return sets;
 }
 
-/// Whether every cluster of `level` has exactly one parent, no parent is without children, and the children of each
-/// hang together.
+/// Whether each cluster of `level` has exactly one parent, each parent has children, and the children of each parent
+/// are connected.
 inline bool is_connected_partition(const DraftLevel& level, const Partition& partition) {
   const auto siblings = sibling_sets(level);
   const auto children = children_of(partition);
@@ -91,7 +91,7 @@ inline bool is_connected_partition(const DraftLevel& level, const Partition& par
   return total == level.size() && partition.parent.size() == level.size();
 }
 
-/// Calls `f(mesh, level)` on `count` small meshes of all families that have a vertex.
+/// Calls `f(mesh, level)` on `count` small meshes of all families, without those that have no vertex.
 template <class F>
 std::size_t for_each_small_level(std::size_t count, F&& f) {
   const std::vector<Family> all = families();

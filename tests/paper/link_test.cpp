@@ -19,7 +19,7 @@ namespace {
 
 using testing::ElementsAre;
 
-/// The pairs of clusters that an edge joins, the plain way.
+/// The pairs of clusters that an edge joins, computed directly.
 std::vector<std::set<std::uint32_t>> joined(const DraftLevel& below, const Partition& partition) {
   std::vector<std::set<std::uint32_t>> sets(partition.clusters);
   for (std::size_t c = 0; c < below.size(); ++c) {
@@ -30,20 +30,20 @@ std::vector<std::set<std::uint32_t>> joined(const DraftLevel& below, const Parti
   return sets;
 }
 
-TEST(Link, JoinsTheParentsOfSiblings) {
+TEST(Link, ParentsOfSiblingsAreSiblings) {
   const DraftLevel level = paper::link(path_level(6), {{0, 0, 1, 1, 2, 2}, 3});
   EXPECT_THAT(level.siblings[0], ElementsAre(1));
   EXPECT_THAT(level.siblings[1], ElementsAre(0, 2));
   EXPECT_THAT(level.siblings[2], ElementsAre(1));
 }
 
-TEST(Link, LeavesAWholeComponentAlone) {
+TEST(Link, AWholeComponentHasNoSiblings) {
   const DraftLevel level = paper::link(level_on_line({0, 1, 2}, {{0, 1}}), {{0, 0, 1}, 2});
   EXPECT_THAT(level.siblings[0], ElementsAre());
   EXPECT_THAT(level.siblings[1], ElementsAre());
 }
 
-TEST(Link, SumsVerticesAndPositions) {
+TEST(Link, VertexCountsAndPositionsAreSummed) {
   DraftLevel below = path_level(3);
   below.vertex_count = {1, 5, 7};
   const DraftLevel level = paper::link(below, {{0, 1, 1}, 2});
@@ -52,7 +52,7 @@ TEST(Link, SumsVerticesAndPositions) {
   EXPECT_EQ(level.position_sum[1].x, 3.0);
 }
 
-TEST(Link, JoinsExactlyThoseThatAnEdgeJoinsOnEveryLevel) {
+TEST(Link, SiblingsAreExactlyThePairsThatAnEdgeJoinsOnEachLevel) {
   std::size_t links = 0;
   for_each_small_level(scaled(600, 40), [&](const TestMesh& mesh, DraftLevel below) {
     for (int l = 0; l < 3; ++l, ++links) {
@@ -65,7 +65,7 @@ TEST(Link, JoinsExactlyThoseThatAnEdgeJoinsOnEveryLevel) {
   std::printf("%zu links\n", links);
 }
 
-TEST(Enclose, GivesSpheresAndTheirMean) {
+TEST(Enclose, SpheresAndTheirMeanRadius) {
   paper::Level<float> level;
   level.first_vertex = {0, 2, 3};
   const std::vector<float> positions{0, 0, 0, 2, 0, 0, 9, 9, 9};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The data sets of the paper's section 4, or what stands in for them.
+// The data sets of the paper's section 4, or stand-ins.
 #include <cstdio>
 #include <string>
 

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "paper/derive.h"
+
+namespace meshhood::paper {
+namespace {
+
+template <class Real>
+void add_parents(const Level<Real>& level, Level<Real>& below) {
+  below.parent.resize(below.size());
+  for (std::size_t c = 0; c + 1 < level.first_child.size(); ++c) {
+    for (std::size_t child = level.first_child[c]; child < level.first_child[c + 1]; ++child) {
+      below.parent[child] = static_cast<ClusterId>(c);
+    }
+  }
+}
+
+template <class Real>
+void add_first_vertices(Level<Real>& level, const Level<Real>& below) {
+  level.first_vertex.reserve(level.first_child.size());
+  for (const ClusterId child : level.first_child) level.first_vertex.push_back(below.first_vertex[child]);
+}
+
+template <class Real>
+PackedIds cluster_of_vertex(const Level<Real>& level, const std::vector<VertexId>& vertices) {
+  PackedIds result(vertices.size(), level.size());
+  for (std::size_t c = 0; c < level.size(); ++c) {
+    for (std::size_t i = level.first_vertex[c]; i < level.first_vertex[c + 1]; ++i) result.set(vertices[i], c);
+  }
+  return result;
+}
+
+}  // namespace
+
+template <class Real>
+void derive(Hierarchy<Real>& hierarchy) {
+  for (std::size_t l = 1; l < hierarchy.levels.size(); ++l) {
+    add_parents(hierarchy.levels[l], hierarchy.levels[l - 1]);
+    add_first_vertices(hierarchy.levels[l], hierarchy.levels[l - 1]);
+  }
+  hierarchy.lowest_cluster = cluster_of_vertex(hierarchy.levels.front(), hierarchy.vertices);
+}
+
+template void derive(Hierarchy<float>& hierarchy);
+template void derive(Hierarchy<double>& hierarchy);
+
+}  // namespace meshhood::paper
