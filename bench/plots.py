@@ -69,7 +69,7 @@ def table2(data):
             line(above, list(rows), [row[method]["microseconds"] for row in rows.values()], method)
             line(below, list(rows), [row[method]["count"] for row in rows.values()], method)
         logarithmic(above, "", "µs a query", name)
-        logarithmic(below, "radius / average edge", "vertices found", "")
+        logarithmic(below, "radius / mean edge length", "vertices found", "")
     common_legend(figure, axes[0][0])
     return [save(figure, "table2")]
 
@@ -93,7 +93,7 @@ def extra_over_radius(tables):
         for method, row in (("ball", "ball"), ("paper", accuracy.factor_method(10))):
             line(axis, radii, [100 * rows[radius][row]["extra"] / rows[radius]["bfs"]["count"] for radius in radii], method)
         axis.set_yscale("symlog", linthresh=0.1)
-        axis.set(xscale="log", xlabel="radius / average edge", ylabel="extra vertices, % of the exact", title=name)
+        axis.set(xscale="log", xlabel="radius / mean edge length", ylabel="extra vertices, % of the exact", title=name)
     common_legend(figure, axes[0])
     return save(figure, "accuracy")
 
@@ -111,7 +111,7 @@ def of_option(tables, values, method_of, what, plot):
             below.plot(radii, [row[method]["microseconds"] for row in rows.values()], **style)
         above.set_yscale("symlog", linthresh=0.1)
         above.set(xscale="log", ylabel="extra vertices, % of the exact", title=name)
-        logarithmic(below, "radius / average edge", "µs a query", "")
+        logarithmic(below, "radius / mean edge length", "µs a query", "")
     common_legend(figure, axes[0][0])
     return save(figure, plot)
 
