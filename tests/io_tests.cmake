@@ -1,4 +1,4 @@
-# The tests of files: format by format, row by row of the catalogue of faults, and beside other readers.
+# The tests of mesh and index files.
 foreach(stem shared_meshes ply obj off stl text file progress index_progress write memory mutation)
   meshhood_test(io/${stem} meshhood_test_support)
 endforeach()
@@ -6,14 +6,14 @@ meshhood_test(io/index meshhood_test_support meshhood_families)
 meshhood_test(whole/soak meshhood_test_support meshhood_families)
 add_subdirectory(interop)
 
-# What `io/memory` watches from outside.
+# The process whose peak memory `io/memory` measures.
 add_executable(read_peak support/read_peak.cpp)
 target_link_libraries(read_peak PRIVATE meshhood::io)
 meshhood_own_target(read_peak)
 target_compile_definitions(io_memory_test PRIVATE MESHHOOD_READ_PEAK="$<TARGET_FILE:read_peak>")
 add_dependencies(io_memory_test read_peak)
 
-# With ids of 16 bits, so that small files reach the limit of the vertices.
+# With 16-bit ids, so that small files reach the limit.
 find_package(fmt REQUIRED)
 find_package(FastFloat REQUIRED)
 get_target_property(io_sources meshhood_io SOURCES)
@@ -28,7 +28,7 @@ meshhood_compile_quickly(io_limits_test)
 meshhood_compile_together(io_limits_test)
 gtest_discover_tests(io_limits_test TEST_PREFIX io.limits. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 
-# Saves that fail, are killed, or meet a full disk: everything that writes a file is put through all of it.
+# Saves that fail, are killed or meet a full disk, for every function that writes a file.
 add_library(meshhood_save_trial STATIC support/save_trial.cpp support/savers.cpp support/small_disk.cpp)
 target_include_directories(meshhood_save_trial PUBLIC ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR})
 target_link_libraries(meshhood_save_trial PUBLIC

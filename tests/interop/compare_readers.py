@@ -5,9 +5,9 @@
     compare_readers.py DUMP_MESH SHARED
 
 DUMP_MESH   the program built from dump_mesh.cpp
-SHARED      the folder that holds that of the meshes, unless MESHHOOD_SHARED names it
+SHARED      the folder that contains `meshes`, unless MESHHOOD_SHARED names it
 
-Exit code 77, by which ctest tells a skipped test, where the meshes or the libraries are missing.
+Exit code 77, skipped, without the meshes or the libraries.
 """
 
 import os

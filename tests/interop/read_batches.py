@@ -4,7 +4,7 @@
 
     read_batches.py MESHHOOD
 
-Exit code 77, by which ctest tells a skipped test, where the libraries are missing.
+Exit code 77, skipped, without the libraries.
 """
 
 import subprocess

@@ -10,7 +10,7 @@
 #include "io/mesh_io.h"
 #include "support/shared_meshes.h"
 
-// Every OBJ of the shared meshes, but for the broken ones, as tinyobjloader reads it.
+// Compares every shared OBJ mesh, except the broken ones, with tinyobjloader.
 
 namespace meshhood::test {
 namespace {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every allocation fails once while a file is read or written: row R2 of the catalogue. The file that was there is
-// kept, and no other is left beside it.
+// Each allocation fails once while a file is read or written (R2). The old file is kept, and no temporary file remains.
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -26,7 +25,7 @@
 namespace meshhood::test {
 namespace {
 
-/// Large enough for every array to grow a few times while it is read.
+/// Large enough for every array to grow several times.
 const shapes::Shape& grid() {
   static const shapes::Shape shape = shapes::find_kind("grid")->make(2500);
   return shape;
@@ -68,7 +67,7 @@ std::string stl_of_grid() {
   return binary_stl(triangles);
 }
 
-/// What comes of a file: a mesh, or an error that is not about memory.
+/// The result of reading a file: a mesh, or an error that is not about memory.
 struct Reading {
   std::optional<io::Mesh> mesh;
   std::optional<ErrorCode> refused;
@@ -91,7 +90,7 @@ bool same(const Reading& a, const Reading& b) {
 
 class ReadAllocation : public testing::Test {
  protected:
-  /// Reads each file of the fuzzing corpus of a format, which has all variants and all faults.
+  /// Reads each file of the fuzzing corpus of a format, which covers all variants and faults.
   void read_corpus(const std::string& format) {
     for (const auto& file : std::filesystem::directory_iterator(MESHHOOD_CORPUS "/" + format)) read(file.path());
   }
@@ -153,7 +152,7 @@ TEST_F(ReadAllocation, FailsInTheFileOfAnIndex) {
   expect_made(paper::build(grid().view()), [](const auto& file) { return io::load_paper(file); });
 }
 
-/// The new version in place of the old one, by everything that writes a file.
+/// Replaces the old version by the new one, for every function that writes a file.
 class SaveAllocation : public SaveTrial {};
 
 TEST_P(SaveAllocation, LeavesTheOldFile) {

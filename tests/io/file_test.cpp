@@ -19,7 +19,7 @@
 #include "support/hostile.h"
 #include "support/scratch.h"
 
-// The row of the catalogue of mesh files that concerns files as such.
+// Special files and system errors: rows of the catalogue of mesh files.
 
 namespace meshhood::test {
 namespace {
@@ -57,7 +57,7 @@ TEST_F(Files, FoldersAndMissingFilesAreErrors) {
   EXPECT_EQ(vertex_count(io::read_mesh(scratch.write("empty.obj", ""))), 0U);
 }
 
-// What a binding needs for an error of its own, as OSError of Python.
+// Bindings need both, for OSError of Python.
 TEST_F(Files, ErrorsOfTheSystemHavePathAndErrno) {
   const auto expect_errno = [](const std::filesystem::path& path, int error_number, auto&& call) {
     try {
@@ -103,7 +103,7 @@ TEST_F(Files, EndlessDevicesAreRefused) {
     EXPECT_TRUE(result.refused) << device;
     EXPECT_THAT(result.message, StartsWith(device));
   }
-  // Under a name that makes every byte count, the limit ends it.
+  // With any extension, the limit ends the read.
   for (const std::string name : {"zero.obj", "zero.stl", "zero.ply", "zero.off"}) {
     std::filesystem::create_symlink("/dev/zero", scratch.path() / name);
     const auto result = file_refusal(scratch.path() / name, {.max_bytes = 1 << 20});
@@ -138,7 +138,7 @@ TEST_F(Files, AnEndlessPipeIsReadUpToTheLimit) {
   const auto pipe = scratch.path() / "pipe.obj";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const std::jthread writer([&pipe] {
-    // A reader that leaves ends the writing with an error, not with a signal.
+    // If the reader closes the pipe, the writer gets an error, not a signal.
     sigset_t blocked;
     sigemptyset(&blocked);
     sigaddset(&blocked, SIGPIPE);
@@ -169,7 +169,7 @@ TEST_F(Files, AFileThatShrinksWhileReadIsAnError) {
     const auto path = scratch.write("shrinks.obj", vertices);
     const std::jthread shrinker([&path, &vertex, attempt] {
       std::this_thread::sleep_for(std::chrono::milliseconds(2 * attempt));
-      std::filesystem::resize_file(path, 35 * vertex.size());  // a whole file, where that comes before the reader
+      std::filesystem::resize_file(path, 35 * vertex.size());  // a valid file, if it is shortened before it is opened
     });
     const auto result = file_refusal(path);
     if (!result.refused) continue;

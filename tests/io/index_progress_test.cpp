@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An index that is being loaded or saved may be watched, and given up.
+// Progress and cancellation of loading and saving an index.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -49,7 +49,7 @@ Polygon make_polygon() {
 
 using Reports = std::vector<std::pair<std::size_t, std::size_t>>;
 
-/// What `call(progress)` reports.
+/// The reports of `call(progress)`.
 template <class F>
 Reports reports_of(F&& call) {
   Reports reports;
@@ -70,7 +70,7 @@ void expect_from_nothing_to_all(const Reports& reports) {
   std::printf("%zu reports\n", reports.size());
 }
 
-/// Expects `call(progress)` to end at the report after `last` others.
+/// Expects that `call(progress)` is cancelled at report `last`, counted from 0.
 template <class F>
 void expect_ended_after(std::size_t last, F&& call) {
   std::size_t reports = 0;
@@ -79,7 +79,7 @@ void expect_ended_after(std::size_t last, F&& call) {
   EXPECT_EQ(reports, last + 1);
 }
 
-/// Every way to take an index that is not trusted, each with a `Progress`.
+/// Every function that loads or maps an index with verification.
 class IndexProgress : public testing::Test {
  protected:
   using Load = std::function<Index(const Progress&)>;
@@ -109,15 +109,15 @@ TEST_F(IndexProgress, CancelsLoadingAtAnyReport) {
   }
 }
 
-/// Every way to save an index of either kind, each with a `Progress`.
+/// Every function that saves an index of either kind.
 class IndexSaveProgress : public testing::Test {
  protected:
-  /// Reports of the core there are at least; more where saving takes long.
+  /// The least number of reports of the core.
   static constexpr std::size_t kFewest = 25;
 
   using Save = std::function<bool(const Progress&)>;
 
-  /// Into memory.
+  /// Saves to memory.
   template <class AnyIndex>
   static Save to_bytes(const AnyIndex& index) {
     return [&index](const Progress& progress) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Index files: whole or not at all, kept by who has opened them, and told from meshes. Rows F3, F7 and F9 of the
-// catalogue of faults.
+// Index files: atomic replacement, mapping, detection, truncation. Rows F3, F7 and F9 of the catalogue.
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -85,14 +84,14 @@ TEST_F(IndexFile, ErrorsBeginWithTheFile) {
 // F3
 TEST_F(IndexFile, AGigabyteAppendedIsRefusedBeforeItIsRead) {
   io::save(file, index_of(20));
-  // A hole: no disk is needed for it. Where it was read, this would take as much memory.
+  // A sparse file, which needs no disk; reading it would need a gigabyte of memory.
   std::filesystem::resize_file(file, std::filesystem::file_size(file) + (std::uintmax_t{1} << 30U));
   expect_refused(ErrorCode::MalformedIndex, "but there are 107", [&] { static_cast<void>(io::load(file)); });
   expect_refused(ErrorCode::MalformedIndex, "but there are 107", [&] { static_cast<void>(io::map(file)); });
 }
 
 TEST_F(IndexFile, IsLoadedFromAPipe) {
-  const Index index = index_of(300);  // more than the first guess
+  const Index index = index_of(300);  // larger than the first buffer for a pipe
   io::save(file, index);
   const auto pipe = scratch.path() / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

@@ -6,7 +6,7 @@
 
 #include "support/hostile.h"
 
-// The catalogue's row about more vertices than there are ids, in a build whose ids have 16 bits.
+// More vertices than ids, in a build with 16-bit ids: row M20 of the catalogue.
 
 namespace meshhood::test {
 namespace {
@@ -31,7 +31,7 @@ std::string obj(std::size_t vertices) {
   return file;
 }
 
-// As many different corners, rounded up to whole triangles with the last one.
+// Triangles with `vertices` different corners; the last corner is repeated to complete a triangle.
 std::string stl(std::size_t vertices) {
   std::vector<std::array<float, 9>> triangles;
   const auto x = [vertices](std::size_t i) { return static_cast<float>(std::min(i, vertices - 1)); };
@@ -68,7 +68,7 @@ TEST(Limits, MoreCornersThanIdsAreNoProblem) {
 
 // M20
 TEST(Limits, IndicesAreComparedBeforeTheyAreNarrowed) {
-  // 65536 narrows to 0, which would be a vertex.
+  // 65536 would be narrowed to 0, a valid vertex.
   expect_refused("a.obj", "v 0 0 0\nf 65537\n", ErrorCode::MalformedFile, "corner 1 = 65537");
   expect_refused("a.off", "OFF 1 1 0\n0 0 0\n1 65536\n", ErrorCode::MalformedFile, "corner 0 = 65536");
 }

@@ -15,7 +15,7 @@
 #include "support/sanitized.h"
 #include "support/scratch.h"
 
-// Peak memory while reading, measured on a process of its own, is at most twice the decoded arrays and 64 MB.
+// The peak memory of a process that reads a mesh is at most twice the decoded arrays plus 64 MB (R1).
 
 namespace meshhood::test {
 namespace {
@@ -54,7 +54,7 @@ class Memory : public ::testing::Test {
     const auto [decoded, base, peak] = measure(path);
     std::printf("%-22s file %4zu MB, decoded %4zu MB, peak %4zu MB\n", name.c_str(),
                 static_cast<std::size_t>(std::filesystem::file_size(path)) >> 20U, decoded >> 20U, peak >> 20U);
-    EXPECT_GT(decoded, kSlack / 2) << "too small to tell";
+    EXPECT_GT(decoded, kSlack / 2) << "too small to measure";
     EXPECT_LE(peak - base, 2 * decoded + kSlack);
     std::filesystem::remove(path);
   }

@@ -10,8 +10,8 @@
 
 #include "support/hostile.h"
 
-// Whatever the bytes: a valid mesh or an error of one line, never anything else. Files of every format are damaged at
-// random; under the sanitizers this is a small fuzzer with a fixed seed.
+// Randomly damaged files of every format give a valid mesh or an error of one line. Under the sanitizers, this is a
+// small fuzzer with a fixed seed.
 
 namespace meshhood::test {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "support/hostile.h"
 
-// The rows of the catalogue of mesh files that concern OBJ.
+// OBJ files: rows of the catalogue of mesh files.
 
 namespace meshhood::test {
 namespace {
@@ -31,7 +31,7 @@ TEST(Obj, IndicesOutOfRangeAreRefusedByFaceAndCorner) {
                    "a.obj:6:7: face 2, corner 3 = " + index + ", but there are 4 vertices");
   }
   expect_refused("a.obj", kSquare + "f 1 2 99999999999999999999\n", ErrorCode::MalformedFile, "is not a vertex index");
-  // A face may stand before its vertices.
+  // A face may precede its vertices.
   EXPECT_THAT(read("a.obj", "f 1 2 4\n" + kSquare).corners, ElementsAre(0, 1, 3));
   expect_refused("a.obj", "f 1 2 6\nf 1 2 5\n" + kSquare, ErrorCode::MalformedFile, "a.obj:1:7: face 1, corner 3 = 6");
 }

@@ -6,7 +6,7 @@
 
 #include "support/hostile.h"
 
-// The rows of the catalogue of mesh files that concern OFF.
+// OFF files: rows of the catalogue of mesh files.
 
 namespace meshhood::test {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "support/hostile.h"
 
-// The rows of the catalogue of mesh files that concern PLY.
+// PLY files: rows of the catalogue of mesh files.
 
 namespace meshhood::test {
 namespace {
@@ -80,7 +80,7 @@ TEST(Ply, TruncationAtAnyByteIsRefused) {
 
 // M3
 TEST(Ply, TruncationOfTextNamesElementAndLocation) {
-  const std::string whole = triangle(kVertices + "3 0 1 2");  // a missing last newline is fine
+  const std::string whole = triangle(kVertices + "3 0 1 2");  // the last newline may be missing
   EXPECT_EQ(face_count(read("a.ply", whole)), 1U);
   for (std::size_t length = 0; length < whole.size(); ++length) {
     EXPECT_TRUE(refusal("a.ply", whole.substr(0, length)).refused) << length;
@@ -101,7 +101,7 @@ TEST(Ply, ATruncatedBinaryFileSaysHowManyElementsAreMissing) {
       "10 elements 'vertex' take at least 12 bytes each, but 107 bytes are left: at least 2 elements are missing");
 }
 
-// It may be a misspelt line that changes the layout of the values.
+// It may be a misspelt line that changes the layout of the values, so it is not skipped.
 TEST(Ply, AHeaderLineWithoutKeywordIsRefused) {
   expect_refused("a.ply", "ply\nformat ascii 1.0\nmade by hand\nelement vertex 0\n" + kAxes + "end_header\n",
                  ErrorCode::MalformedFile, "a.ply:3:1", "'comment'", "found 'made'");
@@ -199,7 +199,7 @@ TEST(Ply, IndicesOutOfRangeAreRefusedByFaceAndCorner) {
 
 // M11
 TEST(Ply, ExactlyOneLineEndFollowsTheHeader) {
-  // The first byte of the body is 0x0A, and must not be taken for the end of a line.
+  // The first byte of the body is 0x0A and does not belong to the line end of the header.
   const std::string body = little(std::bit_cast<float>(0x3f80000aU), 2.F, 3.F);
   const std::string lines = "ply\nformat binary_little_endian 1.0\nelement vertex 1\n" + kAxes + "end_header\n";
   for (const std::string end : {"\n", "\r\n", "\r"}) {
@@ -336,7 +336,7 @@ TEST(Ply, LineEndsAndBlanksOfAllKinds) {
 
 // M19
 TEST(Ply, SizesNeverWrap) {
-  // 2^60 rows of 16 bytes are 2^64 bytes, which wraps to none.
+  // 2^60 rows of 16 bytes are 2^64 bytes, which wraps to 0.
   const std::string row = kAxes + "property float w\n";
   expect_refused("a.ply", header("binary_little_endian", "element vertex 1152921504606846976\n" + row),
                  ErrorCode::MalformedFile, "1152921504606846976");

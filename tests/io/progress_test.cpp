@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A file that is being read may be watched, and given up.
+// Progress and cancellation of reading a mesh.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -95,7 +95,7 @@ TEST(Progress, CancelsWaitingForAPipe) {
   const Scratch scratch;
   const auto path = scratch.path() / "pipe.obj";
   ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
-  // Open for writing too, so that there is a writer, who never writes.
+  // Also open for writing: a writer that never writes.
   const std::fstream writer(path, std::ios::in | std::ios::out);
   int left = 3;
   Reports reports;

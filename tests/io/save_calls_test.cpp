@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every call of the operating system that a save makes fails, is cut short, or is the last: row F10 of the catalogue.
+// Each system call of a save fails, is interrupted, or is the last: rows F10 and F11 of the catalogue.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -30,7 +30,7 @@ std::ptrdiff_t open_files() { return std::distance(std::filesystem::directory_it
 
 class SaveCalls : public SaveTrial {
  protected:
-  /// The calls of a save of the new version that goes well.
+  /// The system calls of a successful save of the new version.
   std::vector<Call> calls_of_a_save(Version before) {
     restore(before);
     const SystemCalls calls;
@@ -38,7 +38,7 @@ class SaveCalls : public SaveTrial {
     return calls.made();
   }
 
-  /// Saves the new version with a fault; what the error says, or nothing.
+  /// Saves the new version with a fault. Returns the message of the error, or nothing.
   std::string save_with(const Fault& fault) {
     const SystemCalls calls(fault);
     std::string message;
@@ -68,13 +68,13 @@ std::size_t rename_in(const std::vector<Call>& calls) {
   return static_cast<std::size_t>(std::find(calls.begin(), calls.end(), Call::Rename) - calls.begin());
 }
 
-/// Tells which call a message is about.
+/// The call that a message names.
 std::string label(const std::vector<Call>& calls, std::size_t at, Version before) {
   return std::string(name_of(calls[at])) + ", call " + std::to_string(at) +
          (before == Version::None ? ", no file before" : "");
 }
 
-// So that none escapes the trials below.
+// The tests below try each of these calls.
 TEST_P(SaveCalls, AreAllIntercepted) {
   const auto calls = calls_of_a_save(Version::Old);
   EXPECT_EQ(calls.front(), Call::Open);
@@ -138,7 +138,7 @@ TEST_P(SaveCalls, SignalsAndShortWritesAreNoErrors) {
   std::printf("%zu calls cut short\n", times);
 }
 
-// A folder that may be written to but not read, a file of somebody else, a file system without a notion of it.
+// A folder that is writable but not readable, a file of another owner, a file system without support.
 TEST_P(SaveCalls, OptionalCallsMayFail) {
   const auto calls = calls_of_a_save(Version::Old);
   const std::size_t rename = rename_in(calls);
@@ -175,14 +175,14 @@ TEST_P(SaveCalls, TheProcessMayEndBeforeAnyCall) {
   std::printf("killed at %zu calls\n", kills);
 }
 
-// What is no ordinary file is written to directly.
+// A pipe or a device is written directly.
 TEST_P(SaveCalls, ADeviceFailsByName) {
   file = "/dev/null";
   std::vector<Call> calls;
   {
-    const SystemCalls watched;
+    const SystemCalls recorded;
     save(Version::New);
-    calls = watched.made();
+    calls = recorded.made();
   }
   ASSERT_EQ(std::count(calls.begin(), calls.end(), Call::Rename), 0);
   for (std::size_t at = 0; at < calls.size(); ++at) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A disk that is full after any number of pages: row F10 of the catalogue.
+// A disk that is full after any number of pages, and a limit on the size of files: row F10 of the catalogue.
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
@@ -23,8 +23,8 @@ using ::testing::HasSubstr;
 
 class SaveToFullDisk : public SaveTrial {
  protected:
-  /// Saves the new version over the old with room for none of its pages, for one, and so on. `limit(n)` leaves room for
-  /// `n`, `lift()` for any number.
+  /// Saves the new version over the old one with space for 0, 1, 2, ... pages. `limit(n)` leaves space for `n` pages,
+  /// `lift()` for any number.
   template <class Limit, class Lift>
   void fill_up_at_every_page(int reason, Limit&& limit, Lift&& lift) {
     const std::uint64_t pages = (content(Version::New).size() + SmallDisk::kPage - 1) / SmallDisk::kPage;
@@ -84,8 +84,8 @@ bool is_pending() {
   return is_set(pending);
 }
 
-// A limit on the size of files (`ulimit -f`), under the default disposition of SIGXFSZ, which ends the process. The
-// disposition and the mask are those of the caller, and stay.
+// With the default disposition, SIGXFSZ would end the process. The disposition and the signal mask of the caller are
+// not changed.
 TEST_P(SaveToFullDisk, LeavesTheOldFileAtEveryFileSizeLimit) {
   std::signal(SIGXFSZ, SIG_DFL);
   rlimit before = {};

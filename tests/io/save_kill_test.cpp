@@ -17,7 +17,7 @@
 namespace meshhood::test {
 namespace {
 
-/// What was found after each kill.
+/// The state of the file after each kill.
 struct Tally {
   std::size_t kills = 0;
   std::array<std::size_t, 4> held = {};  ///< by `Version`
@@ -46,7 +46,7 @@ class SaveKilled : public SaveTrial {
   }
 
  private:
-  /// However slow the disk is, a kill shall hit any of the first saves.
+  /// On a slow disk, too, a kill should hit any of the first saves.
   [[nodiscard]] std::size_t microseconds_of_two_rounds() const {
     const auto start = std::chrono::steady_clock::now();
     for (int round = 0; round < 2; ++round) {
@@ -91,7 +91,7 @@ TEST_P(SaveKilled, TheFileIsOldOrNew) {
 
 MESHHOOD_TRY_ALL_SAVERS(SaveKilled);
 
-// The trial itself is tried with a writer that does what ours must not do.
+// A test of the trial: a writer that overwrites the file in place.
 class SaveInPlaceKilled : public SaveKilled {};
 
 TEST_P(SaveInPlaceKilled, TheTrialDetectsATornFile) { EXPECT_GT(kill_often(40).of(Version::Torn), 0U); }

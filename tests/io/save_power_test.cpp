@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The power fails after any call that a save makes: row F11 of the catalogue. What may then be on the disk is played
-// through on a model, from the calls as they were made, with their data.
+// The power fails after any system call of a save: row F11 of the catalogue. A model of the disk enumerates the
+// possible contents, from the recorded calls and their data.
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
@@ -19,11 +19,11 @@ namespace {
 
 using Trace = std::vector<Effect>;
 
-/// How many of the survivors are what.
+/// The number of possible contents of each kind.
 struct Found {
   std::size_t before = 0;
   std::size_t after = 0;
-  std::size_t torn = 0;  // or gone
+  std::size_t torn = 0;  // or missing
 };
 
 Found& operator+=(Found& sum, const Found& found) {
@@ -42,7 +42,7 @@ class PowerLoss : public SaveTrial {
     return calls.effects();
   }
 
-  /// What the name of the file may stand for when the power fails after the first `count` calls.
+  /// The possible contents of the file if the power fails after the first `count` calls.
   [[nodiscard]] Found lose_power(Version before, const Trace& trace, std::size_t count) const {
     DiskModel disk;
     if (before != Version::None) disk.put(file.string(), content(before));
@@ -68,7 +68,7 @@ std::ptrdiff_t find(const Trace& trace, Call call) {
   return found - trace.begin();
 }
 
-/// The first sync is that of the file, the last that of its folder.
+/// The first sync is of the file, the last of its folder.
 Trace without_sync_of_file(Trace trace) {
   trace.erase(trace.begin() + find(trace, Call::Sync));
   return trace;
@@ -80,7 +80,7 @@ Trace without_sync_of_folder(Trace trace) {
   return trace;
 }
 
-/// As by who syncs what has its name already.
+/// As if the file were synced after the rename.
 Trace with_sync_after_rename(Trace trace) {
   const auto sync = trace.begin() + find(trace, Call::Sync);
   const auto close = sync + 1;
@@ -109,7 +109,7 @@ TEST_P(PowerLoss, KeepsTheOldOrTheNewFile) {
               sum.before, sum.after, sum.torn);
 }
 
-// Were the model blind, it would not see these.
+// A test of the model: it must detect these faults.
 TEST_P(PowerLoss, TearsAFileThatIsNotSynced) {
   const Trace trace = trace_of_a_save(Version::Old);
   const Found unsynced = lose_power_anywhere(Version::Old, without_sync_of_file(trace));
@@ -130,7 +130,7 @@ TEST_P(PowerLoss, MayLoseTheNewFileIfTheFolderIsNotSynced) {
 
 MESHHOOD_TRY_ALL_SAVERS(PowerLoss);
 
-// One page is written over and one added.
+// One page is overwritten and one is appended.
 TEST(DiskModel, EnumeratesTheStatesOfTwoPages) {
   const std::string old_page(DiskModel::kPage, 'o');
   const std::string new_page(DiskModel::kPage, 'n');

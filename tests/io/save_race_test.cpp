@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Several who save to one file at once, and others who read it meanwhile: row F9 of the catalogue.
+// Several threads save to one file while others read it: row F9 of the catalogue.
 #include <atomic>
 #include <cstdio>
 #include <thread>

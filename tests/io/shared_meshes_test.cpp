@@ -23,7 +23,7 @@ struct Expectation {
   std::string reason;
 };
 
-// Where the rules for readers differ from what the manifest's own reader did.
+// Files for which our rules differ from the reader of the manifest.
 const std::map<std::string, Expectation>& rulings() {
   static const std::map<std::string, Expectation> list = {
       {"broken/box_UTF16BE.obj", {{}, {}, "M18: UTF-16 is refused by name"}},
@@ -35,7 +35,7 @@ const std::map<std::string, Expectation>& rulings() {
   return list;
 }
 
-// "3: 32, 4: 468" of a mesh; "3" where all are triangles, "-" where there are no faces.
+// "3: 32, 4: 468"; "3" if all faces are triangles, "-" if there are none.
 std::string sides_of(const io::Mesh& mesh) {
   std::map<std::size_t, std::size_t> count;
   mesh.view().faces.for_each([&count](std::size_t, auto corners) { ++count[corners.size()]; });
@@ -65,7 +65,7 @@ void judge(const ManifestRow& row, const Expectation& expected, Tally& tally) {
     EXPECT_EQ(mesh.view().faces.size(), *expected.faces);
     validate(mesh.view());
     const bool lists_sides = row.sides == "3" || row.sides.find(':') != std::string::npos;
-    // A facet of four vertices stays a polygon; the manifest's reader cut it to a triangle.
+    // We keep a facet of four vertices as a polygon; the reader of the manifest made a triangle of it.
     const bool cut = row.file == "broken/quad.ascii.stl" || row.file == "broken/toomanyvertices.stl";
     if (lists_sides && !cut) {
       EXPECT_EQ(sides_of(mesh), row.sides);

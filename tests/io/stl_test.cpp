@@ -10,7 +10,7 @@
 
 #include "support/hostile.h"
 
-// The rows of the catalogue of mesh files that concern STL.
+// STL files: rows of the catalogue of mesh files.
 
 namespace meshhood::test {
 namespace {
@@ -131,7 +131,7 @@ TEST(Stl, CornersAreWeldedByExactEquality) {
   EXPECT_EQ(warned(mesh, "two corners coincide"), 1U);
 }
 
-// By hand: an ordered map from positions to ids.
+// The reference: an ordered map from positions to ids.
 std::vector<std::uint32_t> welded_by_map(const std::vector<std::array<float, 9>>& triangles) {
   std::map<std::array<float, 3>, std::uint32_t> ids;
   std::vector<std::uint32_t> corners;

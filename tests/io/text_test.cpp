@@ -13,7 +13,7 @@
 
 #include "support/hostile.h"
 
-// The rows of the catalogue of mesh files that concern text and how the format is told.
+// Text and the detection of the format: rows of the catalogue of mesh files.
 
 namespace meshhood::test {
 namespace {
@@ -29,7 +29,7 @@ struct DecimalComma : std::numpunct<char> {
   std::string do_grouping() const override { return "\3"; }
 };
 
-// Puts back what a test changed.
+// Restores the locale.
 class LocaleGuard {
  public:
   LocaleGuard() = default;
@@ -90,7 +90,7 @@ TEST(Text, NumbersThatAreRead) {
   EXPECT_EQ(read_number("1e-010"), 1e-10F);
   EXPECT_EQ(read_number("340282346638528859811704183484516925440"), std::numeric_limits<float>::max());
   EXPECT_TRUE(std::signbit(read_number("-0")));
-  // Underflow is rounded, and leaves nothing of the number before it.
+  // Underflow is rounded to 0 or to a denormal number.
   EXPECT_EQ(read_number("1e-400"), 0.F);
   EXPECT_EQ(read_number("1e-45"), std::numeric_limits<float>::denorm_min());
   const auto fine = read("a.obj", "v 0.1 1e-320 1e150\n", {.precision = io::Precision::Double});

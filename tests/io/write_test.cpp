@@ -194,7 +194,7 @@ TEST_F(WritePly, ALinkWithoutTargetSurvives) {
   EXPECT_EQ(files_in(scratch.path()), 3U);
 }
 
-// The permissions that a file has, in octal digits.
+// The permissions of a file in octal digits.
 unsigned mode_of(const std::filesystem::path& path) {
   struct stat status = {};
   EXPECT_EQ(::stat(path.c_str(), &status), 0) << path;
