@@ -36,7 +36,7 @@ struct SearcherAccess {
     searcher.pieces_.clear();
     query.climb_up(radius / QueryOptions{}.radius_ratio);
     at[1] = Clock::now();
-    query.breadth_first();
+    query.breadth_first_search();
     at[2] = Clock::now();
     query.range_search();
     query.collect(out);

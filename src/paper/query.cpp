@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The query of sec. 3.3 in its three phases: climb up, breadth first, range search. The answer is first a list of
-// ranges of the index order; ids are copied, or vertices counted, afterwards.
+// The query of sec. 3.3 in its three phases: climb up, breadth-first search, range search. The answer is first a list
+// of ranges of the index order; ids are copied, or vertices counted, afterwards.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -25,16 +25,16 @@ class Searcher::Query {
         cluster_(static_cast<ClusterId>(hierarchy.lowest_cluster[v])),
         ball_(position_of(v), radius) {}
 
-  /// Leaves the pieces of the answer with the searcher.
+  /// The three phases. Stores the pieces of the answer in the searcher.
   void run(double radius, double radius_ratio) {
     searcher_.pieces_.clear();
     climb_up(radius / radius_ratio);
-    breadth_first();
+    breadth_first_search();
     range_search();
   }
 
-  /// The size of the answer at most.
-  [[nodiscard]] std::size_t most() const {
+  /// An upper bound of the size of the answer.
+  [[nodiscard]] std::size_t max_size() const {
     std::size_t result = 0;
     for (const Piece& piece : searcher_.pieces_) result += piece.size();
     return result;
@@ -46,7 +46,7 @@ class Searcher::Query {
   void collect(std::vector<VertexRange>& out) const;
 
  private:
-  friend struct SearcherAccess;  // which may time the phases one by one
+  friend struct SearcherAccess;  // times the phases one by one
 
   [[nodiscard]] const Level<Real>& level() const { return hierarchy_.levels[level_]; }
 
@@ -57,6 +57,8 @@ class Searcher::Query {
     return point<Real>(hierarchy_.positions, static_cast<std::size_t>(position));
   }
 
+  /// Phase 1: goes to the ancestor of the lowest cluster of `v` on the first level with `ar >= d / f`, where `ar` is
+  /// the mean radius of the level, or on the highest level.
   void climb_up(double wanted_radius) {
     while (level_ + 1 < hierarchy_.levels.size() && level().mean_radius < wanted_radius) {
       cluster_ = level().parent[cluster_];
@@ -65,8 +67,8 @@ class Searcher::Query {
     searcher_.profile_ = {.level = level().number};
   }
 
-  /// Leaves in `reached_` the clusters that meet the ball and are connected to that of `v` through such clusters.
-  void breadth_first() {
+  /// Phase 2: finds `SC`, the clusters that intersect the ball and are connected to that of `v` through such clusters.
+  void breadth_first_search() {
     std::vector<ClusterId>& reached = searcher_.reached_;
     const std::uint32_t query = searcher_.next_query();
     reached.assign(1, cluster_);
@@ -80,8 +82,9 @@ class Searcher::Query {
     searcher_.profile_.clusters_reached = reached.size();
   }
 
-  /// Deviation: the search descends to the children of clusters that intersect the surface of the ball, and takes
-  /// clusters inside it as a whole; the paper tests every vertex. The answer is the same, and costs only its boundary.
+  /// Phase 3: finds the vertices of `SC` in the ball. Deviation: the paper tests each of them. Here a cluster inside
+  /// the ball is taken as a whole, and one that intersects its surface is replaced by its children. The answer is the
+  /// same; only vertices near the surface are tested.
   void range_search() {
     std::vector<ClusterId>& clusters = searcher_.reached_;
     for (;; --level_) {
@@ -111,7 +114,7 @@ class Searcher::Query {
 
   Searcher& searcher_;
   const Hierarchy<Real>& hierarchy_;
-  std::size_t level_ = 0;  // among those kept
+  std::size_t level_ = 0;  // counted from the lowest level that is kept
   ClusterId cluster_;
   SearchBall ball_;
 };
@@ -119,7 +122,7 @@ class Searcher::Query {
 template <class Real>
 void Searcher::Query<Real>::collect(std::vector<VertexId>& out) const {
   const std::vector<VertexId>& vertices = hierarchy_.vertices;
-  out.resize(most());
+  out.resize(max_size());
   auto end = out.begin();
   for (const Piece& piece : searcher_.pieces_) {
     if (piece.inside) {
@@ -138,8 +141,8 @@ void Searcher::Query<Real>::collect(std::vector<VertexId>& out) const {
 template <class Real>
 void Searcher::Query<Real>::collect(std::vector<VertexId>& out, std::vector<double>& distances) const {
   // Reserved first: if memory runs out, neither has changed.
-  out.reserve(most());
-  distances.reserve(most());
+  out.reserve(max_size());
+  distances.reserve(max_size());
   out.clear();
   distances.clear();
   for (const Piece& piece : searcher_.pieces_) {

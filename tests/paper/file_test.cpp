@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The paper's index, saved and loaded: the same index; changed, refused; forged, refused or harmless.
+// The paper's index, saved and loaded, is the same index. A changed file is refused; a forged one is refused or
+// harmless.
 #include <algorithm>
 #include <cstdio>
 #include <limits>
@@ -25,7 +26,7 @@ namespace {
 
 class SerializePaper : public testing::TestWithParam<Family> {};
 
-TEST_P(SerializePaper, GivesTheSameIndexBack) {
+TEST_P(SerializePaper, LoadingGivesTheSavedIndex) {
   for (const std::size_t vertices : {1U, 40U, 1500U}) {
     const TestMesh mesh = make_mesh(GetParam(), 5, vertices);
     SCOPED_TRACE(mesh.name);
@@ -105,7 +106,7 @@ TEST(SerializePaperFaults, AForgedBitIsRefusedOrHarmless) {
     }
     bytes = original;
   }
-  std::printf("%zu forgeries accepted and asked\n", accepted);
+  std::printf("%zu forgeries accepted and searched\n", accepted);
   EXPECT_GT(accepted, 0U);
 }
 
@@ -119,7 +120,7 @@ void expect_refused_after(const char* culprit, Change&& change) {
   EXPECT_THAT(call, testing::ThrowsMessage<Error>(testing::Truly(names_a_place)));
 }
 
-TEST(SerializePaperFaults, ARuleAForgery) {
+TEST(SerializePaperFaults, EachRuleHasAForgeryThatItRefuses) {
   using paper::ClusterId;
   expect_refused_after("an exact index", [](Forgery& f) { f.header().kind = IndexKind::Exact; });
   expect_refused_after("expected ascending numbers", [](Forgery& f) { ++f.section<std::uint32_t>("levels")[0]; });
@@ -156,7 +157,7 @@ TEST(SerializePaperFaults, EveryTruncationIsRefused) {
   }
 }
 
-TEST(SerializePaperFaults, TheOtherKindIsRefused) {
+TEST(SerializePaperFaults, AnIndexOfTheOtherKindIsRefused) {
   const TestMesh mesh = make_grid(3, 3, false).finish(true);
   expect_refused(ErrorCode::MalformedIndex, "an exact index, expected a paper index",
                  [&] { static_cast<void>(paper::load(saved(build(mesh.view())))); });

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Two parallel edges of a long narrow U: near each other in space, far along the mesh.
+/// A path in the shape of a long narrow U: its two arms are near each other in space and far apart along the path.
 TestMesh hairpin() {
   TestMesh mesh;
   for (std::uint32_t i = 0; i < 400; ++i) {
@@ -35,7 +35,7 @@ std::vector<VertexId> sorted(std::vector<VertexId> ids) {
   return ids;
 }
 
-TEST(Query, ClimbsToTheFirstLevelWhoseMeanRadiusReaches) {
+TEST(Query, ClimbsUpToTheFirstLevelWithALargeEnoughMeanRadius) {
   const TestMesh mesh = make_grid(80, 80, false);
   const paper::Index index = paper::build(mesh.view(), {.levels = 5, .discard = 0});
   const auto levels = index.levels();
@@ -54,7 +54,7 @@ TEST(Query, ClimbsToTheFirstLevelWhoseMeanRadiusReaches) {
   }
 }
 
-TEST(Query, ReachesAcrossTheGapWhereClustersAreLarge) {
+TEST(Query, LargeClustersGiveExtraVerticesAcrossAGap) {
   const TestMesh mesh = hairpin();
   const paper::Index index = paper::build(mesh.view(), {.levels = 6, .discard = 0});
   paper::Searcher searcher(index);
@@ -69,7 +69,7 @@ TEST(Query, ReachesAcrossTheGapWhereClustersAreLarge) {
   EXPECT_GT(coarse.size(), exact.size());
 }
 
-TEST(Query, CountsWhatItDoes) {
+TEST(Query, ProfileCountsClustersAndTestedVertices) {
   const TestMesh mesh = make_grid(60, 60, false);
   const paper::Index index = paper::build(mesh.view(), {.levels = 3, .discard = 0});
   paper::Searcher searcher(index);
@@ -86,7 +86,7 @@ TEST(Query, CountsWhatItDoes) {
   EXPECT_EQ(searcher.profile().vertices_tested, tested);
 }
 
-TEST(Query, GivesTheDistancesOfTheSameVertices) {
+TEST(Query, DistancesBelongToTheIds) {
   const TestMesh mesh = make_grid(60, 60, false);
   const paper::Index index = paper::build(mesh.view());
   paper::Searcher searcher(index);
@@ -104,7 +104,7 @@ TEST(Query, GivesTheDistancesOfTheSameVertices) {
   }
 }
 
-TEST(Query, TakesTheWholeComponentAtInfinity) {
+TEST(Query, InfiniteRadiusGivesTheWholeComponent) {
   TestMesh mesh = make_grid(20, 20, false);
   append(mesh, make_grid(10, 10, false));
   const paper::Index index = paper::build(mesh.view());
@@ -114,7 +114,7 @@ TEST(Query, TakesTheWholeComponentAtInfinity) {
   EXPECT_EQ(searcher.profile().vertices_tested, 0U);
 }
 
-TEST(Query, ForgetsTheQueriesBefore) {
+TEST(Query, AnswersDoNotDependOnEarlierQueries) {
   const TestMesh mesh = make_grid(40, 40, false);
   const paper::Index index = paper::build(mesh.view());
   paper::Searcher used(index);
@@ -130,7 +130,8 @@ TEST(Query, ForgetsTheQueriesBefore) {
   }
 }
 
-TEST(Query, C3ForgetsTheQueriesBeforeWhenTheirNumbersRunOut) {
+// Row C3 of docs/reliability.md.
+TEST(Query, AnswersStayTheSameWhenTheQueryNumberWrapsAround) {
   const TestMesh mesh = make_grid(40, 40, false);
   const paper::Index index = paper::build(mesh.view(), {.discard = 0});
   paper::Searcher searcher(index);
@@ -144,7 +145,7 @@ TEST(Query, C3ForgetsTheQueriesBeforeWhenTheirNumbersRunOut) {
   }
 }
 
-TEST(Query, RefillsWithoutANewBuffer) {
+TEST(Query, ResultsReuseTheirBuffer) {
   const TestMesh mesh = make_grid(40, 40, false);
   const paper::Index index = paper::build(mesh.view());
   paper::Searcher searcher(index);
@@ -154,7 +155,7 @@ TEST(Query, RefillsWithoutANewBuffer) {
   EXPECT_EQ(out.data(), buffer);
 }
 
-TEST(Query, ServesSeveralSearchersOfOneIndex) {
+TEST(Query, SeveralSearchersCanShareAnIndex) {
   const TestMesh mesh = make_grid(40, 40, false);
   const paper::Index index = paper::build(mesh.view());
   paper::Searcher first(index);
@@ -162,7 +163,8 @@ TEST(Query, ServesSeveralSearchersOfOneIndex) {
   for (VertexId v = 0; v < mesh.size(); v += 7) ASSERT_EQ(first.count(v, 6), second.count(v, 6));
 }
 
-TEST(Query, A1A2RefusesWithoutTouchingTheAnswer) {
+// Rows A1 and A2 of docs/reliability.md.
+TEST(Query, InvalidArgumentsAreRefusedAndResultsStayUnchanged) {
   const TestMesh mesh = make_grid(4, 4, false);
   const paper::Index index = paper::build(mesh.view());
   paper::Searcher searcher(index);
