@@ -74,15 +74,15 @@ def ratio(row, method):
 
 
 def extremes(meshes):
-    """The smallest and the largest ratio of all, each with its place."""
+    """The smallest and the largest ratio, each with its mesh and radius."""
     ratios = [(ratio(row, "ids"), name, radius, order) for name, result in meshes.items() for order in ("cold", "warm")
               for radius, row in programs.by_radius(result[order]).items()]
 
     def said(found):
         return f"{found[0]:.1f} ({found[1]}, {found[3]}, {found[2]:g} edges)"
 
-    return (f"Over all {len(meshes)} meshes, {len(ratios) // len(meshes) // 2} radii and both orders, the ratio for ids is"
-            f" smallest at {said(min(ratios))}\nand largest at {said(max(ratios))}.\n")
+    return (f"Over all {len(meshes)} meshes and {len(ratios) // len(meshes) // 2} radii, cold and warm, the smallest ratio is"
+            f" {said(min(ratios))}\nand the largest {said(max(ratios))}.\n")
 
 
 def mesh_table(result):
@@ -123,7 +123,7 @@ def head_table(data):
     return (f"One query, cold, on one thread of an {data['machine']['processor']} (`{COMMAND}`). `{smooth}` is"
             f" {KINDS.get(smooth, 'a mesh')}\nof {meshes[smooth]['vertices']:,} vertices, `{folded}` is"
             f" {KINDS.get(folded, 'a mesh')}, with {meshes[folded]['vertices']:,}. The radius is in mean edge lengths,\nand `bfs`"
-            f" the fastest breadth-first search we could write.{busy}\n\n" + table(header, rows) + "\n" + extremes(meshes))
+            f" is the fastest breadth-first search we could write; × is the ratio of the times.{busy}\n\n" + table(header, rows) + "\n" + extremes(meshes))
 
 
 def head_cells(row):
