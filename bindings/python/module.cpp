@@ -3,6 +3,7 @@
 #include <string>
 
 #include <nanobind/nanobind.h>
+#include <nanobind/stl/string.h>
 
 #include "meshhood/error.h"
 #include "meshhood/version.h"
@@ -31,11 +32,29 @@ const char* argument_of(ErrorCode code) {
   }
 }
 
+/// The message without the path at its beginning, which OSError shows itself.
+std::string without_path(const Error& error) {
+  const std::string message = error.what();
+  const std::string prefix = error.path() + ": ";
+  return message.starts_with(prefix) ? message.substr(prefix.size()) : message;
+}
+
+/// Sets OSError(errno, message, filename), which Python turns into FileNotFoundError and the like.
+void set_os_error(const Error& error) {
+  const nb::object filename =
+      nb::steal(PyUnicode_DecodeFSDefaultAndSize(error.path().data(), static_cast<Py_ssize_t>(error.path().size())));
+  PyErr_SetObject(PyExc_OSError, nb::make_tuple(error.error_number(), without_path(error), filename).ptr());
+}
+
 void translate(const std::exception_ptr& exception, void*) {
   try {
     std::rethrow_exception(exception);
   } catch (const Error& error) {
-    PyErr_SetString(python_type(error.code()), (std::string(argument_of(error.code())) + error.what()).c_str());
+    if (error.code() == ErrorCode::IoFailure && error.error_number() != 0) {
+      set_os_error(error);
+    } else {
+      PyErr_SetString(python_type(error.code()), (std::string(argument_of(error.code())) + error.what()).c_str());
+    }
   }
 }
 

@@ -34,7 +34,6 @@ def read_mesh(path: Union[str, os.PathLike[str]], *, progress: Progress = None) 
     Raises OSError, with errno and filename; ValueError, naming the file, place and element; KeyboardInterrupt on Ctrl-C.
     """
     path = os.fspath(path)
-    os.stat(path)
     with reporter(progress) as report:
         vertices, corners, offsets, irregularities = _core.read_mesh(path, progress=report)
     for irregularity in irregularities:
@@ -64,6 +63,5 @@ def load(
     if trusted and not mmap:
         raise ValueError("trusted: expected only with mmap=True")
     path = os.fspath(path)
-    os.stat(path)
     with reporter(progress) as report:
         return MeshIndex._holding(_core.load(path, mmap=bool(mmap), trusted=bool(trusted), progress=report))

@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: MIT
+"""The same failure raises the same exception, whatever method or function meets it: class, errno and filename."""
+
+import errno
+import os
+import resource
+import subprocess
+import sys
+
+import meshes
+import meshhood
+import pytest
+
+METHODS = ("exact", "paper", "bfs", "ball", meshhood.Paper(levels=3))
+INDEX = meshhood.MeshIndex(*meshes.two_plates(5))
+
+
+def save(path):
+    INDEX.save(path)
+
+
+def map_index(path):
+    return meshhood.load(path, mmap=True)
+
+
+READERS = (meshhood.read_mesh, meshhood.load, map_index)
+
+
+def raised(call, *arguments, **options):
+    with pytest.raises(Exception) as caught:
+        call(*arguments, **options)
+    return caught.value
+
+
+def check_os_error(error, kind, number, path):
+    assert type(error) is kind, repr(error)
+    assert error.errno == number
+    assert os.fspath(error.filename) == os.fspath(path)
+    assert str(path) in str(error)
+    assert str(error).count(str(path)) == 1
+
+
+@pytest.mark.parametrize("read", READERS)
+def test_a_missing_file(tmp_path, read):
+    path = tmp_path / "nothing.ply"
+    check_os_error(raised(read, path), FileNotFoundError, errno.ENOENT, path)
+    check_os_error(raised(read, str(path)), FileNotFoundError, errno.ENOENT, path)
+    check_os_error(raised(read, os.fsencode(path)), FileNotFoundError, errno.ENOENT, path)
+
+
+def test_saving_into_a_missing_folder(tmp_path):
+    path = tmp_path / "nowhere" / "file"
+    check_os_error(raised(save, path), FileNotFoundError, errno.ENOENT, path)
+
+
+@pytest.mark.parametrize("read", READERS)
+def test_a_folder_instead_of_a_file(tmp_path, read):
+    check_os_error(raised(read, tmp_path), IsADirectoryError, errno.EISDIR, tmp_path)
+
+
+def test_saving_over_a_folder(tmp_path):
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    check_os_error(raised(save, folder), IsADirectoryError, errno.EISDIR, folder)
+    assert list(tmp_path.iterdir()) == [folder]
+
+
+@pytest.mark.parametrize("call", (*READERS, save))
+def test_a_file_as_a_folder(tmp_path, call):
+    (tmp_path / "file").write_text("")
+    path = tmp_path / "file" / "inside"
+    check_os_error(raised(call, path), NotADirectoryError, errno.ENOTDIR, path)
+
+
+@pytest.mark.parametrize("call", (*READERS, save))
+def test_a_name_that_is_too_long(tmp_path, call):
+    path = tmp_path / ("x" * 300)
+    check_os_error(raised(call, path), OSError, errno.ENAMETOOLONG, path)
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may read everything")
+@pytest.mark.parametrize("call", (*READERS, save))
+def test_no_permission(tmp_path, call):
+    path = tmp_path / "locked" / "file"
+    path.parent.mkdir()
+    path.write_text("")
+    path.parent.chmod(0)
+    try:
+        check_os_error(raised(call, path), PermissionError, errno.EACCES, path)
+    finally:
+        path.parent.chmod(0o700)
+
+
+def test_a_full_disk():
+    if not os.path.exists("/dev/full"):
+        pytest.skip("no /dev/full here")
+    check_os_error(raised(save, "/dev/full"), OSError, errno.ENOSPC, "/dev/full")
+
+
+def test_a_file_size_limit(tmp_path):
+    """Under the default disposition of SIGXFSZ, in a process of its own."""
+    program = f"""
+import errno, pathlib, resource, signal, sys
+sys.path.insert(0, {os.path.dirname(meshes.__file__)!r})
+import meshes, meshhood
+signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
+index = meshhood.MeshIndex(*meshes.two_plates(60))
+resource.setrlimit(resource.RLIMIT_FSIZE, (4096, {resource.RLIM_INFINITY}))
+path = {str(tmp_path / "index")!r}
+try:
+    index.save(path)
+except OSError as error:
+    assert (error.errno, error.filename) == (errno.EFBIG, path), repr(error)
+else:
+    raise AssertionError("saved")
+assert signal.getsignal(signal.SIGXFSZ) == signal.SIG_DFL
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, (done.returncode, done.stderr)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("path", ("a\0b", b"a\0b"))
+@pytest.mark.parametrize("call", (*READERS, save))
+def test_a_name_with_a_null_byte(call, path):
+    assert type(raised(call, path)) is ValueError
+
+
+@pytest.mark.parametrize("call", (*READERS, save))
+@pytest.mark.parametrize("path", (None, 3, ["x"]))
+def test_what_is_not_a_path(call, path):
+    assert type(raised(call, path)) is TypeError
+
+
+@pytest.mark.parametrize(
+    ("v", "r", "options"),
+    (
+        ([50], 1.0, {}),
+        ([-1], 1.0, {}),
+        ([0.5], 1.0, {}),
+        ([[0]], 1.0, {}),
+        ([True, 0], 1.0, {}),
+        ([], -1.0, {}),
+        ([], float("nan"), {}),
+        ([0], -1.0, {}),
+        ([0, 1], [1.0, -1.0], {}),
+        ([0, 1], [1.0], {}),
+        ([0], "1", {}),
+        ([0], 1.0, {"workers": 0}),
+        ([0], 1.0, {"workers": 10**30}),
+        ([0], 1.0, {"unit": "mile"}),
+        ([0], 1.0, {"unit": ["edge"]}),
+    ),
+)
+def test_every_method_and_function_refuses_alike(v, r, options):
+    calls = INDEX.query_ball, INDEX.query_ball_count, INDEX.iter_neighborhoods
+    errors = [raised(call, v, r, method=method, **options) for call in calls for method in METHODS]
+    assert len({(type(error), str(error)) for error in errors}) == 1, errors
+
+
+@pytest.mark.parametrize(("v", "r"), ((50, 1.0), (-1, 1.0), (0, -1.0), (0, float("nan")), (True, 1.0), (0, True), (0, [1.0])))
+def test_every_method_and_function_refuses_one_vertex_alike(v, r):
+    calls = INDEX.query_ball, INDEX.query_ball_count
+    errors = [raised(call, v, r, method=method) for call in calls for method in METHODS]
+    errors.append(raised(INDEX.query_ranges, v, r))
+    assert len({(type(error), str(error)) for error in errors}) == 1, errors
