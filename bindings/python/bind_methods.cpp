@@ -51,10 +51,13 @@ BatchQuery query_of(const std::optional<Rows>& vertices, const std::variant<doub
 }
 
 auto many(Method& method, const std::optional<Rows>& vertices, const std::variant<double, Radii>& radius,
-          bool distances, bool sorted, unsigned threads, nb::handle progress) {
+          bool distances, bool sorted, unsigned threads, std::uint64_t max_bytes, nb::handle progress) {
   const BatchQuery query = query_of(vertices, radius);
-  const BatchOptions options{
-      .threads = threads, .distances = distances, .sorted = sorted, .progress = progress_to(progress)};
+  const BatchOptions options{.threads = threads,
+                             .distances = distances,
+                             .sorted = sorted,
+                             .max_bytes = max_bytes,
+                             .progress = progress_to(progress)};
   nb::object ids;
   nb::object found_distances;
   const auto allocate = [&](std::size_t count) -> BatchMemory {
@@ -102,7 +105,7 @@ void bind_methods(nb::module_& module) {
       .def("neighborhood_and_distances", &one_with_distances, nb::arg(), nb::arg())
       .def("count", &Method::count, nb::arg(), nb::arg())
       .def("neighborhoods", &many, nb::arg().none(), nb::arg(), nb::arg("distances"), nb::arg("sorted"),
-           nb::arg("threads"), nb::arg("progress").none())
+           nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none())
       .def("neighborhood_sizes", &many_counts, nb::arg().none(), nb::arg(), nb::arg("threads"),
            nb::arg("progress").none());
   nb::class_<ExactMethod, Method>(module, "ExactMethod")

@@ -3,8 +3,14 @@
 checks."""
 
 import operator
+import os
 
 import numpy as np
+
+try:
+    import resource
+except ImportError:  # Windows
+    resource = None
 
 _MOST_THREADS = 1024
 
@@ -77,6 +83,25 @@ def threads(workers):
     if not 1 <= workers <= _MOST_THREADS:
         raise ValueError(f"workers: {workers}, expected -1 for all processors or 1 to {_MOST_THREADS}")
     return workers
+
+
+def max_bytes(value):
+    """`value`, or for None the memory that this process may have."""
+    if value is not None:
+        return integer(value, "max_bytes", 0, 2**64 - 1)
+    limits = [2**64 - 1]
+    if resource is not None:
+        limits.append(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+        limits += [limit for limit in resource.getrlimit(resource.RLIMIT_AS)[:1] if limit > 0]
+    return min(limits)
+
+
+def path(value):
+    """`value` as str or bytes. Calls `__fspath__` here, for Python code must not run below C++ functions."""
+    value = os.fspath(value)
+    if ("\0" if isinstance(value, str) else b"\0") in value:
+        raise ValueError(f"path: {value!r} has a null byte")
+    return value
 
 
 def choice(value, name, choices):

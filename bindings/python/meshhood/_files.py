@@ -10,7 +10,7 @@ from typing import NamedTuple, Union
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _core
+from . import _convert, _core
 from ._index import MeshIndex
 from ._progress import Progress, reporter
 
@@ -33,7 +33,7 @@ def read_mesh(path: Union[str, os.PathLike[str]], *, progress: Progress = None) 
 
     Raises OSError, with errno and filename; ValueError, naming the file, place and element; KeyboardInterrupt on Ctrl-C.
     """
-    path = os.fspath(path)
+    path = _convert.path(path)
     with reporter(progress) as report:
         vertices, corners, offsets, irregularities = _core.read_mesh(path, progress=report)
     for irregularity in irregularities:
@@ -62,6 +62,6 @@ def load(
     """
     if trusted and not mmap:
         raise ValueError("trusted: expected only with mmap=True")
-    path = os.fspath(path)
+    path = _convert.path(path)
     with reporter(progress) as report:
         return MeshIndex._holding(_core.load(path, mmap=bool(mmap), trusted=bool(trusted), progress=report))

@@ -153,6 +153,7 @@ class MeshIndex:
         method: Method = "exact",
         unit: Unit = "mesh",
         workers: int = -1,
+        max_bytes: Optional[int] = None,
         progress: Progress = None,
     ) -> Ids: ...
 
@@ -167,6 +168,7 @@ class MeshIndex:
         method: Method = "exact",
         unit: Unit = "mesh",
         workers: int = -1,
+        max_bytes: Optional[int] = None,
         progress: Progress = None,
     ) -> tuple[Ids, Reals]: ...
 
@@ -181,6 +183,7 @@ class MeshIndex:
         method: Method = "exact",
         unit: Unit = "mesh",
         workers: int = -1,
+        max_bytes: Optional[int] = None,
         progress: Progress = None,
     ) -> tuple[Offsets, Ids]: ...
 
@@ -195,6 +198,7 @@ class MeshIndex:
         method: Method = "exact",
         unit: Unit = "mesh",
         workers: int = -1,
+        max_bytes: Optional[int] = None,
         progress: Progress = None,
     ) -> tuple[Offsets, Ids, Reals]: ...
 
@@ -208,6 +212,7 @@ class MeshIndex:
         method: Method = "exact",
         unit: Unit = "mesh",
         workers: int = -1,
+        max_bytes: Optional[int] = None,
         progress: Progress = None,
     ) -> Any:
         """The vertices of the neighborhood of each `v`, itself included.
@@ -223,6 +228,8 @@ class MeshIndex:
                  "ball", every vertex within `r` in space, connected or not.
             "paper" builds an index of its own at the first use.
         unit : of `r`: "mesh" is that of V, "edge" is `mean_edge_length`.
+        max_bytes : refuse a larger result of many vertices; by default, one larger than the memory of the machine. A
+            sample of the rows usually shows this within a second.
         workers, progress : as for the class, for many vertices. The result does not depend on `workers`.
 
         Returns for one vertex `indices` (int32) or `indices, distances`; for many vertices `indptr, indices` or
@@ -236,9 +243,10 @@ class MeshIndex:
             v, r = _convert.vertex(v, self._count), scale * _convert.radius(r)
             return _query_one(searched, v, r, return_distance, sort)
         rows, radius, threads = self._batch(v, r, scale, workers)
+        options = {"distances": bool(return_distance), "sorted": bool(sort), "threads": threads}
         with reporter(progress) as report:
             indptr, indices, distances = searched.neighborhoods(
-                rows, radius, distances=bool(return_distance), sorted=bool(sort), threads=threads, progress=report
+                rows, radius, **options, max_bytes=_convert.max_bytes(max_bytes), progress=report
             )
         return (indptr, indices, distances) if return_distance else (indptr, indices)
 
@@ -301,6 +309,7 @@ class MeshIndex:
         method: Method = "exact",
         unit: Unit = "mesh",
         workers: int = -1,
+        max_bytes: Optional[int] = None,
         progress: Progress = None,
     ) -> csr_array:
         """All neighborhoods as a scipy.sparse.csr_array (#V, #V): row v holds the neighborhood of v, itself included.
@@ -321,6 +330,7 @@ class MeshIndex:
             method=method,
             unit=unit,
             workers=workers,
+            max_bytes=max_bytes,
             progress=progress,
         )
         if len(indices) <= np.iinfo(np.int32).max:
@@ -352,7 +362,8 @@ class MeshIndex:
         rows, radius, threads = self._batch(v, r, self._scale(unit), workers)
         if rows is None:
             rows = np.arange(self._count, dtype=np.int32)
-        options = {"distances": bool(return_distance), "sorted": bool(sort), "threads": threads, "progress": None}
+        options = {"distances": bool(return_distance), "sorted": bool(sort), "threads": threads}
+        options |= {"max_bytes": _convert.max_bytes(None), "progress": None}
 
         def chunks() -> Iterator[Chunk]:
             for begin in range(0, len(rows), chunk):
@@ -373,7 +384,7 @@ class MeshIndex:
         written beside the target under another name, synchronized to disk and renamed. Raises OSError, with errno and
         filename, and KeyboardInterrupt on Ctrl-C; an old file of that name is then unchanged.
         """
-        path = os.fspath(path)
+        path = _convert.path(path)
         with reporter(progress) as report:
             _core.save(self._exact, path, progress=report)
 

@@ -14,8 +14,8 @@
 namespace meshhood {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr PolygonExtent kUnboundedExtent{kInfinity, kInfinity};
+constexpr PolygonExtent kUnboundedExtent{std::numeric_limits<double>::infinity(),
+                                         std::numeric_limits<double>::infinity()};
 
 // Lines whose cross product is smaller, in units of the longer edge, meet where rounding puts them: the mesh has size
 // 1, a squared distance is rounded by about 1e-14, and the corner magnifies that by up to 2^22.

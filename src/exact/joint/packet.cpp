@@ -10,7 +10,7 @@
 namespace meshhood {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 
 // Longer than any distance in the frame, so that larger radii may be replaced by it.
 constexpr double kLargestRadius = 8;
@@ -21,8 +21,8 @@ constexpr double kLargestRadius = 8;
 // the centre of the leaf is off by 28 u a^2, less than four times as much.
 constexpr double kRelativeError = 0x1p-19;
 
-float next_above(double value) { return std::nextafter(static_cast<float>(value), kInfinity); }
-float next_below(double value) { return -next_above(-value); }
+float float_above(double value) { return std::nextafter(static_cast<float>(value), kFloatInfinity); }
+float float_below(double value) { return -float_above(-value); }
 
 double inner_of(const TreeBounds& bounds) { return std::min(static_cast<double>(bounds.inner), kLargestRadius); }
 double outer_of(const TreeBounds& bounds) { return std::min(static_cast<double>(bounds.outer), kLargestRadius); }
@@ -43,8 +43,8 @@ Packet::Packet(const IndexView& index, const JointGroup& group, LeafId leaf, std
   ball_.x = bounds.x;
   ball_.y = bounds.y;
   ball_.z = bounds.z;
-  ball_.inner = next_below(static_cast<double>(ball_.inner) - static_cast<double>(bounds.radius));
-  ball_.outer = next_above(static_cast<double>(ball_.outer) + static_cast<double>(bounds.radius));
+  ball_.inner = float_below(static_cast<double>(ball_.inner) - static_cast<double>(bounds.radius));
+  ball_.outer = float_above(static_cast<double>(ball_.outer) + static_cast<double>(bounds.radius));
 }
 
 void Packet::set_balls(const IndexView& index, const JointGroup& group, std::span<const JointQuery> queries) {
@@ -62,8 +62,8 @@ void Packet::set_balls(const IndexView& index, const JointGroup& group, std::spa
   balls_.inside_all = low > 0 ? static_cast<float>(low * low - 4 * error) : 0;
   balls_.outside_all = static_cast<float>(high * high + 4 * error);
   balls_.queries = first_lanes(static_cast<unsigned>(size_));
-  balls_.surely_inside.fill(kInfinity);
-  balls_.maybe_inside.fill(kInfinity);
+  balls_.surely_inside.fill(kFloatInfinity);
+  balls_.maybe_inside.fill(kFloatInfinity);
   for (std::size_t i = 0; i < size_; ++i) {
     const Point exact = index.frame.scale * (centres_[i] - group.centre());
     const Point q{static_cast<double>(static_cast<float>(exact.x)), static_cast<double>(static_cast<float>(exact.y)),
