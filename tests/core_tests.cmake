@@ -14,8 +14,9 @@ foreach(part
     batch/batch
     exact/cell_components exact/halfplane_polygon exact/joint_search exact/kd_order exact/leaf_nodes exact/leaves
     exact/links exact/minimum_region exact/tree exact/structure exact/file exact/damage exact/rules
-    exact/search_families exact/search_differential exact/search_rare
-    exact/threads
+    exact/search_families exact/search_differential exact/search_proof exact/search_rare exact/threads
+    exact/search/descent exact/search/leaf_traversal exact/search/local_minima exact/search/output
+    exact/search/vertex_set
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
     simd/joint_kernels simd/kernels
     whole/arguments whole/robustness whole/differential whole/metamorphic)

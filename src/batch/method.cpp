@@ -52,7 +52,7 @@ SearchMethod::SearchMethod(const Index& index)
           index.vertex_count(), true,
           [&index] {
             // The order of an answer depends on what the searcher remembers of earlier queries.
-            return worker_of(Searcher(index), [](Searcher& s) { SearcherAccess::state(s).ball_search.forget(); });
+            return worker_of(Searcher(index), [](Searcher& s) { SearcherAccess::state(s).forget(); });
           },
           [&index](VertexId v) { return IndexAccess::view(index).slot[v]; })) {}
 

@@ -12,6 +12,7 @@
 #include "meshhood/index.h"
 
 #include "base/frame.h"
+#include "base/prefetch.h"
 #include "simd/leaf.h"
 #include "simd/node_group.h"
 
@@ -94,6 +95,12 @@ struct IndexView {
     return cross_edges.subspan(link.first_cross_edge, next.first_cross_edge - link.first_cross_edge);
   }
 };
+
+/// Prefetches the positions of `size` vertices from `first` on, in index order.
+inline void prefetch_positions(const IndexView& index, std::size_t first, std::size_t size) {
+  std::visit([&](auto xyz) { fetch_lines(&xyz[3 * first], 3 * size * sizeof(xyz[0]) / kCacheLine + 1); },
+             index.positions);
+}
 
 /// What an array of an index is, beyond its type.
 struct ArrayInfo {

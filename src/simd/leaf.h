@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -16,6 +17,12 @@ using LaneMask = std::uint32_t;
 
 /// The first `n` lanes; `n` <= 32.
 [[nodiscard]] constexpr LaneMask first_lanes(unsigned n) { return n == 0 ? 0 : ~LaneMask{0} >> (kLeafCapacity - n); }
+
+/// Calls `f(lane)` for every lane of the set, in ascending order.
+template <class F>
+void for_each_lane(LaneMask lanes, F&& f) {
+  for (; lanes != 0; lanes &= lanes - 1) f(static_cast<unsigned>(std::countr_zero(lanes)));
+}
 
 /// An edge between two leaves, by the lanes of its ends: `from` in this leaf, `to` in the linked one.
 struct CrossEdge {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each path of the exact search that ordinary meshes hardly ever take, forced, and shown to have been taken.
+// Paths of the exact search that ordinary meshes rarely take. Each test forces one and shows that it was taken.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Two grids one above the other, not joined.
+/// Two grids, one above the other, without an edge between them.
 TestMesh plates(std::size_t side, double gap) {
   TestMesh mesh = make_grid(side, side, false);
   TestMesh upper = make_grid(side, side, false);
@@ -61,7 +61,7 @@ void query_everywhere(ExactAnswer& exact, std::size_t vertices, std::initializer
 
 bool last_was_proved(ExactAnswer& exact) {
   return std::any_of(exact.searchers().begin(), exact.searchers().end(),
-                     [](Searcher& searcher) { return SearcherAccess::state(searcher).by_ball_search; });
+                     [](Searcher& searcher) { return SearcherAccess::state(searcher).was_proved; });
 }
 
 TEST(Rare, BallOnOneSheetIsProved) {
@@ -69,12 +69,12 @@ TEST(Rare, BallOnOneSheetIsProved) {
   ExactAnswer exact(mesh.view());
   for (Searcher& searcher : exact.searchers()) {
     EXPECT_GT(searcher.count(60 * 120 + 60, 30), 2000U);
-    EXPECT_TRUE(SearcherAccess::state(searcher).by_ball_search);
+    EXPECT_TRUE(SearcherAccess::state(searcher).was_proved);
   }
   query_everywhere(exact, mesh.size(), {9, 10, 20, 30, 50, 1000});
 }
 
-TEST(Rare, ForeignSheetIsNotProvedAndLeftOut) {
+TEST(Rare, SheetOfAnotherComponentIsLeftOut) {
   const TestMesh mesh = plates(60, 0.6);
   ExactAnswer exact(mesh.view());
   exact.query(30 * 60 + 30, 15);
@@ -83,9 +83,9 @@ TEST(Rare, ForeignSheetIsNotProvedAndLeftOut) {
   query_everywhere(exact, mesh.size(), {0.3, 0.6, 1, 2, 5, 10, 20, 40, 100});
 }
 
-TEST(Rare, SingleVerticesAreCutOffAtARoughRim) {
-  // Such a vertex has edges into the next leaf only to what lies outside, while others of its leaf have nearer
-  // neighbours there.
+TEST(Rare, SingleVerticesAreCutOffAtARoughBoundary) {
+  // The edges of such a vertex into the next leaf lead out of the ball, while other vertices of its leaf have nearer
+  // neighbours in that leaf.
   TestMesh mesh = make_grid(100, 100, false);
   Random random(7);
   for (double& coordinate : mesh.positions) coordinate += random.uniform(-0.4, 0.4);
@@ -97,7 +97,7 @@ TEST(Rare, SingleVerticesAreCutOffAtARoughRim) {
   std::printf("%zu queries\n", exact.queries());
 }
 
-/// A grid, small patches of surface hanging over it, and tongues: strips over it that are joined to it at one end.
+/// A grid, separate patches of surface above it, and tongues: strips above it that are joined to it at one end.
 TestMesh grid_below(std::size_t patches, std::size_t tongues) {
   constexpr std::uint32_t kSide = 100;
   constexpr std::size_t kPatch = 9;
@@ -122,7 +122,7 @@ TestMesh grid_below(std::size_t patches, std::size_t tongues) {
   return mesh;
 }
 
-TEST(Rare, ForeignPatchesAreCutAway) {
+TEST(Rare, PatchesOfOtherComponentsAreSubtracted) {
   const TestMesh mesh = grid_below(9, 0);
   ExactAnswer exact(mesh.view());
   exact.query(50 * 100 + 50, 45);
@@ -131,8 +131,9 @@ TEST(Rare, ForeignPatchesAreCutAway) {
   query_everywhere(exact, mesh.size(), {1, 5, 8, 12, 20, 33, 45, 60});
 }
 
-TEST(Rare, ForeignPatchesWhoseNearestVerticesTie) {
-  // Every vertex of the grid has two above it that are equally near, often of two leaves: neither may excuse the other.
+TEST(Rare, PatchesOfOtherComponentsWhoseNearestVerticesTie) {
+  // Every vertex of the grid has two nearest vertices in a patch, often in two leaves. Each counts as a minimum: equally
+  // near is not nearer.
   TestMesh mesh = grid_below(9, 0);
   for (std::size_t i = std::size_t{3} * 100 * 100; i < mesh.positions.size(); i += 3) mesh.positions[i] += 0.5;
   ExactAnswer exact(mesh.finish(true).view());
@@ -143,7 +144,7 @@ TEST(Rare, ForeignPatchesWhoseNearestVerticesTie) {
   std::printf("%zu queries\n", exact.queries());
 }
 
-TEST(Rare, ForeignVerticesAreCutOutOfLeaves) {
+TEST(Rare, VerticesOfOtherComponentsAreRemovedFromLeaves) {
   // A vertex without edges shares a leaf with the surface around it.
   TestMesh mesh = make_grid(100, 100, false);
   Random random(23);
@@ -164,15 +165,15 @@ TEST(Rare, TonguesBelongToTheAnswerWhereTheirRootIsInTheBall) {
   query_everywhere(exact, mesh.size(), {1, 5, 8, 10, 12, 15, 18, 20, 25, 33, 45});
 }
 
-TEST(Rare, SheetsThatMeetAtTheRimAreOneOrTwoByTheRadius) {
+TEST(Rare, SheetsThatMeetAtOneSideAreConnectedOnlyInALargeBall) {
   TestMesh mesh = plates(40, 0.7);
   for (std::uint32_t i = 0; i < 40; ++i) mesh.add_face({i, 1600 + i});  // joined along one side
   ExactAnswer exact(mesh.view());
   query_everywhere(exact, mesh.size(), {1, 3, 7, 12, 15, 18, 25, 39, 41, 60});
 }
 
-TEST(Rare, ManyStraddlingNodesEndTheDescent) {
-  // Sixty sheets: any ball of some size has far more rim than one sheet would.
+TEST(Rare, ManyIntersectingNodesEndTheDescent) {
+  // Sixty sheets: the surface of the ball cuts far more nodes than on one sheet.
   TestMesh mesh = make_grid(24, 24, false);
   for (int sheet = 1; sheet < 60; ++sheet) {
     TestMesh next = make_grid(24, 24, false);
@@ -185,7 +186,7 @@ TEST(Rare, ManyStraddlingNodesEndTheDescent) {
   query_everywhere(exact, mesh.size(), {0.5, 1, 3, 8, 11, 16, 30, kInfinity});
 }
 
-TEST(Rare, WholeMeshInside) {
+TEST(Rare, WholeMeshInsideTheBall) {
   const TestMesh mesh = make_grid(70, 70, true);
   ExactAnswer exact(mesh.view());
   exact.query(0, kInfinity);
@@ -216,8 +217,8 @@ TEST(Rare, HubOfAHundredThousandEdges) {
   EXPECT_EQ(exact.mismatches(), 0U);
 }
 
-TEST(Rare, LeavesThatAreNotConnected) {
-  // A hundred thousand components: leaves are full of them, and none may be taken for one.
+TEST(Rare, LeavesOfManyComponents) {
+  // A hundred thousand components: a leaf holds many, and must not count as connected.
   const TestMesh mesh = points_at_random(scaled(100'000, 1000));
   ExactAnswer exact(mesh.view());
   const IndexView& index = exact.storage();
@@ -247,15 +248,15 @@ TEST(Rare, PathOfAMillion) {
 
 TEST(Rare, CoincidentVertices) {
   TestMesh mesh = make_grid(30, 30, false);
-  append(mesh, make_grid(30, 30, false));                  // every position twice, not joined
-  for (double& x : mesh.positions) x = std::floor(x / 2);  // and many more often, joined
+  append(mesh, make_grid(30, 30, false));                  // every position twice, not connected
+  for (double& x : mesh.positions) x = std::floor(x / 2);  // four times more, connected
   mesh.finish(true);
   ExactAnswer exact(mesh.view());
   query_everywhere(exact, mesh.size(), {0, 1, std::numbers::sqrt2, 2, 5, 100});
 }
 
-TEST(Rare, VerticesThatFloatsCannotPlace) {
-  // Every distance on a sphere's surface is within a few units of float's last place from the radius.
+TEST(Rare, DistancesThatSinglePrecisionCannotDecide) {
+  // All distances from the centre differ from the radius by a few units in the last place of a float.
   Random random(5);
   TestMesh mesh;
   mesh.add_vertex(0, 0, 0);
@@ -278,7 +279,8 @@ TEST(Rare, VerticesThatFloatsCannotPlace) {
 TEST(Rare, QueryNumbersRunOut) {
   const TestMesh mesh = plates(40, 0.6);
   ExactAnswer exact(mesh.view());
-  for (Searcher& searcher : exact.searchers()) SearcherAccess::state(searcher).walk.set_query((1U << 31) - 40);
+  for (Searcher& searcher : exact.searchers())
+    SearcherAccess::state(searcher).traversal.set_query_number((1U << 31) - 40);
   query_everywhere(exact, mesh.size(), {1, 4, 9});
 }
 
@@ -311,7 +313,7 @@ TEST(Rare, FarFromTheOrigin) {
   }
 }
 
-TEST(Rare, HardlyAnyVertices) {
+TEST(Rare, MeshesOfNoneToThirtyThreeVertices) {
   const TestMesh none;
   const Index index = build(none.view());
   EXPECT_EQ(index.vertex_count(), 0U);
@@ -325,7 +327,7 @@ TEST(Rare, HardlyAnyVertices) {
   }
 }
 
-TEST(Rare, RefusalsLeaveTheOutputAlone) {
+TEST(Rare, InvalidArgumentsLeaveTheOutputUnchanged) {
   const TestMesh mesh = make_grid(5, 5, false);
   const Index index = build(mesh.view());
   Searcher searcher(index);

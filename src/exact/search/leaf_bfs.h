@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
 #include "exact/layout.h"
@@ -10,21 +10,40 @@
 
 namespace meshhood {
 
-/// Breadth-first search whose steps are leaves: looks at no leaf that the answer does not touch, at most at its
-/// neighbours. Costs as much as the answer has leaves, wherever else the surface may lie.
+/// Breadth-first search over leaves. Visits the leaves of the answer and their neighbours, so its cost does not depend
+/// on what else lies in the ball.
 class LeafBfs {
  public:
   explicit LeafBfs(const IndexView& index) : index_(&index) {}
 
-  /// Appends the exact neighborhood of the vertex at `slot` (see IndexView).
-  void run(std::uint32_t slot, const LeafBall& ball, const TreeBall& tree_ball, LeafTraversal& walk, VertexSet& answer);
+  /// Adds the neighborhood of the query to `answer`, which is empty.
+  ///
+  /// is_small  whether the ball reaches hardly beyond the neighbours of the first leaf. Then only those are prefetched.
+  void run(const Query& query, bool is_small, LeafTraversal& traversal, VertexSet& answer);
 
  private:
-  void append_to(const LeafTraversal& walk, VertexSet& answer) const;
+  /// First in, first out. Prefetches the neighbours of the leaves that come next.
+  class Queue {
+   public:
+    void start(const LeafTraversal& traversal, std::size_t most_prefetched);
+    void push(LeafId leaf) { leaves_.push_back(leaf); }
+    [[nodiscard]] LeafId pop();
+    [[nodiscard]] bool empty() const { return head_ == leaves_.size(); }
+    template <class F>
+    void clear(F&& f) {
+      for (; !empty(); ++head_) f(leaves_[head_]);
+    }
+
+   private:
+    const LeafTraversal* traversal_ = nullptr;
+    std::vector<LeafId> leaves_;
+    std::size_t head_ = 0;
+    std::size_t prefetched_ = 0;
+    std::size_t most_prefetched_ = 0;
+  };
 
   const IndexView* index_;
-  std::vector<LeafId> queue_;
-  std::vector<LeafId> reached_;
+  Queue queue_;
 };
 
 }  // namespace meshhood

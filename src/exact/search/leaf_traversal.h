@@ -2,68 +2,97 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "exact/layout.h"
+#include "exact/search/query.h"
 #include "simd/kernels.h"
 
 namespace meshhood {
 
-/// Walks through a ball leaf by leaf, along the edges of the mesh: sets of vertices of a leaf are the bits of a word.
-/// In what order the leaves are taken is the caller's choice.
+/// Searches through a ball along the edges of the mesh, a leaf at a time: a set of vertices of a leaf is one word. The
+/// caller's frontier decides in which order the leaves are visited.
 class LeafTraversal {
  public:
-  /// What the present query knows of a leaf. Of an older query: nothing.
-  struct State {
-    std::uint32_t query : 31;
-    std::uint32_t whole : 1;  // in the ball with all its vertices, and connected
-    LaneMask inside;          // what may be in the ball; exactly that once the leaf has been taken
-    LaneMask reached;
-    LaneMask pending;  // to be reached, if inside; the leaf waits to be taken
-    LaneMask settled;  // what the caller has put aside: reached on an earlier way through the same ball
-  };
-
   LeafTraversal(const IndexView& index, const Kernels& kernels);
 
-  /// Begins anew. Both balls must outlive the walk.
-  void start(const LeafBall& ball, const TreeBall& tree_ball);
+  /// Begins a new query, which must outlive the traversals in its ball. Nothing is reached or settled.
+  void start(const Query& query);
 
-  /// The state of a leaf, set up when the walk first meets it.
-  State& touch(LeafId leaf);
+  /// Reaches the vertices that are connected to the vertex `lane` of `leaf` within the ball. Returns whether it reached
+  /// them all. It ends earlier when it meets a settled vertex, or when `stop(leaf, added)` returns true, which it calls
+  /// for each leaf visited, with the vertices that the visit has added.
+  ///
+  /// frontier  empty; a container of leaves with `push`, `pop`, `empty`, and `clear(f)`, which calls `f` for each leaf
+  ///           it removes. A leaf may be pushed again after it was popped.
+  template <class Frontier, class Stop>
+  [[nodiscard]] bool traverse(LeafId leaf, LaneMask lane, Frontier& frontier, Stop&& stop);
 
-  /// Takes what is pending in the leaf and returns what has thereby been reached.
-  LaneMask reach(LeafId leaf);
+  /// The leaves in which the last traversal has reached vertices, in the order of the first visit.
+  [[nodiscard]] std::span<const LeafId> reached_leaves() const { return reached_leaves_; }
+  [[nodiscard]] LaneMask reached(LeafId leaf) const { return states_[leaf].reached; }
 
-  /// Makes pending what lies across the edges that leave the lanes `added` of the leaf. Appends to `waiting` the leaves
-  /// in which nothing was pending before.
-  void push_on(LeafId leaf, LaneMask added, std::vector<LeafId>& waiting);
+  /// Settles the reached vertices: later traversals of this query end where they meet one of them.
+  void settle();
 
-  /// Fetches what `reach` will look at, where the leaf may straddle, and then the output.
-  void fetch_leaf(const Leaf& leaf, bool intersecting = true) const;
+  [[nodiscard]] bool is_settled(LeafId leaf, LaneMask lane) { return (state_of(leaf).settled & lane) != 0; }
 
-  /// Fetches what `push_on` will look at.
-  void fetch_neighbors(LeafId leaf) const;
+  /// Prefetches what a visit of the leaf reads, and then the output; without positions and edges if the leaf is known
+  /// to be inside.
+  void prefetch_leaf(const Leaf& leaf, bool intersecting = true) const;
 
-  /// The same of edges. Where the walk goes on for long, they come by themselves while others are waited for.
-  void fetch_cross_edges(LeafId leaf) const;
+  /// Prefetches what a visit reads of the neighbours of the leaf.
+  void prefetch_neighbors(LeafId leaf) const;
 
-  /// The state of a leaf if the walk has met it.
-  [[nodiscard]] const State* find(LeafId leaf) const {
-    return states_[leaf].query == query_ ? &states_[leaf] : nullptr;
-  }
+  /// Prefetches the first cross edges of the leaf.
+  void prefetch_cross_edges(LeafId leaf) const;
 
-  /// As if `queries` had been asked before: for testing what happens when the numbers of queries run out.
-  void set_query(std::uint32_t queries) { query_ = queries; }
+  /// For tests: continues as if `queries` queries had been started before.
+  void set_query_number(std::uint32_t queries) { query_number_ = queries; }
 
  private:
-  static constexpr std::uint32_t kLastQuery = (1U << 31) - 1;
+  /// What is known of a leaf in one query.
+  struct State {
+    std::uint32_t query_number : 31;  // the state is valid for this query only
+    std::uint32_t whole : 1;          // all vertices are in the ball, and the leaf is connected
+    LaneMask inside;                  // a superset of the vertices in the ball; equal to them from the first visit on
+    LaneMask reached;
+    LaneMask pending;  // to be reached by the next visit, if inside; not empty while the leaf is in the frontier
+    LaneMask settled;
+  };
+
+  static constexpr std::uint32_t kLastQueryNumber = (1U << 31) - 1;
+
+  State& state_of(LeafId leaf);
+  LaneMask visit(LeafId leaf);
+  [[nodiscard]] bool expand(LeafId leaf, LaneMask added);
 
   const IndexView* index_;
   const Kernels* kernels_;
-  const LeafBall* ball_ = nullptr;
-  const TreeBall* tree_ball_ = nullptr;
+  const Query* query_ = nullptr;
   std::vector<State> states_;
-  std::uint32_t query_ = 0;
+  std::vector<LeafId> reached_leaves_;
+  std::vector<LeafId> newly_pending_;  // found by the last `expand`
+  std::uint32_t query_number_ = 0;
 };
+
+template <class Frontier, class Stop>
+bool LeafTraversal::traverse(LeafId leaf, LaneMask lane, Frontier& frontier, Stop&& stop) {
+  reached_leaves_.clear();
+  state_of(leaf).pending = lane;
+  frontier.push(leaf);
+  bool is_complete = true;
+  while (is_complete && !frontier.empty()) {
+    const LeafId next = frontier.pop();
+    const LaneMask added = visit(next);
+    if (added == 0) continue;
+    is_complete = (added & states_[next].settled) == 0 && !stop(next, added) && !expand(next, added);
+    for (const LeafId pending : newly_pending_) frontier.push(pending);
+    newly_pending_.clear();
+  }
+  frontier.clear([this](LeafId waiting) { states_[waiting].pending = 0; });
+  return is_complete;
+}
 
 }  // namespace meshhood

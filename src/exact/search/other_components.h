@@ -2,59 +2,65 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "exact/layout.h"
 #include "exact/search/leaf_traversal.h"
-#include "exact/search/local_minimum.h"
+#include "exact/search/local_minima.h"
 #include "exact/search/vertex_set.h"
 #include "simd/kernels.h"
 
 namespace meshhood {
 
-/// What lies in the ball but does not hang together with the query vertex there. The nearest vertex of every such
-/// component is a local minimum of the distance. From each minimum, the nearest first, one walks on, downhill where
-/// that is possible, until something nearer is met or nothing is left of the component. What is nearer hangs together
-/// with the query vertex: else its component would have been walked through before, this minimum included.
+/// The components of the ball that do not hold the query vertex. The nearest vertex of each is a local minimum of the
+/// distance. From each minimum, nearest first, a traversal visits the nearest leaves first until it meets a vertex that
+/// is nearer than the minimum, or has reached the whole component.
+///
+/// A nearer vertex is connected with the query vertex: otherwise its component would have a minimum that is nearer, and
+/// that component, which holds this minimum too, would have been reached from there and settled.
 class OtherComponents {
  public:
   OtherComponents(const IndexView& index, const Kernels& kernels) : index_(&index), kernels_(&kernels) {}
 
-  /// Finds all these components. False if that takes more than `budget` leaves.
+  /// Finds all these components. Returns false when that takes more than `most_visited` visits of leaves.
   ///
-  /// minima  the nearest vertices of these components, and any others of the ball; ascending by distance.
-  [[nodiscard]] bool find(std::uint32_t slot, std::span<const LocalMinimum> minima, std::size_t budget,
-                          const LeafBall& ball, const TreeBall& tree_ball, LeafTraversal& walk);
+  /// minima  ascending by distance: the nearest vertex of each of these components, and any other vertices of the ball.
+  [[nodiscard]] bool find(const Query& query, std::span<const LocalMinimum> minima, std::size_t most_visited,
+                          LeafTraversal& traversal);
 
-  /// Takes them away from `answer`, which holds the whole ball.
-  void cut_from(VertexSet& answer);
+  /// Their vertices, ascending by leaf, each leaf once.
+  [[nodiscard]] std::span<const LeafSubset> found() const { return found_; }
 
  private:
-  enum class End : std::uint8_t { Met, Exhausted, OverBudget };
+  /// Returns the nearest leaf first.
+  class NearestFirst {
+   public:
+    void start(const IndexView& index, const TreeBall& ball);
+    void push(LeafId leaf);
+    [[nodiscard]] LeafId pop();
+    [[nodiscard]] bool empty() const { return heap_.empty(); }
+    template <class F>
+    void clear(F&& f) {
+      for (const auto& [square, leaf] : heap_) f(leaf);
+      heap_.clear();
+    }
 
-  void start_walk(LeafId leaf, LaneMask lane, LeafTraversal& walk);
-  [[nodiscard]] End finish_walk(double square, LeafTraversal& walk);
-  [[nodiscard]] bool has_nearer(LeafId leaf, LaneMask lanes, double square) const;
-  void wait(LeafId leaf);
-  void settle(LeafTraversal& walk);
-  void append_reached(LeafTraversal& walk);
-  void put_in_order();
-  void append_what_is_left(const VertexRange& run, std::vector<LeafSubset>& subsets);
-  [[nodiscard]] std::vector<LeafSubset>::const_iterator first_from(VertexId vertex) const;
+   private:
+    const IndexView* index_ = nullptr;
+    const TreeBall* ball_ = nullptr;
+    std::vector<std::pair<float, LeafId>> heap_;  // squared distance from the query vertex, leaf
+  };
+
+  void settle_query_vertex(const Query& query, LeafTraversal& traversal);
+  void append_reached(const LeafTraversal& traversal);
+  void merge_by_leaf();
 
   const IndexView* index_;
   const Kernels* kernels_;
-  const LeafBall* ball_ = nullptr;
-  const TreeBall* tree_ball_ = nullptr;
-  std::size_t budget_ = 0;
-  std::vector<std::pair<float, LeafId>> heap_;  // squared distance from the query vertex, leaf
-  std::vector<LeafId> waiting_;
-  std::vector<LeafId> reached_;
-  std::vector<LeafSubset> found_;  // in index order
-  std::vector<VertexRange> runs_;
+  NearestFirst frontier_;
+  std::vector<LeafSubset> found_;
 };
 
 }  // namespace meshhood

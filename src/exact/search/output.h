@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
-
 #include "exact/layout.h"
 #include "exact/search/vertex_set.h"
 #include "simd/kernels.h"
 
 namespace meshhood {
 
-[[nodiscard]] std::size_t count(const VertexSet& answer);
+/// Writes the caller's ids of `set`, in the order of `VertexSet::for_each`. `out` has room for `set.count()` ids, and
+/// for `kLeafCapacity` more, whose content is unspecified afterwards.
+void write_ids(const VertexSet& set, const IndexView& index, const Kernels& kernels, VertexId* out);
 
-/// Writes the caller's ids, in the order of the answer. `out` has room for `count` of them, and for `kLeafCapacity`
-/// more that it may use.
-void write_ids(const VertexSet& answer, const IndexView& index, const Kernels& kernels, VertexId* out);
-
-/// Writes the distances from `centre`, `count` of them, in the same order.
-void write_distances(const VertexSet& answer, const IndexView& index, const Point& centre, double* out);
-
-/// Appends the parts to the runs.
-void append_subsets_as_runs(const IndexView& index, VertexSet& answer);
+/// Writes the distances of the same vertices from `centre`, in the same order; `set.count()` of them.
+void write_distances(const VertexSet& set, const IndexView& index, const Point& centre, double* out);
 
 }  // namespace meshhood

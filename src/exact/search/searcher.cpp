@@ -1,4 +1,11 @@
 // SPDX-License-Identifier: MIT
+// Exact queries. The ball around the query vertex falls into components of the mesh. The answer is the ball without the
+// components that do not hold the query vertex. Each of those has a vertex that is nearest to the query vertex, and
+// that is a local minimum of the distance among its neighbours. So a search finds all of them from the local minima in
+// the ball, which the tree bounds (see MinimumRegion). Where there is no other component, as on most surfaces, that
+// costs about the leaves at the surface of the ball.
+//
+// Where the ball is small, or much of it does not belong to the answer, a breadth-first search is faster.
 #include "meshhood/search.h"
 
 #include "base/distance.h"
@@ -10,21 +17,50 @@ namespace meshhood {
 
 Point Searcher::State::search(VertexId v, double radius) {
   check_query(v, index->vertex_count(), radius);
-  const std::uint32_t slot = index->slot[v];
-  // All that the leaf has, at once: it would come piece by piece, each where it is first looked at.
-  walk.fetch_leaf(index->leaves[leaf_of(slot)]);
-  const Point centre = index->position(leaf_of(slot), lane_of(slot));
+  traversal.prefetch_leaf(index->leaves[leaf_of(index->slot[v])]);
   if (radius != bounds.radius) bounds = RadiusBounds(index->frame, radius);
-  const LeafBall ball(centre, bounds.leaf);
-  const TreeBall tree_ball(index->frame.round(centre), bounds.tree);
+  const Query query(*index, v, bounds);
+  const bool is_small = limits.is_small(query, *index);
   answer.clear();
-  by_ball_search = ball_search.run(slot, ball, tree_ball, walk, answer);
-  if (!by_ball_search) leaf_bfs.run(slot, ball, tree_ball, walk, answer);
-  return centre;
+  was_proved = !is_small && prove(query);
+  if (!was_proved) leaf_bfs.run(query, is_small, traversal, answer);
+  return query.centre();
 }
 
-void Searcher::State::refill(std::vector<VertexId>& out) const {
-  const std::size_t size = meshhood::count(answer);
+/// Returns false, with an empty answer, if the breadth-first search is probably faster.
+bool Searcher::State::prove(const Query& query) {
+  if (limits.enabled && !failures.should_try(query)) return false;
+  const bool proved = subtract_other_components(query);
+  failures.record(query, proved);
+  if (!proved) answer.clear();  // mutant: failed-search-leaves-answer
+  return proved;
+}
+
+bool Searcher::State::subtract_other_components(const Query& query) {
+  if (!descent.run(query, limits, answer)) return false;
+  const std::size_t leaves = answer.count() / kLeafCapacity + descent.intersecting_leaves().size();
+  if (descent.candidate_leaves().size() > limits.most_candidates(leaves)) return false;
+  find_local_minima(*index, *kernels, descent.candidate_leaves(), query, minima);
+  if (!other_components.find(query, minima, limits.most_visited(leaves), traversal)) return false;
+  add_intersecting_leaves(query);
+  answer.subtract(other_components.found());
+  return true;
+}
+
+void Searcher::State::add_intersecting_leaves(const Query& query) {
+  constexpr std::size_t kAhead = 4;
+  const std::span<const LeafId> leaves = descent.intersecting_leaves();
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    if (i + kAhead < leaves.size()) prefetch_positions(*index, index->leaf_begin[leaves[i + kAhead]], kLeafCapacity);
+    const VertexId first = index->leaf_begin[leaves[i]];
+    const std::size_t size = index->leaf_begin[leaves[i] + 1] - first;
+    const LaneMask lanes = kernels->within(index->positions, first, size, query.ball);
+    if (lanes != 0) answer.add(LeafSubset{leaves[i], lanes});
+  }
+}
+
+void Searcher::State::write_answer(std::vector<VertexId>& out) const {
+  const std::size_t size = answer.count();
   out.resize(size + kLeafCapacity);
   write_ids(answer, *index, *kernels, out.data());
   out.resize(size);
@@ -44,27 +80,26 @@ std::span<const VertexId> Searcher::permutation() const {
 
 void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
   state_->search(v, radius);
-  state_->refill(out);
+  state_->write_answer(out);
 }
 
 void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
   const Point centre = state_->search(v, radius);
-  // First, for if there is no memory, neither may have changed.
-  distances.reserve(meshhood::count(state_->answer));
-  state_->refill(out);
+  // Before `out` changes: if this throws, neither has changed.
+  distances.reserve(state_->answer.count());
+  state_->write_answer(out);
   distances.resize(out.size());
   write_distances(state_->answer, *state_->index, centre, distances.data());
 }
 
 std::span<const VertexRange> Searcher::ranges(VertexId v, double radius) {
   state_->search(v, radius);
-  append_subsets_as_runs(*state_->index, state_->answer);
-  return state_->answer.runs;
+  return state_->answer.all_as_runs();
 }
 
 std::size_t Searcher::count(VertexId v, double radius) {
   state_->search(v, radius);
-  return meshhood::count(state_->answer);
+  return state_->answer.count();
 }
 
 }  // namespace meshhood

@@ -1,52 +1,66 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "meshhood/search.h"
 
 #include "exact/layout.h"
-#include "exact/search/ball_search.h"
+#include "exact/search/descent.h"
 #include "exact/search/leaf_bfs.h"
 #include "exact/search/leaf_traversal.h"
+#include "exact/search/limits.h"
+#include "exact/search/local_minima.h"
+#include "exact/search/other_components.h"
+#include "exact/search/query.h"
 #include "exact/search/vertex_set.h"
 #include "simd/kernels.h"
 
 namespace meshhood {
 
-/// What a radius is compared by. Kept from one query to the next, for most ask with the same.
-struct RadiusBounds {
-  double radius;
-  LeafBounds leaf;
-  TreeBounds tree;
-
-  RadiusBounds(const Frame& frame, double at) : radius(at), leaf(at), tree(frame, at) {}
-};
-
+/// The scratch memory of a searcher, and the outline of a query.
 struct Searcher::State {
   const IndexView* index;
   const Kernels* kernels;
-  LeafTraversal walk;
-  BallSearch ball_search;
-  LeafBfs leaf_bfs;
+  SearchLimits limits;
   RadiusBounds bounds;
+  Descent descent;
+  LeafTraversal traversal;
+  OtherComponents other_components;
+  LeafBfs leaf_bfs;
+  FailureCache failures;
+  std::vector<LocalMinimum> minima;
   VertexSet answer;
-  bool by_ball_search = false;  // the last answer: by the cover, not by the flood
+  bool was_proved = false;  // whether the last answer was found by `subtract_other_components`
 
   State(const IndexView& view, Isa isa)
       : index(&view),
         kernels(&meshhood::kernels(isa)),
-        walk(view, *kernels),
-        ball_search(view, *kernels),
+        bounds(view.frame, 0),
+        descent(view, *kernels),
+        traversal(view, *kernels),
+        other_components(view, *kernels),
         leaf_bfs(view),
-        bounds(view.frame, 0) {}
+        failures(view.leaf_count()),
+        answer(view) {}
 
-  /// Leaves the neighborhood in `answer` and returns where `v` is.
+  /// Refills `answer` with the neighborhood, and returns the position of `v`.
   Point search(VertexId v, double radius);
 
-  /// The ids of `answer`.
-  void refill(std::vector<VertexId>& out) const;
+  /// Refills `out` with the ids of `answer`.
+  void write_answer(std::vector<VertexId>& out) const;
+
+  /// Forgets earlier queries, so that the order of the next answer does not depend on them.
+  void forget() { failures.clear(); }
+
+ private:
+  bool prove(const Query& query);
+  bool subtract_other_components(const Query& query);
+  void add_intersecting_leaves(const Query& query);
 };
 
-/// The door to what a searcher is made of, for tests that force what is rare.
+/// Access to the parts of a searcher, for the batch and for tests.
 struct SearcherAccess {
   using State = Searcher::State;
   static Searcher::State& state(Searcher& searcher) { return *searcher.state_; }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "meshhood/search.h"
@@ -15,15 +17,49 @@ struct LeafSubset {
   LaneMask lanes;
 };
 
-/// What a search finds, in index order: contiguous runs, and parts of leaves. No vertex is in two of them.
-struct VertexSet {
-  std::vector<VertexRange> runs;
-  std::vector<LeafSubset> subsets;
+/// A set of vertices: runs of whole leaves in index order, and subsets of leaves. No vertex is added twice.
+class VertexSet {
+ public:
+  explicit VertexSet(const IndexView& index) : index_(&index) {}
 
-  void clear() {
-    runs.clear();
-    subsets.clear();
+  void clear();
+
+  /// Adds a run of whole leaves.
+  void add(const VertexRange& run) { runs_.push_back(run); }
+  void add(const LeafSubset& subset) { subsets_.push_back(subset); }
+
+  /// Removes the vertices of `others`, which ascend by leaf and name each leaf once. O(size of this * log size of
+  /// others).
+  void subtract(std::span<const LeafSubset> others);
+
+  [[nodiscard]] std::size_t count() const;
+  [[nodiscard]] std::span<const VertexRange> runs() const { return runs_; }
+  [[nodiscard]] std::span<const LeafSubset> subsets() const { return subsets_; }
+
+  /// Calls `f(vertex)` for every vertex, by its number in index order: first those of the runs, then those of the
+  /// subsets.
+  template <class F>
+  void for_each(F&& f) const {
+    for (const VertexRange& run : runs_) {
+      for (std::size_t vertex = run.begin; vertex < run.end; ++vertex) f(vertex);
+    }
+    for (const LeafSubset& subset : subsets_) {
+      const std::size_t first = index_->leaf_begin[subset.leaf];
+      for_each_lane(subset.lanes, [&](unsigned lane) { f(first + lane); });
+    }
   }
+
+  /// Turns the subsets into runs. Nothing can be subtracted from the set afterwards.
+  [[nodiscard]] std::span<const VertexRange> all_as_runs();
+
+ private:
+  void add_rest(const VertexRange& run, std::span<const LeafSubset> others);
+  [[nodiscard]] std::size_t find_from(std::span<const LeafSubset> subsets, VertexId vertex) const;
+
+  const IndexView* index_;
+  std::vector<VertexRange> runs_;
+  std::vector<LeafSubset> subsets_;
+  std::vector<VertexRange> whole_runs_;  // scratch of `subtract`
 };
 
 }  // namespace meshhood

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// The proof without its limits: the breadth-first search never answers, so every query is the ball without the other
+// components. Compared with the oracle on all families.
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/draw.h"
+#include "support/exact_answer.h"
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+struct Tally {
+  std::size_t meshes = 0;
+  std::size_t queries = 0;
+  std::size_t proved = 0;
+  std::size_t mismatches = 0;
+};
+
+void compare(const TestMesh& mesh, std::uint64_t seed, std::size_t queries, Tally& tally) {
+  const Oracle oracle(mesh);
+  const Index index = build(mesh.view());
+  std::vector<Searcher> searchers = searchers_of(index);
+  for (Searcher& searcher : searchers) SearcherAccess::state(searcher).limits.enabled = false;
+  Random random(seed);
+  std::vector<VertexId> ids;
+  ++tally.meshes;
+  for (const std::size_t end = tally.queries + queries; tally.queries < end;) {
+    const auto v = static_cast<std::uint32_t>(random.below(mesh.size()));
+    for (const double radius : draw_radii(random, oracle, v)) {
+      Searcher& searcher = searchers[tally.queries++ % searchers.size()];
+      searcher.neighborhood(v, radius, ids);
+      tally.proved += static_cast<std::size_t>(SearcherAccess::state(searcher).was_proved);
+      std::sort(ids.begin(), ids.end());
+      if (ids == oracle.exact(v, radius)) continue;
+      ++tally.mismatches;
+      ADD_FAILURE() << mesh.name << ": vertex " << v << ", radius " << radius;
+    }
+  }
+}
+
+class SearchProof : public testing::TestWithParam<Family> {};
+
+TEST_P(SearchProof, AloneGivesTheAnswersOfTheOracle) {
+  Tally tally;
+  for (std::uint64_t seed = 0; seed < scaled(25, 2) && tally.mismatches < 10; ++seed) {
+    const TestMesh mesh = make_mesh(GetParam(), seed, std::min<std::size_t>(draw_size(seed), 1500));
+    if (mesh.size() > 0) compare(mesh, seed, 150, tally);
+  }
+  std::printf("%s: %zu queries, %zu meshes, %zu mismatches\n", std::string(GetParam().name).c_str(), tally.queries,
+              tally.meshes, tally.mismatches);
+  EXPECT_EQ(tally.mismatches, 0U);
+  EXPECT_EQ(tally.proved, tally.queries);
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, SearchProof, testing::ValuesIn(families()), family_name);
+
+}  // namespace
+}  // namespace meshhood::test
