@@ -47,15 +47,15 @@ def text(data):
 
 
 def summary(data):
-    header = ["mesh", "radius", "found", "bfs, cold", "exact, cold", "× cold", "× cold, count", "× warm", "× warm, count"]
+    header = ["mesh", "radius", "found", "bfs, cold", "exact, cold", "× cold", "× cold, count", "× warm",
+              "× warm, count"]
     rows = []
     for name, result in shown(data).items():
+        label = f"{name} ({KINDS[name]})" if name in KINDS else name
         cold, warm = (programs.by_radius(result[order]) for order in ("cold", "warm"))
         for radius in filter(cold.__contains__, SHOWN_RADII):
-            rows.append([f"{name} ({KINDS[name]})" if name in KINDS else name, f"{radius:g}",
-                         number(cold[radius]["bfs"]["count"]), number(best_bfs(cold[radius])),
-                         number(cold[radius]["ids"]["microseconds"]),
-                         *(f"{ratio(order[radius], method):.1f}" for order in (cold, warm) for method in ("ids", "count"))])
+            ratios = (ratio(row[radius], method) for row in (cold, warm) for method in ("ids", "count"))
+            rows.append([label, f"{radius:g}", *timed_cells(cold[radius]), *(f"{value:.1f}" for value in ratios)])
     return (SUMMARY_NOTE.format(command=COMMAND) + table(header, rows) + "\n" + extremes(data["meshes"])
             + BATCH_SUMMARY + batch_table(shown(data)))
 
@@ -110,21 +110,36 @@ def batch_table(meshes):
     return table(header, rows)
 
 
+HEAD_NOTE = """One query, cold, on one thread of an {processor} (`{command}`). `{smooth}` is {smooth_kind}
+of {smooth_size:,} vertices, `{folded}` is {folded_kind}, with {folded_size:,}. The radius is in mean edge lengths,
+and `bfs` is the fastest breadth-first search we could write; × is the ratio of the times.{remark}
+
+"""
+
+
 def head_table(data):
     """The table of the README: one smooth mesh and one folded mesh, cold."""
     meshes = data["meshes"]
     smooth = next((name for name in ("head_skin", *meshes) if name in meshes))
     folded = next((name for name in ("mri_head", *meshes) if name in meshes))
-    header = ["radius", *(cell for name in (smooth, folded) for cell in (f"{name}: found", "bfs µs", "exact µs", "×"))]
+    header = ["radius"]
+    for name in (smooth, folded):
+        header += [f"{name}: found", "bfs µs", "exact µs", "×"]
     columns = [programs.by_radius(meshes[name]["cold"]) for name in (smooth, folded)]
     rows = [[f"{radius:g}", *(cell for rows in columns for cell in head_cells(rows[radius]))]
             for radius in SHOWN_RADII if all(radius in rows for rows in columns)]
-    busy = " **Preliminary: the machine was busy.**" if machine.is_busy(data["machine"]) else ""
-    return (f"One query, cold, on one thread of an {data['machine']['processor']} (`{COMMAND}`). `{smooth}` is"
-            f" {KINDS.get(smooth, 'a mesh')}\nof {meshes[smooth]['vertices']:,} vertices, `{folded}` is"
-            f" {KINDS.get(folded, 'a mesh')}, with {meshes[folded]['vertices']:,}. The radius is in mean edge lengths,\nand `bfs`"
-            f" is the fastest breadth-first search we could write; × is the ratio of the times.{busy}\n\n" + table(header, rows) + "\n" + extremes(meshes))
+    note = HEAD_NOTE.format(
+        processor=data["machine"]["processor"], command=COMMAND,
+        smooth=smooth, smooth_kind=KINDS.get(smooth, "a mesh"), smooth_size=meshes[smooth]["vertices"],
+        folded=folded, folded_kind=KINDS.get(folded, "a mesh"), folded_size=meshes[folded]["vertices"],
+        remark=" **Preliminary: the machine was busy.**" if machine.is_busy(data["machine"]) else "")
+    return note + table(header, rows) + "\n" + extremes(meshes)
 
 
 def head_cells(row):
-    return [number(row["bfs"]["count"]), number(best_bfs(row)), number(row["ids"]["microseconds"]), f"{ratio(row, 'ids'):.1f}"]
+    return [*timed_cells(row), f"{ratio(row, 'ids'):.1f}"]
+
+
+def timed_cells(row):
+    """Vertices found, and the times of breadth-first search and of the exact index."""
+    return [number(row["bfs"]["count"]), number(best_bfs(row)), number(row["ids"]["microseconds"])]
