@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Checks that what the documents name still exists: files they link to or name, code they show, presets, MESHHOOD_
-names and the options of the command line. Usage: tools/check_docs.py [PROGRAM]
+"""Checks that everything the documents name exists: files, excerpts of code, presets, MESHHOOD_ names, identifiers of the
+code, and options of the command line. Usage: tools/check_docs.py [PROGRAM]
 
-Without PROGRAM, or where it does not exist, the options of the command line are left out, and that is said.
+Without PROGRAM, or if it does not exist, the options of the command line are not checked, and a line says so.
 """
 import functools
 import json
@@ -18,12 +18,16 @@ PATH = re.compile(r"(?<![\w./<-])(?:include|src|io|cli|shapes|tests|bench|exampl
 EXCERPT = re.compile(r"<!-- from (\S+) -->\n```cpp\n(.*?)```", re.DOTALL)
 PRESET = re.compile(r"--preset[ =]([\w-]+)")
 MACRO = re.compile(r"\bMESHHOOD_[A-Z_]*[A-Z]\b")
+# `kConstant`, `snake_case`, `CamelCase`, or any name before `(` or beside `::`; a name of a single word may be prose.
+IDENTIFIER = re.compile(r"(?<![\w./<-])(?:k[A-Z]\w+|[a-z]\w*_\w+|[A-Z]\w*[a-z]\w*[A-Z]\w*|\w+(?=\(|::)|(?<=::)\w+)(?![\w/-])")
+OF_OTHER_LIBRARIES = {"KDTree", "KDTreeFlann", "breadth_first_order"}
+INLINE = re.compile(r"(?<!`)`([^`\n]+)`(?!`)")
 COMMAND = re.compile(r"\bmeshhood ([a-z]+)\b([^\n`#]*)")
 OPTION = re.compile(r"(?<!\S)\[?(--?[a-z][\w-]*)")
 
 
 def texts(*patterns):
-    """The files of the checkout that match, each with its text. Does not ask git, which may not trust the owner."""
+    """The files of the checkout that match, each with its text. Does not call git, which may not trust the owner."""
     files = (path for pattern in patterns for path in ROOT.rglob(pattern))
     names = sorted(path.relative_to(ROOT) for path in files if path.relative_to(ROOT).parts[0] != "build")
     return [(str(name), (ROOT / name).read_text(encoding="utf-8")) for name in names]
@@ -47,11 +51,11 @@ def missing_paths(name, text):
 
 
 def stale_excerpts(name, text):
-    """The code under `<!-- from FILE -->` is the part of FILE between its two `// [readme]` lines, word for word."""
+    """The code under `<!-- from FILE -->` must equal the part of FILE between its two `// [readme]` lines."""
     for path, code in EXCERPT.findall(text):
         parts = (ROOT / path).read_text(encoding="utf-8").split("// [readme]\n")
         if len(parts) != 3 or parts[1] != code:
-            yield f"{name}: the excerpt from {path} is not what stands there"
+            yield f"{name}: the excerpt differs from {path}"
 
 
 def missing_presets(name, text):
@@ -71,6 +75,24 @@ def known_macros():
     return frozenset(macro for _, text in sources for macro in MACRO.findall(text))
 
 
+def missing_identifiers(name, text):
+    """History may name what is gone, so the changelog is not checked."""
+    if name == "CHANGELOG.md":
+        return
+    code = "\n".join(INLINE.findall(re.sub(r"```.*?```", "", text, flags=re.DOTALL)))
+    for identifier in sorted(set(IDENTIFIER.findall(code)) - known_words() - OF_OTHER_LIBRARIES):
+        yield f"{name}: names `{identifier}`, which no source contains"
+
+
+@functools.cache
+def known_words():
+    """All words of the sources, and the names of the files."""
+    sources = texts("CMakeLists.txt", "*.cmake", "*.json", "*.toml", "*.h", "*.in", "*.cpp", "*.py", "*.txt")
+    tools = [(str(path), path.read_text(encoding="utf-8")) for path in (ROOT / "tools").iterdir() if path.is_file()]
+    names = " ".join(name for name, _ in sources)
+    return frozenset(re.findall(r"\w+", names + "".join(text for _, text in sources + tools)))
+
+
 @functools.cache
 def help_of(program, subcommand):
     run = subprocess.run([program, subcommand, "--help"], capture_output=True, text=True, check=False)
@@ -81,7 +103,7 @@ def missing_options(name, text, program):
     for subcommand, rest in COMMAND.findall(code_in(text)):
         manual = help_of(program, subcommand)
         if manual is None:
-            yield f"{name}: `meshhood {subcommand}` is no command"
+            yield f"{name}: `meshhood {subcommand}` is not a command"
             continue
         for option in OPTION.findall(rest):
             if not re.search(rf"(?<![\w-]){option}(?![\w-])", manual):
@@ -90,12 +112,12 @@ def missing_options(name, text, program):
 
 def main(program):
     known = texts("*.md")
-    checks = [missing_links, missing_paths, stale_excerpts, missing_presets, missing_macros]
+    checks = [missing_links, missing_paths, stale_excerpts, missing_presets, missing_macros, missing_identifiers]
     if program and Path(program).exists():
         program = str(Path(program).resolve())
         checks.append(lambda name, text: missing_options(name, text, program))
     else:
-        print("docs: options of the command line not checked, for there is no program")
+        print("docs: the options of the command line are not checked, as there is no program")
     faults = [fault for name, text in known for check in checks for fault in check(name, text)]
     print("\n".join(faults + [f"docs: {len(known)} documents, {len(faults)} faults"]))
     return 1 if faults or not known else 0
