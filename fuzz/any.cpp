@@ -8,7 +8,7 @@
 namespace meshhood::fuzz {
 namespace {
 
-/// Tells the format by content, where that fails by an ending which is drawn from the content as well.
+/// Detects the format by content, or else by a file extension that is drawn from the content.
 io::Mesh read_any(io::Input& input, const io::ReadOptions& options) {
   constexpr std::array kNames{"fuzz", "fuzz.ply", "fuzz.obj", "fuzz.off", "fuzz.stl"};
   constexpr std::array<Reader, 4> kReaders{io::read_ply, io::read_obj, io::read_off, io::read_stl};

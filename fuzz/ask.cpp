@@ -34,10 +34,11 @@ void ask(const Index& index) {
     const auto v = static_cast<VertexId>(random.below(vertices));
     const double radius = draw_radius(index, v, random);
     searcher.neighborhood(v, radius, ids, distances);
-    if (ids.size() > vertices || distances.size() != ids.size()) fail("more vertices than there are");
-    if (std::any_of(ids.begin(), ids.end(), [&](VertexId w) { return w >= vertices; })) fail("no such vertex");
+    if (ids.size() > vertices || distances.size() != ids.size()) fail("the answer has too many vertices or distances");
+    if (std::any_of(ids.begin(), ids.end(), [&](VertexId w) { return w >= vertices; }))
+      fail("the answer has an id out of range");
     for (const VertexRange& range : searcher.ranges(v, radius)) {
-      if (range.begin >= range.end || range.end > vertices) fail("no such range");
+      if (range.begin >= range.end || range.end > vertices) fail("the answer has an invalid range");
     }
   }
 }

@@ -5,8 +5,8 @@
 
 namespace meshhood::fuzz {
 
-/// Asks an index that came from anywhere 64 queries, and for its graph. What it answers may be wrong; ends the program
-/// where it lies outside of the index.
+/// Extracts the graph of an untrusted index and runs 64 queries. The answers may be wrong; the program ends if one has
+/// ids outside the index.
 void ask(const Index& index);
 
 }  // namespace meshhood::fuzz

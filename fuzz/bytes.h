@@ -7,14 +7,14 @@
 
 namespace meshhood::fuzz {
 
-/// An input, taken from its front.
+/// Takes numbers from the front of an input.
 class Bytes {
  public:
   explicit Bytes(std::span<const std::byte> bytes) : left_(bytes) {}
 
   [[nodiscard]] bool empty() const { return left_.empty(); }
 
-  /// The next bytes as a number, or `otherwise` where there are too few.
+  /// The next bytes as a number, or `otherwise` if there are too few.
   template <class T>
   T take(T otherwise = {}) {
     if (left_.size() < sizeof(T)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Calls in any order: an input is a list of them. Indexes of both kinds are built, given up halfway, moved, saved,
-// loaded, mapped, destroyed, refused, and asked in between; what they answer is compared with the oracle.
+// Calls in any order: an input is a list of calls. Indexes of both kinds are built, cancelled, moved, saved, loaded,
+// mapped, destroyed, rejected and queried; the answers are compared with the oracle.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::size_t kMostCalls = 60;
 
-/// A mesh and all that is right about it, which stays where it is, for the oracle looks at the mesh.
+/// A mesh and its oracle, which refers to the mesh; so neither may move.
 struct Subject {
   explicit Subject(test::TestMesh made) : mesh(std::move(made)), oracle(mesh) {}
 
@@ -44,10 +44,10 @@ const std::deque<Subject>& subjects() {
   return all;
 }
 
-/// Where an index may be, and a searcher that it must outlive.
+/// Holds at most one index and a searcher on it.
 template <class Index, class Searcher>
 struct Place {
-  const Subject* subject = nullptr;  // none: there is no index
+  const Subject* subject = nullptr;  // null if there is no index
   std::optional<Index> index;
   std::optional<Searcher> searcher;
 
@@ -58,7 +58,7 @@ struct Place {
     subject = &of;
   }
 
-  /// An index may be moved while it is being searched.
+  /// An index may be moved while a searcher uses it.
   void move_to(Place& other) {
     if (&other == this || subject == nullptr) return;
     other.clear();
@@ -75,9 +75,9 @@ struct Place {
   }
 };
 
-/// An index as bytes.
+/// A saved index.
 struct File {
-  const Subject* subject = nullptr;  // none: there is no file
+  const Subject* subject = nullptr;  // null if there is no file
   IndexKind kind = IndexKind::Exact;
   std::shared_ptr<test::Mappable> bytes;
 };
@@ -132,7 +132,7 @@ class Session {
     any_exact().put(subject, build(data.view()));
   }
 
-  /// What was there before stays.
+  /// The index that was there before stays.
   void give_up_build() {
     const Subject& subject = any_subject();
     std::size_t left = below(32);
@@ -195,7 +195,7 @@ class Session {
     expect_refused(ErrorCode::MalformedIndex, [&] { static_cast<void>(load(file.bytes->bytes().first(size))); });
   }
 
-  /// The file may go; its bytes stay for the index.
+  /// The file may be removed; the index keeps its bytes alive.
   void map_file() {
     const File& file = any_file();
     if (file.subject == nullptr || file.kind != IndexKind::Exact) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The door through which libFuzzer calls a target.
+// The entry point of libFuzzer.
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
@@ -20,8 +20,8 @@ extern "C" [[noreturn]] void give_up(int /*signal*/) {
   std::abort();  // libFuzzer then keeps the input
 }
 
-/// No small input may take long. The timer counts processor time, for libFuzzer's own limit also counts the time that
-/// other programs take: a fuzzer that yields to everybody would call any input slow.
+/// Limits the processor time of an input. The limit of libFuzzer itself counts wall time, by which any input can be
+/// slow on a busy machine.
 void limit_time(time_t seconds) {
   static_cast<void>(std::signal(SIGPROF, give_up));
   const itimerval limit{.it_interval = {}, .it_value = {.tv_sec = seconds, .tv_usec = 0}};
@@ -34,6 +34,6 @@ void limit_time(time_t seconds) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   limit_time(kSeconds);
   meshhood::fuzz::run(std::as_bytes(std::span(data, size)));
-  limit_time(0);  // what the fuzzer does itself is not limited
+  limit_time(0);  // the fuzzer itself is not limited
   return 0;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Any bytes as a saved index. Checksums keep nearly all of them out; what is let in must be asked and saved again.
+// Any bytes as a saved index. Checksums reject nearly all; an index that is accepted is queried and saved again.
 #include <algorithm>
 #include <vector>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A forged index: the input is one whose header, table and checksums are put right before it is loaded, so that what
-// stands in the sections is all that can keep it out.
+// A forged index: the header, the table and the checksums of the input are corrected before it is loaded, so that only
+// the content of the sections can be rejected.
 #include <algorithm>
 #include <cstring>
 #include <vector>
@@ -16,7 +16,7 @@
 namespace meshhood::fuzz {
 namespace {
 
-/// Puts the sections one behind the other, with zeros between them, and cuts off what is behind the last.
+/// Places the sections one after the other with zeros between them, and removes what follows the last.
 void lay_out(std::vector<std::byte>& bytes) {
   std::vector<file::Section> table = test::table_of(bytes);
   std::uint64_t next = file::head_bytes(table.size());

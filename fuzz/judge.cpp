@@ -31,7 +31,7 @@ paper::BuildOptions draw_options(Random& random) {
           .fusion_growth = kGrowth[random.below(kGrowth.size())]};
 }
 
-/// Every index over one mesh, beside the oracle.
+/// All indexes of one mesh, and its oracle.
 class Judge {
  public:
   Judge(const test::TestMesh& mesh, Random& random)
@@ -70,7 +70,7 @@ class Judge {
     fail(std::string(index) + " answer differs: vertex " + std::to_string(v) + ", radius " + text.data());
   }
 
-  /// Nothing, everything, and around a distance that occurs.
+  /// Zero, infinity, and values around the distance of a vertex.
   double draw_radius(VertexId v) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const double tie = oracle_.distance(v, random_.below(oracle_.size()));

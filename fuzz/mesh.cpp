@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Arbitrary faces and coordinates. An input is a header of eight bytes (see `Header`), then as many bytes of
-// coordinates as of faces, laid over a surface that the header names, so that short inputs, too, give meshes of many
+// Arbitrary faces and coordinates. An input is a header of eight bytes (see `Header`), then equal numbers of bytes for
+// coordinates and for faces. They change a surface that the header names, so that short inputs also give meshes of many
 // leaves.
 #include <algorithm>
 #include <array>
@@ -23,8 +23,8 @@ using test::TestMesh;
 
 struct Header {
   std::uint16_t vertices;
-  std::uint8_t surface;      // what lies below the faces of the input: nothing, a path, a grid, a star
-  std::uint8_t coordinates;  // how they are written: see `coordinate`
+  std::uint8_t surface;      // to which the faces are added: none, a path, a grid, a star
+  std::uint8_t coordinates;  // their encoding: see `coordinate`
   std::int16_t exponent;     // of a scale
   std::uint16_t seed;
 };
@@ -59,7 +59,7 @@ TestMesh surface(const Header& header) {
   return mesh;
 }
 
-/// Faces of up to seven corners; now and then one that the mesh does not have.
+/// Adds faces of up to seven corners, some of them out of range.
 void add_faces(TestMesh& mesh, Bytes& bytes) {
   while (!bytes.empty()) {
     std::array<std::uint32_t, 7> corners{};
@@ -72,7 +72,7 @@ void add_faces(TestMesh& mesh, Bytes& bytes) {
   }
 }
 
-/// Puts coordinates of the input, as far as it has them, in place of those of the surface.
+/// Replaces coordinates of the surface by those of the input, as far as it has them.
 void move_vertices(TestMesh& mesh, const Header& header, Bytes& bytes, Random& random) {
   const auto kind = static_cast<Coordinates>(header.coordinates / 2U % 4U);
   const bool random_rest = header.coordinates >= 128;
@@ -91,14 +91,14 @@ bool is_valid(const MeshView& mesh) {
   }
 }
 
-/// A mesh that `validate` refuses, `build` must refuse.
+/// `build` must reject a mesh that `validate` rejects.
 void expect_refused(const MeshView& mesh) {
   try {
     static_cast<void>(build(mesh));
   } catch (const Error&) {
     return;
   }
-  fail("built from what is no mesh");
+  fail("an invalid mesh was accepted");
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 namespace meshhood::fuzz {
 namespace {
 
-constexpr std::size_t kLarge = 300;  // vertices, or corners: beyond, the oracle would take all of the time
+constexpr std::size_t kLarge = 300;  // vertices or corners; the oracle would be too slow for more
 
 std::optional<io::Mesh> try_to_read(std::span<const std::byte> bytes, Reader reader) {
   io::MemorySource source(bytes);
@@ -25,9 +25,9 @@ std::optional<io::Mesh> try_to_read(std::span<const std::byte> bytes, Reader rea
   } catch (const Error& error) {
     const std::string_view line = error.what();
     if (error.code() == ErrorCode::InvalidMesh && line.find("fuzz") == std::string_view::npos) {
-      fail("an error that does not name the file: " + std::string(line));
+      fail("the error does not name the file: " + std::string(line));
     }
-    if (line.find_first_of("\n\r\x1b") != std::string_view::npos) fail("an error of more than one line");
+    if (line.find_first_of("\n\r\x1b") != std::string_view::npos) fail("the error has more than one line");
     return std::nullopt;
   }
 }

@@ -14,8 +14,8 @@ namespace meshhood::fuzz {
 
 using Reader = io::Mesh (*)(io::Input& input, const io::ReadOptions& options);
 
-/// Whatever the bytes, `reader` gives a valid mesh or an error of one line. A mesh that it gives, if it is not large,
-/// is judged.
+/// Checks that `reader` returns a valid mesh or throws an error of one line. Meshes that are not large are passed to
+/// `judge`.
 void read(std::span<const std::byte> bytes, Reader reader);
 
 }  // namespace meshhood::fuzz

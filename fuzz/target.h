@@ -6,7 +6,7 @@
 
 namespace meshhood::fuzz {
 
-/// What a target does with an input. Returns, or ends the program where a promise is broken.
+/// Runs the target on an input. Ends the program if a promise is broken.
 void run(std::span<const std::byte> bytes);
 
 }  // namespace meshhood::fuzz

@@ -1,4 +1,4 @@
-# Configures a project that contains ours: it gets the core, and nothing else that it did not ask for.
+# Configures a project that contains this one: it gets the core and nothing else.
 cmake_minimum_required(VERSION 3.25)
 set(build ${WORK_DIR}/container)
 file(REMOVE_RECURSE ${build})

@@ -1,5 +1,5 @@
-# Compiles SOURCES one by one with COMPILER and FLAGS, and stops at the first that fails; or, given REFUSED_WITH, demands
-# that the first fails with those words.
+# Compiles SOURCES one by one with COMPILER and FLAGS, and stops at the first failure. With REFUSED_WITH, the first must
+# fail with that message.
 cmake_minimum_required(VERSION 3.25)
 
 list(TRANSFORM INCLUDE_DIRS PREPEND -I)

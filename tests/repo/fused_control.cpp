@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Compiled with contraction on, so that no_fma.sh has something to find.
+// Compiled with contraction: no_fma.sh must find a fused multiply-add here.
 double fused_control(double a, double b, double c);
 double fused_control(double a, double b, double c) { return a * b + c; }

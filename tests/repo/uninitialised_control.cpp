@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes a file of which every second byte was never given a value, as `no_uninitialised_bytes.sh` must notice.
+// Writes a file in which every second byte is uninitialized: `no_uninitialised_bytes.sh` must find that.
 #include <cstddef>
 #include <memory>
 

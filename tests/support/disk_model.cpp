@@ -10,7 +10,7 @@
 
 namespace meshhood::test {
 
-/// Everything that may be left of a file.
+/// All possible contents of a file.
 class DiskModel::Survivors {
  public:
   Survivors(const File& file, const std::function<void(const std::string*)>& f) : file_(file), f_(f) {
@@ -30,7 +30,7 @@ class DiskModel::Survivors {
  private:
   using PageSet = std::function<bool(std::size_t page)>;
 
-  /// The first `count` writes, and of the last of them only the first half.
+  /// The first `count` writes, the last of them only by half.
   void cut_off() const {
     std::size_t size = file_.synced.size();
     for (std::size_t count = 1; count <= file_.writes.size(); ++count) {
@@ -63,7 +63,7 @@ class DiskModel::Survivors {
     }
   }
 
-  /// The first `count` writes, where they fall on certain pages, in a file of a certain size.
+  /// The first `count` writes, restricted to the given pages, in a file of the given size.
   void record(std::size_t count, std::size_t size, const PageSet& has_come = {}) const {
     std::string content = file_.synced;
     content.resize(full_size_, '\0');

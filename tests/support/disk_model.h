@@ -10,27 +10,27 @@
 
 #include "support/system_calls.h"
 
-/// What a disk may hold after a loss of power, as cruel as file systems are allowed to be.
+/// What a disk may hold after a loss of power, by the weakest guarantees that file systems give.
 namespace meshhood::test {
 
-/// Files and their names, as calls have left them.
+/// Files and their names after a sequence of calls.
 ///
-/// What was written to a file is certain once the file was synced. Until then each page of 4 KiB has by itself come as
-/// far as any of the writes to it, or not been written at all; a file may be as short as it was, or have grown without
-/// its data, which then is zero. What a name stands for is certain once the folder was synced. Until then it is
-/// anything it has stood for since, whether or not that file was synced.
+/// Data is durable once the file was synced. Until then each page of 4 KiB holds, independently of the others, its
+/// state after any of the writes to it or before all of them; the file may have its old size, or the new size with
+/// zeros in place of the data. The file of a name is durable once the folder was synced. Until then the name may refer
+/// to any file it has referred to since the last sync, whether or not that file was synced.
 class DiskModel {
  public:
   static constexpr std::size_t kPage = 4096;
 
-  /// There has been such a file for long.
+  /// Adds a file that is already durable.
   void put(const std::string& path, std::string content);
 
   void apply(const Effect& effect);
 
-  /// Calls `f(content)` for what may stand under `path` if the power fails now: null for no file. Of a file that was
-  /// not synced: cut off or torn at every write and half-way through it, with every page missing, with every page
-  /// alone, and with 100 random sets of pages.
+  /// Calls `f(content)` for each possible content of `path` if the power fails now; null means no file. A file that was
+  /// not synced is cut off at every write and in the middle of it, and has each page missing, each page alone, and
+  /// 100 random sets of pages.
   void for_each_survivor(const std::string& path, const std::function<void(const std::string*)>& f) const;
 
  private:
@@ -45,12 +45,12 @@ class DiskModel {
 
   struct File {
     std::string synced;
-    std::vector<Write> writes = {};  // since then
+    std::vector<Write> writes = {};  // since the last sync
   };
 
   struct Open {
     std::string path;
-    std::optional<FileId> file;  // none of a folder
+    std::optional<FileId> file;  // empty for a folder
     std::size_t position = 0;
   };
 
@@ -63,8 +63,9 @@ class DiskModel {
   void let_stand_for(const std::string& path, std::optional<FileId> file);
 
   std::vector<File> files_;
-  std::map<std::string, std::vector<std::optional<FileId>>> names_;  // what each has stood for; the last: now
-  std::map<int, Open> open_;                                         // by the number of the file
+  std::map<std::string, std::vector<std::optional<FileId>>>
+      names_;                 // the files of each name; the last is the present one
+  std::map<int, Open> open_;  // by file descriptor
 };
 
 }  // namespace meshhood::test

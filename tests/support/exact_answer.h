@@ -18,7 +18,7 @@
 
 namespace meshhood::test {
 
-/// What can be forced: every path that this processor has.
+/// Every kernel that this processor supports.
 inline std::vector<Isa> available_isas() {
   std::vector<Isa> all{Isa::Portable};
   if (best_isa() >= Isa::Avx2) all.push_back(Isa::Avx2);
@@ -26,12 +26,12 @@ inline std::vector<Isa> available_isas() {
   return all;
 }
 
-/// The next double towards zero, the number itself, and the next away from it.
+/// The next smaller double, the number itself, and the next larger double.
 inline std::vector<double> around(double radius) {
   return {std::nextafter(radius, 0.0), radius, std::nextafter(radius, std::numeric_limits<double>::infinity())};
 }
 
-/// A searcher for every path.
+/// A searcher for each kernel.
 inline std::vector<Searcher> searchers_of(const Index& index) {
   std::vector<Searcher> searchers;
   for (const Isa isa : available_isas()) {
@@ -41,7 +41,7 @@ inline std::vector<Searcher> searchers_of(const Index& index) {
   return searchers;
 }
 
-/// An index of a mesh beside the reference, which the oracle has judged.
+/// An index of a mesh and the reference search, which other tests compare with the oracle.
 class ExactAnswer {
  public:
   explicit ExactAnswer(const MeshView& mesh)
@@ -51,7 +51,7 @@ class ExactAnswer {
         searchers_(searchers_of(index_)),
         stamp_(index_.vertex_count()) {}
 
-  /// One query, on the paths in turn: ids, count, ranges and distances against the reference.
+  /// Compares ids, count, ranges and distances of one query with the reference; the kernels take turns.
   void query(VertexId v, double radius) {
     Searcher& searcher = searchers_[queries_++ % searchers_.size()];
     reference_.neighborhood(v, radius, expected_);
@@ -63,7 +63,7 @@ class ExactAnswer {
     mismatches_ += static_cast<std::size_t>(!right);
   }
 
-  /// Only the ids, for long runs.
+  /// Compares the ids alone, for long runs.
   void query_ids(VertexId v, double radius) {
     Searcher& searcher = searchers_[queries_++ % searchers_.size()];
     reference_.neighborhood(v, radius, expected_);
@@ -87,7 +87,7 @@ class ExactAnswer {
     for (const VertexId w : expected_) stamp_[w] = round_;
     for (const VertexId w : ids_) {
       if (w >= stamp_.size() || stamp_[w] != round_) return false;
-      stamp_[w] = 0;  // so that it is not found twice
+      stamp_[w] = 0;  // a second occurrence is an error
     }
     return ids_.size() == expected_.size();
   }

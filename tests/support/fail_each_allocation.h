@@ -15,12 +15,12 @@
 
 #include "support/failing_allocations.h"
 
-/// A call for which there is not enough memory, over and over, each time from another allocation on.
+/// Repeats a call, each time with another allocation failing.
 namespace meshhood::test {
 
 enum class Ending { Well, OutOfMemory };
 
-/// How `call()` ends. Any other exception is passed on.
+/// Runs `call()` and says how it ends. Other exceptions are passed on.
 template <class Call>
 [[nodiscard]] Ending ending_of(Call&& call) {
   try {
@@ -34,7 +34,7 @@ template <class Call>
   return Ending::Well;
 }
 
-/// What a program may run out of: memory, and files.
+/// Resources that must not leak: memory and open files.
 struct InUse {
   std::size_t blocks;
   std::ptrdiff_t files;
@@ -50,7 +50,7 @@ struct InUse {
   return {blocks_in_use(), files};
 }
 
-/// Counts that a test prints in the end.
+/// Counts, which the test prints at the end.
 class Shortages {
  public:
   ~Shortages() {
@@ -61,25 +61,25 @@ class Shortages {
   Shortages(const Shortages&) = delete;
   Shortages& operator=(const Shortages&) = delete;
 
-  /// From now on, tries only every `step`-th allocation.
+  /// From now on, fails only every `step`-th allocation.
   void skip_to_every(std::size_t step) { step_ = step; }
 
-  /// Has each allocation of `call(scene)` fail, alone and with all that follow, on a scene that `prepare()` makes anew
-  /// each time. `judge(scene, ending)` sees what has become of it; first, where nothing has failed. No block and no
-  /// open file may be left when the scene is gone.
+  /// Lets each allocation of `call(scene)` fail, alone and together with all later ones, on a new scene from
+  /// `prepare()` each time. `judge(scene, ending)` then checks the scene; the first time, nothing has failed. When the
+  /// scene is destroyed, no memory block and no open file may be left.
   template <class Prepare, class Call, class Judge>
   void fail_each(Prepare&& prepare, Call&& call, Judge&& judge);
 
  private:
   std::size_t step_ = 1;
   std::size_t failures_ = 0;
-  std::size_t did_without_ = 0;  // as sorting does, and a build that gets no second thread
+  std::size_t did_without_ = 0;  // as a sort without a buffer, or a build without a second thread
 };
 
 template <class Prepare, class Call, class Judge>
 void Shortages::fail_each(Prepare&& prepare, Call&& call, Judge&& judge) {
   if (testing::Test::HasFailure()) return;
-  // Whether one has failed.
+  // Returns whether an allocation has failed.
   const auto attempt = [&](std::size_t at, Shortage shortage) {
     auto scene = prepare();
     Ending ending = Ending::Well;
@@ -95,7 +95,7 @@ void Shortages::fail_each(Prepare&& prepare, Call&& call, Judge&& judge) {
     return happened;
   };
   constexpr std::size_t kBeyondAll = std::size_t{1} << 40;
-  ASSERT_FALSE(attempt(kBeyondAll, Shortage::Once));  // makes, too, what is made once and kept
+  ASSERT_FALSE(attempt(kBeyondAll, Shortage::Once));  // also creates what is created once and kept
   for (const Shortage shortage : {Shortage::Once, Shortage::FromThereOn}) {
     bool happened = true;
     for (std::size_t at = 0; happened; at += step_) {

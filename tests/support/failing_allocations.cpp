@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
 
 std::atomic<std::size_t> in_use{0};
-std::atomic<std::size_t> asked{0};  // since the faults were set
+std::atomic<std::size_t> asked{0};  // since the fault was set
 std::atomic<std::size_t> first_to_fail{kNever};
 std::atomic<std::size_t> last_to_fail{kNever};
 
@@ -22,11 +22,11 @@ bool is_to_fail() {
          number <= last_to_fail.load(std::memory_order_relaxed);
 }
 
-/// Null where there is no memory, or is to be none.
+/// Null if there is no memory, or if this allocation shall fail.
 void* take(std::size_t size, std::align_val_t alignment = std::align_val_t{__STDCPP_DEFAULT_NEW_ALIGNMENT__}) {
   if (is_to_fail()) return nullptr;
   const auto unit = static_cast<std::size_t>(alignment);
-  // What malloc aligns by itself need not be a whole number of units; zero bytes have an address of their own.
+  // aligned_alloc needs a multiple of the alignment, and zero bytes must have an address of their own.
   void* const block = unit <= __STDCPP_DEFAULT_NEW_ALIGNMENT__
                           ? std::malloc(size == 0 ? 1 : size)
                           : std::aligned_alloc(unit, (size + unit - 1) / unit * unit);
@@ -67,7 +67,7 @@ using meshhood::test::give_back;
 using meshhood::test::take;
 using meshhood::test::take_or_throw;
 
-// All of them, for a library may bring its own of those left out.
+// All overloads: a library may bring its own of those that are missing.
 void* operator new(std::size_t size) { return take_or_throw(size); }
 void* operator new[](std::size_t size) { return take_or_throw(size); }
 void* operator new(std::size_t size, std::align_val_t alignment) { return take_or_throw(size, alignment); }

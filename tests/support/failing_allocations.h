@@ -3,16 +3,16 @@
 
 #include <cstddef>
 
-/// Every `operator new` of the program, counted, with some of them failing on purpose. The program that links this has
-/// operators that call `malloc` and `free`, so that a sanitizer goes on seeing all of them.
+/// Replaces every `operator new` of the program: counts the calls, and lets some fail. The operators call `malloc` and
+/// `free`, so that sanitizers still see all allocations.
 namespace meshhood::test {
 
 enum class Shortage {
-  Once,         ///< one allocation fails, and those after it are well again
-  FromThereOn,  ///< one fails, and every one after it
+  Once,         ///< one allocation fails, later ones succeed
+  FromThereOn,  ///< one fails, and all later ones
 };
 
-/// Has allocation number `at` fail, counted from 0 over all threads, while it lives. One object at a time.
+/// While it lives, allocation number `at` fails, counted from 0 over all threads. At most one object at a time.
 class FailingAllocations {
  public:
   FailingAllocations(std::size_t at, Shortage shortage);
@@ -20,14 +20,14 @@ class FailingAllocations {
   FailingAllocations(const FailingAllocations&) = delete;
   FailingAllocations& operator=(const FailingAllocations&) = delete;
 
-  /// Whether there were so many that one has failed.
+  /// Whether the allocation number was reached.
   [[nodiscard]] bool happened() const;
 
  private:
   std::size_t at_;
 };
 
-/// Blocks that were taken and not yet given back.
+/// Blocks that were allocated and not yet freed.
 [[nodiscard]] std::size_t blocks_in_use();
 
 }  // namespace meshhood::test

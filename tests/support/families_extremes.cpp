@@ -26,7 +26,7 @@ TestMesh times(TestMesh mesh, double factor) {
 TestMesh huge(Random& random, std::size_t vertices) { return times(any_shape(random, vertices), 1e30); }
 TestMesh tiny(Random& random, std::size_t vertices) { return times(any_shape(random, vertices), 1e-30); }
 
-/// Squares of these distances are denormal, or zero.
+/// The squares of these distances are denormal or zero.
 TestMesh vanishing(Random& random, std::size_t vertices) {
   return times(any_shape(random, vertices), random.below(2) == 0 ? 1e-161 : 1e-200);
 }
@@ -95,7 +95,7 @@ TestMesh no_faces(Random& random, std::size_t vertices) {
 
 TestMesh nothing(Random&, std::size_t) { return {}; }
 
-constexpr auto kFamilies = std::to_array<Family>({
+constexpr auto kExtremes = std::to_array<Family>({
     {"huge", huge},
     {"tiny", tiny},
     {"vanishing", vanishing, false},
@@ -113,6 +113,6 @@ constexpr auto kFamilies = std::to_array<Family>({
 
 }  // namespace
 
-std::span<const Family> extreme_families() { return kFamilies; }
+std::span<const Family> extreme_families() { return kExtremes; }
 
 }  // namespace meshhood::test

@@ -15,7 +15,7 @@ std::size_t side(std::size_t vertices) {
   return std::max<std::size_t>(2, static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(vertices)))));
 }
 
-/// Vertices at `surface(u, v)` for u, v in [0, 1), or up to 1 where the grid is open.
+/// Vertices at `surface(u, v)` for u, v in [0, 1), or [0, 1] where the grid is open.
 template <class Surface>
 TestMesh patch(const GridFaces& grid, Surface&& surface) {
   TestMesh mesh;
@@ -77,7 +77,7 @@ TestMesh moebius(Random&, std::size_t vertices) {
   return mesh;
 }
 
-/// One sheet in narrow folds, so that most of what is near in space is far on the sheet.
+/// One sheet in narrow folds: most of what is near in space is far along the sheet.
 TestMesh pleated_sheet(Random& random, std::size_t vertices) {
   const std::size_t n = side(vertices);
   const double narrow = random.uniform(0.01, 0.3);
@@ -91,7 +91,7 @@ TestMesh pleated_sheet(Random& random, std::size_t vertices) {
   });
 }
 
-/// Sheets on top of each other, some at no distance at all, that nothing joins.
+/// Unconnected sheets on top of each other, some at distance zero.
 TestMesh touching_sheets(Random& random, std::size_t vertices) {
   TestMesh mesh;
   const std::size_t sheets = 2 + random.below(4);
@@ -112,7 +112,7 @@ TestMesh lattice(Random& random, std::size_t vertices) {
   return mesh;
 }
 
-constexpr auto kFamilies = std::to_array<Family>({
+constexpr auto kSurfaces = std::to_array<Family>({
     {"triangle grid", triangle_grid},
     {"quad grid", quad_grid},
     {"noisy grid", noisy_grid},
@@ -126,6 +126,6 @@ constexpr auto kFamilies = std::to_array<Family>({
 
 }  // namespace
 
-std::span<const Family> surface_families() { return kFamilies; }
+std::span<const Family> surface_families() { return kSurfaces; }
 
 }  // namespace meshhood::test

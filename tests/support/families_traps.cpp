@@ -54,7 +54,7 @@ TestMesh spiral(Random& random, std::size_t vertices) {
   TestMesh mesh;
   const double gap = random.uniform(0.02, 0.5);
   for (std::uint32_t i = 0; i < vertices; ++i) {
-    const std::uint32_t step = i / 2;  // two vertices stand one above the other
+    const std::uint32_t step = i / 2;  // each two vertices lie one above the other
     const double angle = 0.2 * step;
     const double radius = 1 + gap * angle / (2 * std::numbers::pi);
     mesh.add_vertex(radius * std::cos(angle), radius * std::sin(angle), i % 2 == 0 ? 0 : 0.2);
@@ -63,7 +63,7 @@ TestMesh spiral(Random& random, std::size_t vertices) {
   return mesh;
 }
 
-/// Teeth side by side on one bar: neighbours in space meet at the bar only.
+/// Teeth side by side on one bar: neighbors in space are connected only through the bar.
 TestMesh comb(Random& random, std::size_t vertices) {
   TestMesh mesh;
   const std::size_t length = 2 + random.below(15);
@@ -124,7 +124,7 @@ TestMesh book(Random& random, std::size_t vertices) {
   return mesh;
 }
 
-/// Many small closed shells, some inside each other, and now and then two that share a single vertex.
+/// Many small closed shells, some inside each other; some pairs share a single vertex.
 TestMesh shells(Random& random, std::size_t vertices) {
   TestMesh mesh;
   while (mesh.size() + 4 <= std::max<std::size_t>(vertices, 4)) {
@@ -143,7 +143,7 @@ TestMesh isolated_vertices(Random& random, std::size_t vertices) {
   return mesh;
 }
 
-/// Faces of 0 to 9 corners, any vertex anywhere, often the same one twice.
+/// Faces of 0 to 9 random corners, often with repeated ones.
 TestMesh random_faces(Random& random, std::size_t vertices) {
   TestMesh mesh;
   for (std::size_t v = 0; v < vertices; ++v) add_random_vertex(mesh, random);
@@ -159,7 +159,7 @@ TestMesh random_faces(Random& random, std::size_t vertices) {
   return mesh;
 }
 
-constexpr auto kFamilies = std::to_array<Family>({
+constexpr auto kTraps = std::to_array<Family>({
     {"fan", fan},
     {"star", star},
     {"path", path},
@@ -176,6 +176,6 @@ constexpr auto kFamilies = std::to_array<Family>({
 
 }  // namespace
 
-std::span<const Family> trap_families() { return kFamilies; }
+std::span<const Family> trap_families() { return kTraps; }
 
 }  // namespace meshhood::test

@@ -10,7 +10,7 @@
 
 namespace meshhood::test {
 
-/// How the case of a family is called.
+/// The name of the test case of a family.
 inline std::string family_name(const testing::TestParamInfo<Family>& family) {
   std::string name(family.param.name);
   for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';

@@ -15,14 +15,14 @@
 
 namespace meshhood::test {
 
-/// The header as it stands in the bytes of an index.
+/// The header of a saved index.
 [[nodiscard]] inline file::Header header_of(std::span<const std::byte> bytes) {
   file::Header header;
   std::memcpy(&header, bytes.data(), sizeof(header));
   return header;
 }
 
-/// The table as it stands there; of what has no room, nothing.
+/// The section table of a saved index, as far as the bytes reach.
 [[nodiscard]] inline std::vector<file::Section> table_of(std::span<const std::byte> bytes) {
   std::vector<file::Section> table;
   const file::Header header = header_of(bytes);
@@ -32,7 +32,7 @@ namespace meshhood::test {
   return table;
 }
 
-/// How the message of a refusal must begin where byte `byte` was changed.
+/// The beginning of the error message for a changed byte `byte`.
 [[nodiscard]] inline std::string culprit_of(std::span<const std::byte> bytes, std::size_t byte) {
   std::string name = "header";
   for (const file::Section& section : table_of(bytes)) {
@@ -41,13 +41,13 @@ namespace meshhood::test {
   return name + ", byte ";
 }
 
-/// Whether the message of a refusal says where, before it says what.
+/// Whether the error message says where before it says what.
 [[nodiscard]] inline bool names_a_place(std::string_view message) {
   const std::string_view where = message.substr(0, message.find(": "));
   return (where.starts_with("header, ") || where.starts_with("section ")) && where.find("byte ") != where.npos;
 }
 
-/// Writes the checksum that belongs to the header and the table.
+/// Corrects the checksum of the header and the table.
 inline void seal_header(std::span<std::byte> bytes) {
   file::Header header = header_of(bytes);
   const std::uint64_t head = file::head_bytes(header.sections);
@@ -58,7 +58,7 @@ inline void seal_header(std::span<std::byte> bytes) {
   std::memcpy(bytes.data(), &header, sizeof(header));
 }
 
-/// Writes all checksums anew, as whoever forges an index can.
+/// Corrects all checksums, as an attacker can.
 inline void seal(std::span<std::byte> bytes) {
   if (bytes.size() < sizeof(file::Header)) return;
   std::vector<file::Section> table = table_of(bytes);
@@ -71,12 +71,12 @@ inline void seal(std::span<std::byte> bytes) {
   seal_header(bytes);
 }
 
-/// A saved index that is changed by hand.
+/// A saved index whose bytes a test changes.
 class Forgery {
  public:
   explicit Forgery(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}
 
-  /// To be changed in place.
+  /// A section, to be changed in place.
   [[nodiscard]] file::Header& header() { return *reinterpret_cast<file::Header*>(bytes_.data()); }
 
   [[nodiscard]] std::span<file::Section> table() {
@@ -96,7 +96,7 @@ class Forgery {
     return {reinterpret_cast<T*>(bytes_.data() + found.begin), static_cast<std::size_t>(found.bytes) / sizeof(T)};
   }
 
-  /// Makes a section empty, and moves the others up.
+  /// Makes a section empty and moves the later ones forward.
   void remove_content(std::string_view name) {
     file::Section& removed = entry(name);
     const std::uint64_t bytes = file::aligned(removed.bytes);

@@ -20,12 +20,12 @@
 
 #include "io/mesh_io.h"
 
-/// Files built in a test, byte by byte, and what a reader makes of them.
+/// Files that a test builds byte by byte, and the result of reading them.
 namespace meshhood::test {
 
 [[nodiscard]] inline io::Mesh read(const std::string& name, std::string_view content,
                                    const io::ReadOptions& options = {}) {
-  // A copy that ends where the content ends, so that a sanitizer sees a read of one byte more.
+  // A copy that ends with the content, so that a sanitizer reports a read past the end.
   const std::vector<char> exact(content.begin(), content.end());
   return io::read_mesh(std::as_bytes(std::span(exact)), name, options);
 }
@@ -46,7 +46,7 @@ struct Refusal {
   }
 }
 
-/// The content is refused with a message that contains each of `parts`.
+/// Expects an error whose message contains each of `parts`.
 template <class... Parts>
 void expect_refused(const std::string& name, std::string_view content, ErrorCode code, const Parts&... parts) {
   const auto result = refusal(name, content);
@@ -63,7 +63,7 @@ void expect_refused(const std::string& name, std::string_view content, ErrorCode
 [[nodiscard]] inline std::size_t vertex_count(const io::Mesh& mesh) { return mesh.view().positions.size(); }
 [[nodiscard]] inline std::size_t face_count(const io::Mesh& mesh) { return mesh.view().faces.size(); }
 
-/// How often a warning whose text contains `what` was given.
+/// The number of warnings whose text contains `what`.
 [[nodiscard]] inline std::uint64_t warned(const io::Mesh& mesh, std::string_view what) {
   std::uint64_t count = 0;
   for (const auto& warning : mesh.warnings) {

@@ -20,8 +20,8 @@ template <class AnyIndex>
   return bytes;
 }
 
-/// A copy to be mapped, at an address that fits; ends where the bytes end, so that a sanitizer sees a read of one byte
-/// more, whenever their number is a multiple of the alignment.
+/// An aligned copy of bytes, to be mapped. It ends with the bytes if their number is a multiple of the alignment, so
+/// that a sanitizer reports a read past the end.
 class Mappable {
  public:
   explicit Mappable(std::span<const std::byte> bytes) : lines_(bytes.size() / sizeof(Line)), size_(bytes.size()) {

@@ -11,7 +11,7 @@
 
 namespace meshhood::test {
 
-/// What is right, by the plainest means. Shares nothing with the library but the definition of distance.
+/// Correct answers by the simplest means. Shares nothing with the library but the definition of distance.
 class Oracle {
  public:
   explicit Oracle(const TestMesh& mesh);
@@ -19,15 +19,15 @@ class Oracle {
   [[nodiscard]] std::size_t size() const { return neighbors_.size(); }
   [[nodiscard]] const std::set<std::uint32_t>& neighbors(std::size_t v) const { return neighbors_[v]; }
 
-  /// Vertices in the same component of the mesh have the same number.
+  /// The number of the component of a vertex.
   [[nodiscard]] std::size_t component(std::size_t v) const { return component_[v]; }
 
   [[nodiscard]] double distance(std::size_t v, std::size_t w) const;
 
-  /// The mean over the different edges; 0 where there is none.
+  /// The mean length of the distinct edges; 0 if there is none.
   [[nodiscard]] double mean_edge() const;
 
-  /// Ids ascending.
+  /// Ascending ids.
   [[nodiscard]] std::vector<std::uint32_t> exact(std::uint32_t v, double radius) const;
   [[nodiscard]] std::vector<std::uint32_t> ball(std::uint32_t v, double radius) const;
 
@@ -37,7 +37,7 @@ class Oracle {
   std::vector<std::size_t> component_;
 };
 
-/// A breadth-first search from `v` over vertices for which `inside(w)` holds; ids ascending.
+/// A breadth-first search from `v` over the vertices for which `inside(w)` holds; ascending ids.
 template <class Inside>
 std::vector<std::uint32_t> connected(const std::vector<std::set<std::uint32_t>>& neighbors, std::uint32_t v,
                                      Inside&& inside) {

@@ -20,7 +20,7 @@ class Random {
     return z ^ (z >> 31U);
   }
 
-  /// In [0, bound), `bound` > 0; as even as tests need.
+  /// In [0, bound), `bound` > 0; nearly uniform.
   std::size_t below(std::size_t bound) { return static_cast<std::size_t>(bits() % bound); }
 
   /// In [low, high).

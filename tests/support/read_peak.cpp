@@ -6,8 +6,8 @@
 
 #include "io/mesh_io.h"
 
-// read_peak FILE: reads a mesh and prints "DECODED BASE PEAK": the bytes of its arrays, and the most memory that the
-// process had resident before and after, in bytes.
+// read_peak FILE: reads a mesh and prints "DECODED BASE PEAK": the bytes of its arrays, and the peak resident memory of
+// the process before and after, in bytes.
 
 namespace {
 

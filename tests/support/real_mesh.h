@@ -16,7 +16,7 @@
 
 namespace meshhood::test {
 
-/// The component of every vertex, by the number of its first.
+/// The component of every vertex, named by its first vertex.
 inline std::vector<VertexId> components(ReferenceSearcher& reference) {
   const std::size_t vertices = reference.adjacency().size();
   std::vector<VertexId> label(vertices, static_cast<VertexId>(-1));
@@ -29,7 +29,7 @@ inline std::vector<VertexId> components(ReferenceSearcher& reference) {
   return label;
 }
 
-/// A mesh too large for the oracle: the paper's answers against those of the reference, which the oracle has judged.
+/// A mesh too large for the oracle: compares the paper's answers with the reference, which other tests compare with it.
 class RealMesh {
  public:
   explicit RealMesh(const MeshView& mesh, const paper::BuildOptions& options = {})
@@ -46,11 +46,11 @@ class RealMesh {
   struct Tally {
     std::size_t queries = 0;
     std::size_t exact = 0;  ///< vertices in all answers
-    std::size_t extra = 0;  ///< in the paper's answers, but not in the exact ones
+    std::size_t extra = 0;  ///< in the paper's answers but not in the exact ones
     std::size_t mismatches = 0;
   };
 
-  /// `queries` random vertices at a radius of `edges` mean edges.
+  /// Queries of `queries` random vertices at a radius of `edges` mean edge lengths.
   void query(double edges, std::size_t queries, Random& random) {
     for (std::size_t i = 0; i < queries && !component_.empty(); ++i) {
       query(static_cast<VertexId>(random.below(component_.size())), edges * mean_edge_);

@@ -10,12 +10,12 @@
 
 namespace meshhood::test {
 
-/// The promise of the paper's method, on answer after answer: exact is a part of it, and it is a part of the ball.
+/// Checks the promise of the paper's method: its answer contains the exact one and lies in the ball.
 class Sandwich {
  public:
   explicit Sandwich(std::size_t vertices) : seen_(vertices, 0) {}
 
-  /// Whether `paper` has every vertex of `exact`, none twice, and none for which `inside(w)` is false.
+  /// Whether `paper` has every vertex of `exact`, no vertex twice, and none for which `inside(w)` is false.
   template <class Inside>
   [[nodiscard]] bool holds(std::span<const VertexId> exact, std::span<const VertexId> paper, Inside&& inside) {
     ++query_;

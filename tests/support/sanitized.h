@@ -3,7 +3,7 @@
 
 namespace meshhood::test {
 
-/// Whether a sanitizer takes memory and stack of its own. Each compiler has a way of its own to say it.
+/// Whether a sanitizer, which needs memory and stack of its own, is on. Compilers say so in different ways.
 #if defined(__has_feature)
 inline constexpr bool kSanitized =
     __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(undefined_behavior_sanitizer);
@@ -13,7 +13,7 @@ inline constexpr bool kSanitized = true;
 inline constexpr bool kSanitized = false;
 #endif
 
-/// Whether races are looked for.
+/// Whether the thread sanitizer is on.
 #if defined(__has_feature)
 inline constexpr bool kThreadSanitized = __has_feature(thread_sanitizer);
 #elif defined(__SANITIZE_THREAD__)

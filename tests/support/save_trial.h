@@ -14,10 +14,10 @@
 
 namespace meshhood::test {
 
-/// What a file holds, or is to hold: one of two versions, which differ in content and in size.
+/// One of two versions of a file, which differ in content and size.
 enum class Version { Old, New, None, Torn };
 
-/// Something that writes a file. Both versions are larger than what the file writer collects before it writes.
+/// A function that writes a file. Both versions are larger than the buffer of the file writer.
 struct Saver {
   std::string name;
   std::function<void(const std::filesystem::path& file, Version version)> save;
@@ -25,30 +25,29 @@ struct Saver {
 
 void PrintTo(const Saver& saver, std::ostream* out);
 
-/// Everything of ours that writes a file.
+/// All functions that write a file.
 [[nodiscard]] const std::vector<Saver>& savers();
 
-/// A file in a folder of its own, saved again and again while things go wrong.
+/// A file in a folder of its own, which is saved repeatedly under faults.
 class SaveTrial : public testing::TestWithParam<Saver> {
  protected:
   SaveTrial();
 
   void save(Version version) const { GetParam().save(file, version); }
 
-  /// What stands under the name of the file: a version as a whole, nothing, or anything else, which is called torn.
+  /// The state of the file: a complete version, missing, or else torn.
   [[nodiscard]] Version held() const;
 
-  /// Makes `version` what the file holds, or removes it, as if nothing had happened before.
+  /// Resets the file to `version`, or removes it.
   void restore(Version version) const;
 
-  /// Removes what saves have left beside the file, and returns how many there were. Anything beside it that cannot be
-  /// recognised as such fails the test.
+  /// Removes the temporary files of saves and returns their number. Any other file beside the saved one fails the test.
   [[nodiscard]] std::size_t remove_leftovers() const;
 
   [[nodiscard]] const std::string& content(Version version) const { return version == Version::Old ? old_ : new_; }
 
   Scratch scratch;
-  std::filesystem::path file;  ///< the only one in its folder, which may be another than `scratch`
+  std::filesystem::path file;  ///< the only one in its folder, which need not be `scratch`
 
  private:
   [[nodiscard]] std::string saved(Version version) const;
@@ -57,7 +56,7 @@ class SaveTrial : public testing::TestWithParam<Saver> {
   std::string new_;
 };
 
-/// How the cases of a saver are called.
+/// The name of the test case of a saver.
 [[nodiscard]] std::string saver_name(const testing::TestParamInfo<Saver>& saver);
 
 }  // namespace meshhood::test

@@ -8,8 +8,8 @@
 
 namespace meshhood::test {
 
-/// `count` times $MESHHOOD_TEST_SCALE (1 where it is not set), at least `least`: how slow builds run a part of each
-/// large test. Tests print the counts they really ran.
+/// `count` times $MESHHOOD_TEST_SCALE (default 1), at least `least`, so that slow builds run a part of each large test.
+/// Tests print the counts that they ran.
 [[nodiscard]] inline std::size_t scaled(std::size_t count, std::size_t least = 1) {
   const char* const text = std::getenv("MESHHOOD_TEST_SCALE");  // NOLINT(concurrency-mt-unsafe): tests only read it
   const double scale = text == nullptr ? 1.0 : std::strtod(text, nullptr);

@@ -10,7 +10,7 @@
 
 namespace meshhood::test {
 
-/// A folder of its own for a test, removed with all that is in it.
+/// A temporary folder, removed with its content.
 class Scratch {
  public:
   Scratch() {

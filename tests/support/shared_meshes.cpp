@@ -51,7 +51,7 @@ std::vector<std::string> table_cells(const std::string& line) {
   std::istringstream in(line);
   std::vector<std::string> cells;
   for (std::string cell; std::getline(in, cell, '|');) cells.push_back(trimmed(cell));
-  if (!cells.empty()) cells.erase(cells.begin());  // a table's line begins with a bar
+  if (!cells.empty()) cells.erase(cells.begin());  // a row of the table begins with a bar
   return cells;
 }
 

@@ -10,23 +10,23 @@
 
 #include "io/mesh_io.h"
 
-/// The meshes that lie beside the repository, in `../shared/meshes`. They are no part of it: a test that needs them
-/// begins with `MESHHOOD_NEED_SHARED_MESHES()` and is skipped by name where they are absent.
+/// The meshes in `../shared/meshes`, beside the repository. A test that needs them begins with
+/// `MESHHOOD_NEED_SHARED_MESHES()` and is skipped by name without them.
 namespace meshhood::test {
 
-/// The folder of the meshes: `$MESHHOOD_SHARED/meshes`, else `meshes` in the `shared` that lies beside the source tree.
+/// The folder of the meshes: `$MESHHOOD_SHARED/meshes`, or else `meshes` in `shared` beside the source tree.
 [[nodiscard]] std::filesystem::path shared_meshes_dir();
 
 [[nodiscard]] bool have_shared_meshes();
 
-/// The bytes of a file of that folder ("scan/lucy_50k.ply.zst"), decompressed where the name ends in ".zst"; nothing
-/// where there is no such file.
+/// The bytes of a file of that folder ("scan/lucy_50k.ply.zst"), decompressed if the name ends in ".zst"; empty if
+/// there is no such file.
 [[nodiscard]] std::optional<std::vector<std::byte>> shared_mesh_bytes(const std::string& name);
 
-/// That file as a mesh. Throws `std::runtime_error` where there is no such file.
+/// That file as a mesh. Throws `std::runtime_error` if there is no such file.
 [[nodiscard]] io::Mesh shared_mesh(const std::string& name, const io::ReadOptions& options = {});
 
-/// A row of the tables of `MANIFEST.md`: what a reader should find. A figure that the table leaves open is missing.
+/// A row of the tables of `MANIFEST.md`: the expected result of reading. Figures missing in the table are empty.
 struct ManifestRow {
   std::string file;
   std::optional<std::size_t> vertices;
@@ -36,7 +36,7 @@ struct ManifestRow {
 
 [[nodiscard]] std::vector<ManifestRow> read_manifest();
 
-/// `name` without ".zst": what the reader is to take for the file's name.
+/// `name` without ".zst": the file name for the reader.
 [[nodiscard]] std::string plain_name(const std::string& name);
 
 }  // namespace meshhood::test

@@ -19,7 +19,7 @@ bool write_text(const char* path, const std::string& text) {
   return (file << text << std::flush).good();
 }
 
-// Whoever is not root becomes so in a user namespace, where the system allows that.
+// Without root rights, a user namespace gives them if the system allows it.
 bool enter_namespace() {
   const std::string user = "0 " + std::to_string(::getuid()) + " 1";
   const std::string group = "0 " + std::to_string(::getgid()) + " 1";

@@ -7,10 +7,10 @@
 
 namespace meshhood::test {
 
-/// A file system in memory, mounted on a folder for this process alone, that can be made to be full.
+/// A file system in memory that can be filled, mounted on a folder for this process alone.
 class SmallDisk {
  public:
-  /// None where this process may not mount one.
+  /// Empty if this process may not mount one.
   [[nodiscard]] static std::unique_ptr<SmallDisk> mount(const std::filesystem::path& folder);
 
   ~SmallDisk();
@@ -19,7 +19,7 @@ class SmallDisk {
 
   static constexpr std::uint64_t kPage = 4096;
 
-  /// Leaves room for so many more pages than there are in use.
+  /// Limits the free space to this number of pages.
   void leave_free(std::uint64_t pages) const;
 
  private:

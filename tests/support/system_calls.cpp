@@ -26,13 +26,13 @@ int fail() {
   return -1;
 }
 
-/// `real()`, unless it is to fail.
+/// `real()`, or the fault.
 template <class F>
 auto call_or_fail(Call call, F&& real) -> decltype(real()) {
   return next(call) == Mishap::Error ? fail() : real();
 }
 
-/// `result`, of which note is taken unless it is a failure.
+/// Records the call unless it failed, and returns `result`.
 template <class Result>
 Result noted(Result result, Effect effect) {
   if (active != nullptr && result >= 0) active->add(std::move(effect));
@@ -63,7 +63,7 @@ Mishap SystemCalls::next(Call call) {
 
 }  // namespace meshhood::test
 
-// The linker's names: calls of `f` become calls of `__wrap_f`, and `__real_f` is what `f` was.
+// Names of the linker: calls of `f` become calls of `__wrap_f`, and `__real_f` is the original `f`.
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 extern "C" {
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-/// The calls of the operating system that write files, listed, with one of them going wrong on purpose. The calls come
-/// here from all that a program links statically, if it is linked with the option `--wrap` for each.
+/// Records the system calls that write files, and lets one of them fail. With the linker option `--wrap` for each call,
+/// all statically linked code calls these wrappers.
 namespace meshhood::test {
 
 enum class Call { Open, Write, Seek, Look, ChangeOwner, ChangeMode, Sync, Close, Rename, Unlink };
@@ -20,30 +20,30 @@ inline constexpr std::size_t kCalls = 10;
 enum class Mishap {
   None,
   Error,       ///< the call does nothing and fails; `close` fails, but has closed
-  Short,       ///< a write takes half of its bytes; any other call goes well
+  Short,       ///< a write takes half of its bytes; other calls succeed
   Kill,        ///< the process is killed before the call
-  KillWithin,  ///< the process is killed when half of the bytes of a write are written, and before any other call
+  KillWithin,  ///< the process is killed in the middle of a write, or before any other call
 };
 
-/// What goes wrong, and when.
+/// The fault and its time.
 struct Fault {
   Mishap mishap = Mishap::None;
-  std::size_t at = 0;  ///< which call, counted from 0
-  int error = 0;       ///< what `errno` then is
-  bool stuck = false;  ///< no file can be removed either
+  std::size_t at = 0;  ///< number of the call, from 0
+  int error = 0;       ///< `errno` of the failure
+  bool stuck = false;  ///< removing files fails as well
 };
 
-/// A call that went well and has changed what a disk holds, or will hold.
+/// A successful call that changed a file or will change it.
 struct Effect {
   Call call = Call::Open;
-  int file = -1;               ///< the number of the file; not of `Rename` and `Unlink`
-  std::string path = {};       ///< of `Open`, `Rename` and `Unlink`
-  std::string to = {};         ///< of `Rename`
-  std::string bytes = {};      ///< of `Write`: those that were taken
-  std::uint64_t position = 0;  ///< of `Seek`: where it led
+  int file = -1;               ///< file descriptor; not for `Rename` and `Unlink`
+  std::string path = {};       ///< for `Open`, `Rename` and `Unlink`
+  std::string to = {};         ///< for `Rename`
+  std::string bytes = {};      ///< for `Write`: the bytes that were written
+  std::uint64_t position = 0;  ///< for `Seek`: the new position
 };
 
-/// Lists calls, and has one go wrong, while it lives. One object at a time, one thread.
+/// While it lives, records calls and lets one fail. At most one object at a time, one thread.
 class SystemCalls {
  public:
   explicit SystemCalls(const Fault& fault = {});
@@ -51,15 +51,15 @@ class SystemCalls {
   SystemCalls(const SystemCalls&) = delete;
   SystemCalls& operator=(const SystemCalls&) = delete;
 
-  /// In the order in which they were made.
+  /// In the order of the calls.
   [[nodiscard]] const std::vector<Call>& made() const { return made_; }
   [[nodiscard]] const std::vector<Effect>& effects() const { return effects_; }
 
-  /// Takes note of a call that is about to be made, and returns what shall become of it.
+  /// Counts a call that is about to be made, and returns its fault.
   [[nodiscard]] Mishap next(Call call);
   [[nodiscard]] int error() const { return fault_.error; }
 
-  /// Takes note of what has come of it.
+  /// Records a call that succeeded.
   void add(Effect effect) { effects_.push_back(std::move(effect)); }
 
  private:

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,7 +14,9 @@
 
 namespace meshhood::test {
 
-/// A mesh that tests take apart and put together again. Its positions are handed out in one precision or the other.
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A mesh that tests take apart and put together again. Its view has positions of either precision.
 struct TestMesh {
   std::string name;
   bool single_precision = true;
@@ -42,7 +45,7 @@ struct TestMesh {
 
   void add_face(std::initializer_list<std::uint32_t> face) { add_face(std::span(face.begin(), face.size())); }
 
-  /// Rounds the positions to the precision; to be called once they stand.
+  /// Rounds the positions to the precision. Call it after the last change.
   TestMesh& finish(bool single) {
     single_precision = single;
     single_positions.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every mesh beside the repository that can be read, by folder: built with few levels and with all, checked and asked.
+// Every readable mesh of the shared folder: built with few and with all levels, checked and queried.
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -16,7 +16,7 @@ namespace {
 
 class AllMeshes : public testing::TestWithParam<const char*> {};
 
-/// What cannot be read is the business of the tests of the readers.
+/// Files that cannot be read are covered by the tests of the readers.
 std::optional<io::Mesh> readable(const std::string& file) {
   try {
     return shared_mesh(file);
@@ -25,7 +25,7 @@ std::optional<io::Mesh> readable(const std::string& file) {
   }
 }
 
-TEST_P(AllMeshes, AreBuiltCheckedAndAsked) {
+TEST_P(AllMeshes, AreBuiltCheckedAndQueried) {
   MESHHOOD_NEED_SHARED_MESHES();
   std::size_t meshes = 0;
   std::size_t refused = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every allocation of a build, a save, a load, a query and a batch fails once: row R2 of the catalogue, and C5. The
-// call ends with an exception, or does without; nothing is left behind, and what there was answers as before.
+// Every allocation of a build, a save, a load, a query and a batch fails once (R2 and C5 of docs/reliability.md). The
+// call throws or succeeds without the memory; nothing leaks, and existing objects answer as before.
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -28,9 +28,7 @@
 namespace meshhood::test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// Sheets that touch, many components, and a graph without any order.
+/// Touching sheets, many components, and an unordered graph.
 std::vector<Family> three_families() {
   std::vector<Family> all = families();
   std::erase_if(all, [](const Family& family) {
@@ -39,7 +37,7 @@ std::vector<Family> three_families() {
   return all;
 }
 
-/// What a call makes, once it has.
+/// The result of a call, if there is one.
 template <class T>
 auto nothing_yet() {
   return [] { return std::optional<T>(); };
@@ -54,7 +52,7 @@ class Allocation : public testing::TestWithParam<Family> {
   paper::Index paper_index = paper::build(mesh.view());
   Shortages shortages;
 
-  /// A call that makes an index, which is to have the given bytes. Where it has failed, it is made again.
+  /// A call that makes an index of the expected bytes. If it fails, it is repeated.
   template <class AnyIndex, class Call>
   void expect_made(const std::vector<std::byte>& bytes, Call&& call) {
     const auto make = [&](std::optional<AnyIndex>& made) { made = call(); };
@@ -65,7 +63,7 @@ class Allocation : public testing::TestWithParam<Family> {
     });
   }
 
-  /// A call that saves `any_index`; where it has failed, the index is as it was.
+  /// A call that saves `any_index`. If it fails, the index is unchanged.
   template <class AnyIndex>
   void expect_saved(const AnyIndex& any_index) {
     const std::vector<std::byte> bytes = saved(any_index);
@@ -105,7 +103,7 @@ TEST_P(Allocation, FailsInALoad) {
   expect_made<Index>(bytes, [&] { return map(place.bytes(), nullptr); });
 }
 
-/// The answer to one query, in the vectors of whoever asks.
+/// The answer to one query, in vectors of the caller.
 struct Answers {
   std::vector<VertexId> ids{3, 1, 2};
   std::vector<double> distances{0.5};
@@ -114,15 +112,15 @@ struct Answers {
   friend bool operator==(const Answers&, const Answers&) = default;
 };
 
-/// By ascending ids, for a searcher that has failed may give them in another order than a new one.
+/// Sorted: a searcher that has failed may give another order than a new one.
 Answers in_order(Answers answers) {
   const bool with_distances = answers.distances.size() == answers.ids.size();
   sort_answer(answers.ids, with_distances ? std::span(answers.distances) : std::span<double>());
   return answers;
 }
 
-/// Queries of a new searcher each, some small, some large, and all of the component. Where one fails, what it was to
-/// fill is as it was, and the same searcher can be asked again.
+/// Queries of a new searcher each: small, large, and the whole component. If one fails, its output is unchanged, and
+/// the same searcher answers the next query.
 template <class AnySearcher, class Made, class Ask>
 void expect_answered(Shortages& shortages, const TestMesh& mesh, const Made& from, Ask&& ask) {
   struct Scene {
@@ -148,7 +146,7 @@ void expect_answered(Shortages& shortages, const TestMesh& mesh, const Made& fro
   }
 }
 
-/// What both indexes can be asked.
+/// The queries that both indexes answer.
 template <class AnySearcher, class AnyIndex>
 void expect_queries(Shortages& shortages, const TestMesh& mesh, const AnyIndex& index) {
   expect_answered<AnySearcher>(shortages, mesh, index, [](AnySearcher& s, VertexId v, double r, Answers& answers) {
@@ -199,11 +197,11 @@ bool operator==(const Neighborhoods& a, const Neighborhoods& b) {
   return a.offsets == b.offsets && a.ids == b.ids && a.distances == b.distances;
 }
 
-/// Rows as they were handed out, one after the other.
+/// The rows of a batch, in their order.
 struct Stream {
   std::vector<VertexId> ids = {};
   std::size_t rows = 0;
-  std::size_t whole = 0;  // ids of these rows
+  std::size_t whole = 0;  // number of ids of these rows
 
   void take(const BatchRow& row) {
     ids.insert(ids.end(), row.ids.begin(), row.ids.end());
@@ -227,7 +225,7 @@ void expect_batches(Shortages& shortages, const TestMesh& mesh, const AnyIndex& 
                       });
   EXPECT_TRUE(neighborhoods(index, query, options) == all);
 
-  // In small windows, so that there is something to begin again.
+  // In small windows, so that a window can fail after others succeeded.
   const BatchOptions windows{.threads = threads, .sorted = true, .buffer_bytes = 2000};
   const auto stream = [&](Stream& out) {
     for_each_neighborhood(index, query, [&](const BatchRow& row) { out.take(row); }, windows);
@@ -248,16 +246,16 @@ TEST_P(Allocation, FailsInABatch) {
   expect_batches(shortages, mesh, paper_index, 1);
 }
 
-// The other thread is joined, and what it threw is passed on once.
+// The other thread is joined, and its exception is rethrown once.
 TEST_P(Allocation, FailsInABatchOnTwoThreads) {
   expect_batches(shortages, mesh, index, 2);
   expect_batches(shortages, mesh, paper_index, 2);
 }
 
 TEST_P(Allocation, FailsInABuildOnTwoThreads) {
-  // Large enough for each step to be cut in two.
+  // Large enough to divide each step between two threads.
   const TestMesh large = make_mesh(GetParam(), 1, 5000);
-  // Which allocation is the tenth is chance, and each has failed in a build on one thread.
+  // The order of allocations varies here; each has failed in the build on one thread.
   shortages.skip_to_every(8 * (20 / scaled(20)));
   const std::vector<std::byte> bytes = saved(build(large.view()));
   expect_made<Index>(bytes, [&] { return build(large.view(), {.threads = 2}); });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Arguments that are no query, or just one, to every method: rows A1 to A3 and A18 of the catalogue of faults. The
-// meshes of rows A4 to A16 are in robustness_test, A13 and A14 in paper/fusion_test, A17 in error_test.
+// Invalid and extreme arguments to every method: rows A1 to A3 and A18 of docs/reliability.md. The meshes of A4 to A16
+// are in robustness_test, A13 and A14 in paper/fusion_test, A17 in base/error_test.
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -24,10 +24,9 @@ using testing::Each;
 using testing::ElementsAre;
 using testing::SizeIs;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Every method, asked about the same mesh: two grids of nine vertices each, not joined, a hundred apart.
+/// Every method on the same mesh: two unconnected grids of nine vertices each, at a distance of a hundred.
 class Arguments : public testing::Test {
  protected:
   using Method = std::function<void(VertexId, double, std::vector<VertexId>&)>;
@@ -40,14 +39,14 @@ class Arguments : public testing::Test {
     return mesh.finish(true);
   }
 
-  /// Each answer to a query, by method.
+  /// The answers of all methods to a query.
   std::vector<std::vector<VertexId>> answers(VertexId v, double radius) {
     std::vector<std::vector<VertexId>> result;
     for (const auto& [name, ask] : methods) ask(v, radius, result.emplace_back());
     return result;
   }
 
-  /// Every method refuses, and leaves the answer before as it was.
+  /// Every method throws and leaves the previous answer unchanged.
   void expect_all_refused(ErrorCode code, const std::string& culprit, VertexId v, double radius) {
     for (const auto& [name, ask] : methods) {
       SCOPED_TRACE(name);
@@ -80,20 +79,20 @@ class Arguments : public testing::Test {
       {"paper, count", [this](VertexId v, double r, auto& out) { out.assign(paper_searcher.count(v, r), v); }}};
 };
 
-TEST_F(Arguments, A1RadiusNaNOrNegativeIsRefused) {
+TEST_F(Arguments, RadiusNaNOrNegativeIsRefused) {
   expect_all_refused(ErrorCode::InvalidRadius, "radius nan, expected a number >= 0", 0, kNan);
   expect_all_refused(ErrorCode::InvalidRadius, "radius -0.5, expected a number >= 0", 0, -0.5);
   expect_all_refused(ErrorCode::InvalidRadius, "radius -inf, expected a number >= 0", 0, -kInfinity);
 }
 
-TEST_F(Arguments, A1RadiusMinusZeroIsZero) { EXPECT_THAT(answers(4, -0.0), Each(ElementsAre(4))); }
+TEST_F(Arguments, RadiusMinusZeroIsZero) { EXPECT_THAT(answers(4, -0.0), Each(ElementsAre(4))); }
 
-TEST_F(Arguments, A1RadiusInfiniteIsTheComponent) {
+TEST_F(Arguments, RadiusInfiniteIsTheComponent) {
   EXPECT_THAT(answers(4, kInfinity), Each(SizeIs(9)));
   EXPECT_THAT(answers(4, std::numeric_limits<double>::max()), Each(SizeIs(9)));
 }
 
-TEST_F(Arguments, A1RadiusRatioIsPositiveAndFinite) {
+TEST_F(Arguments, RadiusRatioIsPositiveAndFinite) {
   std::vector<VertexId> out{7};
   for (const double factor : {kNan, 0.0, -0.0, -1.0, kInfinity}) {
     expect_refused(ErrorCode::InvalidOption, "radius_ratio is ",
@@ -102,12 +101,12 @@ TEST_F(Arguments, A1RadiusRatioIsPositiveAndFinite) {
   EXPECT_THAT(out, ElementsAre(7));
 }
 
-TEST_F(Arguments, A2VertexOutOfRangeIsRefusedAndNeverWraps) {
+TEST_F(Arguments, VertexOutOfRangeIsRefusedAndNeverWraps) {
   expect_all_refused(ErrorCode::VertexOutOfRange, "vertex 18, but the mesh has 18 vertices", 18, 1);
   expect_all_refused(ErrorCode::VertexOutOfRange, "vertex 4294967295, but", static_cast<VertexId>(-1), 1);
 }
 
-TEST_F(Arguments, A3ArraysOfTheWrongLengthAreRefused) {
+TEST_F(Arguments, ArraysOfTheWrongLengthAreRefused) {
   const std::vector<float> seven(7, 0.0F);
   expect_refused(ErrorCode::InvalidMesh, "7 coordinates, expected three a vertex",
                  [&] { static_cast<void>(build(MeshView{seven, {}})); });
@@ -116,7 +115,7 @@ TEST_F(Arguments, A3ArraysOfTheWrongLengthAreRefused) {
                  [&] { static_cast<void>(build(MeshView{mesh.positions_view(), FacesView::triangles(four)})); });
 }
 
-TEST_F(Arguments, A3AnswersMayReuseAnyBuffer) {
+TEST_F(Arguments, AnswersMayReuseAnyBuffer) {
   std::vector<VertexId> out(1000, 7);
   for (const auto& [name, ask] : methods) {
     ask(4, kInfinity, out);
@@ -124,13 +123,13 @@ TEST_F(Arguments, A3AnswersMayReuseAnyBuffer) {
   }
 }
 
-TEST_F(Arguments, A18ACallbackThatThrowsOrAsksAgainLeavesTheIndexUsable) {
+TEST_F(Arguments, ACallbackThatThrowsOrQueriesLeavesTheIndexUsable) {
   const auto thrower = [](const BatchRow&) { throw std::runtime_error("enough"); };
   EXPECT_THROW(for_each_neighborhood(index, {.radius = 1.0}, thrower, {.threads = 2}), std::runtime_error);
   EXPECT_THROW(for_each_neighborhood(paper_index, {.radius = 1.0}, thrower, {.threads = 2}), std::runtime_error);
   std::size_t rows = 0;
   for_each_neighborhood(index, {.radius = 1.0}, [&](const BatchRow& row) {
-    // The rows are asked about again while they are handed over.
+    // The callback queries the vertices of the rows again.
     rows += static_cast<std::size_t>(neighborhoods(index, {.radius = 1.0}, {.threads = 2}).offsets.size() == 19);
     EXPECT_EQ(searcher.count(static_cast<VertexId>(row.row), 1), row.ids.size());
   });
@@ -138,7 +137,7 @@ TEST_F(Arguments, A18ACallbackThatThrowsOrAsksAgainLeavesTheIndexUsable) {
   EXPECT_THAT(answers(4, kInfinity), Each(SizeIs(9)));
 }
 
-TEST_F(Arguments, A18ABuildThatIsStoppedLeavesNothing) {
+TEST_F(Arguments, ACancelledBuildLeaksNothing) {
   expect_refused(ErrorCode::Cancelled, "",
                  [&] { static_cast<void>(build(mesh.view(), {.progress = [](auto&&...) { return false; }})); });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every answer against the oracle, over all families of meshes: exact is right vertex for vertex, and the paper's
-// answer lies between exact and what the ball has of the component.
+// Compares answers with the oracle on all families of meshes: the exact answer is equal, and the paper's answer lies
+// between the exact one and the vertices of the component in the ball.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -40,7 +40,7 @@ struct Tally {
   std::size_t mismatches = 0;
 };
 
-/// One mesh, several indexes over it, and queries to all of them.
+/// One mesh, several indexes of it, and queries of all of them.
 class Comparison {
  public:
   Comparison(const TestMesh& mesh, std::uint64_t seed, Tally& tally)
@@ -120,8 +120,8 @@ TEST_P(Differential, AnswersAreThoseOfTheOracle) {
 
 INSTANTIATE_TEST_SUITE_P(Families, Differential, testing::ValuesIn(families()), family_name);
 
-/// A second oracle, in integers, so that a wrong distance cannot hide in both. Different integers below 2^46 have
-/// different square roots in double.
+/// A second oracle, in integers, so that the same wrong distance cannot be in both. Distinct integers below 2^46 have
+/// distinct square roots in double.
 std::int64_t integer_squared_distance(const TestMesh& mesh, std::size_t v, std::size_t w) {
   std::int64_t sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -132,7 +132,7 @@ std::int64_t integer_squared_distance(const TestMesh& mesh, std::size_t v, std::
   return sum;
 }
 
-TEST(IntegerLattice, ExactIsWhatIntegersGive) {
+TEST(IntegerLattice, ExactAnswersEqualThoseInIntegers) {
   std::size_t queries = 0;
   for (std::uint64_t seed = 0; seed < scaled(200); ++seed) {
     Random random(seed);

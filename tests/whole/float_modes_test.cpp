@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A host may have told its threads to take denormal numbers for zero. That changes no answer, unless coordinates, or
-// squares of distances, are denormal themselves; then, too, every query ends.
+// A host program may flush denormal numbers to zero. That changes no answer unless coordinates or squared distances are
+// denormal; even then every query ends. This is N4 of docs/reliability.md.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -13,11 +13,12 @@
 #include "support/exact_answer.h"
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/sorted.h"
 
 namespace meshhood::test {
 namespace {
 
-/// Flushes denormal results to zero, and takes denormal operands for zero, as long as it lives.
+/// While it lives, denormal results and operands are zero.
 class FlushDenormals {
  public:
   FlushDenormals() { _mm_setcsr(before_ | 0x8040U); }
@@ -35,15 +36,10 @@ struct Question {
   std::vector<VertexId> expected;
 };
 
-/// Families in which numbers are denormal that the answer depends on.
+/// Families whose answers depend on denormal numbers.
 bool is_denormal(const Family& family) {
   constexpr std::array<std::string_view, 3> kDenormal{"tiny", "denormal", "vanishing"};
   return std::ranges::find(kDenormal, family.name) != kDenormal.end();
-}
-
-std::vector<VertexId> sorted(std::vector<VertexId> ids) {
-  std::sort(ids.begin(), ids.end());
-  return ids;
 }
 
 std::vector<Question> ask_before(const TestMesh& mesh, Random& random) {
@@ -59,7 +55,7 @@ std::vector<Question> ask_before(const TestMesh& mesh, Random& random) {
   return questions;
 }
 
-/// How many answers are not as expected where denormals are flushed, from an index built so.
+/// The number of wrong answers with flushed denormals, of an index built in that mode.
 std::size_t count_changed(const TestMesh& mesh, const std::vector<Question>& questions) {
   const FlushDenormals flushed;
   const Index index = build(mesh.view());
@@ -78,7 +74,7 @@ std::size_t count_changed(const TestMesh& mesh, const std::vector<Question>& que
 
 class FloatModes : public testing::TestWithParam<Family> {};
 
-TEST_P(FloatModes, N4FlushingDenormalsChangesNoAnswer) {
+TEST_P(FloatModes, FlushingDenormalsChangesNoAnswer) {
   std::size_t queries = 0;
   std::size_t changed = 0;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
@@ -94,7 +90,7 @@ TEST_P(FloatModes, N4FlushingDenormalsChangesNoAnswer) {
   }
 }
 
-TEST(FlushedDenormals, N4AQueryOfRadiusZeroEnds) {
+TEST(FlushedDenormals, AQueryOfRadiusZeroEnds) {
   const TestMesh mesh = make_grid(10, 10, false);
   const FlushDenormals flushed;
   EXPECT_EQ(exact_neighborhood(mesh.view(), 5, 0), std::vector<VertexId>{5});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What may not change an exact answer: the same mesh told in another way. The paper's answer must contain the exact one
-// of the mesh as it was before.
+// Equivalent representations of a mesh have the same exact answers, and the paper's answer contains the exact one of
+// the original mesh.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -22,10 +22,10 @@
 namespace meshhood::test {
 namespace {
 
-/// A mesh told in another way: where each vertex went, and by what its distances are multiplied.
+/// An equivalent mesh: the new id of each vertex, and the scale of distances.
 struct Retold {
   TestMesh mesh;
-  std::vector<std::uint32_t> place;  // by old vertex
+  std::vector<std::uint32_t> place;  // new id of each old vertex
   double scale = 1;
 };
 
@@ -38,7 +38,7 @@ Retold in_place(TestMesh mesh) {
   return {std::move(mesh), std::move(same)};
 }
 
-/// `mesh` with the faces that `change(corners)` makes of its own, in the order `faces`.
+/// `mesh` with its faces changed by `change(corners)` and in the order `faces`.
 template <class Change>
 TestMesh with_faces(const TestMesh& mesh, const std::vector<std::uint32_t>& faces, Change&& change) {
   TestMesh result = mesh;

@@ -27,7 +27,7 @@ namespace {
 using shapes::Kind;
 using shapes::Shape;
 
-/// Sizes from the smallest on, most of them awkward.
+/// Sizes from the smallest on, most of them not round.
 std::vector<std::size_t> sizes_of(const Kind& kind) {
   std::vector<std::size_t> sizes;
   for (std::size_t n = kind.minimum; n < kind.minimum + 100; ++n) sizes.push_back(n);
@@ -40,7 +40,7 @@ std::size_t unused_vertices(const Shape& shape) {
   return shape.positions.size() / 3 - used.size();
 }
 
-/// How many faces meet at each edge.
+/// The number of faces of each edge.
 std::map<std::pair<std::uint32_t, std::uint32_t>, int> edge_faces(const Shape& shape) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> faces;
   for (std::size_t i = 0; i < shape.corners.size(); ++i) {
@@ -56,7 +56,7 @@ bool is_closed(const Shape& shape) {
   return std::all_of(faces.begin(), faces.end(), [](const auto& edge) { return edge.second == 2; });
 }
 
-TEST(Shapes, AreMeshesOfTheSizeAskedFor) {
+TEST(Shapes, AreMeshesOfTheRequestedSize) {
   std::size_t checked = 0;
   for (const Kind& kind : shapes::kinds()) {
     for (const std::size_t n : sizes_of(kind)) {
@@ -111,7 +111,7 @@ TEST(Shapes, ClosedOnesHaveNoBoundary) {
   std::printf("%zu closed shapes\n", checked);
 }
 
-/// How far a point is from the gyroid, roughly: its field over the length of a period.
+/// The approximate distance of a point from the gyroid.
 double gyroid_miss(const float* p) {
   constexpr double kPeriod = 10.4;
   const auto angle = [&](int axis) { return 2 * shapes::kPi * static_cast<double>(p[axis]) / kPeriod; };
@@ -140,7 +140,7 @@ TEST(Shapes, EdgesAreAboutOneLong) {
   }
 }
 
-/// The vertices that a ball takes too many, over queries all over the shape.
+/// The number of vertices that balls have in excess of exact answers, over queries of the whole shape.
 std::size_t extras_of_ball(const Shape& shape, double radius) {
   ReferenceSearcher searcher(shape.view());
   std::vector<VertexId> exact;
@@ -155,7 +155,7 @@ std::size_t extras_of_ball(const Shape& shape, double radius) {
   return extras;
 }
 
-TEST(Shapes, SpringTheirTraps) {
+TEST(Shapes, HaveVerticesThatAreNearButNotConnectedInTheBall) {
   const auto harmless = {"grid", "gyroid", "ngons", "noise", "quads", "sphere"};
   for (const Kind& kind : shapes::kinds()) {
     const std::size_t extras = extras_of_ball(kind.make(5000), kind.name == "star" ? 0.5 : 4.0);
@@ -168,7 +168,7 @@ TEST(Shapes, SpringTheirTraps) {
   }
 }
 
-// A change here is a change of every benchmark and picture made of the shapes; on a new platform it is a bug.
+// A change here changes every benchmark and picture of the shapes; on a new platform it is a bug.
 TEST(Shapes, HaveTheSameBytesEverywhere) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   const auto add = [&](std::uint32_t word) { hash = (hash ^ word) * 0x100000001b3U; };
@@ -184,7 +184,7 @@ TEST(Shapes, HaveTheSameBytesEverywhere) {
   EXPECT_EQ(hash, 15589639091413617374U);
 }
 
-TEST(Geometry, DirectionsAreThoseOfTheAngle) {
+TEST(Geometry, DirectionsHaveTheGivenAngle) {
   for (int i = -1000; i <= 1000; ++i) {
     const double turns = 0.00731 * i;
     const shapes::Direction d = shapes::direction(turns);

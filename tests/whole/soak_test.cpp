@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sixteen threads that build, save, map, load, ask and replace the same few files, over and over: what a server does
-// that never stops. Nothing may pile up: no memory, no open file, no file left behind.
+// Sixteen threads repeatedly build, save, map, load, query and replace the same files, like a server. Memory, open
+// files and files in the folder must not increase.
 #include <array>
 #include <atomic>
 #include <cstdio>
@@ -29,7 +29,7 @@ constexpr std::size_t kThreads = 16;
 constexpr std::size_t kFiles = 3;
 constexpr double kRadius = 6;
 
-/// A mesh and how many vertices each of its neighborhoods has. No two have as many vertices: they are known by that.
+/// A mesh and the sizes of its neighborhoods. The number of vertices identifies the mesh.
 struct Sample {
   TestMesh mesh;
   std::vector<std::size_t> sizes;
@@ -62,7 +62,7 @@ std::ptrdiff_t open_files() { return std::distance(std::filesystem::directory_it
 
 class Soak : public testing::Test {
  protected:
-  /// All threads at once, `rounds` times each.
+  /// Runs all threads at once, `rounds` times each.
   void run(std::size_t rounds) {
     std::latch begin(kThreads);
     std::vector<std::jthread> threads;
@@ -85,7 +85,7 @@ class Soak : public testing::Test {
     const Index built = build(sample.mesh.view(), {.threads = 1 + static_cast<unsigned>(round % 2)});
     ask(built, sample, round);
     io::save(file, built);
-    const Index found = in_place ? io::map(file) : io::load(file);  // perhaps another's, saved meanwhile
+    const Index found = in_place ? io::map(file) : io::load(file);  // another thread may have saved it meanwhile
     for (const Sample& other : samples_) {
       if (other.mesh.size() == found.vertex_count()) ask(found, other, round);
     }
@@ -105,9 +105,9 @@ class Soak : public testing::Test {
   std::atomic<std::size_t> queries_ = 0;
 };
 
-TEST_F(Soak, NothingPilesUp) {
+TEST_F(Soak, MemoryAndOpenFilesDoNotIncrease) {
   const std::size_t rounds = scaled(60, 10);
-  run(rounds);  // threads get their arenas, the library its tables
+  run(rounds);  // allocates what is allocated once
   const std::ptrdiff_t files = open_files();
   std::array<std::size_t, 2> resident{};
   for (std::size_t& bytes : resident) {
@@ -120,7 +120,7 @@ TEST_F(Soak, NothingPilesUp) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder()), {}), static_cast<std::ptrdiff_t>(kFiles));
   std::printf("%zu rounds, %zu queries, %zu KiB resident, then %zu KiB\n", 5 * rounds * kThreads, queries(),
               resident[0] >> 10, resident[1] >> 10);
-  // An index of these meshes takes some 100 KiB: one kept in a hundred rounds would be seen.
+  // An index of these meshes takes about 100 KiB: a leak in one of a hundred rounds would show.
   if (!kSanitized) {
     EXPECT_LT(resident[1], resident[0] + 2 * rounds * kThreads * 1024);
   }
