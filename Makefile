@@ -1,26 +1,32 @@
-# The three commands of a fresh Debian machine. What they do, step by step, is in tools/; presets are for daily work.
+# The commands for a fresh Debian machine. Their steps are in tools/; daily work uses the presets.
 #
-#   make build                    installs what it needs, builds build/release/meshhood
-#   make test                     the same, then builds and runs all tests, and each fuzzer for a moment
-#   make demo [MESH=some.ply]     every method on a mesh with a trap, or on your own
+#   make build                    installs the packages it needs and builds build/release/meshhood
+#   make demo [MESH=some.ply]     compares all methods on a mesh with a trap, or on your own, and draws a picture
+#   make test                     the short tests; a few minutes
+#   make test-all                 also the long tests, the sanitizers, the fuzzers, the mutants and tools/verify
 #
-# And for who would see for himself what docs/benchmarks.md says; both end by writing it, say how long each part took, and
-# want a quiet machine, or the page says that it was busy:
+# To reproduce docs/benchmarks.md. Both write that page and say how long each part took. They need a quiet machine;
+# otherwise the page says that it was busy.
 #
 #   make reproduce                the paper's tables and pictures, accuracy, growth; about 20 minutes
-#   make peers                    other products on the same queries; about a quarter of an hour
+#   make peers                    other products on the same queries; about 15 minutes
 #   make benchmarks               both
-.PHONY: build test demo reproduce peers benchmarks
+.PHONY: build test test-all demo reproduce peers benchmarks
 
-# The demo reads these from the environment, so that a name may hold blanks.
+# The demo reads these from the environment, so that a name may contain blanks.
 export MESH VERTEX RADIUS
 
 build:
 	@tools/setup build
-	@tools/build release -DMESHHOOD_BUILD_TESTS=OFF -DMESHHOOD_BUILD_BENCH=OFF
+	@tools/build release -DMESHHOOD_BUILD_TESTS=OFF -DMESHHOOD_BUILD_BENCH=OFF -DMESHHOOD_BUILD_EXAMPLES=OFF
 
 test:
 	@tools/setup test
+	@tools/test --short release
+	@echo "These were the short tests. make test-all also runs the long ones, the sanitizers, the fuzzers and the mutants."
+
+test-all:
+	@tools/setup test-all
 	@tools/test release asan tsan:exact/threads
 
 demo: build

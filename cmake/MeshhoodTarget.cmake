@@ -1,17 +1,17 @@
-# What every target of ours is compiled with. Users of the library inherit none of it.
+# The options of every target of this project. Users of the library inherit none of them.
 function(meshhood_own_target target)
-  # One distance predicate on every path: no fused multiply-add, whatever the compiler's default.
+  # The same distance predicate on every path: no fused multiply-add, whatever the default of the compiler.
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -ffp-contract=off)
-  # g++ 12 sees overlapping copies in every "..." + std::string (GCC bug 105651).
+  # g++ 12 warns of overlapping copies in every "..." + std::string (GCC bug 105651).
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict)
   endif()
-  # A newer compiler's new warning is our problem, not that of a project that contains us.
+  # New warnings of newer compilers must not break projects that contain this one.
   set_target_properties(${target} PROPERTIES
     CXX_EXTENSIONS OFF COMPILE_WARNING_AS_ERROR ${meshhood_IS_TOP_LEVEL})
 endfunction()
 
-# For large programs that do nothing for long themselves: to optimise them costs more than it saves.
+# For large programs that spend little time in their own code: optimizing them takes longer than it saves.
 function(meshhood_compile_quickly target)
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     target_compile_options(${target} PRIVATE -O0)
@@ -20,10 +20,10 @@ function(meshhood_compile_quickly target)
   endif()
 endfunction()
 
-# One kernel for each kind of processor, all of the same names: never in one piece with each other.
+# The kernels of the processors use the same names, so that each is compiled by itself.
 set(meshhood_kernels "/simd/(joint_)?(portable|avx2|avx512)\\.cpp$")
 
-# For sources that another target compiles one by one: here several at once, in a fraction of the time.
+# Compiles several sources at once, in a fraction of the time. Another target must compile them one by one.
 function(meshhood_compile_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
   get_target_property(sources ${target} SOURCES)
@@ -31,11 +31,11 @@ function(meshhood_compile_together target)
   set_source_files_properties(${sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# For what touches foreign bytes: a mistake of ours ends the program at once instead of being carried further.
+# For code that reads untrusted bytes: an error ends the program at once.
 function(meshhood_harden target)
   target_compile_options(${target} PRIVATE -fstack-protector-strong)
   target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS)
-  # Sanitizers bring checks of their own that fortified functions would hide.
+  # Fortified functions would hide errors from the sanitizers.
   if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2>)
   endif()

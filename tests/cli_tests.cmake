@@ -16,7 +16,7 @@ if(MESHHOOD_BUILD_CLI)
     COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_interrupt.py $<TARGET_FILE:meshhood_cli>)
   add_test(NAME cli.terminal
     COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_terminal.py $<TARGET_FILE:meshhood_cli>)
-  # Under sanitizers the same meshes are read by io/shared_meshes, which is quicker.
+  # Under sanitizers io/shared_meshes reads the same meshes, which is faster.
   if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     add_test(NAME cli.manifest
       COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_manifest.py

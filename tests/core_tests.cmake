@@ -1,4 +1,4 @@
-# The tests of the core: its rooms one by one, then all of it against the oracle.
+# The tests of the core: each folder by itself, then the whole against the oracle.
 add_library(meshhood_families STATIC
   support/families.cpp
   support/families_extremes.cpp
@@ -27,30 +27,33 @@ meshhood_test(exact/build_threads meshhood_families meshhood_test_support)
 meshhood_test(exact/reorder meshhood_families meshhood_test_support)
 meshhood_test(exact/search_meshes meshhood_test_support meshhood_shapes)
 
-meshhood_test(whole/allocation meshhood_families)
+meshhood_test(whole/allocation ALONE meshhood_families)
 target_sources(whole_allocation_test PRIVATE support/failing_allocations.cpp)
 
-# On real meshes.
 meshhood_test(paper/meshes meshhood_test_support)
 meshhood_test(whole/all_meshes meshhood_test_support)
-
-# Beside CGAL, which no part of the library needs.
-find_package(CGAL QUIET)
-if(CGAL_FOUND)
-  meshhood_test(base/sphere_cgal meshhood_families meshhood_test_support CGAL::CGAL)
-else()
-  add_test(NAME base.sphere_cgal COMMAND ${CMAKE_COMMAND} -E echo "skipped: no CGAL (libcgal-dev)")
-  set_tests_properties(base.sphere_cgal PROPERTIES SKIP_REGULAR_EXPRESSION "skipped")
-endif()
 
 # The sources of the core, to be compiled in other ways than the library is.
 get_target_property(core_sources meshhood SOURCES)
 list(TRANSFORM core_sources PREPEND ${PROJECT_SOURCE_DIR}/)
 
+if(NOT MESHHOOD_LONG_TESTS)
+  return()
+endif()
+
+# Compared with CGAL, which no part of the library needs.
+find_package(CGAL QUIET)
+if(CGAL_FOUND)
+  meshhood_test(base/sphere_cgal ALONE meshhood_families meshhood_test_support CGAL::CGAL)
+else()
+  add_test(NAME base.sphere_cgal COMMAND ${CMAKE_COMMAND} -E echo "skipped: no CGAL (libcgal-dev)")
+  set_tests_properties(base.sphere_cgal PROPERTIES SKIP_REGULAR_EXPRESSION "skipped")
+endif()
+
 # Ids of 16 bits, so that small meshes reach every limit.
 add_subdirectory(narrow_ids)
 
-# Flushed denormals are set in a register of x86.
+# Flushing of denormals is a flag of an x86 register.
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
-  meshhood_test(whole/float_modes meshhood_families)
+  meshhood_test(whole/float_modes ALONE meshhood_families)
 endif()

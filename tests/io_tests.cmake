@@ -1,10 +1,11 @@
 # The tests of mesh and index files.
-foreach(stem shared_meshes ply obj off stl text file progress index_progress write memory mutation)
+foreach(stem shared_meshes ply obj text file progress index_progress write mutation)
   meshhood_test(io/${stem} meshhood_test_support)
 endforeach()
-meshhood_test(io/index meshhood_test_support meshhood_families)
-meshhood_test(whole/soak meshhood_test_support meshhood_families)
-add_subdirectory(interop)
+meshhood_test(io/off ALONE meshhood_test_support)
+meshhood_test(io/stl ALONE meshhood_test_support)
+meshhood_test(io/index ALONE meshhood_test_support meshhood_families)
+meshhood_test(io/memory ALONE meshhood_test_support)
 
 # The process whose peak memory `io/memory` measures.
 add_executable(read_peak support/read_peak.cpp)
@@ -12,6 +13,34 @@ target_link_libraries(read_peak PRIVATE meshhood::io)
 meshhood_own_target(read_peak)
 target_compile_definitions(io_memory_test PRIVATE MESHHOOD_READ_PEAK="$<TARGET_FILE:read_peak>")
 add_dependencies(io_memory_test read_peak)
+
+# Saves that fail, are killed or meet a full disk, for every function that writes a file.
+add_library(meshhood_save_trial STATIC support/save_trial.cpp support/savers.cpp support/small_disk.cpp)
+target_include_directories(meshhood_save_trial PUBLIC ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR})
+target_link_libraries(meshhood_save_trial PUBLIC
+  meshhood_npz meshhood::io meshhood_shapes GTest::gtest)
+meshhood_own_target(meshhood_save_trial)
+foreach(stem calls full kill power race)
+  meshhood_test(io/save_${stem} ALONE meshhood_save_trial)
+endforeach()
+foreach(stem calls power)
+  target_sources(io_save_${stem}_test PRIVATE support/system_calls.cpp)
+  foreach(call open write lseek stat fchown fchmod fsync close rename unlink)
+    target_link_options(io_save_${stem}_test PRIVATE LINKER:--wrap=${call})
+  endforeach()
+endforeach()
+target_sources(io_save_power_test PRIVATE support/disk_model.cpp)
+
+meshhood_test(io/allocation ALONE meshhood_save_trial)
+target_sources(io_allocation_test PRIVATE support/failing_allocations.cpp)
+target_compile_definitions(io_allocation_test PRIVATE MESHHOOD_CORPUS="${PROJECT_BINARY_DIR}/fuzz/corpus")
+
+if(NOT MESHHOOD_LONG_TESTS)
+  return()
+endif()
+
+meshhood_test(whole/soak ALONE meshhood_test_support meshhood_families)
+add_subdirectory(interop)
 
 # With 16-bit ids, so that small files reach the limit.
 find_package(fmt REQUIRED)
@@ -27,24 +56,3 @@ meshhood_own_target(io_limits_test)
 meshhood_compile_quickly(io_limits_test)
 meshhood_compile_together(io_limits_test)
 gtest_discover_tests(io_limits_test TEST_PREFIX io.limits. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
-
-# Saves that fail, are killed or meet a full disk, for every function that writes a file.
-add_library(meshhood_save_trial STATIC support/save_trial.cpp support/savers.cpp support/small_disk.cpp)
-target_include_directories(meshhood_save_trial PUBLIC ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR})
-target_link_libraries(meshhood_save_trial PUBLIC
-  meshhood_npz meshhood::io meshhood_shapes GTest::gtest)
-meshhood_own_target(meshhood_save_trial)
-foreach(stem calls full kill power race)
-  meshhood_test(io/save_${stem} meshhood_save_trial)
-endforeach()
-foreach(stem calls power)
-  target_sources(io_save_${stem}_test PRIVATE support/system_calls.cpp)
-  foreach(call open write lseek stat fchown fchmod fsync close rename unlink)
-    target_link_options(io_save_${stem}_test PRIVATE LINKER:--wrap=${call})
-  endforeach()
-endforeach()
-target_sources(io_save_power_test PRIVATE support/disk_model.cpp)
-
-meshhood_test(io/allocation meshhood_save_trial)
-target_sources(io_allocation_test PRIVATE support/failing_allocations.cpp)
-target_compile_definitions(io_allocation_test PRIVATE MESHHOOD_CORPUS="${PROJECT_BINARY_DIR}/fuzz/corpus")

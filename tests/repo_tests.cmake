@@ -1,13 +1,20 @@
-# What need be checked only once, in a plain build: the package, other compilers' targets, the instructions, the state
-# of the tree.
+# Checks that one plain build makes for all: the documents, the installed package, other compilers and processors, large
+# meshes, seeded faults, instruction counts.
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize|--coverage")
   return()
 endif()
 
+add_test(NAME repo.docs COMMAND ${PROJECT_SOURCE_DIR}/tools/check_docs.py $<$<TARGET_EXISTS:meshhood_cli>:$<TARGET_FILE:meshhood_cli>>)
+add_test(NAME repo.drawings COMMAND python3 -B ${PROJECT_SOURCE_DIR}/tools/drawings --check)
+if(NOT MESHHOOD_LONG_TESTS)
+  return()
+endif()
+add_test(NAME repo.format COMMAND ${PROJECT_SOURCE_DIR}/tools/check format)
+
 add_subdirectory(install)
 add_subdirectory(portability)
 
-# For a processor with fused multiply-add, which the distance must not use.
+# Compiled for a processor with fused multiply-add, the distance must not use it.
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND CMAKE_OBJDUMP)
   add_library(meshhood_haswell OBJECT ${core_sources})
   target_include_directories(meshhood_haswell PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
@@ -21,7 +28,7 @@ if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND CMAKE_OBJDUMP)
     $<TARGET_OBJECTS:meshhood_fused_control> $<TARGET_OBJECTS:meshhood_haswell> COMMAND_EXPAND_LISTS)
 endif()
 
-# Bytes that reach a file without ever having been given a value.
+# No uninitialized byte reaches a file.
 if(TARGET meshhood_cli)
   add_executable(uninitialised_control repo/uninitialised_control.cpp)
   target_include_directories(uninitialised_control PRIVATE ${PROJECT_SOURCE_DIR})
@@ -31,11 +38,7 @@ if(TARGET meshhood_cli)
   set_tests_properties(no_uninitialised_bytes PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: no valgrind" TIMEOUT 300)
 endif()
 
-add_test(NAME repo.format COMMAND ${PROJECT_SOURCE_DIR}/tools/check format)
-add_test(NAME repo.docs COMMAND ${PROJECT_SOURCE_DIR}/tools/check_docs.py $<$<TARGET_EXISTS:meshhood_cli>:$<TARGET_FILE:meshhood_cli>>)
-add_test(NAME repo.drawings COMMAND python3 -B ${PROJECT_SOURCE_DIR}/tools/drawings --check)
-
-# Exact answers against breadth-first search on large meshes: a part of what tools/verify --full does.
+# Exact answers compared with breadth-first search on large meshes: a part of `tools/verify --full`.
 if(TARGET exact_verify)
   foreach(part shared shapes)
     add_test(NAME verify.${part} COMMAND ${PROJECT_SOURCE_DIR}/tools/verify ${part})
@@ -45,24 +48,40 @@ if(TARGET exact_verify)
   endforeach()
 endif()
 
-# Every seeded fault must be noticed by a test.
+# Every seeded fault must be noticed by a test. The library and these tests are compiled once more, file by file, so that a
+# faulty file can take the place of one.
 add_test(NAME mutants.list COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/mutants/run)
 if(CMAKE_BUILD_TYPE STREQUAL "Release")
+  file(STRINGS mutants/mutants.txt mutant_tests REGEX "^\\[")
+  string(REGEX MATCHALL "[a-z_]+(/[a-z_]+)+" mutant_tests "${mutant_tests}")
+  list(REMOVE_DUPLICATES mutant_tests)
+  list(TRANSFORM mutant_tests APPEND _test.cpp)
+  add_library(mutant_tests OBJECT ${mutant_tests})
+  add_library(mutant_library STATIC ${core_sources})
+  foreach(target mutant_tests mutant_library)
+    target_include_directories(${target} PRIVATE
+      $<TARGET_PROPERTY:meshhood,INCLUDE_DIRECTORIES> ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR})
+    target_link_libraries(${target} PRIVATE GTest::gmock)
+    target_compile_features(${target} PRIVATE cxx_std_20)
+    meshhood_own_target(${target})
+    meshhood_compile_quickly(${target})
+    set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
+  endforeach()
   file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/mutants/link.txt CONTENT "${CMAKE_CXX_COMPILER}
-$<TARGET_FILE:meshhood_families> $<TARGET_FILE:meshhood>
+$<TARGET_FILE:meshhood_families> $<TARGET_FILE:mutant_library>
 $<TARGET_FILE:GTest::gmock> $<TARGET_FILE:GTest::gtest_main> $<TARGET_FILE:GTest::gtest>
 ")
   add_test(NAME mutants.run COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/mutants/run ${PROJECT_BINARY_DIR})
   set_tests_properties(mutants.run PROPERTIES TIMEOUT 1800 COST 1000)
 endif()
 
-# Instructions of fixed queries and builds against the committed baseline.
+# The instruction counts of fixed queries and builds, compared with the committed baseline.
 if(CMAKE_BUILD_TYPE STREQUAL "Release" AND TARGET guard)
   add_test(NAME bench.guard COMMAND python3 -B ${PROJECT_SOURCE_DIR}/bench/guard/guard.py $<TARGET_FILE:guard>)
   set_tests_properties(bench.guard PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
 endif()
 
-# The harness on a small shape, and docs/benchmarks.md beside the results it is made from.
+# The harness on a small shape, and the pages in docs compared with the results they are made from.
 if(TARGET race AND TARGET meshhood_cli)
   add_test(NAME bench.harness COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/repo/bench_test.py $<TARGET_FILE_DIR:race>)
 endif()

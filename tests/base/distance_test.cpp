@@ -13,11 +13,10 @@
 
 #include "support/random.h"
 #include "support/scale.h"
+#include "support/test_mesh.h"
 
 namespace meshhood::test {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// What makes `squared_radius` right: nothing larger has a root within the radius, and it has.
 void expect_largest(double radius) {

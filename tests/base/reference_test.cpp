@@ -22,8 +22,6 @@ namespace {
 
 using testing::ElementsAre;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// A U: its ends are near in space and far along it.
 TestMesh horseshoe() {
   TestMesh mesh;

@@ -29,7 +29,6 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::array kThreads{1U, 2U, 3U, 8U};
 
 /// Rows as a sink was given them.

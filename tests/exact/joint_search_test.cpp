@@ -18,8 +18,6 @@
 namespace meshhood::test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// A query of the test: a vertex of the index by its leaf and lane, and a radius.
 struct Asked {
   LeafId leaf;

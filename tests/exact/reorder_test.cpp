@@ -20,16 +20,12 @@
 #include "support/refusal.h"
 #include "support/same_storage.h"
 #include "support/shared_meshes.h"
+#include "support/sorted.h"
 
 namespace meshhood::test {
 namespace {
 
 using testing::IsEmpty;
-
-std::vector<VertexId> sorted(std::vector<VertexId> ids) {
-  std::sort(ids.begin(), ids.end());
-  return ids;
-}
 
 void expect_same_positions(const ReorderedMesh& reordered, const MeshView& mesh) {
   ASSERT_EQ(reordered.view().positions.size(), mesh.positions.size());
@@ -88,9 +84,9 @@ std::size_t expect_same_answers(const ReorderedMesh& reordered, const Index& ind
   return queries;
 }
 
-class Families : public testing::TestWithParam<Family> {};
+class ReorderedFamilies : public testing::TestWithParam<Family> {};
 
-TEST_P(Families, AnswersAreThoseOfThePlainIndex) {
+TEST_P(ReorderedFamilies, AnswersAreThoseOfThePlainIndex) {
   std::size_t queries = 0;
   for (const std::size_t vertices : {1U, 50U, 3000U}) {
     const TestMesh mesh = make_mesh(GetParam(), 7, vertices);
@@ -108,7 +104,7 @@ TEST_P(Families, AnswersAreThoseOfThePlainIndex) {
   std::printf("%s: %zu queries\n", std::string(GetParam().name).c_str(), queries);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Families, testing::ValuesIn(families()), family_name);
+INSTANTIATE_TEST_SUITE_P(All, ReorderedFamilies, testing::ValuesIn(families()), family_name);
 
 TEST(Reorder, KeepsTrianglesAsTriangles) {
   const std::vector<float> xyz(9, 0.0F);

@@ -199,16 +199,16 @@ TEST(IndexRules, F6Crossings) {
 
 TEST(IndexRules, F6Positions) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
   expect_refused_after("not finite", [](Forgery& f) { f.section<float>("positions")[10] = kNan; });
-  expect_refused_after("not finite", [](Forgery& f) { f.section<float>("positions")[10] = -kInfinity; });
+  expect_refused_after("not finite", [](Forgery& f) { f.section<float>("positions")[10] = -kFloatInfinity; });
   expect_refused_after("do not match the frame", [](Forgery& f) { f.section<float>("positions")[10] = 1000; });
   expect_refused_after("the padding is not 0", [](Forgery& f) { f.section<float>("positions").back() = kNan; });
   expect_refused_after("do not match the frame", [](Forgery& f) { f.section<Frame>("frame")[0].scale *= 2; });
   expect_refused_after("do not match the frame",
                        [](Forgery& f) { f.section<Frame>("frame")[0].scale = static_cast<double>(kNan); });
   expect_refused_after("do not match the frame",
-                       [](Forgery& f) { f.section<Frame>("frame")[0].origin.x = static_cast<double>(kInfinity); });
+                       [](Forgery& f) { f.section<Frame>("frame")[0].origin.x = kInfinity; });
 }
 
 TEST(IndexRules, F6Tree) {

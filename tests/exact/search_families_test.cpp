@@ -14,8 +14,6 @@
 namespace meshhood::test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Zero, everything, and the distances of some vertices with their neighbouring numbers.
 std::vector<double> radii_at(VertexId v, const MeshView& mesh, Random& random) {
   std::vector<double> radii{0, std::numeric_limits<double>::denorm_min(), kInfinity};

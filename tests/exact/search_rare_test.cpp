@@ -21,8 +21,6 @@
 namespace meshhood::test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Two grids, one above the other, without an edge between them.
 TestMesh plates(std::size_t side, double gap) {
   TestMesh mesh = make_grid(side, side, false);

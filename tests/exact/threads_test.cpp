@@ -18,13 +18,13 @@
 #include "support/same_storage.h"
 #include "support/sanitized.h"
 #include "support/scale.h"
+#include "support/sorted.h"
 
 namespace meshhood::test {
 namespace {
 
 constexpr std::size_t kThreads = 8;
 constexpr std::size_t kVertices = 3000;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A surface in one piece, on which balls are proved, and one of many sheets, on which they are flooded.
 std::vector<TestMesh> meshes() {
@@ -38,11 +38,6 @@ std::vector<TestMesh> meshes() {
   }
   result.push_back(sheets.finish(false));
   return result;
-}
-
-std::vector<VertexId> sorted(std::vector<VertexId> ids) {
-  std::sort(ids.begin(), ids.end());
-  return ids;
 }
 
 /// A query, and what one thread alone was told.

@@ -17,8 +17,6 @@
 namespace meshhood::test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// A path in the shape of a long narrow U: its two arms are near each other in space and far apart along the path.
 TestMesh hairpin() {
   TestMesh mesh;
