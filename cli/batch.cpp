@@ -31,7 +31,7 @@
 namespace meshhood::cli {
 namespace {
 
-struct Options {
+struct BatchCommand {
   std::string file;
   Radius radius;
   std::string vertices;  ///< a file with a list; empty for all
@@ -52,7 +52,7 @@ bool fits_32_bits(const BatchSize& total, std::size_t columns) {
 
 /// The size of the file, about: the members without the zip headers. The ones of a matrix without distances compress to
 /// a thousandth.
-double file_bytes(const Options& options, const BatchSize& total, std::size_t columns) {
+double file_bytes(const BatchCommand& options, const BatchSize& total, std::size_t columns) {
   const auto rows = static_cast<double>(total.rows);
   const auto count = static_cast<double>(total.count);
   if (options.count) return 8 * rows;
@@ -61,14 +61,14 @@ double file_bytes(const Options& options, const BatchSize& total, std::size_t co
 }
 
 /// One for each array of the file whose length is that of the answer, and one to count.
-std::size_t number_of_passes(const Options& options) { return options.count ? 1 : options.distances ? 3 : 2; }
+std::size_t number_of_passes(const BatchCommand& options) { return options.count ? 1 : options.distances ? 3 : 2; }
 
 /// Writes the answers of one index. The length of an array precedes its values, so the rows are counted first. Then
 /// each array is computed and written in a pass of its own, so that memory holds only a few numbers per row.
 class Writer {
  public:
-  Writer(const SearchMethod& index, const BatchQuery& query, const Options& options, const SizeLimit& limit, Task& task,
-         io::NpzWriter& npz)
+  Writer(const SearchMethod& index, const BatchQuery& query, const BatchCommand& options, const SizeLimit& limit,
+         Task& task, io::NpzWriter& npz)
       : index_(index), query_(query), options_(options), limit_(limit), task_(task), npz_(npz) {}
 
   BatchSize write() {
@@ -145,20 +145,20 @@ class Writer {
 
   const SearchMethod& index_;
   const BatchQuery& query_;
-  const Options& options_;
+  const BatchCommand& options_;
   const SizeLimit& limit_;
   Task& task_;
   io::NpzWriter& npz_;
   std::size_t passes_begun_ = 0;
 };
 
-std::string task_name(const Options& options, const std::optional<BatchEstimate>& estimate, std::size_t columns) {
+std::string task_name(const BatchCommand& options, const std::optional<BatchEstimate>& estimate, std::size_t columns) {
   if (!estimate) return "computing";
   return fmt::format("computing {} rows, about {:.3g} MB", estimate->mean.rows,
                      file_bytes(options, estimate->mean, columns) / 1e6);
 }
 
-BatchSize write(const SearchMethod& index, const BatchQuery& query, const Options& options) {
+BatchSize write(const SearchMethod& index, const BatchQuery& query, const BatchCommand& options) {
   const SizeLimit limit(options.output, options.max_bytes);
   const std::optional<BatchEstimate> expected = estimate(index, query);
   const std::size_t columns = index.vertex_count();
@@ -176,7 +176,7 @@ BatchSize write(const SearchMethod& index, const BatchQuery& query, const Option
   return total;
 }
 
-void batch(const Options& options) {
+void batch(const BatchCommand& options) {
   check_output(options.output, {options.file, options.vertices});
   Input input(options.file);
   if (options.method == "exact") input.need_edges("--method exact");
@@ -201,7 +201,7 @@ void batch(const Options& options) {
 }  // namespace
 
 void add_batch(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BatchCommand>();
   CLI::App* command =
       program.add_subcommand("batch", "Write the neighborhoods of all vertices as a sparse matrix for SciPy");
   add_file(*command, options->file);

@@ -31,7 +31,7 @@ constexpr std::uint64_t kMostQueries = 100'000'000;
 using measure::Machine;
 using measure::Measurement;
 
-struct Options {
+struct BenchCommand {
   std::string file;
   std::string radii = "2,3,5,10,20,40,65,90";
   std::string order = "cold";
@@ -166,7 +166,7 @@ std::string to_text(const std::vector<Measurement>& table) {
   return text;
 }
 
-measure::Plan plan_of(const Options& options) {
+measure::Plan plan_of(const BenchCommand& options) {
   measure::Plan plan = options.plan;
   if (plan.queries == 0) raise(ErrorCode::InvalidOption, "--queries 0, expected at least 1");
   plan.order = options.order == "warm" ? measure::Order::Warm : measure::Order::Cold;
@@ -176,7 +176,7 @@ measure::Plan plan_of(const Options& options) {
   return plan;
 }
 
-void bench(const Options& options) {
+void bench(const BenchCommand& options) {
   const measure::Plan plan = plan_of(options);
   Input input(options.file);
   input.need_edges("bench");
@@ -201,7 +201,7 @@ void bench(const Options& options) {
 }  // namespace
 
 void add_bench(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BenchCommand>();
   CLI::App* command = program.add_subcommand("bench", "Measure the paper's Table 1 and Table 2 on a mesh");
   add_file(*command, options->file);
   command->add_option("--radii", options->radii, "radii, in mean edge lengths")

@@ -22,7 +22,7 @@
 namespace meshhood::cli {
 namespace {
 
-struct Options {
+struct BuildCommand {
   std::string mesh;
   std::string index = "exact";
   unsigned threads = kAllThreads;
@@ -59,20 +59,20 @@ Summary build_and_save(const std::string& file, Build&& build) {
 }
 
 /// The name of the clusters on the lowest level.
-std::string_view clusters_name(const Options& options) { return options.index == "paper" ? "clusters" : "leaves"; }
+std::string_view clusters_name(const BuildCommand& options) { return options.index == "paper" ? "clusters" : "leaves"; }
 
-Json to_json(const Options& options, const Summary& summary) {
+Json to_json(const BuildCommand& options, const Summary& summary) {
   return {{"output", options.output},     {"index", options.index},
           {"vertices", summary.vertices}, {clusters_name(options), summary.clusters},
           {"bytes", summary.bytes},       {"seconds", summary.seconds}};
 }
 
-std::string to_text(const Options& options, const Summary& summary) {
+std::string to_text(const BuildCommand& options, const Summary& summary) {
   return fmt::format("{}: {} vertices, {} {}, {} bytes, built in {:.3f} s\n", printable_name(options.output),
                      summary.vertices, summary.clusters, clusters_name(options), summary.bytes, summary.seconds);
 }
 
-void build(const Options& options) {
+void build(const BuildCommand& options) {
   check_output(options.output, {options.mesh});
   const io::Mesh mesh = read_mesh(options.mesh);
   const Summary summary =
@@ -85,7 +85,7 @@ void build(const Options& options) {
 }  // namespace
 
 void add_build(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BuildCommand>();
   CLI::App* command = program.add_subcommand("build", "Build the index of a mesh and save it");
   add_mesh(*command, options->mesh);
   command->add_option("--index", options->index, "exact: for exact answers; paper: the index of the paper")

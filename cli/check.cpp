@@ -19,47 +19,47 @@
 namespace meshhood::cli {
 namespace {
 
-struct Options {
+struct CheckCommand {
   std::string index;
   std::string mesh;  ///< empty if not given
   bool json = false;
 };
 
-[[noreturn]] void refuse(const Options& options, const std::string& message) {
+[[noreturn]] void refuse(const CheckCommand& options, const std::string& message) {
   raise(ErrorCode::MalformedIndex, printable_name(options.index) + ": " + message);
 }
 
-void expect_built_from(const Options& options, const IndexHeader& header, const Fingerprint& mesh,
+void expect_built_from(const CheckCommand& options, const IndexHeader& header, const Fingerprint& mesh,
                        const std::string& name) {
   if (header.mesh == mesh) return;
   refuse(options,
          fmt::format("built from mesh {}, but {} is {}", to_text(header.mesh), printable_name(name), to_text(mesh)));
 }
 
-void expect_none(const Options& options, const std::vector<std::string>& violations) {
+void expect_none(const CheckCommand& options, const std::vector<std::string>& violations) {
   if (violations.empty()) return;
   const std::string more = violations.size() > 1 ? fmt::format(" (and {} similar)", violations.size() - 1) : "";
   refuse(options, violations.front() + more);
 }
 
 template <class AnyIndex>
-void check_against_mesh(const Options& options, const IndexHeader& header, const AnyIndex& index) {
+void check_against_mesh(const CheckCommand& options, const IndexHeader& header, const AnyIndex& index) {
   const io::Mesh mesh = read_mesh(options.mesh);
   expect_built_from(options, header, fingerprint(mesh.view()), options.mesh);
   expect_none(options, index.check(mesh.view()));
 }
 
 /// The exact index contains the graph, so it can be compared with the fingerprint in its header.
-void check_alone(const Options& options, const IndexHeader& header, const Index& index) {
+void check_alone(const CheckCommand& options, const IndexHeader& header, const Index& index) {
   const GraphData graph = extract_graph(index);
   expect_built_from(options, header, fingerprint(graph.view()), "the mesh in the index");
   expect_none(options, index.check(graph.view()));
 }
 
 /// Loading has verified everything that can be verified.
-void check_alone(const Options& /*options*/, const IndexHeader& /*header*/, const paper::Index& /*index*/) {}
+void check_alone(const CheckCommand& /*options*/, const IndexHeader& /*header*/, const paper::Index& /*index*/) {}
 
-Json to_json(const Options& options, const IndexHeader& header) {
+Json to_json(const CheckCommand& options, const IndexHeader& header) {
   return {{"index", options.index},
           {"format", header.format},
           {"kind", kind_name(header.kind)},
@@ -69,7 +69,7 @@ Json to_json(const Options& options, const IndexHeader& header) {
           {"mesh", options.mesh.empty() ? Json() : Json(options.mesh)}};
 }
 
-std::string to_text(const Options& options, const IndexHeader& header) {
+std::string to_text(const CheckCommand& options, const IndexHeader& header) {
   Rows rows(10);
   rows.add("index", fmt::format("{} ({}, format {}, {} vertices, {} bytes)", printable_name(options.index),
                                 kind_name(header.kind), header.format, header.vertices, header.bytes));
@@ -81,7 +81,7 @@ std::string to_text(const Options& options, const IndexHeader& header) {
   return rows.text();
 }
 
-void check(const Options& options) {
+void check(const CheckCommand& options) {
   const io::LoadedIndex loaded = load_index(options.index);
   std::visit(
       [&](const auto& index) {
@@ -95,7 +95,7 @@ void check(const Options& options) {
 }  // namespace
 
 void add_check(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CheckCommand>();
   CLI::App* command = program.add_subcommand("check", "Verify an index file, alone or against the mesh");
   command->add_option("INDEX", options->index, "index file (made by meshhood build)")
       ->required()

@@ -24,7 +24,7 @@ namespace {
 
 using measure::Method;
 
-struct Options {
+struct CompareCommand {
   std::string file;
   std::uint64_t vertex = 0;
   Radius radius;
@@ -82,7 +82,7 @@ void paint(const std::string& file, Input& input, VertexId v, const std::vector<
   painting.write(file, input.surface());
 }
 
-void compare(const Options& options) {
+void compare(const CompareCommand& options) {
   check_output(options.output, {options.file});
   Input input(options.file);
   input.need_edges("compare");
@@ -99,7 +99,7 @@ void compare(const Options& options) {
 }  // namespace
 
 void add_compare(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompareCommand>();
   CLI::App* command = program.add_subcommand(
       "compare", "Compare the methods on one query: size, difference from breadth-first search, time");
   add_file(*command, options->file);

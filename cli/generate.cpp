@@ -20,7 +20,7 @@
 namespace meshhood::cli {
 namespace {
 
-struct Options {
+struct GenerateCommand {
   std::string kind;
   std::uint64_t vertices = 10000;
   std::string output;
@@ -51,7 +51,7 @@ void save(const std::string& file, const MeshView& mesh) {
   io::write_ply(file, mesh, {.progress = task.progress()});
 }
 
-void generate(const Options& options) {
+void generate(const GenerateCommand& options) {
   if (options.list) return list(options.json);
   if (options.kind.empty()) raise(ErrorCode::InvalidOption, "generate: KIND is missing; --list prints all");
   if (options.output.empty()) raise(ErrorCode::InvalidOption, "generate: --output is missing");
@@ -73,7 +73,7 @@ void generate(const Options& options) {
 }  // namespace
 
 void add_generate(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<GenerateCommand>();
   CLI::App* command = program.add_subcommand("generate", "Write a synthetic mesh for benchmarks and tests");
   command->add_option("KIND", options->kind, "kind of shape; see --list")->type_name("");
   command->add_option("--vertices", options->vertices, "number of vertices, exact or within 5 %")

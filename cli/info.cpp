@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::size_t kWidth = 19;  // of the names in the text
 
-struct Options {
+struct InfoCommand {
   std::string file;
   bool index = false;
   bool json = false;
@@ -121,7 +121,7 @@ std::string to_text(Input& input) {
 }
 
 /// With --index, also builds both indexes.
-void info_of_mesh(const Options& options, Input& input) {
+void info_of_mesh(const InfoCommand& options, Input& input) {
   const Statistics summary = statistics(input.mesh()->view(), input.graph().adjacency);
   Json document = to_json(input.name(), *input.mesh(), summary);
   std::string text = to_text(input.name(), *input.mesh(), summary);
@@ -132,11 +132,11 @@ void info_of_mesh(const Options& options, Input& input) {
   options.json ? print_json(document) : print_text(text);
 }
 
-void info_of_index(const Options& options, Input& input) {
+void info_of_index(const InfoCommand& options, Input& input) {
   options.json ? print_json(to_json(input)) : print_text(to_text(input));
 }
 
-void info(const Options& options) {
+void info(const InfoCommand& options) {
   Input input(options.file);
   input.mesh() != nullptr ? info_of_mesh(options, input) : info_of_index(options, input);
 }
@@ -144,7 +144,7 @@ void info(const Options& options) {
 }  // namespace
 
 void add_info(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<InfoCommand>();
   CLI::App* command = program.add_subcommand(
       "info", "Print the size, components, boundary and defects of a mesh, or the parts of an index");
   add_file(*command, options->file);

@@ -27,7 +27,7 @@ namespace {
 
 using measure::Method;
 
-struct Options {
+struct QueryCommand {
   std::string file;
   std::vector<std::uint64_t> vertices;
   Radius radius;
@@ -47,7 +47,7 @@ struct Answer {
   double seconds = 0;
 };
 
-Method make_method(const Options& options, Input& input) {
+Method make_method(const QueryCommand& options, Input& input) {
   if (options.method == "exact" || options.method == "bfs") input.need_edges("--method " + options.method);
   if (options.method == "bfs") return measure::bfs_method(input.graph());
   if (options.method == "ball") return measure::ball_method(input.positions());
@@ -57,7 +57,7 @@ Method make_method(const Options& options, Input& input) {
   return measure::paper_method(input.paper_index(), settings);
 }
 
-Answer answer(const Options& options, const Method& method, VertexId v, double radius) {
+Answer answer(const QueryCommand& options, const Method& method, VertexId v, double radius) {
   Answer answer{.vertex = v, .vertices = {}, .distances = {}};
   if (options.count && options.output.empty() && method.count) {
     answer.seconds = measure::median_seconds([&] { answer.count = method.count(v, radius); });
@@ -83,7 +83,7 @@ void note_whole_component(const Method& method, double radius, const Answer& ans
                           answer.vertex, size, size == 1 ? "vertex" : "vertices"));
 }
 
-Json to_json(const Options& options, double radius, const Answer& answer) {
+Json to_json(const QueryCommand& options, double radius, const Answer& answer) {
   Json document{{"vertex", answer.vertex}, {"radius", radius}, {"method", options.method}, {"count", answer.count}};
   if (!options.count) document["vertices"] = answer.vertices;
   if (options.distances) document["distances"] = answer.distances;
@@ -92,7 +92,7 @@ Json to_json(const Options& options, double radius, const Answer& answer) {
 }
 
 /// With several answers, each line begins with the query vertex.
-std::string to_text(const Options& options, const Answer& answer, bool is_single) {
+std::string to_text(const QueryCommand& options, const Answer& answer, bool is_single) {
   const std::string prefix = is_single ? "" : fmt::format("{} ", answer.vertex);
   if (options.count) return fmt::format("{}{}\n", prefix, answer.count);
   std::string text;
@@ -104,7 +104,7 @@ std::string to_text(const Options& options, const Answer& answer, bool is_single
   return text;
 }
 
-void print(const Options& options, double radius, const std::vector<Answer>& answers) {
+void print(const QueryCommand& options, double radius, const std::vector<Answer>& answers) {
   if (!options.json) {
     for (const Answer& answer : answers) print_text(to_text(options, answer, answers.size() == 1));
   } else if (answers.size() == 1) {
@@ -116,7 +116,7 @@ void print(const Options& options, double radius, const std::vector<Answer>& ans
   }
 }
 
-void paint(const Options& options, Input& input, const std::vector<Answer>& answers) {
+void paint(const QueryCommand& options, Input& input, const std::vector<Answer>& answers) {
   const Color color = options.method == "ball" ? kBallColor : options.method == "paper" ? kPaperColor : kExactColor;
   Painting painting(input.vertex_count());
   for (const Answer& answer : answers) painting.paint(answer.vertices, color);
@@ -124,7 +124,7 @@ void paint(const Options& options, Input& input, const std::vector<Answer>& answ
   painting.write(options.output, input.surface());
 }
 
-void query(const Options& options) {
+void query(const QueryCommand& options) {
   if (options.factor && options.method != "paper") {
     raise(ErrorCode::InvalidOption, "--factor requires --method paper");
   }
@@ -150,7 +150,7 @@ void query(const Options& options) {
 }  // namespace
 
 void add_query(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<QueryCommand>();
   CLI::App* command = program.add_subcommand("query", "Print the neighborhood of one or more vertices");
   add_file(*command, options->file);
   command

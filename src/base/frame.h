@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include "meshhood/mesh.h"
 
 #include "base/distance.h"
@@ -40,5 +43,10 @@ struct Frame {
 
 /// The frame centred at the bounding box of the positions, which must be valid.
 [[nodiscard]] Frame make_frame(const PositionsView& positions);
+
+/// A float greater than `value`: the one after the nearest.
+[[nodiscard]] inline float next_above(double value) {
+  return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
+}
 
 }  // namespace meshhood

@@ -72,9 +72,9 @@ std::vector<std::uint32_t> sizes_of(const CellComponents& components) {
   return result;
 }
 
-class Families : public testing::TestWithParam<Family> {};
+class CellComponentsOfFamilies : public testing::TestWithParam<Family> {};
 
-TEST_P(Families, ComponentsOfCellsAreThoseOfTheGraphWithinEachCell) {
+TEST_P(CellComponentsOfFamilies, ComponentsOfCellsAreThoseOfTheGraphWithinEachCell) {
   std::size_t count = 0;
   for (const std::size_t vertices : {1U, 50U, 2000U}) {
     Cells cells(make_mesh(GetParam(), 3, vertices));
@@ -96,7 +96,7 @@ TEST_P(Families, ComponentsOfCellsAreThoseOfTheGraphWithinEachCell) {
   std::printf("%s: %zu components\n", std::string(GetParam().name).c_str(), count);
 }
 
-TEST_P(Families, TheFirstComponentOfACellIsTheLargest) {
+TEST_P(CellComponentsOfFamilies, TheFirstComponentOfACellIsTheLargest) {
   Cells cells(make_mesh(GetParam(), 4, 1000));
   const CellComponents components = split_cells(cells.graph, cells.task);
   for (std::size_t cell = 0; cell < cells.graph.cells(); ++cell) {
@@ -106,7 +106,7 @@ TEST_P(Families, TheFirstComponentOfACellIsTheLargest) {
   }
 }
 
-TEST_P(Families, MergingKeepsComponentsTogetherAndFillsNoLeafOverItsCapacity) {
+TEST_P(CellComponentsOfFamilies, MergingKeepsComponentsTogetherAndFillsNoLeafOverItsCapacity) {
   for (const std::size_t vertices : {1U, 50U, 3000U}) {
     Cells cells(make_mesh(GetParam(), 5, vertices));
     const CellComponents before = split_cells(cells.graph, cells.task);
@@ -120,7 +120,7 @@ TEST_P(Families, MergingKeepsComponentsTogetherAndFillsNoLeafOverItsCapacity) {
   }
 }
 
-TEST_P(Families, AComponentStaysSmallOnlyIfNoNeighborHasRoom) {
+TEST_P(CellComponentsOfFamilies, AComponentStaysSmallOnlyIfNoNeighborHasRoom) {
   Cells cells(make_mesh(GetParam(), 6, 3000));
   const CellComponents before = split_cells(cells.graph, cells.task);
   CellComponents after = before;
@@ -136,7 +136,7 @@ TEST_P(Families, AComponentStaysSmallOnlyIfNoNeighborHasRoom) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(CellComponents, Families, testing::ValuesIn(families()), family_name);
+INSTANTIATE_TEST_SUITE_P(CellComponents, CellComponentsOfFamilies, testing::ValuesIn(families()), family_name);
 
 TEST(CellComponents, PointsWithoutEdgesShareTheirCell) {
   TestMesh mesh;

@@ -25,16 +25,9 @@ LeafPartition leaves_of(const TestMesh& mesh, unsigned threads = 1) {
   return make_leaves({mesh.positions_view(), graph.view()}, make_frame(mesh.positions_view()), task);
 }
 
-TestMesh bumpy_grid(std::size_t side) {
-  Random random(4);
-  TestMesh mesh = make_grid(side, side, false);
-  for (double& x : mesh.positions) x += random.uniform(-0.2, 0.2);
-  return mesh.finish(true);
-}
+class LeavesOfFamilies : public testing::TestWithParam<Family> {};
 
-class Families : public testing::TestWithParam<Family> {};
-
-TEST_P(Families, EveryVertexHasOneSlotAndLeavesHold1To32) {
+TEST_P(LeavesOfFamilies, EveryVertexHasOneSlotAndLeavesHold1To32) {
   std::size_t leaf_count = 0;
   for (const std::size_t vertices : {1U, 50U, 3000U}) {
     const TestMesh mesh = make_mesh(GetParam(), 2, vertices);
@@ -58,7 +51,7 @@ TEST_P(Families, EveryVertexHasOneSlotAndLeavesHold1To32) {
   std::printf("%s: %zu leaves\n", std::string(GetParam().name).c_str(), leaf_count);
 }
 
-INSTANTIATE_TEST_SUITE_P(Leaves, Families, testing::ValuesIn(families()), family_name);
+INSTANTIATE_TEST_SUITE_P(Leaves, LeavesOfFamilies, testing::ValuesIn(families()), family_name);
 
 /// The mean radius of the bounding spheres of `count` consecutive leaves.
 double mean_radius(const TestMesh& mesh, const LeafPartition& leaves, std::size_t count) {

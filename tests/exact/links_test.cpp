@@ -74,9 +74,9 @@ std::vector<Edge> edges_of(const AdjacencyView& graph) {
   return result;
 }
 
-class Families : public testing::TestWithParam<Family> {};
+class LinksOfFamilies : public testing::TestWithParam<Family> {};
 
-TEST_P(Families, HoldEveryEdgeOfTheMeshOnceInEachDirection) {
+TEST_P(LinksOfFamilies, HoldEveryEdgeOfTheMeshOnceInEachDirection) {
   std::size_t edges = 0;
   for (const std::size_t vertices : {1U, 50U, 3000U}) {
     const Linked mesh(make_mesh(GetParam(), 2, vertices));
@@ -87,7 +87,7 @@ TEST_P(Families, HoldEveryEdgeOfTheMeshOnceInEachDirection) {
   std::printf("%s: %zu edges\n", std::string(GetParam().name).c_str(), edges);
 }
 
-TEST_P(Families, AscendByLeafThenByLane) {
+TEST_P(LinksOfFamilies, AscendByLeafThenByLane) {
   const Linked mesh(make_mesh(GetParam(), 3, 2000));
   const auto number = [](const CrossEdge& edge) { return edge.from * kLeafCapacity + edge.to; };
   for (std::size_t leaf = 0; leaf < mesh.leaf_count(); ++leaf) {
@@ -102,7 +102,7 @@ TEST_P(Families, AscendByLeafThenByLane) {
   }
 }
 
-TEST_P(Families, TheBoundaryOfALinkAreTheVerticesWithANeighborThere) {
+TEST_P(LinksOfFamilies, TheBoundaryOfALinkAreTheVerticesWithANeighborThere) {
   const Linked mesh(make_mesh(GetParam(), 4, 2000));
   for (std::size_t link = 0; link + 1 < mesh.links.links.size(); ++link) {
     LaneMask expected = 0;
@@ -111,7 +111,7 @@ TEST_P(Families, TheBoundaryOfALinkAreTheVerticesWithANeighborThere) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Links, Families, testing::ValuesIn(families()), family_name);
+INSTANTIATE_TEST_SUITE_P(Links, LinksOfFamilies, testing::ValuesIn(families()), family_name);
 
 TEST(Links, AreTheSameForAnyNumberOfThreads) {
   const TestMesh mesh = make_grid(150, 150, false).finish(true);

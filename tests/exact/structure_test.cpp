@@ -23,13 +23,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-TestMesh bumpy_grid(std::size_t side) {
-  Random random(4);
-  TestMesh mesh = make_grid(side, side, false);
-  for (double& x : mesh.positions) x += random.uniform(-0.2, 0.2);
-  return mesh.finish(true);
-}
-
 /// One above the other, so that distances have local minima.
 TestMesh two_bumpy_grids(std::size_t side) {
   TestMesh mesh = bumpy_grid(side);

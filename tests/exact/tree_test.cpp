@@ -58,7 +58,7 @@ MinimumRegion region(const Group& group, std::size_t i) {
           static_cast<double>(group.offset[i])};
 }
 
-bool contains(const MinimumRegion& region, const Point& x) {
+bool region_contains(const MinimumRegion& region, const Point& x) {
   return length(x) <= region.offset + std::abs(dot(x, region.slope_axis));
 }
 
@@ -109,7 +109,7 @@ TEST(Tree, RegionsContainThoseOfTheLeavesBelow) {
       const double far = rest > 0 ? std::min(own.offset / rest, 3.5) : 3.5;
       const Point at = centre_of(leaves.nodes.bounds[leaf]) + far * direction;
       for_each_node_above(tree, leaf, [&](std::size_t level, const Group& group, std::size_t i) {
-        ASSERT_TRUE(contains(region(group, i), at - centre(group, i))) << "level " << level;
+        ASSERT_TRUE(region_contains(region(group, i), at - centre(group, i))) << "level " << level;
         ++tests;
       });
     }

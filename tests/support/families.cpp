@@ -41,6 +41,13 @@ TestMesh make_grid(std::size_t rows, std::size_t regions, bool quads) {
   return mesh.finish(true);
 }
 
+TestMesh bumpy_grid(std::size_t side) {
+  Random random(4);
+  TestMesh mesh = make_grid(side, side, false);
+  for (double& x : mesh.positions) x += random.uniform(-0.2, 0.2);
+  return mesh.finish(true);
+}
+
 void append(TestMesh& mesh, const TestMesh& other) {
   const auto first = static_cast<std::uint32_t>(mesh.size());
   mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());

@@ -46,6 +46,9 @@ void append(TestMesh& mesh, const TestMesh& other);
 /// A grid of `rows` by `regions` vertices in the plane z = 0, a unit apart, in triangles or in quads.
 [[nodiscard]] TestMesh make_grid(std::size_t rows, std::size_t regions, bool quads);
 
+/// A grid of triangles with `side` by `side` vertices, each moved a little.
+[[nodiscard]] TestMesh bumpy_grid(std::size_t side);
+
 /// The faces of a grid whose rows and regions may be closed.
 struct GridFaces {
   std::size_t rows;

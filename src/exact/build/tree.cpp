@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "base/sphere.h"
 
@@ -19,11 +18,6 @@ constexpr double kRegionRoom = 0x1p-20;
 
 // Farther than any vertex; its square is still a float.
 constexpr float kFarAway = 1e18F;
-
-/// A float greater than `value`: the one after the nearest.
-float step_above(double value) {
-  return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
-}
 
 std::vector<float> as_floats(std::span<const Point> points) {
   std::vector<float> xyz;
@@ -50,7 +44,7 @@ void set_node(Group& group, std::size_t i, const FrameSphere& bounds, const Mini
   group.slope_x[i] = static_cast<float>(region.slope_axis.x);
   group.slope_y[i] = static_cast<float>(region.slope_axis.y);
   group.slope_z[i] = static_cast<float>(region.slope_axis.z);
-  group.offset[i] = step_above(region.offset + kRegionRoom);  // mutant: region-too-narrow
+  group.offset[i] = next_above(region.offset + kRegionRoom);  // mutant: region-too-narrow
 }
 
 void set_absent(Group& group, std::size_t i) {
@@ -103,7 +97,7 @@ FrameSphere enclosing_sphere(std::span<const Point> points, const Point& centre)
   const Point rounded = centre_of(sphere);
   double farthest = 0;
   for (const Point& p : points) farthest = std::max(farthest, squared_distance(p, rounded));
-  sphere.radius = step_above(std::sqrt(farthest) * (1 + kRelativeRoom) + kAbsoluteRoom);  // mutant: sphere-too-small
+  sphere.radius = next_above(std::sqrt(farthest) * (1 + kRelativeRoom) + kAbsoluteRoom);  // mutant: sphere-too-small
   return sphere;
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <variant>
 
 #include "base/vector.h"
@@ -13,10 +12,6 @@ namespace {
 
 /// Around everything: the frame is a cube with half an edge of 1.
 constexpr FrameSphere kWholeFrame{0, 0, 0, 2};
-
-float next_above(double value) {
-  return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
-}
 
 FrameSphere node_bounds(const TreeLevel& level, std::size_t node) {
   const Group& group = level.groups[node / kFanOut];
