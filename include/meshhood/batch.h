@@ -117,6 +117,11 @@ struct BatchOptions {
   bool distances = false;  ///< also compute the distance of each vertex (see `distance`); ignored when only counting
   bool sorted = false;     ///< ids of a row ascend; otherwise their order is unspecified but reproducible
 
+  /// `for_each_neighborhood` passes the rows in index order (see `Index::permutation`) instead of ascending. Near rows
+  /// are then computed together whatever the order of the query, which is up to ten times as fast where the vertices of
+  /// a mesh are numbered at random. Takes 12 bytes a row. Ignored by the other functions.
+  bool in_index_order = false;
+
   /// Bytes of results that may wait until earlier rows are done (`for_each_neighborhood`). A larger buffer lets more
   /// rows run in index order and keeps threads busy; a smaller one stays in the processor's cache.
   std::size_t buffer_bytes = std::size_t{8} << 20;
@@ -132,7 +137,7 @@ struct BatchOptions {
 
 /// One neighborhood of a batch. Valid during the call of the sink.
 struct BatchRow {
-  std::size_t row;                    ///< ascends from 0
+  std::size_t row;                    ///< ascends from 0, unless `BatchOptions::in_index_order`
   std::span<const VertexId> ids;      ///< without duplicates, the query vertex included
   std::span<const double> distances;  ///< in the order of `ids`; empty unless `BatchOptions::distances`
 };

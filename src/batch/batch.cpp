@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "batch/batch.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "simd/leaf.h"
+
 namespace meshhood {
 
 Batch::Batch(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options, std::size_t passes)
@@ -8,12 +13,55 @@ Batch::Batch(const SearchMethod& method, const BatchQuery& query, const BatchOpt
       options_(options),
       rows_(query, factory_.vertex_count()),
       task_(options.threads, options.progress, passes * rows_.size()),
-      workers_(task_.threads()) {}
+      workers_(task_.threads()),
+      items_(task_.threads()) {}
 
 BatchWorker& Batch::worker(unsigned thread) {
   std::unique_ptr<BatchWorker>& worker = workers_[thread];
   if (!worker) worker = factory_.make_worker();
   return *worker;
+}
+
+std::vector<std::size_t> Batch::put_in_index_order() {
+  std::vector<std::pair<std::uint32_t, std::size_t>> by_position(rows_.size());
+  for (std::size_t row = 0; row < rows_.size(); ++row) by_position[row] = {factory_.position(rows_.vertex(row)), row};
+  if (!std::is_sorted(by_position.begin(), by_position.end())) std::sort(by_position.begin(), by_position.end());
+  std::vector<std::size_t> order;
+  order.reserve(rows_.size());
+  for (const auto& [position, row] : by_position) order.push_back(row);
+  rows_.reorder(order);
+  return order;
+}
+
+bool Batch::ends_unit(std::size_t row, std::uint32_t positions) const {
+  return row + 1 >= rows_.size() ||
+         factory_.position(rows_.vertex(row)) / positions != factory_.position(rows_.vertex(row + 1)) / positions;
+}
+
+std::size_t Batch::whole_units(std::size_t first, std::size_t window) const {
+  for (const std::uint32_t positions : {factory_.traits().positions_together, std::uint32_t{kLeafCapacity}}) {
+    for (std::size_t size = window; size > 0; --size) {
+      if (ends_unit(first + size - 1, positions)) return size;
+    }
+  }
+  return window;
+}
+
+void Batch::cut_into_chunks() {
+  constexpr std::size_t kChunk = 32;
+  constexpr std::size_t kMaxChunk = 512;  // where many rows share their vertices
+  if (!std::is_sorted(in_order_.begin(), in_order_.end())) std::sort(in_order_.begin(), in_order_.end());
+  const std::size_t count = in_order_.size();
+  const std::uint64_t together = std::uint64_t{factory_.traits().positions_together} << 32;
+  // Few rows may be large: each is a chunk of its own, unless it belongs to others.
+  const std::size_t grain = std::clamp<std::size_t>(count / kChunk, 1, kChunk);
+  chunk_ends_.clear();
+  for (std::size_t end = 0; end < count;) {
+    const std::size_t most = std::min(end + kMaxChunk, count);
+    end = std::min(end + grain, count);
+    while (end < most && in_order_[end] / together == in_order_[end - 1] / together) ++end;
+    chunk_ends_.push_back(end);
+  }
 }
 
 }  // namespace meshhood

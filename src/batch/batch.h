@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -32,22 +30,35 @@ class Batch {
   [[nodiscard]] std::size_t vertex_count() const { return factory_.vertex_count(); }
   [[nodiscard]] TaskContext& task() { return task_; }
 
+  /// Sorts the rows by their position in the index, and returns what their numbers were.
+  std::vector<std::size_t> put_in_index_order();
+
+  /// How many rows of the window from `first` on, in index order, leave no group of leaves cut in two; or no leaf, if
+  /// the window has no whole group; or all.
+  [[nodiscard]] std::size_t whole_units(std::size_t first, std::size_t window) const;
+
   /// Calls `f(thread, worker, items)` for chunks of the rows `row_of(i)`, `i < count`, on any thread. Which chunks
   /// there are depends on the rows alone, and `worker` belongs to the thread.
   template <class RowOf, class F>
   void for_each_chunk(std::size_t count, RowOf&& row_of, F&& f);
 
  private:
-  static constexpr std::size_t kMaxChunk = 32;
-
   [[nodiscard]] BatchWorker& worker(unsigned thread);
+
+  /// Whether the row after `row` has a position beyond the next multiple of `positions`.
+  [[nodiscard]] bool ends_unit(std::size_t row, std::uint32_t positions) const;
+
+  /// Sorts the rows by position, and cuts them so that rows that belong together are in one chunk.
+  void cut_into_chunks();
 
   const SearcherFactory& factory_;
   const BatchOptions& options_;
   Rows rows_;
   TaskContext task_;
   std::vector<std::unique_ptr<BatchWorker>> workers_;  // by thread, each made by the thread itself
+  std::vector<std::vector<BatchItem>> items_;          // by thread: its chunk
   std::vector<std::uint64_t> in_order_;                // position, and in the lower half the number `i` of the row
+  std::vector<std::size_t> chunk_ends_;                // in `in_order_`
 };
 
 template <class RowOf, class F>
@@ -56,16 +67,15 @@ void Batch::for_each_chunk(std::size_t count, RowOf&& row_of, F&& f) {
   for (std::size_t i = 0; i < count; ++i) {
     in_order_[i] = (std::uint64_t{factory_.position(rows_.vertex(row_of(i)))} << 32) + i;
   }
-  std::sort(in_order_.begin(), in_order_.end());
-  // Few rows may be large: each is a chunk of its own.
-  const std::size_t grain = std::clamp<std::size_t>(count / kMaxChunk, 1, kMaxChunk);
-  task_.parallel_for(count, grain, [&](unsigned thread, std::size_t begin, std::size_t end) {
-    std::array<BatchItem, kMaxChunk> items;
-    for (std::size_t i = begin; i < end; ++i) {
+  cut_into_chunks();
+  task_.parallel_for(chunk_ends_.size(), 1, [&](unsigned thread, std::size_t chunk, std::size_t) {
+    std::vector<BatchItem>& items = items_[thread];
+    items.clear();
+    for (std::size_t i = chunk == 0 ? 0 : chunk_ends_[chunk - 1]; i < chunk_ends_[chunk]; ++i) {
       const std::size_t row = row_of(static_cast<std::uint32_t>(in_order_[i]));
-      items[i - begin] = {row, rows_.vertex(row), rows_.radius(row)};
+      items.push_back({row, rows_.vertex(row), rows_.radius(row)});
     }
-    f(thread, worker(thread), std::span<const BatchItem>(items).first(end - begin));
+    f(thread, worker(thread), std::span<const BatchItem>(items));
   });
 }
 

@@ -112,7 +112,9 @@ std::vector<std::uint64_t> stream_and_copy(const SearchMethod& method, const Bat
     rows.distances.insert(rows.distances.end(), row.distances.begin(), row.distances.end());
     rows.offsets.push_back(rows.ids.size());
   };
-  for_each_neighborhood(method, query, append, options);
+  BatchOptions in_row_order = options;
+  in_row_order.in_index_order = false;
+  for_each_neighborhood(method, query, append, in_row_order);
   const BatchMemory memory = allocated(allocate, rows.ids.size(), options.distances);
   std::copy(rows.ids.begin(), rows.ids.end(), memory.ids.begin());
   std::copy(rows.distances.begin(), rows.distances.end(), memory.distances.begin());
@@ -150,7 +152,7 @@ std::vector<std::uint64_t> neighborhood_sizes(const SearchMethod& method, const 
 std::vector<std::uint64_t> neighborhoods(const SearchMethod& method, const BatchQuery& query,
                                          const BatchAllocator& allocate, const BatchOptions& options) {
   if (!allocate) raise(ErrorCode::InvalidOption, "allocate is empty, expected a function");
-  if (!method.searchers().is_count_cheap()) return stream_and_copy(method, query, allocate, options);
+  if (!method.searchers().traits().is_count_cheap) return stream_and_copy(method, query, allocate, options);
   Batch batch(method, query, options, 2);
   SizeLimit limit(options, batch.rows().size());
   check_sample(batch, limit);

@@ -9,9 +9,9 @@
 #include "meshhood/reference.h"
 #include "meshhood/search.h"
 
+#include "batch/joint_worker.h"
 #include "batch/searcher_factory.h"
 #include "exact/index_access.h"
-#include "exact/search/searcher_state.h"
 #include "paper/index_access.h"
 
 namespace meshhood {
@@ -30,10 +30,9 @@ std::unique_ptr<BatchWorker> worker_of(S searcher, Begin begin) {
 }
 
 template <class Make, class Position>
-std::shared_ptr<const SearcherFactory> factory_of(std::size_t vertex_count, bool is_count_cheap, Make make,
+std::shared_ptr<const SearcherFactory> factory_of(std::size_t vertex_count, const MethodTraits& traits, Make make,
                                                   Position position) {
-  return std::make_shared<const FactoryOf<Make, Position>>(vertex_count, is_count_cheap, std::move(make),
-                                                           std::move(position));
+  return std::make_shared<const FactoryOf<Make, Position>>(vertex_count, traits, std::move(make), std::move(position));
 }
 
 std::uint32_t position_in_paper_index(const paper::Index& index, VertexId v) {
@@ -49,16 +48,13 @@ SearchMethod::SearchMethod(std::shared_ptr<const SearcherFactory> searchers) : s
 
 SearchMethod::SearchMethod(const Index& index)
     : SearchMethod(factory_of(
-          index.vertex_count(), true,
-          [&index] {
-            // The order of an answer depends on what the searcher remembers of earlier queries.
-            return worker_of(Searcher(index), [](Searcher& s) { SearcherAccess::state(s).forget(); });
-          },
+          index.vertex_count(), {.is_count_cheap = true, .positions_together = JointWorker::kGroupPositions},
+          [&index] { return std::make_unique<JointWorker>(index); },
           [&index](VertexId v) { return IndexAccess::view(index).slot[v]; })) {}
 
 SearchMethod::SearchMethod(const paper::Index& index, const paper::QueryOptions& options)
     : SearchMethod(factory_of(
-          index.vertex_count(), true,
+          index.vertex_count(), {.is_count_cheap = true},
           [&index, options] { return worker_of(paper::Searcher(index, options), kNothing); },
           [&index](VertexId v) { return position_in_paper_index(index, v); })) {
   paper::validate(options);
@@ -67,12 +63,14 @@ SearchMethod::SearchMethod(const paper::Index& index, const paper::QueryOptions&
 SearchMethod SearchMethod::breadth_first(const GraphView& graph) {
   validate(graph);
   return SearchMethod(factory_of(
-      graph.positions.size(), false, [graph] { return worker_of(ReferenceSearcher(graph), kNothing); }, kOwnOrder));
+      graph.positions.size(), {.is_count_cheap = false},
+      [graph] { return worker_of(ReferenceSearcher(graph), kNothing); }, kOwnOrder));
 }
 
 SearchMethod SearchMethod::ball_scan(const PositionsView& positions) {
   return SearchMethod(factory_of(
-      positions.size(), false, [positions] { return worker_of(BallSearcher(positions), kNothing); }, kOwnOrder));
+      positions.size(), {.is_count_cheap = false}, [positions] { return worker_of(BallSearcher(positions), kNothing); },
+      kOwnOrder));
 }
 
 std::size_t SearchMethod::vertex_count() const { return searchers_->vertex_count(); }

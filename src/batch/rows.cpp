@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <utility>
 
 #include "meshhood/error.h"
 
@@ -35,6 +36,19 @@ Rows::Rows(const BatchQuery& query, std::size_t vertex_count)
     }
     check_query(vertex(row), vertex_count, radius(row), "row " + std::to_string(row) + ": ");
   }
+}
+
+void Rows::reorder(std::span<const std::size_t> order) {
+  std::vector<VertexId> vertices;
+  vertices.reserve(size_);
+  for (const std::size_t row : order) vertices.push_back(vertex(row));
+  if (radii_) {
+    std::vector<double> radii;
+    radii.reserve(size_);
+    for (const std::size_t row : order) radii.push_back((*radii_)[row]);
+    radii_ = std::move(radii);
+  }
+  vertices_ = std::move(vertices);
 }
 
 }  // namespace meshhood

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "meshhood/batch.h"
@@ -22,6 +23,9 @@ class Rows {
   }
 
   [[nodiscard]] double radius(std::size_t row) const { return radii_ ? (*radii_)[row] : radius_; }
+
+  /// Row `i` becomes what row `order[i]` is now. `order` is a permutation of the rows.
+  void reorder(std::span<const std::size_t> order);
 
  private:
   std::optional<std::vector<VertexId>> vertices_;

@@ -41,6 +41,15 @@ class BatchWorker {
   virtual void find(std::span<const BatchItem> chunk, bool distances, const ChunkSink& sink) = 0;
 };
 
+/// How a batch had better use a method.
+struct MethodTraits {
+  /// Counting takes much less time than listing. If not, rows to be kept are searched once, and copied.
+  bool is_count_cheap;
+
+  /// Rows that lie between two multiples of this many positions are computed together.
+  std::uint32_t positions_together = 1;
+};
+
 /// Makes the workers of a batch, one per thread. Any thread may call it.
 class SearcherFactory {
  public:
@@ -54,8 +63,7 @@ class SearcherFactory {
   /// Ascends with the order in which vertices are best searched: near vertices have near positions.
   [[nodiscard]] virtual std::uint32_t position(VertexId v) const = 0;
 
-  /// Whether counting takes much less time than listing. If not, rows to be kept are searched once, and copied.
-  [[nodiscard]] virtual bool is_count_cheap() const = 0;
+  [[nodiscard]] virtual MethodTraits traits() const = 0;
 
   [[nodiscard]] virtual std::unique_ptr<BatchWorker> make_worker() const = 0;
 };
@@ -96,20 +104,17 @@ class SearcherWorker final : public BatchWorker {
 template <class Make, class Position>
 class FactoryOf final : public SearcherFactory {
  public:
-  FactoryOf(std::size_t vertex_count, bool is_count_cheap, Make make, Position position)
-      : vertex_count_(vertex_count),
-        is_count_cheap_(is_count_cheap),
-        make_(std::move(make)),
-        position_(std::move(position)) {}
+  FactoryOf(std::size_t vertex_count, const MethodTraits& traits, Make make, Position position)
+      : vertex_count_(vertex_count), traits_(traits), make_(std::move(make)), position_(std::move(position)) {}
 
   [[nodiscard]] std::size_t vertex_count() const override { return vertex_count_; }
   [[nodiscard]] std::uint32_t position(VertexId v) const override { return position_(v); }
-  [[nodiscard]] bool is_count_cheap() const override { return is_count_cheap_; }
+  [[nodiscard]] MethodTraits traits() const override { return traits_; }
   [[nodiscard]] std::unique_ptr<BatchWorker> make_worker() const override { return make_(); }
 
  private:
   std::size_t vertex_count_;
-  bool is_count_cheap_;
+  MethodTraits traits_;
   Make make_;
   Position position_;
 };

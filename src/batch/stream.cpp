@@ -19,11 +19,6 @@ namespace {
 constexpr std::size_t kFirstWindow = 256;
 constexpr std::size_t kGrowth = 4;
 
-// Writing large rows to memory takes as long as finding them, unless the window stays in the cache. Small rows gain
-// more from a long window, in which more of them lie close together. In bytes.
-constexpr double kLargeRow = 1024;
-constexpr double kCached = 1 << 20;
-
 /// A growing array whose memory is not set to zero first.
 template <class T>
 class Values {
@@ -57,13 +52,16 @@ class Values {
 
 class Stream {
  public:
-  Stream(Batch& batch, const RowSink& sink) : batch_(batch), sink_(sink), stores_(batch.task().threads()) {}
+  Stream(Batch& batch, const RowSink& sink) : batch_(batch), sink_(sink), stores_(batch.task().threads()) {
+    if (batch.options().in_index_order) row_of_ = batch.put_in_index_order();
+  }
 
   /// Windows depend on the rows alone, and so does the order of the ids (see `Batch::for_each_chunk`).
   void run() {
     std::size_t window = kFirstWindow;
     for (std::size_t first = 0; first < batch_.rows().size();) {
       window = std::min(window, batch_.rows().size() - first);
+      if (!row_of_.empty()) window = batch_.whole_units(first, window);
       if (fill(first, window)) {
         pass_on(first);
         first += window;
@@ -129,7 +127,7 @@ class Stream {
       const Store& store = stores_[row.thread];
       const auto distances =
           batch_.options().distances ? store.distances.part(row.begin, row.size) : std::span<const double>();
-      sink_({first + i, store.ids.part(row.begin, row.size), distances});
+      sink_({row_of_.empty() ? first + i : row_of_[first + i], store.ids.part(row.begin, row.size), distances});
       batch_.task().advance(1);
       batch_.task().should_continue(0);
     }
@@ -139,15 +137,15 @@ class Stream {
   [[nodiscard]] std::size_t next_window(std::size_t window) const {
     const double row = static_cast<double>(bytes_) / static_cast<double>(window);
     const auto most = static_cast<double>(batch_.options().buffer_bytes);
-    const double room = row < kLargeRow ? 0.75 * most : std::min(0.75 * most, kCached);
-    const double rows = std::min(room / row, static_cast<double>(kGrowth * window));
+    const double rows = std::min(0.75 * most / row, static_cast<double>(kGrowth * window));
     return std::clamp<std::size_t>(static_cast<std::size_t>(rows), 1, Batch::kMaxRows);
   }
 
   Batch& batch_;
   const RowSink& sink_;
-  std::vector<Store> stores_;     // by thread
-  std::vector<Waiting> waiting_;  // the rows of the window
+  std::vector<std::size_t> row_of_;  // by place in the stream, if that is not in row order
+  std::vector<Store> stores_;        // by thread
+  std::vector<Waiting> waiting_;     // the rows of the window
   std::atomic<std::size_t> bytes_{0};
 };
 

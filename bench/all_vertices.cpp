@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// The neighborhoods of all vertices at one radius, on one thread: breadth-first search on the reordered mesh, the exact
+// index one query at a time, and the batch, interleaved in one run. A table of microseconds for each row, and ratios.
+//
+//   all_vertices MESH [RADIUS IN MEAN EDGES...]
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "meshhood/meshhood.h"
+#include "meshhood/reorder.h"
+
+#include "measure/timing.h"
+#include "mesh_argument.h"
+
+namespace meshhood::bench {
+namespace {
+
+constexpr int kRounds = 3;
+
+/// Consecutive vertices of the reordered mesh, from two fifths of it on.
+std::vector<VertexId> contiguous_rows(std::size_t vertices, std::size_t count) {
+  const std::size_t first = std::min(vertices * 2 / 5, vertices - std::min(count, vertices));
+  std::vector<VertexId> rows(std::min(count, vertices));
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = static_cast<VertexId>(first + i);
+  return rows;
+}
+
+/// Processor time and ids of the fastest round.
+struct Timing {
+  double microseconds = std::numeric_limits<double>::infinity();  // a row
+  double size = 0;                                                // mean
+
+  template <class F>
+  void round(std::size_t rows, F&& ids_of_all) {
+    const double start = measure::processor_time();
+    const std::uint64_t ids = ids_of_all();
+    microseconds = std::min(microseconds, 1e6 * (measure::processor_time() - start) / static_cast<double>(rows));
+    size = static_cast<double>(ids) / static_cast<double>(rows);
+  }
+};
+
+class AllVertices {
+ public:
+  explicit AllVertices(const MeshView& mesh) : mesh_(reorder(mesh)), reference_(mesh_.view()), searcher_(mesh_.index) {
+    mean_edge_ = mean_edge_length({mesh_.view().positions, reference_.adjacency()});
+  }
+
+  void run(double edges) {
+    const double radius = edges * mean_edge_;
+    const std::vector<VertexId> rows = contiguous_rows(mesh_.index.vertex_count(), edges <= 10 ? 20000 : 3000);
+    // Slow methods take a part of the rows.
+    const std::span<const VertexId> fewer =
+        std::span(rows).first(std::min<std::size_t>(rows.size(), edges <= 10 ? 4000 : 400));
+    Timing bfs;
+    Timing single_count;
+    Timing single_ids;
+    Timing batch_count;
+    Timing batch_ids;
+    for (int round = 0; round < kRounds; ++round) {
+      bfs.round(fewer.size(), [&] { return ids_one_by_one(reference_, fewer, radius); });
+      single_count.round(fewer.size(), [&] { return counts_one_by_one(fewer, radius); });
+      single_ids.round(fewer.size(), [&] { return ids_one_by_one(searcher_, fewer, radius); });
+      batch_count.round(rows.size(), [&] { return counts_of_batch(rows, radius); });
+      batch_ids.round(rows.size(), [&] { return ids_of_batch(rows, radius); });
+    }
+    std::printf("%6.4g %8.0f %9.3f %8.3f %8.3f %8.3f %8.3f %8.1f %6.1f %8.1f %6.1f\n", edges, batch_ids.size,
+                bfs.microseconds, single_count.microseconds, single_ids.microseconds, batch_count.microseconds,
+                batch_ids.microseconds, bfs.microseconds / batch_count.microseconds,
+                bfs.microseconds / batch_ids.microseconds, single_count.microseconds / batch_count.microseconds,
+                single_ids.microseconds / batch_ids.microseconds);
+    std::fflush(stdout);
+  }
+
+ private:
+  template <class S>
+  std::uint64_t ids_one_by_one(S& searcher, std::span<const VertexId> rows, double radius) {
+    std::uint64_t ids = 0;
+    for (const VertexId v : rows) {
+      searcher.neighborhood(v, radius, ids_);
+      ids += ids_.size();
+    }
+    return ids;
+  }
+
+  std::uint64_t counts_one_by_one(std::span<const VertexId> rows, double radius) {
+    std::uint64_t ids = 0;
+    for (const VertexId v : rows) ids += searcher_.count(v, radius);
+    return ids;
+  }
+
+  std::uint64_t counts_of_batch(const std::vector<VertexId>& rows, double radius) {
+    std::uint64_t ids = 0;
+    for (const std::uint64_t size : neighborhood_sizes(mesh_.index, {.vertices = rows, .radius = radius})) ids += size;
+    return ids;
+  }
+
+  std::uint64_t ids_of_batch(const std::vector<VertexId>& rows, double radius) {
+    std::uint64_t ids = 0;
+    for_each_neighborhood(mesh_.index, {.vertices = rows, .radius = radius},
+                          [&](const BatchRow& row) { ids += row.ids.size(); }, {.in_index_order = true});
+    return ids;
+  }
+
+  ReorderedMesh mesh_;
+  ReferenceSearcher reference_;
+  Searcher searcher_;
+  double mean_edge_ = 0;
+  std::vector<VertexId> ids_;
+};
+
+int run(const std::vector<std::string>& arguments) {
+  if (arguments.empty()) {
+    std::fprintf(stderr, "usage: all_vertices MESH [RADIUS IN MEAN EDGES...]\n");
+    return 2;
+  }
+  AllVertices all(MeshArgument(arguments.front()).view());
+  std::printf("microseconds a row; x: times as fast as\n");
+  std::printf("%6s %8s %9s %17s %17s %15s %15s\n", "edges", "vertices", "BFS", "one: count, ids", "batch: count, ids",
+              "x BFS", "x one");
+  std::vector<double> radii;
+  for (std::size_t i = 1; i < arguments.size(); ++i) radii.push_back(std::stod(arguments[i]));
+  if (radii.empty()) radii = {2, 3, 5, 10, 20, 65};
+  for (const double edges : radii) all.run(edges);
+  return 0;
+}
+
+}  // namespace
+}  // namespace meshhood::bench
+
+int main(int argc, char** argv) {
+  try {
+    return meshhood::bench::run({argv + 1, argv + argc});
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "all_vertices: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "batch/joint_worker.h"
+
+#include <algorithm>
+
+#include "exact/index_access.h"
+#include "exact/search/searcher_state.h"
+
+namespace meshhood {
+namespace {
+
+// A packet costs about as much as this many rows of a leaf that are answered one by one. Measured; more where the ball
+// is large compared with a leaf, for then a single row costs little more than its rim.
+constexpr std::size_t kFewRows = 4;
+constexpr std::size_t kFewLargeRows = 10;
+constexpr double kLargeRadius = 5;  // in mean leaf radii
+
+}  // namespace
+
+JointWorker::JointWorker(const Index& index)
+    : index_(index), view_(IndexAccess::view(index)), radius_(view_.frame, 0) {}
+
+void JointWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink) {
+  for_each_run(
+      chunk,
+      [&](const Run& run) {
+        const PerLane<std::uint64_t>& counts = joint_->counts();
+        for (std::size_t i = 0; i < run.items.size(); ++i) {
+          if (!sink(run.items[i].row, counts[i])) return false;
+        }
+        return true;
+      },
+      [&](const BatchItem& item) { return sink(item.row, searcher().count(item.vertex, item.radius)); });
+}
+
+void JointWorker::find(std::span<const BatchItem> chunk, bool distances, const ChunkSink& sink) {
+  for_each_run(
+      chunk,
+      [&](const Run& run) {
+        const PerLane<std::uint64_t>& counts = joint_->counts();
+        for (unsigned i = 0; i < run.items.size(); ++i) {
+          const std::size_t size = counts[i];
+          if (ids_.size() < size + kLeafCapacity) ids_.resize(2 * (size + kLeafCapacity));
+          joint_->write_ids(i, ids_.data());
+          if (distances) {
+            distances_.resize(size);
+            joint_->write_distances(i, distances_.data());
+          }
+          if (!sink({run.items[i].row, std::span(ids_).first(size), distances_})) return false;
+        }
+        return true;
+      },
+      [&](const BatchItem& item) {
+        if (distances) {
+          searcher().neighborhood(item.vertex, item.radius, ids_, distances_);
+        } else {
+          searcher().neighborhood(item.vertex, item.radius, ids_);
+        }
+        return sink({item.row, ids_, distances_});
+      });
+}
+
+/// Calls `together(run)` for each packet once its search is done, and `single(item)` for the other rows, until one of
+/// them returns false.
+template <class Together, class Single>
+void JointWorker::for_each_run(std::span<const BatchItem> chunk, Together&& together, Single&& single) {
+  // The order of an answer depends on what the searcher remembers of earlier queries.
+  if (searcher_) SearcherAccess::state(*searcher_).forget();
+  split(chunk);
+  const auto group_of = [](const Run& run) { return run.leaf / kFanOut; };
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    if (!runs_[i].is_joint) {
+      for (const BatchItem& item : runs_[i].items) {
+        if (!single(item)) return;
+      }
+      continue;
+    }
+    if (leaves_.empty() || leaves_.front() / kFanOut != group_of(runs_[i])) {
+      std::size_t end = i;
+      while (end < runs_.size() && group_of(runs_[end]) == group_of(runs_[i])) ++end;
+      begin_group(std::span(runs_).subspan(i, end - i));
+    }
+    begin_packet(runs_[i]);
+    if (!together(runs_[i])) return;
+  }
+}
+
+/// Cuts a chunk, whose vertices ascend in index order, into runs.
+void JointWorker::split(std::span<const BatchItem> chunk) {
+  runs_.clear();
+  leaves_.clear();
+  while (!chunk.empty()) {
+    const LeafId leaf = leaf_of_item(chunk.front());
+    const std::size_t most = std::min<std::size_t>(chunk.size(), kPacketCapacity);
+    std::size_t size = 1;
+    while (size < most && leaf_of_item(chunk[size]) == leaf) ++size;
+    runs_.push_back({leaf, chunk.first(size), pays(chunk.first(size))});
+    chunk = chunk.subspan(size);
+  }
+}
+
+void JointWorker::begin_group(std::span<const Run> runs) {
+  leaves_.clear();
+  double low = std::numeric_limits<double>::infinity();
+  double high = 0;
+  for (const Run& run : runs) {
+    if (!run.is_joint) continue;
+    if (leaves_.empty() || leaves_.back() != run.leaf) leaves_.push_back(run.leaf);
+    for (const BatchItem& item : run.items) {
+      low = std::min(low, item.radius);
+      high = std::max(high, item.radius);
+    }
+  }
+  if (!joint_) joint_.emplace(view_, best_isa());
+  const TreeBounds low_bounds = prepared(low).bounds;
+  joint_->begin_group(leaves_, low_bounds, prepared(high).bounds);
+}
+
+void JointWorker::begin_packet(const Run& run) {
+  queries_.clear();
+  for (const BatchItem& item : run.items) {
+    queries_.push_back({lane_of(view_.slot[item.vertex]), prepared(item.radius)});
+  }
+  joint_->run(run.leaf, queries_);
+}
+
+LeafId JointWorker::leaf_of_item(const BatchItem& item) const { return leaf_of(view_.slot[item.vertex]); }
+
+bool JointWorker::pays(std::span<const BatchItem> items) const {
+  const double large = kLargeRadius * view_.tree.front().mean_radius / view_.frame.scale;
+  return items.size() >= (items.front().radius > large ? kFewLargeRows : kFewRows);
+}
+
+const JointRadius& JointWorker::prepared(double radius) {
+  if (radius != radius_.radius) radius_ = JointRadius(view_.frame, radius);
+  return radius_;
+}
+
+Searcher& JointWorker::searcher() {
+  if (!searcher_) searcher_.emplace(index_);
+  return *searcher_;
+}
+
+}  // namespace meshhood

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "meshhood/search.h"
+
+#include "batch/searcher_factory.h"
+#include "exact/joint/joint_search.h"
+#include "exact/layout.h"
+
+namespace meshhood {
+
+/// The exact neighborhoods of a batch. Rows of one leaf are answered together if there are enough of them, and one by
+/// one otherwise. The index must outlive the worker.
+class JointWorker final : public BatchWorker {
+ public:
+  /// The positions of a group: rows that lie between two multiples of it should come in one chunk.
+  static constexpr std::uint32_t kGroupPositions = kFanOut * kLeafCapacity;
+
+  explicit JointWorker(const Index& index);
+
+  void count(std::span<const BatchItem> chunk, const SizeSink& sink) override;
+  void find(std::span<const BatchItem> chunk, bool distances, const ChunkSink& sink) override;
+
+ private:
+  /// Consecutive rows of one leaf: a packet, or rows to be answered one by one.
+  struct Run {
+    LeafId leaf;
+    std::span<const BatchItem> items;
+    bool is_joint;
+  };
+
+  template <class Together, class Single>
+  void for_each_run(std::span<const BatchItem> chunk, Together&& together, Single&& single);
+  void split(std::span<const BatchItem> chunk);
+  void begin_group(std::span<const Run> runs);
+  void begin_packet(const Run& run);
+  [[nodiscard]] LeafId leaf_of_item(const BatchItem& item) const;
+  [[nodiscard]] bool pays(std::span<const BatchItem> items) const;
+  [[nodiscard]] const JointRadius& prepared(double radius);
+  Searcher& searcher();
+
+  const Index& index_;
+  const IndexView& view_;
+  std::optional<Searcher> searcher_;
+  std::optional<JointSearch> joint_;
+  JointRadius radius_;  // of the last row, for most batches have one radius
+  std::vector<Run> runs_;
+  std::vector<LeafId> leaves_;
+  std::vector<JointQuery> queries_;
+  std::vector<VertexId> ids_;
+  std::vector<double> distances_;
+};
+
+}  // namespace meshhood
