@@ -14,7 +14,7 @@ tables, Figure 4, accuracy and growth again, `make peers` the other libraries. B
 How we measure: all methods of a table answer the same queries in alternating blocks of one run. A time is the median over
 the blocks, with the quartiles in parentheses; never the best of several. *Cold*: each query is far from the one before.
 *Warm*: it is next to it. Radii are in mean edge lengths of the mesh. *Extra* and *missing* count vertices compared with
-breadth-first search, which is exact.
+breadth-first search, which is exact. Each table names its machine and date; later changes of the library are not in it.
 
 """
 
