@@ -17,14 +17,14 @@
 namespace meshhood::test {
 namespace {
 
-struct Tally {
+struct ProofTally {
   std::size_t meshes = 0;
   std::size_t queries = 0;
   std::size_t proved = 0;
   std::size_t mismatches = 0;
 };
 
-void compare(const TestMesh& mesh, std::uint64_t seed, std::size_t queries, Tally& tally) {
+void compare_proofs(const TestMesh& mesh, std::uint64_t seed, std::size_t queries, ProofTally& tally) {
   const Oracle oracle(mesh);
   const Index index = build(mesh.view());
   std::vector<Searcher> searchers = searchers_of(index);
@@ -49,10 +49,10 @@ void compare(const TestMesh& mesh, std::uint64_t seed, std::size_t queries, Tall
 class SearchProof : public testing::TestWithParam<Family> {};
 
 TEST_P(SearchProof, AloneGivesTheAnswersOfTheOracle) {
-  Tally tally;
+  ProofTally tally;
   for (std::uint64_t seed = 0; seed < scaled(25, 2) && tally.mismatches < 10; ++seed) {
     const TestMesh mesh = make_mesh(GetParam(), seed, std::min<std::size_t>(draw_size(seed), 1500));
-    if (mesh.size() > 0) compare(mesh, seed, 150, tally);
+    if (mesh.size() > 0) compare_proofs(mesh, seed, 150, tally);
   }
   std::printf("%s: %zu queries, %zu meshes, %zu mismatches\n", std::string(GetParam().name).c_str(), tally.queries,
               tally.meshes, tally.mismatches);

@@ -100,7 +100,7 @@ class Asker {
     const BatchQuery query{.vertices = std::span(&question.v, 1), .radius = question.radius};
     const BatchOptions options{.threads = 1 + static_cast<unsigned>(way % 2), .sorted = true};
     return neighborhoods(index_, query, options).ids == question.exact &&
-           paper::neighborhoods(paper_index_, query, options).ids == question.paper;
+           neighborhoods(paper_index_, query, options).ids == question.paper;
   }
 
   const Index& index_;
@@ -162,7 +162,7 @@ TEST(Threads, C1ABatchIsAnsweredByMany) {
   const BatchOptions alone{.sorted = true};
   const BatchOptions many{.threads = kThreads, .sorted = true};
   EXPECT_EQ(neighborhoods(index, query, many).ids, neighborhoods(index, query, alone).ids);
-  EXPECT_EQ(paper::neighborhoods(paper_index, query, many).ids, paper::neighborhoods(paper_index, query, alone).ids);
+  EXPECT_EQ(neighborhoods(paper_index, query, many).ids, neighborhoods(paper_index, query, alone).ids);
   EXPECT_EQ(neighborhood_sizes(index, query, many), neighborhood_sizes(index, query, alone));
 }
 
