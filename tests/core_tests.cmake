@@ -13,7 +13,7 @@ foreach(part
     base/adjacency base/frame base/mesh base/distance base/sphere base/reference base/error base/parallel
     batch/batch batch/joint_batch
     exact/cell_components exact/halfplane_polygon exact/joint_search exact/kd_order exact/leaf_nodes exact/leaves
-    exact/links exact/minimum_region exact/tree exact/structure exact/file exact/damage exact/rules
+    exact/links exact/minimum_region exact/tree exact/check exact/damage exact/file exact/index exact/verify
     exact/search_families exact/search_differential exact/search_proof exact/search_rare exact/threads
     exact/search/descent exact/search/leaf_traversal exact/search/local_minima exact/search/output
     exact/search/vertex_set

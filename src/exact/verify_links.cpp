@@ -32,11 +32,6 @@ class LinkCheck {
   [[nodiscard]] std::size_t begin(std::size_t leaf) const { return index_.leaves[leaf].first_link; }
   [[nodiscard]] std::size_t end(std::size_t leaf) const { return index_.leaves[leaf + 1].first_link; }
 
-  [[nodiscard]] std::span<const CrossEdge> cross_edges(std::size_t link) const {
-    const std::size_t first = index_.links[link].first_cross_edge;
-    return index_.cross_edges.subspan(first, index_.links[link + 1].first_cross_edge - first);
-  }
-
   /// The links of consecutive leaves follow one another without a gap, up to the last link.
   void check_ends() const {
     if (begin(0) != 0) file_.refuse(&index_.leaves.front().first_link, "the links of leaf 0 do not begin at link 0");
@@ -81,7 +76,7 @@ class LinkCheck {
     const Link& link = index_.links[i];
     LaneMask boundary = 0;
     int last = -1;
-    for (const CrossEdge& cross_edge : cross_edges(i)) {
+    for (const CrossEdge& cross_edge : index_.cross_edges_of(link)) {
       if (cross_edge.from >= index_.leaves[leaf].size || cross_edge.to >= index_.leaves[link.leaf].size) {
         file_.refuse(&cross_edge, name(leaf, link) + ": cross edge from lane " + std::to_string(cross_edge.from) +
                                       " to lane " + std::to_string(cross_edge.to) + ", but a leaf has no such lane");
@@ -118,19 +113,18 @@ class LinkCheck {
         const Link& link = index_.links[i];
         const std::size_t back = next[link.leaf]++;
         // mutant: edges-back-not-compared
-        if (back >= end(link.leaf) || index_.links[back].leaf != leaf || !is_same_edge_list(i, back)) {
+        if (back >= end(link.leaf) || index_.links[back].leaf != leaf || !has_same_edges(link, index_.links[back])) {
           file_.refuse(&link, name(leaf, link) + ": no link back with the same edges");
         }
       }
     }
   }
 
-  [[nodiscard]] bool is_same_edge_list(std::size_t link, std::size_t back) {
+  [[nodiscard]] bool has_same_edges(const Link& link, const Link& back) {
     reversed_.clear();
-    for (const CrossEdge& cross_edge : cross_edges(back))
-      reversed_.push_back(number_of(cross_edge.to, cross_edge.from));
+    for (const CrossEdge& edge : index_.cross_edges_of(back)) reversed_.push_back(number_of(edge.to, edge.from));
     std::sort(reversed_.begin(), reversed_.end());
-    const auto there = cross_edges(link);
+    const auto there = index_.cross_edges_of(link);
     return std::equal(there.begin(), there.end(), reversed_.begin(), reversed_.end(),
                       [](const CrossEdge& c, unsigned number) { return number_of(c.from, c.to) == number; });
   }

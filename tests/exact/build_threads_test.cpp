@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A build on several threads gives the same bytes, and ends as the caller wants.
+// A build on several threads gives the same bytes, and can be cancelled.
 #include <array>
 #include <cstdio>
 #include <new>
@@ -52,12 +52,12 @@ TEST(ThreadedBuild, GivesTheSameBytesOnRealMeshes) {
   }
 }
 
-TEST(ThreadedBuild, RefusesTooManyThreads) {
+TEST(ThreadedBuild, RejectsTooManyThreads) {
   expect_refused(ErrorCode::InvalidOption, "threads is 1025, expected at most 1024",
                  [] { static_cast<void>(build(MeshView{}, {.threads = 1025})); });
 }
 
-/// How often a build of `mesh` reports.
+/// The number of progress reports of a build of `mesh`.
 std::size_t count_reports(const MeshView& mesh, unsigned threads) {
   std::size_t reports = 0;
   std::size_t last = 0;
@@ -89,7 +89,7 @@ TEST(ThreadedBuild, ReportsAndCanBeCancelledAtAnyReport) {
   }
 }
 
-TEST(ThreadedBuild, PassesOnWhatProgressThrows) {
+TEST(ThreadedBuild, PassesOnExceptionsOfTheProgressCallback) {
   const TestMesh mesh = make_grid(300, 300, false).finish(true);
   const auto progress = [](std::size_t done, std::size_t) -> bool {
     if (done > 0) throw std::bad_alloc();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A saved index that was changed is refused, wherever the change is; one that was forged, checksums and all, is refused
-// or answers within its arrays. Rows F1 to F3 of the catalogue of faults.
+// A damaged index file is rejected, wherever the damage is. A forged file with valid checksums is rejected, or its
+// answers stay within its arrays. Rows F1 to F3 of the catalogue in docs/reliability.md.
 #include <algorithm>
 #include <cstdio>
 #include <limits>
@@ -31,7 +31,7 @@ TestMesh bumpy_sheets(std::size_t side, bool single) {
   return mesh.finish(single);
 }
 
-/// What refuses the bytes; empty where they are accepted.
+/// The error for the bytes; empty if they are accepted.
 std::string refusal_of(std::span<const std::byte> bytes) {
   try {
     static_cast<void>(map(bytes, nullptr));
@@ -53,7 +53,7 @@ std::string refusal_of_loading(std::span<const std::byte> bytes) {
   }
 }
 
-/// Changes bytes one at a time and counts.
+/// Changes bytes one at a time, and counts the changes.
 class Damage {
  public:
   explicit Damage(std::vector<std::byte> bytes) : original_(std::move(bytes)), copy_(original_) {}
@@ -80,7 +80,7 @@ class Damage {
   std::size_t missed_ = 0;
 };
 
-/// Every `step`-th bit of all, and every byte whose bit is flipped replaced as a whole.
+/// Flips every `step`-th bit, and replaces every byte in which a bit was flipped.
 void expect_every_change_refused(const char* name, const Index& index) {
   Damage damage(saved(index));
   const std::size_t bits = 8 * damage.size();
@@ -93,7 +93,7 @@ void expect_every_change_refused(const char* name, const Index& index) {
   EXPECT_EQ(damage.missed(), 0U);
 }
 
-TEST(IndexDamage, F1EveryBitFlippedAndEveryByteReplacedIsRefused) {
+TEST(IndexDamage, EveryFlippedBitAndEveryReplacedByteIsRejected) {
   expect_every_change_refused("empty", build(MeshView{}));
   expect_every_change_refused("small", build(bumpy_sheets(5, true).view()));
   expect_every_change_refused("double", build(bumpy_sheets(12, false).view()));
@@ -101,7 +101,7 @@ TEST(IndexDamage, F1EveryBitFlippedAndEveryByteReplacedIsRefused) {
   expect_every_change_refused("large", build(bumpy_sheets(32, true).view()));
 }
 
-/// Asks a forged index that was accepted. What it answers may be wrong, but lies within its arrays.
+/// Queries a forged index that was accepted. Its answers may be wrong, but stay within its arrays.
 void expect_harmless(const Index& index, Random& random) {
   Searcher searcher(index);
   std::vector<VertexId> ids;
@@ -120,7 +120,7 @@ void expect_harmless(const Index& index, Random& random) {
   static_cast<void>(extract_graph(index));
 }
 
-TEST(IndexDamage, F2AForgedBitIsRefusedOrHarmless) {
+TEST(IndexDamage, AForgedBitIsRejectedOrHarmless) {
   std::size_t tried = 0;
   std::size_t accepted = 0;
   Random random(3);
@@ -144,14 +144,14 @@ TEST(IndexDamage, F2AForgedBitIsRefusedOrHarmless) {
   EXPECT_LT(accepted, tried / 2);
 }
 
-TEST(IndexDamage, F2ManyForgedBytesAreRefusedOrHarmless) {
+TEST(IndexDamage, ManyForgedBytesAreRejectedOrHarmless) {
   const std::vector<std::byte> original = saved(build(bumpy_sheets(9, true).view()));
   Mappable copy(original);
   Random random(4);
   std::size_t accepted = 0;
   const std::size_t tries = scaled(100000);
   for (std::size_t i = 0; i < tries; ++i) {
-    // In the data, where there is more to lie about than in the header.
+    // In the arrays, which have more fields than the header.
     for (std::size_t k = 0; k < 1 + i % 3; ++k) {
       const std::size_t head = file::head_bytes(header_of(original).sections);
       copy.data()[head + random.below(original.size() - head)] = static_cast<std::byte>(random.below(256));
@@ -167,13 +167,13 @@ TEST(IndexDamage, F2ManyForgedBytesAreRefusedOrHarmless) {
   EXPECT_GT(accepted, 0U);
 }
 
-TEST(IndexDamage, F3EveryTruncationIsRefused) {
+TEST(IndexDamage, EveryTruncationIsRejected) {
   std::size_t lengths = 0;
   for (const std::size_t side : {1U, 5U, 32U}) {
     const std::vector<std::byte> whole = saved(build(bumpy_sheets(side, true).view()));
     const std::size_t step = std::max<std::size_t>(1, whole.size() / scaled(whole.size()));
     for (std::size_t length = 0; length < whole.size(); length += step) {
-      // Ends where the bytes end, so that a sanitizer sees a read of one more.
+      // An allocation of the exact size, so that a sanitizer finds a read past the end.
       const std::vector<std::byte> cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length));
       EXPECT_THAT(refusal_of_loading(cut), testing::StartsWith("header, byte ")) << length;
       ++lengths;
@@ -182,7 +182,7 @@ TEST(IndexDamage, F3EveryTruncationIsRefused) {
   std::printf("F3: %zu lengths refused\n", lengths);
 }
 
-TEST(IndexDamage, F3AForgedTruncationIsRefusedOrHarmless) {
+TEST(IndexDamage, AForgedTruncationIsRejectedOrHarmless) {
   const std::vector<std::byte> whole = saved(build(bumpy_sheets(9, true).view()));
   for (std::size_t length = sizeof(file::Header); length < whole.size(); ++length) {
     Forgery cut(std::vector<std::byte>(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length)));
@@ -192,7 +192,7 @@ TEST(IndexDamage, F3AForgedTruncationIsRefusedOrHarmless) {
   }
 }
 
-TEST(IndexDamage, F3AppendedBytesAreRefused) {
+TEST(IndexDamage, AppendedBytesAreRejected) {
   const std::vector<std::byte> whole = saved(build(bumpy_sheets(5, true).view()));
   for (const std::size_t more : {1U, 64U, 4096U, 1U << 20U}) {
     Forgery longer(whole);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An index that was saved and loaded, or mapped, is the same index.
+// An index that is saved and then loaded or mapped is the same index.
 #include <algorithm>
 #include <cstdio>
 #include <limits>
@@ -24,7 +24,7 @@ namespace {
 
 using testing::IsEmpty;
 
-/// Loaded and mapped, `index` is the same array for array, gives the same bytes again, and the same answers.
+/// Loaded and mapped, `index` has the same arrays, saves to the same bytes, and gives the same answers.
 std::size_t expect_the_same_after_saving(const Index& index, const MeshView& mesh) {
   const std::vector<std::byte> bytes = saved(index);
   EXPECT_EQ(bytes.size() % kIndexAlignment, 0U);
@@ -100,7 +100,7 @@ TEST_P(Serialize, GivesTheGraphOfTheMeshBack) {
 
 INSTANTIATE_TEST_SUITE_P(All, Serialize, testing::ValuesIn(families()), family_name);
 
-TEST(SerializeEdges, NoVerticesOneVertexAndIsolatedOnes) {
+TEST(SerializeEdges, HandlesNoVerticesOneVertexAndIsolatedVertices) {
   const std::vector<float> none;
   const std::vector<double> one{1, 2, 3};
   std::vector<float> many;
@@ -126,26 +126,26 @@ TEST(SerializeEdges, AMappedIndexKeepsItsOwner) {
   EXPECT_TRUE(watch.expired());
 }
 
-TEST(SerializeEdges, BytesToBeMappedMustBeAligned) {
+TEST(SerializeEdges, MapRejectsBytesThatAreNotAligned) {
   Mappable bytes(std::vector<std::byte>(256));
   expect_refused(ErrorCode::InvalidOption, "begin 8 after a multiple of 64",
                  [&] { static_cast<void>(map(bytes.bytes().subspan(8), nullptr)); });
 }
 
-TEST(SerializeEdges, PassesOnWhatTheSinkThrows) {
+TEST(SerializeEdges, PassesOnExceptionsOfTheSink) {
   const TestMesh mesh = make_grid(20, 20, false).finish(true);
   const Index index = build(mesh.view());
   EXPECT_THROW(save(index, [](std::span<const std::byte>) { throw std::bad_alloc(); }), std::bad_alloc);
   EXPECT_THAT(index.check(mesh.view()), IsEmpty());
 }
 
-TEST(Fingerprint, IsThatOfPositionsAndGraph) {
+TEST(Fingerprint, DependsOnPositionsAndGraphOnly) {
   const TestMesh mesh = make_grid(4, 5, false).finish(true);
   const Fingerprint expected = fingerprint(mesh.view());
   EXPECT_EQ(to_text(expected).size(), 32U);
   EXPECT_EQ(fingerprint(build(mesh.view())), expected);
 
-  TestMesh turned = mesh;  // the corners of each face, and the faces, in another order
+  TestMesh turned = mesh;  // with its faces, and the corners of each face, in another order
   std::reverse(turned.corners.begin(), turned.corners.end());
   EXPECT_EQ(fingerprint(turned.view()), expected);
 

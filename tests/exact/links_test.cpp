@@ -29,12 +29,6 @@ struct Linked {
   }
 
   [[nodiscard]] std::size_t leaf_count() const { return leaves.leaf_begin.size() - 1; }
-  [[nodiscard]] std::size_t first_link(std::size_t leaf) const { return leaf == 0 ? 0 : links.link_end[leaf - 1]; }
-
-  [[nodiscard]] std::span<const CrossEdge> cross_edges(std::size_t link) const {
-    const std::size_t first = links.links[link].first_cross_edge;
-    return std::span(links.cross_edges).subspan(first, links.links[link + 1].first_cross_edge - first);
-  }
 
   [[nodiscard]] VertexId vertex(std::size_t leaf, std::size_t lane) const {
     return leaves.permutation[leaves.leaf_begin[leaf] + lane];
@@ -56,9 +50,9 @@ std::vector<Edge> edges_of(const Linked& mesh) {
                             mesh.vertex(leaf, static_cast<std::size_t>(std::countr_zero(left))));
       }
     }
-    for (std::size_t link = mesh.first_link(leaf); link < mesh.links.link_end[leaf]; ++link) {
-      for (const CrossEdge& edge : mesh.cross_edges(link)) {
-        result.emplace_back(mesh.vertex(leaf, edge.from), mesh.vertex(mesh.links.links[link].leaf, edge.to));
+    for (const Link& link : mesh.links.links_of(leaf)) {
+      for (const CrossEdge& edge : mesh.links.cross_edges_of(link)) {
+        result.emplace_back(mesh.vertex(leaf, edge.from), mesh.vertex(link.leaf, edge.to));
       }
     }
   }
@@ -91,11 +85,11 @@ TEST_P(LinksOfFamilies, AscendByLeafThenByLane) {
   const Linked mesh(make_mesh(GetParam(), 3, 2000));
   const auto number = [](const CrossEdge& edge) { return edge.from * kLeafCapacity + edge.to; };
   for (std::size_t leaf = 0; leaf < mesh.leaf_count(); ++leaf) {
-    for (std::size_t link = mesh.first_link(leaf); link < mesh.links.link_end[leaf]; ++link) {
-      const Link& record = mesh.links.links[link];
-      ASSERT_NE(record.leaf, leaf);
-      ASSERT_TRUE(link == mesh.first_link(leaf) || mesh.links.links[link - 1].leaf < record.leaf);
-      const std::span<const CrossEdge> edges = mesh.cross_edges(link);
+    const std::span<const Link> links = mesh.links.links_of(leaf);
+    for (std::size_t link = 0; link < links.size(); ++link) {
+      ASSERT_NE(links[link].leaf, leaf);
+      ASSERT_TRUE(link == 0 || links[link - 1].leaf < links[link].leaf);
+      const std::span<const CrossEdge> edges = mesh.links.cross_edges_of(links[link]);
       ASSERT_FALSE(edges.empty());
       for (std::size_t i = 1; i < edges.size(); ++i) ASSERT_LT(number(edges[i - 1]), number(edges[i]));
     }
@@ -104,10 +98,12 @@ TEST_P(LinksOfFamilies, AscendByLeafThenByLane) {
 
 TEST_P(LinksOfFamilies, TheBoundaryOfALinkAreTheVerticesWithANeighborThere) {
   const Linked mesh(make_mesh(GetParam(), 4, 2000));
-  for (std::size_t link = 0; link + 1 < mesh.links.links.size(); ++link) {
-    LaneMask expected = 0;
-    for (const CrossEdge& edge : mesh.cross_edges(link)) expected |= LaneMask{1} << edge.from;
-    ASSERT_EQ(mesh.links.links[link].boundary, expected);
+  for (std::size_t leaf = 0; leaf < mesh.leaf_count(); ++leaf) {
+    for (const Link& link : mesh.links.links_of(leaf)) {
+      LaneMask expected = 0;
+      for (const CrossEdge& edge : mesh.links.cross_edges_of(link)) expected |= LaneMask{1} << edge.from;
+      ASSERT_EQ(link.boundary, expected);
+    }
   }
 }
 
@@ -120,6 +116,7 @@ TEST(Links, AreTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(linked.links.adjacency, expected.links.adjacency);
   EXPECT_EQ(linked.links.link_end, expected.links.link_end);
   EXPECT_EQ(edges_of(linked), edges_of(expected));
+  EXPECT_EQ(edges_of(linked), edges_of(linked.graph.view()));
 }
 
 TEST(IsConnected, AgreesWithTheTransitiveClosure) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A reordered mesh is the same mesh, its index gives the same answers, and neither holds anything twice.
+// A reordered mesh is the same mesh, its index gives the same answers, and the two share one copy of the positions.
 #include "meshhood/reorder.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ void expect_same_positions(const ReorderedMesh& reordered, const MeshView& mesh)
   });
 }
 
-/// Every face is a face of the mesh, from the same corner on; the first vertices of faces ascend.
+/// Every face is a face of the mesh with its corners in the same order; faces ascend by their first vertex.
 void expect_same_faces(const ReorderedMesh& reordered, const TestMesh& mesh) {
   std::vector<bool> seen(mesh.face_count());
   ASSERT_EQ(reordered.view().faces.size(), mesh.face_count());
@@ -86,7 +86,7 @@ std::size_t expect_same_answers(const ReorderedMesh& reordered, const Index& ind
 
 class ReorderedFamilies : public testing::TestWithParam<Family> {};
 
-TEST_P(ReorderedFamilies, AnswersAreThoseOfThePlainIndex) {
+TEST_P(ReorderedFamilies, AnswersEqualThoseOfAnIndexInTheCallersOrder) {
   std::size_t queries = 0;
   for (const std::size_t vertices : {1U, 50U, 3000U}) {
     const TestMesh mesh = make_mesh(GetParam(), 7, vertices);
@@ -114,7 +114,7 @@ TEST(Reorder, KeepsTrianglesAsTriangles) {
   EXPECT_EQ(mesh.view().faces.size(), 1U);
 }
 
-TEST(Reorder, IsTheSameForAnyThreads) {
+TEST(Reorder, IsTheSameForAnyNumberOfThreads) {
   const TestMesh mesh = make_grid(150, 150, false).finish(true);
   const ReorderedMesh expected = reorder(mesh.view());
   for (const unsigned threads : {2U, 3U, 8U}) {
@@ -125,7 +125,7 @@ TEST(Reorder, IsTheSameForAnyThreads) {
   }
 }
 
-TEST(Reorder, ServesBatches) {
+TEST(Reorder, BatchesGiveTheSameSizes) {
   const TestMesh mesh = make_grid(60, 60, true).finish(true);
   const ReorderedMesh reordered = reorder(mesh.view());
   const Index index = build(mesh.view());

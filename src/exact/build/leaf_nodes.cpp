@@ -42,11 +42,9 @@ class LeafMeasure {
   }
 
   void gather_edges_out(std::size_t leaf) {
-    for (std::size_t i = leaf == 0 ? 0 : links_.link_end[leaf - 1]; i < links_.link_end[leaf]; ++i) {
-      const std::uint32_t other = leaf_begin_[links_.links[i].leaf];
-      for (std::size_t k = links_.links[i].first_cross_edge; k < links_.links[i + 1].first_cross_edge; ++k) {
-        edges_.push_back({links_.cross_edges[k].from, other + links_.cross_edges[k].to});
-      }
+    for (const Link& link : links_.links_of(leaf)) {
+      const std::uint32_t other = leaf_begin_[link.leaf];
+      for (const CrossEdge& edge : links_.cross_edges_of(link)) edges_.push_back({edge.from, other + edge.to});
     }
   }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "meshhood/adjacency.h"
@@ -17,6 +20,17 @@ struct Links {
   std::vector<std::uint32_t> link_end;  // by leaf: the end of its links
   std::vector<Link> links;              // by leaf, then by linked leaf; one more, for the end of the last cross edges
   std::vector<CrossEdge> cross_edges;   // by link, then by `from`, then by `to`
+
+  [[nodiscard]] std::span<const Link> links_of(std::size_t leaf) const {
+    const std::size_t begin = leaf == 0 ? 0 : link_end[leaf - 1];
+    return std::span(links).subspan(begin, link_end[leaf] - begin);
+  }
+
+  /// `link` must be an element of `links`.
+  [[nodiscard]] std::span<const CrossEdge> cross_edges_of(const Link& link) const {
+    const std::size_t end = (&link + 1)->first_cross_edge;
+    return std::span(cross_edges).subspan(link.first_cross_edge, end - link.first_cross_edge);
+  }
 };
 
 /// Every edge of the mesh in both directions. O(#V + #E log(edges that leave a leaf)).

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the index promises of itself, and that `check` finds what is wrong: one index a statement, damaged by hand.
+// `Index::check` finds every kind of fault: each test damages an index by hand.
 #include <algorithm>
-#include <cstdint>
-#include <cstdio>
 #include <functional>
-#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,7 +11,6 @@
 #include "exact/index_access.h"
 #include "support/families.h"
 #include "support/index_arrays.h"
-#include "support/same_storage.h"
 
 namespace meshhood::test {
 namespace {
@@ -23,7 +19,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// One above the other, so that distances have local minima.
+/// One above the other, so that distances have several local minima.
 TestMesh two_bumpy_grids(std::size_t side) {
   TestMesh mesh = bumpy_grid(side);
   TestMesh upper = mesh;
@@ -32,7 +28,7 @@ TestMesh two_bumpy_grids(std::size_t side) {
   return mesh;
 }
 
-/// What `check` has to say of an index after `damage`.
+/// The faults that `check` reports after `damage`.
 std::vector<std::string> faults_after(const std::function<void(IndexData&)>& damage) {
   const TestMesh mesh = two_bumpy_grids(50);
   const Index index = build(mesh.view());
@@ -43,12 +39,12 @@ std::vector<std::string> faults_after(const std::function<void(IndexData&)>& dam
 
 void expect_found(const char* fault, const std::function<void(IndexData&)>& damage) {
   const auto faults = faults_after(damage);
-  ASSERT_THAT(faults, Not(IsEmpty())) << "not noticed: " << fault;
+  ASSERT_THAT(faults, Not(IsEmpty())) << "not found: " << fault;
   EXPECT_THAT(faults.front(), HasSubstr(fault));
   EXPECT_LE(faults.size(), 16U);
 }
 
-/// Where the groups of a level begin.
+/// The first group of a level.
 std::size_t first_group(const IndexData& index, std::size_t level) {
   const std::vector<std::size_t> nodes = tree_nodes(index.leaf_begin.size() - 1);
   std::size_t group = 0;
@@ -56,7 +52,7 @@ std::size_t first_group(const IndexData& index, std::size_t level) {
   return group;
 }
 
-TEST(IndexCheck, FindsNothingWhereNothingIsWrong) {
+TEST(IndexCheck, FindsNothingInAnIndexOfTheMesh) {
   EXPECT_THAT(faults_after([](IndexData&) {}), IsEmpty());
 }
 
@@ -77,7 +73,7 @@ TEST(IndexCheck, FindsAWrongEdge) {
   expect_found("the boundary of its link", [](IndexData& i) { i.links[7].boundary = 0; });
 }
 
-TEST(IndexCheck, FindsAWrongConnection) {
+TEST(IndexCheck, FindsALeafWronglyMarkedAsConnected) {
   expect_found("its mark as connected", [](IndexData& i) { i.leaves[4].connected = !i.leaves[4].connected; });
 }
 
@@ -89,48 +85,13 @@ TEST(IndexCheck, FindsASphereTooSmall) {
   }
 }
 
-TEST(IndexCheck, FindsAColumnTooNarrow) {
+TEST(IndexCheck, FindsAMinimumRegionTooNarrow) {
   expect_found("outside the minimum region", [](IndexData& i) {
     for (Group& group : i.groups) {
       group.offset.fill(0);
       for (Group::Row* row : {&group.slope_x, &group.slope_y, &group.slope_z}) row->fill(0);
     }
   });
-}
-
-TEST(IndexBuild, IsTheSameForTheSameMesh) {
-  const TestMesh mesh = bumpy_grid(80);
-  EXPECT_THAT(differences(build(mesh.view()), build(mesh.view())), IsEmpty());
-}
-
-TEST(IndexBuild, LeavesOfASurfaceAreFullAndConnected) {
-  const TestMesh mesh = bumpy_grid(200);
-  const Index built = build(mesh.view());
-  const IndexView& index = IndexAccess::view(built);
-  const auto last = index.leaves.begin() + static_cast<std::ptrdiff_t>(index.leaf_count());
-  EXPECT_TRUE(std::all_of(index.leaves.begin(), last, [](const Leaf& leaf) { return leaf.connected; }));
-  const double mean = static_cast<double>(mesh.size()) / static_cast<double>(index.leaf_count());
-  std::printf("%zu leaves, %.1f vertices a leaf\n", index.leaf_count(), mean);
-  EXPECT_GT(mean, 28);
-}
-
-TEST(IndexLevels, AreTheLeavesAndTheTreeAbove) {
-  const Index index = build(two_bumpy_grids(50).view());
-  const std::vector<LevelSummary> levels = index.levels();
-  const IndexData arrays = arrays_of(index);
-  ASSERT_EQ(levels.size(), tree_nodes(arrays.leaf_begin.size() - 1).size());
-  EXPECT_EQ(levels.front().clusters, arrays.leaf_begin.size() - 1);
-  EXPECT_EQ(levels.front().mean_siblings,
-            static_cast<double>(arrays.links.size() - 1) / static_cast<double>(levels.front().clusters));
-  double radius = 0;
-  for (const LevelSummary& level : levels) {
-    EXPECT_DOUBLE_EQ(level.mean_vertices * static_cast<double>(level.clusters), 5000);
-    EXPECT_GT(level.mean_radius, radius);
-    EXPECT_LT(level.mean_radius, 50 * std::numbers::sqrt2) << "in the unit of the positions";
-    radius = level.mean_radius;
-  }
-  EXPECT_GT(levels.front().mean_radius, 1);
-  EXPECT_THAT(build(TestMesh{}.view()).levels(), IsEmpty());
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a saved index must not say of itself: a forgery a rule, all checksums right. Rows F4 to F6 of the catalogue of
-// faults, and F12.
+// Forged index files with valid checksums are rejected: one forgery for each rule. Rows F4 to F6 and F12 of the
+// catalogue in docs/reliability.md.
 #include <cstdio>
 #include <functional>
 #include <limits>
@@ -35,13 +35,13 @@ void expect_refused_after(const char* culprit, const Change& change) {
   EXPECT_THAT(call, testing::ThrowsMessage<Error>(testing::Truly(names_a_place)));
 }
 
-TEST(IndexRules, F4OtherVersionsAreRefusedByTheirNumber) {
+TEST(IndexVerify, RejectsOtherFormatsAndStatesTheirNumbers) {
   expect_refused_after("header, byte 12: format 3, but this version reads format 1",
                        [](Forgery& f) { f.header().format = 3; });
   expect_refused_after("format 0, but this version reads format 1", [](Forgery& f) { f.header().format = 0; });
 }
 
-TEST(IndexRules, F4OtherMachinesAreRefused) {
+TEST(IndexVerify, RejectsHeadersOfOtherMachinesAndKinds) {
   expect_refused_after("big-endian byte order", [](Forgery& f) { f.header().byte_order = file::kOtherByteOrder; });
   expect_refused_after("the byte order mark is not valid", [](Forgery& f) { f.header().byte_order = 0; });
   expect_refused_after("vertex ids of 64 bits, expected 32", [](Forgery& f) { f.header().id_bytes = 8; });
@@ -52,7 +52,7 @@ TEST(IndexRules, F4OtherMachinesAreRefused) {
   expect_refused_after("header, byte 51: 1, expected 0", [](Forgery& f) { f.header().unused = 1; });
 }
 
-TEST(IndexRules, F5AnotherMeshIsRefusedWithBothFingerprints) {
+TEST(IndexVerify, RejectsAnotherMeshAndStatesBothFingerprints) {
   const TestMesh mesh = bumpy_grid(20);
   TestMesh other = mesh;
   other.single_positions[100] += 1;
@@ -64,7 +64,7 @@ TEST(IndexRules, F5AnotherMeshIsRefusedWithBothFingerprints) {
                  [&] { check_mesh(header, given); });
 }
 
-TEST(IndexRules, F6Table) {
+TEST(IndexVerify, RejectsAWrongSectionTable) {
   expect_refused_after("section links", [](Forgery& f) { f.entry("links").begin -= 64; });
   expect_refused_after("section links", [](Forgery& f) { f.entry("links").begin += 4; });
   expect_refused_after("section links", [](Forgery& f) { f.entry("links").begin = ~std::uint64_t{63}; });
@@ -80,14 +80,14 @@ TEST(IndexRules, F6Table) {
   });
 }
 
-TEST(IndexRules, F6Counts) {
+TEST(IndexVerify, RejectsWrongSizesOfArrays) {
   expect_refused_after("section positions", [](Forgery& f) { f.header().vertices += 1; });
   expect_refused_after("but the limit is", [](Forgery& f) { f.header().vertices = ~std::uint64_t{0}; });
-  // As many bytes as the table says, but not as many as they should be.
+  // The sizes agree with the table, but not with each other.
   expect_refused_after("section place", [](Forgery& f) { f.entry("place").bytes -= 4; });
   expect_refused_after("expected a multiple of 28", [](Forgery& f) { f.entry("leaves").bytes -= 1; });
   expect_refused_after("section permutation", [](Forgery& f) { f.entry("permutation").bytes -= 4; });
-  // What was the end of a section becomes padding, which is zero.
+  // The last elements become padding, and so must be 0.
   expect_refused_after("section leaf_begin", [](Forgery& f) {
     f.section<Leaf>("leaves").back() = {};
     f.entry("leaves").bytes -= sizeof(Leaf);
@@ -96,7 +96,7 @@ TEST(IndexRules, F6Counts) {
     f.section<std::byte>("groups").back() = std::byte{0};
     f.entry("groups").bytes -= 1;
   });
-  // An empty section has the place of the one behind it, but not its name.
+  // An empty section begins where the next section does; the error must name the empty one.
   for (const char* name : {"leaves", "links", "crossings"}) {
     expect_refused_after(("section " + std::string(name) + ", byte").c_str(),
                          [name](Forgery& f) { f.remove_content(name); });
@@ -104,7 +104,7 @@ TEST(IndexRules, F6Counts) {
   expect_refused_after("section mean_radii", [](Forgery& f) { f.entry("mean_radii").bytes += sizeof(double); });
 }
 
-TEST(IndexRules, F6Leaves) {
+TEST(IndexVerify, RejectsWrongLeaves) {
   expect_refused_after("leaf 0 does not begin", [](Forgery& f) { f.section<VertexId>("leaf_begin")[0] = 1; });
   expect_refused_after("expected 1 to 32", [](Forgery& f) { f.section<VertexId>("leaf_begin")[2] = 0; });
   expect_refused_after("expected 1 to 32", [](Forgery& f) { f.section<VertexId>("leaf_begin")[2] = 4000000000U; });
@@ -123,11 +123,11 @@ TEST(IndexRules, F6Leaves) {
                        [](Forgery& f) { f.section<Leaf>("leaves").back().size = 1; });
 }
 
-TEST(IndexRules, F6Numbering) {
+TEST(IndexVerify, RejectsAWrongNumbering) {
   expect_refused_after("but there are 400", [](Forgery& f) { f.section<VertexId>("permutation")[5] = 400; });
   expect_refused_after("expected", [](Forgery& f) {
     const auto ids = f.section<VertexId>("permutation");
-    ids[5] = ids[6];  // one twice, another never
+    ids[5] = ids[6];  // one id twice, another missing
   });
   expect_refused_after("has slot", [](Forgery& f) { f.section<std::uint32_t>("place")[7] = 4000000000U; });
   expect_refused_after("has slot", [](Forgery& f) {
@@ -137,7 +137,7 @@ TEST(IndexRules, F6Numbering) {
   expect_refused_after("the padding is not 0", [](Forgery& f) { f.section<VertexId>("permutation").back() = 1; });
 }
 
-TEST(IndexRules, F6EdgesWithin) {
+TEST(IndexVerify, RejectsWrongEdgesWithinLeaves) {
   expect_refused_after("is a neighbour of itself", [](Forgery& f) { f.section<LaneMask>("adjacency")[0] |= 1; });
   expect_refused_after("is a neighbour of itself", [](Forgery& f) {
     const Leaf& leaf = f.section<Leaf>("leaves")[1];
@@ -148,7 +148,7 @@ TEST(IndexRules, F6EdgesWithin) {
   expect_refused_after("the padding is not 0", [](Forgery& f) { f.section<LaneMask>("adjacency").back() = 1; });
 }
 
-TEST(IndexRules, F6Links) {
+TEST(IndexVerify, RejectsWrongLinks) {
   expect_refused_after("do not begin at link 0", [](Forgery& f) { f.section<Leaf>("leaves")[0].first_link = 1; });
   expect_refused_after("leaf 0: links 0 to 4000000000",
                        [](Forgery& f) { f.section<Leaf>("leaves")[1].first_link = 4000000000U; });
@@ -172,7 +172,7 @@ TEST(IndexRules, F6Links) {
                        [](Forgery& f) { ++f.section<Link>("links").back().first_cross_edge; });
 }
 
-TEST(IndexRules, F6Crossings) {
+TEST(IndexVerify, RejectsWrongCrossEdges) {
   expect_refused_after("but a leaf has no such lane",
                        [](Forgery& f) { f.section<CrossEdge>("crossings")[0].from = 32; });
   expect_refused_after("but a leaf has no such lane",
@@ -182,7 +182,7 @@ TEST(IndexRules, F6Crossings) {
     cross_edges[1] = cross_edges[0];
   });
   expect_refused_after("no link back with the same edges", [](Forgery& f) {
-    // The last of a link may have any other lane beyond the one before it.
+    // The last cross edge of a link may have any larger lane and stay in order.
     const Link& next = f.section<Link>("links")[1];
     CrossEdge& last = f.section<CrossEdge>("crossings")[next.first_cross_edge - 1];
     last.to = last.to == 0 ? 1 : static_cast<std::uint8_t>(last.to - 1);
@@ -190,7 +190,7 @@ TEST(IndexRules, F6Crossings) {
   expect_refused_after("the padding is not 0", [](Forgery& f) { f.section<CrossEdge>("crossings").back().from = 1; });
 }
 
-TEST(IndexRules, F6Positions) {
+TEST(IndexVerify, RejectsWrongPositions) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
   expect_refused_after("not finite", [](Forgery& f) { f.section<float>("positions")[10] = kNan; });
@@ -203,7 +203,7 @@ TEST(IndexRules, F6Positions) {
   expect_refused_after("do not match the frame", [](Forgery& f) { f.section<Frame>("frame")[0].origin.x = kInfinity; });
 }
 
-TEST(IndexRules, F6Tree) {
+TEST(IndexVerify, RejectsAWrongTree) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   const char* const none = "the bounding sphere or minimum region is not valid";
   for (const float value : {kNan, -1.0F, -std::numeric_limits<float>::infinity()}) {
@@ -217,16 +217,16 @@ TEST(IndexRules, F6Tree) {
   expect_refused_after("the bounding sphere differs from that in the tree",
                        [](Forgery& f) { f.section<Leaf>("leaves")[2].bounds.x += 0.5F; });
   expect_refused_after("level 1: node 0: the bounding sphere does not enclose", [](Forgery& f) {
-    // Its radius stays, so that the mean does.
+    // The radius is unchanged, and so is the mean.
     f.section<Group>("groups").back().x[0] += 0.5F;
   });
 }
 
-TEST(IndexRules, F12EveryByteHasAValue) {
+TEST(IndexVerify, EveryByteOfAFileHasADefinedValue) {
   const TestMesh mesh = bumpy_grid(20);
   const std::vector<std::byte> expected = saved(build(mesh.view()));
 #if defined(__GLIBC__) && defined(M_PERTURB)
-  // What is allocated is filled with the one byte or the other, so that what is not written to differs.
+  // Fresh memory is filled with one byte or another, so that bytes without a value differ.
   for (const int filling : {0x55, 0xAA}) {
     mallopt(M_PERTURB, filling);
     const std::vector<std::byte> bytes = saved(build(mesh.view(), {.threads = 2}));

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "meshhood/index.h"
+
+#include <numbers>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "exact/index_access.h"
+#include "support/families.h"
+#include "support/index_arrays.h"
+#include "support/same_storage.h"
+
+namespace meshhood::test {
+namespace {
+
+using testing::IsEmpty;
+
+TEST(IndexBuild, IsTheSameForTheSameMesh) {
+  const TestMesh mesh = bumpy_grid(80);
+  EXPECT_THAT(differences(build(mesh.view()), build(mesh.view())), IsEmpty());
+}
+
+TEST(IndexBuild, LeavesOfASurfaceAreConnected) {
+  const Index built = build(bumpy_grid(200).view());
+  const IndexView& index = IndexAccess::view(built);
+  for (std::size_t leaf = 0; leaf < index.leaf_count(); ++leaf) EXPECT_TRUE(index.leaves[leaf].connected) << leaf;
+}
+
+TEST(IndexLevels, DescribeTheLeavesAndTheTreeAboveThem) {
+  TestMesh mesh = bumpy_grid(50);
+  TestMesh upper = mesh;
+  for (std::size_t i = 2; i < upper.positions.size(); i += 3) upper.positions[i] += 3;
+  append(mesh, upper);
+  const Index index = build(mesh.view());
+  const std::vector<LevelSummary> levels = index.levels();
+  const IndexData arrays = arrays_of(index);
+  ASSERT_EQ(levels.size(), tree_nodes(arrays.leaf_begin.size() - 1).size());
+  EXPECT_EQ(levels.front().clusters, arrays.leaf_begin.size() - 1);
+  EXPECT_EQ(levels.front().mean_siblings,
+            static_cast<double>(arrays.links.size() - 1) / static_cast<double>(levels.front().clusters));
+  double radius = 0;
+  for (const LevelSummary& level : levels) {
+    EXPECT_DOUBLE_EQ(level.mean_vertices * static_cast<double>(level.clusters), 5000);
+    EXPECT_GT(level.mean_radius, radius);
+    EXPECT_LT(level.mean_radius, 50 * std::numbers::sqrt2) << "in the unit of the positions";
+    radius = level.mean_radius;
+  }
+  EXPECT_GT(levels.front().mean_radius, 1);
+  EXPECT_THAT(build(TestMesh{}.view()).levels(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace meshhood::test
