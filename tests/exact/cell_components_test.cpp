@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <numeric>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -172,6 +173,44 @@ TEST(CellComponents, SheetsThatTouchInSpaceAreNotMerged) {
   const auto leaves = std::count_if(components.size.begin(), components.size.end(), [](auto size) { return size > 0; });
   std::printf("%td leaves of 2400 vertices\n", leaves);
   EXPECT_LE(leaves, 2400 / static_cast<std::ptrdiff_t>(kSmallComponent)) << "small components are merged";
+}
+
+/// Three cells on a line, each a path. The first two vertices of the middle cell are cut off from the rest of it, and
+/// have `left` edges to the first cell and `right` edges to the last, at most two each.
+CellComponents merged_pair(std::size_t left, std::size_t right) {
+  std::vector<KdPoint> points;
+  for (std::uint32_t v = 0; v < 3 * kCellSize; ++v) points.push_back({{static_cast<float>(v), 0, 0}, v});
+  const auto pair = static_cast<VertexId>(kCellSize);
+  std::vector<std::set<VertexId>> neighbors(points.size());
+  const auto join = [&](VertexId v, VertexId w) {
+    neighbors[v].insert(w);
+    neighbors[w].insert(v);
+  };
+  for (VertexId v = 0; v + 1 < points.size(); ++v) {
+    if ((v + 1) % kCellSize != 0 && v != pair + 1) join(v, v + 1);
+  }
+  for (std::size_t i = 0; i < left; ++i) join(pair, static_cast<VertexId>(i));
+  for (std::size_t i = 0; i < right; ++i) join(pair + 1, static_cast<VertexId>(2 * kCellSize + i));
+  Adjacency adjacency;
+  adjacency.offsets = {0};
+  for (const std::set<VertexId>& row : neighbors) {
+    adjacency.neighbors.insert(adjacency.neighbors.end(), row.begin(), row.end());
+    adjacency.offsets.push_back(static_cast<EdgeOffset>(adjacency.neighbors.size()));
+  }
+  const Progress silent;
+  TaskContext task(1, silent, 0);
+  const CellGraph graph(points, adjacency.view(), task);
+  CellComponents components = split_cells(graph, task);
+  merge_small(graph, components);
+  return components;
+}
+
+TEST(CellComponents, ASmallComponentJoinsTheNeighborWithMostEdgesToIt) {
+  const CellComponents left = merged_pair(2, 1);
+  EXPECT_EQ(left.of[kCellSize], left.of[0]);
+  EXPECT_EQ(left.size[left.of[0]], kCellSize + 2);
+  const CellComponents right = merged_pair(1, 2);
+  EXPECT_EQ(right.of[kCellSize], right.of[2 * kCellSize]);
 }
 
 TEST(CellComponents, AreTheSameForAnyNumberOfThreads) {

@@ -128,7 +128,7 @@ TEST(SerializeEdges, AMappedIndexKeepsItsOwner) {
 
 TEST(SerializeEdges, MapRejectsBytesThatAreNotAligned) {
   Mappable bytes(std::vector<std::byte>(256));
-  expect_refused(ErrorCode::InvalidOption, "begin 8 after a multiple of 64",
+  expect_refused(ErrorCode::InvalidOption, "begin 8 bytes after a multiple of 64",
                  [&] { static_cast<void>(map(bytes.bytes().subspan(8), nullptr)); });
 }
 

@@ -77,6 +77,18 @@ std::vector<Halfplane> random_edges(Random& random, std::size_t count) {
   return result;
 }
 
+TEST(DiamondAngle, GrowsWithTheAngle) {
+  double last = -1;
+  for (int i = 0; i < 1000; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 1000;
+    const double diamond = diamond_angle(std::cos(angle), std::sin(angle));
+    EXPECT_GT(diamond, last);
+    EXPECT_NEAR(diamond, i / 250.0, 0.1);
+    last = diamond;
+  }
+  EXPECT_LT(last, 4);
+}
+
 TEST(HalfplanePolygon, WidthIsTheDistanceOfTheFarthestCorner) {
   Random random(1);
   const std::size_t polygons = scaled(5000, 500);

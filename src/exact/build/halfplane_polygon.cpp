@@ -30,13 +30,6 @@ double squared_length(const Vector2& v) { return v.x * v.x + v.y * v.y; }
 
 double cross(const Halfplane& a, const Halfplane& b) { return a.x * b.y - a.y * b.x; }
 
-/// The diamond angle: grows from 0 to 4 with the angle of (x, y), and needs no trigonometry, which every C library
-/// rounds in its own way.
-double diamond_angle(double x, double y) {
-  const double part = x / (std::abs(x) + std::abs(y) + std::numeric_limits<double>::min());
-  return y < 0 ? 3 + part : 1 - part;  // mutant: angles-not-monotonic
-}
-
 /// Whether the normal of `b` follows that of `a` by less than half a turn, with a well-defined corner. The root is the
 /// length of the longer edge where the offset is half the square of an edge's length.
 bool make_corner(const Halfplane& a, const Halfplane& b) {
@@ -50,14 +43,6 @@ Vector2 solve(const Halfplane& a, const Halfplane& b, double value_a, double val
 }
 
 }  // namespace
-
-void HalfplanePolygon::add(const Halfplane& halfplane) {
-  if (size_ == kMaxHalfplanes) return;
-  const double angle = diamond_angle(halfplane.x, halfplane.y);
-  std::size_t i = size_++;
-  for (; i > 0 && lines_[i - 1].angle > angle; --i) lines_[i] = lines_[i - 1];
-  lines_[i] = {angle, halfplane};
-}
 
 PolygonExtent HalfplanePolygon::extent() {
   remove_redundant();

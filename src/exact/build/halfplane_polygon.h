@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace meshhood {
 
@@ -15,6 +17,13 @@ struct Halfplane {
   double offset;  // at least 0, so that the origin lies in the half plane at height 0
 };
 
+/// The diamond angle: grows from 0 to 4 with the angle of (x, y), and needs no trigonometry, which every C library
+/// rounds in its own way.
+[[nodiscard]] inline double diamond_angle(double x, double y) {
+  const double part = x / (std::abs(x) + std::abs(y) + std::numeric_limits<double>::min());
+  return y < 0 ? 3 + part : 1 - part;
+}
+
 /// Every point of a polygon at the given height lies within `width + slope * |height|` of the origin.
 struct PolygonExtent {
   double width = 0;
@@ -25,7 +34,13 @@ struct PolygonExtent {
 class HalfplanePolygon {
  public:
   /// Keeps the first `kMaxHalfplanes`: without the others the polygon is larger, and its extent still an upper bound.
-  void add(const Halfplane& halfplane);
+  void add(const Halfplane& halfplane) {
+    if (size_ == kMaxHalfplanes) return;
+    const double angle = diamond_angle(halfplane.x, halfplane.y);
+    std::size_t i = size_++;
+    for (; i > 0 && lines_[i - 1].angle > angle; --i) lines_[i] = lines_[i - 1];
+    lines_[i] = {angle, halfplane};
+  }
 
   /// An upper bound on the extent, which is infinite where the polygon is unbounded or nearly so. Removes redundant
   /// half planes. O(size^2) in the worst case, mostly O(size).
