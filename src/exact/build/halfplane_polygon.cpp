@@ -32,7 +32,7 @@ double cross(const Halfplane& a, const Halfplane& b) { return a.x * b.y - a.y * 
 
 /// Whether the normal of `b` follows that of `a` by less than half a turn, with a well-defined corner. The root is the
 /// length of the longer edge where the offset is half the square of an edge's length.
-bool make_corner(const Halfplane& a, const Halfplane& b) {
+bool have_corner(const Halfplane& a, const Halfplane& b) {
   return cross(a, b) > kSmallestCross * std::sqrt(2 * std::max(a.offset, b.offset));
 }
 
@@ -51,7 +51,7 @@ PolygonExtent HalfplanePolygon::extent() {
   for (std::size_t i = 0; i < size_; ++i) {  // mutant: last-corner-ignored
     const Halfplane& a = lines_[i].halfplane;
     const Halfplane& b = lines_[i + 1 < size_ ? i + 1 : 0].halfplane;
-    if (!make_corner(a, b)) return kUnboundedExtent;  // mutant: half-turn-gap-ignored
+    if (!have_corner(a, b)) return kUnboundedExtent;  // mutant: half-turn-gap-ignored
     squared.width = std::max(squared.width, squared_length(solve(a, b, a.offset, b.offset)));
     squared.slope = std::max(squared.slope, squared_length(solve(a, b, a.tilt, b.tilt)));  // mutant: slope-ignored
   }
@@ -79,7 +79,7 @@ void HalfplanePolygon::remove_redundant() {
 bool HalfplanePolygon::is_redundant(std::size_t i) const {
   const Halfplane& before = lines_[i == 0 ? size_ - 1 : i - 1].halfplane;
   const Halfplane& after = lines_[i + 1 == size_ ? 0 : i + 1].halfplane;
-  if (!make_corner(before, after)) return false;
+  if (!have_corner(before, after)) return false;
   const double x = before.offset * after.y - after.offset * before.y;
   const double y = after.offset * before.x - before.offset * after.x;
   const Halfplane& line = lines_[i].halfplane;
