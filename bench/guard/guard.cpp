@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One case of the regression guard, to be counted by callgrind; `guard.py` runs it and has the list of cases.
+// One case of the regression guard. guard.py runs it under callgrind and holds the list of cases.
 // Usage: guard CASE | --compiler. CASE is build:KIND:SHAPE or METHOD:SHAPE:RADIUS, radii in edges: "ids:scroll:10".
 #include <cstdio>
 #include <functional>
@@ -12,7 +12,7 @@
 #include "exact/search/searcher_state.h"
 #include "shapes/shapes.h"
 
-/// All that is called from here is counted, and nothing else: guard.py toggles the counting on this name.
+/// Only the instructions executed in here are counted: guard.py switches counting by the name of this function.
 extern "C" [[gnu::noinline]] void meshhood_guard_measured(const std::function<void()>& work) { work(); }
 
 namespace meshhood::bench {
@@ -20,23 +20,23 @@ namespace {
 
 constexpr std::size_t kVertices = 50'000;
 constexpr std::size_t kQueries = 40;
-constexpr std::size_t kWarming = 5;    // so that buffers have grown before anything is counted
+constexpr std::size_t kWarming = 5;    // so that buffers have grown before counting begins
 constexpr std::size_t kStride = 7919;  // a prime: vertices all over the shape
 
-using Ask = std::function<void(VertexId)>;
+using Query = std::function<void(VertexId)>;
 
-/// Kernels of one kind on every machine; valgrind knows none above AVX2.
+/// Selects the same kernels on every machine. Valgrind supports nothing above AVX2.
 Searcher searcher_of_avx2(const Index& index) {
   Searcher searcher(index);
   SearcherAccess::set_isa(searcher, Isa::Avx2);
   return searcher;
 }
 
-void count_queries(const Ask& ask) {
+void count_queries(const Query& query) {
   const auto vertex = [](std::size_t i) { return static_cast<VertexId>(i * kStride % kVertices); };
-  for (std::size_t i = 0; i < kWarming; ++i) ask(vertex(kQueries + i));
+  for (std::size_t i = 0; i < kWarming; ++i) query(vertex(kQueries + i));
   meshhood_guard_measured([&] {
-    for (std::size_t i = 0; i < kQueries; ++i) ask(vertex(i));
+    for (std::size_t i = 0; i < kQueries; ++i) query(vertex(i));
   });
 }
 
@@ -71,7 +71,7 @@ void count_build(const std::string& kind, const MeshView& mesh) {
 
 struct Case {
   std::string method;
-  std::string middle;  // what is built, or the shape
+  std::string middle;  // the index that is built, or the shape
   std::string last;    // the shape, or the radius
 
   explicit Case(const std::string& name) {
@@ -86,13 +86,13 @@ struct Case {
 
 shapes::Shape make(const std::string& kind) { return shapes::find_kind(kind)->make(kVertices); }
 
-void run(const Case& asked) {
-  if (asked.method == "build") return count_build(asked.middle, make(asked.last).view());
-  const shapes::Shape shape = make(asked.middle);
-  const double radius = std::stod(asked.last);
-  if (asked.method == "paper") return count_paper(shape.view(), radius);
-  if (asked.method == "reference") return count_reference(shape.view(), radius);
-  count_exact(asked.method, shape.view(), radius);
+void run(const Case& c) {
+  if (c.method == "build") return count_build(c.middle, make(c.last).view());
+  const shapes::Shape shape = make(c.middle);
+  const double radius = std::stod(c.last);
+  if (c.method == "paper") return count_paper(shape.view(), radius);
+  if (c.method == "reference") return count_reference(shape.view(), radius);
+  count_exact(c.method, shape.view(), radius);
 }
 
 }  // namespace
@@ -101,18 +101,18 @@ void run(const Case& asked) {
 int main(int arguments, char** values) {
   using namespace meshhood;
   if (arguments != 2) return 2;
-  const std::string asked = values[1];
+  const std::string argument = values[1];
 #if defined(__clang__)
   constexpr const char* kCompiler = __VERSION__;
 #else
   constexpr const char* kCompiler = "g++ " __VERSION__;
 #endif
-  if (asked == "--compiler") return std::puts(kCompiler) < 0 ? 1 : 0;
+  if (argument == "--compiler") return std::puts(kCompiler) < 0 ? 1 : 0;
   constexpr int kSkipped = 77;
   if (best_isa() < Isa::Avx2) {
-    std::puts("skipped: the baseline counts AVX2, which this processor has not");
+    std::puts("skipped: the baseline counts AVX2 instructions, which this processor does not have");
     return kSkipped;
   }
-  bench::run(bench::Case(asked));
+  bench::run(bench::Case(argument));
   return 0;
 }

@@ -4,9 +4,9 @@
 
 usage: bench/guard/guard.py PROGRAM [--update]
 
-Instructions do not depend on what else the machine does, so 5 % more are a regression. They depend on the compiler,
-which the baseline names: with another version the guard skips (77). Where more work is meant, `--update` writes the
-baseline anew, and the commit says why.
+The number of instructions does not depend on the load of the machine, so 5 % more is a regression. It depends on the
+compiler, which the baseline names: with another version the guard is skipped (exit code 77). If more work is intended,
+`--update` rewrites the baseline, and the commit says why.
 """
 import argparse
 import json
@@ -22,7 +22,7 @@ BASELINE = Path(__file__).with_name("baseline.json")
 TOLERANCE = 0.05
 SKIPPED = 77
 
-# What is counted. Sphere: plain; scroll and plates: sheets within the ball; noise: loose spheres.
+# Sphere: one smooth sheet. Scroll and plates: several sheets in a ball. Noise: separate spheres.
 CASES = [
     "ids:sphere:2", "ids:sphere:5", "ids:sphere:10", "ids:sphere:20", "ids:sphere:65",
     "count:sphere:20", "ranges:sphere:65",
@@ -89,12 +89,12 @@ def main():
     if baseline["compiler"] != compiler:
         skip(f"the baseline is of {baseline['compiler']}, and this is {compiler}")
     if set(baseline["instructions"]) != set(CASES):
-        sys.exit("guard: the baseline has other cases than guard.py; write it anew with --update")
+        sys.exit("guard: the baseline and guard.py have different cases; rewrite the baseline with --update")
     worse = report(count_all(options.program, options.workers), baseline["instructions"])
     print(f"{len(CASES)} cases, {len(worse)} more than {TOLERANCE:.0%} worse than the baseline of {compiler}")
     if worse:
-        sys.exit(f"guard: {', '.join(worse)} cost over {TOLERANCE:.0%} more instructions than the baseline. Mend it, or"
-                 " where it is meant, run bench/guard/guard.py PROGRAM --update and say why in the commit.")
+        sys.exit(f"guard: {', '.join(worse)} cost over {TOLERANCE:.0%} more instructions than the baseline. Fix it, or,"
+                 " if it is intended, run bench/guard/guard.py PROGRAM --update and say why in the commit.")
 
 
 if __name__ == "__main__":
