@@ -63,18 +63,18 @@ double file_bytes(const BatchCommand& options, const BatchSize& total, std::size
 /// One for each array of the file whose length is that of the answer, and one to count.
 std::size_t number_of_passes(const BatchCommand& options) { return options.count ? 1 : options.distances ? 3 : 2; }
 
-/// Writes the answers of one index. The length of an array precedes its values, so the rows are counted first. Then
+/// Writes the rows of a batch. The length of an array precedes its values, so the rows are counted first. Then
 /// each array is computed and written in a pass of its own, so that memory holds only a few numbers per row.
 class Writer {
  public:
-  Writer(const SearchMethod& index, const BatchQuery& query, const BatchCommand& options, const SizeLimit& limit,
+  Writer(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options, const SizeLimit& limit,
          Task& task, io::NpzWriter& npz)
-      : index_(index), query_(query), options_(options), limit_(limit), task_(task), npz_(npz) {}
+      : method_(method), query_(query), options_(options), limit_(limit), task_(task), npz_(npz) {}
 
   BatchSize write() {
-    const std::vector<std::uint64_t> sizes = neighborhood_sizes(index_, query_, next_pass());
+    const std::vector<std::uint64_t> sizes = neighborhood_sizes(method_, query_, next_pass());
     const BatchSize total{sizes.size(), std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})};
-    limit_.check(total, file_bytes(options_, total, index_.vertex_count()));
+    limit_.check(total, file_bytes(options_, total, method_.vertex_count()));
     if (options_.count) {
       npz_.add<std::uint64_t>("count", sizes);
     } else {
@@ -87,10 +87,10 @@ class Writer {
   /// As `scipy.sparse.load_npz` reads it.
   void write_matrix(std::span<const std::uint64_t> sizes, const BatchSize& total) {
     const std::array<std::int64_t, 2> shape{static_cast<std::int64_t>(total.rows),
-                                            static_cast<std::int64_t>(index_.vertex_count())};
+                                            static_cast<std::int64_t>(method_.vertex_count())};
     npz_.add_text("format", "csr");
     npz_.add<std::int64_t>("shape", shape);
-    if (fits_32_bits(total, index_.vertex_count())) {
+    if (fits_32_bits(total, method_.vertex_count())) {
       write_pattern<std::int32_t>(sizes, total);
     } else {
       write_pattern<std::int64_t>(sizes, total);
@@ -110,14 +110,14 @@ class Writer {
       npz_.append<Integer>(ids);
     };
     npz_.begin<Integer>("indices", total.count);
-    for_each_neighborhood(index_, query_, write, next_pass());
+    for_each_neighborhood(method_, query_, write, next_pass());
   }
 
   void write_distances(const BatchSize& total) {
     npz_.begin<double>("data", total.count);
     BatchOptions pass = next_pass();
     pass.distances = true;
-    for_each_neighborhood(index_, query_, [&](const BatchRow& row) { npz_.append(row.distances); }, pass);
+    for_each_neighborhood(method_, query_, [&](const BatchRow& row) { npz_.append(row.distances); }, pass);
   }
 
   void write_ones(const BatchSize& total) {
@@ -143,7 +143,7 @@ class Writer {
     return {.threads = options_.threads, .sorted = true, .progress = progress};
   }
 
-  const SearchMethod& index_;
+  const SearchMethod& method_;
   const BatchQuery& query_;
   const BatchCommand& options_;
   const SizeLimit& limit_;
@@ -158,10 +158,10 @@ std::string task_name(const BatchCommand& options, const std::optional<BatchEsti
                      file_bytes(options, estimate->mean, columns) / 1e6);
 }
 
-BatchSize write(const SearchMethod& index, const BatchQuery& query, const BatchCommand& options) {
+BatchSize write(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options) {
   const SizeLimit limit(options.output, options.max_bytes);
-  const std::optional<BatchEstimate> expected = estimate(index, query);
-  const std::size_t columns = index.vertex_count();
+  const std::optional<BatchEstimate> expected = estimate(method, query);
+  const std::size_t columns = method.vertex_count();
   if (expected) limit.check(expected->lower, file_bytes(options, expected->lower, columns), "at least ");
   Task task(task_name(options, expected, columns),
             {"rows", static_cast<double>(number_of_passes(options))});  // outlives the temporary file
@@ -170,25 +170,30 @@ BatchSize write(const SearchMethod& index, const BatchQuery& query, const BatchC
     const std::vector<std::int64_t> listed(list->begin(), list->end());
     npz.add<std::int64_t>("vertices", listed);
   }
-  const BatchSize total = Writer(index, query, options, limit, task, npz).write();
+  const BatchSize total = Writer(method, query, options, limit, task, npz).write();
   if (Task::is_cancelled()) raise(ErrorCode::Cancelled, "cancelled");
   npz.commit();
   return total;
 }
 
+SearchMethod search_method(const BatchCommand& options, Input& input) {
+  if (options.method == "paper") return input.paper_index();
+  if (options.method == "ball") return SearchMethod::ball_scan(input.positions());
+  input.need_edges("--method " + options.method);
+  if (options.method == "bfs") return SearchMethod::breadth_first(input.graph());
+  return input.exact_index(options.threads);
+}
+
 void batch(const BatchCommand& options) {
   check_output(options.output, {options.file, options.vertices});
   Input input(options.file);
-  if (options.method == "exact") input.need_edges("--method exact");
   BatchQuery query{.vertices = {}, .radius = resolve(options.radius, input)};
   std::vector<VertexId> listed;
   if (!options.vertices.empty()) {
     listed = read_vertex_list(options.vertices, input.vertex_count());
     query.vertices = listed;
   }
-  const SearchMethod method =
-      options.method == "exact" ? SearchMethod(input.exact_index(options.threads)) : SearchMethod(input.paper_index());
-  const BatchSize total = write(method, query, options);
+  const BatchSize total = write(search_method(options, input), query, options);
   if (options.json) {
     print_json(
         Json{{"output", options.output}, {"method", options.method}, {"rows", total.rows}, {"count", total.count}});
@@ -209,8 +214,8 @@ void add_batch(CLI::App& program) {
   command->add_option("--vertices", options->vertices, "text file with the query vertices, one per line (default: all)")
       ->check(file_name())
       ->type_name("FILE");
-  command->add_option("--method", options->method, "exact; paper: with a few extra vertices")
-      ->check(one_of({"exact", "paper"}))
+  command->add_option("--method", options->method, kMethodsHelp)
+      ->check(one_of(kMethods))
       ->type_name("")
       ->capture_default_str();
   add_threads(*command, options->threads);

@@ -27,6 +27,12 @@ namespace meshhood::cli {
 /// Accepts one of `values`, and suggests one for a typo.
 [[nodiscard]] CLI::Validator one_of(std::vector<std::string> values);
 
+/// The values of --method, and its description.
+inline const std::vector<std::string> kMethods{"exact", "bfs", "paper", "ball"};
+inline constexpr const char* kMethodsHelp =
+    "exact: by the index; bfs: exact by breadth-first search, slower; paper: with a few extra vertices; ball: all "
+    "vertices in the ball";
+
 /// FILE: a mesh or an index.
 void add_file(CLI::App& command, std::string& file);
 

@@ -59,7 +59,7 @@ Method make_method(const QueryCommand& options, Input& input) {
 
 Answer answer(const QueryCommand& options, const Method& method, VertexId v, double radius) {
   Answer answer{.vertex = v, .vertices = {}, .distances = {}};
-  if (options.count && options.output.empty() && method.count) {
+  if (options.count && options.output.empty()) {
     answer.seconds = measure::median_seconds([&] { answer.count = method.count(v, radius); });
     return answer;
   }
@@ -69,13 +69,10 @@ Answer answer(const QueryCommand& options, const Method& method, VertexId v, dou
   return answer;
 }
 
-/// A radius in the wrong unit, and a mesh of unconnected triangles, often show by such an answer.
+/// Such an answer is a sign of a radius in the wrong unit, or of a mesh of unconnected triangles.
 void note_whole_component(const Method& method, double radius, const Answer& answer) {
   if (std::isinf(radius)) return;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::vector<VertexId> component;
-  if (!method.count) method.neighborhood(answer.vertex, kInfinity, component);
-  const std::size_t size = method.count ? method.count(answer.vertex, kInfinity) : component.size();
+  const std::size_t size = method.count(answer.vertex, std::numeric_limits<double>::infinity());
   if (answer.count != size) return;
   print_error("note: ",
               fmt::format("the neighborhood of vertex {} is its whole component ({} {}): a larger radius finds "
@@ -164,11 +161,8 @@ void add_query(CLI::App& program) {
       ->type_name("NUMBER")
       ->required();
   add_radius(*command, options->radius);
-  command
-      ->add_option("--method", options->method,
-                   "exact: by the index; bfs: exact by breadth-first search, slower; paper: with a few extra vertices; "
-                   "ball: all vertices in the ball")
-      ->check(one_of({"exact", "bfs", "paper", "ball"}))
+  command->add_option("--method", options->method, kMethodsHelp)
+      ->check(one_of(kMethods))
       ->type_name("")
       ->capture_default_str();
   command

@@ -3,45 +3,40 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "meshhood/reference.h"
 #include "meshhood/search.h"
+#include "meshhood/searcher.h"
 
 namespace meshhood::measure {
+namespace {
 
-using Vertices = std::vector<VertexId>;
-
-Method exact_method(const Index& index) {
-  auto searcher = std::make_shared<Searcher>(index);
-  return {
-      .name = "exact",
-      .neighborhood = [searcher](VertexId v, double radius, Vertices& out) { searcher->neighborhood(v, radius, out); },
-      .count = [searcher](VertexId v, double radius) { return searcher->count(v, radius); }};
+template <NeighborhoodSearcher Searcher>
+Method make_method(std::string name, Searcher searcher) {
+  const auto shared = std::make_shared<Searcher>(std::move(searcher));
+  return {.name = std::move(name),
+          .neighborhood = [shared](VertexId v, double radius,
+                                   std::vector<VertexId>& out) { shared->neighborhood(v, radius, out); },
+          .count = [shared](VertexId v, double radius) { return shared->count(v, radius); }};
 }
 
-Method bfs_method(const GraphView& graph) {
-  auto searcher = std::make_shared<ReferenceSearcher>(graph);
-  return {
-      .name = "bfs",
-      .neighborhood = [searcher](VertexId v, double radius, Vertices& out) { searcher->neighborhood(v, radius, out); },
-      .count = {}};
-}
+}  // namespace
+
+Method exact_method(const Index& index) { return make_method("exact", Searcher(index)); }
+
+Method bfs_method(const GraphView& graph) { return make_method("bfs", ReferenceSearcher(graph)); }
 
 Method ball_method(const PositionsView& positions) {
-  return {.name = "ball",
-          .neighborhood = [positions](VertexId v, double radius,
-                                      Vertices& out) { vertices_in_ball(positions, v, radius, out); },
-          .count = {},
-          .visits_all_vertices = true};
+  Method method = make_method("ball", BallSearcher(positions));
+  method.visits_all_vertices = true;
+  return method;
 }
 
 Method paper_method(const paper::Index& index, const paper::QueryOptions& options) {
-  auto searcher = std::make_shared<paper::Searcher>(index, options);
-  return {
-      .name = "paper",
-      .neighborhood = [searcher](VertexId v, double radius, Vertices& out) { searcher->neighborhood(v, radius, out); },
-      .count = [searcher](VertexId v, double radius) { return searcher->count(v, radius); }};
+  return make_method("paper", paper::Searcher(index, options));
 }
 
 }  // namespace meshhood::measure

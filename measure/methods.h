@@ -13,13 +13,13 @@
 
 namespace meshhood::measure {
 
-/// A search method behind one interface, ready for many queries.
+/// A named searcher of any type, for a choice at run time.
 struct Method {
   std::string name;
   std::function<void(VertexId v, double radius, std::vector<VertexId>& out)> neighborhood;
-  std::function<std::size_t(VertexId v, double radius)> count;  ///< empty where counting requires the list
-  bool visits_all_vertices = false;                             ///< each query costs O(#V)
-  bool lists_vertices = true;                                   ///< if false, `neighborhood` does not write `out`
+  std::function<std::size_t(VertexId v, double radius)> count;
+  bool visits_all_vertices = false;  ///< each query costs O(#V)
+  bool lists_vertices = true;        ///< if false, `neighborhood` does not write `out`
 };
 
 /// The exact index. Borrows `index`.
