@@ -73,7 +73,8 @@ class Shares {
 
 void profile(const MeshView& mesh, std::size_t queries, const std::vector<double>& radii) {
   const paper::Index index = paper::build(mesh);
-  const double unit = mean_edge_length({mesh.positions, adjacency(mesh).view()});
+  const Adjacency graph = adjacency(mesh);
+  const double unit = mean_edge_length({mesh.positions, graph.view()});
   paper::Searcher searcher(index);
   std::mt19937_64 random(1);
   std::vector<VertexId> out;

@@ -52,7 +52,7 @@ struct Table1 {
 };
 
 std::size_t bytes_of(const MeshView& mesh) {
-  const std::size_t positions = mesh.positions.visit([](auto xyz) { return xyz.size_bytes(); });
+  const std::size_t positions = mesh.positions.visit([](const auto& xyz) { return xyz.packed().size_bytes(); });
   const std::size_t offsets = mesh.faces.are_triangles() ? 0 : 4 * mesh.faces.offsets().size();
   return positions + 4 * mesh.faces.corners().size() + offsets;
 }
@@ -90,7 +90,7 @@ Table1 table1(Input& input, const Indexes& built) {
                .faces = {},
                .mesh_bytes = {},
                .topology_bytes = {},
-               .index_bytes = built.paper.index.bytes(),
+               .index_bytes = built.paper.index.bytes().total(),
                .build_seconds = built.paper.seconds,
                .exact_index_bytes = built.exact.index.bytes().total(),
                .exact_build_seconds = built.exact.seconds};

@@ -42,7 +42,9 @@ Json json_of(const Index& index) {
           {"graph", bytes.graph},   {"tree", bytes.tree},           {"levels", to_json(index.levels())}};
 }
 
-Json json_of(const paper::Index& index) { return {{"bytes", index.bytes()}, {"levels", to_json(index.levels())}}; }
+Json json_of(const paper::Index& index) {
+  return {{"bytes", index.bytes().total()}, {"levels", to_json(index.levels())}};
+}
 
 std::string text_of(const Index& index) {
   const IndexBytes bytes = index.bytes();
@@ -56,7 +58,7 @@ std::string text_of(const Index& index) {
 }
 
 std::string text_of(const paper::Index& index) {
-  return fmt::format("index of the paper: {} bytes\n", index.bytes()) + to_text(index.levels());
+  return fmt::format("index of the paper: {} bytes\n", index.bytes().total()) + to_text(index.levels());
 }
 
 }  // namespace meshhood::cli

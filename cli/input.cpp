@@ -40,8 +40,9 @@ void print_warnings(const io::Mesh& mesh, const std::string& file) {
 
 /// In the numbering of the mesh.
 PositionsData positions_of(const paper::Index& index) {
-  return index.positions().visit([&](auto in_index_order) -> PositionsData {
-    std::vector<typename decltype(in_index_order)::value_type> positions(in_index_order.size());
+  return index.positions().visit([&]<class Real>(const StridedPositions<Real>& strided) -> PositionsData {
+    const std::span<const Real> in_index_order = strided.packed();
+    std::vector<Real> positions(in_index_order.size());
     const std::span<const VertexId> vertices = index.permutation();
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       std::copy_n(&in_index_order[3 * i], 3, &positions[std::size_t{3} * vertices[i]]);

@@ -92,9 +92,9 @@ void count_components(const MeshView& mesh, const AdjacencyView& adjacency, Stat
 }
 
 std::size_t repeated_positions(const PositionsView& positions) {
-  return positions.visit([](auto xyz) {
-    std::vector<std::array<float, 3>> points(xyz.size() / 3);
-    for (std::size_t i = 0; i < 3 * points.size(); ++i) points[i / 3][i % 3] = static_cast<float>(xyz[i]);
+  return positions.visit([](const auto& xyz) {
+    std::vector<std::array<float, 3>> points(xyz.size());
+    for (std::size_t i = 0; i < 3 * points.size(); ++i) points[i / 3][i % 3] = static_cast<float>(xyz(i / 3, i % 3));
     std::sort(points.begin(), points.end());
     return static_cast<std::size_t>(points.end() - std::unique(points.begin(), points.end()));
   });
@@ -104,9 +104,9 @@ std::optional<Box> bounds(const PositionsView& positions) {
   if (positions.size() == 0) return std::nullopt;
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Box box{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
-  positions.visit([&](auto xyz) {
-    for (std::size_t i = 0; i < xyz.size(); ++i) {
-      const auto value = static_cast<double>(xyz[i]);
+  positions.visit([&](const auto& xyz) {
+    for (std::size_t i = 0; i < 3 * xyz.size(); ++i) {
+      const auto value = static_cast<double>(xyz(i / 3, i % 3));
       box.min[i % 3] = std::min(box.min[i % 3], value);
       box.max[i % 3] = std::max(box.max[i % 3], value);
     }

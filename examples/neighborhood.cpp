@@ -28,8 +28,8 @@ int main(int argc, char** argv) try {
   }
   const auto vertex = static_cast<meshhood::VertexId>(std::strtoul(argv[2], nullptr, 10));
   const double radius = std::strtod(argv[3], nullptr);
-  std::printf("%zu vertices within %g of vertex %u and connected to it there\n", near(argv[1], vertex, radius).size(), radius,
-              unsigned{vertex});
+  std::printf("%zu vertices connected to vertex %u within distance %g\n", near(argv[1], vertex, radius).size(),
+              unsigned{vertex}, radius);
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());

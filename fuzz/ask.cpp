@@ -25,7 +25,8 @@ double draw_radius(const Index& index, VertexId v, test::Random& random) {
 
 void ask(const Index& index) {
   const std::size_t vertices = index.vertex_count();
-  validate(extract_graph(index).view());
+  const GraphData graph = extract_graph(index);
+  validate(graph.view());
   Searcher searcher(index);
   std::vector<VertexId> ids;
   std::vector<double> distances;

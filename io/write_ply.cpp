@@ -119,14 +119,14 @@ class PlyWriter {
   void write() {
     has_long_faces_ = largest_face(mesh_.faces) > std::numeric_limits<std::uint8_t>::max();
     file_.write(header());
-    mesh_.positions.visit([this](auto xyz) { write_vertices(xyz); });
+    mesh_.positions.visit([this](const auto& xyz) { write_vertices(xyz); });
     mesh_.faces.for_each([this](std::size_t, auto corners) { write_face(corners); });
   }
 
  private:
   [[nodiscard]] std::string header() const {
     const auto scalar = mesh_.positions.visit(
-        [](auto xyz) { return std::is_same_v<typename decltype(xyz)::value_type, double> ? "double" : "float"; });
+        []<class Real>(const StridedPositions<Real>&) { return std::is_same_v<Real, double> ? "double" : "float"; });
     std::string text = "ply\n";
     text += options_.ascii ? "format ascii 1.0\n" : "format binary_little_endian 1.0\n";
     text += fmt::format("element vertex {}\n", mesh_.positions.size());
@@ -146,9 +146,9 @@ class PlyWriter {
   }
 
   template <class Real>
-  void write_vertices(std::span<const Real> xyz) {
-    for (std::size_t vertex = 0; vertex < xyz.size() / 3; ++vertex) {
-      for (const auto coordinate : xyz.subspan(3 * vertex, 3)) rows_.value(coordinate);
+  void write_vertices(const StridedPositions<Real>& xyz) {
+    for (std::size_t vertex = 0; vertex < xyz.size(); ++vertex) {
+      for (std::size_t axis = 0; axis < 3; ++axis) rows_.value(xyz(vertex, axis));
       if (!options_.colors.empty()) {
         for (const auto channel : options_.colors.subspan(3 * vertex, 3)) rows_.value(channel);
       }

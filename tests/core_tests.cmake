@@ -57,3 +57,11 @@ add_subdirectory(narrow_ids)
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
   meshhood_test(whole/float_modes ALONE meshhood_families)
 endif()
+
+meshhood_test(base/searcher ALONE meshhood_families)
+# Views of matrices of Eigen are tested where it is found.
+meshhood_test(base/views ALONE meshhood_families)
+find_package(Eigen3 QUIET NO_MODULE)
+if(TARGET Eigen3::Eigen)
+  target_link_libraries(base_views_test PRIVATE Eigen3::Eigen)
+endif()

@@ -16,7 +16,8 @@ struct PointCloud {
   std::vector<float> xyz;
 
   explicit PointCloud(const PositionsView& positions) {
-    positions.visit([&](auto given) {
+    positions.visit([&](const auto& strided) {
+      const auto given = strided.packed();
       xyz.resize(given.size());
       std::transform(given.begin(), given.end(), xyz.begin(), [](auto x) { return static_cast<float>(x); });
     });

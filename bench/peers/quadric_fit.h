@@ -41,9 +41,9 @@ class QuadricFit {
 
  private:
   static std::vector<Eigen::Vector3d> points_of(const MeshView& mesh) {
-    return mesh.positions.visit([](auto xyz) {
+    return mesh.positions.visit([](const auto& xyz) {
       std::vector<Eigen::Vector3d> points;
-      for (std::size_t i = 0; i < xyz.size(); i += 3) points.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
+      for (std::size_t v = 0; v < xyz.size(); ++v) points.emplace_back(xyz(v, 0), xyz(v, 1), xyz(v, 2));
       return points;
     });
   }

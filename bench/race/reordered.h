@@ -28,9 +28,9 @@ struct Reordered {
 
  private:
   void add_position(const PositionsView& from, VertexId v) {
-    from.visit([&](auto xyz) {
+    from.visit([&](const auto& xyz) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        positions.push_back(static_cast<float>(xyz[3 * std::size_t{v} + axis]));
+        positions.push_back(static_cast<float>(xyz(v, axis)));
       }
     });
   }

@@ -34,7 +34,10 @@ void check_positions(const PositionsView& positions) {
 GraphData graph_copy(const MeshView& mesh) {
   // The copy is validated, not the original: another thread may write to that at any time.
   GraphData copy;
-  mesh.positions.visit([&](auto xyz) { copy.positions = std::vector(xyz.begin(), xyz.end()); });
+  mesh.positions.visit([&](const auto& strided) {
+    const auto xyz = strided.packed();
+    copy.positions = std::vector(xyz.begin(), xyz.end());
+  });
   about("V", [&] { check_positions(copy.view().positions); });
   copy.adjacency = about("F", [&] { return adjacency({copy.view().positions, mesh.faces}); });
   return copy;

@@ -2,22 +2,15 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <span>
 #include <variant>
 #include <vector>
 
 #include "meshhood/mesh.h"
+#include "meshhood/vertex_id.h"
 
 namespace meshhood {
-
-#if defined(MESHHOOD_NARROW_IDS)
-using EdgeOffset = std::uint16_t;
-#else
-/// A place in a list of neighbours. Each edge stands in it twice.
-using EdgeOffset = std::uint32_t;
-#endif
 
 /// The largest number of neighbours over all vertices: twice the number of edges.
 inline constexpr std::size_t kMaxNeighbors = std::numeric_limits<EdgeOffset>::max();
@@ -25,32 +18,35 @@ inline constexpr std::size_t kMaxNeighbors = std::numeric_limits<EdgeOffset>::ma
 /// A symmetric graph in CSR form, borrowed: the neighbours of `v` are `neighbors[offsets[v]] .. neighbors[offsets[v +
 /// 1] - 1]`. Each row ascends, without repetition and without `v` itself.
 struct AdjacencyView {
-  std::span<const EdgeOffset> offsets;  ///< #V + 1
+  std::span<const EdgeOffset> offsets;  ///< #V + 1; may be empty if there are no vertices
   std::span<const VertexId> neighbors;  ///< twice the number of edges
 
   /// #V.
   [[nodiscard]] std::size_t size() const { return offsets.empty() ? 0 : offsets.size() - 1; }
 
+  /// The neighbours of `v`.
   [[nodiscard]] std::span<const VertexId> operator[](std::size_t v) const {
     return neighbors.subspan(offsets[v], offsets[v + 1] - offsets[v]);
   }
 };
 
-/// The same, owned.
+/// A graph as `AdjacencyView` describes, owned.
 struct Adjacency {
   std::vector<EdgeOffset> offsets;
   std::vector<VertexId> neighbors;
 
-  [[nodiscard]] AdjacencyView view() const { return {offsets, neighbors}; }
+  /// Borrows from this object. A view of a temporary does not compile.
+  [[nodiscard]] AdjacencyView view() const& { return {offsets, neighbors}; }
+  AdjacencyView view() const&& = delete;
 };
 
-/// Vertices with positions and a graph given directly, for whoever has no polygons. Borrowed like a `MeshView`.
+/// Vertices with positions and a graph given directly, for data without polygons. Borrowed like a `MeshView`.
 struct GraphView {
   PositionsView positions;
   AdjacencyView adjacency;
 };
 
-/// Positions of either precision, owned. #V by 3.
+/// Positions of either precision, owned. #V by 3, row by row.
 using PositionsData = std::variant<std::vector<float>, std::vector<double>>;
 
 /// A `GraphView`, owned.
@@ -58,25 +54,26 @@ struct GraphData {
   PositionsData positions;
   Adjacency adjacency;
 
-  /// Borrows from this graph.
-  [[nodiscard]] GraphView view() const {
+  /// Borrows from this object. A view of a temporary does not compile.
+  [[nodiscard]] GraphView view() const& {
     return {std::visit([](const auto& xyz) { return PositionsView(xyz); }, positions), adjacency.view()};
   }
+  GraphView view() const&& = delete;
 };
 
-/// The graph of a mesh (see `FacesView`). O(#V + #corners log(valence)); one thread.
+/// The graph of a mesh (see `FacesView`). O(#V + #corners log(valence)). One thread.
 ///
-/// Throws Error{InvalidMesh, TooLarge}, as `validate`, and where there are more than `kMaxNeighbors / 2` corners.
+/// Throws Error{InvalidMesh, TooLarge}, as `validate`, and if there are more than `kMaxNeighbors / 2` corners.
 [[nodiscard]] Adjacency adjacency(const MeshView& mesh);
 
-/// Throws unless the positions are valid, and the adjacency is what `AdjacencyView` says: one row a vertex, ascending,
-/// symmetric, irreflexive, in range.
+/// Throws unless the positions are valid and the adjacency is as `AdjacencyView` requires: one row per vertex, each
+/// ascending, in range and without the vertex itself; and symmetric.
 ///
 /// Throws Error{InvalidMesh, TooLarge}, naming the vertex. O(#V + #E log(valence)).
 void validate(const GraphView& graph);
 
-/// The mean length of the different edges, in the unit of the positions; 0 where there is none. The graph is valid.
-/// O(#V + #E).
+/// The mean length of the edges, each counted once, in the unit of the positions; 0 if there are none. The graph must
+/// be valid. O(#V + #E).
 [[nodiscard]] double mean_edge_length(const GraphView& graph);
 
 }  // namespace meshhood

@@ -9,9 +9,9 @@
 
 namespace meshhood {
 
-/// Identifies a mesh: a hash of 128 bits over its positions, in their precision and bit for bit, and its graph. Meshes
-/// with the same positions and graph have the same fingerprint, whatever the order of faces and corners. It detects
-/// mistakes, not forgeries.
+/// Identifies a mesh: a 128-bit hash of its positions, bit for bit and in their precision, and of its graph. It does
+/// not depend on the order of faces and corners, nor on the layout of the positions in memory. It detects mistakes, not
+/// forgeries.
 struct Fingerprint {
   std::uint64_t high = 0;
   std::uint64_t low = 0;

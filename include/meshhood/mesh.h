@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -10,17 +11,11 @@
 #include <utility>
 #include <variant>
 
+#include "meshhood/vertex_id.h"
+
 namespace meshhood {
 
-#if defined(MESHHOOD_NARROW_IDS)
-// A build for tests alone, in which tiny meshes reach every limit on the number of vertices and edges.
-using VertexId = std::uint16_t;
-#else
-/// A vertex, by its row in the caller's positions.
-using VertexId = std::uint32_t;
-#endif
-
-/// The largest number of vertices: one id is kept free.
+/// The largest number of vertices. One id is reserved.
 inline constexpr std::size_t kMaxVertices = std::numeric_limits<VertexId>::max() - std::size_t{1};
 
 /// A contiguous range of `T` that may be borrowed: an lvalue or a view. A temporary container is neither, so that a
@@ -28,51 +23,113 @@ inline constexpr std::size_t kMaxVertices = std::numeric_limits<VertexId>::max()
 template <class Range, class T>
 concept BorrowedArray = std::ranges::borrowed_range<Range> && std::convertible_to<Range, std::span<const T>>;
 
-/// Positions of the vertices, `#V by 3`, row after row, float or double, in any unit. Borrowed, never copied.
+/// Coordinate `axis` of vertex `v` is `first[v * vertex_stride + axis * axis_stride]`.
+template <class Real>
+struct StridedPositions {
+  const Real* first = nullptr;
+  std::size_t count = 0;          ///< #V
+  std::size_t vertex_stride = 3;  ///< in elements, as the next
+  std::size_t axis_stride = 1;
+
+  [[nodiscard]] std::size_t size() const { return count; }
+  [[nodiscard]] Real operator()(std::size_t v, std::size_t axis) const {
+    return first[v * vertex_stride + axis * axis_stride];
+  }
+
+  /// Whether the coordinates follow each other, vertex after vertex.
+  [[nodiscard]] bool is_packed() const { return vertex_stride == 3 && axis_stride == 1; }
+
+  /// All coordinates of packed positions, #V by 3.
+  [[nodiscard]] std::span<const Real> packed() const { return {first, 3 * count}; }
+};
+
+/// Positions of the vertices, #V by 3, float or double, in any unit. Borrowed: nothing is copied, and the memory must
+/// outlive the view. A temporary container is rejected by the compiler.
+///
+/// A flat array and an array of `std::array<float, 3>` are read row by row: x, y, z of vertex 0, then of vertex 1. For
+/// other layouts say so: `column_major`, `strided`, or `meshhood/eigen.h` for matrices of Eigen.
 class PositionsView {
  public:
   PositionsView() = default;
 
-  template <std::convertible_to<std::span<const float>> Range>
-  PositionsView(const Range& xyz) : xyz_(std::span<const float>(xyz)) {}
+  /// A flat array of 3 #V coordinates, row by row.
+  template <BorrowedArray<float> Range>
+  PositionsView(Range&& xyz) : PositionsView(Rows{}, std::span<const float>(xyz)) {}
+  template <BorrowedArray<double> Range>
+  PositionsView(Range&& xyz) : PositionsView(Rows{}, std::span<const double>(xyz)) {}
 
-  template <std::convertible_to<std::span<const double>> Range>
-  PositionsView(const Range& xyz) : xyz_(std::span<const double>(xyz)) {}
+  /// One array of three coordinates per vertex.
+  template <BorrowedArray<std::array<float, 3>> Range>
+  PositionsView(Range&& points) : PositionsView(Rows{}, flat(std::span<const std::array<float, 3>>(points))) {}
+  template <BorrowedArray<std::array<double, 3>> Range>
+  PositionsView(Range&& points) : PositionsView(Rows{}, flat(std::span<const std::array<double, 3>>(points))) {}
 
-  /// Calls `f` with the `std::span<const float>` or `std::span<const double>` behind this view and returns its result.
+  /// A flat array of all x, then all y, then all z.
+  template <class Range>
+    requires BorrowedArray<Range, float> || BorrowedArray<Range, double>
+  [[nodiscard]] static PositionsView column_major(Range&& xyz) {
+    const std::span all(std::as_const(xyz));
+    PositionsView view = strided(all.data(), all.size() / 3, 1, all.size() / 3);
+    view.scalars_ = all.size();
+    return view;
+  }
+
+  /// Coordinate `axis` of vertex `v` is `first[v * vertex_stride + axis * axis_stride]`; strides are in elements. Use
+  /// it for positions inside larger records: `strided(&points[0].x, points.size(), sizeof(Point) / sizeof(float))`.
+  template <class Real>
+    requires std::same_as<Real, float> || std::same_as<Real, double>
+  [[nodiscard]] static PositionsView strided(const Real* first, std::size_t count, std::size_t vertex_stride,
+                                             std::size_t axis_stride = 1) {
+    return {StridedPositions<Real>{first, count, vertex_stride, axis_stride}, 3 * count};
+  }
+
+  /// Calls `f` with the `StridedPositions<float>` or `StridedPositions<double>` behind this view, and returns its
+  /// result.
   template <class F>
   decltype(auto) visit(F&& f) const {
-    return std::visit(std::forward<F>(f), xyz_);
+    return std::visit(std::forward<F>(f), positions_);
   }
 
-  /// The number of scalars: `3 #V` for a view that `validate` accepts.
-  [[nodiscard]] std::size_t scalar_count() const {
-    return visit([](auto xyz) { return xyz.size(); });
-  }
+  /// The number of scalars given: `3 #V` for a view that `validate` accepts.
+  [[nodiscard]] std::size_t scalar_count() const { return scalars_; }
 
   /// #V.
-  [[nodiscard]] std::size_t size() const { return scalar_count() / 3; }
+  [[nodiscard]] std::size_t size() const { return scalars_ / 3; }
 
  private:
-  std::variant<std::span<const float>, std::span<const double>> xyz_;
+  template <class Real>
+  PositionsView(StridedPositions<Real> positions, std::size_t scalars) : positions_(positions), scalars_(scalars) {}
+
+  struct Rows {};
+
+  template <class Real>
+  PositionsView(Rows, std::span<const Real> xyz)
+      : PositionsView(StridedPositions<Real>{xyz.data(), xyz.size() / 3}, xyz.size()) {}
+
+  template <class Real>
+  static std::span<const Real> flat(std::span<const std::array<Real, 3>> points) {
+    static_assert(sizeof(std::array<Real, 3>) == 3 * sizeof(Real));
+    return {points.empty() ? nullptr : points.front().data(), 3 * points.size()};
+  }
+
+  std::variant<StridedPositions<float>, StridedPositions<double>> positions_;
+  std::size_t scalars_ = 0;
 };
 
-/// A list of indices of 32 or 64 bits, signed or not. Borrowed, never copied. A negative index is out of range.
+/// A list of indices of 32 or 64 bits, signed or not. Borrowed: nothing is copied, and the memory must outlive the
+/// view. A temporary container is rejected by the compiler. A negative index is out of range.
 class IndicesView {
  public:
   IndicesView() = default;
 
-  template <std::convertible_to<std::span<const std::uint32_t>> Range>
-  IndicesView(const Range& indices) : indices_(std::span<const std::uint32_t>(indices)) {}
-
-  template <std::convertible_to<std::span<const std::int32_t>> Range>
-  IndicesView(const Range& indices) : indices_(std::span<const std::int32_t>(indices)) {}
-
-  template <std::convertible_to<std::span<const std::uint64_t>> Range>
-  IndicesView(const Range& indices) : indices_(std::span<const std::uint64_t>(indices)) {}
-
-  template <std::convertible_to<std::span<const std::int64_t>> Range>
-  IndicesView(const Range& indices) : indices_(std::span<const std::int64_t>(indices)) {}
+  template <BorrowedArray<std::uint32_t> Range>
+  IndicesView(Range&& indices) : indices_(std::span<const std::uint32_t>(indices)) {}
+  template <BorrowedArray<std::int32_t> Range>
+  IndicesView(Range&& indices) : indices_(std::span<const std::int32_t>(indices)) {}
+  template <BorrowedArray<std::uint64_t> Range>
+  IndicesView(Range&& indices) : indices_(std::span<const std::uint64_t>(indices)) {}
+  template <BorrowedArray<std::int64_t> Range>
+  IndicesView(Range&& indices) : indices_(std::span<const std::int64_t>(indices)) {}
 
   /// Calls `f` with the span behind this view and returns its result.
   template <class F>
@@ -90,80 +147,134 @@ class IndicesView {
       indices_;
 };
 
-/// The polygons of a mesh: triangles as `#F by 3` corners, or polygons of any size as offsets and corners.
+/// A contiguous range of triangles as arrays of three indices of `T`, that may be borrowed.
+template <class Range, class T>
+concept BorrowedTriangles = BorrowedArray<Range, std::array<T, 3>>;
+
+/// The polygons of a mesh: triangles, #F by 3, or polygons of any size as offsets and corners.
 ///
 /// The **graph** of a mesh joins the consecutive distinct corners of each polygon, the last with the first. A polygon
-/// of two corners is therefore an edge; one of a single corner, or of none, joins nothing. Nothing is assumed manifold,
-/// closed, connected or oriented; sheets that share a vertex are joined there.
+/// of two corners is therefore an edge; a polygon of one corner, or of none, joins nothing. Nothing is assumed
+/// manifold, closed, connected or oriented. Sheets that share a vertex are connected there.
 class FacesView {
  public:
   FacesView() = default;
 
-  /// `corners`: #F by 3, row after row.
-  [[nodiscard]] static FacesView triangles(IndicesView corners) { return FacesView({}, corners, true); }
+  /// Triangles, row by row. `corners`: #F by 3.
+  [[nodiscard]] static FacesView triangles(IndicesView corners) {
+    return strided_triangles(corners, corners.size() / 3, 3, 1);
+  }
+
+  /// One array of three corners per triangle.
+  template <class Range>
+    requires BorrowedTriangles<Range, std::uint32_t> || BorrowedTriangles<Range, std::int32_t> ||
+             BorrowedTriangles<Range, std::uint64_t> || BorrowedTriangles<Range, std::int64_t>
+  [[nodiscard]] static FacesView triangles(Range&& corners) {
+    const std::span all(std::as_const(corners));
+    return triangles(std::span(all.empty() ? nullptr : all.front().data(), 3 * all.size()));
+  }
+
+  /// Triangles in a flat array of all first corners, then all second, then all third.
+  [[nodiscard]] static FacesView column_major_triangles(IndicesView corners) {
+    return strided_triangles(corners, corners.size() / 3, 1, corners.size() / 3);
+  }
+
+  /// Corner `i` of triangle `f` is `corners[f * face_stride + i * corner_stride]`, for `count` triangles.
+  [[nodiscard]] static FacesView strided_triangles(IndicesView corners, std::size_t count, std::size_t face_stride,
+                                                   std::size_t corner_stride) {
+    FacesView faces;
+    faces.corners_ = corners;
+    faces.count_ = count;
+    faces.face_stride_ = face_stride;
+    faces.corner_stride_ = corner_stride;
+    return faces;
+  }
 
   /// Polygon `f` has the corners `corners[offsets[f]] .. corners[offsets[f + 1] - 1]`.
-  /// `offsets`: #F + 1, ascending from 0 to `corners.size()`; empty where there are no faces.
+  /// `offsets`: #F + 1, ascending from 0 to `corners.size()`; empty if there are no faces.
   [[nodiscard]] static FacesView polygons(IndicesView offsets, IndicesView corners) {
-    return FacesView(offsets, corners, false);
+    FacesView faces;
+    faces.triangles_ = false;
+    faces.offsets_ = offsets;
+    faces.corners_ = corners;
+    faces.count_ = offsets.size() == 0 ? 0 : offsets.size() - 1;
+    return faces;
   }
 
   /// #F.
-  [[nodiscard]] std::size_t size() const {
-    if (triangles_) return corners_.size() / 3;
-    return offsets_.size() == 0 ? 0 : offsets_.size() - 1;
-  }
+  [[nodiscard]] std::size_t size() const { return count_; }
 
   [[nodiscard]] bool are_triangles() const { return triangles_; }
+
+  /// The number of corners of all faces, once they have passed `validate`.
+  [[nodiscard]] std::size_t corner_count() const { return are_triangles() ? 3 * count_ : corners_.size(); }
+
+  /// As given. Use `for_each` to read the faces: triangles may be strided.
   [[nodiscard]] const IndicesView& offsets() const { return offsets_; }
   [[nodiscard]] const IndicesView& corners() const { return corners_; }
+  [[nodiscard]] std::size_t face_stride() const { return face_stride_; }      ///< of triangles, in elements
+  [[nodiscard]] std::size_t corner_stride() const { return corner_stride_; }  ///< of triangles, in elements
 
-  /// Calls `f(face, corners)` for every face in order, `corners` a span of the caller's index type.
-  /// The view must have passed `validate`.
+  /// Calls `f(face, corners)` for every face in order; `corners` is a span of the caller's index type, valid during the
+  /// call. The view must have passed `validate`.
   template <class F>
   void for_each(F&& f) const {
     corners_.visit([&](auto corners) {
-      if (triangles_) {
-        for (std::size_t face = 0; face < corners.size() / 3; ++face) f(face, corners.subspan(3 * face, 3));
-        return;
-      }
-      offsets_.visit([&](auto offsets) {
-        for (std::size_t face = 0; face + 1 < offsets.size(); ++face) {
-          const auto begin = static_cast<std::size_t>(offsets[face]);
-          const auto end = static_cast<std::size_t>(offsets[face + 1]);
-          f(face, corners.subspan(begin, end - begin));
-        }
-      });
+      if (!are_triangles()) return for_each_polygon(corners, f);
+      if (corner_stride_ != 1) return for_each_strided(corners, f);
+      for (std::size_t face = 0; face < count_; ++face) f(face, corners.subspan(face_stride_ * face, 3));
     });
   }
 
  private:
-  FacesView(IndicesView offsets, IndicesView corners, bool triangles)
-      : offsets_(offsets), corners_(corners), triangles_(triangles) {}
+  template <class Index, class F>
+  void for_each_polygon(std::span<const Index> corners, F& f) const {
+    offsets_.visit([&](auto offsets) {
+      for (std::size_t face = 0; face < count_; ++face) {
+        const auto begin = static_cast<std::size_t>(offsets[face]);
+        const auto end = static_cast<std::size_t>(offsets[face + 1]);
+        f(face, corners.subspan(begin, end - begin));
+      }
+    });
+  }
+
+  template <class Index, class F>
+  void for_each_strided(std::span<const Index> corners, F& f) const {
+    for (std::size_t face = 0; face < count_; ++face) {
+      const std::size_t first = face * face_stride_;
+      const std::array<Index, 3> triangle{corners[first], corners[first + corner_stride_],
+                                          corners[first + 2 * corner_stride_]};
+      f(face, std::span<const Index>(triangle));
+    }
+  }
 
   IndicesView offsets_;
   IndicesView corners_;
+  std::size_t count_ = 0;
   bool triangles_ = true;
+  std::size_t face_stride_ = 3;
+  std::size_t corner_stride_ = 1;
 };
 
-/// A polygonal mesh, borrowed from the caller, who keeps the arrays alive and unchanged during the call it is given to.
+/// A polygonal mesh. Borrowed: the caller keeps the arrays alive and unchanged during the call the view is passed to.
 struct MeshView {
   PositionsView positions;
   FacesView faces;
 };
 
-/// Throws unless `mesh` describes a mesh: positions `#V by 3`, finite, and no double beyond 2^500 in size (its square
-/// would overflow); `3 #F` corners, or offsets that ascend from 0 to the number of corners; every corner in [0, #V).
-/// Degenerate, repeated and isolated elements are accepted. Everything that takes a `MeshView` calls this first.
+/// Throws unless `mesh` describes a mesh: positions #V by 3, finite, and no double beyond 2^500 in magnitude (its
+/// square would overflow); 3 #F corners, or offsets that ascend from 0 to the number of corners; every corner in [0,
+/// #V). Degenerate, repeated and isolated elements are accepted. Every function that takes a `MeshView` calls this
+/// first.
 ///
 /// Throws Error{InvalidMesh, TooLarge}, naming the vertex, or the face and corner. O(#V + #corners).
 void validate(const MeshView& mesh);
 
-/// Throws unless every coordinate is as `validate(const MeshView&)` asks.
+/// Throws unless the positions are #V by 3 and every coordinate is valid, as above.
 void validate(const PositionsView& positions);
 
 /// The distance between two vertices, as every search computes it: in double, `sqrt((dx*dx + dy*dy) + dz*dz)`.
-/// A vertex lies in the ball around `v` whose radius is exactly `distance(positions, v, w)`.
+/// Vertex `w` lies in the ball around `v` whose radius is exactly `distance(positions, v, w)`.
 ///
 /// Throws Error{VertexOutOfRange}.
 [[nodiscard]] double distance(const PositionsView& positions, VertexId v, VertexId w);

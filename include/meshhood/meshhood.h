@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// meshhood: the neighborhood of a point on a polygonal mesh.
+/// meshhood: neighborhoods on polygonal meshes, exact and indexed.
 ///
-/// The neighborhood of vertex `v` with radius `r` is the part of the mesh inside the ball of radius `r` around `v` that
-/// hangs together with `v` inside that ball.
+/// The neighborhood of vertex `v` with radius `r` is the connected component that holds `v` of the mesh inside the ball
+/// of radius `r` around `v`.
 ///
 ///     #include <meshhood/meshhood.h>
 ///
@@ -12,11 +12,13 @@
 ///     std::vector<std::uint32_t> triangles = ...;  // #F by 3
 ///
 ///     const auto index = meshhood::build({positions, meshhood::FacesView::triangles(triangles)});
-///     meshhood::Searcher searcher(index);    // one a thread
-///     std::vector<meshhood::VertexId> near;
-///     searcher.neighborhood(42, 1.5, near);  // exactly what a breadth-first search would find
+///     meshhood::Searcher searcher(index);    // one per thread
+///     std::vector<meshhood::VertexId> ids;
+///     searcher.neighborhood(42, 1.5, ids);   // the same set as breadth-first search
 ///
-/// `meshhood::paper` has the same calls with the approximate answers of the paper.
+/// `Searcher` is in search.h, batches over many vertices in batch.h, visitors in searcher.h, files in
+/// io/mesh_io.h and io/index_io.h, matrices of Eigen in eigen.h. `meshhood::paper` has the same calls with the
+/// approximate neighborhoods of the paper.
 
 #include "meshhood/adjacency.h"    // IWYU pragma: export
 #include "meshhood/batch.h"        // IWYU pragma: export

@@ -15,35 +15,37 @@
 #include "meshhood/searcher.h"
 
 /// The index and the query of *Fast neighborhood search on polygonal meshes*, sections 3.2 and 3.3.
-/// `docs/paper.md` lists where the code departs from the printed page, and why.
+/// `docs/paper.md` lists the deviations from the paper, with reasons.
 namespace meshhood::paper {
 
-/// A cluster, by its place on its level.
+/// A cluster, by its index on its level.
 using ClusterId = VertexId;
 
-/// How the hierarchy is made (3.2, 4.1).
+/// How the hierarchy is built (3.2, 4.1). There is no option for threads: each step visits the clusters one after the
+/// other, and a decision depends on those before it, so that the result of the paper is defined by a sequential order.
 struct BuildOptions {
-  /// Levels to compute, the base level (one cluster a vertex) included; >= 1. Construction ends earlier where every
-  /// component of the mesh has become a single cluster; `kAllLevels` always goes on until then.
+  /// Levels to compute, the base level (one cluster per vertex) included; >= 1. Construction ends earlier if every
+  /// component of the mesh has become a single cluster; `kAllLevels` always continues until then.
   int levels = 5;
 
-  /// How many of the lowest levels to drop once the ones above them stand; >= 0. The last level is kept in any case.
+  /// The number of lowest levels to drop after all are built; >= 0. The last level is always kept.
   int discard = 2;
 
   /// Fusion on level `l` dissolves clusters of fewer than `fusion_growth` to the power of `l` vertices; finite, >= 0.
   double fusion_growth = 4.0;
 
-  /// Called between the steps of each level. The longest takes O((#V + #E) log #V).
+  /// Called between the steps of each level. The longest step takes O((#V + #E) log #V).
   Progress progress = {};
 
   static constexpr int kAllLevels = 64;
 };
 
-/// Numbered as in sec. 3.1: the base level is 0.
+/// Levels are numbered as in sec. 3.1: the base level is 0.
 using LevelSummary = meshhood::LevelSummary;
 
-/// The hierarchy of connected clusters (3.1). Immutable: any number of threads may query it, each with its own
-/// `Searcher`. It keeps a copy of the positions, in the order of its clusters, and does not refer to the mesh.
+/// The hierarchy of connected clusters (3.1), with the positions in the order of the clusters.
+///
+/// Immutable: any number of threads may query it, each with its own `Searcher`. It does not refer to the mesh.
 class Index {
  public:
   Index(Index&&) noexcept;
@@ -53,30 +55,30 @@ class Index {
   /// #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
+  /// Memory of all arrays. O(#levels).
+  [[nodiscard]] IndexBytes bytes() const;
+
   /// The levels kept, lowest first; at least one.
   [[nodiscard]] std::vector<LevelSummary> levels() const;
 
-  /// Bytes of all arrays of the index, its copy of the positions included.
-  [[nodiscard]] std::size_t bytes() const;
-
-  /// The positions in index order, #V by 3. Lives as long as the index.
+  /// The positions in index order, #V by 3. Valid as long as the index.
   [[nodiscard]] PositionsView positions() const;
 
-  /// The vertices in index order, in which every cluster of every level is a contiguous range. #V; lives as long as
-  /// the index.
+  /// The caller's id of each vertex in index order, #V. Every cluster of every level is a contiguous range of it. Valid
+  /// as long as the index.
   [[nodiscard]] std::span<const VertexId> permutation() const;
 
-  /// Verifies every statement of sec. 3.1 and returns those that do not hold, one line each that names level and
-  /// cluster, at most sixteen. Empty means that all hold:
-  ///  - each level partitions the vertices;  - a parent is the union of its children, and the links agree;
+  /// Verifies every statement of sec. 3.1 against the mesh that the index was built from. Returns one line per
+  /// violation, naming level and cluster, at most sixteen. An empty result means:
+  ///  - each level partitions the vertices;
+  ///  - a parent is the union of its children, and the links in both directions agree;
   ///  - each cluster is connected on the mesh, so none spans two components;
   ///  - each sphere encloses its vertices, and that of a base cluster has radius 0;
   ///  - siblings are symmetric, irreflexive and exactly the pairs that an edge of the mesh joins;
   ///  - levels shrink: only a cluster that is a whole component may have a single child;
-  ///  - the averages are finite and what the clusters give.
+  ///  - the averages are finite and correct.
   ///
-  /// mesh    the mesh that the index was built from.
-  /// Throws Error{InvalidMesh, TooLarge} where `mesh` is no mesh. O((#V + #E) #levels).
+  /// Throws Error{InvalidMesh, TooLarge} if `mesh` is invalid. O((#V + #E) #levels).
   [[nodiscard]] std::vector<std::string> check(const MeshView& mesh) const;
   [[nodiscard]] std::vector<std::string> check(const GraphView& graph) const;
 
@@ -89,10 +91,10 @@ class Index {
   std::unique_ptr<const Storage> storage_;
 };
 
-/// Computes the index (3.2): create, select, link and sphere, fusion, level by level. One thread; the same mesh and
-/// options give the same index.
+/// Builds the index (3.2): create, select, link and sphere, fusion, level by level. The same mesh and options give the
+/// same index. One thread.
 ///
-/// mesh    any polygonal mesh (see `validate`); borrowed for the call.
+/// mesh    any polygonal mesh (see `meshhood::validate`); borrowed for the call.
 /// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}. O(#levels (#V + #E) log #V).
 [[nodiscard]] Index build(const MeshView& mesh, const BuildOptions& options = {});
 [[nodiscard]] Index build(const GraphView& graph, const BuildOptions& options = {});
@@ -107,11 +109,11 @@ struct QueryOptions {
 /// Throws Error{InvalidOption} unless `options` are in their ranges.
 void validate(const QueryOptions& options);
 
-/// What the last query of a `Searcher` went through, for the profile of sec. 4.3.
+/// Statistics of the last query of a `Searcher`, for the profile of sec. 4.3.
 struct QueryProfile {
-  int level = 0;                     ///< where the climb ended (numbered as in `LevelSummary`)
-  std::size_t clusters_reached = 0;  ///< clusters whose sphere meets the search sphere: `SC` of sec. 3.3
-  std::size_t vertices_tested = 0;   ///< vertices whose own distance was computed
+  int level = 0;                     ///< the level where the climb ended
+  std::size_t clusters_reached = 0;  ///< clusters found by the breadth-first search: `SC` of sec. 3.3
+  std::size_t vertices_tested = 0;   ///< vertices whose distance was computed
 };
 
 /// Finds the approximate neighborhoods of the paper by an `Index` (3.3): climb up, breadth-first search over siblings,
@@ -177,7 +179,7 @@ class Searcher {
   template <class F>
   void run(VertexId v, double radius, F&& answer);
 
-  /// A number that no cluster carries in `visited_`.
+  /// A number that marks no cluster in `visited_` yet.
   std::uint32_t next_query();
 
   const Index::Storage* storage_;

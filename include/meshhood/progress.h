@@ -6,14 +6,14 @@
 
 namespace meshhood {
 
-/// Watches a long call: told how many of `total` equal parts are done, it returns false to stop. The call then throws
-/// Error{Cancelled}, and leaves everything it was given as it was.
+/// Callback of a long call: `done` of `total` equal parts are complete. Return false to cancel. The call then throws
+/// Error{Cancelled} and leaves its arguments unchanged.
 ///
-/// Called on the thread that makes the call and on no other, with 0 at the beginning and `total` at the end; `done`
-/// never falls, `total` stays. What it throws ends the call too.
+/// It is called on the calling thread only, with 0 at the beginning and `total` at the end. `done` never decreases and
+/// `total` is constant. An exception it throws ends the call and is passed on.
 using Progress = std::function<bool(std::size_t done, std::size_t total)>;
 
-/// The most threads that a call may be told to use.
+/// The largest number of threads that a call accepts.
 inline constexpr unsigned kMaxThreads = 1024;
 
 }  // namespace meshhood

@@ -14,8 +14,8 @@
 namespace meshhood {
 namespace {
 
-/// Calls `f(v, w)` for every pair of consecutive distinct corners, the last with the first; a side that several
-/// polygons share comes as often.
+/// Calls `f(v, w)` for every pair of consecutive distinct corners, the last with the first. A side that several
+/// polygons share is repeated.
 template <class F>
 void for_each_side(const FacesView& faces, F&& f) {
   faces.for_each([&](std::size_t, auto corners) {
@@ -29,7 +29,7 @@ void for_each_side(const FacesView& faces, F&& f) {
   });
 }
 
-/// Sorts each row, drops what stands in it twice, and closes the gaps.
+/// Sorts each row, removes duplicates, and closes the gaps.
 Adjacency with_unique_rows(Adjacency all, TaskContext& task) {
   constexpr std::size_t kGrain = 4096;
   const std::size_t vertices = all.offsets.size() - 1;
@@ -103,16 +103,15 @@ void validate_offsets(const AdjacencyView& adjacency) {
 }  // namespace
 
 Adjacency adjacency(const MeshView& mesh) {
-  const Progress nobody;
-  TaskContext alone(1, nobody, 0);
-  return adjacency(mesh, alone);
+  TaskContext task;
+  return adjacency(mesh, task);
 }
 
 Adjacency adjacency(const MeshView& mesh, TaskContext& task) {
   validate(mesh);
-  // Every corner starts one side, and a side stands in two rows.
-  if (mesh.faces.corners().size() > kMaxNeighbors / 2) {
-    raise(ErrorCode::TooLarge, std::to_string(mesh.faces.corners().size()) + " face corners, but the limit is " +
+  // Every corner starts one side, and each side is in two rows.
+  if (mesh.faces.corner_count() > kMaxNeighbors / 2) {
+    raise(ErrorCode::TooLarge, std::to_string(mesh.faces.corner_count()) + " face corners, but the limit is " +
                                    std::to_string(kMaxNeighbors / 2));
   }
   const auto for_each_neighbor = [&](auto&& f) {
@@ -138,7 +137,7 @@ void validate(const GraphView& graph) {
 
 double mean_edge_length(const GraphView& graph) {
   const AdjacencyView& adjacency = graph.adjacency;
-  return graph.positions.visit([&](auto xyz) {
+  return graph.positions.visit([&](const auto& xyz) {
     double sum = 0;
     for (std::size_t v = 0; v < adjacency.size(); ++v) {
       const Point p = point(xyz, v);

@@ -15,8 +15,8 @@ double squared_radius(double radius) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double threshold = radius * radius;  // mutant: threshold-one-step-low
   if (threshold == kInfinity) return kInfinity;
-  // The product is rounded once and the root once more, so the answer is a step or two away. The steps are counted
-  // because where a host flushes denormals to zero, all of them have the root 0.
+  // Product and root are rounded once each, so the result is one or two steps away. The number of steps is bounded
+  // because denormals have the root 0 if the host flushes them to zero.
   constexpr int kSteps = 4;
   for (int i = 0; i < kSteps && std::sqrt(threshold) > radius; ++i) threshold = std::nextafter(threshold, 0.0);
   for (int i = 0; i < kSteps; ++i) {
@@ -45,7 +45,7 @@ void check_query(VertexId v, std::size_t vertices, double radius, std::string_vi
 double distance(const PositionsView& positions, VertexId v, VertexId w) {
   check_query(v, positions.size(), 0);
   check_query(w, positions.size(), 0);
-  return positions.visit([&](auto xyz) { return std::sqrt(squared_distance(point(xyz, v), point(xyz, w))); });
+  return positions.visit([&](const auto& xyz) { return std::sqrt(squared_distance(point(xyz, v), point(xyz, w))); });
 }
 
 }  // namespace meshhood

@@ -23,7 +23,13 @@ struct Point {
   double z;
 };
 
-/// Vertex `v` of `xyz`, `#V by 3`.
+/// Vertex `v`.
+template <class Real>
+[[nodiscard]] Point point(const StridedPositions<Real>& xyz, std::size_t v) {
+  return {static_cast<double>(xyz(v, 0)), static_cast<double>(xyz(v, 1)), static_cast<double>(xyz(v, 2))};
+}
+
+/// Vertex `v` of `xyz`, #V by 3.
 template <class Real>
 [[nodiscard]] Point point(std::span<const Real> xyz, std::size_t v) {
   return {static_cast<double>(xyz[3 * v]), static_cast<double>(xyz[3 * v + 1]), static_cast<double>(xyz[3 * v + 2])};
@@ -88,9 +94,9 @@ class SearchBall {
   }
 
  private:
-  // A computed distance is off by at most four units of 2^-53, and by 2^-537 where squares underflow. The bounds give
-  // way by far more than the few such errors that meet in one test, so that a sphere is never placed against the
-  // predicate.
+  // The relative error of a computed distance is at most 4 * 2^-53, and the absolute error 2^-537 if squares underflow.
+  // The bounds are relaxed by far more than the few such errors of one test, so that the classification of a sphere
+  // never contradicts the predicate.
   static constexpr double kSlack = 1e-14;
   static constexpr double kTiny = 0x1p-500;
 

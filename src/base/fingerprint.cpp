@@ -5,6 +5,7 @@
 #include <span>
 
 #include "base/checksum.h"
+#include "base/packed_positions.h"
 
 namespace meshhood {
 
@@ -23,14 +24,16 @@ Fingerprint fingerprint(const MeshView& mesh) {
 }
 
 Fingerprint fingerprint(const GraphView& graph) {
-  return graph.positions.visit([&](auto xyz) {
+  return graph.positions.visit([&]<class Real>(const StridedPositions<Real>& xyz) {
+    const PackedPositions<Real> packed(xyz);
+    const std::span<const Real> scalars = packed.view();
     // The sizes separate the arrays: without them, two meshes could have the same bytes.
-    const std::array<std::uint64_t, 3> sizes{sizeof(xyz[0]), xyz.size(), graph.adjacency.neighbors.size()};
+    const std::array<std::uint64_t, 3> sizes{sizeof(Real), scalars.size(), graph.adjacency.neighbors.size()};
     const AdjacencyView& adjacency = graph.adjacency;
     // A graph without vertices has one offset, or none.
     const auto ends = adjacency.offsets.last(adjacency.size());
-    return wide_checksum(
-        {std::as_bytes(std::span(sizes)), std::as_bytes(xyz), std::as_bytes(ends), std::as_bytes(adjacency.neighbors)});
+    return wide_checksum({std::as_bytes(std::span(sizes)), std::as_bytes(scalars), std::as_bytes(ends),
+                          std::as_bytes(adjacency.neighbors)});
   });
 }
 

@@ -13,9 +13,9 @@ struct Box {
 };
 
 template <class Real>
-Box bounding_box(std::span<const Real> xyz) {
+Box bounding_box(const StridedPositions<Real>& xyz) {
   Box box{point(xyz, 0), point(xyz, 0)};
-  for (std::size_t v = 1; v < xyz.size() / 3; ++v) {
+  for (std::size_t v = 1; v < xyz.size(); ++v) {
     const Point p = point(xyz, v);
     box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
     box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
@@ -34,7 +34,7 @@ double unit_scale(double extent) {
 
 Frame make_frame(const PositionsView& positions) {
   if (positions.size() == 0) return {};
-  const Box box = positions.visit([](auto xyz) { return bounding_box(xyz); });
+  const Box box = positions.visit([](const auto& xyz) { return bounding_box(xyz); });
   const Point origin{box.low.x / 2 + box.high.x / 2, box.low.y / 2 + box.high.y / 2, box.low.z / 2 + box.high.z / 2};
   // Measured from the rounded centre: half the width of the box may round to less.
   // mutant: box-width-for-extent

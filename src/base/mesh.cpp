@@ -12,19 +12,23 @@
 namespace meshhood {
 namespace {
 
+bool is_valid(double coordinate) { return std::abs(coordinate) <= kLargestCoordinate; }
+
 template <class Real>
-void validate_coordinates(std::span<const Real> xyz) {
-  for (std::size_t i = 0; i < xyz.size(); ++i) {
-    const auto value = static_cast<double>(xyz[i]);
-    if (std::abs(value) <= kLargestCoordinate) [[likely]] {
+void validate_coordinates(const StridedPositions<Real>& xyz) {
+  for (std::size_t v = 0; v < xyz.size(); ++v) {
+    const Point p = point(xyz, v);
+    if (is_valid(p.x) && is_valid(p.y) && is_valid(p.z)) [[likely]] {
       continue;
     }
-    raise(ErrorCode::InvalidMesh, "vertex " + std::to_string(i / 3) + ": " + "xyz"[i % 3] + " is " + to_text(value) +
-                                      ", expected a finite number of at most 2^500 in size");
+    const std::size_t axis = !is_valid(p.x) ? 0 : !is_valid(p.y) ? 1 : 2;
+    raise(ErrorCode::InvalidMesh, "vertex " + std::to_string(v) + ": " + "xyz"[axis] + " is " +
+                                      to_text(static_cast<double>(xyz(v, axis))) +
+                                      ", expected a finite number of at most 2^500 in magnitude");
   }
 }
 
-/// Where polygon `face` ends must not lie before where it begins, nor beyond the corners.
+/// Offsets must ascend from 0 to the number of corners.
 template <class Index>
 void validate_offsets(std::span<const Index> offsets, std::size_t corners) {
   if (offsets.empty()) {
@@ -49,7 +53,23 @@ void validate_offsets(std::span<const Index> offsets, std::size_t corners) {
   }
 }
 
-/// A negative corner becomes a huge one when it is read as unsigned, so one comparison finds both.
+void validate_triangles(const FacesView& faces) {
+  const std::size_t corners = faces.corners().size();
+  const std::size_t needed =
+      faces.size() == 0 ? 0 : (faces.size() - 1) * faces.face_stride() + 2 * faces.corner_stride() + 1;
+  if (corners < needed) {
+    raise(ErrorCode::InvalidMesh, std::to_string(corners) + " corner indices, but " + std::to_string(faces.size()) +
+                                      " triangles with strides " + std::to_string(faces.face_stride()) + " and " +
+                                      std::to_string(faces.corner_stride()) + " need " + std::to_string(needed));
+  }
+  const bool is_by_rows = faces.face_stride() == 3 && faces.corner_stride() == 1;
+  const bool is_by_columns = faces.face_stride() == 1 && faces.corner_stride() == faces.size();
+  if ((is_by_rows || is_by_columns) && corners % 3 != 0) {
+    raise(ErrorCode::InvalidMesh, std::to_string(corners) + " corners, expected three a triangle");
+  }
+}
+
+/// A negative corner is huge when read as unsigned, so that one comparison detects both faults.
 void validate_corners(const FacesView& faces, std::size_t vertices) {
   faces.for_each([&](std::size_t face, auto corners) {
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -74,18 +94,15 @@ void validate(const PositionsView& positions) {
     raise(ErrorCode::TooLarge,
           std::to_string(positions.size()) + " vertices, but the limit is " + std::to_string(kMaxVertices));
   }
-  positions.visit([](auto xyz) { validate_coordinates(xyz); });
+  positions.visit([](const auto& xyz) { validate_coordinates(xyz); });
 }
 
 void validate(const MeshView& mesh) {
   validate(mesh.positions);
-  const std::size_t corners = mesh.faces.corners().size();
   if (mesh.faces.are_triangles()) {
-    if (corners % 3 != 0) {
-      raise(ErrorCode::InvalidMesh, std::to_string(corners) + " corners, expected three a triangle");
-    }
+    validate_triangles(mesh.faces);
   } else {
-    mesh.faces.offsets().visit([&](auto offsets) { validate_offsets(offsets, corners); });
+    mesh.faces.offsets().visit([&](auto offsets) { validate_offsets(offsets, mesh.faces.corners().size()); });
   }
   validate_corners(mesh.faces, mesh.positions.size());
 }

@@ -15,6 +15,7 @@ namespace meshhood {
 namespace {
 
 constexpr std::chrono::milliseconds kBetweenReports{50};
+const Progress kNoProgress;
 
 unsigned thread_count([[maybe_unused]] unsigned wanted) {
 #if defined(__STDCPP_THREADS__)
@@ -24,7 +25,7 @@ unsigned thread_count([[maybe_unused]] unsigned wanted) {
 #endif
 }
 
-/// The first of the exceptions that threads end with.
+/// Keeps the first exception of several threads.
 class Failure {
  public:
   /// Calls `f`; false if it threw.
@@ -43,7 +44,7 @@ class Failure {
     return true;
   }
 
-  /// Once no thread runs any more.
+  /// Called when all threads have stopped.
   void pass_on() const {
     if (exception_) std::rethrow_exception(exception_);
   }
@@ -54,10 +55,10 @@ class Failure {
 };
 
 #if defined(__STDCPP_THREADS__)
-/// Threads that are joined when they go out of scope.
+/// Threads that are joined at the end of their scope.
 class Helpers {
  public:
-  /// Calls `body(1)`, `body(2)` ... on up to `count` threads; on fewer where the system has no more to give.
+  /// Calls `body(1)`, `body(2)` ... on up to `count` threads; on fewer if the system cannot create them.
   Helpers(std::size_t count, const std::function<void(unsigned)>& body) {
     Failure ignored;
     static_cast<void>(ignored.guard([&] {
@@ -90,6 +91,8 @@ TaskContext::TaskContext(unsigned threads, const Progress& progress, std::size_t
   }
   report_progress();
 }
+
+TaskContext::TaskContext() : threads_(1), progress_(&kNoProgress), total_(0) {}
 
 void TaskContext::report_progress() {
   if (!*progress_) return;

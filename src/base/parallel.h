@@ -11,35 +11,50 @@
 
 namespace meshhood {
 
-/// A long call: the threads it may use, and who watches how far it is. Belongs to the thread that made the call, which
-/// takes part in all of the work as number 0.
+/// A long call: its threads, its progress and whether it was cancelled. Belongs to the calling thread, which takes part
+/// in the work as thread 0.
 class TaskContext {
  public:
-  /// threads     0: as many as the processor has; one where there are none to be had, as in WebAssembly.
-  /// progress    may be empty; must outlive the task. Told of `total` parts.
-  /// Throws Error{InvalidOption, Cancelled}.
+  /// threads     0: one per processor; always one if the platform has no threads, as WebAssembly.
+  /// progress    may be empty; must outlive the task. Receives the number of parts done, of `total`.
+  /// Reports the beginning. Throws Error{InvalidOption, Cancelled}.
   TaskContext(unsigned threads, const Progress& progress, std::size_t total);
+
+  /// One thread, no progress, never cancelled.
+  TaskContext();
 
   [[nodiscard]] unsigned threads() const { return threads_; }
 
-  /// Calls `f(thread, begin, end)` for consecutive chunks of `grain` of the numbers `0 .. count - 1`, each on any of
-  /// the threads; which chunks there are does not depend on how many threads. Returns when no thread runs any more.
-  /// The first exception ends the loop and is then passed on.
+  /// Calls `f(thread, begin, end)` for consecutive chunks of `grain` of the numbers `0 .. count - 1`, each on any
+  /// thread. The chunks do not depend on the number of threads. Returns when all threads have stopped. The first
+  /// exception ends the loop and is passed on.
   template <class F>
   void parallel_for(std::size_t count, std::size_t grain, F&& f);
 
-  /// Any thread: so many more of the parts are done.
+  /// Any thread: `parts` more are done.
   void advance(std::size_t parts) { done_.fetch_add(parts, std::memory_order_relaxed); }
 
-  /// Whether to go on; to be asked in the midst of a chunk that takes long. Thread 0 reports progress if it is time,
-  /// and throws what comes of it.
+  /// Whether to continue; called within chunks that take long. Thread 0 reports progress if it is due, and may throw as
+  /// `report_progress`.
   bool should_continue(unsigned thread) {
     if (thread == 0 && *progress_ && std::chrono::steady_clock::now() >= next_report_) report_progress();
     return !stopped_.load(std::memory_order_relaxed);
   }
 
-  /// Thread 0: reports progress. Throws Error{Cancelled}.
+  /// Thread 0: reports progress now. Throws Error{Cancelled}, or what the callback throws.
   void report_progress();
+
+  /// Thread 0: `parts` more are done; reports it.
+  void step(std::size_t parts = 1) {
+    advance(parts);
+    report_progress();
+  }
+
+  /// Thread 0: all parts are done, also those that turned out not to be needed; reports it.
+  void finish() {
+    done_ = total_;
+    report_progress();
+  }
 
  private:
   /// Calls `body(thread)` on up to `threads` threads at once.

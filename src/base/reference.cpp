@@ -25,10 +25,10 @@ struct alignas(4 * sizeof(Real)) Record {
 namespace {
 
 template <class Real>
-std::vector<Record<Real>> make_records(std::span<const Real> xyz) {
-  std::vector<Record<Real>> records(xyz.size() / 3);
+std::vector<Record<Real>> make_records(const StridedPositions<Real>& xyz) {
+  std::vector<Record<Real>> records(xyz.size());
   for (std::size_t v = 0; v < records.size(); ++v) {
-    records[v] = {xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2], 0};
+    records[v] = {xyz(v, 0), xyz(v, 1), xyz(v, 2), 0};
   }
   return records;
 }
@@ -58,7 +58,7 @@ struct ReferenceSearcher::State {
   std::uint32_t query = 0;
 
   explicit State(const GraphView& graph) : adjacency(graph.adjacency), queue(graph.positions.size() + 1) {
-    graph.positions.visit([&](auto xyz) { records = make_records(xyz); });
+    graph.positions.visit([&](const auto& xyz) { records = make_records(xyz); });
   }
 
   /// A number that marks no record yet. All marks are cleared once in 2^32 queries.
@@ -180,12 +180,15 @@ namespace {
 template <class F>
 void scan(const PositionsView& positions, VertexId v, double radius, F&& f) {
   check_query(v, positions.size(), radius);
-  positions.visit([&](auto xyz) {
+  positions.visit([&](const auto& xyz) {
     const SearchBall ball(point(xyz, v), radius);
-    for (std::size_t w = 0; w < positions.size(); ++w) {
-      const Point p = point(xyz, w);
-      if (ball.contains(p)) f(static_cast<VertexId>(w), p, ball.centre());
-    }
+    const auto scan_all = [&](const auto& all) {
+      for (std::size_t w = 0; w < positions.size(); ++w) {
+        const Point p = point(all, w);
+        if (ball.contains(p)) f(static_cast<VertexId>(w), p, ball.centre());
+      }
+    };
+    xyz.is_packed() ? scan_all(xyz.packed()) : scan_all(xyz);
   });
 }
 

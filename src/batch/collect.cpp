@@ -145,7 +145,7 @@ std::vector<std::uint64_t> neighborhood_sizes(const SearchMethod& method, const 
   Batch batch(method, query, options, 1);
   std::vector<std::uint64_t> result(batch.rows().size());
   count_rows(batch, result.data(), nullptr);
-  batch.task().report_progress();
+  batch.task().finish();
   return result;
 }
 
@@ -160,7 +160,7 @@ std::vector<std::uint64_t> neighborhoods(const SearchMethod& method, const Batch
   count_rows(batch, offsets.data() + 1, &limit);
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
   write_rows(batch, offsets, allocated(allocate, offsets.back(), options.distances));
-  batch.task().report_progress();
+  batch.task().finish();
   return offsets;
 }
 

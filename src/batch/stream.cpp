@@ -156,7 +156,7 @@ void for_each_neighborhood(const SearchMethod& method, const BatchQuery& query, 
   if (!sink) raise(ErrorCode::InvalidOption, "sink is empty, expected a function");
   Batch batch(method, query, options, 1);
   Stream(batch, sink).run();
-  batch.task().report_progress();
+  batch.task().finish();
 }
 
 }  // namespace meshhood

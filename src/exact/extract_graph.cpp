@@ -74,15 +74,18 @@ GraphData extract_graph(const Index& index, TaskContext& task) {
 }
 
 GraphData extract_graph(const Index& index) {
-  const Progress silent;
-  TaskContext task(1, silent, 0);
+  TaskContext task;
   return extract_graph(index, task);
 }
 
 Fingerprint fingerprint(const Index& index, TaskContext& task) {
-  return fingerprint(extract_graph(index, task).view());
+  const GraphData graph = extract_graph(index, task);
+  return fingerprint(graph.view());
 }
 
-Fingerprint fingerprint(const Index& index) { return fingerprint(extract_graph(index).view()); }
+Fingerprint fingerprint(const Index& index) {
+  TaskContext task;
+  return fingerprint(index, task);
+}
 
 }  // namespace meshhood

@@ -70,7 +70,7 @@ void add_faces(const FacesView& faces, std::span<const VertexId> new_id, Reorder
 
 }  // namespace
 
-MeshView ReorderedMesh::view() const {
+MeshView ReorderedMesh::view() const& {
   return {index.positions(),
           face_offsets.empty() ? FacesView::triangles(corners) : FacesView::polygons(face_offsets, corners)};
 }

@@ -54,8 +54,7 @@ void verify(const IndexView& index, const SectionReader& file, TaskContext& task
   static_assert(kParts.size() == kVerifyParts);
   for (const auto part : kParts) {
     part(index, file);
-    task.advance(1);
-    task.report_progress();
+    task.step();
   }
 }
 

@@ -146,8 +146,7 @@ void SectionReader::verify_checksums(TaskContext& task) const {
       const auto value = std::to_integer<unsigned>(bytes_[static_cast<std::size_t>(byte)]);
       if (value != 0) refuse_at(where, byte, "padding byte " + expected(value, 0));  // mutant: padding-not-verified
     }
-    task.advance(1);
-    task.report_progress();
+    task.step();
   }
 }
 

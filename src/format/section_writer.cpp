@@ -28,8 +28,7 @@ void write_chunks(std::span<const std::byte> bytes, const Sink& sink, TaskContex
     const auto chunk = bytes.first(std::min(bytes.size(), kChunk));
     sink(chunk);
     bytes = bytes.subspan(chunk.size());
-    task.advance(chunk.size());
-    task.report_progress();
+    task.step(chunk.size());
   }
 }
 
@@ -55,8 +54,7 @@ std::vector<Section> SectionWriter::make_table(TaskContext& task) const {
     section.begin = begin;  // mutant: section-begin-not-saved
     section.bytes = part.bytes.size();
     section.checksum = checksum({part.bytes});  // mutant: checksum-not-saved
-    task.advance(part.bytes.size());
-    task.report_progress();
+    task.step(part.bytes.size());
     begin = aligned(begin + part.bytes.size());
   }
   return table;

@@ -8,6 +8,8 @@
 #include "meshhood/error.h"
 #include "meshhood/paper.h"
 
+#include "base/packed_positions.h"
+#include "base/parallel.h"
 #include "base/text.h"
 #include "paper/arrange.h"
 #include "paper/create.h"
@@ -16,7 +18,6 @@
 #include "paper/index_access.h"
 #include "paper/link.h"
 #include "paper/select.h"
-#include "paper/steps.h"
 
 namespace meshhood::paper {
 namespace {
@@ -32,6 +33,11 @@ void check_options(const BuildOptions& options) {
     raise(ErrorCode::InvalidOption,
           "fusion_growth is " + to_text(options.fusion_growth) + ", expected a finite number >= 0");
   }
+}
+
+/// The number of levels is not known in advance: at most those requested, of four steps each and one for the spheres.
+std::size_t max_steps(const BuildOptions& options) {
+  return 5 * static_cast<std::size_t>(std::min(options.levels, BuildOptions::kAllLevels));
 }
 
 template <class Real>
@@ -52,14 +58,14 @@ bool is_complete(const DraftLevel& level) { return level.siblings.neighbors.empt
 /// for each cluster that is kept, because fusion would change them.
 template <class Real>
 Hierarchy<Real> keep(std::span<const Real> xyz, const std::vector<DraftLevel>& levels,
-                     const std::vector<std::vector<ClusterId>>& parents, int discard, Steps& steps) {
+                     const std::vector<std::vector<ClusterId>>& parents, int discard, TaskContext& task) {
   std::vector<AdjacencyView> siblings;
   siblings.reserve(levels.size());
   for (const DraftLevel& level : levels) siblings.push_back(level.siblings);
   const std::size_t lowest = std::min(static_cast<std::size_t>(discard), levels.size() - 1);
   Hierarchy<Real> hierarchy = arrange(xyz, parents, siblings, lowest);
   for (Level<Real>& level : hierarchy.levels) {
-    steps.next();
+    task.step();
     enclose<Real>(hierarchy.positions, level);
   }
   return hierarchy;
@@ -71,25 +77,25 @@ Hierarchy<Real> compute(std::span<const Real> xyz, const AdjacencyView& graph, c
   levels.push_back(base_level(xyz, graph));
   std::vector<std::vector<ClusterId>> parents;
   double threshold = 1;
-  Steps steps(options);
+  TaskContext task(1, options.progress, max_steps(options));
   while (!is_complete(levels.back()) && static_cast<int>(levels.size()) < options.levels) {
     const DraftLevel& below = levels.back();
     threshold *= options.fusion_growth;
 
     std::vector<VertexId> candidates = create(below);
-    steps.next();
+    task.step();
     Partition partition = select(below, std::move(candidates));
-    steps.next();
+    task.step();
     fuse(below, threshold, partition);
-    steps.next();
+    task.step();
     DraftLevel level = link(below, partition);
-    steps.next();
+    task.step();
 
     parents.push_back(std::move(partition.parent));
     levels.push_back(std::move(level));
   }
-  Hierarchy<Real> hierarchy = keep(xyz, levels, parents, options.discard, steps);
-  steps.finish();
+  Hierarchy<Real> hierarchy = keep(xyz, levels, parents, options.discard, task);
+  task.finish();
   return hierarchy;
 }
 
@@ -110,8 +116,10 @@ AnyHierarchy compute_any(std::span<const float> xyz, const AdjacencyView& graph,
 
 /// `graph` and `options` are valid.
 Index make_index(const GraphView& graph, const BuildOptions& options) {
-  return IndexAccess::make(graph.positions.visit([&](auto xyz) { return compute_any(xyz, graph.adjacency, options); }),
-                           fingerprint(graph));
+  AnyHierarchy hierarchy = graph.positions.visit([&]<class Real>(const StridedPositions<Real>& xyz) {
+    return compute_any(PackedPositions<Real>(xyz).view(), graph.adjacency, options);
+  });
+  return IndexAccess::make(std::move(hierarchy), fingerprint(graph));
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ class Check {
   }
 
   [[nodiscard]] bool same_position(std::size_t i, VertexId v) const {
-    return graph_.positions.visit([&](auto xyz) {
+    return graph_.positions.visit([&](const auto& xyz) {
       const Point kept = point<Real>(hierarchy_.positions, i);
       const Point given = point(xyz, v);
       return kept.x == given.x && kept.y == given.y && kept.z == given.z;

@@ -133,8 +133,7 @@ Index load(std::span<const std::byte> bytes, const LoadOptions& options) {
   TaskContext task(1, options.progress, file.header().sections + 1);
   file.verify_checksums(task);
   AnyHierarchy hierarchy = header.is_double ? AnyHierarchy(take_hierarchy<double>(file)) : take_hierarchy<float>(file);
-  task.advance(1);
-  task.report_progress();
+  task.step();
   return IndexAccess::make(std::move(hierarchy), header.mesh);
 }
 

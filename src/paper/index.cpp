@@ -14,9 +14,13 @@ std::size_t bytes_of(const std::vector<T>& array) {
 }
 
 template <class Real>
-std::size_t bytes_of(const Level<Real>& level) {
-  return bytes_of(level.spheres) + bytes_of(level.first_vertex) + bytes_of(level.first_child) + bytes_of(level.parent) +
-         bytes_of(level.siblings.offsets) + bytes_of(level.siblings.neighbors);
+std::size_t bytes_of_siblings(const Level<Real>& level) {
+  return bytes_of(level.siblings.offsets) + bytes_of(level.siblings.neighbors);
+}
+
+template <class Real>
+std::size_t bytes_of_clusters(const Level<Real>& level) {
+  return bytes_of(level.spheres) + bytes_of(level.first_vertex) + bytes_of(level.first_child) + bytes_of(level.parent);
 }
 
 template <class Real>
@@ -28,7 +32,7 @@ LevelSummary summarize(const Level<Real>& level) {
           .mean_vertices = mean(level.first_vertex.back()),
           .mean_radius = level.mean_radius,
           .mean_siblings = mean(level.siblings.neighbors.size()),
-          .bytes = bytes_of(level)};
+          .bytes = bytes_of_siblings(level) + bytes_of_clusters(level)};
 }
 
 }  // namespace
@@ -41,8 +45,7 @@ Index::~Index() = default;
 std::size_t Index::vertex_count() const { return permutation().size(); }
 
 PositionsView Index::positions() const {
-  return std::visit([](const auto& hierarchy) { return PositionsView(std::span(hierarchy.positions)); },
-                    storage_->hierarchy);
+  return std::visit([](const auto& hierarchy) { return PositionsView(hierarchy.positions); }, storage_->hierarchy);
 }
 
 std::span<const VertexId> Index::permutation() const {
@@ -60,13 +63,17 @@ std::vector<LevelSummary> Index::levels() const {
       storage_->hierarchy);
 }
 
-std::size_t Index::bytes() const {
+IndexBytes Index::bytes() const {
   return std::visit(
       [](const auto& hierarchy) {
-        std::size_t total =
-            bytes_of(hierarchy.positions) + bytes_of(hierarchy.vertices) + hierarchy.lowest_cluster.bytes();
-        for (const auto& level : hierarchy.levels) total += bytes_of(level);
-        return total;
+        IndexBytes result;
+        result.positions = bytes_of(hierarchy.positions);
+        result.permutation = bytes_of(hierarchy.vertices) + hierarchy.lowest_cluster.bytes();
+        for (const auto& level : hierarchy.levels) {
+          result.graph += bytes_of_siblings(level);
+          result.tree += bytes_of_clusters(level);
+        }
+        return result;
       },
       storage_->hierarchy);
 }

@@ -65,7 +65,8 @@ TEST(Adjacency, A7SkipsRepeatedCornersAndFacesOfFew) {
 
 TEST(Adjacency, A4TakesAMeshOfNothing) {
   EXPECT_THAT(adjacency(MeshView{}).offsets, ElementsAre(0));
-  EXPECT_EQ(adjacency(MeshView{}).view().size(), 0U);
+  const Adjacency empty = adjacency(MeshView{});
+  EXPECT_EQ(empty.view().size(), 0U);
 }
 
 TEST(Adjacency, IsThatOfTheOracle) {

@@ -68,7 +68,8 @@ TEST(Validate, A17RefusesWhatIsNotFiniteAndNamesTheVertex) {
 
 TEST(Validate, A16RefusesDoublesWhoseSquareOverflows) {
   const double limit = std::ldexp(1.0, 500);
-  EXPECT_NO_THROW(validate(PositionsView(std::vector{limit, -limit, 0.0})));
+  const std::vector<double> widest{limit, -limit, 0.0};
+  EXPECT_NO_THROW(validate(PositionsView(widest)));
   const std::vector<double> beyond{0, std::nextafter(limit, 1e300), 0};
   expect_refused(ErrorCode::InvalidMesh, "vertex 0: y is 3.27", [&] { validate(PositionsView(beyond)); });
 }

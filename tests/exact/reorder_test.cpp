@@ -29,11 +29,11 @@ using testing::IsEmpty;
 
 void expect_same_positions(const ReorderedMesh& reordered, const MeshView& mesh) {
   ASSERT_EQ(reordered.view().positions.size(), mesh.positions.size());
-  reordered.view().positions.visit([&](auto now) {
-    mesh.positions.visit([&](auto before) {
-      for (std::size_t i = 0; i < now.size(); ++i) {
+  reordered.view().positions.visit([&](const auto& now) {
+    mesh.positions.visit([&](const auto& before) {
+      for (std::size_t i = 0; i < 3 * now.size(); ++i) {
         const std::size_t v = reordered.permutation[i / 3];
-        ASSERT_EQ(static_cast<double>(now[i]), static_cast<double>(before[3 * v + i % 3]));
+        ASSERT_EQ(static_cast<double>(now(i / 3, i % 3)), static_cast<double>(before(v, i % 3)));
       }
     });
   });

@@ -29,7 +29,7 @@ constexpr std::size_t kLeafGrain = 64;
 /// The vertices in index order, in the frame.
 std::vector<Point> permute_points(const PositionsView& positions, const Frame& frame,
                                   std::span<const VertexId> permutation, TaskContext& task) {
-  return positions.visit([&](auto xyz) {
+  return positions.visit([&](const auto& xyz) {
     std::vector<Point> points(permutation.size());
     task.parallel_for(points.size(), kVertexGrain, [&](unsigned, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) points[i] = frame.to_frame(point(xyz, permutation[i]));
@@ -40,12 +40,12 @@ std::vector<Point> permute_points(const PositionsView& positions, const Frame& f
 
 /// The positions in index order.
 template <class Real>
-std::vector<Real> permute_positions(std::span<const Real> xyz, std::span<const VertexId> permutation,
+std::vector<Real> permute_positions(const StridedPositions<Real>& xyz, std::span<const VertexId> permutation,
                                     TaskContext& task) {
-  std::vector<Real> permuted(xyz.size() + 3 * kLeafCapacity);
+  std::vector<Real> permuted(3 * (xyz.size() + kLeafCapacity));
   task.parallel_for(permutation.size(), kVertexGrain, [&](unsigned, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      std::copy_n(xyz.data() + 3 * std::size_t{permutation[i]}, 3, permuted.data() + 3 * i);
+      for (std::size_t axis = 0; axis < 3; ++axis) permuted[3 * i + axis] = xyz(permutation[i], axis);
     }
   });
   return permuted;
@@ -112,7 +112,7 @@ IndexData IndexAccess::build_valid(const GraphView& graph, TaskContext& task) {
   arrays.groups = std::move(tree.groups);
   arrays.mean_radii = std::move(tree.mean_radii);
   task.advance(1);
-  graph.positions.visit([&](auto xyz) {
+  graph.positions.visit([&](const auto& xyz) {
     arrays.positions = permute_positions(xyz, std::span<const VertexId>(partition.permutation), task);
   });
   pad(links.adjacency);

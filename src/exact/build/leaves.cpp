@@ -20,8 +20,8 @@ namespace {
 constexpr std::size_t kVerticesPerTask = 4096;
 
 std::vector<KdPoint> make_points(const PositionsView& positions, const Frame& frame, TaskContext& task) {
-  return positions.visit([&](auto xyz) {
-    std::vector<KdPoint> points(xyz.size() / 3);
+  return positions.visit([&](const auto& xyz) {
+    std::vector<KdPoint> points(xyz.size());
     task.parallel_for(points.size(), kVerticesPerTask, [&](unsigned, std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {
         const FramePoint p = frame.round(point(xyz, v));

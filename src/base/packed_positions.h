@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "meshhood/mesh.h"
+
+namespace meshhood {
+
+/// Positions row by row: those given, or a copy if they are strided.
+template <class Real>
+class PackedPositions {
+ public:
+  explicit PackedPositions(const StridedPositions<Real>& xyz) {
+    if (xyz.is_packed()) {
+      view_ = xyz.packed();
+      return;
+    }
+    copy_.reserve(3 * xyz.size());
+    for (std::size_t v = 0; v < xyz.size(); ++v) copy_.insert(copy_.end(), {xyz(v, 0), xyz(v, 1), xyz(v, 2)});
+    view_ = copy_;
+  }
+  PackedPositions(const PackedPositions&) = delete;
+  PackedPositions& operator=(const PackedPositions&) = delete;
+  ~PackedPositions() = default;
+
+  /// #V by 3.
+  [[nodiscard]] std::span<const Real> view() const { return view_; }
+
+ private:
+  std::vector<Real> copy_;
+  std::span<const Real> view_;
+};
+
+}  // namespace meshhood

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// All searchers keep the promises of `NeighborhoodSearcher`: their calls agree, and a visit gives the same vertices.
+#include "meshhood/searcher.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/meshhood.h"
+
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/refusal.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+template <NeighborhoodSearcher S>
+std::vector<VertexId> ids_of_visit(S& searcher, VertexId v, double radius) {
+  std::vector<VertexId> ids;
+  const bool all = visit(searcher, v, radius, [&](VertexRange run) {
+    EXPECT_LT(run.begin, run.end);
+    for (std::size_t i = run.begin; i < run.end; ++i) {
+      ids.push_back(searcher.permutation().empty() ? static_cast<VertexId>(i) : searcher.permutation()[i]);
+    }
+  });
+  EXPECT_TRUE(all);
+  return ids;
+}
+
+std::vector<VertexId> sorted(std::vector<VertexId> ids) {
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+/// Every call agrees with the ids alone, which other tests compare with the oracle.
+template <NeighborhoodSearcher S>
+void expect_consistent(S& searcher, const PositionsView& positions, VertexId v, double radius) {
+  std::vector<VertexId> ids;
+  std::vector<VertexId> same_ids;
+  std::vector<double> distances;
+  searcher.neighborhood(v, radius, ids);
+  searcher.neighborhood(v, radius, same_ids, distances);
+  EXPECT_EQ(sorted(same_ids), sorted(ids));
+  ASSERT_EQ(distances.size(), ids.size());
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    ASSERT_EQ(distances[i], distance(positions, v, same_ids[i]));
+    ASSERT_LE(distances[i], radius);
+  }
+  EXPECT_EQ(searcher.count(v, radius), ids.size());
+  EXPECT_EQ(sorted(ids_of_visit(searcher, v, radius)), sorted(ids));
+  const auto add = [](std::size_t sum, VertexRange run) { return sum + run.size(); };
+  EXPECT_EQ(reduce(searcher, v, radius, std::size_t{0}, add), ids.size());
+}
+
+class Searchers : public testing::TestWithParam<Family> {};
+
+TEST_P(Searchers, AgreeWithThemselves) {
+  const TestMesh mesh = make_mesh(GetParam(), 9, scaled(600, 200));
+  if (mesh.size() == 0) return;
+  const MeshView view = mesh.view();
+  const Index index = build(view);
+  const paper::Index hierarchy = paper::build(view);
+  Searcher exact(index);
+  paper::Searcher approximate(hierarchy);
+  ReferenceSearcher reference(view);
+  BallSearcher ball(view.positions);
+  Random random(3);
+  for (int i = 0; i < 30; ++i) {
+    const auto v = static_cast<VertexId>(random.below(mesh.size()));
+    const auto other = static_cast<VertexId>(random.below(mesh.size()));
+    const double radius = i % 10 == 0 ? kInfinity : distance(view.positions, v, other) * (i % 3 == 0 ? 1.0 : 0.4);
+    const auto expect = [&](auto& searcher) {
+      EXPECT_EQ(searcher.vertex_count(), mesh.size());
+      expect_consistent(searcher, view.positions, v, radius);
+    };
+    expect(exact);
+    expect(approximate);
+    expect(reference);
+    expect(ball);
+    EXPECT_EQ(exact.count(v, radius), reference.count(v, radius));
+    EXPECT_LE(reference.count(v, radius), approximate.count(v, radius));
+    EXPECT_LE(approximate.count(v, radius), ball.count(v, radius));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Searchers, testing::ValuesIn(families()), family_name);
+
+TEST(Visit, EndsWhenToldTo) {
+  const TestMesh mesh = make_grid(40, 40, false);
+  const Index index = build(mesh.view());
+  Searcher searcher(index);
+  std::size_t runs = 0;
+  EXPECT_TRUE(visit(searcher, 820, 15, [&](VertexRange) { return ++runs > 0; }));
+  ASSERT_GT(runs, 3U);
+  std::size_t seen = 0;
+  EXPECT_FALSE(visit(searcher, 820, 15, [&](VertexRange) { return ++seen < 3; }));
+  EXPECT_EQ(seen, 3U);
+}
+
+TEST(Visit, PassesOnExceptionsAndRefusals) {
+  const TestMesh mesh = make_grid(5, 5, false);
+  const Index index = build(mesh.view());
+  Searcher searcher(index);
+  EXPECT_THROW(visit(searcher, 3, 1, [](VertexRange) { throw std::runtime_error("stop"); }), std::runtime_error);
+  const auto nothing = [](VertexRange) { FAIL(); };
+  expect_refused(ErrorCode::VertexOutOfRange, "vertex 25", [&] { visit(searcher, 25, 1, nothing); });
+  expect_refused(ErrorCode::InvalidRadius, "radius -1", [&] { visit(searcher, 0, -1, nothing); });
+}
+
+TEST(Visit, GivesEachVertexOnceAlsoWithoutPermutation) {
+  const TestMesh mesh = make_grid(30, 30, false);
+  const ReorderedMesh reordered = reorder(mesh.view());
+  Searcher searcher(reordered.index);
+  EXPECT_TRUE(searcher.permutation().empty());
+  expect_consistent(searcher, reordered.view().positions, 450, 7);
+}
+
+TEST(Reduce, MayMoveItsValue) {
+  const TestMesh mesh = make_grid(30, 30, false);
+  BallSearcher searcher(mesh.view().positions);
+  const auto append = [](std::vector<VertexId> ids, VertexRange run) {
+    ids.push_back(run.begin);
+    return ids;
+  };
+  const std::vector<VertexId> begins = reduce(searcher, 450, 2, std::vector<VertexId>(), append);
+  EXPECT_EQ(begins.size(), 5U);
+  EXPECT_TRUE(std::is_sorted(begins.begin(), begins.end()));
+}
+
+}  // namespace
+}  // namespace meshhood::test

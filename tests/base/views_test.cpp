@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+// Views of positions and faces in every layout give the same index; views of temporaries do not compile.
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/eigen.h"
+#include "meshhood/meshhood.h"
+
+#include "support/families.h"
+#include "support/index_bytes.h"
+#include "support/refusal.h"
+
+namespace meshhood::test {
+namespace {
+
+using testing::ElementsAre;
+
+template <class T>
+concept MakesTriangles = requires(T&& corners) { FacesView::triangles(std::forward<T>(corners)); };
+template <class T>
+concept HasView = requires(T&& owner) { std::forward<T>(owner).view(); };
+
+// Containers that outlive the view, and views of them.
+static_assert(std::constructible_from<PositionsView, std::vector<float>&>);
+static_assert(std::constructible_from<PositionsView, const std::vector<double>&>);
+static_assert(std::constructible_from<PositionsView, const std::array<float, 9>&>);
+static_assert(std::constructible_from<PositionsView, const float (&)[9]>);
+static_assert(std::constructible_from<PositionsView, std::span<const float>>);
+static_assert(std::constructible_from<PositionsView, std::span<double>>);
+static_assert(std::constructible_from<PositionsView, const std::vector<std::array<float, 3>>&>);
+static_assert(std::constructible_from<PositionsView, std::span<const std::array<double, 3>>>);
+static_assert(MakesTriangles<const std::vector<std::int32_t>&>);
+static_assert(MakesTriangles<std::span<const std::uint64_t>>);
+static_assert(MakesTriangles<const std::vector<std::array<std::uint32_t, 3>>&>);
+
+// Temporaries.
+static_assert(!std::constructible_from<PositionsView, std::vector<float>>);
+static_assert(!std::constructible_from<PositionsView, const std::vector<float>>);
+static_assert(!std::constructible_from<PositionsView, std::array<double, 9>>);
+static_assert(!std::constructible_from<PositionsView, std::vector<std::array<float, 3>>>);
+static_assert(!std::constructible_from<IndicesView, std::vector<std::int32_t>>);
+static_assert(!MakesTriangles<std::vector<std::uint32_t>>);
+static_assert(!MakesTriangles<std::vector<std::array<std::uint32_t, 3>>>);
+static_assert(!std::constructible_from<BatchVertices, std::vector<VertexId>>);
+static_assert(!std::constructible_from<BatchRadius, std::vector<double>>);
+static_assert(!std::constructible_from<Searcher, Index>);
+static_assert(!std::constructible_from<paper::Searcher, paper::Index>);
+static_assert(!std::constructible_from<SearchMethod, Index>);
+static_assert(!std::constructible_from<SearchMethod, paper::Index>);
+static_assert(HasView<const Adjacency&> && !HasView<Adjacency>);
+static_assert(HasView<const GraphData&> && !HasView<GraphData>);
+static_assert(HasView<const ReorderedMesh&> && !HasView<ReorderedMesh>);
+
+// A radius of any arithmetic type.
+static_assert(std::constructible_from<BatchRadius, int>);
+static_assert(std::constructible_from<BatchRadius, float>);
+static_assert(std::constructible_from<BatchRadius, const std::vector<double>&>);
+
+/// A mesh in the plain layout, row by row, and the bytes of its index.
+class Views : public testing::Test {
+ protected:
+  void expect_same(const MeshView& view) const {
+    EXPECT_NO_THROW(validate(view));
+    EXPECT_EQ(saved(build(view)), saved(index));
+    EXPECT_EQ(saved(paper::build(view)), saved(paper::build(plain)));
+    EXPECT_EQ(fingerprint(view), fingerprint(plain));
+    EXPECT_THAT(index.check(view), testing::IsEmpty());
+    EXPECT_EQ(distance(view.positions, 3, 40), distance(plain.positions, 3, 40));
+    std::vector<VertexId> expected;
+    std::vector<VertexId> found;
+    vertices_in_ball(plain.positions, 7, 2.5, expected);
+    vertices_in_ball(view.positions, 7, 2.5, found);
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(exact_neighborhood(view, 7, 2.5), exact_neighborhood(plain, 7, 2.5));
+  }
+
+  static constexpr std::size_t kWidth = 12;
+
+  std::vector<double> xyz = [] {
+    std::vector<double> result;
+    for (std::size_t v = 0; v < kWidth * kWidth; ++v) {
+      const auto x = static_cast<double>(v % kWidth);
+      const auto y = static_cast<double>(v / kWidth);
+      result.insert(result.end(), {x, y, 0.1 * x * y});
+    }
+    return result;
+  }();
+  std::vector<std::int32_t> corners = [] {
+    std::vector<std::int32_t> result;
+    constexpr std::int32_t kRow = kWidth;
+    for (std::int32_t v = 0; v + kRow + 1 < kRow * kRow; ++v) {
+      if (v % kRow + 1 < kRow) result.insert(result.end(), {v, v + 1, v + kRow, v + 1, v + kRow + 1, v + kRow});
+    }
+    return result;
+  }();
+  MeshView plain{xyz, FacesView::triangles(corners)};
+  Index index = build(plain);
+
+  /// Entry `(row, axis)` of a matrix with three columns is moved to where `place(row, axis)` says.
+  template <class T, class Place>
+  static std::vector<T> moved(const std::vector<T>& rows, std::size_t size, Place place) {
+    std::vector<T> result(size, T{99});
+    for (std::size_t i = 0; i < rows.size(); ++i) result[place(i / 3, i % 3)] = rows[i];
+    return result;
+  }
+};
+
+TEST_F(Views, OfArraysOfThreeAreRead) {
+  std::vector<std::array<double, 3>> points;
+  for (std::size_t i = 0; i < xyz.size(); i += 3) points.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  for (std::size_t i = 0; i < corners.size(); i += 3) {
+    triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
+  }
+  expect_same({points, FacesView::triangles(triangles)});
+}
+
+TEST_F(Views, OfColumnsAreRead) {
+  const std::size_t vertices = xyz.size() / 3;
+  const std::size_t faces = corners.size() / 3;
+  const auto columns = moved(xyz, xyz.size(), [&](std::size_t row, std::size_t axis) { return axis * vertices + row; });
+  const auto triangles =
+      moved(corners, corners.size(), [&](std::size_t row, std::size_t axis) { return axis * faces + row; });
+  expect_same({PositionsView::column_major(columns), FacesView::column_major_triangles(triangles)});
+}
+
+TEST_F(Views, OfRecordsWithOtherFieldsAreRead) {
+  const auto records =
+      moved(xyz, 2 * xyz.size() + 1, [](std::size_t row, std::size_t axis) { return 6 * row + axis + 1; });
+  const auto triangles =
+      moved(corners, 2 * corners.size(), [](std::size_t row, std::size_t axis) { return 6 * row + 2 * axis; });
+  expect_same({PositionsView::strided(records.data() + 1, xyz.size() / 3, 6),
+               FacesView::strided_triangles(triangles, corners.size() / 3, 6, 2)});
+}
+
+TEST_F(Views, OfNothingAreEmpty) {
+  const std::vector<float> none;
+  const std::vector<std::array<float, 3>> no_points;
+  const std::vector<std::array<std::int32_t, 3>> no_triangles;
+  for (const PositionsView& positions :
+       {PositionsView(none), PositionsView(no_points), PositionsView::column_major(none),
+        PositionsView::strided(none.data(), 0, 7)}) {
+    EXPECT_EQ(positions.size(), 0U);
+    EXPECT_EQ(build(MeshView{positions, FacesView::triangles(no_triangles)}).vertex_count(), 0U);
+  }
+}
+
+TEST_F(Views, NameTheVertexThatIsInvalidInEveryLayout) {
+  const std::size_t vertices = xyz.size() / 3;
+  xyz[3 * 5 + 1] = std::numeric_limits<double>::infinity();
+  const auto columns = moved(xyz, xyz.size(), [&](std::size_t row, std::size_t axis) { return axis * vertices + row; });
+  for (const PositionsView& positions : {PositionsView(xyz), PositionsView::column_major(columns)}) {
+    expect_refused(ErrorCode::InvalidMesh, "vertex 5: y is inf", [&] { validate(positions); });
+  }
+}
+
+TEST_F(Views, RefuseArraysThatAreTooShort) {
+  const std::vector<float> seven(7);
+  expect_refused(ErrorCode::InvalidMesh, "7 coordinates, expected three a vertex",
+                 [&] { validate(PositionsView::column_major(seven)); });
+  const std::vector<std::int32_t> four(4);
+  expect_refused(ErrorCode::InvalidMesh, "4 corner",
+                 [&] { validate(MeshView{plain.positions, FacesView::column_major_triangles(four)}); });
+  expect_refused(ErrorCode::InvalidMesh, "4 corner indices, but 2 triangles with strides 3 and 1 need 6",
+                 [&] { validate(MeshView{plain.positions, FacesView::strided_triangles(four, 2, 3, 1)}); });
+  expect_refused(ErrorCode::InvalidMesh, "4 corner indices, but 9 triangles with strides 0 and 2 need 5",
+                 [&] { validate(MeshView{plain.positions, FacesView::strided_triangles(four, 9, 0, 2)}); });
+}
+
+TEST_F(Views, TakeAnIntegerAsRadius) {
+  EXPECT_EQ(neighborhoods(index, {.radius = 2}).ids, neighborhoods(index, {.radius = 2.0}).ids);
+  EXPECT_EQ(neighborhoods(index, {.radius = 2}).ids, neighborhoods(index, {.radius = 2.0F}).ids);
+  expect_refused(ErrorCode::InvalidRadius, "radius -3",
+                 [&] { static_cast<void>(neighborhoods(index, {.radius = -3})); });
+}
+
+#if __has_include(<Eigen/Core>)
+template <class M>
+concept ViewedAsPositions = requires(M&& matrix) { positions_view(std::forward<M>(matrix)); };
+
+static_assert(ViewedAsPositions<const Eigen::MatrixXd&>);
+static_assert(ViewedAsPositions<Eigen::Map<const Eigen::MatrixXf>>);
+static_assert(!ViewedAsPositions<Eigen::MatrixXd>);
+// Which order its entries are in is lost if a matrix is passed as an array.
+static_assert(!std::constructible_from<PositionsView, const Eigen::MatrixXd&>);
+static_assert(!MakesTriangles<const Eigen::MatrixXi&>);
+
+TEST_F(Views, OfMatricesOfEigenAreReadInBothOrders) {
+  using RowMajorXd = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  using RowMajorXi = Eigen::Matrix<std::int32_t, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  const RowMajorXd rows = Eigen::Map<const RowMajorXd>(xyz.data(), static_cast<Eigen::Index>(xyz.size() / 3), 3);
+  const RowMajorXi row_faces =
+      Eigen::Map<const RowMajorXi>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
+  const Eigen::MatrixXd columns = rows;
+  const Eigen::MatrixXi column_faces = row_faces;
+  expect_same(mesh_view(rows, row_faces));
+  expect_same(mesh_view(columns, column_faces));
+  expect_same(mesh_view(Eigen::Ref<const Eigen::MatrixXd>(columns), Eigen::Ref<const Eigen::MatrixXi>(column_faces)));
+  const Eigen::Matrix3Xd transposed = rows.transpose();
+  expect_same(mesh_view(transposed.transpose(), column_faces));
+  const Eigen::MatrixX<std::int64_t> wide = column_faces.cast<std::int64_t>();
+  expect_same(mesh_view(columns, wide));
+}
+
+TEST_F(Views, OfBlocksOfMatricesAreRead) {
+  Eigen::MatrixXd larger(static_cast<Eigen::Index>(xyz.size() / 3) + 4, 8);
+  larger.setConstant(99);
+  auto block = larger.block(2, 3, static_cast<Eigen::Index>(xyz.size() / 3), 3);
+  for (Eigen::Index i = 0; i < block.rows(); ++i) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) block(i, axis) = xyz[static_cast<std::size_t>(3 * i + axis)];
+  }
+  expect_same({positions_view(block), plain.faces});
+}
+
+TEST_F(Views, OfMatricesWithoutThreeColumnsAreRefused) {
+  const Eigen::MatrixXd flat(5, 2);
+  const Eigen::MatrixXi quads(5, 4);
+  expect_refused(ErrorCode::InvalidMesh, "V has 2 columns, expected 3",
+                 [&] { static_cast<void>(positions_view(flat)); });
+  expect_refused(ErrorCode::InvalidMesh, "F has 4 columns, expected 3",
+                 [&] { static_cast<void>(triangles_view(quads)); });
+}
+#endif
+
+}  // namespace
+}  // namespace meshhood::test

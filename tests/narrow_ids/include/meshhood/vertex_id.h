@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// Found instead of the installed header: ids of 16 bits, so that tiny meshes reach every limit on vertices and edges.
+#pragma once
+
+#include <cstdint>
+
+namespace meshhood {
+
+using VertexId = std::uint16_t;
+using EdgeOffset = std::uint16_t;
+
+}  // namespace meshhood
