@@ -34,7 +34,10 @@ std::shared_ptr<ExactMethod> make_exact(const Input& positions, const Input& cor
                                         const std::optional<Input>& offsets, unsigned threads, nb::handle progress) {
   const MeshView mesh{positions_of(positions, "V"), faces_of(corners, offsets)};
   const BuildOptions options{.threads = threads, .progress = progress_to(progress)};
-  return without_lock([&] { return exact_method(build(graph_copy(mesh).view(), options)); });
+  return without_lock([&] {
+    const GraphData graph = graph_copy(mesh);
+    return exact_method(build(graph.view(), options));
+  });
 }
 
 std::shared_ptr<GraphData> make_graph(const ExactMethod& method) {
