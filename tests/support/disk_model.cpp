@@ -20,7 +20,7 @@ class DiskModel::Survivors {
   }
 
   void visit() const {
-    report(0, file_.synced.size());
+    record(0, file_.synced.size());
     if (file_.writes.empty()) return;
     cut_off();
     tear();
@@ -36,19 +36,19 @@ class DiskModel::Survivors {
     for (std::size_t count = 1; count <= file_.writes.size(); ++count) {
       const Write& last = file_.writes[count - 1];
       const std::size_t middle = (last.position + last.end()) / 2;
-      report(count, std::max(size, middle));
+      record(count, std::max(size, middle));
       size = std::max(size, last.end());
-      report(count, size);
-      report(count - 1, full_size_);
-      report(count, full_size_, [&](std::size_t page) { return page < middle / kPage; });
+      record(count, size);
+      record(count - 1, full_size_);
+      record(count, full_size_, [&](std::size_t page) { return page < middle / kPage; });
     }
   }
 
   void tear() const {
     const std::size_t all = file_.writes.size();
     for (std::size_t torn = 0; torn < pages_; ++torn) {
-      report(all, full_size_, [&](std::size_t page) { return page != torn; });
-      report(all, full_size_, [&](std::size_t page) { return page == torn; });
+      record(all, full_size_, [&](std::size_t page) { return page != torn; });
+      record(all, full_size_, [&](std::size_t page) { return page == torn; });
     }
   }
 
@@ -59,7 +59,7 @@ class DiskModel::Survivors {
       const std::size_t count = 1 + random.below(file_.writes.size());
       std::vector<bool> kept(pages_);
       for (std::size_t page = 0; page < pages_; ++page) kept[page] = random.below(2) == 0;
-      report(count, full_size_, [&](std::size_t page) { return kept[page]; });
+      record(count, full_size_, [&](std::size_t page) { return kept[page]; });
     }
   }
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
 
-std::atomic<std::size_t> in_use{0};
+std::atomic<std::size_t> live_blocks{0};
 std::atomic<std::size_t> asked{0};  // since the fault was set
 std::atomic<std::size_t> first_to_fail{kNever};
 std::atomic<std::size_t> last_to_fail{kNever};
@@ -30,7 +30,7 @@ void* take(std::size_t size, std::align_val_t alignment = std::align_val_t{__STD
   void* const block = unit <= __STDCPP_DEFAULT_NEW_ALIGNMENT__
                           ? std::malloc(size == 0 ? 1 : size)
                           : std::aligned_alloc(unit, (size + unit - 1) / unit * unit);
-  if (block != nullptr) in_use.fetch_add(1, std::memory_order_relaxed);
+  if (block != nullptr) live_blocks.fetch_add(1, std::memory_order_relaxed);
   return block;
 }
 
@@ -43,7 +43,7 @@ void* take_or_throw(std::size_t size, Alignment... alignment) {
 
 void give_back(void* block) {
   if (block == nullptr) return;
-  in_use.fetch_sub(1, std::memory_order_relaxed);
+  live_blocks.fetch_sub(1, std::memory_order_relaxed);
   std::free(block);
 }
 
@@ -59,7 +59,7 @@ FailingAllocations::~FailingAllocations() { first_to_fail = kNever; }
 
 bool FailingAllocations::happened() const { return asked > at_; }
 
-std::size_t blocks_in_use() { return in_use; }
+std::size_t blocks_in_use() { return live_blocks; }
 
 }  // namespace meshhood::test
 
