@@ -174,8 +174,13 @@ TEST_F(Files, AFileThatShrinksWhileReadIsAnError) {
     const auto result = file_refusal(path);
     if (!result.refused) continue;
     ++refused;
-    EXPECT_EQ(result.code, ErrorCode::IoFailure);
-    EXPECT_THAT(result.message, HasSubstr("when opened"));
+    // While a page is cut off, the system may hand out zeros for it.
+    if (result.code == ErrorCode::MalformedFile) {
+      EXPECT_THAT(result.message, HasSubstr("found a NUL byte"));
+    } else {
+      EXPECT_EQ(result.code, ErrorCode::IoFailure);
+      EXPECT_THAT(result.message, HasSubstr("when opened"));
+    }
   }
   std::printf("%zu of 20 files were caught shrinking\n", refused);
 }

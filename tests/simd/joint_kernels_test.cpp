@@ -103,7 +103,7 @@ PerLane<QueryWord> spread_by_definition(const LeafWords& words, const std::vecto
 
 TEST_P(EveryJointPath, SpreadingFollowsEveryEdgeWithinTheBalls) {
   std::size_t closed = 0;
-  for (std::size_t round = 0; round < scaled(4000, 200); ++round) {
+  for (std::size_t round = 0; round < 4000; ++round) {  // fewer might close no leaf
     std::vector<LaneMask> adjacency(kLeafCapacity);
     for (std::size_t edge = 0; edge < 20 + random.below(60); ++edge) {
       const std::size_t i = random.below(kLeafCapacity);

@@ -24,7 +24,7 @@ class LeafTraversal {
   /// them all. It ends earlier when it meets a settled vertex, or when `stop(leaf, added)` returns true, which it calls
   /// for each leaf visited, with the vertices that the visit has added.
   ///
-  /// frontier  empty; a container of leaves with `push`, `pop`, `empty`, and `clear(f)`, which calls `f` for each leaf
+  /// frontier  emptied first; a container of leaves with `push`, `pop`, `empty`, and `clear(f)`, which calls `f` for each leaf
   ///           it removes. A leaf may be pushed again after it was popped.
   template <class Frontier, class Stop>
   [[nodiscard]] bool traverse(LeafId leaf, LaneMask lane, Frontier& frontier, Stop&& stop);
@@ -80,6 +80,9 @@ class LeafTraversal {
 template <class Frontier, class Stop>
 bool LeafTraversal::traverse(LeafId leaf, LaneMask lane, Frontier& frontier, Stop&& stop) {
   reached_leaves_.clear();
+  // A traversal that ran out of memory has left leaves of its own query in both.
+  newly_pending_.clear();
+  frontier.clear([](LeafId) {});
   state_of(leaf).pending = lane;
   frontier.push(leaf);
   bool is_complete = true;
