@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <functional>
 #include <limits>
 #include <string>
-#include <ctime>
 #include <vector>
 
 #include "meshhood/meshhood.h"

@@ -60,7 +60,8 @@ measure::Method Contestants::method(const std::string& name) {
 }
 
 std::vector<Build> Contestants::time_builds(int times) const {
-  std::vector<Build> builds{{"exact", {}, build(mesh_).bytes().total()}, {"paper", {}, paper::build(mesh_).bytes().total()}};
+  std::vector<Build> builds{{"exact", {}, build(mesh_).bytes().total()},
+                            {"paper", {}, paper::build(mesh_).bytes().total()}};
   for (int i = 0; i < times; ++i) {
     builds[0].seconds.push_back(seconds_of([&] { return build(mesh_); }));
     builds[1].seconds.push_back(seconds_of([&] { return paper::build(mesh_); }));

@@ -130,8 +130,8 @@ TEST(Rare, PatchesOfOtherComponentsAreSubtracted) {
 }
 
 TEST(Rare, PatchesOfOtherComponentsWhoseNearestVerticesTie) {
-  // Every vertex of the grid has two nearest vertices in a patch, often in two leaves. Each counts as a minimum: equally
-  // near is not nearer.
+  // Every vertex of the grid has two nearest vertices in a patch, often in two leaves. Each counts as a minimum:
+  // equally near is not nearer.
   TestMesh mesh = grid_below(9, 0);
   for (std::size_t i = std::size_t{3} * 100 * 100; i < mesh.positions.size(); i += 3) mesh.positions[i] += 0.5;
   ExactAnswer exact(mesh.finish(true).view());

@@ -29,7 +29,8 @@ const PerLane<std::uint64_t>& JointSearch::counts() {
     if (word == packet_->queries()) {
       common += size;
     } else {
-      for (QueryWord left = word; left != 0; left &= left - 1) counts_[std::countr_zero(left)] += size;
+      for (QueryWord left = word; left != 0; left &= left - 1)
+        counts_[static_cast<std::size_t>(std::countr_zero(left))] += size;
     }
   }
   for (std::size_t i = 0; i < packet_->size(); ++i) counts_[i] += common;

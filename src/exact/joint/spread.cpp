@@ -104,7 +104,8 @@ void JointSpread::push_leaf(const JointGroup& group, const Packet& packet, LeafI
     if (slot >= slots_.size() || slots_[slot].closed) continue;
     if (slots_[slot].kind == Kind::Whole) {
       QueryWord word = 0;
-      for (LaneMask lanes = link.boundary; lanes != 0; lanes &= lanes - 1) word |= reached[std::countr_zero(lanes)];
+      for (LaneMask lanes = link.boundary; lanes != 0; lanes &= lanes - 1)
+        word |= reached[static_cast<std::size_t>(std::countr_zero(lanes))];
       add_to_whole(packet, slot, word);
     } else {
       push_words(index_->cross_edges_of(link), reached, pending(slot));
@@ -120,7 +121,8 @@ void JointSpread::push_rim(const JointGroup& group, const Packet& packet, GroupS
       add_to_whole(packet, link.slot, word);
     } else {
       PerLane<QueryWord>& words = pending(link.slot);
-      for (LaneMask lanes = link.boundary; lanes != 0; lanes &= lanes - 1) words[std::countr_zero(lanes)] |= word;
+      for (LaneMask lanes = link.boundary; lanes != 0; lanes &= lanes - 1)
+        words[static_cast<std::size_t>(std::countr_zero(lanes))] |= word;
       worklist_.add(link.slot);
     }
   }

@@ -24,8 +24,8 @@ class LeafTraversal {
   /// them all. It ends earlier when it meets a settled vertex, or when `stop(leaf, added)` returns true, which it calls
   /// for each leaf visited, with the vertices that the visit has added.
   ///
-  /// frontier  emptied first; a container of leaves with `push`, `pop`, `empty`, and `clear(f)`, which calls `f` for each leaf
-  ///           it removes. A leaf may be pushed again after it was popped.
+  /// frontier  emptied first; a container of leaves with `push`, `pop`, `empty`, and `clear(f)`, which calls `f` for
+  ///           each leaf it removes. A leaf may be pushed again after it was popped.
   template <class Frontier, class Stop>
   [[nodiscard]] bool traverse(LeafId leaf, LaneMask lane, Frontier& frontier, Stop&& stop);
 

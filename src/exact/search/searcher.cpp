@@ -48,10 +48,11 @@ bool Searcher::State::subtract_other_components(const Query& query) {
 }
 
 void Searcher::State::add_intersecting_leaves(const Query& query) {
-  constexpr std::size_t kAhead = 4;
+  constexpr std::size_t kPrefetchDistance = 4;
   const std::span<const LeafId> leaves = descent.intersecting_leaves();
   for (std::size_t i = 0; i < leaves.size(); ++i) {
-    if (i + kAhead < leaves.size()) prefetch_positions(*index, index->leaf_begin[leaves[i + kAhead]], kLeafCapacity);
+    if (i + kPrefetchDistance < leaves.size())
+      prefetch_positions(*index, index->leaf_begin[leaves[i + kPrefetchDistance]], kLeafCapacity);
     const VertexId first = index->leaf_begin[leaves[i]];
     const std::size_t size = index->leaf_begin[leaves[i] + 1] - first;
     const LaneMask lanes = kernels->within(index->positions, first, size, query.ball);
