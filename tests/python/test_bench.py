@@ -47,7 +47,7 @@ def test_peers(elsewhere, monkeypatch):
     assert far["scipy cKDTree"]["extra"] > 0
     assert far["scipy cKDTree"]["missing"] == 0
     assert "failure" in far["Open3D fixed_radius_search"] or far["Open3D fixed_radius_search"]["missing"] == 0
-    assert "tiny, 20 average edges, one thread, vertices shuffled" in SECTIONS["peers"].text(data)
+    assert "tiny, 20 mean edges, one thread, vertices shuffled" in SECTIONS["peers"].text(data)
 
 
 def test_pictures(elsewhere, monkeypatch):

@@ -74,7 +74,8 @@ def test_the_camera_shows_the_region_at_any_scale_and_radius(scale, edges):
     green = int(is_green.sum())
     print(f"{green} green pixels, red around {red.mean(axis=0)}")
     np.testing.assert_allclose(red.mean(axis=0), (200, 300), atol=5)
-    assert green > 500
+    if edges > 0:  # the region of radius 0 is the vertex itself, which is red
+        assert green > 500
     if edges < 20:
         assert not np.concatenate([is_green[0], is_green[-1], is_green[:, 0], is_green[:, -1]]).any()
 
