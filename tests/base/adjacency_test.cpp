@@ -20,20 +20,20 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-TEST(Adjacency, JoinsConsecutiveCorners) {
+TEST(Adjacency, ConsecutiveCornersAreNeighbors) {
   const TestMesh mesh = make_grid(2, 2, true);  // 0 1 / 2 3
   const Adjacency graph = adjacency(mesh.view());
   EXPECT_THAT(graph.offsets, ElementsAre(0, 2, 4, 6, 8));
   EXPECT_THAT(graph.neighbors, ElementsAre(1, 2, 0, 3, 0, 3, 1, 2));
 }
 
-TEST(Adjacency, M21ReadsAPolygonAsItsCycle) {
+TEST(Adjacency, APolygonIsACycleWithoutDiagonals) {
   const TestMesh mesh = make_mesh(*std::ranges::find(trap_families(), "polygon", &Family::name), 1, 1000);
   const Adjacency graph = adjacency(mesh.view());
   EXPECT_EQ(graph.neighbors.size(), 2000U);
 }
 
-TEST(Adjacency, A6CountsAnEdgeOnceHoweverManyFacesHaveIt) {
+TEST(Adjacency, AnEdgeOfManyFacesCountsOnce) {
   const TestMesh mesh = make_grid(3, 3, false);
   const Adjacency once = adjacency(mesh.view());
   TestMesh doubled = mesh;
@@ -47,7 +47,7 @@ TEST(Adjacency, A6CountsAnEdgeOnceHoweverManyFacesHaveIt) {
   EXPECT_EQ(adjacency(doubled.view()).offsets, once.offsets);
 }
 
-TEST(Adjacency, A7SkipsRepeatedCornersAndFacesOfFew) {
+TEST(Adjacency, RepeatedCornersAndFacesOfOneCornerGiveNoEdge) {
   TestMesh mesh;
   for (int v = 0; v < 5; ++v) mesh.add_vertex(v, 0, 0);
   mesh.add_face({0, 0, 1, 1, 0});  // joins 0 and 1
@@ -63,13 +63,13 @@ TEST(Adjacency, A7SkipsRepeatedCornersAndFacesOfFew) {
   EXPECT_THAT(graph.view()[4], IsEmpty());
 }
 
-TEST(Adjacency, A4TakesAMeshOfNothing) {
+TEST(Adjacency, AnEmptyMeshIsAccepted) {
   EXPECT_THAT(adjacency(MeshView{}).offsets, ElementsAre(0));
   const Adjacency empty = adjacency(MeshView{});
   EXPECT_EQ(empty.view().size(), 0U);
 }
 
-TEST(Adjacency, IsThatOfTheOracle) {
+TEST(Adjacency, EqualsTheOracle) {
   std::size_t meshes = 0;
   std::size_t rows = 0;
   for (const Family& family : families()) {
@@ -118,7 +118,7 @@ TEST(ValidateGraph, AcceptsASymmetricGraph) {
   EXPECT_NO_THROW(validate(GraphView{}));
 }
 
-TEST(ValidateGraph, NamesTheVertexThatLies) {
+TEST(ValidateGraph, NamesTheInconsistentVertex) {
   expect_graph_refused("2 rows of neighbours for 3 vertices", {{0, 1, 2}, {1, 0}});
   expect_graph_refused("0 rows of neighbours for 3 vertices", {});
   expect_graph_refused("neighbour offsets begin with 1, expected 0", {{1, 1, 2, 2}, {1, 0}});

@@ -36,7 +36,7 @@ TEST(SquaredRadius, IsTheLargestWhoseRootIsWithin) {
   std::printf("%zu radii\n", 2 * radii);
 }
 
-TEST(SquaredRadius, N1KeepsTheTie) {
+TEST(SquaredRadius, AVertexAtExactlyTheRadiusIsInside) {
   Random random(2);
   const std::size_t ties = scaled(1'000'000);
   std::size_t lost_by_squaring = 0;
@@ -88,7 +88,7 @@ TEST(SearchBall, ContainsAllAtInfinity) {
   EXPECT_EQ(ball.classify(Sphere<double>{-0x1p500, 0x1p500, -0x1p500, 0x1p500}), Containment::Inside);
 }
 
-TEST(SearchBall, PlacesPlainCasesAsExpected) {
+TEST(SearchBall, SpheresInsideOutsideAndIntersectingAreClassified) {
   const SearchBall ball({0, 0, 0}, 10);
   EXPECT_EQ(ball.classify(Sphere<float>{0, 0, 0, 1}), Containment::Inside);
   EXPECT_EQ(ball.classify(Sphere<float>{8, 0, 0, 1}), Containment::Inside);
@@ -160,7 +160,7 @@ void expect_conservative(Random& random, double size, GroupContainment& seen) {
   }
 }
 
-TEST(SearchBall, N3NeverPlacesASphereAgainstThePredicate) {
+TEST(SearchBall, ClassificationNeverContradictsThePredicate) {
   Random random(4);
   GroupContainment seen;
   const std::size_t spheres = scaled(30'000);

@@ -23,7 +23,7 @@ constexpr std::array kCodes{ErrorCode::VertexOutOfRange, ErrorCode::InvalidRadiu
                             ErrorCode::MalformedIndex,   ErrorCode::IoFailure,     ErrorCode::TooLarge,
                             ErrorCode::Cancelled};
 
-TEST(Error, DescribesEveryCodeInItsOwnWords) {
+TEST(Error, EachCodeHasItsOwnDescription) {
   std::set<std::string_view> words;
   for (const ErrorCode code : kCodes) words.insert(describe(code));
   EXPECT_EQ(words.size(), std::size(kCodes));
@@ -31,7 +31,7 @@ TEST(Error, DescribesEveryCodeInItsOwnWords) {
   EXPECT_EQ(describe(static_cast<ErrorCode>(1000)), "unknown error");
 }
 
-TEST(Error, CarriesItsCodeAndMessage) {
+TEST(Error, HasACodeAndAMessage) {
   expect_refused(ErrorCode::TooLarge, "the culprit", [] { raise(ErrorCode::TooLarge, "the culprit"); });
   const Error error(ErrorCode::IoFailure, "why");
   const std::exception& base = error;
@@ -56,14 +56,14 @@ std::vector<std::function<void(const MeshView&)>> mesh_doors() {
           }};
 }
 
-TEST(Error, A17EveryDoorRefusesAVertexThatIsNotFinite) {
+TEST(Error, EveryFunctionRefusesANonFiniteVertex) {
   const std::vector<float> positions{0, 0, 0, 0, std::numeric_limits<float>::quiet_NaN(), 0};
   for (const auto& door : mesh_doors()) {
     expect_refused(ErrorCode::InvalidMesh, "vertex 1: y is nan", [&] { door({positions, {}}); });
   }
 }
 
-TEST(Error, EveryDoorRefusesACornerOutOfRange) {
+TEST(Error, EveryFunctionRefusesACornerOutOfRange) {
   const std::vector<float> positions(9, 0.0F);
   const std::vector<std::uint32_t> corners{0, 1, 2, 2, 1, 90210};
   for (const auto& door : mesh_doors()) {
@@ -72,7 +72,7 @@ TEST(Error, EveryDoorRefusesACornerOutOfRange) {
   }
 }
 
-TEST(Error, EveryDoorRefusesAGraphThatLies) {
+TEST(Error, EveryFunctionRefusesAnInconsistentGraph) {
   const std::vector<float> positions(6, 0.0F);
   const Adjacency one_way{{0, 1, 1}, {1}};
   const GraphView graph{positions, one_way.view()};

@@ -31,7 +31,7 @@ std::vector<double> random_positions(Random& random, std::size_t count, double s
   return xyz;
 }
 
-TEST(Frame, PutsEveryVertexIntoTheUnitCubeAndUsesAtLeastHalfOfIt) {
+TEST(Frame, EveryVertexLiesInTheUnitCubeAndFillsAtLeastHalfOfIt) {
   Random random(1);
   std::size_t meshes = 0;
   for (int exponent = -900; exponent <= 500; exponent += 7) {
@@ -75,14 +75,14 @@ TEST(Frame, RoundsAVertexByAtMostTwoToTheMinus25AlongEachAxis) {
   EXPECT_GT(error, 0);
 }
 
-TEST(Frame, OfNoVertexAndOfOnePlaceHasTheUnitOfThePositions) {
+TEST(Frame, WithoutExtentHasTheUnitOfThePositions) {
   EXPECT_EQ(frame_of(std::vector<float>{}).scale, 1);
   const Frame frame = frame_of(std::vector<float>{4, 5, 6, 4, 5, 6});
   EXPECT_EQ(frame.scale, 1);
   EXPECT_EQ(frame.to_frame({4, 5, 6}).x, 0);
 }
 
-TEST(Frame, HoldsMeshesAtTheEndsOfTheRange) {
+TEST(Frame, AcceptsMeshesAtTheEndsOfTheRange) {
   // So small that no power of two within a double's exponents would make it large.
   const std::vector<double> tiny{0, 0, 0, 5e-324, 5e-324, 0};
   EXPECT_TRUE(std::isfinite(frame_of(tiny).scale));

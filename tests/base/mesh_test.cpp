@@ -22,7 +22,7 @@ void expect_mesh_refused(const char* culprit, const FacesView& faces) {
   expect_refused(ErrorCode::InvalidMesh, culprit, [&] { validate(MeshView{kThreePoints, faces}); });
 }
 
-TEST(Views, KnowTheirSizes) {
+TEST(Views, HaveTheRightSizes) {
   const std::vector<double> positions(12, 0.0);
   const std::vector<std::int64_t> corners{0, 1, 2, 2, 1, 3};
   const std::vector<std::uint32_t> offsets{0, 2, 2, 6};
@@ -43,7 +43,7 @@ std::vector<std::vector<std::size_t>> listed(const FacesView& faces) {
   return result;
 }
 
-TEST(Views, GiveTheirFacesInOrder) {
+TEST(Views, ReturnTheirFacesInOrder) {
   const std::vector<std::int32_t> corners{0, 1, 2, 2, 1, 0};
   const std::vector<std::uint64_t> offsets{0, 2, 2, 6};
   EXPECT_THAT(listed(FacesView::triangles(corners)), ElementsAre(ElementsAre(0, 1, 2), ElementsAre(2, 1, 0)));
@@ -51,7 +51,7 @@ TEST(Views, GiveTheirFacesInOrder) {
               ElementsAre(ElementsAre(0, 1), ElementsAre(), ElementsAre(2, 2, 1, 0)));
 }
 
-TEST(Validate, A17RefusesWhatIsNotFiniteAndNamesTheVertex) {
+TEST(Validate, RefusesNonFiniteCoordinatesAndNamesTheVertex) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   for (const auto& [value, text] : {std::pair(nan, "nan"), {infinity, "inf"}, {-infinity, "-inf"}}) {
@@ -66,7 +66,7 @@ TEST(Validate, A17RefusesWhatIsNotFiniteAndNamesTheVertex) {
   }
 }
 
-TEST(Validate, A16RefusesDoublesWhoseSquareOverflows) {
+TEST(Validate, RefusesDoublesWhoseSquareOverflows) {
   const double limit = std::ldexp(1.0, 500);
   const std::vector<double> widest{limit, -limit, 0.0};
   EXPECT_NO_THROW(validate(PositionsView(widest)));
@@ -74,13 +74,13 @@ TEST(Validate, A16RefusesDoublesWhoseSquareOverflows) {
   expect_refused(ErrorCode::InvalidMesh, "vertex 0: y is 3.27", [&] { validate(PositionsView(beyond)); });
 }
 
-TEST(Validate, RefusesAHalfVertex) {
+TEST(Validate, RefusesAnIncompleteVertex) {
   const std::vector<float> positions(7, 0.0F);
   expect_refused(ErrorCode::InvalidMesh, "7 coordinates, expected three a vertex",
                  [&] { validate(PositionsView(positions)); });
 }
 
-TEST(Validate, RefusesAHalfTriangle) {
+TEST(Validate, RefusesAnIncompleteTriangle) {
   const std::vector<std::uint32_t> corners{0, 1, 2, 0};
   expect_mesh_refused("4 corners, expected three a triangle", FacesView::triangles(corners));
 }
@@ -92,7 +92,7 @@ void expect_corner_refused(Index corner, const std::string& text) {
   expect_mesh_refused(culprit.c_str(), FacesView::triangles(corners));
 }
 
-TEST(Validate, M6ComparesACornerBeforeNarrowingIt) {
+TEST(Validate, ACornerIsComparedBeforeItIsNarrowed) {
   expect_corner_refused<std::uint32_t>(3, "3");
   expect_corner_refused<std::uint32_t>(0xFFFFFFFF, "4294967295");
   expect_corner_refused<std::int32_t>(-1, "-1");
@@ -102,7 +102,7 @@ TEST(Validate, M6ComparesACornerBeforeNarrowingIt) {
   expect_corner_refused<std::int64_t>(std::int64_t{1} << 32, "4294967296");
 }
 
-TEST(Validate, RefusesOffsetsThatLie) {
+TEST(Validate, RefusesInconsistentOffsets) {
   const std::vector<std::uint32_t> corners{0, 1, 2};
   const auto expect = [&](const char* culprit, const std::vector<std::int64_t>& offsets) {
     expect_mesh_refused(culprit, FacesView::polygons(offsets, corners));
@@ -117,7 +117,7 @@ TEST(Validate, RefusesOffsetsThatLie) {
   expect("face offsets end with 4294967299, but there are 3 corners", {0, (std::int64_t{1} << 32) + 3});
 }
 
-TEST(Validate, AcceptsWhatIsUgly) {
+TEST(Validate, AcceptsDegenerateMeshes) {
   const std::vector<std::uint32_t> corners{0, 0, 0, 1, 2, 1, 2};
   const std::vector<std::uint32_t> offsets{0, 0, 1, 3, 7};
   EXPECT_NO_THROW(validate(MeshView{kThreePoints, FacesView::polygons(offsets, corners)}));
@@ -125,13 +125,13 @@ TEST(Validate, AcceptsWhatIsUgly) {
   EXPECT_NO_THROW(validate(MeshView{kThreePoints, {}}));
 }
 
-TEST(Distance, IsThatOfTheOpenPredicate) {
+TEST(Distance, AgreesWithThePredicate) {
   const std::vector<double> positions{0, 0, 0, 3, 4, 12};
   EXPECT_EQ(distance(positions, 0, 1), 13);
   EXPECT_EQ(distance(positions, 1, 1), 0);
 }
 
-TEST(Distance, A2RefusesAVertexOutOfRange) {
+TEST(Distance, RefusesAVertexOutOfRange) {
   const auto out_of_range = ErrorCode::VertexOutOfRange;
   expect_refused(out_of_range, "vertex 3, but the mesh has 3", [] { static_cast<void>(distance(kThreePoints, 3, 0)); });
   expect_refused(out_of_range, "vertex 9, but the mesh has 3", [] { static_cast<void>(distance(kThreePoints, 0, 9)); });

@@ -30,7 +30,7 @@ TestMesh horseshoe() {
   return mesh.finish(true);
 }
 
-TEST(ExactNeighborhood, GoesAlongTheSurface) {
+TEST(ExactNeighborhood, ExcludesNearVerticesThatAreNotConnected) {
   const TestMesh mesh = horseshoe();
   EXPECT_THAT(exact_neighborhood(mesh.view(), 0, 1), ElementsAre(0));
   EXPECT_THAT(exact_neighborhood(mesh.view(), 0, 5), ElementsAre(0, 1));
@@ -38,14 +38,14 @@ TEST(ExactNeighborhood, GoesAlongTheSurface) {
   EXPECT_THAT(exact_neighborhood(mesh.view(), 0, 10.5), ElementsAre(0, 1, 2, 3, 4, 5));
 }
 
-TEST(Ball, DoesNot) {
+TEST(Ball, IncludesNearVerticesThatAreNotConnected) {
   const TestMesh mesh = horseshoe();
   std::vector<VertexId> out;
   vertices_in_ball(mesh.positions_view(), 0, 1, out);
   EXPECT_THAT(out, ElementsAre(0, 5));
 }
 
-TEST(ReferenceSearcher, GivesTheVertexFirstAndNoneTwice) {
+TEST(ReferenceSearcher, ReturnsTheVertexFirstAndNoDuplicates) {
   const TestMesh mesh = make_grid(20, 20, false);
   ReferenceSearcher searcher(mesh.view());
   std::vector<VertexId> out;
@@ -56,7 +56,7 @@ TEST(ReferenceSearcher, GivesTheVertexFirstAndNoneTwice) {
   }
 }
 
-TEST(ReferenceSearcher, SearchesAGraphAsItDoesAMesh) {
+TEST(ReferenceSearcher, AGraphGivesTheAnswersOfItsMesh) {
   const TestMesh mesh = make_grid(20, 20, false);
   const Adjacency graph = adjacency(mesh.view());
   ReferenceSearcher of_mesh(mesh.view());
@@ -71,7 +71,7 @@ TEST(ReferenceSearcher, SearchesAGraphAsItDoesAMesh) {
   }
 }
 
-TEST(ReferenceSearcher, SurvivesAMove) {
+TEST(ReferenceSearcher, CanBeMoved) {
   const TestMesh mesh = make_grid(5, 5, false);
   ReferenceSearcher first(mesh.view());
   ReferenceSearcher second(std::move(first));
@@ -82,7 +82,7 @@ TEST(ReferenceSearcher, SurvivesAMove) {
 }
 
 /// Exact answers against the oracle are the business of differential_test; here the ball, and that exact grows.
-TEST(ReferenceSearcher, C3ForgetsTheQueriesBeforeWhenTheirNumbersRunOut) {
+TEST(ReferenceSearcher, AnswersStayTheSameWhenTheQueryNumberWrapsAround) {
   const TestMesh mesh = make_grid(20, 20, false);
   ReferenceSearcher searcher(mesh.view());
   std::vector<VertexId> expected;
@@ -95,7 +95,7 @@ TEST(ReferenceSearcher, C3ForgetsTheQueriesBeforeWhenTheirNumbersRunOut) {
   }
 }
 
-TEST(Ball, IsThatOfTheOracle) {
+TEST(Ball, EqualsTheOracle) {
   std::size_t queries = 0;
   for (const Family& family : families()) {
     for (std::uint64_t seed = 1; seed < scaled(20, 3); ++seed) {
@@ -114,7 +114,7 @@ TEST(Ball, IsThatOfTheOracle) {
   std::printf("%zu queries, 0 mismatches\n", queries);
 }
 
-TEST(ReferenceSearcher, N5GrowsWithTheRadius) {
+TEST(ReferenceSearcher, ALargerRadiusGivesASuperset) {
   for (const Family& family : families()) {
     const TestMesh mesh = make_mesh(family, 3, 200);
     if (mesh.size() == 0) continue;
@@ -134,7 +134,7 @@ TEST(ReferenceSearcher, N5GrowsWithTheRadius) {
   }
 }
 
-TEST(Reference, A1A2RefusesWithoutTouchingTheAnswer) {
+TEST(Reference, InvalidArgumentsAreRefusedAndResultsStayUnchanged) {
   const TestMesh mesh = make_grid(3, 3, false);
   ReferenceSearcher searcher(mesh.view());
   std::vector<VertexId> out{1, 2};
@@ -159,7 +159,7 @@ TEST(Reference, A1A2RefusesWithoutTouchingTheAnswer) {
   EXPECT_THAT(out, ElementsAre(1, 2));
 }
 
-TEST(Reference, A1TakesMinusZeroAndInfinity) {
+TEST(Reference, RadiusMayBeMinusZeroOrInfinite) {
   const TestMesh mesh = make_grid(3, 3, false);
   EXPECT_THAT(exact_neighborhood(mesh.view(), 4, -0.0), ElementsAre(4));
   EXPECT_EQ(exact_neighborhood(mesh.view(), 4, kInfinity).size(), 9U);

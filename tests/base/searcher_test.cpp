@@ -65,7 +65,7 @@ void expect_consistent(S& searcher, const PositionsView& positions, VertexId v, 
 
 class Searchers : public testing::TestWithParam<Family> {};
 
-TEST_P(Searchers, AgreeWithThemselves) {
+TEST_P(Searchers, AllMembersGiveTheSameAnswer) {
   const TestMesh mesh = make_mesh(GetParam(), 9, scaled(600, 200));
   if (mesh.size() == 0) return;
   const MeshView view = mesh.view();
@@ -96,7 +96,7 @@ TEST_P(Searchers, AgreeWithThemselves) {
 
 INSTANTIATE_TEST_SUITE_P(All, Searchers, testing::ValuesIn(families()), family_name);
 
-TEST(Visit, EndsWhenToldTo) {
+TEST(Visit, EndsWhenTheCallableReturnsFalse) {
   const TestMesh mesh = make_grid(40, 40, false);
   const Index index = build(mesh.view());
   Searcher searcher(index);
@@ -108,7 +108,7 @@ TEST(Visit, EndsWhenToldTo) {
   EXPECT_EQ(seen, 3U);
 }
 
-TEST(Visit, PassesOnExceptionsAndRefusals) {
+TEST(Visit, ExceptionsReachTheCaller) {
   const TestMesh mesh = make_grid(5, 5, false);
   const Index index = build(mesh.view());
   Searcher searcher(index);
@@ -118,7 +118,7 @@ TEST(Visit, PassesOnExceptionsAndRefusals) {
   expect_refused(ErrorCode::InvalidRadius, "radius -1", [&] { visit(searcher, 0, -1, nothing); });
 }
 
-TEST(Visit, GivesEachVertexOnceAlsoWithoutPermutation) {
+TEST(Visit, PassesEachVertexOnceAlsoWithoutPermutation) {
   const TestMesh mesh = make_grid(30, 30, false);
   const ReorderedMesh reordered = reorder(mesh.view());
   Searcher searcher(reordered.index);
@@ -126,7 +126,7 @@ TEST(Visit, GivesEachVertexOnceAlsoWithoutPermutation) {
   expect_consistent(searcher, reordered.view().positions, 450, 7);
 }
 
-TEST(Reduce, MayMoveItsValue) {
+TEST(Reduce, AcceptsAMoveOnlyValue) {
   const TestMesh mesh = make_grid(30, 30, false);
   BallSearcher searcher(mesh.view().positions);
   const auto append = [](std::vector<VertexId> ids, VertexRange run) {

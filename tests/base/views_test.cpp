@@ -142,7 +142,7 @@ TEST_F(Views, OfRecordsWithOtherFieldsAreRead) {
                FacesView::strided_triangles(triangles, corners.size() / 3, 6, 2)});
 }
 
-TEST_F(Views, OfNothingAreEmpty) {
+TEST_F(Views, OfNoElementsAreEmpty) {
   const std::vector<float> none;
   const std::vector<std::array<float, 3>> no_points;
   const std::vector<std::array<std::int32_t, 3>> no_triangles;
@@ -176,7 +176,7 @@ TEST_F(Views, RefuseArraysThatAreTooShort) {
                  [&] { validate(MeshView{plain.positions, FacesView::strided_triangles(four, 9, 0, 2)}); });
 }
 
-TEST_F(Views, TakeAnIntegerAsRadius) {
+TEST_F(Views, AcceptAnIntegerRadius) {
   EXPECT_EQ(neighborhoods(index, {.radius = 2}).ids, neighborhoods(index, {.radius = 2.0}).ids);
   EXPECT_EQ(neighborhoods(index, {.radius = 2}).ids, neighborhoods(index, {.radius = 2.0F}).ids);
   expect_refused(ErrorCode::InvalidRadius, "radius -3",

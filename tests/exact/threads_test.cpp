@@ -111,7 +111,7 @@ class Asker {
   std::vector<double> distances_;
 };
 
-TEST(Threads, C1OneIndexIsAskedByManyInEveryWay) {
+TEST(Threads, ManyThreadsMaySearchOneIndexWithEveryMethod) {
   const std::size_t queries = scaled(100'000, kThreadSanitized ? 50'000 : 700);
   std::atomic<std::size_t> wrong = 0;
   for (const TestMesh& mesh : meshes()) {
@@ -139,7 +139,7 @@ TEST(Threads, C1OneIndexIsAskedByManyInEveryWay) {
 }
 
 // Of more vertices than a thread takes at once; one mesh is built from by two callers, one of whom gives up.
-TEST(Threads, C1AnIndexIsBuiltByMany) {
+TEST(Threads, ManyThreadsBuildTheSameIndex) {
   const TestMesh mesh = make_grid(250, 240, true).finish(true);
   const Index expected = build(mesh.view());
   std::thread other([&] {
@@ -154,7 +154,7 @@ TEST(Threads, C1AnIndexIsBuiltByMany) {
 }
 
 // So many rows that every thread gets some.
-TEST(Threads, C1ABatchIsAnsweredByMany) {
+TEST(Threads, ManyThreadsAnswerABatch) {
   const TestMesh mesh = make_grid(120, 100, false).finish(false);
   const Index index = build(mesh.view());
   const paper::Index paper_index = paper::build(mesh.view());
