@@ -11,7 +11,7 @@ meshhood_own_target(meshhood_families)
 
 foreach(part
     base/adjacency base/frame base/mesh base/distance base/sphere base/reference base/error base/parallel
-    batch/batch batch/joint_batch
+    batch/batch batch/joint_batch batch/packets
     exact/cell_components exact/halfplane_polygon exact/joint_search exact/kd_order exact/leaf_nodes exact/leaves
     exact/links exact/minimum_region exact/tree exact/check exact/damage exact/file exact/index exact/verify
     exact/search_families exact/search_differential exact/search_proof exact/search_rare exact/threads

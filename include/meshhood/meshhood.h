@@ -16,7 +16,7 @@
 ///     std::vector<meshhood::VertexId> ids;
 ///     searcher.neighborhood(42, 1.5, ids);   // the same set as breadth-first search
 ///
-/// `Searcher` is in search.h, batches over many vertices in batch.h, visitors in searcher.h, files in
+/// `Searcher` is in search.h, batches over many vertices in batch.h and joint.h, visitors in searcher.h, files in
 /// io/mesh_io.h and io/index_io.h, matrices of Eigen in eigen.h. `meshhood::paper` has the same calls with the
 /// approximate neighborhoods of the paper.
 
@@ -25,6 +25,7 @@
 #include "meshhood/error.h"        // IWYU pragma: export
 #include "meshhood/fingerprint.h"  // IWYU pragma: export
 #include "meshhood/index.h"        // IWYU pragma: export
+#include "meshhood/joint.h"        // IWYU pragma: export
 #include "meshhood/level.h"        // IWYU pragma: export
 #include "meshhood/mesh.h"         // IWYU pragma: export
 #include "meshhood/paper.h"        // IWYU pragma: export

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -37,14 +38,19 @@ class Batch {
   /// the window has no whole group; or all.
   [[nodiscard]] std::size_t whole_units(std::size_t first, std::size_t window) const;
 
-  /// Calls `f(thread, worker, items)` for chunks of the rows `row_of(i)`, `i < count`, on any thread. Which chunks
-  /// there are depends on the rows alone, and `worker` belongs to the thread.
+  /// Calls `f(thread, items)` for chunks of the rows `row_of(i)`, `i < count`, on any thread. Which chunks there are
+  /// depends on the rows alone.
   template <class RowOf, class F>
   void for_each_chunk(std::size_t count, RowOf&& row_of, F&& f);
 
- private:
+  /// As above, for all rows, `kMaxRows` at a time.
+  template <class F>
+  void for_all_chunks(F&& f);
+
+  /// The worker of a thread, made when the thread first asks for it.
   [[nodiscard]] BatchWorker& worker(unsigned thread);
 
+ private:
   /// Whether the row after `row` has a position beyond the next multiple of `positions`.
   [[nodiscard]] bool ends_unit(std::size_t row, std::uint32_t positions) const;
 
@@ -75,8 +81,16 @@ void Batch::for_each_chunk(std::size_t count, RowOf&& row_of, F&& f) {
       const std::size_t row = row_of(static_cast<std::uint32_t>(in_order_[i]));
       items.push_back({row, rows_.vertex(row), rows_.radius(row)});
     }
-    f(thread, worker(thread), std::span<const BatchItem>(items));
+    f(thread, std::span<const BatchItem>(items));
   });
+}
+
+template <class F>
+void Batch::for_all_chunks(F&& f) {
+  for (std::size_t first = 0; first < rows_.size(); first += kMaxRows) {
+    const std::size_t count = std::min(kMaxRows, rows_.size() - first);
+    for_each_chunk(count, [first](std::size_t i) { return first + i; }, f);
+  }
 }
 
 }  // namespace meshhood

@@ -16,15 +16,6 @@
 namespace meshhood {
 namespace {
 
-/// Calls `f(thread, worker, chunk)` for chunks of all rows.
-template <class F>
-void for_all_chunks(Batch& batch, F&& f) {
-  for (std::size_t first = 0; first < batch.rows().size(); first += Batch::kMaxRows) {
-    const std::size_t count = std::min(Batch::kMaxRows, batch.rows().size() - first);
-    batch.for_each_chunk(count, [first](std::size_t i) { return first + i; }, f);
-  }
-}
-
 /// Refuses a result of more bytes than the caller allows.
 class SizeLimit {
  public:
@@ -64,8 +55,8 @@ void check_sample(Batch& batch, const SizeLimit& limit) {
   const std::size_t stretch = batch.rows().size() / kSample;
   const auto row_of = [stretch](std::size_t i) { return i * stretch + i * std::size_t{0x9E37'79B1} % stretch; };
   std::vector<double> sizes(kSample);
-  batch.for_each_chunk(kSample, row_of, [&](unsigned thread, BatchWorker& worker, std::span<const BatchItem> chunk) {
-    worker.count(chunk, [&](std::size_t row, std::size_t size) {
+  batch.for_each_chunk(kSample, row_of, [&](unsigned thread, std::span<const BatchItem> chunk) {
+    batch.worker(thread).count(chunk, [&](std::size_t row, std::size_t size) {
       sizes[row / stretch] = static_cast<double>(size);
       return batch.task().should_continue(thread);
     });
@@ -78,8 +69,8 @@ void check_sample(Batch& batch, const SizeLimit& limit) {
 }
 
 void count_rows(Batch& batch, std::uint64_t* sizes, SizeLimit* limit) {
-  for_all_chunks(batch, [&](unsigned thread, BatchWorker& worker, std::span<const BatchItem> chunk) {
-    worker.count(chunk, [&](std::size_t row, std::size_t size) {
+  batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
+    batch.worker(thread).count(chunk, [&](std::size_t row, std::size_t size) {
       sizes[row] = size;
       if (limit != nullptr) limit->add(size);
       batch.task().advance(1);
@@ -124,8 +115,8 @@ std::vector<std::uint64_t> stream_and_copy(const SearchMethod& method, const Bat
 /// Writes each row where its offset says.
 void write_rows(Batch& batch, std::span<const std::uint64_t> offsets, const BatchMemory& memory) {
   const BatchOptions& options = batch.options();
-  for_all_chunks(batch, [&](unsigned thread, BatchWorker& worker, std::span<const BatchItem> chunk) {
-    worker.find(chunk, options.distances, [&](const BatchRow& row) {
+  batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
+    batch.worker(thread).find(chunk, options.distances, [&](const BatchRow& row) {
       const std::span<VertexId> ids = memory.ids.subspan(offsets[row.row], row.ids.size());
       std::copy(row.ids.begin(), row.ids.end(), ids.begin());
       std::span<double> distances;

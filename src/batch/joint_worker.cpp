@@ -60,6 +60,33 @@ void JointWorker::find(std::span<const BatchItem> chunk, bool distances, const C
       });
 }
 
+void JointWorker::visit(std::span<const BatchItem> chunk, const std::function<bool(const PacketAnswer&)>& sink) {
+  LeafId group = 0;
+  bool has_group = false;
+  const auto pass_on = [&](PacketAnswer answer, std::span<const BatchItem> items, bool begins_group) {
+    rows_.assign(items);
+    answer.rows = rows_.rows;
+    answer.vertices = rows_.vertices;
+    answer.radii = rows_.radii;
+    answer.begins_group = begins_group;
+    return sink(answer);
+  };
+  for_each_run(
+      chunk,
+      [&](const Run& run) {
+        const bool begins_group = !has_group || run.leaf / kFanOut != group;
+        has_group = true;
+        group = run.leaf / kFanOut;
+        return pass_on(joint_->answer(), run.items, begins_group);
+      },
+      [&](const BatchItem& item) {
+        has_group = false;
+        SearcherAccess::State& single = SearcherAccess::state(searcher());
+        single.search(item.vertex, item.radius);
+        return pass_on(single_packet_.describe(view_, single.answer), {&item, 1}, true);
+      });
+}
+
 /// Calls `together(run)` for each packet once its search is done, and `single(item)` for the other rows, until one of
 /// them returns false.
 template <class Together, class Single>

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "meshhood/joint.h"
 #include "meshhood/search.h"
 
 #include "batch/searcher_factory.h"
+#include "batch/single_packet.h"
 #include "exact/joint/joint_search.h"
 #include "exact/layout.h"
 
@@ -25,6 +28,9 @@ class JointWorker final : public BatchWorker {
 
   void count(std::span<const BatchItem> chunk, const SizeSink& sink) override;
   void find(std::span<const BatchItem> chunk, bool distances, const ChunkSink& sink) override;
+
+  /// Passes on the packets of a chunk. `sink` returns false to drop the rest.
+  void visit(std::span<const BatchItem> chunk, const std::function<bool(const PacketAnswer&)>& sink);
 
  private:
   /// Consecutive rows of one leaf: a packet, or rows to be answered one by one.
@@ -54,6 +60,8 @@ class JointWorker final : public BatchWorker {
   std::vector<JointQuery> queries_;
   std::vector<VertexId> ids_;
   std::vector<double> distances_;
+  PacketRows rows_;
+  SinglePacket single_packet_;
 };
 
 }  // namespace meshhood

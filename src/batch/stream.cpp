@@ -97,8 +97,8 @@ class Stream {
     bytes_ = 0;
     batch_.for_each_chunk(
         window, [first](std::size_t i) { return first + i; },
-        [&](unsigned thread, BatchWorker& worker, std::span<const BatchItem> chunk) {
-          worker.find(chunk, batch_.options().distances, [&](const BatchRow& row) {
+        [&](unsigned thread, std::span<const BatchItem> chunk) {
+          batch_.worker(thread).find(chunk, batch_.options().distances, [&](const BatchRow& row) {
             const Waiting& kept = waiting_[row.row - first] = keep(thread, row);
             bytes_ += bytes_of(kept);
             return (bytes_ <= room || window == 1) && batch_.task().should_continue(thread);

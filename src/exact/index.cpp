@@ -35,6 +35,8 @@ std::span<const VertexId> Index::permutation() const {
   return padded.empty() ? padded : padded.first(view_->vertex_count());
 }
 
+std::span<const VertexId> Index::leaf_starts() const { return view_->leaf_begin; }
+
 std::vector<LevelSummary> Index::levels() const {
   std::vector<LevelSummary> result;
   for (const TreeLevel& level : view_->tree) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "meshhood/joint.h"
 #include "meshhood/mesh.h"
 
 #include "simd/kernels.h"
@@ -13,11 +14,7 @@
 /// function gives the same result on every processor, bit for bit.
 namespace meshhood {
 
-/// A set of queries of a packet: bit `i` stands for query `i`. Kept once for each vertex, where a `LaneMask` is kept
-/// once for each query.
-using QueryWord = std::uint32_t;
-
-inline constexpr unsigned kPacketCapacity = 32;
+static_assert(kPacketCapacity == kLeafCapacity);
 
 /// A value for each lane of a leaf, or for each query of a packet.
 template <class T>

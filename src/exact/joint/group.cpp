@@ -34,11 +34,19 @@ void convert(std::span<const Real> xyz, const Leaf& leaf, const Point& centre, d
 
 }  // namespace
 
+void append_ids(const IndexView& index, const VertexRange& run, std::vector<VertexId>& ids) {
+  if (index.permutation.empty()) {
+    for (VertexId vertex = run.begin; vertex < run.end; ++vertex) ids.push_back(vertex);
+  } else {
+    ids.insert(ids.end(), &index.permutation[run.begin], &index.permutation[run.begin] + run.size());
+  }
+}
+
 JointGroup::JointGroup(const IndexView& index, const Kernels& kernels)
     : index_(&index),
       kernels_(&kernels),
       ball_({0, 0, 0}, TreeBounds(index.frame, 0)),
-      slot_of_(index.leaf_count(), kUnknown) {}
+      entry_of_(index.leaf_count(), kUnknown) {}
 
 void JointGroup::begin(std::span<const LeafId> leaves, const TreeBounds& low, const TreeBounds& high) {
   clear();
@@ -46,24 +54,25 @@ void JointGroup::begin(std::span<const LeafId> leaves, const TreeBounds& low, co
   ball_.outer = next_above(static_cast<double>(high.outer) + radius_);
   ball_.inner = -next_above(radius_ - static_cast<double>(low.inner));
   for (const LeafId leaf : leaves) {
-    if (discover(leaf) == kNoSlot) slot_of_[leaf] = add_slot(leaf);  // of an index whose spheres are wrong
+    if (discover(leaf) == kNoEntry) entry_of_[leaf] = add_entry(leaf);  // of an index whose spheres are wrong
   }
-  for (GroupSlot slot = 0; slot < leaves_.size(); ++slot) {
-    if (is_core(slot)) continue;
-    for (const Link& link : index_->links_of(leaves_[slot])) discover(link.leaf);
+  for (GroupEntry entry = 0; entry < leaves_.size(); ++entry) {
+    if (is_core(entry)) continue;
+    for (const Link& link : index_->links_of(leaves_[entry])) discover(link.leaf);
   }
   if (points_.size() < leaves_.size()) points_.resize(leaves_.size() + leaves_.size() / 2);
   has_points_.assign(leaves_.size(), 0);
 }
 
 void JointGroup::clear() {
-  for (const LeafId leaf : touched_) slot_of_[leaf] = kUnknown;
+  for (const LeafId leaf : touched_) entry_of_[leaf] = kUnknown;
   touched_.clear();
   leaves_.clear();
   spheres_.clear();
   cores_.clear();
   core_leaves_.clear();
   rims_.clear();
+  core_runs_.clear();
   core_ids_.clear();
 }
 
@@ -80,20 +89,20 @@ void JointGroup::set_sphere(std::span<const LeafId> leaves) {
   radius_ = static_cast<double>(bounds.radius) + length(off);
 }
 
-GroupSlot JointGroup::discover(LeafId leaf) {
-  if (slot_of_[leaf] != kUnknown) return slot_of_[leaf];
+GroupEntry JointGroup::discover(LeafId leaf) {
+  if (entry_of_[leaf] != kUnknown) return entry_of_[leaf];
   touched_.push_back(leaf);
   const Leaf& record = index_->leaves[leaf];
   const Containment side = classify(record.bounds, ball_);
-  if (side == Containment::Outside) return slot_of_[leaf] = kNoSlot;
+  if (side == Containment::Outside) return entry_of_[leaf] = kNoEntry;
   if (side == Containment::Inside && record.connected) return add_core(leaf);
-  return slot_of_[leaf] = add_slot(leaf);
+  return entry_of_[leaf] = add_entry(leaf);
 }
 
-GroupSlot JointGroup::add_slot(LeafId leaf) {
+GroupEntry JointGroup::add_entry(LeafId leaf) {
   leaves_.push_back(leaf);
   spheres_.push_back(index_->leaves[leaf].bounds);
-  return static_cast<GroupSlot>(leaves_.size() - 1);
+  return static_cast<GroupEntry>(leaves_.size() - 1);
 }
 
 bool JointGroup::is_inside(LeafId leaf) const {
@@ -101,66 +110,74 @@ bool JointGroup::is_inside(LeafId leaf) const {
   return record.connected && classify(record.bounds, ball_) == Containment::Inside;
 }
 
-GroupSlot JointGroup::add_core(LeafId leaf) {
-  const auto core = static_cast<GroupSlot>(leaves_.size());
-  const auto first_leaf = static_cast<std::uint32_t>(core_leaves_.size());
-  const auto first_rim = static_cast<std::uint32_t>(rims_.size());
+GroupEntry JointGroup::add_core(LeafId leaf) {
+  const auto entry = static_cast<GroupEntry>(leaves_.size());
   leaves_.push_back(kCore + static_cast<LeafId>(cores_.size()));
   spheres_.push_back({0, 0, 0, 0});
-  slot_of_[leaf] = core;
-  core_leaves_.push_back(leaf);
-  std::size_t vertices = 0;
-  for (std::size_t head = first_leaf; head < core_leaves_.size(); ++head) {
-    vertices += index_->leaves[core_leaves_[head]].size;
+  Core core{.first_rim = rims_.size(), .first_run = core_runs_.size()};
+  entry_of_[leaf] = entry;
+  core_leaves_.assign(1, leaf);
+  for (std::size_t head = 0; head < core_leaves_.size(); ++head) {
+    core.vertices += index_->leaves[core_leaves_[head]].size;
     for (const Link& link : index_->links_of(core_leaves_[head])) {
-      GroupSlot slot = slot_of_[link.leaf];
-      if (slot == kUnknown && is_inside(link.leaf)) {
+      GroupEntry linked = entry_of_[link.leaf];
+      if (linked == kUnknown && is_inside(link.leaf)) {
         touched_.push_back(link.leaf);
-        slot = slot_of_[link.leaf] = core;
+        linked = entry_of_[link.leaf] = entry;
         core_leaves_.push_back(link.leaf);
-      } else if (slot == kUnknown) {
-        slot = discover(link.leaf);
+      } else if (linked == kUnknown) {
+        linked = discover(link.leaf);
       }
-      if (slot == core || slot == kNoSlot) continue;
-      rims_.push_back({slot, kernels_->cross_edges(index_->cross_edges_of(link), link.boundary)});
+      if (linked == entry || linked == kNoEntry) continue;
+      rims_.push_back({linked, kernels_->cross_edges(index_->cross_edges_of(link), link.boundary)});
     }
   }
-  cores_.push_back({first_leaf, static_cast<std::uint32_t>(core_leaves_.size()), first_rim,
-                    static_cast<std::uint32_t>(rims_.size()), vertices, 0, false});
-  return core;
+  add_core_runs();
+  core.end_rim = rims_.size();
+  core.end_run = core_runs_.size();
+  cores_.push_back(core);
+  return entry;
 }
 
-std::span<const JointGroup::RimLink> JointGroup::rim(GroupSlot core) const {
-  const Core& found = cores_[leaves_[core] - kCore];
+/// The leaves of the core as runs.
+void JointGroup::add_core_runs() {
+  std::sort(core_leaves_.begin(), core_leaves_.end());
+  for (std::size_t i = 0; i < core_leaves_.size(); ++i) {
+    const LeafId leaf = core_leaves_[i];
+    if (i == 0 || leaf != core_leaves_[i - 1] + 1) core_runs_.push_back({leaf, leaf, {index_->leaf_begin[leaf], 0}});
+    core_runs_.back().end_leaf = leaf + 1;
+    core_runs_.back().vertices.end = index_->leaf_begin[leaf + 1];
+  }
+}
+
+std::span<const JointGroup::RimLink> JointGroup::rim(GroupEntry core) const {
+  const Core& found = cores_[core_number(core)];
   return std::span(rims_).subspan(found.first_rim, found.end_rim - found.first_rim);
 }
 
-std::span<const LeafId> JointGroup::core_leaves(GroupSlot core) const {
-  const Core& found = cores_[leaves_[core] - kCore];
-  return std::span(core_leaves_).subspan(found.first_leaf, found.end_leaf - found.first_leaf);
+std::span<const LeafRun> JointGroup::core_runs(GroupEntry core) const {
+  const Core& found = cores_[core_number(core)];
+  return std::span(core_runs_).subspan(found.first_run, found.end_run - found.first_run);
 }
 
-std::span<const VertexId> JointGroup::core_ids(GroupSlot core) {
-  Core& found = cores_[leaves_[core] - kCore];
+std::span<const VertexId> JointGroup::core_ids(GroupEntry entry) {
+  Core& found = cores_[core_number(entry)];
   if (!found.has_ids) {
-    found.has_ids = true;
     found.first_id = core_ids_.size();
-    for (const LeafId leaf : core_leaves(core)) {
-      const Leaf& record = index_->leaves[leaf];
-      for (std::size_t i = 0; i < record.size; ++i) core_ids_.push_back(index_->id(record.first + i));
-    }
+    for (const LeafRun& run : core_runs(entry)) append_ids(*index_, run.vertices, core_ids_);
+    found.has_ids = true;
   }
   return std::span(core_ids_).subspan(found.first_id, found.vertices);
 }
 
-const LeafPoints& JointGroup::points(GroupSlot slot) {
-  if (has_points_[slot] == 0) {
-    has_points_[slot] = 1;
+const LeafPoints& JointGroup::points(GroupEntry entry) {
+  if (has_points_[entry] == 0) {
+    has_points_[entry] = 1;
     std::visit(
-        [&](auto xyz) { convert(xyz, index_->leaves[leaves_[slot]], centre_, index_->frame.scale, points_[slot]); },
+        [&](auto xyz) { convert(xyz, index_->leaves[leaves_[entry]], centre_, index_->frame.scale, points_[entry]); },
         index_->positions);
   }
-  return points_[slot];
+  return points_[entry];
 }
 
 }  // namespace meshhood

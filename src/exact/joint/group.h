@@ -12,22 +12,22 @@
 namespace meshhood {
 
 /// A number of a group's own for a leaf that its balls may meet, or for a core.
-using GroupSlot = std::uint32_t;
+using GroupEntry = std::uint32_t;
 
 /// The leaves that the balls around the vertices of a group may hold. A *group* is eight neighboring leaves whose
 /// queries are answered one leaf after the other; what their balls have in common is found once, by a breadth-first
 /// search over the links from the group's own leaves. So no leaf is looked at that no path from them leads to.
 ///
 /// A leaf that is connected and lies in every ball of the group is reached by all queries or by none that reach its
-/// neighbors. Such leaves, where linked, make one *core*, and a core is one slot. The slots that it is linked to are
-/// its *rim*. Every other leaf that the balls may meet is a slot by itself.
+/// neighbors. Such leaves, where linked, make one *core*, and a core is one entry. The entries that it is linked to are
+/// its *rim*. Every other leaf that the balls may meet is an entry by itself.
 class JointGroup {
  public:
   JointGroup(const IndexView& index, const Kernels& kernels);
 
-  /// A link from a core: the slot, and the vertices of that leaf which have a neighbor in the core.
+  /// A link from a core: the entry, and the vertices of that leaf which have a neighbor in the core.
   struct RimLink {
-    GroupSlot slot;
+    GroupEntry entry;
     LaneMask boundary;
   };
 
@@ -36,22 +36,25 @@ class JointGroup {
   void begin(std::span<const LeafId> leaves, const TreeBounds& low, const TreeBounds& high);
 
   [[nodiscard]] std::size_t size() const { return leaves_.size(); }
-  [[nodiscard]] bool is_core(GroupSlot slot) const { return leaves_[slot] >= kCore; }
-  [[nodiscard]] LeafId leaf(GroupSlot slot) const { return leaves_[slot]; }
+  [[nodiscard]] bool is_core(GroupEntry entry) const { return leaves_[entry] >= kCore; }
+  [[nodiscard]] LeafId leaf(GroupEntry entry) const { return leaves_[entry]; }
 
-  /// The spheres of the slots; that of a core is not used.
+  /// The spheres of the entries; that of a core is not used.
   [[nodiscard]] std::span<const FrameSphere> spheres() const { return spheres_; }
 
-  /// The slot of a leaf, or `kNoSlot` where no ball meets it. Any leaf that is linked with a slot, or one of the group.
-  [[nodiscard]] GroupSlot slot_of(LeafId leaf) const { return slot_of_[leaf]; }
-  static constexpr GroupSlot kNoSlot = 0xFFFFFFFE;
+  /// The entry of a leaf, or `kNoEntry` where no ball meets it. Any leaf that is linked with an entry, or one of the
+  /// group.
+  [[nodiscard]] GroupEntry entry_of(LeafId leaf) const { return entry_of_[leaf]; }
+  static constexpr GroupEntry kNoEntry = 0xFFFFFFFE;
 
   // Of a core.
-  [[nodiscard]] std::span<const RimLink> rim(GroupSlot core) const;
-  [[nodiscard]] std::span<const LeafId> core_leaves(GroupSlot core) const;
-  [[nodiscard]] std::size_t core_vertices(GroupSlot core) const { return cores_[leaves_[core] - kCore].vertices; }
-  /// Its vertices, as the caller numbers them. Copied together when first asked for.
-  [[nodiscard]] std::span<const VertexId> core_ids(GroupSlot core);
+  [[nodiscard]] std::span<const RimLink> rim(GroupEntry core) const;
+  [[nodiscard]] std::size_t core_number(GroupEntry core) const { return leaves_[core] - kCore; }
+  [[nodiscard]] std::size_t core_vertices(GroupEntry core) const { return cores_[core_number(core)].vertices; }
+  /// Its leaves, ascending.
+  [[nodiscard]] std::span<const LeafRun> core_runs(GroupEntry core) const;
+  /// Its vertices in the order of the runs, as the caller numbers them. Copied together when first asked for.
+  [[nodiscard]] std::span<const VertexId> core_ids(GroupEntry core);
 
   /// The centre of the group: exactly, and in the frame.
   [[nodiscard]] const Point& centre() const { return centre_; }
@@ -59,28 +62,29 @@ class JointGroup {
   /// No vertex of the group is farther than this from its centre, in the frame.
   [[nodiscard]] double radius() const { return radius_; }
 
-  /// The vertices of a slot that is a leaf, relative to the centre. Converted when first asked for.
-  [[nodiscard]] const LeafPoints& points(GroupSlot slot);
+  /// The vertices of an entry that is a leaf, relative to the centre. Converted when first asked for.
+  [[nodiscard]] const LeafPoints& points(GroupEntry entry);
 
  private:
   static constexpr LeafId kCore = 0xF0000000;  // more than any leaf: there are at most 2^27
-  static constexpr GroupSlot kUnknown = 0xFFFFFFFF;
+  static constexpr GroupEntry kUnknown = 0xFFFFFFFF;
 
   struct Core {
-    std::uint32_t first_leaf;  // in core_leaves_
-    std::uint32_t end_leaf;
-    std::uint32_t first_rim;
-    std::uint32_t end_rim;
-    std::size_t vertices;
-    std::size_t first_id;  // in core_ids_
-    bool has_ids;
+    std::size_t first_rim;  // in rims_
+    std::size_t end_rim = 0;
+    std::size_t first_run;  // in core_runs_
+    std::size_t end_run = 0;
+    std::size_t vertices = 0;
+    bool has_ids = false;
+    std::size_t first_id = 0;  // in core_ids_
   };
 
   void clear();
   void set_sphere(std::span<const LeafId> leaves);
-  GroupSlot discover(LeafId leaf);
-  GroupSlot add_slot(LeafId leaf);
-  GroupSlot add_core(LeafId leaf);
+  GroupEntry discover(LeafId leaf);
+  GroupEntry add_entry(LeafId leaf);
+  GroupEntry add_core(LeafId leaf);
+  void add_core_runs();
   [[nodiscard]] bool is_inside(LeafId leaf) const;
 
   const IndexView* index_;
@@ -89,16 +93,20 @@ class JointGroup {
   Point centre_{0, 0, 0};
   Point centre_in_frame_{0, 0, 0};
   double radius_ = 0;
-  std::vector<GroupSlot> slot_of_;    // by leaf of the index
-  std::vector<LeafId> touched_;       // the leaves whose slot is known
-  std::vector<LeafId> leaves_;        // by slot; of a core, kCore and its number
-  std::vector<FrameSphere> spheres_;  // by slot
+  std::vector<GroupEntry> entry_of_;  // by leaf of the index
+  std::vector<LeafId> touched_;       // the leaves whose entry is known
+  std::vector<LeafId> leaves_;        // by entry; of a core, kCore and its number
+  std::vector<FrameSphere> spheres_;  // by entry
   std::vector<Core> cores_;
-  std::vector<LeafId> core_leaves_;
+  std::vector<LeafId> core_leaves_;  // of the core that is being added
   std::vector<RimLink> rims_;
+  std::vector<LeafRun> core_runs_;
   std::vector<VertexId> core_ids_;
-  std::vector<LeafPoints> points_;  // by slot
+  std::vector<LeafPoints> points_;  // by entry
   std::vector<std::uint8_t> has_points_;
 };
+
+/// Appends the vertices of a run, as the caller numbers them.
+void append_ids(const IndexView& index, const VertexRange& run, std::vector<VertexId>& ids);
 
 }  // namespace meshhood

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "meshhood/joint.h"
+
 #include "exact/joint/group.h"
 #include "exact/joint/packet.h"
 #include "exact/joint/spread.h"
@@ -43,10 +45,15 @@ class JointSearch {
   /// Writes the distances in the order of the ids.
   void write_distances(unsigned query, double* distances);
 
+  /// The neighborhoods as words; `rows`, `vertices`, `radii` and `begins_group` are left to the caller. Valid until the
+  /// next `run`.
+  [[nodiscard]] const PacketAnswer& answer();
+
  private:
   void collect_common();
   template <class F>
-  void for_each_run(unsigned query, F&& f);
+  void for_each_vertex(unsigned query, F&& f);
+  [[nodiscard]] VertexRange vertices_of(LeafId leaf) const;
 
   const IndexView* index_;
   const JointKernels* kernels_;
@@ -56,8 +63,12 @@ class JointSearch {
   PerLane<std::uint64_t> counts_{};
   bool has_counts_ = false;
   bool has_common_ = false;
-  std::vector<VertexId> common_ids_;   // of the whole slots that every query reaches
-  std::vector<GroupSlot> some_whole_;  // the whole slots that only some queries reach
+  std::vector<VertexId> common_ids_;    // of the whole leaves that every query reaches
+  std::vector<GroupEntry> some_whole_;  // cores, and the whole leaves that only some queries reach
+  PacketAnswer answer_;
+  std::vector<CoreLeaves> cores_;
+  std::vector<WholeLeaves> whole_;
+  std::vector<PartialLeaf> partial_;
 };
 
 }  // namespace meshhood

@@ -13,9 +13,9 @@
 
 namespace meshhood {
 
-/// How the slots of a group lie to a packet, and what its queries reach there: breadth-first search for all queries at
-/// once. A query reaches a vertex if its ball holds the vertex, and it reaches a neighbor of it. Words only grow, and a
-/// slot that has gained pushes its words over its links, so the search ends, and with exactly the components.
+/// How the entries of a group lie to a packet, and what its queries reach there: breadth-first search for all queries
+/// at once. A query reaches a vertex if its ball holds the vertex, and it reaches a neighbor of it. Words only grow,
+/// and a entry that has gained pushes its words over its links, so the search ends, and with exactly the components.
 class JointSpread {
  public:
   JointSpread(const IndexView& index, const JointKernels& kernels) : index_(&index), kernels_(&kernels) {}
@@ -23,19 +23,19 @@ class JointSpread {
   /// Finds what the queries of `packet` reach.
   void run(JointGroup& group, const Packet& packet);
 
-  /// The slots that lie in all balls, and were reached.
-  [[nodiscard]] std::span<const GroupSlot> whole() const { return whole_; }
-  /// The queries that reach such a slot, and so all of its vertices.
-  [[nodiscard]] QueryWord whole_word(GroupSlot slot) const { return slots_[slot].word; }
+  /// The entries that lie in all balls, and were reached.
+  [[nodiscard]] std::span<const GroupEntry> whole() const { return whole_; }
+  /// The queries that reach such an entry, and so all of its vertices.
+  [[nodiscard]] QueryWord whole_word(GroupEntry entry) const { return states_[entry].word; }
 
-  /// The other leaves that were reached: their words are those of `words()` at the slot.
+  /// The other leaves that were reached: their words are those of `words()` at the entry.
   [[nodiscard]] std::span<const LeafOfWords> partial() const { return partial_; }
   [[nodiscard]] const LeafWords* words() const { return words_.data(); }
 
  private:
   enum class Kind : std::uint8_t { Outside, Whole, Partial };
 
-  struct Slot {
+  struct State {
     Kind kind;
     bool closed;       // nothing can be added
     bool is_touched;   // words_ are those of this packet
@@ -46,22 +46,22 @@ class JointSpread {
 
   void classify(const JointGroup& group, const Packet& packet);
   void start(const JointGroup& group, const Packet& packet);
-  void take(JointGroup& group, const Packet& packet, GroupSlot slot);
-  void take_whole(const JointGroup& group, const Packet& packet, GroupSlot slot);
-  void take_partial(JointGroup& group, const Packet& packet, GroupSlot slot);
-  void find_inside(JointGroup& group, const Packet& packet, GroupSlot slot);
+  void take(JointGroup& group, const Packet& packet, GroupEntry entry);
+  void take_whole(const JointGroup& group, const Packet& packet, GroupEntry entry);
+  void take_partial(JointGroup& group, const Packet& packet, GroupEntry entry);
+  void find_inside(JointGroup& group, const Packet& packet, GroupEntry entry);
   void push_leaf(const JointGroup& group, const Packet& packet, LeafId leaf, const PerLane<QueryWord>& reached,
                  LaneMask gained);
-  void push_rim(const JointGroup& group, const Packet& packet, GroupSlot core, QueryWord word);
-  void add_to_whole(const Packet& packet, GroupSlot slot, QueryWord word);
-  PerLane<QueryWord>& pending(GroupSlot slot);
+  void push_rim(const JointGroup& group, const Packet& packet, GroupEntry core, QueryWord word);
+  void add_to_whole(const Packet& packet, GroupEntry entry, QueryWord word);
+  PerLane<QueryWord>& pending(GroupEntry entry);
 
   const IndexView* index_;
   const JointKernels* kernels_;
-  std::vector<Slot> slots_;
-  std::vector<LeafWords> words_;  // by slot
+  std::vector<State> states_;
+  std::vector<LeafWords> words_;  // by entry
   Worklist worklist_;
-  std::vector<GroupSlot> whole_;
+  std::vector<GroupEntry> whole_;
   std::vector<LeafOfWords> partial_;
 };
 

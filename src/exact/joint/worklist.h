@@ -8,19 +8,19 @@
 
 namespace meshhood {
 
-/// A set of slots that wait for their turn, a bit each. They are taken in ascending order, sweep by sweep: slots near
-/// the group come first, and a slot that gains several times in one sweep is taken once.
+/// A set of entries that wait for their turn, a bit each. They are taken in ascending order, sweep by sweep: entries
+/// near the group come first, and an entry that gains several times in one sweep is taken once.
 class Worklist {
  public:
-  /// Empty, for slots below `size`.
+  /// Empty, for entries below `size`.
   void reset(std::size_t size) { words_.assign((size + 63) / 64, 0); }
 
-  void add(std::uint32_t slot) {
-    words_[slot / 64] |= std::uint64_t{1} << slot % 64;
-    again_ |= slot / 64 < at_;
+  void add(std::uint32_t entry) {
+    words_[entry / 64] |= std::uint64_t{1} << entry % 64;
+    again_ |= entry / 64 < at_;
   }
 
-  /// Calls `f(slot)`, which may add slots, until none is left.
+  /// Calls `f(entry)`, which may add entries, until none is left.
   template <class F>
   void run(F&& f) {
     do {

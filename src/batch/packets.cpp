@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// The neighborhoods of a batch as packets, each passed to the visitor of the thread that found it.
+#include <memory>
+#include <vector>
+
+#include "meshhood/error.h"
+#include "meshhood/joint.h"
+
+#include "batch/batch.h"
+#include "batch/joint_worker.h"
+
+namespace meshhood {
+namespace {
+
+/// What a thread needs.
+struct PacketThread {
+  JointWorker worker;
+  PacketVisitor visitor;
+
+  PacketThread(const Index& index, PacketVisitor visit) : worker(index), visitor(std::move(visit)) {
+    if (!visitor) raise(ErrorCode::InvalidOption, "make_visitor returned an empty function");
+  }
+};
+
+}  // namespace
+
+void for_each_packet(const Index& index, const BatchQuery& query, const PacketVisitorFactory& make_visitor,
+                     const PacketOptions& options) {
+  if (!make_visitor) raise(ErrorCode::InvalidOption, "make_visitor is empty, expected a function");
+  const BatchOptions batch_options{.threads = options.threads, .progress = options.progress};
+  Batch batch(index, query, batch_options, 1);
+  std::vector<std::unique_ptr<PacketThread>> threads(batch.task().threads());
+  batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
+    if (!threads[thread]) threads[thread] = std::make_unique<PacketThread>(index, make_visitor(thread));
+    threads[thread]->worker.visit(chunk, [&](const PacketAnswer& answer) {
+      threads[thread]->visitor(answer);
+      batch.task().advance(answer.rows.size());
+      return batch.task().should_continue(thread);
+    });
+  });
+  batch.task().finish();
+}
+
+}  // namespace meshhood

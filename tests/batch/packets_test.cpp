@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: MIT
+// The packets of a batch hold the neighborhoods of its rows, whichever rows are asked for together.
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/meshhood.h"
+
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/oracle.h"
+#include "support/random.h"
+#include "support/refusal.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+/// Adds up `signal`, which is in index order, for each row of a packet.
+std::vector<double> sums_of(const PacketAnswer& answer, std::span<const double> signal) {
+  std::vector<double> sums(answer.rows.size());
+  const auto add = [&](const VertexRange& run, QueryWord queries) {
+    const double sum = std::accumulate(signal.begin() + run.begin, signal.begin() + run.end, 0.0);
+    for_each_query(queries, [&](std::size_t i) { sums[i] += sum; });
+  };
+  for (const CoreLeaves& core : answer.cores) {
+    for (const LeafRun& run : core.runs) add(run.vertices, core.queries);
+  }
+  for (const WholeLeaves& whole : answer.whole) add(whole.run.vertices, whole.queries);
+  for (const PartialLeaf& leaf : answer.partial) {
+    for (std::size_t i = 0; i < leaf.vertices.size(); ++i) {
+      for_each_query(leaf.queries[i], [&](std::size_t row) { sums[row] += signal[leaf.vertices.begin + i]; });
+    }
+  }
+  return sums;
+}
+
+/// The ids of each row of a packet, ascending.
+std::vector<std::vector<VertexId>> ids_of(const PacketAnswer& answer, const Index& index) {
+  std::vector<std::vector<VertexId>> ids(answer.rows.size());
+  const auto add = [&](VertexId vertex, QueryWord queries) {
+    const VertexId id = index.permutation().empty() ? vertex : index.permutation()[vertex];
+    for_each_query(queries, [&](std::size_t row) { ids[row].push_back(id); });
+  };
+  const auto add_run = [&](const VertexRange& run, QueryWord queries) {
+    for (VertexId vertex = run.begin; vertex < run.end; ++vertex) add(vertex, queries);
+  };
+  for (const CoreLeaves& core : answer.cores) {
+    for (const LeafRun& run : core.runs) add_run(run.vertices, core.queries);
+  }
+  for (const WholeLeaves& whole : answer.whole) add_run(whole.run.vertices, whole.queries);
+  for (const PartialLeaf& leaf : answer.partial) {
+    for (std::size_t i = 0; i < leaf.queries.size(); ++i) {
+      if (i < leaf.vertices.size()) {
+        add(static_cast<VertexId>(leaf.vertices.begin + i), leaf.queries[i]);
+      } else {
+        EXPECT_EQ(leaf.queries[i], 0U) << "beyond the leaf";
+      }
+    }
+  }
+  for (std::vector<VertexId>& row : ids) std::sort(row.begin(), row.end());
+  return ids;
+}
+
+/// One visitor for all threads.
+PacketVisitorFactory everyone(const PacketVisitor& visitor) {
+  return [visitor](unsigned) { return visitor; };
+}
+
+class PacketFamilies : public testing::TestWithParam<Family> {};
+
+TEST_P(PacketFamilies, HoldTheNeighborhoodsOfTheOracle) {
+  std::size_t rows = 0;
+  for (const std::size_t vertices : {1U, 40U, 300U}) {
+    const TestMesh mesh = make_mesh(GetParam(), vertices, vertices);
+    if (mesh.size() == 0) continue;
+    const Oracle oracle(mesh);
+    const Index index = build(mesh.view());
+    Random random(vertices);
+    const double edge = oracle.mean_edge();
+    for (const double radius : {0.0, 2 * edge, 6 * edge, std::numeric_limits<double>::infinity()}) {
+      std::vector<double> radii(mesh.size(), radius);
+      if (radius > 0) radii[random.below(radii.size())] = random.uniform(0, 3) * edge;
+      std::size_t seen = 0;
+      for_each_packet(
+          index, {.radius = radii}, everyone([&](const PacketAnswer& answer) {
+            const std::vector<std::vector<VertexId>> ids = ids_of(answer, index);
+            for (std::size_t i = 0; i < ids.size(); ++i) {
+              ASSERT_EQ(answer.rows[i], answer.vertices[i]);
+              ASSERT_EQ(answer.radii[i], radii[answer.rows[i]]);
+              ASSERT_THAT(ids[i], testing::ElementsAreArray(oracle.exact(answer.vertices[i], answer.radii[i])))
+                  << mesh.name << ", vertex " << answer.vertices[i] << ", radius " << answer.radii[i];
+            }
+            seen += ids.size();
+          }));
+      EXPECT_EQ(seen, mesh.size());
+      rows += seen;
+    }
+  }
+  std::printf("%s: %zu rows\n", std::string(GetParam().name).c_str(), rows);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PacketFamilies, testing::ValuesIn(families()), family_name);
+
+class Packets : public testing::Test {
+ protected:
+  Packets() {
+    for (VertexId v = 0; v < index.vertex_count(); ++v) {
+      // Stretches with all, some and hardly any of their vertices, in no order, and some of them twice.
+      const std::size_t share = v / 500 % 4;
+      if (share == 0 || random.below(4 * share * share) == 0) vertices.push_back(v);
+      if (random.below(20) == 0) vertices.push_back(v);
+    }
+    for (std::size_t i = vertices.size(); i > 1; --i) std::swap(vertices[i - 1], vertices[random.below(i)]);
+    for (std::size_t row = 0; row < vertices.size(); ++row) radii.push_back(random.uniform(0, 9));
+    for (std::size_t i = 0; i < index.vertex_count(); ++i) signal.push_back(random.uniform(-1, 1));
+  }
+
+  /// The sum of the signal for each row.
+  [[nodiscard]] std::vector<double> sums(const BatchQuery& query, unsigned threads) const {
+    std::vector<double> result(query.vertices.list() ? query.vertices.list()->size() : index.vertex_count());
+    for_each_packet(index, query, everyone([&](const PacketAnswer& answer) {
+                      const std::vector<double> found = sums_of(answer, signal);
+                      for (std::size_t i = 0; i < found.size(); ++i) result[answer.rows[i]] = found[i];
+                    }),
+                    {.threads = threads});
+    return result;
+  }
+
+  Random random{7};
+  TestMesh mesh = make_grid(60, 70, false).finish(true);
+  Index index = build(mesh.view());
+  std::vector<VertexId> vertices;
+  std::vector<double> radii;
+  std::vector<double> signal;
+};
+
+TEST_F(Packets, HaveEachRowOnceWithItsVertexAndRadius) {
+  std::vector<int> seen(vertices.size());
+  std::map<std::size_t, std::size_t> sizes;
+  for_each_packet(index, {.vertices = vertices, .radius = radii}, everyone([&](const PacketAnswer& answer) {
+                    ASSERT_EQ(answer.queries, ~QueryWord{0} >> (kPacketCapacity - answer.rows.size()));
+                    ++sizes[answer.rows.size()];
+                    for (std::size_t i = 0; i < answer.rows.size(); ++i) {
+                      ++seen[answer.rows[i]];
+                      EXPECT_EQ(answer.vertices[i], vertices[answer.rows[i]]);
+                      EXPECT_EQ(answer.radii[i], radii[answer.rows[i]]);
+                    }
+                  }));
+  EXPECT_THAT(seen, testing::Each(1));
+  EXPECT_GT(sizes[1], 0U) << "no row was answered by itself";
+  EXPECT_GT(sizes.rbegin()->first, 20U);
+}
+
+TEST_F(Packets, SumASignalAsTheReferenceDoes) {
+  std::vector<double> by_id(signal.size());
+  std::vector<double> whole_numbers;
+  for (std::size_t i = 0; i < signal.size(); ++i) {
+    signal[i] = std::round(1000 * signal[i]);
+    by_id[index.permutation()[i]] = signal[i];
+  }
+  const std::vector<double> found = sums({.vertices = vertices, .radius = radii}, 1);
+  ReferenceSearcher reference(mesh.view());
+  std::vector<VertexId> ids;
+  for (std::size_t row = 0; row < vertices.size(); ++row) {
+    reference.neighborhood(vertices[row], radii[row], ids);
+    const double expected =
+        std::accumulate(ids.begin(), ids.end(), 0.0, [&](double sum, VertexId id) { return sum + by_id[id]; });
+    ASSERT_EQ(found[row], expected) << "row " << row;
+  }
+}
+
+TEST_F(Packets, GiveSumsWithTheSameBitsForAnyNumberOfThreads) {
+  const std::vector<double> expected = sums({.vertices = vertices, .radius = radii}, 1);
+  const std::vector<double> all = sums({.radius = 6}, 1);
+  for (const unsigned threads : {2U, 5U}) {
+    EXPECT_EQ(sums({.vertices = vertices, .radius = radii}, threads), expected);
+    EXPECT_EQ(sums({.radius = 6}, threads), all);
+  }
+}
+
+TEST_F(Packets, NameWholeLeaves) {
+  const std::span<const VertexId> starts = index.leaf_starts();
+  ASSERT_EQ(starts.front(), 0U);
+  ASSERT_EQ(starts.back(), index.vertex_count());
+  const auto is_whole = [&](const LeafRun& run) {
+    return run.first_leaf < run.end_leaf && run.vertices.begin == starts[run.first_leaf] &&
+           run.vertices.end == starts[run.end_leaf];
+  };
+  std::size_t core_runs = 0;
+  std::size_t whole_runs = 0;
+  for_each_packet(index, {.vertices = vertices, .radius = 14}, everyone([&](const PacketAnswer& answer) {
+                    for (const CoreLeaves& core : answer.cores) {
+                      EXPECT_TRUE(std::all_of(core.runs.begin(), core.runs.end(), is_whole));
+                      core_runs += core.runs.size();
+                    }
+                    for (const WholeLeaves& whole : answer.whole) EXPECT_TRUE(is_whole(whole.run));
+                    for (const PartialLeaf& leaf : answer.partial) {
+                      EXPECT_EQ(leaf.vertices, (VertexRange{starts[leaf.leaf], starts[leaf.leaf + 1]}));
+                    }
+                    whole_runs += answer.whole.size();
+                  }));
+  EXPECT_GT(core_runs, 0U);
+  EXPECT_GT(whole_runs, 0U);
+}
+
+TEST_F(Packets, OfAGroupHaveTheSameCores) {
+  std::map<std::size_t, std::vector<LeafRun>> cores;
+  std::size_t repeated = 0;
+  for_each_packet(index, {.radius = 20}, everyone([&](const PacketAnswer& answer) {
+                    if (answer.begins_group) cores.clear();
+                    for (const CoreLeaves& core : answer.cores) {
+                      const auto [known, is_new] = cores.try_emplace(core.number, core.runs.begin(), core.runs.end());
+                      EXPECT_THAT(core.runs, testing::ElementsAreArray(known->second));
+                      const auto add = [](std::size_t sum, const LeafRun& run) { return sum + run.vertices.size(); };
+                      EXPECT_EQ(core.vertices,
+                                std::accumulate(core.runs.begin(), core.runs.end(), std::size_t{0}, add));
+                      repeated += is_new ? 0 : 1;
+                    }
+                  }));
+  EXPECT_GT(repeated, 0U);
+}
+
+TEST_F(Packets, GoToOneVisitorForEachThread) {
+  std::mutex mutex;
+  std::multiset<unsigned> made;
+  std::atomic<std::size_t> rows{0};
+  for_each_packet(index, {.radius = 3},
+                  [&](unsigned thread) -> PacketVisitor {
+                    const std::lock_guard lock(mutex);
+                    made.insert(thread);
+                    return [&](const PacketAnswer& answer) { rows += answer.rows.size(); };
+                  },
+                  {.threads = 3});
+  EXPECT_EQ(rows, index.vertex_count());
+  ASSERT_FALSE(made.empty());
+  for (const unsigned thread : made) {
+    EXPECT_LT(thread, 3U);
+    EXPECT_EQ(made.count(thread), 1U);
+  }
+}
+
+TEST_F(Packets, OfNoRowsMakeNoVisitor) {
+  const std::vector<VertexId> none;
+  for_each_packet(index, {.vertices = none, .radius = 3},
+                  [](unsigned) -> PacketVisitor { throw std::logic_error(""); });
+}
+
+TEST_F(Packets, PassOnWhatAVisitorThrows) {
+  for (const unsigned threads : {1U, 3U}) {
+    std::atomic<int> calls{0};
+    const auto visitor = everyone([&](const PacketAnswer&) {
+      if (++calls == 3) throw std::runtime_error("enough");
+    });
+    EXPECT_THROW(for_each_packet(index, {.radius = 3}, visitor, {.threads = threads}), std::runtime_error);
+  }
+}
+
+TEST_F(Packets, ReportTheRowsAndCanBeCancelled) {
+  std::vector<std::size_t> reports;
+  const auto nothing = everyone([](const PacketAnswer&) {});
+  const auto note = [&](std::size_t done, std::size_t total) {
+    EXPECT_EQ(total, index.vertex_count());
+    reports.push_back(done);
+    return true;
+  };
+  for_each_packet(index, {.radius = 3}, nothing, {.progress = note});
+  EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
+  EXPECT_EQ(reports.front(), 0U);
+  EXPECT_EQ(reports.back(), index.vertex_count());
+  expect_refused(ErrorCode::Cancelled, "cancelled", [&] {
+    for_each_packet(index, {.radius = 3}, nothing,
+                    {.progress = [](std::size_t done, std::size_t total) { return done < total; }});
+  });
+}
+
+TEST_F(Packets, AreRefusedBeforeTheFirstVisit) {
+  const auto never = [](unsigned) -> PacketVisitor { throw std::logic_error("visited"); };
+  const std::vector<VertexId> outside{0, static_cast<VertexId>(index.vertex_count())};
+  const std::vector<double> two{1, 1};
+  const std::vector<double> negative(index.vertex_count(), -1);
+  const auto refused = [&](ErrorCode code, const char* culprit, const BatchQuery& query) {
+    expect_refused(code, culprit, [&] { for_each_packet(index, query, never); });
+  };
+  refused(ErrorCode::VertexOutOfRange, "row 1", {.vertices = outside, .radius = two});
+  refused(ErrorCode::InvalidRadius, "row 0", {.radius = negative});
+  refused(ErrorCode::InvalidRadius, "2 radii", {.radius = two});
+  refused(ErrorCode::InvalidRadius, "radius", {});
+  expect_refused(ErrorCode::InvalidOption, "make_visitor is empty", [&] { for_each_packet(index, {.radius = 1}, {}); });
+  expect_refused(ErrorCode::InvalidOption, "make_visitor returned",
+                 [&] { for_each_packet(index, {.radius = 1}, everyone({})); });
+  expect_refused(ErrorCode::InvalidOption, "threads",
+                 [&] { for_each_packet(index, {.radius = 1}, never, {.threads = 5000}); });
+}
+
+}  // namespace
+}  // namespace meshhood::test
