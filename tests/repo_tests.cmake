@@ -26,6 +26,8 @@ if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND CMAKE_OBJDUMP)
   target_compile_options(meshhood_fused_control PRIVATE -march=haswell -O3 -ffp-contract=fast)
   add_test(NAME no_fma COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/repo/no_fma.sh
     $<TARGET_OBJECTS:meshhood_fused_control> $<TARGET_OBJECTS:meshhood_haswell> COMMAND_EXPAND_LISTS)
+  add_test(NAME prefetch COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/repo/prefetch.sh
+    $<TARGET_OBJECTS:meshhood_haswell> COMMAND_EXPAND_LISTS)
 endif()
 
 # No uninitialized byte reaches a file.

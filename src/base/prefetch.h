@@ -9,6 +9,8 @@ namespace meshhood {
 inline void prefetch(const void* address) {
 #if defined(__GNUC__) || defined(__clang__)
   __builtin_prefetch(address);
+  // Without this, g++ takes a function of nothing but prefetches for one without effect, and drops its calls.
+  asm volatile("");
 #else
   static_cast<void>(address);
 #endif
