@@ -24,6 +24,13 @@ Mesh read_format(Input& input, const std::string& name, const ReadOptions& optio
   raise(ErrorCode::UnsupportedFormat, input.name() + ": unknown format");
 }
 
+Mesh read_whole(WatchedSource& source, Input& input, const std::string& name, const ReadOptions& options) {
+  Mesh mesh = read_format(input, name, options);
+  source.finish();
+  return mesh;
+}
+
+#if defined(__cpp_exceptions)
 [[noreturn]] void refuse_memory(const Input& input) {
   raise(ErrorCode::TooLarge, input.name() + ": not enough memory for this mesh");
 }
@@ -31,15 +38,19 @@ Mesh read_format(Input& input, const std::string& name, const ReadOptions& optio
 Mesh read(WatchedSource& source, const std::string& name, const ReadOptions& options) {
   Input input(source, name, options.max_bytes);
   try {
-    Mesh mesh = read_format(input, name, options);
-    source.finish();
-    return mesh;
+    return read_whole(source, input, name, options);
   } catch (const std::bad_alloc&) {
     refuse_memory(input);
   } catch (const std::length_error&) {
     refuse_memory(input);
   }
 }
+#else
+Mesh read(WatchedSource& source, const std::string& name, const ReadOptions& options) {
+  Input input(source, name, options.max_bytes);
+  return read_whole(source, input, name, options);
+}
+#endif
 
 }  // namespace
 

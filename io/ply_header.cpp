@@ -129,7 +129,8 @@ class HeaderParser {
   }
 
   PlyType type(std::string_view name) {
-    const auto* const known =
+    const auto known =  // NOLINT(readability-qualified-auto): a pointer in one library only
+
         std::find_if(kTypeNames.begin(), kTypeNames.end(), [name](const auto& entry) { return entry.first == name; });
     if (known == kTypeNames.end()) unsupported("property type", name);
     return known->second;

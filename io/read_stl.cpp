@@ -114,6 +114,22 @@ void read_soup(Input& input, bool binary, MeshBuilder& builder, std::vector<Real
   welder.flush();
 }
 
+/// Calls `read`. If the file may be text or binary, the error names both reasons; without exceptions, only that of the
+/// text.
+template <class F>
+void read_or_explain([[maybe_unused]] bool may_be_either, [[maybe_unused]] const std::string& not_binary, F&& read) {
+#if defined(__cpp_exceptions)
+  try {
+    read();
+  } catch (const Error& error) {
+    if (!may_be_either) throw;
+    raise(error.code(), fmt::format("{}; and {}", error.what(), not_binary));
+  }
+#else
+  read();
+#endif
+}
+
 }  // namespace
 
 bool has_binary_stl_size(Input& input) {
@@ -123,17 +139,13 @@ bool has_binary_stl_size(Input& input) {
 
 Mesh read_stl(Input& input, const ReadOptions& options) {
   const bool binary = is_binary(input);
-  // If the file may be either, the error names both reasons.
   const bool may_be_either = !binary && !is_text(input.ahead(kHeaderBytes).substr(0, kHeaderBytes));
   const std::string not_binary = binary ? "" : why_not_binary(input);
   MeshBuilder builder(input, options, false);
   reserve(builder, input, binary);
-  try {
+  read_or_explain(may_be_either, not_binary, [&] {
     std::visit([&](auto& positions) { read_soup(input, binary, builder, positions); }, builder.positions.values());
-  } catch (const Error& error) {
-    if (!may_be_either) throw;
-    raise(error.code(), fmt::format("{}; and {}", error.what(), not_binary));
-  }
+  });
   return builder.finish(Format::Stl);
 }
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "meshhood/error.h"
 
-#include <cstdlib>
-#include <utility>
-
 namespace meshhood {
 
 std::string_view describe(ErrorCode code) noexcept {
@@ -20,18 +17,6 @@ std::string_view describe(ErrorCode code) noexcept {
     case ErrorCode::Cancelled: return "stopped as the caller asked";
   }
   return "unknown error";
-}
-
-void raise(ErrorCode code, std::string message, std::string path, int error_number) {
-#if defined(__cpp_exceptions)
-  throw Error(code, std::move(message), std::move(path), error_number);
-#else
-  static_cast<void>(code);
-  static_cast<void>(message);
-  static_cast<void>(path);
-  static_cast<void>(error_number);
-  std::abort();
-#endif
 }
 
 }  // namespace meshhood

@@ -13,6 +13,8 @@
 namespace meshhood::test {
 namespace {
 
+using testing::ElementsAre;
+
 using Points = std::vector<KdPoint>;
 
 /// With coordinates below `range`, and so with many ties.
@@ -70,6 +72,14 @@ void order_by_sorting(std::span<KdPoint> points, std::size_t unit) {
   const std::size_t middle = (points.size() + unit - 1) / unit / 2 * unit;
   order_by_sorting(points.first(middle), unit);
   order_by_sorting(points.subspan(middle), unit);
+}
+
+TEST(KdOrder, TheOrderWithinAUnitIsTheSameWithEveryStandardLibrary) {
+  Random random(1);
+  Points points = random_points(random, 30, 8);
+  kd_order(points, 10);
+  EXPECT_THAT(ids(points), ElementsAre(1, 0, 28, 27, 4, 15, 14, 5, 9, 16, 22, 17, 12, 6, 21, 10, 3, 23, 19, 24, 25, 29,
+                                       2, 7, 8, 13, 26, 20, 18, 11));
 }
 
 TEST(KdOrder, CutsAcrossTheWidestSideAtAMultipleOfTheUnit) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "exact/build/nth_element.h"
+
 namespace meshhood {
 namespace {
 
@@ -23,11 +25,10 @@ std::size_t widest_axis(std::span<const KdPoint> points) {
 
 template <std::size_t axis>
 void cut_at(std::span<KdPoint> points, std::size_t middle) {
-  std::nth_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(middle), points.end(),
-                   [](const KdPoint& a, const KdPoint& b) {
-                     // mutant: ties-in-given-order
-                     return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.id < b.id;
-                   });
+  nth_element(points, middle, [](const KdPoint& a, const KdPoint& b) {
+    // mutant: ties-in-given-order
+    return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.id < b.id;
+  });
 }
 
 /// Cuts across the widest side and returns the size of the first part.

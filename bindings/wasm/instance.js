@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+// One instance of the WebAssembly module: its memory, its calls and its errors. Each mesh has an instance of its own,
+// because the memory of an instance never shrinks: it is given back as a whole.
+
+/** Names of the error codes, in the order of the enumeration `ErrorCode` in C++. */
+const CODES = [
+  'VertexOutOfRange', 'InvalidRadius', 'InvalidOption', 'InvalidMesh', 'MalformedFile', 'UnsupportedFormat',
+  'MalformedIndex', 'IoFailure', 'TooLarge', 'Cancelled',
+];
+
+/** Errors of the arguments of a query, after which the instance is as it was. */
+const ARGUMENT_ERRORS = new Set(['VertexOutOfRange', 'InvalidRadius', 'InvalidOption']);
+
+export class MeshhoodError extends Error {
+  constructor(code, message) {
+    super(message);
+    this.name = 'MeshhoodError';
+    this.code = code;
+  }
+}
+
+// Not a literal, or bundlers for browsers would look for it.
+const NODE_FILES = 'node:fs/promises';
+
+/** The compiled module; a promise while it is being compiled. */
+let compiled = null;
+
+async function compileDefault() {
+  const address = new URL('./meshhood.wasm', import.meta.url);
+  if (address.protocol === 'file:' && typeof process !== 'undefined') {
+    const files = await import(/* @vite-ignore */ NODE_FILES);
+    return WebAssembly.compile(await files.readFile(address));
+  }
+  const response = await fetch(address);
+  if (!response.ok) throw new Error(`${address}: ${response.status} ${response.statusText}`);
+  return WebAssembly.compile(await response.arrayBuffer());
+}
+
+export async function initialize(source) {
+  if (compiled instanceof WebAssembly.Module) return;
+  if (source instanceof WebAssembly.Module) compiled = source;
+  compiled ??= source === undefined ? compileDefault() : WebAssembly.compile(source);
+  try {
+    compiled = await compiled;
+  } catch (error) {
+    compiled = null;
+    throw error;
+  }
+}
+
+const NO_ENTRY = 76; // ENOTCAPABLE of WASI
+
+/** What the C library of WASI imports. It has no files, and an empty environment. */
+function wasi(memory) {
+  return {
+    environ_sizes_get(count, size) {
+      new Uint32Array(memory().buffer, count, 1)[0] = 0;
+      new Uint32Array(memory().buffer, size, 1)[0] = 0;
+      return 0;
+    },
+    environ_get: () => 0,
+    clock_time_get(_clock, _precision, time) {
+      new BigUint64Array(memory().buffer, time, 1)[0] = BigInt(Math.round(performance.now() * 1e6));
+      return 0;
+    },
+    proc_exit() {
+      throw new WebAssembly.RuntimeError('exit');
+    },
+  };
+}
+
+/** Whether `error` is the end of an instance, and not the exception of a callback. */
+function isTrap(error) {
+  return error instanceof WebAssembly.RuntimeError || error instanceof RangeError;
+}
+
+export class Instance {
+  #exports;
+  #error = null; // what the module reported before it trapped
+  #exception = null; // what a callback threw
+  #progress = null;
+
+  constructor() {
+    if (!(compiled instanceof WebAssembly.Module)) {
+      throw new Error('meshhood: call initialize() first, and await it');
+    }
+    const handlers = wasi(() => this.#exports.memory);
+    const imports = { meshhood: this.#host() };
+    for (const { module, name } of WebAssembly.Module.imports(compiled)) {
+      imports[module] ??= {};
+      imports[module][name] ??= handlers[name] ?? (() => NO_ENTRY);
+    }
+    this.#exports = new WebAssembly.Instance(compiled, imports).exports;
+    this.#exports._initialize();
+    this.#exports.start();
+  }
+
+  #host() {
+    return {
+      keep_error: (code, message, size) => {
+        this.#error = new MeshhoodError(CODES[code], this.text(message, size));
+      },
+      report_progress: (done, total) => {
+        if (this.#progress === null) return 1;
+        try {
+          return this.#progress(done, total) === false ? 0 : 1;
+        } catch (exception) {
+          this.#exception = exception;
+          return 0;
+        }
+      },
+    };
+  }
+
+  get isDisposed() {
+    return this.#exports === null;
+  }
+
+  /** Drops the module and its memory. */
+  dispose() {
+    this.#exports = null;
+  }
+
+  get memoryBytes() {
+    return this.#exports === null ? 0 : this.#exports.memory.buffer.byteLength;
+  }
+
+  /** Calls the function `name` of the module. An error that leaves the instance in an unknown state disposes it. */
+  call(name, ...values) {
+    if (this.#exports === null) throw new Error('meshhood: this object has been disposed');
+    const stack = this.#exports.__stack_pointer;
+    const top = stack.value;
+    try {
+      return this.#exports[name](...values);
+    } catch (trap) {
+      stack.value = top;
+      throw this.#translate(trap);
+    }
+  }
+
+  #translate(trap) {
+    const exception = this.#exception ?? this.#error;
+    this.#error = null;
+    this.#exception = null;
+    if (exception instanceof MeshhoodError && ARGUMENT_ERRORS.has(exception.code)) return exception;
+    this.dispose();
+    if (exception !== null) return exception;
+    return isTrap(trap) ? new MeshhoodError('TooLarge', `not enough memory (${trap.message})`) : trap;
+  }
+
+  /** As `call`; `progress` is called during it. */
+  callWithProgress(progress, name, ...values) {
+    this.#progress = progress ?? null;
+    try {
+      return this.call(name, ...values);
+    } finally {
+      this.#progress = null;
+    }
+  }
+
+  /** Copies `array`, or the bytes of an ArrayBuffer, into the memory of the module, and calls `use` with the address. */
+  with(array, use) {
+    const bytes = array instanceof ArrayBuffer || ArrayBuffer.isView(array) === false
+      ? new Uint8Array(array)
+      : new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
+    const address = this.call('allocate', bytes.byteLength) >>> 0;
+    try {
+      new Uint8Array(this.#exports.memory.buffer, address, bytes.byteLength).set(bytes);
+      return use(address, array.length ?? bytes.length);
+    } finally {
+      this.#exports?.release(address);
+    }
+  }
+
+  /** A view of `count` numbers in the memory of the module, valid until the next call. */
+  view(Type, address, count) {
+    return new Type(this.#exports.memory.buffer, address >>> 0, count >>> 0);
+  }
+
+  text(address, size) {
+    return new TextDecoder().decode(this.view(Uint8Array, address, size));
+  }
+}

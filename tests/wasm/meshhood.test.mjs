@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: MIT
+// The package for JavaScript under Node. MESHHOOD_PACKAGE is its folder, MESHHOOD_CLI the command line,
+// MESHHOOD_GOLDEN the folder of the golden files.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+
+import { ball, distance, grid, neighborhood, neighbors, plates, polygons, random, roll, toPly } from './meshes.mjs';
+
+const library = await import(pathToFileURL(join(process.env.MESHHOOD_PACKAGE, 'meshhood.js')));
+const { MeshIndex, MeshhoodError, initialize, readMesh } = library;
+
+test('nothing works before the module is compiled, and the error says what to call', () => {
+  assert.throws(() => new MeshIndex(new Float32Array(), new Uint32Array()), /call initialize\(\) first/);
+});
+
+test('compiling twice at once compiles', async () => {
+  await Promise.all([initialize(), initialize()]);
+  await initialize();
+});
+
+const folder = mkdtempSync(join(tmpdir(), 'meshhood-'));
+after(() => rmSync(folder, { recursive: true }));
+
+const meshhood = (...options) => execFileSync(process.env.MESHHOOD_CLI, options, { cwd: folder, encoding: 'utf8' });
+const build = (mesh, options) => new MeshIndex(mesh.positions, mesh.corners, { offsets: mesh.offsets, ...options });
+const golden = (name) => readFileSync(join(process.env.MESHHOOD_GOLDEN, name));
+
+const families = { roll: roll(60, 12), 'double roll': roll(40, 9, Float64Array), plates: plates(18), polygons: polygons(300, 260) };
+
+for (const [name, mesh] of Object.entries(families)) {
+  test(`1,000 random queries on ${name} equal breadth-first search`, () => {
+    const index = build(mesh);
+    const rows = neighbors(mesh);
+    const next = random(1);
+    let found = 0;
+    for (let i = 0; i < 1000; ++i) {
+      const v = Math.floor(rows.length * next());
+      // Also radii at which a vertex lies exactly on the boundary.
+      const radius = i % 3 === 0 ? distance(mesh.positions, v, Math.floor(rows.length * next())) : 6 * next();
+      const expected = neighborhood(mesh.positions, rows, v, radius);
+      found += expected.length;
+      assert.deepEqual(index.queryBall(v, radius, { sort: true }), expected, `vertex ${v}, radius ${radius}`);
+      assert.deepEqual(index.queryBall(v, radius, { sort: true, method: 'bfs' }), expected);
+      assert.equal(index.queryBallCount(v, radius), expected.length);
+      assert.deepEqual(index.queryBall(v, radius, { method: 'ball' }), ball(mesh.positions, v, radius));
+      const all = new Set(index.viewBall(v, radius, { method: 'ball' }));
+      const paper = new Set(index.queryBall(v, radius, { method: 'paper' }));
+      assert.ok(expected.every((w) => paper.has(w)));
+      assert.ok([...paper].every((w) => all.has(w)));
+    }
+    console.log(`${name}: ${found} vertices in 1,000 answers`);
+    assert.ok(found > 5000);
+  });
+}
+
+test('distances belong to their ids, in either order', () => {
+  const mesh = families.roll;
+  const index = build(mesh);
+  for (const sort of [false, true]) {
+    const { ids, distances } = index.queryBall(300, 4, { distances: true, sort });
+    assert.ok(ids.length > 20);
+    ids.forEach((w, i) => assert.equal(distances[i], distance(mesh.positions, 300, w)));
+    assert.deepEqual(index.queryBall(300, 4, { sort }), ids);
+  }
+});
+
+test('a batch has the rows of single queries', () => {
+  const mesh = families.plates;
+  const index = build(mesh);
+  const vertices = Uint32Array.of(5, 300, 5, 0);
+  const radii = Float64Array.of(1, 2.5, 0, Infinity);
+  for (const method of ['exact', 'paper', 'bfs', 'ball']) {
+    const { offsets, ids, distances } = index.queryBall(vertices, radii, { method, sort: true, distances: true });
+    const counts = index.queryBallCount(vertices, radii, { method });
+    vertices.forEach((v, row) => {
+      const single = index.queryBall(v, radii[row], { method, sort: true, distances: true });
+      assert.deepEqual(ids.slice(offsets[row], offsets[row + 1]), single.ids);
+      assert.deepEqual(distances.slice(offsets[row], offsets[row + 1]), single.distances);
+      assert.equal(counts[row], single.ids.length);
+    });
+  }
+  const sizes = index.queryBallCount(null, 2);
+  assert.equal(sizes.length, index.vertexCount);
+  sizes.forEach((size, v) => assert.equal(size, index.queryBallCount(v, 2)));
+});
+
+test('a view is the answer without a copy', () => {
+  const index = build(families.roll);
+  const view = index.viewBall(100, 3);
+  assert.deepEqual(view.slice(), index.queryBall(100, 3));
+  assert.equal(view.buffer.byteLength, index.memoryBytes);
+});
+
+test('radii in mean edge lengths', () => {
+  const index = build(grid(20, 20, (row, column) => [2 * row, 2 * column, 0]));
+  const edge = index.meanEdgeLength;
+  assert.ok(edge > 2 && edge < 2 * Math.SQRT2);
+  assert.deepEqual(index.queryBall(210, 3, { unit: 'edge' }), index.queryBall(210, 3 * edge));
+  const points = new MeshIndex(new Float32Array(6), new Uint32Array());
+  assert.throws(() => points.queryBall(0, 1, { unit: 'edge' }), { message: /no edges of positive length/ });
+});
+
+test('the golden index files load, and save to the same bytes', () => {
+  const names = readdirSync(process.env.MESHHOOD_GOLDEN).filter((name) => !name.startsWith('paper'));
+  assert.ok(names.length >= 4);
+  for (const name of names) assert.deepEqual(Buffer.from(MeshIndex.load(golden(name)).save()), golden(name), name);
+});
+
+test('an index of the golden file answers as recorded', () => {
+  const index = MeshIndex.load(golden('float.mhi'));
+  assert.equal(index.vertexCount, 370);
+  assert.deepEqual([...index.queryBall(100, 1.5, { sort: true })], [81, 82, 83, 99, 100, 101, 117, 118, 119]);
+  assert.equal(index.queryBallCount(100, Infinity), 270);
+});
+
+test('the same file gives the same index and the same answers as the command line', () => {
+  const mesh = roll(70, 15);
+  writeFileSync(join(folder, 'roll.ply'), toPly(mesh));
+  meshhood('build', 'roll.ply', '-o', 'roll.mhi');
+  const saved = readFileSync(join(folder, 'roll.mhi'));
+  const read = readMesh(toPly(mesh), 'roll.ply');
+  assert.deepEqual(read.positions, mesh.positions);
+  assert.deepEqual(read.corners, mesh.corners);
+  const index = build(read);
+  assert.deepEqual(Buffer.from(index.save()), saved);
+  for (const method of ['exact', 'paper', 'bfs', 'ball']) {
+    const { vertices } = JSON.parse(
+      meshhood('query', 'roll.mhi', '-v', '500', '-r', '3.5', '--method', method, '--json'));
+    assert.deepEqual([...MeshIndex.load(saved).queryBall(500, 3.5, { method, sort: true })], vertices);
+  }
+  writeFileSync(join(folder, 'page.mhi'), index.save());
+  assert.match(meshhood('check', 'page.mhi', '--mesh', 'roll.ply'), /\S/);
+});
+
+test('polygons, precision and warnings of a file', () => {
+  const mesh = polygons(50, 20);
+  const read = readMesh(toPly(mesh), 'p.ply');
+  assert.equal(read.format, 'ply');
+  assert.ok(read.positions instanceof Float64Array);
+  assert.deepEqual(read.offsets, mesh.offsets);
+  assert.ok(readMesh(toPly(mesh), 'p.ply', { precision: 'float' }).positions instanceof Float32Array);
+  const more = Buffer.concat([toPly(mesh), Buffer.from('1 2 3\n')]);
+  assert.match(readMesh(more, 'p.ply').warnings[0], /^line \d+: data after the last element$/);
+  assert.throws(() => readMesh(more, 'p.ply', { strict: true }), { code: 'MalformedFile' });
+});
+
+/** What the command line says about a file, without its own name in front. */
+function wordsOfCommandLine(name, content) {
+  writeFileSync(join(folder, name), content);
+  try {
+    execFileSync(process.env.MESHHOOD_CLI, ['info', name], { cwd: folder, encoding: 'utf8', stdio: 'pipe' });
+  } catch (error) {
+    return error.stderr.replace(/^meshhood: /, '').trimEnd();
+  }
+  throw new Error(`${name} was accepted`);
+}
+
+const broken = {
+  'empty.ply': '',
+  'word.off': 'OFF\n2 0 0\n0 0 zero\n',
+  'corner.obj': 'v 0 0 0\nv 1 0 0\nf 1 2 9\n',
+  'short.ply': Buffer.from(toPly(families.roll)).subarray(0, 3000),
+  'what.xyz': 'hello',
+  'facet.stl': 'solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nend',
+};
+for (const [name, content] of Object.entries(broken)) {
+  test(`${name} is refused in the words of the command line`, () => {
+    const message = wordsOfCommandLine(name, content);
+    const bytes = new TextEncoder().encode(content);
+    assert.throws(() => readMesh(typeof content === 'string' ? bytes : content, name), { name: 'MeshhoodError', message });
+  });
+}
+
+test('every damaged index file is refused, with the place of the damage', () => {
+  const bytes = golden('float.mhi');
+  const next = random(3);
+  for (let i = 0; i < 300; ++i) {
+    const damaged = Buffer.from(bytes);
+    const at = Math.floor(bytes.length * next());
+    damaged[at] ^= 1 << Math.floor(8 * next());
+    assert.throws(() => MeshIndex.load(damaged), { code: 'MalformedIndex' }, `byte ${at}`);
+  }
+  for (let size = 0; size < bytes.length; size += 997) {
+    assert.throws(() => MeshIndex.load(bytes.subarray(0, size)), { code: 'MalformedIndex' }, `${size} bytes`);
+  }
+});
+
+test('a wrong argument gives the error of C++ and leaves the index usable', () => {
+  const index = build(families.roll);
+  const expected = index.queryBall(7, 2);
+  const vertices = index.vertexCount;
+  for (const v of [vertices, -1, 2 ** 32, 2 ** 53]) {
+    const message = `vertex ${v}, but the mesh has ${vertices} vertices`;
+    assert.throws(() => index.queryBall(v, 1), { code: 'VertexOutOfRange', message });
+    assert.throws(() => index.queryBallCount(v, 1), { code: 'VertexOutOfRange', message });
+  }
+  for (const radius of [-1, NaN, -Infinity]) {
+    const message = `radius ${String(radius).toLowerCase().replace('infinity', 'inf')}, expected a number >= 0`;
+    assert.throws(() => index.queryBall(7, radius), { code: 'InvalidRadius', message });
+    assert.throws(() => index.queryBallCount(7, radius, { method: 'bfs' }), { code: 'InvalidRadius', message });
+  }
+  assert.throws(() => index.queryBall(Uint32Array.of(1, vertices), 1), { code: 'VertexOutOfRange', message: /row 1/ });
+  assert.throws(() => index.queryBall(Uint32Array.of(1), Float64Array.of(1, 2)), { message: '2 radii for 1 rows' });
+  assert.throws(() => index.queryBall(1, 1, { method: 'best' }), { code: 'InvalidOption', message: /expected one of/ });
+  for (const v of [1.5, NaN, '1', undefined]) assert.throws(() => index.queryBall(v, 1), TypeError);
+  for (const radius of ['1', null, undefined]) assert.throws(() => index.viewBall(1, radius), TypeError);
+  assert.throws(() => index.queryBall([1, 2], 1), { name: 'TypeError', message: /^vertices: Array, expected Uint32Array/ });
+  assert.deepEqual(index.queryBall(7, 2), expected);
+});
+
+test('arrays that are no mesh are refused in the words of C++', () => {
+  const positions = new Float32Array(9);
+  const refuse = (xyz, corners, options, expected) => assert.throws(() => new MeshIndex(xyz, corners, options), expected);
+  refuse(positions, Uint32Array.of(0, 1, 3), {}, { code: 'InvalidMesh', message: /3/ });
+  refuse(positions, Int32Array.of(0, 1, -1), {}, { code: 'InvalidMesh', message: /-1/ });
+  refuse(Float32Array.of(0, NaN, 0), new Uint32Array(), {}, { code: 'InvalidMesh', message: /finite/ });
+  refuse(new Float32Array(8), new Uint32Array(), {}, { code: 'InvalidMesh' });
+  refuse(positions, Uint32Array.of(0, 1), {}, { code: 'InvalidMesh' });
+  refuse(positions, Uint32Array.of(0, 1), { offsets: Uint32Array.of(0, 3) }, { code: 'InvalidMesh' });
+  refuse([0, 0, 0], new Uint32Array(), {}, TypeError);
+  refuse(positions, [0, 1, 2], {}, TypeError);
+  refuse(positions, undefined, {}, TypeError);
+});
+
+test('progress is reported, can cancel, and its exceptions are passed on', () => {
+  const mesh = roll(300, 60);
+  const seen = [];
+  build(mesh, { progress: (done, total) => { seen.push(done / total); } });
+  assert.equal(seen[0], 0);
+  assert.equal(seen.at(-1), 1);
+  assert.deepEqual(seen, [...seen].sort((a, b) => a - b));
+  assert.throws(() => build(mesh, { progress: () => false }), { code: 'Cancelled' });
+  const failure = new Error('from the callback');
+  assert.throws(() => build(mesh, { progress() { throw failure; } }), (error) => error === failure);
+  assert.throws(() => readMesh(toPly(mesh), 'a.ply', { progress: () => false }), { code: 'Cancelled' });
+});
+
+test('too little memory is an error and not a crash', () => {
+  const header = 'ply\nformat binary_little_endian 1.0\nelement vertex 100\nproperty float x\nproperty float y\n' +
+    'property float z\nend_header\n';
+  assert.throws(() => readMesh(new TextEncoder().encode(header), 'short.ply'), { code: 'MalformedFile' });
+  const index = build(grid(300, 300, (row, column) => [row, column, 0]));
+  assert.throws(() => index.queryBall(null, Infinity, { method: 'bfs' }), { code: 'TooLarge', message: /^not enough memory/ });
+  assert.throws(() => index.queryBall(0, 1), /has been disposed/);
+});
+
+test('memory stays flat over 100,000 queries, refused ones included', () => {
+  const mesh = families.roll;
+  const index = build(mesh);
+  const next = random(5);
+  const ask = () => {
+    const v = Math.floor(index.vertexCount * next());
+    const radius = 5 * next();
+    for (const method of ['exact', 'paper']) index.queryBall(v, radius, { method, distances: true });
+    index.queryBallCount(v, radius, { method: 'bfs' });
+    assert.throws(() => index.queryBall(v + 1e6, radius), MeshhoodError);
+  };
+  for (let i = 0; i < 1000; ++i) ask();
+  index.queryBall(0, Infinity, { distances: true });
+  const before = index.memoryBytes;
+  for (let i = 0; i < 25000; ++i) ask();
+  for (let i = 0; i < 100; ++i) index.queryBall(null, 3);
+  const grown = index.memoryBytes - before;
+  console.log(`${before} bytes, ${grown} more after 100,000 queries and 100 batches`);
+  assert.ok(grown <= 2 ** 20);
+});
+
+test('a disposed index gives its memory back and refuses calls', () => {
+  const index = build(families.roll);
+  assert.ok(index.memoryBytes > 0);
+  index.dispose();
+  index.dispose();
+  assert.equal(index.memoryBytes, 0);
+  assert.throws(() => index.queryBall(0, 1), /has been disposed/);
+});

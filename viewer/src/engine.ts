@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// The worker as the page sees it: opens meshes, and answers the latest query.
+import type { Method, Opened, Query, Reply, Request, Source } from './messages';
+import EngineWorker from './worker?worker&inline';
+
+export interface Handlers {
+  progress(stage: string, fraction: number | null): void;
+  opened(opened: Opened): void;
+  failed(during: 'open' | 'query', message: string): void;
+  answer(method: Method, ids: Uint32Array): void;
+  time(method: Method, microseconds: number): void;
+  sizes(radius: number, sizes: Uint32Array): void;
+  index(bytes: Uint8Array): void;
+}
+
+/** Milliseconds without a new query after which times are measured. */
+const QUIET = 180;
+
+export class Engine {
+  readonly #worker = new EngineWorker();
+  readonly #handlers: Handlers;
+  #id = 0;
+  #busy = false; // the first method of the last query has no answer yet
+  #waiting: Query | null = null;
+  #timer = 0;
+
+  constructor(handlers: Handlers) {
+    this.#handlers = handlers;
+    this.#worker.onmessage = ({ data }: MessageEvent<Reply>) => this.#receive(data);
+    this.#worker.onerror = (event) => handlers.failed('open', event.message || 'The worker of this page failed.');
+  }
+
+  #send(request: Request): void {
+    this.#worker.postMessage(request);
+  }
+
+  open(source: Source): void {
+    this.#waiting = null;
+    this.#busy = false;
+    clearTimeout(this.#timer);
+    ++this.#id;
+    this.#send({ kind: 'open', source });
+  }
+
+  /** Answers by each method in turn, and then measures them. A query that comes before the answer replaces this one. */
+  query(vertex: number, radius: number, methods: Method[], timed: Method[]): void {
+    const query = { id: ++this.#id, vertex, radius, methods };
+    clearTimeout(this.#timer);
+    this.#timer = window.setTimeout(() => {
+      this.#send({ kind: 'time', query: { ...query, methods: timed } });
+    }, QUIET);
+    if (this.#busy) {
+      this.#waiting = query;
+    } else {
+      this.#start(query);
+    }
+  }
+
+  #start(query: Query): void {
+    this.#busy = query.methods.length > 0;
+    this.#waiting = null;
+    this.#send({ kind: 'query', query });
+  }
+
+  countAll(radius: number, method: Method): void {
+    this.#send({ kind: 'sizes', radius, method });
+  }
+
+  cancelCount(): void {
+    this.#send({ kind: 'cancel-sizes' });
+  }
+
+  saveIndex(): void {
+    this.#send({ kind: 'save-index' });
+  }
+
+  #receive(reply: Reply): void {
+    switch (reply.kind) {
+      case 'progress': return this.#handlers.progress(reply.stage, reply.fraction);
+      case 'opened': return this.#handlers.opened(reply.opened);
+      case 'failed':
+        this.#busy = false;
+        return this.#handlers.failed(reply.during, reply.message);
+      case 'answer': return this.#receiveAnswer(reply.id, reply.method, reply.ids);
+      case 'time':
+        if (reply.id === this.#id) this.#handlers.time(reply.method, reply.microseconds);
+        return;
+      case 'sizes': return this.#handlers.sizes(reply.radius, reply.sizes);
+      case 'index': return this.#handlers.index(reply.bytes);
+    }
+  }
+
+  #receiveAnswer(id: number, method: Method, ids: Uint32Array): void {
+    this.#busy = false;
+    // While the pointer moves, the answer before the last is shown too, or nothing would follow the pointer.
+    if (id === this.#id || this.#waiting !== null) this.#handlers.answer(method, ids);
+    if (this.#waiting !== null) this.#start(this.#waiting);
+  }
+}

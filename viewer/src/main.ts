@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: MIT
+// The page: what is open, what is asked, and what is shown of the answers.
+import { download, stem } from './download';
+import { Engine } from './engine';
+import { EXAMPLES, findExample } from './examples';
+import { connectKeyboard } from './keyboard';
+import { METHODS } from './messages';
+import type { Method, Opened, Source } from './messages';
+import { takePageData } from './page_data';
+import type { PageData } from './page_data';
+import { Painting } from './paint';
+import type { Scalar } from './paint';
+import { Panel, format, hideHint, shortNumber, showError, showProgress } from './panel';
+import { connectPointer } from './pointer';
+import { fromHash, toHash } from './state';
+import { View } from './view';
+import type { Look } from './view';
+
+const FIRST_RADIUS = 20; // in mean edge lengths
+
+class Page {
+  readonly #canvas = document.getElementById('canvas') as HTMLCanvasElement;
+  readonly #view = new View(this.#canvas);
+  readonly #engine: Engine;
+  readonly #panel: Panel;
+  readonly #answers = new Map<Method, Uint32Array>();
+  readonly #times = new Map<Method, number>();
+  readonly #shown = new Set<Method>(METHODS);
+  #opened: Opened | null = null;
+  #painting: Painting | null = null;
+  #example: string | null = null;
+  #pageData: PageData | null = takePageData();
+  #wanted = fromHash(location.hash); // applied once the mesh is open
+  #vertex = -1;
+  #edges = FIRST_RADIUS; // the radius, in mean edge lengths
+  #color = 'answers';
+  #given: Uint32Array | null = null; // an answer that was handed over, shown until another query is asked
+  #recount = 0;
+
+  constructor() {
+    this.#engine = new Engine({
+      progress: (stage, fraction) => showProgress(stage, fraction),
+      opened: (opened) => this.#show(opened),
+      failed: (during, message) => this.#fail(during, message),
+      answer: (method, ids) => this.#receive(method, ids),
+      time: (method, microseconds) => this.#receiveTime(method, microseconds),
+      sizes: (radius, sizes) => this.#receiveSizes(radius, sizes),
+      index: (bytes) => download(new Blob([bytes as Uint8Array<ArrayBuffer>]), `${this.#stem}.mhi`),
+    });
+    this.#panel = new Panel({
+      open: (file) => this.#open({ kind: 'file', name: file.name, content: file }),
+      example: (name) => this.#openExample(name),
+      vertex: (vertex) => this.select(vertex),
+      radius: (edges, isFinal) => this.setRadius(edges, isFinal),
+      method: (method, isShown) => this.#showMethod(method, isShown),
+      color: (choice) => this.#setColor(choice),
+      look: (look) => this.#setLook(look),
+      random: () => this.#selectRandom(),
+      focus: () => this.#focus(),
+      savePicture: () => void this.#savePicture(),
+      saveIds: () => this.#saveIds(),
+      saveIndex: () => this.#engine.saveIndex(),
+      copyLink: () => void this.#copyLink(),
+    });
+    connectPointer(this.#canvas, this.#view, (vertex, isFinal) => this.select(vertex, isFinal));
+    this.#connectKeys();
+    this.#connectDrop();
+    document.querySelector('#error button')!.addEventListener('click', () => showError(null));
+    window.addEventListener('hashchange', () => this.#follow());
+    this.#openFirst();
+  }
+
+  #connectKeys(): void {
+    const change = (part: Partial<Look>) => {
+      this.#panel.look = { ...this.#panel.look, ...part };
+      this.#setLook(this.#panel.look);
+    };
+    const cuts = ['none', 'x', 'y', 'z'] as const;
+    const step = (factor: number) => this.setRadius(Math.max(this.#edges, 0.5) * factor);
+    connectKeyboard({
+      '+': () => step(1.12), '=': () => step(1.12), '-': () => step(1 / 1.12),
+      ArrowLeft: () => this.#view.turn(-0.12, 0), ArrowRight: () => this.#view.turn(0.12, 0),
+      ArrowUp: () => this.#view.turn(0, -0.12), ArrowDown: () => this.#view.turn(0, 0.12),
+      f: () => this.#focus(), a: () => this.#view.showAll(), r: () => this.#selectRandom(),
+      h: () => change({ hideNearer: !this.#panel.look.hideNearer }),
+      c: () => change({ cut: cuts[(cuts.indexOf(this.#panel.look.cut) + 1) % cuts.length] }),
+      w: () => change({ wireframe: !this.#panel.look.wireframe }),
+      b: () => change({ ball: !this.#panel.look.ball }),
+      o: () => document.getElementById('file')!.click(),
+      s: () => void this.#savePicture(),
+      '?': () => (document.getElementById('keys') as HTMLDialogElement).showModal(),
+    });
+  }
+
+  #connectDrop(): void {
+    const drop = document.getElementById('drop')!;
+    window.addEventListener('dragover', (event) => {
+      event.preventDefault();
+      drop.hidden = false;
+    });
+    window.addEventListener('dragleave', (event) => {
+      if (event.relatedTarget === null) drop.hidden = true;
+    });
+    window.addEventListener('drop', (event) => {
+      event.preventDefault();
+      drop.hidden = true;
+      const file = event.dataTransfer?.files[0];
+      if (file) this.#open({ kind: 'file', name: file.name, content: file });
+    });
+  }
+
+  // Opening.
+
+  #openFirst(): void {
+    if (this.#pageData !== null) {
+      const { settings, file } = this.#pageData;
+      this.#open({ kind: 'file', name: settings.name, content: file }, this.#pageData);
+    } else {
+      this.#openExample(this.#wanted.example ?? EXAMPLES[0].name, this.#wanted.example === null);
+    }
+  }
+
+  #openExample(name: string, isFirst = false): void {
+    const example = findExample(name) ?? EXAMPLES[0];
+    if (!isFirst && this.#opened !== null) this.#wanted = fromHash('');
+    this.#open({ kind: 'example', name: example.name });
+    this.#example = example.name;
+    this.#panel.setExample(example.name);
+  }
+
+  #open(source: Source, pageData: PageData | null = null): void {
+    if (this.#opened !== null) this.#wanted = fromHash('');
+    this.#pageData = pageData;
+    this.#example = null;
+    this.#panel.setExample(null);
+    showError(null);
+    showProgress('Reading');
+    this.#engine.open(source);
+  }
+
+  #show(opened: Opened): void {
+    const example = this.#example === null ? undefined : findExample(this.#example);
+    this.#opened = opened;
+    this.#answers.clear();
+    this.#times.clear();
+    this.#given = null;
+    this.#vertex = -1;
+    this.#painting = new Painting(opened.vertices);
+    this.#view.setMesh(opened.surface, opened.tree, this.#painting.bytes);
+    const meanEdge = opened.meanEdge;
+    const mostEdges = meanEdge > 0 ? (2 * opened.surface.extent) / meanEdge : 1;
+    this.#panel.setMesh(example?.title ?? opened.name, facts(opened), opened.vertices, meanEdge, mostEdges);
+    this.#panel.removeColorChoices(['answers', 'sizes']);
+    this.#color = 'answers';
+    this.#panel.setLegend(null, null);
+    showProgress(null);
+    if (opened.warnings.length > 0) showError(`${opened.name}: accepted with a warning: ${opened.warnings.join('; ')}`);
+    if (opened.vertices > 0) this.#askFirst(example?.query ?? { at: 0.5, radius: FIRST_RADIUS });
+    document.body.dataset.mesh = opened.name; // for tests: the mesh is open
+  }
+
+  /** The query of the link or of the page, or that of the example. */
+  #askFirst(query: { at: number; radius: number }): void {
+    const wanted = this.#wanted;
+    const settings = this.#pageData?.settings;
+    const { vertices, meanEdge } = this.#opened!;
+    for (const method of METHODS) this.#showMethod(method, !wanted.hidden.includes(method));
+    this.#panel.look = wanted.look;
+    const handed = settings?.radius === undefined || meanEdge === 0 ? null : settings.radius / meanEdge;
+    this.#edges = wanted.radius ?? handed ?? query.radius;
+    const vertex = wanted.vertex ?? settings?.vertex ?? Math.floor(query.at * vertices);
+    this.select(Math.min(vertex, vertices - 1));
+    this.#view.setLook(wanted.look);
+    if (wanted.camera !== null) this.#view.cameraState = wanted.camera;
+    else if (settings?.vertex !== undefined) this.#focus();
+    this.#showHanded();
+  }
+
+  /** The scalar and the answer that were handed over with the mesh. */
+  #showHanded(): void {
+    if (this.#pageData === null) return;
+    const { scalar, settings } = this.#pageData;
+    if (scalar !== null) {
+      this.#panel.addColorChoice('scalar', scalar.title);
+      this.#panel.setColorChoice('scalar');
+      this.#panel.openDisplay();
+      this.#setColor('scalar');
+    }
+    if (settings.ids !== undefined) {
+      this.#given = Uint32Array.from(settings.ids);
+      this.#paint();
+    }
+  }
+
+  #fail(during: 'open' | 'query', message: string): void {
+    showProgress(null);
+    showError(message);
+    if (during === 'open' && this.#opened !== null) document.body.dataset.mesh = this.#opened.name;
+  }
+
+  #follow(): void {
+    const wanted = fromHash(location.hash);
+    if (wanted.example !== null && wanted.example !== this.#example) {
+      this.#wanted = wanted;
+      this.#opened = null;
+      this.#openExample(wanted.example, true);
+    } else if (this.#opened !== null) {
+      this.#wanted = wanted;
+      this.#askFirst({ at: 0.5, radius: this.#edges });
+    }
+  }
+
+  // Asking.
+
+  /** Asks for the neighborhood of another vertex. */
+  select(vertex: number, isFinal = true): void {
+    if (this.#opened === null) return;
+    const isFirst = this.#vertex < 0;
+    if (!Number.isInteger(vertex) || vertex < 0 || vertex >= this.#opened.vertices) {
+      showError(`vertex ${vertex}, but the mesh has ${this.#opened.vertices} vertices`);
+      return;
+    }
+    this.#vertex = vertex;
+    this.#panel.setVertex(vertex);
+    if (!isFirst) hideHint();
+    this.#ask(isFinal);
+  }
+
+  /** In mean edge lengths. */
+  setRadius(edges: number, isFinal = true): void {
+    this.#edges = edges;
+    this.#ask(isFinal);
+    if (this.#color === 'sizes') this.#countLater();
+  }
+
+  get #radius(): number {
+    return this.#edges * (this.#opened?.meanEdge || 1);
+  }
+
+  #ask(isFinal: boolean): void {
+    if (this.#opened === null || this.#vertex < 0) return;
+    this.#given = null;
+    this.#panel.setRadius(this.#edges);
+    this.#view.setQuery(this.#vertex, this.#radius);
+    const methods = METHODS.filter((method) => this.#shown.has(method) && method !== 'bfs');
+    for (const method of METHODS) this.#panel.setTime(method, null);
+    this.#times.clear();
+    this.#panel.setVerdict();
+    this.#engine.query(this.#vertex, this.#radius, withExact(methods), METHODS.filter((method) => this.#shown.has(method)));
+    if (isFinal) this.#updateLink();
+  }
+
+  #receive(method: Method, ids: Uint32Array): void {
+    if (method === 'exact') this.#answers.clear();
+    this.#answers.set(method, ids);
+    const exact = this.#answers.get('exact');
+    for (const each of METHODS) {
+      const answer = each === 'bfs' ? exact : this.#answers.get(each);
+      if (answer === undefined || !this.#shown.has(each)) continue;
+      this.#panel.setCount(each, answer.length, exact === undefined ? null : answer.length - exact.length);
+    }
+    this.#paint();
+  }
+
+  #receiveTime(method: Method, microseconds: number): void {
+    this.#panel.setTime(method, microseconds);
+    this.#times.set(method, microseconds);
+    const [exact, bfs] = [this.#times.get('exact'), this.#times.get('bfs')];
+    if (exact === undefined || bfs === undefined) return;
+    const ratio = document.createElement('b');
+    ratio.textContent = `${shortNumber(Number((bfs / exact).toPrecision(2)))} times`;
+    this.#panel.setVerdict('Breadth-first search takes ', ratio, ' as long as the index.');
+  }
+
+  #paint(): void {
+    if (this.#painting === null) return;
+    const isShown = (method: Method) => this.#shown.has(method) && this.#color === 'answers';
+    const answers = new Map([...this.#answers].filter(([method]) => isShown(method)));
+    if (this.#given !== null) {
+      answers.clear();
+      answers.set('exact', this.#given);
+    }
+    this.#painting.setAnswers(answers);
+    this.#view.updateColors();
+  }
+
+  #showMethod(method: Method, isShown: boolean): void {
+    if (isShown) this.#shown.add(method);
+    else this.#shown.delete(method);
+    this.#panel.setMethodShown(method, isShown);
+    this.#ask(true);
+  }
+
+  #selectRandom(): void {
+    if (this.#opened !== null) this.select(Math.floor(Math.random() * this.#opened.vertices));
+  }
+
+  #focus(): void {
+    this.#view.showQuery(this.#radius);
+  }
+
+  // Colours.
+
+  #setColor(choice: string): void {
+    this.#color = choice;
+    this.#engine.cancelCount();
+    showProgress(null);
+    this.#panel.setLegend(null, null);
+    if (choice === 'sizes') this.#engine.countAll(this.#radius, 'exact');
+    else this.#setScalar(choice === 'scalar' ? (this.#pageData?.scalar ?? null) : null);
+  }
+
+  /** Once the radius rests. */
+  #countLater(): void {
+    clearTimeout(this.#recount);
+    this.#recount = window.setTimeout(() => this.#setColor('sizes'), 400);
+  }
+
+  #receiveSizes(radius: number, sizes: Uint32Array): void {
+    showProgress(null);
+    if (this.#color !== 'sizes' || radius !== this.#radius) return;
+    this.#setScalar({ title: 'vertices', values: sizes });
+  }
+
+  #setScalar(scalar: Scalar | null): void {
+    if (this.#painting === null) return;
+    const range = this.#painting.setScalar(scalar);
+    this.#panel.setLegend(scalar?.title ?? null, range);
+    this.#paint();
+  }
+
+  #setLook(look: Look): void {
+    this.#view.setLook(look);
+    this.#updateLink();
+  }
+
+  // Saving.
+
+  get #stem(): string {
+    return stem(this.#opened?.name ?? 'mesh');
+  }
+
+  async #savePicture(): Promise<void> {
+    const background = getComputedStyle(document.body).getPropertyValue('--background').trim();
+    download(await this.#view.picture(background), `${this.#stem}.png`);
+  }
+
+  #saveIds(): void {
+    const lines = [...this.ids('exact')].map((id) => `${id}\n`);
+    download(new Blob(lines, { type: 'text/plain' }), `${this.#stem}-${this.#vertex}.txt`);
+  }
+
+  #link(camera: number[] | null): string {
+    return toHash({
+      example: this.#example,
+      vertex: this.#vertex < 0 ? null : this.#vertex,
+      radius: Number(this.#edges.toPrecision(6)),
+      hidden: METHODS.filter((method) => !this.#shown.has(method)),
+      look: this.#panel.look,
+      camera,
+    });
+  }
+
+  #updateLink(): void {
+    history.replaceState(null, '', this.#link(null));
+  }
+
+  async #copyLink(): Promise<void> {
+    history.replaceState(null, '', this.#link(this.#view.cameraState));
+    try {
+      await navigator.clipboard.writeText(location.href);
+      this.#panel.setVerdict('The link is in the clipboard.');
+    } catch {
+      this.#panel.setVerdict('The link is in the address bar.');
+    }
+  }
+
+  // For scripts and tests, as `meshhoodPage` in the console.
+
+  get view(): View {
+    return this.#view;
+  }
+
+  /** The last answer of a method, ascending; empty if there is none. */
+  ids(method: Method): Uint32Array {
+    return (this.#given ?? this.#answers.get(method) ?? new Uint32Array()).slice().sort();
+  }
+}
+
+/** The exact answer is always asked for, as the others are compared with it. */
+function withExact(methods: Method[]): Method[] {
+  return methods.includes('exact') ? methods : ['exact', ...methods];
+}
+
+function facts(opened: Opened): string {
+  const faces = opened.faces > 0 ? `${format(opened.faces)} faces, ` : '';
+  const megabytes = shortNumber(Number((opened.indexBytes / 2 ** 20).toPrecision(2)));
+  const seconds = shortNumber(Number(opened.seconds.build.toPrecision(2)));
+  return `${format(opened.vertices)} vertices, ${faces}index ${megabytes} MB in ${seconds} s`;
+}
+
+declare global {
+  interface Window {
+    meshhoodPage: Page;
+  }
+}
+
+window.meshhoodPage = new Page();

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// What the page and its worker say to each other.
+import type { Method } from 'meshhood';
+
+export type { Method };
+
+/** All methods, in the order in which they are answered: the fastest first. */
+export const METHODS: readonly Method[] = ['exact', 'ball', 'paper', 'bfs'];
+
+export type Source = { kind: 'file'; name: string; content: Blob } | { kind: 'example'; name: string; vertices?: number };
+
+export interface Query {
+  /** Grows with each query; a newer query ends an older one. */
+  id: number;
+  vertex: number;
+  /** In the unit of the positions. */
+  radius: number;
+  methods: Method[];
+}
+
+export type Request =
+  | { kind: 'open'; source: Source }
+  | { kind: 'query'; query: Query }
+  | { kind: 'time'; query: Query }
+  | { kind: 'sizes'; radius: number; method: Method }
+  | { kind: 'cancel-sizes' }
+  | { kind: 'save-index' };
+
+/** A mesh for drawing. Positions are relative to `center`, so that float represents them well. */
+export interface Surface {
+  positions: Float32Array;
+  normals: Float32Array;
+  triangles: Uint32Array;
+  center: [number, number, number];
+  /** Half the diagonal of the bounding box. */
+  extent: number;
+}
+
+export interface Opened {
+  name: string;
+  surface: Surface;
+  /** The tree of three-mesh-bvh over the triangles, serialized; null without triangles. */
+  tree: unknown;
+  vertices: number;
+  faces: number;
+  meanEdge: number;
+  indexBytes: number;
+  /** For reading, building the index, and preparing the picture. */
+  seconds: { read: number; build: number; draw: number };
+  warnings: string[];
+}
+
+export type Reply =
+  | { kind: 'progress'; stage: string; fraction: number | null }
+  | { kind: 'opened'; opened: Opened }
+  | { kind: 'failed'; during: 'open' | 'query'; message: string }
+  | { kind: 'answer'; id: number; method: Method; ids: Uint32Array }
+  | { kind: 'time'; id: number; method: Method; microseconds: number }
+  | { kind: 'sizes'; radius: number; sizes: Uint32Array }
+  | { kind: 'index'; bytes: Uint8Array };

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// What `meshhood view` and `meshhood.view` have written into the page: a mesh file, and what to show of it.
+
+export interface Settings {
+  /** The name of the mesh file. */
+  name: string;
+  vertex?: number;
+  /** In the unit of the mesh. */
+  radius?: number;
+  /** An answer to show as it is, instead of those of the methods. */
+  ids?: number[];
+  /** A value for each vertex: float32, little-endian, in base 64. */
+  scalar?: { title: string; values: string };
+}
+
+export interface PageData {
+  settings: Settings;
+  file: Blob;
+  scalar: { title: string; values: Float32Array } | null;
+}
+
+function decode(base64: string): Uint8Array<ArrayBuffer> {
+  const text = atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  return bytes;
+}
+
+/** Null for the page as it is built. */
+export function takePageData(): PageData | null {
+  const settingsElement = document.getElementById('meshhood-settings');
+  const meshElement = document.getElementById('meshhood-mesh');
+  if (settingsElement === null || meshElement === null) return null;
+  const settings = JSON.parse(settingsElement.textContent ?? '') as Settings;
+  const file = new Blob([decode((meshElement.textContent ?? '').trim())]);
+  meshElement.remove(); // its text is no longer needed, and large
+  const { scalar } = settings;
+  return {
+    settings,
+    file,
+    scalar: scalar ? { title: scalar.title, values: new Float32Array(decode(scalar.values).buffer) } : null,
+  };
+}

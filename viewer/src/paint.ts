@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// The colours of all vertices: exact over paper over ball, or a scalar.
+import { METHOD_COLORS, SURFACE_COLOR, VIRIDIS_TABLE, linearBytes } from './colors';
+import type { Rgb } from './colors';
+import type { Method } from './messages';
+
+/** From bottom to top, as in Figure 4 of the paper. */
+const LAYERS = ['ball', 'paper', 'exact'] as const;
+
+/** A value for each vertex; those that are not finite are drawn as surface. */
+export interface Scalar {
+  title: string;
+  values: ArrayLike<number>;
+}
+
+/** The range of a colour map: from the 2nd to the 98th hundredth, so that a few extreme values do not hide the others. */
+export function scalarRange(values: ArrayLike<number>): [number, number] {
+  const step = Math.max(1, Math.floor(values.length / 100_000));
+  const sample: number[] = [];
+  for (let v = 0; v < values.length; v += step) {
+    if (Number.isFinite(values[v])) sample.push(values[v]);
+  }
+  if (sample.length === 0) return [0, 1];
+  sample.sort((a, b) => a - b);
+  const at = (fraction: number) => sample[Math.round(fraction * (sample.length - 1))];
+  const [low, high] = [at(0.02), at(0.98)];
+  return low < high ? [low, high] : [at(0), at(1)];
+}
+
+export class Painting {
+  /** #V by 4; the last byte is not used. */
+  readonly bytes: Uint8Array;
+  readonly #base: Uint8Array;
+  #painted: Uint32Array[] = [];
+
+  constructor(vertices: number) {
+    this.bytes = new Uint8Array(4 * vertices);
+    this.#base = new Uint8Array(4 * vertices);
+    this.setScalar(null);
+  }
+
+  /** Replaces what is drawn under the answers. */
+  setScalar(scalar: Scalar | null): [number, number] | null {
+    const surface = linearBytes(SURFACE_COLOR);
+    const range = scalar === null ? null : scalarRange(scalar.values);
+    for (let v = 0; 4 * v < this.#base.length; ++v) {
+      this.#base.set(scalar === null ? surface : scalarColor(scalar.values[v], range!, surface), 4 * v);
+    }
+    this.bytes.set(this.#base);
+    this.#painted = [];
+    return range;
+  }
+
+  /** Paints the answers of the methods that `answers` has. */
+  setAnswers(answers: Map<Method, Uint32Array>): void {
+    for (const ids of this.#painted) this.#restore(ids);
+    this.#painted = [];
+    for (const method of LAYERS) {
+      const ids = answers.get(method);
+      if (ids === undefined) continue;
+      this.#fill(ids, linearBytes(METHOD_COLORS[method]));
+      this.#painted.push(ids);
+    }
+  }
+
+  #fill(ids: Uint32Array, [r, g, b]: Rgb): void {
+    const { bytes } = this;
+    for (const v of ids) {
+      bytes[4 * v] = r;
+      bytes[4 * v + 1] = g;
+      bytes[4 * v + 2] = b;
+    }
+  }
+
+  #restore(ids: Uint32Array): void {
+    for (const v of ids) {
+      for (let i = 4 * v; i < 4 * v + 3; ++i) this.bytes[i] = this.#base[i];
+    }
+  }
+}
+
+function scalarColor(value: number, [low, high]: [number, number], other: Rgb): Rgb {
+  if (!Number.isFinite(value)) return other;
+  const t = high > low ? (value - low) / (high - low) : 0;
+  return VIRIDIS_TABLE[Math.round(255 * Math.min(1, Math.max(0, t)))];
+}

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+// The controls: what they show, and what they ask for.
+import { METHOD_COLORS, toCss, viridis } from './colors';
+import { EXAMPLES } from './examples';
+import type { Method } from './messages';
+import type { Cut, Look } from './view';
+
+export interface Wishes {
+  open(file: File): void;
+  example(name: string): void;
+  vertex(vertex: number): void;
+  /** In mean edge lengths; `isFinal` once the slider is let go. */
+  radius(edges: number, isFinal: boolean): void;
+  method(method: Method, isShown: boolean): void;
+  color(choice: string): void;
+  look(look: Look): void;
+  random(): void;
+  focus(): void;
+  savePicture(): void;
+  saveIds(): void;
+  saveIndex(): void;
+  copyLink(): void;
+}
+
+const ROWS: readonly Method[] = ['exact', 'paper', 'ball', 'bfs'];
+
+const MEANINGS: Record<Method, string> = {
+  exact: 'The exact neighborhood, by the index',
+  paper: 'The approximate neighborhood of the paper: contains the exact one',
+  ball: 'Every vertex within the radius in space',
+  bfs: 'The exact neighborhood by breadth-first search, for comparison',
+};
+
+const find = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
+
+const grouped = new Intl.NumberFormat('en');
+export const format = (value: number) => grouped.format(value);
+
+/** Four digits, without an exponent in the usual range. */
+export function shortNumber(value: number): string {
+  if (!Number.isFinite(value) || value === 0) return String(value);
+  return String(Number(value.toPrecision(4)));
+}
+
+// The slider is logarithmic, and its left end is 0.
+const SLIDER = 1000;
+const LEAST_EDGES = 0.5;
+
+export class Panel {
+  readonly #wishes: Wishes;
+  readonly #cells = new Map<Method, { row: HTMLTableRowElement; count: Node; extra: Node; time: Node; box: HTMLInputElement }>();
+  #meanEdge = 1;
+  #mostEdges = 100;
+
+  constructor(wishes: Wishes) {
+    this.#wishes = wishes;
+    this.#makeRows();
+    this.#connectFiles();
+    this.#connectQuery();
+    this.#connectDisplay();
+    for (const [id, wish] of Object.entries({
+      random: wishes.random, focus: wishes.focus, 'save-picture': wishes.savePicture, 'save-ids': wishes.saveIds,
+      'save-index': wishes.saveIndex, 'copy-link': wishes.copyLink,
+    })) {
+      find(id).addEventListener('click', () => wish());
+    }
+    find('help').addEventListener('click', () => find<HTMLDialogElement>('keys').showModal());
+    find('fold').addEventListener('click', () => this.#fold());
+  }
+
+  #fold(): void {
+    const folded = find('panel').classList.toggle('folded');
+    find('fold').setAttribute('aria-expanded', String(!folded));
+  }
+
+  #makeRows(): void {
+    const body = find('methods').querySelector('tbody')!;
+    for (const method of ROWS) {
+      const row = body.insertRow();
+      row.dataset.method = method;
+      row.title = MEANINGS[method];
+      const box = document.createElement('input');
+      box.type = 'checkbox';
+      box.checked = true;
+      box.addEventListener('change', () => this.#wishes.method(method, box.checked));
+      const swatch = document.createElement('span');
+      swatch.className = 'swatch';
+      swatch.style.background = method === 'bfs' ? 'transparent' : METHOD_COLORS[method];
+      const label = document.createElement('label');
+      label.append(box, swatch, method);
+      row.insertCell().append(label);
+      const [count, extra, time] = [0, 1, 2].map(() => row.insertCell().appendChild(document.createTextNode('')));
+      this.#cells.set(method, { row, count, extra, time, box });
+    }
+  }
+
+  #connectFiles(): void {
+    const file = find<HTMLInputElement>('file');
+    find('open').addEventListener('click', () => file.click());
+    file.addEventListener('change', () => {
+      if (file.files?.[0]) this.#wishes.open(file.files[0]);
+      file.value = '';
+    });
+    const examples = find<HTMLSelectElement>('example');
+    for (const { name, title, trap } of EXAMPLES) {
+      const option = new Option(title, name);
+      option.title = trap;
+      examples.add(option);
+    }
+    examples.addEventListener('change', () => {
+      if (examples.value !== '') this.#wishes.example(examples.value);
+    });
+  }
+
+  #connectQuery(): void {
+    const slider = find<HTMLInputElement>('radius');
+    slider.addEventListener('input', () => this.#wishes.radius(this.#fromSlider(Number(slider.value)), false));
+    slider.addEventListener('change', () => this.#wishes.radius(this.#fromSlider(Number(slider.value)), true));
+    for (const [id, unit] of [['radius-edges', () => 1], ['radius-units', () => this.#meanEdge || 1]] as const) {
+      const input = find<HTMLInputElement>(id);
+      input.addEventListener('change', () => {
+        const value = Number(input.value) / unit();
+        if (input.value !== '' && value >= 0) this.#wishes.radius(value, true);
+      });
+    }
+    const vertex = find<HTMLInputElement>('vertex');
+    vertex.addEventListener('change', () => {
+      if (vertex.value !== '') this.#wishes.vertex(Number(vertex.value));
+    });
+  }
+
+  #connectDisplay(): void {
+    const color = find<HTMLSelectElement>('color');
+    color.addEventListener('change', () => this.#wishes.color(color.value));
+    for (const id of ['cut', 'nearer', 'wireframe', 'ball']) {
+      find(id).addEventListener('change', () => this.#wishes.look(this.look));
+    }
+  }
+
+  get look(): Look {
+    const isChecked = (id: string) => find<HTMLInputElement>(id).checked;
+    return {
+      cut: find<HTMLSelectElement>('cut').value as Cut,
+      hideNearer: isChecked('nearer'),
+      wireframe: isChecked('wireframe'),
+      ball: isChecked('ball'),
+    };
+  }
+
+  set look(look: Look) {
+    find<HTMLSelectElement>('cut').value = look.cut;
+    find<HTMLInputElement>('nearer').checked = look.hideNearer;
+    find<HTMLInputElement>('wireframe').checked = look.wireframe;
+    find<HTMLInputElement>('ball').checked = look.ball;
+  }
+
+  setMesh(name: string, facts: string, vertices: number, meanEdge: number, mostEdges: number): void {
+    find('name').textContent = name;
+    find('facts').textContent = facts;
+    this.#meanEdge = meanEdge;
+    this.#mostEdges = Math.max(mostEdges, 2 * LEAST_EDGES);
+    find<HTMLInputElement>('vertex').max = String(Math.max(vertices - 1, 0));
+  }
+
+  setExample(name: string | null): void {
+    find<HTMLSelectElement>('example').value = name ?? '';
+  }
+
+  addColorChoice(value: string, title: string): void {
+    const color = find<HTMLSelectElement>('color');
+    if (![...color.options].some((option) => option.value === value)) color.add(new Option(title, value));
+  }
+
+  removeColorChoices(kept: readonly string[]): void {
+    const color = find<HTMLSelectElement>('color');
+    for (const option of [...color.options]) {
+      if (!kept.includes(option.value)) option.remove();
+    }
+    color.value = kept[0];
+  }
+
+  setColorChoice(value: string): void {
+    find<HTMLSelectElement>('color').value = value;
+  }
+
+  setVertex(vertex: number): void {
+    find<HTMLInputElement>('vertex').value = String(vertex);
+  }
+
+  /** In mean edge lengths. */
+  setRadius(edges: number): void {
+    find<HTMLInputElement>('radius').value = String(this.#toSlider(edges));
+    find<HTMLInputElement>('radius-edges').value = shortNumber(edges);
+    find<HTMLInputElement>('radius-units').value = shortNumber(edges * this.#meanEdge);
+  }
+
+  #fromSlider(place: number): number {
+    if (place <= 0) return 0;
+    return LEAST_EDGES * (this.#mostEdges / LEAST_EDGES) ** (place / SLIDER);
+  }
+
+  #toSlider(edges: number): number {
+    if (edges < LEAST_EDGES) return 0;
+    return Math.round((SLIDER * Math.log(edges / LEAST_EDGES)) / Math.log(this.#mostEdges / LEAST_EDGES));
+  }
+
+  setMethodShown(method: Method, isShown: boolean): void {
+    const cells = this.#cells.get(method)!;
+    cells.box.checked = isShown;
+    cells.row.classList.toggle('off', !isShown);
+    if (!isShown) for (const node of [cells.count, cells.extra, cells.time]) node.textContent = '';
+  }
+
+  setCount(method: Method, count: number | null, extra: number | null): void {
+    const cells = this.#cells.get(method)!;
+    cells.count.textContent = count === null ? '' : format(count);
+    cells.extra.textContent = extra === null ? '' : format(extra);
+  }
+
+  setTime(method: Method, microseconds: number | null): void {
+    const digits = microseconds !== null && microseconds < 10 ? 1 : 0;
+    this.#cells.get(method)!.time.textContent =
+      microseconds === null ? '' : grouped.format(Number(microseconds.toFixed(digits)));
+  }
+
+  setVerdict(...parts: (string | HTMLElement)[]): void {
+    find('verdict').replaceChildren(...(parts.length > 0 ? parts : ['\u00a0']));
+  }
+
+  setLegend(title: string | null, range: [number, number] | null): void {
+    const legend = find('legend');
+    legend.hidden = title === null || range === null;
+    if (title === null || range === null) return;
+    const stops = Array.from({ length: 12 }, (_, i) => toCss(viridis(i / 11)));
+    legend.querySelector<HTMLElement>('.ramp')!.style.background = `linear-gradient(to right, ${stops.join(', ')})`;
+    [shortNumber(range[0]), title, shortNumber(range[1])].forEach((text, i) => {
+      legend.querySelectorAll('span')[i].textContent = text;
+    });
+  }
+
+  openDisplay(): void {
+    find<HTMLDetailsElement>('display').open = true;
+  }
+}
+
+/** The line at the bottom: what is being done. */
+export function showProgress(stage: string | null, fraction: number | null = null): void {
+  const status = find('status');
+  status.hidden = stage === null;
+  if (stage === null) return;
+  status.querySelector('span')!.textContent = stage;
+  const bar = status.querySelector<HTMLElement>('.bar')!;
+  bar.classList.toggle('endless', fraction === null);
+  (bar.firstElementChild as HTMLElement).style.width = fraction === null ? '' : `${100 * fraction}%`;
+}
+
+export function showError(message: string | null): void {
+  const error = find('error');
+  error.hidden = message === null;
+  error.querySelector('p')!.textContent = message;
+}
+
+export function hideHint(): void {
+  find('hint').classList.add('done');
+}

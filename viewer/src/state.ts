@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// The state of the page in its address, so that a link shows the same.
+import type { Cut, Look } from './view';
+
+export interface State {
+  /** Absent for a mesh from a file, which a link cannot hold. */
+  example: string | null;
+  vertex: number | null;
+  /** In mean edge lengths. */
+  radius: number | null;
+  hidden: string[];
+  look: Look;
+  camera: number[] | null;
+}
+
+const CUTS: readonly Cut[] = ['none', 'x', 'y', 'z'];
+
+export function toHash(state: State): string {
+  const parameters = new URLSearchParams();
+  if (state.example !== null) parameters.set('example', state.example);
+  if (state.vertex !== null) parameters.set('vertex', String(state.vertex));
+  if (state.radius !== null) parameters.set('radius', String(state.radius));
+  if (state.hidden.length > 0) parameters.set('without', state.hidden.join(','));
+  if (state.look.cut !== 'none') parameters.set('cut', state.look.cut);
+  if (state.look.hideNearer) parameters.set('nearer', 'hidden');
+  if (state.look.wireframe) parameters.set('edges', 'shown');
+  if (!state.look.ball) parameters.set('ball', 'hidden');
+  if (state.camera !== null) parameters.set('camera', state.camera.join(','));
+  return `#${parameters.toString().replaceAll('%2C', ',')}`;
+}
+
+/** What is missing or is no number in the address is null. */
+export function fromHash(hash: string): State {
+  const parameters = new URLSearchParams(hash.replace(/^#/, ''));
+  const camera = (parameters.get('camera') ?? '').split(',').map(Number);
+  return {
+    example: parameters.get('example'),
+    vertex: toNumber(parameters.get('vertex'), Number.isInteger),
+    radius: toNumber(parameters.get('radius'), Number.isFinite),
+    hidden: (parameters.get('without') ?? '').split(',').filter((name) => name !== ''),
+    look: {
+      cut: CUTS.find((cut) => cut === parameters.get('cut')) ?? 'none',
+      hideNearer: parameters.get('nearer') === 'hidden',
+      wireframe: parameters.get('edges') === 'shown',
+      ball: parameters.get('ball') !== 'hidden',
+    },
+    camera: camera.length === 6 && camera.every(Number.isFinite) ? camera : null,
+  };
+}
+
+function toNumber(text: string | null, accept: (value: unknown) => boolean): number | null {
+  const value = text === null || text === '' ? NaN : Number(text);
+  return accept(value) && value >= 0 ? value : null;
+}

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+// Reads meshes, builds indexes and answers queries, so that the page never waits.
+import { initialize, MeshIndex, readMesh } from 'meshhood';
+import { BufferAttribute, BufferGeometry } from 'three';
+import { MeshBVH } from 'three-mesh-bvh';
+
+import { EXAMPLES, findExample } from './examples';
+import type { Method, Query, Reply, Request, Source } from './messages';
+import { makeSurface } from './surface';
+
+interface Arrays {
+  positions: Float32Array | Float64Array;
+  corners: Uint32Array;
+  offsets: Uint32Array | null;
+  warnings: string[];
+}
+
+let index: MeshIndex | null = null;
+let latestQuery = 0;
+let sizesRun = 0;
+
+function reply(message: Reply, transfer: Transferable[] = []): void {
+  self.postMessage(message, { transfer });
+}
+
+function reportProgress(stage: string): (done: number, total: number) => void {
+  let last = 0;
+  return (done, total) => {
+    const now = performance.now();
+    if (now - last < 50 && done < total) return;
+    last = now;
+    reply({ kind: 'progress', stage, fraction: total > 0 ? done / total : null });
+  };
+}
+
+/** Lets messages in that arrived meanwhile. */
+const nextTask = () => new Promise<void>((resolve) => setTimeout(resolve));
+
+async function timed<T>(work: () => T | Promise<T>): Promise<{ result: T; seconds: number }> {
+  const begin = performance.now();
+  const result = await work();
+  return { result, seconds: (performance.now() - begin) / 1000 };
+}
+
+const INDEX_MARK = [0x8b, 0x4d, 0x48, 0x49]; // "\x8bMHI", the first bytes of an index file
+
+async function read(source: Source): Promise<Arrays | MeshIndex> {
+  if (source.kind === 'example') {
+    const example = findExample(source.name) ?? EXAMPLES[0];
+    return { ...example.make(source.vertices ?? example.vertices), offsets: null, warnings: [] };
+  }
+  const bytes = new Uint8Array(await source.content.arrayBuffer());
+  if (INDEX_MARK.every((byte, i) => bytes[i] === byte)) {
+    return MeshIndex.load(bytes, { progress: reportProgress('Verifying the index') });
+  }
+  return readMesh(bytes, source.name, { progress: reportProgress('Reading') });
+}
+
+function build(arrays: Arrays | MeshIndex): MeshIndex {
+  if (arrays instanceof MeshIndex) return arrays;
+  const { positions, corners, offsets } = arrays;
+  return new MeshIndex(positions, corners, { offsets, progress: reportProgress('Building the index') });
+}
+
+function makeTree(positions: Float32Array, triangles: Uint32Array): unknown {
+  if (triangles.length === 0) return null;
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(positions, 3));
+  geometry.setIndex(new BufferAttribute(triangles, 1));
+  const onProgress = reportProgress('Preparing the picture');
+  const tree = new MeshBVH(geometry, { onProgress: (fraction: number) => onProgress(fraction, 1) });
+  return MeshBVH.serialize(tree, { cloneBuffers: false });
+}
+
+async function open(source: Source): Promise<void> {
+  await initialize();
+  reply({ kind: 'progress', stage: 'Reading', fraction: null });
+  const reading = await timed(() => read(source));
+  const building = await timed(() => build(reading.result));
+  const arrays = reading.result;
+  const opened = building.result;
+  reply({ kind: 'progress', stage: 'Preparing the picture', fraction: null });
+  const drawing = await timed(() => {
+    const mesh = arrays instanceof MeshIndex ? { positions: arrays.positions, corners: new Uint32Array(), offsets: null } : arrays;
+    const surface = makeSurface(mesh.positions, mesh.corners, mesh.offsets);
+    return { surface, tree: makeTree(surface.positions, surface.triangles), mesh };
+  });
+  const { surface, tree, mesh } = drawing.result;
+  const vertices = opened.vertexCount;
+  index?.dispose();
+  index = opened;
+  latestQuery = 0;
+  ++sizesRun;
+  reply({
+    kind: 'opened',
+    opened: {
+      name: source.name,
+      surface,
+      tree,
+      vertices,
+      faces: mesh.offsets === null ? mesh.corners.length / 3 : Math.max(mesh.offsets.length - 1, 0),
+      meanEdge: opened.meanEdgeLength,
+      indexBytes: opened.byteLength,
+      seconds: { read: reading.seconds, build: building.seconds, draw: drawing.seconds },
+      warnings: arrays instanceof MeshIndex ? [] : arrays.warnings,
+    },
+  }, [surface.positions.buffer, surface.normals.buffer, surface.triangles.buffer]);
+}
+
+/** Calls `work` for each method of the query in turn, until a newer query arrives. */
+async function forEachMethod(query: Query, work: (index: MeshIndex, method: Method) => void): Promise<void> {
+  latestQuery = Math.max(latestQuery, query.id);
+  for (const method of query.methods) {
+    await nextTask();
+    if (query.id < latestQuery || index === null) return;
+    work(index, method);
+  }
+}
+
+function answer(query: Query): Promise<void> {
+  return forEachMethod(query, (index, method) => {
+    const ids = index.queryBall(query.vertex, query.radius, { method });
+    reply({ kind: 'answer', id: query.id, method, ids }, [ids.buffer]);
+  });
+}
+
+/** Microseconds of a warm query: the mean over as many as take some milliseconds, as the clock of a browser is coarse. */
+function microseconds(index: MeshIndex, query: Query, method: Method): number {
+  const enough = 4; // milliseconds
+  for (let runs = 1; ; runs *= 4) {
+    const begin = performance.now();
+    for (let run = 0; run < runs; ++run) index.viewBall(query.vertex, query.radius, { method });
+    const elapsed = performance.now() - begin;
+    if (elapsed >= enough) return (1000 * elapsed) / runs;
+  }
+}
+
+function time(query: Query): Promise<void> {
+  return forEachMethod(query, (index, method) => {
+    index.viewBall(query.vertex, query.radius, { method });
+    reply({ kind: 'time', id: query.id, method, microseconds: microseconds(index, query, method) });
+  });
+}
+
+/** The sizes of all neighborhoods, in parts, so that it can be stopped. */
+async function countAll(radius: number, method: Method): Promise<void> {
+  const run = ++sizesRun;
+  const rows = 8192;
+  const sizes = new Uint32Array(index?.vertexCount ?? 0);
+  for (let begin = 0; begin < sizes.length; begin += rows) {
+    await nextTask();
+    if (run !== sizesRun || index === null) return;
+    const count = Math.min(rows, sizes.length - begin);
+    const vertices = Uint32Array.from({ length: count }, (_, i) => begin + i);
+    sizes.set(index.queryBallCount(vertices, radius, { method }), begin);
+    reply({ kind: 'progress', stage: 'Counting all neighborhoods', fraction: (begin + count) / sizes.length });
+  }
+  reply({ kind: 'sizes', radius, sizes }, [sizes.buffer]);
+}
+
+function saveIndex(): void {
+  if (index === null) return;
+  const bytes = index.save();
+  reply({ kind: 'index', bytes }, [bytes.buffer]);
+}
+
+async function handle(request: Request): Promise<void> {
+  switch (request.kind) {
+    case 'open': return open(request.source);
+    case 'query': return answer(request.query);
+    case 'time': return time(request.query);
+    case 'sizes': return countAll(request.radius, request.method);
+    case 'cancel-sizes': ++sizesRun; return;
+    case 'save-index': return saveIndex();
+  }
+}
+
+self.onmessage = ({ data: request }: MessageEvent<Request>) => {
+  handle(request).catch((error: unknown) => {
+    const message = error instanceof Error ? error.message : String(error);
+    reply({ kind: 'failed', during: request.kind === 'open' ? 'open' : 'query', message });
+  });
+};
