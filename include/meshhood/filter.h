@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "meshhood/adjacency.h"
+#include "meshhood/mesh.h"
+
+namespace meshhood {
+
+/// A set of vertices: one byte for each vertex by the caller's ids, #V in total. A byte other than 0 puts its vertex
+/// into the set. Borrowed; a temporary container is rejected by the compiler. Empty: no vertex.
+class VertexMask {
+ public:
+  VertexMask() = default;
+
+  template <BorrowedArray<std::uint8_t> Range>
+  VertexMask(Range&& bytes) : bytes_(bytes) {}
+
+  /// `std::vector<bool>` has no bytes; use `std::vector<std::uint8_t>` or an array of bool.
+  template <BorrowedArray<bool> Range>
+  VertexMask(Range&& values) : VertexMask(std::span<const bool>(values)) {}
+  VertexMask(std::span<const bool> values)
+      : bytes_(reinterpret_cast<const std::uint8_t*>(values.data()), values.size()) {}
+
+  [[nodiscard]] std::span<const std::uint8_t> bytes() const { return bytes_; }
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+};
+
+/// Restricts one search. A mask is read for the leaves that the search reaches, and not copied.
+struct Filter {
+  /// The search does not pass these vertices, and they do not belong to its answer: as if they were not in the mesh.
+  VertexMask walls = {};
+
+  /// The search passes these vertices, but they do not belong to its answer.
+  VertexMask ignored = {};
+};
+
+/// The graph without some of its edges. `build` of its view gives an index whose searches do not cross them.
+///
+/// edges  #cut by 2: the two ends of each edge, in either order; repeats are allowed.
+///
+/// Throws Error{InvalidOption} if the number of ends is odd, Error{VertexOutOfRange}, and Error{InvalidOption} if two
+/// vertices are not joined by an edge; the message names the row of `edges`. O(#E + #cut log(valence)).
+[[nodiscard]] Adjacency cut_edges(const AdjacencyView& graph, const IndicesView& edges);
+
+}  // namespace meshhood

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "meshhood/filter.h"
+#include "meshhood/index.h"
+#include "meshhood/mesh.h"
+#include "meshhood/start.h"
+
+namespace meshhood {
+
+/// One touch of a brush.
+struct Dab {
+  Start start;
+  double radius;
+};
+
+/// Finds regions by an `Index`. The *region* of a start and a radius is the set of vertices that are connected to a
+/// seed by a path of edges whose vertices, both ends included, all lie within the radius of the centre and are no
+/// walls; without the ignored vertices. For a vertex as start and no filter it is the neighborhood (see `Searcher`).
+///
+/// radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` is inside.
+/// filter  see `Filter`.
+///
+/// The same vertices on every processor. The cost grows with the number of leaves of the result. Nothing is allocated
+/// once the buffers have grown.
+///
+/// Use one object per thread: it owns scratch memory, about 64 bytes per leaf. The index must outlive it, and may be
+/// moved meanwhile.
+///
+/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}, naming the seed, the coordinate or the mask; arguments
+/// are then unchanged.
+class RegionSearcher {
+ public:
+  explicit RegionSearcher(const Index& index);
+  explicit RegionSearcher(const Index&&) = delete;
+  RegionSearcher(RegionSearcher&&) noexcept;
+  RegionSearcher& operator=(RegionSearcher&&) noexcept;
+  ~RegionSearcher();
+
+  /// out     replaced, its capacity reused: ids in no stated order, without duplicates.
+  void region(const Start& start, double radius, std::vector<VertexId>& out, const Filter& filter = {});
+
+  /// Also returns the distance of each vertex from the centre, in the order of the ids. See `distance`.
+  void region(const Start& start, double radius, std::vector<VertexId>& out, std::vector<double>& distances,
+              const Filter& filter = {});
+
+  /// The number of vertices of the region.
+  [[nodiscard]] std::size_t count(const Start& start, double radius, const Filter& filter = {});
+
+  /// The union of the regions of `dabs`, such as those of a brush stroke.
+  ///
+  /// out     replaced: ids in no stated order, without duplicates.
+  /// A message names the dab. The cost is that of the regions one by one.
+  void stroke(std::span<const Dab> dabs, std::vector<VertexId>& out, const Filter& filter = {});
+
+  /// The regions of one start for several radii, in one pass.
+  ///
+  /// radii   strictly ascending.
+  /// out     replaced: the region of the largest radius, ring by ring. Ring `i` has the vertices of the region of
+  ///         `radii[i]` that the region of `radii[i - 1]` does not have. A vertex may be near and belong to a late
+  ///         ring, because only the wider ball connects it. No stated order within a ring.
+  /// counts  replaced, one for each radius: the region of `radii[i]` is the first `counts[i]` ids of `out`.
+  void nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& out,
+              std::vector<std::size_t>& counts, const Filter& filter = {});
+
+  /// Whether the region has vertex `w`. Costs at most as much as the region, and less where the search meets `w` early.
+  [[nodiscard]] bool contains(const Start& start, VertexId w, double radius, const Filter& filter = {});
+
+  /// The smallest radius whose region has vertex `w`; infinite if there is none. It is the least, over all paths from a
+  /// seed to `w`, of the largest distance of a vertex of the path from the centre (the bottleneck of the best path).
+  ///
+  /// Costs about as much as the region of the result.
+  [[nodiscard]] double connecting_radius(const Start& start, VertexId w, const Filter& filter = {});
+
+  /// The `k` nearest connected vertices: the first `k` in the order of their connecting radii; vertices of equal
+  /// connecting radius in the order of their distances from the centre, then of their ids. So the answer for a smaller
+  /// `k` is the beginning of that for a larger one. Fewer than `k` if no more are connected.
+  ///
+  /// out     replaced: ids in that order.
+  /// radii   replaced: the connecting radius of each vertex.
+  /// O(k log k) on most surfaces.
+  void nearest_connected(const Start& start, std::size_t k, std::vector<VertexId>& out, std::vector<double>& radii,
+                         const Filter& filter = {});
+
+ private:
+  friend struct RegionAccess;
+
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace meshhood

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "meshhood/index.h"
+#include "meshhood/mesh.h"
+
+namespace meshhood {
+
+/// A point of space, in the unit of the positions.
+using SpacePoint = std::array<double, 3>;
+
+/// Where a search starts: the centre of its balls, and its seeds, the vertices from which it may go on. Borrows the
+/// seeds, which must outlive the call.
+class Start {
+ public:
+  /// Vertex `v` is the centre and the only seed.
+  Start(VertexId v) : vertex_(v) {}
+
+  /// centre  any point of space: finite, no coordinate beyond 2^500 in magnitude.
+  /// seeds   in [0, #V), in any order; repeats are allowed. A seed outside a ball does not count for that ball.
+  Start(const SpacePoint& centre, std::span<const VertexId> seeds) : centre_(centre), seeds_(seeds) {}
+
+  /// The one vertex, if there is no centre.
+  [[nodiscard]] VertexId vertex() const { return vertex_; }
+  [[nodiscard]] const std::optional<SpacePoint>& centre() const { return centre_; }
+  [[nodiscard]] std::span<const VertexId> seeds() const { return seeds_; }
+
+ private:
+  VertexId vertex_ = 0;
+  std::optional<SpacePoint> centre_;
+  std::span<const VertexId> seeds_;
+};
+
+/// The point of a face with the barycentric coordinates `weights`: the sum of each weight times its corner, added in
+/// order. With the corners as seeds it is the `Start` at that point.
+///
+/// corners  vertices of the mesh.
+/// weights  one for each corner, finite; their sum should be 1, which is not checked.
+///
+/// Throws Error{VertexOutOfRange, InvalidOption}. O(#corners).
+[[nodiscard]] SpacePoint point_on_face(const Index& index, std::span<const VertexId> corners,
+                                       std::span<const double> weights);
+
+/// A vertex and its distance from a point.
+struct NearestVertex {
+  VertexId vertex;
+  double distance;
+};
+
+/// The vertex nearest to `point`, connected or not; of several at the same distance, the one with the smallest id.
+///
+/// Throws Error{InvalidOption} if a coordinate is not finite or beyond 2^500, and Error{VertexOutOfRange} if the mesh
+/// has no vertices. O(log #V) on most surfaces. Allocates nothing; any thread.
+[[nodiscard]] NearestVertex nearest(const Index& index, const SpacePoint& point);
+
+}  // namespace meshhood

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "meshhood/error.h"
+#include "meshhood/filter.h"
+
+namespace meshhood {
+namespace {
+
+/// One end of row `row`, in [0, #V).
+template <class Index>
+VertexId checked_end(Index end, std::size_t row, std::size_t vertices) {
+  if (std::cmp_greater_equal(end, 0) && std::cmp_less(end, vertices)) return static_cast<VertexId>(end);
+  raise(ErrorCode::VertexOutOfRange, "edge " + std::to_string(row) + ": vertex " + std::to_string(end) +
+                                         ", but the mesh has " + std::to_string(vertices) + " vertices");
+}
+
+/// Marks `w` in the row of `v`. Returns whether it is there.
+bool mark(const AdjacencyView& graph, VertexId v, VertexId w, std::vector<bool>& is_cut) {
+  const auto row = graph[v];
+  const auto found = std::lower_bound(row.begin(), row.end(), w);
+  if (found == row.end() || *found != w) return false;
+  is_cut[graph.offsets[v] + static_cast<std::size_t>(found - row.begin())] = true;  // mutant: cut-goes-one-way
+  return true;
+}
+
+std::vector<bool> marked(const AdjacencyView& graph, const IndicesView& edges) {
+  std::vector<bool> is_cut(graph.neighbors.size());
+  edges.visit([&](auto ends) {
+    for (std::size_t row = 0; row < ends.size() / 2; ++row) {
+      const VertexId v = checked_end(ends[2 * row], row, graph.size());
+      const VertexId w = checked_end(ends[2 * row + 1], row, graph.size());
+      if (mark(graph, v, w, is_cut) && mark(graph, w, v, is_cut)) continue;
+      raise(ErrorCode::InvalidOption, "edge " + std::to_string(row) + ": vertices " + std::to_string(v) + " and " +
+                                          std::to_string(w) + " are not joined by an edge");
+    }
+  });
+  return is_cut;
+}
+
+}  // namespace
+
+Adjacency cut_edges(const AdjacencyView& graph, const IndicesView& edges) {
+  if (edges.size() % 2 != 0) {
+    raise(ErrorCode::InvalidOption, "edges: " + std::to_string(edges.size()) + " ends, expected two for each edge");
+  }
+  const std::vector<bool> is_cut = marked(graph, edges);
+  Adjacency result;
+  result.offsets.reserve(graph.offsets.size());
+  if (!graph.offsets.empty()) result.offsets.push_back(0);
+  for (std::size_t v = 0; v < graph.size(); ++v) {
+    for (std::size_t i = graph.offsets[v]; i < graph.offsets[v + 1]; ++i) {
+      if (!is_cut[i]) result.neighbors.push_back(graph.neighbors[i]);
+    }
+    result.offsets.push_back(static_cast<EdgeOffset>(result.neighbors.size()));
+  }
+  return result;
+}
+
+}  // namespace meshhood

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "exact/query/arguments.h"
+
+#include <cmath>
+#include <string>
+
+#include "meshhood/error.h"
+
+#include "base/text.h"
+
+namespace meshhood {
+namespace {
+
+void check_mask(const VertexMask& mask, std::size_t vertices, const char* name) {
+  const std::size_t size = mask.bytes().size();
+  if (size == 0 || size == vertices) return;
+  raise(ErrorCode::InvalidOption, std::string(name) + ": " + std::to_string(size) +
+                                      " values, expected one for each of " + std::to_string(vertices) + " vertices");
+}
+
+}  // namespace
+
+void check_point(const SpacePoint& p, std::string_view where) {
+  for (std::size_t axis = 0; axis < p.size(); ++axis) {
+    if (std::abs(p[axis]) <= kLargestCoordinate) continue;
+    raise(ErrorCode::InvalidOption, std::string(where) + "coordinate " + std::to_string(axis) + " is " +
+                                        to_text(p[axis]) + ", expected a finite number of magnitude up to 2^500");
+  }
+}
+
+void check_vertex(VertexId v, std::size_t vertices, std::string_view name) {
+  if (v < vertices) return;
+  raise(ErrorCode::VertexOutOfRange,
+        std::string(name) + " " + std::to_string(v) + ", but the mesh has " + std::to_string(vertices) + " vertices");
+}
+
+void check_start(const Start& start, std::size_t vertices, std::string_view where) {
+  const std::string prefix(where);
+  if (!start.centre()) {
+    check_vertex(start.vertex(), vertices, prefix + "vertex");
+    return;
+  }
+  check_point(*start.centre(), prefix + "centre: ");
+  for (std::size_t i = 0; i < start.seeds().size(); ++i) {
+    check_vertex(start.seeds()[i], vertices, prefix + "seed " + std::to_string(i) + ": vertex");
+  }
+}
+
+void check_filter(const Filter& filter, std::size_t vertices) {
+  check_mask(filter.walls, vertices, "walls");
+  check_mask(filter.ignored, vertices, "ignored");
+}
+
+Point position_of(const IndexView& index, VertexId v) {
+  const std::uint32_t slot = index.slot[v];
+  return index.position(leaf_of(slot), lane_of(slot));
+}
+
+}  // namespace meshhood

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "meshhood/filter.h"
+#include "meshhood/start.h"
+
+#include "base/distance.h"
+#include "exact/layout.h"
+
+/// The arguments of queries that start anywhere. Each check throws unless its argument is as the public header says;
+/// the message begins with `where`.
+namespace meshhood {
+
+/// Error{InvalidOption}: the coordinate that is not finite or too large.
+void check_point(const SpacePoint& p, std::string_view where);
+
+/// Error{VertexOutOfRange}: `name` and the vertex.
+void check_vertex(VertexId v, std::size_t vertices, std::string_view name);
+
+/// Error{InvalidOption, VertexOutOfRange}.
+void check_start(const Start& start, std::size_t vertices, std::string_view where);
+
+/// Error{InvalidOption} unless each mask is empty or has a value for each vertex.
+void check_filter(const Filter& filter, std::size_t vertices);
+
+/// The position of a vertex.
+[[nodiscard]] Point position_of(const IndexView& index, VertexId v);
+
+}  // namespace meshhood

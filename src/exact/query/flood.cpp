@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "exact/query/flood.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "base/prefetch.h"
+#include "exact/query/any_ball.h"
+
+namespace meshhood {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+Flood::Flood(const IndexView& index, const Kernels& kernels)
+    : index_(&index),
+      kernels_(&kernels),
+      centre_(index.frame, {0, 0, 0}),
+      ball_(any_ball({0, 0, 0}, 0)),
+      states_(index.leaf_count()) {}
+
+void Flood::start(const Point& centre, const LaneFilter& walls) {
+  centre_ = Centre(index_->frame, centre);
+  walls_ = &walls;
+  ball_ = any_ball(centre, 0);
+  ball_.squared_radius = -1;  // until it grows, it does not even hold its centre
+  awake_.clear();
+  sleepers_.clear();
+  reached_.clear();
+  if (++number_ == 0) {  // mutant: flood-counter-never-wraps
+    std::fill(states_.begin(), states_.end(), State{});
+    number_ = 1;
+  }
+}
+
+/// The state of a leaf, which is initialised when a flood first needs it.
+Flood::State& Flood::state_of(LeafId leaf) {
+  State& state = states_[leaf];
+  if (state.number == number_) return state;
+  const Leaf& record = index_->leaves[leaf];
+  const LaneMask walls = walls_->of(leaf);
+  state = {.number = number_,
+           .open = first_lanes(record.size) & ~walls,    // mutant: walls-are-passed
+           .connected = record.connected && walls == 0,  // mutant: leaf-with-walls-taken-whole
+           .wakes = kInfinity,
+           .squares = squared_distances(record.bounds, centre_)};
+  return state;
+}
+
+void Flood::add_seed(std::uint32_t slot) {
+  State& state = state_of(leaf_of(slot));
+  state.pending |= LaneMask{1} << lane_of(slot) & state.open;
+  if (state.pending != 0) rest(leaf_of(slot), state, state.squares.low, false);
+}
+
+/// The leaf has gained pending vertices.
+void Flood::wake_or_rest(LeafId leaf, State& state) {
+  if (state.is_awake) return;
+  if (state.squares.low > ball_.squared_radius) {
+    rest(leaf, state, state.squares.low, false);
+    return;
+  }
+  state.is_awake = true;
+  awake_.push_back(leaf);
+  const Leaf& record = index_->leaves[leaf];
+  fetch_lines(&index_->links[record.first_link], 2);
+  fetch_lines(&index_->adjacency[record.first], 2);
+  prefetch_positions(*index_, record.first, record.size);
+}
+
+/// Puts the leaf to sleep, unless it does already and wakes no later.
+void Flood::rest(LeafId leaf, State& state, double bound, bool is_exact) {
+  if (state.wakes <= bound) return;
+  state.wakes = bound;
+  state.is_exact = is_exact;
+  sleepers_.add(leaf, bound);
+}
+
+void Flood::grow(double radius, std::uint32_t target) {
+  ball_ = any_ball(centre_.exact, radius);
+  sleepers_.wake(ball_.squared_radius, [&](const Sleepers::Entry& entry) {
+    State& state = states_[entry.leaf];
+    if (state.wakes != entry.bound) return;  // it has been put to sleep again since, to wake earlier
+    state.wakes = kInfinity;
+    if (state.is_awake) return;
+    state.is_awake = true;
+    awake_.push_back(entry.leaf);
+  });
+  constexpr std::size_t kAhead = 4;
+  for (std::size_t head = 0; head < awake_.size(); ++head) {
+    if (head + kAhead < awake_.size()) prefetch_neighbors(awake_[head + kAhead]);
+    visit(awake_[head]);
+    if (target != kNoTarget && has_reached(target)) return;
+  }
+  awake_.clear();
+}
+
+void Flood::prefetch_neighbors(LeafId leaf) const {
+  for (const Link& link : index_->links_of(leaf)) {
+    prefetch(&states_[link.leaf]);
+    prefetch(&index_->leaves[link.leaf]);
+  }
+}
+
+void Flood::visit(LeafId leaf) {
+  State& state = states_[leaf];
+  const Leaf& record = index_->leaves[leaf];
+  state.is_awake = false;
+  const LaneMask added = enter(state, record);
+  if (added != 0) {
+    reached_.push_back({leaf, added});
+    expand(leaf, added);
+  }
+  // The bound is that of the ball: whatever is left is farther away.
+  if (state.reached != state.open) rest(leaf, state, ball_.squared_radius, false);  // mutant: leaf-sleeps-for-ever
+}
+
+/// Reaches what the ball now connects within the leaf. Returns the vertices added.
+LaneMask Flood::enter(State& state, const Leaf& leaf) {
+  const LaneMask from = state.reached | state.pending;
+  LaneMask now = state.open;
+  if (!state.connected || state.squares.high > ball_.squared_radius) {  // mutant: intersecting-leaf-taken-whole
+    const LaneMask inside = state.squares.high <= ball_.squared_radius
+                                ? state.open
+                                : kernels_->within(index_->positions, leaf.first, leaf.size, ball_) & state.open;
+    if ((inside & from) == 0) return 0;
+    now = kernels_->reachable(&index_->adjacency[leaf.first], inside, inside & from);
+  }
+  const LaneMask added = now & ~state.reached;
+  state.reached |= added;
+  state.pending &= ~added;
+  return added;
+}
+
+/// Makes the vertices of other leaves pending that have a neighbour among those added to this one.
+void Flood::expand(LeafId leaf, LaneMask added) {
+  for (const Link& link : index_->links_of(leaf)) {
+    if ((link.boundary & added) == 0) continue;
+    State& other = state_of(link.leaf);
+    const LaneMask open = other.open & ~(other.reached | other.pending);
+    if (open == 0) continue;
+    const LaneMask met = kernels_->cross_edges(index_->cross_edges_of(link), added) & open;
+    if (met == 0) continue;
+    other.pending |= met;
+    wake_or_rest(link.leaf, other);
+  }
+}
+
+/// The vertices that are not reached and have a neighbour that is, or are seeds.
+LaneMask Flood::border(const State& state, const Leaf& leaf) const {
+  LaneMask lanes = state.pending;
+  for_each_lane(state.reached, [&](unsigned lane) { lanes |= index_->adjacency[leaf.first + lane]; });
+  return lanes & state.open & ~state.reached;
+}
+
+double Flood::nearest_square(const Leaf& leaf, LaneMask lanes) const {
+  return std::visit([&](auto xyz) { return nearest_of(&xyz[3 * std::size_t{leaf.first}], lanes, ball_).square; },
+                    index_->positions);
+}
+
+double Flood::next_radius() {
+  while (!sleepers_.empty()) {
+    const Sleepers::Entry entry = sleepers_.first();
+    State& state = states_[entry.leaf];
+    const bool is_current = state.wakes == entry.bound;
+    if (is_current && state.is_exact) return std::sqrt(entry.bound);
+    sleepers_.remove_first();
+    if (!is_current) continue;
+    state.wakes = kInfinity;
+    const Leaf& record = index_->leaves[entry.leaf];
+    const LaneMask lanes = border(state, record);
+    if (lanes != 0) rest(entry.leaf, state, nearest_square(record, lanes), true);
+  }
+  return kInfinity;
+}
+
+bool Flood::has_reached(std::uint32_t slot) const {
+  const State& state = states_[leaf_of(slot)];
+  return state.number == number_ && (state.reached >> lane_of(slot) & 1U) != 0;
+}
+
+}  // namespace meshhood

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "exact/layout.h"
+#include "exact/query/lane_filter.h"
+#include "exact/query/sleepers.h"
+#include "exact/query/square_range.h"
+#include "exact/search/vertex_set.h"
+#include "simd/ball.h"
+#include "simd/kernels.h"
+
+namespace meshhood {
+
+/// The search of all regions: it spreads along the edges from seeds through a ball that grows, a leaf at a time, and
+/// never searches again what it has reached. A leaf that is connected and lies inside the ball is reached as a whole.
+///
+/// A leaf that the search has met, and that has vertices outside the ball, sleeps until the ball has grown.
+class Flood {
+ public:
+  Flood(const IndexView& index, const Kernels& kernels);
+
+  /// Begins around `centre`, with nothing reached. `walls` must outlive the flood.
+  void start(const Point& centre, const LaneFilter& walls);
+
+  /// Adds a seed: it is reached when the ball holds it, unless it is a wall.
+  void add_seed(std::uint32_t slot);
+
+  /// Grows the ball to `radius`, which is not smaller than before, and reaches what is connected to the seeds in it.
+  /// Ends early, and cannot go on, when it has reached the slot `target`.
+  void grow(double radius, std::uint32_t target = kNoTarget);
+  static constexpr std::uint32_t kNoTarget = 0xFFFFFFFF;
+
+  /// The smallest radius at which `grow` would reach more; infinite if it never will.
+  [[nodiscard]] double next_radius();
+
+  /// The vertices reached, in the order of time. A leaf may occur several times, with different vertices.
+  [[nodiscard]] std::span<const LeafSubset> reached() const { return reached_; }
+
+  [[nodiscard]] bool has_reached(std::uint32_t slot) const;
+
+  /// For tests: continues as if so many floods had been started before.
+  void set_number(std::uint32_t floods) { number_ = floods; }
+
+ private:
+  /// What is known of a leaf in one flood.
+  struct State {
+    std::uint32_t number = 0;  // the state is valid for this flood only
+    LaneMask open = 0;         // no walls
+    LaneMask reached = 0;
+    LaneMask pending = 0;  // not reached, with a neighbour that is, in another leaf; and seeds
+    bool connected = false;
+    bool is_awake = false;  // in the work list
+    bool is_exact = false;  // `wakes` is the squared distance of a vertex, not only a lower bound of them
+    double wakes = 0;       // its bound among the sleepers; infinite if it does not sleep
+    SquareRange squares{};  // of the distances of its vertices
+  };
+
+  State& state_of(LeafId leaf);
+  void wake_or_rest(LeafId leaf, State& state);
+  void rest(LeafId leaf, State& state, double bound, bool is_exact);
+  void visit(LeafId leaf);
+  LaneMask enter(State& state, const Leaf& leaf);
+  void expand(LeafId leaf, LaneMask added);
+  [[nodiscard]] LaneMask border(const State& state, const Leaf& leaf) const;
+  [[nodiscard]] double nearest_square(const Leaf& leaf, LaneMask lanes) const;
+  void prefetch_neighbors(LeafId leaf) const;
+
+  const IndexView* index_;
+  const Kernels* kernels_;
+  const LaneFilter* walls_ = nullptr;
+  Centre centre_;
+  LeafBall ball_;
+  std::vector<State> states_;  // by leaf
+  std::vector<LeafId> awake_;
+  Sleepers sleepers_;
+  std::vector<LeafSubset> reached_;
+  std::uint32_t number_ = 0;
+};
+
+}  // namespace meshhood

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "meshhood/filter.h"
+
+#include "exact/layout.h"
+
+namespace meshhood {
+
+/// A mask of the caller's, read a leaf at a time.
+class LaneFilter {
+ public:
+  /// No vertex.
+  LaneFilter() = default;
+
+  /// The mask has a byte for each vertex, or is empty.
+  LaneFilter(const IndexView& index, const VertexMask& mask) : index_(&index), bytes_(mask.bytes()) {}
+
+  [[nodiscard]] bool empty() const { return bytes_.empty(); }
+
+  /// The vertices of a leaf that are in the mask.
+  [[nodiscard]] LaneMask of(LeafId leaf) const {
+    if (empty()) return 0;
+    LaneMask lanes = 0;
+    const Leaf& record = index_->leaves[leaf];
+    for (unsigned lane = 0; lane < record.size; ++lane) {
+      const bool is_in = bytes_[index_->id(record.first + lane)] != 0;
+      lanes |= LaneMask{is_in} << lane;
+    }
+    return lanes;
+  }
+
+ private:
+  const IndexView* index_ = nullptr;
+  std::span<const std::uint8_t> bytes_;
+};
+
+}  // namespace meshhood

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// The region of one start and one radius: a flood that grows once.
+#include "meshhood/region.h"
+
+#include "base/distance.h"
+#include "exact/index_access.h"
+#include "exact/query/arguments.h"
+#include "exact/query/region_state.h"
+#include "exact/search/output.h"
+
+namespace meshhood {
+
+void RegionSearcher::State::check(const Start& start, std::string_view where) const {
+  check_start(start, index->vertex_count(), where);
+}
+
+void RegionSearcher::State::check(const Filter& filter) const { check_filter(filter, index->vertex_count()); }
+
+Point RegionSearcher::State::begin(const Start& start, const Filter& filter) {
+  walls = LaneFilter(*index, filter.walls);
+  ignored = LaneFilter(*index, filter.ignored);
+  answer.clear();
+  if (!start.centre()) {
+    const Point centre = position_of(*index, start.vertex());
+    flood.start(centre, walls);
+    flood.add_seed(slot(start.vertex()));
+    return centre;
+  }
+  const SpacePoint& p = *start.centre();
+  flood.start({p[0], p[1], p[2]}, walls);
+  for (const VertexId seed : start.seeds()) flood.add_seed(slot(seed));
+  return {p[0], p[1], p[2]};
+}
+
+void RegionSearcher::State::add_found(std::size_t skip) {
+  for_each_found(skip, [&](const LeafSubset& subset) { answer.add(subset); });
+}
+
+void RegionSearcher::State::write_ids_to(std::vector<VertexId>& out) const {
+  const std::size_t size = answer.count();
+  out.resize(size + kLeafCapacity);
+  write_ids(answer, *index, *kernels, out.data());
+  out.resize(size);
+}
+
+Point RegionSearcher::State::search(const Start& start, double radius, const Filter& filter) {
+  check(start);
+  check_radius(radius);
+  check(filter);
+  const Point centre = begin(start, filter);
+  flood.grow(radius);
+  add_found();
+  return centre;
+}
+
+RegionSearcher::RegionSearcher(const Index& index)
+    : state_(std::make_unique<State>(IndexAccess::view(index), best_isa())) {}
+RegionSearcher::RegionSearcher(RegionSearcher&&) noexcept = default;
+RegionSearcher& RegionSearcher::operator=(RegionSearcher&&) noexcept = default;
+RegionSearcher::~RegionSearcher() = default;
+
+void RegionSearcher::region(const Start& start, double radius, std::vector<VertexId>& out, const Filter& filter) {
+  state_->search(start, radius, filter);
+  state_->write_ids_to(out);
+}
+
+void RegionSearcher::region(const Start& start, double radius, std::vector<VertexId>& out,
+                            std::vector<double>& distances, const Filter& filter) {
+  const Point centre = state_->search(start, radius, filter);
+  // Before `out` changes: if this throws, neither has changed.
+  distances.reserve(state_->answer.count());
+  state_->write_ids_to(out);
+  distances.resize(out.size());
+  write_distances(state_->answer, *state_->index, centre, distances.data());
+}
+
+std::size_t RegionSearcher::count(const Start& start, double radius, const Filter& filter) {
+  state_->search(start, radius, filter);
+  return state_->answer.count();
+}
+
+}  // namespace meshhood

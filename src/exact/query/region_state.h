@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "meshhood/region.h"
+
+#include "exact/layout.h"
+#include "exact/query/flood.h"
+#include "exact/query/lane_filter.h"
+#include "exact/search/vertex_set.h"
+#include "simd/kernels.h"
+
+namespace meshhood {
+
+/// The scratch memory of a region searcher, and what its queries share.
+struct RegionSearcher::State {
+  const IndexView* index;
+  const Kernels* kernels;
+  Flood flood;
+  LaneFilter walls;
+  LaneFilter ignored;
+  VertexSet answer;
+  std::vector<LaneMask> seen;  // by leaf: what a stroke has found so far
+
+  State(const IndexView& view, Isa isa)
+      : index(&view), kernels(&meshhood::kernels(isa)), flood(view, *kernels), answer(view) {}
+
+  /// Throws unless the arguments of a query are valid. `where` begins the messages.
+  void check(const Start& start, std::string_view where = {}) const;
+  void check(const Filter& filter) const;
+
+  /// Begins a flood from valid arguments, with nothing reached. Returns its centre.
+  Point begin(const Start& start, const Filter& filter);
+
+  /// The slot of a vertex, whose id is valid.
+  [[nodiscard]] std::uint32_t slot(VertexId v) const { return index->slot[v]; }
+
+  [[nodiscard]] bool is_ignored(std::uint32_t slot) const {
+    return (ignored.of(leaf_of(slot)) >> lane_of(slot) & 1U) != 0;
+  }
+
+  /// Calls `f(leaf, lanes)` for the vertices that the flood has reached, except its first `skip` steps, and that are
+  /// not ignored.
+  template <class F>
+  void for_each_found(std::size_t skip, F&& f) const {
+    for (const LeafSubset& subset : flood.reached().subspan(skip)) {
+      const LaneMask lanes = subset.lanes & ~ignored.of(subset.leaf);  // mutant: ignored-vertices-are-found
+      if (lanes != 0) f(LeafSubset{subset.leaf, lanes});
+    }
+  }
+
+  /// Adds what was found to `answer`, and writes the ids of `answer`.
+  void add_found(std::size_t skip = 0);
+  void write_ids_to(std::vector<VertexId>& out) const;
+
+  /// Refills `answer` with the region, and returns its centre.
+  Point search(const Start& start, double radius, const Filter& filter);
+};
+
+/// Access to the parts of a region searcher, for tests.
+struct RegionAccess {
+  static Flood& flood(RegionSearcher& searcher) { return searcher.state_->flood; }
+  static void set_isa(RegionSearcher& searcher, Isa isa) {
+    searcher.state_ = std::make_unique<RegionSearcher::State>(*searcher.state_->index, isa);
+  }
+};
+
+}  // namespace meshhood

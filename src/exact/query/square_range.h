@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/distance.h"
+#include "base/frame.h"
+
+namespace meshhood {
+
+/// Bounds on squared distances.
+struct SquareRange {
+  double low;
+  double high;
+};
+
+/// The point from which distances are measured, in the coordinates of the mesh and of its frame.
+struct Centre {
+  Point exact;
+  Point in_frame;
+  double unit;  // the length of a unit of the frame
+
+  Centre(const Frame& frame, const Point& p) : exact(p), in_frame(frame.to_frame(p)), unit(1 / frame.scale) {}
+};
+
+/// Bounds on the squared distances, as the predicate computes them, from `centre` to the vertices in `sphere`.
+[[nodiscard]] SquareRange squared_distances(const FrameSphere& sphere, const Centre& centre);
+
+}  // namespace meshhood

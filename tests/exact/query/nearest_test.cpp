@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// The vertex nearest to a point, against a scan of all vertices.
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "meshhood/index.h"
+#include "meshhood/start.h"
+
+#include "support/draw_start.h"
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/refusal.h"
+#include "support/region_oracle.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+class NearestIn : public testing::TestWithParam<Family> {};
+
+TEST_P(NearestIn, IsTheFirstOfAScan) {
+  std::size_t points = 0;
+  for (const std::size_t vertices : {1U, 2U, 40U, 300U, 2000U}) {
+    const TestMesh mesh = make_mesh(GetParam(), vertices, vertices);
+    if (mesh.size() == 0) continue;
+    SCOPED_TRACE(mesh.name);
+    const Index index = build(mesh.view());
+    const RegionOracle oracle(mesh);
+    Random random(vertices);
+    for (std::size_t i = 0; i < scaled(60, 6); ++i, ++points) {
+      PlainStart start = draw_start(random, mesh).plain;
+      if (i % 7 == 6) start.centre = {-start.centre[1], start.centre[2], 1e30};
+      VertexId expected = 0;
+      for (VertexId v = 1; v < mesh.size(); ++v) {
+        if (oracle.distance(start, v) < oracle.distance(start, expected)) expected = v;
+      }
+      const NearestVertex found = nearest(index, start.centre);
+      ASSERT_EQ(found.distance, oracle.distance(start, expected));
+      ASSERT_EQ(oracle.distance(start, found.vertex), found.distance);
+    }
+  }
+  std::printf("%s: %zu points\n", std::string(GetParam().name).c_str(), points);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, NearestIn, testing::ValuesIn(families()), family_name);
+
+TEST(Nearest, OfSeveralIsTheOneWithTheSmallestId) {
+  const TestMesh mesh = make_grid(9, 9, false);
+  const Index index = build(mesh.view());
+  EXPECT_EQ(nearest(index, {3.5, 3.5, 0}).vertex, 30U);
+  EXPECT_EQ(nearest(index, {4, 4, 100}).vertex, 40U);
+}
+
+TEST(Nearest, RefusesAPointThatIsNotFiniteAndAMeshWithoutVertices) {
+  const TestMesh mesh = make_grid(3, 3, false);
+  const Index index = build(mesh.view());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  expect_refused(ErrorCode::InvalidOption, "point: coordinate 0 is nan",
+                 [&] { static_cast<void>(nearest(index, {nan, 0, 0})); });
+  const Index empty = build(TestMesh{}.finish(true).view());
+  expect_refused(ErrorCode::VertexOutOfRange, "no vertices", [&] { static_cast<void>(nearest(empty, {0, 0, 0})); });
+}
+
+TEST(PointOnFace, IsTheWeightedSumOfTheCorners) {
+  const TestMesh mesh = make_grid(3, 3, false);
+  const Index index = build(mesh.view());
+  const std::array<VertexId, 3> corners{0, 1, 3};
+  const SpacePoint p = point_on_face(index, corners, std::array{0.5, 0.25, 0.25});
+  const SpacePoint expected{0.25 * mesh.positions[3] + 0.25 * mesh.positions[9],
+                            0.25 * mesh.positions[4] + 0.25 * mesh.positions[10], 0};
+  EXPECT_EQ(p, expected);
+}
+
+TEST(PointOnFace, RefusesWeightsThatAreNotOneForEachCorner) {
+  const TestMesh mesh = make_grid(3, 3, false);
+  const Index index = build(mesh.view());
+  const std::array<VertexId, 3> corners{0, 1, 99};
+  expect_refused(ErrorCode::InvalidOption, "weights: 2 values",
+                 [&] { static_cast<void>(point_on_face(index, corners, std::array{0.5, 0.5})); });
+  expect_refused(ErrorCode::VertexOutOfRange, "corner 2: vertex 99",
+                 [&] { static_cast<void>(point_on_face(index, corners, std::array{0.5, 0.25, 0.25})); });
+}
+
+}  // namespace
+}  // namespace meshhood::test

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+// Regions, nested radii, membership, connecting radii and strokes, against the plain searches of the oracle on small
+// meshes of every kind.
+#include "meshhood/region.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/index.h"
+#include "meshhood/search.h"
+
+#include "exact/query/region_state.h"
+#include "support/draw_start.h"
+#include "support/exact_answer.h"
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/refusal.h"
+#include "support/region_oracle.h"
+#include "support/scale.h"
+#include "support/sorted.h"
+
+namespace meshhood::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+/// A searcher for each kernel, which take turns.
+std::vector<RegionSearcher> region_searchers(const Index& index) {
+  std::vector<RegionSearcher> searchers;
+  for (const Isa isa : available_isas()) {
+    searchers.emplace_back(index);
+    RegionAccess::set_isa(searchers.back(), isa);
+  }
+  return searchers;
+}
+
+class Regions : public testing::TestWithParam<Family> {
+ protected:
+  /// Calls `f(mesh, index, oracle, searcher, random)` for meshes of many sizes, with many starts each.
+  template <class F>
+  void for_each_case(std::size_t cases, F&& f) {
+    std::size_t count = 0;
+    for (const std::size_t vertices : {1U, 2U, 7U, 33U, 150U, 600U}) {
+      for (std::uint64_t seed = 0; seed < 2; ++seed) {
+        const TestMesh mesh = make_mesh(GetParam(), seed, vertices);
+        if (mesh.size() == 0) continue;
+        SCOPED_TRACE(mesh.name);
+        const Index index = build(mesh.view());
+        const RegionOracle oracle(mesh);
+        std::vector<RegionSearcher> searchers = region_searchers(index);
+        Random random(seed + vertices);
+        for (std::size_t i = 0; i < scaled(cases, 3); ++i, ++count) {
+          f(mesh, oracle, searchers[count % searchers.size()], random);
+          if (HasFailure()) return;
+        }
+      }
+    }
+    std::printf("%s: %zu cases\n", std::string(GetParam().name).c_str(), count);
+  }
+};
+
+/// Zero, infinity, and distances of vertices with their neighbouring numbers.
+std::vector<double> radii_of(const RegionOracle& oracle, const PlainStart& start, Random& random) {
+  std::vector<double> radii{0, kInfinity};
+  for (int i = 0; i < 3; ++i) {
+    for (const double radius : around(oracle.distance(start, random.below(oracle.graph().size())))) {
+      radii.push_back(radius);
+    }
+  }
+  return radii;
+}
+
+TEST_P(Regions, AreThoseOfAPlainSearch) {
+  for_each_case(12, [](const TestMesh& mesh, const RegionOracle& oracle, RegionSearcher& searcher, Random& random) {
+    const DrawnStart drawn = draw_start(random, mesh);
+    for (const double radius : radii_of(oracle, drawn.plain, random)) {
+      const std::vector<VertexId> expected = oracle.region(drawn.plain, radius);
+      std::vector<VertexId> ids;
+      std::vector<double> distances;
+      searcher.region(drawn.start(), radius, ids, distances, drawn.filter());
+      ASSERT_EQ(distances.size(), ids.size());
+      for (std::size_t i = 0; i < ids.size(); ++i) ASSERT_EQ(distances[i], oracle.distance(drawn.plain, ids[i]));
+      ASSERT_EQ(sorted(ids), expected) << "radius " << radius;
+      searcher.region(drawn.start(), radius, ids, drawn.filter());
+      ASSERT_EQ(sorted(ids), expected) << "radius " << radius;
+      ASSERT_EQ(searcher.count(drawn.start(), radius, drawn.filter()), expected.size());
+    }
+  });
+}
+
+TEST_P(Regions, OfNestedRadiiAreThoseOfOneRadiusEach) {
+  for_each_case(8, [](const TestMesh& mesh, const RegionOracle& oracle, RegionSearcher& searcher, Random& random) {
+    const DrawnStart drawn = draw_start(random, mesh);
+    std::vector<double> radii = radii_of(oracle, drawn.plain, random);
+    std::sort(radii.begin(), radii.end());
+    radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
+    std::vector<VertexId> ids;
+    std::vector<std::size_t> counts;
+    searcher.nested(drawn.start(), radii, ids, counts, drawn.filter());
+    ASSERT_EQ(counts.size(), radii.size());
+    ASSERT_EQ(counts.back(), ids.size());
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+      ASSERT_LE(counts[i], ids.size());
+      const auto end = ids.begin() + static_cast<std::ptrdiff_t>(counts[i]);
+      ASSERT_EQ(sorted({ids.begin(), end}), oracle.region(drawn.plain, radii[i])) << "radius " << radii[i];
+    }
+  });
+}
+
+TEST_P(Regions, ContainWhatAPlainSearchFindsFromItsConnectingRadiusOn) {
+  for_each_case(8, [](const TestMesh& mesh, const RegionOracle& oracle, RegionSearcher& searcher, Random& random) {
+    const DrawnStart drawn = draw_start(random, mesh);
+    const std::vector<double> expected = oracle.connecting_radii(drawn.plain);
+    for (int i = 0; i < 6; ++i) {
+      const auto w = static_cast<VertexId>(random.below(mesh.size()));
+      const double radius = searcher.connecting_radius(drawn.start(), w, drawn.filter());
+      ASSERT_EQ(radius, expected[w]) << "vertex " << w;
+      ASSERT_EQ(searcher.contains(drawn.start(), w, radius, drawn.filter()), radius < kInfinity) << "vertex " << w;
+      if (radius == 0) continue;
+      ASSERT_FALSE(searcher.contains(drawn.start(), w, std::nextafter(radius, 0), drawn.filter())) << "vertex " << w;
+    }
+  });
+}
+
+TEST_P(Regions, GrowByTheNearestConnectedVertices) {
+  for_each_case(6, [](const TestMesh& mesh, const RegionOracle& oracle, RegionSearcher& searcher, Random& random) {
+    const DrawnStart drawn = draw_start(random, mesh);
+    const std::vector<double> radii = oracle.connecting_radii(drawn.plain);
+    std::vector<std::uint32_t> expected = oracle.in_order(drawn.plain, radii);
+    const std::size_t k = random.below(4) == 0 ? mesh.size() + 1 : random.below(mesh.size() + 1);
+    expected.resize(std::min(k, expected.size()));
+    std::vector<VertexId> ids;
+    std::vector<double> found;
+    searcher.nearest_connected(drawn.start(), k, ids, found, drawn.filter());
+    ASSERT_EQ(ids, expected);
+    ASSERT_EQ(found.size(), ids.size());
+    for (std::size_t i = 0; i < ids.size(); ++i) ASSERT_EQ(found[i], radii[ids[i]]);
+  });
+}
+
+TEST_P(Regions, OfAStrokeAreTheirUnion) {
+  for_each_case(6, [](const TestMesh& mesh, const RegionOracle& oracle, RegionSearcher& searcher, Random& random) {
+    std::vector<DrawnStart> drawn(random.below(5));
+    std::vector<Dab> dabs;
+    std::vector<VertexId> expected;
+    for (DrawnStart& one : drawn) {
+      one = draw_start(random, mesh);
+      one.plain.walls = drawn.front().plain.walls;
+      one.plain.ignored = drawn.front().plain.ignored;
+      const double radius = oracle.distance(one.plain, random.below(mesh.size()));
+      dabs.push_back({one.start(), radius});
+      const auto part = oracle.region(one.plain, radius);
+      expected.insert(expected.end(), part.begin(), part.end());
+    }
+    expected = sorted(expected);
+    expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
+    std::vector<VertexId> ids;
+    const Filter filter =
+        drawn.empty() ? Filter{} : Filter{.walls = drawn.front().plain.walls, .ignored = drawn.front().plain.ignored};
+    searcher.stroke(dabs, ids, filter);
+    ASSERT_EQ(sorted(ids), expected);
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Regions, testing::ValuesIn(families()), family_name);
+
+/// Two sheets 0.5 apart, joined at x = 9 only.
+TestMesh folded_sheet() {
+  TestMesh mesh;
+  for (int i = 0; i < 20; ++i) {
+    for (int j = 0; j < 4; ++j) mesh.add_vertex(i < 10 ? i : 19 - i, j, i < 10 ? 0 : 0.5);
+  }
+  add_grid_faces(mesh, {.rows = 20, .regions = 4, .quads = true});
+  return mesh.finish(true);
+}
+
+TEST(Region, OfAPointOnAFaceWhoseCornersAreOutsideIsEmpty) {
+  const TestMesh mesh = make_grid(5, 5, false);
+  const Index index = build(mesh.view());
+  RegionSearcher searcher(index);
+  const std::array<VertexId, 3> corners{0, 1, 6};
+  const SpacePoint middle = point_on_face(index, corners, std::array{0.4, 0.3, 0.3});
+  std::vector<VertexId> ids{7};
+  searcher.region({middle, corners}, 0.2, ids);
+  EXPECT_THAT(ids, IsEmpty());
+  searcher.region({middle, corners}, 0.9, ids);
+  EXPECT_THAT(ids, testing::Not(IsEmpty()));
+}
+
+TEST(Region, WithoutSeedsIsEmpty) {
+  const TestMesh mesh = make_grid(5, 5, false);
+  const Index index = build(mesh.view());
+  RegionSearcher searcher(index);
+  EXPECT_EQ(searcher.count({{1, 1, 0}, {}}, 10), 0U);
+  EXPECT_EQ(searcher.connecting_radius({{1, 1, 0}, {}}, 0), kInfinity);
+}
+
+TEST(Region, KeepsAVertexThatOnlyAWiderBallConnectsForALaterRing) {
+  const TestMesh mesh = folded_sheet();
+  const Index index = build(mesh.view());
+  RegionSearcher searcher(index);
+  const VertexId above_start = 4 * 19;  // 0.5 above vertex 0
+  EXPECT_EQ(searcher.connecting_radius(VertexId{0}, above_start), std::sqrt(81 + 0.25));
+  std::vector<VertexId> ids;
+  std::vector<std::size_t> counts;
+  searcher.nested(VertexId{0}, std::array{1.0, 9.5}, ids, counts);
+  const auto place = std::find(ids.begin(), ids.end(), above_start) - ids.begin();
+  EXPECT_GE(static_cast<std::size_t>(place), counts[0]);
+  EXPECT_LT(static_cast<std::size_t>(place), ids.size());
+}
+
+TEST(Region, EndsAtWallsAndPassesIgnoredVertices) {
+  const TestMesh mesh = make_grid(9, 3, true);
+  const Index index = build(mesh.view());
+  RegionSearcher searcher(index);
+  std::vector<std::uint8_t> row(mesh.size());
+  for (VertexId v = 12; v < 15; ++v) row[v] = 1;  // the fifth of nine rows of three
+  EXPECT_EQ(searcher.count(VertexId{0}, kInfinity, {.walls = row}), 12U);
+  EXPECT_EQ(searcher.count(VertexId{0}, kInfinity, {.ignored = row}), 24U);
+  EXPECT_EQ(searcher.count(VertexId{12}, kInfinity, {.walls = row}), 0U) << "a wall is no seed";
+  EXPECT_EQ(searcher.connecting_radius(VertexId{0}, 26, {.walls = row}), kInfinity);
+}
+
+TEST(Region, IsRightAfterTheCounterOfFloodsHasWrapped) {
+  const TestMesh mesh = bumpy_grid(20);
+  const Index index = build(mesh.view());
+  RegionSearcher searcher(index);
+  Searcher plain(index);
+  std::vector<VertexId> ids;
+  searcher.region(VertexId{0}, 3.0, ids);
+  RegionAccess::flood(searcher).set_number(0xFFFFFFFE);
+  for (const VertexId v : {VertexId{5}, VertexId{6}, VertexId{399}, VertexId{7}}) {
+    EXPECT_EQ(searcher.count(v, 3.0), plain.count(v, 3.0));
+  }
+}
+
+TEST(Region, RefusesWhatItCannotAnswer) {
+  const TestMesh mesh = make_grid(3, 3, true);
+  const Index index = build(mesh.view());
+  RegionSearcher searcher(index);
+  std::vector<VertexId> ids{1, 2};
+  std::vector<std::size_t> counts{5};
+  const std::vector<VertexId> seeds{0, 9};
+  const std::vector<std::uint8_t> short_mask(8);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto ask = [&](const Start& start, double radius, const Filter& filter = {}) {
+    return [&, start, radius, filter] { searcher.region(start, radius, ids, filter); };
+  };
+  expect_refused(ErrorCode::VertexOutOfRange, "vertex 9", ask(VertexId{9}, 1));
+  expect_refused(ErrorCode::VertexOutOfRange, "seed 1: vertex 9", ask({{0, 0, 0}, seeds}, 1));
+  expect_refused(ErrorCode::InvalidOption, "coordinate 1 is nan", ask({{0, nan, 0}, {}}, 1));
+  expect_refused(ErrorCode::InvalidOption, "coordinate 2 is inf", ask({{0, 0, kInfinity}, {}}, 1));
+  expect_refused(ErrorCode::InvalidRadius, "radius -1", ask(VertexId{0}, -1));
+  expect_refused(ErrorCode::InvalidOption, "walls: 8 values", ask(VertexId{0}, 1, {.walls = short_mask}));
+  expect_refused(ErrorCode::InvalidOption, "ignored: 8 values", ask(VertexId{0}, 1, {.ignored = short_mask}));
+  expect_refused(ErrorCode::InvalidRadius, "radii: value 1",
+                 [&] { searcher.nested(VertexId{0}, std::array{1.0, 1.0}, ids, counts); });
+  expect_refused(ErrorCode::VertexOutOfRange, "dab 1: vertex 9",
+                 [&] { searcher.stroke(std::array{Dab{VertexId{0}, 1}, Dab{VertexId{9}, 1}}, ids); });
+  expect_refused(ErrorCode::VertexOutOfRange, "vertex 77",
+                 [&] { static_cast<void>(searcher.contains(VertexId{0}, 77, 1)); });
+  EXPECT_THAT(ids, ElementsAre(1, 2));
+  EXPECT_THAT(counts, ElementsAre(5));
+}
+
+}  // namespace
+}  // namespace meshhood::test

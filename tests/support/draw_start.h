@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "meshhood/filter.h"
+#include "meshhood/start.h"
+
+#include "support/random.h"
+#include "support/region_oracle.h"
+#include "support/test_mesh.h"
+
+namespace meshhood::test {
+
+/// A random start for the oracle and for the library.
+struct DrawnStart {
+  PlainStart plain;
+  bool is_vertex = false;
+  bool has_filter = false;
+
+  [[nodiscard]] Start start() const { return is_vertex ? Start(plain.seeds[0]) : Start(plain.centre, plain.seeds); }
+  [[nodiscard]] Filter filter() const {
+    return has_filter ? Filter{.walls = plain.walls, .ignored = plain.ignored} : Filter{};
+  }
+};
+
+inline std::array<double, 3> position(const TestMesh& mesh, std::size_t v) {
+  return {mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]};
+}
+
+/// Marks about one in `rarity` vertices; none if that is 0.
+inline std::vector<std::uint8_t> draw_mask(Random& random, std::size_t vertices, std::size_t rarity) {
+  std::vector<std::uint8_t> mask(vertices);
+  for (std::uint8_t& byte : mask) byte = rarity != 0 && random.below(rarity) == 0 ? 255 : 0;
+  return mask;
+}
+
+/// A vertex, a point on a face, or any point near the mesh with some seeds; without a filter, or with one. The mesh has
+/// vertices.
+inline DrawnStart draw_start(Random& random, const TestMesh& mesh) {
+  DrawnStart drawn;
+  const auto any = [&] { return static_cast<std::uint32_t>(random.below(mesh.size())); };
+  drawn.has_filter = random.below(2) == 0;
+  drawn.plain.walls = draw_mask(random, mesh.size(), drawn.has_filter ? 4 + random.below(30) : 0);
+  drawn.plain.ignored = draw_mask(random, mesh.size(), drawn.has_filter ? 3 : 0);
+  const std::uint32_t v = any();
+  drawn.plain.centre = position(mesh, v);
+  drawn.plain.seeds = {v};
+  drawn.is_vertex = random.below(3) == 0;
+  if (drawn.is_vertex) return drawn;
+  const auto other = position(mesh, any());
+  const double weight = random.uniform();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    drawn.plain.centre[axis] = (1 - weight) * drawn.plain.centre[axis] + weight * other[axis];
+  }
+  while (random.below(2) == 0) drawn.plain.seeds.push_back(any());
+  return drawn;
+}
+
+}  // namespace meshhood::test
