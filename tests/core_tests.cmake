@@ -16,7 +16,7 @@ foreach(part
     exact/cell_components exact/halfplane_polygon exact/joint_search exact/kd_order exact/leaf_nodes exact/leaves
     exact/links exact/minimum_region exact/tree exact/check exact/damage exact/file exact/index exact/verify
     exact/search_families exact/search_differential exact/search_proof exact/search_rare exact/threads
-    exact/query/nearest exact/query/region exact/query/square_range
+    exact/query/edge_search exact/query/nearest exact/query/region exact/query/square_range
     exact/search/descent exact/search/leaf_traversal exact/search/local_minima exact/search/output
     exact/search/vertex_set
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file

@@ -16,13 +16,16 @@
 ///     std::vector<meshhood::VertexId> ids;
 ///     searcher.neighborhood(42, 1.5, ids);   // the same set as breadth-first search
 ///
-/// `Searcher` is in search.h, batches over many vertices in batch.h and joint.h, visitors in searcher.h, files in
-/// io/mesh_io.h and io/index_io.h, matrices of Eigen in eigen.h. `meshhood::paper` has the same calls with the
+/// `Searcher` is in search.h, batches over many vertices in batch.h and joint.h, visitors in searcher.h, searches from any
+/// point with filters in region.h, along the edges in edge_search.h, files in io/mesh_io.h and io/index_io.h, matrices of
+/// Eigen in eigen.h. `meshhood::paper` has the same calls with the
 /// approximate neighborhoods of the paper.
 
 #include "meshhood/adjacency.h"    // IWYU pragma: export
 #include "meshhood/batch.h"        // IWYU pragma: export
+#include "meshhood/edge_search.h"  // IWYU pragma: export
 #include "meshhood/error.h"        // IWYU pragma: export
+#include "meshhood/filter.h"       // IWYU pragma: export
 #include "meshhood/fingerprint.h"  // IWYU pragma: export
 #include "meshhood/index.h"        // IWYU pragma: export
 #include "meshhood/joint.h"        // IWYU pragma: export
@@ -31,7 +34,9 @@
 #include "meshhood/paper.h"        // IWYU pragma: export
 #include "meshhood/progress.h"     // IWYU pragma: export
 #include "meshhood/reference.h"    // IWYU pragma: export
+#include "meshhood/region.h"       // IWYU pragma: export
 #include "meshhood/reorder.h"      // IWYU pragma: export
 #include "meshhood/search.h"       // IWYU pragma: export
 #include "meshhood/searcher.h"     // IWYU pragma: export
 #include "meshhood/serialize.h"    // IWYU pragma: export
+#include "meshhood/start.h"        // IWYU pragma: export

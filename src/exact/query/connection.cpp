@@ -36,7 +36,7 @@ bool RegionSearcher::contains(const Start& start, VertexId w, double radius, con
   const Point centre = state.begin(start, filter);
   const std::uint32_t slot = state.slot(w);
   if (!(squared_distance(position_of(*state.index, w), centre) <= squared_radius(radius))) return false;
-  if (state.is_ignored(slot)) return false;
+  if (state.ignored.has(w)) return false;
   state.flood.grow(radius, slot);
   return state.flood.has_reached(slot);
 }
@@ -48,7 +48,7 @@ double RegionSearcher::connecting_radius(const Start& start, VertexId w, const F
   state.check(filter);
   const Point centre = state.begin(start, filter);
   const std::uint32_t slot = state.slot(w);
-  if (state.is_ignored(slot)) return kInfinity;
+  if (state.ignored.has(w)) return kInfinity;
   // No smaller ball holds `w` itself.
   double radius = std::sqrt(squared_distance(position_of(*state.index, w), centre));
   state.flood.grow(radius, slot);

@@ -22,6 +22,9 @@ class LaneFilter {
 
   [[nodiscard]] bool empty() const { return bytes_.empty(); }
 
+  /// Whether the mask has a vertex, by the caller's id.
+  [[nodiscard]] bool has(VertexId id) const { return !empty() && bytes_[id] != 0; }
+
   /// The vertices of a leaf that are in the mask.
   [[nodiscard]] LaneMask of(LeafId leaf) const {
     if (empty()) return 0;

@@ -39,10 +39,6 @@ struct RegionSearcher::State {
   /// The slot of a vertex, whose id is valid.
   [[nodiscard]] std::uint32_t slot(VertexId v) const { return index->slot[v]; }
 
-  [[nodiscard]] bool is_ignored(std::uint32_t slot) const {
-    return (ignored.of(leaf_of(slot)) >> lane_of(slot) & 1U) != 0;
-  }
-
   /// Calls `f(leaf, lanes)` for the vertices that the flood has reached, except its first `skip` steps, and that are
   /// not ignored.
   template <class F>

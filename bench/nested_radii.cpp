@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Eight nested radii in one pass beside eight queries, on one thread, in turn. Microseconds for each vertex, and the
+// ratio.
+//
+//   nested_radii MESH [LARGEST RADIUS IN MEAN EDGES...]
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "meshhood/meshhood.h"
+
+#include "measure/timing.h"
+#include "mesh_argument.h"
+
+namespace meshhood::bench {
+namespace {
+
+constexpr int kRounds = 5;
+constexpr std::size_t kRadii = 8;
+constexpr std::size_t kVertices = 300;
+
+/// Processor time of the fastest round, in microseconds a vertex.
+template <class F>
+void measure_round(double& least, F&& f) {
+  const double start = measure::processor_time();
+  f();
+  least = std::min(least, 1e6 * (measure::processor_time() - start) / kVertices);
+}
+
+class NestedRadii {
+ public:
+  explicit NestedRadii(const MeshView& mesh) : index_(build(mesh)), single_(index_), nested_(index_) {
+    const GraphData graph = extract_graph(index_);
+    mean_edge_ = mean_edge_length(graph.view());
+    for (std::size_t i = 0; i < kVertices; ++i) {
+      vertices_.push_back(static_cast<VertexId>(i * (index_.vertex_count() - 1) / kVertices));
+    }
+  }
+
+  void run(double edges) {
+    std::vector<double> radii;
+    for (std::size_t i = 1; i <= kRadii; ++i) radii.push_back(edges * mean_edge_ * static_cast<double>(i) / kRadii);
+    double one_by_one = std::numeric_limits<double>::infinity();
+    double at_once = std::numeric_limits<double>::infinity();
+    std::vector<VertexId> ids;
+    std::vector<std::size_t> counts;
+    std::size_t found = 0;
+    std::size_t found_at_once = 0;
+    for (int round = 0; round < kRounds; ++round) {
+      found = found_at_once = 0;
+      measure_round(one_by_one, [&] {
+        for (const VertexId v : vertices_) {
+          for (const double radius : radii) {
+            single_.neighborhood(v, radius, ids);
+            found += ids.size();
+          }
+        }
+      });
+      measure_round(at_once, [&] {
+        for (const VertexId v : vertices_) {
+          nested_.nested(v, radii, ids, counts);
+          for (const std::size_t count : counts) found_at_once += count;
+        }
+      });
+    }
+    std::printf("%6.4g %10.0f %12.2f %12.2f %8.2f%s\n", edges, static_cast<double>(found) / kVertices, one_by_one,
+                at_once, one_by_one / at_once, found == found_at_once ? "" : "  DIFFERENT COUNTS");
+    std::fflush(stdout);
+  }
+
+ private:
+  Index index_;
+  Searcher single_;
+  RegionSearcher nested_;
+  double mean_edge_ = 0;
+  std::vector<VertexId> vertices_;
+};
+
+int run(std::span<char*> arguments) {
+  if (arguments.size() < 2) {
+    std::fprintf(stderr, "usage: nested_radii MESH [LARGEST RADIUS IN MEAN EDGES...]\n");
+    return 2;
+  }
+  const MeshArgument mesh(arguments[1]);
+  NestedRadii nested(mesh.view());
+  std::printf("%6s %10s %12s %12s %8s\n", "edges", "vertices", "8 queries us", "nested us", "ratio");
+  std::vector<double> edges{20, 65};
+  if (arguments.size() > 2) edges.clear();
+  for (const char* argument : arguments.subspan(2)) edges.push_back(std::stod(argument));
+  for (const double radius : edges) nested.run(radius);
+  return 0;
+}
+
+}  // namespace
+}  // namespace meshhood::bench
+
+int main(int argc, char** argv) {
+  try {
+    return meshhood::bench::run({argv, static_cast<std::size_t>(argc)});
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "nested_radii: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/tuple.h>
+
+#include "meshhood/filter.h"
+#include "meshhood/start.h"
+
+#include "arrays.h"
+#include "bindings.h"
+#include "interpreter.h"
+#include "queries.h"
+
+namespace nb = nanobind;
+
+namespace meshhood::python {
+namespace {
+
+using Seeds = nb::ndarray<const std::int32_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
+using SeedRows = nb::ndarray<const std::int32_t, nb::shape<-1, -1>, nb::c_contig, nb::device::cpu>;
+using Points = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+using Reals = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
+using Mask = std::optional<nb::ndarray<const std::uint8_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>>;
+
+VertexMask mask_of(const Mask& mask) { return mask ? VertexMask(std::span(mask->data(), mask->size())) : VertexMask(); }
+
+Filter filter_of(const Mask& walls, const Mask& ignored) { return {mask_of(walls), mask_of(ignored)}; }
+
+std::span<const VertexId> ids_of(const std::int32_t* first, std::size_t count) {
+  return {reinterpret_cast<const VertexId*>(first), count};
+}
+
+Start start_of(const SpacePoint& centre, const Seeds& seeds) { return {centre, ids_of(seeds.data(), seeds.size())}; }
+
+SpacePoint point_of(const Points& points, std::size_t i) {
+  return {points.data()[3 * i], points.data()[3 * i + 1], points.data()[3 * i + 2]};
+}
+
+auto region(Queries& queries, const SpacePoint& centre, const Seeds& seeds, double radius, const Mask& walls,
+            const Mask& ignored) {
+  std::vector<VertexId> ids;
+  std::vector<double> distances;
+  queries.with_regions([&](RegionSearcher& searcher) {
+    searcher.region(start_of(centre, seeds), radius, ids, distances, filter_of(walls, ignored));
+    return true;
+  });
+  return std::pair(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(distances)));
+}
+
+/// Seeds that do not exist are -1.
+Output<std::int32_t> stroke(Queries& queries, const Points& centres, const SeedRows& seeds, const Reals& radii,
+                            const Mask& walls, const Mask& ignored) {
+  std::vector<VertexId> ids;
+  queries.with_regions([&](RegionSearcher& searcher) {
+    std::vector<Dab> dabs;
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+      const std::int32_t* const row = seeds.data() + i * seeds.shape(1);
+      std::size_t count = 0;
+      while (count < seeds.shape(1) && row[count] >= 0) ++count;
+      dabs.push_back({{point_of(centres, i), ids_of(row, count)}, radii.data()[i]});
+    }
+    searcher.stroke(dabs, ids, filter_of(walls, ignored));
+    return true;
+  });
+  return owned<std::int32_t>(std::move(ids));
+}
+
+auto nested(Queries& queries, const SpacePoint& centre, const Seeds& seeds, const Reals& radii, const Mask& walls,
+            const Mask& ignored) {
+  std::vector<VertexId> ids;
+  std::vector<std::size_t> counts;
+  queries.with_regions([&](RegionSearcher& searcher) {
+    searcher.nested(start_of(centre, seeds), std::span(radii.data(), radii.size()), ids, counts,
+                    filter_of(walls, ignored));
+    return true;
+  });
+  return std::pair(owned<std::int64_t>(std::move(counts)), owned<std::int32_t>(std::move(ids)));
+}
+
+bool contains(Queries& queries, const SpacePoint& centre, const Seeds& seeds, VertexId w, double radius,
+              const Mask& walls, const Mask& ignored) {
+  return queries.with_regions([&](RegionSearcher& searcher) {
+    return searcher.contains(start_of(centre, seeds), w, radius, filter_of(walls, ignored));
+  });
+}
+
+double connecting_radius(Queries& queries, const SpacePoint& centre, const Seeds& seeds, VertexId w, const Mask& walls,
+                         const Mask& ignored) {
+  return queries.with_regions([&](RegionSearcher& searcher) {
+    return searcher.connecting_radius(start_of(centre, seeds), w, filter_of(walls, ignored));
+  });
+}
+
+auto nearest_connected(Queries& queries, const SpacePoint& centre, const Seeds& seeds, std::size_t k, const Mask& walls,
+                       const Mask& ignored) {
+  std::vector<VertexId> ids;
+  std::vector<double> radii;
+  queries.with_regions([&](RegionSearcher& searcher) {
+    searcher.nearest_connected(start_of(centre, seeds), k, ids, radii, filter_of(walls, ignored));
+    return true;
+  });
+  return std::pair(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(radii)));
+}
+
+auto along_edges(Queries& queries, VertexId v, double radius, const Mask& walls, const Mask& ignored) {
+  std::vector<VertexId> ids;
+  std::vector<double> distances;
+  queries.with_edges([&](EdgeSearcher& searcher) {
+    searcher.neighborhood(v, radius, ids, distances, filter_of(walls, ignored));
+    return true;
+  });
+  return std::pair(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(distances)));
+}
+
+auto rings(Queries& queries, VertexId v, std::size_t k, const Mask& walls, const Mask& ignored) {
+  std::vector<VertexId> ids;
+  std::vector<std::size_t> counts;
+  queries.with_edges([&](EdgeSearcher& searcher) {
+    searcher.rings(v, k, ids, counts, filter_of(walls, ignored));
+    return true;
+  });
+  return std::pair(owned<std::int64_t>(std::move(counts)), owned<std::int32_t>(std::move(ids)));
+}
+
+auto nearest_vertices(Queries& queries, const Points& points) {
+  std::vector<VertexId> ids;
+  std::vector<double> distances;
+  without_lock([&] {
+    for (std::size_t i = 0; i < points.shape(0); ++i) {
+      const NearestVertex found = nearest(queries.index(), point_of(points, i));
+      ids.push_back(found.vertex);
+      distances.push_back(found.distance);
+    }
+  });
+  return std::pair(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(distances)));
+}
+
+SpacePoint position(const Queries& queries, VertexId v) {
+  return point_on_face(queries.index(), std::array{v}, std::array{1.0});
+}
+
+}  // namespace
+
+void bind_queries(nb::module_& module) {
+  const auto walls = nb::arg("walls").none();
+  const auto ignored = nb::arg("ignored").none();
+  nb::class_<Queries>(module, "Queries")
+      .def("region", &region, nb::arg(), nb::arg(), nb::arg(), walls, ignored)
+      .def("stroke", &stroke, nb::arg(), nb::arg(), nb::arg(), walls, ignored)
+      .def("nested", &nested, nb::arg(), nb::arg(), nb::arg(), walls, ignored)
+      .def("contains", &contains, nb::arg(), nb::arg(), nb::arg(), nb::arg(), walls, ignored)
+      .def("connecting_radius", &connecting_radius, nb::arg(), nb::arg(), nb::arg(), walls, ignored)
+      .def("nearest_connected", &nearest_connected, nb::arg(), nb::arg(), nb::arg(), walls, ignored)
+      .def("along_edges", &along_edges, nb::arg(), nb::arg(), walls, ignored)
+      .def("rings", &rings, nb::arg(), nb::arg(), walls, ignored)
+      .def("nearest", &nearest_vertices, nb::arg())
+      .def("position", &position, nb::arg());
+  module.def("queries", [](std::shared_ptr<ExactMethod> exact) { return std::make_shared<Queries>(std::move(exact)); });
+}
+
+}  // namespace meshhood::python

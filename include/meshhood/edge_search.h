@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "meshhood/filter.h"
+#include "meshhood/index.h"
+#include "meshhood/mesh.h"
+#include "meshhood/searcher.h"
+
+namespace meshhood {
+
+/// Finds vertices by their way along the edges, by an `Index`. The *path distance* of a vertex `w` from `v` is the
+/// least length of a path of edges from `v` to `w`. The length of an edge is the distance of its ends (see `distance`);
+/// the length of a path is the sum of those of its edges, added in double in the order of the path. This sum never
+/// decreases where a summand grows, so that the algorithm of Dijkstra (1959) finds the least of them to the last bit.
+///
+/// v       in [0, #V).
+/// radius  >= 0 or infinite, in the unit of the positions; a vertex whose path distance is exactly `radius` is inside.
+/// filter  see `Filter`: paths do not pass walls.
+///
+/// O(n log n) for a result of n vertices. Nothing is allocated once the buffers have grown.
+///
+/// Use one object per thread: it owns scratch memory, about 9 bytes per vertex. The index must outlive it, and may be
+/// moved meanwhile. It is a `NeighborhoodSearcher`.
+///
+/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}; arguments are then unchanged.
+class EdgeSearcher {
+ public:
+  explicit EdgeSearcher(const Index& index);
+  explicit EdgeSearcher(const Index&&) = delete;
+  EdgeSearcher(EdgeSearcher&&) noexcept;
+  EdgeSearcher& operator=(EdgeSearcher&&) noexcept;
+  ~EdgeSearcher();
+
+  /// #V.
+  [[nodiscard]] std::size_t vertex_count() const;
+
+  /// That of the index.
+  [[nodiscard]] std::span<const VertexId> permutation() const;
+
+  /// out     replaced, its capacity reused: the vertices whose path distance is at most `radius`, ascending by path
+  ///         distance, `v` first.
+  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, const Filter& filter = {});
+
+  /// Also returns the path distance of each vertex, in the order of the ids.
+  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances,
+                    const Filter& filter = {});
+
+  /// The number of these vertices.
+  [[nodiscard]] std::size_t count(VertexId v, double radius, const Filter& filter = {});
+
+  /// The same vertices as ranges in index order. In no stated order, disjoint, none empty; valid until the next call.
+  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius, const Filter& filter = {});
+
+  /// The vertices that at most `k` edges separate from `v`, ring by ring: ring `i` has those whose shortest path has
+  /// exactly `i` edges.
+  ///
+  /// out     replaced: the ids, in no stated order within a ring.
+  /// counts  replaced: the first `counts[i]` ids are at most `i` edges away. It ends with the last ring that is not
+  ///         empty, or with ring `k`; it is empty if `v` is a wall.
+  /// O(n) for a result of n vertices.
+  void rings(VertexId v, std::size_t k, std::vector<VertexId>& out, std::vector<std::size_t>& counts,
+             const Filter& filter = {});
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace meshhood

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "meshhood/mesh.h"
+#include "meshhood/start.h"
+
+namespace meshhood {
+
+/// Which faces belong to a set of vertices: those with all corners in it, or with any.
+enum class Corners : std::uint8_t { All, Any };
+
+/// Some faces of a mesh, as a mesh of their own.
+struct Submesh {
+  std::vector<VertexId> vertices;  ///< its vertices by their ids in the whole mesh, ascending: the corners of its faces
+  std::vector<std::size_t> faces;  ///< its faces by their numbers in the whole mesh, ascending
+  std::vector<std::uint64_t>
+      offsets;                    ///< #faces + 1: face `i` has the corners from `offsets[i]` to `offsets[i + 1] - 1`
+  std::vector<VertexId> corners;  ///< as positions in `vertices`; in the order of the whole mesh
+};
+
+/// The lines along which a surface leaves a ball.
+struct Rim {
+  std::vector<SpacePoint> points;              ///< of all polylines, one after the other
+  std::vector<std::array<VertexId, 2>> edges;  ///< of each point: the end of its edge inside the region, and the other
+  std::vector<std::size_t> offsets;            ///< #polylines + 1: the first point of each polyline
+  std::vector<std::uint8_t> closed;            ///< of each polyline, 1: a loop, whose last point is joined to its first
+
+  /// The number of polylines.
+  [[nodiscard]] std::size_t size() const { return closed.size(); }
+};
+
+/// Makes meshes and outlines of the regions of a mesh, for drawing, remeshing and patches. Owns the faces and, for each
+/// vertex, the list of its faces: about 24 bytes per corner. The positions are borrowed, and must outlive it.
+///
+/// ids     vertices in [0, #V), in any order; repeats are allowed.
+/// A call costs O(k log k), where k is the number of corners of the faces around `ids`. Use one object per thread: it
+/// owns 4 bytes of scratch memory per vertex.
+///
+/// Throws Error{VertexOutOfRange}, naming the position in `ids`.
+class RegionMesher {
+ public:
+  /// Throws Error{InvalidMesh, TooLarge}. O(#V + #corners).
+  explicit RegionMesher(const MeshView& mesh);
+  RegionMesher(RegionMesher&&) noexcept;
+  RegionMesher& operator=(RegionMesher&&) noexcept;
+  ~RegionMesher();
+
+  /// #V, #F.
+  [[nodiscard]] std::size_t vertex_count() const;
+  [[nodiscard]] std::size_t face_count() const;
+
+  /// The faces whose corners lie in `ids`, all or any, ascending. A face without corners belongs to none.
+  [[nodiscard]] std::vector<std::size_t> faces(std::span<const VertexId> ids, Corners corners = Corners::All);
+
+  /// These faces as a mesh. Its positions are those of `vertices`.
+  [[nodiscard]] Submesh submesh(std::span<const VertexId> ids, Corners corners = Corners::All);
+
+  /// Where the surface leaves a region: `ids` is the region of `centre` and `radius` (see `RegionSearcher`).
+  ///
+  /// A point of the rim lies on an edge from a vertex of `ids` to one that is not, where the edge leaves the ball: its
+  /// distance from `centre` is `radius` up to the rounding of its coordinates. If the outer end lies inside the ball,
+  /// as a wall does, the point is that end. A face joins the two points between which its boundary leaves the region
+  /// and comes back. Where two of these segments meet, they belong to one polyline; where one, three or more meet, as
+  /// on the border of a mesh or at a non-manifold edge, polylines end. On a manifold mesh without border, all polylines
+  /// are loops. On consistently oriented faces the region lies to the left, seen from the side on which their corners
+  /// run counterclockwise.
+  ///
+  /// A face with fewer than three corners is no surface and adds nothing. Polylines, and the first point of a loop,
+  /// come in a fixed order for each set of `ids`.
+  ///
+  /// Throws also Error{InvalidRadius}, and Error{InvalidOption} if a coordinate of `centre` is not finite or a vertex
+  /// of `ids` at the rim lies outside the ball.
+  [[nodiscard]] Rim rim(std::span<const VertexId> ids, const SpacePoint& centre, double radius);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace meshhood

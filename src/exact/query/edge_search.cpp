@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "meshhood/edge_search.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/distance.h"
+#include "exact/index_access.h"
+#include "exact/query/arguments.h"
+#include "exact/query/path_search.h"
+#include "exact/query/ring_search.h"
+#include "exact/search/output.h"
+#include "exact/search/vertex_set.h"
+
+namespace meshhood {
+
+/// The scratch memory of an edge searcher.
+struct EdgeSearcher::State {
+  const IndexView* index;
+  const Kernels* kernels;
+  PathSearch paths;
+  RingSearch rings;
+  VertexSet answer;                 // of `rings`
+  std::vector<VertexRange> ranges;  // of the last call of that name
+
+  explicit State(const IndexView& view)
+      : index(&view), kernels(&meshhood::kernels(best_isa())), paths(view), rings(view, *kernels), answer(view) {}
+
+  /// Finds the vertices, those that are ignored included.
+  void search(VertexId v, double radius, const Filter& filter) {
+    check_query(v, index->vertex_count(), radius);
+    check_filter(filter, index->vertex_count());
+    paths.run(index->slot[v], radius, LaneFilter(*index, filter.walls));
+  }
+
+  /// Calls `f(slot, length)` for the vertices found that are not ignored.
+  template <class F>
+  void for_each_found(const Filter& filter, F&& f) const {
+    const LaneFilter ignored(*index, filter.ignored);
+    for (const PathSearch::Found& found : paths.found()) {
+      if (!ignored.has(index->id(position(found.slot)))) f(found);
+    }
+  }
+
+  /// In index order.
+  [[nodiscard]] std::size_t position(std::uint32_t slot) const {
+    return std::size_t{index->leaf_begin[leaf_of(slot)]} + lane_of(slot);
+  }
+};
+
+EdgeSearcher::EdgeSearcher(const Index& index) : state_(std::make_unique<State>(IndexAccess::view(index))) {}
+EdgeSearcher::EdgeSearcher(EdgeSearcher&&) noexcept = default;
+EdgeSearcher& EdgeSearcher::operator=(EdgeSearcher&&) noexcept = default;
+EdgeSearcher::~EdgeSearcher() = default;
+
+std::size_t EdgeSearcher::vertex_count() const { return state_->index->vertex_count(); }
+
+std::span<const VertexId> EdgeSearcher::permutation() const {
+  const std::span<const VertexId> padded = state_->index->permutation;
+  return padded.empty() ? padded : padded.first(vertex_count());
+}
+
+void EdgeSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, const Filter& filter) {
+  state_->search(v, radius, filter);
+  out.reserve(state_->paths.found().size());
+  out.clear();
+  state_->for_each_found(
+      filter, [&](const PathSearch::Found& found) { out.push_back(state_->index->id(state_->position(found.slot))); });
+}
+
+void EdgeSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances,
+                                const Filter& filter) {
+  state_->search(v, radius, filter);
+  // Before either changes: if this throws, neither has changed.
+  out.reserve(state_->paths.found().size());
+  distances.reserve(state_->paths.found().size());
+  out.clear();
+  distances.clear();
+  state_->for_each_found(filter, [&](const PathSearch::Found& found) {
+    out.push_back(state_->index->id(state_->position(found.slot)));
+    distances.push_back(found.length);
+  });
+}
+
+std::size_t EdgeSearcher::count(VertexId v, double radius, const Filter& filter) {
+  state_->search(v, radius, filter);
+  std::size_t count = 0;
+  state_->for_each_found(filter, [&](const PathSearch::Found&) { ++count; });
+  return count;
+}
+
+std::span<const VertexRange> EdgeSearcher::ranges(VertexId v, double radius, const Filter& filter) {
+  state_->search(v, radius, filter);
+  std::vector<VertexRange>& ranges = state_->ranges;
+  std::vector<VertexId> positions;
+  state_->for_each_found(filter, [&](const PathSearch::Found& found) {
+    positions.push_back(static_cast<VertexId>(state_->position(found.slot)));
+  });
+  std::sort(positions.begin(), positions.end());
+  ranges.clear();
+  for (const VertexId i : positions) {
+    if (ranges.empty() || ranges.back().end != i) ranges.push_back({i, i});
+    ++ranges.back().end;
+  }
+  return ranges;
+}
+
+void EdgeSearcher::rings(VertexId v, std::size_t k, std::vector<VertexId>& out, std::vector<std::size_t>& counts,
+                         const Filter& filter) {
+  State& state = *state_;
+  check_query(v, vertex_count(), 0);
+  check_filter(filter, vertex_count());
+  const LaneFilter walls(*state.index, filter.walls);
+  const LaneFilter ignored(*state.index, filter.ignored);
+  state.answer.clear();
+  std::vector<std::size_t> sizes;
+  for (state.rings.start(state.index->slot[v], walls); !state.rings.ring().empty(); state.rings.advance()) {
+    for (const LeafSubset& subset : state.rings.ring()) {
+      state.answer.add(LeafSubset{subset.leaf, subset.lanes & ~ignored.of(subset.leaf)});
+    }
+    sizes.push_back(state.answer.count());
+    if (sizes.size() > k) break;
+  }
+  const std::size_t size = state.answer.count();
+  out.resize(size + kLeafCapacity);
+  write_ids(state.answer, *state.index, *state.kernels, out.data());
+  out.resize(size);
+  counts = std::move(sizes);
+}
+
+}  // namespace meshhood
