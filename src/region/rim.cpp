@@ -23,12 +23,12 @@ namespace meshhood {
 namespace {
 
 /// An edge that leaves the region: its end inside, and its end outside.
-using Exit = std::array<VertexId, 2>;
+using RimEdge = std::array<VertexId, 2>;
 
 /// The two exits that a face joins, in the direction that has the region on its left.
 struct ExitPair {
-  Exit from;
-  Exit to;
+  RimEdge from;
+  RimEdge to;
 };
 
 /// Adds a pair for each run of corners inside: where the boundary of the face leaves after it, and where it has come
@@ -47,17 +47,17 @@ void add_exits(std::span<const VertexId> corners, IsInside&& is_inside, std::vec
   }
 }
 
-std::vector<Exit> distinct_exits(std::span<const ExitPair> pairs) {
-  std::vector<Exit> exits;
+std::vector<RimEdge> distinct_exits(std::span<const ExitPair> pairs) {
+  std::vector<RimEdge> exits;
   for (const ExitPair& pair : pairs) exits.insert(exits.end(), {pair.from, pair.to});
   std::sort(exits.begin(), exits.end());
   exits.erase(std::unique(exits.begin(), exits.end()), exits.end());
   return exits;
 }
 
-std::vector<Segment> segments_of(std::span<const ExitPair> pairs, const std::vector<Exit>& exits) {
-  const auto number = [&](const Exit& exit) {
-    return static_cast<std::uint32_t>(std::lower_bound(exits.begin(), exits.end(), exit) - exits.begin());
+std::vector<Segment> segments_of(std::span<const ExitPair> pairs, const std::vector<RimEdge>& exits) {
+  const auto number = [&](const RimEdge& edge) {
+    return static_cast<std::uint32_t>(std::lower_bound(exits.begin(), exits.end(), edge) - exits.begin());
   };
   std::vector<Segment> segments;
   for (const ExitPair& pair : pairs) segments.push_back({number(pair.from), number(pair.to)});
@@ -76,7 +76,7 @@ Rim RegionMesher::rim(std::span<const VertexId> ids, const SpacePoint& centre, d
     const auto corners = state_->lists.corners(face);
     if (corners.size() >= 3) add_exits(corners, is_inside, pairs);
   }
-  const std::vector<Exit> exits = distinct_exits(pairs);
+  const std::vector<RimEdge> exits = distinct_exits(pairs);
   const Point middle{centre[0], centre[1], centre[2]};
   std::vector<SpacePoint> points;
   for (const auto& [inner, outer] : exits) {

@@ -14,13 +14,13 @@
 namespace meshhood {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoRadius = std::numeric_limits<double>::infinity();
 
-struct Candidate {
+struct NextVertex {
   double distance;
   VertexId vertex;
 
-  friend bool operator<(const Candidate& a, const Candidate& b) {
+  friend bool operator<(const NextVertex& a, const NextVertex& b) {
     return std::tie(a.distance, a.vertex) < std::tie(b.distance, b.vertex);
   }
 };
@@ -48,13 +48,13 @@ double RegionSearcher::connecting_radius(const Start& start, VertexId w, const F
   state.check(filter);
   const Point centre = state.begin(start, filter);
   const std::uint32_t slot = state.slot(w);
-  if (state.ignored.has(w)) return kInfinity;
+  if (state.ignored.has(w)) return kNoRadius;
   // No smaller ball holds `w` itself.
   double radius = std::sqrt(squared_distance(position_of(*state.index, w), centre));
   state.flood.grow(radius, slot);
   while (!state.flood.has_reached(slot)) {
     radius = state.flood.next_radius();
-    if (radius == kInfinity) return kInfinity;
+    if (radius == kNoRadius) return kNoRadius;
     state.flood.grow(radius, slot);
   }
   return radius;
@@ -68,10 +68,10 @@ void RegionSearcher::nearest_connected(const Start& start, std::size_t k, std::v
   const Point centre = state.begin(start, filter);
   std::vector<VertexId> ids;
   std::vector<double> found_radii;
-  std::vector<Candidate> ring;
+  std::vector<NextVertex> ring;
   while (ids.size() < k) {
     const double radius = state.flood.next_radius();
-    if (radius == kInfinity) break;
+    if (radius == kNoRadius) break;
     const std::size_t before = state.flood.reached().size();
     state.flood.grow(radius);
     ring.clear();

@@ -10,11 +10,6 @@
 #include "exact/query/any_ball.h"
 
 namespace meshhood {
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 Flood::Flood(const IndexView& index, const Kernels& kernels)
     : index_(&index),
@@ -46,7 +41,7 @@ Flood::State& Flood::state_of(LeafId leaf) {
   state = {.number = number_,
            .open = first_lanes(record.size) & ~walls,    // mutant: walls-are-passed
            .connected = record.connected && walls == 0,  // mutant: leaf-with-walls-taken-whole
-           .wakes = kInfinity,
+           .wakes = std::numeric_limits<double>::infinity(),
            .squares = squared_distances(record.bounds, centre_)};
   return state;
 }
@@ -85,7 +80,7 @@ void Flood::grow(double radius, std::uint32_t target) {
   sleepers_.wake(ball_.squared_radius, [&](const Sleepers::Entry& entry) {
     State& state = states_[entry.leaf];
     if (state.wakes != entry.bound) return;  // it has been put to sleep again since, to wake earlier
-    state.wakes = kInfinity;
+    state.wakes = std::numeric_limits<double>::infinity();
     if (state.is_awake) return;
     state.is_awake = true;
     awake_.push_back(entry.leaf);
@@ -123,7 +118,7 @@ void Flood::visit(LeafId leaf) {
 LaneMask Flood::enter(State& state, const Leaf& leaf) {
   const LaneMask from = state.reached | state.pending;
   LaneMask now = state.open;
-  if (!state.connected || state.squares.high > ball_.squared_radius) {  // mutant: intersecting-leaf-taken-whole
+  if (!is_whole(state)) {
     const LaneMask inside = state.squares.high <= ball_.squared_radius
                                 ? state.open
                                 : kernels_->within(index_->positions, leaf.first, leaf.size, ball_) & state.open;
@@ -143,7 +138,9 @@ void Flood::expand(LeafId leaf, LaneMask added) {
     State& other = state_of(link.leaf);
     const LaneMask open = other.open & ~(other.reached | other.pending);
     if (open == 0) continue;
-    const LaneMask met = kernels_->cross_edges(index_->cross_edges_of(link), added) & open;
+    // Of a leaf that the ball takes whole, one vertex is as good as all.
+    const LaneMask met = is_whole(other) ? open  // mutant: intersecting-leaf-met-whole
+                                         : kernels_->cross_edges(index_->cross_edges_of(link), added) & open;
     if (met == 0) continue;
     other.pending |= met;
     wake_or_rest(link.leaf, other);
@@ -170,12 +167,12 @@ double Flood::next_radius() {
     if (is_current && state.is_exact) return std::sqrt(entry.bound);
     sleepers_.remove_first();
     if (!is_current) continue;
-    state.wakes = kInfinity;
+    state.wakes = std::numeric_limits<double>::infinity();
     const Leaf& record = index_->leaves[entry.leaf];
     const LaneMask lanes = border(state, record);
     if (lanes != 0) rest(entry.leaf, state, nearest_square(record, lanes), true);
   }
-  return kInfinity;
+  return std::numeric_limits<double>::infinity();
 }
 
 bool Flood::has_reached(std::uint32_t slot) const {

@@ -60,6 +60,11 @@ class Flood {
     SquareRange squares{};  // of the distances of its vertices
   };
 
+  /// Whether the ball holds all vertices of the leaf, and they are connected.
+  [[nodiscard]] bool is_whole(const State& state) const {
+    return state.connected && state.squares.high <= ball_.squared_radius;  // mutant: intersecting-leaf-taken-whole
+  }
+
   State& state_of(LeafId leaf);
   void wake_or_rest(LeafId leaf, State& state);
   void rest(LeafId leaf, State& state, double bound, bool is_exact);

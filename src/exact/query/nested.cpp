@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The regions of one start for several radii: one flood that grows from each radius to the next.
+#include <bit>
 #include <cstddef>
 #include <string>
+#include <utility>
 
 #include "meshhood/error.h"
 
@@ -33,11 +35,15 @@ void RegionSearcher::nested(const Start& start, std::span<const double> radii, s
   state.begin(start, filter);
   std::vector<std::size_t> sizes;
   sizes.reserve(radii.size());
+  std::size_t size = 0;
   for (const double radius : radii) {
     const std::size_t before = state.flood.reached().size();
     state.flood.grow(radius);
-    state.add_found(before);
-    sizes.push_back(state.answer.count());
+    state.for_each_found(before, [&](const LeafSubset& subset) {
+      state.answer.add(subset);
+      size += static_cast<std::size_t>(std::popcount(subset.lanes));
+    });
+    sizes.push_back(size);
   }
   state.write_ids_to(out);
   counts = std::move(sizes);

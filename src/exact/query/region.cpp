@@ -32,8 +32,8 @@ Point RegionSearcher::State::begin(const Start& start, const Filter& filter) {
   return {p[0], p[1], p[2]};
 }
 
-void RegionSearcher::State::add_found(std::size_t skip) {
-  for_each_found(skip, [&](const LeafSubset& subset) { answer.add(subset); });
+void RegionSearcher::State::add_found() {
+  for_each_found(0, [&](const LeafSubset& subset) { answer.add(subset); });
 }
 
 void RegionSearcher::State::write_ids_to(std::vector<VertexId>& out) const {

@@ -50,7 +50,7 @@ struct RegionSearcher::State {
   }
 
   /// Adds what was found to `answer`, and writes the ids of `answer`.
-  void add_found(std::size_t skip = 0);
+  void add_found();
   void write_ids_to(std::vector<VertexId>& out) const;
 
   /// Refills `answer` with the region, and returns its centre.
