@@ -12,6 +12,7 @@ meshhood_own_target(meshhood_families)
 foreach(part
     base/adjacency base/frame base/mesh base/distance base/sphere base/reference base/error base/parallel
     base/cut_edges
+    aggregate/aggregate
     batch/batch batch/joint_batch batch/packets
     exact/cell_components exact/halfplane_polygon exact/joint_search exact/kd_order exact/leaf_nodes exact/leaves
     exact/links exact/minimum_region exact/tree exact/check exact/damage exact/file exact/index exact/verify
@@ -20,7 +21,7 @@ foreach(part
     exact/search/descent exact/search/leaf_traversal exact/search/local_minima exact/search/output
     exact/search/vertex_set
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
-    simd/joint_kernels simd/kernels
+    simd/aggregate_kernels simd/joint_kernels simd/kernels
     whole/arguments whole/robustness whole/differential whole/metamorphic)
   meshhood_test(${part} meshhood_families)
 endforeach()

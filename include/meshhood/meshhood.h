@@ -22,6 +22,7 @@
 /// approximate neighborhoods of the paper.
 
 #include "meshhood/adjacency.h"    // IWYU pragma: export
+#include "meshhood/aggregate.h"    // IWYU pragma: export
 #include "meshhood/batch.h"        // IWYU pragma: export
 #include "meshhood/edge_search.h"  // IWYU pragma: export
 #include "meshhood/error.h"        // IWYU pragma: export

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "meshhood/batch.h"
+#include "meshhood/index.h"
+#include "meshhood/mesh.h"
+#include "meshhood/progress.h"
+
+/// Sums, means and other properties of numbers over neighborhoods, without a list of ids.
+///
+///     const std::vector<double> smooth =
+///         meshhood::aggregate(index, {.values = thickness}, {.radii = {6.0}, .kernel = SmoothingKernel::Biweight});
+///
+/// See docs/aggregate.md.
+namespace meshhood {
+
+/// What becomes of the values of a neighborhood.
+enum class Reduce : std::uint8_t {
+  Sum,                ///< sum of w x
+  Mean,               ///< sum of w x / sum of w; NaN if the sum of the weights is 0
+  Minimum,            ///< ignores the weights
+  Maximum,            ///< ignores the weights
+  Variance,           ///< of the population: sum of w (x - mean)^2 / sum of w; see `AggregateQuery::ddof`
+  StandardDeviation,  ///< its root
+  Count,              ///< the number of values; ignores the weights
+};
+
+/// How the weight of a vertex falls with its distance d from `v`, for `Reduce::Sum` and `Reduce::Mean`. Distances are
+/// straight lines, as those of the radius r; nothing beyond the neighborhood is used.
+enum class SmoothingKernel : std::uint8_t {
+  Box,           ///< 1
+  Epanechnikov,  ///< 1 - (d/r)^2
+  Biweight,      ///< (1 - (d/r)^2)^2, close to a Gaussian of the standard deviation 0.4 r
+};
+
+/// What NaN means in the values.
+enum class MissingValues : std::uint8_t {
+  Propagate,  ///< a neighborhood with a NaN gives NaN
+  Omit,       ///< NaN marks a missing value, which is left out; a neighborhood without values gives NaN, its sum 0
+};
+
+/// What several radii mean.
+enum class Nesting : std::uint8_t {
+  Own,    ///< each radius has a neighborhood of its own
+  Patch,  ///< the neighborhood of the largest radius, and of it the vertices within each smaller radius, whether
+          ///< connected inside the smaller ball or not
+};
+
+/// Numbers at the vertices, and weights. Borrowed for the call.
+struct SignalView {
+  /// #V by channels, vertex after vertex. Any double; NaN as `MissingValues` says.
+  std::span<const double> values;
+
+  /// Numbers per vertex, each aggregated by itself; at least 1.
+  std::size_t channels = 1;
+
+  /// #V, finite and >= 0; empty: 1 each. A vertex of weight 0 is left out, whatever its value. See `vertex_areas`.
+  std::span<const double> weights = {};
+};
+
+/// Which neighborhoods are aggregated, and how. The lists are copied when the call begins.
+struct AggregateQuery {
+  BatchVertices vertices = {};
+
+  /// One or more, each >= 0 or infinite, in any order. A vertex at exactly the radius is inside.
+  std::vector<double> radii;
+
+  Reduce reduce = Reduce::Mean;
+  SmoothingKernel kernel = SmoothingKernel::Box;
+  MissingValues missing = MissingValues::Propagate;
+  Nesting nesting = Nesting::Own;
+
+  /// The variance divides by the number of values minus this: 0, or 1 if there are no weights. A single value has then
+  /// the variance NaN.
+  unsigned ddof = 0;
+};
+
+/// How an aggregate runs. The result does not depend on `threads`.
+struct AggregateOptions {
+  static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
+
+  /// The calling thread included; 0 means one per processor; at most `kMaxThreads`. 1 starts no thread.
+  unsigned threads = 1;
+
+  /// The most bytes of the result. A larger one is refused at once.
+  std::uint64_t max_bytes = kUnlimited;
+
+  /// Called between packets of rows, at most twenty times a second.
+  Progress progress = {};
+};
+
+/// The size of the result: #radii by #rows by channels, radius after radius, and row after row.
+/// Throws Error{TooLarge} if it exceeds the address space or `options.max_bytes`, and Error{InvalidOption} if there are
+/// no radii or no channels.
+[[nodiscard]] std::size_t aggregate_size(const Index& index, const SignalView& signal, const AggregateQuery& query,
+                                         const AggregateOptions& options = {});
+
+/// Aggregates the values over the exact neighborhood (see `Searcher`) of each row, and writes all of `result`, which
+/// has `aggregate_size` numbers.
+///
+/// Sums are exact to 4e-15 of the sum of the absolute terms, whatever the size of the neighborhood, and have the same
+/// bits for any number of threads and on every processor. They may differ in the last bits if the same vertex is asked
+/// for in another list. Minimum, maximum and count are exact. Values are scaled by a power of two before they are
+/// squared or added, so that nothing overflows but a result too large for a double; infinite values give what IEEE
+/// arithmetic gives.
+///
+/// Cost: the neighborhoods of one leaf are found together (see joint.h), and vertices that they have in common are read
+/// once for all of them, most of them as sums made beforehand. Memory: for up to 16 channels at a time 9 bytes for each
+/// vertex and channel, and as much for the weights; with a kernel up to 14 bytes instead. Time and memory of
+/// `for_each_packet` besides.
+///
+/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming row, radius or vertex. The
+/// contents of `result` are then unspecified.
+void aggregate(const Index& index, const SignalView& signal, const AggregateQuery& query, std::span<double> result,
+               const AggregateOptions& options = {});
+
+/// Returns the result.
+[[nodiscard]] std::vector<double> aggregate(const Index& index, const SignalView& signal, const AggregateQuery& query,
+                                            const AggregateOptions& options = {});
+
+/// The area that each vertex stands for: of each face a share for each of its corners, a third of a triangle. #V, 0 for
+/// a vertex without a face. In the square of the unit of the positions; infinite where that overflows. The area of a
+/// polygon is the length of its vector area. Throws Error{InvalidMesh, TooLarge}. O(#corners).
+[[nodiscard]] std::vector<double> vertex_areas(const MeshView& mesh);
+
+/// The radius at which `SmoothingKernel::Biweight` is nearest to a Gaussian of this full width at half maximum, in the
+/// same unit. Throws Error{InvalidRadius} unless `fwhm` is >= 0 or infinite.
+[[nodiscard]] double smoothing_radius(double fwhm);
+
+}  // namespace meshhood

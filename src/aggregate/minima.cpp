@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "aggregate/minima.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "aggregate/pending_nodes.h"
+
+namespace meshhood {
+namespace {
+
+constexpr double kAboveAll = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+class MinimumReducer final : public PacketReducer {
+ public:
+  explicit MinimumReducer(const MinimumReduction& reduction)
+      : reduction_(&reduction), rows_(reduction.channels().size()) {}
+
+  void begin(const PacketAnswer& /*packet*/) override {
+    for (Rows& rows : rows_) {
+      rows.minima.fill(kAboveAll);
+      rows.with_nan = 0;
+      rows.with_number = 0;
+    }
+    nodes_.clear();
+  }
+
+  void add_node(NodeTree::Node node, QueryWord queries) override {
+    if (nodes_.add(node, queries)) add_pending();
+  }
+
+  void add_leaf(const VertexRange& vertices, const QueryWord* queries) override {
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const auto values = std::span(reduction_->channels()[i].values).subspan(vertices.begin, vertices.size());
+      lower(i, values, queries);
+    }
+  }
+
+  void write(std::size_t row, std::span<double> channels) override {
+    add_pending();
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      const Rows& rows = rows_[i];
+      const bool is_nan = reduction_->propagates()
+                              ? (rows.with_nan >> row & 1U) != 0
+                              : reduction_->channels()[i].has_nan && (rows.with_number >> row & 1U) == 0;
+      channels[i] = is_nan ? kNan : reduction_->is_maximum() ? -rows.minima[row] : rows.minima[row];
+    }
+  }
+
+ private:
+  struct Rows {
+    PerLane<double> minima;
+    QueryWord with_nan;     // the rows that have a NaN
+    QueryWord with_number;  // the rows that have another value
+  };
+
+  void lower(std::size_t channel, std::span<const double> values, const QueryWord* queries) {
+    Rows& rows = rows_[channel];
+    PerLane<double> numbers{};
+    PerLane<QueryWord> words{};
+    if (reduction_->channels()[channel].has_nan) {
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        const bool is_nan = std::isnan(values[k]);
+        (is_nan ? rows.with_nan : rows.with_number) |= queries[k];
+        numbers[k] = is_nan ? 0 : values[k];
+        words[k] = is_nan ? 0 : queries[k];
+      }
+      queries = words.data();
+      values = std::span(numbers).first(values.size());
+    }
+    reduction_->kernels().lower_minima(values, queries, rows.minima);
+  }
+
+  void add_pending() {
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      lower(i, nodes_.values(reduction_->channels()[i].node_minima), nodes_.words());
+    }
+    nodes_.clear();
+  }
+
+  const MinimumReduction* reduction_;
+  std::vector<Rows> rows_;  // by channel
+  PendingNodes nodes_;
+};
+
+}  // namespace
+
+MinimumReduction::MinimumReduction(const NodeTree& tree, const AggregateKernels& kernels, SignalBlock block,
+                                   bool maximum, MissingValues missing)
+    : kernels_(&kernels), maximum_(maximum), missing_(missing) {
+  for (Column& values : block.values()) {
+    if (maximum) {
+      for (double& value : values) value = -value;
+    }
+    std::vector<double> minima(tree.size());
+    for (NodeTree::Node node = 0; node < tree.size(); ++node) {
+      if (tree.is_leaf(node)) {
+        const VertexRange vertices = tree.vertices(node);
+        minima[node] = minimum_of(std::span(values).subspan(vertices.begin, vertices.size()));
+      } else {
+        const auto [begin, end] = tree.children(node);
+        minima[node] = minimum_of(std::span(minima).subspan(begin, end - begin));
+      }
+    }
+    const bool has_nan = std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
+    channels_.push_back({std::move(values), has_nan, std::move(minima)});
+  }
+}
+
+/// NaN if a NaN propagates, or if there is nothing else.
+double MinimumReduction::minimum_of(std::span<const double> values) const {
+  double least = kNan;
+  for (const double value : values) {
+    if (std::isnan(value)) {
+      if (propagates()) return kNan;
+    } else if (!(least <= value)) {
+      least = value;
+    }
+  }
+  return least;
+}
+
+std::unique_ptr<PacketReducer> MinimumReduction::make_reducer(double /*radius*/) const {
+  return std::make_unique<MinimumReducer>(*this);
+}
+
+}  // namespace meshhood

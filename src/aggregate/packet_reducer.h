@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include "meshhood/joint.h"
+
+#include "aggregate/node_tree.h"
+#include "simd/joint.h"
+
+namespace meshhood {
+
+/// Reduces the neighborhoods of a packet at one radius, on one thread.
+class PacketReducer {
+ public:
+  PacketReducer() = default;
+  PacketReducer(const PacketReducer&) = delete;
+  PacketReducer& operator=(const PacketReducer&) = delete;
+  virtual ~PacketReducer() = default;
+
+  /// Forgets the last packet, and begins with the rows of another.
+  virtual void begin(const PacketAnswer& packet) = 0;
+
+  /// Adds all vertices of a node to the rows of `queries`.
+  virtual void add_node(NodeTree::Node node, QueryWord queries) = 0;
+
+  /// Adds each vertex of a leaf to the rows of its word.
+  virtual void add_leaf(const VertexRange& vertices, const QueryWord* queries) = 0;
+
+  /// Writes the result of a row, a number for each channel. Called after all has been added.
+  virtual void write(std::size_t row, std::span<double> channels) = 0;
+};
+
+/// The tables that reducers of one kind share. Immutable.
+class Reduction {
+ public:
+  Reduction() = default;
+  Reduction(const Reduction&) = delete;
+  Reduction& operator=(const Reduction&) = delete;
+  virtual ~Reduction() = default;
+
+  /// A reducer for neighborhoods of `radius`. Any thread.
+  [[nodiscard]] virtual std::unique_ptr<PacketReducer> make_reducer(double radius) const = 0;
+};
+
+}  // namespace meshhood

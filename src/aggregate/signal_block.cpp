@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "aggregate/signal_block.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshhood {
+namespace {
+
+// The largest magnitude of a column should lie within these bounds: then 2^32 squares of it, with such weights, do not
+// overflow, and squares of numbers 2^800 times smaller do not underflow.
+constexpr int kLargestExponent = 300;
+
+/// By what power of two to multiply a column.
+int exponent_of(const Column& column) {
+  double largest = 0;
+  for (const double value : column) {
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  }
+  if (largest == 0 || std::abs(std::ilogb(largest)) <= kLargestExponent) return 0;
+  return kLargestExponent - std::ilogb(largest);
+}
+
+int scale(Column& column) {
+  const int exponent = exponent_of(column);
+  if (exponent != 0) {
+    for (double& value : column) value = std::ldexp(value, exponent);
+  }
+  return exponent;
+}
+
+/// Every `stride`-th number from `first` on, in index order.
+Column in_index_order(const IndexView& index, std::span<const double> numbers, std::size_t first, std::size_t stride) {
+  const std::size_t vertices = index.vertex_count();
+  Column column(vertices + kLeafCapacity);
+  for (std::size_t i = 0; i < vertices; ++i) column[i] = numbers[first + stride * index.id(i)];
+  return column;
+}
+
+/// Vertices of weight 0 are left out: their values become 0, so that a NaN or an infinite one has no effect.
+void clear_unweighted(Column& values, const Column& weights) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (weights[i] == 0) values[i] = 0;
+  }
+}
+
+Column ones(const IndexView& index) {
+  Column column(index.vertex_count() + kLeafCapacity);
+  std::fill_n(column.begin(), index.vertex_count(), 1.0);
+  return column;
+}
+
+}  // namespace
+
+SignalBlock::SignalBlock(const IndexView& index, const SignalView& signal, std::size_t first, std::size_t count,
+                         MissingValues missing, bool scaled)
+    : weights_of_(count, 0), exponents_(count, 0), has_weights_(!signal.weights.empty()) {
+  weights_.push_back(has_weights_ ? in_index_order(index, signal.weights, 0, 1) : ones(index));
+  if (scaled) weight_exponent_ = scale(weights_.front());
+  for (std::size_t channel = 0; channel < count; ++channel) {
+    values_.push_back(in_index_order(index, signal.values, first + channel, signal.channels));
+    if (has_weights_) clear_unweighted(values_.back(), weights_.front());
+    if (missing == MissingValues::Omit) omit_missing(channel);
+    if (scaled) exponents_[channel] = scale(values_.back());
+  }
+}
+
+void SignalBlock::weight_values() {
+  if (!has_weights_) return;
+  for (std::size_t channel = 0; channel < channels(); ++channel) {
+    Column& values = values_[channel];
+    const Column& weights = weights_[weights_of_[channel]];
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] *= weights[i];
+  }
+}
+
+void SignalBlock::omit_missing(std::size_t channel) {
+  Column& values = values_[channel];
+  if (std::none_of(values.begin(), values.end(), [](double value) { return std::isnan(value); })) return;
+  Column weights = weights_.front();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isnan(values[i])) continue;
+    values[i] = 0;
+    weights[i] = 0;
+  }
+  weights_of_[channel] = weights_.size();
+  weights_.push_back(std::move(weights));
+}
+
+}  // namespace meshhood

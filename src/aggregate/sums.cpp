@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "aggregate/sums.h"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "aggregate/compensated.h"
+#include "aggregate/pending_nodes.h"
+
+namespace meshhood {
+namespace {
+
+double sum_of(std::span<const double> values) {
+  CompensatedSum sum;
+  for (const double value : values) sum.add(value);
+  return sum.value();
+}
+
+std::vector<double> sums_by_node(const NodeTree& tree, const Column& column) {
+  std::vector<double> sums(tree.size());
+  for (NodeTree::Node node = 0; node < tree.size(); ++node) {
+    if (tree.is_leaf(node)) {
+      const VertexRange vertices = tree.vertices(node);
+      sums[node] = sum_of(std::span(column).subspan(vertices.begin, vertices.size()));
+    } else {
+      const auto [begin, end] = tree.children(node);
+      sums[node] = sum_of(std::span(sums).subspan(begin, end - begin));
+    }
+  }
+  return sums;
+}
+
+class SumReducer final : public PacketReducer {
+ public:
+  explicit SumReducer(const SumReduction& reduction)
+      : reduction_(&reduction), sums_(reduction.columns().size()), totals_(sums_.size()) {}
+
+  void begin(const PacketAnswer& /*packet*/) override {
+    for (RowSums& sums : sums_) sums = {};
+    nodes_.clear();
+  }
+
+  void add_node(NodeTree::Node node, QueryWord queries) override {
+    if (nodes_.add(node, queries)) add_pending();
+  }
+
+  void add_leaf(const VertexRange& vertices, const QueryWord* queries) override {
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+      const auto values = std::span(reduction_->columns().column(i)).subspan(vertices.begin, vertices.size());
+      reduction_->kernels().add_values(values, queries, sums_[i]);
+    }
+  }
+
+  void write(std::size_t row, std::span<double> channels) override {
+    add_pending();
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+      totals_[i] = CompensatedSum{sums_[i].high[row], sums_[i].low[row]}.value();
+    }
+    for (std::size_t i = 0; i < channels.size(); ++i) channels[i] = reduction_->columns().result(i, totals_);
+  }
+
+ private:
+  void add_pending() {
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+      reduction_->kernels().add_values(nodes_.values(reduction_->node_sums(i)), nodes_.words(), sums_[i]);
+    }
+    nodes_.clear();
+  }
+
+  const SumReduction* reduction_;
+  std::vector<RowSums> sums_;  // by column
+  std::vector<double> totals_;
+  PendingNodes nodes_;
+};
+
+}  // namespace
+
+SumColumns::SumColumns(SignalBlock block, Reduce reduce) : reduce_(reduce) {
+  const std::size_t channels = block.channels();
+  if (reduce != Reduce::Count) {
+    block.weight_values();
+    columns_ = std::move(block.values());
+  }
+  const std::size_t first_weights = columns_.size();
+  if (reduce != Reduce::Sum) {
+    for (Column& weights : block.weights()) columns_.push_back(std::move(weights));
+  }
+  for (std::size_t i = 0; i < channels; ++i) {
+    const int exponent = block.exponent(i) + (reduce == Reduce::Sum ? block.weight_exponent() : 0);
+    channels_.push_back({i, first_weights + block.weights_of(i), -exponent});
+  }
+}
+
+double SumColumns::result(std::size_t channel, std::span<const double> sums) const {
+  const auto& [values, weights, exponent] = channels_[channel];
+  if (reduce_ == Reduce::Count) return sums[weights];
+  if (reduce_ == Reduce::Sum) return std::ldexp(sums[values], exponent);
+  if (sums[weights] == 0) return std::numeric_limits<double>::quiet_NaN();
+  return std::ldexp(sums[values] / sums[weights], exponent);
+}
+
+SumReduction::SumReduction(const NodeTree& tree, const AggregateKernels& kernels, SumColumns columns)
+    : kernels_(&kernels), columns_(std::move(columns)) {
+  for (std::size_t i = 0; i < columns_.size(); ++i) node_sums_.push_back(sums_by_node(tree, columns_.column(i)));
+}
+
+std::unique_ptr<PacketReducer> SumReduction::make_reducer(double /*radius*/) const {
+  return std::make_unique<SumReducer>(*this);
+}
+
+}  // namespace meshhood

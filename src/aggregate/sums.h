@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "aggregate/node_tree.h"
+#include "aggregate/packet_reducer.h"
+#include "aggregate/signal_block.h"
+#include "simd/aggregate.h"
+
+namespace meshhood {
+
+/// What is added up for a sum, a mean or a count: the columns, and how the result follows from their sums.
+class SumColumns {
+ public:
+  /// `reduce` is one of these three. A count has no values to add; of a mean and a count, the weights are added, too.
+  SumColumns(SignalBlock block, Reduce reduce);
+
+  [[nodiscard]] std::size_t size() const { return columns_.size(); }
+  [[nodiscard]] std::size_t channels() const { return channels_.size(); }
+  [[nodiscard]] const Column& column(std::size_t i) const { return columns_[i]; }
+
+  /// The result of a channel from the sums of all columns.
+  [[nodiscard]] double result(std::size_t channel, std::span<const double> sums) const;
+
+ private:
+  struct Channel {
+    std::size_t values;   // its column
+    std::size_t weights;  // likewise
+    int exponent;         // of two, by which the result is multiplied
+  };
+
+  Reduce reduce_;
+  std::vector<Column> columns_;
+  std::vector<Channel> channels_;
+};
+
+/// Sum, mean and count with the weight of a vertex alone.
+class SumReduction final : public Reduction {
+ public:
+  SumReduction(const NodeTree& tree, const AggregateKernels& kernels, SumColumns columns);
+
+  [[nodiscard]] std::unique_ptr<PacketReducer> make_reducer(double radius) const override;
+
+  [[nodiscard]] const AggregateKernels& kernels() const { return *kernels_; }
+  [[nodiscard]] const SumColumns& columns() const { return columns_; }
+  [[nodiscard]] const std::vector<double>& node_sums(std::size_t column) const { return node_sums_[column]; }
+
+ private:
+  const AggregateKernels* kernels_;
+  SumColumns columns_;
+  std::vector<std::vector<double>> node_sums_;  // by column, then by node
+};
+
+}  // namespace meshhood

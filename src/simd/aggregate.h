@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "base/distance.h"
+#include "simd/joint.h"
+#include "simd/kernels.h"
+
+/// The inner loops of aggregates: what up to 32 rows of a packet get from a few values, where a word for each value
+/// says which rows have it. As in `Kernels`, each function gives the same result on every processor, bit for bit.
+namespace meshhood {
+
+/// A sum for each row, as two doubles `high + low`: the rounding of each addition to `high` is added to `low` (Knuth's
+/// TwoSum), so that the error does not grow with the number of additions.
+struct alignas(64) RowSums {
+  PerLane<double> high;
+  PerLane<double> low;
+};
+
+/// The query vertices of a packet, and the unit in which distances from them are computed.
+struct alignas(64) PacketCentres {
+  PerLane<double> x;
+  PerLane<double> y;
+  PerLane<double> z;
+  double unit;            // a power of two; differences of coordinates are multiplied by it
+  double inverse_square;  // of the radius in that unit; 0 if every vertex has the weight 1
+};
+
+/// The position of a point relative to each query vertex of a packet, in its unit.
+struct alignas(64) Offsets {
+  PerLane<double> x;
+  PerLane<double> y;
+  PerLane<double> z;
+  PerLane<double> square;  // of the distance
+};
+
+/// Sums of s q^i over the vertices of a node, where s is the value of a vertex and q its offset from a fixed point c.
+struct Moments {
+  double zeroth;                // sum of s
+  std::array<double, 3> first;  // s q
+  double trace;                 // s |q|^2
+  // For the biweight.
+  std::array<double, 6> second;  // s q q^T: xx, xy, xz, yy, yz, zz
+  std::array<double, 3> third;   // s |q|^2 q
+  double fourth;                 // s |q|^4
+};
+
+/// A weight for each of up to 32 vertices and each row.
+struct alignas(64) RowWeights {
+  std::array<PerLane<double>, kLeafCapacity> of_vertex;
+};
+
+struct AggregateKernels {
+  /// Adds to each row the values whose word has it. `values` and `words` have the same length, up to 32.
+  void (*add_values)(std::span<const double> values, const QueryWord* words, RowSums& sums);
+
+  /// Lowers each row of `minima` to the values whose word has it. No value is NaN.
+  void (*lower_minima)(std::span<const double> values, const QueryWord* words, PerLane<double>& minima);
+
+  /// Sets for each row the sums of `weights * (values - mean)` and of `weights * (values - mean)^2` over the values
+  /// whose word has it, by the mean of the row.
+  void (*sum_deviations)(std::span<const double> values, const double* weights, const QueryWord* words,
+                         const PerLane<double>& means, PerLane<double>& deviations, PerLane<double>& squares);
+
+  /// Sets the offsets of `point` from the query vertices.
+  void (*set_offsets)(const Point& point, const PacketCentres& centres, Offsets& offsets);
+
+  /// Sets the weights of a vertex with these offsets, `1 - d^2/r^2` or, if `squared`, the square of that. None is
+  /// negative.
+  void (*set_weights)(const Offsets& offsets, double inverse_square, bool squared, PerLane<double>& weights);
+
+  /// As `add_values`, each value multiplied by its weight for the row.
+  void (*add_weighted)(std::span<const double> values, const QueryWord* words, const RowWeights& weights,
+                       RowSums& sums);
+
+  /// Adds to the rows of `word` the weighted sum over a node, `sum of s (1 - d^2/r^2)`, or with the square of the
+  /// parenthesis if `squared`. `offsets` are those of the point that the moments are about.
+  void (*add_moments)(const Moments& moments, const Offsets& offsets, double inverse_square, bool squared,
+                      QueryWord word, RowSums& sums);
+};
+
+/// Those for `isa`, which the processor must have.
+[[nodiscard]] const AggregateKernels& aggregate_kernels(Isa isa);
+
+const AggregateKernels& portable_aggregate_kernels();
+#if defined(MESHHOOD_HAS_X86)
+const AggregateKernels& avx2_aggregate_kernels();
+const AggregateKernels& avx512_aggregate_kernels();
+#endif
+
+}  // namespace meshhood

@@ -1,0 +1,536 @@
+// SPDX-License-Identifier: MIT
+// Aggregates equal what the definitions give over the vertices that breadth-first search finds.
+#include "meshhood/aggregate.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/meshhood.h"
+
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/random.h"
+#include "support/refusal.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+using testing::Each;
+using testing::ElementsAre;
+using testing::IsNan;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::array kReductions{Reduce::Sum,     Reduce::Mean,     Reduce::Minimum,
+                                 Reduce::Maximum, Reduce::Variance, Reduce::StandardDeviation,
+                                 Reduce::Count};
+constexpr std::array kKernels{SmoothingKernel::Box, SmoothingKernel::Epanechnikov, SmoothingKernel::Biweight};
+
+bool may_have_kernel(Reduce reduce) { return reduce == Reduce::Sum || reduce == Reduce::Mean; }
+
+bool uses_weights(Reduce reduce) {
+  return may_have_kernel(reduce) || reduce == Reduce::Variance || reduce == Reduce::StandardDeviation;
+}
+
+/// The same bits; any NaN equals any NaN.
+std::vector<std::uint64_t> bits_of(const std::vector<double>& numbers) {
+  std::vector<std::uint64_t> bits;
+  for (const double number : numbers) bits.push_back(std::bit_cast<std::uint64_t>(number));
+  return bits;
+}
+
+/// A result, and by how much another may differ from it.
+struct Expected {
+  double value;
+  double tolerance;
+};
+
+/// A vertex of a neighborhood, as a reduction sees it.
+struct Item {
+  double value;
+  double weight;
+  long double distance;
+};
+
+long double kernel_weight(SmoothingKernel kernel, long double distance, double radius) {
+  if (kernel == SmoothingKernel::Box || radius == 0 || std::isinf(radius)) return 1;
+  const long double ratio = distance / static_cast<long double>(radius);
+  const long double weight = std::max(0.0L, 1 - ratio * ratio);
+  return kernel == SmoothingKernel::Biweight ? weight * weight : weight;
+}
+
+/// The definitions, in long double.
+Expected reduce_items(std::vector<Item> items, const AggregateQuery& query, double radius) {
+  if (query.missing == MissingValues::Omit) {
+    std::erase_if(items, [](const Item& item) { return std::isnan(item.value); });
+  }
+  if (uses_weights(query.reduce)) std::erase_if(items, [](const Item& item) { return item.weight == 0; });
+  long double weights = 0;
+  long double plain_weights = 0;
+  long double sum = 0;
+  long double size = 0;
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
+  bool has_nan = items.empty();
+  for (const Item& item : items) {
+    const long double weight = item.weight * kernel_weight(query.kernel, item.distance, radius);
+    weights += weight;
+    plain_weights += item.weight;
+    sum += weight * item.value;
+    size += item.weight * std::abs(static_cast<long double>(item.value));
+    least = std::min(least, item.value);
+    most = std::max(most, item.value);
+    has_nan = has_nan || std::isnan(item.value);
+  }
+  const auto as_double = [](long double value) { return static_cast<double>(value); };
+  switch (query.reduce) {
+    case Reduce::Count: return {static_cast<double>(items.size()), 0};
+    case Reduce::Minimum: return {has_nan ? kNan : least, 0};
+    case Reduce::Maximum: return {has_nan ? kNan : most, 0};
+    case Reduce::Sum: return {as_double(sum), as_double(1e-13L * size)};
+    case Reduce::Mean:
+      // Weights that nearly vanish come from vertices at the rim alone, and are rounding.
+      if (weights != 0 && weights < 1e-9L * plain_weights) return {kNan, kInfinity};
+      return {weights == 0 ? kNan : as_double(sum / weights),
+              as_double(1e-13L * (size + std::abs(sum / weights) * plain_weights) / weights)};
+    case Reduce::Variance:
+    case Reduce::StandardDeviation: break;
+  }
+  const long double mean = sum / weights;
+  long double squares = 0;
+  for (const Item& item : items) squares += item.weight * (item.value - mean) * (item.value - mean);
+  const long double divisor = weights - query.ddof;
+  if (!(divisor > 0)) return {kNan, 0};
+  const long double variance = squares / divisor;
+  const long double size_of_mean = size / weights;
+  const long double tolerance = 1e-10L * variance + 1e-29L * size_of_mean * size_of_mean;
+  if (query.reduce == Reduce::Variance) return {as_double(variance), as_double(tolerance)};
+  return {as_double(std::sqrt(variance)), as_double(std::sqrt(variance + tolerance) - std::sqrt(variance))};
+}
+
+/// A signal of several channels that owns its numbers.
+struct TestSignal {
+  std::size_t channels;
+  std::vector<double> values;
+  std::vector<double> weights;
+
+  [[nodiscard]] SignalView view(bool weighted) const {
+    return {values, channels, weighted ? std::span<const double>(weights) : std::span<const double>()};
+  }
+};
+
+/// A smooth channel, noise on a large number, and values of all magnitudes; some weights are 0. With `gaps`, some
+/// values are missing in the last two.
+TestSignal make_signal(std::size_t vertices, bool gaps, Random& random) {
+  TestSignal signal{3, {}, {}};
+  for (std::size_t v = 0; v < vertices; ++v) {
+    signal.values.push_back(static_cast<double>(v) / static_cast<double>(vertices));
+    signal.values.push_back(gaps && random.below(4) == 0 ? kNan : 1e6 + random.uniform(-1, 1));
+    const double sign = random.below(2) == 0 ? -1 : 1;
+    signal.values.push_back(gaps && random.below(40) == 0 ? kNan : sign * std::exp2(random.uniform(-40, 40)));
+    signal.weights.push_back(random.below(8) == 0 ? 0 : random.uniform(0.1, 2));
+  }
+  return signal;
+}
+
+/// A mesh, its index, and the definition of every aggregate.
+class AggregateCase {
+ public:
+  explicit AggregateCase(const TestMesh& mesh) : mesh_(mesh), index_(build(mesh_.view())), reference_(mesh_.view()) {}
+
+  [[nodiscard]] const Index& index() const { return index_; }
+  [[nodiscard]] std::size_t size() const { return mesh_.size(); }
+
+  /// A radius that some distance between vertices is exactly, or one that is not.
+  double radius(Random& random) {
+    if (size() == 0) return 1;
+    const auto any = [&] { return static_cast<VertexId>(random.below(size())); };
+    switch (random.below(8)) {
+      case 0: return 0;
+      case 1: return kInfinity;
+      case 2: return random.uniform(0.1, 3) * distance(mesh_.positions_view(), any(), any());
+      default: return distance(mesh_.positions_view(), any(), any()) / static_cast<double>(1 + random.below(8));
+    }
+  }
+
+  /// Compares all numbers of an aggregate with the definition.
+  void compare(const SignalView& signal, const AggregateQuery& query) {
+    const std::vector<double> result = aggregate(index_, signal, query);
+    const auto& list = query.vertices.list();
+    const std::size_t rows = list ? list->size() : size();
+    ASSERT_EQ(result.size(), query.radii.size() * rows * signal.channels);
+    const double largest = *std::max_element(query.radii.begin(), query.radii.end());
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      const double radius = query.radii[i / signal.channels / rows];
+      const std::size_t row = i / signal.channels % rows;
+      const VertexId v = list ? (*list)[row] : static_cast<VertexId>(row);
+      const double searched = query.nesting == Nesting::Patch ? largest : radius;
+      const Expected expected = reduce_items(items(signal, i % signal.channels, v, searched, radius), query, radius);
+      const bool right = std::isnan(expected.value) ? std::isnan(result[i]) || std::isinf(expected.tolerance)
+                                                    : std::abs(result[i] - expected.value) <= expected.tolerance;
+      EXPECT_TRUE(right) << "vertex " << v << ", radius " << radius << ", channel " << i % signal.channels
+                         << ", reduction " << static_cast<int>(query.reduce) << ", kernel "
+                         << static_cast<int>(query.kernel) << ": " << result[i] << " instead of " << expected.value
+                         << " +- " << expected.tolerance;
+      if (!right) return;
+    }
+    compared_ += result.size();
+  }
+
+  [[nodiscard]] std::size_t compared() const { return compared_; }
+
+ private:
+  std::vector<Item> items(const SignalView& signal, std::size_t channel, VertexId v, double searched, double radius) {
+    reference_.neighborhood(v, searched, ids_, distances_);
+    std::vector<Item> result;
+    for (std::size_t i = 0; i < ids_.size(); ++i) {
+      if (distances_[i] > radius) continue;  // of a patch
+      result.push_back({signal.values[ids_[i] * signal.channels + channel],
+                        signal.weights.empty() ? 1 : signal.weights[ids_[i]], exact_distance(v, ids_[i])});
+    }
+    return result;
+  }
+
+  /// Squares of doubles may underflow.
+  [[nodiscard]] long double exact_distance(VertexId v, VertexId w) const {
+    long double square = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const long double step = static_cast<long double>(mesh_.positions[3 * v + axis]) - mesh_.positions[3 * w + axis];
+      square += step * step;
+    }
+    return std::sqrt(square);
+  }
+
+  TestMesh mesh_;
+  Index index_;
+  ReferenceSearcher reference_;
+  std::vector<VertexId> ids_;
+  std::vector<double> distances_;
+  std::size_t compared_ = 0;
+};
+
+class AggregateOfFamily : public testing::TestWithParam<Family> {};
+
+TEST_P(AggregateOfFamily, EqualsTheDefinition) {
+  Random random(3);
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 0; seed < scaled(2, 1); ++seed) {
+    AggregateCase scene(make_mesh(GetParam(), seed, 200));
+    for (const bool gaps : {false, true}) {
+      const TestSignal signal = make_signal(scene.size(), gaps, random);
+      for (const Reduce reduce : kReductions) {
+        AggregateQuery query;
+        query.reduce = reduce;
+        query.kernel = may_have_kernel(reduce) ? kKernels[random.below(3)] : SmoothingKernel::Box;
+        query.missing = random.below(2) == 0 ? MissingValues::Omit : MissingValues::Propagate;
+        query.nesting = random.below(2) == 0 ? Nesting::Patch : Nesting::Own;
+        query.radii = {scene.radius(random), scene.radius(random)};
+        const bool weighted = random.below(2) == 0;
+        if (!weighted) query.ddof = static_cast<unsigned>(random.below(2));
+        std::vector<VertexId> list;
+        if (scene.size() > 0 && random.below(2) == 0) {
+          for (std::size_t i = 0; i < 40; ++i) list.push_back(static_cast<VertexId>(random.below(scene.size())));
+          query.vertices = list;
+        }
+        scene.compare(signal.view(weighted), query);
+        if (HasFailure()) return;
+      }
+    }
+    compared += scene.compared();
+  }
+  std::printf("%zu numbers compared\n", compared);
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, AggregateOfFamily, testing::ValuesIn(families()), family_name);
+
+/// A bumpy grid with many leaves, so that packets have cores, whole and partial leaves.
+class Aggregate : public testing::Test {
+ protected:
+  Random random{8};
+  TestMesh mesh = bumpy_grid(60).finish(true);
+  AggregateCase scene{mesh};
+  TestSignal signal = make_signal(scene.size(), false, random);
+  TestSignal gappy = make_signal(scene.size(), true, random);
+
+  [[nodiscard]] std::vector<double> run(const AggregateQuery& query, unsigned threads = 1) const {
+    return aggregate(scene.index(), gappy.view(false), query, {.threads = threads});
+  }
+};
+
+TEST_F(Aggregate, OfLargeNeighborhoodsEqualsTheDefinition) {
+  std::vector<VertexId> leaves;  // of five places in index order
+  for (std::size_t i = 0; i < 5; ++i) {
+    const auto place = scene.index().permutation().subspan(700 * i, 30);
+    leaves.insert(leaves.end(), place.begin(), place.end());
+  }
+  for (const Nesting nesting : {Nesting::Own, Nesting::Patch}) {
+    for (const Reduce reduce : kReductions) {
+      for (const SmoothingKernel kernel : kKernels) {
+        if (kernel != SmoothingKernel::Box && !may_have_kernel(reduce)) continue;
+        const AggregateQuery query{.vertices = leaves,
+                                   .radii = {25, 9.5, 3, 60},
+                                   .reduce = reduce,
+                                   .kernel = kernel,
+                                   .missing = MissingValues::Omit,
+                                   .nesting = nesting};
+        scene.compare(gappy.view(reduce != Reduce::Count), query);
+      }
+    }
+  }
+  std::printf("%zu numbers compared\n", scene.compared());
+}
+
+TEST_F(Aggregate, HasTheSameBitsForAnyNumberOfThreads) {
+  for (const Reduce reduce : kReductions) {
+    for (const Nesting nesting : {Nesting::Own, Nesting::Patch}) {
+      const SmoothingKernel kernel = may_have_kernel(reduce) ? SmoothingKernel::Biweight : SmoothingKernel::Box;
+      const AggregateQuery query{.radii = {4, 12}, .reduce = reduce, .kernel = kernel, .nesting = nesting};
+      const auto once = bits_of(run(query));
+      for (const unsigned threads : {2U, 3U, 8U, 0U}) EXPECT_EQ(bits_of(run(query, threads)), once);
+    }
+  }
+}
+
+TEST_F(Aggregate, OfSeveralRadiiEqualsThatOfEachRadius) {
+  for (const Reduce reduce : kReductions) {
+    const std::vector<double> both = run({.radii = {6, 2}, .reduce = reduce});
+    std::vector<double> one_by_one = run({.radii = {6}, .reduce = reduce});
+    const std::vector<double> second = run({.radii = {2}, .reduce = reduce});
+    one_by_one.insert(one_by_one.end(), second.begin(), second.end());
+    EXPECT_EQ(bits_of(both), bits_of(one_by_one));
+  }
+}
+
+TEST_F(Aggregate, OfManyChannelsEqualsThatOfEachChannel) {
+  constexpr std::size_t kChannels = 37;
+  std::vector<double> values(kChannels * scene.size());
+  for (double& value : values) value = random.uniform(-1, 1);
+  const AggregateQuery query{.radii = {5}};
+  const std::vector<double> all = aggregate(scene.index(), {values, kChannels}, query);
+  for (const std::size_t channel : {0U, 15U, 16U, 36U}) {
+    std::vector<double> column;
+    std::vector<double> expected;
+    for (std::size_t v = 0; v < scene.size(); ++v) {
+      column.push_back(values[v * kChannels + channel]);
+      expected.push_back(all[v * kChannels + channel]);
+    }
+    EXPECT_EQ(aggregate(scene.index(), {column}, query), expected);
+  }
+}
+
+TEST_F(Aggregate, OfAPatchWithOneRadiusIsThatOfTheNeighborhood) {
+  for (const Reduce reduce : {Reduce::Minimum, Reduce::Maximum, Reduce::Count}) {
+    AggregateQuery query{.radii = {7}, .reduce = reduce};
+    const auto own = bits_of(run(query));
+    query.nesting = Nesting::Patch;
+    EXPECT_EQ(bits_of(run(query)), own);
+  }
+}
+
+TEST_F(Aggregate, ScalesWithPowersOfTwoToTheBit) {
+  for (const Reduce reduce : {Reduce::Sum, Reduce::Mean, Reduce::StandardDeviation, Reduce::Maximum}) {
+    const AggregateQuery query{.radii = {6}, .reduce = reduce};
+    const std::vector<double> plain = aggregate(scene.index(), signal.view(false), query);
+    for (const int exponent : {-900, -500, 500, 900}) {
+      TestSignal scaled_signal = signal;
+      for (double& value : scaled_signal.values) value = std::ldexp(value, exponent);
+      std::vector<double> expected = plain;
+      for (double& value : expected) value = std::ldexp(value, exponent);
+      EXPECT_EQ(bits_of(aggregate(scene.index(), scaled_signal.view(false), query)), bits_of(expected))
+          << "reduction " << static_cast<int>(reduce) << ", exponent " << exponent;
+    }
+  }
+}
+
+TEST_F(Aggregate, OfTheLargestDoublesOverflowsOnlyWhereTheResultDoes) {
+  const std::vector<double> values(scene.size(), 0x1p1023);
+  const auto of = [&](Reduce reduce) { return aggregate(scene.index(), {values}, {.radii = {3}, .reduce = reduce}); };
+  EXPECT_THAT(of(Reduce::Mean), Each(0x1p1023));
+  EXPECT_THAT(of(Reduce::StandardDeviation), Each(0));
+  EXPECT_THAT(of(Reduce::Sum), Each(kInfinity));
+}
+
+TEST_F(Aggregate, OfInfiniteValuesFollowsIeee) {
+  std::vector<double> values(scene.size(), 1.0);
+  values[0] = kInfinity;
+  const auto of = [&](Reduce reduce) {
+    return aggregate(scene.index(), {values}, {.radii = {kInfinity}, .reduce = reduce}).front();
+  };
+  EXPECT_EQ(of(Reduce::Sum), kInfinity);
+  EXPECT_EQ(of(Reduce::Mean), kInfinity);
+  EXPECT_EQ(of(Reduce::Minimum), 1);
+  EXPECT_EQ(of(Reduce::Maximum), kInfinity);
+  EXPECT_THAT(of(Reduce::Variance), IsNan());
+  values[1] = -kInfinity;
+  EXPECT_THAT(of(Reduce::Sum), IsNan());
+}
+
+TEST_F(Aggregate, OfMissingValuesAlone) {
+  const std::vector<double> values(scene.size(), kNan);
+  const auto of = [&](Reduce reduce, MissingValues missing) {
+    return aggregate(scene.index(), {values}, {.radii = {3}, .reduce = reduce, .missing = missing}).front();
+  };
+  for (const Reduce reduce : {Reduce::Mean, Reduce::Minimum, Reduce::Maximum, Reduce::Variance}) {
+    EXPECT_THAT(of(reduce, MissingValues::Omit), IsNan());
+    EXPECT_THAT(of(reduce, MissingValues::Propagate), IsNan());
+  }
+  EXPECT_EQ(of(Reduce::Sum, MissingValues::Omit), 0);
+  EXPECT_EQ(of(Reduce::Count, MissingValues::Omit), 0);
+  EXPECT_THAT(of(Reduce::Sum, MissingValues::Propagate), IsNan());
+  EXPECT_GT(of(Reduce::Count, MissingValues::Propagate), 1);
+}
+
+TEST_F(Aggregate, IgnoresAHugeValueOutsideTheNeighborhood) {
+  // In the same leaf as vertices of the neighborhood, so that what is kept for the leaf has it.
+  std::vector<double> values(scene.size(), 1.0);
+  for (std::size_t v = 0; v < scene.size(); v += 2) values[v] = 3.0;
+  values[1000] = 1e150;
+  scene.compare({values}, {.radii = {2.2}, .reduce = Reduce::Variance});
+  scene.compare({values}, {.radii = {2.2}, .reduce = Reduce::Sum});
+  scene.compare({values}, {.radii = {2.2}, .reduce = Reduce::Sum, .kernel = SmoothingKernel::Biweight});
+}
+
+TEST(AggregateOfIsolatedVertices, IsTheirOwnValue) {
+  TestMesh mesh;
+  for (int i = 0; i < 50; ++i) mesh.add_vertex(0.01 * i, 0, 0);
+  mesh.finish(false);
+  const Index index = build(mesh.view());
+  std::vector<double> values;
+  for (int i = 0; i < 50; ++i) values.push_back(i);
+  for (const Reduce reduce : {Reduce::Sum, Reduce::Mean, Reduce::Minimum, Reduce::Maximum}) {
+    EXPECT_EQ(aggregate(index, {values}, {.radii = {1}, .reduce = reduce}), values);
+  }
+  EXPECT_THAT(aggregate(index, {values}, {.radii = {1}, .reduce = Reduce::Count}), Each(1));
+  EXPECT_THAT(aggregate(index, {values}, {.radii = {1}, .reduce = Reduce::Variance}), Each(0));
+  EXPECT_THAT(aggregate(index, {values}, {.radii = {1}, .reduce = Reduce::Variance, .ddof = 1}), Each(IsNan()));
+}
+
+TEST(AggregateOfAnEmptyMesh, IsEmpty) {
+  const Index index = build(TestMesh().finish(true).view());
+  EXPECT_TRUE(aggregate(index, {}, {.radii = {1}}).empty());
+  EXPECT_TRUE(aggregate(index, {}, {.radii = {1, 2}, .kernel = SmoothingKernel::Biweight}).empty());
+}
+
+TEST_F(Aggregate, RefusesWrongArguments) {
+  const std::vector<double> values(scene.size(), 1.0);
+  const auto refuse = [&](ErrorCode code, const std::string& culprit, const SignalView& given,
+                          const AggregateQuery& query) {
+    expect_refused(code, culprit, [&] { static_cast<void>(aggregate(scene.index(), given, query)); });
+  };
+  const AggregateQuery query{.radii = {1}};
+  refuse(ErrorCode::InvalidOption, "channels is 0", {values, 0}, query);
+  refuse(ErrorCode::InvalidOption, "3600 values, expected 2 for each", {values, 2}, query);
+  refuse(ErrorCode::InvalidOption, "no radii", {values}, {});
+  refuse(ErrorCode::InvalidRadius, "radius 1: ", {values}, {.radii = {1, -1}});
+  refuse(ErrorCode::InvalidRadius, "radius 0: ", {values}, {.radii = {kNan}});
+  refuse(ErrorCode::InvalidOption, "smoothing kernel", {values},
+         {.radii = {1}, .reduce = Reduce::Minimum, .kernel = SmoothingKernel::Biweight});
+  refuse(ErrorCode::InvalidOption, "ddof is 2", {values}, {.radii = {1}, .reduce = Reduce::Variance, .ddof = 2});
+  std::vector<double> weights(scene.size(), 1.0);
+  refuse(ErrorCode::InvalidOption, "ddof is 1 and there are weights", {values, 1, weights},
+         {.radii = {1}, .reduce = Reduce::Variance, .ddof = 1});
+  for (const double bad : {-1.0, kNan, kInfinity}) {
+    weights[17] = bad;
+    refuse(ErrorCode::InvalidOption, "vertex 17: the weight is ", {values, 1, weights}, query);
+  }
+  weights.pop_back();
+  refuse(ErrorCode::InvalidOption, "3599 weights", {values, 1, weights}, query);
+  const std::vector<VertexId> list{0, 3600};
+  refuse(ErrorCode::VertexOutOfRange, "row 1", {values}, {.vertices = list, .radii = {1}});
+  expect_refused(ErrorCode::TooLarge, "limit of 10 numbers",
+                 [&] { static_cast<void>(aggregate(scene.index(), {values}, query, {.max_bytes = 80})); });
+  std::vector<double> small(5);
+  expect_refused(ErrorCode::InvalidOption, "room for 5 numbers",
+                 [&] { aggregate(scene.index(), {values}, query, small); });
+}
+
+TEST_F(Aggregate, ReportsItsProgressAndCanBeCancelled) {
+  std::size_t last = 0;
+  std::size_t total = 0;
+  const AggregateQuery query{.radii = {2, 3}};
+  static_cast<void>(
+      aggregate(scene.index(), signal.view(false), query, {.progress = [&](std::size_t done, std::size_t of) {
+                  EXPECT_GE(done, last);
+                  last = done;
+                  total = of;
+                  return true;
+                }}));
+  EXPECT_EQ(last, 2 * scene.size());
+  EXPECT_EQ(total, last);
+  for (const std::size_t reports : {0U, 1U, 2U}) {
+    std::size_t left = reports;
+    expect_refused(ErrorCode::Cancelled, "cancelled", [&] {
+      static_cast<void>(aggregate(scene.index(), signal.view(false), query,
+                                  {.progress = [&](std::size_t, std::size_t) { return left-- > 0; }}));
+    });
+  }
+}
+
+TEST_F(Aggregate, UsesTheListsAsTheyWereWhenItBegan) {
+  std::vector<VertexId> list{5, 6, 7};
+  const AggregateQuery query{.vertices = list, .radii = {2, 3, 4}};
+  const std::vector<double> expected = aggregate(scene.index(), signal.view(false), query);
+  const std::vector<double> result =
+      aggregate(scene.index(), signal.view(false), query, {.progress = [&](std::size_t, std::size_t) {
+                  list.assign({99999, 99999, 99999});
+                  return true;
+                }});
+  EXPECT_EQ(result, expected);
+}
+
+TEST(VertexAreas, SumToTheAreaOfTheMesh) {
+  TestMesh mesh = make_grid(4, 6, true).finish(false);
+  const std::vector<double> areas = vertex_areas(mesh.view());
+  double sum = 0;
+  for (const double area : areas) sum += area;
+  EXPECT_DOUBLE_EQ(sum, 15);
+  EXPECT_EQ(areas.front(), 0.25);
+}
+
+TEST(VertexAreas, AreRightAtAnyScaleAndInAnyPolygon) {
+  for (const int exponent : {-400, 0, 400}) {
+    TestMesh mesh;
+    const double unit = std::ldexp(1.0, exponent);
+    for (const auto& [x, y] : {std::pair{0, 0}, {2, 0}, {2, 1}, {1, 2}, {0, 1}, {5, 5}})
+      mesh.add_vertex(x * unit, y * unit, 0);
+    mesh.add_face({0, 1, 2, 3, 4});
+    mesh.add_face({0, 0, 1});
+    mesh.add_face({3});
+    mesh.finish(false);
+    const double share = std::ldexp(3.0 / 5, 2 * exponent);
+    EXPECT_THAT(vertex_areas(mesh.view()), ElementsAre(share, share, share, share, share, 0)) << exponent;
+  }
+}
+
+TEST(SmoothingRadius, IsThatOfTheNearestGaussian) {
+  // Of all standard deviations, 0.4 has the smallest distance between Gaussian and biweight in the plane.
+  const auto difference = [](double deviation) {
+    double sum = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const double d = 0.0005 + 0.001 * i;
+      const double biweight = d < 1 ? (1 - d * d) * (1 - d * d) * 3 / 3.141592653589793 : 0;
+      const double gaussian =
+          std::exp(-d * d / (2 * deviation * deviation)) / (2 * 3.141592653589793 * deviation * deviation);
+      sum += (biweight - gaussian) * (biweight - gaussian) * d;
+    }
+    return sum;
+  };
+  EXPECT_LT(difference(0.4), difference(0.37));
+  EXPECT_LT(difference(0.4), difference(0.43));
+  EXPECT_NEAR(smoothing_radius(2.3548200450309493 * 0.4), 1, 1e-15);
+  EXPECT_EQ(smoothing_radius(0), 0);
+  expect_refused(ErrorCode::InvalidRadius, "fwhm", [] { static_cast<void>(smoothing_radius(-1)); });
+}
+
+}  // namespace
+}  // namespace meshhood::test
