@@ -33,6 +33,13 @@ std::vector<std::size_t> Batch::put_in_index_order() {
   return order;
 }
 
+bool Batch::is_in_index_order() const {
+  for (std::size_t row = 1; row < rows_.size(); ++row) {
+    if (factory_.position(rows_.vertex(row - 1)) > factory_.position(rows_.vertex(row))) return false;
+  }
+  return true;
+}
+
 bool Batch::ends_unit(std::size_t row, std::uint32_t positions) const {
   return row + 1 >= rows_.size() ||
          factory_.position(rows_.vertex(row)) / positions != factory_.position(rows_.vertex(row + 1)) / positions;

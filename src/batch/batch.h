@@ -34,6 +34,9 @@ class Batch {
   /// Sorts the rows by their position in the index, and returns what their numbers were.
   std::vector<std::size_t> put_in_index_order();
 
+  /// Whether the positions of the rows ascend.
+  [[nodiscard]] bool is_in_index_order() const;
+
   /// How many rows of the window from `first` on, in index order, leave no group of leaves cut in two; or no leaf, if
   /// the window has no whole group; or all.
   [[nodiscard]] std::size_t whole_units(std::size_t first, std::size_t window) const;

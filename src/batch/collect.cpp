@@ -112,20 +112,36 @@ std::vector<std::uint64_t> stream_and_copy(const SearchMethod& method, const Bat
   return std::move(rows.offsets);
 }
 
-/// Writes each row where its offset says.
+/// Puts each row where its offset says.
+class RowsInPlace final : public RowReceiver {
+ public:
+  RowsInPlace(Batch& batch, unsigned thread, std::span<const std::uint64_t> offsets, const BatchMemory& memory)
+      : batch_(batch), thread_(thread), offsets_(offsets), memory_(memory) {}
+
+  BatchMemory memory(std::size_t row, std::size_t size) override {
+    last_.ids = memory_.ids.subspan(offsets_[row], size);
+    if (batch_.options().distances) last_.distances = memory_.distances.subspan(offsets_[row], size);
+    return last_;
+  }
+
+  bool done(std::size_t /*row*/) override {
+    if (batch_.options().sorted) sort_answer(last_.ids, last_.distances);
+    batch_.task().advance(1);
+    return batch_.task().should_continue(thread_);
+  }
+
+ private:
+  Batch& batch_;
+  unsigned thread_;
+  std::span<const std::uint64_t> offsets_;
+  BatchMemory memory_;
+  BatchMemory last_;
+};
+
 void write_rows(Batch& batch, std::span<const std::uint64_t> offsets, const BatchMemory& memory) {
-  const BatchOptions& options = batch.options();
   batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
-    batch.worker(thread).find(chunk, options.distances, [&](const BatchRow& row) {
-      const std::span<VertexId> ids = memory.ids.subspan(offsets[row.row], row.ids.size());
-      std::copy(row.ids.begin(), row.ids.end(), ids.begin());
-      std::span<double> distances;
-      if (options.distances) distances = memory.distances.subspan(offsets[row.row], row.ids.size());
-      std::copy_n(row.distances.begin(), distances.size(), distances.begin());
-      if (options.sorted) sort_answer(ids, distances);
-      batch.task().advance(1);
-      return batch.task().should_continue(thread);
-    });
+    RowsInPlace receiver(batch, thread, offsets, memory);
+    batch.worker(thread).find(chunk, batch.options().distances, receiver);
   });
 }
 

@@ -18,7 +18,7 @@ constexpr double kLargeRadius = 5;  // in mean leaf radii
 }  // namespace
 
 JointWorker::JointWorker(const Index& index)
-    : index_(index), view_(IndexAccess::view(index)), radius_(view_.frame, 0) {}
+    : index_(index), view_(IndexAccess::view(index)), radius_(view_.frame, 0), writer_(view_, best_isa()) {}
 
 void JointWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink) {
   for_each_run(
@@ -33,30 +33,23 @@ void JointWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink) 
       [&](const BatchItem& item) { return sink(item.row, searcher().count(item.vertex, item.radius)); });
 }
 
-void JointWorker::find(std::span<const BatchItem> chunk, bool distances, const ChunkSink& sink) {
+void JointWorker::find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) {
+  const auto write = [&](const PacketAnswer& answer, const PerLane<std::uint64_t>& counts,
+                         std::span<const BatchItem> items) {
+    writer_.begin(answer);
+    for (unsigned i = 0; i < items.size(); ++i) {
+      const BatchMemory memory = receiver.memory(items[i].row, counts[i]);
+      writer_.write_ids(i, memory.ids);
+      if (distances) writer_.write_distances(i, position_of(items[i]), memory.distances);
+      if (!receiver.done(items[i].row)) return false;
+    }
+    return true;
+  };
   for_each_run(
-      chunk,
-      [&](const Run& run) {
-        const PerLane<std::uint64_t>& counts = joint_->counts();
-        for (unsigned i = 0; i < run.items.size(); ++i) {
-          const std::size_t size = counts[i];
-          if (ids_.size() < size + kLeafCapacity) ids_.resize(2 * (size + kLeafCapacity));
-          joint_->write_ids(i, ids_.data());
-          if (distances) {
-            distances_.resize(size);
-            joint_->write_distances(i, distances_.data());
-          }
-          if (!sink({run.items[i].row, std::span(ids_).first(size), distances_})) return false;
-        }
-        return true;
-      },
+      chunk, [&](const Run& run) { return write(joint_->answer(), joint_->counts(), run.items); },
       [&](const BatchItem& item) {
-        if (distances) {
-          searcher().neighborhood(item.vertex, item.radius, ids_, distances_);
-        } else {
-          searcher().neighborhood(item.vertex, item.radius, ids_);
-        }
-        return sink({item.row, ids_, distances_});
+        const VertexSet& found = search_single(item);
+        return write(single_packet_.describe(view_, found), {found.count()}, {&item, 1});
       });
 }
 
@@ -81,9 +74,7 @@ void JointWorker::visit(std::span<const BatchItem> chunk, const std::function<bo
       },
       [&](const BatchItem& item) {
         has_group = false;
-        SearcherAccess::State& single = SearcherAccess::state(searcher());
-        single.search(item.vertex, item.radius);
-        return pass_on(single_packet_.describe(view_, single.answer), {&item, 1}, true);
+        return pass_on(single_packet_.describe(view_, search_single(item)), {&item, 1}, true);
       });
 }
 
@@ -161,6 +152,17 @@ bool JointWorker::pays(std::span<const BatchItem> items) const {
 const JointRadius& JointWorker::prepared(double radius) {
   if (radius != radius_.radius) radius_ = JointRadius(view_.frame, radius);
   return radius_;
+}
+
+const VertexSet& JointWorker::search_single(const BatchItem& item) {
+  SearcherAccess::State& state = SearcherAccess::state(searcher());
+  state.search(item.vertex, item.radius);
+  return state.answer;
+}
+
+Point JointWorker::position_of(const BatchItem& item) const {
+  const std::uint32_t slot = view_.slot[item.vertex];
+  return view_.position(leaf_of(slot), lane_of(slot));
 }
 
 Searcher& JointWorker::searcher() {

@@ -13,6 +13,7 @@
 #include "batch/searcher_factory.h"
 #include "batch/single_packet.h"
 #include "exact/joint/joint_search.h"
+#include "exact/joint/row_writer.h"
 #include "exact/layout.h"
 
 namespace meshhood {
@@ -27,7 +28,7 @@ class JointWorker final : public BatchWorker {
   explicit JointWorker(const Index& index);
 
   void count(std::span<const BatchItem> chunk, const SizeSink& sink) override;
-  void find(std::span<const BatchItem> chunk, bool distances, const ChunkSink& sink) override;
+  void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) override;
 
   /// Passes on the packets of a chunk. `sink` returns false to drop the rest.
   void visit(std::span<const BatchItem> chunk, const std::function<bool(const PacketAnswer&)>& sink);
@@ -48,6 +49,8 @@ class JointWorker final : public BatchWorker {
   [[nodiscard]] LeafId leaf_of_item(const BatchItem& item) const;
   [[nodiscard]] bool pays(std::span<const BatchItem> items) const;
   [[nodiscard]] const JointRadius& prepared(double radius);
+  const VertexSet& search_single(const BatchItem& item);
+  [[nodiscard]] Point position_of(const BatchItem& item) const;
   Searcher& searcher();
 
   const Index& index_;
@@ -58,8 +61,7 @@ class JointWorker final : public BatchWorker {
   std::vector<Run> runs_;
   std::vector<LeafId> leaves_;
   std::vector<JointQuery> queries_;
-  std::vector<VertexId> ids_;
-  std::vector<double> distances_;
+  RowWriter writer_;
   PacketRows rows_;
   SinglePacket single_packet_;
 };

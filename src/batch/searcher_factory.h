@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -22,9 +23,23 @@ struct BatchItem {
   double radius;
 };
 
-/// Receive the result of a row. They return false to drop the rest of the chunk.
+/// Receives the size of a row. Returns false to drop the rest of the chunk.
 using SizeSink = std::function<bool(std::size_t row, std::size_t size)>;
-using ChunkSink = std::function<bool(const BatchRow&)>;
+
+/// Receives rows in memory that it provides, so that ids are written once.
+class RowReceiver {
+ public:
+  RowReceiver() = default;
+  RowReceiver(const RowReceiver&) = delete;
+  RowReceiver& operator=(const RowReceiver&) = delete;
+  virtual ~RowReceiver() = default;
+
+  /// Memory for the ids of a row of `size` vertices, and for its distances if they are asked for.
+  virtual BatchMemory memory(std::size_t row, std::size_t size) = 0;
+
+  /// The row has been written there. Returns false to drop the rest of the chunk.
+  virtual bool done(std::size_t row) = 0;
+};
 
 /// Computes chunks of rows, on one thread. The vertices of a chunk ascend in index order. The result of a chunk must
 /// not depend on earlier chunks, for it is chance which chunks a thread gets.
@@ -37,8 +52,7 @@ class BatchWorker {
 
   virtual void count(std::span<const BatchItem> chunk, const SizeSink& sink) = 0;
 
-  /// The spans of the row that `sink` receives may be overwritten as soon as it returns.
-  virtual void find(std::span<const BatchItem> chunk, bool distances, const ChunkSink& sink) = 0;
+  virtual void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) = 0;
 };
 
 /// How a batch had better use a method.
@@ -81,7 +95,7 @@ class SearcherWorker final : public BatchWorker {
     }
   }
 
-  void find(std::span<const BatchItem> chunk, bool distances, const ChunkSink& sink) override {
+  void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) override {
     begin_(searcher_);
     for (const BatchItem& item : chunk) {
       if (distances) {
@@ -89,7 +103,10 @@ class SearcherWorker final : public BatchWorker {
       } else {
         searcher_.neighborhood(item.vertex, item.radius, ids_);
       }
-      if (!sink({item.row, ids_, distances_})) return;
+      const BatchMemory memory = receiver.memory(item.row, ids_.size());
+      std::copy(ids_.begin(), ids_.end(), memory.ids.begin());
+      if (distances) std::copy(distances_.begin(), distances_.end(), memory.distances.begin());
+      if (!receiver.done(item.row)) return;
     }
   }
 

@@ -19,13 +19,13 @@ const PacketAnswer& SinglePacket::describe(const IndexView& index, const VertexS
   const auto leaf_of_vertex = [&](VertexId vertex) { return leaf_of(index.slot[index.id(vertex)]); };
   whole_.clear();
   partial_.clear();
-  words_.assign(found.subsets().size(), {});
+  words_.resize(found.subsets().size());
   for (const VertexRange& run : found.runs()) {
     whole_.push_back({{leaf_of_vertex(run.begin), leaf_of_vertex(run.end - 1) + 1, run}, kQuery});
   }
   for (std::size_t i = 0; i < words_.size(); ++i) {
     const auto [leaf, lanes] = found.subsets()[i];
-    for_each_lane(lanes, [&](unsigned lane) { words_[i][lane] = kQuery; });
+    for (unsigned lane = 0; lane < kLeafCapacity; ++lane) words_[i][lane] = lanes >> lane & kQuery;
     partial_.push_back({leaf, {index.leaf_begin[leaf], index.leaf_begin[leaf + 1]}, words_[i]});
   }
   answer_.queries = kQuery;

@@ -8,6 +8,7 @@
 namespace meshhood {
 
 void sort_answer(std::span<VertexId> ids, std::span<double> distances) {
+  if (std::is_sorted(ids.begin(), ids.end())) return;
   if (distances.empty()) {
     std::sort(ids.begin(), ids.end());
     return;

@@ -29,9 +29,9 @@ class Values {
     return {values_.get() + begin, size};
   }
 
-  /// Copies `more` to the end and returns the copy.
-  std::span<T> append(std::span<const T> more) {
-    const std::size_t needed = size_ + more.size();
+  /// Adds `count` values, which the caller sets.
+  std::span<T> add(std::size_t count) {
+    const std::size_t needed = size_ + count;
     if (needed > capacity_) {
       const std::size_t capacity = std::max(needed, 2 * capacity_);
       auto larger = std::make_unique_for_overwrite<T[]>(capacity);  // NOLINT(modernize-avoid-c-arrays)
@@ -39,9 +39,7 @@ class Values {
       values_ = std::move(larger);
       capacity_ = capacity;
     }
-    T* begin = std::copy(more.begin(), more.end(), values_.get() + size_) - more.size();
-    size_ = needed;
-    return {begin, more.size()};
+    return {values_.get() + std::exchange(size_, needed), count};
   }
 
  private:
@@ -50,14 +48,102 @@ class Values {
   std::size_t capacity_ = 0;
 };
 
+/// The rows of a window that one thread computed.
+struct Store {
+  Values<VertexId> ids;
+  Values<double> distances;
+
+  void clear() {
+    ids.clear();
+    distances.clear();
+  }
+
+  /// Memory for a row, to which `size` distances belong if they are asked for.
+  BatchMemory add(std::size_t size, bool with_distances) {
+    return {ids.add(size), with_distances ? distances.add(size) : std::span<double>()};
+  }
+};
+
+/// Rows whose order is the index order, on one thread: each is passed on as soon as it is computed.
+class DirectRows final : public RowReceiver {
+ public:
+  DirectRows(Batch& batch, const RowSink& sink, std::span<const std::size_t> row_of)
+      : batch_(batch), sink_(sink), row_of_(row_of) {}
+
+  void run() {
+    batch_.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
+      batch_.worker(thread).find(chunk, batch_.options().distances, *this);
+    });
+  }
+
+  BatchMemory memory(std::size_t /*row*/, std::size_t size) override {
+    store_.clear();
+    return last_ = store_.add(size, batch_.options().distances);
+  }
+
+  bool done(std::size_t row) override {
+    if (batch_.options().sorted) sort_answer(last_.ids, last_.distances);
+    sink_({row_of_.empty() ? row : row_of_[row], last_.ids, last_.distances});
+    batch_.task().advance(1);
+    return batch_.task().should_continue(0);
+  }
+
+ private:
+  Batch& batch_;
+  const RowSink& sink_;
+  std::span<const std::size_t> row_of_;
+  Store store_;
+  BatchMemory last_;
+};
+
 class Stream {
  public:
   Stream(Batch& batch, const RowSink& sink) : batch_(batch), sink_(sink), stores_(batch.task().threads()) {
     if (batch.options().in_index_order) row_of_ = batch.put_in_index_order();
   }
 
-  /// Windows depend on the rows alone, and so does the order of the ids (see `Batch::for_each_chunk`).
   void run() {
+    if (batch_.task().threads() == 1 && batch_.is_in_index_order()) {
+      DirectRows(batch_, sink_, row_of_).run();
+    } else {
+      run_windows();
+    }
+  }
+
+ private:
+  /// Where a row is: `store[begin .. begin + size - 1]` of the thread's store.
+  struct Waiting {
+    unsigned thread;
+    std::size_t begin;
+    std::size_t size;
+  };
+
+  /// Keeps the rows of a window.
+  class WindowRows final : public RowReceiver {
+   public:
+    WindowRows(Stream& stream, unsigned thread, std::size_t first) : stream_(stream), thread_(thread), first_(first) {}
+
+    BatchMemory memory(std::size_t row, std::size_t size) override {
+      Store& store = stream_.stores_[thread_];
+      const Waiting& kept = stream_.waiting_[row - first_] = {thread_, store.ids.size(), size};
+      stream_.bytes_ += stream_.bytes_of(kept);
+      return last_ = store.add(size, stream_.batch_.options().distances);
+    }
+
+    bool done(std::size_t /*row*/) override {
+      if (stream_.batch_.options().sorted) sort_answer(last_.ids, last_.distances);
+      return stream_.fits() && stream_.batch_.task().should_continue(thread_);
+    }
+
+   private:
+    Stream& stream_;
+    unsigned thread_;
+    std::size_t first_;
+    BatchMemory last_;
+  };
+
+  /// Windows depend on the rows alone, and so does what is searched together (see `Batch::for_each_chunk`).
+  void run_windows() {
     std::size_t window = kFirstWindow;
     for (std::size_t first = 0; first < batch_.rows().size();) {
       window = std::min(window, batch_.rows().size() - first);
@@ -72,50 +158,21 @@ class Stream {
     }
   }
 
- private:
-  /// The rows of the window that one thread computed.
-  struct Store {
-    Values<VertexId> ids;
-    Values<double> distances;
-  };
-
-  /// Where a row is: `store[begin .. begin + size - 1]` of the thread's store.
-  struct Waiting {
-    unsigned thread;
-    std::size_t begin;
-    std::size_t size;
-  };
-
   /// Computes `window` rows; false if they need more memory than they may have, and are more than one.
   bool fill(std::size_t first, std::size_t window) {
-    const std::size_t room = batch_.options().buffer_bytes;
     waiting_.resize(window);
-    for (Store& store : stores_) {
-      store.ids.clear();
-      store.distances.clear();
-    }
+    for (Store& store : stores_) store.clear();
     bytes_ = 0;
     batch_.for_each_chunk(
         window, [first](std::size_t i) { return first + i; },
         [&](unsigned thread, std::span<const BatchItem> chunk) {
-          batch_.worker(thread).find(chunk, batch_.options().distances, [&](const BatchRow& row) {
-            const Waiting& kept = waiting_[row.row - first] = keep(thread, row);
-            bytes_ += bytes_of(kept);
-            return (bytes_ <= room || window == 1) && batch_.task().should_continue(thread);
-          });
+          WindowRows receiver(*this, thread, first);
+          batch_.worker(thread).find(chunk, batch_.options().distances, receiver);
         });
-    return bytes_ <= room || window == 1;
+    return fits();
   }
 
-  Waiting keep(unsigned thread, const BatchRow& row) {
-    Store& store = stores_[thread];
-    const Waiting kept{thread, store.ids.size(), row.ids.size()};
-    const std::span<VertexId> ids = store.ids.append(row.ids);
-    std::span<double> distances;
-    if (batch_.options().distances) distances = store.distances.append(row.distances);
-    if (batch_.options().sorted) sort_answer(ids, distances);
-    return kept;
-  }
+  [[nodiscard]] bool fits() const { return bytes_ <= batch_.options().buffer_bytes || waiting_.size() == 1; }
 
   [[nodiscard]] std::size_t bytes_of(const Waiting& row) const {
     return sizeof(Waiting) + row.size * (sizeof(VertexId) + (batch_.options().distances ? sizeof(double) : 0));

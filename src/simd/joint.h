@@ -69,6 +69,14 @@ struct LeafOfWords {
   std::uint32_t first;
 };
 
+/// Consecutive vertices of the answers of a packet, in index order: a run that some queries have as a whole, or a leaf.
+struct RowPiece {
+  std::uint32_t first;
+  std::uint32_t size;
+  QueryWord queries;         // of a run: those that have it
+  const QueryWord* reached;  // of a leaf: 32 words; null for a run
+};
+
 struct JointKernels {
   /// Fills `inside` with the queries that surely hold each vertex, and `doubts` of the lanes `in_doubt` with those that
   /// only the exact predicate can decide. `lanes`: the vertices that exist; the others get empty words.
@@ -82,13 +90,13 @@ struct JointKernels {
   /// Adds to `counts` how many vertices each query reaches in the leaves of `list`.
   void (*count_words)(const LeafWords* words, std::span<const LeafOfWords> list, PerLane<std::uint64_t>& counts);
 
-  /// Which vertices of a leaf the query reaches.
-  LaneMask (*lanes_of)(const PerLane<QueryWord>& reached, unsigned query);
+  /// Which vertices of a leaf the query reaches. `reached` has 32 words.
+  LaneMask (*lanes_of)(const QueryWord* reached, unsigned query);
 
-  /// Writes the vertices that the query reaches in the leaves of `list`, and returns where they end: those of
-  /// `permutation`, or in index order where it is null. May write up to 32 behind the end.
-  VertexId* (*write_words)(const LeafWords* words, std::span<const LeafOfWords> list, unsigned query,
-                           const VertexId* permutation, VertexId* out);
+  /// Writes the vertices that the query has in `pieces`, as `permutation` names them, or by their numbers where it is
+  /// null. `out` has room for exactly these.
+  void (*write_row)(std::span<const RowPiece> pieces, unsigned query, const VertexId* permutation,
+                    std::span<VertexId> out);
 };
 
 /// Pushes words over the edges between two leaves. Scalar on every processor: a link has six edges on average.

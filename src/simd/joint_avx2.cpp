@@ -2,6 +2,8 @@
 #include "simd/joint.h"
 
 #if defined(MESHHOOD_HAS_X86)
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 
@@ -216,13 +218,14 @@ MESHHOOD_AVX2 void count_words(const LeafWords* words, std::span<const LeafOfWor
 
 /// Which of eight words have the bit that `shift` moves to the top.
 MESHHOOD_AVX2 inline unsigned with_bit(const QueryWord* words, __m128i shift) {
-  return bits(_mm256_castsi256_ps(_mm256_sll_epi32(load8(words), shift)));
+  const __m256i eight = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(words));
+  return bits(_mm256_castsi256_ps(_mm256_sll_epi32(eight, shift)));
 }
 
-MESHHOOD_AVX2 LaneMask lanes_of(const PerLane<QueryWord>& reached, unsigned query) {
+MESHHOOD_AVX2 LaneMask lanes_of(const QueryWord* reached, unsigned query) {
   const __m128i shift = _mm_cvtsi32_si128(static_cast<int>(31 - query));
-  return with_bit(&reached[0], shift) | with_bit(&reached[8], shift) << 8 | with_bit(&reached[16], shift) << 16 |
-         with_bit(&reached[24], shift) << 24;
+  return with_bit(reached, shift) | with_bit(reached + 8, shift) << 8 | with_bit(reached + 16, shift) << 16 |
+         with_bit(reached + 24, shift) << 24;
 }
 
 /// Writes those of eight ids whose bit is set.
@@ -233,26 +236,45 @@ MESHHOOD_AVX2 inline VertexId* write8(__m256i ids, unsigned set, VertexId* out) 
   return out + std::popcount(set);
 }
 
-MESHHOOD_AVX2 VertexId* write_words(const LeafWords* words, std::span<const LeafOfWords> list, unsigned query,
-                                    const VertexId* permutation, VertexId* out) {
+/// The ids of eight vertices.
+MESHHOOD_AVX2 inline __m256i load_ids(const VertexId* permutation, std::uint32_t first) {
+  if (permutation != nullptr) return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(permutation + first));
+  return _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(first)), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+}
+
+MESHHOOD_AVX2 void write_row(std::span<const RowPiece> pieces, unsigned query, const VertexId* permutation,
+                             std::span<VertexId> out) {
   const __m128i shift = _mm_cvtsi32_si128(static_cast<int>(31 - query));
-  const __m256i count = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-  for (const LeafOfWords& leaf : list) {
-    for (std::uint32_t i = 0; i < kLeafCapacity; i += 8) {
-      const std::uint32_t first = leaf.first + i;
-      const __m256i ids = permutation == nullptr
-                              ? _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(first)), count)
-                              : _mm256_loadu_si256(reinterpret_cast<const __m256i*>(permutation + first));
-      out = write8(ids, with_bit(&words[leaf.words].reached[i], shift), out);
+  VertexId* next = out.data();
+  // The vertices of a leaf are written in steps of eight, up to seven beyond their end. So the last of a row are
+  // written elsewhere first.
+  constexpr std::ptrdiff_t kRoom = kLeafCapacity + 8;
+  std::array<VertexId, 2 * kRoom> end_of_row;
+  VertexId* begin_of_end = nullptr;
+  for (const RowPiece& piece : pieces) {
+    if (piece.reached != nullptr) {
+      if (begin_of_end == nullptr && out.data() + out.size() - next < kRoom) {
+        begin_of_end = next;
+        next = end_of_row.data();
+      }
+      for (std::uint32_t k = 0; k < kLeafCapacity; k += 8) {
+        next = write8(load_ids(permutation, piece.first + k), with_bit(piece.reached + k, shift), next);
+      }
+    } else if ((piece.queries >> query & 1U) != 0) {
+      std::uint32_t k = 0;
+      for (; k + 8 <= piece.size; k += 8, next += 8) {
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(next), load_ids(permutation, piece.first + k));
+      }
+      for (; k < piece.size; ++k) *next++ = permutation == nullptr ? piece.first + k : permutation[piece.first + k];
     }
   }
-  return out;
+  if (begin_of_end != nullptr) std::copy(end_of_row.data(), next, begin_of_end);
 }
 
 }  // namespace
 
 const JointKernels& avx2_joint_kernels() {
-  static constexpr JointKernels kAll{ball_words, spread_words, count_words, lanes_of, write_words};
+  static constexpr JointKernels kAll{ball_words, spread_words, count_words, lanes_of, write_row};
   return kAll;
 }
 

@@ -8,6 +8,7 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 
@@ -199,44 +200,56 @@ MESHHOOD_AVX512 void count_words(const LeafWords* words, std::span<const LeafOfW
   counters.add_to(counts);
 }
 
-MESHHOOD_AVX512 inline LaneMask lanes_with(const PerLane<QueryWord>& reached, __m512i bit) {
-  const Words32 words = load(reached);
-  return join(_mm512_test_epi32_mask(words.low, bit), _mm512_test_epi32_mask(words.high, bit));
+MESHHOOD_AVX512 inline LaneMask lanes_with(const QueryWord* reached, __m512i bit) {
+  return join(_mm512_test_epi32_mask(_mm512_loadu_si512(reached), bit),
+              _mm512_test_epi32_mask(_mm512_loadu_si512(reached + 16), bit));
 }
 
-MESHHOOD_AVX512 LaneMask lanes_of(const PerLane<QueryWord>& reached, unsigned query) {
+MESHHOOD_AVX512 LaneMask lanes_of(const QueryWord* reached, unsigned query) {
   return lanes_with(reached, _mm512_set1_epi32(static_cast<int>(1U << query)));
 }
 
-/// Writes those of sixteen ids whose lane is set. Compressed in a register and stored whole: compressing stores are
-/// slow on some processors.
-MESHHOOD_AVX512 inline VertexId* write16(__m512i ids, LaneMask lanes, VertexId* out) {
-  _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(static_cast<__mmask16>(lanes), ids));
-  return out + _mm_popcnt_u32(lanes & 0xFFFFU);
+/// Writes the first `count` of sixteen ids, and nothing behind them.
+MESHHOOD_AVX512 inline VertexId* write_first(__m512i ids, unsigned count, VertexId* out) {
+  _mm512_mask_storeu_epi32(out, static_cast<__mmask16>(_bzhi_u32(0xFFFF, count)), ids);
+  return out + count;
 }
 
-MESHHOOD_AVX512 VertexId* write_words(const LeafWords* words, std::span<const LeafOfWords> list, unsigned query,
-                                      const VertexId* permutation, VertexId* out) {
-  const __m512i bit = _mm512_set1_epi32(static_cast<int>(1U << query));
+/// Writes those of sixteen ids whose lane is set. Compressed in a register: compressing stores are slow on some
+/// processors.
+MESHHOOD_AVX512 inline VertexId* write16(__m512i ids, LaneMask lanes, VertexId* out) {
+  const auto set = static_cast<__mmask16>(lanes);
+  return write_first(_mm512_maskz_compress_epi32(set, ids), static_cast<unsigned>(_mm_popcnt_u32(set)), out);
+}
+
+/// The ids of sixteen vertices.
+MESHHOOD_AVX512 inline __m512i load_ids(const VertexId* permutation, std::uint32_t first) {
+  if (permutation != nullptr) return _mm512_loadu_si512(permutation + first);
   const __m512i count = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  for (const LeafOfWords& leaf : list) {
-    const LaneMask lanes = lanes_with(words[leaf.words].reached, bit);
-    if (permutation == nullptr) {
-      const __m512i first = _mm512_add_epi32(_mm512_set1_epi32(static_cast<int>(leaf.first)), count);
-      out = write16(first, lanes, out);
-      out = write16(_mm512_add_epi32(first, _mm512_set1_epi32(16)), lanes >> 16, out);
-    } else {
-      out = write16(_mm512_loadu_si512(permutation + leaf.first), lanes, out);
-      out = write16(_mm512_loadu_si512(permutation + leaf.first + 16), lanes >> 16, out);
+  return _mm512_add_epi32(_mm512_set1_epi32(static_cast<int>(first)), count);
+}
+
+MESHHOOD_AVX512 void write_row(std::span<const RowPiece> pieces, unsigned query, const VertexId* permutation,
+                               std::span<VertexId> out) {
+  const __m512i bit = _mm512_set1_epi32(static_cast<int>(1U << query));
+  VertexId* next = out.data();
+  for (const RowPiece& piece : pieces) {
+    if (piece.reached != nullptr) {
+      const LaneMask lanes = lanes_with(piece.reached, bit);
+      next = write16(load_ids(permutation, piece.first), lanes, next);
+      next = write16(load_ids(permutation, piece.first + 16), lanes >> 16, next);
+    } else if ((piece.queries >> query & 1U) != 0) {
+      for (std::uint32_t k = 0; k < piece.size; k += 16) {
+        next = write_first(load_ids(permutation, piece.first + k), std::min(piece.size - k, 16U), next);
+      }
     }
   }
-  return out;
 }
 
 }  // namespace
 
 const JointKernels& avx512_joint_kernels() {
-  static constexpr JointKernels kAll{ball_words, spread_words, count_words, lanes_of, write_words};
+  static constexpr JointKernels kAll{ball_words, spread_words, count_words, lanes_of, write_row};
   return kAll;
 }
 

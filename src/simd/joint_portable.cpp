@@ -118,27 +118,30 @@ void count_words(const LeafWords* words, std::span<const LeafOfWords> list, PerL
   counters.add_to(counts);
 }
 
-LaneMask lanes_of(const PerLane<QueryWord>& reached, unsigned query) {
+LaneMask lanes_of(const QueryWord* reached, unsigned query) {
   LaneMask lanes = 0;
   for (std::size_t i = 0; i < kLeafCapacity; ++i) lanes |= (reached[i] >> query & 1U) << i;
   return lanes;
 }
 
-VertexId* write_words(const LeafWords* words, std::span<const LeafOfWords> list, unsigned query,
-                      const VertexId* permutation, VertexId* out) {
-  for (const LeafOfWords& leaf : list) {
-    for (LaneMask lanes = lanes_of(words[leaf.words].reached, query); lanes != 0; lanes &= lanes - 1) {
-      const auto vertex = leaf.first + static_cast<std::uint32_t>(std::countr_zero(lanes));
-      *out++ = permutation == nullptr ? static_cast<VertexId>(vertex) : permutation[vertex];
+void write_row(std::span<const RowPiece> pieces, unsigned query, const VertexId* permutation, std::span<VertexId> out) {
+  VertexId* next = out.data();
+  const auto write = [&](std::uint32_t vertex) {
+    *next++ = permutation == nullptr ? static_cast<VertexId>(vertex) : permutation[vertex];
+  };
+  for (const RowPiece& piece : pieces) {
+    if (piece.reached != nullptr) {
+      for_each_lane(lanes_of(piece.reached, query), [&](unsigned lane) { write(piece.first + lane); });
+    } else if ((piece.queries >> query & 1U) != 0) {
+      for (std::uint32_t i = 0; i < piece.size; ++i) write(piece.first + i);
     }
   }
-  return out;
 }
 
 }  // namespace
 
 const JointKernels& portable_joint_kernels() {
-  static constexpr JointKernels kAll{ball_words, spread_words, count_words, lanes_of, write_words};
+  static constexpr JointKernels kAll{ball_words, spread_words, count_words, lanes_of, write_row};
   return kAll;
 }
 

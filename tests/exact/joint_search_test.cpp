@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "exact/joint/row_writer.h"
 #include "support/exact_answer.h"
 #include "support/families.h"
 #include "support/family_name.h"
@@ -30,7 +31,10 @@ class JointAnswer {
  public:
   explicit JointAnswer(const MeshView& mesh)
       : mesh_(mesh), reference_(mesh), index_(build(mesh)), view_(IndexAccess::view(index_)) {
-    for (const Isa isa : available_isas()) searches_.emplace_back(view_, isa);
+    for (const Isa isa : available_isas()) {
+      searches_.emplace_back(view_, isa);
+      writers_.emplace_back(view_, isa);
+    }
   }
 
   [[nodiscard]] const IndexView& view() const { return view_; }
@@ -52,6 +56,7 @@ class JointAnswer {
  private:
   void query_group(std::span<const Asked> queries) {
     JointSearch& search = searches_[groups_++ % searches_.size()];
+    writer_ = &writers_[static_cast<std::size_t>(&search - searches_.data())];
     double low = kInfinity;
     double high = 0;
     std::vector<LeafId> leaves;
@@ -77,11 +82,11 @@ class JointAnswer {
     for (const Asked& asked : queries) packet.push_back({asked.lane, JointRadius(view_.frame, asked.radius)});
     search.run(queries.front().leaf, packet);
     const PerLane<std::uint64_t> counts = search.counts();
+    writer_->begin(search.answer());
     for (unsigned i = 0; i < queries.size(); ++i) {
       const VertexId v = view_.id(view_.leaf_begin[queries[i].leaf] + queries[i].lane);
       reference_.neighborhood(v, queries[i].radius, expected_);
-      const bool right =
-          counts[i] == expected_.size() && right_ids(search, i, counts[i]) && right_distances(search, i, v);
+      const bool right = counts[i] == expected_.size() && right_ids(i, counts[i]) && right_distances(i, v);
       EXPECT_TRUE(right) << "vertex " << v << ", radius " << queries[i].radius << ": " << counts[i]
                          << " vertices instead of " << expected_.size();
       mismatches_ += static_cast<std::size_t>(!right);
@@ -89,19 +94,21 @@ class JointAnswer {
     }
   }
 
-  bool right_ids(JointSearch& search, unsigned query, std::size_t count) {
-    ids_.assign(count + kLeafCapacity, 0);
-    search.write_ids(query, ids_.data());
-    ids_.resize(count);
+  bool right_ids(unsigned query, std::size_t count) {
+    ids_.assign(count, 0);
+    writer_->write_ids(query, ids_);
+    for (std::size_t i = 1; i < count; ++i) {
+      if (view_.slot[ids_[i - 1]] >= view_.slot[ids_[i]]) return false;  // in index order
+    }
     std::vector<VertexId> sorted = ids_;
     std::sort(sorted.begin(), sorted.end());
     std::sort(expected_.begin(), expected_.end());
     return sorted == expected_;
   }
 
-  bool right_distances(JointSearch& search, unsigned query, VertexId v) {
+  bool right_distances(unsigned query, VertexId v) {
     std::vector<double> distances(ids_.size());
-    search.write_distances(query, distances.data());
+    writer_->write_distances(query, view_.position(leaf_of(view_.slot[v]), lane_of(view_.slot[v])), distances);
     for (std::size_t i = 0; i < ids_.size(); ++i) {
       if (distances[i] != distance(mesh_.positions, v, ids_[i])) return false;
     }
@@ -112,7 +119,9 @@ class JointAnswer {
   ReferenceSearcher reference_;
   Index index_;
   const IndexView& view_;
-  std::vector<JointSearch> searches_;
+  std::vector<JointSearch> searches_;  // by instruction set
+  std::vector<RowWriter> writers_;
+  RowWriter* writer_ = nullptr;
   std::size_t groups_ = 0;
   std::vector<VertexId> expected_;
   std::vector<VertexId> ids_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The kernels of the joint search give the same bits on every processor, and what their definitions say.
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <cstdio>
@@ -155,12 +156,10 @@ TEST_P(EveryJointPath, QueriesThatHoldAConnectedLeafReachAllOfItAtOnce) {
   }
 }
 
-TEST_P(EveryJointPath, CountsAndLanesAndIdsAgree) {
+TEST_P(EveryJointPath, CountsAndLanesAgree) {
   for (const std::size_t leaves : {0U, 1U, 2U, 3U, 4U, 7U, 8U, 15U, 16U, 31U, 33U, 100U, 1025U}) {
     std::vector<LeafWords> words(leaves);
     std::vector<LeafOfWords> list(leaves);
-    std::vector<VertexId> permutation(kLeafCapacity * (leaves + 1));
-    for (VertexId& id : permutation) id = static_cast<VertexId>(random.bits() % 60000);
     for (std::size_t i = 0; i < leaves; ++i) {
       words[i].reached = random_words();
       if (random.below(8) == 0) words[i].reached.fill(~QueryWord{0});
@@ -170,28 +169,57 @@ TEST_P(EveryJointPath, CountsAndLanesAndIdsAgree) {
     counts.fill(3);
     tried.count_words(words.data(), list, counts);
     for (unsigned query = 0; query < kPacketCapacity; ++query) {
-      std::vector<VertexId> by_place;
-      std::vector<VertexId> by_id;
+      std::size_t count = 3;
       for (const LeafOfWords& leaf : list) {
         LaneMask lanes = 0;
         for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
-          if ((words[leaf.words].reached[lane] >> query & 1U) == 0) continue;
-          lanes |= LaneMask{1} << lane;
-          by_place.push_back(static_cast<VertexId>(leaf.first + lane));
-          by_id.push_back(permutation[leaf.first + lane]);
+          lanes |= (words[leaf.words].reached[lane] >> query & 1U) << lane;
         }
-        ASSERT_EQ(tried.lanes_of(words[leaf.words].reached, query), lanes);
+        ASSERT_EQ(tried.lanes_of(words[leaf.words].reached.data(), query), lanes);
+        count += static_cast<std::size_t>(std::popcount(lanes));
       }
-      ASSERT_EQ(counts[query], by_id.size() + 3);
-      std::vector<VertexId> found(by_id.size() + kLeafCapacity);
-      VertexId* end = tried.write_words(words.data(), list, query, permutation.data(), found.data());
-      ASSERT_EQ(end - found.data(), static_cast<std::ptrdiff_t>(by_id.size()));
-      found.resize(by_id.size());
-      ASSERT_EQ(found, by_id);
-      found.resize(by_place.size() + kLeafCapacity);
-      end = tried.write_words(words.data(), list, query, nullptr, found.data());
-      found.resize(static_cast<std::size_t>(end - found.data()));
-      ASSERT_EQ(found, by_place);
+      ASSERT_EQ(counts[query], count);
+    }
+  }
+}
+
+TEST_P(EveryJointPath, RowsAreWrittenToTheirLastIdAndNotBeyond) {
+  for (const std::size_t count : {0U, 1U, 2U, 3U, 9U, 40U}) {
+    std::vector<PerLane<QueryWord>> words(count);
+    std::vector<RowPiece> pieces;
+    std::uint32_t vertices = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool is_run = random.below(2) == 0;
+      const auto size = static_cast<std::uint32_t>(1 + random.below(is_run ? 90 : kLeafCapacity));
+      vertices += static_cast<std::uint32_t>(random.below(5));
+      words[i] = random_words();
+      if (random.below(4) == 0) words[i].fill(~QueryWord{0});
+      std::fill(words[i].begin() + std::min(size, kLeafCapacity), words[i].end(), 0);
+      pieces.push_back({vertices, size, random_word(), is_run ? nullptr : words[i].data()});
+      vertices += size;
+    }
+    std::vector<VertexId> permutation(vertices + kLeafCapacity);
+    for (VertexId& id : permutation) id = static_cast<VertexId>(random.bits() % 60000);
+    for (unsigned query = 0; query < kPacketCapacity; ++query) {
+      std::vector<VertexId> by_place;
+      for (const RowPiece& piece : pieces) {
+        for (std::uint32_t i = 0; i < piece.size; ++i) {
+          const QueryWord word = piece.reached == nullptr ? piece.queries : piece.reached[i];
+          if ((word >> query & 1U) != 0) by_place.push_back(static_cast<VertexId>(piece.first + i));
+        }
+      }
+      std::vector<VertexId> by_id;
+      for (const VertexId vertex : by_place) by_id.push_back(permutation[vertex]);
+      constexpr VertexId kUntouched = 60001;
+      std::vector<VertexId> found(by_id.size() + 64, kUntouched);
+      const auto row = std::span(found).first(by_id.size());
+      const auto behind = std::span(found).subspan(by_id.size());
+      tried.write_row(pieces, query, permutation.data(), row);
+      ASSERT_TRUE(std::equal(row.begin(), row.end(), by_id.begin()));
+      ASSERT_THAT(behind, testing::Each(kUntouched));
+      tried.write_row(pieces, query, nullptr, row);
+      ASSERT_TRUE(std::equal(row.begin(), row.end(), by_place.begin()));
+      ASSERT_THAT(behind, testing::Each(kUntouched));
     }
   }
 }

@@ -2,7 +2,9 @@
 #include "exact/joint/group.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <variant>
 
 #include "base/vector.h"
@@ -34,14 +36,6 @@ void convert(std::span<const Real> xyz, const Leaf& leaf, const Point& centre, d
 
 }  // namespace
 
-void append_ids(const IndexView& index, const VertexRange& run, std::vector<VertexId>& ids) {
-  if (index.permutation.empty()) {
-    for (VertexId vertex = run.begin; vertex < run.end; ++vertex) ids.push_back(vertex);
-  } else {
-    ids.insert(ids.end(), &index.permutation[run.begin], &index.permutation[run.begin] + run.size());
-  }
-}
-
 JointGroup::JointGroup(const IndexView& index, const Kernels& kernels)
     : index_(&index),
       kernels_(&kernels),
@@ -60,8 +54,47 @@ void JointGroup::begin(std::span<const LeafId> leaves, const TreeBounds& low, co
     if (is_core(entry)) continue;
     for (const Link& link : index_->links_of(leaves_[entry])) discover(link.leaf);
   }
-  if (points_.size() < leaves_.size()) points_.resize(leaves_.size() + leaves_.size() / 2);
-  has_points_.assign(leaves_.size(), 0);
+  rank_by_distance();
+  if (points_.size() < size()) points_.resize(size() + size() / 2);
+  has_points_.assign(size(), 0);
+  link_ranges_.assign(size(), {kUnknown, kUnknown});
+}
+
+/// Sorts the entries by squared distance from the centre, roughly, in linear time.
+void JointGroup::rank_by_distance() {
+  constexpr std::size_t kBuckets = 64;
+  const float scale = static_cast<float>(kBuckets) / (ball_.outer * ball_.outer);
+  const auto bucket_of = [&](GroupEntry entry) -> std::size_t {
+    if (is_core(entry)) return 0;
+    const Group& spheres = spheres_[entry / kFanOut];
+    const float x = spheres.x[entry % kFanOut] - ball_.x;
+    const float y = spheres.y[entry % kFanOut] - ball_.y;
+    const float z = spheres.z[entry % kFanOut] - ball_.z;
+    const float bucket = ((x * x + y * y) + z * z) * scale;
+    return bucket < static_cast<float>(kBuckets) ? static_cast<std::size_t>(bucket) : kBuckets - 1;
+  };
+  std::array<GroupEntry, kBuckets + 1> begin{};
+  for (GroupEntry entry = 0; entry < size(); ++entry) ++begin[bucket_of(entry) + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  rank_.resize(size());
+  by_rank_.resize(size());
+  for (GroupEntry entry = 0; entry < size(); ++entry) {
+    rank_[entry] = begin[bucket_of(entry)]++;
+    by_rank_[rank_[entry]] = entry;
+  }
+}
+
+std::span<const JointGroup::EntryLink> JointGroup::links(GroupEntry entry) {
+  LinkRange& range = link_ranges_[entry];
+  if (range.begin == kUnknown) {
+    range.begin = static_cast<std::uint32_t>(links_.size());
+    for (const Link& link : index_->links_of(leaves_[entry])) {
+      const GroupEntry other = entry_of_[link.leaf];
+      if (other != kNoEntry) links_.push_back({other, link.boundary, index_->cross_edges_of(link)});
+    }
+    range.end = static_cast<std::uint32_t>(links_.size());
+  }
+  return std::span(links_).subspan(range.begin, range.end - range.begin);
 }
 
 void JointGroup::clear() {
@@ -69,11 +102,12 @@ void JointGroup::clear() {
   touched_.clear();
   leaves_.clear();
   spheres_.clear();
+  eights_.clear();
   cores_.clear();
   core_leaves_.clear();
   rims_.clear();
+  links_.clear();
   core_runs_.clear();
-  core_ids_.clear();
 }
 
 void JointGroup::set_sphere(std::span<const LeafId> leaves) {
@@ -100,9 +134,24 @@ GroupEntry JointGroup::discover(LeafId leaf) {
 }
 
 GroupEntry JointGroup::add_entry(LeafId leaf) {
-  leaves_.push_back(leaf);
-  spheres_.push_back(index_->leaves[leaf].bounds);
+  add_to_eights(leaf, index_->leaves[leaf].bounds, index_->leaves[leaf].connected);
   return static_cast<GroupEntry>(leaves_.size() - 1);
+}
+
+/// Adds an entry to the arrays that are side by side.
+void JointGroup::add_to_eights(LeafId leaf, const FrameSphere& sphere, bool connected) {
+  const std::size_t i = leaves_.size() % kFanOut;
+  if (i == 0) {
+    spheres_.emplace_back();
+    eights_.push_back({0, 0});
+  }
+  leaves_.push_back(leaf);
+  Group& spheres = spheres_.back();
+  spheres.x[i] = sphere.x;
+  spheres.y[i] = sphere.y;
+  spheres.z[i] = sphere.z;
+  spheres.radius[i] = sphere.radius;
+  eights_.back().connected |= static_cast<std::uint8_t>(connected) << i;
 }
 
 bool JointGroup::is_inside(LeafId leaf) const {
@@ -112,8 +161,8 @@ bool JointGroup::is_inside(LeafId leaf) const {
 
 GroupEntry JointGroup::add_core(LeafId leaf) {
   const auto entry = static_cast<GroupEntry>(leaves_.size());
-  leaves_.push_back(kCore + static_cast<LeafId>(cores_.size()));
-  spheres_.push_back({0, 0, 0, 0});
+  add_to_eights(kCore + static_cast<LeafId>(cores_.size()), {0, 0, 0, 0}, false);
+  eights_.back().cores |= bit_of(entry);
   Core core{.first_rim = rims_.size(), .first_run = core_runs_.size()};
   entry_of_[leaf] = entry;
   core_leaves_.assign(1, leaf);
@@ -158,16 +207,6 @@ std::span<const JointGroup::RimLink> JointGroup::rim(GroupEntry core) const {
 std::span<const LeafRun> JointGroup::core_runs(GroupEntry core) const {
   const Core& found = cores_[core_number(core)];
   return std::span(core_runs_).subspan(found.first_run, found.end_run - found.first_run);
-}
-
-std::span<const VertexId> JointGroup::core_ids(GroupEntry entry) {
-  Core& found = cores_[core_number(entry)];
-  if (!found.has_ids) {
-    found.first_id = core_ids_.size();
-    for (const LeafRun& run : core_runs(entry)) append_ids(*index_, run.vertices, core_ids_);
-    found.has_ids = true;
-  }
-  return std::span(core_ids_).subspan(found.first_id, found.vertices);
 }
 
 const LeafPoints& JointGroup::points(GroupEntry entry) {

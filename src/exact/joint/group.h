@@ -25,10 +25,17 @@ class JointGroup {
  public:
   JointGroup(const IndexView& index, const Kernels& kernels);
 
-  /// A link from a core: the entry, and the vertices of that leaf which have a neighbor in the core.
+  /// A link from a leaf to another entry.
+  struct EntryLink {
+    GroupEntry entry;
+    LaneMask boundary;  // the vertices of this leaf that have a neighbor there
+    std::span<const CrossEdge> edges;
+  };
+
+  /// A link from a core to a leaf.
   struct RimLink {
     GroupEntry entry;
-    LaneMask boundary;
+    LaneMask far_boundary;
   };
 
   /// Begins with the group of `leaves`, which are consecutive and belong to one node of the tree. The radii of the
@@ -39,13 +46,27 @@ class JointGroup {
   [[nodiscard]] bool is_core(GroupEntry entry) const { return leaves_[entry] >= kCore; }
   [[nodiscard]] LeafId leaf(GroupEntry entry) const { return leaves_[entry]; }
 
-  /// The spheres of the entries; that of a core is not used.
-  [[nodiscard]] std::span<const FrameSphere> spheres() const { return spheres_; }
+  /// The spheres of the entries, eight to a node group; that of a core is not used.
+  [[nodiscard]] std::span<const Group> spheres() const { return spheres_; }
+
+  /// Which of eight entries are connected leaves, and which are cores.
+  struct Eight {
+    std::uint8_t connected;
+    std::uint8_t cores;
+  };
+  [[nodiscard]] std::span<const Eight> eights() const { return eights_; }
 
   /// The entry of a leaf, or `kNoEntry` where no ball meets it. Any leaf that is linked with an entry, or one of the
   /// group.
   [[nodiscard]] GroupEntry entry_of(LeafId leaf) const { return entry_of_[leaf]; }
   static constexpr GroupEntry kNoEntry = 0xFFFFFFFE;
+
+  /// The place of an entry among all, sorted by the distance from the centre; and the reverse.
+  [[nodiscard]] std::uint32_t rank(GroupEntry entry) const { return rank_[entry]; }
+  [[nodiscard]] GroupEntry at_rank(std::uint32_t rank) const { return by_rank_[rank]; }
+
+  /// The links of an entry that is a leaf. Looked up when first asked for; valid until those of another are.
+  [[nodiscard]] std::span<const EntryLink> links(GroupEntry entry);
 
   // Of a core.
   [[nodiscard]] std::span<const RimLink> rim(GroupEntry core) const;
@@ -53,8 +74,6 @@ class JointGroup {
   [[nodiscard]] std::size_t core_vertices(GroupEntry core) const { return cores_[core_number(core)].vertices; }
   /// Its leaves, ascending.
   [[nodiscard]] std::span<const LeafRun> core_runs(GroupEntry core) const;
-  /// Its vertices in the order of the runs, as the caller numbers them. Copied together when first asked for.
-  [[nodiscard]] std::span<const VertexId> core_ids(GroupEntry core);
 
   /// The centre of the group: exactly, and in the frame.
   [[nodiscard]] const Point& centre() const { return centre_; }
@@ -69,14 +88,17 @@ class JointGroup {
   static constexpr LeafId kCore = 0xF0000000;  // more than any leaf: there are at most 2^27
   static constexpr GroupEntry kUnknown = 0xFFFFFFFF;
 
+  struct LinkRange {
+    std::uint32_t begin;  // in links_
+    std::uint32_t end;
+  };
+
   struct Core {
     std::size_t first_rim;  // in rims_
     std::size_t end_rim = 0;
     std::size_t first_run;  // in core_runs_
     std::size_t end_run = 0;
     std::size_t vertices = 0;
-    bool has_ids = false;
-    std::size_t first_id = 0;  // in core_ids_
   };
 
   void clear();
@@ -85,6 +107,11 @@ class JointGroup {
   GroupEntry add_entry(LeafId leaf);
   GroupEntry add_core(LeafId leaf);
   void add_core_runs();
+  void rank_by_distance();
+  void add_to_eights(LeafId leaf, const FrameSphere& sphere, bool connected);
+  [[nodiscard]] static std::uint8_t bit_of(GroupEntry entry) {
+    return static_cast<std::uint8_t>(1U << entry % kFanOut);
+  }
   [[nodiscard]] bool is_inside(LeafId leaf) const;
 
   const IndexView* index_;
@@ -96,17 +123,18 @@ class JointGroup {
   std::vector<GroupEntry> entry_of_;  // by leaf of the index
   std::vector<LeafId> touched_;       // the leaves whose entry is known
   std::vector<LeafId> leaves_;        // by entry; of a core, kCore and its number
-  std::vector<FrameSphere> spheres_;  // by entry
+  std::vector<Group> spheres_;
+  std::vector<Eight> eights_;
   std::vector<Core> cores_;
   std::vector<LeafId> core_leaves_;  // of the core that is being added
   std::vector<RimLink> rims_;
+  std::vector<LinkRange> link_ranges_;  // by entry
+  std::vector<EntryLink> links_;
+  std::vector<std::uint32_t> rank_;
+  std::vector<GroupEntry> by_rank_;
   std::vector<LeafRun> core_runs_;
-  std::vector<VertexId> core_ids_;
   std::vector<LeafPoints> points_;  // by entry
   std::vector<std::uint8_t> has_points_;
 };
-
-/// Appends the vertices of a run, as the caller numbers them.
-void append_ids(const IndexView& index, const VertexRange& run, std::vector<VertexId>& ids);
 
 }  // namespace meshhood

@@ -39,20 +39,11 @@ class JointSearch {
   /// How many vertices their neighborhoods have.
   [[nodiscard]] const PerLane<std::uint64_t>& counts();
 
-  /// Writes the ids of a neighborhood, as many as its count; `ids` has room for 32 more.
-  void write_ids(unsigned query, VertexId* ids);
-
-  /// Writes the distances in the order of the ids.
-  void write_distances(unsigned query, double* distances);
-
   /// The neighborhoods as words; `rows`, `vertices`, `radii` and `begins_group` are left to the caller. Valid until the
   /// next `run`.
   [[nodiscard]] const PacketAnswer& answer();
 
  private:
-  void collect_common();
-  template <class F>
-  void for_each_vertex(unsigned query, F&& f);
   [[nodiscard]] VertexRange vertices_of(LeafId leaf) const;
 
   const IndexView* index_;
@@ -62,9 +53,6 @@ class JointSearch {
   std::optional<Packet> packet_;
   PerLane<std::uint64_t> counts_{};
   bool has_counts_ = false;
-  bool has_common_ = false;
-  std::vector<VertexId> common_ids_;    // of the whole leaves that every query reaches
-  std::vector<GroupEntry> some_whole_;  // cores, and the whole leaves that only some queries reach
   PacketAnswer answer_;
   std::vector<CoreLeaves> cores_;
   std::vector<WholeLeaves> whole_;

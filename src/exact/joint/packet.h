@@ -39,8 +39,8 @@ class Packet {
   [[nodiscard]] unsigned lane(std::size_t query) const { return lanes_[query]; }
   [[nodiscard]] const Point& centre(std::size_t query) const { return centres_[query]; }
 
-  /// How a leaf with these bounds lies to the balls: outside of all, inside of all, or neither.
-  [[nodiscard]] Containment classify(const FrameSphere& bounds) const { return meshhood::classify(bounds, ball_); }
+  /// Around the leaf: `outer` around all balls, `inner` within each.
+  [[nodiscard]] const TreeBall& ball() const { return ball_; }
 
   /// The exact predicate.
   [[nodiscard]] bool holds(std::size_t query, const Point& vertex) const {
@@ -52,7 +52,7 @@ class Packet {
 
   LeafId leaf_;
   std::size_t size_;
-  TreeBall ball_;  // around the leaf: `outer` around all balls, `inner` within each
+  TreeBall ball_;
   PacketBalls balls_;
   std::array<unsigned, kPacketCapacity> lanes_{};
   std::array<Point, kPacketCapacity> centres_{};

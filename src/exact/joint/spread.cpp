@@ -12,18 +12,23 @@ void JointSpread::run(JointGroup& group, const Packet& packet) {
   if (words_.size() < group.size()) words_.resize(group.size() + group.size() / 2);
   classify(group, packet);
   start(group, packet);
-  worklist_.run([&](GroupEntry entry) { take(group, packet, entry); });
+  worklist_.run([&](std::uint32_t rank) { take(group, packet, group.at_rank(rank)); });
 }
 
 void JointSpread::classify(const JointGroup& group, const Packet& packet) {
+  const std::span<const Group> spheres = group.spheres();
+  for (auto next = static_cast<std::uint32_t>(numbers_.size()); next < spheres.size(); ++next) numbers_.push_back(next);
+  sides_.resize(spheres.size());
+  tree_kernels_->classify(spheres.data(), std::span(numbers_).first(spheres.size()), packet.ball(), sides_.data());
   states_.resize(group.size());
-  const std::span<const FrameSphere> spheres = group.spheres();
   for (GroupEntry entry = 0; entry < states_.size(); ++entry) {
-    const Containment side = group.is_core(entry) ? Containment::Inside : packet.classify(spheres[entry]);
-    const bool is_whole =
-        side == Containment::Inside && (group.is_core(entry) || index_->leaves[group.leaf(entry)].connected);
-    const Kind kind = is_whole ? Kind::Whole : side == Containment::Outside ? Kind::Outside : Kind::Partial;
-    states_[entry] = {kind, kind == Kind::Outside, false, false, 0, 0};
+    const JointGroup::Eight eight = group.eights()[entry / kFanOut];
+    const GroupContainment& side = sides_[entry / kFanOut];
+    const auto has = [&](unsigned bits) { return (bits >> entry % kFanOut & 1U) != 0; };
+    const bool is_whole = has((side.inside & eight.connected) | eight.cores);
+    const bool is_outside = !has(side.inside | side.intersecting | eight.cores);
+    const Kind kind = is_whole ? Kind::Whole : is_outside ? Kind::Outside : Kind::Partial;
+    states_[entry] = {kind, is_outside, false, false, 0, 0};
   }
 }
 
@@ -31,14 +36,14 @@ void JointSpread::classify(const JointGroup& group, const Packet& packet) {
 void JointSpread::start(const JointGroup& group, const Packet& packet) {
   const GroupEntry entry = group.entry_of(packet.leaf());
   if (states_[entry].kind == Kind::Whole) {
-    add_to_whole(packet, entry, packet.queries());
+    add_to_whole(group, packet, entry, packet.queries());
     return;
   }
   states_[entry].kind = Kind::Partial;
   states_[entry].closed = false;
   PerLane<QueryWord>& words = pending(entry);
   for (std::size_t i = 0; i < packet.size(); ++i) words[packet.lane(i)] |= QueryWord{1} << i;
-  worklist_.add(entry);
+  worklist_.add(group.rank(entry));
 }
 
 void JointSpread::take(JointGroup& group, const Packet& packet, GroupEntry entry) {
@@ -49,16 +54,34 @@ void JointSpread::take(JointGroup& group, const Packet& packet, GroupEntry entry
   }
 }
 
-void JointSpread::take_whole(const JointGroup& group, const Packet& packet, GroupEntry entry) {
+/// Pushes one word to an entry; `f` puts it into the pending words of a partial one.
+template <class F>
+void JointSpread::push(const JointGroup& group, const Packet& packet, GroupEntry entry, QueryWord word, F&& f) {
+  if (states_[entry].closed) return;
+  if (states_[entry].kind == Kind::Whole) {
+    add_to_whole(group, packet, entry, word);
+  } else {
+    f(pending(entry));
+    worklist_.add(group.rank(entry));
+  }
+}
+
+void JointSpread::take_whole(JointGroup& group, const Packet& packet, GroupEntry entry) {
   const QueryWord word = states_[entry].word & ~states_[entry].pushed;
   if (states_[entry].pushed == 0) whole_.push_back(entry);
   states_[entry].pushed |= word;
   if (group.is_core(entry)) {
-    push_rim(group, packet, entry, word);
+    for (const JointGroup::RimLink& link : group.rim(entry)) {
+      push(group, packet, link.entry, word, [&](PerLane<QueryWord>& pending) {
+        for_each_lane(link.far_boundary, [&](unsigned lane) { pending[lane] |= word; });
+      });
+    }
   } else {
-    PerLane<QueryWord> reached;
-    reached.fill(word);
-    push_leaf(group, packet, group.leaf(entry), reached, ~LaneMask{0});
+    for (const JointGroup::EntryLink& link : group.links(entry)) {
+      push(group, packet, link.entry, word, [&](PerLane<QueryWord>& pending) {
+        for (const CrossEdge& edge : link.edges) pending[edge.to] |= word;
+      });
+    }
   }
 }
 
@@ -74,7 +97,7 @@ void JointSpread::take_partial(JointGroup& group, const Packet& packet, GroupEnt
   if (spread.gained == 0) return;
   if (state.pushed == 0) partial_.push_back({entry, record.first});
   state.pushed = packet.queries();
-  push_leaf(group, packet, leaf, words_[entry].reached, spread.gained);
+  push_leaf(group, packet, entry, spread.gained);
 }
 
 /// Which queries hold which vertices of the leaf.
@@ -96,44 +119,28 @@ void JointSpread::find_inside(JointGroup& group, const Packet& packet, GroupEntr
   }
 }
 
-void JointSpread::push_leaf(const JointGroup& group, const Packet& packet, LeafId leaf,
-                            const PerLane<QueryWord>& reached, LaneMask gained) {
-  for (const Link& link : index_->links_of(leaf)) {
-    if ((link.boundary & gained) == 0) continue;
-    const GroupEntry entry = group.entry_of(link.leaf);
-    if (entry >= states_.size() || states_[entry].closed) continue;
-    if (states_[entry].kind == Kind::Whole) {
-      QueryWord word = 0;
-      for (LaneMask lanes = link.boundary; lanes != 0; lanes &= lanes - 1)
-        word |= reached[static_cast<std::size_t>(std::countr_zero(lanes))];
-      add_to_whole(packet, entry, word);
-    } else {
-      push_words(index_->cross_edges_of(link), reached, pending(entry));
-      worklist_.add(entry);
-    }
-  }
-}
-
-void JointSpread::push_rim(const JointGroup& group, const Packet& packet, GroupEntry core, QueryWord word) {
-  for (const JointGroup::RimLink& link : group.rim(core)) {
-    if (states_[link.entry].closed) continue;
+/// Pushes the words of a leaf over its links.
+void JointSpread::push_leaf(JointGroup& group, const Packet& packet, GroupEntry entry, LaneMask gained) {
+  const PerLane<QueryWord>& reached = words_[entry].reached;
+  for (const JointGroup::EntryLink& link : group.links(entry)) {
+    if ((link.boundary & gained) == 0 || states_[link.entry].closed) continue;
     if (states_[link.entry].kind == Kind::Whole) {
-      add_to_whole(packet, link.entry, word);
+      QueryWord word = 0;
+      for_each_lane(link.boundary, [&](unsigned lane) { word |= reached[lane]; });
+      add_to_whole(group, packet, link.entry, word);
     } else {
-      PerLane<QueryWord>& words = pending(link.entry);
-      for (LaneMask lanes = link.boundary; lanes != 0; lanes &= lanes - 1)
-        words[static_cast<std::size_t>(std::countr_zero(lanes))] |= word;
-      worklist_.add(link.entry);
+      push_words(link.edges, reached, pending(link.entry));
+      worklist_.add(group.rank(link.entry));
     }
   }
 }
 
-void JointSpread::add_to_whole(const Packet& packet, GroupEntry entry, QueryWord word) {
+void JointSpread::add_to_whole(const JointGroup& group, const Packet& packet, GroupEntry entry, QueryWord word) {
   State& state = states_[entry];
   if ((word & ~state.word) == 0) return;
   state.word |= word;
   state.closed = state.word == packet.queries();
-  worklist_.add(entry);
+  worklist_.add(group.rank(entry));
 }
 
 PerLane<QueryWord>& JointSpread::pending(GroupEntry entry) {

@@ -18,7 +18,8 @@ namespace meshhood {
 /// and a entry that has gained pushes its words over its links, so the search ends, and with exactly the components.
 class JointSpread {
  public:
-  JointSpread(const IndexView& index, const JointKernels& kernels) : index_(&index), kernels_(&kernels) {}
+  JointSpread(const IndexView& index, Isa isa)
+      : index_(&index), kernels_(&joint_kernels(isa)), tree_kernels_(&kernels(isa)) {}
 
   /// Finds what the queries of `packet` reach.
   void run(JointGroup& group, const Packet& packet);
@@ -47,17 +48,20 @@ class JointSpread {
   void classify(const JointGroup& group, const Packet& packet);
   void start(const JointGroup& group, const Packet& packet);
   void take(JointGroup& group, const Packet& packet, GroupEntry entry);
-  void take_whole(const JointGroup& group, const Packet& packet, GroupEntry entry);
+  void take_whole(JointGroup& group, const Packet& packet, GroupEntry entry);
   void take_partial(JointGroup& group, const Packet& packet, GroupEntry entry);
   void find_inside(JointGroup& group, const Packet& packet, GroupEntry entry);
-  void push_leaf(const JointGroup& group, const Packet& packet, LeafId leaf, const PerLane<QueryWord>& reached,
-                 LaneMask gained);
-  void push_rim(const JointGroup& group, const Packet& packet, GroupEntry core, QueryWord word);
-  void add_to_whole(const Packet& packet, GroupEntry entry, QueryWord word);
+  void push_leaf(JointGroup& group, const Packet& packet, GroupEntry entry, LaneMask gained);
+  template <class F>
+  void push(const JointGroup& group, const Packet& packet, GroupEntry entry, QueryWord word, F&& f);
+  void add_to_whole(const JointGroup& group, const Packet& packet, GroupEntry entry, QueryWord word);
   PerLane<QueryWord>& pending(GroupEntry entry);
 
   const IndexView* index_;
   const JointKernels* kernels_;
+  const Kernels* tree_kernels_;
+  std::vector<std::uint32_t> numbers_;  // 0, 1, 2 ...
+  std::vector<GroupContainment> sides_;
   std::vector<State> states_;
   std::vector<LeafWords> words_;  // by entry
   Worklist worklist_;
