@@ -23,8 +23,10 @@
 #include "commands.h"
 #include "input.h"
 #include "io/npz_writer.h"
+#include "matrix_file.h"
 #include "options.h"
 #include "output.h"
+#include "shard.h"
 #include "size_limit.h"
 #include "task.h"
 
@@ -40,15 +42,10 @@ struct BatchCommand {
   bool count = false;
   bool distances = false;
   bool json = false;
+  std::string shard;  ///< as typed; empty for all rows
   std::optional<std::uint64_t> max_bytes;
   std::string output;
 };
-
-/// SciPy uses 32-bit indices where they suffice, and would convert others.
-bool fits_32_bits(const BatchSize& total, std::size_t columns) {
-  constexpr std::uint64_t kMost = std::numeric_limits<std::int32_t>::max();
-  return total.count <= kMost && columns <= kMost;
-}
 
 /// The size of the file, about: the members without the zip headers. The ones of a matrix without distances compress to
 /// a thousandth.
@@ -56,7 +53,7 @@ double file_bytes(const BatchCommand& options, const BatchSize& total, std::size
   const auto rows = static_cast<double>(total.rows);
   const auto count = static_cast<double>(total.count);
   if (options.count) return 8 * rows;
-  const double index_bytes = fits_32_bits(total, columns) ? 4 : 8;
+  const double index_bytes = fits_32_bits(total.count, columns) ? 4 : 8;
   return index_bytes * (rows + count) + (options.distances ? 8 : 1e-3) * count;
 }
 
@@ -84,18 +81,14 @@ class Writer {
   }
 
  private:
-  /// As `scipy.sparse.load_npz` reads it.
   void write_matrix(std::span<const std::uint64_t> sizes, const BatchSize& total) {
-    const std::array<std::int64_t, 2> shape{static_cast<std::int64_t>(total.rows),
-                                            static_cast<std::int64_t>(method_.vertex_count())};
-    npz_.add_text("format", "csr");
-    npz_.add<std::int64_t>("shape", shape);
-    if (fits_32_bits(total, method_.vertex_count())) {
+    begin_matrix(npz_, total.rows, method_.vertex_count());
+    if (fits_32_bits(total.count, method_.vertex_count())) {
       write_pattern<std::int32_t>(sizes, total);
     } else {
       write_pattern<std::int64_t>(sizes, total);
     }
-    options_.distances ? write_distances(total) : write_ones(total);
+    options_.distances ? write_distances(total) : write_ones(npz_, total.count);
   }
 
   template <class Integer>
@@ -118,20 +111,6 @@ class Writer {
     BatchOptions pass = next_pass();
     pass.distances = true;
     for_each_neighborhood(method_, query_, [&](const BatchRow& row) { npz_.append(row.distances); }, pass);
-  }
-
-  void write_ones(const BatchSize& total) {
-    constexpr auto kOnes = [] {
-      std::array<bool, std::size_t{1} << 16> ones{};
-      ones.fill(true);
-      return ones;
-    }();
-    npz_.begin<bool>("data", total.count);
-    for (std::uint64_t left = total.count; left > 0;) {
-      const auto ones = std::span(kOnes).first(std::min<std::uint64_t>(left, kOnes.size()));
-      npz_.append<bool>(ones);
-      left -= ones.size();
-    }
   }
 
   BatchOptions next_pass() {
@@ -158,7 +137,25 @@ std::string task_name(const BatchCommand& options, const std::optional<BatchEsti
                      file_bytes(options, estimate->mean, columns) / 1e6);
 }
 
-BatchSize write(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options) {
+/// What a shard says about its batch and itself.
+std::string describe(const BatchCommand& options, const Shard& shard, double radius, std::size_t rows,
+                     const Fingerprint& mesh, std::size_t columns) {
+  return Json{{"number", shard.number},
+              {"shards", shard.count},
+              {"rows", rows},
+              {"listed", !options.vertices.empty()},
+              {"columns", columns},
+              {"mesh", to_text(mesh)},
+              {"method", options.method},
+              {"radius", radius},
+              {"count", options.count},
+              {"distances", options.distances}}
+      .dump();
+}
+
+/// `shard`: the text of its own array; empty if all rows are written.
+BatchSize write(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options,
+                const std::string& shard) {
   const SizeLimit limit(options.output, options.max_bytes);
   const std::optional<BatchEstimate> expected = estimate(method, query);
   const std::size_t columns = method.vertex_count();
@@ -170,6 +167,7 @@ BatchSize write(const SearchMethod& method, const BatchQuery& query, const Batch
     const std::vector<std::int64_t> listed(list->begin(), list->end());
     npz.add<std::int64_t>("vertices", listed);
   }
+  if (!shard.empty()) npz.add_text(kShardArray, shard);
   const BatchSize total = Writer(method, query, options, limit, task, npz).write();
   if (Task::is_cancelled()) raise(ErrorCode::Cancelled, "cancelled");
   npz.commit();
@@ -193,7 +191,19 @@ void batch(const BatchCommand& options) {
     listed = read_vertex_list(options.vertices, input.vertex_count());
     query.vertices = listed;
   }
-  const BatchSize total = write(search_method(options, input), query, options);
+  const SearchMethod method = search_method(options, input);
+  std::string about;
+  if (!options.shard.empty()) {
+    const Shard shard = parse_shard(options.shard);
+    if (options.vertices.empty()) {
+      listed.resize(input.vertex_count());
+      std::iota(listed.begin(), listed.end(), VertexId{0});
+    }
+    about = describe(options, shard, query.radius.common(), listed.size(), input.fingerprint(), input.vertex_count());
+    query.vertices = std::span(listed).subspan(shard.first_row(listed.size()),
+                                               shard.end_row(listed.size()) - shard.first_row(listed.size()));
+  }
+  const BatchSize total = write(method, query, options, about);
   if (options.json) {
     print_json(
         Json{{"output", options.output}, {"method", options.method}, {"rows", total.rows}, {"count", total.count}});
@@ -229,6 +239,10 @@ void add_batch(CLI::App& program) {
                    "refuse a larger answer, if possible before it is computed (default: the free space of the disk)")
       ->transform(whole_number())
       ->type_name("NUMBER");
+  command
+      ->add_option("--shard", options->shard,
+                   "compute piece i of N of the rows, for meshhood merge; slurm/N: i from SLURM_ARRAY_TASK_ID")
+      ->type_name("i/N");
   add_output(*command, ".npz", "file to write", options->output)->required();
   add_json(*command, options->json);
   command->callback([options] { batch(*options); });

@@ -13,6 +13,8 @@ void add_check(CLI::App& program);
 void add_compare(CLI::App& program);
 void add_generate(CLI::App& program);
 void add_info(CLI::App& program);
+void add_merge(CLI::App& program);
+void add_partition(CLI::App& program);
 void add_query(CLI::App& program);
 
 }  // namespace meshhood::cli

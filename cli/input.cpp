@@ -109,6 +109,8 @@ PositionsView Input::positions() {
   return std::visit([](const auto& xyz) { return PositionsView(xyz); }, *positions_);
 }
 
+Fingerprint Input::fingerprint() { return header_ ? header_->mesh : meshhood::fingerprint(graph()); }
+
 GraphView Input::graph() {
   assert(mesh_ || exact_);
   if (mesh_) {

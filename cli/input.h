@@ -44,6 +44,9 @@ class Input {
   /// In the numbering of the mesh. Borrowed, as all views below.
   [[nodiscard]] PositionsView positions();
 
+  /// Of the mesh. An index says its own.
+  [[nodiscard]] Fingerprint fingerprint();
+
   /// The file must have edges.
   [[nodiscard]] GraphView graph();
 

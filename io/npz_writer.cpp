@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The format of NumPy: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html, version 1.0.
 #include "io/npz_writer.h"
 
-#include <bit>
 #include <cassert>
 #include <cstdint>
 #include <span>
@@ -12,37 +10,14 @@
 
 #include <fmt/format.h>
 
+#include "io/npy.h"
+
 namespace meshhood::io {
-namespace {
-
-template <class T>
-std::string type_of() {
-  const char order = sizeof(T) == 1 ? '|' : std::endian::native == std::endian::little ? '<' : '>';
-  const char kind = std::is_same_v<T, bool> ? 'b' : std::is_floating_point_v<T> ? 'f' : std::is_signed_v<T> ? 'i' : 'u';
-  return fmt::format("{}{}{}", order, kind, sizeof(T));
-}
-
-/// The bytes before the values: a magic string, the version, a length of two bytes, and a Python dictionary padded with
-/// blanks so that the values are aligned.
-std::string header(std::string_view type, std::string_view shape) {
-  constexpr std::size_t kAlignment = 64;
-  constexpr std::size_t kBeforeDictionary = 10;
-  std::string dictionary = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': {}, }}", type, shape);
-  while ((kBeforeDictionary + dictionary.size() + 1) % kAlignment != 0) dictionary += ' ';
-  dictionary += '\n';
-  std::string text = "\x93NUMPY\x01";
-  text += '\0';
-  text += static_cast<char>(dictionary.size() & 0xffU);
-  text += static_cast<char>(dictionary.size() >> 8U);
-  return text + dictionary;
-}
-
-}  // namespace
 
 void NpzWriter::begin_member(std::string_view name, std::string_view type, std::string_view shape, std::uint64_t bytes,
                              ZipWriter::Packing packing) {
   assert(bytes_left_ == 0);
-  const std::string head = header(type, shape);
+  const std::string head = npy_header(type, shape);
   zip_.begin(fmt::format("{}.npy", name), head.size() + bytes, packing);
   zip_.write(head);
   bytes_left_ = bytes;
@@ -52,7 +27,7 @@ template <class T>
 void NpzWriter::begin(std::string_view name, std::uint64_t count) {
   // Numbers hardly compress.
   const auto packing = std::is_same_v<T, bool> ? ZipWriter::Packing::Deflated : ZipWriter::Packing::Stored;
-  begin_member(name, type_of<T>(), fmt::format("({},)", count), count * sizeof(T), packing);
+  begin_member(name, npy_type<T>(), fmt::format("({},)", count), count * sizeof(T), packing);
 }
 
 template <class T>

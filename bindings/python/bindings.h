@@ -16,4 +16,7 @@ void bind_makers(nanobind::module_& module);
 /// Mesh files, index files, and an index as bytes.
 void bind_files(nanobind::module_& module);
 
+/// Meshes in parts.
+void bind_parts(nanobind::module_& module);
+
 }  // namespace meshhood::python

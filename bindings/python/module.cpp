@@ -68,5 +68,6 @@ NB_MODULE(_core, module) {
   meshhood::python::bind_methods(module);
   meshhood::python::bind_makers(module);
   meshhood::python::bind_files(module);
+  meshhood::python::bind_parts(module);
   module.attr("__version__") = meshhood::kVersion.data();
 }

@@ -14,8 +14,21 @@ from . import _core
 from ._files import Mesh, load, read_mesh
 from ._index import Chunk, MeshIndex
 from ._methods import Paper
+from ._partition import partition
 from ._plot import plot_neighborhood
+from .distributed import open_parts
 
 __version__: str = _core.__version__
 
-__all__ = ["Chunk", "Mesh", "MeshIndex", "Paper", "__version__", "load", "plot_neighborhood", "read_mesh"]
+__all__ = [
+    "Chunk",
+    "Mesh",
+    "MeshIndex",
+    "Paper",
+    "__version__",
+    "load",
+    "open_parts",
+    "partition",
+    "plot_neighborhood",
+    "read_mesh",
+]

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: MIT
+"""A mesh of any size, cut into parts with a halo."""
+
+from __future__ import annotations
+
+import os
+import re
+import warnings
+from typing import TYPE_CHECKING, Literal, Optional, Union
+
+from . import _convert, _core
+from ._progress import Progress, reporter
+
+if TYPE_CHECKING:
+    from .distributed import Parts
+
+Path = Union[str, "os.PathLike[str]"]
+
+_UNITS = {"": 1, "k": 10**3, "m": 10**6, "g": 10**9, "t": 10**12, "ki": 2**10, "mi": 2**20, "gi": 2**30, "ti": 2**40}
+
+
+def partition(
+    mesh: Union[Path, tuple[Path, Path]],
+    folder: Path,
+    *,
+    parts: Optional[int] = None,
+    vertices_per_part: Optional[int] = None,
+    halo: float,
+    unit: Literal["mesh", "edge"] = "mesh",
+    memory: Union[int, str] = "1GiB",
+    workers: int = -1,
+    resume: bool = True,
+    progress: Progress = None,
+) -> Parts:
+    """Cuts a mesh into parts with a halo, in bounded memory, and writes them to a folder.
+
+    mesh : a binary PLY file, or a tuple (V, F) of `.npy` files, positions (#V, 3) and faces (#F, k); these are read in
+        chunks and may be larger than the memory. A mesh file of another format is read into memory.
+    folder : created if it does not exist.
+    parts, vertices_per_part : the number of parts, or the vertices of a part without its halo, about. One of them.
+    halo : the largest radius that the parts will answer, finite, >= 0.
+    unit : of `halo`: "mesh" is that of the positions, "edge" is the mean edge length of the mesh.
+    memory : the most bytes of memory, a number or a text such as "4GiB"; at least 64 MiB. A part that takes more is
+        refused with advice.
+    workers, progress : as for `MeshIndex`.
+    resume : keep the parts that an earlier run on the same mesh with the same `halo` and `parts` has finished. Otherwise
+        they are removed.
+
+    Each vertex is owned by one part. A part also has every vertex within the halo of one that it owns, and all faces
+    around these, so that it answers for its vertices exactly, alone.
+
+    Returns the parts, as `open_parts`. Raises ValueError, naming the file and element; OSError, also if another run
+    writes into the folder; KeyboardInterrupt on Ctrl-C. Finished parts then stay, and the next run goes on.
+    """
+    from .distributed import open_parts
+
+    vertices, faces = mesh if isinstance(mesh, tuple) else (mesh, None)
+    folder = _convert.path(folder)
+    options = {
+        "parts": 0 if parts is None else _convert.positive(parts, "parts"),
+        "vertices_per_part": 0 if vertices_per_part is None else _convert.positive(vertices_per_part, "vertices_per_part"),
+        "halo": _convert.finite(halo, "halo", or_zero=True),
+        "halo_in_edges": _convert.choice(unit, "unit", ("mesh", "edge")) == "edge",
+        "memory": _bytes(memory),
+        "threads": _convert.threads(workers),
+        "resume": bool(resume),
+    }
+    if (parts is None) == (vertices_per_part is None):
+        raise ValueError("parts, vertices_per_part: expected one of them")
+    with reporter(progress) as report:
+        _, notes = _core.partition(
+            _convert.path(vertices), None if faces is None else _convert.path(faces), folder, **options, progress=report
+        )
+    for note in notes:
+        warnings.warn(note, stacklevel=2)
+    return open_parts(folder)
+
+
+def _bytes(memory):
+    if not isinstance(memory, str):
+        return _convert.integer(memory, "memory", 0, 2**63)
+    match = re.fullmatch(r"(\d+)\s*([kmgt]i?)?b?", memory.strip().lower())
+    if match is None:
+        raise ValueError(f"memory: {memory!r}, expected a number of bytes or a text such as '4GiB'")
+    return int(match[1]) * _UNITS[match[2] or ""]

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// meshhood partition: cuts a mesh into parts with a halo, in bounded memory.
+#include "parts/partition.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "meshhood/error.h"
+
+#include "commands.h"
+#include "options.h"
+#include "output.h"
+#include "task.h"
+
+namespace meshhood::cli {
+namespace {
+
+struct PartitionCommand {
+  std::string mesh;
+  std::string faces;  ///< a file of faces; empty if `mesh` has them
+  std::uint64_t parts = 0;
+  std::uint64_t vertices_per_part = 0;
+  std::string halo;
+  std::string unit = "mesh";
+  std::uint64_t memory = 0;
+  unsigned threads = kAllThreads;
+  bool no_resume = false;
+  bool json = false;
+  std::string output;
+};
+
+std::unique_ptr<parts::ChunkedMesh> open(const PartitionCommand& options) {
+  if (!options.faces.empty()) return parts::open_arrays(options.mesh, options.faces);
+  // A mesh that is read into memory takes some times the bytes of its file.
+  constexpr std::uint64_t kMemoryPerByte = 4;
+  return parts::open_mesh(options.mesh, options.memory / kMemoryPerByte);
+}
+
+parts::PartitionResult run(const PartitionCommand& options) {
+  Task task("partitioning " + options.mesh);
+  return partition(*open(options), options.output,
+                   {.parts = options.parts,
+                    .vertices_per_part = options.vertices_per_part,
+                    .halo = parse_radius("halo", options.halo),
+                    .halo_in_edges = options.unit == "edge",
+                    .memory = options.memory,
+                    .threads = options.threads,
+                    .resume = !options.no_resume,
+                    .progress = task.progress()});
+}
+
+/// Figures of all parts.
+struct Totals {
+  std::uint64_t vertices = 0;  ///< with the halos
+  std::uint64_t largest = 0;   ///< of a part
+  std::uint64_t bytes = 0;
+};
+
+Totals totals_of(const parts::Manifest& manifest) {
+  Totals totals;
+  for (const parts::Part& part : manifest.parts) {
+    totals.vertices += part.vertices;
+    totals.largest = std::max(totals.largest, part.vertices);
+    for (const parts::PartFile& file : part.files) totals.bytes += file.bytes;
+  }
+  return totals;
+}
+
+Json to_json(const std::string& output, const parts::PartitionResult& result) {
+  const parts::Plan& plan = result.manifest.plan;
+  const Totals totals = totals_of(result.manifest);
+  return {{"output", output},
+          {"vertices", plan.vertices},
+          {"faces", plan.faces},
+          {"parts", plan.parts},
+          {"kept", result.kept},
+          {"halo", plan.halo},
+          {"mean_edge_length", plan.mean_edge_length},
+          {"vertices_with_halo", totals.vertices},
+          {"largest_part", totals.largest},
+          {"bytes", totals.bytes}};
+}
+
+std::string to_text(const std::string& output, const parts::PartitionResult& result) {
+  const parts::Plan& plan = result.manifest.plan;
+  const Totals totals = totals_of(result.manifest);
+  const double ratio =
+      plan.vertices == 0 ? 1.0 : static_cast<double>(totals.vertices) / static_cast<double>(plan.vertices);
+  return fmt::format("{}: {} vertices in {} part{} ({} kept), with halos {:.2f} times as many, halo {:.6g}, {} bytes\n",
+                     printable_name(output), plan.vertices, plan.parts, plan.parts == 1 ? "" : "s", result.kept, ratio,
+                     plan.halo, totals.bytes);
+}
+
+void partition_mesh(const PartitionCommand& options) {
+  const parts::PartitionResult result = run(options);
+  for (const std::string& warning : result.warnings) print_error("warning: ", warning);
+  options.json ? print_json(to_json(options.output, result)) : print_text(to_text(options.output, result));
+}
+
+}  // namespace
+
+void add_partition(CLI::App& program) {
+  auto options = std::make_shared<PartitionCommand>();
+  CLI::App* command =
+      program.add_subcommand("partition", "Cut a mesh of any size into parts that answer by themselves");
+  command
+      ->add_option("MESH", options->mesh,
+                   "binary PLY, or positions as .npy with --faces: read in chunks; other formats: read into memory")
+      ->required()
+      ->check(file_name())
+      ->type_name("");
+  command->add_option("--faces", options->faces, "faces as .npy, (#F, k) integers; MESH then has the positions")
+      ->check(file_name())
+      ->type_name("FILE");
+  CLI::Option* parts =
+      command->add_option("--parts", options->parts, "number of parts")->transform(whole_number())->type_name("NUMBER");
+  command
+      ->add_option("--vertices-per-part", options->vertices_per_part,
+                   "vertices of a part without its halo, about; sets the number of parts")
+      ->transform(whole_number())
+      ->type_name("NUMBER")
+      ->excludes(parts);
+  command->add_option("--halo", options->halo, "the largest radius that the parts answer")
+      ->type_name("NUMBER")
+      ->required();
+  command
+      ->add_option("--unit", options->unit,
+                   "unit of the halo; mesh: that of the positions; edge: the mean edge length of the mesh")
+      ->check(one_of({"mesh", "edge"}))
+      ->type_name("")
+      ->capture_default_str();
+  command->add_option("--memory", options->memory, "most bytes of memory, for example 500MB or 4GiB (default: 1GiB)")
+      ->transform(CLI::AsSizeValue(false))
+      ->type_name("SIZE")
+      ->default_val("1GiB");
+  add_threads(*command, options->threads);
+  command->add_flag("--no-resume", options->no_resume, "remove the parts that an earlier run has finished");
+  command->add_option("-o,--output", options->output, "folder to write; created if it does not exist")
+      ->check(file_name())
+      ->type_name("FOLDER")
+      ->required();
+  add_json(*command, options->json);
+  command->callback([options] { partition_mesh(*options); });
+}
+
+}  // namespace meshhood::cli

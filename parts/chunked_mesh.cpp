@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "parts/chunked_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "meshhood/error.h"
+
+#include "base/text.h"
+#include "io/messages.h"
+
+namespace meshhood::parts {
+namespace {
+
+bool is_valid(double coordinate) { return std::abs(coordinate) <= kLargestCoordinate; }
+
+/// An index as it was stored: negative ones are huge when read as unsigned.
+std::string index_text(std::uint64_t index) {
+  const auto value = static_cast<std::int64_t>(index);
+  return value < 0 ? std::to_string(value) : std::to_string(index);
+}
+
+}  // namespace
+
+void ChunkedMesh::read_positions(std::uint64_t first, std::span<Point> out) {
+  load_positions(first, out);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Point& p = out[i];
+    for (const auto& [axis, value] : {std::pair('x', p.x), std::pair('y', p.y), std::pair('z', p.z)}) {
+      if (is_valid(value)) [[likely]] {
+        continue;
+      }
+      raise(ErrorCode::InvalidMesh,
+            fmt::format("{}: vertex {}: {} is {}, expected a finite number of at most 2^500 in magnitude", name_,
+                        first + i, axis, to_text(value)));
+    }
+  }
+}
+
+void ChunkedMesh::rewind_faces() {
+  load_first_face();
+  next_face_ = 0;
+}
+
+bool ChunkedMesh::read_faces(std::size_t corners, FaceChunk& chunk) {
+  chunk.first = next_face_;
+  chunk.corners.clear();
+  chunk.ends.clear();
+  while (chunk.corners.size() < corners) {
+    const std::size_t begin = chunk.corners.size();
+    if (!load_face(chunk.corners)) break;
+    check_face(std::span(chunk.corners).subspan(begin));
+    chunk.ends.push_back(chunk.corners.size());
+    ++next_face_;
+  }
+  return chunk.size() != 0;
+}
+
+void ChunkedMesh::check_face(std::span<const std::uint64_t> corners) const {
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (corners[i] < vertices_) [[likely]] {
+      continue;
+    }
+    raise(ErrorCode::InvalidMesh, fmt::format("{}: face {}: corner {} is vertex {}, but the mesh has {} vertices",
+                                              name_, next_face_, i, index_text(corners[i]), vertices_));
+  }
+}
+
+void ChunkedMesh::check_degree(std::uint64_t corners) const {
+  if (corners <= kMostCorners) return;
+  raise(ErrorCode::TooLarge, fmt::format("{}: face {} has {} corners, but the limit of a partition is {}", name_,
+                                         next_face_, corners, kMostCorners));
+}
+
+std::unique_ptr<ChunkedMesh> open_mesh(const std::filesystem::path& path, std::uint64_t max_bytes) {
+  if (auto mesh = open_binary_ply(path)) return mesh;
+  std::error_code unknown;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, unknown);
+  const std::string name = io::printable_name(path.string());
+  if (!unknown && bytes > max_bytes) {
+    raise(ErrorCode::TooLarge,
+          fmt::format("{}: a file of {} bytes in this format is read into memory, and --memory allows {}; a binary "
+                      "PLY file or .npy files are read in chunks",
+                      name, bytes, max_bytes));
+  }
+  return chunked(io::read_mesh(path, {.max_bytes = max_bytes}), name);
+}
+
+}  // namespace meshhood::parts

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <bit>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "meshhood/error.h"
+
+#include "io/byte_source.h"
+#include "io/input.h"
+#include "io/messages.h"
+#include "io/ply_header.h"
+#include "io/ply_values.h"
+#include "parts/chunked_mesh.h"
+#include "parts/number_bytes.h"
+#include "parts/random_file.h"
+
+// A binary PLY file in two ways: vertices have a fixed size and are read at any place; faces are read in order, by the
+// values that `io::read_ply` uses.
+
+namespace meshhood::parts {
+namespace {
+
+constexpr std::uint64_t kAnySize = std::numeric_limits<std::uint64_t>::max();
+
+/// A coordinate in the row of a vertex.
+struct Coordinate {
+  std::size_t offset;
+  io::PlyType type;
+};
+
+/// Where the values of a PLY file lie.
+struct Layout {
+  io::PlyHeader header;
+  std::uint64_t vertices = 0;
+  std::uint64_t first_vertex = 0;  ///< its byte
+  std::size_t row_bytes = 0;       ///< of a vertex
+  std::array<Coordinate, 3> axes{};
+  const io::PlyElement* faces = nullptr;  ///< null if there are none
+  std::size_t corner_list = 0;            ///< its place among the properties of a face
+};
+
+std::optional<std::size_t> fixed_bytes(const io::PlyElement& element) {
+  std::size_t sum = 0;
+  for (const io::PlyProperty& property : element.properties) {
+    if (property.is_list) return std::nullopt;
+    sum += size_of(property.type);
+  }
+  return sum;
+}
+
+std::optional<std::array<Coordinate, 3>> find_axes(const io::PlyElement& vertex) {
+  std::array<std::optional<Coordinate>, 3> found;
+  std::size_t offset = 0;
+  for (const io::PlyProperty& property : vertex.properties) {
+    const std::size_t axis = std::string_view("xyz").find(property.name);
+    if (property.name.size() == 1 && axis < 3) {
+      if (found[axis]) return std::nullopt;
+      found[axis] = {offset, property.type};
+    }
+    offset += size_of(property.type);
+  }
+  if (!found[0] || !found[1] || !found[2]) return std::nullopt;
+  return std::array{*found[0], *found[1], *found[2]};
+}
+
+std::optional<std::size_t> find_corner_list(const io::PlyElement& face) {
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < face.properties.size(); ++i) {
+    const io::PlyProperty& property = face.properties[i];
+    if (property.name != "vertex_indices" && property.name != "vertex_index") continue;
+    if (found || !property.is_list || !is_integer(property.type)) return std::nullopt;
+    found = i;
+  }
+  return found;
+}
+
+/// Nothing if a row of a vertex has no fixed place, or if `io::read_ply` must judge the file. `header_bytes`: where the
+/// values begin.
+std::optional<Layout> find_layout(io::PlyHeader header, std::uint64_t header_bytes) {
+  if (header.encoding == io::PlyEncoding::Ascii) return std::nullopt;
+  Layout layout{.header = std::move(header)};
+  std::uint64_t offset = header_bytes;
+  bool has_vertices = false;
+  for (const io::PlyElement& element : layout.header.elements) {
+    if (element.name == "tristrips") return std::nullopt;
+    if (element.name == "face") {
+      const auto list = find_corner_list(element);
+      if (!list || !has_vertices) return std::nullopt;
+      layout.faces = &element;
+      layout.corner_list = *list;
+      break;
+    }
+    const auto row = fixed_bytes(element);
+    if (!row || (*row != 0 && element.count > (kAnySize - offset) / *row)) return std::nullopt;
+    if (element.name == "vertex") {
+      const auto axes = find_axes(element);
+      if (!axes) return std::nullopt;
+      layout.axes = *axes;
+      layout.vertices = element.count;
+      layout.first_vertex = offset;
+      layout.row_bytes = *row;
+      has_vertices = true;
+    }
+    offset += element.count * *row;
+  }
+  if (!has_vertices) return std::nullopt;
+  return layout;
+}
+
+double coordinate(const char* bytes, io::PlyType type, bool swaps) {
+  using io::PlyType;
+  switch (type) {
+    case PlyType::Int8: return number_at<std::int8_t>(bytes, swaps);
+    case PlyType::Uint8: return number_at<std::uint8_t>(bytes, swaps);
+    case PlyType::Int16: return number_at<std::int16_t>(bytes, swaps);
+    case PlyType::Uint16: return number_at<std::uint16_t>(bytes, swaps);
+    case PlyType::Int32: return number_at<std::int32_t>(bytes, swaps);
+    case PlyType::Uint32: return number_at<std::uint32_t>(bytes, swaps);
+    case PlyType::Float32: return static_cast<double>(number_at<float>(bytes, swaps));
+    case PlyType::Float64: break;
+  }
+  return number_at<double>(bytes, swaps);
+}
+
+bool needs_double(const std::array<Coordinate, 3>& axes) {
+  return !fits_float(axes[0].type) || !fits_float(axes[1].type) || !fits_float(axes[2].type);
+}
+
+/// The faces of a file, once in order.
+class FaceReader {
+ public:
+  FaceReader(const std::filesystem::path& path, const Layout& layout)
+      : source_(path), input_(source_, path.string(), kAnySize), layout_(layout) {
+    static_cast<void>(io::read_ply_header(input_));
+    values_ = io::ply_values(input_, layout.header);
+    for (const io::PlyElement& element : layout.header.elements) {
+      if (&element == layout.faces) break;
+      for (const io::PlyProperty& property : element.properties) {
+        require(values_->skip(property.type, element.count));
+      }
+    }
+  }
+
+  [[nodiscard]] bool is_at_end() const { return layout_.faces == nullptr || face_ == layout_.faces->count; }
+
+  /// Appends the corners of the next face. Calls `check(number)` before they take memory.
+  template <class Check>
+  void read(std::vector<std::uint64_t>& corners, Check&& check) {
+    const auto& properties = layout_.faces->properties;
+    for (std::size_t i = 0; i < properties.size(); ++i) {
+      const io::PlyProperty& property = properties[i];
+      const std::uint64_t count = property.is_list ? take_count(property.count_type) : 1;
+      if (i != layout_.corner_list) {
+        require(values_->skip(property.type, count));
+        continue;
+      }
+      check(count);
+      for (std::uint64_t corner = 0; corner < count; ++corner) corners.push_back(take(property.type));
+    }
+    ++face_;
+  }
+
+ private:
+  std::uint64_t take(io::PlyType type) {
+    std::int64_t value = 0;
+    require(values_->take_integer(type, value));
+    return static_cast<std::uint64_t>(value);
+  }
+
+  std::uint64_t take_count(io::PlyType type) {
+    const auto count = static_cast<std::int64_t>(take(type));
+    if (count < 0) fail(fmt::format("a list of {} values, expected at least 0", count));
+    return static_cast<std::uint64_t>(count);
+  }
+
+  void require(const io::Problem& problem) const {
+    if (problem) fail(*problem);
+  }
+
+  [[noreturn]] void fail(std::string_view problem) const {
+    const std::uint64_t faces = layout_.faces == nullptr ? 0 : layout_.faces->count;
+    io::fail_at(input_.name(), values_->location(), ErrorCode::MalformedFile,
+                fmt::format("face {} of {}: {}", face_, faces, problem));
+  }
+
+  io::FileSource source_;
+  io::Input input_;
+  const Layout& layout_;
+  std::unique_ptr<io::PlyValues> values_;
+  std::uint64_t face_ = 0;
+};
+
+class ChunkedPly final : public ChunkedMesh {
+ public:
+  ChunkedPly(const std::filesystem::path& path, Layout layout)
+      : ChunkedMesh(io::printable_name(path.string()), layout.vertices, needs_double(layout.axes)),
+        file_(path),
+        layout_(std::move(layout)),
+        swaps_((layout_.header.encoding == io::PlyEncoding::BigEndian) != (std::endian::native == std::endian::big)) {
+    const std::uint64_t end = layout_.first_vertex + layout_.vertices * layout_.row_bytes;
+    if (end <= file_.size()) return;
+    raise(ErrorCode::MalformedFile,
+          fmt::format("{}: {} vertices of {} bytes end at byte {}, but the file has {} bytes: it is truncated", name(),
+                      layout_.vertices, layout_.row_bytes, end, file_.size()));
+  }
+
+ private:
+  void load_positions(std::uint64_t first, std::span<Point> out) override {
+    constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
+    const std::size_t row = layout_.row_bytes;
+    while (!out.empty()) {
+      const std::size_t count = std::min(out.size(), std::max<std::size_t>(1, kBufferBytes / row));
+      buffer_.resize(count * row);
+      file_.read(layout_.first_vertex + first * row, buffer_);
+      for (std::size_t i = 0; i < count; ++i) out[i] = position_at(buffer_.data() + i * row);
+      first += count;
+      out = out.subspan(count);
+    }
+  }
+
+  [[nodiscard]] Point position_at(const char* row) const {
+    const auto at = [&](const Coordinate& axis) { return coordinate(row + axis.offset, axis.type, swaps_); };
+    return {at(layout_.axes[0]), at(layout_.axes[1]), at(layout_.axes[2])};
+  }
+
+  void load_first_face() override { faces_.emplace(file_.path(), layout_); }
+
+  bool load_face(std::vector<std::uint64_t>& corners) override {
+    if (faces_->is_at_end()) return false;
+    faces_->read(corners, [this](std::uint64_t count) { check_degree(count); });
+    return true;
+  }
+
+  RandomFile file_;
+  Layout layout_;
+  bool swaps_;
+  std::vector<char> buffer_;
+  std::optional<FaceReader> faces_;
+};
+
+}  // namespace
+
+std::unique_ptr<ChunkedMesh> open_binary_ply(const std::filesystem::path& path) {
+  io::FileSource source(path);
+  if (!source.is_regular() || !source.peek(3).starts_with("ply")) return nullptr;
+  io::Input input(source, path.string(), kAnySize);
+  io::PlyHeader header = io::read_ply_header(input);
+  auto layout = find_layout(std::move(header), input.offset());
+  if (!layout) return nullptr;
+  return std::make_unique<ChunkedPly>(path, std::move(*layout));
+}
+
+}  // namespace meshhood::parts

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "parts/chunked_mesh.h"
+
+namespace meshhood::parts {
+
+/// The positions of the vertices of some faces. Where the ids lie close together, as in scans, all vertices between the
+/// smallest and the largest are read, and looked up directly; otherwise those that occur, looked up by binary search.
+/// Memory: at most about 40 bytes a corner.
+class CornerPositions {
+ public:
+  CornerPositions(ChunkedMesh& mesh, const FaceChunk& faces);
+
+  /// The number of vertices, which are numbered from 0.
+  [[nodiscard]] std::size_t size() const { return positions_.size(); }
+
+  /// The number of a vertex that is a corner.
+  [[nodiscard]] std::size_t number(std::uint64_t id) const;
+
+  [[nodiscard]] const Point& at(std::size_t number) const { return positions_[number]; }
+
+  /// The position of a vertex that is a corner.
+  [[nodiscard]] const Point& operator[](std::uint64_t id) const { return positions_[number(id)]; }
+
+ private:
+  void read_between(ChunkedMesh& mesh, std::uint64_t first, std::uint64_t last);
+  void read_sparse(ChunkedMesh& mesh, const FaceChunk& faces);
+
+  std::uint64_t first_ = 0;         // of the ids, if they are dense
+  std::vector<std::uint64_t> ids_;  // ascending; empty if they are dense
+  std::vector<Point> positions_;
+};
+
+}  // namespace meshhood::parts

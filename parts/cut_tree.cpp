@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "parts/cut_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+namespace meshhood::parts {
+namespace {
+
+double coordinate(const Point& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+
+/// The order of vertices along an axis. Total, so that equal positions are separated as well.
+struct Along {
+  int axis;
+
+  bool operator()(const Site& a, const Site& b) const { return key(a) < key(b); }
+
+  [[nodiscard]] std::tuple<double, double, double, std::uint64_t> key(const Site& vertex) const {
+    const Point& p = vertex.position;
+    return {coordinate(p, axis), coordinate(p, (axis + 1) % 3), coordinate(p, (axis + 2) % 3), vertex.id};
+  }
+};
+
+int longest_axis(std::span<const Site> sample) {
+  Box box;
+  for (const Site& vertex : sample) box.add(vertex.position);
+  if (box.is_empty()) return 0;
+  const std::array sides{box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z};
+  return static_cast<int>(std::max_element(sides.begin(), sides.end()) - sides.begin());
+}
+
+}  // namespace
+
+void Box::add(const Point& p) {
+  low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+  high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+}
+
+bool Box::may_hold_within(const Point& p, double squared_radius) const {
+  if (is_empty()) return false;
+  const Point nearest{std::clamp(p.x, low.x, high.x), std::clamp(p.y, low.y, high.y), std::clamp(p.z, low.z, high.z)};
+  return squared_distance(p, nearest) <= squared_radius;
+}
+
+CutTree::CutTree(std::vector<Site> sample, std::size_t parts) : owned_(parts) {
+  nodes_.reserve(2 * parts - 1);
+  cut(sample, 0, parts);
+}
+
+void CutTree::cut(std::span<Site> sample, std::size_t first_part, std::size_t parts) {
+  const std::size_t node = nodes_.size();
+  nodes_.emplace_back();
+  if (parts == 1) {
+    nodes_[node].second = static_cast<std::uint32_t>(first_part);
+    return;
+  }
+  const int axis = longest_axis(sample);
+  const std::size_t first_half = parts / 2;
+  // In this order, so that the product cannot overflow: a sample is small.
+  const std::size_t middle = sample.size() * first_half / parts;
+  const auto pivot = sample.begin() + static_cast<std::ptrdiff_t>(middle);
+  if (pivot != sample.end()) {
+    std::nth_element(sample.begin(), pivot, sample.end(), Along{axis});
+    nodes_[node].pivot = *pivot;
+  }
+  nodes_[node].axis = axis;
+  cut(sample.first(middle), first_part, first_half);
+  nodes_[node].second = static_cast<std::uint32_t>(nodes_.size());
+  cut(sample.subspan(middle), first_part + first_half, parts - first_half);
+}
+
+std::size_t CutTree::next(std::size_t node, const Site& vertex) const {
+  const Node& here = nodes_[node];
+  return Along{here.axis}(vertex, here.pivot) ? node + 1 : here.second;
+}
+
+std::size_t CutTree::owner(const Site& vertex) const {
+  std::size_t node = 0;
+  while (nodes_[node].axis >= 0) node = next(node, vertex);
+  return nodes_[node].second;
+}
+
+void CutTree::add(const Site& vertex) {
+  std::size_t node = 0;
+  for (;;) {
+    nodes_[node].box.add(vertex.position);
+    if (nodes_[node].axis < 0) break;
+    node = next(node, vertex);
+  }
+  ++owned_[nodes_[node].second];
+}
+
+void CutTree::find_near(const Point& p, double squared_halo, std::vector<std::uint32_t>& parts) const {
+  parts.clear();
+  collect(0, p, squared_halo, parts);
+}
+
+void CutTree::collect(std::size_t node, const Point& p, double squared_halo, std::vector<std::uint32_t>& parts) const {
+  const Node& here = nodes_[node];
+  if (!here.box.may_hold_within(p, squared_halo)) return;
+  if (here.axis < 0) {
+    parts.push_back(here.second);
+    return;
+  }
+  collect(node + 1, p, squared_halo, parts);
+  collect(here.second, p, squared_halo, parts);
+}
+
+}  // namespace meshhood::parts

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "base/distance.h"
+
+namespace meshhood::parts {
+
+/// A vertex: where it is and its id.
+struct Site {
+  Point position;
+  std::uint64_t id = 0;
+};
+
+/// An axis-parallel box; empty at first.
+struct Box {
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+  Point low{kInfinity, kInfinity, kInfinity};
+  Point high{-kInfinity, -kInfinity, -kInfinity};
+
+  void add(const Point& p);
+  [[nodiscard]] bool is_empty() const { return !(low.x <= high.x); }
+
+  /// Whether the point of the box nearest to `p` passes the predicate. If not, then no point of the box does: each
+  /// coordinate of the difference to the nearest point is the smallest, and rounded differences, squares and sums keep
+  /// that order. So the answer is never wrong by a rounding error.
+  [[nodiscard]] bool may_hold_within(const Point& p, double squared_radius) const;
+};
+
+/// Cuts space into parts: a kd-tree, each leaf of which is a part. Every vertex belongs to one part, its owner.
+///
+/// A cut separates vertices by one coordinate, then by the others, then by id. So it halves any set of vertices, even
+/// if many have the same coordinate or the same position.
+class CutTree {
+ public:
+  /// Cuts so that each part owns the same number of the vertices in `sample`, give or take one a level.
+  /// `parts` >= 1. O(#sample log #parts).
+  CutTree(std::vector<Site> sample, std::size_t parts);
+
+  [[nodiscard]] std::size_t size() const { return owned_.size(); }
+
+  [[nodiscard]] std::size_t owner(const Site& vertex) const;
+
+  /// Counts `vertex` for its owner, and extends the boxes around it.
+  void add(const Site& vertex);
+
+  /// The number of vertices added to a part.
+  [[nodiscard]] std::uint64_t owned(std::size_t part) const { return owned_[part]; }
+
+  /// Replaces `parts` by those, ascending, whose box may hold a vertex from which `p` passes the predicate: a superset
+  /// of the parts that own a vertex within the halo of `p`.
+  void find_near(const Point& p, double squared_halo, std::vector<std::uint32_t>& parts) const;
+
+ private:
+  struct Node {
+    int axis = -1;             ///< of the cut; -1 for a part
+    Site pivot;                ///< the first vertex of the second half
+    std::uint32_t second = 0;  ///< the node of the second half, or the part; the first half is the next node
+    Box box;                   ///< of the added vertices
+  };
+
+  void cut(std::span<Site> sample, std::size_t first_part, std::size_t parts);
+  [[nodiscard]] std::size_t next(std::size_t node, const Site& vertex) const;
+  void collect(std::size_t node, const Point& p, double squared_halo, std::vector<std::uint32_t>& parts) const;
+
+  std::vector<Node> nodes_;  // preorder
+  std::vector<std::uint64_t> owned_;
+};
+
+}  // namespace meshhood::parts

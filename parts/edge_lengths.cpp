@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "parts/edge_lengths.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <compare>
+#include <memory>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "parts/corner_positions.h"
+#include "parts/spill.h"
+
+namespace meshhood::parts {
+namespace {
+
+/// An edge: its ends, `a` < `b`, and its length.
+struct Edge {
+  std::uint64_t a = 0;
+  std::uint64_t b = 0;
+  double length = 0;
+
+  [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> ends() const { return {a, b}; }
+};
+
+constexpr std::size_t kWords = 3;
+
+bool is_before(const Edge& e, const Edge& f) { return e.ends() < f.ends(); }
+bool is_same(const Edge& e, const Edge& f) { return e.ends() == f.ends(); }
+
+/// The distinct edges of a chunk, sorted.
+std::vector<Edge> edges_of(const FaceChunk& chunk, const CornerPositions& vertices) {
+  std::vector<Edge> edges;
+  edges.reserve(chunk.corners.size());
+  for (std::size_t face = 0; face < chunk.size(); ++face) {
+    const auto corners = chunk.face(face);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const auto [a, b] = std::minmax({corners[i], corners[i == 0 ? corners.size() - 1 : i - 1]});
+      if (a != b) edges.push_back({a, b, 0});
+    }
+  }
+  std::sort(edges.begin(), edges.end(), is_before);
+  edges.erase(std::unique(edges.begin(), edges.end(), is_same), edges.end());
+  for (Edge& edge : edges) edge.length = std::sqrt(squared_distance(vertices[edge.a], vertices[edge.b]));
+  return edges;
+}
+
+/// A sorted run in a file, and its first edge that is left.
+class SortedRun {
+ public:
+  SortedRun(const Spill& spill, std::size_t list, std::size_t buffer_bytes) : reader_(spill, list, buffer_bytes) {}
+
+  [[nodiscard]] const Edge& front() const { return front_; }
+
+  /// Moves to the next edge; false at the end.
+  bool pop() {
+    const auto words = reader_.next(kWords);
+    if (words.empty()) return false;
+    front_ = {words[0], words[1], std::bit_cast<double>(words[2])};
+    return true;
+  }
+
+ private:
+  SpillReader reader_;
+  Edge front_;
+};
+
+/// Calls `f` with the distinct edges of all runs, in order.
+template <class F>
+void merge(std::vector<SortedRun> runs, F&& f) {
+  const auto is_later = [](const SortedRun* s, const SortedRun* t) { return is_before(t->front(), s->front()); };
+  std::priority_queue<SortedRun*, std::vector<SortedRun*>, decltype(is_later)> queue(is_later);
+  for (SortedRun& run : runs) {
+    if (run.pop()) queue.push(&run);
+  }
+  Edge last;  // its ends are equal, unlike those of any edge
+  while (!queue.empty()) {
+    SortedRun* const run = queue.top();
+    queue.pop();
+    if (!is_same(run->front(), last)) f(run->front());
+    last = run->front();
+    if (run->pop()) queue.push(run);
+  }
+}
+
+}  // namespace
+
+double mean_edge_length(ChunkedMesh& mesh, const std::filesystem::path& folder, std::size_t corners,
+                        const std::function<void(std::size_t)>& advance) {
+  std::vector<Spill> spills;  // one for each run, as their number is not known
+  FaceChunk chunk;
+  mesh.rewind_faces();
+  while (mesh.read_faces(corners, chunk)) {
+    const CornerPositions vertices(mesh, chunk);
+    Spill& spill = spills.emplace_back(folder, "edges" + std::to_string(spills.size()), 1, std::size_t{1} << 16);
+    for (const Edge& edge : edges_of(chunk, vertices)) {
+      spill.append(0, std::array{edge.a, edge.b, std::bit_cast<std::uint64_t>(edge.length)});
+    }
+    spill.flush();
+    advance(chunk.corners.size());
+  }
+  chunk = {};
+  const std::size_t buffer = std::max<std::size_t>(1024, 32 * corners / std::max<std::size_t>(1, spills.size()));
+  std::vector<SortedRun> runs;
+  runs.reserve(spills.size());
+  for (const Spill& spill : spills) runs.emplace_back(spill, 0, std::min(buffer, std::size_t{1} << 22));
+  double sum = 0;
+  std::uint64_t count = 0;
+  merge(std::move(runs), [&](const Edge& edge) {
+    sum += edge.length;
+    ++count;
+  });
+  for (const Spill& spill : spills) std::filesystem::remove(spill.file(0));
+  return count == 0 ? 0.0 : sum / static_cast<double>(count);
+}
+
+}  // namespace meshhood::parts

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cerrno>
+#include <filesystem>
+
+#include <fcntl.h>
+#include <sys/file.h>
+
+#include "io/descriptor.h"
+#include "io/messages.h"
+#include "io/uninterrupted.h"
+
+namespace meshhood::parts {
+
+/// The right to write into a folder, which one run at a time has. The system takes it back when the process ends,
+/// however it ends, and no file remains.
+/// Throws Error{IoFailure} with EWOULDBLOCK if another run has it.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& folder)
+      : folder_(io::uninterrupted([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); })) {
+    if (!folder_.is_open()) io::raise_errno(folder, errno, "open");
+    if (io::uninterrupted([&] { return ::flock(folder_.number(), LOCK_EX | LOCK_NB); }) == 0) return;
+    if (errno != EWOULDBLOCK) io::raise_errno(folder, errno, "lock");
+    io::raise_io(folder, EWOULDBLOCK, "another run writes into this folder");
+  }
+
+ private:
+  io::Descriptor folder_;
+};
+
+}  // namespace meshhood::parts

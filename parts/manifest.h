@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "meshhood/fingerprint.h"
+
+/// What a folder of parts contains. docs/distributed.md describes the files.
+namespace meshhood::parts {
+
+/// The version of the folder and its files.
+inline constexpr unsigned kFormat = 1;
+
+inline constexpr std::string_view kManifestFile = "manifest.json";
+
+/// The mesh that was partitioned, and how: parts of one folder agree in all of it.
+struct Plan {
+  std::uint64_t vertices = 0;
+  std::uint64_t faces = 0;
+  bool is_double = false;
+  Fingerprint content_hash;     ///< of positions and faces, in the order of the mesh
+  double mean_edge_length = 0;  ///< of the whole mesh
+  double halo = 0;              ///< in the unit of the positions
+  std::size_t parts = 0;
+
+  friend bool operator==(const Plan&, const Plan&) = default;
+};
+
+/// A file of a part.
+struct PartFile {
+  std::string name;
+  std::uint64_t bytes = 0;
+  std::uint64_t checksum = 0;  ///< XXH3 (64 bits)
+};
+
+/// A part, in a folder of its own.
+struct Part {
+  std::uint64_t vertices = 0;  ///< with the halo and the fringe
+  std::uint64_t owned = 0;
+  std::uint64_t faces = 0;
+  std::vector<PartFile> files;
+};
+
+struct Manifest {
+  Plan plan;
+  std::vector<Part> parts;
+};
+
+/// The name of the folder of a part: part-00012.
+[[nodiscard]] std::string part_name(std::size_t part);
+
+/// The files of a part.
+inline constexpr std::string_view kIndexFile = "index.mhi";
+inline constexpr std::string_view kVerticesFile = "vertices.npy";
+inline constexpr std::string_view kOwnedFile = "owned.npy";
+inline constexpr std::string_view kCornersFile = "face_corners.npy";
+inline constexpr std::string_view kOffsetsFile = "face_offsets.npy";
+inline constexpr std::string_view kPartFile = "part.json";
+
+/// Size and checksum of a file. Throws Error{IoFailure}.
+[[nodiscard]] PartFile describe_file(const std::filesystem::path& folder, std::string_view name);
+
+/// Writes PART_FOLDER/part.json. Throws Error{IoFailure}.
+void write_part(const std::filesystem::path& part_folder, const Plan& plan, std::size_t number, const Part& part);
+
+/// Reads PART_FOLDER/part.json; nothing if there is none.
+/// Throws Error{MalformedIndex} if it has been changed or belongs to another plan or number.
+[[nodiscard]] std::optional<Part> read_part(const std::filesystem::path& part_folder, const Plan& plan,
+                                            std::size_t number);
+
+/// Throws Error{MalformedIndex}, naming the file, unless every file of the part has its size and checksum.
+/// Throws Error{IoFailure} if one is missing. O(bytes).
+void verify_part(const std::filesystem::path& part_folder, const Part& part);
+
+/// Writes FOLDER/manifest.json atomically. Throws Error{IoFailure}.
+void write_manifest(const std::filesystem::path& folder, const Manifest& manifest);
+
+/// Reads FOLDER/manifest.json and verifies that it has not been changed and agrees with itself. The files that it lists
+/// are not read. Throws Error{IoFailure, MalformedIndex}, naming the file.
+[[nodiscard]] Manifest read_manifest(const std::filesystem::path& folder);
+
+}  // namespace meshhood::parts

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+
+#include "meshhood/index.h"
+
+#include "parts/cut_tree.h"
+#include "parts/manifest.h"
+#include "parts/spill.h"
+
+namespace meshhood::parts {
+
+/// What the parts are made from: the vertices and faces of each part, as they were met.
+struct PartContents {
+  Spill vertices;  ///< per vertex four words: id and position; in any order, with repeats
+  Spill faces;     ///< per face: the number of corners and their ids
+};
+
+/// The words of a vertex in `PartContents::vertices`.
+[[nodiscard]] std::array<std::uint64_t, 4> vertex_words(const Site& vertex);
+
+/// An upper bound of the memory that `write_part_files` takes.
+[[nodiscard]] std::uint64_t part_memory(const PartContents& contents, std::size_t part);
+
+/// Builds the index of a part and writes its files to `folder`, which must exist and be empty.
+///
+/// tree   tells which vertices the part owns.
+/// Throws Error{IoFailure, TooLarge, Cancelled}.
+[[nodiscard]] Part write_part_files(const std::filesystem::path& folder, const PartContents& contents,
+                                    std::size_t number, const CutTree& tree, bool is_double,
+                                    const BuildOptions& options);
+
+}  // namespace meshhood::parts

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+// A folder of parts under faults: runs that are stopped, killed or run out of disk, two runs at once, and files that
+// have been changed.
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "parts/folder_lock.h"
+#include "parts/partition.h"
+#include "support/families.h"
+#include "support/parts_folder.h"
+#include "support/random.h"
+#include "support/refusal.h"
+#include "support/scale.h"
+#include "support/scratch.h"
+#include "support/small_disk.h"
+
+namespace meshhood::test {
+namespace {
+
+namespace fs = std::filesystem;
+using parts::PartitionOptions;
+using parts::PartitionResult;
+
+const PartitionOptions kOptions{.parts = 4, .halo = 3};
+
+/// Name -> content of all files below a folder.
+std::map<std::string, std::string> contents(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = read_file(entry.path());
+  }
+  return files;
+}
+
+void overwrite(const fs::path& file, const std::string& bytes) {
+  fs::remove(file);  // a file that is mapped or linked keeps its content
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+class Folder : public testing::Test {
+ protected:
+  PartitionResult run(const fs::path& target, const PartitionOptions& options = kOptions) const {
+    return partition(*chunked(mesh), target, options);
+  }
+
+  /// A complete folder.
+  std::map<std::string, std::string> whole() const {
+    run(scratch.path() / "whole");
+    return contents(scratch.path() / "whole");
+  }
+
+  Scratch scratch;
+  fs::path folder = scratch.path() / "parts";
+  TestMesh mesh = bumpy_grid(30);
+};
+
+TEST_F(Folder, IsLeftAsItIsByASecondRun) {
+  EXPECT_EQ(run(folder).kept, 0U);
+  const auto before = contents(folder);
+  EXPECT_EQ(run(folder).kept, 4U);
+  EXPECT_EQ(contents(folder), before);
+}
+
+TEST_F(Folder, LosesNoFinishedPartWhenARunIsCancelled) {
+  const auto expected = whole();
+  std::size_t stops = 0;
+  for (std::size_t stop = 1;; stop += 3) {
+    fs::remove_all(folder);
+    std::size_t calls = 0;
+    PartitionOptions options = kOptions;
+    options.progress = [&](std::size_t, std::size_t) { return ++calls < stop; };
+    try {
+      run(folder, options);
+      break;
+    } catch (const Error& error) {
+      ASSERT_EQ(error.code(), ErrorCode::Cancelled) << error.what();
+    }
+    EXPECT_FALSE(fs::exists(folder / parts::kManifestFile));
+    std::size_t finished = 0;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      EXPECT_TRUE(entry.path().filename().string().starts_with("part-")) << entry.path() << " was left";
+      ++finished;
+    }
+    EXPECT_EQ(run(folder).kept, finished);
+    EXPECT_EQ(contents(folder), expected);
+    ++stops;
+  }
+  std::printf("cancelled at %zu moments\n", stops);
+  EXPECT_GT(stops, 20U);
+}
+
+TEST_F(Folder, IsCompletedAfterAKill) {
+  const auto expected = whole();
+  std::size_t with_leftovers = 0;
+  for (std::size_t trial = 0; trial < scaled(40, 10); ++trial) {
+    fs::remove_all(folder);
+    const pid_t child = ::fork();
+    if (child == 0) {
+      run(folder);
+      ::_exit(0);
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(1500 * trial));
+    ::kill(child, SIGKILL);
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    if (fs::exists(folder / ".partition.tmp")) ++with_leftovers;
+    run(folder);
+    EXPECT_EQ(contents(folder), expected);
+  }
+  std::printf("%zu kills left temporary files, which the next run has removed\n", with_leftovers);
+}
+
+TEST_F(Folder, IsWrittenByOneRunAtATime) {
+  fs::create_directory(folder);
+  const parts::FolderLock lock(folder);
+  expect_refused(ErrorCode::IoFailure, "another run writes into this folder", [&] { run(folder); });
+  EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST_F(Folder, IsWrittenByOneOfTwoRunsThatStartTogether) {
+  PartitionOptions options = kOptions;
+  std::size_t refused = 0;
+  options.progress = [&](std::size_t done, std::size_t total) {
+    if (done > 0 && done < total && refused == 0) {
+      expect_refused(ErrorCode::IoFailure, "another run", [&] { run(folder); });
+      ++refused;
+    }
+    return true;
+  };
+  run(folder, options);
+  EXPECT_EQ(refused, 1U);
+  EXPECT_EQ(contents(folder), whole());
+}
+
+TEST_F(Folder, KeepsDamagedPartsFromBeingUsed) {
+  const auto expected = whole();
+  std::size_t damaged = 0;
+  for (const auto& [name, content] : expected) {
+    if (name == parts::kManifestFile || content.empty()) continue;
+    run(folder);
+    std::string changed = content;
+    changed[changed.size() / 2] = static_cast<char>(changed[changed.size() / 2] ^ 1);
+    for (const std::string& bytes : {changed, content.substr(0, content.size() - 1), std::string()}) {
+      overwrite(folder / name, bytes);
+      if (name.ends_with(parts::kPartFile)) {
+        expect_refused(ErrorCode::MalformedIndex, name, [&] { run(folder); });
+        overwrite(folder / name, content);
+        continue;
+      }
+      const auto manifest = parts::read_manifest(folder);
+      const auto number = static_cast<std::size_t>(name[9] - '0');
+      expect_refused(ErrorCode::MalformedIndex, name,
+                     [&] { verify_part(folder / parts::part_name(number), manifest.parts[number]); });
+      EXPECT_EQ(run(folder).kept, 3U) << name;
+      EXPECT_EQ(contents(folder), expected);
+      ++damaged;
+    }
+  }
+  std::printf("%zu damaged files were found and written again\n", damaged);
+  EXPECT_GE(damaged, 4U * 4 * 3);
+}
+
+TEST_F(Folder, IsRefusedIfItsManifestHasBeenChanged) {
+  run(folder);
+  const fs::path file = folder / parts::kManifestFile;
+  const std::string text = read_file(file);
+  std::size_t changes = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    std::string changed = text;
+    changed[i] = changed[i] == '7' ? '8' : '7';
+    for (const std::string& bytes : {changed, text.substr(0, i)}) {
+      overwrite(file, bytes);
+      expect_refused(ErrorCode::MalformedIndex,
+                     "manifest.json: ", [&] { static_cast<void>(parts::read_manifest(folder)); });
+      ++changes;
+    }
+  }
+  std::printf("%zu changes of the manifest were refused\n", changes);
+}
+
+TEST_F(Folder, IsRefusedIfItHasPartsOfAnotherMesh) {
+  run(folder);
+  const auto before = contents(folder);
+  const auto refuses = [&](const std::string& culprit, const TestMesh& other, const PartitionOptions& options) {
+    expect_refused(ErrorCode::MalformedIndex, culprit, [&] { partition(*chunked(other), folder, options); });
+    EXPECT_EQ(contents(folder), before);
+  };
+  TestMesh moved = mesh;
+  moved.positions[7] += 1e-3;
+  moved.finish(mesh.single_precision);
+  refuses("holds 4 parts of another mesh with halo 3 already", moved, kOptions);
+  refuses("holds 4 parts of this mesh with halo 3 already", mesh, {.parts = 5, .halo = 3});
+  refuses("holds 4 parts of this mesh with halo 3 already", mesh, {.parts = 4, .halo = 2});
+  fs::remove(folder / parts::kManifestFile);
+  expect_refused(ErrorCode::MalformedIndex, "is a part of another mesh",
+                 [&] { partition(*chunked(moved), folder, kOptions); });
+
+  // Without `resume`, the old parts go.
+  PartitionOptions again = kOptions;
+  again.resume = false;
+  EXPECT_EQ(partition(*chunked(moved), folder, again).kept, 0U);
+  EXPECT_EQ(partition(*chunked(moved), folder, kOptions).kept, 4U);
+}
+
+TEST_F(Folder, IsNotMadeForAMeshWithAFault) {
+  TestMesh wrong = mesh;
+  wrong.corners.back() = 900;
+  expect_refused(ErrorCode::InvalidMesh, "face 1681: corner 2 is vertex 900, but the mesh has 900 vertices",
+                 [&] { partition(*chunked(wrong), folder, kOptions); });
+  wrong = mesh;
+  wrong.positions[4] = kInfinity;
+  wrong.finish(wrong.single_precision);
+  expect_refused(ErrorCode::InvalidMesh, "vertex 1: y is inf", [&] { partition(*chunked(wrong), folder, kOptions); });
+  EXPECT_TRUE(fs::is_empty(folder));
+  expect_refused(ErrorCode::IoFailure, "No such file or directory", [&] { run(scratch.path() / "no" / "parts"); });
+  expect_refused(ErrorCode::IoFailure, "Not a directory", [&] { run(scratch.write("file", "text")); });
+}
+
+TEST_F(Folder, IsCompletedAfterTheDiskWasFull) {
+  const auto expected = whole();
+  fs::create_directory(folder);
+  const auto disk = SmallDisk::mount(folder);
+  if (disk == nullptr) GTEST_SKIP() << "no tmpfs may be mounted here";
+  const fs::path inside = folder / "parts";
+  std::size_t failures = 0;
+  for (std::uint64_t pages = 1;; pages += 2) {
+    disk->leave_free(pages);
+    try {
+      run(inside);
+      break;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.error_number(), ENOSPC) << error.what();
+      EXPECT_FALSE(fs::exists(inside / ".partition.tmp"));
+      EXPECT_FALSE(fs::exists(inside / parts::kManifestFile));
+      ++failures;
+    }
+  }
+  EXPECT_EQ(contents(inside), expected);
+  std::printf("the disk was full %zu times\n", failures);
+  EXPECT_GT(failures, 10U);
+}
+
+}  // namespace
+}  // namespace meshhood::test

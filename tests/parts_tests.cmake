@@ -1,0 +1,14 @@
+# The tests of meshes in parts.
+foreach(stem partition chunked_mesh cut_tree)
+  meshhood_test(parts/${stem} meshhood_parts meshhood_families)
+endforeach()
+meshhood_test(parts/folder ALONE meshhood_parts meshhood_families)
+target_sources(parts_folder_test PRIVATE support/small_disk.cpp)
+
+meshhood_test(parts/memory ALONE meshhood_parts meshhood_shapes)
+# The process whose peak memory `parts/memory` measures.
+add_executable(partition_peak support/partition_peak.cpp)
+target_link_libraries(partition_peak PRIVATE meshhood_parts)
+meshhood_own_target(partition_peak)
+target_compile_definitions(parts_memory_test PRIVATE MESHHOOD_PARTITION_PEAK="$<TARGET_FILE:partition_peak>")
+add_dependencies(parts_memory_test partition_peak)

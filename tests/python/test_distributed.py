@@ -1,0 +1,411 @@
+# SPDX-License-Identifier: MIT
+"""A mesh in parts, on threads and on a cluster of processes."""
+
+import json
+import os
+import re
+import shutil
+import signal
+import struct
+import threading
+import time
+from pathlib import Path
+
+import meshes
+import meshhood
+import numpy as np
+import pytest
+from meshhood import distributed
+
+dask = pytest.importorskip("dask")
+pytest.importorskip("dask.array")
+
+HALO = 6.5
+
+
+def write_ply(path, V, F):
+    with open(path, "wb") as file:
+        file.write(
+            f"ply\nformat binary_little_endian 1.0\nelement vertex {len(V)}\nproperty float x\nproperty float y\n"
+            f"property float z\nelement face {len(F)}\nproperty list uchar int vertex_indices\nend_header\n".encode()
+        )
+        file.write(np.asarray(V, "<f4").tobytes())
+        for face in F:
+            file.write(struct.pack("<B3i", 3, *face))
+    return path
+
+
+@pytest.fixture(scope="module")
+def mesh():
+    V, F = meshes.two_plates(60)
+    V = np.concatenate([V, [[5, 5, 5], [5, 5, 5]]]).astype(np.float32)  # isolated, at one position
+    order = np.random.default_rng(1).permutation(len(V))
+    return V[np.argsort(order)], order[F]
+
+
+@pytest.fixture(scope="module")
+def index(mesh):
+    return meshhood.MeshIndex(*mesh)
+
+
+@pytest.fixture(scope="module")
+def folder(mesh, tmp_path_factory):
+    place = tmp_path_factory.mktemp("mesh")
+    meshhood.partition(write_ply(place / "mesh.ply", *mesh), place / "parts", parts=7, halo=HALO)
+    return place / "parts"
+
+
+@pytest.fixture(scope="module")
+def parts(folder):
+    return meshhood.open_parts(folder)
+
+
+def copy_of(folder, target):
+    shutil.copytree(folder, target)
+    return target
+
+
+def test_parts_describe_the_mesh(parts, index):
+    assert parts.n_vertices == len(index)
+    assert len(parts) == 7
+    assert parts.halo == HALO
+    assert parts.mean_edge_length == index.mean_edge_length
+    assert sum(size.owned for size in parts.sizes) == len(index)
+    assert all(size.vertices > size.owned for size in parts.sizes)
+
+
+@pytest.mark.parametrize("r", (0, 1, 1.5, 4.25, HALO))
+def test_counts_are_those_of_one_index(parts, index, r):
+    counts = parts.counts(r)
+    assert counts.shape == (len(index),)
+    np.testing.assert_array_equal(counts.compute(), index.query_ball_count(None, r))
+
+
+def test_counts_in_the_order_of_the_parts(parts, index):
+    counts = parts.counts(2, unit="edge", order="parts")
+    assert counts.chunks == (tuple(size.owned for size in parts.sizes),)
+    ids = parts.ids().compute()
+    assert sorted(ids) == list(range(len(index)))
+    np.testing.assert_array_equal(counts.compute(), index.query_ball_count(ids, 2, unit="edge"))
+
+
+def test_a_radius_above_the_halo_is_refused_with_the_halo_that_would_do(parts, tmp_path):
+    wider = np.nextafter(HALO, 10)
+    for call in (
+        lambda: parts.counts(wider),
+        lambda: parts.map(len, wider),
+        lambda: parts.neighborhoods(wider, tmp_path / "out"),
+        lambda: parts.write(len, wider, tmp_path / "out"),
+    ):
+        with pytest.raises(ValueError, match=f"halo={wider:.17g}"):
+            call()
+    assert not (tmp_path / "out").exists()
+
+
+def sum_of_x(part, index, owned):
+    x = index.positions[:, 0].astype(np.float64)
+    indptr, indices = index.query_ball(owned, HALO, sort=True, workers=1)
+    return np.add.reduceat(x[indices], indptr[:-1])
+
+
+def test_a_function_sees_each_part(parts, index):
+    expected = sum_of_x(None, index, np.arange(len(index)))
+    np.testing.assert_array_equal(parts.map(sum_of_x, HALO).compute(), expected)
+
+
+def ones_too_many(part, index, owned):
+    return np.ones(len(owned) + 1)
+
+
+def test_a_function_with_a_wrong_result_is_named(parts, tmp_path):
+    with pytest.raises(ValueError, match="function: an array of shape"):
+        parts.map(ones_too_many, 1).compute()
+    with pytest.raises(ValueError, match="function: an array of shape"):
+        parts.write(ones_too_many, 1, tmp_path / "out")
+
+
+def corners_of(part, index, owned):
+    """The number of faces around each vertex, from the faces of the part."""
+    _, faces = part.mesh
+    return np.bincount(faces.ravel(), minlength=len(index))[owned]
+
+
+def test_the_faces_around_every_vertex_are_complete(parts, mesh):
+    V, F = mesh
+    expected = np.bincount(F.ravel(), minlength=len(V))
+    np.testing.assert_array_equal(parts.map(corners_of, 0, dtype=int).compute(), expected)
+
+
+@pytest.mark.parametrize("format", ("npz", "zarr"))
+def test_neighborhoods_are_those_of_one_index(parts, index, tmp_path, format):
+    if format == "zarr":
+        zarr = pytest.importorskip("zarr")
+    paths = parts.neighborhoods(3.5, tmp_path / "out", format=format, return_distance=True)
+    rows = 0
+    for path in paths:
+        found = np.load(path) if format == "npz" else zarr.open_group(path, mode="r")
+        vertices, indptr, indices, distances = (
+            np.asarray(found[name]) for name in ("vertices", "indptr", "indices", "distances")
+        )
+        expected = index.query_ball(vertices, 3.5, sort=True, return_distance=True)
+        for one, other in zip((indptr, indices, distances), expected):
+            np.testing.assert_array_equal(one, other)
+        rows += len(vertices)
+    assert rows == len(index)
+
+
+def test_a_call_that_was_stopped_goes_on(parts, tmp_path):
+    out = tmp_path / "out"
+    calls = []
+
+    def function(part, index, owned):
+        calls.append(part.number)
+        if len(calls) == 4:
+            raise RuntimeError("stop")
+        return owned
+
+    with dask.config.set(scheduler="synchronous"):
+        with pytest.raises(RuntimeError, match="stop"):
+            parts.write(function, 1, out)
+        written = sorted(path.name for path in out.glob("*.npy"))
+        assert len(written) == 3
+        paths = parts.write(function, 1, out)
+    assert len(calls) == 4 + 4
+    assert [np.load(path).shape[0] for path in paths] == [size.owned for size in parts.sizes]
+    assert sorted(os.listdir(out)) == [os.path.basename(path) for path in paths] + ["result.json"]
+
+
+def test_a_folder_of_another_call_is_refused(parts, tmp_path):
+    parts.neighborhoods(1, tmp_path / "out")
+    with pytest.raises(ValueError, match="another call, which differs in r"):
+        parts.neighborhoods(2, tmp_path / "out")
+    with pytest.raises(ValueError, match="another call, which differs in neighborhoods"):
+        parts.neighborhoods(1, tmp_path / "out", format="zarr")
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "text").write_text("mine")
+    with pytest.raises(ValueError, match="expected an empty folder"):
+        parts.neighborhoods(1, tmp_path / "other")
+    (tmp_path / "out" / "result.json").write_text("{")
+    with pytest.raises(ValueError, match="result.json"):
+        parts.neighborhoods(1, tmp_path / "out")
+
+
+def test_one_of_two_calls_into_a_folder_is_refused(parts, tmp_path):
+    begun, go_on = threading.Event(), threading.Event()
+
+    def function(part, index, owned):
+        begun.set()
+        assert go_on.wait(60)
+        return owned
+
+    first = threading.Thread(target=parts.write, args=(function, 1, tmp_path / "out"))
+    first.start()
+    assert begun.wait(60)
+    try:
+        with pytest.raises(BlockingIOError, match="another call writes into this folder"):
+            parts.write(function, 1, tmp_path / "out")
+    finally:
+        go_on.set()
+        first.join()
+
+
+def test_one_of_two_partitions_into_a_folder_is_refused(mesh, tmp_path):
+    file = write_ply(tmp_path / "mesh.ply", *mesh)
+    refused = []
+
+    def progress(done, total):
+        if done and not refused:
+            with pytest.raises(OSError, match="another run writes into this folder"):
+                meshhood.partition(file, tmp_path / "parts", parts=3, halo=1)
+            refused.append(done)
+
+    assert len(meshhood.partition(file, tmp_path / "parts", parts=3, halo=1, progress=progress)) == 3
+    assert refused
+
+
+def test_progress_counts_the_parts(parts, tmp_path):
+    seen = []
+    parts.write(corners_of, 0, tmp_path / "out", progress=lambda done, total: seen.append((done, total)))
+    assert seen[0] == (0, 7)
+    assert seen[-1] == (7, 7)
+
+
+def test_partition_reads_arrays(mesh, index, tmp_path):
+    V, F = mesh
+    np.save(tmp_path / "V.npy", V)
+    np.save(tmp_path / "F.npy", F)
+    parts = meshhood.partition(
+        (tmp_path / "V.npy", tmp_path / "F.npy"), tmp_path / "parts", vertices_per_part=1000, halo=3, unit="edge"
+    )
+    assert len(parts) == -(-len(V) // 1000)
+    assert parts.halo == 3 * index.mean_edge_length
+    np.testing.assert_array_equal(
+        parts.counts(3, unit="edge").compute(), index.query_ball_count(None, 3, unit="edge")
+    )
+
+
+def test_partition_refuses_wrong_arguments(mesh, tmp_path):
+    file = write_ply(tmp_path / "mesh.ply", *mesh)
+    for options, message in (
+        ({"halo": 1}, "expected one of them"),
+        ({"halo": 1, "parts": 2, "vertices_per_part": 2}, "expected one of them"),
+        ({"halo": 1, "parts": 0}, "parts: 0"),
+        ({"halo": -1, "parts": 2}, "halo: -1"),
+        ({"halo": float("inf"), "parts": 2}, "halo: inf"),
+        ({"halo": 1, "parts": 2, "memory": "lots"}, "memory: 'lots'"),
+        ({"halo": 1, "parts": 2, "memory": 5}, "a memory of 5 bytes"),
+        ({"halo": 1, "parts": 2, "unit": "inch"}, "unit: 'inch'"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            meshhood.partition(file, tmp_path / "parts", **options)
+    with pytest.raises(FileNotFoundError):
+        meshhood.partition(tmp_path / "none.ply", tmp_path / "parts", parts=2, halo=1)
+    with pytest.warns(UserWarning, match="2 of 2 parts are as large as the mesh"):
+        meshhood.partition(file, tmp_path / "parts", parts=2, halo=1000)
+
+
+def replace(path, data):
+    path.unlink()
+    path.write_bytes(data)
+
+
+def test_files_that_were_changed_are_refused(folder, tmp_path):
+    changes = 0
+    for name in ("index.mhi", "vertices.npy", "owned.npy", "face_corners.npy"):
+        for cut in (True, False):
+            forged = copy_of(folder, tmp_path / f"{name}-{cut}")
+            data = (forged / "part-00003" / name).read_bytes()
+            middle = len(data) // 2
+            changed = data[:middle] if cut else data[:middle] + bytes([data[middle] ^ 1]) + data[middle + 1 :]
+            replace(forged / "part-00003" / name, changed)
+            with pytest.raises(ValueError, match=f"part-00003/{name}"):
+                meshhood.open_parts(forged).counts(1).compute()
+            changes += 1
+    assert changes == 8
+
+
+def test_a_manifest_that_was_changed_is_refused(folder, tmp_path):
+    forged = copy_of(folder, tmp_path / "forged")
+    text = (folder / "manifest.json").read_text()
+    wider = text.replace(f'"halo": {HALO}', '"halo": 9.5')
+    assert wider != text
+    for changed in (wider, text[:-5], "", "{}", json.dumps(json.loads(text))):
+        replace(forged / "manifest.json", changed.encode())
+        with pytest.raises(ValueError, match="manifest.json"):
+            meshhood.open_parts(forged)
+    (forged / "manifest.json").unlink()
+    with pytest.raises(FileNotFoundError):
+        meshhood.open_parts(forged)
+
+
+def test_a_part_of_another_mesh_is_refused(mesh, folder, tmp_path):
+    V, F = mesh
+    other = tmp_path / "other"
+    meshhood.partition(write_ply(tmp_path / "other.ply", V + np.float32(1), F), other, parts=7, halo=HALO)
+    forged = copy_of(folder, tmp_path / "forged")
+    os.rename(forged / "part-00002", tmp_path / "old")
+    os.rename(other / "part-00002", forged / "part-00002")
+    with pytest.raises(ValueError, match="part-00002/.*is of another mesh"):
+        meshhood.open_parts(forged).counts(1).compute()
+    opened = meshhood.open_parts(folder)
+    with pytest.raises(ValueError, match="holds 7 parts of another mesh"):
+        meshhood.partition(tmp_path / "other.ply", folder, parts=7, halo=HALO)
+    assert len(meshhood.open_parts(folder)) == len(opened)
+
+
+@pytest.fixture(scope="module")
+def client():
+    cluster_of = pytest.importorskip("distributed")
+    with cluster_of.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+    ) as cluster, cluster_of.Client(cluster) as client:
+        yield client
+
+
+def test_a_cluster_of_processes_gives_the_same(parts, index, client, tmp_path):
+    np.testing.assert_array_equal(parts.counts(HALO).compute(), index.query_ball_count(None, HALO))
+    paths = parts.neighborhoods(2, tmp_path / "out")
+    vertices = np.concatenate([np.load(path)["vertices"] for path in paths])
+    assert sorted(vertices) == list(range(len(index)))
+    # On the cluster, not here.
+    assert set(parts.map(process, 0, dtype=int).compute()) <= set(client.run(os.getpid).values())
+
+
+def process(part, index, owned):
+    return np.full(len(owned), os.getpid())
+
+
+def slow_count(folder, part, index, owned):
+    """Says which process computes the part, and leaves time to kill it."""
+    with open(os.path.join(folder, f"{part.number}-{os.getpid()}"), "w"):
+        time.sleep(0.3)
+    return index.query_ball_count(owned, 3, workers=1)
+
+
+class SlowCount:
+    def __init__(self, folder):
+        self.folder = str(folder)
+
+    def __call__(self, part, index, owned):
+        return slow_count(self.folder, part, index, owned)
+
+
+def test_a_worker_that_is_killed_loses_only_its_part(parts, index, client, tmp_path):
+    begun = tmp_path / "begun"
+    begun.mkdir()
+    killed = []
+
+    def kill_one(done, total):
+        if done == 2 and not killed:
+            running = [pid for pid in client.run(os.getpid).values()]
+            killed.append(running[0])
+            os.kill(running[0], signal.SIGKILL)
+
+    paths = parts.write(SlowCount(begun), 3, tmp_path / "out", progress=kill_one)
+    assert killed
+    counts = np.empty(len(index), int)
+    for number, path in enumerate(paths):
+        counts[parts.open(number).vertices[parts.open(number).owned]] = np.load(path)
+    np.testing.assert_array_equal(counts, index.query_ball_count(None, 3))
+    tries = [name.split("-")[0] for name in os.listdir(begun)]
+    assert len(parts) <= len(tries) <= len(parts) + 2, "finished parts are not computed again"
+    assert not list((tmp_path / "out").glob(".*.tmp"))
+
+
+def mean_count(index):
+    return np.array([index.query_ball_count(None, 2, workers=1).mean()])
+
+
+def test_map_meshes_takes_meshes_and_indexes(tmp_path):
+    paths, expected = [], []
+    for side in (5, 8, 11):
+        V, F = meshes.two_plates(side)
+        index = meshhood.MeshIndex(V, F)
+        expected.append(mean_count(index))
+        paths += [write_ply(tmp_path / f"{side}.ply", V, F), tmp_path / f"{side}.mhi"]
+        index.save(paths[-1])
+    np.testing.assert_array_equal(distributed.map_meshes(paths, mean_count)[::2], expected)
+    np.testing.assert_array_equal(distributed.map_meshes(paths, mean_count)[1::2], expected)
+    files = distributed.map_meshes(paths, mean_count, to=tmp_path / "out")
+    np.testing.assert_array_equal([np.load(file) for file in files][::2], expected)
+    os.unlink(files[3])
+    assert distributed.map_meshes(paths, mean_count, to=tmp_path / "out") == files
+    np.testing.assert_array_equal([np.load(file) for file in files][1::2], expected)
+    with pytest.raises(FileNotFoundError):
+        distributed.map_meshes([tmp_path / "none.ply"], mean_count)
+
+
+def test_the_code_of_the_document_runs(mesh, client, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    write_ply("scan.ply", *mesh)
+    write_ply("other.ply", *meshes.two_plates(9))
+    document = Path(__file__).resolve().parents[2] / "docs" / "scale.md"
+    blocks = re.findall(r"```python\n(.*?)```", document.read_text(encoding="utf-8"), re.DOTALL)
+    names = {}
+    for block in blocks:
+        exec(compile(block, "docs/scale.md", "exec"), names)
+    print(f"{len(blocks)} pieces of code")
+    index = meshhood.MeshIndex(*mesh)
+    np.testing.assert_array_equal(names["counts"], index.query_ball_count(None, 4, unit="edge"))
+    assert names["heights"].shape == (len(index),)
+    assert len(names["files"]) == 2

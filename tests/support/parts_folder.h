@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "meshhood/search.h"
+
+#include "io/index_io.h"
+#include "io/mesh_io.h"
+#include "io/npy.h"
+#include "parts/chunked_mesh.h"
+#include "parts/manifest.h"
+#include "support/test_mesh.h"
+
+namespace meshhood::test {
+
+inline io::Mesh as_file_mesh(const TestMesh& mesh) {
+  io::Mesh result;
+  if (mesh.single_precision) {
+    result.positions = mesh.single_positions;
+  } else {
+    result.positions = mesh.positions;
+  }
+  result.offsets = mesh.offsets;
+  result.corners = mesh.corners;
+  return result;
+}
+
+inline std::unique_ptr<parts::ChunkedMesh> chunked(const TestMesh& mesh) {
+  return parts::chunked(as_file_mesh(mesh), mesh.name);
+}
+
+inline std::string read_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+template <class T>
+std::vector<T> read_array(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path);
+  const io::NpyHeader header = io::parse_npy_header(bytes, path.string());
+  std::vector<T> values((bytes.size() - header.bytes) / sizeof(T));
+  std::memcpy(values.data(), bytes.data() + header.bytes, values.size() * sizeof(T));
+  return values;
+}
+
+/// A part, read from its folder.
+struct OpenPart {
+  explicit OpenPart(const std::filesystem::path& folder)
+      : index(io::load(folder / parts::kIndexFile)),
+        ids(read_array<std::int64_t>(folder / parts::kVerticesFile)),
+        owned(read_array<std::int32_t>(folder / parts::kOwnedFile)),
+        corners(read_array<std::int32_t>(folder / parts::kCornersFile)),
+        offsets(read_array<std::int64_t>(folder / parts::kOffsetsFile)) {}
+
+  Index index;
+  std::vector<std::int64_t> ids;
+  std::vector<std::int32_t> owned;
+  std::vector<std::int32_t> corners;
+  std::vector<std::int64_t> offsets;
+};
+
+}  // namespace meshhood::test
