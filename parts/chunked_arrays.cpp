@@ -19,11 +19,11 @@
 namespace meshhood::parts {
 namespace {
 
-constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
-
 /// A `.npy` file of numbers in rows.
 class Rows {
  public:
+  static constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
+
   Rows(const std::filesystem::path& path, std::string_view kinds, std::string_view expected)
       : file_(path), name_(io::printable_name(path.string())), header_(read_header()) {
     const auto& [bytes, kind, item, big_endian, fortran_order, shape] = header_;
@@ -125,7 +125,7 @@ class Arrays final : public ChunkedMesh {
 
   void load_ahead() {
     const std::uint64_t rows =
-        std::min(std::max<std::uint64_t>(1, kBufferBytes / 8 / std::max<std::uint64_t>(1, faces_.columns())),
+        std::min(std::max<std::uint64_t>(1, Rows::kBufferBytes / 8 / std::max<std::uint64_t>(1, faces_.columns())),
                  faces_.rows() - face_);
     ahead_.clear();
     taken_ = 0;

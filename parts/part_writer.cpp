@@ -137,8 +137,8 @@ std::array<std::uint64_t, 4> vertex_words(const Site& vertex) {
 
 std::uint64_t part_memory(const PartContents& contents, std::size_t part) {
   // Measured on surfaces, and rounded up: tests/parts/memory_test.cpp.
-  constexpr std::uint64_t kBytesPerVertex = 200;
-  constexpr std::uint64_t kBytesPerFaceWord = 20;
+  constexpr std::uint64_t kBytesPerVertex = 250;
+  constexpr std::uint64_t kBytesPerFaceWord = 8;
   return contents.vertices.size(part) / kVertexWords * kBytesPerVertex + contents.faces.size(part) * kBytesPerFaceWord;
 }
 
