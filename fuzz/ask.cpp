@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/batch.h"
 #include "meshhood/search.h"
 
 #include "judge.h"
@@ -19,6 +20,22 @@ double draw_radius(const Index& index, VertexId v, test::Random& random) {
   const GraphData mesh = extract_graph(index);
   const auto w = static_cast<VertexId>(random.below(index.vertex_count()));
   return distance(mesh.view().positions, v, w) * random.uniform(0, 1.5);
+}
+
+/// All vertices at one radius, and at a radius of their own, so that leaves are asked together.
+void ask_together(const Index& index, test::Random& random) {
+  const std::size_t vertices = index.vertex_count();
+  std::vector<double> radii(vertices, draw_radius(index, 0, random));
+  for (int round = 0; round < 2; ++round) {
+    static_cast<void>(neighborhood_sizes(index, {.radius = radii}));
+    const auto check = [&](const BatchRow& row) {
+      if (row.distances.size() != row.ids.size()) fail("a row has too many ids or distances");
+      if (std::any_of(row.ids.begin(), row.ids.end(), [&](VertexId w) { return w >= vertices; }))
+        fail("a row has an id out of range");
+    };
+    for_each_neighborhood(index, {.radius = radii}, check, {.distances = true, .in_index_order = round == 1});
+    for (double& radius : radii) radius *= random.uniform(0, 2);
+  }
 }
 
 }  // namespace
@@ -42,6 +59,7 @@ void ask(const Index& index) {
       if (range.begin >= range.end || range.end > vertices) fail("the answer has an invalid range");
     }
   }
+  if (vertices > 0) ask_together(index, random);
 }
 
 }  // namespace meshhood::fuzz

@@ -253,7 +253,7 @@ class Session {
     if (place.subject == nullptr || place.subject->oracle.size() == 0) return;
     const test::Oracle& oracle = place.subject->oracle;
     const double radius = any_query(oracle).radius;
-    std::vector<VertexId> vertices(1 + below(20));
+    std::vector<VertexId> vertices(1 + below(100));
     for (VertexId& v : vertices) v = static_cast<VertexId>(below(oracle.size()));
     const BatchOptions options{
         .threads = static_cast<unsigned>(1 + below(3)), .sorted = true, .buffer_bytes = std::size_t{1} << below(24)};

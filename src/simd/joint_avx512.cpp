@@ -111,7 +111,7 @@ MESHHOOD_AVX512 BallWords ball_words(const LeafPoints& points, LaneMask lanes, c
                                  _mm512_cmp_ps_mask(b, second.maybe_inside, _CMP_GE_OQ));
     inside[lane] = sure;
     result.all &= sure;
-    doubts[lane] = maybe & ~sure;
+    doubts[lane] = maybe & ~sure;  // mutant: avx512-words-without-doubts
     result.in_doubt |= LaneMask{maybe != sure} << lane;
   }
   return result;
@@ -142,7 +142,7 @@ MESHHOOD_AVX512 SpreadWords spread_words(LeafWords& words, const LaneMask* adjac
       const LaneMask to = adjacency[lane] & open;
       if (to != 0) arriving = arriving | in_lanes(to, words.reached[lane]);
     }
-    const Words32 grown = reached | (arriving & inside);
+    const Words32 grown = reached | (arriving & inside);  // mutant: avx512-words-spread-outside
     fresh = differing(grown, reached);
     reached = grown;
     store(words.reached, reached);
@@ -211,6 +211,7 @@ MESHHOOD_AVX512 LaneMask lanes_of(const QueryWord* reached, unsigned query) {
 
 /// Writes the first `count` of sixteen ids, and nothing behind them.
 MESHHOOD_AVX512 inline VertexId* write_first(__m512i ids, unsigned count, VertexId* out) {
+  // mutant: avx512-row-beyond-its-end
   _mm512_mask_storeu_epi32(out, static_cast<__mmask16>(_bzhi_u32(0xFFFF, count)), ids);
   return out + count;
 }
@@ -238,7 +239,7 @@ MESHHOOD_AVX512 void write_row(std::span<const RowPiece> pieces, unsigned query,
       const LaneMask lanes = lanes_with(piece.reached, bit);
       next = write16(load_ids(permutation, piece.first), lanes, next);
       next = write16(load_ids(permutation, piece.first + 16), lanes >> 16, next);
-    } else if ((piece.queries >> query & 1U) != 0) {
+    } else if ((piece.queries >> query & 1U) != 0) {  // mutant: avx512-row-with-every-run
       for (std::uint32_t k = 0; k < piece.size; k += 16) {
         next = write_first(load_ids(permutation, piece.first + k), std::min(piece.size - k, 16U), next);
       }

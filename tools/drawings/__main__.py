@@ -1,4 +1,4 @@
-"""Writes the drawings of docs/design.md, or checks that they are up to date. Usage: python3 tools/drawings [--check]"""
+"""Writes the drawings of docs/design.md and docs/joint.md, or checks that they are up to date. Usage: python3 tools/drawings [--check]"""
 
 import sys
 from pathlib import Path
@@ -7,6 +7,7 @@ import leaves
 import minimum_region
 import other_components
 import tree
+import words
 
 IMAGES = Path(__file__).resolve().parents[2] / "docs" / "images"
 DRAWINGS = {
@@ -14,6 +15,7 @@ DRAWINGS = {
     "tree": tree,
     "minimum_region": minimum_region,
     "other_components": other_components,
+    "words": words,
 }
 
 

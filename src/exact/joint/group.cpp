@@ -45,8 +45,8 @@ JointGroup::JointGroup(const IndexView& index, const Kernels& kernels)
 void JointGroup::begin(std::span<const LeafId> leaves, const TreeBounds& low, const TreeBounds& high) {
   clear();
   set_sphere(leaves);
-  ball_.outer = next_above(static_cast<double>(high.outer) + radius_);
-  ball_.inner = -next_above(radius_ - static_cast<double>(low.inner));
+  ball_.outer = next_above(static_cast<double>(high.outer) + radius_);  // mutant: group-without-its-radius
+  ball_.inner = -next_above(radius_ - static_cast<double>(low.inner));  // mutant: core-of-the-largest-ball
   for (const LeafId leaf : leaves) {
     if (discover(leaf) == kNoEntry) entry_of_[leaf] = add_entry(leaf);  // of an index whose spheres are wrong
   }
@@ -129,7 +129,7 @@ GroupEntry JointGroup::discover(LeafId leaf) {
   const Leaf& record = index_->leaves[leaf];
   const Containment side = classify(record.bounds, ball_);
   if (side == Containment::Outside) return entry_of_[leaf] = kNoEntry;
-  if (side == Containment::Inside && record.connected) return add_core(leaf);
+  if (side == Containment::Inside && record.connected) return add_core(leaf);  // mutant: core-of-disconnected-leaves
   return entry_of_[leaf] = add_entry(leaf);
 }
 
@@ -177,7 +177,7 @@ GroupEntry JointGroup::add_core(LeafId leaf) {
       } else if (linked == kUnknown) {
         linked = discover(link.leaf);
       }
-      if (linked == entry || linked == kNoEntry) continue;
+      if (linked == entry || linked == kNoEntry) continue;  // mutant: core-without-rim
       rims_.push_back({linked, kernels_->cross_edges(index_->cross_edges_of(link), link.boundary)});
     }
   }

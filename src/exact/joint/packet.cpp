@@ -19,7 +19,7 @@ constexpr double kLargestRadius = 8;
 // coordinates of both are rounded by u, which moves a squared distance by 8 u a^2; `2 p.q - p.p` is computed with an
 // error of 12 u a^2, and a threshold is rounded by u a^2: 21 u a^2 in all, less than 2^-19 a^2. A squared distance from
 // the centre of the leaf is off by 28 u a^2, less than four times as much.
-constexpr double kRelativeError = 0x1p-19;
+constexpr double kRelativeError = 0x1p-19;  // mutant: packet-without-margin
 
 float float_above(double value) { return std::nextafter(static_cast<float>(value), kFloatInfinity); }
 float float_below(double value) { return -float_above(-value); }
@@ -35,7 +35,7 @@ Packet::Packet(const IndexView& index, const JointGroup& group, LeafId leaf, std
     lanes_[i] = queries[i].lane;
     centres_[i] = index.position(leaf, queries[i].lane);
     squared_radii_[i] = queries[i].radius.squared;
-    ball_.inner = std::min(ball_.inner, queries[i].radius.bounds.inner);
+    ball_.inner = std::min(ball_.inner, queries[i].radius.bounds.inner);  // mutant: packet-inside-one-ball
     ball_.outer = std::max(ball_.outer, queries[i].radius.bounds.outer);
   }
   set_balls(index, group, queries);
@@ -73,6 +73,7 @@ void Packet::set_balls(const IndexView& index, const JointGroup& group, std::spa
     balls_.z[i] = static_cast<float>(2 * q.z);
     const double inner = inner_of(queries[i].radius.bounds);
     const double outer = outer_of(queries[i].radius.bounds);
+    // mutant: packet-doubts-inside
     if (inner > 0) balls_.surely_inside[i] = static_cast<float>(dot(q, q) - inner * inner + error);
     balls_.maybe_inside[i] = static_cast<float>(dot(q, q) - outer * outer - error);
   }

@@ -23,6 +23,7 @@ void RowWriter::begin(const PacketAnswer& answer) {
   std::size_t kept = 0;
   for (const RowPiece& piece : pieces_) {
     RowPiece* last = kept == 0 ? nullptr : &pieces_[kept - 1];
+    // mutant: runs-of-other-rows-joined
     if (last != nullptr && last->reached == nullptr && piece.reached == nullptr && last->queries == piece.queries &&
         last->first + last->size == piece.first) {
       last->size += piece.size;

@@ -25,7 +25,7 @@ void JointSpread::classify(const JointGroup& group, const Packet& packet) {
     const JointGroup::Eight eight = group.eights()[entry / kFanOut];
     const GroupContainment& side = sides_[entry / kFanOut];
     const auto has = [&](unsigned bits) { return (bits >> entry % kFanOut & 1U) != 0; };
-    const bool is_whole = has((side.inside & eight.connected) | eight.cores);
+    const bool is_whole = has((side.inside & eight.connected) | eight.cores);  // mutant: disconnected-leaf-whole
     const bool is_outside = !has(side.inside | side.intersecting | eight.cores);
     const Kind kind = is_whole ? Kind::Whole : is_outside ? Kind::Outside : Kind::Partial;
     states_[entry] = {kind, is_outside, false, false, 0, 0};
@@ -93,7 +93,7 @@ void JointSpread::take_partial(JointGroup& group, const Packet& packet, GroupEnt
   if (is_first) find_inside(group, packet, entry);
   const SpreadWords spread =
       kernels_->spread_words(words_[entry], &index_->adjacency[record.first], record.connected ? state.word : 0);
-  state.closed = spread.closed;
+  state.closed = spread.closed;  // mutant: entry-closed-at-once
   if (spread.gained == 0) return;
   if (state.pushed == 0) partial_.push_back({entry, record.first});
   state.pushed = packet.queries();
@@ -114,7 +114,7 @@ void JointSpread::find_inside(JointGroup& group, const Packet& packet, GroupEntr
     const Point vertex = index_->position(group.leaf(entry), lane);
     for (QueryWord left = doubts[lane]; left != 0; left &= left - 1) {
       const auto query = static_cast<unsigned>(std::countr_zero(left));
-      inside[lane] |= QueryWord{packet.holds(query, vertex)} << query;
+      inside[lane] |= QueryWord{packet.holds(query, vertex)} << query;  // mutant: doubt-is-inside
     }
   }
 }
@@ -123,7 +123,7 @@ void JointSpread::find_inside(JointGroup& group, const Packet& packet, GroupEntr
 void JointSpread::push_leaf(JointGroup& group, const Packet& packet, GroupEntry entry, LaneMask gained) {
   const PerLane<QueryWord>& reached = words_[entry].reached;
   for (const JointGroup::EntryLink& link : group.links(entry)) {
-    if ((link.boundary & gained) == 0 || states_[link.entry].closed) continue;
+    if ((link.boundary & gained) == 0 || states_[link.entry].closed) continue;  // mutant: gained-not-pushed
     if (states_[link.entry].kind == Kind::Whole) {
       QueryWord word = 0;
       for_each_lane(link.boundary, [&](unsigned lane) { word |= reached[lane]; });
@@ -139,7 +139,7 @@ void JointSpread::add_to_whole(const JointGroup& group, const Packet& packet, Gr
   State& state = states_[entry];
   if ((word & ~state.word) == 0) return;
   state.word |= word;
-  state.closed = state.word == packet.queries();
+  state.closed = state.word == packet.queries();  // mutant: whole-entry-closed-at-once
   worklist_.add(group.rank(entry));
 }
 
