@@ -26,6 +26,10 @@ namespace meshhood {
 /// Use one object per thread: it owns scratch memory, about 22 bytes per leaf. The index must outlive it, and may be
 /// moved meanwhile.
 ///
+/// A graph that is unlike a surface (around a vertex with very many neighbours, or with edges at random) is searched as
+/// `ReferenceSearcher` does. Each searcher then owns 20 bytes per vertex more (36 for double), and all of them share a
+/// copy of the graph, which the index keeps from the first one on.
+///
 /// Throws Error{VertexOutOfRange, InvalidRadius}; arguments are then unchanged.
 class Searcher {
  public:

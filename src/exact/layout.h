@@ -13,6 +13,7 @@
 
 #include "base/frame.h"
 #include "base/prefetch.h"
+#include "exact/shared_graph.h"
 #include "simd/leaf.h"
 #include "simd/node_group.h"
 
@@ -70,6 +71,7 @@ struct IndexView {
   std::span<const double> mean_radii;      // by level
   Tree tree;                               // `groups` and `mean_radii` by level
   std::shared_ptr<const void> owner;
+  std::shared_ptr<SharedGraph> graph = std::make_shared<SharedGraph>();  // for searches over vertices
 
   [[nodiscard]] std::size_t vertex_count() const { return slot.size(); }
   [[nodiscard]] std::size_t leaf_count() const { return leaf_begin.size() - 1; }

@@ -5,7 +5,8 @@
 // the ball, which the tree bounds (see MinimumRegion). Where there is no other component, as on most surfaces, that
 // costs about the leaves at the surface of the ball.
 //
-// Where the ball is small, or much of it does not belong to the answer, a breadth-first search is faster.
+// Where the ball is small, or much of it does not belong to the answer, a breadth-first search over leaves is faster;
+// and where the graph is unlike a surface, one over vertices.
 #include "meshhood/search.h"
 
 #include "base/distance.h"
@@ -67,7 +68,9 @@ void Searcher::State::write_answer(std::vector<VertexId>& out) const {
   out.resize(size);
 }
 
-Searcher::Searcher(const Index& index) : state_(std::make_unique<State>(IndexAccess::view(index), best_isa())) {}
+Searcher::Searcher(const Index& index) : state_(std::make_unique<State>(IndexAccess::view(index), best_isa())) {
+  if (is_unlike_a_surface(*state_->index)) state_->vertex_bfs.emplace(index);
+}
 Searcher::Searcher(Searcher&&) noexcept = default;
 Searcher& Searcher::operator=(Searcher&&) noexcept = default;
 Searcher::~Searcher() = default;
@@ -80,11 +83,13 @@ std::span<const VertexId> Searcher::permutation() const {
 }
 
 void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
+  if (state_->vertex_bfs) return state_->vertex_bfs->searcher().neighborhood(v, radius, out);
   state_->search(v, radius);
   state_->write_answer(out);
 }
 
 void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
+  if (state_->vertex_bfs) return state_->vertex_bfs->searcher().neighborhood(v, radius, out, distances);
   const Point centre = state_->search(v, radius);
   // Before `out` changes: if this throws, neither has changed.
   distances.reserve(state_->answer.count());
@@ -94,11 +99,13 @@ void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& ou
 }
 
 std::span<const VertexRange> Searcher::ranges(VertexId v, double radius) {
+  if (state_->vertex_bfs) return state_->vertex_bfs->ranges(v, radius);
   state_->search(v, radius);
   return state_->answer.all_as_runs();
 }
 
 std::size_t Searcher::count(VertexId v, double radius) {
+  if (state_->vertex_bfs) return state_->vertex_bfs->searcher().count(v, radius);
   state_->search(v, radius);
   return state_->answer.count();
 }

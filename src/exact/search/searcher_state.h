@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "meshhood/search.h"
@@ -14,6 +15,7 @@
 #include "exact/search/local_minima.h"
 #include "exact/search/other_components.h"
 #include "exact/search/query.h"
+#include "exact/search/vertex_bfs.h"
 #include "exact/search/vertex_set.h"
 #include "simd/kernels.h"
 
@@ -32,7 +34,8 @@ struct Searcher::State {
   FailureCache failures;
   std::vector<LocalMinimum> minima;
   VertexSet answer;
-  bool was_proved = false;  // whether the last answer was found by `subtract_other_components`
+  std::optional<VertexBfs> vertex_bfs;  // answers instead of `search` where the graph is unlike a surface
+  bool was_proved = false;              // whether the last answer was found by `subtract_other_components`
 
   State(const IndexView& view, Isa isa)
       : index(&view),
