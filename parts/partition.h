@@ -49,13 +49,13 @@ struct PartitionResult {
 /// Cuts a mesh into parts with a halo and writes them to `folder`, which is created if it does not exist.
 ///
 /// A part owns the vertices of a cell of a kd-tree. It also has every vertex within the halo of one that it owns, and
-/// the fringe: the other corners of all faces around these. For a vertex that it owns it therefore gives the neighborhood
-/// of any radius up to the halo, exactly, and every face around the vertices of that neighborhood.
+/// the fringe: the other corners of all faces around these. For a vertex that it owns it therefore gives the
+/// neighborhood of any radius up to the halo, exactly, and every face around the vertices of that neighborhood.
 ///
 /// The mesh is read in chunks: five passes over the positions and three over the faces. Memory stays within
-/// `options.memory`; temporary files in `folder` take about 60 bytes a vertex and 40 bytes a face of all parts. They
-/// are removed at the end, also after an error. A part appears whole or not at all, and the manifest last. The same
-/// mesh and options give the same files, for any amount of memory and number of threads.
+/// `options.memory`; temporary files in `folder` take about 100 bytes for each vertex of a triangle mesh of all parts.
+/// They are removed at the end, also after an error. A part appears whole or not at all, and the manifest last. The
+/// same mesh and options give the same files, for any amount of memory and number of threads.
 ///
 /// Throws Error{InvalidOption, InvalidRadius}; what `ChunkedMesh` throws; Error{IoFailure}, also if another run writes
 /// into `folder`; Error{MalformedIndex} if `folder` has the parts of another mesh, halo or number of parts;

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Union
 
 import meshhood
 import numpy as np
+from meshhood import distributed
 from numpy.typing import NDArray
 from typing_extensions import assert_type
 
@@ -49,6 +50,21 @@ for part in index.iter_neighborhoods(None, 1.0, return_distance=True):
     assert_type(part.distances, Union[Reals, None])
 index.save("hand.index")
 assert_type(meshhood.load("hand.index", mmap=True), meshhood.MeshIndex)
+
+parts = meshhood.partition(("V.npy", "F.npy"), "parts", parts=2, halo=3.5, unit="edge", memory="4GiB")
+assert_type(parts, distributed.Parts)
+assert_type(meshhood.open_parts("parts").sizes, list[distributed.PartSize])
+assert_type(parts.open(0).vertices, Longs)
+assert_type(parts.open(0).owned, Ids)
+assert_type(parts.neighborhoods(1.0, "out", format="zarr", progress=True), list[str])
+
+
+def rows(part: distributed.OpenPart, index: meshhood.MeshIndex, owned: Ids) -> Longs:
+    return index.query_ball_count(owned, 1.0)
+
+
+parts.map(rows, 1.0, order="parts")
+assert_type(parts.write(rows, 1.0, "out"), list[str])
 """
 
 REFUSED = (
