@@ -7,7 +7,6 @@
 #include <deque>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -20,6 +19,7 @@
 #include "support/families.h"
 #include "support/index_bytes.h"
 #include "support/oracle.h"
+#include "support/region_oracle.h"
 #include "support/sandwich.h"
 #include "target.h"
 
@@ -264,30 +264,29 @@ class Session {
           std::span(answer.ids).subspan(answer.offsets[row], answer.offsets[row + 1] - answer.offsets[row]);
       if (!std::ranges::equal(ids, oracle.exact(vertices[row], radius))) fail("a row of the batch differs");
     }
-    aggregate_ids(*place.index, vertices, radius, answer, options.threads);
   }
 
-  /// Aggregates the ids of the vertices, as doubles, whose sums are exact.
-  static void aggregate_ids(const Index& index, const std::vector<VertexId>& vertices, double radius,
-                            const Neighborhoods& rows, unsigned threads) {
-    std::vector<double> values(index.vertex_count());
-    std::iota(values.begin(), values.end(), 0.0);
-    const auto of = [&](Reduce reduce, SmoothingKernel kernel = SmoothingKernel::Box) {
-      const AggregateQuery query{.vertices = vertices, .radii = {radius}, .reduce = reduce, .kernel = kernel};
-      return aggregate(index, {values}, query, {.threads = threads});
-    };
-    const std::vector<double> sums = of(Reduce::Sum);
-    const std::vector<double> counts = of(Reduce::Count);
-    const std::vector<double> maxima = of(Reduce::Maximum);
-    const std::vector<double> means = of(Reduce::Mean, SmoothingKernel::Biweight);
-    for (std::size_t row = 0; row < vertices.size(); ++row) {
-      const auto ids = std::span(rows.ids).subspan(rows.offsets[row], rows.offsets[row + 1] - rows.offsets[row]);
-      const double sum = std::accumulate(ids.begin(), ids.end(), 0.0);
-      const double maximum = *std::ranges::max_element(ids);
-      const bool right = sums[row] == sum && counts[row] == static_cast<double>(ids.size()) && maxima[row] == maximum;
-      // The query vertex has the weight 1, so the mean is a number.
-      if (!right || !(means[row] >= -1e-9 && means[row] <= maximum + 1e-9)) fail("an aggregate differs");
-    }
+  /// Any center among the positions, up to three seeds, and walls.
+  void ask_region() {
+    const Exact& place = any_exact();
+    if (place.subject == nullptr || place.subject->oracle.size() == 0) return;
+    const test::RegionOracle oracle(place.subject->mesh);
+    const std::size_t vertices = oracle.graph().size();
+    test::PlainStart start;
+    for (double& coordinate : start.centre) coordinate = place.subject->mesh.positions[below(3 * vertices)];
+    for (std::size_t i = below(4); i > 0; --i) start.seeds.push_back(static_cast<VertexId>(below(vertices)));
+    start.walls.assign(vertices, 0);
+    start.ignored.assign(vertices, 0);
+    for (std::size_t i = below(8); i > 0; --i) start.walls[below(vertices)] = 1;
+    const double radius = oracle.distance(start, below(vertices));
+    const auto w = static_cast<VertexId>(below(vertices));
+    const Filter filter{.walls = start.walls};
+    RegionSearcher searcher(*place.index);
+    searcher.region({start.centre, start.seeds}, radius, ids_, filter);
+    std::sort(ids_.begin(), ids_.end());
+    if (ids_ != oracle.region(start, radius)) fail("the region differs");
+    const double connecting = searcher.connecting_radius({start.centre, start.seeds}, w, filter);
+    if (connecting != oracle.connecting_radii(start)[w]) fail("the connecting radius differs");
   }
 
   void ask_wrongly() {
@@ -300,12 +299,13 @@ class Session {
   }
 
   using Call = void (Session::*)();
-  static constexpr std::array<Call, 20> kCalls{
+  static constexpr std::array<Call, 21> kCalls{
       &Session::build_exact, &Session::build_paper, &Session::build_from_graph, &Session::give_up_build,
       &Session::move_exact,  &Session::move_paper,  &Session::destroy_exact,    &Session::destroy_paper,
       &Session::save_exact,  &Session::save_paper,  &Session::load_file,        &Session::load_other_kind,
       &Session::load_part,   &Session::map_file,    &Session::remove_file,      &Session::check,
-      &Session::ask_exact,   &Session::ask_paper,   &Session::ask_batch,        &Session::ask_wrongly};
+      &Session::ask_exact,   &Session::ask_paper,   &Session::ask_batch,        &Session::ask_wrongly,
+      &Session::ask_region};
 
   Bytes bytes_;
   std::array<Exact, 3> exact_;

@@ -21,6 +21,7 @@ foreach(part
     exact/search/descent exact/search/leaf_traversal exact/search/local_minima exact/search/output
     exact/search/vertex_set
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
+    region/region_mesher
     simd/aggregate_kernels simd/joint_kernels simd/kernels
     whole/arguments whole/robustness whole/differential whole/metamorphic)
   meshhood_test(${part} meshhood_families)

@@ -39,6 +39,10 @@ class SearchMethod {
   /// Throws Error{InvalidMesh, TooLarge} if the graph is invalid.
   [[nodiscard]] static SearchMethod breadth_first(const GraphView& graph);
 
+  /// The vertices within the radius along the edges (see `EdgeSearcher`); distances are path distances.
+  [[nodiscard]] static SearchMethod along_edges(const Index& index);
+  static SearchMethod along_edges(const Index&&) = delete;
+
   /// The vertices within the radius in space (see `BallSearcher`). The coordinates must be valid.
   [[nodiscard]] static SearchMethod ball_scan(const PositionsView& positions);
 

@@ -36,6 +36,7 @@
 #include "meshhood/progress.h"     // IWYU pragma: export
 #include "meshhood/reference.h"    // IWYU pragma: export
 #include "meshhood/region.h"       // IWYU pragma: export
+#include "meshhood/region_mesh.h"  // IWYU pragma: export
 #include "meshhood/reorder.h"      // IWYU pragma: export
 #include "meshhood/search.h"       // IWYU pragma: export
 #include "meshhood/searcher.h"     // IWYU pragma: export

@@ -24,7 +24,7 @@ bool mark(const AdjacencyView& graph, VertexId v, VertexId w, std::vector<bool>&
   const auto row = graph[v];
   const auto found = std::lower_bound(row.begin(), row.end(), w);
   if (found == row.end() || *found != w) return false;
-  is_cut[graph.offsets[v] + static_cast<std::size_t>(found - row.begin())] = true;  // mutant: cut-goes-one-way
+  is_cut[graph.offsets[v] + static_cast<std::size_t>(found - row.begin())] = true;
   return true;
 }
 
@@ -34,7 +34,7 @@ std::vector<bool> marked(const AdjacencyView& graph, const IndicesView& edges) {
     for (std::size_t row = 0; row < ends.size() / 2; ++row) {
       const VertexId v = checked_end(ends[2 * row], row, graph.size());
       const VertexId w = checked_end(ends[2 * row + 1], row, graph.size());
-      if (mark(graph, v, w, is_cut) && mark(graph, w, v, is_cut)) continue;
+      if (mark(graph, v, w, is_cut) && mark(graph, w, v, is_cut)) continue;  // mutant: cut-goes-one-way
       raise(ErrorCode::InvalidOption, "edge " + std::to_string(row) + ": vertices " + std::to_string(v) + " and " +
                                           std::to_string(w) + " are not joined by an edge");
     }

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "meshhood/batch.h"
+#include "meshhood/edge_search.h"
 #include "meshhood/reference.h"
 #include "meshhood/search.h"
 
@@ -21,6 +22,7 @@ static_assert(NeighborhoodSearcher<Searcher>);
 static_assert(NeighborhoodSearcher<paper::Searcher>);
 static_assert(NeighborhoodSearcher<ReferenceSearcher>);
 static_assert(NeighborhoodSearcher<BallSearcher>);
+static_assert(NeighborhoodSearcher<EdgeSearcher>);
 
 constexpr auto kNothing = [](auto&) {};
 
@@ -65,6 +67,12 @@ SearchMethod SearchMethod::breadth_first(const GraphView& graph) {
   return SearchMethod(factory_of(
       graph.positions.size(), {.is_count_cheap = false},
       [graph] { return worker_of(ReferenceSearcher(graph), kNothing); }, kOwnOrder));
+}
+
+SearchMethod SearchMethod::along_edges(const Index& index) {
+  return SearchMethod(factory_of(
+      index.vertex_count(), {.is_count_cheap = false}, [&index] { return worker_of(EdgeSearcher(index), kNothing); },
+      [&index](VertexId v) { return IndexAccess::view(index).slot[v]; }));
 }
 
 SearchMethod SearchMethod::ball_scan(const PositionsView& positions) {

@@ -37,9 +37,7 @@ class Joiner {
   }
 
  private:
-  [[nodiscard]] bool is_end(std::uint32_t point) const {
-    return begin_[point + 1] - begin_[point] != 2;  // mutant: polylines-run-through-branches
-  }
+  [[nodiscard]] bool is_end(std::uint32_t point) const { return begin_[point + 1] - begin_[point] != 2; }
 
   /// From `start`, an end of segment `next`, to an end or back to `start`.
   Polyline walk(std::size_t next, std::uint32_t start) {
@@ -49,7 +47,7 @@ class Joiner {
       is_used_[next] = true;
       at = segments_[next].from == at ? segments_[next].to : segments_[next].from;
       if (at == start && !is_end(at)) {
-        line.is_closed = true;
+        line.is_closed = true;  // mutant: loops-left-open
         return line;
       }
       line.points.push_back(at);

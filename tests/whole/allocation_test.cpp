@@ -2,6 +2,7 @@
 // Every allocation of a build, a save, a load, a query and a batch fails once (R2 and C5 of docs/reliability.md). The
 // call throws or succeeds without the memory; nothing leaks, and existing objects answer as before.
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -10,11 +11,13 @@
 
 #include <gtest/gtest.h>
 
-#include "meshhood/aggregate.h"
 #include "meshhood/batch.h"
+#include "meshhood/edge_search.h"
 #include "meshhood/index.h"
 #include "meshhood/paper.h"
 #include "meshhood/reference.h"
+#include "meshhood/region.h"
+#include "meshhood/region_mesh.h"
 #include "meshhood/reorder.h"
 #include "meshhood/search.h"
 #include "meshhood/serialize.h"
@@ -170,6 +173,59 @@ TEST_P(Allocation, FailsInAQuery) {
   });
 }
 
+TEST_P(Allocation, FailsInARegionSearch) {
+  expect_answered<RegionSearcher>(shortages, mesh, index,
+                                  [](RegionSearcher& s, VertexId v, double r, Answers& answers) {
+                                    s.region(v, r, answers.ids, answers.distances);
+                                  });
+  expect_answered<RegionSearcher>(
+      shortages, mesh, index, [](RegionSearcher& s, VertexId v, double r, Answers& answers) {
+        const std::vector<double> radii = r < kInfinity ? std::vector{r / 2, r + 1} : std::vector{1.0, r};
+        std::vector<std::size_t> counts;
+        s.nested(v, radii, answers.ids, counts);
+        answers.count = counts.front();
+      });
+  expect_answered<RegionSearcher>(shortages, mesh, index,
+                                  [](RegionSearcher& s, VertexId v, double r, Answers& answers) {
+                                    s.stroke(std::array{Dab{v, r}, Dab{VertexId{1}, r}}, answers.ids);
+                                  });
+  expect_answered<RegionSearcher>(shortages, mesh, index,
+                                  [](RegionSearcher& s, VertexId v, double r, Answers& answers) {
+                                    answers.count = static_cast<std::size_t>(s.connecting_radius(v, 2) <= r);
+                                  });
+  expect_answered<RegionSearcher>(shortages, mesh, index, [](RegionSearcher& s, VertexId v, double, Answers& answers) {
+    s.nearest_connected(v, 60, answers.ids, answers.distances);
+  });
+}
+
+TEST_P(Allocation, FailsInASearchAlongEdges) {
+  expect_queries<EdgeSearcher>(shortages, mesh, index);
+  expect_answered<EdgeSearcher>(shortages, mesh, index, [](EdgeSearcher& s, VertexId v, double, Answers& answers) {
+    std::vector<std::size_t> counts;
+    s.rings(v, 6, answers.ids, counts);
+    answers.count = counts.back();
+  });
+}
+
+TEST_P(Allocation, FailsInARegionMesh) {
+  std::vector<VertexId> ids;
+  Searcher(index).neighborhood(0, distance(mesh.view().positions, 0, 9), ids);
+  const SpacePoint centre = point_on_face(index, std::array<VertexId, 1>{0}, std::array{1.0});
+  const auto make = [&](std::optional<Submesh>& made) {
+    RegionMesher mesher(mesh.view());
+    static_cast<void>(mesher.rim(ids, centre, kInfinity));
+    made = mesher.submesh(ids, Corners::Any);
+  };
+  std::optional<Submesh> well;
+  make(well);
+  shortages.fail_each(nothing_yet<Submesh>(), make, [&](const std::optional<Submesh>& made, Ending ending) {
+    EXPECT_EQ(made.has_value(), ending == Ending::Well);
+    if (made) {
+      EXPECT_EQ(made->corners, well->corners);
+    }
+  });
+}
+
 TEST_P(Allocation, FailsInAQueryOfThePapersIndex) { expect_queries<paper::Searcher>(shortages, mesh, paper_index); }
 
 TEST_P(Allocation, FailsInABreadthFirstSearch) {
@@ -190,6 +246,8 @@ void expect_constructed(Shortages& shortages, const From& from) {
 
 TEST_P(Allocation, FailsInTheConstructionOfASearcher) {
   expect_constructed<Searcher>(shortages, index);
+  expect_constructed<RegionSearcher>(shortages, index);
+  expect_constructed<EdgeSearcher>(shortages, index);
   expect_constructed<paper::Searcher>(shortages, paper_index);
   expect_constructed<ReferenceSearcher>(shortages, mesh.view());
 }
@@ -251,24 +309,6 @@ TEST_P(Allocation, FailsInABatch) {
 TEST_P(Allocation, FailsInABatchOnTwoThreads) {
   expect_batches(shortages, mesh, index, 2);
   expect_batches(shortages, mesh, paper_index, 2);
-}
-
-TEST_P(Allocation, FailsInAnAggregate) {
-  const std::vector<double> values(mesh.size(), 1.0);
-  const double radius = distance(mesh.view().positions, 0, static_cast<VertexId>(mesh.size() / 2)) / 4;
-  for (const Reduce reduce : {Reduce::Mean, Reduce::Maximum, Reduce::Variance}) {
-    const bool smooths = reduce == Reduce::Mean;
-    const AggregateQuery query{.radii = {radius, radius / 2},
-                               .reduce = reduce,
-                               .kernel = smooths ? SmoothingKernel::Biweight : SmoothingKernel::Box,
-                               .nesting = smooths ? Nesting::Own : Nesting::Patch};
-    const std::vector<double> expected = aggregate(index, {values}, query);
-    shortages.fail_each([] { return std::vector<double>(); },
-                        [&](std::vector<double>& result) { result = aggregate(index, {values}, query); },
-                        [&](const std::vector<double>& result, Ending ending) {
-                          EXPECT_EQ(result, ending == Ending::Well ? expected : std::vector<double>());
-                        });
-  }
 }
 
 TEST_P(Allocation, FailsInABuildOnTwoThreads) {

@@ -46,6 +46,10 @@ Flood::State& Flood::state_of(LeafId leaf) {
   return state;
 }
 
+bool Flood::is_whole(const State& state) const {
+  return state.connected && state.squares.high <= ball_.squared_radius;  // mutant: intersecting-leaf-taken-whole
+}
+
 void Flood::add_seed(std::uint32_t slot) {
   State& state = state_of(leaf_of(slot));
   state.pending |= LaneMask{1} << lane_of(slot) & state.open;
@@ -54,11 +58,16 @@ void Flood::add_seed(std::uint32_t slot) {
 
 /// The leaf has gained pending vertices.
 void Flood::wake_or_rest(LeafId leaf, State& state) {
-  if (state.is_awake) return;
   if (state.squares.low > ball_.squared_radius) {
     rest(leaf, state, state.squares.low, false);
-    return;
+  } else {
+    wake(leaf, state);
   }
+}
+
+/// Puts the leaf into the work list, unless it is there.
+void Flood::wake(LeafId leaf, State& state) {
+  if (state.is_awake) return;
   state.is_awake = true;
   awake_.push_back(leaf);
   const Leaf& record = index_->leaves[leaf];
@@ -81,11 +90,9 @@ void Flood::grow(double radius, std::uint32_t target) {
     State& state = states_[entry.leaf];
     if (state.wakes != entry.bound) return;  // it has been put to sleep again since, to wake earlier
     state.wakes = std::numeric_limits<double>::infinity();
-    if (state.is_awake) return;
-    state.is_awake = true;
-    awake_.push_back(entry.leaf);
+    wake(entry.leaf, state);
   });
-  constexpr std::size_t kAhead = 4;
+  constexpr std::size_t kAhead = 8;
   for (std::size_t head = 0; head < awake_.size(); ++head) {
     if (head + kAhead < awake_.size()) prefetch_neighbors(awake_[head + kAhead]);
     visit(awake_[head]);
@@ -119,16 +126,23 @@ LaneMask Flood::enter(State& state, const Leaf& leaf) {
   const LaneMask from = state.reached | state.pending;
   LaneMask now = state.open;
   if (!is_whole(state)) {
-    const LaneMask inside = state.squares.high <= ball_.squared_radius
-                                ? state.open
-                                : kernels_->within(index_->positions, leaf.first, leaf.size, ball_) & state.open;
-    if ((inside & from) == 0) return 0;
-    now = kernels_->reachable(&index_->adjacency[leaf.first], inside, inside & from);
+    const LaneMask among = find_inside(state, leaf);
+    if ((among & from) == 0) return 0;
+    now = kernels_->reachable(&index_->adjacency[leaf.first], among, among & from);
   }
   const LaneMask added = now & ~state.reached;
   state.reached |= added;
   state.pending &= ~added;
   return added;
+}
+
+/// The vertices of the leaf that are in the ball and no walls.
+LaneMask Flood::find_inside(State& state, const Leaf& leaf) {
+  if (state.inside_of != ball_.squared_radius) {  // mutant: ball-of-an-earlier-radius
+    state.inside = kernels_->within(index_->positions, leaf.first, leaf.size, ball_) & state.open;
+    state.inside_of = ball_.squared_radius;
+  }
+  return state.inside;
 }
 
 /// Makes the vertices of other leaves pending that have a neighbour among those added to this one.

@@ -47,29 +47,31 @@ class Flood {
   void set_number(std::uint32_t floods) { number_ = floods; }
 
  private:
-  /// What is known of a leaf in one flood.
-  struct State {
+  /// What is known of a leaf in one flood; one cache line.
+  struct alignas(64) State {
     std::uint32_t number = 0;  // the state is valid for this flood only
     LaneMask open = 0;         // no walls
     LaneMask reached = 0;
     LaneMask pending = 0;  // not reached, with a neighbour that is, in another leaf; and seeds
+    LaneMask inside = 0;   // the vertices in the ball whose squared radius is `inside_of`
     bool connected = false;
     bool is_awake = false;  // in the work list
     bool is_exact = false;  // `wakes` is the squared distance of a vertex, not only a lower bound of them
     double wakes = 0;       // its bound among the sleepers; infinite if it does not sleep
+    double inside_of = -1;
     SquareRange squares{};  // of the distances of its vertices
   };
 
   /// Whether the ball holds all vertices of the leaf, and they are connected.
-  [[nodiscard]] bool is_whole(const State& state) const {
-    return state.connected && state.squares.high <= ball_.squared_radius;  // mutant: intersecting-leaf-taken-whole
-  }
+  [[nodiscard]] bool is_whole(const State& state) const;
 
   State& state_of(LeafId leaf);
+  void wake(LeafId leaf, State& state);
   void wake_or_rest(LeafId leaf, State& state);
   void rest(LeafId leaf, State& state, double bound, bool is_exact);
   void visit(LeafId leaf);
   LaneMask enter(State& state, const Leaf& leaf);
+  LaneMask find_inside(State& state, const Leaf& leaf);
   void expand(LeafId leaf, LaneMask added);
   [[nodiscard]] LaneMask border(const State& state, const Leaf& leaf) const;
   [[nodiscard]] double nearest_square(const Leaf& leaf, LaneMask lanes) const;

@@ -2,13 +2,14 @@
 #include "exact/query/path_search.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <variant>
 
 #include "base/distance.h"
-#include "base/prefetch.h"
 
 namespace meshhood {
 
@@ -23,12 +24,9 @@ void PathSearch::run(std::uint32_t slot, double radius, const LaneFilter& walls)
     std::fill(states_.begin(), states_.end(), State{});
     number_ = 1;
   }
+  rows_.clear();
+  arcs_.clear();
   offer({0, slot}, radius);
-  std::visit([&](auto xyz) { run(xyz, radius); }, index_->positions);
-}
-
-template <class Real>
-void PathSearch::run(std::span<const Real> xyz, double radius) {
   while (!queue_.empty()) {
     const Found next = queue_.front();
     std::pop_heap(queue_.begin(), queue_.end(), std::greater<>());
@@ -38,35 +36,62 @@ void PathSearch::run(std::span<const Real> xyz, double radius) {
     if ((state.settled & lane) != 0) continue;  // mutant: longer-path-settles-again
     state.settled |= lane;
     found_.push_back(next);
-    relax_neighbors(xyz, next, radius);
+    for (const Arc& arc : arcs_of(next.slot)) offer({next.length + arc.length, arc.to}, radius);
   }
 }
 
-/// Offers the paths that go on to the neighbours of a vertex.
-template <class Real>
-void PathSearch::relax_neighbors(std::span<const Real> xyz, const Found& from, double radius) {
-  const LeafId leaf = leaf_of(from.slot);
-  const unsigned lane = lane_of(from.slot);
-  const std::size_t first = index_->leaf_begin[leaf];
-  const Point start = point(xyz, first + lane);
-  const auto relax = [&](LeafId other, std::size_t first_of_other, unsigned to) {
-    const double length = std::sqrt(squared_distance(start, point(xyz, first_of_other + to)));
-    offer({from.length + length, kLeafCapacity * other + to}, radius);
-  };
-  for_each_lane(index_->adjacency[first + lane], [&](unsigned to) { relax(leaf, first, to); });
+/// The edges of a vertex. Valid until the next call.
+std::span<const PathSearch::Arc> PathSearch::arcs_of(std::uint32_t slot) {
+  const LeafId leaf = leaf_of(slot);
+  State& state = states_[leaf];
+  if (!state.has_arcs) {
+    state.first_row = rows_.size();
+    const RowBegins begins = row_begins(leaf);
+    rows_.insert(rows_.end(), begins.begin(), begins.end());
+    std::visit([&](auto xyz) { add_arcs(xyz, leaf, begins); }, index_->positions);
+    state.has_arcs = true;
+  }
+  const std::size_t* const row = &rows_[state.first_row + lane_of(slot)];
+  return std::span(arcs_).subspan(row[0], row[1] - row[0]);
+}
+
+/// Where the arcs of each lane of a leaf begin in `arcs_`, if they are appended.
+PathSearch::RowBegins PathSearch::row_begins(LeafId leaf) const {
+  RowBegins begins{};
+  const Leaf& record = index_->leaves[leaf];
+  for (unsigned lane = 0; lane < record.size; ++lane) {
+    begins[lane + 1] = static_cast<std::size_t>(std::popcount(index_->adjacency[record.first + lane]));
+  }
   for (const Link& link : index_->links_of(leaf)) {
-    if ((link.boundary >> lane & 1U) == 0) continue;
-    const std::size_t first_of_other = index_->leaf_begin[link.leaf];
-    for (const CrossEdge& edge : index_->cross_edges_of(link)) {
-      if (edge.from == lane) relax(link.leaf, first_of_other, edge.to);
-    }
+    for (const CrossEdge& edge : index_->cross_edges_of(link)) ++begins[edge.from + 1U];
+  }
+  begins[0] = arcs_.size();
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  return begins;
+}
+
+/// Appends the arcs of a leaf. `ends` are the begins of its rows, which move to their ends.
+template <class Real>
+void PathSearch::add_arcs(std::span<const Real> xyz, LeafId leaf, RowBegins ends) {
+  arcs_.resize(ends.back());
+  const auto add = [&](unsigned lane, LeafId other, unsigned to) {
+    const Point a = point(xyz, std::size_t{index_->leaf_begin[leaf]} + lane);
+    const Point b = point(xyz, std::size_t{index_->leaf_begin[other]} + to);
+    arcs_[ends[lane]++] = {std::sqrt(squared_distance(a, b)), kLeafCapacity * other + to};
+  };
+  const Leaf& record = index_->leaves[leaf];
+  for (unsigned lane = 0; lane < record.size; ++lane) {
+    for_each_lane(index_->adjacency[record.first + lane], [&](unsigned to) { add(lane, leaf, to); });
+  }
+  for (const Link& link : index_->links_of(leaf)) {
+    for (const CrossEdge& edge : index_->cross_edges_of(link)) add(edge.from, link.leaf, edge.to);
   }
 }
 
 PathSearch::State& PathSearch::state_of(LeafId leaf) {
   State& state = states_[leaf];
   if (state.number == number_) return state;
-  state = {number_, walls_->of(leaf)};
+  state = {.number = number_, .settled = walls_->of(leaf)};
   const auto lengths = lengths_.begin();
   std::fill(lengths + static_cast<std::ptrdiff_t>(index_->leaf_begin[leaf]),
             lengths + static_cast<std::ptrdiff_t>(index_->leaf_begin[leaf + 1]),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -12,7 +13,8 @@
 namespace meshhood {
 
 /// The algorithm of Dijkstra on the graph of an index, up to a radius. The lengths of paths are kept in index order, so
-/// that those of near vertices are near in memory.
+/// that those of near vertices are near in memory. The lengths of the edges of a leaf are computed together, when its
+/// first vertex is found.
 class PathSearch {
  public:
   explicit PathSearch(const IndexView& index);
@@ -38,20 +40,32 @@ class PathSearch {
   struct State {
     std::uint32_t number = 0;  // the state is valid for this run only
     LaneMask settled = 0;      // found, or walls
+    bool has_arcs = false;
+    std::size_t first_row = 0;  // in `rows_`
   };
 
+  /// An edge from a vertex, as its search follows it.
+  struct Arc {
+    double length;
+    std::uint32_t to;  // a slot
+  };
+
+  using RowBegins = std::array<std::size_t, kLeafCapacity + 1>;
+
+  [[nodiscard]] std::span<const Arc> arcs_of(std::uint32_t slot);
+  [[nodiscard]] RowBegins row_begins(LeafId leaf) const;
   template <class Real>
-  void run(std::span<const Real> xyz, double radius);
-  template <class Real>
-  void relax_neighbors(std::span<const Real> xyz, const Found& from, double radius);
+  void add_arcs(std::span<const Real> xyz, LeafId leaf, RowBegins ends);
   State& state_of(LeafId leaf);
   void offer(const Found& path, double radius);
 
   const IndexView* index_;
   const LaneFilter* walls_ = nullptr;
-  std::vector<State> states_;    // by leaf
-  std::vector<double> lengths_;  // in index order: the least length so far; valid where the state of the leaf is
-  std::vector<Found> queue_;     // a heap, the shortest path first; holds longer paths to the same vertices too
+  std::vector<State> states_;      // by leaf
+  std::vector<double> lengths_;    // in index order: the least length so far; valid where the state of the leaf is
+  std::vector<std::size_t> rows_;  // of leaves with arcs: where those of each lane begin in `arcs_`, and their end
+  std::vector<Arc> arcs_;
+  std::vector<Found> queue_;  // a heap, the shortest path first; holds longer paths to the same vertices too
   std::vector<Found> found_;
   std::uint32_t number_ = 0;
 };

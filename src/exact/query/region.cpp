@@ -32,6 +32,10 @@ Point RegionSearcher::State::begin(const Start& start, const Filter& filter) {
   return {p[0], p[1], p[2]};
 }
 
+LaneMask RegionSearcher::State::without_ignored(const LeafSubset& subset) const {
+  return subset.lanes & ~ignored.of(subset.leaf);  // mutant: ignored-vertices-are-found
+}
+
 void RegionSearcher::State::add_found() {
   for_each_found(0, [&](const LeafSubset& subset) { answer.add(subset); });
 }

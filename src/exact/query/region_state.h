@@ -39,12 +39,14 @@ struct RegionSearcher::State {
   /// The slot of a vertex, whose id is valid.
   [[nodiscard]] std::uint32_t slot(VertexId v) const { return index->slot[v]; }
 
-  /// Calls `f(leaf, lanes)` for the vertices that the flood has reached, except its first `skip` steps, and that are
-  /// not ignored.
+  [[nodiscard]] LaneMask without_ignored(const LeafSubset& subset) const;
+
+  /// Calls `f(subset)` for the vertices that the flood has reached, except in its first `skip` steps, and that are not
+  /// ignored.
   template <class F>
   void for_each_found(std::size_t skip, F&& f) const {
     for (const LeafSubset& subset : flood.reached().subspan(skip)) {
-      const LaneMask lanes = subset.lanes & ~ignored.of(subset.leaf);  // mutant: ignored-vertices-are-found
+      const LaneMask lanes = without_ignored(subset);
       if (lanes != 0) f(LeafSubset{subset.leaf, lanes});
     }
   }

@@ -30,7 +30,7 @@ void RingSearch::advance() {
     for_each_lane(subset.lanes, [&](unsigned lane) { neighbors |= index_->adjacency[first + lane]; });
     add(subset.leaf, neighbors);
     for (const Link& link : index_->links_of(subset.leaf)) {
-      if ((link.boundary & subset.lanes) == 0) continue;
+      if ((link.boundary & subset.lanes) == 0) continue;  // mutant: ring-needs-whole-boundary
       add(link.leaf, kernels_->cross_edges(index_->cross_edges_of(link), subset.lanes));
     }
   }
@@ -53,7 +53,7 @@ RingSearch::State& RingSearch::state_of(LeafId leaf) {
 /// Adds those of the vertices to the next ring that are in none yet.
 void RingSearch::add(LeafId leaf, LaneMask lanes) {
   State& state = state_of(leaf);
-  const LaneMask added = lanes & ~(state.seen | state.next);  // mutant: ring-holds-earlier-vertices
+  const LaneMask added = lanes & ~(state.seen | state.next);
   if (added == 0) return;
   if (state.next == 0) next_leaves_.push_back(leaf);
   state.next |= added;

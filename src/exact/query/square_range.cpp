@@ -23,7 +23,7 @@ SquareRange squared_distances(const FrameSphere& sphere, const Centre& centre) {
   const Point middle{static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
   const double distance = length(centre.in_frame - middle);
   const double slack = kRangeSlack * (distance + 4);
-  const double reach = static_cast<double>(sphere.radius) + slack;  // mutant: range-without-slack
+  const double reach = static_cast<double>(sphere.radius) + slack;  // mutant: range-too-narrow
   const double near = (distance - reach) * centre.unit;
   const double far = (distance + reach) * centre.unit;
   // A centre so far away that its distance overflows gives no bounds: infinity less infinity is not > 0.

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+// Faces, submeshes and rims of regions, against passes over all faces of small meshes of every kind.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/region_mesh.h"
+
+#include "region/exit_point.h"
+#include "support/draw_start.h"
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/refusal.h"
+#include "support/region_oracle.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+using MeshEdge = std::array<VertexId, 2>;
+using EdgePair = std::pair<MeshEdge, MeshEdge>;
+
+EdgePair undirected(const MeshEdge& a, const MeshEdge& b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// For each face: where its boundary leaves the region, and where it last came in before that.
+std::multiset<EdgePair> segments_of_all_faces(const TestMesh& mesh, const std::set<VertexId>& region) {
+  std::multiset<EdgePair> segments;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    const std::size_t size = face.size();
+    for (std::size_t i = 0; size >= 3 && i < size; ++i) {
+      const MeshEdge leaving{face[i], face[(i + 1) % size]};
+      if (!region.contains(leaving[0]) || region.contains(leaving[1])) continue;
+      std::size_t entry = i;
+      while (region.contains(face[(entry + size - 1) % size])) entry = (entry + size - 1) % size;
+      const MeshEdge entering{face[entry], face[(entry + size - 1) % size]};
+      if (leaving != entering) segments.insert(undirected(leaving, entering));
+    }
+  }
+  return segments;
+}
+
+std::multiset<EdgePair> segments_of_rim(const Rim& rim) {
+  std::multiset<EdgePair> segments;
+  for (std::size_t line = 0; line < rim.size(); ++line) {
+    for (std::size_t i = rim.offsets[line]; i < rim.offsets[line + 1]; ++i) {
+      const bool is_last = i + 1 == rim.offsets[line + 1];
+      if (is_last && rim.closed[line] == 0) continue;
+      segments.insert(undirected(rim.edges[i], rim.edges[is_last ? rim.offsets[line] : i + 1]));
+    }
+  }
+  return segments;
+}
+
+class RegionMeshes : public testing::TestWithParam<Family> {
+ protected:
+  /// Calls `f(mesh, mesher, ids, start, radius)` for regions of meshes of many sizes.
+  template <class F>
+  void for_each_region(F&& f) {
+    std::size_t count = 0;
+    for (const std::size_t vertices : {2U, 9U, 60U, 300U}) {
+      const TestMesh mesh = make_mesh(GetParam(), vertices + 1, vertices);
+      if (mesh.size() == 0) continue;
+      SCOPED_TRACE(mesh.name);
+      const RegionOracle oracle(mesh);
+      RegionMesher mesher(mesh.view());
+      Random random(vertices);
+      for (std::size_t i = 0; i < scaled(10, 3) && !HasFailure(); ++i, ++count) {
+        PlainStart start = draw_start(random, mesh).plain;
+        start.ignored.assign(mesh.size(), 0);
+        const double radius = oracle.distance(start, random.below(mesh.size()));
+        f(mesh, mesher, oracle.region(start, radius), start, radius);
+      }
+    }
+    std::printf("%s: %zu regions\n", std::string(GetParam().name).c_str(), count);
+  }
+};
+
+TEST_P(RegionMeshes, HaveTheFacesOfTheirVertices) {
+  for_each_region(
+      [](const TestMesh& mesh, RegionMesher& mesher, const std::vector<VertexId>& ids, const PlainStart&, double) {
+        const auto is_in = [&](VertexId v) { return std::binary_search(ids.begin(), ids.end(), v); };
+        std::vector<std::size_t> all;
+        std::vector<std::size_t> any;
+        for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+          const auto face = mesh.face(f);
+          if (!face.empty() && std::all_of(face.begin(), face.end(), is_in)) all.push_back(f);
+          if (std::any_of(face.begin(), face.end(), is_in)) any.push_back(f);
+        }
+        ASSERT_EQ(mesher.faces(ids), all);
+        ASSERT_EQ(mesher.faces(ids, Corners::Any), any);
+        for (const auto& [corners, faces] : {std::pair(Corners::All, all), std::pair(Corners::Any, any)}) {
+          const Submesh part = mesher.submesh(ids, corners);
+          ASSERT_EQ(part.faces, faces);
+          ASSERT_EQ(part.offsets.size(), faces.size() + 1);
+          std::set<VertexId> used;
+          for (std::size_t i = 0; i < faces.size(); ++i) {
+            std::vector<VertexId> face;
+            for (std::size_t k = part.offsets[i]; k < part.offsets[i + 1]; ++k) {
+              face.push_back(part.vertices.at(part.corners[k]));
+            }
+            ASSERT_THAT(face, testing::ElementsAreArray(mesh.face(faces[i])));
+            used.insert(face.begin(), face.end());
+          }
+          ASSERT_THAT(part.vertices, testing::ElementsAreArray(used));
+        }
+      });
+}
+
+TEST_P(RegionMeshes, HaveARimOfTheSegmentsOfTheirFaces) {
+  std::size_t points = 0;
+  for_each_region([&](const TestMesh& mesh, RegionMesher& mesher, const std::vector<VertexId>& ids,
+                      const PlainStart& start, double radius) {
+    const Rim rim = mesher.rim(ids, start.centre, radius);
+    ASSERT_EQ(rim.points.size(), rim.edges.size());
+    ASSERT_EQ(rim.offsets.size(), rim.size() + 1);
+    ASSERT_EQ(segments_of_rim(rim), segments_of_all_faces(mesh, {ids.begin(), ids.end()}));
+    std::map<MeshEdge, int> degree;
+    for (const auto& [a, b] : segments_of_rim(rim)) {
+      ++degree[a];
+      ++degree[b];
+    }
+    for (std::size_t line = 0; line < rim.size(); ++line) {
+      for (std::size_t i = rim.offsets[line]; i < rim.offsets[line + 1]; ++i) {
+        const bool is_end = i == rim.offsets[line] || i + 1 == rim.offsets[line + 1];
+        ASSERT_EQ(degree[rim.edges[i]] != 2, is_end && rim.closed[line] == 0);
+      }
+    }
+    points += rim.points.size();
+  });
+  std::printf("%zu points\n", points);
+}
+
+TEST_P(RegionMeshes, HaveARimAtTheRadius) {
+  for_each_region([](const TestMesh& mesh, RegionMesher& mesher, const std::vector<VertexId>& ids,
+                     const PlainStart& start, double radius) {
+    const Rim rim = mesher.rim(ids, start.centre, radius);
+    for (std::size_t i = 0; i < rim.points.size(); ++i) {
+      const auto a = position(mesh, rim.edges[i][0]);
+      const auto b = position(mesh, rim.edges[i][1]);
+      const auto from_centre = [&](const SpacePoint& p) {
+        return std::hypot(p[0] - start.centre[0], p[1] - start.centre[1], p[2] - start.centre[2]);
+      };
+      const bool ends_at_a_wall = start.walls[rim.edges[i][1]] != 0 && from_centre(b) <= radius;
+      double scale = radius;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        scale = std::max({scale, std::abs(a[axis]), std::abs(b[axis]), std::abs(start.centre[axis])});
+        const auto [low, high] = std::minmax(a[axis], b[axis]);
+        ASSERT_GE(rim.points[i][axis], low - 1e-14 * scale);
+        ASSERT_LE(rim.points[i][axis], high + 1e-14 * scale);
+      }
+      if (ends_at_a_wall) {
+        ASSERT_EQ(rim.points[i], b);
+      } else {
+        // Where squares underflow, the predicate takes small distances for 0.
+        ASSERT_NEAR(from_centre(rim.points[i]), radius, 1e-14 * scale + 1e-160);
+      }
+    }
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RegionMeshes, testing::ValuesIn(families()), family_name);
+
+TEST(Rim, OfABallOnAGridIsOneLoopWithTheRegionOnItsLeft) {
+  const TestMesh mesh = make_grid(11, 11, false);
+  const RegionOracle oracle(mesh);
+  const PlainStart start{{5, 5, 0}, {60}, std::vector<std::uint8_t>(121), std::vector<std::uint8_t>(121)};
+  RegionMesher mesher(mesh.view());
+  const Rim rim = mesher.rim(oracle.region(start, 3.3), start.centre, 3.3);
+  ASSERT_THAT(rim.closed, ElementsAre(1));
+  double area = 0;
+  for (std::size_t i = 0; i < rim.points.size(); ++i) {
+    const SpacePoint& p = rim.points[i];
+    const SpacePoint& q = rim.points[(i + 1) % rim.points.size()];
+    area += (p[0] * q[1] - p[1] * q[0]) / 2;
+  }
+  // Whether the faces run counterclockwise, seen from above.
+  const auto a = position(mesh, mesh.face(0)[0]);
+  const auto b = position(mesh, mesh.face(0)[1]);
+  const auto c = position(mesh, mesh.face(0)[2]);
+  const double turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  EXPECT_GT(area * turn, 0);
+  EXPECT_NEAR(std::abs(area), 3.3 * 3.3 * 3.14159, 2);
+}
+
+TEST(Rim, EndsAtTheBorderOfTheMesh) {
+  const TestMesh mesh = make_grid(6, 6, false);
+  RegionMesher mesher(mesh.view());
+  const Rim rim = mesher.rim(std::array<VertexId, 3>{0, 1, 6}, {0, 0, 0}, 1.0);
+  ASSERT_THAT(rim.closed, ElementsAre(0));
+  EXPECT_EQ(rim.edges.front()[0] + rim.edges.back()[0], 7U);
+}
+
+TEST(Rim, SplitsAtANonManifoldEdge) {
+  TestMesh mesh;
+  mesh.add_vertex(0, 0, 0);
+  mesh.add_vertex(2, 0, 0);
+  for (const double y : {1.0, -1.0, 0.5}) mesh.add_face({0, 1, mesh.add_vertex(0.1, y, y * y)});
+  mesh.finish(false);
+  RegionMesher mesher(mesh.view());
+  const Rim rim = mesher.rim(std::array<VertexId, 1>{0}, {0, 0, 0}, 0.25);
+  EXPECT_THAT(rim.closed, ElementsAre(0, 0, 0));
+  EXPECT_EQ(rim.points.size(), 6U);
+}
+
+TEST(Rim, OfTheWholeMeshIsEmpty) {
+  const TestMesh mesh = make_grid(3, 3, true);
+  RegionMesher mesher(mesh.view());
+  const std::vector<VertexId> all{0, 1, 2, 3, 4, 5, 6, 7, 8};
+  EXPECT_THAT(mesher.rim(all, {0, 0, 0}, kInfinity).points, IsEmpty());
+}
+
+TEST(ExitPoint, IsExactWhereTheNumbersAre) {
+  const Point p = exit_point({1, 0, 0}, {5, 0, 0}, {0, 0, 0}, 3);
+  EXPECT_EQ(p.x, 3);
+  EXPECT_EQ(exit_point({3, 0, 0}, {5, 0, 0}, {0, 0, 0}, 3).x, 3) << "the inner end lies at the radius";
+  EXPECT_EQ(exit_point({1, 0, 0}, {2, 0, 0}, {0, 0, 0}, 3).x, 2) << "the outer end lies inside";
+  EXPECT_EQ(exit_point({0x1p499, 0, 0}, {0x1p500, 0, 0}, {0, 0, 0}, 0x1.8p499).x, 0x1.8p499);
+  EXPECT_EQ(exit_point({0x1p-900, 0, 0}, {0x1p-800, 0, 0}, {0, 0, 0}, 0).x, 0x1p-800) << "squares underflow";
+}
+
+TEST(RegionMesher, RefusesWhatItCannotAnswer) {
+  const TestMesh mesh = make_grid(3, 3, true);
+  RegionMesher mesher(mesh.view());
+  const std::array<VertexId, 2> wrong{0, 9};
+  expect_refused(ErrorCode::VertexOutOfRange, "ids: position 1: vertex 9",
+                 [&] { static_cast<void>(mesher.faces(wrong)); });
+  const std::array<VertexId, 1> far{8};
+  expect_refused(ErrorCode::InvalidOption, "vertex 8 is not within the radius 1",
+                 [&] { static_cast<void>(mesher.rim(far, {0, 0, 0}, 1)); });
+  expect_refused(ErrorCode::InvalidRadius, "radius -1", [&] { static_cast<void>(mesher.rim(far, {0, 0, 0}, -1)); });
+  expect_refused(ErrorCode::InvalidOption, "centre: coordinate 0 is inf",
+                 [&] { static_cast<void>(mesher.rim(far, {kInfinity, 0, 0}, 1)); });
+  const std::vector<float> positions{0, 0, 0};
+  const std::vector<std::uint32_t> corners{0, 0, 1};
+  expect_refused(ErrorCode::InvalidMesh, "face 0", [&] { RegionMesher({positions, FacesView::triangles(corners)}); });
+}
+
+}  // namespace
+}  // namespace meshhood::test
