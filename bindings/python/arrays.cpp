@@ -40,6 +40,11 @@ IndicesView indices_of(const Input& array, const char* argument) {
   refuse(argument, "integers of 32 or 64 bits");
 }
 
+FacesView faces_of(const Input& corners, const std::optional<Input>& offsets) {
+  const IndicesView flat = indices_of(corners, "F");
+  return offsets ? FacesView::polygons(indices_of(*offsets, "F"), flat) : FacesView::triangles(flat);
+}
+
 nb::object unset(std::size_t size, const char* dtype) {
   return nb::module_::import_("numpy").attr("empty")(size, dtype);
 }

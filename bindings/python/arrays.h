@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -26,6 +27,9 @@ using Output = nanobind::ndarray<nanobind::numpy, T>;
 /// Throws a TypeError that names `argument` for another type.
 [[nodiscard]] PositionsView positions_of(const Input& array, const char* argument);
 [[nodiscard]] IndicesView indices_of(const Input& array, const char* argument);
+
+/// Triangles, or polygons if there are offsets; of the argument F.
+[[nodiscard]] FacesView faces_of(const Input& corners, const std::optional<Input>& offsets);
 
 /// An array that owns the values, which Python sees as `T`; writable unless that is const.
 template <class T, class Value>

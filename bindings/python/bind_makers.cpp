@@ -25,17 +25,15 @@ namespace nb = nanobind;
 namespace meshhood::python {
 namespace {
 
-FacesView faces_of(const Input& corners, const std::optional<Input>& offsets) {
-  const IndicesView flat = indices_of(corners, "F");
-  return offsets ? FacesView::polygons(indices_of(*offsets, "F"), flat) : FacesView::triangles(flat);
-}
-
 std::shared_ptr<ExactMethod> make_exact(const Input& positions, const Input& corners,
-                                        const std::optional<Input>& offsets, unsigned threads, nb::handle progress) {
+                                        const std::optional<Input>& offsets, const std::optional<Input>& cut,
+                                        unsigned threads, nb::handle progress) {
   const MeshView mesh{positions_of(positions, "V"), faces_of(corners, offsets)};
   const BuildOptions options{.threads = threads, .progress = progress_to(progress)};
+  const IndicesView edges = cut ? indices_of(*cut, "cut") : IndicesView();
   return without_lock([&] {
-    const GraphData graph = graph_copy(mesh);
+    GraphData graph = graph_copy(mesh);
+    if (cut) graph.adjacency = cut_copy(graph.adjacency.view(), edges);
     return exact_method(build(graph.view(), options));
   });
 }
@@ -75,11 +73,12 @@ void bind_makers(nb::module_& module) {
       .def("mean_edge_length",
            [](const GraphData& graph) { return without_lock([&] { return mean_edge_length(graph.view()); }); });
   static_cast<void>(nb::class_<paper::Index>(module, "Hierarchy"));
-  module.def("exact", &make_exact, nb::arg(), nb::arg(), nb::arg("offsets").none(), nb::arg("threads"),
-             nb::arg("progress").none());
+  module.def("exact", &make_exact, nb::arg(), nb::arg(), nb::arg("offsets").none(), nb::arg("cut").none(),
+             nb::arg("threads"), nb::arg("progress").none());
   module.def("graph", &make_graph);
   module.def("hierarchy", &make_hierarchy, nb::arg(), nb::arg("levels"), nb::arg("discard"), nb::arg("fusion_growth"));
   module.def("paper", &make_paper, nb::arg(), nb::arg("radius_ratio"));
+  module.def("edge", [](std::shared_ptr<ExactMethod> exact) { return edge_method(std::move(exact)); });
   module.def("bfs", [](std::shared_ptr<GraphData> graph) { return bfs_method(std::move(graph)); });
   module.def("ball", [](std::shared_ptr<GraphData> graph) { return ball_method(std::move(graph)); });
 }

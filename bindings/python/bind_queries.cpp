@@ -116,16 +116,6 @@ auto nearest_connected(Queries& queries, const SpacePoint& centre, const Seeds& 
   return std::pair(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(radii)));
 }
 
-auto along_edges(Queries& queries, VertexId v, double radius, const Mask& walls, const Mask& ignored) {
-  std::vector<VertexId> ids;
-  std::vector<double> distances;
-  queries.with_edges([&](EdgeSearcher& searcher) {
-    searcher.neighborhood(v, radius, ids, distances, filter_of(walls, ignored));
-    return true;
-  });
-  return std::pair(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(distances)));
-}
-
 auto rings(Queries& queries, VertexId v, std::size_t k, const Mask& walls, const Mask& ignored) {
   std::vector<VertexId> ids;
   std::vector<std::size_t> counts;
@@ -165,7 +155,6 @@ void bind_queries(nb::module_& module) {
       .def("contains", &contains, nb::arg(), nb::arg(), nb::arg(), nb::arg(), walls, ignored)
       .def("connecting_radius", &connecting_radius, nb::arg(), nb::arg(), nb::arg(), walls, ignored)
       .def("nearest_connected", &nearest_connected, nb::arg(), nb::arg(), nb::arg(), walls, ignored)
-      .def("along_edges", &along_edges, nb::arg(), nb::arg(), walls, ignored)
       .def("rings", &rings, nb::arg(), nb::arg(), walls, ignored)
       .def("nearest", &nearest_vertices, nb::arg())
       .def("position", &position, nb::arg());

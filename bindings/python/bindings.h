@@ -10,11 +10,14 @@ namespace meshhood::python {
 /// The ways to ask an index.
 void bind_methods(nanobind::module_& module);
 
-/// Sums and other properties of values over neighborhoods.
-void bind_aggregates(nanobind::module_& module);
-
 /// What makes an index, and the other methods from it.
 void bind_makers(nanobind::module_& module);
+
+/// Regions, connecting radii, rings and nearest vertices.
+void bind_queries(nanobind::module_& module);
+
+/// Regions as meshes.
+void bind_region_mesh(nanobind::module_& module);
 
 /// Mesh files, index files, and an index as bytes.
 void bind_files(nanobind::module_& module);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "meshhood/error.h"
+#include "meshhood/filter.h"
 
 namespace meshhood::python {
 namespace {
@@ -41,6 +42,10 @@ GraphData graph_copy(const MeshView& mesh) {
   about("V", [&] { check_positions(copy.view().positions); });
   copy.adjacency = about("F", [&] { return adjacency({copy.view().positions, mesh.faces}); });
   return copy;
+}
+
+Adjacency cut_copy(const AdjacencyView& graph, const IndicesView& cut) {
+  return about("cut", [&] { return cut_edges(graph, cut); });
 }
 
 void check_vertex_count(std::size_t count) {

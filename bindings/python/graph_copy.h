@@ -13,6 +13,9 @@ namespace meshhood::python {
 /// Throws Error{InvalidMesh, TooLarge}. The message begins with the argument: `V` or `F`.
 [[nodiscard]] GraphData graph_copy(const MeshView& mesh);
 
+/// The graph without the edges `cut`. Throws as `cut_edges`. The message begins with the argument: `cut`.
+[[nodiscard]] Adjacency cut_copy(const AdjacencyView& graph, const IndicesView& cut);
+
 /// Throws Error{TooLarge} for more vertices than there are ids in Python.
 void check_vertex_count(std::size_t count);
 

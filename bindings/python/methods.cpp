@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "meshhood/edge_search.h"
 #include "meshhood/reference.h"
 
 #include "searcher_method.h"
@@ -25,6 +26,13 @@ struct PaperSource {
 
   [[nodiscard]] paper::Searcher searcher() const { return paper::Searcher(*hierarchy, options); }
   [[nodiscard]] SearchMethod method() const { return {*hierarchy, options}; }
+};
+
+struct EdgeSource {
+  std::shared_ptr<const ExactMethod> exact;
+
+  [[nodiscard]] EdgeSearcher searcher() const { return EdgeSearcher(exact->index()); }
+  [[nodiscard]] SearchMethod method() const { return SearchMethod::along_edges(exact->index()); }
 };
 
 struct BfsSource {
@@ -64,6 +72,10 @@ std::shared_ptr<ExactMethod> exact_method(Index index) {
 std::shared_ptr<Method> paper_method(std::shared_ptr<const paper::Index> hierarchy,
                                      const paper::QueryOptions& options) {
   return std::make_shared<SearcherMethod<Method, PaperSource>>(PaperSource{std::move(hierarchy), options});
+}
+
+std::shared_ptr<Method> edge_method(std::shared_ptr<const ExactMethod> exact) {
+  return std::make_shared<SearcherMethod<Method, EdgeSource>>(EdgeSource{std::move(exact)});
 }
 
 std::shared_ptr<Method> bfs_method(std::shared_ptr<const GraphData> graph) {

@@ -50,6 +50,9 @@ class ExactMethod : public Method {
 [[nodiscard]] std::shared_ptr<Method> paper_method(std::shared_ptr<const paper::Index> hierarchy,
                                                    const paper::QueryOptions& options);
 
+/// What lies within the radius along the edges, with path distances.
+[[nodiscard]] std::shared_ptr<Method> edge_method(std::shared_ptr<const ExactMethod> exact);
+
 /// Breadth-first search.
 [[nodiscard]] std::shared_ptr<Method> bfs_method(std::shared_ptr<const GraphData> graph);
 

@@ -66,8 +66,9 @@ NB_MODULE(_core, module) {
   nb::set_leak_warnings(false);
   nb::register_exception_translator(meshhood::python::translate);
   meshhood::python::bind_methods(module);
-  meshhood::python::bind_aggregates(module);
   meshhood::python::bind_makers(module);
+  meshhood::python::bind_queries(module);
+  meshhood::python::bind_region_mesh(module);
   meshhood::python::bind_files(module);
   meshhood::python::bind_parts(module);
   module.attr("__version__") = meshhood::kVersion.data();

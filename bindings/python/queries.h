@@ -12,11 +12,14 @@
 
 namespace meshhood::python {
 
-/// What an index answers beyond neighborhoods. Any number of threads may use it at the same time. Each call is made with
-/// the interpreter lock, which is released while the call works.
+/// What an index answers beyond neighborhoods. Any number of threads may use it at the same time. Each call is made
+/// with the interpreter lock, which is released while the call works.
 class Queries {
  public:
   explicit Queries(std::shared_ptr<const ExactMethod> exact) : exact_(std::move(exact)) {}
+  Queries(const Queries&) = delete;
+  Queries& operator=(const Queries&) = delete;
+  ~Queries() = default;
 
   [[nodiscard]] const Index& index() const { return exact_->index(); }
 

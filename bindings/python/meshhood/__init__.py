@@ -11,12 +11,12 @@ r around v.
 """
 
 from . import _core
-from ._aggregate import vertex_areas
 from ._files import Mesh, load, read_mesh
 from ._index import Chunk, MeshIndex
 from ._methods import Paper
 from ._partition import partition
 from ._plot import plot_neighborhood
+from ._region_mesh import RegionMesh, RimLine, Submesh
 from .distributed import open_parts
 
 __version__: str = _core.__version__
@@ -26,11 +26,13 @@ __all__ = [
     "Mesh",
     "MeshIndex",
     "Paper",
+    "RegionMesh",
+    "RimLine",
+    "Submesh",
     "__version__",
     "load",
     "open_parts",
     "partition",
     "plot_neighborhood",
     "read_mesh",
-    "vertex_areas",
 ]

@@ -15,35 +15,35 @@ except ImportError:  # Windows
 _MOST_THREADS = 1024
 
 
-def vertices(v, count):
+def vertices(v, count, name="v"):
     """`v` as a new int32 array in C order, each value in [0, count). `v` may be a boolean mask of `count` values.
 
     The result is a copy even if `v` already has this type: another thread, or a `progress` function, may write to `v`
     during the call."""
-    array = np.array(as_array(v, "v"))
+    array = np.array(as_array(v, name))
     if array.size == 0 and not isinstance(v, np.ndarray):
         array = array.astype(np.int32)
     if array.dtype.kind == "b" and array.ndim:
         if array.shape != (count,):
-            raise ValueError(f"v: a bool mask of shape {array.shape}, expected ({count},)")
+            raise ValueError(f"{name}: a bool mask of shape {array.shape}, expected ({count},)")
         array = np.flatnonzero(array)
     if array.dtype.kind not in "iu":
-        raise TypeError(f"v: expected integers, not {array.dtype}")
+        raise TypeError(f"{name}: expected integers, not {array.dtype}")
     if array.ndim != 1:
-        raise ValueError(f"v: expected one vertex or a list of vertices, not an array of shape {array.shape}")
+        raise ValueError(f"{name}: expected one vertex or a list of vertices, not an array of shape {array.shape}")
     wrong = np.flatnonzero((array < 0) | (array >= count))
     if wrong.size:
         row = wrong[0]
-        raise ValueError(f"v: row {row}: vertex {array[row]}, but the mesh has {count} vertices")
+        raise ValueError(f"{name}: row {row}: vertex {array[row]}, but the mesh has {count} vertices")
     return array.astype(np.int32, copy=False)
 
 
-def vertex(v, count):
+def vertex(v, count, name="v"):
     """`v` as an int in [0, count)."""
     if type(v) is not int:
-        v = _integer(v, "v")
+        v = _integer(v, name)
     if not 0 <= v < count:
-        raise ValueError(f"v: vertex {v}, but the mesh has {count} vertices")
+        raise ValueError(f"{name}: vertex {v}, but the mesh has {count} vertices")
     return v
 
 
@@ -73,6 +73,80 @@ def radii(r, rows):
     if wrong.size:
         raise ValueError(f"r: row {wrong[0]}: radius {array[wrong[0]]}, expected a number >= 0")
     return array.astype(np.float64, copy=False)
+
+
+def ascending(values, name):
+    """`values` as a new float64 array of radii, each larger than the one before."""
+    array = np.array(as_array(values, name))
+    if array.size == 0 and not isinstance(values, np.ndarray):
+        array = array.astype(np.float64)
+    if array.dtype.kind not in "iuf":
+        raise TypeError(f"{name}: expected numbers, not {array.dtype}")
+    if array.ndim != 1:
+        raise ValueError(f"{name}: expected one dimension, not an array of shape {array.shape}")
+    array = array.astype(np.float64)
+    for row, value in enumerate(array):
+        if not value >= 0:
+            raise ValueError(f"{name}: value {row}: radius {value}, expected a number >= 0")
+        if row > 0 and not array[row - 1] < value:
+            raise ValueError(f"{name}: value {row}: radius {value}, expected more than {array[row - 1]} before it")
+    return array
+
+
+def points(values, name):
+    """`values`, one point or (n, 3), as a new float64 array (n, 3) of finite numbers."""
+    array = np.array(as_array(values, name))
+    if array.dtype.kind not in "iuf":
+        raise TypeError(f"{name}: expected numbers, not {array.dtype}")
+    if array.ndim == 1 and array.size == 0:
+        array = array.reshape(0, 3)
+    if array.ndim not in (1, 2) or array.shape[-1] != 3:
+        raise ValueError(f"{name}: expected 3 numbers or an array (n, 3), not an array of shape {array.shape}")
+    array = np.ascontiguousarray(array.reshape(-1, 3), dtype=np.float64)
+    wrong = np.argwhere(~(np.abs(array) <= 2.0**500))
+    if wrong.size:
+        row, axis = wrong[0]
+        raise ValueError(
+            f"{name}: row {row}: coordinate {axis} is {array[row, axis]}, expected a finite number of magnitude up to 2^500"
+        )
+    return array
+
+
+def seed_rows(values, rows, count):
+    """`values`, (rows,) or (rows, k), as a new int32 array (rows, k), each value in [0, count)."""
+    array = np.array(as_array(values, "seeds"))
+    if array.ndim == 1:
+        array = array.reshape(-1, 1)
+    if array.ndim != 2 or len(array) != rows:
+        raise ValueError(f"seeds: expected ({rows},) or ({rows}, k), not an array of shape {np.shape(values)}")
+    return vertices(array.reshape(-1), count, "seeds").reshape(array.shape)
+
+
+def edges(values, name):
+    """`values`, (n, 2), as a new flat array of integers; None if there are none."""
+    if values is None:
+        return None
+    array = np.array(as_array(values, name), order="C")
+    if array.size == 0 and not isinstance(values, np.ndarray):
+        array = np.empty((0, 2), np.int64)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"{name}: expected integers, not {array.dtype}")
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise ValueError(f"{name}: expected an array (n, 2), not one of shape {array.shape}")
+    return array.astype(np.int64 if array.dtype != np.uint64 else np.uint64).ravel()
+
+
+def mask(values, name, count):
+    """`values`, a bool mask of `count` values, as bytes; None if there is none. It is not copied: the library reads each
+    byte for itself."""
+    if values is None:
+        return None
+    array = as_array(values, name)
+    if array.dtype != np.bool_:
+        raise TypeError(f"{name}: expected bool, not {array.dtype}")
+    if array.shape != (count,):
+        raise ValueError(f"{name}: a bool mask of shape {array.shape}, expected ({count},)")
+    return np.ascontiguousarray(array).view(np.uint8)
 
 
 def threads(workers):

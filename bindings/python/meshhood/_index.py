@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union, ove
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _aggregate, _convert, _core
+from . import _convert, _core
 from ._mesh import mesh_arrays, warn_if_unwelded
 from ._methods import Method, Methods
 from ._progress import Progress, reporter
+from ._queries import Queries
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -29,6 +30,7 @@ Vertices = Union[Sequence[int], "NDArray[np.integer[Any]]", NDArray[np.bool_], N
 Number = Union[float, "np.floating[Any]", "np.integer[Any]"]
 Radii = Union[Number, Sequence[float], "NDArray[np.floating[Any]]", "NDArray[np.integer[Any]]"]
 Unit = Literal["mesh", "edge"]
+Metric = Literal["straight", "edge"]
 
 
 class Chunk(NamedTuple):
@@ -40,7 +42,7 @@ class Chunk(NamedTuple):
     distances: Optional[Reals]
 
 
-class MeshIndex:
+class MeshIndex(Queries):
     """An index of a mesh that finds the neighborhood of a vertex v with a radius r: the connected component that holds
     v of the mesh inside the ball of radius r around v.
 
@@ -50,6 +52,7 @@ class MeshIndex:
         a tuple (offsets, corners): polygon i has the corners corners[offsets[i]:offsets[i + 1]];
         one dimension, VTK's padded faces: each face begins with the number of its corners;
         a scipy.sparse matrix (#V, #V): a graph. Each stored entry is an edge, in either direction, whatever its value.
+    cut : edges that no search crosses, as pairs of vertices (#cut, 2) in either order.
     workers : number of threads, -1 for one per processor. The index does not depend on it.
     progress : True shows a bar of tqdm. A function is called as progress(done, total); an exception from it ends the
         call.
@@ -67,13 +70,16 @@ class MeshIndex:
 
     _exact: Any
     _methods: Methods
+    _queries: Any
     _count: int
 
-    def __init__(self, V: Any, F: Any = None, *, workers: int = -1, progress: Progress = None) -> None:
+    def __init__(
+        self, V: Any, F: Any = None, *, cut: Any = None, workers: int = -1, progress: Progress = None
+    ) -> None:
         positions, corners, offsets = mesh_arrays(V, F)
-        threads = _convert.threads(workers)
+        options = {"cut": _convert.edges(cut, "cut"), "threads": _convert.threads(workers)}
         with reporter(progress) as report:
-            self._hold(_core.exact(positions, corners, offsets=offsets, threads=threads, progress=report))
+            self._hold(_core.exact(positions, corners, offsets=offsets, **options, progress=report))
         warn_if_unwelded(positions, corners, offsets, stacklevel=3)
 
     @classmethod
@@ -85,6 +91,7 @@ class MeshIndex:
     def _hold(self, exact: Any) -> None:
         self._exact = exact
         self._methods = Methods(exact)
+        self._queries = _core.queries(exact)
         self._count = exact.vertex_count
 
     def __len__(self) -> int:
@@ -151,6 +158,7 @@ class MeshIndex:
         return_distance: Literal[False] = False,
         sort: bool = False,
         method: Method = "exact",
+        metric: Metric = "straight",
         unit: Unit = "mesh",
         workers: int = -1,
         max_bytes: Optional[int] = None,
@@ -166,6 +174,7 @@ class MeshIndex:
         return_distance: Literal[True],
         sort: bool = False,
         method: Method = "exact",
+        metric: Metric = "straight",
         unit: Unit = "mesh",
         workers: int = -1,
         max_bytes: Optional[int] = None,
@@ -181,6 +190,7 @@ class MeshIndex:
         return_distance: Literal[False] = False,
         sort: bool = False,
         method: Method = "exact",
+        metric: Metric = "straight",
         unit: Unit = "mesh",
         workers: int = -1,
         max_bytes: Optional[int] = None,
@@ -196,6 +206,7 @@ class MeshIndex:
         return_distance: Literal[True],
         sort: bool = False,
         method: Method = "exact",
+        metric: Metric = "straight",
         unit: Unit = "mesh",
         workers: int = -1,
         max_bytes: Optional[int] = None,
@@ -210,6 +221,7 @@ class MeshIndex:
         return_distance: bool = False,
         sort: bool = False,
         method: Method = "exact",
+        metric: Metric = "straight",
         unit: Unit = "mesh",
         workers: int = -1,
         max_bytes: Optional[int] = None,
@@ -227,6 +239,9 @@ class MeshIndex:
                  "bfs", the exact neighborhood by breadth-first search, for comparison;
                  "ball", every vertex within `r` in space, connected or not.
             "paper" builds an index of its own at the first use.
+        metric : "straight", the neighborhood in the ball of radius `r`; "edge", the vertices whose shortest path along
+            edges is at most `r` long (see `meshhood::EdgeSearcher`). Distances are then those lengths, and the vertices of
+            one neighborhood ascend by them. It needs method "exact".
         unit : of `r`: "mesh" is that of V, "edge" is `mean_edge_length`.
         max_bytes : refuse a larger result of many vertices; by default, one larger than the memory of the machine. A
             sample of the rows usually shows this within a second.
@@ -238,7 +253,7 @@ class MeshIndex:
         The cost of "exact" grows with the boundary of each neighborhood rather than its size. All rows are in memory at
         once; see `iter_neighborhoods`.
         """
-        searched, scale = self._method(method), self._scale(unit)
+        searched, scale = self._method(method, metric), self._scale(unit)
         if v is not None and _convert.is_single(v):
             v, r = _convert.vertex(v, self._count), scale * _convert.radius(r)
             return _query_one(searched, v, r, return_distance, sort)
@@ -257,6 +272,7 @@ class MeshIndex:
         r: Number,
         *,
         method: Method = "exact",
+        metric: Metric = "straight",
         unit: Unit = "mesh",
         workers: int = -1,
         progress: Progress = None,
@@ -269,6 +285,7 @@ class MeshIndex:
         r: Radii,
         *,
         method: Method = "exact",
+        metric: Metric = "straight",
         unit: Unit = "mesh",
         workers: int = -1,
         progress: Progress = None,
@@ -280,12 +297,13 @@ class MeshIndex:
         r: Any,
         *,
         method: Method = "exact",
+        metric: Metric = "straight",
         unit: Unit = "mesh",
         workers: int = -1,
         progress: Progress = None,
     ) -> Any:
         """The number of vertices of each neighborhood: an int for one vertex, else an int64 array. See `query_ball`."""
-        searched, scale = self._method(method), self._scale(unit)
+        searched, scale = self._method(method, metric), self._scale(unit)
         if v is not None and _convert.is_single(v):
             return searched.count(_convert.vertex(v, self._count), scale * _convert.radius(r))
         rows, radius, threads = self._batch(v, r, scale, workers)
@@ -307,6 +325,7 @@ class MeshIndex:
         *,
         mode: Literal["connectivity", "distance"] = "connectivity",
         method: Method = "exact",
+        metric: Metric = "straight",
         unit: Unit = "mesh",
         workers: int = -1,
         max_bytes: Optional[int] = None,
@@ -328,6 +347,7 @@ class MeshIndex:
             return_distance=with_distances,
             sort=True,
             method=method,
+            metric=metric,
             unit=unit,
             workers=workers,
             max_bytes=max_bytes,
@@ -349,6 +369,7 @@ class MeshIndex:
         return_distance: bool = False,
         sort: bool = False,
         method: Method = "exact",
+        metric: Metric = "straight",
         unit: Unit = "mesh",
         workers: int = -1,
     ) -> Iterator[Chunk]:
@@ -358,7 +379,7 @@ class MeshIndex:
         arguments are checked and copied when this is called: later changes to `v` or `r` have no effect.
         """
         chunk = _convert.positive(chunk, "chunk")
-        searched = self._method(method)
+        searched = self._method(method, metric)
         rows, radius, threads = self._batch(v, r, self._scale(unit), workers)
         if rows is None:
             rows = np.arange(self._count, dtype=np.int32)
@@ -375,101 +396,6 @@ class MeshIndex:
 
         return chunks()
 
-    def aggregate(
-        self,
-        values: ArrayLike,
-        r: Radii,
-        reduce: _aggregate.Reduce = "mean",
-        *,
-        weights: Union[Literal["area"], ArrayLike, None] = None,
-        kernel: Optional[_aggregate.Kernel] = None,
-        vertices: Union[Vertex, Vertices] = None,
-        nan: Literal["propagate", "omit"] = "propagate",
-        nesting: Literal["own", "patch"] = "own",
-        ddof: int = 0,
-        F: Any = None,
-        unit: Unit = "mesh",
-        workers: int = -1,
-        max_bytes: Optional[int] = None,
-        progress: Progress = None,
-    ) -> Any:
-        """A sum, a mean or the like of values over the exact neighborhood of each vertex.
-
-        values : (#V,) or (#V, ...), numbers or bools; each channel by itself. Converted to float64.
-        r : the radius, >= 0 or inf, or several. A vertex at exactly `r` is inside.
-        reduce : "sum", "mean", "min", "max", "var", "std" or "count".
-        weights : (#V,) finite and >= 0, for sum, mean, var and std; "area" for `vertex_areas`, which needs F. A vertex
-            of weight 0 is left out.
-        kernel : for sum and mean, how the weight falls with the distance d: None not at all, "epanechnikov"
-            1 - (d/r)^2, "biweight" (1 - (d/r)^2)^2, which is close to a Gaussian of the standard deviation 0.4 r.
-        vertices : a vertex, a sequence of vertices, a bool mask (#V,), or None for all.
-        nan : "propagate", a neighborhood with a NaN gives NaN; "omit", NaN marks a missing value, which is left out.
-        nesting : what several radii mean. "own": each has its own neighborhoods. "patch": the neighborhoods of the
-            largest, and of them the vertices within each smaller radius.
-        ddof : "var" and "std" divide by the number of values minus this, 0 or 1.
-        F : the faces, as for the class.
-        unit, workers, max_bytes, progress : as for `query_ball`. The result does not depend on `workers`.
-
-        Returns float64: an axis of radii if `r` is a sequence, one of vertices unless `vertices` is a single one, then
-        the axes of `values` but the first. NaN where a neighborhood has no values; 0 for their sum.
-
-        No ids are listed. The cost is that of `query_ball_count` for all vertices and a little for each channel. Sums
-        are exact to 1e-14 of the sum of the absolute terms.
-        """
-        return _aggregate.aggregate(
-            self,
-            values,
-            r,
-            self._scale(unit),
-            vertices,
-            F,
-            reduce=reduce,
-            weights=weights,
-            kernel=kernel,
-            nan=nan,
-            nesting=nesting,
-            ddof=ddof,
-            workers=workers,
-            max_bytes=max_bytes,
-            progress=progress,
-        )
-
-    def smooth(
-        self,
-        values: ArrayLike,
-        fwhm: Number,
-        *,
-        weights: Union[Literal["area"], ArrayLike, None] = None,
-        nan: Literal["propagate", "omit"] = "propagate",
-        F: Any = None,
-        unit: Unit = "mesh",
-        workers: int = -1,
-        max_bytes: Optional[int] = None,
-        progress: Progress = None,
-    ) -> Reals:
-        """The values smoothed by a biweight that is close to a Gaussian of this full width at half maximum.
-
-        fwhm : > 0, a straight-line distance in `unit`. Values beyond 1.06 fwhm, or not connected within it, have no
-            influence: nothing is smoothed across a gap.
-        weights : None counts each vertex once; "area" weighs it by its area, which needs F, and makes the result
-            independent of how densely the surface is sampled.
-        See `aggregate`, which this calls with reduce="mean" and kernel="biweight". Returns float64 of the shape of
-        `values`.
-        """
-        fwhm = _convert.finite(fwhm, "fwhm", or_zero=False)
-        return self.aggregate(
-            values,
-            _core.smoothing_radius(fwhm),
-            kernel="biweight",
-            weights=weights,
-            nan=nan,
-            F=F,
-            unit=unit,
-            workers=workers,
-            max_bytes=max_bytes,
-            progress=progress,
-        )
-
     def save(self, path: Union[str, os.PathLike[str]], *, progress: Progress = None) -> None:
         """Writes the index to a file for `load`. The same mesh gives the same bytes on every machine.
 
@@ -483,7 +409,11 @@ class MeshIndex:
         with reporter(progress) as report:
             _core.save(self._exact, path, progress=report)
 
-    def _method(self, method: Any) -> Any:
+    def _method(self, method: Any, metric: Any) -> Any:
+        if _convert.choice(metric, "metric", ("straight", "edge")) == "edge":
+            if method != "exact":
+                raise ValueError(f"method: {method!r}, expected 'exact' with metric='edge'")
+            return self._methods.along_edges
         try:
             return self._methods[method]
         except TypeError:

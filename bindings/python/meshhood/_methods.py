@@ -12,6 +12,7 @@ from . import _convert, _core
 
 _MOST_LEVELS = 64  # no mesh has more
 _SCANS = {"bfs": _core.bfs, "ball": _core.ball}
+_ALONG_EDGES = object()  # no method that callers can name
 
 
 @dataclass(frozen=True)
@@ -69,6 +70,8 @@ class Methods(dict):
         return self._locks.setdefault(os.getpid(), threading.RLock())
 
     def _make(self, method):
+        if method is _ALONG_EDGES:
+            return _core.edge(self["exact"])
         if method in _SCANS:
             return _SCANS[method](self.graph())
         paper = Paper() if method == "paper" else method
@@ -84,6 +87,10 @@ class Methods(dict):
                 self.graph(), levels=levels, discard=discard, fusion_growth=fusion_growth
             )
         return self._hierarchies[options]
+
+    @property
+    def along_edges(self):
+        return self[_ALONG_EDGES]
 
     def graph(self):
         """The mesh as a graph, extracted from the index at the first use."""

@@ -1,0 +1,213 @@
+# SPDX-License-Identifier: MIT
+"""More ways to ask an index: from any point, with filters, for several radii, along the edges."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Literal, Optional, Union, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _convert
+
+Ids = NDArray[np.int32]
+Counts = NDArray[np.int64]
+Reals = NDArray[np.float64]
+Number = Union[float, "np.floating[Any]", "np.integer[Any]"]
+Seeds = Union[int, "np.integer[Any]", Sequence[int], "NDArray[np.integer[Any]]", None]
+Mask = Optional[NDArray[np.bool_]]
+Unit = Literal["mesh", "edge"]
+
+
+class Queries:
+    """The part of `MeshIndex` that searches regions. These arguments have the same meaning in all calls:
+
+    start : a vertex, or a point of space (3 numbers). It is the center of the ball.
+    seeds : if `start` is a point: the vertices from which the search starts, for example the corners of the face on
+        which the point lies; None for the vertex nearest to the point. A seed outside the ball does not count.
+    walls : a bool mask (#V,): vertices that the search does not pass and that belong to no answer, as if they were not
+        in the mesh.
+    ignored : a bool mask (#V,): vertices that the search passes but that belong to no answer.
+
+    The *region* of `start` and a radius r: the vertices that are connected to a seed by edges between vertices within r
+    of `start`. For a vertex as start, without masks, it is the neighborhood that `query_ball` returns.
+    """
+
+    _count: int
+    _queries: Any
+
+    def _scale(self, unit: Any) -> float:
+        raise NotImplementedError
+
+    @overload
+    def query_region(
+        self,
+        start: ArrayLike,
+        r: Number,
+        *,
+        seeds: Seeds = None,
+        walls: Mask = None,
+        ignored: Mask = None,
+        return_distance: Literal[False] = False,
+        sort: bool = False,
+        unit: Unit = "mesh",
+    ) -> Ids: ...
+
+    @overload
+    def query_region(
+        self,
+        start: ArrayLike,
+        r: Number,
+        *,
+        seeds: Seeds = None,
+        walls: Mask = None,
+        ignored: Mask = None,
+        return_distance: Literal[True],
+        sort: bool = False,
+        unit: Unit = "mesh",
+    ) -> tuple[Ids, Reals]: ...
+
+    def query_region(
+        self,
+        start: Any,
+        r: Any,
+        *,
+        seeds: Any = None,
+        walls: Any = None,
+        ignored: Any = None,
+        return_distance: bool = False,
+        sort: bool = False,
+        unit: Unit = "mesh",
+    ) -> Any:
+        """The region of `start` and the radius `r` (see `Queries`). The other arguments, and the result, are as those of
+        `query_ball` for one vertex. The cost grows with the size of the region."""
+        center, first = self._start(start, seeds)
+        masks = self._masks(walls, ignored)
+        indices, distances = self._queries.region(center, first, self._scale(unit) * _convert.radius(r), *masks)
+        if sort:
+            order = np.argsort(indices)
+            indices, distances = indices[order], distances[order]
+        return (indices, distances) if return_distance else indices
+
+    def query_stroke(
+        self,
+        points: ArrayLike,
+        r: Any,
+        *,
+        seeds: Any = None,
+        walls: Mask = None,
+        ignored: Mask = None,
+        sort: bool = False,
+        unit: Unit = "mesh",
+    ) -> Ids:
+        """The union of the regions of many points, such as those of a brush stroke; each vertex once.
+
+        points : (n, 3).
+        r : one radius, or one for each point.
+        seeds : (n,) or (n, k), those of each point; None for the vertex nearest to each.
+        """
+        centers = _convert.points(points, "points")
+        if seeds is None:
+            seeds = self._queries.nearest(centers)[0] if len(centers) else np.empty(0, np.int32)
+        radii = np.array(np.broadcast_to(_convert.radii(r, len(centers)), len(centers))) * self._scale(unit)
+        rows = _convert.seed_rows(seeds, len(centers), self._count)
+        indices = self._queries.stroke(centers, rows, radii, *self._masks(walls, ignored))
+        if sort:
+            indices.sort()
+        return indices
+
+    def query_nested(
+        self,
+        start: ArrayLike,
+        radii: Any,
+        *,
+        seeds: Seeds = None,
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+    ) -> tuple[Counts, Ids]:
+        """The regions of several radii in one pass: `counts, indices`. The region of radii[i] is indices[:counts[i]].
+
+        radii : strictly ascending.
+
+        So indices[counts[i - 1]:counts[i]] is ring i: the vertices that only the ball of radii[i] connects with the
+        start. A vertex may be near and belong to a late ring. Sums over the regions are sums over the rings:
+        `np.add.reduceat`, then `np.cumsum`.
+        """
+        center, first = self._start(start, seeds)
+        values = _convert.ascending(radii, "radii") * self._scale(unit)
+        counts, indices = self._queries.nested(center, first, values, *self._masks(walls, ignored))
+        return counts, indices
+
+    def query_rings(self, v: Any, k: Any, *, walls: Mask = None, ignored: Mask = None) -> tuple[Counts, Ids]:
+        """The vertices that at most `k` edges separate from vertex `v`: `counts, indices`. The first counts[i] of the
+        indices are at most i edges away; `counts` ends with the last ring that is not empty, or with ring k."""
+        v = _convert.vertex(v, self._count)
+        counts, indices = self._queries.rings(v, _convert.integer(k, "k", 0, 2**63 - 1), *self._masks(walls, ignored))
+        return counts, indices
+
+    def contains(
+        self,
+        start: ArrayLike,
+        w: Any,
+        r: Number,
+        *,
+        seeds: Seeds = None,
+        walls: Mask = None,
+        ignored: Mask = None,
+        unit: Unit = "mesh",
+    ) -> bool:
+        """Whether the region of `start` and the radius `r` has vertex `w`."""
+        center, first = self._start(start, seeds)
+        w, r = _convert.vertex(w, self._count, "w"), self._scale(unit) * _convert.radius(r)
+        return bool(self._queries.contains(center, first, w, r, *self._masks(walls, ignored)))
+
+    def connecting_radius(
+        self, start: ArrayLike, w: Any, *, seeds: Seeds = None, walls: Mask = None, ignored: Mask = None
+    ) -> float:
+        """The smallest radius whose region has vertex `w`; inf if there is none. It is the least, over all paths of edges
+        from a seed to `w`, of the largest distance of a vertex of the path from `start`."""
+        center, first = self._start(start, seeds)
+        w = _convert.vertex(w, self._count, "w")
+        return float(self._queries.connecting_radius(center, first, w, *self._masks(walls, ignored)))
+
+    def nearest_connected(
+        self, start: ArrayLike, k: Any, *, seeds: Seeds = None, walls: Mask = None, ignored: Mask = None
+    ) -> tuple[Ids, Reals]:
+        """The `k` nearest connected vertices and their connecting radii: the first k in the order of their connecting
+        radii; of equal radius, in the order of their distances from `start`, then of their ids. Fewer if no more are
+        connected."""
+        center, first = self._start(start, seeds)
+        k = _convert.integer(k, "k", 0, 2**63 - 1)
+        indices, radii = self._queries.nearest_connected(center, first, k, *self._masks(walls, ignored))
+        return indices, radii
+
+    def nearest(self, points: ArrayLike) -> Any:
+        """The vertex nearest to a point, and its distance: `vertex, distance`. For points (n, 3), two arrays. Of several
+        vertices at the same distance, the one with the smallest id."""
+        rows = _convert.points(points, "points")
+        if self._count == 0:
+            raise ValueError("points: the mesh has no vertices")
+        vertices, distances = self._queries.nearest(rows)
+        return (vertices, distances) if np.ndim(points) == 2 else (int(vertices[0]), float(distances[0]))
+
+    def _start(self, start: Any, seeds: Any) -> tuple[tuple[float, float, float], Ids]:
+        """The center and the seeds."""
+        if np.ndim(start) == 0:
+            if seeds is not None:
+                raise ValueError("seeds: expected None, for the start is a vertex")
+            v = _convert.vertex(start, self._count, "start")
+            return self._queries.position(v), np.array([v], np.int32)
+        point = _convert.points(start, "start")
+        if len(point) != 1 or np.ndim(start) != 1:
+            raise ValueError(f"start: expected a vertex or 3 numbers, not an array of shape {np.shape(start)}")
+        if seeds is None:
+            first = self._queries.nearest(point)[0] if self._count else np.empty(0, np.int32)
+        else:
+            first = _convert.vertices(np.atleast_1d(seeds), self._count, "seeds")
+        x, y, z = point[0]
+        return (float(x), float(y), float(z)), first
+
+    def _masks(self, walls: Any, ignored: Any) -> tuple[Any, Any]:
+        return _convert.mask(walls, "walls", self._count), _convert.mask(ignored, "ignored", self._count)

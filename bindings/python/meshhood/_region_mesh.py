@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: MIT
+"""Regions as meshes: their faces, submeshes and outlines."""
+
+from __future__ import annotations
+
+from typing import Any, Literal, NamedTuple, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _convert, _core
+from ._mesh import mesh_arrays
+
+Ids = NDArray[np.int32]
+Corners = Literal["all", "any"]
+
+
+class Submesh(NamedTuple):
+    """Some faces of a mesh, as a mesh of their own."""
+
+    V: Union[NDArray[np.float32], NDArray[np.float64]]  #: the positions of its vertices
+    F: Any  #: (#F, 3) int32, or a tuple (offsets, corners) if the mesh was given as polygons; rows of V
+    vertices: Ids  #: its vertices by their ids in the whole mesh, ascending
+    faces: NDArray[np.int64]  #: its faces by their rows in the whole mesh, ascending
+
+
+class RimLine(NamedTuple):
+    """A polyline along which a surface leaves a ball."""
+
+    points: NDArray[np.float64]  #: (n, 3)
+    edges: Ids  #: (n, 2): of each point, the end of its edge inside the region, and the other
+    closed: bool  #: a loop, whose last point is joined to its first
+
+
+class RegionMesh:
+    """Makes meshes and outlines of the regions of a mesh, for drawing, remeshing and patches.
+
+    V, F : the mesh, as for `MeshIndex`, which does not keep the faces. Both are copied.
+
+    `ids` are the vertices of a region, in any order, as the queries of `MeshIndex` return them; or a bool mask (#V,). A
+    call costs no more than the faces around them, and their sorting. Raises ValueError or TypeError, naming the argument
+    and the element.
+    """
+
+    def __init__(self, V: Any, F: Any = None) -> None:
+        self._positions, corners, offsets = mesh_arrays(V, F)
+        self._positions = self._positions.copy()
+        self._triangles = offsets is None
+        self._mesher = _core.mesher(self._positions, corners, offsets=offsets)
+
+    def __repr__(self) -> str:
+        return f"<meshhood.RegionMesh: {len(self._positions)} vertices, {self._mesher.face_count} faces>"
+
+    def faces(self, ids: ArrayLike, corners: Corners = "all") -> NDArray[np.int64]:
+        """The faces with all corners in `ids`, or with any; ascending."""
+        return self._mesher.faces(self._ids(ids), self._all(corners))
+
+    def submesh(self, ids: ArrayLike, corners: Corners = "all") -> Submesh:
+        """These faces as a mesh."""
+        vertices, faces, offsets, flat = self._mesher.submesh(self._ids(ids), self._all(corners))
+        triangles = flat.reshape(-1, 3) if self._triangles else (offsets, flat)
+        return Submesh(self._positions[vertices], triangles, vertices, faces)
+
+    def rim(self, ids: ArrayLike, start: Any, r: Any) -> list[RimLine]:
+        """Where the surface leaves a region: polylines whose points lie on edges, at the distance `r` from `start`.
+
+        ids : the region of `start` and `r` (see `MeshIndex.query_region`).
+        start : the center of the ball, a vertex or a point of space (3 numbers).
+
+        On a manifold mesh without border all polylines are closed. They end at the border, and where three or more of
+        them meet. If the faces are consistently oriented, the region lies to the left. Where an edge ends inside the ball
+        at a wall, the rim passes through the wall.
+        """
+        if np.ndim(start) == 0:
+            center = self._positions[_convert.vertex(start, len(self._positions), "start")].astype(np.float64)
+        else:
+            center = _convert.points(start, "start")[0]
+        x, y, z = (float(value) for value in center)
+        points, edges, offsets, closed = self._mesher.rim(self._ids(ids), (x, y, z), _convert.radius(r))
+        parts = [slice(begin, end) for begin, end in zip(offsets[:-1], offsets[1:])]
+        return [RimLine(points[part], edges[part], bool(is_closed)) for part, is_closed in zip(parts, closed)]
+
+    def _ids(self, ids: Any) -> Ids:
+        return _convert.vertices(ids, len(self._positions), "ids")
+
+    def _all(self, corners: Any) -> bool:
+        return _convert.choice(corners, "corners", ("all", "any")) == "all"
