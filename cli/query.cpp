@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -21,6 +22,7 @@
 #include "options.h"
 #include "output.h"
 #include "painting.h"
+#include "start.h"
 
 namespace meshhood::cli {
 namespace {
@@ -31,6 +33,7 @@ struct QueryCommand {
   std::string file;
   std::vector<std::uint64_t> vertices;
   Radius radius;
+  StartOptions start;
   std::string method = "exact";
   std::optional<std::string> factor;
   bool count = false;
@@ -40,7 +43,7 @@ struct QueryCommand {
 };
 
 struct Answer {
-  VertexId vertex;
+  std::optional<VertexId> vertex;  ///< none for --point
   std::size_t count = 0;
   std::vector<VertexId> vertices;  ///< ascending; empty if they are neither printed nor painted
   std::vector<double> distances;   ///< of `vertices`, if requested
@@ -72,25 +75,34 @@ Answer answer(const QueryCommand& options, const Method& method, VertexId v, dou
 /// Such an answer is a sign of a radius in the wrong unit, or of a mesh of unconnected triangles.
 void note_whole_component(const Method& method, double radius, const Answer& answer) {
   if (std::isinf(radius)) return;
-  const std::size_t size = method.count(answer.vertex, std::numeric_limits<double>::infinity());
+  const std::size_t size = method.count(*answer.vertex, std::numeric_limits<double>::infinity());
   if (answer.count != size) return;
   print_error("note: ",
               fmt::format("the neighborhood of vertex {} is its whole component ({} {}): a larger radius finds "
                           "no more",
-                          answer.vertex, size, size == 1 ? "vertex" : "vertices"));
+                          *answer.vertex, size, size == 1 ? "vertex" : "vertices"));
 }
 
 Json to_json(const QueryCommand& options, double radius, const Answer& answer) {
-  Json document{{"vertex", answer.vertex}, {"radius", radius}, {"method", options.method}, {"count", answer.count}};
+  Json document;
+  if (answer.vertex) {
+    document["vertex"] = *answer.vertex;
+  } else {
+    document["point"] = options.start.point;
+  }
+  document["radius"] = radius;
+  document["method"] = options.method;
+  if (options.start.is_along_edges()) document["metric"] = options.start.metric;
+  document["count"] = answer.count;
   if (!options.count) document["vertices"] = answer.vertices;
   if (options.distances) document["distances"] = answer.distances;
-  document["seconds"] = answer.seconds;
+  if (answer.seconds > 0) document["seconds"] = answer.seconds;
   return document;
 }
 
 /// With several answers, each line begins with the query vertex.
 std::string to_text(const QueryCommand& options, const Answer& answer, bool is_single) {
-  const std::string prefix = is_single ? "" : fmt::format("{} ", answer.vertex);
+  const std::string prefix = is_single ? "" : fmt::format("{} ", *answer.vertex);
   if (options.count) return fmt::format("{}{}\n", prefix, answer.count);
   std::string text;
   for (std::size_t i = 0; i < answer.vertices.size(); ++i) {
@@ -117,22 +129,24 @@ void paint(const QueryCommand& options, Input& input, const std::vector<Answer>&
   const Color color = options.method == "ball" ? kBallColor : options.method == "paper" ? kPaperColor : kExactColor;
   Painting painting(input.vertex_count());
   for (const Answer& answer : answers) painting.paint(answer.vertices, color);
-  for (const Answer& answer : answers) painting.paint(std::span(&answer.vertex, 1), kQueryColor);
+  for (const Answer& answer : answers) {
+    if (answer.vertex) painting.paint(std::span(&*answer.vertex, 1), kQueryColor);
+  }
   painting.write(options.output, input.surface());
 }
 
-void query(const QueryCommand& options) {
-  if (options.factor && options.method != "paper") {
-    raise(ErrorCode::InvalidOption, "--factor requires --method paper");
-  }
-  check_output(options.output, {options.file});
-  Input input(options.file);
-  std::vector<VertexId> vertices;
-  for (const std::uint64_t v : options.vertices) vertices.push_back(resolve_vertex(v, input));
-  const double radius = resolve(options.radius, input);
+/// An answer that no `Method` gives. It is not timed.
+Answer answer_of(std::optional<VertexId> v, StartAnswer found) {
+  Answer answer{.vertex = v, .vertices = std::move(found.vertices), .distances = std::move(found.distances)};
+  answer.count = answer.vertices.size();
+  return answer;
+}
+
+std::vector<Answer> answers_of_methods(const QueryCommand& options, double radius, Input& input) {
   const Method method = make_method(options, input);
   std::vector<Answer> answers;
-  for (const VertexId v : vertices) {
+  for (const std::uint64_t number : options.vertices) {
+    const VertexId v = resolve_vertex(number, input);
     answers.push_back(answer(options, method, v, radius));
     if (options.method == "exact" || options.method == "bfs") note_whole_component(method, radius, answers.back());
     if (!options.distances) continue;
@@ -140,6 +154,38 @@ void query(const QueryCommand& options) {
       answers.back().distances.push_back(distance(input.positions(), v, w));
     }
   }
+  return answers;
+}
+
+std::vector<Answer> answers_of_regions(const QueryCommand& options, double radius, Input& input) {
+  input.need_edges("this query");
+  std::vector<Answer> answers;
+  if (!options.start.point.empty()) {
+    answers.push_back(answer_of(std::nullopt, region_of_point(options.start, radius, input)));
+  }
+  for (const std::uint64_t number : options.vertices) {
+    const VertexId v = resolve_vertex(number, input);
+    answers.push_back(answer_of(v, region_of_vertex(options.start, v, radius, input)));
+  }
+  for (Answer& answer : answers) {
+    if (!options.distances) answer.distances.clear();
+  }
+  return answers;
+}
+
+void query(const QueryCommand& options) {
+  if (options.factor && options.method != "paper") {
+    raise(ErrorCode::InvalidOption, "--factor requires --method paper");
+  }
+  check_start_options(options.start, options.method, !options.vertices.empty());
+  check_output(options.output, {options.file});
+  Input input(options.file);
+  for (const std::uint64_t v : options.vertices) static_cast<void>(resolve_vertex(v, input));
+  const double radius = resolve(options.radius, input);
+  const StartOptions& start = options.start;
+  const bool has_method = start.point.empty() && !start.has_filter() && !start.is_along_edges();
+  const std::vector<Answer> answers =
+      has_method ? answers_of_methods(options, radius, input) : answers_of_regions(options, radius, input);
   if (!options.output.empty()) paint(options, input, answers);
   print(options, radius, answers);
 }
@@ -158,9 +204,9 @@ void add_query(CLI::App& program) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->transform(whole_number())
-      ->type_name("NUMBER")
-      ->required();
+      ->type_name("NUMBER");
   add_radius(*command, options->radius);
+  add_start(*command, options->start);
   command->add_option("--method", options->method, kMethodsHelp)
       ->check(one_of(kMethods))
       ->type_name("")

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "start.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "meshhood/edge_search.h"
+#include "meshhood/error.h"
+#include "meshhood/region.h"
+
+#include "io/messages.h"
+#include "io/number.h"
+#include "options.h"
+
+namespace meshhood::cli {
+namespace {
+
+std::vector<std::uint8_t> read_mask(const std::string& file, std::size_t vertices) {
+  std::vector<std::uint8_t> mask;
+  if (file.empty()) return mask;
+  mask.assign(vertices, 0);
+  for (const VertexId v : read_vertex_list(file, vertices)) mask[v] = 1;
+  return mask;
+}
+
+SpacePoint parse_point(const std::vector<std::string>& texts) {
+  if (texts.size() != 3) {
+    raise(ErrorCode::InvalidOption, fmt::format("--point: {} numbers, expected X,Y,Z", texts.size()));
+  }
+  SpacePoint p{};
+  for (std::size_t axis = 0; axis < p.size(); ++axis) {
+    const auto number = io::parse_real<double>(texts[axis]);
+    if (!number) raise(ErrorCode::InvalidOption, "--point: " + io::quote(texts[axis]) + ", expected a number");
+    p[axis] = *number;
+  }
+  return p;
+}
+
+StartAnswer sorted_answer(const std::vector<VertexId>& ids, const std::vector<double>& distances) {
+  std::vector<std::size_t> order(ids.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
+  StartAnswer answer;
+  for (const std::size_t i : order) {
+    answer.vertices.push_back(ids[i]);
+    answer.distances.push_back(distances[i]);
+  }
+  return answer;
+}
+
+}  // namespace
+
+void add_start(CLI::App& command, StartOptions& options) {
+  CLI::Option* point = command.add_option("--point", options.point, "start at any point of space instead of a vertex")
+                           ->delimiter(',')
+                           ->allow_extra_args(false)
+                           ->type_name("X,Y,Z");
+  command
+      .add_option("--seed", options.seeds,
+                  "with --point: the vertices from which the search starts, such as the corners of a face; by default "
+                  "the vertex nearest to the point")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->transform(whole_number())
+      ->type_name("NUMBER")
+      ->needs(point);
+  command
+      .add_option("--metric", options.metric,
+                  "straight: all paths that stay within the radius; edge: the paths of edges that are at most as long")
+      ->check(one_of({"straight", "edge"}))
+      ->type_name("")
+      ->capture_default_str();
+  command.add_option("--walls", options.walls, "a list of vertices that the search does not pass, one in each line")
+      ->check(file_name())
+      ->type_name("FILE");
+  command.add_option("--ignored", options.ignored, "a list of vertices that the search passes but does not print")
+      ->check(file_name())
+      ->type_name("FILE");
+}
+
+void check_start_options(const StartOptions& options, const std::string& method, bool has_vertices) {
+  const bool has_point = !options.point.empty();
+  if (has_point == has_vertices) raise(ErrorCode::InvalidOption, "expected either --vertex or --point");
+  if (has_point && options.is_along_edges()) {
+    raise(ErrorCode::InvalidOption, "--metric edge: expected --vertex, for a point has no edges");
+  }
+  if (method != "exact" && (has_point || options.has_filter() || options.is_along_edges())) {
+    raise(ErrorCode::InvalidOption, "--point, --metric edge, --walls and --ignored require --method exact");
+  }
+}
+
+FilterMasks::FilterMasks(const StartOptions& options, std::size_t vertices)
+    : walls_(read_mask(options.walls, vertices)), ignored_(read_mask(options.ignored, vertices)) {}
+
+StartAnswer region_of_point(const StartOptions& options, double radius, Input& input) {
+  const SpacePoint p = parse_point(options.point);
+  const FilterMasks masks(options, input.vertex_count());
+  std::vector<VertexId> seeds;
+  for (const std::uint64_t seed : options.seeds) seeds.push_back(resolve_vertex(seed, input));
+  if (seeds.empty()) seeds.push_back(nearest(input.exact_index(), p).vertex);
+  std::vector<VertexId> ids;
+  std::vector<double> distances;
+  RegionSearcher(input.exact_index()).region({p, seeds}, radius, ids, distances, masks.filter());
+  return sorted_answer(ids, distances);
+}
+
+StartAnswer region_of_vertex(const StartOptions& options, VertexId v, double radius, Input& input) {
+  const FilterMasks masks(options, input.vertex_count());
+  std::vector<VertexId> ids;
+  std::vector<double> distances;
+  if (options.is_along_edges()) {
+    EdgeSearcher(input.exact_index()).neighborhood(v, radius, ids, distances, masks.filter());
+  } else {
+    RegionSearcher(input.exact_index()).region(v, radius, ids, distances, masks.filter());
+  }
+  return sorted_answer(ids, distances);
+}
+
+}  // namespace meshhood::cli
