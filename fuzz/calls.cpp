@@ -7,6 +7,7 @@
 #include <deque>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -263,6 +264,30 @@ class Session {
       const auto ids =
           std::span(answer.ids).subspan(answer.offsets[row], answer.offsets[row + 1] - answer.offsets[row]);
       if (!std::ranges::equal(ids, oracle.exact(vertices[row], radius))) fail("a row of the batch differs");
+    }
+    aggregate_ids(*place.index, vertices, radius, answer, options.threads);
+  }
+
+  /// Aggregates the ids of the vertices, as doubles, whose sums are exact.
+  static void aggregate_ids(const Index& index, const std::vector<VertexId>& vertices, double radius,
+                            const Neighborhoods& rows, unsigned threads) {
+    std::vector<double> values(index.vertex_count());
+    std::iota(values.begin(), values.end(), 0.0);
+    const auto of = [&](Reduce reduce, SmoothingKernel kernel = SmoothingKernel::Box) {
+      const AggregateQuery query{.vertices = vertices, .radii = {radius}, .reduce = reduce, .kernel = kernel};
+      return aggregate(index, {values}, query, {.threads = threads});
+    };
+    const std::vector<double> sums = of(Reduce::Sum);
+    const std::vector<double> counts = of(Reduce::Count);
+    const std::vector<double> maxima = of(Reduce::Maximum);
+    const std::vector<double> means = of(Reduce::Mean, SmoothingKernel::Biweight);
+    for (std::size_t row = 0; row < vertices.size(); ++row) {
+      const auto ids = std::span(rows.ids).subspan(rows.offsets[row], rows.offsets[row + 1] - rows.offsets[row]);
+      const double sum = std::accumulate(ids.begin(), ids.end(), 0.0);
+      const double maximum = *std::ranges::max_element(ids);
+      const bool right = sums[row] == sum && counts[row] == static_cast<double>(ids.size()) && maxima[row] == maximum;
+      // The query vertex has the weight 1, so the mean is a number.
+      if (!right || !(means[row] >= -1e-9 && means[row] <= maximum + 1e-9)) fail("an aggregate differs");
     }
   }
 

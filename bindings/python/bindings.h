@@ -10,6 +10,9 @@ namespace meshhood::python {
 /// The ways to ask an index.
 void bind_methods(nanobind::module_& module);
 
+/// Sums and other properties of values over neighborhoods.
+void bind_aggregates(nanobind::module_& module);
+
 /// What makes an index, and the other methods from it.
 void bind_makers(nanobind::module_& module);
 

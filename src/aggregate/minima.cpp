@@ -115,7 +115,7 @@ double MinimumReduction::minimum_of(std::span<const double> values) const {
   double least = kNan;
   for (const double value : values) {
     if (std::isnan(value)) {
-      if (propagates()) return kNan;
+      if (propagates()) return kNan;  // mutant: nan-does-not-propagate
     } else if (!(least <= value)) {
       least = value;
     }

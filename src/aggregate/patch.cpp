@@ -82,8 +82,8 @@ QueryWord PatchCutter::inside(std::size_t vertex, QueryWord queries) const {
   const Point p = std::visit([&](auto xyz) { return point(xyz, vertex); }, index_->positions);
   QueryWord result = 0;
   for_each_query(queries, [&](std::size_t row) {
-    result |= QueryWord{squared_distance(p, centres_[row]) <= squared_radius_}
-              << row;  // mutant: patch-without-boundary
+    const bool is_inside = squared_distance(p, centres_[row]) <= squared_radius_;  // mutant: patch-without-boundary
+    result |= QueryWord{is_inside} << row;
   });
   return result;
 }

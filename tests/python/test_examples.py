@@ -36,6 +36,16 @@ def test_smooth_signal():
     assert "10242 vertices" in run("smooth_signal.py")
 
 
+def test_smooth_cortex(tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    surface = meshes.shared("scan/cortex_left_41k.ply.zst", tmp_path)
+    first, second = tmp_path / "once.shape.gii", tmp_path / "twice.shape.gii"
+    run("smooth_cortex.py", surface, "-", "6", first)
+    assert "40962 vertices" in run("smooth_cortex.py", surface, first, "6", second)
+    once, twice = (nibabel.load(name).agg_data() for name in (first, second))
+    assert twice.std() < once.std() < 0.5
+
+
 def test_searchlight(tmp_path):
     run("searchlight.py", meshes.shared("scan/cortex_left_41k.ply.zst", tmp_path))
 

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "meshhood/aggregate.h"
 #include "meshhood/batch.h"
 #include "meshhood/edge_search.h"
 #include "meshhood/index.h"
@@ -309,6 +310,24 @@ TEST_P(Allocation, FailsInABatch) {
 TEST_P(Allocation, FailsInABatchOnTwoThreads) {
   expect_batches(shortages, mesh, index, 2);
   expect_batches(shortages, mesh, paper_index, 2);
+}
+
+TEST_P(Allocation, FailsInAnAggregate) {
+  const std::vector<double> values(mesh.size(), 1.0);
+  const double radius = distance(mesh.view().positions, 0, static_cast<VertexId>(mesh.size() / 2)) / 4;
+  for (const Reduce reduce : {Reduce::Mean, Reduce::Maximum, Reduce::Variance}) {
+    const bool smooths = reduce == Reduce::Mean;
+    const AggregateQuery query{.radii = {radius, radius / 2},
+                               .reduce = reduce,
+                               .kernel = smooths ? SmoothingKernel::Biweight : SmoothingKernel::Box,
+                               .nesting = smooths ? Nesting::Own : Nesting::Patch};
+    const std::vector<double> expected = aggregate(index, {values}, query);
+    shortages.fail_each([] { return std::vector<double>(); },
+                        [&](std::vector<double>& result) { result = aggregate(index, {values}, query); },
+                        [&](const std::vector<double>& result, Ending ending) {
+                          EXPECT_EQ(result, ending == Ending::Well ? expected : std::vector<double>());
+                        });
+  }
 }
 
 TEST_P(Allocation, FailsInABuildOnTwoThreads) {

@@ -11,6 +11,7 @@ r around v.
 """
 
 from . import _core
+from ._aggregate import vertex_areas
 from ._files import Mesh, load, read_mesh
 from ._index import Chunk, MeshIndex
 from ._methods import Paper
@@ -35,4 +36,5 @@ __all__ = [
     "partition",
     "plot_neighborhood",
     "read_mesh",
+    "vertex_areas",
 ]

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/vector.h>
+
+#include "meshhood/aggregate.h"
+
+#include "arrays.h"
+#include "bindings.h"
+#include "interpreter.h"
+#include "methods.h"
+
+namespace nb = nanobind;
+
+namespace meshhood::python {
+namespace {
+
+using Values = nb::ndarray<const double, nb::shape<-1, -1>, nb::c_contig, nb::device::cpu>;
+using Weights = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
+using Vertices = nb::ndarray<const std::int32_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
+
+SignalView signal_of(const Values& values, const std::optional<Weights>& weights) {
+  SignalView signal{std::span(values.data(), values.size()), values.shape(1)};
+  if (weights) signal.weights = std::span(weights->data(), weights->size());
+  return signal;
+}
+
+/// A flat array, #radii by #rows by channels.
+nb::object aggregates(const ExactMethod& method, const Values& values, const std::optional<Weights>& weights,
+                      const std::optional<Vertices>& vertices, std::vector<double> radii, Reduce reduce,
+                      SmoothingKernel kernel, MissingValues missing, Nesting nesting, unsigned ddof, unsigned threads,
+                      std::uint64_t max_bytes, nb::handle progress) {
+  const SignalView signal = signal_of(values, weights);
+  AggregateQuery query{.vertices = {},
+                       .radii = std::move(radii),
+                       .reduce = reduce,
+                       .kernel = kernel,
+                       .missing = missing,
+                       .nesting = nesting,
+                       .ddof = ddof};
+  if (vertices) query.vertices = std::span(reinterpret_cast<const VertexId*>(vertices->data()), vertices->size());
+  const AggregateOptions options{.threads = threads, .max_bytes = max_bytes, .progress = progress_to(progress)};
+  nb::object result = unset(aggregate_size(method.index(), signal, query, options), "float64");
+  const std::span<double> numbers = values_of<double>(result);
+  without_lock([&] { aggregate(method.index(), signal, query, numbers, options); });
+  return result;
+}
+
+Output<double> areas(const Input& positions, const Input& corners, const std::optional<Input>& offsets) {
+  const IndicesView flat = indices_of(corners, "F");
+  const MeshView mesh{positions_of(positions, "V"),
+                      offsets ? FacesView::polygons(indices_of(*offsets, "F"), flat) : FacesView::triangles(flat)};
+  return owned<double>(without_lock([&] { return vertex_areas(mesh); }));
+}
+
+}  // namespace
+
+void bind_aggregates(nb::module_& module) {
+  nb::enum_<Reduce>(module, "Reduce")
+      .value("sum", Reduce::Sum)
+      .value("mean", Reduce::Mean)
+      .value("min", Reduce::Minimum)
+      .value("max", Reduce::Maximum)
+      .value("var", Reduce::Variance)
+      .value("std", Reduce::StandardDeviation)
+      .value("count", Reduce::Count);
+  nb::enum_<SmoothingKernel>(module, "SmoothingKernel")
+      .value("box", SmoothingKernel::Box)
+      .value("epanechnikov", SmoothingKernel::Epanechnikov)
+      .value("biweight", SmoothingKernel::Biweight);
+  nb::enum_<MissingValues>(module, "MissingValues")
+      .value("propagate", MissingValues::Propagate)
+      .value("omit", MissingValues::Omit);
+  nb::enum_<Nesting>(module, "Nesting").value("own", Nesting::Own).value("patch", Nesting::Patch);
+  module.def("aggregate", &aggregates, nb::arg(), nb::arg("values"), nb::arg("weights").none(),
+             nb::arg("vertices").none(), nb::arg("radii"), nb::arg("reduce"), nb::arg("kernel"), nb::arg("missing"),
+             nb::arg("nesting"), nb::arg("ddof"), nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none());
+  module.def("vertex_areas", &areas, nb::arg("V"), nb::arg("F"), nb::arg("offsets").none());
+  module.def("smoothing_radius", &smoothing_radius, nb::arg());
+}
+
+}  // namespace meshhood::python
