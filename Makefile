@@ -2,6 +2,7 @@
 #
 #   make build                    installs the packages it needs and builds build/release/meshhood
 #   make demo [MESH=some.ply]     compares all methods on a mesh with a trap, or on your own, and draws a picture
+#   make view [MESH=some.ply]     the same in a page, to turn and to try: build/demo/view.html
 #   make test                     the short tests; a few minutes
 #   make test-all                 also the long tests, the sanitizers, the fuzzers, the mutants and tools/verify
 #
@@ -11,7 +12,7 @@
 #   make reproduce                the paper's tables and pictures, accuracy, growth; about 20 minutes
 #   make peers                    other products on the same queries; about 15 minutes
 #   make benchmarks               both
-.PHONY: build test test-all demo reproduce peers benchmarks
+.PHONY: build test test-all demo view reproduce peers benchmarks
 
 # The demo reads these from the environment, so that a name may contain blanks.
 export MESH VERTEX RADIUS
@@ -31,6 +32,12 @@ test-all:
 
 demo: build
 	@tools/demo
+	@echo "== make view shows the same in a page, in which you turn the mesh and choose vertex and radius"
+
+view: build
+	@tools/setup web
+	@tools/build_viewer
+	@tools/view
 
 bench = build/bench-venv/bin/python3 -B -m bench
 

@@ -16,5 +16,6 @@ void add_info(CLI::App& program);
 void add_merge(CLI::App& program);
 void add_partition(CLI::App& program);
 void add_query(CLI::App& program);
+void add_view(CLI::App& program);
 
 }  // namespace meshhood::cli

@@ -59,17 +59,31 @@ VertexId parse_vertex(const io::Text& text, std::string_view token, std::size_t 
   text.fail(ErrorCode::InvalidOption, fmt::format("{}, expected {}", io::quote(token), expected));
 }
 
-std::vector<VertexId> read_vertices(io::Text& text, std::size_t vertices) {
-  std::vector<VertexId> list;
+/// Calls `parse(token)` for the only token of each line that is not blank.
+template <class Parse>
+void for_each_line(io::Text& text, Parse&& parse) {
   while (text.next_line()) {
     const std::string_view token = text.token_on_line();
     if (token.empty()) continue;
-    list.push_back(parse_vertex(text, token, vertices));
+    parse(token);
     if (const std::string_view second = text.token_on_line(); !second.empty()) {
       text.fail(ErrorCode::InvalidOption, fmt::format("{}, expected the end of the line", io::quote(second)));
     }
   }
-  return list;
+}
+
+/// Calls `read(text)` for a text file. A malformed list is a wrong option, not a wrong mesh.
+template <class Read>
+auto read_list(const std::string& file, Read&& read) {
+  io::FileSource source(file);
+  io::Input input(source, file, io::ReadOptions{}.max_bytes);
+  io::Text text(input, {.hash_comments = true});
+  try {
+    return read(text);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::MalformedFile) throw;
+    raise(ErrorCode::InvalidOption, error.what());
+  }
 }
 
 }  // namespace
@@ -152,16 +166,25 @@ io::LoadedIndex load_index(const std::string& file) {
 }
 
 std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vertices) {
-  io::FileSource source(file);
-  io::Input input(source, file, io::ReadOptions{}.max_bytes);
-  io::Text text(input, {.hash_comments = true});
-  try {
-    return read_vertices(text, vertices);
-  } catch (const Error& error) {
-    // A malformed list is a wrong option, not a wrong mesh.
-    if (error.code() != ErrorCode::MalformedFile) throw;
-    raise(ErrorCode::InvalidOption, error.what());
-  }
+  return read_list(file, [&](io::Text& text) {
+    std::vector<VertexId> list;
+    for_each_line(text, [&](std::string_view token) { list.push_back(parse_vertex(text, token, vertices)); });
+    return list;
+  });
+}
+
+std::vector<float> read_values(const std::string& file, std::size_t vertices) {
+  return read_list(file, [&](io::Text& text) {
+    std::vector<float> values;
+    for_each_line(text, [&](std::string_view token) {
+      const auto value = io::parse_real<float>(token);
+      if (!value) text.fail(ErrorCode::InvalidOption, fmt::format("{}, expected a number", io::quote(token)));
+      values.push_back(*value);
+    });
+    if (values.size() == vertices) return values;
+    raise(ErrorCode::InvalidOption,
+          fmt::format("{}: {} values, but the mesh has {} vertices", printable_name(file), values.size(), vertices));
+  });
 }
 
 template <class Mesh>

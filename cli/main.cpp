@@ -77,6 +77,7 @@ void add_subcommands(CLI::App& program) {
   add_compare(program);
   add_bench(program);
   add_generate(program);
+  add_view(program);
 }
 
 /// CLI11 takes the next argument as the value of `--radius=`, which a shell makes of an unset variable.

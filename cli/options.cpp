@@ -132,16 +132,19 @@ void add_threads(CLI::App& command, unsigned& threads) {
 
 void add_json(CLI::App& command, bool& json) { command.add_flag("--json", json, "print one JSON document"); }
 
-void add_radius(CLI::App& command, Radius& radius) {
-  command.add_option("-r,--radius", radius.value, "radius of the ball; a vertex at exactly this distance is inside")
-      ->type_name("NUMBER")
-      ->required();
+CLI::Option* add_radius(CLI::App& command, Radius& radius) {
+  CLI::Option* const option =
+      command
+          .add_option("-r,--radius", radius.value, "radius of the ball; a vertex at exactly this distance is inside")
+          ->type_name("NUMBER")
+          ->required();
   command
       .add_option("--unit", radius.unit,
                   "unit of the radius; mesh: that of the positions; edge: the mean edge length of the mesh")
       ->check(one_of({"mesh", "edge"}))
       ->type_name("")
       ->capture_default_str();
+  return option;
 }
 
 double parse_radius(std::string_view name, const std::string& text) {

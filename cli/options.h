@@ -55,8 +55,8 @@ struct Radius {
   std::string unit = "mesh";
 };
 
-/// --radius and --unit.
-void add_radius(CLI::App& command, Radius& radius);
+/// --radius and --unit. Returns the former, which is required unless made optional.
+CLI::Option* add_radius(CLI::App& command, Radius& radius);
 
 /// The radius in the unit of the positions. Throws Error{InvalidRadius, InvalidOption}.
 [[nodiscard]] double resolve(const Radius& radius, Input& input);

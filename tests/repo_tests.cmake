@@ -6,7 +6,11 @@ endif()
 
 add_test(NAME repo.docs COMMAND ${PROJECT_SOURCE_DIR}/tools/check_docs.py $<$<TARGET_EXISTS:meshhood_cli>:$<TARGET_FILE:meshhood_cli>>)
 if(TARGET meshhood_cli)
+  # JavaScript: the package, then the page that uses it.
+  set(with_programs ${CMAKE_CURRENT_SOURCE_DIR}/support/with_programs.sh)
+  set(package ${PROJECT_SOURCE_DIR}/build/wasm/npm)
   add_subdirectory(wasm)
+  add_subdirectory(viewer)
 endif()
 add_test(NAME repo.drawings COMMAND python3 -B ${PROJECT_SOURCE_DIR}/tools/drawings --check)
 if(NOT MESHHOOD_LONG_TESTS)

@@ -29,7 +29,8 @@ OPTION = re.compile(r"(?<!\S)\[?(--?[a-z][\w-]*)")
 def texts(*patterns):
     """The files of the checkout that match, each with its text. Does not call git, which may not trust the owner."""
     files = (path for pattern in patterns for path in ROOT.rglob(pattern))
-    names = sorted(path.relative_to(ROOT) for path in files if path.relative_to(ROOT).parts[0] != "build")
+    names = sorted(path.relative_to(ROOT) for path in files)
+    names = [name for name in names if name.parts[0] != "build" and "node_modules" not in name.parts]
     return [(str(name), (ROOT / name).read_text(encoding="utf-8")) for name in names]
 
 

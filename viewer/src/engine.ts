@@ -23,6 +23,7 @@ export class Engine {
   #busy = false; // the first method of the last query has no answer yet
   #waiting: Query | null = null;
   #timer = 0;
+  #unanswered = 0; // methods of the last query
 
   constructor(handlers: Handlers) {
     this.#handlers = handlers;
@@ -45,6 +46,7 @@ export class Engine {
   /** Answers by each method in turn, and then measures them. A query that comes before the answer replaces this one. */
   query(vertex: number, radius: number, methods: Method[], timed: Method[]): void {
     const query = { id: ++this.#id, vertex, radius, methods };
+    this.#unanswered = methods.length;
     clearTimeout(this.#timer);
     this.#timer = window.setTimeout(() => {
       this.#send({ kind: 'time', query: { ...query, methods: timed } });
@@ -90,8 +92,14 @@ export class Engine {
     }
   }
 
+  /** Whether all methods of the last query have answered. */
+  get isAnswered(): boolean {
+    return this.#unanswered === 0;
+  }
+
   #receiveAnswer(id: number, method: Method, ids: Uint32Array): void {
     this.#busy = false;
+    if (id === this.#id) --this.#unanswered;
     // While the pointer moves, the answer before the last is shown too, or nothing would follow the pointer.
     if (id === this.#id || this.#waiting !== null) this.#handlers.answer(method, ids);
     if (this.#waiting !== null) this.#start(this.#waiting);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Meshes by formula. Edges have a length of about 1.
+import type { Cut } from './view';
 
 export interface ExampleMesh {
   positions: Float32Array;
@@ -13,11 +14,21 @@ export interface Example {
   trap: string;
   make(vertices: number): ExampleMesh;
   vertices: number;
-  /** A query that shows the trap: a vertex as a fraction of all, and a radius in mean edge lengths. */
-  query: { at: number; radius: number };
+  query: FirstQuery;
 }
 
-type Point = [number, number, number];
+/** A query that shows the trap, and how to look at it. */
+export interface FirstQuery {
+  /** The vertex, as a fraction of all. */
+  at: number;
+  /** In mean edge lengths. */
+  radius: number;
+  cut?: Cut;
+  /** Where the camera is, seen from the vertex; along its normal if absent. */
+  from?: Point;
+}
+
+export type Point = [number, number, number];
 
 /** A sheet of triangles, row by row; `wrap` joins the last column with the first, `close` the last row with the first. */
 function sheet(rows: number, columns: number, place: (row: number, column: number) => Point, wrap = false, close = false) {
@@ -111,11 +122,11 @@ const unit = (a: Point): Point => {
 export const EXAMPLES: readonly Example[] = [
   {
     name: 'scroll', title: 'Scroll', trap: 'a rolled sheet whose layers nearly touch',
-    make: scroll, vertices: 100_000, query: { at: 0.30082, radius: 24 },
+    make: scroll, vertices: 100_000, query: { at: 0.30082, radius: 24, cut: 'z', from: [0.3, 0.55, 1] },
   },
   {
     name: 'folds', title: 'Folds', trap: 'an accordion whose walls nearly touch',
-    make: folds, vertices: 60_000, query: { at: 0.505, radius: 14 },
+    make: folds, vertices: 60_000, query: { at: 0.505, radius: 14, cut: 'y', from: [0.35, 1, 0.45] },
   },
   {
     name: 'knot', title: 'Knot', trap: 'a tube whose strands come close to each other',

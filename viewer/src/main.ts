@@ -3,6 +3,7 @@
 import { download, stem } from './download';
 import { Engine } from './engine';
 import { EXAMPLES, findExample } from './examples';
+import type { FirstQuery } from './examples';
 import { connectKeyboard } from './keyboard';
 import { METHODS } from './messages';
 import type { Method, Opened, Source } from './messages';
@@ -65,6 +66,7 @@ class Page {
     connectPointer(this.#canvas, this.#view, (vertex, isFinal) => this.select(vertex, isFinal));
     this.#connectKeys();
     this.#connectDrop();
+    this.#keepClearOfPanel();
     document.querySelector('#error button')!.addEventListener('click', () => showError(null));
     window.addEventListener('hashchange', () => this.#follow());
     this.#openFirst();
@@ -109,6 +111,17 @@ class Page {
     });
   }
 
+  /** The panel covers a part of the canvas where it stands beside it, but not on a phone. */
+  #keepClearOfPanel(): void {
+    const panel = document.getElementById('panel')!;
+    const update = () => {
+      const isBeside = panel.clientWidth < innerWidth / 2;
+      this.#view.covered = isBeside ? innerWidth - panel.getBoundingClientRect().left : 0;
+    };
+    window.addEventListener('resize', update);
+    update();
+  }
+
   // Opening.
 
   #openFirst(): void {
@@ -133,6 +146,7 @@ class Page {
     this.#pageData = pageData;
     this.#example = null;
     this.#panel.setExample(null);
+    delete document.body.dataset.mesh;
     showError(null);
     showProgress('Reading');
     this.#engine.open(source);
@@ -160,19 +174,26 @@ class Page {
   }
 
   /** The query of the link or of the page, or that of the example. */
-  #askFirst(query: { at: number; radius: number }): void {
+  #askFirst(query: FirstQuery): void {
     const wanted = this.#wanted;
+    const isLink = wanted.vertex !== null;
     const settings = this.#pageData?.settings;
+    const look: Look = { ...wanted.look };
+    if (!isLink) look.cut = query.cut ?? look.cut;
+    if (!isLink && settings?.vertex !== undefined) look.hideNearer = true;
     const { vertices, meanEdge } = this.#opened!;
     for (const method of METHODS) this.#showMethod(method, !wanted.hidden.includes(method));
-    this.#panel.look = wanted.look;
-    const handed = settings?.radius === undefined || meanEdge === 0 ? null : settings.radius / meanEdge;
+    this.#panel.look = look;
+    const unit = settings?.unit === 'edge' ? 1 : meanEdge || 1;
+    const handed = settings?.radius === undefined ? null : settings.radius / unit;
     this.#edges = wanted.radius ?? handed ?? query.radius;
     const vertex = wanted.vertex ?? settings?.vertex ?? Math.floor(query.at * vertices);
     this.select(Math.min(vertex, vertices - 1));
-    this.#view.setLook(wanted.look);
+    this.#view.setLook(look);
     if (wanted.camera !== null) this.#view.cameraState = wanted.camera;
-    else if (settings?.vertex !== undefined) this.#focus();
+    else if (isLink || settings?.vertex !== undefined || this.#example !== null) {
+      this.#view.showQuery(this.#radius, isLink ? undefined : query.from);
+    }
     this.#showHanded();
   }
 
@@ -379,6 +400,10 @@ class Page {
 
   get view(): View {
     return this.#view;
+  }
+
+  get isAnswered(): boolean {
+    return this.#engine.isAnswered;
   }
 
   /** The last answer of a method, ascending; empty if there is none. */

@@ -5,8 +5,9 @@ export interface Settings {
   /** The name of the mesh file. */
   name: string;
   vertex?: number;
-  /** In the unit of the mesh. */
   radius?: number;
+  /** Of the radius: `mesh` is that of the positions, and the default; `edge` is the mean edge length. */
+  unit?: 'mesh' | 'edge';
   /** An answer to show as it is, instead of those of the methods. */
   ids?: number[];
   /** A value for each vertex: float32, little-endian, in base 64. */

@@ -87,6 +87,7 @@ export class View {
   #look: Look = { wireframe: false, ball: true, cut: 'none', hideNearer: false };
   #vertex = -1;
   #pending = false;
+  #covered = 0;
 
   constructor(canvas: HTMLCanvasElement) {
     this.#renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: false });
@@ -109,8 +110,14 @@ export class View {
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.#renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
-    this.camera.updateProjectionMatrix();
+    this.camera.setViewOffset(clientWidth, clientHeight, this.#covered / 2, 0, clientWidth, clientHeight);
     this.draw();
+  }
+
+  /** Pixels at the right of the canvas that something covers: the middle of the picture is that of the rest. */
+  set covered(pixels: number) {
+    this.#covered = pixels;
+    this.#resize();
   }
 
   /** Draws once before the next frame. */
@@ -222,12 +229,19 @@ export class View {
     return this.#picker?.pick(this.#toScreen(x, y), this.camera) ?? null;
   }
 
+  /** Where a vertex is on the canvas, in pixels. */
+  toCanvas(vertex: number): { x: number; y: number } {
+    const { clientWidth, clientHeight } = this.#renderer.domElement;
+    this.camera.updateMatrixWorld();
+    const at = this.position(vertex).project(this.camera);
+    return { x: ((at.x + 1) / 2) * clientWidth, y: ((1 - at.y) / 2) * clientHeight };
+  }
+
   /** Whether a point of the canvas is close to the marker. */
   isNearMarker(x: number, y: number, pixels: number): boolean {
     if (this.#vertex < 0) return false;
-    const { clientWidth, clientHeight } = this.#renderer.domElement;
-    const at = this.position(this.#vertex).project(this.camera);
-    return Math.hypot(((at.x + 1) / 2) * clientWidth - x, ((1 - at.y) / 2) * clientHeight - y) <= pixels;
+    const marker = this.toCanvas(this.#vertex);
+    return Math.hypot(marker.x - x, marker.y - y) <= pixels;
   }
 
   #toScreen(x: number, y: number): THREE.Vector2 {
@@ -240,16 +254,19 @@ export class View {
     this.#lookFrom(new THREE.Vector3(0.55, 0.4, 1), new THREE.Vector3(), this.extent);
   }
 
-  /** Looks at the query along the normal of its vertex. */
-  showQuery(radius: number): void {
+  /** Looks at the query from a direction; by default along the normal of its vertex, a little from the side. */
+  showQuery(radius: number, from?: readonly [number, number, number]): void {
     if (this.#vertex < 0) return;
+    const direction = from === undefined ? this.#outwards() : new THREE.Vector3(...from);
+    const reach = Math.min(Math.max(1.5 * radius, 0.05 * this.extent), this.extent);
+    this.#lookFrom(direction, this.position(this.#vertex), reach);
+  }
+
+  #outwards(): THREE.Vector3 {
     const normal = new THREE.Vector3().fromArray(this.#surface!.normals, 3 * this.#vertex);
-    const back = this.camera.position.clone().sub(this.controls.target);
-    if (normal.lengthSq() === 0) normal.copy(back);
+    const back = this.camera.position.clone().sub(this.controls.target).normalize();
     if (normal.dot(back) < 0) normal.negate();
-    // From the side, so that layers one above the other are seen too.
-    const direction = normal.normalize().add(back.normalize().multiplyScalar(0.6));
-    this.#lookFrom(direction, this.position(this.#vertex), Math.min(Math.max(1.6 * radius, 0.05 * this.extent), this.extent));
+    return normal.addScaledVector(back, 0.6);
   }
 
   #lookFrom(direction: THREE.Vector3, target: THREE.Vector3, radius: number): void {

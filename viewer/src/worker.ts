@@ -124,20 +124,24 @@ function answer(query: Query): Promise<void> {
   });
 }
 
-/** Microseconds of a warm query: the mean over as many as take some milliseconds, as the clock of a browser is coarse. */
+/** Milliseconds for `runs` queries. */
+function duration(index: MeshIndex, query: Query, method: Method, runs: number): number {
+  const begin = performance.now();
+  for (let run = 0; run < runs; ++run) index.viewBall(query.vertex, query.radius, { method });
+  return performance.now() - begin;
+}
+
+/** Microseconds of a warm query: a median of means, each over some milliseconds, as the clock of a browser is coarse. */
 function microseconds(index: MeshIndex, query: Query, method: Method): number {
-  const enough = 4; // milliseconds
-  for (let runs = 1; ; runs *= 4) {
-    const begin = performance.now();
-    for (let run = 0; run < runs; ++run) index.viewBall(query.vertex, query.radius, { method });
-    const elapsed = performance.now() - begin;
-    if (elapsed >= enough) return (1000 * elapsed) / runs;
-  }
+  const enough = 2; // milliseconds
+  let runs = 1;
+  while (duration(index, query, method, runs) < enough) runs *= 2;
+  const durations = Array.from({ length: 7 }, () => duration(index, query, method, runs)).sort((a, b) => a - b);
+  return (1000 * durations[3]) / runs;
 }
 
 function time(query: Query): Promise<void> {
   return forEachMethod(query, (index, method) => {
-    index.viewBall(query.vertex, query.radius, { method });
     reply({ kind: 'time', id: query.id, method, microseconds: microseconds(index, query, method) });
   });
 }

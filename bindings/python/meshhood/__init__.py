@@ -18,6 +18,7 @@ from ._methods import Paper
 from ._partition import partition
 from ._plot import plot_neighborhood
 from ._region_mesh import RegionMesh, RimLine, Submesh
+from ._view import Page, view
 from .distributed import open_parts
 
 __version__: str = _core.__version__
@@ -26,6 +27,7 @@ __all__ = [
     "Chunk",
     "Mesh",
     "MeshIndex",
+    "Page",
     "Paper",
     "RegionMesh",
     "RimLine",
@@ -37,4 +39,5 @@ __all__ = [
     "plot_neighborhood",
     "read_mesh",
     "vertex_areas",
+    "view",
 ]

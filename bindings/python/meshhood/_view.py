@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: MIT
+"""A page in which one sees a mesh and its neighborhoods: viewer/ of the sources, built into one HTML file."""
+
+from __future__ import annotations
+
+import base64
+import html
+import json
+import os
+import webbrowser
+from pathlib import Path
+from typing import Any, Optional, Union
+
+import numpy as np
+
+from . import _convert
+from ._index import Number, Unit, Vertex, Vertices
+from ._mesh import mesh_arrays
+
+_PLACE = "<!-- meshhood:page -->"  # where the page takes a mesh
+
+
+class Page:
+    """A page that shows a mesh and its neighborhoods. A notebook displays it."""
+
+    html: str
+    """The whole page: it needs neither a server nor a network."""
+
+    def __init__(self, html: str, height: int) -> None:
+        self.html = html
+        self._height = height
+
+    def save(self, path: Union[str, os.PathLike[str]]) -> None:
+        """Writes the page to a file. Raises OSError."""
+        Path(_convert.path(path)).write_text(self.html, encoding="utf-8")
+
+    def open(self, path: Union[str, os.PathLike[str]]) -> None:
+        """Writes the page to a file and opens it in the browser."""
+        self.save(path)
+        webbrowser.open(Path(_convert.path(path)).resolve().as_uri())
+
+    def __repr__(self) -> str:
+        return f"<meshhood.Page: {len(self.html)} characters>"
+
+    def _repr_html_(self) -> str:
+        return (
+            f'<iframe srcdoc="{html.escape(self.html)}" style="width: 100%; height: {self._height}px; border: 0" '
+            'allow="fullscreen; clipboard-write"></iframe>'
+        )
+
+
+def view(
+    V: Any,
+    F: Any = None,
+    *,
+    v: Optional[Vertex] = None,
+    r: Optional[Number] = None,
+    unit: Unit = "mesh",
+    ids: Vertices = None,
+    values: Any = None,
+    name: str = "mesh",
+    height: int = 600,
+) -> Page:
+    """Makes a page in which one sees the mesh, chooses a vertex and a radius, and compares the answers of all methods:
+    the exact neighborhood in green, what the search of the paper adds in yellow, what the ball adds in blue.
+
+        meshhood.view(V, F, v=42, r=10, unit="edge")             # displayed by a notebook
+        meshhood.view(V, F, values=sizes).save("sizes.html")
+
+    V, F : the mesh, as for `MeshIndex`, but not a graph.
+    v, r, unit : the query to show at first, as for `MeshIndex.query_ball`; by default one of the page's choice.
+    ids : vertices to show instead of the answers, until another query is asked: a sequence or a bool mask (#V,).
+    values : (#V,) a number for each vertex, shown as colors. Those that are not finite get none.
+    name : what the page calls the mesh.
+    height : of the frame in a notebook, in pixels.
+
+    The page holds the positions and faces, about 50 bytes for each vertex of a closed triangle mesh, and builds its own
+    index in the browser. Raises ValueError or TypeError, naming the argument, and FileNotFoundError if the page was not
+    built before this package was installed.
+    """
+    page = _built_page()
+    positions, corners, offsets = _surface(V, F)
+    settings = _settings(len(positions), v, r, unit, ids, values, name)
+    script = json.dumps(settings).replace("<", "\\u003c")
+    mesh = base64.b64encode(_ply(positions, corners, offsets)).decode("ascii")
+    data = (
+        f'<script type="application/json" id="meshhood-settings">{script}</script>\n'
+        f'<script type="text/plain" id="meshhood-mesh">{mesh}</script>\n'
+    )
+    return Page(page.replace(_PLACE, data, 1), height)
+
+
+def _built_page() -> str:
+    named = os.environ.get("MESHHOOD_VIEWER")
+    path = Path(named) if named else Path(__file__).with_name("viewer.html")
+    if not path.exists():
+        raise FileNotFoundError(
+            f"{path}: the viewer is not built: run 'make view' in the sources of meshhood, then install the package "
+            "again, or name its viewer.html in MESHHOOD_VIEWER"
+        )
+    text = path.read_text(encoding="utf-8")
+    if _PLACE not in text:
+        raise ValueError(f"{path}: is not the page of the viewer")
+    return text
+
+
+def _surface(V: Any, F: Any) -> Any:
+    if hasattr(F, "tocoo"):
+        raise TypeError("F: expected faces, not a graph")
+    return mesh_arrays(V, F)
+
+
+def _settings(count: int, v: Any, r: Any, unit: Any, ids: Any, values: Any, name: Any) -> dict[str, Any]:
+    settings: dict[str, Any] = {"name": str(name)}
+    if v is not None:
+        settings["vertex"] = _convert.vertex(v, count)
+    if r is not None:
+        settings["radius"] = _convert.radius(r)
+        settings["unit"] = _convert.choice(unit, "unit", ("mesh", "edge"))
+        if settings["radius"] == float("inf"):
+            raise ValueError("r: radius inf, expected a finite number")
+    if ids is not None:
+        settings["ids"] = _convert.vertices(ids, count, "ids").tolist()
+    if values is not None:
+        settings["scalar"] = {"title": "values", "values": _encode(values, count)}
+    return settings
+
+
+def _encode(values: Any, count: int) -> str:
+    array = np.asarray(values)
+    if array.dtype.kind not in "biuf":
+        raise TypeError(f"values: expected numbers, not {array.dtype}")
+    if array.shape != (count,):
+        raise ValueError(f"values: an array of shape {array.shape}, expected ({count},)")
+    return base64.b64encode(array.astype("<f4").tobytes()).decode("ascii")
+
+
+def _ply(positions: Any, corners: Any, offsets: Any) -> bytes:
+    """A binary PLY file."""
+    real = "double" if positions.dtype == np.float64 else "float"
+    sides = np.full(len(corners) // 3, 3) if offsets is None else np.diff(offsets)
+    starts = np.cumsum(sides) - sides
+    wide = corners.astype(np.int64, copy=False)
+    wrong = np.flatnonzero((wide < 0) | (wide >= len(positions)))
+    if wrong.size:
+        raise ValueError(f"F: corner {wide[wrong[0]]}, but there are {len(positions)} vertices")
+    header = (
+        "ply\nformat binary_little_endian 1.0\n"
+        f"element vertex {len(positions)}\nproperty {real} x\nproperty {real} y\nproperty {real} z\n"
+        f"element face {len(sides)}\nproperty list int int vertex_indices\nend_header\n"
+    )
+    coordinates = positions.astype(positions.dtype.newbyteorder("<"), copy=False)
+    return header.encode("ascii") + coordinates.tobytes() + np.insert(wide, starts, sides).astype("<i4").tobytes()

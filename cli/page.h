@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "meshhood/mesh.h"
+
+/// The page in which one sees neighborhoods: viewer/, built into one HTML file.
+namespace meshhood::cli {
+
+/// What a page shows at first.
+struct PageSettings {
+  std::string name;                             ///< of the mesh, as displayed
+  std::optional<VertexId> vertex;               ///< otherwise one of the page's choice
+  std::optional<double> radius;                 ///< in the unit of the positions
+  std::optional<std::vector<VertexId>> answer;  ///< shown instead of the answers of the methods
+  std::vector<float> values;                    ///< one for each vertex, shown as colors; or empty
+  std::string values_name;                      ///< the legend of the values
+};
+
+/// The built page: the file that the environment variable MESHHOOD_VIEWER names, or share/meshhood/viewer.html of the
+/// installation, or build/viewer/viewer.html of the build tree. Throws Error{IoFailure} if there is none.
+[[nodiscard]] std::filesystem::path find_page();
+
+/// Writes a copy of the page that holds `mesh`, a mesh or index file. The file appears whole or not at all.
+///
+/// Throws Error{IoFailure}; Error{TooLarge} if the mesh is larger than a browser takes in a page; Error{Cancelled}.
+void write_page(const std::filesystem::path& output, const std::filesystem::path& mesh, const PageSettings& settings);
+
+}  // namespace meshhood::cli

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// meshhood view: a page that shows the mesh and its neighborhoods.
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include "meshhood/error.h"
+
+#include "commands.h"
+#include "input.h"
+#include "io/messages.h"
+#include "options.h"
+#include "output.h"
+#include "page.h"
+
+extern char** environ;
+
+namespace meshhood::cli {
+namespace {
+
+struct ViewCommand {
+  std::string file;
+  std::optional<std::uint64_t> vertex;
+  Radius radius;
+  std::string answer;
+  std::string values;
+  std::string output;
+  bool open = false;
+};
+
+/// Starts the browser that the desktop prefers.
+void open_in_browser(const std::string& page) {
+#if defined(__APPLE__)
+  std::string program = "open";
+#else
+  std::string program = "xdg-open";
+#endif
+  std::string argument = std::filesystem::absolute(page).string();
+  const std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
+  pid_t process = 0;
+  const int error = ::posix_spawnp(&process, program.c_str(), nullptr, nullptr, arguments.data(), environ);
+  int status = 0;
+  if (error == 0 && ::waitpid(process, &status, 0) == process && status == 0) return;
+  print_error("warning: ", fmt::format("{} could not open {}", program, printable_name(page)));
+}
+
+PageSettings settings_of(const ViewCommand& options, Input& input) {
+  PageSettings settings;
+  settings.name = std::filesystem::path(options.file).filename().string();
+  if (options.vertex) settings.vertex = resolve_vertex(*options.vertex, input);
+  if (!options.radius.value.empty()) settings.radius = resolve(options.radius, input);
+  if (!options.answer.empty()) settings.answer = read_vertex_list(options.answer, input.vertex_count());
+  if (!options.values.empty()) {
+    settings.values = read_values(options.values, input.vertex_count());
+    settings.values_name = std::filesystem::path(options.values).stem().string();
+  }
+  return settings;
+}
+
+void view(const ViewCommand& options) {
+  const std::string output =
+      options.output.empty() ? std::filesystem::path(options.file).stem().string() + ".html" : options.output;
+  check_output(output, {options.file, options.answer, options.values});
+  static_cast<void>(find_page());  // before the work begins
+  Input input(options.file);
+  input.need_edges("view");
+  write_page(output, options.file, settings_of(options, input));
+  print_text(output + "\n");
+  if (options.open) open_in_browser(output);
+}
+
+}  // namespace
+
+void add_view(CLI::App& program) {
+  auto options = std::make_shared<ViewCommand>();
+  CLI::App* command =
+      program.add_subcommand("view", "Write a page that shows the mesh and its neighborhoods in a browser");
+  add_file(*command, options->file);
+  command->add_option("-v,--vertex", options->vertex, "vertex to show at first, by its number in the file from 0")
+      ->transform(whole_number())
+      ->type_name("NUMBER");
+  add_radius(*command, options->radius)->required(false);
+  command->add_option("--ids", options->answer, "show these vertices, one on each line, as printed by query")
+      ->check(file_name())
+      ->type_name("FILE");
+  command->add_option("--values", options->values, "colour the vertices by these numbers, one on each line")
+      ->check(file_name())
+      ->type_name("FILE");
+  add_output(*command, ".html", "the page; by default the name of FILE, in this folder", options->output);
+  command->add_flag("--open", options->open, "also open the page in the browser");
+  command->callback([options] { view(*options); });
+}
+
+}  // namespace meshhood::cli

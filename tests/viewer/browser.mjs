@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Chromium without a window, with WebGL in software, and the page in it.
+import { existsSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
+
+// The packages of the page are installed there.
+const require = createRequire(join(process.env.MESHHOOD_VIEWER_SOURCES, 'package.json'));
+const { chromium } = require('playwright-core');
+
+const PATIENCE = 240_000; // milliseconds, on a machine that does other things besides
+
+export function launch() {
+  return chromium.launch({
+    executablePath: ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync),
+    args: [
+      '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic',
+      '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
+    ],
+  });
+}
+
+/** Opens a page file and waits until its mesh is shown. Errors of the page fail the test. */
+export async function openPage(browser, file, { hash = '', ...options } = {}) {
+  const page = await browser.newPage({ viewport: { width: 900, height: 600 }, acceptDownloads: true, ...options });
+  page.setDefaultTimeout(PATIENCE);
+  page.on('pageerror', (error) => { throw error; });
+  await page.goto(`${pathToFileURL(file)}${hash}`);
+  await waitForMesh(page);
+  return page;
+}
+
+export async function waitForMesh(page, name) {
+  const isOpen = (expected) => {
+    const mesh = document.body.dataset.mesh;
+    return mesh !== undefined && (expected === undefined || mesh === expected);
+  };
+  await page.waitForFunction(isOpen, name);
+  await waitForAnswers(page);
+}
+
+/** Until the methods of the table have answered the query that is shown. */
+export async function waitForAnswers(page) {
+  await page.waitForFunction(() => window.meshhoodPage.isAnswered || !document.getElementById('error').hidden);
+}
+
+/** Drops a file onto the page, as from a folder. */
+export async function drop(page, name, content) {
+  await page.evaluate(({ name, base64 }) => {
+    const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+    const transfer = new DataTransfer();
+    transfer.items.add(new File([bytes], name));
+    window.dispatchEvent(new DragEvent('drop', { dataTransfer: transfer, bubbles: true, cancelable: true }));
+  }, { name, base64: content.toString('base64') });
+}
+
+/** The last answer of a method on the page, ascending. */
+export async function idsOf(page, method) {
+  return page.evaluate((method) => [...window.meshhoodPage.ids(method)], method);
+}
+
+export async function setRadius(page, units) {
+  await page.fill('#radius-units', String(units));
+  await page.press('#radius-units', 'Enter');
+  await waitForAnswers(page);
+}
+
+export async function setVertex(page, vertex) {
+  await page.fill('#vertex', String(vertex));
+  await page.press('#vertex', 'Enter');
+  await waitForAnswers(page);
+}
+
+/** Where a vertex is on the canvas, in pixels. */
+export function placeOf(page, vertex) {
+  return page.evaluate((vertex) => window.meshhoodPage.view.toCanvas(vertex), vertex);
+}
+
+/** How many pixels of a screenshot have about the color `rgb`; counted by the browser, which can read PNG. */
+export async function countPixels(page, rgb, reach = 60) {
+  const picture = (await page.screenshot()).toString('base64');
+  return page.evaluate(async ({ picture, rgb, reach }) => {
+    const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${picture}`)).blob());
+    const canvas = new OffscreenCanvas(image.width, image.height);
+    const context = canvas.getContext('2d');
+    context.drawImage(image, 0, 0);
+    const { data } = context.getImageData(0, 0, image.width, image.height);
+    let count = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      if (Math.hypot(data[i] - rgb[0], data[i + 1] - rgb[1], data[i + 2] - rgb[2]) < reach) ++count;
+    }
+    return count;
+  }, { picture, rgb, reach });
+}

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// The page in a browser: it answers as the command line does. MESHHOOD_PAGE is the built page, MESHHOOD_CLI the command
+// line, MESHHOOD_VIEWER_SOURCES the folder of the page's sources, MESHHOOD_PICTURES a folder for screenshots.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdirSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, test } from 'node:test';
+
+import {
+  countPixels, drop, idsOf, launch, openPage, placeOf, setRadius, setVertex, waitForAnswers, waitForMesh,
+} from './browser.mjs';
+
+const folder = mkdtempSync(join(tmpdir(), 'meshhood-'));
+const browser = await launch();
+after(async () => {
+  await browser.close();
+  rmSync(folder, { recursive: true });
+});
+
+const pictures = process.env.MESHHOOD_PICTURES;
+mkdirSync(pictures, { recursive: true });
+const environment = { ...process.env, MESHHOOD_VIEWER: process.env.MESHHOOD_PAGE };
+const meshhood = (...options) =>
+  execFileSync(process.env.MESHHOOD_CLI, options, { cwd: folder, encoding: 'utf8', env: environment, stdio: 'pipe' });
+const file = (name) => join(folder, name);
+
+/** The answer of the command line. */
+const expected = (mesh, vertex, radius, method) =>
+  JSON.parse(meshhood('query', mesh, '-v', String(vertex), '-r', String(radius), '--method', method, '--json')).vertices;
+
+async function expectAnswers(page, mesh, vertex, radius) {
+  for (const method of ['exact', 'paper', 'ball']) {
+    assert.deepEqual(await idsOf(page, method), expected(mesh, vertex, radius, method), `${method} of ${vertex}`);
+  }
+}
+
+meshhood('generate', 'scroll', '--vertices', '20000', '-o', 'scroll.ply');
+
+test('a page of the command line shows the query with the answers of the command line', async () => {
+  meshhood('view', 'scroll.ply', '-v', '7000', '-r', '12', '-o', 'page.html');
+  const page = await openPage(browser, file('page.html'));
+  assert.equal(await page.textContent('#name'), 'scroll.ply');
+  await expectAnswers(page, 'scroll.ply', 7000, 12);
+  const exact = expected('scroll.ply', 7000, 12, 'exact').length;
+  const ball = expected('scroll.ply', 7000, 12, 'ball').length;
+  const cells = (method) => page.locator(`tr[data-method=${method}] td`).allTextContents();
+  assert.deepEqual((await cells('exact')).slice(1, 3), [exact.toLocaleString('en'), '0']);
+  assert.deepEqual((await cells('ball')).slice(1, 3), [ball.toLocaleString('en'), (ball - exact).toLocaleString('en')]);
+  for (const radius of [0, 3.5, 20]) {
+    await setRadius(page, radius);
+    await expectAnswers(page, 'scroll.ply', 7000, radius);
+  }
+  await setVertex(page, 123);
+  await expectAnswers(page, 'scroll.ply', 123, 20);
+  await page.close();
+});
+
+test('a click on a vertex asks for it, and a drag of the marker takes it along', async () => {
+  meshhood('generate', 'plates', '--vertices', '800', '-o', 'plates.ply');
+  meshhood('view', 'plates.ply', '-v', '610', '-r', '3', '-o', 'plates.html');
+  const page = await openPage(browser, file('plates.html'));
+  await page.keyboard.press('a');
+  await page.keyboard.press('h');
+  // The upper plate hides the lower one.
+  for (const vertex of [650, 525]) {
+    const { x, y } = await placeOf(page, vertex);
+    await page.mouse.click(x, y);
+    await page.waitForFunction((v) => document.getElementById('vertex').value === String(v), vertex);
+    await waitForAnswers(page);
+    await expectAnswers(page, 'plates.ply', vertex, 3);
+  }
+  const [from, to] = [await placeOf(page, 525), await placeOf(page, 690)];
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move((from.x + to.x) / 2, (from.y + to.y) / 2, { steps: 3 });
+  await page.mouse.move(to.x, to.y);
+  await page.mouse.up();
+  await page.waitForFunction(() => document.getElementById('vertex').value === '690');
+  await waitForAnswers(page);
+  await expectAnswers(page, 'plates.ply', 690, 3);
+  await page.close();
+});
+
+test('files that are dropped are shown; broken ones get the words of the command line', async () => {
+  const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=5&radius=3' });
+  assert.equal(await page.inputValue('#vertex'), '5');
+  await drop(page, 'scroll.ply', readFileSync(file('scroll.ply')));
+  await waitForMesh(page, 'scroll.ply');
+  await setRadius(page, 8);
+  await setVertex(page, 4321);
+  await expectAnswers(page, 'scroll.ply', 4321, 8);
+
+  meshhood('build', 'scroll.ply', '-o', 'scroll.mhi');
+  await drop(page, 'scroll.mhi', readFileSync(file('scroll.mhi')));
+  await waitForMesh(page, 'scroll.mhi');
+  await setRadius(page, 8);
+  await setVertex(page, 4321);
+  await expectAnswers(page, 'scroll.ply', 4321, 8);
+
+  await drop(page, 'broken.obj', Buffer.from('v 0 0 0\nf 1 2 3\n'));
+  await page.waitForSelector('#error:not([hidden])');
+  assert.match(await page.textContent('#error p'), /^broken\.obj:2:\d+: .*3/);
+  assert.equal(await page.textContent('#name'), 'scroll.mhi');
+  await setRadius(page, 4);
+  await expectAnswers(page, 'scroll.ply', 4321, 4);
+
+  await drop(page, 'damaged.mhi', readFileSync(file('scroll.mhi')).fill(7, 5000, 5001));
+  await page.waitForFunction(() => /checksum/.test(document.querySelector('#error p').textContent));
+  await page.close();
+});
+
+test('an index that the page saves is that of the command line', async () => {
+  const page = await openPage(browser, file('page.html'));
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#save-index')]);
+  meshhood('build', 'scroll.ply', '-o', 'expected.mhi');
+  assert.deepEqual(readFileSync(await download.path()), readFileSync(file('expected.mhi')));
+  const [ids] = await Promise.all([page.waitForEvent('download'), page.click('#save-ids')]);
+  assert.equal(readFileSync(await ids.path(), 'utf8'), meshhood('query', 'scroll.ply', '-v', '7000', '-r', '12'));
+  const [picture] = await Promise.all([page.waitForEvent('download'), page.click('#save-picture')]);
+  assert.equal(readFileSync(await picture.path()).subarray(1, 4).toString(), 'PNG');
+  await page.close();
+});
+
+test('an answer and values that are handed over are shown', async () => {
+  meshhood('generate', 'plates', '--vertices', '800', '-o', 'plates.ply');
+  execFileSync('sh', ['-c', 'seq 800 > heights.txt; printf "1\\n3\\n5\\n" > few.txt'], { cwd: folder });
+  meshhood('view', 'plates.ply', '--ids', 'few.txt', '--values', 'heights.txt', '-o', 'values.html');
+  const page = await openPage(browser, file('values.html'));
+  assert.deepEqual(await idsOf(page, 'exact'), [1, 3, 5]);
+  assert.equal(await page.inputValue('#color'), 'scalar');
+  const legend = await page.locator('#legend span').allTextContents();
+  assert.equal(legend[1], 'heights');
+  await page.selectOption('#color', 'sizes');
+  await page.waitForFunction(() => document.querySelectorAll('#legend span')[1].textContent === 'vertices');
+  await page.close();
+});
+
+test('a link shows the same again', async () => {
+  const page = await openPage(browser, process.env.MESHHOOD_PAGE, {
+    hash: '#example=folds&vertex=1000&radius=5&without=ball&cut=x&edges=shown',
+  });
+  assert.equal(await page.inputValue('#vertex'), '1000');
+  assert.equal(await page.inputValue('#radius-edges'), '5');
+  assert.equal(await page.inputValue('#cut'), 'x');
+  assert.equal(await page.isChecked('tr[data-method=ball] input'), false);
+  await page.click('#copy-link');
+  await page.waitForFunction(() => location.hash.includes('camera='));
+  const hash = await page.evaluate(() => location.hash);
+  const ids = await idsOf(page, 'exact');
+  const again = await openPage(browser, process.env.MESHHOOD_PAGE, { hash });
+  assert.deepEqual(await idsOf(again, 'exact'), ids);
+  const state = (p) => p.evaluate(() => window.meshhoodPage.view.cameraState);
+  const [a, b] = [await state(page), await state(again)];
+  a.forEach((x, i) => assert.ok(Math.abs(x - b[i]) < 1e-3 * (1 + Math.abs(x)), `${a} and ${b}`));
+  await Promise.all([page.close(), again.close()]);
+});
+
+const SIZES = { wide: [1440, 900], tablet: [820, 1100], phone: [390, 844] };
+const COLORS = { exact: [0, 150, 110], paper: [215, 205, 65], ball: [15, 100, 155] };
+
+for (const [name, [width, height]] of Object.entries(SIZES)) {
+  test(`the three answers are seen on a ${name} screen, and nothing sticks out of it`, async () => {
+    const page = await openPage(browser, process.env.MESHHOOD_PAGE, {
+      viewport: { width, height }, hasTouch: name === 'phone', isMobile: name === 'phone',
+    });
+    await page.waitForTimeout(500);
+    await page.screenshot({ path: join(pictures, `${name}.png`) });
+    for (const [method, color] of Object.entries(COLORS)) {
+      const pixels = await countPixels(page, color);
+      console.log(`${name}: ${pixels} pixels of ${method}`);
+      assert.ok(pixels > 500, method);
+    }
+    const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    assert.ok(overflow <= 0);
+    const panel = await page.locator('#panel').boundingBox();
+    assert.ok(panel.x >= 0 && panel.x + panel.width <= width && panel.y + panel.height <= height);
+    await page.close();
+  });
+}
