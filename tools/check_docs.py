@@ -88,7 +88,7 @@ def missing_identifiers(name, text):
 @functools.cache
 def known_words():
     """All words of the sources, and the names of the files."""
-    sources = texts("CMakeLists.txt", "*.cmake", "*.json", "*.toml", "*.h", "*.in", "*.cpp", "*.py", "*.txt")
+    sources = texts("CMakeLists.txt", "*.cmake", "*.json", "*.toml", "*.h", "*.in", "*.cpp", "*.py", "*.txt", "*.js", "*.ts")
     tools = [(str(path), path.read_text(encoding="utf-8")) for path in (ROOT / "tools").iterdir() if path.is_file()]
     names = " ".join(name for name, _ in sources)
     return frozenset(re.findall(r"\w+", names + "".join(text for _, text in sources + tools)))

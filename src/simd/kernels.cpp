@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "simd/kernels.h"
 
+#include "simd/wasm128.h"
+
 namespace meshhood {
 
 Isa best_isa() {
@@ -21,7 +23,11 @@ const Kernels& kernels(Isa isa) {
   if (isa == Isa::Avx2) return avx2_kernels();
 #endif
   static_cast<void>(isa);
+#if defined(MESHHOOD_HAS_WASM128)
+  return wasm128_kernels();
+#else
   return portable_kernels();
+#endif
 }
 
 }  // namespace meshhood

@@ -129,11 +129,24 @@ test('an answer and values that are handed over are shown', async () => {
   meshhood('view', 'plates.ply', '--ids', 'few.txt', '--values', 'heights.txt', '-o', 'values.html');
   const page = await openPage(browser, file('values.html'));
   assert.deepEqual(await idsOf(page, 'exact'), [1, 3, 5]);
-  assert.equal(await page.inputValue('#color'), 'scalar');
+  assert.equal(await page.inputValue('#color'), 'handed');
   const legend = await page.locator('#legend span').allTextContents();
   assert.equal(legend[1], 'heights');
   await page.selectOption('#color', 'sizes');
   await page.waitForFunction(() => document.querySelectorAll('#legend span')[1].textContent === 'vertices');
+  await page.close();
+});
+
+test('the properties of a PLY file are colors', async () => {
+  const rows = [0, 1, 2, 3].map((v) => `${v % 2} ${Math.floor(v / 2)} 0 ${10 * v}`);
+  const ply = ['ply', 'format ascii 1.0', 'element vertex 4', ...['x', 'y', 'z', 'heat'].map((p) => `property float ${p}`),
+    'element face 1', 'property list uchar int vertex_indices', 'end_header', ...rows, '4 0 1 3 2', ''].join('\n');
+  const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=5&radius=3' });
+  await drop(page, 'heat.ply', Buffer.from(ply));
+  await waitForMesh(page, 'heat.ply');
+  await page.click('#display summary');
+  await page.selectOption('#color', { label: 'heat' });
+  assert.deepEqual(await page.locator('#legend span').allTextContents(), ['0', 'heat', '30']);
   await page.close();
 });
 

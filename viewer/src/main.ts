@@ -33,8 +33,9 @@ class Page {
   #pageData: PageData | null = takePageData();
   #wanted = fromHash(location.hash); // applied once the mesh is open
   #vertex = -1;
-  #edges = FIRST_RADIUS; // the radius, in mean edge lengths
-  #color = 'answers';
+  #radius = 0; // in the unit of the mesh
+  #color = 'answers'; // or 'sizes', or a key of the scalars
+  #scalars = new Map<string, Scalar>();
   #given: Uint32Array | null = null; // an answer that was handed over, shown until another query is asked
   #recount = 0;
 
@@ -52,7 +53,7 @@ class Page {
       open: (file) => this.#open({ kind: 'file', name: file.name, content: file }),
       example: (name) => this.#openExample(name),
       vertex: (vertex) => this.select(vertex),
-      radius: (edges, isFinal) => this.setRadius(edges, isFinal),
+      radius: (radius, unit, isFinal) => this.setRadius(radius * (unit === 'edge' ? this.#meanEdge : 1), isFinal),
       method: (method, isShown) => this.#showMethod(method, isShown),
       color: (choice) => this.#setColor(choice),
       look: (look) => this.#setLook(look),
@@ -78,7 +79,7 @@ class Page {
       this.#setLook(this.#panel.look);
     };
     const cuts = ['none', 'x', 'y', 'z'] as const;
-    const step = (factor: number) => this.setRadius(Math.max(this.#edges, 0.5) * factor);
+    const step = (factor: number) => this.setRadius(Math.max(this.#radius, 0.5 * this.#meanEdge) * factor);
     connectKeyboard({
       '+': () => step(1.12), '=': () => step(1.12), '-': () => step(1 / 1.12),
       ArrowLeft: () => this.#view.turn(-0.12, 0), ArrowRight: () => this.#view.turn(0.12, 0),
@@ -165,10 +166,14 @@ class Page {
     const mostEdges = meanEdge > 0 ? (2 * opened.surface.extent) / meanEdge : 1;
     this.#panel.setMesh(example?.title ?? opened.name, facts(opened), opened.vertices, meanEdge, mostEdges);
     this.#panel.removeColorChoices(['answers', 'sizes']);
+    this.#scalars = new Map(opened.scalars.map(({ name, values }) => [`ply:${name}`, { title: name, values }]));
     this.#color = 'answers';
     this.#panel.setLegend(null, null);
     showProgress(null);
     if (opened.warnings.length > 0) showError(`${opened.name}: accepted with a warning: ${opened.warnings.join('; ')}`);
+    const handed = this.#pageData?.scalar ?? null;
+    if (handed !== null) this.#scalars.set('handed', handed);
+    for (const [choice, { title }] of this.#scalars) this.#panel.addColorChoice(choice, title);
     if (opened.vertices > 0) this.#askFirst(example?.query ?? { at: 0.5, radius: FIRST_RADIUS });
     document.body.dataset.mesh = opened.name; // for tests: the mesh is open
   }
@@ -181,12 +186,13 @@ class Page {
     const look: Look = { ...wanted.look };
     if (!isLink) look.cut = query.cut ?? look.cut;
     if (!isLink && settings?.vertex !== undefined) look.hideNearer = true;
-    const { vertices, meanEdge } = this.#opened!;
+    const { vertices } = this.#opened!;
     for (const method of METHODS) this.#showMethod(method, !wanted.hidden.includes(method));
     this.#panel.look = look;
-    const unit = settings?.unit === 'edge' ? 1 : meanEdge || 1;
-    const handed = settings?.radius === undefined ? null : settings.radius / unit;
-    this.#edges = wanted.radius ?? handed ?? query.radius;
+    const handedUnit = settings?.unit === 'edge' ? this.#meanEdge : 1;
+    const handed = settings?.radius === undefined ? null : settings.radius * handedUnit;
+    const inLink = wanted.radius === null ? null : wanted.radius * this.#meanEdge;
+    this.#radius = inLink ?? handed ?? query.radius * this.#meanEdge;
     const vertex = wanted.vertex ?? settings?.vertex ?? Math.floor(query.at * vertices);
     this.select(Math.min(vertex, vertices - 1));
     this.#view.setLook(look);
@@ -200,12 +206,11 @@ class Page {
   /** The scalar and the answer that were handed over with the mesh. */
   #showHanded(): void {
     if (this.#pageData === null) return;
-    const { scalar, settings } = this.#pageData;
-    if (scalar !== null) {
-      this.#panel.addColorChoice('scalar', scalar.title);
-      this.#panel.setColorChoice('scalar');
+    const { settings } = this.#pageData;
+    if (this.#scalars.has('handed')) {
+      this.#panel.setColorChoice('handed');
       this.#panel.openDisplay();
-      this.#setColor('scalar');
+      this.#setColor('handed');
     }
     if (settings.ids !== undefined) {
       this.#given = Uint32Array.from(settings.ids);
@@ -227,7 +232,7 @@ class Page {
       this.#openExample(wanted.example, true);
     } else if (this.#opened !== null) {
       this.#wanted = wanted;
-      this.#askFirst({ at: 0.5, radius: this.#edges });
+      this.#askFirst({ at: 0.5, radius: this.#radius / this.#meanEdge });
     }
   }
 
@@ -247,21 +252,22 @@ class Page {
     this.#ask(isFinal);
   }
 
-  /** In mean edge lengths. */
-  setRadius(edges: number, isFinal = true): void {
-    this.#edges = edges;
+  /** In the unit of the mesh. */
+  setRadius(radius: number, isFinal = true): void {
+    this.#radius = radius;
     this.#ask(isFinal);
     if (this.#color === 'sizes') this.#countLater();
   }
 
-  get #radius(): number {
-    return this.#edges * (this.#opened?.meanEdge || 1);
+  /** 1 without edges. */
+  get #meanEdge(): number {
+    return this.#opened?.meanEdge || 1;
   }
 
   #ask(isFinal: boolean): void {
     if (this.#opened === null || this.#vertex < 0) return;
     this.#given = null;
-    this.#panel.setRadius(this.#edges);
+    this.#panel.setRadius(this.#radius);
     this.#view.setQuery(this.#vertex, this.#radius);
     const methods = METHODS.filter((method) => this.#shown.has(method) && method !== 'bfs');
     for (const method of METHODS) this.#panel.setTime(method, null);
@@ -328,7 +334,7 @@ class Page {
     showProgress(null);
     this.#panel.setLegend(null, null);
     if (choice === 'sizes') this.#engine.countAll(this.#radius, 'exact');
-    else this.#setScalar(choice === 'scalar' ? (this.#pageData?.scalar ?? null) : null);
+    else this.#setScalar(this.#scalars.get(choice) ?? null);
   }
 
   /** Once the radius rests. */
@@ -375,7 +381,7 @@ class Page {
     return toHash({
       example: this.#example,
       vertex: this.#vertex < 0 ? null : this.#vertex,
-      radius: Number(this.#edges.toPrecision(6)),
+      radius: this.#radius / this.#meanEdge,
       hidden: METHODS.filter((method) => !this.#shown.has(method)),
       look: this.#panel.look,
       camera,

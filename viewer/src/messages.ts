@@ -2,6 +2,8 @@
 // What the page and its worker say to each other.
 import type { Method } from 'meshhood';
 
+import type { PlyScalar } from './ply_scalars';
+
 export type { Method };
 
 /** All methods, in the order in which they are answered: the fastest first. */
@@ -48,6 +50,8 @@ export interface Opened {
   /** For reading, building the index, and preparing the picture. */
   seconds: { read: number; build: number; draw: number };
   warnings: string[];
+  /** Further numbers of the vertices of a PLY file. */
+  scalars: PlyScalar[];
 }
 
 export type Reply =

@@ -9,8 +9,8 @@ export interface Wishes {
   open(file: File): void;
   example(name: string): void;
   vertex(vertex: number): void;
-  /** In mean edge lengths; `isFinal` once the slider is let go. */
-  radius(edges: number, isFinal: boolean): void;
+  /** `isFinal` once the slider is let go. */
+  radius(radius: number, unit: 'mesh' | 'edge', isFinal: boolean): void;
   method(method: Method, isShown: boolean): void;
   color(choice: string): void;
   look(look: Look): void;
@@ -114,13 +114,12 @@ export class Panel {
 
   #connectQuery(): void {
     const slider = find<HTMLInputElement>('radius');
-    slider.addEventListener('input', () => this.#wishes.radius(this.#fromSlider(Number(slider.value)), false));
-    slider.addEventListener('change', () => this.#wishes.radius(this.#fromSlider(Number(slider.value)), true));
-    for (const [id, unit] of [['radius-edges', () => 1], ['radius-units', () => this.#meanEdge || 1]] as const) {
+    slider.addEventListener('input', () => this.#wishes.radius(this.#fromSlider(Number(slider.value)), 'edge', false));
+    slider.addEventListener('change', () => this.#wishes.radius(this.#fromSlider(Number(slider.value)), 'edge', true));
+    for (const [id, unit] of [['radius-edges', 'edge'], ['radius-units', 'mesh']] as const) {
       const input = find<HTMLInputElement>(id);
       input.addEventListener('change', () => {
-        const value = Number(input.value) / unit();
-        if (input.value !== '' && value >= 0) this.#wishes.radius(value, true);
+        if (input.value !== '' && Number(input.value) >= 0) this.#wishes.radius(Number(input.value), unit, true);
       });
     }
     const vertex = find<HTMLInputElement>('vertex');
@@ -187,11 +186,12 @@ export class Panel {
     find<HTMLInputElement>('vertex').value = String(vertex);
   }
 
-  /** In mean edge lengths. */
-  setRadius(edges: number): void {
+  /** In the unit of the mesh. */
+  setRadius(radius: number): void {
+    const edges = radius / (this.#meanEdge || 1);
     find<HTMLInputElement>('radius').value = String(this.#toSlider(edges));
     find<HTMLInputElement>('radius-edges').value = shortNumber(edges);
-    find<HTMLInputElement>('radius-units').value = shortNumber(edges * this.#meanEdge);
+    find<HTMLInputElement>('radius-units').value = shortNumber(radius);
   }
 
   #fromSlider(place: number): number {

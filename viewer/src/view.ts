@@ -271,7 +271,9 @@ export class View {
 
   #lookFrom(direction: THREE.Vector3, target: THREE.Vector3, radius: number): void {
     const half = THREE.MathUtils.degToRad(this.camera.fov / 2);
-    const narrow = Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect));
+    const { clientWidth } = this.#renderer.domElement;
+    const visible = (clientWidth - this.#covered) / Math.max(clientWidth, 1);
+    const narrow = Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect * visible));
     const distance = (1.05 * radius) / Math.sin(narrow);
     this.camera.near = 1e-3 * this.extent;
     this.camera.far = distance + 4 * this.extent;
@@ -279,6 +281,7 @@ export class View {
     this.controls.target.copy(target);
     this.controls.maxDistance = 12 * this.extent;
     this.camera.updateProjectionMatrix();
+    this.controls.update();
     this.draw();
   }
 
@@ -293,6 +296,7 @@ export class View {
     this.controls.target.fromArray(numbers, 3);
     this.camera.far = this.camera.position.length() + 4 * this.extent;
     this.camera.updateProjectionMatrix();
+    this.controls.update();
     this.draw();
   }
 

@@ -6,6 +6,8 @@ import { MeshBVH } from 'three-mesh-bvh';
 
 import { EXAMPLES, findExample } from './examples';
 import type { Method, Query, Reply, Request, Source } from './messages';
+import { readPlyScalars } from './ply_scalars';
+import type { PlyScalar } from './ply_scalars';
 import { makeSurface } from './surface';
 
 interface Arrays {
@@ -13,6 +15,7 @@ interface Arrays {
   corners: Uint32Array;
   offsets: Uint32Array | null;
   warnings: string[];
+  scalars: PlyScalar[];
 }
 
 let index: MeshIndex | null = null;
@@ -47,13 +50,14 @@ const INDEX_MARK = [0x8b, 0x4d, 0x48, 0x49]; // "\x8bMHI", the first bytes of an
 async function read(source: Source): Promise<Arrays | MeshIndex> {
   if (source.kind === 'example') {
     const example = findExample(source.name) ?? EXAMPLES[0];
-    return { ...example.make(source.vertices ?? example.vertices), offsets: null, warnings: [] };
+    return { ...example.make(source.vertices ?? example.vertices), offsets: null, warnings: [], scalars: [] };
   }
   const bytes = new Uint8Array(await source.content.arrayBuffer());
   if (INDEX_MARK.every((byte, i) => bytes[i] === byte)) {
     return MeshIndex.load(bytes, { progress: reportProgress('Verifying the index') });
   }
-  return readMesh(bytes, source.name, { progress: reportProgress('Reading') });
+  const mesh = readMesh(bytes, source.name, { progress: reportProgress('Reading') });
+  return { ...mesh, scalars: mesh.format === 'ply' ? readPlyScalars(bytes) : [] };
 }
 
 function build(arrays: Arrays | MeshIndex): MeshIndex {
@@ -103,6 +107,7 @@ async function open(source: Source): Promise<void> {
       indexBytes: opened.byteLength,
       seconds: { read: reading.seconds, build: building.seconds, draw: drawing.seconds },
       warnings: arrays instanceof MeshIndex ? [] : arrays.warnings,
+      scalars: arrays instanceof MeshIndex ? [] : arrays.scalars,
     },
   }, [surface.positions.buffer, surface.normals.buffer, surface.triangles.buffer]);
 }
