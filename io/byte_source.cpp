@@ -32,9 +32,7 @@ std::size_t MemorySource::read(std::span<char> out) {
 }
 
 FileSource::FileSource(const std::filesystem::path& path) : path_(path), file_(open_to_read(path)) {
-  struct stat status = {};
-  if (!file_.is_open() || ::fstat(file_.number(), &status) != 0) raise_errno(path, errno);
-  if (S_ISDIR(status.st_mode)) raise_io(path, EISDIR, "is a directory, expected a file");
+  const struct stat status = status_of(file_, path);
   is_regular_ = S_ISREG(status.st_mode);
   // A file of length 0 may still have content: /proc is full of them.
   if (is_regular_ && status.st_size > 0) size_ = static_cast<std::uint64_t>(status.st_size);

@@ -6,8 +6,10 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include "io/messages.h"
 #include "io/uninterrupted.h"
 
 namespace meshhood::io {
@@ -41,6 +43,14 @@ class Descriptor {
 /// Opens `path` for reading. O_NONBLOCK, because the opening of a pipe without a writer would block.
 [[nodiscard]] inline Descriptor open_to_read(const std::filesystem::path& path) {
   return Descriptor(uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY); }));
+}
+
+/// The status of a file that has been opened. Throws Error{IoFailure} if that failed, and for a directory.
+[[nodiscard]] inline struct stat status_of(const Descriptor& file, const std::filesystem::path& path) {
+  struct stat status = {};
+  if (!file.is_open() || ::fstat(file.number(), &status) != 0) raise_errno(path, errno);
+  if (S_ISDIR(status.st_mode)) raise_io(path, EISDIR, "is a directory, expected a file");
+  return status;
 }
 
 }  // namespace meshhood::io

@@ -14,8 +14,7 @@ namespace meshhood::io {
 
 MappedFile::MappedFile(const std::filesystem::path& path) {
   const Descriptor file = open_to_read(path);
-  struct stat status = {};
-  if (!file.is_open() || ::fstat(file.number(), &status) != 0) raise_errno(path, errno);
+  const struct stat status = status_of(file, path);
   if (!S_ISREG(status.st_mode)) raise_io(path, EINVAL, "cannot be mapped, expected a regular file");
   const auto size = static_cast<std::size_t>(status.st_size);
   if (size == 0) return;

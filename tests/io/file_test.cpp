@@ -86,6 +86,7 @@ TEST_F(Files, ErrorsOfTheSystemHavePathAndErrno) {
   expect_errno(missing, ENOENT, save);
   expect_errno(scratch.path(), EISDIR, read);
   expect_errno(scratch.path(), EISDIR, load);
+  expect_errno(scratch.path(), EISDIR, map);
   expect_errno("/dev/full", ENOSPC, write);
   expect_errno("/dev/full", ENOSPC, save);
   try {
