@@ -2,7 +2,6 @@
 #include "size_limit.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -58,15 +57,18 @@ struct Sample {
 std::optional<BatchEstimate> estimate(const SearchMethod& method, const BatchQuery& query) {
   constexpr std::size_t kSamples = 256;
   constexpr std::size_t kSamplesPerStep = 4;
-  constexpr auto kTimeLimit = std::chrono::milliseconds(500);
+  // Vertices, about half a second. Counted rather than timed, so that every machine draws the same sample.
+  constexpr double kMostWork = 0x1p26;
   const auto& list = query.vertices.list();
   const std::size_t rows = list ? list->size() : method.vertex_count();
   if (rows <= kSamples) return std::nullopt;
   std::mt19937_64 random(1);
   std::vector<VertexId> vertices(kSamplesPerStep);
   Sample sample;
-  const auto start = std::chrono::steady_clock::now();
-  while (sample.rows < kSamples && std::chrono::steady_clock::now() - start < kTimeLimit) {
+  // A call of a scan, or of a search that copies the positions, also takes a time that grows with the mesh.
+  const auto work_of_call = static_cast<double>(method.vertex_count());
+  for (double work = 0; sample.rows < kSamples && work < kMostWork;
+       work = sample.sum + work_of_call * sample.rows / kSamplesPerStep) {
     for (VertexId& v : vertices) {
       const std::size_t row = random() % rows;
       v = list ? (*list)[row] : static_cast<VertexId>(row);
