@@ -30,12 +30,6 @@ double squared_length(const Vector2& v) { return v.x * v.x + v.y * v.y; }
 
 double cross(const Halfplane& a, const Halfplane& b) { return a.x * b.y - a.y * b.x; }
 
-/// Whether the normal of `b` follows that of `a` by less than half a turn, with a well-defined corner. The root is the
-/// length of the longer edge where the offset is half the square of an edge's length.
-bool have_corner(const Halfplane& a, const Halfplane& b) {
-  return cross(a, b) > kSmallestCross * std::sqrt(2 * std::max(a.offset, b.offset));
-}
-
 /// The point p with `p . a = value_a` and `p . b = value_b`.
 Vector2 solve(const Halfplane& a, const Halfplane& b, double value_a, double value_b) {
   const double determinant = cross(a, b);
@@ -44,14 +38,21 @@ Vector2 solve(const Halfplane& a, const Halfplane& b, double value_a, double val
 
 }  // namespace
 
+/// Whether the normal of `b` follows that of `a` by less than half a turn, with a well-defined corner.
+bool HalfplanePolygon::have_corner(const Line& a, const Line& b) {
+  return cross(a.halfplane, b.halfplane) > kSmallestCross * std::max(a.length, b.length);
+}
+
 PolygonExtent HalfplanePolygon::extent() {
   remove_redundant();
   if (size_ < 3) return kUnboundedExtent;  // mutant: two-lines-make-a-polygon
   PolygonExtent squared;
   for (std::size_t i = 0; i < size_; ++i) {  // mutant: last-corner-ignored
-    const Halfplane& a = lines_[i].halfplane;
-    const Halfplane& b = lines_[i + 1 < size_ ? i + 1 : 0].halfplane;
-    if (!have_corner(a, b)) return kUnboundedExtent;  // mutant: half-turn-gap-ignored
+    const Line& line_a = line(i);
+    const Line& line_b = line(i + 1 < size_ ? i + 1 : 0);
+    if (!have_corner(line_a, line_b)) return kUnboundedExtent;  // mutant: half-turn-gap-ignored
+    const Halfplane& a = line_a.halfplane;
+    const Halfplane& b = line_b.halfplane;
     squared.width = std::max(squared.width, squared_length(solve(a, b, a.offset, b.offset)));
     squared.slope = std::max(squared.slope, squared_length(solve(a, b, a.tilt, b.tilt)));  // mutant: slope-ignored
   }
@@ -77,17 +78,19 @@ void HalfplanePolygon::remove_redundant() {
 /// Whether, at height 0, the corner of the lines before and after lies in the half plane of line `i`. Both sides of the
 /// comparison are multiplied by the determinant of the corner.
 bool HalfplanePolygon::is_redundant(std::size_t i) const {
-  const Halfplane& before = lines_[i == 0 ? size_ - 1 : i - 1].halfplane;
-  const Halfplane& after = lines_[i + 1 == size_ ? 0 : i + 1].halfplane;
-  if (!have_corner(before, after)) return false;
+  const Line& line_before = line(i == 0 ? size_ - 1 : i - 1);
+  const Line& line_after = line(i + 1 == size_ ? 0 : i + 1);
+  if (!have_corner(line_before, line_after)) return false;
+  const Halfplane& before = line_before.halfplane;
+  const Halfplane& after = line_after.halfplane;
   const double x = before.offset * after.y - after.offset * before.y;
   const double y = after.offset * before.x - before.offset * after.x;
-  const Halfplane& line = lines_[i].halfplane;
-  return x * line.x + y * line.y <= line.offset * cross(before, after);  // mutant: needed-line-removed
+  const Halfplane& between = line(i).halfplane;
+  return x * between.x + y * between.y <= between.offset * cross(before, after);  // mutant: needed-line-removed
 }
 
 void HalfplanePolygon::remove(std::size_t i) {
-  const auto at = [this](std::size_t k) { return lines_.begin() + static_cast<std::ptrdiff_t>(k); };
+  const auto at = [this](std::size_t k) { return order_.begin() + static_cast<std::ptrdiff_t>(k); };
   std::copy(at(i + 1), at(size_), at(i));
   --size_;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 namespace meshhood {
@@ -36,10 +37,11 @@ class HalfplanePolygon {
   /// Keeps the first `kMaxHalfplanes`: without the others the polygon is larger, and its extent still an upper bound.
   void add(const Halfplane& halfplane) {
     if (size_ == kMaxHalfplanes) return;
-    const double angle = diamond_angle(halfplane.x, halfplane.y);
+    const auto added = static_cast<std::uint8_t>(size_);
+    lines_[added] = {diamond_angle(halfplane.x, halfplane.y), std::sqrt(2 * halfplane.offset), halfplane};
     std::size_t i = size_++;
-    for (; i > 0 && lines_[i - 1].angle > angle; --i) lines_[i] = lines_[i - 1];
-    lines_[i] = {angle, halfplane};
+    for (; i > 0 && lines_[order_[i - 1]].angle > lines_[added].angle; --i) order_[i] = order_[i - 1];
+    order_[i] = added;
   }
 
   /// An upper bound on the extent, which is infinite where the polygon is unbounded or nearly so. Removes redundant
@@ -52,14 +54,19 @@ class HalfplanePolygon {
  private:
   struct Line {
     double angle;
+    double length;  // of the edge, where the offset is half the square of an edge's length
     Halfplane halfplane;
   };
+
+  [[nodiscard]] const Line& line(std::size_t i) const { return lines_[order_[i]]; }
+  [[nodiscard]] static bool have_corner(const Line& a, const Line& b);
 
   void remove_redundant();
   [[nodiscard]] bool is_redundant(std::size_t i) const;
   void remove(std::size_t i);
 
-  std::array<Line, kMaxHalfplanes> lines_;  // the first `size_`, by the angle of their normals
+  std::array<Line, kMaxHalfplanes> lines_;
+  std::array<std::uint8_t, kMaxHalfplanes> order_;  // the first `size_` name the lines, by the angle of their normals
   std::size_t size_ = 0;
 };
 
