@@ -15,7 +15,7 @@ foreach(part
     aggregate/aggregate
     batch/batch batch/joint_batch batch/packets
     exact/cell_components exact/halfplane_polygon exact/joint_search exact/kd_order exact/leaf_nodes exact/leaves
-    exact/links exact/minimum_region exact/tree exact/check exact/damage exact/file exact/index exact/verify
+    exact/links exact/minimum_region exact/quality exact/refit exact/tree exact/check exact/damage exact/file exact/index exact/verify
     exact/search_families exact/search_differential exact/search_proof exact/search_rare exact/threads
     exact/query/edge_search exact/query/nearest exact/query/region exact/query/square_range
     exact/search/descent exact/search/leaf_traversal exact/search/local_minima exact/search/output
@@ -28,6 +28,7 @@ foreach(part
 endforeach()
 add_subdirectory(golden)
 meshhood_test(exact/build_threads meshhood_families meshhood_test_support)
+meshhood_test(exact/refit_meshes meshhood_test_support)
 meshhood_test(exact/reorder meshhood_families meshhood_test_support)
 meshhood_test(exact/search_meshes meshhood_test_support meshhood_shapes)
 
@@ -45,13 +46,41 @@ if(NOT MESHHOOD_LONG_TESTS)
   return()
 endif()
 
+# A test that cannot run here.
+function(meshhood_skip_test name reason)
+  add_test(NAME ${name} COMMAND ${CMAKE_COMMAND} -E echo "skipped: ${reason}")
+  set_tests_properties(${name} PROPERTIES SKIP_REGULAR_EXPRESSION "skipped")
+endfunction()
+
+find_package(Eigen3 QUIET NO_MODULE)
 # Compared with CGAL, which no part of the library needs.
 find_package(CGAL QUIET)
 if(CGAL_FOUND)
   meshhood_test(base/sphere_cgal ALONE meshhood_families meshhood_test_support CGAL::CGAL)
 else()
-  add_test(NAME base.sphere_cgal COMMAND ${CMAKE_COMMAND} -E echo "skipped: no CGAL (libcgal-dev)")
-  set_tests_properties(base.sphere_cgal PROPERTIES SKIP_REGULAR_EXPRESSION "skipped")
+  meshhood_skip_test(base.sphere_cgal "no CGAL (libcgal-dev)")
+endif()
+
+# Meshes of other libraries, where these are found.
+if(CGAL_FOUND)
+  meshhood_test(adapters/cgal ALONE CGAL::CGAL)
+else()
+  meshhood_skip_test(adapters.cgal "no CGAL (libcgal-dev)")
+endif()
+find_package(OpenMesh QUIET)
+if(OpenMesh_FOUND)
+  meshhood_test(adapters/openmesh ALONE OpenMeshCore)
+else()
+  meshhood_skip_test(adapters.openmesh "no OpenMesh (libopenmesh-dev)")
+endif()
+# Debian has no package: give CMAKE_PREFIX_PATH.
+find_path(MESHHOOD_GEOMETRY_CENTRAL_INCLUDE geometrycentral/surface/surface_mesh.h)
+find_library(MESHHOOD_GEOMETRY_CENTRAL_LIBRARY geometry-central)
+if(MESHHOOD_GEOMETRY_CENTRAL_INCLUDE AND MESHHOOD_GEOMETRY_CENTRAL_LIBRARY AND Eigen3_FOUND)
+  meshhood_test(adapters/geometry_central ALONE ${MESHHOOD_GEOMETRY_CENTRAL_LIBRARY} Eigen3::Eigen)
+  target_include_directories(adapters_geometry_central_test SYSTEM PRIVATE ${MESHHOOD_GEOMETRY_CENTRAL_INCLUDE})
+else()
+  meshhood_skip_test(adapters.geometry_central "no geometry-central")
 endif()
 
 # Ids of 16 bits, so that small meshes reach every limit.
@@ -65,7 +94,6 @@ endif()
 meshhood_test(base/searcher ALONE meshhood_families)
 # Views of matrices of Eigen are tested where it is found.
 meshhood_test(base/views ALONE meshhood_families)
-find_package(Eigen3 QUIET NO_MODULE)
 if(TARGET Eigen3::Eigen)
   target_link_libraries(base_views_test PRIVATE Eigen3::Eigen)
 endif()

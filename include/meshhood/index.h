@@ -71,8 +71,8 @@ class Index {
  private:
   friend struct IndexAccess;
 
-  explicit Index(std::unique_ptr<const IndexView> storage);
-  std::unique_ptr<const IndexView> view_;
+  explicit Index(std::shared_ptr<IndexView> view);
+  std::shared_ptr<IndexView> view_;  // searchers share it
 };
 
 /// Builds the index. The same mesh gives the same index, for any number of threads.

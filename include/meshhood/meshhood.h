@@ -16,10 +16,10 @@
 ///     std::vector<meshhood::VertexId> ids;
 ///     searcher.neighborhood(42, 1.5, ids);   // the same set as breadth-first search
 ///
-/// `Searcher` is in search.h, batches over many vertices in batch.h and joint.h, visitors in searcher.h, searches from any
-/// point with filters in region.h, along the edges in edge_search.h, files in io/mesh_io.h and io/index_io.h, matrices of
-/// Eigen in eigen.h. `meshhood::paper` has the same calls with the
-/// approximate neighborhoods of the paper.
+/// `Searcher` is in search.h, batches over many vertices in batch.h and joint.h, visitors in searcher.h, searches from
+/// any point with filters in region.h, along the edges in edge_search.h, meshes that deform in refit.h, files in
+/// io/mesh_io.h and io/index_io.h. Meshes of other libraries are in eigen.h, cgal.h, openmesh.h and
+/// geometry_central.h. `meshhood::paper` has the same calls with the approximate neighborhoods of the paper.
 
 #include "meshhood/adjacency.h"    // IWYU pragma: export
 #include "meshhood/aggregate.h"    // IWYU pragma: export
@@ -32,9 +32,11 @@
 #include "meshhood/joint.h"        // IWYU pragma: export
 #include "meshhood/level.h"        // IWYU pragma: export
 #include "meshhood/mesh.h"         // IWYU pragma: export
+#include "meshhood/mesh_data.h"    // IWYU pragma: export
 #include "meshhood/paper.h"        // IWYU pragma: export
 #include "meshhood/progress.h"     // IWYU pragma: export
 #include "meshhood/reference.h"    // IWYU pragma: export
+#include "meshhood/refit.h"        // IWYU pragma: export
 #include "meshhood/region.h"       // IWYU pragma: export
 #include "meshhood/region_mesh.h"  // IWYU pragma: export
 #include "meshhood/reorder.h"      // IWYU pragma: export

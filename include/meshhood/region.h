@@ -29,8 +29,8 @@ struct Dab {
 /// The same vertices on every processor. The cost grows with the number of leaves of the result. Nothing is allocated
 /// once the buffers have grown.
 ///
-/// Use one object per thread: it owns scratch memory, about 64 bytes per leaf. The index must outlive it, and may be
-/// moved meanwhile.
+/// Use one object per thread: it owns scratch memory, about 64 bytes per leaf. It shares the memory of the
+/// index, which may be moved, refitted or destroyed meanwhile: answers are those of the index as it was.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}, naming the seed, the coordinate or the mask; arguments
 /// are then unchanged.

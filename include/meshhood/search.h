@@ -23,8 +23,8 @@ namespace meshhood {
 /// on folded surfaces it grows with the number of leaves of the result. Nothing is allocated once the buffers have
 /// grown.
 ///
-/// Use one object per thread: it owns scratch memory, about 22 bytes per leaf. The index must outlive it, and may be
-/// moved meanwhile.
+/// Use one object per thread: it owns scratch memory, about 22 bytes per leaf. It shares the memory of the
+/// index, which may be moved, refitted or destroyed meanwhile: answers are those of the index as it was.
 ///
 /// A graph that is unlike a surface (around a vertex with very many neighbours, or with edges at random) is searched as
 /// `ReferenceSearcher` does. Each searcher then owns 20 bytes per vertex more (36 for double), and all of them share a

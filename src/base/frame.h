@@ -41,6 +41,12 @@ struct Frame {
   }
 };
 
+/// Whether `p` lies in the cube of the frame, [-1, 1]^3.
+[[nodiscard]] inline bool covers(const Frame& frame, const Point& p) {
+  const Point q = frame.to_frame(p);
+  return std::abs(q.x) <= 1 && std::abs(q.y) <= 1 && std::abs(q.z) <= 1;
+}
+
 /// The frame centred at the bounding box of the positions, which must be valid.
 [[nodiscard]] Frame make_frame(const PositionsView& positions);
 

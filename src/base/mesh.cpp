@@ -1,31 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "meshhood/mesh.h"
 
-#include <cmath>
 #include <string>
 
 #include "meshhood/error.h"
 
 #include "base/distance.h"
-#include "base/text.h"
+#include "base/valid_position.h"
 
 namespace meshhood {
 namespace {
 
-bool is_valid(double coordinate) { return std::abs(coordinate) <= kLargestCoordinate; }
-
 template <class Real>
 void validate_coordinates(const StridedPositions<Real>& xyz) {
-  for (std::size_t v = 0; v < xyz.size(); ++v) {
-    const Point p = point(xyz, v);
-    if (is_valid(p.x) && is_valid(p.y) && is_valid(p.z)) [[likely]] {
-      continue;
-    }
-    const std::size_t axis = !is_valid(p.x) ? 0 : !is_valid(p.y) ? 1 : 2;
-    raise(ErrorCode::InvalidMesh, "vertex " + std::to_string(v) + ": " + "xyz"[axis] + " is " +
-                                      to_text(static_cast<double>(xyz(v, axis))) +
-                                      ", expected a finite number of at most 2^500 in magnitude");
-  }
+  for (std::size_t v = 0; v < xyz.size(); ++v) check_position(v, point(xyz, v));
 }
 
 /// Offsets must ascend from 0 to the number of corners.

@@ -11,9 +11,7 @@ void borrow(std::span<const T>& span, const std::vector<T>& array) {
   span = array;
 }
 
-void borrow(PositionsInOrder& span, const PositionsData& array) {
-  std::visit([&](const auto& xyz) { span = std::span(xyz); }, array);
-}
+void borrow(PositionsInOrder& span, const PositionsData& array) { span = view_of(array); }
 
 }  // namespace
 
@@ -41,14 +39,34 @@ Tree make_levels(std::size_t leaves, std::span<const Group> groups, std::span<co
   return tree;
 }
 
-std::unique_ptr<const IndexView> make_view(IndexData data) {
-  const auto owner = std::make_shared<const IndexData>(std::move(data));
-  auto view = std::make_unique<IndexView>();
-  view->frame = owner->frame;
-  for_each_array([](ArrayInfo, auto& span, const auto& array) { borrow(span, array); }, *view, *owner);
-  view->tree = make_levels(view->leaf_count(), view->groups, view->mean_radii);
-  view->owner = owner;
+PositionsInOrder view_of(const PositionsData& positions) {
+  return std::visit([](const auto& xyz) -> PositionsInOrder { return std::span(xyz); }, positions);
+}
+
+IndexView view_of(const IndexData& data) {
+  IndexView view;
+  view.frame = data.frame;
+  for_each_array([](ArrayInfo, auto& span, const auto& array) { borrow(span, array); }, view, data);
+  if (!view.groups.empty()) view.tree = make_levels(view.leaf_count(), view.groups, view.mean_radii);
   return view;
+}
+
+std::shared_ptr<IndexView> make_view(IndexData data) {
+  // Arrays keep their place when they are moved.
+  auto view = std::make_shared<IndexView>(view_of(data));
+  view->owner = std::make_shared<const ConnectivityData>(static_cast<ConnectivityData&&>(data));
+  view->geometry = std::make_shared<GeometryData>(static_cast<GeometryData&&>(data));
+  return view;
+}
+
+void set_geometry(IndexView& view, std::shared_ptr<GeometryData> geometry) {
+  view.frame = geometry->frame;
+  borrow(view.positions, geometry->positions);
+  borrow(view.leaves, geometry->leaves);
+  borrow(view.groups, geometry->groups);
+  borrow(view.mean_radii, geometry->mean_radii);
+  view.tree = make_levels(view.leaf_count(), view.groups, view.mean_radii);
+  view.geometry = std::move(geometry);
 }
 
 }  // namespace meshhood

@@ -11,22 +11,38 @@
 
 namespace meshhood {
 
-/// The arrays of an `IndexView` in vectors, filled by `build`.
-struct IndexData {
-  Frame frame;
-  PositionsData positions;
+/// The arrays of an `IndexView` that follow from the edges and from the division into leaves. Indexes that `refit` has
+/// made share them.
+struct ConnectivityData {
   std::vector<VertexId> permutation;
   std::vector<std::uint32_t> slot;
-  std::vector<Leaf> leaves;
   std::vector<VertexId> leaf_begin;
   std::vector<Link> links;
   std::vector<CrossEdge> cross_edges;
   std::vector<LaneMask> adjacency;
+};
+
+/// The arrays that change with the positions.
+struct GeometryData {
+  Frame frame;
+  PositionsData positions;
+  std::vector<Leaf> leaves;
   std::vector<Group> groups;
   std::vector<double> mean_radii;
 };
 
+/// All arrays of an `IndexView`, filled by `build`.
+struct IndexData : ConnectivityData, GeometryData {};
+
+[[nodiscard]] PositionsInOrder view_of(const PositionsData& positions);
+
+/// A view of `data`, which must outlive it. Without `tree` if the groups are not filled yet.
+[[nodiscard]] IndexView view_of(const IndexData& data);
+
 /// A view that owns `data`.
-[[nodiscard]] std::unique_ptr<const IndexView> make_view(IndexData data);
+[[nodiscard]] std::shared_ptr<IndexView> make_view(IndexData data);
+
+/// Makes `view` own `geometry`, and refer to it.
+void set_geometry(IndexView& view, std::shared_ptr<GeometryData> geometry);
 
 }  // namespace meshhood

@@ -70,8 +70,8 @@ void verify_sizes(const IndexView& view, const file::SectionReader& file) {
 }
 
 /// A view of the arrays in the file; only their sizes are verified.
-std::unique_ptr<IndexView> take_arrays(file::SectionReader& file) {
-  auto view = std::make_unique<IndexView>();
+std::shared_ptr<IndexView> take_arrays(file::SectionReader& file) {
+  auto view = std::make_shared<IndexView>();
   view->frame = file.take<Frame>("frame", 1).front();
   for_each_array([&](ArrayInfo info, auto& array) { take(file, info.section, array); }, *view);
   verify_sizes(*view, file);

@@ -19,7 +19,7 @@ std::size_t bytes_of(const PositionsInOrder& positions) {
 
 }  // namespace
 
-Index::Index(std::unique_ptr<const IndexView> view) : view_(std::move(view)) {}
+Index::Index(std::shared_ptr<IndexView> view) : view_(std::move(view)) {}
 Index::Index(Index&&) noexcept = default;
 Index& Index::operator=(Index&&) noexcept = default;
 Index::~Index() = default;

@@ -15,12 +15,18 @@ namespace meshhood {
 
 /// Access to the arrays of an index, for `build`, for index files and for tests.
 struct IndexAccess {
-  [[nodiscard]] static Index make(std::unique_ptr<const IndexView> view) { return Index(std::move(view)); }
+  [[nodiscard]] static Index make(std::shared_ptr<IndexView> view) { return Index(std::move(view)); }
   [[nodiscard]] static Index make(IndexData arrays) { return make(make_view(std::move(arrays))); }
 
   [[nodiscard]] static const IndexView& view(const Index& index) { return *index.view_; }
 
-  /// The number of steps of a build, for progress: graph, leaves, links, spheres and regions, tree, arrays.
+  /// Keeps the view alive and unchanged, for searchers.
+  [[nodiscard]] static std::shared_ptr<const IndexView> share(const Index& index) { return index.view_; }
+
+  /// The view itself, for `refit`.
+  [[nodiscard]] static std::shared_ptr<IndexView>& storage(Index& index) { return index.view_; }
+
+  /// The number of steps of a build, for progress: graph, leaves, links, positions, spheres and regions, tree.
   static constexpr std::size_t kBuildSteps = 6;
 
   /// The steps after the graph, which must be valid. The caller reports the last step.

@@ -21,6 +21,8 @@ namespace meshhood {
 
 using LeafId = std::uint32_t;
 
+struct GeometryData;
+
 /// The largest number of leaves, because a slot has 32 bits.
 inline constexpr std::size_t kMaxLeaves = std::numeric_limits<std::uint32_t>::max() / kLeafCapacity + std::size_t{1};
 
@@ -55,8 +57,7 @@ struct TreeLevel {
 /// Leaves first; the last level is one group.
 using Tree = std::vector<TreeLevel>;
 
-/// Read-only view of an index, used by searches. `owner` keeps the arrays alive: an `IndexData`, or the bytes of an
-/// index file.
+/// Read-only view of an index, used by searches. `owner` and `geometry` keep the arrays alive.
 struct IndexView {
   Frame frame;
   PositionsInOrder positions;
@@ -70,7 +71,8 @@ struct IndexView {
   std::span<const Group> groups;           // of all levels of the tree, leaves first
   std::span<const double> mean_radii;      // by level
   Tree tree;                               // `groups` and `mean_radii` by level
-  std::shared_ptr<const void> owner;
+  std::shared_ptr<const void> owner;       // a `ConnectivityData`, or the bytes of an index file
+  std::shared_ptr<GeometryData> geometry;  // of this view alone; none while all arrays are in a file
   std::shared_ptr<SharedGraph> graph = std::make_shared<SharedGraph>();  // for searches over vertices
 
   [[nodiscard]] std::size_t vertex_count() const { return slot.size(); }
@@ -84,6 +86,11 @@ struct IndexView {
   [[nodiscard]] Point position(LeafId leaf, unsigned lane) const {
     const std::size_t vertex = std::size_t{leaf_begin[leaf]} + lane;
     return std::visit([&](auto xyz) { return point(xyz, vertex); }, positions);
+  }
+
+  /// The position of a vertex in index order, in the frame.
+  [[nodiscard]] Point in_frame(std::size_t vertex) const {
+    return frame.to_frame(std::visit([&](auto xyz) { return point(xyz, vertex); }, positions));
   }
 
   /// The links of a leaf, ascending by the linked leaf.

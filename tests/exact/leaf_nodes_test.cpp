@@ -9,43 +9,41 @@
 
 #include "base/adjacency.h"
 #include "base/vector.h"
+#include "exact/index_access.h"
 #include "support/families.h"
 
 namespace meshhood::test {
 namespace {
 
-/// A mesh divided into leaves, with its vertices in index order.
+/// A mesh with its index, and with its vertices in index order, in the frame.
 struct Divided {
-  explicit Divided(const TestMesh& mesh) : graph(adjacency(mesh.view())) {
-    const Frame frame = make_frame(mesh.positions_view());
-    leaves = make_leaves({mesh.positions_view(), graph.view()}, frame, task);
-    links = make_links(graph.view(), leaves, task);
-    for (const VertexId v : leaves.permutation) {
-      points.push_back(frame.to_frame(mesh.positions_view().visit([&](auto xyz) { return point(xyz, v); })));
+  explicit Divided(const TestMesh& mesh) : graph(adjacency(mesh.view())), built(build(mesh.view())) {
+    for (std::size_t i = 0; i < index.vertex_count(); ++i) {
+      const Point p = mesh.positions_view().visit([&](auto xyz) { return point(xyz, index.id(i)); });
+      points.push_back(index.frame.to_frame(p));
     }
   }
 
-  [[nodiscard]] NodeList nodes(bool with_regions) {
-    return make_leaf_nodes(leaves.leaf_begin, links, points, with_regions, task);
+  [[nodiscard]] NodeList nodes() {
+    TaskContext task;
+    return make_leaf_nodes(index, task);
   }
 
   /// The edges of a leaf as the mesh has them.
   [[nodiscard]] std::vector<LeafEdge> edges(std::size_t leaf) const {
     std::vector<LeafEdge> result;
-    for (std::uint32_t i = leaves.leaf_begin[leaf]; i < leaves.leaf_begin[leaf + 1]; ++i) {
-      for (const VertexId w : graph.view()[leaves.permutation[i]]) {
-        const std::uint32_t slot = leaves.slot[w];
-        result.push_back({i - leaves.leaf_begin[leaf], leaves.leaf_begin[leaf_of(slot)] + lane_of(slot)});
+    for (std::uint32_t i = index.leaf_begin[leaf]; i < index.leaf_begin[leaf + 1]; ++i) {
+      for (const VertexId w : graph.view()[index.id(i)]) {
+        const std::uint32_t slot = index.slot[w];
+        result.push_back({i - index.leaf_begin[leaf], index.leaf_begin[leaf_of(slot)] + lane_of(slot)});
       }
     }
     return result;
   }
 
-  const Progress silent;
-  TaskContext task{1, silent, 0};
   Adjacency graph;
-  LeafPartition leaves;
-  Links links;
+  Index built;
+  const IndexView& index = IndexAccess::view(built);
   std::vector<Point> points;
 };
 
@@ -58,11 +56,11 @@ TestMesh rough_grid(std::size_t side) {
 
 TEST(LeafNodes, HaveTheRegionOfAllEdgesOfTheirVertices) {
   Divided mesh(rough_grid(60));
-  const NodeList nodes = mesh.nodes(true);
+  const NodeList nodes = mesh.nodes();
   std::size_t bounded = 0;
   for (std::size_t leaf = 0; leaf < nodes.regions.size(); ++leaf) {
-    const std::size_t begin = mesh.leaves.leaf_begin[leaf];
-    const std::size_t size = mesh.leaves.leaf_begin[leaf + 1] - begin;
+    const std::size_t begin = mesh.index.leaf_begin[leaf];
+    const std::size_t size = mesh.index.leaf_begin[leaf + 1] - begin;
     const MinimumRegion expected =
         leaf_minimum_region(mesh.points, begin, size, mesh.edges(leaf), centre_of(nodes.bounds[leaf]));
     const MinimumRegion& region = nodes.regions[leaf];
@@ -78,17 +76,19 @@ TEST(LeafNodes, HaveTheRegionOfAllEdgesOfTheirVertices) {
 
 TEST(LeafNodes, HaveSpheresAroundTheirVertices) {
   Divided mesh(rough_grid(60));
-  const NodeList nodes = mesh.nodes(true);
+  const NodeList nodes = mesh.nodes();
   for (std::size_t leaf = 0; leaf < nodes.bounds.size(); ++leaf) {
-    for (std::size_t i = mesh.leaves.leaf_begin[leaf]; i < mesh.leaves.leaf_begin[leaf + 1]; ++i) {
+    for (std::size_t i = mesh.index.leaf_begin[leaf]; i < mesh.index.leaf_begin[leaf + 1]; ++i) {
       EXPECT_LT(length(mesh.points[i] - centre_of(nodes.bounds[leaf])), static_cast<double>(nodes.bounds[leaf].radius));
     }
   }
 }
 
-TEST(LeafNodes, HaveUnboundedRegionsIfNoneAreWanted) {
-  Divided mesh(rough_grid(20));
-  for (const MinimumRegion& region : mesh.nodes(false).regions) EXPECT_FALSE(std::isfinite(region.offset));
+TEST(LeafNodes, HaveUnboundedRegionsIfSquaredDistancesUnderflow) {
+  TestMesh tiny = rough_grid(20);
+  for (double& x : tiny.positions) x *= 0x1p-500;
+  Divided mesh(tiny);
+  for (const MinimumRegion& region : mesh.nodes().regions) EXPECT_FALSE(std::isfinite(region.offset));
 }
 
 }  // namespace

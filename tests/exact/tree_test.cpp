@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/sphere.h"
@@ -40,7 +41,14 @@ struct RandomLeaves {
   [[nodiscard]] TreeArrays tree(unsigned threads = 1) const {
     const Progress silent;
     TaskContext task(threads, silent, 0);
-    return make_tree(nodes, leaf_begin, points, task);
+    return make_tree(nodes, view(), task);
+  }
+
+  [[nodiscard]] IndexView view() const {
+    IndexView index;
+    index.leaf_begin = leaf_begin;
+    index.positions = std::span(&points.data()->x, 3 * points.size());
+    return index;
   }
 
   NodeList nodes;
@@ -91,6 +99,76 @@ TEST(Tree, SpheresEncloseTheVerticesBelowWithRoomForSinglePrecision) {
     }
   }
   std::printf("%zu vertices in spheres\n", tests);
+}
+
+TEST(Tree, SpheresReachNoFartherThanTheirFarthestVertexNeeds) {
+  Random random(8);
+  for (const std::size_t size : kSizes) {
+    const RandomLeaves leaves(random, size);
+    const TreeArrays arrays = leaves.tree();
+    std::vector<double> farthest(arrays.groups.size() * kFanOut, 0);
+    const Tree tree = make_levels(size, arrays.groups, arrays.mean_radii);
+    const auto place = [&](const Group& group, std::size_t i) {
+      return static_cast<std::size_t>(&group - arrays.groups.data()) * kFanOut + i;
+    };
+    for (std::size_t leaf = 0; leaf < size; ++leaf) {
+      for (std::size_t v = leaves.leaf_begin[leaf]; v < leaves.leaf_begin[leaf + 1]; ++v) {
+        for_each_node_above(tree, leaf, [&](std::size_t, const Group& group, std::size_t i) {
+          double& largest = farthest[place(group, i)];
+          largest = std::max(largest, length(leaves.points[v] - centre(group, i)));
+        });
+      }
+    }
+    for (std::size_t leaf = 0; leaf < size; ++leaf) {
+      for_each_node_above(tree, leaf, [&](std::size_t level, const Group& group, std::size_t i) {
+        EXPECT_LT(static_cast<double>(group.radius[i]), farthest[place(group, i)] * (1 + 0x1p-19) + 0x1p-21) << level;
+      });
+    }
+  }
+}
+
+TEST(Tree, AfterAnUpdateOfSomeLeavesIsTheTreeOfAllLeaves) {
+  Random random(9);
+  for (const std::size_t size : kSizes) {
+    RandomLeaves leaves(random, size);
+    TreeArrays updated = leaves.tree();
+    std::vector<LeafId> moved;
+    for (std::size_t leaf = random.below(3); leaf < size; leaf += 1 + random.below(20)) {
+      moved.push_back(static_cast<LeafId>(leaf));
+      for (std::size_t v = leaves.leaf_begin[leaf]; v < leaves.leaf_begin[leaf + 1]; ++v) {
+        leaves.points[v] = 0.9 * leaves.points[v] + random_point(random, 0.05);
+      }
+      const auto own = std::span(leaves.points).subspan(leaves.leaf_begin[leaf], 3);
+      leaves.nodes.bounds[leaf] = enclosing_sphere(own);
+      leaves.nodes.regions[leaf].offset *= 1.5;
+    }
+    NodeList bounds(moved.size());
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      bounds.bounds[i] = leaves.nodes.bounds[moved[i]];
+      bounds.regions[i] = leaves.nodes.regions[moved[i]];
+    }
+    update_tree(moved, bounds, leaves.view(), updated.groups, updated.mean_radii);
+
+    const TreeArrays expected = leaves.tree();
+    EXPECT_EQ(updated.mean_radii, expected.mean_radii);
+    for (std::size_t i = 0; i < expected.groups.size(); ++i) {
+      EXPECT_EQ(updated.groups[i].x, expected.groups[i].x);
+      EXPECT_EQ(updated.groups[i].radius, expected.groups[i].radius);
+      for (std::size_t lane = 0; lane < kFanOut; ++lane) {
+        const float offset = expected.groups[i].offset[lane];
+        if (!std::isfinite(offset)) continue;
+        EXPECT_GE(updated.groups[i].offset[lane], offset);
+        EXPECT_LE(updated.groups[i].offset[lane], offset * 1.001F + 1e-4F);
+      }
+    }
+  }
+}
+
+TEST(Tree, GroupsAboveSomeLeavesAreThoseThatAnUpdateChanges) {
+  Random random(10);
+  const RandomLeaves leaves(random, 600);
+  const std::vector<LeafId> moved{3, 5, 8, 599};
+  EXPECT_THAT(groups_above(moved, 600), testing::ElementsAre(0, 1, 74, 75, 84, 85, 86, 87));
 }
 
 TEST(Tree, RegionsContainThoseOfTheLeavesBelow) {

@@ -195,12 +195,16 @@ TEST(IndexVerify, RejectsWrongPositions) {
   constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
   expect_refused_after("not finite", [](Forgery& f) { f.section<float>("positions")[10] = kNan; });
   expect_refused_after("not finite", [](Forgery& f) { f.section<float>("positions")[10] = -kFloatInfinity; });
-  expect_refused_after("do not match the frame", [](Forgery& f) { f.section<float>("positions")[10] = 1000; });
+  expect_refused_after("lies outside the frame", [](Forgery& f) { f.section<float>("positions")[10] = 1000; });
   expect_refused_after("the padding is not 0", [](Forgery& f) { f.section<float>("positions").back() = kNan; });
-  expect_refused_after("do not match the frame", [](Forgery& f) { f.section<Frame>("frame")[0].scale *= 2; });
-  expect_refused_after("do not match the frame",
-                       [](Forgery& f) { f.section<Frame>("frame")[0].scale = static_cast<double>(kNan); });
-  expect_refused_after("do not match the frame", [](Forgery& f) { f.section<Frame>("frame")[0].origin.x = kInfinity; });
+  expect_refused_after("lies outside the frame", [](Forgery& f) { f.section<Frame>("frame")[0].scale *= 2; });
+  expect_refused_after("lies outside the frame",
+                       [](Forgery& f) { f.section<Frame>("frame")[0].origin.y = static_cast<double>(kNan); });
+  for (const double scale : {0.0, -0.25, 0.3, kInfinity, static_cast<double>(kNan)}) {
+    expect_refused_after("the scale of the frame is not a power of two",
+                         [&](Forgery& f) { f.section<Frame>("frame")[0].scale = scale; });
+  }
+  expect_refused_after("lies outside the frame", [](Forgery& f) { f.section<Frame>("frame")[0].origin.x = kInfinity; });
 }
 
 TEST(IndexVerify, RejectsAWrongTree) {

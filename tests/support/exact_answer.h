@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -44,10 +45,13 @@ inline std::vector<Searcher> searchers_of(const Index& index) {
 /// An index of a mesh and the reference search, which other tests compare with the oracle.
 class ExactAnswer {
  public:
-  explicit ExactAnswer(const MeshView& mesh)
+  explicit ExactAnswer(const MeshView& mesh) : ExactAnswer(mesh, build(mesh)) {}
+
+  /// `index`: made in another way than by `build`.
+  ExactAnswer(const MeshView& mesh, Index index)
       : mesh_(mesh),
         reference_(mesh),
-        index_(build(mesh)),
+        index_(std::move(index)),
         searchers_(searchers_of(index_)),
         stamp_(index_.vertex_count()) {}
 

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -17,6 +18,7 @@
 #include "meshhood/index.h"
 #include "meshhood/paper.h"
 #include "meshhood/reference.h"
+#include "meshhood/refit.h"
 #include "meshhood/region.h"
 #include "meshhood/region_mesh.h"
 #include "meshhood/reorder.h"
@@ -337,6 +339,26 @@ TEST_P(Allocation, FailsInABuildOnTwoThreads) {
   shortages.skip_to_every(8 * (20 / scaled(20)));
   const std::vector<std::byte> bytes = saved(build(large.view()));
   expect_made<Index>(bytes, [&] { return build(large.view(), {.threads = 2}); });
+}
+
+TEST_P(Allocation, FailsInARefit) {
+  const std::vector<std::byte> before = saved(index);
+  TestMesh moved = mesh;
+  std::vector<std::uint32_t> changed;
+  for (std::size_t v = 0; v < mesh.size(); v += 7) {
+    changed.push_back(static_cast<std::uint32_t>(v));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      moved.positions[3 * v + axis] = (moved.positions[3 * v + axis] + moved.positions[axis]) / 2;
+    }
+  }
+  moved.finish(mesh.single_precision);
+  const PositionsView positions = moved.positions_view();
+  expect_made<Index>(saved(refit(index, positions)), [&] { return refit(index, positions); });
+  const std::vector<std::byte> after = saved(refit(index, positions, changed));
+  expect_made<Index>(after, [&] { return refit(index, positions, changed); });
+  shortages.fail_each(
+      [&] { return build(mesh.view()); }, [&](Index& own) { own = refit(std::move(own), positions, changed); },
+      [&](Index& own, Ending ending) { EXPECT_EQ(saved(own), ending == Ending::Well ? after : before); });
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Allocation, testing::ValuesIn(three_families()), family_name);

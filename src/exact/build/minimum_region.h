@@ -28,12 +28,12 @@ inline constexpr MinimumRegion kUnboundedRegion{{0, 0, 0}, std::numeric_limits<d
 /// An edge from a vertex of a leaf to any vertex of the mesh.
 struct LeafEdge {
   std::uint32_t lane;
-  std::uint32_t neighbor;  // in index order
+  std::uint32_t neighbor;  // in `points` below
 };
 
 /// A region of the vertices `first .. first + size - 1`, 1 to 32 of them.
 ///
-/// points  all vertices of the mesh in index order, in the frame
+/// points  at least these vertices and their neighbours, in the frame
 /// edges   all edges of these vertices, in any order
 /// centre  the centre of the leaf's bounding sphere
 /// O(edges log(valence)).

@@ -11,7 +11,7 @@
 
 namespace meshhood {
 
-/// The bounds of the nodes of one level.
+/// The bounds of some nodes of one level.
 struct NodeList {
   explicit NodeList(std::size_t nodes) : bounds(nodes), regions(nodes) {}
 
@@ -32,13 +32,24 @@ struct TreeArrays {
 /// Whether the group has no `i`-th node.
 [[nodiscard]] bool is_absent(const Group& group, std::size_t i);
 
-/// The tree over the leaves.
+/// The tree over the leaves. O(#V), hardly more than #V / 4 distances.
 ///
-/// leaf_begin  by leaf, and one more: its first vertex in index order
-/// points      the vertices in index order, in the frame
-/// O(#V log #V).
-[[nodiscard]] TreeArrays make_tree(NodeList leaves, std::span<const VertexId> leaf_begin, std::span<const Point> points,
-                                   TaskContext& task);
+/// leaves  the bounds of all leaves
+/// index   the frame, the positions and `leaf_begin`
+[[nodiscard]] TreeArrays make_tree(NodeList leaves, const IndexView& index, TaskContext& task);
+
+/// Replaces the bounds of some leaves in a tree, and computes again those of the nodes above them. Bounding spheres
+/// become what `make_tree` would compute. Minimum regions of nodes above the leaves may become a little wider, because
+/// they are computed from rounded ones. O(leaves log #V), and a sum over the radii of all nodes.
+///
+/// leaves  ascending
+/// bounds  of these leaves
+/// index   as for `make_tree`
+void update_tree(std::span<const LeafId> leaves, NodeList bounds, const IndexView& index, std::span<Group> groups,
+                 std::span<double> mean_radii);
+
+/// The groups that `update_tree` changes, as their places in the array of all groups.
+[[nodiscard]] std::vector<std::size_t> groups_above(std::span<const LeafId> leaves, std::size_t leaf_count);
 
 /// A sphere around `points` with this centre, rounded to floats. Its radius includes the margin that a comparison with
 /// a ball in single precision needs (see simd/kernels.h).

@@ -2,6 +2,7 @@
 #include "meshhood/edge_search.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "base/distance.h"
@@ -16,15 +17,19 @@ namespace meshhood {
 
 /// The scratch memory of an edge searcher.
 struct EdgeSearcher::State {
-  const IndexView* index;
+  std::shared_ptr<const IndexView> index;  // shared, so that `refit` leaves it as it is
   const Kernels* kernels;
   PathSearch paths;
   RingSearch rings;
   VertexSet answer;                 // of `rings`
   std::vector<VertexRange> ranges;  // of the last call of that name
 
-  explicit State(const IndexView& view)
-      : index(&view), kernels(&meshhood::kernels(best_isa())), paths(view), rings(view, *kernels), answer(view) {}
+  explicit State(std::shared_ptr<const IndexView> view)
+      : index(std::move(view)),
+        kernels(&meshhood::kernels(best_isa())),
+        paths(*index),
+        rings(*index, *kernels),
+        answer(*index) {}
 
   /// Finds the vertices, those that are ignored included.
   void search(VertexId v, double radius, const Filter& filter) {
@@ -48,7 +53,7 @@ struct EdgeSearcher::State {
   }
 };
 
-EdgeSearcher::EdgeSearcher(const Index& index) : state_(std::make_unique<State>(IndexAccess::view(index))) {}
+EdgeSearcher::EdgeSearcher(const Index& index) : state_(std::make_unique<State>(IndexAccess::share(index))) {}
 EdgeSearcher::EdgeSearcher(EdgeSearcher&&) noexcept = default;
 EdgeSearcher& EdgeSearcher::operator=(EdgeSearcher&&) noexcept = default;
 EdgeSearcher::~EdgeSearcher() = default;

@@ -58,7 +58,7 @@ Point RegionSearcher::State::search(const Start& start, double radius, const Fil
 }
 
 RegionSearcher::RegionSearcher(const Index& index)
-    : state_(std::make_unique<State>(IndexAccess::view(index), best_isa())) {}
+    : state_(std::make_unique<State>(IndexAccess::share(index), best_isa())) {}
 RegionSearcher::RegionSearcher(RegionSearcher&&) noexcept = default;
 RegionSearcher& RegionSearcher::operator=(RegionSearcher&&) noexcept = default;
 RegionSearcher::~RegionSearcher() = default;

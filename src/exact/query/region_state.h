@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "meshhood/region.h"
@@ -18,7 +19,7 @@ namespace meshhood {
 
 /// The scratch memory of a region searcher, and what its queries share.
 struct RegionSearcher::State {
-  const IndexView* index;
+  std::shared_ptr<const IndexView> index;  // shared, so that `refit` leaves it as it is
   const Kernels* kernels;
   Flood flood;
   LaneFilter walls;
@@ -26,8 +27,8 @@ struct RegionSearcher::State {
   VertexSet answer;
   std::vector<LaneMask> seen;  // by leaf: what a stroke has found so far
 
-  State(const IndexView& view, Isa isa)
-      : index(&view), kernels(&meshhood::kernels(isa)), flood(view, *kernels), answer(view) {}
+  State(std::shared_ptr<const IndexView> view, Isa isa)
+      : index(std::move(view)), kernels(&meshhood::kernels(isa)), flood(*index, *kernels), answer(*index) {}
 
   /// Throws unless the arguments of a query are valid. `where` begins the messages.
   void check(const Start& start, std::string_view where = {}) const;
@@ -63,7 +64,7 @@ struct RegionSearcher::State {
 struct RegionAccess {
   static Flood& flood(RegionSearcher& searcher) { return searcher.state_->flood; }
   static void set_isa(RegionSearcher& searcher, Isa isa) {
-    searcher.state_ = std::make_unique<RegionSearcher::State>(*searcher.state_->index, isa);
+    searcher.state_ = std::make_unique<RegionSearcher::State>(searcher.state_->index, isa);
   }
 };
 

@@ -68,7 +68,7 @@ void Searcher::State::write_answer(std::vector<VertexId>& out) const {
   out.resize(size);
 }
 
-Searcher::Searcher(const Index& index) : state_(std::make_unique<State>(IndexAccess::view(index), best_isa())) {
+Searcher::Searcher(const Index& index) : state_(std::make_unique<State>(IndexAccess::share(index), best_isa())) {
   if (is_unlike_a_surface(*state_->index)) state_->vertex_bfs.emplace(index);
 }
 Searcher::Searcher(Searcher&&) noexcept = default;

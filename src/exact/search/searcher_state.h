@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "meshhood/search.h"
@@ -23,7 +24,7 @@ namespace meshhood {
 
 /// The scratch memory of a searcher, and the outline of a query.
 struct Searcher::State {
-  const IndexView* index;
+  std::shared_ptr<const IndexView> index;  // shared, so that `refit` leaves it as it is
   const Kernels* kernels;
   SearchLimits limits;
   RadiusBounds bounds;
@@ -37,16 +38,16 @@ struct Searcher::State {
   std::optional<VertexBfs> vertex_bfs;  // answers instead of `search` where the graph is unlike a surface
   bool was_proved = false;              // whether the last answer was found by `subtract_other_components`
 
-  State(const IndexView& view, Isa isa)
-      : index(&view),
+  State(std::shared_ptr<const IndexView> view, Isa isa)
+      : index(std::move(view)),
         kernels(&meshhood::kernels(isa)),
-        bounds(view.frame, 0),
-        descent(view, *kernels),
-        traversal(view, *kernels),
-        other_components(view, *kernels),
-        leaf_bfs(view),
-        failures(view.leaf_count()),
-        answer(view) {}
+        bounds(index->frame, 0),
+        descent(*index, *kernels),
+        traversal(*index, *kernels),
+        other_components(*index, *kernels),
+        leaf_bfs(*index),
+        failures(index->leaf_count()),
+        answer(*index) {}
 
   /// Refills `answer` with the neighborhood, and returns the position of `v`.
   Point search(VertexId v, double radius);
@@ -68,7 +69,7 @@ struct SearcherAccess {
   using State = Searcher::State;
   static Searcher::State& state(Searcher& searcher) { return *searcher.state_; }
   static void set_isa(Searcher& searcher, Isa isa) {
-    searcher.state_ = std::make_unique<Searcher::State>(*searcher.state_->index, isa);
+    searcher.state_ = std::make_unique<Searcher::State>(searcher.state_->index, isa);
   }
 };
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "meshhood/adjacency.h"
+#include "meshhood/mesh.h"
+
+namespace meshhood {
+
+/// A polygonal mesh that owns its arrays: a copy of a mesh of another library. See cgal.h, openmesh.h and
+/// geometry_central.h.
+struct MeshData {
+  PositionsData positions;                ///< #V by 3
+  std::vector<std::uint64_t> offsets{0};  ///< #F + 1 (see `FacesView::polygons`)
+  std::vector<std::uint32_t> corners;     ///< of all faces, face after face
+
+  /// Borrows from this object. A view of a temporary does not compile.
+  [[nodiscard]] MeshView view() const& {
+    return {std::visit([](const auto& xyz) { return PositionsView(xyz); }, positions),
+            FacesView::polygons(offsets, corners)};
+  }
+  MeshView view() const&& = delete;
+};
+
+}  // namespace meshhood

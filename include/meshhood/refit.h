@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+#include "meshhood/index.h"
+#include "meshhood/mesh.h"
+
+/// Indexes of meshes whose vertices move, while their edges stay as they are: animation, simulation, sculpting.
+///
+///     auto index = meshhood::build(mesh);
+///     ...
+///     index = meshhood::refit(index, positions);                      // all vertices may have moved
+///     index = meshhood::refit(std::move(index), positions, changed);  // only these have
+///
+/// The order of the vertices, the leaves and the edges stay as they are and are shared with the index that was given.
+/// Positions, bounding spheres and minimum regions are computed again from the leaves up. Answers are exact, whatever
+/// the positions. They take longer once vertices of a leaf have moved far apart: `quality` says so.
+namespace meshhood {
+
+/// The index of the mesh after its vertices have moved.
+///
+/// index      stays as it is, with its searchers: they answer by the old positions.
+/// positions  #V by 3, in the order and the unit in which the mesh of `index` was given; for an index that `reorder`
+///            made, in index order. Float or double. Borrowed for the call.
+/// options    as for `build`.
+///
+/// With the positions that `index` has, the result is equal to it, byte for byte. The result owns its positions and its
+/// tree. It shares the rest of the memory with `index`; if that was loaded or mapped, it keeps the bytes of the file
+/// alive.
+///
+/// Throws Error{InvalidMesh, InvalidOption, Cancelled}: positions of other than #V vertices, or one that `validate`
+/// rejects, by its id. O(#V + #E log(valence)), about a third of `build`.
+[[nodiscard]] Index refit(const Index& index, const PositionsView& positions, const BuildOptions& options = {});
+
+/// The same if only the vertices `changed` have moved. Positions of others are not read.
+///
+/// positions  as above; may be float for an index in double, but not the reverse.
+/// changed    ids of vertices, in any order; duplicates are allowed. Borrowed for the call; read once.
+///
+/// Of all that depends on the positions, the first makes a copy: 14 bytes a vertex in float, 26 in double. The second
+/// works in the memory of `index`, unless a searcher still uses that: a searcher keeps the state for which it was made,
+/// and the call then makes a copy. So destroy searchers first. If the call fails, `index` is as it was.
+///
+/// If a vertex leaves the cube in which the tree is stored, all bounds are computed again, as above.
+///
+/// Throws also Error{VertexOutOfRange}, naming the row of `changed`. Besides the copy: O(changed log #V), for the
+/// leaves of these vertices and those next to them, and the nodes above; and a sum over all leaves.
+[[nodiscard]] Index refit(const Index& index, const PositionsView& positions, const IndicesView& changed,
+                          const BuildOptions& options = {});
+[[nodiscard]] Index refit(Index&& index, const PositionsView& positions, const IndicesView& changed,
+                          const BuildOptions& options = {});
+
+/// How well the leaves of an index fit the positions.
+struct Quality {
+  double mean_radius;     ///< of the leaves at some places of the mesh, in the unit of the positions
+  double rebuilt_radius;  ///< of the leaves that `build` would make there
+  double gain;            ///< the first divided by the second; 1 for a mesh without vertices
+};
+
+/// Compares the leaves with those that `build` would make of the present positions.
+///
+/// Most of the time of a query goes to the leaves that the surface of the ball meets, and their number grows with their
+/// radius. So `gain` says roughly how many times faster queries would be after `build`. It is measured at sixteen
+/// places spread over the vertices: the thousand vertices nearest to each are divided into leaves as `build` divides a
+/// mesh, and for those in the middle the radius of the bounding sphere of the present leaf is compared with that of the
+/// new one.
+///
+/// After `build`, `gain` is 0.9 to 1.1 on surfaces. At 1.5 and above, `build` again if many queries follow. On graphs
+/// whose edges are long compared with a leaf, the estimate is too high.
+/// Deterministic. O(leaves), and a build of 16384 vertices.
+[[nodiscard]] Quality quality(const Index& index);
+
+}  // namespace meshhood

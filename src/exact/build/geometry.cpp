@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "exact/build/geometry.h"
+
+#include <utility>
+#include <vector>
+
+#include "exact/build/leaf_nodes.h"
+#include "exact/build/tree.h"
+
+namespace meshhood {
+namespace {
+
+// Enough vertices to be worth a thread's while.
+constexpr std::size_t kVertexGrain = 8192;
+
+/// The positions in index order, padded.
+template <class Real>
+std::vector<Real> permute_positions(const StridedPositions<Real>& xyz, const IndexView& index, TaskContext& task) {
+  std::vector<Real> permuted(3 * (xyz.size() + kLeafCapacity));
+  task.parallel_for(xyz.size(), kVertexGrain, [&](unsigned, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      for (std::size_t axis = 0; axis < 3; ++axis) permuted[3 * i + axis] = xyz(index.id(i), axis);
+    }
+  });
+  return permuted;
+}
+
+}  // namespace
+
+void make_geometry(const PositionsView& positions, const IndexView& connectivity, GeometryData& geometry,
+                   TaskContext& task) {
+  positions.visit([&](const auto& xyz) { geometry.positions = permute_positions(xyz, connectivity, task); });
+  task.advance(1);
+  measure_geometry(connectivity, geometry, task);
+}
+
+void measure_geometry(const IndexView& connectivity, GeometryData& geometry, TaskContext& task) {
+  IndexView index = connectivity;
+  index.frame = geometry.frame;
+  index.positions = view_of(geometry.positions);
+  index.leaves = geometry.leaves;
+  NodeList leaves = make_leaf_nodes(index, task);
+  for (std::size_t leaf = 0; leaf < leaves.bounds.size(); ++leaf) geometry.leaves[leaf].bounds = leaves.bounds[leaf];
+  task.advance(1);
+  TreeArrays tree = make_tree(std::move(leaves), index, task);
+  geometry.groups = std::move(tree.groups);
+  geometry.mean_radii = std::move(tree.mean_radii);
+  task.advance(1);
+}
+
+}  // namespace meshhood

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "meshhood/mesh.h"
+
+#include "base/parallel.h"
+#include "exact/arrays.h"
+#include "exact/layout.h"
+
+namespace meshhood {
+
+/// The steps that `make_geometry` reports: positions, leaves, tree.
+inline constexpr std::size_t kGeometrySteps = 3;
+
+/// The last part of a build, and all of a `refit`: the positions in index order, the bounds of the leaves and the tree.
+///
+/// positions     valid, in the caller's order
+/// connectivity  a view of all that does not depend on the positions
+/// geometry      has the frame, and the leaves without their bounds; the rest is filled
+/// O(#V + #E log(valence)).
+void make_geometry(const PositionsView& positions, const IndexView& connectivity, GeometryData& geometry,
+                   TaskContext& task);
+
+/// The same from the positions in `geometry`, in index order.
+void measure_geometry(const IndexView& connectivity, GeometryData& geometry, TaskContext& task);
+
+}  // namespace meshhood

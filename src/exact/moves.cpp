@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "exact/moves.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "meshhood/error.h"
+
+#include "base/valid_position.h"
+#include "exact/arrays.h"
+#include "exact/build/leaf_nodes.h"
+#include "exact/build/tree.h"
+
+namespace meshhood {
+namespace {
+
+std::size_t vertex_at(const IndexView& index, std::uint32_t slot) {
+  return std::size_t{index.leaf_begin[leaf_of(slot)]} + lane_of(slot);
+}
+
+Point position_at(const IndexView& index, std::uint32_t slot) { return index.position(leaf_of(slot), lane_of(slot)); }
+
+/// The leaves whose nodes change, ascending: those of the vertices, and those with an edge to one of the vertices,
+/// whose minimum regions depend on it.
+std::vector<LeafId> leaves_to_measure(std::span<const Move> moves, const IndexView& index) {
+  std::vector<LeafId> leaves;
+  for (std::size_t i = 0; i < moves.size();) {
+    const LeafId leaf = leaf_of(moves[i].slot);
+    LaneMask moved = 0;
+    for (; i < moves.size() && leaf_of(moves[i].slot) == leaf; ++i) moved |= LaneMask{1} << lane_of(moves[i].slot);
+    leaves.push_back(leaf);
+    for (const Link& link : index.links_of(leaf)) {
+      if ((link.boundary & moved) != 0) leaves.push_back(link.leaf);  // mutant: leaves-next-to-moved-not-measured
+    }
+  }
+  std::sort(leaves.begin(), leaves.end());
+  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  return leaves;
+}
+
+/// The parts of a geometry that some moves change. Puts them back at the end unless `keep` has been called.
+class Backup {
+ public:
+  Backup(std::span<const Move> moves, std::span<const LeafId> leaves, IndexView& index)
+      : index_(index), geometry_(*index.geometry), mean_radii_(geometry_.mean_radii) {
+    for (const Move& move : moves) positions_.push_back({move.slot, position_at(index, move.slot)});
+    for (const LeafId leaf : leaves) bounds_.emplace_back(leaf, geometry_.leaves[leaf].bounds);
+    for (const std::size_t group : groups_above(leaves, index.leaf_count())) {
+      groups_.emplace_back(group, geometry_.groups[group]);
+    }
+  }
+  Backup(const Backup&) = delete;
+  Backup& operator=(const Backup&) = delete;
+
+  ~Backup() {
+    if (kept_) return;
+    write_moves(positions_, index_, geometry_.positions);  // mutant: failed-move-keeps-positions
+    for (const auto& [leaf, bounds] : bounds_) geometry_.leaves[leaf].bounds = bounds;
+    for (const auto& [at, group] : groups_) geometry_.groups[at] = group;  // mutant: failed-move-keeps-groups
+    std::copy(mean_radii_.begin(), mean_radii_.end(), geometry_.mean_radii.begin());
+  }
+
+  void keep() { kept_ = true; }
+
+ private:
+  IndexView& index_;
+  GeometryData& geometry_;
+  std::vector<Move> positions_;
+  std::vector<std::pair<LeafId, FrameSphere>> bounds_;
+  std::vector<std::pair<std::size_t, Group>> groups_;
+  std::vector<double> mean_radii_;
+  bool kept_ = false;
+};
+
+NodeList measure(std::span<const LeafId> leaves, const IndexView& index, TaskContext& task) {
+  constexpr std::size_t kGrain = 64;
+  NodeList nodes(leaves.size());
+  task.parallel_for(leaves.size(), kGrain, [&](unsigned, std::size_t begin, std::size_t end) {
+    LeafMeasure measure(index);
+    for (std::size_t i = begin; i < end; ++i) measure.measure(leaves[i], nodes, i);
+  });
+  return nodes;
+}
+
+}  // namespace
+
+std::vector<Move> read_moves(const IndexView& index, const PositionsView& positions, const IndicesView& changed) {
+  std::vector<Move> moves;
+  moves.reserve(changed.size());
+  changed.visit([&](auto ids) {
+    for (std::size_t row = 0; row < ids.size(); ++row) {
+      const auto v = ids[row];
+      // A negative id is huge when read as unsigned.
+      if (static_cast<std::uint64_t>(v) >= index.vertex_count()) {
+        raise(ErrorCode::VertexOutOfRange, "changed: row " + std::to_string(row) + ": vertex " + std::to_string(v) +
+                                               ", but the mesh has " + std::to_string(index.vertex_count()) +
+                                               " vertices");
+      }
+      const auto vertex = static_cast<std::size_t>(v);
+      const Point to = positions.visit([&](const auto& xyz) { return point(xyz, vertex); });
+      check_position(vertex, to);
+      moves.push_back({index.slot[vertex], to});
+    }
+  });
+  std::stable_sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) { return a.slot < b.slot; });
+  const auto is_same = [](const Move& a, const Move& b) { return a.slot == b.slot; };
+  moves.erase(std::unique(moves.begin(), moves.end(), is_same), moves.end());
+  return moves;
+}
+
+bool stay_in_frame(std::span<const Move> moves, const Frame& frame) {
+  return std::all_of(moves.begin(), moves.end(), [&](const Move& move) { return covers(frame, move.to); });
+}
+
+void write_moves(std::span<const Move> moves, const IndexView& index, PositionsData& positions) {
+  std::visit(
+      [&](auto& xyz) {
+        using Real = typename std::decay_t<decltype(xyz)>::value_type;
+        for (const Move& move : moves) {
+          Real* const to = &xyz[3 * vertex_at(index, move.slot)];
+          to[0] = static_cast<Real>(move.to.x);
+          to[1] = static_cast<Real>(move.to.y);
+          to[2] = static_cast<Real>(move.to.z);
+        }
+      },
+      positions);
+}
+
+void apply_moves(std::span<const Move> moves, IndexView& index, TaskContext& task) {
+  GeometryData& geometry = *index.geometry;
+  const std::vector<LeafId> leaves = leaves_to_measure(moves, index);
+  Backup backup(moves, leaves, index);
+  write_moves(moves, index, geometry.positions);
+  NodeList nodes = measure(leaves, index, task);
+  for (std::size_t i = 0; i < leaves.size(); ++i) geometry.leaves[leaves[i]].bounds = nodes.bounds[i];
+  update_tree(leaves, std::move(nodes), index, geometry.groups, geometry.mean_radii);
+  task.finish();
+  backup.keep();
+  for (std::size_t level = 0; level < index.tree.size(); ++level) {
+    index.tree[level].mean_radius = geometry.mean_radii[level];
+  }
+}
+
+}  // namespace meshhood

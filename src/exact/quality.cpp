@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// Builds leaves of some samples of the mesh with the function that builds those of an index, and compares their size
+// with that of the leaves in which the same vertices are now.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "meshhood/refit.h"
+
+#include "exact/build/leaves.h"
+#include "exact/build/tree.h"
+#include "exact/index_access.h"
+#include "exact/layout.h"
+
+namespace meshhood {
+namespace {
+
+constexpr std::size_t kSamples = 16;
+constexpr std::size_t kSampleSize = 1024;
+// The part of a sample, nearest to its center, that is compared. Leaves at its surface are cut off.
+constexpr std::size_t kInnerSize = kSampleSize / 4;
+
+/// Calls `f(slot)` for every neighbour of a vertex.
+template <class F>
+void for_each_neighbor(const IndexView& index, std::uint32_t slot, F&& f) {
+  const LeafId leaf = leaf_of(slot);
+  const unsigned lane = lane_of(slot);
+  for_each_lane(index.adjacency[index.leaf_begin[leaf] + lane],
+                [&](unsigned other) { f(static_cast<std::uint32_t>(leaf * kLeafCapacity + other)); });
+  for (const Link& link : index.links_of(leaf)) {
+    if ((link.boundary >> lane & 1U) == 0) continue;
+    for (const CrossEdge& edge : index.cross_edges_of(link)) {
+      if (edge.from == lane) f(static_cast<std::uint32_t>(link.leaf * kLeafCapacity + edge.to));
+    }
+  }
+}
+
+/// Leaves that together hold the `size` vertices nearest to a point: those that come as near as the farthest reach of
+/// enough others.
+std::vector<LeafId> leaves_around(const IndexView& index, const Point& center, std::size_t size) {
+  struct Reach {
+    double nearest;
+    double farthest;
+    LeafId leaf;
+  };
+  std::vector<Reach> reaches;
+  for (LeafId leaf = 0; leaf < index.leaf_count(); ++leaf) {
+    const FrameSphere& sphere = index.leaves[leaf].bounds;
+    const double distance = std::sqrt(squared_distance(centre_of(sphere), center));
+    const auto radius = static_cast<double>(sphere.radius);
+    reaches.push_back({distance - radius, distance + radius, leaf});
+  }
+  // A leaf has at least one vertex.
+  const std::size_t enough = std::min(size, reaches.size());
+  const auto end = reaches.begin() + static_cast<std::ptrdiff_t>(enough);
+  const auto farthest_first = [](const Reach& a, const Reach& b) {
+    return std::pair(a.farthest, a.leaf) < std::pair(b.farthest, b.leaf);
+  };
+  std::nth_element(reaches.begin(), end - 1, reaches.end(), farthest_first);
+  std::sort(reaches.begin(), end, farthest_first);
+  std::size_t held = 0;
+  double limit = 0;
+  for (auto at = reaches.begin(); at != end && held < size; ++at) {
+    held += index.leaves[at->leaf].size;
+    limit = at->farthest;
+  }
+  std::vector<LeafId> leaves;
+  for (const Reach& reach : reaches) {
+    if (reach.nearest <= limit) leaves.push_back(reach.leaf);
+  }
+  return leaves;
+}
+
+/// The slots of the `size` vertices nearest to the seed, in order of distance.
+std::vector<std::uint32_t> take_sample(const IndexView& index, std::size_t seed, std::size_t size) {
+  const Point center = index.in_frame(seed);
+  std::vector<std::pair<double, std::uint32_t>> found;
+  for (const LeafId leaf : leaves_around(index, center, size)) {
+    for (std::uint32_t lane = 0; lane < index.leaves[leaf].size; ++lane) {
+      const Point p = index.in_frame(index.leaf_begin[leaf] + std::size_t{lane});
+      found.emplace_back(squared_distance(center, p), leaf * kLeafCapacity + lane);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<std::uint32_t> sample;
+  for (std::size_t i = 0; i < std::min(size, found.size()); ++i) sample.push_back(found[i].second);
+  return sample;
+}
+
+/// The part of the mesh between the vertices of a sample, which are numbered in the order given.
+GraphData graph_of(const IndexView& index, const std::vector<std::uint32_t>& sample) {
+  std::vector<std::pair<std::uint32_t, VertexId>> number;  // by slot
+  std::vector<double> positions;
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    number.emplace_back(sample[i], static_cast<VertexId>(i));
+    const Point p = index.position(leaf_of(sample[i]), lane_of(sample[i]));
+    positions.insert(positions.end(), {p.x, p.y, p.z});
+  }
+  std::sort(number.begin(), number.end());
+  Adjacency adjacency{{0}, {}};
+  for (const std::uint32_t slot : sample) {
+    const auto row = static_cast<std::ptrdiff_t>(adjacency.neighbors.size());
+    for_each_neighbor(index, slot, [&](std::uint32_t other) {
+      const auto at = std::lower_bound(number.begin(), number.end(), std::pair(other, VertexId{0}));
+      if (at != number.end() && at->first == other) adjacency.neighbors.push_back(at->second);
+    });
+    std::sort(adjacency.neighbors.begin() + row, adjacency.neighbors.end());
+    adjacency.offsets.push_back(static_cast<EdgeOffset>(adjacency.neighbors.size()));
+  }
+  return {std::move(positions), std::move(adjacency)};
+}
+
+/// The radius of the new leaf of each vertex, in the frame.
+std::vector<double> new_radii(const GraphData& graph, const Frame& frame) {
+  TaskContext task;
+  const LeafPartition leaves = make_leaves(graph.view(), frame, task);
+  const auto& xyz = std::get<std::vector<double>>(graph.positions);
+  std::vector<double> radii(leaves.slot.size());
+  for (std::size_t leaf = 0; leaf + 1 < leaves.leaf_begin.size(); ++leaf) {
+    const auto vertices = std::span(leaves.permutation)
+                              .subspan(leaves.leaf_begin[leaf], leaves.leaf_begin[leaf + 1] - leaves.leaf_begin[leaf]);
+    std::vector<Point> points;
+    for (const VertexId v : vertices) points.push_back(frame.to_frame(point(std::span<const double>(xyz), v)));
+    const auto radius = static_cast<double>(enclosing_sphere(points).radius);
+    for (const VertexId v : vertices) radii[v] = radius;
+  }
+  return radii;
+}
+
+/// The mean radii of the leaves that hold the inner vertices of a sample.
+struct Radii {
+  double present = 0;
+  double rebuilt = 0;
+};
+
+Radii compare_around(const IndexView& index, std::size_t seed) {
+  const std::vector<std::uint32_t> sample = take_sample(index, seed, kSampleSize);
+  const std::vector<double> rebuilt = new_radii(graph_of(index, sample), index.frame);
+  const std::size_t inner = std::min(sample.size(), kInnerSize);
+  Radii mean;
+  for (std::size_t i = 0; i < inner; ++i) {
+    mean.present += static_cast<double>(index.leaves[leaf_of(sample[i])].bounds.radius) / static_cast<double>(inner);
+    mean.rebuilt += rebuilt[i] / static_cast<double>(inner);
+  }
+  return mean;
+}
+
+}  // namespace
+
+Quality quality(const Index& index) {
+  const IndexView& view = IndexAccess::view(index);
+  const std::size_t samples = std::min(kSamples, view.vertex_count());
+  if (samples == 0) return {.mean_radius = 0, .rebuilt_radius = 0, .gain = 1};
+  const auto share = 1 / static_cast<double>(samples);
+  Quality result{.mean_radius = 0, .rebuilt_radius = 0, .gain = 1};
+  for (std::size_t i = 0; i < samples; ++i) {
+    const Radii radii = compare_around(view, (2 * i + 1) * view.vertex_count() / (2 * samples));
+    result.mean_radius += share * radii.present / view.frame.scale;
+    result.rebuilt_radius += share * radii.rebuilt / view.frame.scale;
+  }
+  result.gain = result.mean_radius / result.rebuilt_radius;
+  return result;
+}
+
+}  // namespace meshhood

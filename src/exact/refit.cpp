@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "meshhood/refit.h"
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "meshhood/error.h"
+
+#include "exact/arrays.h"
+#include "exact/build/geometry.h"
+#include "exact/index_access.h"
+#include "exact/moves.h"
+#include "exact/shared_graph.h"
+
+namespace meshhood {
+namespace {
+
+void check_size(const PositionsView& positions, const IndexView& index) {
+  if (positions.scalar_count() == 3 * index.vertex_count()) return;
+  raise(ErrorCode::InvalidMesh, std::to_string(positions.scalar_count()) + " coordinates, but the index has " +
+                                    std::to_string(index.vertex_count()) + " vertices, expected three a vertex");
+}
+
+/// Moves are written to the positions of the index, which must not lose digits.
+void check_precision(const PositionsView& positions, const IndexView& index) {
+  const bool is_double = positions.visit([](const auto& xyz) { return sizeof(*xyz.first) == sizeof(double); });
+  if (!is_double || std::holds_alternative<std::span<const double>>(index.positions)) return;
+  raise(ErrorCode::InvalidMesh,
+        "the positions are double, but those of the index are float: expected float, or a call without `changed`");
+}
+
+/// An index with the connectivity of `index` and another geometry.
+Index with_geometry(const IndexView& index, std::shared_ptr<GeometryData> geometry) {
+  auto view = std::make_shared<IndexView>(index);
+  set_geometry(*view, std::move(geometry));
+  view->graph = std::make_shared<SharedGraph>();
+  return IndexAccess::make(std::move(view));
+}
+
+template <class T>
+std::vector<T> copy(std::span<const T> array) {
+  return {array.begin(), array.end()};
+}
+
+PositionsData copy(const PositionsInOrder& positions) {
+  return std::visit([](auto xyz) -> PositionsData { return copy(xyz); }, positions);
+}
+
+std::shared_ptr<GeometryData> copy_geometry(const IndexView& index) {
+  auto geometry = std::make_shared<GeometryData>();
+  geometry->frame = index.frame;
+  geometry->positions = copy(index.positions);
+  geometry->leaves = copy(index.leaves);
+  geometry->groups = copy(index.groups);
+  geometry->mean_radii = copy(index.mean_radii);
+  return geometry;
+}
+
+PositionsView without_padding(const PositionsData& positions, std::size_t vertices) {
+  return std::visit([&](const auto& xyz) { return PositionsView(std::span(xyz).first(3 * vertices)); }, positions);
+}
+
+/// Some moves leave the frame: makes a new one, and all bounds in it.
+Index refit_all(const IndexView& index, std::span<const Move> moves, TaskContext& task) {
+  auto geometry = std::make_shared<GeometryData>();
+  geometry->positions = copy(index.positions);
+  write_moves(moves, index, geometry->positions);
+  geometry->frame = make_frame(without_padding(geometry->positions, index.vertex_count()));
+  geometry->leaves = copy(index.leaves);
+  measure_geometry(index, *geometry, task);
+  task.finish();
+  return with_geometry(index, std::move(geometry));
+}
+
+std::vector<Move> checked_moves(const IndexView& index, const PositionsView& positions, const IndicesView& changed) {
+  check_size(positions, index);
+  check_precision(positions, index);
+  return read_moves(index, positions, changed);
+}
+
+/// Whether `view` has no other owner, such as a searcher. Nobody can become one meanwhile.
+bool is_only_owner(const std::shared_ptr<IndexView>& view) {
+  if (view.use_count() != 1) return false;
+  // Reading the count does not synchronize with a searcher that another thread has just destroyed. Giving up one more
+  // share does, so that what that thread has read is read before this one writes.
+  static_cast<void>(std::shared_ptr<IndexView>(view));
+  return true;
+}
+
+}  // namespace
+
+Index refit(const Index& index, const PositionsView& positions, const BuildOptions& options) {
+  TaskContext task(options.threads, options.progress, kGeometrySteps);
+  const IndexView& view = IndexAccess::view(index);
+  check_size(positions, view);
+  validate(positions);
+  auto geometry = std::make_shared<GeometryData>();
+  geometry->frame = make_frame(positions);
+  geometry->leaves = copy(view.leaves);
+  make_geometry(positions, view, *geometry, task);
+  task.finish();
+  return with_geometry(view, std::move(geometry));
+}
+
+Index refit(const Index& index, const PositionsView& positions, const IndicesView& changed,
+            const BuildOptions& options) {
+  TaskContext task(options.threads, options.progress, kGeometrySteps);
+  const IndexView& view = IndexAccess::view(index);
+  const std::vector<Move> moves = checked_moves(view, positions, changed);
+  if (!stay_in_frame(moves, view.frame)) return refit_all(view, moves, task);
+  Index result = with_geometry(view, copy_geometry(view));
+  apply_moves(moves, *IndexAccess::storage(result), task);
+  return result;
+}
+
+Index refit(Index&& index, const PositionsView& positions, const IndicesView& changed, const BuildOptions& options) {
+  std::shared_ptr<IndexView>& view = IndexAccess::storage(index);
+  if (!view->geometry || !is_only_owner(view)) return refit(std::as_const(index), positions, changed, options);
+  TaskContext task(options.threads, options.progress, kGeometrySteps);
+  const std::vector<Move> moves = checked_moves(*view, positions, changed);
+  if (!stay_in_frame(moves, view->frame)) return refit_all(*view, moves, task);
+  auto graph = std::make_shared<SharedGraph>();
+  apply_moves(moves, *view, task);
+  view->graph = std::move(graph);
+  return std::move(index);
+}
+
+}  // namespace meshhood

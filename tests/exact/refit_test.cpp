@@ -1,0 +1,448 @@
+// SPDX-License-Identifier: MIT
+// Indexes of meshes whose vertices have moved: answers, what is shared, what fails, and searchers of the state before.
+#include "meshhood/refit.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <numeric>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/meshhood.h"
+
+#include "base/vector.h"
+#include "support/draw.h"
+#include "support/exact_answer.h"
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/index_bytes.h"
+#include "support/oracle.h"
+#include "support/refusal.h"
+#include "support/same_storage.h"
+#include "support/scale.h"
+#include "support/sorted.h"
+
+namespace meshhood::test {
+namespace {
+
+using testing::IsEmpty;
+
+/// A way to move vertices. Keeps coordinates below their limit.
+struct Deformation {
+  const char* name;
+  void (*move)(Random& random, std::vector<double>& positions);
+};
+
+const std::vector<Deformation>& deformations() {
+  static const std::vector<Deformation> all{
+      {"noise",
+       [](Random& random, std::vector<double>& xyz) {
+         for (double& x : xyz) x *= random.uniform(0.8, 1.0);
+       }},
+      {"smaller",
+       [](Random&, std::vector<double>& xyz) {
+         for (double& x : xyz) x *= 0x1p-90;
+       }},
+      {"flat",
+       [](Random&, std::vector<double>& xyz) {
+         for (std::size_t i = 2; i < xyz.size(); i += 3) xyz[i] = 0;
+       }},
+      {"one point", [](Random&, std::vector<double>& xyz) { std::fill(xyz.begin(), xyz.end(), 0.75); }},
+      {"folded",
+       [](Random&, std::vector<double>& xyz) {
+         for (double& x : xyz) x = std::abs(x - xyz[0] / 2) / 2;
+       }},
+      {"exchanged",
+       [](Random& random, std::vector<double>& xyz) {
+         for (std::size_t v = xyz.size() / 3; v > 1; --v) {
+           const std::size_t other = random.below(v);
+           for (std::size_t axis = 0; axis < 3; ++axis) std::swap(xyz[3 * v - 3 + axis], xyz[3 * other + axis]);
+         }
+       }},
+  };
+  return all;
+}
+
+TestMesh deformed(const TestMesh& mesh, const std::function<void(std::vector<double>&)>& move) {
+  TestMesh result = mesh;
+  move(result.positions);
+  return result.finish(mesh.single_precision);
+}
+
+/// Queries at random vertices and at all radii that could be a trap, compared with the oracle.
+std::size_t expect_right_answers(const Index& index, const TestMesh& mesh, Random& random, std::size_t vertices) {
+  const Oracle oracle(mesh);
+  std::vector<Searcher> searchers = searchers_of(index);
+  std::vector<VertexId> ids;
+  std::size_t queries = 0;
+  for (std::size_t i = 0; i < vertices && mesh.size() > 0; ++i) {
+    const auto v = static_cast<VertexId>(random.below(mesh.size()));
+    for (const double radius : draw_radii(random, oracle, v)) {
+      searchers[queries++ % searchers.size()].neighborhood(v, radius, ids);
+      EXPECT_EQ(sorted(ids), oracle.exact(v, radius)) << "vertex " << v << ", radius " << radius;
+    }
+  }
+  return queries;
+}
+
+class RefitFamilies : public testing::TestWithParam<Family> {};
+
+TEST_P(RefitFamilies, AnswersAreThoseOfTheOracle) {
+  std::size_t queries = 0;
+  for (const std::size_t vertices : {1U, 3U, 40U, 300U, 1500U}) {
+    const TestMesh mesh = make_mesh(GetParam(), vertices, vertices);
+    const Index index = build(mesh.view());
+    for (const Deformation& deformation : deformations()) {
+      SCOPED_TRACE(mesh.name + ", " + deformation.name);
+      Random random(vertices);
+      const TestMesh moved = deformed(mesh, [&](auto& xyz) { deformation.move(random, xyz); });
+      const Index refitted = refit(index, moved.positions_view());
+      EXPECT_THAT(refitted.check(moved.view()), IsEmpty());
+      queries += expect_right_answers(refitted, moved, random, scaled(8, 2));
+      ASSERT_FALSE(HasFailure());
+    }
+  }
+  std::printf("%zu queries\n", queries);
+}
+
+TEST_P(RefitFamilies, WithTheSamePositionsGivesTheSameIndex) {
+  for (const std::size_t vertices : {1U, 50U, 2000U}) {
+    const TestMesh mesh = make_mesh(GetParam(), 7, vertices);
+    const Index index = build(mesh.view());
+    EXPECT_THAT(differences(refit(index, mesh.positions_view()), index), IsEmpty());
+    EXPECT_THAT(differences(refit(index, mesh.positions_view(), {.threads = 3}), index), IsEmpty());
+    const ReorderedMesh reordered = reorder(mesh.view());
+    EXPECT_THAT(differences(refit(reordered.index, reordered.index.positions()), reordered.index), IsEmpty());
+  }
+}
+
+/// Moves some vertices to places between others, again and again.
+TEST_P(RefitFamilies, OfSomeVerticesGivesTheAnswersOfTheOracle) {
+  std::size_t queries = 0;
+  for (const std::size_t vertices : {2U, 60U, 900U}) {
+    TestMesh mesh = make_mesh(GetParam(), 11 + vertices, vertices);
+    Index index = build(mesh.view());
+    Random random(vertices);
+    for (int step = 0; step < 6 && mesh.size() > 0; ++step) {
+      std::vector<std::uint32_t> changed;
+      mesh = deformed(mesh, [&](std::vector<double>& xyz) {
+        for (std::size_t i = 0; i < 1 + mesh.size() / 20; ++i) {
+          const std::size_t v = random.below(mesh.size());
+          const std::size_t w = random.below(mesh.size());
+          changed.push_back(static_cast<std::uint32_t>(v));
+          for (std::size_t axis = 0; axis < 3; ++axis) {
+            xyz[3 * v + axis] = 0.7 * xyz[3 * v + axis] + 0.3 * xyz[3 * w + axis];
+          }
+        }
+      });
+      index = refit(std::move(index), mesh.positions_view(), changed);
+      EXPECT_THAT(index.check(mesh.view()), IsEmpty());
+      queries += expect_right_answers(index, mesh, random, scaled(4, 1));
+      ASSERT_FALSE(HasFailure());
+    }
+  }
+  std::printf("%zu queries\n", queries);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RefitFamilies, testing::ValuesIn(families()), family_name);
+
+/// Some vertices inside the bounding box of a grid, and the mesh in which they have moved inside it.
+struct Sculpted {
+  TestMesh mesh = bumpy_grid(60);
+  TestMesh moved = mesh;
+  std::vector<std::int64_t> changed;
+
+  Sculpted() {
+    for (std::size_t v = 25 * 60 + 20; v < 35 * 60; v += v % 60 == 40 ? 40 : 1) {
+      changed.push_back(static_cast<std::int64_t>(v));
+      moved.positions[3 * v] += 0.3;
+      moved.positions[3 * v + 1] -= 0.2;
+    }
+    moved.finish(true);
+  }
+};
+
+/// The arrays except the minimum regions, which differ in the last digits.
+void expect_same_but_regions(const Index& first, const Index& second) {
+  EXPECT_THAT(differences(first, second), testing::IsSubsetOf({"groups"}));
+  const auto a = IndexAccess::view(first).groups;
+  const auto b = IndexAccess::view(second).groups;
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_TRUE(a[i].x == b[i].x && a[i].y == b[i].y && a[i].z == b[i].z && a[i].radius == b[i].radius) << i;
+  }
+}
+
+TEST(Refit, OfTheChangedVerticesHasTheSpheresOfARefitOfAll) {
+  const Sculpted sculpted;
+  const Index index = build(sculpted.mesh.view());
+  const Index all = refit(index, sculpted.moved.positions_view());
+  const Index some = refit(index, sculpted.moved.positions_view(), sculpted.changed);
+  EXPECT_FALSE(differences(all, index).empty());
+  expect_same_but_regions(some, all);
+  EXPECT_THAT(some.check(sculpted.moved.view()), IsEmpty());
+  EXPECT_THAT(differences(index, build(sculpted.mesh.view())), IsEmpty());
+}
+
+TEST(Refit, ReadsOnlyThePositionsOfTheChangedVertices) {
+  Sculpted sculpted;
+  const Index index = build(sculpted.mesh.view());
+  const Index expected = refit(index, sculpted.moved.positions_view(), sculpted.changed);
+  std::vector<float> poisoned(sculpted.moved.single_positions.size(), std::nanf(""));
+  for (const std::int64_t v : sculpted.changed) {
+    std::copy_n(&sculpted.moved.single_positions[3 * static_cast<std::size_t>(v)], 3,
+                &poisoned[3 * static_cast<std::size_t>(v)]);
+  }
+  EXPECT_THAT(differences(refit(index, poisoned, sculpted.changed), expected), IsEmpty());
+}
+
+TEST(Refit, OfVerticesThatLeaveTheFrameIsARefitOfAll) {
+  Sculpted sculpted;
+  const Index index = build(sculpted.mesh.view());
+  sculpted.moved.positions[3 * static_cast<std::size_t>(sculpted.changed[7])] = 1e6;
+  sculpted.moved.finish(true);
+  const Index all = refit(index, sculpted.moved.positions_view());
+  EXPECT_THAT(differences(refit(index, sculpted.moved.positions_view(), sculpted.changed), all), IsEmpty());
+  Index own = build(sculpted.mesh.view());
+  EXPECT_THAT(differences(refit(std::move(own), sculpted.moved.positions_view(), sculpted.changed), all), IsEmpty());
+}
+
+TEST(Refit, IsTheSameForAnyNumberOfThreads) {
+  const TestMesh mesh = bumpy_grid(160);
+  TestMesh moved = mesh;
+  for (double& x : moved.positions) x *= 0.9;
+  moved.finish(true);
+  std::vector<std::uint32_t> changed(mesh.size());
+  std::iota(changed.begin(), changed.end(), 0U);
+  const Index index = build(mesh.view());
+  const Index expected = refit(index, moved.positions_view());
+  EXPECT_THAT(differences(refit(index, moved.positions_view(), {.threads = 4}), expected), IsEmpty());
+  const Index some = refit(index, moved.positions_view(), changed);
+  EXPECT_THAT(differences(refit(index, moved.positions_view(), changed, {.threads = 4}), some), IsEmpty());
+}
+
+TEST(Refit, OfAMeshWithoutVerticesHasNone) {
+  const TestMesh mesh;
+  const Index index = build(mesh.view());
+  EXPECT_EQ(refit(index, mesh.positions_view()).vertex_count(), 0U);
+  const std::vector<std::uint32_t> none;
+  EXPECT_EQ(refit(index, mesh.positions_view(), none).vertex_count(), 0U);
+}
+
+TEST(Refit, TakesTheTypeOfTheNewPositions) {
+  TestMesh mesh = bumpy_grid(20);
+  const Index single = build(mesh.view());
+  for (double& x : mesh.positions) x += 0.1;
+  const Index twice = refit(single, mesh.positions);
+  EXPECT_THAT(twice.check({mesh.positions, mesh.view().faces}), IsEmpty());
+  Random random(1);
+  mesh.finish(false);
+  expect_right_answers(twice, mesh, random, 20);
+}
+
+TEST(Refit, HasTheFingerprintOfTheMovedMeshAndCanBeSavedAndLoaded) {
+  const Sculpted sculpted;
+  const Index index = build(sculpted.mesh.view());
+  // The frame is then larger than the positions need.
+  TestMesh smaller = sculpted.mesh;
+  for (double& x : smaller.positions) x *= 0.125;
+  smaller.finish(true);
+  std::vector<std::uint32_t> every(smaller.size());
+  std::iota(every.begin(), every.end(), 0U);
+  const Index in_large_frame = refit(index, smaller.positions_view(), every);
+  EXPECT_THAT(differences(load(saved(in_large_frame)), in_large_frame), IsEmpty());
+  EXPECT_EQ(fingerprint(in_large_frame), fingerprint(smaller.view()));
+}
+
+TEST(Refit, OfALoadedIndexWorksAndLeavesItAsItIs) {
+  const Sculpted sculpted;
+  const std::vector<std::byte> file = saved(build(sculpted.mesh.view()));
+  Index loaded = load(file);
+  const Index expected = refit(build(sculpted.mesh.view()), sculpted.moved.positions_view(), sculpted.changed);
+  EXPECT_THAT(differences(refit(loaded, sculpted.moved.positions_view(), sculpted.changed), expected), IsEmpty());
+  EXPECT_EQ(saved(loaded), file);
+  EXPECT_THAT(differences(refit(std::move(loaded), sculpted.moved.positions_view(), sculpted.changed), expected),
+              IsEmpty());
+}
+
+const float* positions_of(const Index& index) {
+  return std::get<std::span<const float>>(IndexAccess::view(index).positions).data();
+}
+
+TEST(Refit, WorksInTheMemoryOfItsArgumentUnlessASearcherUsesIt) {
+  const Sculpted sculpted;
+  Index index = build(sculpted.mesh.view());
+  const float* const before = positions_of(index);
+  index = refit(std::move(index), sculpted.moved.positions_view(), sculpted.changed);
+  EXPECT_EQ(positions_of(index), before);
+  {
+    const Searcher searcher(index);
+    index = refit(std::move(index), sculpted.mesh.positions_view(), sculpted.changed);
+    EXPECT_NE(positions_of(index), before);
+  }
+  const float* const after = positions_of(index);
+  index = refit(std::move(index), sculpted.moved.positions_view(), sculpted.changed);
+  EXPECT_EQ(positions_of(index), after);
+}
+
+TEST(Refit, LeavesSearchersOfTheOldStateWithTheOldAnswers) {
+  const Sculpted sculpted;
+  const Oracle before(sculpted.mesh);
+  const Oracle after(sculpted.moved);
+  Index index = build(sculpted.mesh.view());
+  Searcher old(index);
+  index = refit(std::move(index), sculpted.moved.positions_view(), sculpted.changed);
+  Searcher young(index);
+  RegionSearcher young_region(index);
+  EdgeSearcher young_edges(index);
+  const double first_edge = distance(sculpted.moved.positions_view(), 0, 1);
+  index = refit(index, sculpted.mesh.positions_view());  // the state of `young` has no index any more
+  std::vector<VertexId> ids;
+  std::size_t differing = 0;
+  for (const std::int64_t v : sculpted.changed) {
+    const auto vertex = static_cast<VertexId>(v);
+    for (const double radius : {1.0, 1.5, 4.0}) {
+      old.neighborhood(vertex, radius, ids);
+      EXPECT_EQ(sorted(ids), before.exact(vertex, radius));
+      young.neighborhood(vertex, radius, ids);
+      EXPECT_EQ(sorted(ids), after.exact(vertex, radius));
+      young_region.region(vertex, radius, ids);
+      EXPECT_EQ(sorted(ids), after.exact(vertex, radius));
+      differing += static_cast<std::size_t>(before.exact(vertex, radius) != after.exact(vertex, radius));
+    }
+  }
+  EXPECT_GT(differing, 50U);
+  young_edges.neighborhood(0, first_edge, ids);
+  EXPECT_THAT(ids, testing::IsSupersetOf({0U, 1U}));
+}
+
+// Each thread takes the present index, searches it while the next one is made of it, and lets it go.
+TEST(Refit, LetsOtherThreadsSearchTheOldState) {
+  const Sculpted sculpted;
+  const Oracle even(sculpted.mesh);
+  const Oracle odd(sculpted.moved);
+  const auto center = static_cast<VertexId>(sculpted.changed[sculpted.changed.size() / 2]);
+  const std::vector<std::uint32_t> answers[] = {even.exact(center, 4), odd.exact(center, 4)};
+  ASSERT_NE(answers[0], answers[1]);
+  Index index = build(sculpted.mesh.view());
+  std::atomic<std::size_t> wrong = 0;
+  std::atomic<std::size_t> searched = 0;
+  for (std::size_t step = 0; step < scaled(200, 20); ++step) {
+    std::vector<std::thread> threads;
+    std::atomic<std::size_t> ready = 0;
+    for (int t = 0; t < 3; ++t) {
+      threads.emplace_back([&, step, searcher = Searcher(index)]() mutable {
+        ++ready;
+        std::vector<VertexId> ids;
+        for (int i = 0; i < 20; ++i) {
+          searcher.neighborhood(center, 4, ids);
+          if (sorted(ids) != answers[step % 2]) ++wrong;
+          ++searched;
+        }
+      });
+    }
+    while (ready == 0) std::this_thread::yield();
+    const TestMesh& next = step % 2 == 0 ? sculpted.moved : sculpted.mesh;
+    index = refit(std::move(index), next.positions_view(), sculpted.changed);
+    for (std::thread& thread : threads) thread.join();
+  }
+  EXPECT_EQ(wrong, 0U);
+  std::printf("%zu searches\n", searched.load());
+}
+
+TEST(Refit, RefusesPositionsByTheVertexAtFault) {
+  const Sculpted sculpted;
+  const Index index = build(sculpted.mesh.view());
+  std::vector<float> xyz = sculpted.moved.single_positions;
+  const auto bad = static_cast<std::size_t>(sculpted.changed[5]);
+  xyz[3 * bad + 1] = std::nanf("");
+  const std::string fault = "vertex " + std::to_string(bad) + ": y is nan, expected a finite number";
+  expect_refused(ErrorCode::InvalidMesh, fault, [&] { static_cast<void>(refit(index, xyz)); });
+  expect_refused(ErrorCode::InvalidMesh, fault, [&] { static_cast<void>(refit(index, xyz, sculpted.changed)); });
+  std::vector<double> large(xyz.size(), 0.5);
+  large[3 * bad] = 0x1p501;
+  expect_refused(ErrorCode::InvalidMesh, "vertex " + std::to_string(bad) + ": x is ",
+                 [&] { static_cast<void>(refit(index, large)); });
+  xyz.resize(xyz.size() - 3);
+  const char* const size = "10797 coordinates, but the index has 3600 vertices";
+  expect_refused(ErrorCode::InvalidMesh, size, [&] { static_cast<void>(refit(index, xyz)); });
+  expect_refused(ErrorCode::InvalidMesh, size, [&] { static_cast<void>(refit(index, xyz, sculpted.changed)); });
+}
+
+TEST(Refit, RefusesChangedVerticesByTheRowAtFault) {
+  const Sculpted sculpted;
+  const Index index = build(sculpted.mesh.view());
+  const auto expect = [&](const char* fault, const auto& changed) {
+    expect_refused(ErrorCode::VertexOutOfRange, fault,
+                   [&] { static_cast<void>(refit(index, sculpted.moved.positions_view(), changed)); });
+  };
+  expect("changed: row 2: vertex 3600, but the mesh has 3600 vertices", std::vector<std::uint32_t>{0, 3599, 3600});
+  expect("changed: row 0: vertex -1, but", std::vector<std::int32_t>{-1});
+  expect("changed: row 1: vertex 4294967296, but", std::vector<std::uint64_t>{7, std::uint64_t{1} << 32});
+}
+
+TEST(Refit, RefusesToRoundDoublesToAnIndexInFloat) {
+  const Sculpted sculpted;
+  const Index index = build(sculpted.mesh.view());
+  expect_refused(ErrorCode::InvalidMesh, "the positions are double, but those of the index are float",
+                 [&] { static_cast<void>(refit(index, sculpted.moved.positions, sculpted.changed)); });
+  // The reverse loses nothing.
+  const Index twice = build({sculpted.mesh.positions, sculpted.mesh.view().faces});
+  const Index refitted = refit(twice, sculpted.moved.single_positions, sculpted.changed);
+  EXPECT_THAT(refitted.check({sculpted.moved.positions, sculpted.moved.view().faces}), IsEmpty());
+}
+
+TEST(Refit, LeavesTheIndexAsItWasIfItFails) {
+  Sculpted sculpted;
+  Index index = build(sculpted.mesh.view());
+  const std::vector<std::byte> before = saved(index);
+  std::vector<float> xyz = sculpted.moved.single_positions;
+  xyz[3 * static_cast<std::size_t>(sculpted.changed.back())] = std::nanf("");
+  EXPECT_THROW(static_cast<void>(refit(std::move(index), xyz, sculpted.changed)), Error);
+  EXPECT_EQ(saved(index), before);
+  std::size_t cancelled = 0;
+  for (std::size_t last = 1; last < 8; ++last) {
+    std::size_t reports = 0;
+    const auto give_up = [&](std::size_t, std::size_t) { return ++reports < last; };
+    try {
+      index = refit(std::move(index), sculpted.moved.positions_view(), sculpted.changed, {.progress = give_up});
+      break;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::Cancelled);
+      EXPECT_EQ(saved(index), before);
+      ++cancelled;
+    }
+  }
+  EXPECT_GE(cancelled, 2U) << "at the beginning, and when all is written";
+  EXPECT_NE(saved(index), before);
+}
+
+TEST(Refit, ReportsProgressFromNothingToAll) {
+  const Sculpted sculpted;
+  const Index index = build(sculpted.mesh.view());
+  std::vector<std::size_t> done;
+  const auto record = [&](std::size_t parts, std::size_t total) {
+    EXPECT_EQ(total, 3U);
+    done.push_back(parts);
+    return true;
+  };
+  static_cast<void>(refit(index, sculpted.moved.positions_view(), {.progress = record}));
+  EXPECT_EQ(done.front(), 0U);
+  EXPECT_EQ(done.back(), 3U);
+  done.clear();
+  static_cast<void>(refit(index, sculpted.moved.positions_view(), sculpted.changed, {.progress = record}));
+  EXPECT_EQ(done.front(), 0U);
+  EXPECT_EQ(done.back(), 3U);
+}
+
+}  // namespace
+}  // namespace meshhood::test
