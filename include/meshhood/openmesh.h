@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// Copies of meshes of OpenMesh. Empty unless OpenMesh is found.
+///
+///     OpenMesh::TriMesh_ArrayKernelT<> surface;
+///     const meshhood::MeshData mesh = meshhood::copy_mesh(surface);
+///     auto index = meshhood::build(mesh.view());
+///     // The mesh deforms:
+///     const auto positions = meshhood::copy_positions(surface);
+///     index = meshhood::refit(index, positions);
+///
+/// Vertex `v` of meshhood is `OpenMesh::VertexHandle(v)`.
+
+#if __has_include(<OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>)
+
+#include <algorithm>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+
+#include "meshhood/error.h"
+#include "meshhood/mesh_data.h"
+
+namespace meshhood {
+
+/// The positions, #V by 3, in float if the mesh has float, else in double. Throws Error{InvalidMesh} if vertices have
+/// been deleted and the mesh has not collected its garbage, because ids would not be consecutive. O(#V).
+template <class Kernel>
+[[nodiscard]] auto copy_positions(const OpenMesh::PolyMeshT<Kernel>& mesh) {
+  using Scalar = typename OpenMesh::PolyMeshT<Kernel>::Scalar;
+  using Real = std::conditional_t<std::is_same_v<Scalar, float>, float, double>;
+  const auto is_deleted = [&](auto v) { return mesh.status(v).deleted(); };
+  if (mesh.has_vertex_status() && std::any_of(mesh.vertices_begin(), mesh.vertices_end(), is_deleted)) {
+    raise(ErrorCode::InvalidMesh, "the mesh of OpenMesh has deleted vertices: call garbage_collection() first");
+  }
+  std::vector<Real> xyz;
+  xyz.reserve(3 * mesh.n_vertices());
+  for (const auto v : mesh.vertices()) {
+    const auto& p = mesh.point(v);
+    xyz.insert(xyz.end(), {static_cast<Real>(p[0]), static_cast<Real>(p[1]), static_cast<Real>(p[2])});
+  }
+  return xyz;
+}
+
+/// The mesh. Throws as `copy_positions`. O(#V + #corners).
+template <class Kernel>
+[[nodiscard]] MeshData copy_mesh(const OpenMesh::PolyMeshT<Kernel>& mesh) {
+  MeshData copy;
+  copy.positions = copy_positions(mesh);
+  for (const auto face : mesh.faces()) {
+    for (const auto v : mesh.fv_range(face)) copy.corners.push_back(static_cast<std::uint32_t>(v.idx()));
+    copy.offsets.push_back(copy.corners.size());
+  }
+  return copy;
+}
+
+}  // namespace meshhood
+
+#endif
