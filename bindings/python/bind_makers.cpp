@@ -13,7 +13,9 @@
 #include "meshhood/adjacency.h"
 #include "meshhood/index.h"
 #include "meshhood/paper.h"
+#include "meshhood/refit.h"
 
+#include "about.h"
 #include "arrays.h"
 #include "bindings.h"
 #include "graph_copy.h"
@@ -35,6 +37,19 @@ std::shared_ptr<ExactMethod> make_exact(const Input& positions, const Input& cor
     GraphData graph = graph_copy(mesh);
     if (cut) graph.adjacency = cut_copy(graph.adjacency.view(), edges);
     return exact_method(build(graph.view(), options));
+  });
+}
+
+std::shared_ptr<ExactMethod> make_refitted(const ExactMethod& method, const Input& positions,
+                                           const std::optional<Input>& changed, unsigned threads, nb::handle progress) {
+  const PositionsView moved = positions_of(positions, "V");
+  const IndicesView vertices = changed ? indices_of(*changed, "changed") : IndicesView();
+  const BuildOptions options{.threads = threads, .progress = progress_to(progress)};
+  return without_lock([&] {
+    return about("V", [&] {
+      return exact_method(changed ? refit(method.index(), moved, vertices, options)
+                                  : refit(method.index(), moved, options));
+    });
   });
 }
 
@@ -75,6 +90,8 @@ void bind_makers(nb::module_& module) {
   static_cast<void>(nb::class_<paper::Index>(module, "Hierarchy"));
   module.def("exact", &make_exact, nb::arg(), nb::arg(), nb::arg("offsets").none(), nb::arg("cut").none(),
              nb::arg("threads"), nb::arg("progress").none());
+  module.def("refit", &make_refitted, nb::arg(), nb::arg(), nb::arg("changed").none(), nb::arg("threads"),
+             nb::arg("progress").none());
   module.def("graph", &make_graph);
   module.def("hierarchy", &make_hierarchy, nb::arg(), nb::arg("levels"), nb::arg("discard"), nb::arg("fusion_growth"));
   module.def("paper", &make_paper, nb::arg(), nb::arg("radius_ratio"));

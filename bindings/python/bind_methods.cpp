@@ -16,6 +16,8 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/variant.h>
 
+#include "meshhood/refit.h"
+
 #include "arrays.h"
 #include "bindings.h"
 #include "interpreter.h"
@@ -110,6 +112,11 @@ void bind_methods(nb::module_& module) {
            nb::arg("progress").none());
   nb::class_<ExactMethod, Method>(module, "ExactMethod")
       .def("ranges", &ranges, nb::arg(), nb::arg())
+      .def("quality",
+           [](const ExactMethod& method) {
+             const Quality found = without_lock([&] { return quality(method.index()); });
+             return std::tuple(found.mean_radius, found.rebuilt_radius, found.gain);
+           })
       .def_prop_ro("permutation", &permutation, nb::rv_policy::reference)
       .def_prop_ro("vertex_count", [](const ExactMethod& method) { return method.index().vertex_count(); })
       .def_prop_ro("nbytes", [](const ExactMethod& method) { return method.index().bytes().total(); });

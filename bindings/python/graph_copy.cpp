@@ -9,21 +9,13 @@
 #include "meshhood/error.h"
 #include "meshhood/filter.h"
 
+#include "about.h"
+
 namespace meshhood::python {
 namespace {
 
 // Ids are int32 in Python, as SciPy's sparse matrices have them.
 constexpr std::size_t kMostVertices = std::numeric_limits<std::int32_t>::max();
-
-/// Calls `f`; an error of it then begins with the name of the argument that it is about.
-template <class F>
-auto about(const char* argument, F&& f) {
-  try {
-    return f();
-  } catch (const Error& error) {
-    raise(error.code(), std::string(argument) + ": " + error.what());
-  }
-}
 
 void check_positions(const PositionsView& positions) {
   validate(positions);

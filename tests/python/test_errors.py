@@ -55,7 +55,7 @@ def test_saving_into_a_missing_folder(tmp_path):
     check_os_error(raised(save, path), FileNotFoundError, errno.ENOENT, path)
 
 
-@pytest.mark.parametrize("read", READERS[:2])
+@pytest.mark.parametrize("read", READERS)
 def test_a_folder_instead_of_a_file(tmp_path, read):
     check_os_error(raised(read, tmp_path), IsADirectoryError, errno.EISDIR, tmp_path)
 

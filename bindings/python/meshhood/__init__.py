@@ -13,7 +13,7 @@ r around v.
 from . import _core
 from ._aggregate import vertex_areas
 from ._files import Mesh, load, read_mesh
-from ._index import Chunk, MeshIndex
+from ._index import Chunk, MeshIndex, Quality
 from ._methods import Paper
 from ._partition import partition
 from ._plot import plot_neighborhood
@@ -29,6 +29,7 @@ __all__ = [
     "MeshIndex",
     "Page",
     "Paper",
+    "Quality",
     "RegionMesh",
     "RimLine",
     "Submesh",

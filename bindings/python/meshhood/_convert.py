@@ -230,12 +230,20 @@ def as_array(values, name):
     if np.ma.is_masked(values):
         raise TypeError(f"{name}: has masked elements")
     try:
-        array = np.asarray(values)
-    except ValueError as error:
+        array = np.from_dlpack(values) if _has_only_dlpack(values) else np.asarray(values)
+    except (ValueError, BufferError) as error:
         raise ValueError(f"{name}: {error}") from None
+    except (TypeError, RuntimeError) as error:  # a tensor on another device, or one that needs a gradient
+        raise TypeError(f"{name}: {error}") from None
     if array.dtype.kind in "iuf" and isinstance(values, (list, tuple)) and _holds_bool(values):
         raise TypeError(f"{name}: has values of type bool among the numbers")
     return array if array.dtype.isnative else array.astype(array.dtype.newbyteorder("="))
+
+
+def _has_only_dlpack(values):
+    """Whether DLPack is the one protocol by which `values` offers its memory. NumPy's own keep more types."""
+    others = ("__array__", "__array_interface__", "__array_struct__")
+    return hasattr(values, "__dlpack__") and not any(hasattr(values, name) for name in others)
 
 
 def _holds_bool(values):

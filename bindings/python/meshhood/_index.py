@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _aggregate, _convert, _core
-from ._mesh import mesh_arrays, warn_if_unwelded
+from ._mesh import mesh_arrays, moved_positions, warn_if_unwelded
 from ._methods import Method, Methods
 from ._progress import Progress, reporter
 from ._queries import Queries
@@ -42,11 +42,20 @@ class Chunk(NamedTuple):
     distances: Optional[Reals]
 
 
+class Quality(NamedTuple):
+    """How well the leaves of an index fit the positions (see `MeshIndex.quality`)."""
+
+    mean_radius: float
+    rebuilt_radius: float
+    gain: float
+
+
 class MeshIndex(Queries):
     """An index of a mesh that finds the neighborhood of a vertex v with a radius r: the connected component that holds
     v of the mesh inside the ball of radius r around v.
 
-    V : (#V, 3) float32 or float64, the positions, in any unit. Or a mesh of trimesh, PyVista or meshio, without F.
+    V : (#V, 3) float32 or float64, the positions, in any unit. Or a mesh without F: of
+        trimesh, PyVista, VTK (vtkPolyData), vedo, meshio, Open3D, or a GIFTI surface of nibabel.
     F : the faces, of any integer type; one of
         (#F, 3) triangles, (#F, 4) quads, (#F, k);
         a tuple (offsets, corners): polygon i has the corners corners[offsets[i]:offsets[i + 1]];
@@ -58,7 +67,8 @@ class MeshIndex(Queries):
         call.
 
     Vertices are numbered as in V, with int32 ids; at most 2^31 - 1 vertices. V and F are copied: later changes have no
-    effect. V and F may have any memory layout; types other than float32, float64, int32, int64, uint32 and uint64 are
+    effect. V and F may have any memory layout, and be anything that offers its memory to NumPy (`__array__`,
+    `__array_interface__`) or by DLPack, as tensors of PyTorch on the CPU do; types other than float32, float64, int32, int64, uint32 and uint64 are
     converted. Cost: O(#V log #V + #E).
 
     Warns if faces with coinciding corners are not connected (an unwelded mesh).
@@ -114,6 +124,15 @@ class MeshIndex(Queries):
         names = copyreg._slotnames(type(self))
         slots = {name: getattr(self, name) for name in names if hasattr(self, name)}
         return (attributes, slots) if slots else attributes or None
+
+    def _like_this(self, exact: Any) -> MeshIndex:
+        """An index of this class, with the attributes that a subclass has added."""
+        other = type(self)._holding(exact)
+        state = self.__getstate__()
+        attributes, slots = state if isinstance(state, tuple) else (state, None)
+        for name, value in {**(attributes or {}), **(slots or {})}.items():
+            setattr(other, name, value)
+        return other
 
     def __copy__(self) -> MeshIndex:
         return self
@@ -490,6 +509,49 @@ class MeshIndex(Queries):
             max_bytes=max_bytes,
             progress=progress,
         )
+
+    def refit(
+        self,
+        V: Any,
+        changed: Vertices = None,
+        *,
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> MeshIndex:
+        """The index of the mesh after its vertices have moved: the same edges, other positions. About a third of the
+        time of a build.
+
+        V : (#V, 3), or a mesh as for the class. Its faces are not read.
+        changed : the vertices that have moved, as `v` of `query_ball`; None for all. Rows of V of other vertices are
+            not read, and the time depends on the number of those that have moved, besides a copy of the positions.
+            V may then not be float64 if the index has float32.
+        workers, progress : as for the class.
+
+        Returns a new index, with the attributes of a subclass. This one stays as it is, and threads may search it
+        meanwhile. The two share all memory but positions and bounds. Answers are exact whatever the positions; `quality`
+        says when a new index would answer faster.
+        """
+        moved = None if changed is None else _convert.vertices(changed, self._count, "changed")
+        positions = moved_positions(V)
+        if moved is None:
+            positions = np.array(positions)  # another thread may write to V once it is checked
+        if len(positions) != self._count:
+            raise ValueError(f"V: {len(positions)} positions, but the index has {self._count} vertices")
+        with reporter(progress) as report:
+            exact = _core.refit(
+                self._exact, positions, changed=moved, threads=_convert.threads(workers), progress=report
+            )
+        return self._like_this(exact)
+
+    def quality(self) -> Quality:
+        """How well the leaves of the index, its smallest parts, fit the positions after `refit`.
+
+        Returns `Quality(mean_radius, rebuilt_radius, gain)`: the mean radius of the leaves at some places of the mesh,
+        what it would be in a new index, and their ratio. A query at a place takes time about in proportion
+        to that radius. After a build, `gain` is about 1; at 1.5 and above a new index pays off if many queries follow.
+        Takes some milliseconds for any mesh.
+        """
+        return Quality(*self._exact.quality())
 
     def save(self, path: Union[str, os.PathLike[str]], *, progress: Progress = None) -> None:
         """Writes the index to a file for `load`. The same mesh gives the same bytes on every machine.

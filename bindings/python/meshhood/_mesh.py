@@ -22,6 +22,11 @@ def mesh_arrays(V, F):
     return positions, *_faces(F)
 
 
+def moved_positions(V):
+    """Positions as above, also of a mesh."""
+    return _positions(_parts(V)[0] if _is_mesh(V) else V)
+
+
 def _positions(V):
     array = as_array(V, "V")
     if array.dtype.kind in "iu" or array.dtype == np.float16:
@@ -180,8 +185,20 @@ def _coordinate_entries(graph):
     return rows, columns
 
 
+def _is_mesh(V):
+    return any(hasattr(V, name) for name in ("points", "vertices", "vertex", "dataset", "GetPolys", "agg_data"))
+
+
 def _parts(mesh):
-    """Positions and faces of a mesh of trimesh, PyVista, meshio or this package."""
+    """Positions and faces of a mesh of another library or of this package."""
+    if hasattr(mesh, "agg_data"):
+        return _gifti_data(mesh, "pointset"), _gifti_data(mesh, "triangle")
+    if hasattr(mesh, "dataset"):  # vedo
+        mesh = mesh.dataset
+    if hasattr(mesh, "GetPolys") and not hasattr(mesh, "n_points"):  # not PyVista's own class
+        return _vtk_parts(mesh)
+    if hasattr(mesh, "triangle") and hasattr(mesh, "vertex"):  # Open3D's tensors
+        return _open3d_array(mesh.vertex.positions), _open3d_array(mesh.triangle.indices)
     if hasattr(mesh, "points") and isinstance(getattr(mesh, "cells", None), list):
         return mesh.points, _meshio_polygons(mesh)
     if hasattr(mesh, "points") and (hasattr(mesh, "GetPolys") or hasattr(mesh, "faces")):
@@ -191,7 +208,42 @@ def _parts(mesh):
         return mesh.points, _pyvista_faces(mesh)
     if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
         return mesh.vertices, mesh.faces
-    raise TypeError(f"V: expected a mesh of trimesh, PyVista or meshio if F is omitted, not {type(mesh).__name__}")
+    if hasattr(mesh, "vertices") and hasattr(mesh, "triangles"):  # Open3D
+        return mesh.vertices, np.asarray(mesh.triangles)
+    raise TypeError(
+        "V: expected a mesh of trimesh, PyVista, VTK, vedo, meshio, Open3D or nibabel if F is omitted, "
+        f"not {type(mesh).__name__}"
+    )
+
+
+def _gifti_data(image, intent):
+    """The one array of this intent in an image of nibabel. Coordinates are not transformed."""
+    found = [array.data for array in image.darrays if array.intent == _GIFTI_INTENTS[intent]]
+    if len(found) != 1:
+        raise ValueError(f"V: has {len(found)} arrays of intent {intent!r}, expected one")
+    return found[0]
+
+
+_GIFTI_INTENTS = {"pointset": 1008, "triangle": 1009}  # NIFTI_INTENT_POINTSET, NIFTI_INTENT_TRIANGLE
+
+
+def _vtk_parts(mesh):
+    """Of vtkPolyData."""
+    for kind in ("Strips", "Lines"):
+        if getattr(mesh, f"GetNumberOf{kind}")():
+            count = getattr(mesh, f"GetNumberOf{kind}")()
+            raise ValueError(f"V: has {count} {kind.lower()}, expected only polygons")
+    if mesh.GetPoints() is None:
+        raise ValueError("V: has no points")
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    polygons = mesh.GetPolys()
+    faces = vtk_to_numpy(polygons.GetOffsetsArray()), vtk_to_numpy(polygons.GetConnectivityArray())
+    return vtk_to_numpy(mesh.GetPoints().GetData()), faces
+
+
+def _open3d_array(tensor):
+    return tensor.cpu().numpy()
 
 
 def _pyvista_faces(mesh):

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: MIT
+"""`positions`, `mean_edge_length`, `unit="edge"`, bool masks, and copies of subclasses."""
+
+import copy
+import pickle
+
+import meshes
+import meshhood
+import numpy as np
+import pytest
+
+V, QUADS = meshes.grid(9)
+F = meshes.triangles(QUADS)
+
+
+@pytest.mark.parametrize("kind", (np.float32, np.float64))
+def test_positions_are_those_given_read_only_and_kept(kind):
+    given = V.astype(kind)
+    index = meshhood.MeshIndex(given, F)
+    found = index.positions
+    assert found.dtype == kind and not found.flags.writeable
+    np.testing.assert_array_equal(found, given)
+    del index
+    np.testing.assert_array_equal(found, given)
+    with pytest.raises(ValueError):
+        found[0, 0] = 1
+
+
+def test_the_mean_edge_length_counts_each_edge_once():
+    index = meshhood.MeshIndex(V, F)
+    ends = np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]])
+    edges = np.unique(np.sort(ends, axis=1), axis=0)
+    lengths = np.linalg.norm(V[edges[:, 0]] - V[edges[:, 1]], axis=1)
+    assert index.mean_edge_length == pytest.approx(lengths.mean())
+    assert meshhood.MeshIndex(V, np.zeros((0, 3), int)).mean_edge_length == 0
+
+
+@pytest.mark.parametrize("method", ("exact", "bfs", "ball", "paper"))
+def test_radii_in_edges_are_multiples_of_the_mean_edge_length(method):
+    index = meshhood.MeshIndex(V, F)
+    unit = index.mean_edge_length
+    for r in (0, 1, 2.5, np.inf):
+        np.testing.assert_array_equal(
+            index.query_ball(30, r, unit="edge", method=method, sort=True),
+            index.query_ball(30, r * unit, method=method, sort=True),
+        )
+    radii = np.linspace(0, 4, len(V))
+    np.testing.assert_array_equal(
+        index.query_ball_count(None, radii, unit="edge", method=method),
+        index.query_ball_count(None, unit * radii, method=method),
+    )
+
+
+def test_radii_in_edges_need_edges():
+    index = meshhood.MeshIndex(V, np.zeros((0, 3), int))
+    with pytest.raises(ValueError, match="unit: 'edge', but the mesh has no edges of positive length"):
+        index.query_ball(0, 1, unit="edge")
+    with pytest.raises(ValueError, match="unit: 'inch', expected 'mesh' or 'edge'"):
+        index.query_ball(0, 1, unit="inch")
+
+
+def test_a_bool_mask_selects_rows():
+    index = meshhood.MeshIndex(V, F)
+    for mask in (V[:, 0] > 3, np.zeros(len(V), bool), np.ones(len(V), bool)):
+        wanted = index.query_ball(np.flatnonzero(mask), 2.0, sort=True)
+        for got in (index.query_ball(mask, 2.0, sort=True), index.query_ball(mask.tolist(), 2.0, sort=True)):
+            np.testing.assert_array_equal(got[0], wanted[0])
+            np.testing.assert_array_equal(got[1], wanted[1])
+        np.testing.assert_array_equal(index.query_ball_count(mask, 2.0), np.diff(wanted[0]))
+    with pytest.raises(ValueError, match=r"v: a bool mask of shape \(80,\), expected \(81,\)"):
+        index.query_ball(np.ones(80, bool), 1.0)
+
+
+class Named(meshhood.MeshIndex):
+    def __init__(self, V, F, name):
+        super().__init__(V, F)
+        self.name = name
+
+
+class Slotted(meshhood.MeshIndex):
+    __slots__ = ("color",)
+
+
+@pytest.mark.parametrize("protocol", range(2, pickle.HIGHEST_PROTOCOL + 1))
+def test_a_pickled_subclass_keeps_its_class_and_attributes(protocol):
+    named = Named(V, F, "hand")
+    named.notes = ["left"]
+    got = pickle.loads(pickle.dumps(named, protocol))
+    assert type(got) is Named and got.name == "hand" and got.notes == ["left"]
+    np.testing.assert_array_equal(got.query_ball(40, 2.0, sort=True), named.query_ball(40, 2.0, sort=True))
+    slotted = Slotted(V, F)
+    slotted.color, slotted.extra = "red", 7
+    got = pickle.loads(pickle.dumps(slotted, protocol))
+    assert type(got) is Slotted and got.color == "red" and got.extra == 7
+
+
+def test_a_pickled_subclass_travels_out_of_band():
+    buffers = []
+    saved = pickle.dumps(Named(V, F, "hand"), 5, buffer_callback=buffers.append)
+    assert len(buffers) == 1 and len(saved) < 1000
+    got = pickle.loads(saved, buffers=buffers)
+    assert type(got) is Named and got.name == "hand" and len(got) == len(V)
+
+
+def test_a_copy_is_the_index_itself():
+    index = meshhood.MeshIndex(V, F)
+    assert copy.copy(index) is index and copy.deepcopy(index) is index
