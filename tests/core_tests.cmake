@@ -19,7 +19,7 @@ foreach(part
     exact/search_families exact/search_differential exact/search_proof exact/search_rare exact/threads
     exact/query/edge_search exact/query/nearest exact/query/region exact/query/square_range
     exact/search/descent exact/search/leaf_traversal exact/search/local_minima exact/search/output
-    exact/search/vertex_set
+    exact/search/vertex_bfs exact/search/vertex_set
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
     region/region_mesher
     simd/aggregate_kernels simd/joint_kernels simd/kernels
