@@ -37,7 +37,8 @@ def main(path, *radii):
     V, F = meshhood.read_mesh(path)
     index, graph = meshhood.MeshIndex(V, F), lengths(V, F)
     index.query_ball(0, 0, metric="edge")
-    print(f"{path}: {len(V)} vertices\n{'edges':>6} {'vertices':>9} {'meshhood ms':>12} {'SciPy ms':>9} {'ratio':>7} difference")
+    print(f"{path}: {len(V)} vertices")
+    print(f"{'edges':>6} {'vertices':>9} {'meshhood ms':>12} {'SciPy ms':>9} {'ratio':>7} difference")
     for edges in map(float, radii or (2, 10, 20, 65)):
         r = edges * index.mean_edge_length
         ours, theirs, sizes, difference = [], [], [], 0.0
@@ -50,7 +51,8 @@ def main(path, *radii):
             assert np.isfinite(expected).sum() == len(ids)
             difference = max(difference, np.abs(expected[ids] - found).max())
         fast, slow = np.median(ours), np.median(theirs)
-        print(f"{edges:6g} {np.median(sizes):9.0f} {fast:12.3f} {slow:9.1f} {slow / fast:7.1f} {difference:g}", flush=True)
+        size = np.median(sizes)
+        print(f"{edges:6g} {size:9.0f} {fast:12.3f} {slow:9.1f} {slow / fast:7.1f} {difference:g}", flush=True)
 
 
 if __name__ == "__main__":

@@ -28,7 +28,7 @@ namespace {
 
 using IdList = nb::ndarray<const std::int32_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 
-std::span<const VertexId> span_of(const IdList& ids) {
+std::span<const VertexId> id_span(const IdList& ids) {
   return {reinterpret_cast<const VertexId*>(ids.data()), ids.size()};
 }
 
@@ -41,17 +41,17 @@ std::shared_ptr<RegionMesher> make_mesher(const Input& positions, const Input& c
 }
 
 Output<std::int64_t> faces(RegionMesher& mesher, const IdList& ids, bool all) {
-  return owned<std::int64_t>(mesher.faces(span_of(ids), corners_of(all)));
+  return owned<std::int64_t>(mesher.faces(id_span(ids), corners_of(all)));
 }
 
 auto submesh(RegionMesher& mesher, const IdList& ids, bool all) {
-  Submesh part = mesher.submesh(span_of(ids), corners_of(all));
+  Submesh part = mesher.submesh(id_span(ids), corners_of(all));
   return std::tuple(owned<std::int32_t>(std::move(part.vertices)), owned<std::int64_t>(std::move(part.faces)),
                     owned<std::int64_t>(std::move(part.offsets)), owned<std::int32_t>(std::move(part.corners)));
 }
 
 auto rim(RegionMesher& mesher, const IdList& ids, const SpacePoint& centre, double radius) {
-  Rim rim = mesher.rim(span_of(ids), centre, radius);
+  Rim rim = mesher.rim(id_span(ids), centre, radius);
   const std::size_t size = rim.points.size();
   return std::tuple(owned<double>(std::move(rim.points), {size, 3}),
                     owned<std::int32_t>(std::move(rim.edges), {size, 2}), owned<std::int64_t>(std::move(rim.offsets)),

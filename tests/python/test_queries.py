@@ -81,7 +81,8 @@ def test_stroke_is_the_union_of_its_regions(mesh):
     points = np.array([p for p, _ in starts])
     seeds = np.array([face for _, face in starts])
     parts = [region(V, graph, p, face, 1.5) for p, face in starts]
-    np.testing.assert_array_equal(index.query_stroke(points, 1.5, seeds=seeds, sort=True), np.unique(np.concatenate(parts)))
+    found = index.query_stroke(points, 1.5, seeds=seeds, sort=True)
+    np.testing.assert_array_equal(found, np.unique(np.concatenate(parts)))
     parts = [index.query_region(p, 1.5) for p in points]
     np.testing.assert_array_equal(index.query_stroke(points, 1.5, sort=True), np.unique(np.concatenate(parts)))
     assert len(index.query_stroke(np.empty((0, 3)), 1.5)) == 0
@@ -112,7 +113,8 @@ def test_nearest_connected_vertices_ascend_by_connecting_radius(mesh):
     assert len(ids) == len(set(ids)) == 40 and ids[0] == 7
     assert (np.diff(radii) >= 0).all()
     assert [index.connecting_radius(7, w) for w in ids] == list(radii)
-    np.testing.assert_array_equal(np.sort(ids), np.unique(np.append(ids, index.query_region(7, np.nextafter(radii[-1], 0)))))
+    nearer = index.query_region(7, np.nextafter(radii[-1], 0))
+    assert set(nearer) <= set(ids)
 
 
 def lengths_graph(V, graph):

@@ -107,7 +107,8 @@ def points(values, name):
     if wrong.size:
         row, axis = wrong[0]
         raise ValueError(
-            f"{name}: row {row}: coordinate {axis} is {array[row, axis]}, expected a finite number of magnitude up to 2^500"
+            f"{name}: row {row}: coordinate {axis} is {array[row, axis]}, "
+            "expected a finite number of magnitude up to 2^500"
         )
     return array
 
@@ -137,8 +138,8 @@ def edges(values, name):
 
 
 def mask(values, name, count):
-    """`values`, a bool mask of `count` values, as bytes; None if there is none. It is not copied: the library reads each
-    byte for itself."""
+    """`values`, a bool mask of `count` values, as bytes; None if there is none. It is not copied: the library reads
+    each byte by itself."""
     if values is None:
         return None
     array = as_array(values, name)

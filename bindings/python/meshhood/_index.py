@@ -259,8 +259,8 @@ class MeshIndex(Queries):
                  "ball", every vertex within `r` in space, connected or not.
             "paper" builds an index of its own at the first use.
         metric : "straight", the neighborhood in the ball of radius `r`; "edge", the vertices whose shortest path along
-            edges is at most `r` long (see `meshhood::EdgeSearcher`). Distances are then those lengths, and the vertices of
-            one neighborhood ascend by them. It needs method "exact".
+            edges is at most `r` long. Distances are then those lengths, and the vertices of one neighborhood ascend by
+            them. It needs method "exact".
         unit : of `r`: "mesh" is that of V, "edge" is `mean_edge_length`.
         max_bytes : refuse a larger result of many vertices; by default, one larger than the memory of the machine. A
             sample of the rows usually shows this within a second.

@@ -80,7 +80,7 @@ class Queries:
         sort: bool = False,
         unit: Unit = "mesh",
     ) -> Any:
-        """The region of `start` and the radius `r` (see `Queries`). The other arguments, and the result, are as those of
+        """The region of `start` and the radius `r` (see `Queries`). The other arguments and the result are as those of
         `query_ball` for one vertex. The cost grows with the size of the region."""
         center, first = self._start(start, seeds)
         masks = self._masks(walls, ignored)
@@ -166,8 +166,8 @@ class Queries:
     def connecting_radius(
         self, start: ArrayLike, w: Any, *, seeds: Seeds = None, walls: Mask = None, ignored: Mask = None
     ) -> float:
-        """The smallest radius whose region has vertex `w`; inf if there is none. It is the least, over all paths of edges
-        from a seed to `w`, of the largest distance of a vertex of the path from `start`."""
+        """The smallest radius whose region has vertex `w`; inf if there is none. It is the least, over all paths of
+        edges from a seed to `w`, of the largest distance of a vertex of the path from `start`."""
         center, first = self._start(start, seeds)
         w = _convert.vertex(w, self._count, "w")
         return float(self._queries.connecting_radius(center, first, w, *self._masks(walls, ignored)))
@@ -184,8 +184,8 @@ class Queries:
         return indices, radii
 
     def nearest(self, points: ArrayLike) -> Any:
-        """The vertex nearest to a point, and its distance: `vertex, distance`. For points (n, 3), two arrays. Of several
-        vertices at the same distance, the one with the smallest id."""
+        """The vertex nearest to a point, and its distance: `vertex, distance`. For points (n, 3), two arrays. Of
+        several vertices at the same distance, the one with the smallest id."""
         rows = _convert.points(points, "points")
         if self._count == 0:
             raise ValueError("points: the mesh has no vertices")

@@ -37,9 +37,9 @@ class RegionMesh:
 
     V, F : the mesh, as for `MeshIndex`, which does not keep the faces. Both are copied.
 
-    `ids` are the vertices of a region, in any order, as the queries of `MeshIndex` return them; or a bool mask (#V,). A
-    call costs no more than the faces around them, and their sorting. Raises ValueError or TypeError, naming the argument
-    and the element.
+    `ids` are the vertices of a region, in any order, as the queries of `MeshIndex` return them; or a bool mask (#V,).
+    The cost of a call is that of sorting the faces around them. Raises ValueError or TypeError, naming the argument and
+    the element.
     """
 
     def __init__(self, V: Any, F: Any = None) -> None:
@@ -68,8 +68,8 @@ class RegionMesh:
         start : the center of the ball, a vertex or a point of space (3 numbers).
 
         On a manifold mesh without border all polylines are closed. They end at the border, and where three or more of
-        them meet. If the faces are consistently oriented, the region lies to the left. Where an edge ends inside the ball
-        at a wall, the rim passes through the wall.
+        them meet. If the faces are consistently oriented, the region lies to the left. Where an edge ends inside the
+        ball at a wall, the rim passes through the wall.
         """
         if np.ndim(start) == 0:
             center = self._positions[_convert.vertex(start, len(self._positions), "start")].astype(np.float64)
