@@ -21,18 +21,7 @@ Unit = Literal["mesh", "edge"]
 
 
 class Queries:
-    """The part of `MeshIndex` that searches regions. These arguments have the same meaning in all calls:
-
-    start : a vertex, or a point of space (3 numbers). It is the center of the ball.
-    seeds : if `start` is a point: the vertices from which the search starts, for example the corners of the face on
-        which the point lies; None for the vertex nearest to the point. A seed outside the ball does not count.
-    walls : a bool mask (#V,): vertices that the search does not pass and that belong to no answer, as if they were not
-        in the mesh.
-    ignored : a bool mask (#V,): vertices that the search passes but that belong to no answer.
-
-    The *region* of `start` and a radius r: the vertices that are connected to a seed by edges between vertices within r
-    of `start`. For a vertex as start, without masks, it is the neighborhood that `query_ball` returns.
-    """
+    """The part of `MeshIndex` that searches regions. `query_region` describes the arguments that all calls share."""
 
     _count: int
     _queries: Any
@@ -80,8 +69,19 @@ class Queries:
         sort: bool = False,
         unit: Unit = "mesh",
     ) -> Any:
-        """The region of `start` and the radius `r` (see `Queries`). The other arguments and the result are as those of
-        `query_ball` for one vertex. The cost grows with the size of the region."""
+        """The region of `start` and the radius `r`: the vertices that are connected to a seed by edges between vertices
+        within `r` of `start`. For a vertex as start, without masks, it is the neighborhood that `query_ball` returns.
+
+        start : a vertex, or a point of space (3 numbers). It is the center of the ball.
+        seeds : if `start` is a point: the vertices from which the search starts, for example the corners of the face
+            on which the point lies; None for the vertex nearest to the point. A seed outside the ball does not count.
+        walls : a bool mask (#V,): vertices that the search does not pass and that belong to no answer, as if they were
+            not in the mesh.
+        ignored : a bool mask (#V,): vertices that the search passes but that belong to no answer.
+        r, return_distance, sort, unit : as for one vertex of `query_ball`, and so is the result.
+
+        The cost grows with the size of the region.
+        """
         center, first = self._start(start, seeds)
         masks = self._masks(walls, ignored)
         indices, distances = self._queries.region(center, first, self._scale(unit) * _convert.radius(r), *masks)
