@@ -4,7 +4,7 @@
 //     node bench/web/run.mjs MESH.ply...
 import { readFileSync, writeFileSync } from 'node:fs';
 import { createServer } from 'node:http';
-import { cpus } from 'node:os';
+import { cpus, loadavg } from 'node:os';
 import { basename, dirname, extname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
@@ -59,12 +59,16 @@ const server = await serve();
 const browser = await launch();
 const page = await browser.newPage();
 await page.goto(`http://127.0.0.1:${server.address().port}/`);
+const load = loadavg()[0];
+const busy = load > cpus().length / 2
+  ? [`**The machine was busy** (load ${load.toFixed(0)} on ${cpus().length} processors): the times are too long, and the ratios rough.`, '']
+  : [];
 const text = [
   '# Speed in the browser', '',
   'Written by `node bench/web/run.mjs` after `tools/build_viewer`; do not edit.', '',
   `µs a query, on one thread of Chromium ${browser.version()} without a window, ${cpus()[0].model.trim()}. 32 vertices, warm; the`,
   'median of 9 blocks of each method in turn. `exact` and `bfs` are the library in WebAssembly, with vectors of 128 bits;',
-  '*bfs in JavaScript* is bench/web/bfs.js. Radii are in mean edge lengths. × is the ratio to exact.', '',
+  '*bfs in JavaScript* is bench/web/bfs.js. Radii are in mean edge lengths. × is the ratio to exact.', '', ...busy,
 ];
 for (const [i, mesh] of meshes.entries()) {
   const result = await page.evaluate(async (i) => (await import('/measure.js')).measure(`/mesh/${i}`), i);

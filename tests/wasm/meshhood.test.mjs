@@ -249,6 +249,14 @@ test('too little memory is an error and not a crash', () => {
   assert.throws(() => index.queryBall(0, 1), /has been disposed/);
 });
 
+test('a mesh of a million vertices takes less than 400 MB, with all methods in use', () => {
+  const index = build(grid(1000, 1000, (row, column) => [row, column, 0]));
+  const counts = ['exact', 'bfs', 'paper', 'ball'].map((method) => index.queryBallCount(500_500, 10, { method }));
+  assert.deepEqual(counts, [317, 317, 317, 317]);
+  console.log(`${index.memoryBytes} bytes for a million vertices`);
+  assert.ok(index.memoryBytes < 400 * 2 ** 20);
+});
+
 test('memory stays flat over 100,000 queries, refused ones included', () => {
   const mesh = families.roll;
   const index = build(mesh);
