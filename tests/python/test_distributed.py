@@ -116,6 +116,29 @@ def test_a_function_sees_each_part(parts, index):
     np.testing.assert_array_equal(parts.map(sum_of_x, HALO).compute(), expected)
 
 
+@pytest.mark.parametrize("weights", (None, "area", "array"))
+def test_aggregates_are_those_of_one_index(parts, index, mesh, tmp_path, weights):
+    V, F = mesh
+    values = np.random.default_rng(2).normal(size=(len(V), 2))
+    np.save(tmp_path / "values.npy", values)
+    if weights == "array":
+        weights = np.abs(values[:, 0])
+    expected = index.aggregate(values, 4.5, weights=weights, kernel="biweight", F=F)
+    for given in (values, tmp_path / "values.npy"):
+        found = parts.aggregate(given, 4.5, weights=weights, kernel="biweight").compute()
+        np.testing.assert_allclose(found, expected, rtol=1e-11, atol=1e-12)
+    np.testing.assert_array_equal(parts.aggregate(values, 4.5, "max").compute(), index.aggregate(values, 4.5, "max"))
+
+
+def test_aggregates_refuse_values_of_another_mesh(parts):
+    with pytest.raises(ValueError, match="values: an array of shape"):
+        parts.aggregate(np.ones(3), 1)
+    with pytest.raises(TypeError, match="weights: 'volume'"):
+        parts.aggregate(np.ones(parts.n_vertices), 1, weights="volume")
+    with pytest.raises(ValueError, match="halo="):
+        parts.aggregate(np.ones(parts.n_vertices), 2 * HALO)
+
+
 def ones_too_many(part, index, owned):
     return np.ones(len(owned) + 1)
 

@@ -21,9 +21,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union
 
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from . import _convert, _core
+from ._aggregate import Kernel, Reduce
 from ._files import Mesh, load, read_mesh
 from ._index import MeshIndex
 from ._progress import Progress, reporter
@@ -166,6 +167,45 @@ class Parts:
     def counts(self, r: float, *, unit: Unit = "mesh", order: Literal["mesh", "parts"] = "mesh") -> da.Array:
         """The number of vertices of each neighborhood: a dask.array (#V,) int64. See `map` for `order`."""
         return self.map(functools.partial(_count, self._radius(r, unit)), r, unit=unit, dtype=np.int64, order=order)
+
+    def aggregate(
+        self,
+        values: Union[ArrayLike, Path],
+        r: float,
+        reduce: Reduce = "mean",
+        *,
+        weights: Union[Literal["area"], ArrayLike, Path, None] = None,
+        kernel: Optional[Kernel] = None,
+        nan: Literal["propagate", "omit"] = "propagate",
+        ddof: int = 0,
+        unit: Unit = "mesh",
+        order: Literal["mesh", "parts"] = "mesh",
+    ) -> da.Array:
+        """A sum, a mean or the like of values over the neighborhood of each vertex, as `MeshIndex.aggregate`: a
+        dask.array (#V, ...) float64. See `map` for `order`.
+
+        values : (#V, ...), by vertex id; or the `pathlib.Path` of a `.npy` file, of which each task reads the rows of
+            its part. An array travels to every task, so a cluster should be given a path.
+        weights : None, "area", or (#V,) as `values`. Areas are those of the whole mesh.
+
+        Minima, maxima and counts are those of one index. The last digits of sums may differ, as the order does.
+        """
+        radius = self._radius(r, unit)
+        values = self._per_vertex(values, "values")
+        if weights is not None and not _is_area(weights):
+            weights = self._per_vertex(weights, "weights")
+        options = {"reduce": reduce, "kernel": kernel, "nan": nan, "ddof": ddof}
+        function = functools.partial(_aggregate, radius, values, weights, options)
+        return self.map(function, r, unit=unit, shape=_shape_of(values)[1:], order=order)
+
+    def _per_vertex(self, values: Any, name: str) -> Any:
+        """`values` as an array, or as the text of a path."""
+        if isinstance(values, str):
+            raise TypeError(f"{name}: {values!r}, expected an array or a pathlib.Path")
+        values = os.path.abspath(values) if isinstance(values, os.PathLike) else _convert.as_array(values, name).copy()
+        if _shape_of(values)[:1] != (self.n_vertices,):
+            raise ValueError(f"{name}: an array of shape {_shape_of(values)}, expected {self.n_vertices} rows")
+        return values
 
     def map(
         self,
@@ -353,6 +393,37 @@ def _owned_ids(part: OpenPart) -> NDArray[np.int64]:
 
 def _count(radius: float, part: OpenPart, index: MeshIndex, owned: NDArray[np.int32]) -> NDArray[np.int64]:
     return index.query_ball_count(owned, radius, workers=1)
+
+
+def _aggregate(
+    radius: float, values: Any, weights: Any, options: dict[str, Any], part: OpenPart, index: MeshIndex, owned: Any
+) -> NDArray[np.float64]:
+    is_area = _is_area(weights)
+    return index.aggregate(
+        _rows_of(values, part),
+        radius,
+        weights=weights if weights is None or is_area else _rows_of(weights, part),
+        F=part.mesh.faces if is_area else None,
+        vertices=owned,
+        workers=1,
+        **options,
+    )
+
+
+def _is_area(weights: Any) -> bool:
+    return isinstance(weights, str) and weights == "area"
+
+
+def _rows_of(values: Any, part: OpenPart) -> Any:
+    return _array_of(values)[part.vertices]
+
+
+def _array_of(values: Any) -> Any:
+    return np.load(values, mmap_mode="r", allow_pickle=False) if isinstance(values, str) else values
+
+
+def _shape_of(values: Any) -> tuple[int, ...]:
+    return tuple(_array_of(values).shape)
 
 
 def _rows(function: PartFunction, part: OpenPart, *, dtype: np.dtype[Any], shape: tuple[int, ...]) -> NDArray[Any]:
