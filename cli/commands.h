@@ -6,6 +6,7 @@
 /// The subcommands, one file each. Each function adds a subcommand with its options; the command runs inside `parse`.
 namespace meshhood::cli {
 
+void add_aggregate(CLI::App& program);
 void add_batch(CLI::App& program);
 void add_bench(CLI::App& program);
 void add_build(CLI::App& program);

@@ -3,6 +3,8 @@
 
 #include <cassert>
 #include <cstdint>
+#include <functional>
+#include <numeric>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,9 +27,16 @@ void NpzWriter::begin_member(std::string_view name, std::string_view type, std::
 
 template <class T>
 void NpzWriter::begin(std::string_view name, std::uint64_t count) {
+  begin<T>(name, std::span<const std::uint64_t>(&count, 1));
+}
+
+template <class T>
+void NpzWriter::begin(std::string_view name, std::span<const std::uint64_t> shape) {
   // Numbers hardly compress.
   const auto packing = std::is_same_v<T, bool> ? ZipWriter::Packing::Deflated : ZipWriter::Packing::Stored;
-  begin_member(name, npy_type<T>(), fmt::format("({},)", count), count * sizeof(T), packing);
+  const std::uint64_t count = std::accumulate(shape.begin(), shape.end(), std::uint64_t{1}, std::multiplies<>());
+  const std::string lengths = fmt::format("({}{})", fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
+  begin_member(name, npy_type<T>(), lengths, count * sizeof(T), packing);
 }
 
 template <class T>
@@ -52,6 +61,7 @@ template void NpzWriter::begin<std::int32_t>(std::string_view, std::uint64_t);
 template void NpzWriter::begin<std::int64_t>(std::string_view, std::uint64_t);
 template void NpzWriter::begin<std::uint64_t>(std::string_view, std::uint64_t);
 template void NpzWriter::begin<double>(std::string_view, std::uint64_t);
+template void NpzWriter::begin<double>(std::string_view, std::span<const std::uint64_t>);
 template void NpzWriter::append<bool>(std::span<const bool>);
 template void NpzWriter::append<std::int32_t>(std::span<const std::int32_t>);
 template void NpzWriter::append<std::int64_t>(std::span<const std::int64_t>);

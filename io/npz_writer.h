@@ -23,6 +23,10 @@ class NpzWriter {
   template <class T>
   void begin(std::string_view name, std::uint64_t count);
 
+  /// The same for an array of several dimensions, whose values follow row by row.
+  template <class T>
+  void begin(std::string_view name, std::span<const std::uint64_t> shape);
+
   template <class T>
   void append(std::span<const T> values);
 

@@ -104,15 +104,15 @@ struct AggregateOptions {
 /// Aggregates the values over the exact neighborhood (see `Searcher`) of each row, and writes all of `result`, which
 /// has `aggregate_size` numbers.
 ///
-/// Sums are exact to 4e-15 of the sum of the absolute terms, whatever the size of the neighborhood, and have the same
-/// bits for any number of threads and on every processor. They may differ in the last bits if the same vertex is asked
-/// for in another list. Minimum, maximum and count are exact. Values are scaled by a power of two before they are
+/// Sums are exact to 1e-14 of the sum of the absolute terms (1e-13 with a smoothing kernel), whatever the size of the
+/// neighborhood, and have the same bits for any number of threads and on every processor. They may differ in the last
+/// bits if the same vertex is asked for in another list. Minimum, maximum and count are exact. Values are scaled by a power of two before they are
 /// squared or added, so that nothing overflows but a result too large for a double; infinite values give what IEEE
 /// arithmetic gives.
 ///
 /// Cost: the neighborhoods of one leaf are found together (see joint.h), and vertices that they have in common are read
 /// once for all of them, most of them as sums made beforehand. Memory: for up to 16 channels at a time 9 bytes for each
-/// vertex and channel, and as much for the weights; with a kernel up to 14 bytes instead. Time and memory of
+/// vertex and channel, and as much for the weights; with a kernel 14 bytes instead. Time and memory of
 /// `for_each_packet` besides.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming row, radius or vertex. The

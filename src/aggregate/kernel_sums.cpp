@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "aggregate/kernel_sums.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <variant>

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "channels.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "meshhood/error.h"
+
+#include "io/byte_source.h"
+#include "io/input.h"
+#include "io/mesh_io.h"
+#include "io/messages.h"
+#include "io/npy.h"
+#include "io/number.h"
+#include "io/text.h"
+
+namespace meshhood::cli {
+namespace {
+
+[[noreturn]] void fail(const io::Input& input, std::string_view message) {
+  raise(ErrorCode::InvalidOption, fmt::format("{}: {}", input.name(), message));
+}
+
+void check_rows(const io::Input& input, std::uint64_t rows, std::size_t vertices) {
+  if (rows == vertices) return;
+  fail(input, fmt::format("{} rows of values, expected one for each of {} vertices", rows, vertices));
+}
+
+/// A number of a line; none at its end.
+std::optional<double> next_number(io::Text& text) {
+  const std::string_view token = text.token_on_line();
+  if (token.empty()) return std::nullopt;
+  const std::optional<double> number = io::parse_real<double>(token);
+  if (!number) text.fail(ErrorCode::InvalidOption, fmt::format("{}, expected a number", io::quote(token)));
+  return number;
+}
+
+Channels read_text(io::Input& input, std::size_t vertices) {
+  io::Text text(input, {.hash_comments = true});
+  Channels values;
+  std::size_t rows = 0;
+  while (text.next_line()) {
+    std::size_t count = 0;
+    for (; const std::optional<double> number = next_number(text); ++count) values.numbers.push_back(*number);
+    if (count == 0) continue;
+    if (rows++ == 0) values.channels = count;
+    if (count != values.channels) {
+      text.fail(ErrorCode::InvalidOption, fmt::format("{} numbers on a line, expected {}", count, values.channels));
+    }
+    if (rows > vertices) check_rows(input, rows, vertices);
+  }
+  check_rows(input, rows, vertices);
+  if (values.channels == 0) values.channels = 1;  // of no vertices
+  return values;
+}
+
+template <class T>
+double number_at(const char* bytes) {
+  T value;
+  std::memcpy(&value, bytes, sizeof(T));
+  return static_cast<double>(value);
+}
+
+/// How to read a number of a type of NumPy.
+struct NumberType {
+  char kind;
+  std::size_t bytes;
+  double (*read)(const char* bytes);
+};
+
+constexpr std::array kNumberTypes{
+    NumberType{'f', 8, number_at<double>},        NumberType{'f', 4, number_at<float>},
+    NumberType{'i', 8, number_at<std::int64_t>},  NumberType{'i', 4, number_at<std::int32_t>},
+    NumberType{'i', 2, number_at<std::int16_t>},  NumberType{'i', 1, number_at<std::int8_t>},
+    NumberType{'u', 8, number_at<std::uint64_t>}, NumberType{'u', 4, number_at<std::uint32_t>},
+    NumberType{'u', 2, number_at<std::uint16_t>}, NumberType{'u', 1, number_at<std::uint8_t>},
+    NumberType{'b', 1, number_at<std::uint8_t>},
+};
+
+const NumberType& number_type(const io::Input& input, const io::NpyHeader& header) {
+  for (const NumberType& type : kNumberTypes) {
+    if (type.kind == header.kind && type.bytes == header.item) return type;
+  }
+  fail(input, fmt::format("values of type {}{}, expected floats of 4 or 8 bytes, integers or bools", header.kind,
+                          header.item));
+}
+
+Channels read_numpy(io::Input& input, std::size_t vertices) {
+  const io::NpyHeader header = io::parse_npy_header(input.ahead(io::kNpyHeadBytes), input.name());
+  if (header.shape.size() != 1 && header.shape.size() != 2) {
+    fail(input, fmt::format("an array of {} dimensions, expected one or two", header.shape.size()));
+  }
+  check_rows(input, header.shape.front(), vertices);
+  const NumberType& type = number_type(input, header);
+  Channels values{{}, header.shape.size() == 2 ? header.shape.back() : 1};
+  if (values.channels == 0) fail(input, "the array has no columns, expected at least one");
+  if (header.fortran_order && values.channels > 1) fail(input, "the array is in Fortran order, expected C order");
+  input.skip(header.bytes);
+  const bool swaps = header.big_endian == (std::endian::native == std::endian::little);
+  for (std::size_t row = 0; row < vertices; ++row) {
+    for (std::uint64_t channel = 0; channel < values.channels; ++channel) {
+      std::string number(input.ahead(type.bytes).substr(0, type.bytes));
+      if (number.size() < type.bytes) fail(input, fmt::format("the file ends within row {}", row));
+      if (swaps) std::reverse(number.begin(), number.end());
+      values.numbers.push_back(type.read(number.data()));
+      input.skip(type.bytes);
+    }
+  }
+  if (!input.ahead(1).empty()) fail(input, "bytes after the array");
+  return values;
+}
+
+}  // namespace
+
+Channels read_channels(const std::string& file, std::size_t vertices) {
+  io::FileSource source(file);
+  io::Input input(source, file, io::ReadOptions{}.max_bytes);
+  try {
+    return io::is_npy(input.ahead(io::kNpyHeadBytes)) ? read_numpy(input, vertices) : read_text(input, vertices);
+  } catch (const Error& error) {
+    // Malformed values are a wrong option, not a wrong mesh.
+    if (error.code() != ErrorCode::MalformedFile && error.code() != ErrorCode::UnsupportedFormat) throw;
+    raise(ErrorCode::InvalidOption, error.what());
+  }
+}
+
+}  // namespace meshhood::cli
