@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: MIT
 """The exact index beside the best breadth-first search: on the mesh as it is and in index order, cold and warm."""
-from . import meshes, programs, results, timing
+from . import meshes, programs, results
 from .paper_tables import RADII
 
 METHODS = ("bfs", "bfs-reordered", "ids", "count", "ranges")
-BATCH_RADII = (10, 65)
 
 # By formula, with sheets so close that a ball takes several; vertices.
 SHEETS = {"scroll": 1_000_000, "plates": 1_000_000, "folds": 1_000_000, "gyroid": 1_000_000}
@@ -20,11 +19,6 @@ def run(names, queries):
         print(f"  {name}", flush=True)
         orders = {order: programs.race(mesh, METHODS, radii=RADII, queries=queries, order=order)
                   for order in ("cold", "warm")}
-        batches = programs.race(mesh, batches=BATCH_RADII)["batches"]
-        measured[name] = {"vertices": orders["cold"]["vertices"], "batches": [summed_up(batch) for batch in batches],
+        measured[name] = {"vertices": orders["cold"]["vertices"],
                           **{order: race["rows"] for order, race in orders.items()}}
     results.save("exact_index", {"queries": queries, "meshes": measured}, watched)
-
-
-def summed_up(batch):
-    return batch | {method: timing.summary(batch[method]) for method in ("bfs", "bfs-reordered", "ids", "count")}

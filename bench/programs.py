@@ -15,15 +15,13 @@ def ask(program, *arguments):
     return json.loads(done.stdout)
 
 
-def race(mesh, methods=(), *, radii=(), queries=0, order="cold", builds=0, batches=()):
+def race(mesh, methods=(), *, radii=(), queries=0, order="cold", builds=0):
     """All `methods` on the same queries in one run; the first is taken as exact. See bench/race/main.cpp."""
     arguments = [mesh, "--order", order, "--builds", builds]
     for method in methods:
         arguments += ["--method", method]
     if radii:
         arguments += ["--radii", ",".join(map(str, radii)), "--queries", queries]
-    if batches:
-        arguments += ["--batches", ",".join(map(str, batches))]
     return ask(places.PROGRAMS / "race", *arguments)
 
 

@@ -35,9 +35,9 @@ def write():
     for path, text in texts.items():
         path.write_text(text, encoding="utf-8")
     print(f"wrote {len(texts)} pages and {len(drawn)} plots")
-    speed = results.load("exact_index")
-    if speed is not None:
-        places.README.write_text(readme(speed), encoding="utf-8")
+    measured = [(source, data) for source in ("batch", "exact_index") if (data := results.load(source)) is not None]
+    if measured:
+        places.README.write_text(readme(measured), encoding="utf-8")
 
 
 def documents():
@@ -70,10 +70,10 @@ def measured_on(data):
     return f"\n*Measured on {machine.caption(data['machine'])}*\n"
 
 
-def readme(speed):
-    """README.md with its table replaced by that of the results."""
+def readme(measured):
+    """README.md with its tables replaced by those of the results, which come as pairs of source and data."""
     text = places.README.read_text(encoding="utf-8")
     if not MARKERS.search(text):
         raise SystemExit("bench: README.md lacks the two comments that enclose its table")
-    table = SECTIONS["exact_index"].head_table(speed)
-    return MARKERS.sub(lambda found: f"{found[1]}{table}{found[2]}", text)
+    tables = "".join(SECTIONS[source].head_table(data) for source, data in measured)
+    return MARKERS.sub(lambda found: f"{found[1]}{tables}{found[2]}", text)

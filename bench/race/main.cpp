@@ -11,7 +11,6 @@
 
 #include "meshhood/meshhood.h"
 
-#include "batch.h"
 #include "contestants.h"
 #include "measure/radius_table.h"
 #include "measure/timing.h"
@@ -28,7 +27,6 @@ struct Options {
   std::string order = "cold";
   measure::Plan plan{.radii = {2, 3, 5, 10, 20, 40, 65, 90}, .queries = 200};
   int builds = 0;
-  std::vector<double> batches;
 };
 
 Json to_json(const Build& build) { return {{"name", build.name}, {"seconds", build.seconds}, {"bytes", build.bytes}}; }
@@ -40,11 +38,6 @@ Json to_json(const measure::Measurement& m, const measure::Method& method) {
            {"quartiles", {m.lower, m.upper}}};
   if (method.lists_vertices) row.update({{"count", m.count}, {"extra", m.extra}, {"missing", m.missing}});
   return row;
-}
-
-Json to_json(const BatchTimes& times) {
-  return {{"radius_edges", times.radius_edges},   {"rows", times.rows}, {"bfs", times.bfs},
-          {"bfs-reordered", times.bfs_reordered}, {"ids", times.ids},   {"count", times.count}};
 }
 
 Json race(const MeshView& mesh, Options& options) {
@@ -63,12 +56,6 @@ Json race(const MeshView& mesh, Options& options) {
   if (options.builds > 0) {
     for (const Build& build : contestants.time_builds(options.builds)) builds.push_back(to_json(build));
   }
-  Json batches = Json::array();
-  if (!options.batches.empty()) {
-    const Index index = build(mesh);
-    for (const double edges : options.batches)
-      batches.push_back(to_json(time_batches(contestants, index, edges, unit)));
-  }
   const measure::Machine machine = measure::this_machine();
   return {{"mesh", options.mesh},
           {"vertices", mesh.positions.size()},
@@ -78,7 +65,6 @@ Json race(const MeshView& mesh, Options& options) {
           {"order", options.order},
           {"queries", options.plan.queries},
           {"builds", builds},
-          {"batches", batches},
           {"rows", rows}};
 }
 
@@ -92,7 +78,6 @@ int run(int arguments, char** values) {
   program.add_option("--queries", options.plan.queries, "number per radius")->capture_default_str();
   program.add_option("--order", options.order)->check(CLI::IsMember({"cold", "warm"}))->capture_default_str();
   program.add_option("--builds", options.builds, "number of builds of each index")->capture_default_str();
-  program.add_option("--batches", options.batches, "radii of batches, in mean edge lengths")->delimiter(',');
   CLI11_PARSE(program, arguments, values);
   const MeshArgument mesh(options.mesh);
   std::cout << race(mesh.view(), options).dump() << '\n';

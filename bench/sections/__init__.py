@@ -5,9 +5,10 @@
     text(data)      its page, docs/benchmarks/NAME.md
     summary(data)   what docs/benchmarks.md shows of it; may be absent
 """
-from . import accuracy, all_vertices, exact_index, figure4, paper_tables, peers, scaling
+from . import accuracy, all_vertices, batch, exact_index, figure4, paper_tables, peers, scaling
 
 SECTIONS = {
+    "batch": batch,
     "exact_index": exact_index,
     "paper_tables": paper_tables,
     "accuracy": accuracy,

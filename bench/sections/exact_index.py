@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The exact index compared with breadth-first search."""
-from .. import machine, programs
+from .. import programs
 from .markdown import number, table, with_spread
 
 TITLE = "Speed over the radius"
@@ -17,24 +17,9 @@ three has an index of its own, so that none profits from the cache of another. S
 generated (`meshhood generate`).
 """
 
-BATCH_NOTE = """
-## Many vertices in one call
-
-A batch over consecutive vertices of the file, one thread, µs a row. `ids`: all ids are streamed. `counts`: only the sizes
-are computed. The breadth-first searches run for the first vertices of each batch.
-
-"""
-
 SUMMARY_NOTE = """`{command}`: µs a query, one thread, processor time. `bfs` is breadth-first search, in the order of the file
 or in index order, whichever is faster. All meshes and radii, with quartiles:
 [benchmarks/exact_index.md](benchmarks/exact_index.md).
-
-"""
-
-BATCH_SUMMARY = """
-### Many queries in one call
-
-µs a row, one thread. [All meshes](benchmarks/exact_index.md#many-vertices-in-one-call).
 
 """
 
@@ -43,7 +28,7 @@ def text(data):
     parts = [NOTE.format(command=COMMAND, queries=data["queries"])]
     for name, result in data["meshes"].items():
         parts.append(f"\n**{name}**, {result['vertices']:,} vertices\n\n{mesh_table(result)}")
-    return "".join([*parts, BATCH_NOTE, batch_table(data["meshes"])])
+    return "".join(parts)
 
 
 def summary(data):
@@ -56,8 +41,7 @@ def summary(data):
         for radius in filter(cold.__contains__, SHOWN_RADII):
             ratios = (ratio(row[radius], method) for row in (cold, warm) for method in ("ids", "count"))
             rows.append([label, f"{radius:g}", *timed_cells(cold[radius]), *(f"{value:.1f}" for value in ratios)])
-    return (SUMMARY_NOTE.format(command=COMMAND) + table(header, rows) + "\n" + extremes(data["meshes"])
-            + BATCH_SUMMARY + batch_table(shown(data)))
+    return SUMMARY_NOTE.format(command=COMMAND) + table(header, rows) + "\n" + extremes(data["meshes"])
 
 
 def shown(data):
@@ -97,47 +81,17 @@ def mesh_table(result):
     return table(header, rows)
 
 
-def batch_table(meshes):
-    header = ["mesh", "radius", "rows", "bfs", "bfs reordered", "ids", "counts", "× ids", "× counts"]
-    rows = []
-    for name, result in meshes.items():
-        for batch in result["batches"]:
-            times = [batch[method] for method in (*BFS, "ids", "count")]
-            best = min(time["median"] for time in times[:2])
-            rows.append([name, f"{batch['radius_edges']:g}", number(batch["rows"]),
-                         *(with_spread(time["median"], time["quartiles"]) for time in times),
-                         *(f"{best / time['median']:.1f}" for time in times[2:])])
-    return table(header, rows)
-
-
-HEAD_NOTE = """One query, cold, on one thread of an {processor} (`{command}`). `{smooth}` is {smooth_kind}
-of {smooth_size:,} vertices, `{folded}` is {folded_kind}, with {folded_size:,}. The radius is in mean edge lengths,
-and `bfs` is the fastest breadth-first search we could write; × is the ratio of the times.{remark}
-
-"""
-
-
 def head_table(data):
-    """The table of the README: one smooth mesh and one folded mesh, cold."""
+    """What the README says of single queries: one smooth mesh and one folded mesh, cold."""
     meshes = data["meshes"]
-    smooth = next((name for name in ("head_skin", *meshes) if name in meshes))
-    folded = next((name for name in ("mri_head", *meshes) if name in meshes))
-    header = ["radius"]
-    for name in (smooth, folded):
-        header += [f"{name}: found", "bfs µs", "exact µs", "×"]
-    columns = [programs.by_radius(meshes[name]["cold"]) for name in (smooth, folded)]
-    rows = [[f"{radius:g}", *(cell for rows in columns for cell in head_cells(rows[radius]))]
-            for radius in SHOWN_RADII if all(radius in rows for rows in columns)]
-    note = HEAD_NOTE.format(
-        processor=data["machine"]["processor"], command=COMMAND,
-        smooth=smooth, smooth_kind=KINDS.get(smooth, "a mesh"), smooth_size=meshes[smooth]["vertices"],
-        folded=folded, folded_kind=KINDS.get(folded, "a mesh"), folded_size=meshes[folded]["vertices"],
-        remark=" **Preliminary: the machine was busy.**" if machine.is_busy(data["machine"]) else "")
-    return note + table(header, rows) + "\n" + extremes(meshes)
-
-
-def head_cells(row):
-    return [*timed_cells(row), f"{ratio(row, 'ids'):.1f}"]
+    said = []
+    for name in dict.fromkeys(next(n for n in (wanted, *meshes) if n in meshes) for wanted in ("head_skin", "mri_head")):
+        rows = programs.by_radius(meshes[name]["cold"])
+        ratios = ", ".join(f"{ratio(rows[radius], 'ids'):.1f}" for radius in SHOWN_RADII if radius in rows)
+        said.append(f"{ratios} on `{name}`" + (f", {KINDS[name]}" if name in KINDS else ""))
+    radii = ", ".join(f"{radius:g}" for radius in SHOWN_RADII)
+    return (f"One query at a time, cold (`{COMMAND}`), at {radii} mean edges: times as fast\n"
+            + ";\n".join(said) + ".\n" + extremes(meshes))
 
 
 def timed_cells(row):

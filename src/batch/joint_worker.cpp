@@ -9,10 +9,13 @@
 namespace meshhood {
 namespace {
 
-// A packet costs about as much as this many rows of a leaf that are answered one by one. Measured; more where the ball
-// is large compared with a leaf, for then a single row costs little more than its rim.
-constexpr std::size_t kFewRows = 4;
-constexpr std::size_t kFewLargeRows = 10;
+/// A packet costs about as much as this many rows of a leaf that are answered one by one (docs/joint.md).
+struct BreakEven {
+  std::size_t rows;
+  std::size_t large_rows;  // where the radius is large
+};
+constexpr BreakEven kVectors{8, 12};
+constexpr BreakEven kPortable{14, 18};
 constexpr double kLargeRadius = 5;  // in mean leaf radii
 
 }  // namespace
@@ -146,7 +149,8 @@ LeafId JointWorker::leaf_of_item(const BatchItem& item) const { return leaf_of(v
 
 bool JointWorker::pays(std::span<const BatchItem> items) const {
   const double large = kLargeRadius * view_.tree.front().mean_radius / view_.frame.scale;
-  return items.size() >= (items.front().radius > large ? kFewLargeRows : kFewRows);
+  const BreakEven& least = best_isa() == Isa::Portable ? kPortable : kVectors;
+  return items.size() >= (items.front().radius > large ? least.large_rows : least.rows);
 }
 
 const JointRadius& JointWorker::prepared(double radius) {

@@ -7,15 +7,30 @@
 namespace meshhood {
 namespace {
 
+/// Bit `i` for each `i`. The loops below select from it instead of shifting, so that compilers can vectorize them.
+constexpr PerLane<std::uint32_t> kBits = [] {
+  PerLane<std::uint32_t> bits{};
+  for (unsigned i = 0; i < kLeafCapacity; ++i) bits[i] = std::uint32_t{1} << i;
+  return bits;
+}();
+
 /// The words of one vertex: compares it with all balls of the packet.
 QueryWord compare(const LeafPoints& points, std::size_t lane, const PacketBalls& balls, QueryWord& maybe) {
-  QueryWord sure = 0;
+  const float x = points.x[lane];
+  const float y = points.y[lane];
+  const float z = points.z[lane];
+  const float square = points.square[lane];
+  PerLane<float> heights;
   for (std::size_t i = 0; i < kPacketCapacity; ++i) {
-    const float product = (points.x[lane] * balls.x[i] + points.y[lane] * balls.y[i]) + points.z[lane] * balls.z[i];
-    const float height = product - points.square[lane];
-    sure |= QueryWord{height >= balls.surely_inside[i]} << i;
-    maybe |= QueryWord{height >= balls.maybe_inside[i]} << i;
+    heights[i] = ((x * balls.x[i] + y * balls.y[i]) + z * balls.z[i]) - square;
   }
+  QueryWord sure = 0;
+  QueryWord some = 0;
+  for (std::size_t i = 0; i < kPacketCapacity; ++i) {
+    sure |= (0 - QueryWord{heights[i] >= balls.surely_inside[i]}) & kBits[i];
+    some |= (0 - QueryWord{heights[i] >= balls.maybe_inside[i]}) & kBits[i];
+  }
+  maybe = some;
   return sure;
 }
 
@@ -48,12 +63,12 @@ BallWords ball_words(const LeafPoints& points, LaneMask lanes, const PacketBalls
   return result;
 }
 
-/// Reaches the neighbors of the lanes `from`; returns those that have gained.
-LaneMask spread_once(LeafWords& words, const LaneMask* adjacency, LaneMask from) {
+/// Reaches the open neighbors of the lanes `from`; returns those that have gained.
+LaneMask spread_once(LeafWords& words, const LaneMask* adjacency, LaneMask from, LaneMask open) {
   LaneMask gained = 0;
   for (; from != 0; from &= from - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(from));
-    for (LaneMask left = adjacency[lane]; left != 0; left &= left - 1) {
+    for (LaneMask left = adjacency[lane] & open; left != 0; left &= left - 1) {
       const auto neighbor = static_cast<std::size_t>(std::countr_zero(left));
       // mutant: portable-words-spread-outside
       const QueryWord grown = words.reached[neighbor] | (words.reached[lane] & words.inside[neighbor]);
@@ -64,27 +79,34 @@ LaneMask spread_once(LeafWords& words, const LaneMask* adjacency, LaneMask from)
   return gained;
 }
 
+/// The lanes in which the words differ.
+LaneMask differing(const PerLane<QueryWord>& a, const PerLane<QueryWord>& b) {
+  LaneMask lanes = 0;
+  for (std::size_t i = 0; i < kLeafCapacity; ++i) lanes |= a[i] != b[i] ? kBits[i] : 0;
+  return lanes;
+}
+
 /// Moves what is pending to `reached`; returns the lanes that gained.
 LaneMask take_pending(LeafWords& words, QueryWord whole) {
+  const PerLane<QueryWord> before = words.reached;
   QueryWord any = 0;
-  for (std::size_t i = 0; i < kLeafCapacity; ++i) any |= words.reached[i] | (words.pending[i] & words.inside[i]);
-  LaneMask gained = 0;
   for (std::size_t i = 0; i < kLeafCapacity; ++i) {
-    const QueryWord grown = words.reached[i] | ((words.pending[i] | (any & whole)) & words.inside[i]);
-    gained |= LaneMask{grown != words.reached[i]} << i;
-    words.reached[i] = grown;
+    words.reached[i] |= words.pending[i] & words.inside[i];
+    any |= words.reached[i];
   }
+  for (std::size_t i = 0; i < kLeafCapacity; ++i) words.reached[i] |= any & whole & words.inside[i];
   words.pending = {};
-  return gained;
+  return differing(words.reached, before);
 }
 
 SpreadWords spread_words(LeafWords& words, const LaneMask* adjacency, QueryWord whole) {
-  SpreadWords result{take_pending(words, whole), true};
-  for (LaneMask fresh = result.gained; fresh != 0;) {
-    fresh = spread_once(words, adjacency, fresh);
+  SpreadWords result{take_pending(words, whole), false};
+  LaneMask open = differing(words.reached, words.inside);
+  for (LaneMask fresh = result.gained; fresh != 0 && open != 0; open = differing(words.reached, words.inside)) {
+    fresh = spread_once(words, adjacency, fresh, open);
     result.gained |= fresh;
   }
-  for (std::size_t i = 0; i < kLeafCapacity; ++i) result.closed &= words.reached[i] == words.inside[i];
+  result.closed = open == 0;
   return result;
 }
 
@@ -121,7 +143,7 @@ void count_words(const LeafWords* words, std::span<const LeafOfWords> list, PerL
 
 LaneMask lanes_of(const QueryWord* reached, unsigned query) {
   LaneMask lanes = 0;
-  for (std::size_t i = 0; i < kLeafCapacity; ++i) lanes |= (reached[i] >> query & 1U) << i;
+  for (std::size_t i = 0; i < kLeafCapacity; ++i) lanes |= (reached[i] & kBits[query]) != 0 ? kBits[i] : 0;
   return lanes;
 }
 

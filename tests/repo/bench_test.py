@@ -16,7 +16,7 @@ from pathlib import Path
 from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
-from bench import accuracy, exact_index, machine, paper_tables, places, programs, report  # noqa: E402: from the checkout
+from bench import accuracy, batch, exact_index, machine, paper_tables, places, programs, report  # noqa: E402: from the checkout
 from bench import results, scaling, timing  # noqa: E402
 from bench.sections import SECTIONS  # noqa: E402
 
@@ -44,13 +44,15 @@ class Programs(unittest.TestCase):
             self.assertNotIn("extra", row["ranges"])
         self.assertGreater(rows[20]["ball"]["extra"], 0, "a scroll whose ball is exact tests nothing")
 
-    def test_race_times_batches_beside_breadth_first_search(self):
-        for batch, radius in zip(programs.race(MESH, batches=(3, 20))["batches"], (3, 20)):
-            self.assertEqual(batch["radius_edges"], radius)
-            self.assertGreaterEqual(batch["rows"], 80)
-            for method in ("bfs", "bfs-reordered", "ids", "count"):
-                self.assertEqual(len(batch[method]), 15)
-                self.assertTrue(all(time > 0 for time in batch[method]))
+    def test_all_vertices_times_batches_beside_breadth_first_search(self):
+        found = programs.ask(places.PROGRAMS / "all_vertices", "--json", MESH, 3, 20)
+        self.assertEqual(found["vertices"], 3000)
+        self.assertEqual([row["radius_edges"] for row in found["rows"]], [3, 20])
+        for row in found["rows"]:
+            self.assertGreater(row["found"], 1)
+            for method in batch.METHODS:
+                self.assertEqual(len(row[method]), 5)
+                self.assertTrue(all(time > 0 for time in row[method]))
 
     def test_race_refuses_what_it_does_not_know(self):
         for method in ("nope", "paper,x=3"):
@@ -123,7 +125,12 @@ class Parts(unittest.TestCase):
     def test_exact(self):
         exact_index.run(["tiny"], 50)
         self.assertIn("**tiny**, 3,000 vertices", self.page("exact_index"))
-        self.assertIn("3,000 vertices", SECTIONS["exact_index"].head_table(results.load("exact_index")))
+        self.assertIn("tiny", SECTIONS["exact_index"].head_table(results.load("exact_index")))
+
+    def test_batch(self):
+        batch.run(["tiny"])
+        self.assertIn("tiny", self.page("batch"))
+        self.assertIn("tiny: count", SECTIONS["batch"].head_table(results.load("batch")))
 
     def test_accuracy(self):
         accuracy.run(["tiny"], 50)
@@ -169,7 +176,7 @@ class Documents(unittest.TestCase):
 
     def test_the_table_of_the_readme_is_generated_from_the_results(self):
         written = places.README.read_text(encoding="utf-8")
-        self.assertEqual(written, report.readme(results.load("exact_index")), "run python3 -m bench report")
+        self.assertEqual(written, report.readme([(name, results.load(name)) for name in ("batch", "exact_index")]), "run python3 -m bench report")
 
     def test_every_result_names_its_machine(self):
         files = list(places.RESULTS.glob("*.json"))
