@@ -32,26 +32,28 @@ def summary(data):
 
 
 HEAD_NOTE = """All vertices in one call, one thread of an {processor} (`{command}`): times as fast as the
-fastest breadth-first search we could write, for the sizes of the neighborhoods and for their ids. The radius is in mean
-edge lengths.{remark}
+fastest breadth-first search we could write, for the sizes and the ids of all neighborhoods. Radius in mean edges.{remark}
 
 """
+HEAD_RADII = (2, 5, 10, 20, 65)
 
 
 def head_table(data):
     """The table of the README."""
-    remark = " **Preliminary: the machine was busy.**" if machine.is_busy(data["machine"]) else ""
+    remark = "\n**Preliminary: the machine was busy.**" if machine.is_busy(data["machine"]) else ""
     note = HEAD_NOTE.format(processor=data["machine"]["processor"], command=COMMAND, remark=remark)
-    return note + ratio_table(data) + "\n"
+    return note + ratio_table(data, HEAD_RADII) + "\n"
 
 
-def ratio_table(data):
+def ratio_table(data, radii=()):
+    """At `radii`, or at all that were measured."""
     shown = {name: data["meshes"][name] for name in SHOWN if name in data["meshes"]} or data["meshes"]
     header = ["radius"]
     for name in shown:
         header += [f"{name}: count", "ids"]
     by_radius = [{row["radius_edges"]: row for row in result["rows"]} for result in shown.values()]
-    rows = [[f"{radius:g}", *(cell for rows in by_radius for cell in ratios(rows[radius]))] for radius in by_radius[0]]
+    rows = [[f"{radius:g}", *(cell for rows in by_radius for cell in ratios(rows[radius]))] for radius in by_radius[0]
+            if not radii or radius in radii]
     return table(header, rows)
 
 

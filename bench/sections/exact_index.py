@@ -57,16 +57,22 @@ def ratio(row, method):
     return best_bfs(row) / row[method]["microseconds"]
 
 
-def extremes(meshes):
-    """The smallest and the largest ratio, each with its mesh and radius."""
+def least_and_most(meshes):
+    """The smallest and the largest ratio, each with its mesh, radius and order."""
     ratios = [(ratio(row, "ids"), name, radius, order) for name, result in meshes.items() for order in ("cold", "warm")
               for radius, row in programs.by_radius(result[order]).items()]
+    return min(ratios), max(ratios)
+
+
+def extremes(meshes):
+    radii = len(next(iter(programs.by_radius(result["cold"]) for result in meshes.values())))
 
     def said(found):
         return f"{found[0]:.1f} ({found[1]}, {found[3]}, {found[2]:g} edges)"
 
-    return (f"Over all {len(meshes)} meshes and {len(ratios) // len(meshes) // 2} radii, cold and warm, the smallest ratio is"
-            f" {said(min(ratios))}\nand the largest {said(max(ratios))}.\n")
+    least, most = least_and_most(meshes)
+    return (f"Over all {len(meshes)} meshes and {radii} radii, cold and warm, the smallest ratio is"
+            f" {said(least)}\nand the largest {said(most)}.\n")
 
 
 def mesh_table(result):
@@ -88,10 +94,11 @@ def head_table(data):
     for name in dict.fromkeys(next(n for n in (wanted, *meshes) if n in meshes) for wanted in ("head_skin", "mri_head")):
         rows = programs.by_radius(meshes[name]["cold"])
         ratios = ", ".join(f"{ratio(rows[radius], 'ids'):.1f}" for radius in SHOWN_RADII if radius in rows)
-        said.append(f"{ratios} on `{name}`" + (f", {KINDS[name]}" if name in KINDS else ""))
+        said.append(f"{ratios} on `{name}`")
     radii = ", ".join(f"{radius:g}" for radius in SHOWN_RADII)
-    return (f"One query at a time, cold (`{COMMAND}`), at {radii} mean edges: times as fast\n"
-            + ";\n".join(said) + ".\n" + extremes(meshes))
+    least, most = (found[0] for found in least_and_most(meshes))
+    return (f"One query at a time, cold (`{COMMAND}`), at {radii} edges: " + "\nand ".join(said)
+            + f"; over all meshes and radii {least:.1f} to {most:.1f}.\n")
 
 
 def timed_cells(row):
