@@ -21,7 +21,12 @@ constexpr double kLargeRadius = 5;  // in mean leaf radii
 }  // namespace
 
 JointWorker::JointWorker(const Index& index)
-    : index_(index), view_(IndexAccess::view(index)), radius_(view_.frame, 0), writer_(view_, best_isa()) {}
+    : index_(index),
+      view_(IndexAccess::view(index)),
+      radius_(view_.frame, 0),
+      unlike_a_surface_(is_unlike_a_surface(view_)),
+      by_leaf_(view_),
+      writer_(view_, best_isa()) {}
 
 void JointWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink) {
   for_each_run(
@@ -148,6 +153,7 @@ void JointWorker::begin_packet(const Run& run) {
 LeafId JointWorker::leaf_of_item(const BatchItem& item) const { return leaf_of(view_.slot[item.vertex]); }
 
 bool JointWorker::pays(std::span<const BatchItem> items) const {
+  if (unlike_a_surface_) return false;  // few vertices of a leaf have the same neighbors
   const double large = kLargeRadius * view_.tree.front().mean_radius / view_.frame.scale;
   const BreakEven& least = best_isa() == Isa::Portable ? kPortable : kVectors;
   return items.size() >= (items.front().radius > large ? least.large_rows : least.rows);
@@ -160,8 +166,38 @@ const JointRadius& JointWorker::prepared(double radius) {
 
 const VertexSet& JointWorker::search_single(const BatchItem& item) {
   SearcherAccess::State& state = SearcherAccess::state(searcher());
+  if (state.vertex_bfs) {
+    add_by_leaf(state.vertex_bfs->ranges(item.vertex, item.radius));
+    return by_leaf_;
+  }
   state.search(item.vertex, item.radius);
   return state.answer;
+}
+
+/// Cuts ranges, which ascend, into whole leaves and parts of leaves.
+void JointWorker::add_by_leaf(std::span<const VertexRange> ranges) {
+  by_leaf_.clear();
+  LeafSubset part{0, 0};
+  const auto end_part = [&] {
+    if (part.lanes != 0) by_leaf_.add(part);
+    part.lanes = 0;
+  };
+  for (const VertexRange& range : ranges) {
+    for (VertexId begin = range.begin; begin < range.end;) {
+      const LeafId leaf = leaf_of(view_.slot[view_.id(begin)]);
+      const VertexRange whole{view_.leaf_begin[leaf], view_.leaf_begin[leaf + 1]};
+      const VertexId end = std::min(range.end, whole.end);
+      if (part.leaf != leaf) end_part();
+      if (VertexRange{begin, end} == whole) {
+        by_leaf_.add(whole);
+      } else {
+        const auto lanes = first_lanes(static_cast<unsigned>(end - begin)) << (begin - whole.begin);
+        part = {leaf, part.lanes | lanes};
+      }
+      begin = end;
+    }
+  }
+  end_part();
 }
 
 Point JointWorker::position_of(const BatchItem& item) const {
