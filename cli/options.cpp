@@ -138,13 +138,17 @@ CLI::Option* add_radius(CLI::App& command, Radius& radius) {
           .add_option("-r,--radius", radius.value, "radius of the ball; a vertex at exactly this distance is inside")
           ->type_name("NUMBER")
           ->required();
+  add_unit(command, radius.unit);
+  return option;
+}
+
+void add_unit(CLI::App& command, std::string& unit) {
   command
-      .add_option("--unit", radius.unit,
+      .add_option("--unit", unit,
                   "unit of the radius; mesh: that of the positions; edge: the mean edge length of the mesh")
       ->check(one_of({"mesh", "edge"}))
       ->type_name("")
       ->capture_default_str();
-  return option;
 }
 
 double parse_radius(std::string_view name, const std::string& text) {

@@ -58,6 +58,9 @@ struct Radius {
 /// --radius and --unit. Returns the former, which is required unless made optional.
 CLI::Option* add_radius(CLI::App& command, Radius& radius);
 
+/// --unit.
+void add_unit(CLI::App& command, std::string& unit);
+
 /// The radius in the unit of the positions. Throws Error{InvalidRadius, InvalidOption}.
 [[nodiscard]] double resolve(const Radius& radius, Input& input);
 

@@ -25,7 +25,7 @@ function(meshhood_compile_quickly target)
 endfunction()
 
 # The kernels of the processors use the same names, so that each is compiled by itself.
-set(meshhood_kernels "/simd/((joint|aggregate)_)?(portable|avx2|avx512|wasm128)\\.cpp$")
+set(meshhood_kernels "/simd/((joint|aggregate|moments)_)?(portable|avx2|avx512|wasm128)\\.cpp$")
 
 # Compiles several sources at once, in a fraction of the time. Another target must compile them one by one.
 function(meshhood_compile_together target)

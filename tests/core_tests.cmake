@@ -22,7 +22,8 @@ foreach(part
     exact/search/vertex_bfs exact/search/vertex_set
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
     region/region_mesher
-    simd/aggregate_kernels simd/joint_kernels simd/kernels
+    curvature/curvatures curvature/quadric
+    simd/aggregate_kernels simd/joint_kernels simd/kernels simd/moment_kernels
     whole/arguments whole/robustness whole/differential whole/metamorphic)
   meshhood_test(${part} meshhood_families)
 endforeach()

@@ -19,6 +19,7 @@
 #include "meshhood/refit.h"
 
 #include "arrays.h"
+#include "batch_query.h"
 #include "bindings.h"
 #include "interpreter.h"
 #include "methods.h"
@@ -28,9 +29,6 @@ namespace nb = nanobind;
 namespace meshhood::python {
 namespace {
 
-using Rows = nb::ndarray<const std::int32_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
-using Radii = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
-
 Output<std::int32_t> one(Method& method, VertexId v, double radius) {
   Answer answer = method.neighborhood(v, radius, false);
   return owned<std::int32_t>(std::move(answer.ids));
@@ -39,17 +37,6 @@ Output<std::int32_t> one(Method& method, VertexId v, double radius) {
 auto one_with_distances(Method& method, VertexId v, double radius) {
   Answer answer = method.neighborhood(v, radius, true);
   return std::pair(owned<std::int32_t>(std::move(answer.ids)), owned<double>(std::move(answer.distances)));
-}
-
-BatchQuery query_of(const std::optional<Rows>& vertices, const std::variant<double, Radii>& radius) {
-  BatchQuery query;
-  if (vertices) query.vertices = std::span(reinterpret_cast<const VertexId*>(vertices->data()), vertices->size());
-  if (const auto* const radii = std::get_if<Radii>(&radius)) {
-    query.radius = std::span(radii->data(), radii->size());
-  } else {
-    query.radius = std::get<double>(radius);
-  }
-  return query;
 }
 
 auto many(Method& method, const std::optional<Rows>& vertices, const std::variant<double, Radii>& radius,

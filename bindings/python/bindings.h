@@ -22,6 +22,9 @@ void bind_queries(nanobind::module_& module);
 /// Regions as meshes.
 void bind_region_mesh(nanobind::module_& module);
 
+/// Curvature.
+void bind_curvature(nanobind::module_& module);
+
 /// Mesh files, index files, and an index as bytes.
 void bind_files(nanobind::module_& module);
 

@@ -67,6 +67,7 @@ NB_MODULE(_core, module) {
   nb::register_exception_translator(meshhood::python::translate);
   meshhood::python::bind_methods(module);
   meshhood::python::bind_aggregates(module);
+  meshhood::python::bind_curvature(module);
   meshhood::python::bind_makers(module);
   meshhood::python::bind_queries(module);
   meshhood::python::bind_region_mesh(module);

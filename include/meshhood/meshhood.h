@@ -24,6 +24,7 @@
 #include "meshhood/adjacency.h"    // IWYU pragma: export
 #include "meshhood/aggregate.h"    // IWYU pragma: export
 #include "meshhood/batch.h"        // IWYU pragma: export
+#include "meshhood/curvature.h"    // IWYU pragma: export
 #include "meshhood/edge_search.h"  // IWYU pragma: export
 #include "meshhood/error.h"        // IWYU pragma: export
 #include "meshhood/filter.h"       // IWYU pragma: export

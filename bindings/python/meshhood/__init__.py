@@ -12,6 +12,7 @@ r around v.
 
 from . import _core
 from ._aggregate import vertex_areas
+from ._curvature import Curvature, principal_curvature
 from ._files import Mesh, load, read_mesh
 from ._index import Chunk, MeshIndex, Quality
 from ._methods import Paper
@@ -25,6 +26,7 @@ __version__: str = _core.__version__
 
 __all__ = [
     "Chunk",
+    "Curvature",
     "Mesh",
     "MeshIndex",
     "Page",
@@ -38,6 +40,7 @@ __all__ = [
     "open_parts",
     "partition",
     "plot_neighborhood",
+    "principal_curvature",
     "read_mesh",
     "vertex_areas",
     "view",

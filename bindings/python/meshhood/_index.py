@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _aggregate, _convert, _core
+from ._curvature import Curvature, curvature, make_surface
 from ._mesh import mesh_arrays, moved_positions, warn_if_unwelded
 from ._methods import Method, Methods
 from ._progress import Progress, reporter
@@ -552,6 +553,44 @@ class MeshIndex(Queries):
         Takes some milliseconds for any mesh.
         """
         return Quality(*self._exact.quality())
+
+    def curvature(
+        self,
+        r: Union[Radii, Sequence[float]],
+        vertices: Vertices = None,
+        *,
+        F: Any = None,
+        normals: Any = None,
+        like: Literal[None, "libigl"] = None,
+        filter: bool = True,
+        unit: Unit = "mesh",
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> Curvature:
+        """Principal curvatures of `vertices` by a quadric that is fitted to their neighborhoods of radius `r`.
+
+        r : a radius, or a list of radii: the arrays of the result then have a leading axis.
+        vertices : a list of vertices, a bool mask, or None for all.
+        F : the faces of the mesh that the index was built from; the index does not keep them.
+        normals : (#V, 3), instead of F, for a mesh without faces; of any length.
+        like : "libigl" gives the values of igl.principal_curvature, whose shape operator is wrong where the fitted
+            quadric is tilted against the normal, for a neighborhood of the vertices nearer than `r`.
+        filter : fit only vertices whose normal makes less than 90 degrees with that of the query vertex, if they are at
+            least six.
+        unit, workers, progress : as for `query_ball`. The result does not depend on `workers`.
+
+        Returns a `Curvature`: k1, k2, d1, d2, state, and as properties mean, gaussian, shape_index, curvedness, ok.
+        Raises ValueError without faces and normals. See docs/curvature.md for what the numbers mean.
+        """
+        if like is not None:
+            _convert.choice(like, "like", ("libigl",))
+        rows = None if vertices is None else _convert.vertices(vertices, self._count)
+        radii = np.array(_convert.as_array(r, "r"))
+        several = radii.ndim > 0
+        radii = self._scale(unit) * _convert.radii(radii, len(radii) if several else 1)
+        options = {"libigl": like == "libigl", "filter": bool(filter), "threads": _convert.threads(workers)}
+        surface = make_surface(self._exact, F, normals, self._count)
+        return curvature(surface, rows, radii, several, options, progress)
 
     def save(self, path: Union[str, os.PathLike[str]], *, progress: Progress = None) -> None:
         """Writes the index to a file for `load`. The same mesh gives the same bytes on every machine.

@@ -17,9 +17,14 @@ def mesh_arrays(V, F):
     positions = _positions(V)
     if hasattr(F, "tocoo"):
         return positions, *_edges(F, len(positions))
-    if isinstance(F, tuple):
-        return positions, *_polygons(F)
-    return positions, *_faces(F)
+    return positions, *face_arrays(F)
+
+
+def face_arrays(F):
+    """The corners of faces, and the offsets of the polygons or None for triangles."""
+    if hasattr(F, "tocoo"):
+        raise ValueError("F: a graph, expected faces")
+    return _polygons(F) if isinstance(F, tuple) else _faces(F)
 
 
 def moved_positions(V):

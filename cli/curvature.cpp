@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// meshhood curvature: principal curvatures at one or several scales.
+#include "meshhood/curvature.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "meshhood/error.h"
+
+#include "commands.h"
+#include "input.h"
+#include "io/npz_writer.h"
+#include "options.h"
+#include "output.h"
+#include "task.h"
+
+namespace meshhood::cli {
+namespace {
+
+struct CurvatureCommand {
+  std::string file;
+  std::string vertices;
+  Radius radius;
+  bool like_libigl = false;
+  bool no_filter = false;
+  unsigned threads = kAllThreads;
+  std::string output;
+  bool json = false;
+};
+
+/// The numbers of "5,10,20".
+std::vector<double> resolve_list(const Radius& radius, Input& input) {
+  std::vector<double> radii;
+  std::size_t begin = 0;
+  for (;;) {
+    const std::size_t end = radius.value.find(',', begin);
+    radii.push_back(resolve({radius.value.substr(begin, end - begin), radius.unit}, input));
+    if (end == std::string::npos) return radii;
+    begin = end + 1;
+  }
+}
+
+/// How many rows have each state.
+struct States {
+  std::size_t fitted = 0;
+  std::size_t rank_deficient = 0;
+  std::size_t too_few = 0;
+  std::size_t no_normal = 0;
+
+  void add(const std::vector<CurvatureState>& states) {
+    for (const CurvatureState state : states) {
+      fitted += static_cast<std::size_t>(state == CurvatureState::Fitted);
+      rank_deficient += static_cast<std::size_t>(state == CurvatureState::RankDeficient);
+      too_few += static_cast<std::size_t>(state == CurvatureState::TooFew);
+      no_normal += static_cast<std::size_t>(state == CurvatureState::NoNormal);
+    }
+  }
+};
+
+/// Radius after radius, as one array of each name.
+struct Columns {
+  std::vector<double> k1;
+  std::vector<double> k2;
+  std::vector<double> d1;
+  std::vector<double> d2;
+  std::vector<std::int32_t> state;
+
+  void append(const Curvatures& found) {
+    k1.insert(k1.end(), found.k1.begin(), found.k1.end());
+    k2.insert(k2.end(), found.k2.begin(), found.k2.end());
+    d1.insert(d1.end(), found.d1.begin(), found.d1.end());
+    d2.insert(d2.end(), found.d2.begin(), found.d2.end());
+    for (const CurvatureState one : found.state) state.push_back(static_cast<std::int32_t>(one));
+  }
+};
+
+void write(const CurvatureCommand& options, const std::vector<double>& radii, const std::vector<VertexId>& vertices,
+           const Columns& columns) {
+  io::NpzWriter npz(options.output);
+  npz.add<double>("radii", radii);
+  if (!options.vertices.empty()) {
+    const std::vector<std::int64_t> listed(vertices.begin(), vertices.end());
+    npz.add<std::int64_t>("vertices", listed);
+  }
+  npz.add<double>("k1", columns.k1);
+  npz.add<double>("k2", columns.k2);
+  npz.add<double>("d1", columns.d1);
+  npz.add<double>("d2", columns.d2);
+  npz.add<std::int32_t>("state", columns.state);
+  npz.commit();
+}
+
+void print(const CurvatureCommand& options, std::size_t rows, std::size_t radii, const States& states) {
+  if (options.json) {
+    return print_json(Json{{"output", options.output},
+                           {"rows", rows},
+                           {"radii", radii},
+                           {"fitted", states.fitted},
+                           {"rank_deficient", states.rank_deficient},
+                           {"too_few", states.too_few},
+                           {"no_normal", states.no_normal}});
+  }
+  print_text(
+      fmt::format("{}: {} rows for {} radii; {} fitted, {} without a unique fit, {} of too few vertices, {} "
+                  "without a normal\n",
+                  printable_name(options.output), rows, radii, states.fitted, states.rank_deficient, states.too_few,
+                  states.no_normal));
+}
+
+void curvature(const CurvatureCommand& options) {
+  check_output(options.output, {options.file, options.vertices});
+  Input input(options.file);
+  if (input.mesh() == nullptr) {
+    raise(ErrorCode::InvalidOption, printable_name(input.name()) +
+                                        ": an index has no faces, which normals are made "
+                                        "from; expected a mesh");
+  }
+  const std::vector<double> radii = resolve_list(options.radius, input);
+  std::vector<VertexId> listed;
+  if (!options.vertices.empty()) listed = read_vertex_list(options.vertices, input.vertex_count());
+  const Index& index = input.exact_index(options.threads);
+  const CurvatureIndex surface = CurvatureIndex::build(index, input.mesh()->view());
+  CurvatureOptions settings = options.like_libigl ? like_libigl() : CurvatureOptions{};
+  settings.filter = !options.no_filter;
+  settings.threads = options.threads;
+  Columns columns;
+  States states;
+  Task task("fitting", {"rows", static_cast<double>(radii.size())});
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    settings.progress = [&, i](std::size_t done, std::size_t total) {
+      task.report(i * total + done, radii.size() * total);
+      return !Task::is_cancelled();
+    };
+    BatchQuery query{.vertices = {}, .radius = radii[i]};
+    if (!options.vertices.empty()) query.vertices = listed;
+    const Curvatures found = curvatures(surface, query, settings);
+    states.add(found.state);
+    columns.append(found);
+  }
+  write(options, radii, listed, columns);
+  print(options, columns.k1.size() / radii.size(), radii.size(), states);
+}
+
+}  // namespace
+
+void add_curvature(CLI::App& program) {
+  auto options = std::make_shared<CurvatureCommand>();
+  CLI::App* command = program.add_subcommand("curvature", "Write the principal curvatures at one or several scales");
+  add_mesh(*command, options->file);
+  command->add_option("-r,--radius", options->radius.value, "radius of the neighborhoods, or several: 5,10,20")
+      ->type_name("NUMBERS")
+      ->required();
+  add_unit(*command, options->radius.unit);
+  command->add_option("--vertices", options->vertices, "text file with the query vertices, one per line (default: all)")
+      ->check(file_name())
+      ->type_name("FILE");
+  command->add_flag("--like-libigl", options->like_libigl,
+                    "the values of igl::principal_curvature, with the error of its shape operator");
+  command->add_flag("--no-filter", options->no_filter,
+                    "also fit vertices whose normal points away from that of the "
+                    "query vertex");
+  add_threads(*command, options->threads);
+  add_output(*command, ".npz", "file to write", options->output)->required();
+  add_json(*command, options->json);
+  command->callback([options] { curvature(*options); });
+}
+
+}  // namespace meshhood::cli

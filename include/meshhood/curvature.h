@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "meshhood/batch.h"
+#include "meshhood/index.h"
+#include "meshhood/mesh.h"
+#include "meshhood/progress.h"
+
+/// Curvature at a scale: what the neighborhood of a vertex with radius r says of the shape of the surface there. The
+/// measures and how to choose among them are explained in docs/curvature.md.
+///
+///     const auto surface = meshhood::CurvatureIndex::build(index, mesh);
+///     const auto [k1, k2, d1, d2, state] = meshhood::curvatures(surface, {.radius = 2.5}, {.threads = 0});
+namespace meshhood {
+
+/// What curvature needs of a mesh beyond its index: the normals of the vertices. Immutable: any number of threads may
+/// use it. Refers to the index, which must outlive it and stay where it is. 28 bytes a vertex.
+class CurvatureIndex {
+ public:
+  /// The normal of a vertex is the sum of the vector areas of its faces, normalised. Of a triangle that is half the
+  /// cross product of two edges, of a polygon Newell's sum.
+  ///
+  /// mesh    the mesh that the index was built from, with faces; borrowed for the call.
+  /// Throws Error{InvalidMesh, TooLarge} if `mesh` is invalid, has no faces, or has other positions than the index.
+  /// O(#V + #corners).
+  [[nodiscard]] static CurvatureIndex build(const Index& index, const MeshView& mesh);
+  [[nodiscard]] static CurvatureIndex build(const Index&&, const MeshView&) = delete;
+
+  /// The same with the positions of the index. `faces` are those of the mesh that it was built from.
+  [[nodiscard]] static CurvatureIndex build(const Index& index, const FacesView& faces);
+  [[nodiscard]] static CurvatureIndex build(const Index&&, const FacesView&) = delete;
+
+  /// The same for a graph without faces.
+  ///
+  /// normals    #V by 3, in the order of the caller's vertices, of any length; copied. A vertex whose normal has length
+  ///            0 counts as one without a normal. Finite.
+  /// Throws Error{InvalidMesh}, naming the vertex.
+  [[nodiscard]] static CurvatureIndex build(const Index& index, std::span<const double> normals);
+  [[nodiscard]] static CurvatureIndex build(const Index&&, std::span<const double>) = delete;
+
+  CurvatureIndex(CurvatureIndex&&) noexcept;
+  CurvatureIndex& operator=(CurvatureIndex&&) noexcept;
+  ~CurvatureIndex();
+
+  /// #V.
+  [[nodiscard]] std::size_t vertex_count() const;
+
+  /// Memory without the index, in bytes.
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  friend struct CurvatureAccess;
+
+  struct State;
+  explicit CurvatureIndex(std::unique_ptr<const State> state);
+  std::unique_ptr<const State> state_;
+};
+
+/// How principal curvatures follow from the fitted quadric z = a x^2 + b x y + c y^2 + d x + e y.
+enum class ShapeOperator : std::uint8_t {
+  /// The shape operator of the quadric at the query vertex, from its first and second fundamental forms. The directions
+  /// are tangent to the quadric. The result does not depend on the numbering of the vertices.
+  Exact,
+
+  /// The matrix that libigl uses, which differs where d or e is not 0: its two corners are both ME - LF, where the
+  /// shape operator has ME - LF and MG - NF. The error is of second order in the slope of the fit against the vertex
+  /// normal, and depends on the numbering. The directions lie in the plane of the vertex normal.
+  Libigl,
+};
+
+/// What a row of `Curvatures` is worth.
+enum class CurvatureState : std::uint8_t {
+  Fitted,         ///< the least-squares fit, which is unique
+  RankDeficient,  ///< the points determine no unique quadric: the one with the smallest coefficients
+  TooFew,         ///< fewer than six vertices are connected with the query vertex: all values are 0
+  NoNormal,       ///< the query vertex has no normal, as it belongs to no face with an area: all values are 0
+};
+
+struct CurvatureOptions {
+  /// Fit only the vertices whose normal makes an angle of less than 90 degrees with that of the query vertex, if they
+  /// are at least six. Keeps what lies on the other side of a fold or a thin wall out of the fit.
+  bool filter = true;
+
+  /// The neighborhood has the vertices nearer than the radius, as in libigl; otherwise a vertex at exactly the radius
+  /// counts.
+  bool open_ball = false;
+
+  ShapeOperator shape_operator = ShapeOperator::Exact;
+
+  /// As for a batch (see `BatchOptions`). The result does not depend on `threads`.
+  unsigned threads = 1;
+  Progress progress = {};
+};
+
+/// The options with which `curvatures` agrees with `igl::principal_curvature(V, F, ..., radius, useKring = false)` of
+/// libigl, at the radius of `libigl_radius`.
+[[nodiscard]] CurvatureOptions like_libigl();
+
+/// The radius of libigl's neighborhoods: `edges` times the mean length of the sides of all faces. A side of two faces
+/// counts twice, so that this differs from `mean_edge_length` where the mesh has a boundary. 0 if there are no sides.
+/// Throws Error{InvalidMesh, TooLarge}.
+[[nodiscard]] double libigl_radius(const MeshView& mesh, double edges);
+
+/// Principal curvatures, row by row of the query.
+struct Curvatures {
+  /// #rows, in 1 / unit of the positions, k1 >= k2. Positive where the surface is convex, seen from the side to which
+  /// the normals point: 1 / R on a sphere with normals outward.
+  std::vector<double> k1;
+  std::vector<double> k2;
+
+  /// #rows by 3: the directions of k1 and k2. Unit vectors, orthogonal to each other; of either sign the one whose
+  /// component of largest magnitude is positive.
+  std::vector<double> d1;
+  std::vector<double> d2;
+
+  std::vector<CurvatureState> state;  ///< #rows
+};
+
+/// Fits a quadric through the query vertex to its neighborhood by least squares (Panozzo et al., "Efficient
+/// Multi-scale Curvature and Crease Estimation", GraVisMa 2010), and returns its principal curvatures at that vertex.
+/// A neighborhood of fewer than six vertices is extended: by the nearest vertex that is linked to it, until there are
+/// six.
+///
+/// query    as of a batch; a radius for all rows or for each.
+/// The result has the same bits for any number of threads and on every processor. O(size of the neighborhoods) in the
+/// worst case; where many vertices of a leaf are asked for, what their neighborhoods share is summed once.
+/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
+[[nodiscard]] Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query,
+                                    const CurvatureOptions& options = {});
+
+/// H = (k1 + k2) / 2.
+[[nodiscard]] inline double mean_curvature(double k1, double k2) { return (k1 + k2) / 2; }
+
+/// K = k1 k2.
+[[nodiscard]] inline double gaussian_curvature(double k1, double k2) { return k1 * k2; }
+
+/// Koenderink's shape index, 2 / pi atan((k1 + k2) / (k1 - k2)): 1 on a dome, 0.5 on a ridge, 0 on a saddle, -0.5 in a
+/// valley, -1 in a bowl. NaN where both are 0, where it is not defined.
+[[nodiscard]] double shape_index(double k1, double k2);
+
+/// Koenderink's curvedness, the root of (k1^2 + k2^2) / 2.
+[[nodiscard]] double curvedness(double k1, double k2);
+
+}  // namespace meshhood

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Principal curvatures of a batch, packet by packet.
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "meshhood/curvature.h"
+#include "meshhood/error.h"
+#include "meshhood/joint.h"
+
+#include "base/vector.h"
+#include "curvature/direct_fit.h"
+#include "curvature/packet_moments.h"
+#include "curvature/quadric.h"
+#include "curvature/surface.h"
+#include "curvature/visit_moments.h"
+
+namespace meshhood {
+namespace {
+
+TangentFrame frame_at(const SurfaceState& surface, std::uint32_t place, ShapeOperator shape_operator) {
+  const Point normal = surface.normal(place);
+  if (shape_operator == ShapeOperator::Exact) return frame_of(normal);
+  return frame_towards(normal, surface.position(surface.first_neighbor[place]) - surface.position(place));
+}
+
+/// Fits the rows of packets. One object a thread.
+class CurvatureFitter {
+ public:
+  CurvatureFitter(const SurfaceState& surface, const CurvatureOptions& options, Curvatures& out)
+      : surface_(&surface), options_(&options), out_(&out), direct_(surface, options) {}
+
+  void fit(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments);
+
+ private:
+  void fit_row(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments, std::size_t query);
+  void write(std::size_t row, CurvatureState state, const PrincipalCurvature& curvature);
+
+  const SurfaceState* surface_;
+  const CurvatureOptions* options_;
+  Curvatures* out_;
+  DirectFit direct_;
+  std::array<TangentFrame, kPacketCapacity> frames_{};
+  QueryVectors u_{};
+  QueryVectors v_{};
+  QueryVectors n_{};
+  FrameMoments in_frame_{};
+};
+
+void set(QueryVectors& vectors, std::size_t query, const Point& value) {
+  vectors.x[query] = value.x;
+  vectors.y[query] = value.y;
+  vectors.z[query] = value.z;
+}
+
+void CurvatureFitter::fit(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
+  for (std::size_t q = 0; q < packet.places.size(); ++q) {
+    frames_[q] = frame_at(*surface_, packet.places[q], options_->shape_operator);
+    set(u_, q, frames_[q].u);
+    set(v_, q, frames_[q].v);
+    set(n_, q, frames_[q].n);
+  }
+  sums.kernels().rotate(moments, u_, v_, n_, in_frame_);
+  for (std::size_t q = 0; q < packet.places.size(); ++q) fit_row(packet, sums, moments, q);
+}
+
+void CurvatureFitter::fit_row(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments,
+                              std::size_t query) {
+  const std::size_t row = packet.rows[query];
+  if (std::isnan(frames_[query].n.x)) return write(row, CurvatureState::NoNormal, {});
+  if (moments.at[0][query] >= kFewestPoints) {
+    if (const std::optional<Quadric> quadric = fit_moments(in_frame_, query, sums.sizes(query))) {
+      PrincipalCurvature result = principal_curvature(*quadric, frames_[query], options_->shape_operator);
+      result.k1 *= sums.scale();
+      result.k2 *= sums.scale();
+      return write(row, CurvatureState::Fitted, result);
+    }
+  }
+  const DirectFit::Result direct = direct_.fit(packet.places[query], packet.radii[query], frames_[query]);
+  write(row, direct.state, direct.curvature);
+}
+
+void CurvatureFitter::write(std::size_t row, CurvatureState state, const PrincipalCurvature& curvature) {
+  out_->state[row] = state;
+  out_->k1[row] = curvature.k1;
+  out_->k2[row] = curvature.k2;
+  const auto set_direction = [&](std::vector<double>& directions, const Point& d) {
+    directions[3 * row] = d.x;
+    directions[3 * row + 1] = d.y;
+    directions[3 * row + 2] = d.z;
+  };
+  set_direction(out_->d1, curvature.d1);
+  set_direction(out_->d2, curvature.d2);
+}
+
+}  // namespace
+
+CurvatureOptions like_libigl() { return {.filter = true, .open_ball = true, .shape_operator = ShapeOperator::Libigl}; }
+
+Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query, const CurvatureOptions& options) {
+  const SurfaceState& state = CurvatureAccess::state(surface);
+  const std::size_t rows = query.vertices.list() ? query.vertices.list()->size() : surface.vertex_count();
+  Curvatures result;
+  result.k1.resize(rows);
+  result.k2.resize(rows);
+  result.d1.resize(3 * rows);
+  result.d2.resize(3 * rows);
+  result.state.resize(rows);
+  const MomentSource source{.index = state.index, .filter = options.filter ? &state : nullptr};
+  visit_moments(*state.searched, query, options.open_ball, source,
+                {.threads = options.threads, .progress = options.progress}, [&] {
+                  auto fitter = std::make_shared<CurvatureFitter>(state, options, result);
+                  return [fitter](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
+                    fitter->fit(packet, sums, moments);
+                  };
+                });
+  return result;
+}
+
+double shape_index(double k1, double k2) {
+  if (k1 == 0 && k2 == 0) return std::numeric_limits<double>::quiet_NaN();
+  return 2 * std::numbers::inv_pi * std::atan2(k1 + k2, k1 - k2);
+}
+
+double curvedness(double k1, double k2) {
+  const double largest = std::max(std::abs(k1), std::abs(k2));
+  if (!(largest > 0) || std::isinf(largest)) return largest;
+  const double a = k1 / largest;
+  const double b = k2 / largest;
+  return largest * std::sqrt((a * a + b * b) / 2);
+}
+
+}  // namespace meshhood

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "curvature/direct_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/vector.h"
+#include "exact/neighbors.h"
+
+namespace meshhood {
+
+/// Ascending, so that sums do not depend on what the searcher remembers.
+void DirectFit::find(std::uint32_t place, double radius) {
+  if (!searcher_) searcher_.emplace(*surface_->searched);
+  found_.clear();
+  for (const VertexRange& range : searcher_->ranges(surface_->index->id(place), radius)) {
+    for (VertexId i = range.begin; i < range.end; ++i) found_.push_back(i);
+  }
+  std::sort(found_.begin(), found_.end());
+}
+
+/// Adds the vertices nearest to the query vertex among those that are linked to the set, one by one; of several the one
+/// with the lowest id.
+void DirectFit::extend(std::uint32_t place) {
+  const IndexView& index = *surface_->index;
+  const Point centre = surface_->position(place);
+  while (found_.size() < kFewestPoints) {
+    std::optional<std::uint32_t> nearest;
+    const auto key = [&](std::uint32_t i) {
+      return std::pair(squared_distance(surface_->position(i), centre), index.id(i));
+    };
+    for (const std::uint32_t i : found_) {
+      const std::uint32_t slot = index.slot[index.id(i)];
+      for_each_neighbor(index, leaf_of(slot), lane_of(slot), [&](std::size_t to) {
+        const auto other = static_cast<std::uint32_t>(to);
+        if (std::find(found_.begin(), found_.end(), other) != found_.end()) return;
+        if (!nearest || key(other) < key(*nearest)) nearest = other;
+      });
+    }
+    if (!nearest) return;
+    found_.push_back(*nearest);
+  }
+}
+
+void DirectFit::filter(const Point& normal) {
+  facing_.clear();
+  for (const std::uint32_t i : found_) {
+    if (dot(surface_->normal(i), normal) > 0) facing_.push_back(i);
+  }
+  if (facing_.size() >= kFewestPoints) found_.swap(facing_);
+}
+
+DirectFit::Result DirectFit::fit(std::uint32_t place, double radius, const TangentFrame& frame) {
+  const IndexView& index = *surface_->index;
+  find(place, radius);
+  extend(place);
+  if (found_.size() < kFewestPoints) return {CurvatureState::TooFew, {}};
+  if (options_->filter) filter(frame.n);
+  const Point centre = surface_->position(place);
+  double extent = 0;
+  for (const std::uint32_t i : found_) {
+    const Point p = index.frame.scale * (surface_->position(i) - centre);
+    extent = std::max({extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  const double scale = scale_for(extent);
+  points_.clear();
+  for (const std::uint32_t i : found_) {
+    const Point p = scale * (surface_->position(i) - centre);
+    points_.push_back({dot(p, frame.u), dot(p, frame.v), dot(p, frame.n)});
+  }
+  const PointFit fit = fit_points(points_);
+  PrincipalCurvature result = principal_curvature(fit.quadric, frame, options_->shape_operator);
+  result.k1 *= scale;
+  result.k2 *= scale;
+  return {fit.unique ? CurvatureState::Fitted : CurvatureState::RankDeficient, result};
+}
+
+/// What coordinates are multiplied by: a power of two. Of several fits, the one with the smallest coefficients depends
+/// on the unit. libigl fits in the unit of the mesh; where squares and coordinates differ too much there, it drops
+/// terms.
+double DirectFit::scale_for(double extent) const {
+  const double to_frame = surface_->index->frame.scale;
+  if (!(extent > 0)) return to_frame;
+  const double scale = std::ldexp(to_frame, -std::ilogb(extent) - 1);
+  const bool moderate = scale > 0x1p-20 && scale < 0x1p20;
+  return options_->shape_operator == ShapeOperator::Libigl && moderate ? 1 : scale;
+}
+
+}  // namespace meshhood

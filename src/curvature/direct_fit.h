@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "meshhood/search.h"
+
+#include "curvature/quadric.h"
+#include "curvature/surface.h"
+
+namespace meshhood {
+
+/// The curvature of one vertex, from the points of its neighborhood themselves. Slow, but right also where the normal
+/// equations are not: for few or badly placed vertices. One object a thread.
+class DirectFit {
+ public:
+  DirectFit(const SurfaceState& surface, const CurvatureOptions& options) : surface_(&surface), options_(&options) {}
+
+  struct Result {
+    CurvatureState state;
+    PrincipalCurvature curvature;
+  };
+
+  /// The vertex at `place` in index order. `frame` is that of its normal.
+  Result fit(std::uint32_t place, double radius, const TangentFrame& frame);
+
+ private:
+  void find(std::uint32_t place, double radius);
+  void extend(std::uint32_t place);
+  void filter(const Point& normal);
+  [[nodiscard]] double scale_for(double extent) const;
+
+  const SurfaceState* surface_;
+  const CurvatureOptions* options_;
+  std::optional<Searcher> searcher_;
+  std::vector<std::uint32_t> found_;  // places in index order
+  std::vector<std::uint32_t> facing_;
+  std::vector<Point> points_;
+};
+
+}  // namespace meshhood

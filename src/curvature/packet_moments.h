@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "curvature/surface.h"
+#include "simd/moments.h"
+
+namespace meshhood {
+
+/// What the moments of a packet are made of. In index order.
+struct MomentSource {
+  const IndexView* index;
+  const SurfaceState* filter = nullptr;  // only vertices whose normal faces that of the query vertex, if set
+  std::span<const double> weights = {};  // by vertex; 1 if empty
+};
+
+/// See `PacketMoments::sizes`.
+struct MomentSizes {
+  double second;
+  double fourth;
+};
+
+/// The moments of the neighborhoods of up to 32 vertices that lie close together. A vertex that counts for all queries
+/// is added once, about a common centre; the sums are moved to each query vertex at the end. Owns 60 kB of memory.
+class PacketMoments {
+ public:
+  /// Borrows what `source` names.
+  PacketMoments(const MomentSource& source, Isa isa);
+
+  /// Begins with the query vertices at these positions in index order. No vertex that will be added is farther than
+  /// `reach` from its query vertex.
+  void begin(std::span<const std::uint32_t> places, double reach);
+
+  /// The vertices `first .. first + size - 1` in index order belong to the queries of `word`.
+  void add(std::size_t first, std::size_t size, QueryWord word);
+
+  /// The same with a word for each vertex; `size` <= 32.
+  void add(std::size_t first, std::size_t size, std::span<const QueryWord, kPacketCapacity> words);
+
+  /// The moments about the query vertices, in a unit that makes their coordinates about 1: `scale()` times those of
+  /// the mesh, a power of two. Valid until the next `begin`.
+  const QueryMoments& finish();
+
+  [[nodiscard]] double scale() const { return scale_; }
+  [[nodiscard]] const MomentKernels& kernels() const { return *kernels_; }
+
+  /// Sums of the squares and fourth powers of distances, before the moments were moved to the query vertex or after,
+  /// whichever are larger. The errors of the moments of these degrees are of the order of epsilon times them.
+  [[nodiscard]] const MomentSizes& sizes(std::size_t query) const { return sizes_[query]; }
+
+ private:
+  void set_centre(double reach);
+  void set_normals(std::span<const std::uint32_t> places);
+  void set_axis();
+  template <class WordOf>
+  void add_blocks(std::size_t first, std::size_t size, const WordOf& word_of);
+  void set_points(std::size_t first, std::size_t size);
+  void keep_facing(std::size_t first, std::span<QueryWord> words);
+  void add_points(std::size_t first, std::span<QueryWord> words);
+
+  MomentSource source_;
+  const MomentKernels* kernels_;
+
+  std::size_t size_ = 0;
+  QueryWord active_ = 0;  // without the queries that have no normal, if there is a filter
+  Point centre_{0, 0, 0};
+  double scale_ = 1;
+  QueryVectors offsets_;  // from the query vertices to the centre
+  QueryVectors normals_;
+  // A vertex faces all queries if the product of its normal and the axis is > all_face_, and none if it is <
+  // -all_face_.
+  Point axis_{0, 0, 0};
+  double all_face_ = 0;
+
+  MomentPoints points_;
+  PartialMoments common_;
+  MomentsByWord some_;
+  QueryMoments moments_;
+  PerLane<MomentSizes> sizes_{};
+};
+
+}  // namespace meshhood

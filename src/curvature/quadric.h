@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "meshhood/curvature.h"
+
+#include "base/distance.h"
+#include "curvature/packet_moments.h"
+#include "simd/moments.h"
+
+namespace meshhood {
+
+/// z = a x^2 + b x y + c y^2 + d x + e y in the frame of a vertex.
+using Quadric = std::array<double, 5>;
+
+/// A quadric has five coefficients; libigl asks for one vertex more.
+inline constexpr std::size_t kFewestPoints = 6;
+
+/// Orthonormal axes at a vertex; `n` is its normal.
+struct TangentFrame {
+  Point u;
+  Point v;
+  Point n;
+};
+
+/// A frame with any axes in the tangent plane, chosen by the normal alone.
+[[nodiscard]] TangentFrame frame_of(const Point& normal);
+
+/// libigl's frame: `u` points to a neighbor at `offset`, projected into the plane. As above if that has no length.
+[[nodiscard]] TangentFrame frame_towards(const Point& normal, const Point& offset);
+
+/// The least-squares fit by the normal equations. None if they are too badly conditioned for the errors of the moments,
+/// which follow from `sizes`.
+[[nodiscard]] std::optional<Quadric> fit_moments(const FrameMoments& moments, std::size_t query,
+                                                 const MomentSizes& sizes);
+
+/// A least-squares fit by the points themselves.
+struct PointFit {
+  Quadric quadric;
+  bool unique;
+};
+
+/// The fit to `points`, in the frame of the vertex: that with the smallest coefficients if it is not unique. By a QR
+/// decomposition and the singular values of its factor, of which those below 5 epsilon of the largest count as 0, as in
+/// libigl.
+[[nodiscard]] PointFit fit_points(std::span<const Point> points);
+
+/// Principal curvatures and directions at the origin of the frame.
+struct PrincipalCurvature {
+  double k1;
+  double k2;
+  Point d1;
+  Point d2;
+};
+[[nodiscard]] PrincipalCurvature principal_curvature(const Quadric& quadric, const TangentFrame& frame,
+                                                     ShapeOperator shape_operator);
+
+}  // namespace meshhood

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// The normals of the vertices.
+#include "curvature/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string>
+
+#include "meshhood/error.h"
+
+#include "base/vector.h"
+#include "exact/index_access.h"
+#include "exact/neighbors.h"
+
+namespace meshhood {
+namespace {
+
+/// The position in index order of each of the caller's vertices.
+std::vector<std::uint32_t> places_of(const IndexView& index) {
+  std::vector<std::uint32_t> places(index.vertex_count());
+  for (std::size_t i = 0; i < places.size(); ++i) places[index.id(i)] = static_cast<std::uint32_t>(i);
+  return places;
+}
+
+bool same(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+/// The index does not keep the faces: they must be those of the same vertices.
+void check_positions(const IndexView& index, const MeshView& mesh) {
+  if (mesh.positions.size() != index.vertex_count()) {
+    raise(ErrorCode::InvalidMesh, "the mesh has " + std::to_string(mesh.positions.size()) +
+                                      " vertices, but the index has " + std::to_string(index.vertex_count()));
+  }
+  mesh.positions.visit([&](const auto& given) {
+    std::visit(
+        [&](auto kept) {
+          for (std::size_t i = 0; i < index.vertex_count(); ++i) {
+            if (same(point(given, index.id(i)), point(kept, i))) continue;
+            raise(ErrorCode::InvalidMesh, "vertex " + std::to_string(index.id(i)) +
+                                              " does not lie where it lay when the index was built: expected the same "
+                                              "mesh");
+          }
+        },
+        index.positions);
+  });
+}
+
+/// The vector area of a polygon, about its first corner: half the sum of the cross products (Newell). In the frame,
+/// where products do not overflow.
+template <class Corners>
+Point vector_area(const SurfaceState& state, std::span<const std::uint32_t> places, const Corners& corners) {
+  const auto corner = [&](std::size_t i) {
+    return state.index->frame.scale * state.position(places[static_cast<std::size_t>(corners[i])]);
+  };
+  Point sum{0, 0, 0};
+  if (corners.size() < 3) return sum;
+  const Point first = corner(0);
+  Point side = corner(1) - first;
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    const Point next = corner(i) - first;
+    sum = sum + cross(side, next);
+    side = next;
+  }
+  return 0.5 * sum;
+}
+
+/// Stores the normals as unit vectors; one of length 0 becomes NaN.
+void set_normals(SurfaceState& state, std::span<const Point> normals) {
+  for (const Point& n : normals) {
+    const double size = length(n);
+    state.normal_x.push_back(n.x / size);
+    state.normal_y.push_back(n.y / size);
+    state.normal_z.push_back(n.z / size);
+  }
+}
+
+void add_faces(SurfaceState& state, const FacesView& faces) {
+  const IndexView& index = *state.index;
+  const std::vector<std::uint32_t> places = places_of(index);
+  std::vector<Point> normals(index.vertex_count(), {0, 0, 0});
+  faces.for_each([&](std::size_t, auto corners) {
+    const Point area = vector_area(state, places, corners);
+    for (const auto corner : corners) {
+      const std::size_t place = places[static_cast<std::size_t>(corner)];
+      normals[place] = normals[place] + area;
+    }
+  });
+  set_normals(state, normals);
+}
+
+void find_first_neighbors(SurfaceState& state) {
+  const IndexView& index = *state.index;
+  state.first_neighbor.resize(index.vertex_count());
+  for (std::size_t i = 0; i < index.vertex_count(); ++i) state.first_neighbor[i] = static_cast<std::uint32_t>(i);
+  for_each_edge(index, [&](std::size_t from, std::size_t to) {
+    std::uint32_t& first = state.first_neighbor[from];
+    if (first == from || index.id(to) < index.id(first)) first = static_cast<std::uint32_t>(to);
+  });
+}
+
+}  // namespace
+
+CurvatureIndex CurvatureIndex::build(const Index& index, const MeshView& mesh) {
+  validate(mesh);
+  check_positions(IndexAccess::view(index), mesh);
+  return build(index, mesh.faces);
+}
+
+CurvatureIndex CurvatureIndex::build(const Index& index, const FacesView& faces) {
+  validate(MeshView{index.positions(), faces});
+  if (faces.size() == 0 && index.vertex_count() != 0) {
+    raise(ErrorCode::InvalidMesh, "the mesh has no faces, from which normals could be made: give the normals");
+  }
+  auto state = std::make_unique<State>();
+  state->searched = &index;
+  state->index = &IndexAccess::view(index);
+  add_faces(*state, faces);
+  find_first_neighbors(*state);
+  return CurvatureIndex(std::move(state));
+}
+
+CurvatureIndex CurvatureIndex::build(const Index& index, std::span<const double> normals) {
+  const std::size_t vertices = index.vertex_count();
+  if (normals.size() != 3 * vertices) {
+    raise(ErrorCode::InvalidMesh, std::to_string(normals.size()) +
+                                      " components of normals, expected three for each of " + std::to_string(vertices) +
+                                      " vertices");
+  }
+  auto state = std::make_unique<State>();
+  state->searched = &index;
+  state->index = &IndexAccess::view(index);
+  std::vector<Point> scaled;
+  scaled.reserve(vertices);
+  for (std::size_t i = 0; i < vertices; ++i) {
+    const VertexId id = state->index->id(i);
+    const Point n = point(normals, id);
+    const double largest = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
+    if (!std::isfinite(n.x) || !std::isfinite(n.y) || !std::isfinite(n.z)) {
+      raise(ErrorCode::InvalidMesh, "the normal of vertex " + std::to_string(id) + " is not finite");
+    }
+    scaled.push_back({n.x / largest, n.y / largest, n.z / largest});  // its square may overflow
+  }
+  set_normals(*state, scaled);
+  find_first_neighbors(*state);
+  return CurvatureIndex(std::move(state));
+}
+
+CurvatureIndex::CurvatureIndex(std::unique_ptr<const State> state) : state_(std::move(state)) {}
+CurvatureIndex::CurvatureIndex(CurvatureIndex&&) noexcept = default;
+CurvatureIndex& CurvatureIndex::operator=(CurvatureIndex&&) noexcept = default;
+CurvatureIndex::~CurvatureIndex() = default;
+
+std::size_t CurvatureIndex::vertex_count() const { return state_->normal_x.size(); }
+
+std::size_t CurvatureIndex::bytes() const {
+  return 3 * state_->normal_x.size() * sizeof(double) + state_->first_neighbor.size() * sizeof(std::uint32_t);
+}
+
+double libigl_radius(const MeshView& mesh, double edges) {
+  validate(mesh);
+  double sum = 0;
+  std::size_t sides = 0;
+  mesh.positions.visit([&](const auto& xyz) {
+    mesh.faces.for_each([&](std::size_t, auto corners) {
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const auto from = static_cast<std::size_t>(corners[i]);
+        const auto to = static_cast<std::size_t>(corners[(i + 1) % corners.size()]);
+        sum += std::sqrt(squared_distance(point(xyz, from), point(xyz, to)));
+        ++sides;
+      }
+    });
+  });
+  return sides == 0 ? 0 : edges * (sum / static_cast<double>(sides));
+}
+
+}  // namespace meshhood

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "meshhood/curvature.h"
+
+#include "base/distance.h"
+#include "exact/layout.h"
+
+namespace meshhood {
+
+/// The arrays of a `CurvatureIndex`, in index order.
+struct CurvatureIndex::State {
+  const Index* searched;
+  const IndexView* index;
+  std::vector<double> normal_x;  // unit vectors; NaN without one
+  std::vector<double> normal_y;
+  std::vector<double> normal_z;
+  std::vector<std::uint32_t> first_neighbor;  // the neighbor with the lowest id; the vertex itself if it has none
+
+  [[nodiscard]] Point position(std::size_t place) const {
+    return std::visit([&](auto xyz) { return point(xyz, place); }, index->positions);
+  }
+  [[nodiscard]] Point normal(std::size_t place) const { return {normal_x[place], normal_y[place], normal_z[place]}; }
+};
+
+/// For the sources of curvature, and for tests.
+struct CurvatureAccess {
+  using State = CurvatureIndex::State;
+
+  [[nodiscard]] static const State& state(const CurvatureIndex& surface) { return *surface.state_; }
+  [[nodiscard]] static CurvatureIndex make(std::unique_ptr<const State> state) {
+    return CurvatureIndex(std::move(state));
+  }
+};
+
+using SurfaceState = CurvatureAccess::State;
+
+}  // namespace meshhood

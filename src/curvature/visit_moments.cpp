@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "curvature/visit_moments.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "simd/kernels.h"
+
+namespace meshhood {
+namespace {
+
+/// The largest double below `radius`; as a radius it holds what is nearer than that. NaN and negative ones are left for
+/// the batch to refuse.
+double open_radius(double radius) { return radius > 0 ? std::nextafter(radius, 0.0) : radius; }
+
+/// What a thread needs to sum the moments of packets.
+class PacketSummer {
+ public:
+  PacketSummer(const MomentSource& source, MomentVisitor visitor)
+      : index_(source.index), sums_(source, best_isa()), visitor_(std::move(visitor)) {}
+
+  void visit(const PacketAnswer& packet) {
+    const std::size_t size = packet.rows.size();
+    for (std::size_t i = 0; i < size; ++i) places_[i] = place_of(packet.vertices[i]);
+    const auto places = std::span(places_).first(size);
+    sums_.begin(places, *std::max_element(packet.radii.begin(), packet.radii.end()));
+    for (const CoreLeaves& core : packet.cores) {
+      for (const LeafRun& run : core.runs) sums_.add(run.vertices.begin, run.vertices.size(), core.queries);
+    }
+    for (const WholeLeaves& whole : packet.whole) {
+      sums_.add(whole.run.vertices.begin, whole.run.vertices.size(), whole.queries);
+    }
+    for (const PartialLeaf& leaf : packet.partial) {
+      sums_.add(leaf.vertices.begin, leaf.vertices.size(), leaf.queries);
+    }
+    visitor_({packet.rows, places, packet.radii}, sums_, sums_.finish());
+  }
+
+ private:
+  [[nodiscard]] std::uint32_t place_of(VertexId v) const {
+    const std::uint32_t slot = index_->slot[v];
+    return index_->leaf_begin[leaf_of(slot)] + lane_of(slot);
+  }
+
+  const IndexView* index_;
+  PacketMoments sums_;
+  MomentVisitor visitor_;
+  std::array<std::uint32_t, kPacketCapacity> places_{};
+};
+
+}  // namespace
+
+void visit_moments(const Index& index, const BatchQuery& query, bool open_ball, const MomentSource& source,
+                   const PacketOptions& options, const std::function<MomentVisitor()>& make_visitor) {
+  BatchQuery closed = query;
+  std::vector<double> radii;
+  if (open_ball && query.radius.list()) {
+    for (const double radius : *query.radius.list()) radii.push_back(open_radius(radius));
+    closed.radius = radii;
+  } else if (open_ball) {
+    closed.radius = open_radius(query.radius.common());
+  }
+  for_each_packet(
+      index, closed,
+      [&](unsigned) -> PacketVisitor {
+        auto summer = std::make_shared<PacketSummer>(source, make_visitor());
+        return [summer](const PacketAnswer& packet) { summer->visit(packet); };
+      },
+      options);
+}
+
+}  // namespace meshhood

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "meshhood/batch.h"
+#include "meshhood/joint.h"
+
+#include "curvature/packet_moments.h"
+#include "curvature/surface.h"
+
+namespace meshhood {
+
+/// The rows of a packet.
+struct MomentRows {
+  std::span<const std::size_t> rows;      // their numbers in the query
+  std::span<const std::uint32_t> places;  // of the query vertices in index order
+  std::span<const double> radii;          // of the closed balls
+};
+
+/// Receives the moments of the neighborhoods of a packet about its query vertices, in the unit of `sums.scale()`.
+using MomentVisitor =
+    std::function<void(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments)>;
+
+/// Calls a visitor with each packet of the query, on the threads of `for_each_packet`. `make_visitor` is called once by
+/// each thread. `open_ball`: a vertex at exactly the radius does not count; a ball of radius 0 has its vertex.
+void visit_moments(const Index& index, const BatchQuery& query, bool open_ball, const MomentSource& source,
+                   const PacketOptions& options, const std::function<MomentVisitor()>& make_visitor);
+
+}  // namespace meshhood

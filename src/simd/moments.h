@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "base/distance.h"
+#include "simd/joint.h"
+#include "simd/kernels.h"
+
+/// Sums of powers of coordinates over the neighborhoods of a packet: the inner loops of curvature. As in `Kernels`,
+/// each function gives the same result on every processor, bit for bit.
+namespace meshhood {
+
+/// The moments of a set of vertices about a centre: M_ijk = sum of weight x^i y^j z^k for i + j + k <= 4, where x, y, z
+/// are the coordinates relative to the centre. Ordered by i; then by n = j + k; then by k. So the moments with j + k <=
+/// 4 - i of each i are a prefix of those of i - 1.
+inline constexpr std::size_t kMomentCount = 35;
+
+/// The place of M_ijk.
+[[nodiscard]] constexpr std::size_t moment_index(std::size_t i, std::size_t j, std::size_t k) {
+  constexpr std::array<std::size_t, 5> kFirst{0, 15, 25, 31, 34};
+  return kFirst[i] + (j + k) * (j + k + 1) / 2 + k;
+}
+
+/// A number for each query of a packet.
+using QueryRow = PerLane<double>;
+static_assert(kLeafCapacity == kPacketCapacity);
+
+struct alignas(64) QueryVectors {
+  QueryRow x;
+  QueryRow y;
+  QueryRow z;
+};
+
+/// The moments of the neighborhoods of a packet, by moment, then by query.
+struct alignas(64) QueryMoments {
+  std::array<QueryRow, kMomentCount> at;
+};
+
+/// The moments of one set, padded to whole vectors.
+struct alignas(64) PaddedMoments {
+  static constexpr std::size_t kPadded = 40;
+  std::array<double, kPadded> at;
+};
+
+/// Sums for sets of queries. A word of 32 queries has eight parts of four bits; there is a sum for each value of each
+/// part. A vertex is added to at most eight of them, however many queries it counts for.
+struct MomentsByWord {
+  static constexpr std::size_t kParts = 8;
+  static constexpr std::size_t kValues = 16;
+  std::array<std::array<PaddedMoments, kValues>, kParts> at;
+};
+
+/// Eight partial sums of each moment.
+struct alignas(64) PartialMoments {
+  static constexpr std::size_t kParts = 8;
+  std::array<std::array<double, kParts>, kMomentCount> at;
+};
+
+/// Vertices relative to the centre of a packet, in a unit in which they are about 1.
+struct alignas(64) MomentPoints {
+  static constexpr std::size_t kCapacity = 64;
+  std::array<double, kCapacity> x;
+  std::array<double, kCapacity> y;
+  std::array<double, kCapacity> z;
+  std::array<double, kCapacity> weight;
+};
+
+/// The moments of a neighborhood about its query vertex, in the frame (u, v, n) of its tangent plane. A fit of a
+/// quadratic height over that plane needs no others.
+struct alignas(64) FrameMoments {
+  QueryRow uu, uv, vv;
+  QueryRow u4, u3v, u2v2, uv3, v4;
+  QueryRow u3, u2v, uv2, v3;
+  QueryRow uun, uvn, vvn;
+  QueryRow un, vn;
+};
+
+struct MomentKernels {
+  /// Adds the powers of `size` points, times their weights, to `sums`. Reads points up to the next multiple of eight:
+  /// they must be finite, with weight 0 beyond the size.
+  void (*add_powers)(const MomentPoints& points, std::size_t size, PartialMoments& sums);
+
+  /// Adds the powers of point `i`, times its weight, to the sums of the queries of `words[i]`.
+  void (*add_powers_by_word)(const MomentPoints& points, std::span<const QueryWord> words, MomentsByWord& sums);
+
+  /// The products of `axis` with `size` vectors.
+  void (*products)(const double* x, const double* y, const double* z, std::size_t size, const Point& axis, double* out);
+
+  /// The queries whose normal makes an angle of less than 90 degrees with `normal`: the product in double, each
+  /// operation rounded, is > 0. None if `normal` is NaN.
+  QueryWord (*facing)(const Point& normal, const QueryVectors& normals);
+
+  /// The sums of each query.
+  void (*collect)(const PartialMoments& common, const MomentsByWord& some, QueryMoments& out);
+
+  /// Moves the centres by `-by`: the coordinates grow by `by`. By a Taylor shift along each axis, 105 multiply-adds.
+  void (*shift)(QueryMoments& moments, const QueryVectors& by);
+
+  /// Contracts the moments of degree 2 to 4 with the axes of the frames.
+  void (*rotate)(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v, const QueryVectors& n,
+                 FrameMoments& out);
+};
+
+/// Those for `isa`, which the processor must have.
+[[nodiscard]] const MomentKernels& moment_kernels(Isa isa);
+
+const MomentKernels& portable_moment_kernels();
+#if defined(MESHHOOD_HAS_X86)
+const MomentKernels& avx2_moment_kernels();
+const MomentKernels& avx512_moment_kernels();
+#endif
+
+}  // namespace meshhood

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The loops of `MomentKernels`, which the sources moments_*.cpp compile once for each instruction set: they define
+// MESHHOOD_MOMENTS, the attribute of each function. The loops run over queries or vertices that do not depend on each
+// other, so that the compiler may use vectors of any width without changing a bit of the result.
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <span>
+
+#include "simd/moments.h"
+
+namespace meshhood {
+namespace {
+
+/// Eight numbers, which the compiler keeps in as many registers as it takes.
+using Eight = double __attribute__((vector_size(64), may_alias));
+constexpr std::size_t kEight = 8;
+
+/// The eight numbers from `first` on, which is aligned to them.
+MESHHOOD_MOMENTS inline Eight& eight(double& first) { return reinterpret_cast<Eight&>(first); }
+MESHHOOD_MOMENTS inline const Eight& eight(const double& first) { return reinterpret_cast<const Eight&>(first); }
+
+/// How the power of a moment is the power of an earlier one times a coordinate.
+struct PowerStep {
+  std::size_t from;
+  std::size_t axis;
+};
+
+constexpr std::array<PowerStep, kMomentCount> kPowers = [] {
+  std::array<PowerStep, kMomentCount> steps{};
+  for (std::size_t i = 0; i <= 4; ++i) {
+    for (std::size_t j = 0; i + j <= 4; ++j) {
+      for (std::size_t k = 0; i + j + k <= 4; ++k) {
+        PowerStep& step = steps[moment_index(i, j, k)];
+        if (k > 0) {
+          step = {moment_index(i, j, k - 1), 2};
+        } else if (j > 0) {
+          step = {moment_index(i, j - 1, k), 1};
+        } else if (i > 0) {
+          step = {moment_index(i - 1, j, k), 0};
+        }
+      }
+    }
+  }
+  return steps;
+}();
+
+/// Lower powers first: the order in which the steps find their predecessors.
+constexpr std::array<std::size_t, kMomentCount> kByDegree = [] {
+  std::array<std::size_t, kMomentCount> order{};
+  std::size_t at = 0;
+  for (std::size_t degree = 0; degree <= 4; ++degree) {
+    for (std::size_t i = 0; i <= degree; ++i) {
+      for (std::size_t k = 0; i + k <= degree; ++k) order[at++] = moment_index(i, degree - i - k, k);
+    }
+  }
+  return order;
+}();
+
+MESHHOOD_MOMENTS void add_powers(const MomentPoints& points, std::size_t size, PartialMoments& sums) {
+  static_assert(PartialMoments::kParts == kEight);
+  for (std::size_t first = 0; first < size; first += kEight) {
+    // NOLINTBEGIN(modernize-avoid-c-arrays): a template would lose the attributes of the type.
+    const Eight axes[]{eight(points.x[first]), eight(points.y[first]), eight(points.z[first])};
+    Eight powers[kMomentCount];
+    // NOLINTEND(modernize-avoid-c-arrays)
+    powers[0] = eight(points.weight[first]);
+    eight(sums.at[0][0]) += powers[0];
+#pragma GCC unroll 34
+    for (std::size_t step = 1; step < kMomentCount; ++step) {
+      const std::size_t m = kByDegree[step];
+      powers[m] = powers[kPowers[m].from] * axes[kPowers[m].axis];
+      eight(sums.at[m][0]) += powers[m];
+    }
+  }
+}
+
+MESHHOOD_MOMENTS void add_powers_by_word(const MomentPoints& points, std::span<const QueryWord> words,
+                                         MomentsByWord& sums) {
+  for (std::size_t p = 0; p < words.size(); ++p) {
+    if (words[p] == 0) continue;
+    PaddedMoments powers{};
+    const std::array<double, 3> axes{points.x[p], points.y[p], points.z[p]};
+    powers.at[0] = points.weight[p];
+#pragma GCC unroll 34
+    for (std::size_t step = 1; step < kMomentCount; ++step) {
+      const std::size_t m = kByDegree[step];
+      powers.at[m] = powers.at[kPowers[m].from] * axes[kPowers[m].axis];
+    }
+    QueryWord left = words[p];
+    for (std::size_t part = 0; left != 0; ++part, left /= MomentsByWord::kValues) {
+      const std::size_t value = left % MomentsByWord::kValues;
+      if (value == 0) continue;
+      PaddedMoments& sum = sums.at[part][value];
+      for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kEight) eight(sum.at[m]) += eight(powers.at[m]);
+    }
+  }
+}
+
+MESHHOOD_MOMENTS void products(const double* x, const double* y, const double* z, std::size_t size, const Point& axis,
+                               double* out) {
+  for (std::size_t i = 0; i < size; ++i) out[i] = (x[i] * axis.x + y[i] * axis.y) + z[i] * axis.z;
+}
+
+MESHHOOD_MOMENTS QueryWord facing(const Point& normal, const QueryVectors& normals) {
+  alignas(64) QueryRow products;
+  for (std::size_t q = 0; q < kPacketCapacity; q += kEight) {
+    eight(products[q]) =
+        (normal.x * eight(normals.x[q]) + normal.y * eight(normals.y[q])) + normal.z * eight(normals.z[q]);
+  }
+  return positive(products);
+}
+
+MESHHOOD_MOMENTS void collect(const PartialMoments& common, const MomentsByWord& some, QueryMoments& out) {
+  constexpr std::size_t kQueries = kPacketCapacity / MomentsByWord::kParts;
+  PaddedMoments all{};
+  for (std::size_t m = 0; m < kMomentCount; ++m) {
+    const auto& part = common.at[m];
+    all.at[m] = ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+  }
+  for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+    PaddedMoments sum = all;
+    for (std::size_t value = 0; value < MomentsByWord::kValues; ++value) {
+      if ((value >> q % kQueries & 1U) == 0) continue;
+      const PaddedMoments& term = some.at[q / kQueries][value];
+      for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kEight) eight(sum.at[m]) += eight(term.at[m]);
+    }
+    for (std::size_t m = 0; m < kMomentCount; ++m) out.at[m][q] = sum.at[m];
+  }
+}
+
+/// `M_p += t M_(p-1)`, where p is the power of the axis.
+struct ShiftStep {
+  std::size_t axis;
+  std::size_t to;
+  std::size_t from;
+};
+
+/// The place of the moment with power p of the axis, and powers a and b of the next two.
+constexpr std::size_t rotated_index(std::size_t axis, std::size_t p, std::size_t a, std::size_t b) {
+  if (axis == 0) return moment_index(p, a, b);
+  return axis == 1 ? moment_index(b, p, a) : moment_index(a, b, p);
+}
+
+/// Each `start` replaces one factor x of the powers above it by x + t: Horner's scheme for a Taylor shift.
+constexpr std::array<ShiftStep, 105> kShift = [] {
+  std::array<ShiftStep, 105> steps{};
+  std::size_t at = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t start = 0; start < 4; ++start) {
+      for (std::size_t p = 4; p > start; --p) {
+        for (std::size_t a = 0; a + p <= 4; ++a) {
+          for (std::size_t b = 0; a + b + p <= 4; ++b) {
+            steps[at++] = {axis, rotated_index(axis, p, a, b), rotated_index(axis, p - 1, a, b)};
+          }
+        }
+      }
+    }
+  }
+  return steps;
+}();
+
+MESHHOOD_MOMENTS void shift(QueryMoments& moments, const QueryVectors& by) {
+  const std::array<const QueryRow*, 3> axes{&by.x, &by.y, &by.z};
+  for (const ShiftStep& step : kShift) {
+    const QueryRow& t = *axes[step.axis];
+    const QueryRow& from = moments.at[step.from];
+    QueryRow& to = moments.at[step.to];
+    for (std::size_t q = 0; q < kPacketCapacity; q += kEight) eight(to[q]) += eight(t[q]) * eight(from[q]);
+  }
+}
+
+/// The components of a symmetric tensor of degree n in space: those with m of the indices y or z, and k of these z, at
+/// m (m + 1) / 2 + k.
+template <std::size_t Degree>
+using Tensor = std::array<QueryRow, (Degree + 1) * (Degree + 2) / 2>;
+
+template <std::size_t Degree>
+MESHHOOD_MOMENTS void take(const QueryMoments& moments, Tensor<Degree>& out) {
+  for (std::size_t m = 0; m <= Degree; ++m) {
+    for (std::size_t k = 0; k <= m; ++k) out[m * (m + 1) / 2 + k] = moments.at[moment_index(Degree - m, m - k, k)];
+  }
+}
+
+/// One index of the tensor, summed with the components of a vector.
+template <std::size_t Degree>
+MESHHOOD_MOMENTS void contract(const Tensor<Degree>& in, const QueryVectors& by, Tensor<Degree - 1>& out) {
+  for (std::size_t m = 0; m < Degree; ++m) {
+    for (std::size_t k = 0; k <= m; ++k) {
+      const QueryRow& x = in[m * (m + 1) / 2 + k];
+      const QueryRow& y = in[(m + 1) * (m + 2) / 2 + k];
+      const QueryRow& z = in[(m + 1) * (m + 2) / 2 + k + 1];
+      QueryRow& to = out[m * (m + 1) / 2 + k];
+      for (std::size_t q = 0; q < kPacketCapacity; q += kEight) {
+        eight(to[q]) = (eight(by.x[q]) * eight(x[q]) + eight(by.y[q]) * eight(y[q])) + eight(by.z[q]) * eight(z[q]);
+      }
+    }
+  }
+}
+
+MESHHOOD_MOMENTS void contract(const Tensor<1>& in, const QueryVectors& by, QueryRow& out) {
+  for (std::size_t q = 0; q < kPacketCapacity; q += kEight) {
+    eight(out[q]) =
+        (eight(by.x[q]) * eight(in[0][q]) + eight(by.y[q]) * eight(in[1][q])) + eight(by.z[q]) * eight(in[2][q]);
+  }
+}
+
+MESHHOOD_MOMENTS void rotate_fourth(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v,
+                                    FrameMoments& out) {
+  alignas(64) Tensor<4> all;
+  alignas(64) Tensor<3> once;
+  alignas(64) Tensor<2> uu;
+  alignas(64) Tensor<2> vv;
+  alignas(64) Tensor<1> last;
+  take<4>(moments, all);
+  contract<4>(all, u, once);
+  contract<3>(once, u, uu);
+  contract<4>(all, v, once);
+  contract<3>(once, v, vv);
+  contract<2>(uu, u, last);
+  contract(last, u, out.u4);
+  contract(last, v, out.u3v);
+  contract<2>(vv, v, last);
+  contract(last, u, out.uv3);
+  contract(last, v, out.v4);
+  contract<2>(uu, v, last);
+  contract(last, v, out.u2v2);
+}
+
+MESHHOOD_MOMENTS void rotate_third(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v,
+                                   const QueryVectors& n, FrameMoments& out) {
+  alignas(64) Tensor<3> all;
+  alignas(64) Tensor<2> once;
+  alignas(64) Tensor<1> last;
+  take<3>(moments, all);
+  contract<3>(all, u, once);
+  contract<2>(once, u, last);
+  contract(last, u, out.u3);
+  contract(last, v, out.u2v);
+  contract(last, n, out.uun);
+  contract<3>(all, v, once);
+  contract<2>(once, v, last);
+  contract(last, u, out.uv2);
+  contract(last, v, out.v3);
+  contract(last, n, out.vvn);
+  contract<2>(once, u, last);
+  contract(last, n, out.uvn);
+}
+
+MESHHOOD_MOMENTS void rotate_second(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v,
+                                    const QueryVectors& n, FrameMoments& out) {
+  alignas(64) Tensor<2> all;
+  alignas(64) Tensor<1> last;
+  take<2>(moments, all);
+  contract<2>(all, u, last);
+  contract(last, u, out.uu);
+  contract(last, v, out.uv);
+  contract(last, n, out.un);
+  contract<2>(all, v, last);
+  contract(last, v, out.vv);
+  contract(last, n, out.vn);
+}
+
+MESHHOOD_MOMENTS void rotate(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v,
+                             const QueryVectors& n, FrameMoments& out) {
+  rotate_fourth(moments, u, v, out);
+  rotate_third(moments, u, v, n, out);
+  rotate_second(moments, u, v, n, out);
+}
+
+constexpr MomentKernels kMomentKernels{
+    .add_powers = add_powers,
+    .add_powers_by_word = add_powers_by_word,
+    .products = products,
+    .facing = facing,
+    .collect = collect,
+    .shift = shift,
+    .rotate = rotate,
+};
+
+}  // namespace
+}  // namespace meshhood

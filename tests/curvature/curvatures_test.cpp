@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: MIT
+// Curvatures of meshes, compared with formulas, with the fit to the points themselves, and with themselves after a
+// change that must not matter.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/curvature.h"
+
+#include "base/vector.h"
+#include "curvature/direct_fit.h"
+#include "curvature/surface.h"
+#include "exact/index_access.h"
+#include "support/families.h"
+#include "support/refusal.h"
+#include "support/scale.h"
+#include "support/test_mesh.h"
+
+namespace meshhood::test {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// A mesh with its index and surface.
+struct Case {
+  TestMesh mesh;
+  Index index;
+  CurvatureIndex surface;
+
+  explicit Case(TestMesh given)
+      : mesh(std::move(given)), index(build(mesh.view())), surface(CurvatureIndex::build(index, mesh.view())) {}
+};
+
+/// A surface over a grid of angles that is closed in both directions.
+template <class F>
+TestMesh closed_grid(std::size_t rows, std::size_t columns, F&& at) {
+  TestMesh mesh;
+  for (std::size_t i = 0; i < rows; ++i) {
+    for (std::size_t j = 0; j < columns; ++j) {
+      const Point p = at(2 * kPi * static_cast<double>(i) / static_cast<double>(rows),
+                         2 * kPi * static_cast<double>(j) / static_cast<double>(columns));
+      mesh.add_vertex(p.x, p.y, p.z);
+    }
+  }
+  add_grid_faces(mesh, {.rows = rows, .regions = columns, .closed_rows = true, .closed_columns = true});
+  return mesh.finish(false);
+}
+
+TestMesh torus(double large, double small) {
+  return closed_grid(160, 60, [&](double a, double b) {
+    const double distance = large + small * std::cos(b);
+    return Point{distance * std::cos(a), distance * std::sin(a), -small * std::sin(b)};
+  });
+}
+
+/// The height a x^2 + b x y + c y^2 over a square with sides of 2.
+TestMesh graph(double a, double b, double c, std::size_t side) {
+  TestMesh mesh = make_grid(side, side, false);
+  for (std::size_t v = 0; v < mesh.size(); ++v) {
+    double* const p = &mesh.positions[3 * v];
+    const auto unit = [&](double t) { return 2 * t / static_cast<double>(side - 1) - 1; };
+    p[0] = unit(p[0]);
+    p[1] = unit(p[1]);
+    p[2] = a * p[0] * p[0] + b * p[0] * p[1] + c * p[1] * p[1];
+  }
+  return mesh.finish(false);
+}
+
+double relative(double a, double b, double size) { return std::abs(a - b) / size; }
+
+/// The largest difference of the curvatures relative to the larger of a row.
+double largest_difference(const Curvatures& a, const Curvatures& b) {
+  double worst = 0;
+  for (std::size_t i = 0; i < a.k1.size(); ++i) {
+    const double size = std::max({std::abs(a.k1[i]), std::abs(a.k2[i]), 1e-300});
+    worst = std::max({worst, relative(a.k1[i], b.k1[i], size), relative(a.k2[i], b.k2[i], size)});
+  }
+  return worst;
+}
+
+TEST(Curvatures, OfATorusAreThoseOfTheFormula) {
+  const Case torus_case(torus(3, 1));
+  const Curvatures k = curvatures(torus_case.surface, {.radius = 0.35});
+  double worst = 0;
+  for (std::size_t v = 0; v < torus_case.mesh.size(); ++v) {
+    const double* const p = &torus_case.mesh.positions[3 * v];
+    const double ring = std::hypot(p[0], p[1]);
+    const double around = (ring - 3) / ring;  // cos(b) / (R + r cos(b))
+    EXPECT_EQ(k.state[v], CurvatureState::Fitted);
+    worst = std::max({worst, std::abs(k.k1[v] - 1), std::abs(k.k2[v] - around)});
+    const Point tangent{-p[1] / ring, p[0] / ring, 0};
+    const Point d2{k.d2[3 * v], k.d2[3 * v + 1], k.d2[3 * v + 2]};
+    EXPECT_NEAR(std::abs(dot(tangent, d2)), 1, 1e-3);
+  }
+  std::printf("torus: worst absolute error %.3f\n", worst);
+  EXPECT_LT(worst, 0.03);
+}
+
+TEST(Curvatures, ChangeSignIfTheFacesAreTurned) {
+  TestMesh mesh = torus(3, 1);
+  const Case one(mesh);
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    std::swap(mesh.corners[mesh.offsets[f]], mesh.corners[mesh.offsets[f] + 1]);
+  }
+  const Case turned(mesh);
+  const Curvatures a = curvatures(one.surface, {.radius = 0.35});
+  Curvatures b = curvatures(turned.surface, {.radius = 0.35});
+  std::swap(b.k1, b.k2);
+  for (double& k : b.k1) k = -k;
+  for (double& k : b.k2) k = -k;
+  EXPECT_LT(largest_difference(a, b), 1e-10);
+}
+
+TEST(Curvatures, OfAPlaneAre0AlsoAtItsBoundary) {
+  for (const bool quads : {false, true}) {
+    const Case plane(make_grid(30, 30, quads).finish(false));
+    for (const CurvatureOptions& options : {CurvatureOptions{}, like_libigl()}) {
+      const Curvatures k = curvatures(plane.surface, {.radius = 4.0}, options);
+      EXPECT_THAT(k.k1, testing::Each(testing::DoubleEq(0)));
+      EXPECT_THAT(k.k2, testing::Each(testing::DoubleEq(0)));
+      EXPECT_THAT(k.state, testing::Each(CurvatureState::Fitted));
+    }
+  }
+}
+
+TEST(Curvatures, OfAGraphAreThoseOfItsQuadricWhereTheNormalIsVertical) {
+  const Case saddle(graph(0.3, 0.4, -0.5, 41));
+  const VertexId middle = 20 * 41 + 20;
+  const std::vector<VertexId> rows{middle};
+  const Curvatures k = curvatures(saddle.surface, {.vertices = rows, .radius = 0.4});
+  // The shape operator of the height field is -[[2a, b], [b, 2c]].
+  const double root = std::hypot(0.8, 0.4);
+  EXPECT_NEAR(k.k1[0], 0.2 + root, 1e-10);
+  EXPECT_NEAR(k.k2[0], 0.2 - root, 1e-10);
+}
+
+/// Rows of a mesh of every family against the fit to their points, which shares neither moments nor packets.
+void expect_like_points(const Family& family, const CurvatureOptions& options, std::size_t& rows) {
+  for (std::uint64_t seed = 0; seed < scaled(2); ++seed) {
+    const TestMesh mesh = make_mesh(family, seed, 200);
+    if (mesh.face_count() == 0) continue;
+    const Case one(mesh);
+    const SurfaceState& state = CurvatureAccess::state(one.surface);
+    const GraphData graph = extract_graph(one.index);
+    const double edge = mean_edge_length(graph.view());
+    for (const double edges : {1.5, 3.0, 8.0}) {
+      const double radius = edges * edge;
+      const Curvatures k = curvatures(one.surface, {.radius = radius}, options);
+      DirectFit direct(state, options);
+      for (std::size_t i = 0; i < one.mesh.size(); ++i) {
+        const VertexId v = state.index->id(i);
+        const auto place = static_cast<std::uint32_t>(i);
+        const Point normal = state.normal(i);
+        if (std::isnan(normal.x)) {
+          EXPECT_EQ(k.state[v], CurvatureState::NoNormal);
+          continue;
+        }
+        const Point offset = state.position(state.first_neighbor[i]) - state.position(i);
+        const TangentFrame frame =
+            options.shape_operator == ShapeOperator::Exact ? frame_of(normal) : frame_towards(normal, offset);
+        const DirectFit::Result expected =
+            direct.fit(place, options.open_ball ? std::nextafter(radius, 0.0) : radius, frame);
+        ASSERT_EQ(k.state[v], expected.state) << family.name << ", seed " << seed << ", vertex " << v;
+        const double size = std::max(std::abs(expected.curvature.k1), std::abs(expected.curvature.k2));
+        const double tolerance = 1e-9 * size + 1e-10 / radius;  // nearly flat ones have only rounding
+        EXPECT_NEAR(k.k1[v], expected.curvature.k1, tolerance) << family.name << ", seed " << seed << ", vertex " << v;
+        EXPECT_NEAR(k.k2[v], expected.curvature.k2, tolerance);
+        ++rows;
+      }
+    }
+  }
+}
+
+TEST(Curvatures, AreThoseOfTheFitToThePointsOnEveryFamily) {
+  std::size_t rows = 0;
+  for (const Family& family : families()) {
+    expect_like_points(family, {}, rows);
+    expect_like_points(family, {.filter = false}, rows);
+    expect_like_points(family, like_libigl(), rows);
+  }
+  std::printf("%zu rows\n", rows);
+  EXPECT_GT(rows, 1000U);
+}
+
+TEST(Curvatures, ScaleByPowersOfTwoBitForBit) {
+  TestMesh mesh = bumpy_grid(30).finish(false);
+  const Case one(mesh);
+  const Curvatures expected = curvatures(one.surface, {.radius = 3.0});
+  for (const int exponent : {-480, -300, -3, 5, 300, 480}) {
+    TestMesh scaled_mesh = mesh;
+    for (double& x : scaled_mesh.positions) x = std::ldexp(x, exponent);
+    const Case other(scaled_mesh);
+    const Curvatures k = curvatures(other.surface, {.radius = std::ldexp(3.0, exponent)});
+    for (std::size_t v = 0; v < mesh.size(); ++v) {
+      ASSERT_EQ(std::ldexp(k.k1[v], exponent), expected.k1[v]) << "2^" << exponent << ", vertex " << v;
+      ASSERT_EQ(std::ldexp(k.k2[v], exponent), expected.k2[v]);
+    }
+    EXPECT_EQ(k.d1, expected.d1);
+    EXPECT_EQ(k.state, expected.state);
+  }
+}
+
+TEST(Curvatures, DoNotDependOnWhereTheMeshLies) {
+  TestMesh mesh = bumpy_grid(30).finish(true);  // floats, so that moving by a whole number is exact
+  mesh.finish(false);
+  const Case one(mesh);
+  for (double& x : mesh.positions) x += 0x1p20;
+  const Case far(mesh);
+  EXPECT_LT(largest_difference(curvatures(one.surface, {.radius = 3.0}), curvatures(far.surface, {.radius = 3.0})),
+            1e-9);
+}
+
+TEST(Curvatures, DoNotDependOnTheNumbering) {
+  Random random(7);
+  const TestMesh mesh = torus(3, 1);
+  const std::vector<std::uint32_t> place = random.permutation(mesh.size());
+  const Case one(mesh);
+  const Case other(renumbered(mesh, place));
+  const Curvatures a = curvatures(one.surface, {.radius = 0.4});
+  const Curvatures b = curvatures(other.surface, {.radius = 0.4});
+  Curvatures back = b;
+  for (std::size_t v = 0; v < mesh.size(); ++v) {
+    back.k1[v] = b.k1[place[v]];
+    back.k2[v] = b.k2[place[v]];
+  }
+  EXPECT_LT(largest_difference(a, back), 1e-10);
+}
+
+TEST(Curvatures, HaveTheSameBitsForAnyNumberOfThreads) {
+  const Case one(bumpy_grid(40).finish(false));
+  const Curvatures expected = curvatures(one.surface, {.radius = 4.0});
+  for (const unsigned threads : {2U, 3U, 0U}) {
+    const Curvatures k = curvatures(one.surface, {.radius = 4.0}, {.threads = threads});
+    EXPECT_EQ(k.k1, expected.k1);
+    EXPECT_EQ(k.k2, expected.k2);
+    EXPECT_EQ(k.d1, expected.d1);
+    EXPECT_EQ(k.d2, expected.d2);
+  }
+}
+
+TEST(Curvatures, OfAListAreThoseOfAllVertices) {
+  const Case one(bumpy_grid(30).finish(false));
+  const std::vector<VertexId> rows{17, 3, 899, 3, 450};
+  const std::vector<double> radii{3, 3, 5, 5, 2};
+  const Curvatures few = curvatures(one.surface, {.vertices = rows, .radius = radii});
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Curvatures all = curvatures(one.surface, {.radius = radii[i]});
+    EXPECT_NEAR(few.k1[i], all.k1[rows[i]], 1e-11 * (1 + std::abs(few.k1[i])));
+    EXPECT_NEAR(few.k2[i], all.k2[rows[i]], 1e-11 * (1 + std::abs(few.k2[i])));
+  }
+  const std::vector<VertexId> none;
+  EXPECT_TRUE(curvatures(one.surface, {.vertices = none, .radius = 1.0}).k1.empty());
+}
+
+TEST(Curvatures, TheFilterKeepsTheOtherSideOfAFoldOut) {
+  // Two plates, one above the other and turned away from it, joined at one side.
+  TestMesh mesh = make_grid(20, 20, false);
+  const std::size_t size = mesh.size();
+  for (std::size_t v = 0; v < size; ++v) {
+    const double* const p = &mesh.positions[3 * v];
+    mesh.add_vertex(p[0], p[1], -0.5);
+  }
+  const std::size_t faces = mesh.face_count();
+  for (std::size_t f = 0; f < faces; ++f) {
+    std::vector<std::uint32_t> face(mesh.face(f).rbegin(), mesh.face(f).rend());
+    for (std::uint32_t& v : face) v += static_cast<std::uint32_t>(size);
+    mesh.add_face(face);
+  }
+  for (std::uint32_t i = 0; i + 1 < 20; ++i) {
+    const auto below = static_cast<std::uint32_t>(size) + i;
+    mesh.add_face({i, i + 1, below + 1, below});
+  }
+  const Case plates(mesh.finish(false));
+  const std::vector<VertexId> rows{5 * 20 + 10, 6 * 20 + 10, 14 * 20 + 10};
+  const Curvatures with = curvatures(plates.surface, {.vertices = rows, .radius = 8.0});
+  const Curvatures without = curvatures(plates.surface, {.vertices = rows, .radius = 8.0}, {.filter = false});
+  EXPECT_GT(std::abs(without.k1[0]) + std::abs(without.k2[0]), 1e-3);
+  EXPECT_LT(std::abs(with.k1[0]) + std::abs(with.k2[0]), 0.02);
+  EXPECT_LT(std::abs(with.k1[2]) + std::abs(with.k2[2]), 1e-12);
+}
+
+TEST(Curvatures, SayWhatARowIsWorth) {
+  // A fan of five vertices, a strip of six on a line, an isolated vertex, and a face without area.
+  TestMesh mesh;
+  for (int i = 0; i < 5; ++i) mesh.add_vertex(i, i % 2, 0);
+  for (std::uint32_t i = 0; i + 2 < 5; ++i) mesh.add_face({i, i + 1, i + 2});
+  const auto isolated = mesh.add_vertex(100, 0, 0);
+  const auto flat = mesh.add_vertex(200, 0, 0);
+  mesh.add_vertex(201, 0, 0);
+  mesh.add_vertex(202, 0, 0);
+  mesh.add_face({flat, flat + 1, flat + 2});
+  const Case one(mesh.finish(false));
+  const Curvatures k = curvatures(one.surface, {.radius = std::numeric_limits<double>::infinity()});
+  EXPECT_EQ(k.state[0], CurvatureState::TooFew);
+  EXPECT_EQ(k.state[isolated], CurvatureState::NoNormal);
+  EXPECT_EQ(k.state[flat], CurvatureState::NoNormal);
+  EXPECT_THAT(k.k1, testing::Each(0));
+  EXPECT_THAT(k.d1, testing::Each(0));
+}
+
+TEST(Curvatures, ANeighborhoodOfFewerThanSixVerticesIsExtended) {
+  const Case one(bumpy_grid(12).finish(false));
+  const Curvatures none = curvatures(one.surface, {.radius = 0.0});
+  EXPECT_THAT(none.state, testing::Each(testing::Ne(CurvatureState::TooFew)));
+  EXPECT_THAT(none.k1, testing::Contains(testing::Ne(0)));
+}
+
+TEST(Curvatures, GivenNormalsReplaceFaces) {
+  const Case one(torus(3, 1));
+  const SurfaceState& state = CurvatureAccess::state(one.surface);
+  std::vector<double> normals(3 * one.mesh.size());
+  for (std::size_t i = 0; i < one.mesh.size(); ++i) {
+    const VertexId v = state.index->id(i);
+    normals[3 * v] = 1e200 * state.normal_x[i];
+    normals[3 * v + 1] = 1e200 * state.normal_y[i];
+    normals[3 * v + 2] = 1e200 * state.normal_z[i];
+  }
+  const CurvatureIndex given = CurvatureIndex::build(one.index, normals);
+  EXPECT_LT(largest_difference(curvatures(one.surface, {.radius = 0.4}), curvatures(given, {.radius = 0.4})), 1e-12);
+}
+
+TEST(Curvatures, RefuseWhatIsWrongByName) {
+  const Case one(bumpy_grid(5).finish(false));
+  TestMesh moved = one.mesh;
+  moved.positions[3 * 7] += 1;
+  TestMesh smaller = bumpy_grid(4).finish(false);
+  const MeshView no_faces{one.mesh.positions_view(), FacesView()};
+  std::vector<double> normals(3 * one.mesh.size(), 1.0);
+  expect_refused(ErrorCode::InvalidMesh, "vertex 7", [&] { (void)CurvatureIndex::build(one.index, moved.view()); });
+  expect_refused(ErrorCode::InvalidMesh, "16 vertices",
+                 [&] { (void)CurvatureIndex::build(one.index, smaller.view()); });
+  expect_refused(ErrorCode::InvalidMesh, "no faces", [&] { (void)CurvatureIndex::build(one.index, no_faces); });
+  expect_refused(ErrorCode::InvalidMesh, "25 vertices",
+                 [&] { (void)CurvatureIndex::build(one.index, std::span(normals).first(3)); });
+  normals[3 * 4 + 1] = std::nan("");
+  expect_refused(ErrorCode::InvalidMesh, "vertex 4", [&] { (void)CurvatureIndex::build(one.index, normals); });
+  expect_refused(ErrorCode::InvalidRadius, "-1", [&] { (void)curvatures(one.surface, {.radius = -1.0}); });
+  expect_refused(ErrorCode::InvalidRadius, "-1",
+                 [&] { (void)curvatures(one.surface, {.radius = -1.0}, like_libigl()); });
+  expect_refused(ErrorCode::InvalidOption, "thread",
+                 [&] { (void)curvatures(one.surface, {.radius = 1.0}, {.threads = kMaxThreads + 1}); });
+  expect_refused(ErrorCode::Cancelled, "cancel", [&] {
+    (void)curvatures(one.surface, {.radius = 1.0}, {.progress = [](std::size_t, std::size_t) { return false; }});
+  });
+}
+
+TEST(Curvatures, LibiglsRadiusCountsInnerEdgesTwice) {
+  TestMesh mesh;
+  mesh.add_vertex(0, 0, 0);
+  mesh.add_vertex(1, 0, 0);
+  mesh.add_vertex(0, 1, 0);
+  mesh.add_vertex(1, 1, 0);
+  mesh.add_face({0, 1, 2});
+  mesh.add_face({2, 1, 3});
+  mesh.finish(false);
+  EXPECT_DOUBLE_EQ(libigl_radius(mesh.view(), 3), 3 * (4 + 2 * std::sqrt(2)) / 6);
+}
+
+TEST(Curvatures, ShapeIndexAndCurvednessAreThoseOfKoenderink) {
+  EXPECT_DOUBLE_EQ(shape_index(1, 1), 1);
+  EXPECT_DOUBLE_EQ(shape_index(1, 0), 0.5);
+  EXPECT_DOUBLE_EQ(shape_index(1, -1), 0);
+  EXPECT_DOUBLE_EQ(shape_index(0, -1), -0.5);
+  EXPECT_DOUBLE_EQ(shape_index(-2, -2), -1);
+  EXPECT_TRUE(std::isnan(shape_index(0, 0)));
+  EXPECT_DOUBLE_EQ(curvedness(3, -3), 3);
+  EXPECT_DOUBLE_EQ(curvedness(1e200, 1e200), 1e200);
+  EXPECT_EQ(curvedness(0, 0), 0);
+}
+
+}  // namespace
+}  // namespace meshhood::test

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+// The kernels of the moments compute the sums that they name, with the same bits for every instruction set.
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "simd/moments.h"
+#include "support/exact_answer.h"
+#include "support/random.h"
+
+namespace meshhood::test {
+namespace {
+
+struct Powers {
+  std::size_t i;
+  std::size_t j;
+  std::size_t k;
+};
+
+std::vector<Powers> all_powers() {
+  std::vector<Powers> powers;
+  for (std::size_t i = 0; i <= 4; ++i) {
+    for (std::size_t j = 0; i + j <= 4; ++j) {
+      for (std::size_t k = 0; i + j + k <= 4; ++k) powers.push_back({i, j, k});
+    }
+  }
+  return powers;
+}
+
+double power(double x, std::size_t n) {
+  double result = 1;
+  for (std::size_t i = 0; i < n; ++i) result *= x;
+  return result;
+}
+
+struct Input {
+  MomentPoints points{};
+  std::vector<QueryWord> words;
+};
+
+Input random_input(Random& random, std::size_t size) {
+  Input input;
+  for (std::size_t i = 0; i < size; ++i) {
+    input.points.x[i] = random.uniform(-1, 1);
+    input.points.y[i] = random.uniform(-1, 1);
+    input.points.z[i] = random.uniform(-1, 1);
+    input.points.weight[i] = random.uniform(0, 2);
+    input.words.push_back(static_cast<QueryWord>(random.below(std::uint64_t{1} << 32)));
+  }
+  return input;
+}
+
+QueryVectors random_vectors(Random& random) {
+  QueryVectors vectors;
+  for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+    vectors.x[q] = random.uniform(-1, 1);
+    vectors.y[q] = random.uniform(-1, 1);
+    vectors.z[q] = random.uniform(-1, 1);
+  }
+  return vectors;
+}
+
+/// The sums of an input, without words and with them.
+QueryMoments collected(const MomentKernels& kernels, const Input& common, const Input& some) {
+  PartialMoments parts{};
+  const auto by_word = std::make_unique<MomentsByWord>();
+  QueryMoments out{};
+  kernels.add_powers(common.points, common.words.size(), parts);
+  kernels.add_powers_by_word(some.points, some.words, *by_word);
+  kernels.collect(parts, *by_word, out);
+  return out;
+}
+
+double expected(const Input& common, const Input& some, std::size_t query, const Powers& n) {
+  double sum = 0;
+  const auto add = [&](const MomentPoints& p, std::size_t i) {
+    sum += p.weight[i] * power(p.x[i], n.i) * power(p.y[i], n.j) * power(p.z[i], n.k);
+  };
+  for (std::size_t i = 0; i < common.words.size(); ++i) add(common.points, i);
+  for (std::size_t i = 0; i < some.words.size(); ++i) {
+    if ((some.words[i] >> query & 1U) != 0) add(some.points, i);
+  }
+  return sum;
+}
+
+TEST(MomentKernels, TheIndexOfAMomentIsItsPlace) {
+  std::vector<std::size_t> places;
+  for (const Powers& n : all_powers()) places.push_back(moment_index(n.i, n.j, n.k));
+  std::vector<std::size_t> ascending(kMomentCount);
+  for (std::size_t i = 0; i < kMomentCount; ++i) ascending[i] = i;
+  EXPECT_THAT(places, testing::UnorderedElementsAreArray(ascending));
+  EXPECT_EQ(moment_index(0, 0, 0), 0U);
+  EXPECT_EQ(moment_index(1, 0, 0), 15U);
+  EXPECT_EQ(moment_index(0, 1, 0), 1U);
+  EXPECT_EQ(moment_index(0, 0, 1), 2U);
+}
+
+TEST(MomentKernels, SumsAreThoseOfThePowersForEachQuery) {
+  Random random(1);
+  for (const std::size_t size : {0, 1, 7, 8, 9, 63, 64}) {
+    const Input common = random_input(random, size);
+    const Input some = random_input(random, 64 - size);
+    for (const Isa isa : available_isas()) {
+      const QueryMoments sums = collected(moment_kernels(isa), common, some);
+      for (const Powers& n : all_powers()) {
+        for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+          EXPECT_NEAR(sums.at[moment_index(n.i, n.j, n.k)][q], expected(common, some, q, n), 1e-13);
+        }
+      }
+    }
+  }
+}
+
+TEST(MomentKernels, ShiftedMomentsAreThoseOfShiftedPoints) {
+  Random random(2);
+  const Input points = random_input(random, 40);
+  const QueryVectors by = random_vectors(random);
+  QueryMoments moments = collected(portable_moment_kernels(), points, {});
+  portable_moment_kernels().shift(moments, by);
+  for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+    Input shifted = points;
+    for (std::size_t i = 0; i < 40; ++i) {
+      shifted.points.x[i] += by.x[q];
+      shifted.points.y[i] += by.y[q];
+      shifted.points.z[i] += by.z[q];
+    }
+    for (const Powers& n : all_powers()) {
+      EXPECT_NEAR(moments.at[moment_index(n.i, n.j, n.k)][q], expected(shifted, {}, q, n), 1e-11);
+    }
+  }
+}
+
+TEST(MomentKernels, RotatedMomentsAreThoseOfRotatedPoints) {
+  Random random(3);
+  const Input points = random_input(random, 40);
+  const QueryMoments moments = collected(portable_moment_kernels(), points, {});
+  const QueryVectors u = random_vectors(random);
+  const QueryVectors v = random_vectors(random);
+  const QueryVectors n = random_vectors(random);
+  FrameMoments out{};
+  portable_moment_kernels().rotate(moments, u, v, n, out);
+  struct Case {
+    const QueryRow* row;
+    Powers powers;
+  };
+  const std::vector<Case> cases{
+      {&out.uu, {2, 0, 0}},  {&out.uv, {1, 1, 0}},   {&out.vv, {0, 2, 0}},  {&out.u4, {4, 0, 0}},
+      {&out.u3v, {3, 1, 0}}, {&out.u2v2, {2, 2, 0}}, {&out.uv3, {1, 3, 0}}, {&out.v4, {0, 4, 0}},
+      {&out.u3, {3, 0, 0}},  {&out.u2v, {2, 1, 0}},  {&out.uv2, {1, 2, 0}}, {&out.v3, {0, 3, 0}},
+      {&out.uun, {2, 0, 1}}, {&out.uvn, {1, 1, 1}},  {&out.vvn, {0, 2, 1}}, {&out.un, {1, 0, 1}},
+      {&out.vn, {0, 1, 1}},
+  };
+  for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+    Input rotated = points;
+    for (std::size_t i = 0; i < 40; ++i) {
+      const MomentPoints& p = points.points;
+      const auto along = [&](const QueryVectors& axis) {
+        return axis.x[q] * p.x[i] + axis.y[q] * p.y[i] + axis.z[q] * p.z[i];
+      };
+      rotated.points.x[i] = along(u);
+      rotated.points.y[i] = along(v);
+      rotated.points.z[i] = along(n);
+    }
+    for (const Case& one : cases) EXPECT_NEAR((*one.row)[q], expected(rotated, {}, q, one.powers), 1e-11);
+  }
+}
+
+TEST(MomentKernels, FacingComparesTheRoundedProductWithZero) {
+  QueryVectors normals{};
+  normals.x[0] = 1;
+  normals.x[1] = -1;
+  normals.y[2] = 1;
+  normals.z[3] = 1e-300;
+  normals.x[4] = std::nan("");
+  const Point normal{0.5, 0, 0.5};
+  for (const Isa isa : available_isas()) {
+    EXPECT_EQ(moment_kernels(isa).facing(normal, normals), 0b01001U);
+    EXPECT_EQ(moment_kernels(isa).facing({std::nan(""), 0, 1}, normals), 0U);
+  }
+}
+
+TEST(MomentKernels, EveryInstructionSetGivesTheSameBits) {
+  Random random(4);
+  for (int round = 0; round < 20; ++round) {
+    const Input common = random_input(random, random.below(65));
+    const Input some = random_input(random, random.below(65));
+    const QueryVectors by = random_vectors(random);
+    const QueryVectors u = random_vectors(random);
+    const QueryVectors v = random_vectors(random);
+    std::vector<FrameMoments> results;
+    for (const Isa isa : available_isas()) {
+      const MomentKernels& kernels = moment_kernels(isa);
+      QueryMoments moments = collected(kernels, common, some);
+      kernels.shift(moments, by);
+      kernels.rotate(moments, u, v, by, results.emplace_back());
+    }
+    for (const FrameMoments& result : results) EXPECT_EQ(std::memcmp(&result, results.data(), sizeof(result)), 0);
+  }
+}
+
+}  // namespace
+}  // namespace meshhood::test
