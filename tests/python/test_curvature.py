@@ -62,7 +62,8 @@ def has_a_tie(V, F, edges):
             found |= new
             queue += new
         while len(found) < 6:
-            around = sorted((np.linalg.norm(V[u] - V[v]), u) for u in set().union(*(neighbors[w] for w in found)) - found)
+            linked = set().union(*(neighbors[w] for w in found)) - found
+            around = sorted((np.linalg.norm(V[u] - V[v]), u) for u in linked)
             if not around:
                 break
             tie[v] |= len(around) > 1 and around[1][0] - around[0][0] <= 1e-12 * around[0][0]
