@@ -38,7 +38,7 @@ std::vector<VertexId> contiguous_rows(std::size_t vertices, std::size_t count) {
 struct Timing {
   const char* name;
   std::vector<double> microseconds{};  // a row, by round
-  double found = 0;                  // the mean number of vertices
+  double found = 0;                    // the mean number of vertices
 
   template <class F>
   void round(std::size_t rows, F&& ids_of_all) {

@@ -106,9 +106,9 @@ struct AggregateOptions {
 ///
 /// Sums are exact to 1e-14 of the sum of the absolute terms (1e-13 with a smoothing kernel), whatever the size of the
 /// neighborhood, and have the same bits for any number of threads and on every processor. They may differ in the last
-/// bits if the same vertex is asked for in another list. Minimum, maximum and count are exact. Values are scaled by a power of two before they are
-/// squared or added, so that nothing overflows but a result too large for a double; infinite values give what IEEE
-/// arithmetic gives.
+/// bits if the same vertex is asked for in another list. Minimum, maximum and count are exact. Values are scaled by a
+/// power of two before they are squared or added, so that nothing overflows but a result too large for a double;
+/// infinite values give what IEEE arithmetic gives.
 ///
 /// Cost: the neighborhoods of one leaf are found together (see joint.h), and vertices that they have in common are read
 /// once for all of them, most of them as sums made beforehand. Memory: for up to 16 channels at a time 9 bytes for each

@@ -24,9 +24,9 @@ namespace meshhood {
 ///
 /// O(n log n) for a result of n vertices. Nothing is allocated once the buffers have grown.
 ///
-/// Use one object per thread: it owns scratch memory, about 10 bytes per vertex, and 100 bytes per vertex of its largest
-/// result. It shares the memory of the index, which may be moved, refitted or destroyed meanwhile: answers are those of
-/// the index as it was. It is a `NeighborhoodSearcher`.
+/// Use one object per thread: it owns scratch memory, about 10 bytes per vertex, and 100 bytes per vertex of its
+/// largest result. It shares the memory of the index, which may be moved, refitted or destroyed meanwhile: answers are
+/// those of the index as it was. It is a `NeighborhoodSearcher`.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}; arguments are then unchanged.
 class EdgeSearcher {

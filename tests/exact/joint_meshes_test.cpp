@@ -90,17 +90,11 @@ TEST_P(JointMeshes, RowsAreThoseOfTheReference) {
   few.report(std::string(GetParam()) + ", large radius");
 }
 
-std::string case_name(const testing::TestParamInfo<const char*>& mesh) {
-  const std::string path = mesh.param;
-  const auto begin = path.find('/') + 1;
-  return path.substr(begin, path.find('.') - begin);
-}
-
 INSTANTIATE_TEST_SUITE_P(Meshes, JointMeshes,
                          testing::Values("paper/tosca_cat0.off", "paper/tosca_cat2.off", "paper/tosca_victoria0.off",
                                          "scan/cortex_left_41k.ply.zst", "scan/dragon_res4.ply",
                                          "paper/mri_head_a_1m.ply.zst"),
-                         case_name);
+                         shared_mesh_case);
 
 TEST(JointShapes, RowsAreThoseOfTheReference) {
   for (const shapes::Kind& kind : shapes::kinds()) {

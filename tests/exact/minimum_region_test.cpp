@@ -432,7 +432,7 @@ TEST(EnclosingMinimumRegion, OfOneChildAtTheSameCentreIsThatRegion) {
   Random random(7);
   for (int i = 0; i < 100; ++i) {
     const MinimumRegion child = random_region(random, random_direction(random));
-    const std::vector<MinimumRegion> children(1 + i % 8, child);
+    const std::vector<MinimumRegion> children(static_cast<std::size_t>(1 + i % 8), child);
     const std::vector<Point> centres(children.size(), random_direction(random));
     const MinimumRegion parent = enclosing_minimum_region(children, centres, centres[0]);
     EXPECT_NEAR(parent.offset, child.offset, 1e-12);

@@ -66,16 +66,10 @@ TEST_P(RefitMeshes, AnswersAreThoseOfTheReference) {
   }
 }
 
-std::string case_name(const testing::TestParamInfo<const char*>& mesh) {
-  const std::string path = mesh.param;
-  const auto begin = path.find('/') + 1;
-  return path.substr(begin, path.find('.') - begin);
-}
-
 INSTANTIATE_TEST_SUITE_P(Meshes, RefitMeshes,
                          testing::Values("paper/tosca_cat0.off", "paper/tosca_victoria0.off",
                                          "scan/cortex_left_41k.ply.zst"),
-                         case_name);
+                         shared_mesh_case);
 
 }  // namespace
 }  // namespace meshhood::test

@@ -52,17 +52,11 @@ TEST_P(RealMeshes, IndexHoldsWhatItPromisesInItsMemory) {
   EXPECT_THAT(index.check(mesh.view()), testing::IsEmpty());
 }
 
-std::string case_name(const testing::TestParamInfo<const char*>& mesh) {
-  const std::string path = mesh.param;
-  const auto begin = path.find('/') + 1;
-  return path.substr(begin, path.find('.') - begin);
-}
-
 INSTANTIATE_TEST_SUITE_P(Meshes, RealMeshes,
                          testing::Values("paper/tosca_cat0.off", "paper/tosca_cat2.off", "paper/tosca_victoria0.off",
                                          "scan/cortex_left_41k.ply.zst", "paper/stanford_dragon_437k.ply.zst",
                                          "paper/head_skin_1m.ply.zst", "paper/mri_head_a_1m.ply.zst"),
-                         case_name);
+                         shared_mesh_case);
 
 TEST(Shapes, AnswersAreThoseOfTheReference) {
   for (const shapes::Kind& kind : shapes::kinds()) {

@@ -36,17 +36,11 @@ TEST_P(PaperMeshes, IndexIsAtMostThreeFifthsOfTheMesh) {
   EXPECT_LE(ratio, 0.60);
 }
 
-std::string case_name(const testing::TestParamInfo<const char*>& mesh) {
-  const std::string path = mesh.param;
-  const auto begin = path.find('/') + 1;
-  return path.substr(begin, path.find('.') - begin);
-}
-
 INSTANTIATE_TEST_SUITE_P(Meshes, PaperMeshes,
                          testing::Values("paper/tosca_cat0.off", "paper/tosca_victoria0.off",
                                          "paper/stanford_dragon_437k.ply.zst", "paper/head_skin_1m.ply.zst",
                                          "paper/mri_head_a_1m.ply.zst"),
-                         case_name);
+                         shared_mesh_case);
 
 }  // namespace
 }  // namespace meshhood::test

@@ -88,6 +88,12 @@ io::Mesh shared_mesh(const std::string& name, const io::ReadOptions& options) {
   return io::read_mesh(*bytes, plain_name(name), options);
 }
 
+std::string shared_mesh_case(const testing::TestParamInfo<const char*>& file) {
+  const std::string path = file.param;
+  const auto begin = path.find('/') + 1;
+  return path.substr(begin, path.find('.') - begin);
+}
+
 std::vector<ManifestRow> read_manifest() {
   std::ifstream file(shared_meshes_dir() / "MANIFEST.md");
   std::vector<ManifestRow> rows;

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "io/mesh_io.h"
 
 /// The meshes in `../shared/meshes`, beside the repository. A test that needs them begins with
@@ -25,6 +27,9 @@ namespace meshhood::test {
 
 /// That file as a mesh. Throws `std::runtime_error` if there is no such file.
 [[nodiscard]] io::Mesh shared_mesh(const std::string& name, const io::ReadOptions& options = {});
+
+/// The name of a test case whose parameter is such a file: "lucy_50k".
+[[nodiscard]] std::string shared_mesh_case(const testing::TestParamInfo<const char*>& file);
 
 /// A row of the tables of `MANIFEST.md`: the expected result of reading. Figures missing in the table are empty.
 struct ManifestRow {
