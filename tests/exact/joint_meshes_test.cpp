@@ -20,12 +20,15 @@
 namespace meshhood::test {
 namespace {
 
+/// The mean length of the edges, or 1 if there are none.
+double edge_length(const GraphView& graph) { return graph.adjacency.neighbors.empty() ? 1 : mean_edge_length(graph); }
+
 /// Compares a batch over some leaves of a mesh with the reference.
 class LeafRows {
  public:
   /// About `rows` vertices, in leaves spread evenly.
   LeafRows(const MeshView& mesh, std::size_t rows)
-      : reference_(mesh), index_(build(mesh)), mean_edge_(mean_edge_length({mesh.positions, reference_.adjacency()})) {
+      : reference_(mesh), index_(build(mesh)), edge_(edge_length({mesh.positions, reference_.adjacency()})) {
     const std::span<const VertexId> starts = index_.leaf_starts();
     const std::size_t step = std::max<std::size_t>(1, index_.vertex_count() / rows);
     for (std::size_t leaf = 0; leaf + 1 < starts.size(); leaf += step) {
@@ -34,13 +37,13 @@ class LeafRows {
   }
 
   void query(std::initializer_list<double> edges) {
-    for (const double radius : edges) query(std::vector<double>(vertices_.size(), radius * mean_edge_));
+    for (const double radius : edges) query(std::vector<double>(vertices_.size(), radius * edge_));
   }
 
   /// A radius of its own for each row, up to `edges`.
   void query_any(double edges, Random& random) {
     std::vector<double> radii(vertices_.size());
-    for (double& radius : radii) radius = random.uniform(0, edges) * mean_edge_;
+    for (double& radius : radii) radius = random.uniform(0, edges) * edge_;
     query(radii);
   }
 
@@ -68,7 +71,7 @@ class LeafRows {
 
   ReferenceSearcher reference_;
   Index index_;
-  double mean_edge_;
+  double edge_;
   std::vector<VertexId> vertices_;
   std::vector<VertexId> expected_;
   std::size_t rows_ = 0;
