@@ -42,7 +42,7 @@ export async function waitForMesh(page, name) {
 
 /** Until the methods of the table have answered the query that is shown. */
 export async function waitForAnswers(page) {
-  await page.waitForFunction(() => window.meshhoodPage.isAnswered || !document.getElementById('error').hidden);
+  await page.waitForFunction(() => window.meshhoodPage.isAnswered);
 }
 
 /** Drops a file onto the page, as from a folder. */
