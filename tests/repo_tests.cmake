@@ -58,15 +58,15 @@ if(TARGET exact_verify)
 endif()
 
 # Every seeded fault must be noticed by a test. The library and these tests are compiled once more, file by file, so that a
-# faulty file can take the place of one.
+# faulty file can take the place of one, when the mutants are run and not before.
 add_test(NAME mutants.list COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/mutants/run)
 if(CMAKE_BUILD_TYPE STREQUAL "Release")
   file(STRINGS mutants/mutants.txt mutant_tests REGEX "^\\[")
   string(REGEX MATCHALL "[a-z_]+(/[a-z_]+)+" mutant_tests "${mutant_tests}")
   list(REMOVE_DUPLICATES mutant_tests)
   list(TRANSFORM mutant_tests APPEND _test.cpp)
-  add_library(mutant_tests OBJECT ${mutant_tests})
-  add_library(mutant_library STATIC ${core_sources})
+  add_library(mutant_tests OBJECT EXCLUDE_FROM_ALL ${mutant_tests})
+  add_library(mutant_library STATIC EXCLUDE_FROM_ALL ${core_sources})
   foreach(target mutant_tests mutant_library)
     target_include_directories(${target} PRIVATE
       $<TARGET_PROPERTY:meshhood,INCLUDE_DIRECTORIES> ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR})
@@ -80,8 +80,11 @@ if(CMAKE_BUILD_TYPE STREQUAL "Release")
 $<TARGET_FILE:meshhood_families> $<TARGET_FILE:mutant_library>
 $<TARGET_FILE:GTest::gmock> $<TARGET_FILE:GTest::gtest_main> $<TARGET_FILE:GTest::gtest>
 ")
+  add_test(NAME mutants.build COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR}
+    --target mutant_tests mutant_library)
+  set_tests_properties(mutants.build PROPERTIES FIXTURES_SETUP mutants TIMEOUT 1800 COST 1001)
   add_test(NAME mutants.run COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/mutants/run ${PROJECT_BINARY_DIR})
-  set_tests_properties(mutants.run PROPERTIES TIMEOUT 1800 COST 1000)
+  set_tests_properties(mutants.run PROPERTIES FIXTURES_REQUIRED mutants TIMEOUT 3600 COST 1000)
 endif()
 
 # The instruction counts of fixed queries and builds, compared with the committed baseline.
