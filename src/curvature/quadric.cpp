@@ -11,7 +11,7 @@ namespace meshhood {
 namespace {
 
 constexpr std::size_t kTerms = 5;
-using Matrix = std::array<std::array<double, kTerms>, kTerms>;
+using TermMatrix = std::array<std::array<double, kTerms>, kTerms>;
 
 Point unit(const Point& a) { return (1 / length(a)) * a; }
 
@@ -44,11 +44,11 @@ TangentFrame frame_towards(const Point& normal, const Point& offset) {
 
 std::optional<Quadric> fit_moments(const FrameMoments& s, std::size_t query, const MomentSizes& sizes) {
   const auto at = [query](const QueryRow& row) { return row[query]; };
-  Matrix b{{{at(s.u4)},
-            {at(s.u3v), at(s.u2v2)},
-            {at(s.u2v2), at(s.uv3), at(s.v4)},
-            {at(s.u3), at(s.u2v), at(s.uv2), at(s.uu)},
-            {at(s.u2v), at(s.uv2), at(s.v3), at(s.uv), at(s.vv)}}};
+  TermMatrix b{{{at(s.u4)},
+                {at(s.u3v), at(s.u2v2)},
+                {at(s.u2v2), at(s.uv3), at(s.v4)},
+                {at(s.u3), at(s.u2v), at(s.uv2), at(s.uu)},
+                {at(s.u2v), at(s.uv2), at(s.v3), at(s.uv), at(s.vv)}}};
   Quadric solution{at(s.uun), at(s.uvn), at(s.vvn), at(s.un), at(s.vn)};
   // Scaled to a diagonal of ones, so that the result does not depend on the unit.
   std::array<double, kTerms> scale{};
@@ -118,7 +118,7 @@ void triangularize(std::array<TermColumn, kTerms + 1>& columns) {
 
 /// One-sided Jacobi: rotates pairs of columns of `a`, and those of `v` likewise, until all columns of `a` are
 /// orthogonal. Then a = a0 v. `a[j]` is column j.
-void orthogonalize(Matrix& a, Matrix& v) {
+void orthogonalize(TermMatrix& a, TermMatrix& v) {
   constexpr int kMostSweeps = 60;
   constexpr double kPrecision = std::numeric_limits<double>::epsilon();
   for (std::size_t i = 0; i < kTerms; ++i) v[i][i] = 1;
@@ -136,7 +136,7 @@ void orthogonalize(Matrix& a, Matrix& v) {
         const double t = (ratio >= 0 ? 1 : -1) / (std::abs(ratio) + std::sqrt(1 + ratio * ratio));
         const double c = 1 / std::sqrt(1 + t * t);
         const double s = c * t;
-        for (Matrix* const m : {&a, &v}) {
+        for (TermMatrix* const m : {&a, &v}) {
           for (std::size_t i = 0; i < kTerms; ++i) {
             const double x = (*m)[p][i];
             const double y = (*m)[q][i];
@@ -160,8 +160,8 @@ PointFit fit_points(std::span<const Point> points) {
   }
   for (TermColumn& column : columns) column.resize(std::max(points.size(), kTerms));
   triangularize(columns);
-  Matrix a{};
-  Matrix v{};
+  TermMatrix a{};
+  TermMatrix v{};
   for (std::size_t j = 0; j < kTerms; ++j) std::copy_n(columns[j].begin(), kTerms, a[j].begin());
   orthogonalize(a, v);
   std::array<double, kTerms> squares{};

@@ -78,7 +78,8 @@ TEST_F(IndexFile, ErrorsBeginWithTheFile) {
   expect_refused(ErrorCode::IoFailure, "missing.mhi: No such file", [&] { static_cast<void>(io::load(missing)); });
   expect_refused(ErrorCode::IoFailure, "missing.mhi: No such file", [&] { static_cast<void>(io::map(missing)); });
   expect_refused(ErrorCode::IoFailure, "is a directory", [&] { static_cast<void>(io::load(scratch.path())); });
-  expect_refused(ErrorCode::IoFailure, "is a directory, expected a file", [&] { static_cast<void>(io::map(scratch.path())); });
+  expect_refused(ErrorCode::IoFailure, "is a directory, expected a file",
+                 [&] { static_cast<void>(io::map(scratch.path())); });
 }
 
 // F3
