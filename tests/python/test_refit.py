@@ -151,10 +151,10 @@ def test_a_mesh_is_accepted_for_its_positions():
 @pytest.mark.parametrize(
     ("change", "error", "message"),
     (
-        (lambda V: (V[:-1], None), ValueError, "V: 1799 positions, but the index has 1800 vertices"),
+        (lambda V: (V[:-1], None), ValueError, "V: 3599 positions, but the index has 3600 vertices"),
         (lambda V: (V[:, :2], None), ValueError, r"V: expected an array of shape \(#V, 3\)"),
         (lambda V: (np.where(V == 5, np.nan, V), None), ValueError, "V: vertex 5: x is nan"),
-        (lambda V: (V, [0, 1800]), ValueError, "changed: row 1: vertex 1800, but the mesh has 1800 vertices"),
+        (lambda V: (V, [0, 3600]), ValueError, "changed: row 1: vertex 3600, but the mesh has 3600 vertices"),
         (lambda V: (V, [-1]), ValueError, "changed: row 0: vertex -1"),
         (lambda V: (V, [0.5]), TypeError, "changed: expected integers"),
         (lambda V: (V, np.ones(7, bool)), ValueError, "changed: a bool mask of shape"),

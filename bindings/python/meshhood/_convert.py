@@ -48,7 +48,7 @@ def vertex(v, count, name="v"):
 
 
 def is_single(v):
-    return isinstance(v, int) or np.ndim(v) == 0
+    return isinstance(v, int) or np.ndim(np.from_dlpack(v) if _has_only_dlpack(v) else v) == 0
 
 
 def radius(r):
