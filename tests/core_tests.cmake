@@ -69,7 +69,7 @@ if(CGAL_FOUND)
 else()
   meshhood_skip_test(adapters.cgal "no CGAL (libcgal-dev)")
 endif()
-find_package(OpenMesh QUIET)
+find_package(OpenMesh CONFIG QUIET)  # CGAL has a module of this name
 if(OpenMesh_FOUND)
   meshhood_test(adapters/openmesh ALONE OpenMeshCore)
 else()
