@@ -3,7 +3,7 @@
 #   make build                    installs the packages it needs and builds build/release/meshhood
 #   make demo [MESH=some.ply]     compares all methods on a mesh with a trap, or on your own, and draws a picture
 #   make view [MESH=some.ply]     the same in a page, to turn and to try: build/demo/view.html
-#   make test                     the short tests; a few minutes
+#   make test                     the short tests; about ten minutes
 #   make test-all                 also the long tests, the sanitizers, the fuzzers, the mutants and tools/verify
 #
 # To reproduce docs/benchmarks.md. Both write that page and say how long each part took. They need a quiet machine;
