@@ -9,16 +9,11 @@
 namespace meshhood {
 namespace {
 
-/// Half the sum of the cross products of consecutive corners, seen from the first: Newell's vector area. In the unit of
-/// the frame, where nothing overflows.
+/// In the unit of the frame, where nothing overflows.
 template <class Real, class Corner>
 double frame_area(const StridedPositions<Real>& xyz, const Frame& frame, std::span<const Corner> corners) {
   const auto corner = [&](std::size_t i) { return frame.to_frame(point(xyz, static_cast<std::size_t>(corners[i]))); };
-  Point sum{0, 0, 0};
-  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-    sum = sum + cross(corner(i) - corner(0), corner(i + 1) - corner(0));
-  }
-  return length(sum) / 2;
+  return length(doubled_vector_area(corners.size(), corner)) / 2;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 
 #include "base/distance.h"
 
@@ -18,6 +19,22 @@ namespace meshhood {
 
 [[nodiscard]] inline Point cross(const Point& a, const Point& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Twice the vector area of a polygon, about its first corner: the sum of the cross products of consecutive corners
+/// (Newell). `corner(i)` is the position of corner `i`; 0 for fewer than three corners.
+template <class F>
+[[nodiscard]] Point doubled_vector_area(std::size_t corners, F&& corner) {
+  Point sum{0, 0, 0};
+  if (corners < 3) return sum;
+  const Point first = corner(0);
+  Point side = corner(1) - first;
+  for (std::size_t i = 2; i < corners; ++i) {
+    const Point next = corner(i) - first;
+    sum = sum + cross(side, next);
+    side = next;
+  }
+  return sum;
 }
 
 }  // namespace meshhood

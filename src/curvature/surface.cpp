@@ -46,23 +46,12 @@ void check_positions(const IndexView& index, const MeshView& mesh) {
   });
 }
 
-/// The vector area of a polygon, about its first corner: half the sum of the cross products (Newell). In the frame,
-/// where products do not overflow.
+/// The vector area of a polygon, in the frame, where products do not overflow.
 template <class Corners>
 Point vector_area(const SurfaceState& state, std::span<const std::uint32_t> places, const Corners& corners) {
-  const auto corner = [&](std::size_t i) {
-    return state.index->frame.scale * state.position(places[static_cast<std::size_t>(corners[i])]);
-  };
-  Point sum{0, 0, 0};
-  if (corners.size() < 3) return sum;
-  const Point first = corner(0);
-  Point side = corner(1) - first;
-  for (std::size_t i = 2; i < corners.size(); ++i) {
-    const Point next = corner(i) - first;
-    sum = sum + cross(side, next);
-    side = next;
-  }
-  return 0.5 * sum;
+  return 0.5 * doubled_vector_area(corners.size(), [&](std::size_t i) {
+           return state.index->frame.scale * state.position(places[static_cast<std::size_t>(corners[i])]);
+         });
 }
 
 /// Stores the normals as unit vectors; one of length 0 becomes NaN.

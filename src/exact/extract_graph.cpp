@@ -3,7 +3,6 @@
 #include "exact/extract_graph.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <span>
 #include <variant>
@@ -13,11 +12,12 @@
 
 #include "base/adjacency.h"
 #include "exact/index_access.h"
+#include "exact/neighbors.h"
 
 namespace meshhood {
 namespace {
 
-/// Called for every vertex; polls seldom enough to cost nothing.
+/// Called for every vertex or edge; polls seldom enough to cost nothing.
 void poll_cancel(TaskContext& task, std::size_t vertex) {
   constexpr std::size_t kInterval = 1024;
   if (vertex % kInterval == 0) task.should_continue(0);
@@ -37,27 +37,13 @@ PositionsData positions_of(const IndexView& index, TaskContext& task) {
       index.positions);
 }
 
-/// Calls `f(v, w)` for every edge in both directions, by the caller's ids.
-template <class F>
-void for_each_neighbor(const IndexView& index, TaskContext& task, F&& f) {
-  for (std::size_t leaf = 0; leaf < index.leaf_count(); ++leaf) {
-    const std::size_t begin = index.leaf_begin[leaf];
-    for (std::size_t i = begin; i < index.leaf_begin[leaf + 1]; ++i) {
-      poll_cancel(task, i);
-      for (LaneMask left = index.adjacency[i]; left != 0; left &= left - 1) {
-        f(index.id(i), index.id(begin + static_cast<std::size_t>(std::countr_zero(left))));
-      }
-    }
-    for (const Link& link : index.links_of(leaf)) {
-      const std::size_t other = index.leaf_begin[link.leaf];
-      for (const CrossEdge& edge : index.cross_edges_of(link))
-        f(index.id(begin + edge.from), index.id(other + edge.to));
-    }
-  }
-}
-
 Adjacency adjacency_of(const IndexView& index, TaskContext& task) {
-  Adjacency result = gather_rows(index.vertex_count(), [&](auto&& f) { for_each_neighbor(index, task, f); });
+  Adjacency result = gather_rows(index.vertex_count(), [&](auto&& f) {
+    for_each_edge(index, [&](std::size_t from, std::size_t to) {
+      poll_cancel(task, from);
+      f(index.id(from), index.id(to));
+    });
+  });
   for (std::size_t v = 0; v < index.vertex_count(); ++v) {
     poll_cancel(task, v);
     std::sort(result.neighbors.begin() + static_cast<std::ptrdiff_t>(result.offsets[v]),
