@@ -105,7 +105,7 @@ std::vector<Move> read_moves(const IndexView& index, const PositionsView& positi
       moves.push_back({index.slot[vertex], to});
     }
   });
-  std::stable_sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) { return a.slot < b.slot; });
+  std::sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) { return a.slot < b.slot; });
   const auto is_same = [](const Move& a, const Move& b) { return a.slot == b.slot; };
   moves.erase(std::unique(moves.begin(), moves.end(), is_same), moves.end());
   return moves;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "exact/layout.h"
-#include "exact/search/limits.h"
 #include "exact/search/query.h"
+#include "exact/search/search_limits.h"
 #include "exact/search/vertex_set.h"
 #include "simd/kernels.h"
 
