@@ -134,7 +134,7 @@ std::vector<Point> points_on(Random& random, const Quadric& q, std::size_t count
 
 TEST(Quadric, PointsOnAQuadricGiveItBack) {
   Random random(5);
-  for (const std::size_t count : {5, 6, 7, 50, 1000}) {
+  for (const std::size_t count : {5U, 6U, 7U, 50U, 1000U}) {
     const Quadric q = random_quadric(random, 2);
     const PointFit fit = fit_points(points_on(random, q, count));
     EXPECT_TRUE(fit.unique);

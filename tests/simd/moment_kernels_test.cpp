@@ -101,7 +101,7 @@ TEST(MomentKernels, TheIndexOfAMomentIsItsPlace) {
 
 TEST(MomentKernels, SumsAreThoseOfThePowersForEachQuery) {
   Random random(1);
-  for (const std::size_t size : {0, 1, 7, 8, 9, 63, 64}) {
+  for (const std::size_t size : {0U, 1U, 7U, 8U, 9U, 63U, 64U}) {
     const Input common = random_input(random, size);
     const Input some = random_input(random, 64 - size);
     for (const Isa isa : available_isas()) {
