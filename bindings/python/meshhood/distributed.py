@@ -10,29 +10,36 @@ its workers, which must see the folder under the same path. Retries and the dash
 
 from __future__ import annotations
 
-import contextlib
 import functools
-import json
 import os
-import shutil
-import tempfile
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union
+from typing import TYPE_CHECKING, Any, Literal, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from . import _convert, _core
 from ._aggregate import Kernel, Reduce
-from ._files import Mesh, load, read_mesh
 from ._index import MeshIndex
-from ._progress import Progress, reporter
-
-try:
-    import fcntl
-except ImportError:  # Windows, where nothing keeps two calls apart
-    fcntl = None  # type: ignore[assignment]
+from ._open_part import OpenPart, PartName, PartSize
+from ._part_tasks import (
+    PartFunction,
+    aggregate_values,
+    count_vertices,
+    in_mesh_order,
+    is_area,
+    on_mesh,
+    on_part,
+    owned_ids,
+    result_rows,
+    save_neighborhoods,
+    save_rows,
+    shape_of,
+)
+from ._progress import Progress
+from ._result_files import result_folder
+from ._run_tasks import run_all
 
 if TYPE_CHECKING:
     import dask.array as da
@@ -42,89 +49,12 @@ __all__ = ["OpenPart", "PartSize", "Parts", "map_meshes", "open_parts"]
 Unit = Literal["mesh", "edge"]
 Folder = Union[str, "os.PathLike[str]"]
 
-_OPEN_PARTS = 8  # mapped at once in a process
-_ROWS = 4096  # searched at once, so that a part of any size takes little memory
-_RESULT = "result.json"
-
-
-class PartSize(NamedTuple):
-    """The size of a part: `vertices` includes its halo, `owned` does not."""
-
-    vertices: int
-    owned: int
-    faces: int
-
-
-class OpenPart:
-    """A part of a mesh. Its index is mapped, its lists of vertices are read. Immutable; any number of threads may use it.
-
-    Within a part, vertices are numbered from 0 in ascending order of their ids in the mesh.
-    """
-
-    def __init__(self, folder: Path, number: int) -> None:
-        self.number = number
-        """The number of the part."""
-        self._folder = folder
-        self.index: MeshIndex = load(folder / "index.mhi", mmap=True)
-        """The index of the part, with its halo."""
-        self.vertices: NDArray[np.int64] = self._array("vertices", np.int64)
-        """(#vertices,) The id in the mesh of each vertex of the part. Ascending."""
-        self.owned: NDArray[np.int32] = self._array("owned", np.int32)
-        """(#owned,) The vertices that the part owns, numbered as in the part. Ascending."""
-        self._check()
-
-    def __repr__(self) -> str:
-        return f"<meshhood.distributed.OpenPart {self.number}: {len(self.vertices)} vertices, owns {len(self.owned)}>"
-
-    @property
-    def mesh(self) -> Mesh:
-        """The positions and faces of the part, as `meshhood.MeshIndex` takes them. The faces are complete around every
-        vertex within the halo of an owned one."""
-        corners = self._array("face_corners", np.int32)
-        offsets = self._array("face_offsets", np.int64)
-        return Mesh(self.index.positions, (offsets, corners) if len(offsets) else corners.reshape(-1, 3))
-
-    def _array(self, name: str, dtype: DTypeLike) -> NDArray[Any]:
-        path = self._folder / f"{name}.npy"
-        array = np.load(path, allow_pickle=False)
-        if array.ndim != 1 or array.dtype != dtype:
-            raise ValueError(f"{path}: an array of {array.dtype}, shape {array.shape}, expected one row of {dtype}")
-        array.flags.writeable = False
-        return array
-
-    def _check(self) -> None:
-        vertices, owned = self.vertices, self.owned
-        if len(vertices) != len(self.index) or np.any(np.diff(vertices) <= 0) or np.any(vertices[:1] < 0):
-            raise ValueError(f"{self._folder}: vertices.npy does not number the {len(self.index)} vertices of the index")
-        if np.any(np.diff(owned) <= 0) or np.any(owned[:1] < 0) or np.any(owned[-1:] >= len(vertices)):
-            raise ValueError(f"{self._folder}: owned.npy names vertices that the part does not have")
-
-
-@functools.lru_cache(maxsize=_OPEN_PARTS)
-def _opened(folder: str, number: int, content_hash: str) -> OpenPart:
-    """Verified once in each process, then shared by its threads; the pages of the index by all processes."""
-    return OpenPart(Path(_core.verified_part(folder, number, content_hash)), number)
-
-
-class _PartName(NamedTuple):
-    """A part as it travels to a worker."""
-
-    folder: str
-    number: int
-    content_hash: str
-
-    def open(self) -> OpenPart:
-        return _opened(*self)
-
-
-PartFunction = Callable[[OpenPart, MeshIndex, "NDArray[np.int32]"], Any]
-
 
 class Parts:
     """The parts of a mesh, which `meshhood.partition` has written. Made by `open_parts`.
 
     Every method takes a radius `r` up to `halo`, in `unit`: "mesh" is the unit of the positions, "edge" is
-    `mean_edge_length`. A larger radius is refused, with the halo that would do. Results are those of one index of the
+    `mean_edge_length`. A larger radius is an error, which names the halo that it needs. Results are those of one index of the
     whole mesh.
     """
 
@@ -166,7 +96,7 @@ class Parts:
 
     def counts(self, r: float, *, unit: Unit = "mesh", order: Literal["mesh", "parts"] = "mesh") -> da.Array:
         """The number of vertices of each neighborhood: a dask.array (#V,) int64. See `map` for `order`."""
-        return self.map(functools.partial(_count, self._radius(r, unit)), r, unit=unit, dtype=np.int64, order=order)
+        return self.map(functools.partial(count_vertices, self._radius(r, unit)), r, unit=unit, dtype=np.int64, order=order)
 
     def aggregate(
         self,
@@ -192,19 +122,19 @@ class Parts:
         """
         radius = self._radius(r, unit)
         values = self._per_vertex(values, "values")
-        if weights is not None and not _is_area(weights):
+        if weights is not None and not is_area(weights):
             weights = self._per_vertex(weights, "weights")
         options = {"reduce": reduce, "kernel": kernel, "nan": nan, "ddof": ddof}
-        function = functools.partial(_aggregate, radius, values, weights, options)
-        return self.map(function, r, unit=unit, shape=_shape_of(values)[1:], order=order)
+        function = functools.partial(aggregate_values, radius, values, weights, options)
+        return self.map(function, r, unit=unit, shape=shape_of(values)[1:], order=order)
 
     def _per_vertex(self, values: Any, name: str) -> Any:
         """`values` as an array, or as the text of a path."""
         if isinstance(values, str):
             raise TypeError(f"{name}: {values!r}, expected an array or a pathlib.Path")
         values = os.path.abspath(values) if isinstance(values, os.PathLike) else _convert.as_array(values, name).copy()
-        if _shape_of(values)[:1] != (self.n_vertices,):
-            raise ValueError(f"{name}: an array of shape {_shape_of(values)}, expected {self.n_vertices} rows")
+        if shape_of(values)[:1] != (self.n_vertices,):
+            raise ValueError(f"{name}: an array of shape {shape_of(values)}, expected {self.n_vertices} rows")
         return values
 
     def map(
@@ -234,17 +164,17 @@ class Parts:
         self._radius(r, unit)
         _convert.choice(order, "order", ("mesh", "parts"))
         dtype = np.dtype(dtype)
-        blocks = self._blocks(functools.partial(_rows, function, dtype=dtype, shape=shape))
+        blocks = self._blocks(functools.partial(result_rows, function, dtype=dtype, shape=shape))
         if order == "mesh":
             import dask
 
-            in_order = dask.delayed(_in_mesh_order)(self._blocks(_owned_ids), blocks, self.n_vertices)
+            in_order = dask.delayed(in_mesh_order)(self._blocks(owned_ids), blocks, self.n_vertices)
             return da.from_delayed(in_order, (self.n_vertices, *shape), dtype)
         return self._array(blocks, dtype, shape)
 
     def ids(self) -> da.Array:
         """The id in the mesh of each row of results in the order of the parts: a dask.array (#V,) int64."""
-        return self._array(self._blocks(_owned_ids), np.dtype(np.int64), ())
+        return self._array(self._blocks(owned_ids), np.dtype(np.int64), ())
 
     def write(
         self, function: PartFunction, r: float, to: Folder, *, unit: Unit = "mesh", progress: Progress = None
@@ -259,7 +189,7 @@ class Parts:
         """
         radius = self._radius(r, unit)
         what = {"map": _name_of(function), "r": radius}
-        return self._write(functools.partial(_save_rows, function), to, ".npy", what, progress)
+        return self._write(functools.partial(save_rows, function), to, ".npy", what, progress)
 
     def neighborhoods(
         self,
@@ -283,7 +213,7 @@ class Parts:
         _convert.choice(format, "format", ("npz", "zarr"))
         if format == "zarr":
             import zarr  # noqa: F401  # missing here rather than on the workers
-        task = functools.partial(_save_neighborhoods, radius, format, bool(return_distance))
+        task = functools.partial(save_neighborhoods, radius, format, bool(return_distance))
         what = {"neighborhoods": format, "distances": bool(return_distance), "r": radius}
         return self._write(task, to, f".{format}", what, progress)
 
@@ -299,13 +229,13 @@ class Parts:
             )
         return radius
 
-    def _name(self, number: int) -> _PartName:
-        return _PartName(self.folder, number, self._content_hash)
+    def _name(self, number: int) -> PartName:
+        return PartName(self.folder, number, self._content_hash)
 
     def _blocks(self, task: Callable[[OpenPart], Any]) -> list[Any]:
         import dask
 
-        return [dask.delayed(_on_part)(task, self._name(number)) for number in range(len(self))]
+        return [dask.delayed(on_part)(task, self._name(number)) for number in range(len(self))]
 
     def _array(self, blocks: list[Any], dtype: np.dtype[Any], shape: tuple[int, ...]) -> da.Array:
         import dask.array as da
@@ -316,11 +246,11 @@ class Parts:
     def _write(self, task: Any, to: Folder, extension: str, what: dict[str, Any], progress: Progress) -> list[str]:
         target = os.path.abspath(os.fspath(to))
         described = {"content_hash": self._content_hash, "halo": self.halo, "parts": len(self), **what}
-        with _result_folder(target, described):
+        with result_folder(target, described):
             paths = [os.path.join(target, f"part-{number:05}{extension}") for number in range(len(self))]
             left = [number for number, path in enumerate(paths) if not os.path.exists(path)]
-            tasks = [(functools.partial(_on_part, functools.partial(task, paths[n])), self._name(n)) for n in left]
-            _run_all(tasks, progress)
+            tasks = [(functools.partial(on_part, functools.partial(task, paths[n])), self._name(n)) for n in left]
+            run_all(tasks, progress)
         return paths
 
 
@@ -355,272 +285,16 @@ def map_meshes(
     """
     meshes = [os.path.abspath(os.fspath(path)) for path in paths]
     if to is None:
-        return _run_all([(functools.partial(_on_mesh, function, None), mesh) for mesh in meshes], progress)
+        return run_all([(functools.partial(on_mesh, function, None), mesh) for mesh in meshes], progress)
     target = os.path.abspath(os.fspath(to))
-    with _result_folder(target, {"map_meshes": _name_of(function), "paths": meshes}):
+    with result_folder(target, {"map_meshes": _name_of(function), "paths": meshes}):
         files = [os.path.join(target, f"{i:05}-{Path(mesh).stem}.npy") for i, mesh in enumerate(meshes)]
         left = [(file, mesh) for file, mesh in zip(files, meshes) if not os.path.exists(file)]
-        _run_all([(functools.partial(_on_mesh, function, file), mesh) for file, mesh in left], progress)
+        run_all([(functools.partial(on_mesh, function, file), mesh) for file, mesh in left], progress)
     return files
-
-
-# What runs on a worker.
-
-
-def _on_part(task: Callable[[OpenPart], Any], name: _PartName) -> Any:
-    return task(name.open())
-
-
-def _on_mesh(function: Callable[[MeshIndex], Any], file: Optional[str], mesh: str) -> Any:
-    try:
-        with open(mesh, "rb") as opened:
-            is_index = opened.read(8) == b"\x8bMHI\r\n\x1a\n"
-        index = load(mesh, mmap=True) if is_index else MeshIndex(*read_mesh(mesh), workers=1)
-        result = function(index)
-    except Exception as error:
-        if hasattr(error, "add_note"):
-            error.add_note(f"in {mesh}")
-        raise
-    if file is not None:
-        with _atomic_file(file) as target:
-            np.save(target, np.asarray(result), allow_pickle=False)
-    return result if file is None else None
-
-
-def _owned_ids(part: OpenPart) -> NDArray[np.int64]:
-    return part.vertices[part.owned]
-
-
-def _count(radius: float, part: OpenPart, index: MeshIndex, owned: NDArray[np.int32]) -> NDArray[np.int64]:
-    return index.query_ball_count(owned, radius, workers=1)
-
-
-def _aggregate(
-    radius: float, values: Any, weights: Any, options: dict[str, Any], part: OpenPart, index: MeshIndex, owned: Any
-) -> NDArray[np.float64]:
-    is_area = _is_area(weights)
-    return index.aggregate(
-        _rows_of(values, part),
-        radius,
-        weights=weights if weights is None or is_area else _rows_of(weights, part),
-        F=part.mesh.faces if is_area else None,
-        vertices=owned,
-        workers=1,
-        **options,
-    )
-
-
-def _is_area(weights: Any) -> bool:
-    return isinstance(weights, str) and weights == "area"
-
-
-def _rows_of(values: Any, part: OpenPart) -> Any:
-    return _array_of(values)[part.vertices]
-
-
-def _array_of(values: Any) -> Any:
-    return np.load(values, mmap_mode="r", allow_pickle=False) if isinstance(values, str) else values
-
-
-def _shape_of(values: Any) -> tuple[int, ...]:
-    return tuple(_array_of(values).shape)
-
-
-def _rows(function: PartFunction, part: OpenPart, *, dtype: np.dtype[Any], shape: tuple[int, ...]) -> NDArray[Any]:
-    rows = np.asarray(function(part, part.index, part.owned), dtype)
-    if rows.shape != (len(part.owned), *shape):
-        expected = (len(part.owned), *shape)
-        raise ValueError(f"function: an array of shape {rows.shape} for part {part.number}, expected {expected}")
-    return rows
-
-
-def _in_mesh_order(ids: list[NDArray[np.int64]], blocks: list[NDArray[Any]], count: int) -> NDArray[Any]:
-    """The permutation from the order of the parts."""
-    result = np.empty((count, *blocks[0].shape[1:]), blocks[0].dtype)
-    for rows, block in zip(ids, blocks):
-        result[rows] = block
-    return result
-
-
-def _save_rows(function: PartFunction, path: str, part: OpenPart) -> None:
-    rows = np.asarray(function(part, part.index, part.owned))
-    if rows.shape[:1] != (len(part.owned),):
-        raise ValueError(f"function: an array of shape {rows.shape} for part {part.number}, expected {len(part.owned)} rows")
-    with _atomic_file(path) as target:
-        np.save(target, rows, allow_pickle=False)
-
-
-def _save_neighborhoods(radius: float, format: str, distances: bool, path: str, part: OpenPart) -> None:
-    owned = np.asarray(part.owned)
-    sizes = part.index.query_ball_count(owned, radius, workers=1)
-    indptr = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
-
-    def chunks(return_distance: bool) -> Iterator[NDArray[Any]]:
-        for chunk in part.index.iter_neighborhoods(
-            owned, radius, chunk=_ROWS, return_distance=return_distance, sort=True, workers=1
-        ):
-            # The numbering of a part ascends as that of the mesh does, so that the rows stay sorted.
-            yield chunk.distances if return_distance else part.vertices[chunk.indices]
-
-    arrays: list[tuple[str, Any, int, Callable[[], Iterator[NDArray[Any]]]]] = [
-        ("vertices", np.int64, len(owned), lambda: iter([_owned_ids(part)])),
-        ("indptr", np.int64, len(indptr), lambda: iter([indptr])),
-        ("indices", np.int64, int(indptr[-1]), lambda: chunks(False)),
-    ]
-    if distances:
-        arrays.append(("distances", np.float64, int(indptr[-1]), lambda: chunks(True)))
-    _SAVERS[format](path, arrays)
-
-
-def _save_npz(path: str, arrays: Any) -> None:
-    import zipfile
-
-    with _atomic_file(path) as target, zipfile.ZipFile(target, "w", zipfile.ZIP_STORED) as archive:
-        for name, dtype, count, pieces in arrays:
-            header = {"descr": np.dtype(dtype).str, "fortran_order": False, "shape": (count,)}
-            with archive.open(f"{name}.npy", "w", force_zip64=True) as member:
-                np.lib.format.write_array_header_1_0(member, header)
-                for piece in pieces():
-                    member.write(np.ascontiguousarray(piece, dtype).data)
-
-
-def _save_zarr(path: str, arrays: Any) -> None:
-    import zarr
-
-    folder = tempfile.mkdtemp(dir=os.path.dirname(path), prefix=".", suffix=".tmp")
-    try:
-        group = zarr.open_group(os.path.join(folder, "zarr"), mode="w")
-        for name, dtype, count, pieces in arrays:
-            array = group.create_array(name, shape=(count,), dtype=np.dtype(dtype), chunks=(max(1, min(count, 2**20)),))
-            begin = 0
-            for piece in pieces():
-                array[begin : begin + len(piece)] = piece
-                begin += len(piece)
-        os.rename(os.path.join(folder, "zarr"), path)
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
-
-
-_SAVERS = {"npz": _save_npz, "zarr": _save_zarr}
-
-
-@contextlib.contextmanager
-def _atomic_file(path: str) -> Iterator[Any]:
-    """A file that appears under `path` whole or not at all."""
-    descriptor, temporary = tempfile.mkstemp(dir=os.path.dirname(path), prefix=".", suffix=".tmp")
-    try:
-        with os.fdopen(descriptor, "wb") as target:
-            yield target
-            target.flush()
-            os.fsync(target.fileno())
-        os.replace(temporary, path)
-    except BaseException:
-        with contextlib.suppress(FileNotFoundError):
-            os.unlink(temporary)
-        raise
-
-
-# What runs where the call was made.
-
-
-@contextlib.contextmanager
-def _result_folder(folder: str, described: dict[str, Any]) -> Iterator[None]:
-    """Creates the folder, or finds that it holds results of the same call, and keeps others from writing into it."""
-    os.makedirs(folder, exist_ok=True)
-    with _lock(folder):
-        path = os.path.join(folder, _RESULT)
-        if os.path.exists(path):
-            _check_same(path, described)
-        elif os.listdir(folder):
-            raise ValueError(f"{folder}: expected an empty folder, or one with results of the same call")
-        else:
-            with _atomic_file(path) as target:
-                target.write(json.dumps(described, indent=1).encode())
-        for left in Path(folder).glob(".*.tmp"):  # of a worker that was killed
-            shutil.rmtree(left) if left.is_dir() else left.unlink()
-        yield
-
-
-@contextlib.contextmanager
-def _lock(folder: str) -> Iterator[None]:
-    """The right to write into the folder. The system takes it back when the process ends, however it ends."""
-    if fcntl is None:
-        yield
-        return
-    descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
-    try:
-        try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as error:
-            raise BlockingIOError(error.errno, "another call writes into this folder", folder) from None
-        yield
-    finally:
-        os.close(descriptor)
 
 
 def _name_of(function: Any) -> str:
     while isinstance(function, functools.partial):
         function = function.func
     return getattr(function, "__qualname__", type(function).__qualname__)
-
-
-def _check_same(path: str, described: dict[str, Any]) -> None:
-    try:
-        with open(path, encoding="utf-8") as file:
-            found = json.load(file)
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from None
-    if found != described:
-        different = [key for key in described if not isinstance(found, dict) or found.get(key) != described[key]]
-        raise ValueError(f"{path}: the folder has results of another call, which differs in {', '.join(different)}")
-
-
-def _run_all(tasks: list[tuple[Callable[[Any], Any], Any]], progress: Progress) -> list[Any]:
-    """The results of `function(argument)` for all tasks: on the cluster of the current client, else on threads."""
-    client = _client()
-    with reporter(progress) as report:
-        if report:
-            report(0, len(tasks))
-        if client is None:
-            return _run_here(tasks, report)
-        return _run_on(client, tasks, report)
-
-
-def _client() -> Any:
-    try:
-        from distributed import get_client
-    except ImportError:
-        return None
-    try:
-        return get_client()
-    except ValueError:
-        return None
-
-
-def _run_here(tasks: Any, report: Any) -> list[Any]:
-    import dask
-    from dask.callbacks import Callback
-
-    class Count(Callback):
-        done = 0
-
-        def _posttask(self, *_: Any) -> None:
-            Count.done += 1
-            if report:
-                report(min(Count.done, len(tasks)), len(tasks))
-
-    with Count():
-        return list(dask.compute(*(dask.delayed(function)(argument) for function, argument in tasks)))
-
-
-def _run_on(client: Any, tasks: Any, report: Any) -> list[Any]:
-    from distributed import as_completed
-
-    futures = [client.submit(function, argument, pure=False) for function, argument in tasks]
-    try:
-        for done, _ in enumerate(as_completed(futures), 1):
-            if report:
-                report(done, len(tasks))
-        return list(client.gather(futures))
-    finally:
-        client.cancel(futures)

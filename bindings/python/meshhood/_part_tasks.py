@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: MIT
+"""The tasks of `distributed`: functions of one part, or of one mesh, which run on a worker."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._files import load, read_mesh
+from ._index import MeshIndex
+from ._open_part import OpenPart, PartName
+from ._result_files import SAVERS, atomic_file
+
+_ROWS = 4096  # searched at once, so that a part of any size takes little memory
+
+PartFunction = Callable[[OpenPart, MeshIndex, "NDArray[np.int32]"], Any]
+
+
+def on_part(task: Callable[[OpenPart], Any], name: PartName) -> Any:
+    return task(name.open())
+
+
+def on_mesh(function: Callable[[MeshIndex], Any], file: Optional[str], mesh: str) -> Any:
+    try:
+        with open(mesh, "rb") as opened:
+            is_index = opened.read(8) == b"\x8bMHI\r\n\x1a\n"
+        index = load(mesh, mmap=True) if is_index else MeshIndex(*read_mesh(mesh), workers=1)
+        result = function(index)
+    except Exception as error:
+        if hasattr(error, "add_note"):
+            error.add_note(f"in {mesh}")
+        raise
+    if file is not None:
+        with atomic_file(file) as target:
+            np.save(target, np.asarray(result), allow_pickle=False)
+    return result if file is None else None
+
+
+def owned_ids(part: OpenPart) -> NDArray[np.int64]:
+    return part.vertices[part.owned]
+
+
+def count_vertices(radius: float, part: OpenPart, index: MeshIndex, owned: NDArray[np.int32]) -> NDArray[np.int64]:
+    return index.query_ball_count(owned, radius, workers=1)
+
+
+def aggregate_values(
+    radius: float, values: Any, weights: Any, options: dict[str, Any], part: OpenPart, index: MeshIndex, owned: Any
+) -> NDArray[np.float64]:
+    by_area = is_area(weights)
+    return index.aggregate(
+        _rows_of(values, part),
+        radius,
+        weights=weights if weights is None or by_area else _rows_of(weights, part),
+        F=part.mesh.faces if by_area else None,
+        vertices=owned,
+        workers=1,
+        **options,
+    )
+
+
+def is_area(weights: Any) -> bool:
+    return isinstance(weights, str) and weights == "area"
+
+
+def _rows_of(values: Any, part: OpenPart) -> Any:
+    return _array_of(values)[part.vertices]
+
+
+def _array_of(values: Any) -> Any:
+    return np.load(values, mmap_mode="r", allow_pickle=False) if isinstance(values, str) else values
+
+
+def shape_of(values: Any) -> tuple[int, ...]:
+    return tuple(_array_of(values).shape)
+
+
+def result_rows(function: PartFunction, part: OpenPart, *, dtype: np.dtype[Any], shape: tuple[int, ...]) -> NDArray[Any]:
+    rows = np.asarray(function(part, part.index, part.owned), dtype)
+    if rows.shape != (len(part.owned), *shape):
+        expected = (len(part.owned), *shape)
+        raise ValueError(f"function: an array of shape {rows.shape} for part {part.number}, expected {expected}")
+    return rows
+
+
+def in_mesh_order(ids: list[NDArray[np.int64]], blocks: list[NDArray[Any]], count: int) -> NDArray[Any]:
+    """The permutation from the order of the parts."""
+    result = np.empty((count, *blocks[0].shape[1:]), blocks[0].dtype)
+    for rows, block in zip(ids, blocks):
+        result[rows] = block
+    return result
+
+
+def save_rows(function: PartFunction, path: str, part: OpenPart) -> None:
+    rows = np.asarray(function(part, part.index, part.owned))
+    if rows.shape[:1] != (len(part.owned),):
+        raise ValueError(f"function: an array of shape {rows.shape} for part {part.number}, expected {len(part.owned)} rows")
+    with atomic_file(path) as target:
+        np.save(target, rows, allow_pickle=False)
+
+
+def save_neighborhoods(radius: float, format: str, distances: bool, path: str, part: OpenPart) -> None:
+    owned = np.asarray(part.owned)
+    sizes = part.index.query_ball_count(owned, radius, workers=1)
+    indptr = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
+
+    def chunks(return_distance: bool) -> Iterator[NDArray[Any]]:
+        for chunk in part.index.iter_neighborhoods(
+            owned, radius, chunk=_ROWS, return_distance=return_distance, sort=True, workers=1
+        ):
+            # The numbering of a part ascends as that of the mesh does, so that the rows stay sorted.
+            yield chunk.distances if return_distance else part.vertices[chunk.indices]
+
+    arrays: list[tuple[str, Any, int, Callable[[], Iterator[NDArray[Any]]]]] = [
+        ("vertices", np.int64, len(owned), lambda: iter([owned_ids(part)])),
+        ("indptr", np.int64, len(indptr), lambda: iter([indptr])),
+        ("indices", np.int64, int(indptr[-1]), lambda: chunks(False)),
+    ]
+    if distances:
+        arrays.append(("distances", np.float64, int(indptr[-1]), lambda: chunks(True)))
+    SAVERS[format](path, arrays)
