@@ -17,7 +17,6 @@
 
 #include "meshhood/error.h"
 
-#include "channels.h"
 #include "commands.h"
 #include "input.h"
 #include "io/npz_writer.h"
@@ -25,6 +24,7 @@
 #include "output.h"
 #include "size_limit.h"
 #include "task.h"
+#include "vertex_files.h"
 
 namespace meshhood::cli {
 namespace {
@@ -64,8 +64,7 @@ T value_of(const Names<T, size>& names, std::string_view name) {
 struct AggregateCommand {
   std::string file;
   std::string values;
-  std::vector<std::string> radii;
-  std::string unit = "mesh";
+  Radii radii;
   std::string reduce = "mean";
   std::string kernel = "box";
   std::string weights;  ///< "area", a file, or empty
@@ -86,53 +85,39 @@ std::vector<double> weights_of(const AggregateCommand& options, const Input& inp
           fmt::format("{}: --weights area needs the faces, which an index does not contain; name the mesh",
                       printable_name(input.name())));
   }
-  Channels weights = read_channels(options.weights, input.vertex_count());
-  if (weights.channels != 1) {
-    raise(ErrorCode::InvalidOption, fmt::format("{}: {} weights for each vertex, expected one",
-                                                printable_name(options.weights), weights.channels));
-  }
-  return std::move(weights.numbers);
+  return read_channel(options.weights, input.vertex_count(), "weights");
 }
 
-std::vector<double> radii_of(const AggregateCommand& options, Input& input) {
-  std::vector<double> radii;
-  for (const std::string& radius : options.radii) radii.push_back(resolve({radius, options.unit}, input));
-  return radii;
-}
-
-/// Where the arrays of the answer come from: what was asked, and its size.
+/// The lengths of the result.
 struct AggregateShape {
+  std::size_t radii;
   std::size_t rows;
   std::size_t channels;
-  std::size_t numbers;
+  std::size_t numbers;  ///< the product of the three
 };
 
 void write(const AggregateCommand& options, const AggregateQuery& query, const AggregateShape& shape,
            const std::vector<double>& result) {
   io::NpzWriter npz(options.output);
   npz.add<double>("radii", query.radii);
-  if (const auto& list = query.vertices.list()) {
-    const std::vector<std::int64_t> listed(list->begin(), list->end());
-    npz.add<std::int64_t>("vertices", listed);
-  }
-  const std::array<std::uint64_t, 3> lengths{query.radii.size(), shape.rows, shape.channels};
+  write_vertices(npz, query.vertices);
+  const std::array<std::uint64_t, 3> lengths{shape.radii, shape.rows, shape.channels};
   npz.begin<double>("values", lengths);
   npz.append<double>(result);
-  if (Task::is_cancelled()) raise(ErrorCode::Cancelled, "cancelled");
+  Task::check_cancelled();
   npz.commit();
 }
 
-AggregateShape run(const AggregateCommand& options, Input& input, AggregateQuery query) {
+AggregateShape run(const AggregateCommand& options, Input& input, const AggregateQuery& query) {
   const Channels values = read_channels(options.values, input.vertex_count());
   const std::vector<double> weights = weights_of(options, input);
   const SignalView signal{values.numbers, values.channels, weights};
   const Index& index = input.exact_index(options.threads);
-  const auto& list = query.vertices.list();
-  const AggregateShape shape{list ? list->size() : index.vertex_count(), values.channels,
+  const AggregateShape shape{query.radii.size(), row_count(query.vertices, index.vertex_count()), values.channels,
                              aggregate_size(index, signal, query)};
   const BatchSize size{shape.rows, shape.numbers};
   SizeLimit(options.output, options.max_bytes).check(size, 8 * static_cast<double>(shape.numbers));
-  Task task("computing", {"rows", static_cast<double>(query.radii.size())});
+  Task task("computing", {"rows", static_cast<double>(shape.radii)});
   const std::vector<double> result =
       aggregate(index, signal, query, {.threads = options.threads, .progress = task.progress()});
   write(options, query, shape, result);
@@ -143,34 +128,22 @@ void aggregate_command(const AggregateCommand& options) {
   check_output(options.output, {options.file, options.values, options.weights, options.vertices});
   Input input(options.file);
   input.need_edges("aggregate");
-  AggregateQuery query{.vertices = {},
-                       .radii = radii_of(options, input),
-                       .reduce = value_of(kReductions, options.reduce),
-                       .kernel = value_of(kKernels, options.kernel),
-                       .missing = value_of(kMissing, options.missing),
-                       .nesting = value_of(kNestings, options.nesting)};
-  std::vector<VertexId> listed;
-  if (!options.vertices.empty()) {
-    listed = read_vertex_list(options.vertices, input.vertex_count());
-    query.vertices = listed;
-  }
-  const std::size_t radii = query.radii.size();
-  const AggregateShape shape = run(options, input, std::move(query));
-  if (options.json) {
-    print_json(Json{{"output", options.output},
-                    {"reduce", options.reduce},
-                    {"radii", radii},
-                    {"rows", shape.rows},
-                    {"channels", shape.channels}});
-  } else {
-    print_text(fmt::format("{}: {} of {} rows, radii: {}, channels: {}\n", printable_name(options.output),
-                           options.reduce, shape.rows, radii, shape.channels));
-  }
-}
-
-void add_choice(CLI::App& command, const std::string& name, const std::string& description,
-                std::vector<std::string> values, std::string& value) {
-  command.add_option(name, value, description)->check(one_of(std::move(values)))->type_name("")->capture_default_str();
+  const QueryVertices vertices(options.vertices, input.vertex_count());
+  const AggregateQuery query{.vertices = vertices.view(),
+                             .radii = resolve(options.radii, input),
+                             .reduce = value_of(kReductions, options.reduce),
+                             .kernel = value_of(kKernels, options.kernel),
+                             .missing = value_of(kMissing, options.missing),
+                             .nesting = value_of(kNestings, options.nesting)};
+  const AggregateShape shape = run(options, input, query);
+  print_result(options.json,
+               {{"output", options.output},
+                {"reduce", options.reduce},
+                {"radii", shape.radii},
+                {"rows", shape.rows},
+                {"channels", shape.channels}},
+               fmt::format("{}: {} of {} rows, radii: {}, channels: {}\n", printable_name(options.output),
+                           options.reduce, shape.rows, shape.radii, shape.channels));
 }
 
 }  // namespace
@@ -180,41 +153,23 @@ void add_aggregate(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("aggregate", "Write the mean, or the like, of values over each neighborhood");
   add_file(*command, options->file);
-  command
-      ->add_option("--values", options->values,
-                   "numbers by vertex: text with a line per vertex, or an array of NumPy (.npy)")
-      ->check(file_name())
-      ->type_name("FILE")
+  add_file_option(*command, "--values", "numbers by vertex: text with a line per vertex, or an array of NumPy (.npy)",
+                  options->values)
       ->required();
-  command
-      ->add_option("-r,--radius", options->radii,
-                   "radius of the ball, or several, separated by commas; a vertex at exactly this distance is inside")
-      ->delimiter(',')
-      ->type_name("NUMBER")
-      ->required();
-  add_choice(*command, "--unit", "unit of the radius; mesh: that of the positions; edge: the mean edge length",
-             {"mesh", "edge"}, options->unit);
+  add_radii(*command, options->radii);
   add_choice(*command, "--reduce", "what to compute", names_of(kReductions), options->reduce);
   add_choice(*command, "--kernel", "how the weight falls with the distance, for sum and mean", names_of(kKernels),
              options->kernel);
-  command
-      ->add_option("--weights", options->weights,
-                   "weights of the vertices: area, or a file as that of --values (default: 1 each)")
-      ->check(file_name())
+  add_file_option(*command, "--weights",
+                  "weights of the vertices: area, or a file as that of --values (default: 1 each)", options->weights)
       ->type_name("area|FILE");
   add_choice(*command, "--nan", "what NaN means; omit: a missing value", names_of(kMissing), options->missing);
   add_choice(*command, "--nesting",
              "several radii; own: neighborhoods of their own; patch: parts of the neighborhood of the largest",
              names_of(kNestings), options->nesting);
-  command->add_option("--vertices", options->vertices, "text file with the query vertices, one per line (default: all)")
-      ->check(file_name())
-      ->type_name("FILE");
+  add_vertices(*command, options->vertices);
   add_threads(*command, options->threads);
-  command
-      ->add_option("--max-bytes", options->max_bytes,
-                   "refuse a larger answer before it is computed (default: the free space of the disk)")
-      ->transform(whole_number())
-      ->type_name("NUMBER");
+  add_max_bytes(*command, options->max_bytes);
   add_output(*command, ".npz", "file to write", options->output)->required();
   add_json(*command, options->json);
   command->callback([options] { aggregate_command(*options); });

@@ -24,11 +24,13 @@
 #include "input.h"
 #include "io/npz_writer.h"
 #include "matrix_file.h"
+#include "methods.h"
 #include "options.h"
 #include "output.h"
 #include "shard.h"
 #include "size_limit.h"
 #include "task.h"
+#include "vertex_files.h"
 
 namespace meshhood::cli {
 namespace {
@@ -114,12 +116,9 @@ class Writer {
   }
 
   BatchOptions next_pass() {
-    const std::size_t pass = passes_begun_++;
-    const auto progress = [this, pass](std::size_t done, std::size_t total) {
-      task_.report(pass * total + done, number_of_passes(options_) * total);
-      return !Task::is_cancelled();
-    };
-    return {.threads = options_.threads, .sorted = true, .progress = progress};
+    return {.threads = options_.threads,
+            .sorted = true,
+            .progress = task_.progress(passes_begun_++, number_of_passes(options_))};
   }
 
   const SearchMethod& method_;
@@ -163,54 +162,47 @@ BatchSize write(const SearchMethod& method, const BatchQuery& query, const Batch
   Task task(task_name(options, expected, columns),
             {"rows", static_cast<double>(number_of_passes(options))});  // outlives the temporary file
   io::NpzWriter npz(options.output);
-  if (const auto& list = query.vertices.list()) {
-    const std::vector<std::int64_t> listed(list->begin(), list->end());
-    npz.add<std::int64_t>("vertices", listed);
-  }
+  write_vertices(npz, query.vertices);
   if (!shard.empty()) npz.add_text(kShardArray, shard);
   const BatchSize total = Writer(method, query, options, limit, task, npz).write();
-  if (Task::is_cancelled()) raise(ErrorCode::Cancelled, "cancelled");
+  Task::check_cancelled();
   npz.commit();
   return total;
 }
 
-SearchMethod search_method(const BatchCommand& options, Input& input) {
-  if (options.method == "paper") return input.paper_index();
-  if (options.method == "ball") return SearchMethod::ball_scan(input.positions());
-  input.need_edges("--method " + options.method);
-  if (options.method == "bfs") return SearchMethod::breadth_first(input.graph());
-  return input.exact_index(options.threads);
+/// The query vertices of a shard of `rows`.
+std::vector<VertexId> vertices_of(const Shard& shard, const BatchVertices& rows, std::size_t vertices) {
+  const std::size_t count = row_count(rows, vertices);
+  const std::size_t first = shard.first_row(count);
+  std::vector<VertexId> result(shard.end_row(count) - first);
+  if (const auto& list = rows.list()) {
+    std::copy_n(list->begin() + static_cast<std::ptrdiff_t>(first), result.size(), result.begin());
+  } else {
+    std::iota(result.begin(), result.end(), static_cast<VertexId>(first));
+  }
+  return result;
 }
 
 void batch(const BatchCommand& options) {
   check_output(options.output, {options.file, options.vertices});
   Input input(options.file);
-  BatchQuery query{.vertices = {}, .radius = resolve(options.radius, input)};
-  std::vector<VertexId> listed;
-  if (!options.vertices.empty()) {
-    listed = read_vertex_list(options.vertices, input.vertex_count());
-    query.vertices = listed;
-  }
-  const SearchMethod method = search_method(options, input);
+  const QueryVertices vertices(options.vertices, input.vertex_count());
+  BatchQuery query{.vertices = vertices.view(), .radius = resolve(options.radius, input)};
+  const SearchMethod method = batch_method(options.method, input, options.threads);
   std::string about;
+  std::vector<VertexId> of_shard;
   if (!options.shard.empty()) {
     const Shard shard = parse_shard(options.shard);
-    if (options.vertices.empty()) {
-      listed.resize(input.vertex_count());
-      std::iota(listed.begin(), listed.end(), VertexId{0});
-    }
-    about = describe(options, shard, query.radius.common(), listed.size(), input.fingerprint(), input.vertex_count());
-    query.vertices = std::span(listed).subspan(shard.first_row(listed.size()),
-                                               shard.end_row(listed.size()) - shard.first_row(listed.size()));
+    about = describe(options, shard, query.radius.common(), row_count(query.vertices, input.vertex_count()),
+                     input.fingerprint(), input.vertex_count());
+    of_shard = vertices_of(shard, query.vertices, input.vertex_count());
+    query.vertices = of_shard;
   }
   const BatchSize total = write(method, query, options, about);
-  if (options.json) {
-    print_json(
-        Json{{"output", options.output}, {"method", options.method}, {"rows", total.rows}, {"count", total.count}});
-  } else {
-    print_text(
-        fmt::format("{}: {} rows, {} vertices in them\n", printable_name(options.output), total.rows, total.count));
-  }
+  print_result(
+      options.json,
+      {{"output", options.output}, {"method", options.method}, {"rows", total.rows}, {"count", total.count}},
+      fmt::format("{}: {} rows, {} vertices in them\n", printable_name(options.output), total.rows, total.count));
 }
 
 }  // namespace
@@ -221,24 +213,15 @@ void add_batch(CLI::App& program) {
       program.add_subcommand("batch", "Write the neighborhoods of all vertices as a sparse matrix for SciPy");
   add_file(*command, options->file);
   add_radius(*command, options->radius);
-  command->add_option("--vertices", options->vertices, "text file with the query vertices, one per line (default: all)")
-      ->check(file_name())
-      ->type_name("FILE");
-  command->add_option("--method", options->method, kMethodsHelp)
-      ->check(one_of(kMethods))
-      ->type_name("")
-      ->capture_default_str();
+  add_vertices(*command, options->vertices);
+  add_method(*command, options->method);
   add_threads(*command, options->threads);
   CLI::Option* count = command->add_flag("--count", options->count, "write only the number of vertices of each row");
   command
       ->add_flag("--distances", options->distances,
                  "write straight-line distances as the values of the matrix, not ones")
       ->excludes(count);
-  command
-      ->add_option("--max-bytes", options->max_bytes,
-                   "refuse a larger answer, if possible before it is computed (default: the free space of the disk)")
-      ->transform(whole_number())
-      ->type_name("NUMBER");
+  add_max_bytes(*command, options->max_bytes);
   command
       ->add_option("--shard", options->shard,
                    "compute piece i of N of the rows, for meshhood merge; slurm/N: i from SLURM_ARRAY_TASK_ID")

@@ -107,10 +107,10 @@ std::vector<Measurement> table2(Input& input, const Indexes& built, const measur
       measure::bfs_method(input.graph()), measure::ball_method(input.positions()),
       measure::paper_method(built.paper.index), measure::exact_method(built.exact.index)};
   Task task("measuring");
-  const Progress progress = task.progress();
   return measure::measure_radii(methods, plan, mean_edge_length(input.graph()), built.paper.index.permutation(),
                                 [&](std::size_t done, std::size_t total) {
-                                  if (!progress(done, total)) raise(ErrorCode::Cancelled, "cancelled");
+                                  task.report(done, total);
+                                  Task::check_cancelled();
                                 });
 }
 
@@ -187,15 +187,11 @@ void bench(const BenchCommand& options) {
   const Table1 space = table1(input, built);
   const std::vector<Measurement> curves = table2(input, built, plan);
   const Machine machine = measure::this_machine();
-  if (options.json) {
-    print_json(Json{{"mesh", input.name()},
-                    {"machine", to_json(machine)},
-                    {"table1", to_json(space)},
-                    {"table2", to_json(curves)}});
-  } else {
-    print_text(fmt::format("{} on {}, {}, {}\n\n{}\n{}", printable_name(input.name()), machine.processor,
-                           machine.compiler, machine.build, to_text(space), to_text(curves)));
-  }
+  print_result(
+      options.json,
+      {{"mesh", input.name()}, {"machine", to_json(machine)}, {"table1", to_json(space)}, {"table2", to_json(curves)}},
+      fmt::format("{} on {}, {}, {}\n\n{}\n{}", printable_name(input.name()), machine.processor, machine.compiler,
+                  machine.build, to_text(space), to_text(curves)));
 }
 
 }  // namespace
@@ -207,18 +203,11 @@ void add_bench(CLI::App& program) {
   command->add_option("--radii", options->radii, "radii, in mean edge lengths")
       ->type_name("NUMBERS")
       ->capture_default_str();
-  command->add_option("--queries", options->plan.queries, "number of queries per radius")
-      ->transform(whole_number(kMostQueries))
-      ->type_name("NUMBER")
+  add_number(*command, "--queries", "number of queries per radius", options->plan.queries, kMostQueries)
       ->capture_default_str();
-  command->add_option("--order", options->order, "cold: query vertices far apart; warm: each next to the one before")
-      ->check(one_of({"cold", "warm"}))
-      ->type_name("")
-      ->capture_default_str();
-  command->add_option("--seed", options->plan.seed, "seed of the random query vertices")
-      ->transform(whole_number())
-      ->type_name("NUMBER")
-      ->capture_default_str();
+  add_choice(*command, "--order", "cold: query vertices far apart; warm: each next to the one before", {"cold", "warm"},
+             options->order);
+  add_number(*command, "--seed", "seed of the random query vertices", options->plan.seed)->capture_default_str();
   add_json(*command, options->json);
   command->callback([options] { bench(*options); });
 }

@@ -79,7 +79,7 @@ void build(const BuildCommand& options) {
       options.index == "paper"
           ? build_and_save(options.output, [&] { return build_paper_index(mesh.view()); })
           : build_and_save(options.output, [&] { return build_exact_index(mesh.view(), options.threads); });
-  options.json ? print_json(to_json(options, summary)) : print_text(to_text(options, summary));
+  print_result(options.json, to_json(options, summary), to_text(options, summary));
 }
 
 }  // namespace
@@ -88,10 +88,8 @@ void add_build(CLI::App& program) {
   auto options = std::make_shared<BuildCommand>();
   CLI::App* command = program.add_subcommand("build", "Build the index of a mesh and save it");
   add_mesh(*command, options->mesh);
-  command->add_option("--index", options->index, "exact: for exact answers; paper: the index of the paper")
-      ->check(one_of({"exact", "paper"}))
-      ->type_name("")
-      ->capture_default_str();
+  add_choice(*command, "--index", "exact: for exact answers; paper: the index of the paper", {"exact", "paper"},
+             options->index);
   add_threads(*command, options->threads);
   add_output(*command, ".mhi", "index file to write", options->output)->required();
   add_json(*command, options->json);

@@ -89,7 +89,7 @@ void check(const CheckCommand& options) {
                              : check_against_mesh(options, loaded.header, index);
       },
       loaded.index);
-  options.json ? print_json(to_json(options, loaded.header)) : print_text(to_text(options, loaded.header));
+  print_result(options.json, to_json(options, loaded.header), to_text(options, loaded.header));
 }
 
 }  // namespace
@@ -97,13 +97,8 @@ void check(const CheckCommand& options) {
 void add_check(CLI::App& program) {
   auto options = std::make_shared<CheckCommand>();
   CLI::App* command = program.add_subcommand("check", "Verify an index file, alone or against the mesh");
-  command->add_option("INDEX", options->index, "index file (made by meshhood build)")
-      ->required()
-      ->check(file_name())
-      ->type_name("");
-  command->add_option("--mesh", options->mesh, "also verify that the index was built from this mesh")
-      ->check(file_name())
-      ->type_name("FILE");
+  add_file_option(*command, "INDEX", "index file (made by meshhood build)", options->index)->required()->type_name("");
+  add_file_option(*command, "--mesh", "also verify that the index was built from this mesh", options->mesh);
   add_json(*command, options->json);
   command->callback([options] { check(*options); });
 }

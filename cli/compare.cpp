@@ -93,7 +93,7 @@ void compare(const CompareCommand& options) {
                                     measure::exact_method(input.exact_index())};
   const std::vector<Row> rows = answer(methods, v, radius, input.vertex_count());
   if (!options.output.empty()) paint(options.output, input, v, rows);
-  options.json ? print_json(to_json(v, radius, rows)) : print_text(to_text(rows));
+  print_result(options.json, to_json(v, radius, rows), to_text(rows));
 }
 
 }  // namespace
@@ -103,14 +103,11 @@ void add_compare(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "compare", "Compare the methods on one query: size, difference from breadth-first search, time");
   add_file(*command, options->file);
-  command->add_option("-v,--vertex", options->vertex, "query vertex, by its number in the file from 0")
-      ->transform(whole_number())
-      ->type_name("NUMBER")
-      ->required();
+  add_number(*command, "-v,--vertex", "query vertex, by its number in the file from 0", options->vertex)->required();
   add_radius(*command, options->radius);
   add_output(
       *command, ".ply",
-      "also write the mesh in colour: the query vertex red, exact green, only in paper yellow, only in ball blue",
+      "also write the mesh in color: the query vertex red, exact green, only in paper yellow, only in ball blue",
       options->output);
   add_json(*command, options->json);
   command->callback([options] { compare(*options); });

@@ -18,6 +18,7 @@
 #include "options.h"
 #include "output.h"
 #include "task.h"
+#include "vertex_files.h"
 
 namespace meshhood::cli {
 namespace {
@@ -25,25 +26,13 @@ namespace {
 struct CurvatureCommand {
   std::string file;
   std::string vertices;
-  Radius radius;
+  Radii radii;
   bool like_libigl = false;
   bool no_filter = false;
   unsigned threads = kAllThreads;
   std::string output;
   bool json = false;
 };
-
-/// The numbers of "5,10,20".
-std::vector<double> resolve_list(const Radius& radius, Input& input) {
-  std::vector<double> radii;
-  std::size_t begin = 0;
-  for (;;) {
-    const std::size_t end = radius.value.find(',', begin);
-    radii.push_back(resolve({radius.value.substr(begin, end - begin), radius.unit}, input));
-    if (end == std::string::npos) return radii;
-    begin = end + 1;
-  }
-}
 
 /// How many rows have each state.
 struct States {
@@ -79,14 +68,11 @@ struct Columns {
   }
 };
 
-void write(const CurvatureCommand& options, const std::vector<double>& radii, const std::vector<VertexId>& vertices,
+void write(const CurvatureCommand& options, const std::vector<double>& radii, const BatchVertices& vertices,
            const Columns& columns) {
   io::NpzWriter npz(options.output);
   npz.add<double>("radii", radii);
-  if (!options.vertices.empty()) {
-    const std::vector<std::int64_t> listed(vertices.begin(), vertices.end());
-    npz.add<std::int64_t>("vertices", listed);
-  }
+  write_vertices(npz, vertices);
   npz.add<double>("k1", columns.k1);
   npz.add<double>("k2", columns.k2);
   npz.add<double>("d1", columns.d1);
@@ -96,18 +82,17 @@ void write(const CurvatureCommand& options, const std::vector<double>& radii, co
 }
 
 void print(const CurvatureCommand& options, std::size_t rows, std::size_t radii, const States& states) {
-  if (options.json) {
-    return print_json(Json{{"output", options.output},
-                           {"rows", rows},
-                           {"radii", radii},
-                           {"fitted", states.fitted},
-                           {"rank_deficient", states.rank_deficient},
-                           {"too_few", states.too_few},
-                           {"no_normal", states.no_normal}});
-  }
-  print_text(
-      fmt::format("{}: {} rows for {} radii; {} fitted, {} without a unique fit, {} of too few vertices, {} "
-                  "without a normal\n",
+  print_result(
+      options.json,
+      {{"output", options.output},
+       {"rows", rows},
+       {"radii", radii},
+       {"fitted", states.fitted},
+       {"rank_deficient", states.rank_deficient},
+       {"too_few", states.too_few},
+       {"no_normal", states.no_normal}},
+      fmt::format("{}: {} rows, radii: {}; {} fitted, {} without a unique fit, {} of too few vertices, {} without a "
+                  "normal\n",
                   printable_name(options.output), rows, radii, states.fitted, states.rank_deficient, states.too_few,
                   states.no_normal));
 }
@@ -116,13 +101,12 @@ void curvature(const CurvatureCommand& options) {
   check_output(options.output, {options.file, options.vertices});
   Input input(options.file);
   if (input.mesh() == nullptr) {
-    raise(ErrorCode::InvalidOption, printable_name(input.name()) +
-                                        ": an index has no faces, which normals are made "
-                                        "from; expected a mesh");
+    raise(
+        ErrorCode::InvalidOption,
+        printable_name(input.name()) + ": an index has no faces, from which the normals are computed; expected a mesh");
   }
-  const std::vector<double> radii = resolve_list(options.radius, input);
-  std::vector<VertexId> listed;
-  if (!options.vertices.empty()) listed = read_vertex_list(options.vertices, input.vertex_count());
+  const std::vector<double> radii = resolve(options.radii, input);
+  const QueryVertices vertices(options.vertices, input.vertex_count());
   const Index& index = input.exact_index(options.threads);
   const CurvatureIndex surface = CurvatureIndex::build(index, input.mesh()->view());
   CurvatureOptions settings = options.like_libigl ? like_libigl() : CurvatureOptions{};
@@ -132,18 +116,13 @@ void curvature(const CurvatureCommand& options) {
   States states;
   Task task("fitting", {"rows", static_cast<double>(radii.size())});
   for (std::size_t i = 0; i < radii.size(); ++i) {
-    settings.progress = [&, i](std::size_t done, std::size_t total) {
-      task.report(i * total + done, radii.size() * total);
-      return !Task::is_cancelled();
-    };
-    BatchQuery query{.vertices = {}, .radius = radii[i]};
-    if (!options.vertices.empty()) query.vertices = listed;
-    const Curvatures found = curvatures(surface, query, settings);
+    settings.progress = task.progress(i, radii.size());
+    const Curvatures found = curvatures(surface, {.vertices = vertices.view(), .radius = radii[i]}, settings);
     states.add(found.state);
     columns.append(found);
   }
-  write(options, radii, listed, columns);
-  print(options, columns.k1.size() / radii.size(), radii.size(), states);
+  write(options, radii, vertices.view(), columns);
+  print(options, row_count(vertices.view(), index.vertex_count()), radii.size(), states);
 }
 
 }  // namespace
@@ -152,18 +131,12 @@ void add_curvature(CLI::App& program) {
   auto options = std::make_shared<CurvatureCommand>();
   CLI::App* command = program.add_subcommand("curvature", "Write the principal curvatures at one or several scales");
   add_mesh(*command, options->file);
-  command->add_option("-r,--radius", options->radius.value, "radius of the neighborhoods, or several: 5,10,20")
-      ->type_name("NUMBERS")
-      ->required();
-  add_unit(*command, options->radius.unit);
-  command->add_option("--vertices", options->vertices, "text file with the query vertices, one per line (default: all)")
-      ->check(file_name())
-      ->type_name("FILE");
+  add_radii(*command, options->radii);
+  add_vertices(*command, options->vertices);
   command->add_flag("--like-libigl", options->like_libigl,
                     "the values of igl::principal_curvature, with the error of its shape operator");
   command->add_flag("--no-filter", options->no_filter,
-                    "also fit vertices whose normal points away from that of the "
-                    "query vertex");
+                    "also fit vertices whose normal points away from that of the query vertex");
   add_threads(*command, options->threads);
   add_output(*command, ".npz", "file to write", options->output)->required();
   add_json(*command, options->json);

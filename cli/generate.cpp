@@ -35,7 +35,7 @@ void list(bool json) {
     document.push_back({{"kind", kind.name}, {"trap", kind.trap}, {"minimum_vertices", kind.minimum}});
     text += fmt::format("{:<9} {}\n", kind.name, kind.trap);
   }
-  json ? print_json(document) : print_text(text);
+  print_result(json, document, text);
 }
 
 const shapes::Kind& find(const std::string& name) {
@@ -59,15 +59,13 @@ void generate(const GenerateCommand& options) {
   const shapes::Shape shape = find(options.kind).make(options.vertices);
   const MeshView mesh = shape.view();
   save(options.output, mesh);
-  if (options.json) {
-    print_json(Json{{"kind", options.kind},
-                    {"vertices", mesh.positions.size()},
-                    {"faces", mesh.faces.size()},
-                    {"output", options.output}});
-  } else {
-    print_text(fmt::format("{}: {} vertices, {} faces\n", printable_name(options.output), mesh.positions.size(),
+  print_result(options.json,
+               {{"kind", options.kind},
+                {"vertices", mesh.positions.size()},
+                {"faces", mesh.faces.size()},
+                {"output", options.output}},
+               fmt::format("{}: {} vertices, {} faces\n", printable_name(options.output), mesh.positions.size(),
                            mesh.faces.size()));
-  }
 }
 
 }  // namespace
@@ -76,9 +74,7 @@ void add_generate(CLI::App& program) {
   auto options = std::make_shared<GenerateCommand>();
   CLI::App* command = program.add_subcommand("generate", "Write a synthetic mesh for benchmarks and tests");
   command->add_option("KIND", options->kind, "kind of shape; see --list")->type_name("");
-  command->add_option("--vertices", options->vertices, "number of vertices, exact or within 5 %")
-      ->transform(whole_number())
-      ->type_name("NUMBER")
+  add_number(*command, "--vertices", "number of vertices, exact or within 5 %", options->vertices)
       ->capture_default_str();
   add_output(*command, ".ply", "mesh file to write", options->output);
   command->add_flag("--list", options->list, "print all kinds and what is difficult about them");

@@ -129,16 +129,13 @@ void info_of_mesh(const InfoCommand& options, Input& input) {
     document["index"] = {{"exact", json_of(input.exact_index())}, {"paper", json_of(input.paper_index())}};
     text += '\n' + text_of(input.exact_index()) + '\n' + text_of(input.paper_index());
   }
-  options.json ? print_json(document) : print_text(text);
-}
-
-void info_of_index(const InfoCommand& options, Input& input) {
-  options.json ? print_json(to_json(input)) : print_text(to_text(input));
+  print_result(options.json, document, text);
 }
 
 void info(const InfoCommand& options) {
   Input input(options.file);
-  input.mesh() != nullptr ? info_of_mesh(options, input) : info_of_index(options, input);
+  if (input.mesh() != nullptr) return info_of_mesh(options, input);
+  print_result(options.json, to_json(input), to_text(input));
 }
 
 }  // namespace

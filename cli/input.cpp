@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -16,10 +15,6 @@
 
 #include "meshhood/error.h"
 
-#include "io/byte_source.h"
-#include "io/input.h"
-#include "io/number.h"
-#include "io/text.h"
 #include "output.h"
 #include "task.h"
 
@@ -49,41 +44,6 @@ PositionsData positions_of(const paper::Index& index) {
     }
     return positions;
   });
-}
-
-VertexId parse_vertex(const io::Text& text, std::string_view token, std::size_t vertices) {
-  const std::uint64_t vertex = io::parse_count(token).value_or(vertices);
-  if (vertex < vertices) return static_cast<VertexId>(vertex);
-  const std::string expected =
-      vertices == 0 ? "no vertex: the mesh has none" : fmt::format("a vertex from 0 to {}", vertices - 1);
-  text.fail(ErrorCode::InvalidOption, fmt::format("{}, expected {}", io::quote(token), expected));
-}
-
-/// Calls `parse(token)` for the only token of each line that is not blank.
-template <class Parse>
-void for_each_line(io::Text& text, Parse&& parse) {
-  while (text.next_line()) {
-    const std::string_view token = text.token_on_line();
-    if (token.empty()) continue;
-    parse(token);
-    if (const std::string_view second = text.token_on_line(); !second.empty()) {
-      text.fail(ErrorCode::InvalidOption, fmt::format("{}, expected the end of the line", io::quote(second)));
-    }
-  }
-}
-
-/// Calls `read(text)` for a text file. A malformed list is a wrong option, not a wrong mesh.
-template <class Read>
-auto read_list(const std::string& file, Read&& read) {
-  io::FileSource source(file);
-  io::Input input(source, file, io::ReadOptions{}.max_bytes);
-  io::Text text(input, {.hash_comments = true});
-  try {
-    return read(text);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::MalformedFile) throw;
-    raise(ErrorCode::InvalidOption, error.what());
-  }
 }
 
 }  // namespace
@@ -142,7 +102,8 @@ MeshView Input::surface() {
 }
 
 const Index& Input::exact_index(unsigned threads) {
-  if (!exact_) exact_ = build_exact_index(graph(), threads);
+  if (exact_) return *exact_;
+  exact_ = mesh_ && !adjacency_ ? build_exact_index(mesh_->view(), threads) : build_exact_index(graph(), threads);
   return *exact_;
 }
 
@@ -163,28 +124,6 @@ io::Mesh read_mesh(const std::string& file) {
 io::LoadedIndex load_index(const std::string& file) {
   Task task(reading(file), kMegabytes);
   return io::load_any(file, {.progress = task.progress()});
-}
-
-std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vertices) {
-  return read_list(file, [&](io::Text& text) {
-    std::vector<VertexId> list;
-    for_each_line(text, [&](std::string_view token) { list.push_back(parse_vertex(text, token, vertices)); });
-    return list;
-  });
-}
-
-std::vector<float> read_values(const std::string& file, std::size_t vertices) {
-  return read_list(file, [&](io::Text& text) {
-    std::vector<float> values;
-    for_each_line(text, [&](std::string_view token) {
-      const auto value = io::parse_real<float>(token);
-      if (!value) text.fail(ErrorCode::InvalidOption, fmt::format("{}, expected a number", io::quote(token)));
-      values.push_back(*value);
-    });
-    if (values.size() == vertices) return values;
-    raise(ErrorCode::InvalidOption,
-          fmt::format("{}: {} values, but the mesh has {} vertices", printable_name(file), values.size(), vertices));
-  });
 }
 
 template <class Mesh>

@@ -76,17 +76,6 @@ class Input {
 /// Reads and verifies an index, with progress. Throws as `io::load`.
 [[nodiscard]] io::LoadedIndex load_index(const std::string& file);
 
-/// Reads a list of vertices of a mesh of `vertices`: a text with one vertex per line, in any order, repeats allowed.
-/// Blank lines and the text after `#` are skipped.
-///
-/// Throws Error{InvalidOption} with the line and what was expected; Error{IoFailure}.
-[[nodiscard]] std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vertices);
-
-/// Reads a number for each vertex of a mesh of `vertices`: a text with one number per line. Blank lines and the text
-/// after `#` are skipped. A value that is not finite means none. Throws as `read_vertex_list`, also if the number of
-/// values is another.
-[[nodiscard]] std::vector<float> read_values(const std::string& file, std::size_t vertices);
-
 /// Builds an index of a `MeshView` or a `GraphView`, with progress.
 template <class Mesh>
 [[nodiscard]] Index build_exact_index(const Mesh& mesh, unsigned threads);

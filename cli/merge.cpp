@@ -148,7 +148,7 @@ class Merger {
         const std::vector<Out> converted(values.begin(), values.end());
         npz_.append<Out>(converted);
         task_.report(done += values.size(), total);
-        if (Task::is_cancelled()) raise(ErrorCode::Cancelled, "cancelled");
+        Task::check_cancelled();
       }
     }
     if (done != total) refuse(files_.back().name, fmt::format("'{}' has {} values too few", name, total - done));
@@ -172,11 +172,8 @@ std::uint64_t merge_files(const MergeCommand& options) {
 void merge(const MergeCommand& options) {
   for (const std::string& file : options.files) check_output(options.output, {file});
   const std::uint64_t rows = merge_files(options);
-  if (options.json) {
-    print_json(Json{{"output", options.output}, {"shards", options.files.size()}, {"rows", rows}});
-  } else {
-    print_text(fmt::format("{}: {} rows of {} shards\n", printable_name(options.output), rows, options.files.size()));
-  }
+  print_result(options.json, {{"output", options.output}, {"shards", options.files.size()}, {"rows", rows}},
+               fmt::format("{}: {} rows of {} shards\n", printable_name(options.output), rows, options.files.size()));
 }
 
 }  // namespace

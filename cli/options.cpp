@@ -104,29 +104,48 @@ CLI::Validator one_of(std::vector<std::string> values) {
   return {check, ""};
 }
 
+CLI::Option* add_numbers(CLI::App& command, const std::string& name, const std::string& description,
+                         std::vector<std::uint64_t>& values) {
+  return add_number(command, name, description, values)->delimiter(',')->allow_extra_args(false);
+}
+
+CLI::Option* add_choice(CLI::App& command, const std::string& name, const std::string& description,
+                        std::vector<std::string> values, std::string& value) {
+  return command.add_option(name, value, description)
+      ->check(one_of(std::move(values)))
+      ->type_name("")
+      ->capture_default_str();
+}
+
+CLI::Option* add_file_option(CLI::App& command, const std::string& name, const std::string& description,
+                             std::string& file) {
+  return command.add_option(name, file, description)->check(file_name())->type_name("FILE");
+}
+
 void add_file(CLI::App& command, std::string& file) {
-  command.add_option("FILE", file, "mesh (PLY, OBJ, OFF or STL) or index (made by meshhood build)")
+  add_file_option(command, "FILE", "mesh (PLY, OBJ, OFF or STL) or index (made by meshhood build)", file)
       ->required()
-      ->check(file_name())
       ->type_name("");
 }
 
 void add_mesh(CLI::App& command, std::string& file) {
-  command.add_option("MESH", file, "PLY, OBJ, OFF or STL")->required()->check(file_name())->type_name("");
+  add_file_option(command, "MESH", "PLY, OBJ, OFF or STL", file)->required()->type_name("");
 }
 
 CLI::Option* add_output(CLI::App& command, const std::string& extension, const std::string& description,
                         std::string& file) {
-  return command.add_option("-o,--output", file, fmt::format("{} ({})", description, extension))
-      ->check(file_name())
-      ->check(output_name(extension))
-      ->type_name("FILE");
+  return add_file_option(command, "-o,--output", fmt::format("{} ({})", description, extension), file)
+      ->check(output_name(extension));
+}
+
+void add_max_bytes(CLI::App& command, std::optional<std::uint64_t>& max_bytes) {
+  add_number(command, "--max-bytes",
+             "refuse a larger answer, if possible before it is computed (default: the free space of the disk)",
+             max_bytes);
 }
 
 void add_threads(CLI::App& command, unsigned& threads) {
-  command.add_option("--threads", threads, "number of threads; 0: as many as the processor has")
-      ->transform(whole_number(kMaxThreads))
-      ->type_name("NUMBER")
+  add_number(command, "--threads", "number of threads; 0: as many as the processor has", threads, kMaxThreads)
       ->capture_default_str();
 }
 
@@ -138,17 +157,25 @@ CLI::Option* add_radius(CLI::App& command, Radius& radius) {
           .add_option("-r,--radius", radius.value, "radius of the ball; a vertex at exactly this distance is inside")
           ->type_name("NUMBER")
           ->required();
-  add_unit(command, radius.unit);
+  add_unit(command, "radius", radius.unit);
   return option;
 }
 
-void add_unit(CLI::App& command, std::string& unit) {
+void add_radii(CLI::App& command, Radii& radii) {
   command
-      .add_option("--unit", unit,
-                  "unit of the radius; mesh: that of the positions; edge: the mean edge length of the mesh")
-      ->check(one_of({"mesh", "edge"}))
-      ->type_name("")
-      ->capture_default_str();
+      .add_option("-r,--radius", radii.values,
+                  "radius of the ball, or several, separated by commas; a vertex at exactly this distance is inside")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NUMBER")
+      ->required();
+  add_unit(command, "radius", radii.unit);
+}
+
+void add_unit(CLI::App& command, const std::string& length, std::string& unit) {
+  add_choice(command, "--unit",
+             fmt::format("unit of the {}; mesh: that of the positions; edge: the mean edge length of the mesh", length),
+             {"mesh", "edge"}, unit);
 }
 
 double parse_radius(std::string_view name, const std::string& text) {
@@ -165,6 +192,12 @@ double parse_radius(std::string_view name, const std::string& text) {
 double resolve(const Radius& radius, Input& input) {
   const double value = parse_radius("radius", radius.value);
   return radius.unit == "edge" ? edge_unit(input) * value : value;
+}
+
+std::vector<double> resolve(const Radii& radii, Input& input) {
+  std::vector<double> result;
+  for (const std::string& value : radii.values) result.push_back(resolve(Radius{value, radii.unit}, input));
+  return result;
 }
 
 VertexId resolve_vertex(std::uint64_t v, const Input& input) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,11 +28,24 @@ namespace meshhood::cli {
 /// Accepts one of `values`, and suggests one for a typo.
 [[nodiscard]] CLI::Validator one_of(std::vector<std::string> values);
 
-/// The values of --method, and its description.
-inline const std::vector<std::string> kMethods{"exact", "bfs", "paper", "ball"};
-inline constexpr const char* kMethodsHelp =
-    "exact: by the index; bfs: exact by breadth-first search, slower; paper: with a few extra vertices; ball: all "
-    "vertices in the ball";
+/// An option whose value is a whole number up to `most`.
+template <class Value>
+CLI::Option* add_number(CLI::App& command, const std::string& name, const std::string& description, Value& value,
+                        std::uint64_t most = std::numeric_limits<std::uint64_t>::max()) {
+  return command.add_option(name, value, description)->transform(whole_number(most))->type_name("NUMBER");
+}
+
+/// An option whose values are whole numbers, separated by commas or given one by one.
+CLI::Option* add_numbers(CLI::App& command, const std::string& name, const std::string& description,
+                         std::vector<std::uint64_t>& values);
+
+/// An option whose value is one of `values`; the one at hand is the default.
+CLI::Option* add_choice(CLI::App& command, const std::string& name, const std::string& description,
+                        std::vector<std::string> values, std::string& value);
+
+/// An option whose value is the name of a file.
+CLI::Option* add_file_option(CLI::App& command, const std::string& name, const std::string& description,
+                             std::string& file);
 
 /// FILE: a mesh or an index.
 void add_file(CLI::App& command, std::string& file);
@@ -42,6 +56,9 @@ void add_mesh(CLI::App& command, std::string& file);
 /// --output, optional unless made required. An extension other than `extension` (".ply") is refused.
 CLI::Option* add_output(CLI::App& command, const std::string& extension, const std::string& description,
                         std::string& file);
+
+/// --max-bytes, for a `SizeLimit`.
+void add_max_bytes(CLI::App& command, std::optional<std::uint64_t>& max_bytes);
 
 /// --threads.
 void add_threads(CLI::App& command, unsigned& threads);
@@ -55,14 +72,24 @@ struct Radius {
   std::string unit = "mesh";
 };
 
+/// Several radii as they were typed.
+struct Radii {
+  std::vector<std::string> values;
+  std::string unit = "mesh";
+};
+
 /// --radius and --unit. Returns the former, which is required unless made optional.
 CLI::Option* add_radius(CLI::App& command, Radius& radius);
 
-/// --unit.
-void add_unit(CLI::App& command, std::string& unit);
+/// The same for one radius or several, separated by commas.
+void add_radii(CLI::App& command, Radii& radii);
 
-/// The radius in the unit of the positions. Throws Error{InvalidRadius, InvalidOption}.
+/// --unit. `length` is what has the unit: "radius".
+void add_unit(CLI::App& command, const std::string& length, std::string& unit);
+
+/// In the unit of the positions. Throws Error{InvalidRadius, InvalidOption}.
 [[nodiscard]] double resolve(const Radius& radius, Input& input);
+[[nodiscard]] std::vector<double> resolve(const Radii& radii, Input& input);
 
 /// The double nearest to `text`; `name` is for the message. Throws Error{InvalidRadius}.
 [[nodiscard]] double parse_radius(std::string_view name, const std::string& text);

@@ -27,6 +27,10 @@ void print_json(const Json& document) {
   print_text(document.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
+void print_result(bool json, const Json& document, std::string_view text) {
+  json ? print_json(document) : print_text(text);
+}
+
 void close_output() {
   if (std::fclose(stdout) != 0) fail(errno);
 }

@@ -27,6 +27,9 @@ void print_text(std::string_view text);
 /// Prints the JSON document of a `--json` run. Bytes that are not UTF-8 become U+FFFD.
 void print_json(const Json& document);
 
+/// Prints the result of a command: `document` in a `--json` run, otherwise `text`.
+void print_result(bool json, const Json& document, std::string_view text);
+
 /// Closes standard output: some file systems report errors only then. Throws as `print_text`.
 void close_output();
 

@@ -99,7 +99,7 @@ std::string to_text(const std::string& output, const parts::PartitionResult& res
 void partition_mesh(const PartitionCommand& options) {
   const parts::PartitionResult result = run(options);
   for (const std::string& warning : result.warnings) print_error("warning: ", warning);
-  options.json ? print_json(to_json(options.output, result)) : print_text(to_text(options.output, result));
+  print_result(options.json, to_json(options.output, result), to_text(options.output, result));
 }
 
 }  // namespace
@@ -108,40 +108,27 @@ void add_partition(CLI::App& program) {
   auto options = std::make_shared<PartitionCommand>();
   CLI::App* command =
       program.add_subcommand("partition", "Cut a mesh of any size into parts that answer by themselves");
-  command
-      ->add_option("MESH", options->mesh,
-                   "binary PLY, or positions as .npy with --faces: read in chunks; other formats: read into memory")
+  add_file_option(*command, "MESH",
+                  "binary PLY, or positions as .npy with --faces: read in chunks; other formats: read into memory",
+                  options->mesh)
       ->required()
-      ->check(file_name())
       ->type_name("");
-  command->add_option("--faces", options->faces, "faces as .npy, (#F, k) integers; MESH then has the positions")
-      ->check(file_name())
-      ->type_name("FILE");
-  CLI::Option* parts =
-      command->add_option("--parts", options->parts, "number of parts")->transform(whole_number())->type_name("NUMBER");
-  command
-      ->add_option("--vertices-per-part", options->vertices_per_part,
-                   "vertices of a part without its halo, about; sets the number of parts")
-      ->transform(whole_number())
-      ->type_name("NUMBER")
+  add_file_option(*command, "--faces", "faces as .npy, (#F, k) integers; MESH then has the positions", options->faces);
+  CLI::Option* parts = add_number(*command, "--parts", "number of parts", options->parts);
+  add_number(*command, "--vertices-per-part", "vertices of a part without its halo, about; sets the number of parts",
+             options->vertices_per_part)
       ->excludes(parts);
   command->add_option("--halo", options->halo, "the largest radius that the parts answer")
       ->type_name("NUMBER")
       ->required();
-  command
-      ->add_option("--unit", options->unit,
-                   "unit of the halo; mesh: that of the positions; edge: the mean edge length of the mesh")
-      ->check(one_of({"mesh", "edge"}))
-      ->type_name("")
-      ->capture_default_str();
+  add_unit(*command, "halo", options->unit);
   command->add_option("--memory", options->memory, "most bytes of memory, for example 500MB or 4GiB (default: 1GiB)")
       ->transform(CLI::AsSizeValue(false))
       ->type_name("SIZE")
       ->default_val("1GiB");
   add_threads(*command, options->threads);
   command->add_flag("--no-resume", options->no_resume, "remove the parts that an earlier run has finished");
-  command->add_option("-o,--output", options->output, "folder to write; created if it does not exist")
-      ->check(file_name())
+  add_file_option(*command, "-o,--output", "folder to write; created if it does not exist", options->output)
       ->type_name("FOLDER")
       ->required();
   add_json(*command, options->json);

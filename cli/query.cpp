@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,7 @@
 #include "input.h"
 #include "measure/methods.h"
 #include "measure/timing.h"
+#include "methods.h"
 #include "options.h"
 #include "output.h"
 #include "painting.h"
@@ -47,20 +49,17 @@ struct Answer {
   std::size_t count = 0;
   std::vector<VertexId> vertices;  ///< ascending; empty if they are neither printed nor painted
   std::vector<double> distances;   ///< of `vertices`, if requested
-  double seconds = 0;
+  double seconds = 0;              ///< 0 if it was not measured
 };
 
-Method make_method(const QueryCommand& options, Input& input) {
-  if (options.method == "exact" || options.method == "bfs") input.need_edges("--method " + options.method);
-  if (options.method == "bfs") return measure::bfs_method(input.graph());
-  if (options.method == "ball") return measure::ball_method(input.positions());
-  if (options.method == "exact") return measure::exact_method(input.exact_index());
+Method method_of(const QueryCommand& options, Input& input) {
   paper::QueryOptions settings;
   if (options.factor) settings.radius_ratio = parse_radius("--factor", *options.factor);
-  return measure::paper_method(input.paper_index(), settings);
+  return single_method(options.method, input, settings);
 }
 
-Answer answer(const QueryCommand& options, const Method& method, VertexId v, double radius) {
+/// The answer of `method`, with the median time of several runs.
+Answer timed_answer(const QueryCommand& options, const Method& method, VertexId v, double radius) {
   Answer answer{.vertex = v, .vertices = {}, .distances = {}};
   if (options.count && options.output.empty()) {
     answer.seconds = measure::median_seconds([&] { answer.count = method.count(v, radius); });
@@ -135,40 +134,38 @@ void paint(const QueryCommand& options, Input& input, const std::vector<Answer>&
   painting.write(options.output, input.surface());
 }
 
-/// An answer that no `Method` gives. It is not timed.
-Answer answer_of(std::optional<VertexId> v, StartAnswer found) {
+std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<const VertexId> vertices, double radius,
+                                      Input& input) {
+  const Method method = method_of(options, input);
+  std::vector<Answer> answers;
+  for (const VertexId v : vertices) {
+    Answer answer = timed_answer(options, method, v, radius);
+    if (options.method == "exact" || options.method == "bfs") note_whole_component(method, radius, answer);
+    if (options.distances) {
+      for (const VertexId w : answer.vertices) answer.distances.push_back(distance(input.positions(), v, w));
+    }
+    answers.push_back(std::move(answer));
+  }
+  return answers;
+}
+
+Answer to_answer(const QueryCommand& options, std::optional<VertexId> v, StartAnswer found) {
+  if (!options.distances) found.distances.clear();
   Answer answer{.vertex = v, .vertices = std::move(found.vertices), .distances = std::move(found.distances)};
   answer.count = answer.vertices.size();
   return answer;
 }
 
-std::vector<Answer> answers_of_methods(const QueryCommand& options, double radius, Input& input) {
-  const Method method = make_method(options, input);
-  std::vector<Answer> answers;
-  for (const std::uint64_t number : options.vertices) {
-    const VertexId v = resolve_vertex(number, input);
-    answers.push_back(answer(options, method, v, radius));
-    if (options.method == "exact" || options.method == "bfs") note_whole_component(method, radius, answers.back());
-    if (!options.distances) continue;
-    for (const VertexId w : answers.back().vertices) {
-      answers.back().distances.push_back(distance(input.positions(), v, w));
-    }
-  }
-  return answers;
-}
-
-std::vector<Answer> answers_of_regions(const QueryCommand& options, double radius, Input& input) {
+/// The answers with a point, a filter or a metric, which the methods do not take.
+std::vector<Answer> answers_of_regions(const QueryCommand& options, std::span<const VertexId> vertices, double radius,
+                                       Input& input) {
   input.need_edges("this query");
   std::vector<Answer> answers;
   if (!options.start.point.empty()) {
-    answers.push_back(answer_of(std::nullopt, region_of_point(options.start, radius, input)));
+    answers.push_back(to_answer(options, std::nullopt, region_of_point(options.start, radius, input)));
   }
-  for (const std::uint64_t number : options.vertices) {
-    const VertexId v = resolve_vertex(number, input);
-    answers.push_back(answer_of(v, region_of_vertex(options.start, v, radius, input)));
-  }
-  for (Answer& answer : answers) {
-    if (!options.distances) answer.distances.clear();
+  for (const VertexId v : vertices) {
+    answers.push_back(to_answer(options, v, region_of_vertex(options.start, v, radius, input)));
   }
   return answers;
 }
@@ -180,12 +177,11 @@ void query(const QueryCommand& options) {
   check_start_options(options.start, options.method, !options.vertices.empty());
   check_output(options.output, {options.file});
   Input input(options.file);
-  for (const std::uint64_t v : options.vertices) static_cast<void>(resolve_vertex(v, input));
+  std::vector<VertexId> vertices;
+  for (const std::uint64_t v : options.vertices) vertices.push_back(resolve_vertex(v, input));
   const double radius = resolve(options.radius, input);
-  const StartOptions& start = options.start;
-  const bool has_method = start.point.empty() && !start.has_filter() && !start.is_along_edges();
-  const std::vector<Answer> answers =
-      has_method ? answers_of_methods(options, radius, input) : answers_of_regions(options, radius, input);
+  const std::vector<Answer> answers = options.start.is_plain() ? answers_of_method(options, vertices, radius, input)
+                                                               : answers_of_regions(options, vertices, radius, input);
   if (!options.output.empty()) paint(options, input, answers);
   print(options, radius, answers);
 }
@@ -196,21 +192,13 @@ void add_query(CLI::App& program) {
   auto options = std::make_shared<QueryCommand>();
   CLI::App* command = program.add_subcommand("query", "Print the neighborhood of one or more vertices");
   add_file(*command, options->file);
-  command
-      ->add_option(
-          "-v,--vertex", options->vertices,
-          "query vertex, by its number in the file from 0; several: -v 3,7 or -v 3 -v 7, then each line of the "
-          "answer begins with the query vertex")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->transform(whole_number())
-      ->type_name("NUMBER");
+  add_numbers(*command, "-v,--vertex",
+              "query vertex, by its number in the file from 0; several: -v 3,7 or -v 3 -v 7, then each line of the "
+              "answer begins with the query vertex",
+              options->vertices);
   add_radius(*command, options->radius);
   add_start(*command, options->start);
-  command->add_option("--method", options->method, kMethodsHelp)
-      ->check(one_of(kMethods))
-      ->type_name("")
-      ->capture_default_str();
+  add_method(*command, options->method);
   command
       ->add_option("--factor", options->factor,
                    "f of the paper's query, the ratio of the radius to that of the clusters: greater is more exact "
@@ -219,7 +207,7 @@ void add_query(CLI::App& program) {
   CLI::Option* count = command->add_flag("--count", options->count, "print only the number of vertices");
   command->add_flag("--distances", options->distances, "print each vertex with its straight-line distance")
       ->excludes(count);
-  add_output(*command, ".ply", "also write the mesh with the neighborhood in colour", options->output);
+  add_output(*command, ".ply", "also write the mesh with the neighborhood in color", options->output);
   add_json(*command, options->json);
   command->callback([options] { query(*options); });
 }

@@ -14,6 +14,7 @@
 #include "io/messages.h"
 #include "io/number.h"
 #include "options.h"
+#include "vertex_files.h"
 
 namespace meshhood::cli {
 namespace {
@@ -58,27 +59,18 @@ void add_start(CLI::App& command, StartOptions& options) {
                            ->delimiter(',')
                            ->allow_extra_args(false)
                            ->type_name("X,Y,Z");
-  command
-      .add_option("--seed", options.seeds,
-                  "with --point: the vertices from which the search starts, such as the corners of a face; by default "
-                  "the vertex nearest to the point")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->transform(whole_number())
-      ->type_name("NUMBER")
+  add_numbers(command, "--seed",
+              "with --point: the vertices from which the search starts, such as the corners of a face; by default the "
+              "vertex nearest to the point",
+              options.seeds)
       ->needs(point);
-  command
-      .add_option("--metric", options.metric,
-                  "straight: all paths that stay within the radius; edge: the paths of edges that are at most as long")
-      ->check(one_of({"straight", "edge"}))
-      ->type_name("")
-      ->capture_default_str();
-  command.add_option("--walls", options.walls, "a list of vertices that the search does not pass, one in each line")
-      ->check(file_name())
-      ->type_name("FILE");
-  command.add_option("--ignored", options.ignored, "a list of vertices that the search passes but does not print")
-      ->check(file_name())
-      ->type_name("FILE");
+  add_choice(command, "--metric",
+             "straight: all paths that stay within the radius; edge: the paths of edges that are at most as long",
+             {"straight", "edge"}, options.metric);
+  add_file_option(command, "--walls", "a list of vertices that the search does not pass, one in each line",
+                  options.walls);
+  add_file_option(command, "--ignored", "a list of vertices that the search passes but does not print",
+                  options.ignored);
 }
 
 void check_start_options(const StartOptions& options, const std::string& method, bool has_vertices) {
@@ -87,7 +79,7 @@ void check_start_options(const StartOptions& options, const std::string& method,
   if (has_point && options.is_along_edges()) {
     raise(ErrorCode::InvalidOption, "--metric edge: expected --vertex, for a point has no edges");
   }
-  if (method != "exact" && (has_point || options.has_filter() || options.is_along_edges())) {
+  if (method != "exact" && !options.is_plain()) {
     raise(ErrorCode::InvalidOption, "--point, --metric edge, --walls and --ignored require --method exact");
   }
 }

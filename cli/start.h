@@ -12,7 +12,7 @@
 
 #include "input.h"
 
-/// The options of a query beyond vertex and radius: where it starts, what it may pass, and how it measures.
+/// The options of a query beyond vertex and radius: where it starts, what it may pass, and how it measures lengths.
 namespace meshhood::cli {
 
 struct StartOptions {
@@ -24,6 +24,9 @@ struct StartOptions {
 
   [[nodiscard]] bool has_filter() const { return !walls.empty() || !ignored.empty(); }
   [[nodiscard]] bool is_along_edges() const { return metric == "edge"; }
+
+  /// Whether the query has none of these options.
+  [[nodiscard]] bool is_plain() const { return point.empty() && !has_filter() && !is_along_edges(); }
 };
 
 /// --point, --seed, --metric, --walls and --ignored.
@@ -53,7 +56,7 @@ struct StartAnswer {
 /// The region of --point.
 [[nodiscard]] StartAnswer region_of_point(const StartOptions& options, double radius, Input& input);
 
-/// What lies within the radius of a vertex: the region, or with --metric edge what lies so far along the edges.
+/// The region of a vertex; with --metric edge the vertices whose path distance is at most the radius.
 [[nodiscard]] StartAnswer region_of_vertex(const StartOptions& options, VertexId v, double radius, Input& input);
 
 }  // namespace meshhood::cli

@@ -14,6 +14,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "meshhood/error.h"
+
 #include "io/messages.h"
 
 namespace meshhood::cli {
@@ -50,12 +52,14 @@ Task::Task(std::string_view description, Unit unit) : description_(io::printable
 
 Task::~Task() { replace_handlers(remember, SIG_DFL); }
 
-bool Task::is_cancelled() { return caught != 0; }
+void Task::check_cancelled() {
+  if (caught != 0) raise(ErrorCode::Cancelled, "cancelled");
+}
 
-Progress Task::progress() {
-  return [this](std::size_t done, std::size_t total) {
-    report(done, total);
-    return !is_cancelled();
+Progress Task::progress(std::size_t pass, std::size_t passes) {
+  return [this, pass, passes](std::size_t done, std::size_t total) {
+    report(pass * total + done, passes * total);
+    return caught == 0;
   };
 }
 

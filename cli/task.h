@@ -24,8 +24,7 @@ struct Unit {
 ///  - a line on standard error shows the progress, the rate and the time left: only on a terminal, only after a second,
 ///    and removed at the end;
 ///  - SIGINT, SIGHUP, SIGTERM and SIGXCPU do not end the program. `progress()` then returns false, so that the
-///  operation
-///    throws Error{Cancelled} and removes its temporary file.
+///    operation throws Error{Cancelled} and removes its temporary file.
 class Task {
  public:
   explicit Task(std::string_view description, Unit unit = {});
@@ -33,14 +32,14 @@ class Task {
   Task(const Task&) = delete;
   Task& operator=(const Task&) = delete;
 
-  /// For the operation. Borrows the task.
-  [[nodiscard]] Progress progress();
+  /// For the operation, or for pass number `pass` of `passes` that take about as long. Borrows the task.
+  [[nodiscard]] Progress progress(std::size_t pass = 0, std::size_t passes = 1);
 
   /// Sets how much is done. A total of 0 means that it is unknown.
   void report(std::size_t done, std::size_t total);
 
-  /// Whether a signal has arrived.
-  [[nodiscard]] static bool is_cancelled();
+  /// Throws Error{Cancelled} if a signal has arrived.
+  static void check_cancelled();
 
  private:
   void show(const std::stop_token& stop);

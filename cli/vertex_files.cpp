@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "channels.h"
+#include "vertex_files.h"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -21,6 +22,7 @@
 #include "io/npy.h"
 #include "io/number.h"
 #include "io/text.h"
+#include "options.h"
 
 namespace meshhood::cli {
 namespace {
@@ -32,6 +34,27 @@ namespace {
 void check_rows(const io::Input& input, std::uint64_t rows, std::size_t vertices) {
   if (rows == vertices) return;
   fail(input, fmt::format("{} rows of values, expected one for each of {} vertices", rows, vertices));
+}
+
+/// Opens a file and calls `read(input)`. A malformed one is a wrong option, not a wrong mesh.
+template <class Read>
+auto read_file(const std::string& file, Read&& read) {
+  io::FileSource source(file);
+  io::Input input(source, file, io::ReadOptions{}.max_bytes);
+  try {
+    return read(input);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::MalformedFile && error.code() != ErrorCode::UnsupportedFormat) throw;
+    raise(ErrorCode::InvalidOption, error.what());
+  }
+}
+
+VertexId parse_vertex(const io::Text& text, std::string_view token, std::size_t vertices) {
+  const std::uint64_t vertex = io::parse_count(token).value_or(vertices);
+  if (vertex < vertices) return static_cast<VertexId>(vertex);
+  const std::string expected =
+      vertices == 0 ? "no vertex: the mesh has none" : fmt::format("a vertex from 0 to {}", vertices - 1);
+  text.fail(ErrorCode::InvalidOption, fmt::format("{}, expected {}", io::quote(token), expected));
 }
 
 /// A number of a line; none at its end.
@@ -120,16 +143,52 @@ Channels read_numpy(io::Input& input, std::size_t vertices) {
 
 }  // namespace
 
+std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vertices) {
+  return read_file(file, [&](io::Input& input) {
+    io::Text text(input, {.hash_comments = true});
+    std::vector<VertexId> list;
+    while (text.next_line()) {
+      const std::string_view token = text.token_on_line();
+      if (token.empty()) continue;
+      list.push_back(parse_vertex(text, token, vertices));
+      if (const std::string_view second = text.token_on_line(); !second.empty()) {
+        text.fail(ErrorCode::InvalidOption, fmt::format("{}, expected the end of the line", io::quote(second)));
+      }
+    }
+    return list;
+  });
+}
+
 Channels read_channels(const std::string& file, std::size_t vertices) {
-  io::FileSource source(file);
-  io::Input input(source, file, io::ReadOptions{}.max_bytes);
-  try {
+  return read_file(file, [&](io::Input& input) {
     return io::is_npy(input.ahead(io::kNpyHeadBytes)) ? read_numpy(input, vertices) : read_text(input, vertices);
-  } catch (const Error& error) {
-    // Malformed values are a wrong option, not a wrong mesh.
-    if (error.code() != ErrorCode::MalformedFile && error.code() != ErrorCode::UnsupportedFormat) throw;
-    raise(ErrorCode::InvalidOption, error.what());
-  }
+  });
+}
+
+std::vector<double> read_channel(const std::string& file, std::size_t vertices, std::string_view values) {
+  Channels read = read_channels(file, vertices);
+  if (read.channels == 1) return std::move(read.numbers);
+  raise(ErrorCode::InvalidOption,
+        fmt::format("{}: {} {} for each vertex, expected one", io::printable_name(file), read.channels, values));
+}
+
+void add_vertices(CLI::App& command, std::string& file) {
+  add_file_option(command, "--vertices", "text file with the query vertices, one per line (default: all)", file);
+}
+
+QueryVertices::QueryVertices(const std::string& file, std::size_t vertices) : are_listed_(!file.empty()) {
+  if (are_listed_) list_ = read_vertex_list(file, vertices);
+}
+
+std::size_t row_count(const BatchVertices& rows, std::size_t vertices) {
+  return rows.list() ? rows.list()->size() : vertices;
+}
+
+void write_vertices(io::NpzWriter& npz, const BatchVertices& rows) {
+  const auto& list = rows.list();
+  if (!list) return;
+  const std::vector<std::int64_t> listed(list->begin(), list->end());
+  npz.add<std::int64_t>("vertices", listed);
 }
 
 }  // namespace meshhood::cli

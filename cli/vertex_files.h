@@ -3,9 +3,22 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
+#include "meshhood/batch.h"
+#include "meshhood/mesh.h"
+
+#include "io/npz_writer.h"
+
+/// Files that list vertices, or that have values for them. In a text, blank lines and what follows `#` are skipped.
+/// Every reader throws Error{InvalidOption} with the place and what was expected, and Error{IoFailure, TooLarge}.
 namespace meshhood::cli {
+
+/// Reads vertices of a mesh of `vertices`: a text with one vertex per line, in any order, repeats allowed.
+[[nodiscard]] std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vertices);
 
 /// Numbers by vertex, row by row.
 struct Channels {
@@ -13,10 +26,34 @@ struct Channels {
   std::size_t channels = 0;
 };
 
-/// Reads the values of a mesh of `vertices`: an array of NumPy (.npy) of one or two dimensions, told by its first
-/// bytes; or a text with one line per vertex, all with as many numbers. Blank lines and the text after `#` are skipped.
-///
-/// Throws Error{InvalidOption} with the place and what was expected; Error{IoFailure, TooLarge}.
+/// Reads the values of a mesh of `vertices`: an array of NumPy (.npy) of one or two dimensions, recognized by its first
+/// bytes; or a text with one line per vertex, all with as many numbers.
 [[nodiscard]] Channels read_channels(const std::string& file, std::size_t vertices);
+
+/// The same for values of one channel. `values` names them in the message: "weights".
+[[nodiscard]] std::vector<double> read_channel(const std::string& file, std::size_t vertices, std::string_view values);
+
+/// --vertices: a file with the query vertices of a command that writes a row for each.
+void add_vertices(CLI::App& command, std::string& file);
+
+/// The query vertices of such a command.
+class QueryVertices {
+ public:
+  /// Those that `file` lists, or all if it is "".
+  QueryVertices(const std::string& file, std::size_t vertices);
+
+  /// Borrows from this object.
+  [[nodiscard]] BatchVertices view() const { return are_listed_ ? BatchVertices(list_) : BatchVertices(); }
+
+ private:
+  bool are_listed_;
+  std::vector<VertexId> list_;
+};
+
+/// The number of rows for `rows` in a mesh of `vertices`.
+[[nodiscard]] std::size_t row_count(const BatchVertices& rows, std::size_t vertices);
+
+/// Writes the array `vertices`, if the query vertices are listed.
+void write_vertices(io::NpzWriter& npz, const BatchVertices& rows);
 
 }  // namespace meshhood::cli

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -21,6 +22,7 @@
 #include "options.h"
 #include "output.h"
 #include "page.h"
+#include "vertex_files.h"
 
 extern char** environ;
 
@@ -60,7 +62,8 @@ PageSettings settings_of(const ViewCommand& options, Input& input) {
   if (!options.radius.value.empty()) settings.radius = resolve(options.radius, input);
   if (!options.answer.empty()) settings.answer = read_vertex_list(options.answer, input.vertex_count());
   if (!options.values.empty()) {
-    settings.values = read_values(options.values, input.vertex_count());
+    const std::vector<double> values = read_channel(options.values, input.vertex_count(), "values");
+    settings.values.assign(values.begin(), values.end());
     settings.values_name = std::filesystem::path(options.values).stem().string();
   }
   return settings;
@@ -85,16 +88,11 @@ void add_view(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("view", "Write a page that shows the mesh and its neighborhoods in a browser");
   add_file(*command, options->file);
-  command->add_option("-v,--vertex", options->vertex, "vertex to show at first, by its number in the file from 0")
-      ->transform(whole_number())
-      ->type_name("NUMBER");
+  add_number(*command, "-v,--vertex", "vertex to show at first, by its number in the file from 0", options->vertex);
   add_radius(*command, options->radius)->required(false);
-  command->add_option("--ids", options->answer, "show these vertices, one on each line, as printed by query")
-      ->check(file_name())
-      ->type_name("FILE");
-  command->add_option("--values", options->values, "colour the vertices by these numbers, one on each line")
-      ->check(file_name())
-      ->type_name("FILE");
+  add_file_option(*command, "--ids", "show these vertices, one on each line, as printed by query", options->answer);
+  add_file_option(*command, "--values",
+                  "color the vertices by these numbers: one per line, or an array of NumPy (.npy)", options->values);
   add_output(*command, ".html", "the page; by default the name of FILE, in this folder", options->output);
   command->add_flag("--open", options->open, "also open the page in the browser");
   command->callback([options] { view(*options); });
