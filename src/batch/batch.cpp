@@ -8,8 +8,9 @@
 
 namespace meshhood {
 
-Batch::Batch(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options, std::size_t passes)
-    : factory_(method.searchers()),
+Batch::Batch(SearchMethod method, const BatchQuery& query, const BatchOptions& options, std::size_t passes)
+    : method_(std::move(method)),
+      factory_(method_.searchers()),
       options_(options),
       rows_(query, factory_.vertex_count()),
       task_(options.threads, options.progress, passes * rows_.size()),

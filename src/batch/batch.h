@@ -22,9 +22,9 @@ class Batch {
   /// The most rows of one call of `for_each_chunk`.
   static constexpr std::size_t kMaxRows = std::size_t{1} << 20;
 
-  /// Borrows `method` and `options`. `passes`: how often all rows will be worked through.
+  /// Shares `method` and borrows `options`. `passes`: how often all rows will be worked through.
   /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}.
-  Batch(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options, std::size_t passes);
+  Batch(SearchMethod method, const BatchQuery& query, const BatchOptions& options, std::size_t passes);
 
   [[nodiscard]] const Rows& rows() const { return rows_; }
   [[nodiscard]] const BatchOptions& options() const { return options_; }
@@ -60,7 +60,8 @@ class Batch {
   /// Sorts the rows by position, and cuts them so that rows that belong together are in one chunk.
   void cut_into_chunks();
 
-  const SearcherFactory& factory_;
+  SearchMethod method_;
+  const SearcherFactory& factory_;  // of `method_`
   const BatchOptions& options_;
   Rows rows_;
   TaskContext task_;

@@ -47,7 +47,7 @@ struct RandomLeaves {
   [[nodiscard]] IndexView view() const {
     IndexView index;
     index.leaf_begin = leaf_begin;
-    index.positions = std::span(&points.data()->x, 3 * points.size());
+    if (!points.empty()) index.positions = std::span(&points.data()->x, 3 * points.size());
     return index;
   }
 
