@@ -266,6 +266,7 @@ class Session {
       if (!std::ranges::equal(ids, oracle.exact(vertices[row], radius))) fail("a row of the batch differs");
     }
     aggregate_ids(*place.index, vertices, radius, answer, options.threads);
+    fit_rows(place, vertices, radius, options.threads);
   }
 
   /// Aggregates the ids of the vertices, as doubles, whose sums are exact.
@@ -288,6 +289,25 @@ class Session {
       const bool right = sums[row] == sum && counts[row] == static_cast<double>(ids.size()) && maxima[row] == maximum;
       // The query vertex has the weight 1, so the mean is a number.
       if (!right || !(means[row] >= -1e-9 && means[row] <= maximum + 1e-9)) fail("an aggregate differs");
+    }
+  }
+
+  /// Curvatures have the same bits however many threads there are, and each row has a state that it deserves.
+  static void fit_rows(const Exact& place, const std::vector<VertexId>& vertices, double radius, unsigned threads) {
+    const test::TestMesh& mesh = place.subject->mesh;
+    if (mesh.face_count() == 0) return;
+    const CurvatureIndex surface = CurvatureIndex::build(*place.index, mesh.view().faces);
+    const BatchQuery query{.vertices = vertices, .radius = radius};
+    const Curvatures found = curvatures(surface, query, {.threads = threads});
+    if (found.k1 != curvatures(surface, query, {.threads = 1}).k1) fail("curvatures depend on the threads");
+    const test::Oracle& oracle = place.subject->oracle;
+    for (std::size_t row = 0; row < vertices.size(); ++row) {
+      const std::size_t most = oracle.exact(vertices[row], std::numeric_limits<double>::infinity()).size();
+      const bool without = found.state[row] >= CurvatureState::TooFew;
+      if (most < 6 && !without) fail("a fit to fewer than six vertices");
+      if (most >= 6 && found.state[row] == CurvatureState::TooFew) fail("too few vertices where there are enough");
+      if (!(found.k1[row] >= found.k2[row])) fail("curvatures are not in order");
+      if (without && found.k1[row] != 0) fail("a curvature without a fit");
     }
   }
 

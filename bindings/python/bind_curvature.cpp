@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -9,7 +8,6 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/variant.h>
 
@@ -26,31 +24,18 @@ namespace nb = nanobind;
 namespace meshhood::python {
 namespace {
 
-/// The normals and areas of a mesh, with the index that they belong to.
-struct Surface {
-  std::shared_ptr<ExactMethod> method;
-  CurvatureIndex curvature;
-};
-
-std::shared_ptr<Surface> of_faces(std::shared_ptr<ExactMethod> method, const Input& corners,
-                                  const std::optional<Input>& offsets) {
+CurvatureIndex of_faces(const ExactMethod& method, const Input& corners, const std::optional<Input>& offsets) {
   const IndicesView flat = indices_of(corners, "F");
   const FacesView faces = offsets ? FacesView::polygons(indices_of(*offsets, "F"), flat) : FacesView::triangles(flat);
-  return without_lock([&] {
-    CurvatureIndex curvature = CurvatureIndex::build(method->index(), faces);
-    return std::make_shared<Surface>(std::move(method), std::move(curvature));
-  });
+  return without_lock([&] { return CurvatureIndex::build(method.index(), faces); });
 }
 
-std::shared_ptr<Surface> of_normals(std::shared_ptr<ExactMethod> method, const Radii& normals) {
+CurvatureIndex of_normals(const ExactMethod& method, const Radii& normals) {
   const std::span<const double> values(normals.data(), normals.size());
-  return without_lock([&] {
-    CurvatureIndex curvature = CurvatureIndex::build(method->index(), values);
-    return std::make_shared<Surface>(std::move(method), std::move(curvature));
-  });
+  return without_lock([&] { return CurvatureIndex::build(method.index(), values); });
 }
 
-auto curvatures_of(const Surface& surface, const std::optional<Rows>& vertices,
+auto curvatures_of(const CurvatureIndex& surface, const std::optional<Rows>& vertices,
                    const std::variant<double, Radii>& radius, bool libigl, bool filter, unsigned threads,
                    nb::handle progress) {
   CurvatureOptions options = libigl ? like_libigl() : CurvatureOptions{};
@@ -58,7 +43,7 @@ auto curvatures_of(const Surface& surface, const std::optional<Rows>& vertices,
   options.threads = threads;
   options.progress = progress_to(progress);
   const BatchQuery query = query_of(vertices, radius);
-  Curvatures found = without_lock([&] { return curvatures(surface.curvature, query, options); });
+  Curvatures found = without_lock([&] { return curvatures(surface, query, options); });
   const std::size_t rows = found.state.size();
   return std::tuple(owned<double>(std::move(found.k1)), owned<double>(std::move(found.k2)),
                     owned<double>(std::move(found.d1), {rows, 3}), owned<double>(std::move(found.d2), {rows, 3}),
@@ -76,7 +61,7 @@ double radius_of_libigl(const Input& positions, const Input& corners, const std:
 }  // namespace
 
 void bind_curvature(nb::module_& module) {
-  nb::class_<Surface>(module, "Surface")
+  nb::class_<CurvatureIndex>(module, "Surface")
       .def("curvatures", &curvatures_of, nb::arg().none(), nb::arg(), nb::arg("libigl"), nb::arg("filter"),
            nb::arg("threads"), nb::arg("progress").none());
   module.def("surface_of_faces", &of_faces, nb::arg(), nb::arg(), nb::arg("offsets").none());

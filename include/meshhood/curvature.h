@@ -20,7 +20,7 @@
 namespace meshhood {
 
 /// What curvature needs of a mesh beyond its index: the normals of the vertices. Immutable: any number of threads may
-/// use it. Refers to the index, which must outlive it and stay where it is. 28 bytes a vertex.
+/// use it. Shares the memory of the index, as a searcher does: the index may be moved or destroyed. 28 bytes a vertex.
 class CurvatureIndex {
  public:
   /// The normal of a vertex is the sum of the vector areas of its faces, normalised. Of a triangle that is half the
@@ -30,19 +30,16 @@ class CurvatureIndex {
   /// Throws Error{InvalidMesh, TooLarge} if `mesh` is invalid, has no faces, or has other positions than the index.
   /// O(#V + #corners).
   [[nodiscard]] static CurvatureIndex build(const Index& index, const MeshView& mesh);
-  [[nodiscard]] static CurvatureIndex build(const Index&&, const MeshView&) = delete;
 
   /// The same with the positions of the index. `faces` are those of the mesh that it was built from.
   [[nodiscard]] static CurvatureIndex build(const Index& index, const FacesView& faces);
-  [[nodiscard]] static CurvatureIndex build(const Index&&, const FacesView&) = delete;
 
   /// The same for a graph without faces.
   ///
   /// normals    #V by 3, in the order of the caller's vertices, of any length; copied. A vertex whose normal has length
-  ///            0 counts as one without a normal. Finite.
-  /// Throws Error{InvalidMesh}, naming the vertex.
+  ///            0 or a NaN counts as one without a normal.
+  /// Throws Error{InvalidMesh}, naming the vertex, if a normal is infinite.
   [[nodiscard]] static CurvatureIndex build(const Index& index, std::span<const double> normals);
-  [[nodiscard]] static CurvatureIndex build(const Index&&, std::span<const double>) = delete;
 
   CurvatureIndex(CurvatureIndex&&) noexcept;
   CurvatureIndex& operator=(CurvatureIndex&&) noexcept;

@@ -70,6 +70,7 @@ void CurvatureFitter::fit(const MomentRows& packet, const PacketMoments& sums, c
 void CurvatureFitter::fit_row(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments,
                               std::size_t query) {
   const std::size_t row = packet.rows[query];
+  // mutant: fit-without-normal
   if (std::isnan(frames_[query].n.x)) return write(row, CurvatureState::NoNormal, {});
   if (moments.at[0][query] >= kFewestPoints) {
     if (const std::optional<Quadric> quadric = fit_moments(in_frame_, query, sums.sizes(query))) {
@@ -110,7 +111,7 @@ Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query, co
   result.d2.resize(3 * rows);
   result.state.resize(rows);
   const MomentSource source{.index = state.index, .filter = options.filter ? &state : nullptr};
-  visit_moments(*state.searched, query, options.open_ball, source,
+  visit_moments(state.searched, query, options.open_ball, source,
                 {.threads = options.threads, .progress = options.progress}, [&] {
                   auto fitter = std::make_shared<CurvatureFitter>(state, options, result);
                   return [fitter](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {

@@ -11,7 +11,7 @@ namespace meshhood {
 
 /// Ascending, so that sums do not depend on what the searcher remembers.
 void DirectFit::find(std::uint32_t place, double radius) {
-  if (!searcher_) searcher_.emplace(*surface_->searched);
+  if (!searcher_) searcher_.emplace(surface_->searched);
   found_.clear();
   for (const VertexRange& range : searcher_->ranges(surface_->index->id(place), radius)) {
     for (VertexId i = range.begin; i < range.end; ++i) found_.push_back(i);
@@ -34,7 +34,7 @@ void DirectFit::extend(std::uint32_t place) {
       for_each_neighbor(index, leaf_of(slot), lane_of(slot), [&](std::size_t to) {
         const auto other = static_cast<std::uint32_t>(to);
         if (std::find(found_.begin(), found_.end(), other) != found_.end()) return;
-        if (!nearest || key(other) < key(*nearest)) nearest = other;
+        if (!nearest || key(other) < key(*nearest)) nearest = other;  // mutant: extension-by-the-farthest
       });
     }
     if (!nearest) return;
@@ -47,7 +47,7 @@ void DirectFit::filter(const Point& normal) {
   for (const std::uint32_t i : found_) {
     if (dot(surface_->normal(i), normal) > 0) facing_.push_back(i);
   }
-  if (facing_.size() >= kFewestPoints) found_.swap(facing_);
+  if (facing_.size() >= kFewestPoints) found_.swap(facing_);  // mutant: filter-leaves-too-few
 }
 
 DirectFit::Result DirectFit::fit(std::uint32_t place, double radius, const TangentFrame& frame) {

@@ -115,7 +115,7 @@ void PacketMoments::keep_facing(std::size_t first, std::span<QueryWord> words) {
   kernels_->products(&source_.filter->normal_x[first], &source_.filter->normal_y[first],
                      &source_.filter->normal_z[first], words.size(), axis_, products.data());
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (products[i] > all_face_) continue;
+    if (products[i] > all_face_) continue;  // mutant: faces-the-axis-alone
     if (products[i] < -all_face_) {
       words[i] = 0;
     } else if (words[i] != 0) {
@@ -163,7 +163,7 @@ void PacketMoments::add_points(std::size_t first, std::span<QueryWord> words) {
 const QueryMoments& PacketMoments::finish() {
   kernels_->collect(common_, some_, moments_);
   for (std::size_t q = 0; q < size_; ++q) sizes_[q] = sizes_of(moments_, q);
-  kernels_->shift(moments_, offsets_);
+  kernels_->shift(moments_, offsets_);  // mutant: moments-about-the-packet
   for (std::size_t q = 0; q < size_; ++q) {
     const MomentSizes after = sizes_of(moments_, q);
     sizes_[q] = {std::max(sizes_[q].second, after.second), std::max(sizes_[q].fourth, after.fourth)};

@@ -62,7 +62,7 @@ std::optional<Quadric> fit_moments(const FrameMoments& s, std::size_t query, con
   // about epsilon times `amplification`. Measured, results are then within 1e-9 of the exact ones.
   const double amplification =
       std::max(sizes.fourth / std::min({at(s.u4), at(s.u2v2), at(s.v4)}), sizes.second / std::min(at(s.uu), at(s.vv)));
-  const double smallest_determinant = 1e-6 * amplification;
+  const double smallest_determinant = 1e-6 * amplification;  // mutant: ill-conditioned-fit
   double determinant = 1;
   for (std::size_t j = 0; j < kTerms; ++j) {  // Cholesky
     for (std::size_t k = 0; k < j; ++k) b[j][j] -= b[j][k] * b[j][k];
@@ -170,7 +170,7 @@ PointFit fit_points(std::span<const Point> points) {
   const double least = kTerms * std::numeric_limits<double>::epsilon() * largest;
   PointFit result{{}, true};
   for (std::size_t j = 0; j < kTerms; ++j) {
-    if (!(std::sqrt(squares[j]) > least)) {
+    if (!(std::sqrt(squares[j]) > least)) {  // mutant: deficient-fit-as-unique
       result.unique = false;
       continue;
     }
@@ -237,7 +237,7 @@ PrincipalCurvature principal_curvature(const Quadric& quadric, const TangentFram
   const double t = std::sqrt(determinant) / r;  // EG - F^2 = determinant
   const double f = F / r;
   const double p = L / E;
-  const double o = (M - f * L / r) / (r * t);
+  const double o = (M - f * L / r) / (r * t);  // mutant: operator-without-tilt
   const double q = (N - 2 * f * M / r + f * f * L / E) / (t * t);
   const Eigen2 result = eigen(p, o, q);
   const auto direction = [&](const std::array<double, 2>& v) {

@@ -11,18 +11,10 @@
 #include "meshhood/error.h"
 
 #include "base/vector.h"
-#include "exact/index_access.h"
 #include "exact/neighbors.h"
 
 namespace meshhood {
 namespace {
-
-/// The position in index order of each of the caller's vertices.
-std::vector<std::uint32_t> places_of(const IndexView& index) {
-  std::vector<std::uint32_t> places(index.vertex_count());
-  for (std::size_t i = 0; i < places.size(); ++i) places[index.id(i)] = static_cast<std::uint32_t>(i);
-  return places;
-}
 
 bool same(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
@@ -48,9 +40,10 @@ void check_positions(const IndexView& index, const MeshView& mesh) {
 
 /// The vector area of a polygon, in the frame, where products do not overflow.
 template <class Corners>
-Point vector_area(const SurfaceState& state, std::span<const std::uint32_t> places, const Corners& corners) {
+Point vector_area(const SurfaceState& state, const Corners& corners) {
   return 0.5 * doubled_vector_area(corners.size(), [&](std::size_t i) {
-           return state.index->frame.scale * state.position(places[static_cast<std::size_t>(corners[i])]);
+           const std::uint32_t place = place_of(*state.index, static_cast<VertexId>(corners[i]));
+           return state.index->frame.scale * state.position(place);
          });
 }
 
@@ -66,12 +59,11 @@ void set_normals(SurfaceState& state, std::span<const Point> normals) {
 
 void add_faces(SurfaceState& state, const FacesView& faces) {
   const IndexView& index = *state.index;
-  const std::vector<std::uint32_t> places = places_of(index);
   std::vector<Point> normals(index.vertex_count(), {0, 0, 0});
   faces.for_each([&](std::size_t, auto corners) {
-    const Point area = vector_area(state, places, corners);
+    const Point area = vector_area(state, corners);
     for (const auto corner : corners) {
-      const std::size_t place = places[static_cast<std::size_t>(corner)];
+      const std::size_t place = place_of(index, static_cast<VertexId>(corner));
       normals[place] = normals[place] + area;
     }
   });
@@ -84,11 +76,17 @@ void find_first_neighbors(SurfaceState& state) {
   for (std::size_t i = 0; i < index.vertex_count(); ++i) state.first_neighbor[i] = static_cast<std::uint32_t>(i);
   for_each_edge(index, [&](std::size_t from, std::size_t to) {
     std::uint32_t& first = state.first_neighbor[from];
+    // mutant: axis-to-another-neighbor
     if (first == from || index.id(to) < index.id(first)) first = static_cast<std::uint32_t>(to);
   });
 }
 
 }  // namespace
+
+// A refit writes to a view only if it has one owner, so the second owner makes it as immutable as a const one.
+CurvatureIndex::State::State(const Index& given)
+    : searched(IndexAccess::make(std::const_pointer_cast<IndexView>(IndexAccess::share(given)))),
+      index(&IndexAccess::view(searched)) {}
 
 CurvatureIndex CurvatureIndex::build(const Index& index, const MeshView& mesh) {
   validate(mesh);
@@ -101,9 +99,7 @@ CurvatureIndex CurvatureIndex::build(const Index& index, const FacesView& faces)
   if (faces.size() == 0 && index.vertex_count() != 0) {
     raise(ErrorCode::InvalidMesh, "the mesh has no faces, from which normals could be made: give the normals");
   }
-  auto state = std::make_unique<State>();
-  state->searched = &index;
-  state->index = &IndexAccess::view(index);
+  auto state = std::make_unique<State>(index);
   add_faces(*state, faces);
   find_first_neighbors(*state);
   return CurvatureIndex(std::move(state));
@@ -116,17 +112,16 @@ CurvatureIndex CurvatureIndex::build(const Index& index, std::span<const double>
                                       " components of normals, expected three for each of " + std::to_string(vertices) +
                                       " vertices");
   }
-  auto state = std::make_unique<State>();
-  state->searched = &index;
-  state->index = &IndexAccess::view(index);
+  auto state = std::make_unique<State>(index);
   std::vector<Point> scaled;
   scaled.reserve(vertices);
   for (std::size_t i = 0; i < vertices; ++i) {
     const VertexId id = state->index->id(i);
     const Point n = point(normals, id);
     const double largest = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
-    if (!std::isfinite(n.x) || !std::isfinite(n.y) || !std::isfinite(n.z)) {
-      raise(ErrorCode::InvalidMesh, "the normal of vertex " + std::to_string(id) + " is not finite");
+    if (std::isinf(n.x) || std::isinf(n.y) || std::isinf(n.z)) {
+      raise(ErrorCode::InvalidMesh,
+            "the normal of vertex " + std::to_string(id) + " is infinite, expected numbers, or NaN for no normal");
     }
     scaled.push_back({n.x / largest, n.y / largest, n.z / largest});  // its square may overflow
   }

@@ -10,14 +10,17 @@
 #include "meshhood/curvature.h"
 
 #include "base/distance.h"
+#include "exact/index_access.h"
 #include "exact/layout.h"
 
 namespace meshhood {
 
 /// The arrays of a `CurvatureIndex`, in index order.
 struct CurvatureIndex::State {
-  const Index* searched;
-  const IndexView* index;
+  explicit State(const Index& given);
+
+  Index searched;                // shares its memory with the caller's
+  const IndexView* index;        // its arrays
   std::vector<double> normal_x;  // unit vectors; NaN without one
   std::vector<double> normal_y;
   std::vector<double> normal_z;
@@ -28,6 +31,12 @@ struct CurvatureIndex::State {
   }
   [[nodiscard]] Point normal(std::size_t place) const { return {normal_x[place], normal_y[place], normal_z[place]}; }
 };
+
+/// The position in index order of a vertex of the caller.
+[[nodiscard]] inline std::uint32_t place_of(const IndexView& index, VertexId v) {
+  const std::uint32_t slot = index.slot[v];
+  return index.leaf_begin[leaf_of(slot)] + lane_of(slot);
+}
 
 /// For the sources of curvature, and for tests.
 struct CurvatureAccess {

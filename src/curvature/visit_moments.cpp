@@ -15,7 +15,9 @@ namespace {
 
 /// The largest double below `radius`; as a radius it holds what is nearer than that. NaN and negative ones are left for
 /// the batch to refuse.
-double open_radius(double radius) { return radius > 0 ? std::nextafter(radius, 0.0) : radius; }
+double open_radius(double radius) {
+  return radius > 0 ? std::nextafter(radius, 0.0) : radius;  // mutant: open-ball-with-boundary
+}
 
 /// What a thread needs to sum the moments of packets.
 class PacketSummer {
@@ -25,7 +27,7 @@ class PacketSummer {
 
   void visit(const PacketAnswer& packet) {
     const std::size_t size = packet.rows.size();
-    for (std::size_t i = 0; i < size; ++i) places_[i] = place_of(packet.vertices[i]);
+    for (std::size_t i = 0; i < size; ++i) places_[i] = place_of(*index_, packet.vertices[i]);
     const auto places = std::span(places_).first(size);
     sums_.begin(places, *std::max_element(packet.radii.begin(), packet.radii.end()));
     for (const CoreLeaves& core : packet.cores) {
@@ -41,11 +43,6 @@ class PacketSummer {
   }
 
  private:
-  [[nodiscard]] std::uint32_t place_of(VertexId v) const {
-    const std::uint32_t slot = index_->slot[v];
-    return index_->leaf_begin[leaf_of(slot)] + lane_of(slot);
-  }
-
   const IndexView* index_;
   PacketMoments sums_;
   MomentVisitor visitor_;

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/curvature.h"
+#include "meshhood/refit.h"
 
 #include "base/vector.h"
 #include "curvature/direct_fit.h"
@@ -326,6 +328,66 @@ TEST(Curvatures, GivenNormalsReplaceFaces) {
   EXPECT_LT(largest_difference(curvatures(one.surface, {.radius = 0.4}), curvatures(given, {.radius = 0.4})), 1e-12);
 }
 
+TEST(Curvatures, AVertexWithANormalOfNanHasNoNormal) {
+  const Case one(bumpy_grid(12).finish(false));
+  std::vector<double> normals(3 * one.mesh.size());
+  for (std::size_t v = 0; v < one.mesh.size(); ++v) normals[3 * v + 2] = 1;
+  normals[3 * 77 + 1] = std::nan("");
+  const Curvatures k = curvatures(CurvatureIndex::build(one.index, normals), {.radius = 3.0});
+  for (std::size_t v = 0; v < one.mesh.size(); ++v) {
+    EXPECT_EQ(k.state[v], v == 77 ? CurvatureState::NoNormal : CurvatureState::Fitted);
+    EXPECT_TRUE(std::isfinite(k.k1[v]) && std::isfinite(k.k2[v]));
+  }
+  EXPECT_EQ(k.k1[77], 0);
+}
+
+TEST(Curvatures, TheSurfaceOutlivesItsIndex) {
+  const TestMesh mesh = bumpy_grid(12).finish(false);
+  std::optional<Index> index = build(mesh.view());
+  const CurvatureIndex surface = CurvatureIndex::build(*index, mesh.view());
+  const Curvatures expected = curvatures(surface, {.radius = 3.0});
+  const Index moved = std::move(*index);
+  index.reset();
+  EXPECT_EQ(curvatures(surface, {.radius = 3.0}).k1, expected.k1);
+}
+
+TEST(Curvatures, ARefitOfTheIndexLeavesTheSurfaceAsItWas) {
+  TestMesh mesh = bumpy_grid(12).finish(false);
+  Index index = build(mesh.view());
+  const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());
+  const Curvatures expected = curvatures(surface, {.radius = 3.0});
+  mesh.positions[3 * 40 + 2] += 0.5;
+  mesh.finish(false);
+  const std::vector<std::uint32_t> changed{40};
+  index = refit(std::move(index), mesh.positions_view(), changed);
+  EXPECT_EQ(curvatures(surface, {.radius = 3.0}).k1, expected.k1);
+  EXPECT_NE(curvatures(CurvatureIndex::build(index, mesh.view()), {.radius = 3.0}).k1, expected.k1);
+}
+
+TEST(Curvatures, LibiglsAxisPointsToTheNeighborWithTheLowestId) {
+  const TestMesh mesh = renumbered(bumpy_grid(9).finish(false), Random(3).permutation(81));
+  const Case one(mesh);
+  const SurfaceState& state = CurvatureAccess::state(one.surface);
+  const Adjacency edges = adjacency(one.mesh.view());
+  for (std::size_t i = 0; i < one.mesh.size(); ++i) {
+    const auto neighbors = edges.view()[state.index->id(i)];
+    EXPECT_EQ(state.index->id(state.first_neighbor[i]), *std::min_element(neighbors.begin(), neighbors.end()));
+  }
+}
+
+TEST(Curvatures, AnOpenBallHasNoVertexAtExactlyTheRadius) {
+  // On a plane with one raised vertex at exactly the radius, only the closed ball sees it.
+  TestMesh mesh = make_grid(21, 21, false);
+  const VertexId middle = 10 * 21 + 10;
+  mesh.positions[3 * (middle + 6) + 2] = 8;
+  const double radius = 10;  // 6, 0, 8
+  const Case one(mesh.finish(false));
+  const std::vector<VertexId> rows{middle};
+  EXPECT_NE(curvatures(one.surface, {.vertices = rows, .radius = radius}, {.filter = false}).k1[0], 0);
+  EXPECT_EQ(curvatures(one.surface, {.vertices = rows, .radius = radius}, {.filter = false, .open_ball = true}).k1[0],
+            0);
+}
+
 TEST(Curvatures, RefuseWhatIsWrongByName) {
   const Case one(bumpy_grid(5).finish(false));
   TestMesh moved = one.mesh;
@@ -339,7 +401,7 @@ TEST(Curvatures, RefuseWhatIsWrongByName) {
   expect_refused(ErrorCode::InvalidMesh, "no faces", [&] { (void)CurvatureIndex::build(one.index, no_faces); });
   expect_refused(ErrorCode::InvalidMesh, "25 vertices",
                  [&] { (void)CurvatureIndex::build(one.index, std::span(normals).first(3)); });
-  normals[3 * 4 + 1] = std::nan("");
+  normals[3 * 4 + 1] = -std::numeric_limits<double>::infinity();
   expect_refused(ErrorCode::InvalidMesh, "vertex 4", [&] { (void)CurvatureIndex::build(one.index, normals); });
   expect_refused(ErrorCode::InvalidRadius, "-1", [&] { (void)curvatures(one.surface, {.radius = -1.0}); });
   expect_refused(ErrorCode::InvalidRadius, "-1",

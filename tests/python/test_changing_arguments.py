@@ -84,6 +84,25 @@ call = lambda: meshhood.MeshIndex(V, F)
 """ + WRITES.format(times=TIMES // 4))
 
 
+SUMS = "V, quads = meshes.grid(60)\nindex, quads = meshhood.MeshIndex(V, quads), quads.astype(np.int32)\n"
+
+
+def test_a_thread_may_write_to_the_faces_of_a_curvature():
+    run(SUMS + """
+written, values = quads, (quads.copy(), 2**30, -1)
+call = lambda: index.curvature(3.0, F=quads)
+""" + WRITES.format(times=TIMES))
+
+
+@pytest.mark.parametrize("argument", ("values", "weights", "vertices", "r"))
+def test_a_thread_may_write_to_the_arguments_of_an_aggregate(argument):
+    run(SUMS + f"""
+arguments = dict(values=np.ones(len(V)), weights=np.ones(len(V)), vertices=np.arange(len(V), dtype=np.int32), r=np.ones(3))
+written, values = arguments[{argument!r}], (1, 2**30, -1)
+call = lambda: index.aggregate(**arguments)
+""" + WRITES.format(times=TIMES))
+
+
 def test_a_thread_may_write_to_the_positions():
     run("""
 V, F = meshes.grid(200)

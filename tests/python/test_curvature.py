@@ -156,6 +156,44 @@ def test_the_result_does_not_depend_on_workers():
         assert (a == b).all()
 
 
+def test_the_normals_are_kept_for_the_same_faces_alone():
+    V, F = ellipsoid(2)
+    index = meshhood.MeshIndex(V, F)
+    first = index.curvature(1, F=F)
+    kept = index._surfaces.of(F, None)
+    assert index._surfaces.of(F.copy(), None) is kept
+    turned = F[:, ::-1].copy()
+    np.testing.assert_allclose(index.curvature(1, F=turned).k1, -first.k2, rtol=1e-9)
+    assert index._surfaces.of(turned, None) is not kept
+    F[:] = turned  # the same array with other faces
+    np.testing.assert_array_equal(index.curvature(1, F=F).k1, index.curvature(1, F=turned).k1)
+
+
+@pytest.mark.parametrize("unit", (1e-30, 1e-9, 1e9, 1e30))
+def test_curvatures_are_right_in_any_unit(unit):
+    V, F = ellipsoid(3)
+    one = meshhood.MeshIndex(V, F).curvature(0.8, F=F)
+    c = meshhood.MeshIndex(V * unit, F).curvature(0.8 * unit, F=F)
+    assert c.ok.all()
+    np.testing.assert_allclose(c.k1 * unit, one.k1, rtol=1e-9)
+    np.testing.assert_allclose(c.k2 * unit, one.k2, rtol=1e-9)
+    np.testing.assert_allclose(c.shape_index, one.shape_index, atol=1e-7)
+
+
+def test_a_vertex_whose_normal_is_nan_has_a_state_and_no_influence_on_filtered_fits():
+    V, F = ellipsoid(3)
+    index = meshhood.MeshIndex(V, F)
+    normals = V / np.linalg.norm(V, axis=1)[:, None]
+    normals[5] = np.nan
+    c = index.curvature(0.8, normals=normals)
+    assert np.flatnonzero(c.state).tolist() == [5]
+    assert c.k1[5] == c.k2[5] == 0
+    assert np.isfinite(c.k1).all()
+    with pytest.raises(ValueError, match="normals: the normal of vertex 7 is infinite"):
+        normals[7, 1] = np.inf
+        index.curvature(0.8, normals=normals)
+
+
 def test_states_name_rows_without_a_fit():
     V, F = ellipsoid(2)
     alone = np.concatenate([V, [[9.0, 9, 9]]])
@@ -174,7 +212,7 @@ def test_wrong_arguments_are_refused_by_name():
         (dict(r=1), "F: expected the faces"),
         (dict(r=1, F=F, normals=V), "F: expected the faces"),
         (dict(r=1, normals=V[:3]), r"normals: expected an array of shape \(18, 3\)"),
-        (dict(r=1, normals=np.full_like(V, np.nan)), "normals: the normal of vertex"),
+        (dict(r=1, normals=np.full_like(V, np.inf)), "normals: the normal of vertex 0 is infinite"),
         (dict(r=1, F=F + 1), "face"),
         (dict(r=-1, F=F), "r: radius -1"),
         (dict(r=1, F=F, like="cgal"), "like: 'cgal'"),

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import meshes
 import meshhood
+import numpy as np
 import pytest
 
 SIDE = 300
@@ -19,6 +20,14 @@ SIDE = 300
 @pytest.fixture(scope="module")
 def index():
     return meshhood.MeshIndex(*meshes.two_plates(SIDE))
+
+
+def aggregate(index, r, **options):
+    return index.aggregate(np.ones(len(index)), r, **options)
+
+
+def curvature(index, r, **options):
+    return index.curvature(r, normals=np.tile([0.0, 0, 1], (len(index), 1)), **options)
 
 
 def without_end(index, method="exact", progress=None):
@@ -66,6 +75,14 @@ def test_ctrl_c_in_a_batch(index, ctrl_c, method):
     seconds = ctrl_c(lambda: without_end(index, method))
     print(f"{method}: KeyboardInterrupt after {1000 * seconds:.0f} ms")
     assert index.query_ball_count(0, 1.0, method=method) == before
+
+
+@pytest.mark.parametrize("call", (aggregate, curvature))
+@pytest.mark.parametrize("workers", (1, 2))
+def test_ctrl_c_in_sums_over_neighborhoods(index, ctrl_c, call, workers):
+    seconds = ctrl_c(again_and_again(lambda: call(index, SIDE / 3.0, workers=workers)))
+    print(f"{call.__name__}, {workers} workers: KeyboardInterrupt after {1000 * seconds:.0f} ms")
+    assert index.aggregate(np.ones(len(index)), 0.0, "sum", vertices=7) == 1
 
 
 def test_ctrl_c_in_a_build(ctrl_c):
@@ -164,6 +181,11 @@ def told(call):
 def test_progress_of_a_batch(index, method):
     told(lambda watch: index.query_ball(range(100), 3.0, method=method, progress=watch))
     told(lambda watch: index.query_ball_count(range(100), 3.0, method=method, progress=watch))
+
+
+@pytest.mark.parametrize("call", (aggregate, curvature))
+def test_progress_of_sums_over_neighborhoods(index, call):
+    told(lambda watch: call(index, 3.0, vertices=range(100), progress=watch))
 
 
 def test_progress_of_a_build():

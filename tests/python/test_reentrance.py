@@ -14,6 +14,11 @@ import numpy as np
 import pytest
 
 METHODS = ("exact", "paper", "bfs", "ball")
+# Calls that sum over neighborhoods. Each gives one array.
+SUMS = {
+    "aggregate": "index.aggregate(index.positions, 2.5, workers=2)",
+    "curvature": "index.curvature(2.5, F=F, workers=2).k1",
+}
 SECONDS = 120
 
 
@@ -101,6 +106,44 @@ stop.set()
 for thread in threads:
     thread.join()
 """)
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+@pytest.mark.parametrize("call", SUMS)
+def test_a_fork_during_sums_over_neighborhoods_leaves_a_child_that_works(call):
+    run(f"""
+import os, threading
+V, F = meshes.two_plates(20)
+index = meshhood.MeshIndex(V, F)
+wanted = {SUMS[call]}
+stop = threading.Event()
+def ask():
+    while not stop.is_set():
+        {SUMS[call]}
+threads = [threading.Thread(target=ask) for _ in range(3)]
+for thread in threads:
+    thread.start()
+for _ in range(50):
+    child = os.fork()
+    if child == 0:
+        os._exit(0 if ({SUMS[call]} == wanted).all() else 1)
+    assert os.waitpid(child, 0)[1] == 0
+stop.set()
+for thread in threads:
+    thread.join()
+""")
+
+
+@pytest.mark.parametrize("call", SUMS)
+def test_a_progress_function_may_sum_over_neighborhoods_of_the_same_index(call):
+    V, F = meshes.two_plates(12)
+    index = meshhood.MeshIndex(V, F)
+    wanted, inner = eval(SUMS[call]), []
+    got = index.query_ball(None, 2.5, progress=lambda done, total: inner.append(eval(SUMS[call], {"index": index, "F": F})))
+    assert len(got[0]) == len(V) + 1
+    assert len(inner) >= 2
+    for answer in inner:
+        np.testing.assert_array_equal(answer, wanted)
 
 
 @pytest.mark.parametrize("method", METHODS)

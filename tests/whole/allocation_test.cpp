@@ -14,6 +14,7 @@
 
 #include "meshhood/aggregate.h"
 #include "meshhood/batch.h"
+#include "meshhood/curvature.h"
 #include "meshhood/edge_search.h"
 #include "meshhood/index.h"
 #include "meshhood/paper.h"
@@ -330,6 +331,25 @@ TEST_P(Allocation, FailsInAnAggregate) {
                           EXPECT_EQ(result, ending == Ending::Well ? expected : std::vector<double>());
                         });
   }
+}
+
+TEST_P(Allocation, FailsInACurvature) {
+  if (mesh.face_count() == 0) GTEST_SKIP() << "no faces, no normals";
+  const double radius = distance(mesh.view().positions, 0, static_cast<VertexId>(mesh.size() / 2)) / 4;
+  const std::vector<VertexId> some{0, 1, 2, 17, 130, 131};
+  const auto fit = [&] {
+    return curvatures(CurvatureIndex::build(index, mesh.view()), {.vertices = some, .radius = radius});
+  };
+  const Curvatures expected = fit();
+  shortages.fail_each(
+      nothing_yet<Curvatures>(), [&](std::optional<Curvatures>& made) { made = fit(); },
+      [&](const std::optional<Curvatures>& made, Ending ending) {
+        ASSERT_EQ(made.has_value(), ending == Ending::Well);
+        if (!made) return;
+        EXPECT_EQ(made->k1, expected.k1);
+        EXPECT_EQ(made->d2, expected.d2);
+        EXPECT_EQ(made->state, expected.state);
+      });
 }
 
 TEST_P(Allocation, FailsInABuildOnTwoThreads) {

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import warnings
 from typing import Any, NamedTuple, Optional
 
@@ -63,12 +64,38 @@ class Curvature(NamedTuple):
         return np.hypot(self.k1, self.k2) / np.sqrt(2)
 
 
-def make_surface(exact: Any, F: Any, normals: Any, count: int) -> Any:
-    """The normals of an index: from faces, or as given."""
-    if (F is None) == (normals is None):
-        raise ValueError("F: expected the faces of the mesh, or the argument normals, and not both")
-    if normals is None:
-        return _core.surface_of_faces(exact, *face_arrays(F))
+class Surfaces:
+    """The normals of an index. Those made from faces are kept until other faces are given."""
+
+    def __init__(self, exact: Any) -> None:
+        self._exact = exact
+        self._kept = (b"", None)  # replaced as a whole: no lock, which a fork could copy while it is held
+
+    def of(self, F: Any, normals: Any) -> Any:
+        if (F is None) == (normals is None):
+            raise ValueError("F: expected the faces of the mesh, or the argument normals, and not both")
+        if normals is not None:
+            return _of_normals(self._exact, normals)
+        arrays = face_arrays(F)
+        key = _digest(arrays)
+        kept, surface = self._kept
+        if kept != key:
+            surface = _core.surface_of_faces(self._exact, *arrays)
+            self._kept = (key, surface)
+        return surface
+
+
+def _digest(arrays: Any) -> bytes:
+    digest = hashlib.blake2b(digest_size=16)
+    for array in arrays:
+        if array is not None:
+            digest.update(f"{array.dtype} {len(array)};".encode())
+            digest.update(array)
+    return digest.digest()
+
+
+def _of_normals(exact: Any, normals: Any) -> Any:
+    count = exact.vertex_count
     array = np.array(_convert.as_array(normals, "normals"))
     if array.dtype.kind not in "iuf":
         raise TypeError(f"normals: expected numbers, not {array.dtype}")

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _aggregate, _convert, _core
-from ._curvature import Curvature, curvature, make_surface
+from ._curvature import Curvature, Surfaces, curvature
 from ._mesh import mesh_arrays, moved_positions, warn_if_unwelded
 from ._methods import Method, Methods
 from ._progress import Progress, reporter
@@ -81,6 +81,7 @@ class MeshIndex(Queries):
 
     _exact: Any
     _methods: Methods
+    _surfaces: Surfaces
     _queries: Any
     _count: int
 
@@ -102,6 +103,7 @@ class MeshIndex(Queries):
     def _hold(self, exact: Any) -> None:
         self._exact = exact
         self._methods = Methods(exact)
+        self._surfaces = Surfaces(exact)
         self._queries = _core.queries(exact)
         self._count = exact.vertex_count
 
@@ -571,8 +573,9 @@ class MeshIndex(Queries):
 
         r : a radius, or a list of radii: the arrays of the result then have a leading axis.
         vertices : a list of vertices, a bool mask, or None for all.
-        F : the faces of the mesh that the index was built from; the index does not keep them.
-        normals : (#V, 3), instead of F, for a mesh without faces; of any length.
+        F : the faces of the mesh that the index was built from. The index does not keep them, but the normals that
+            follow from them: a call with the same faces finds these again.
+        normals : (#V, 3), instead of F, for a mesh without faces; of any length. NaN where a vertex has none.
         like : "libigl" gives the values of igl.principal_curvature, whose shape operator is wrong where the fitted
             quadric is tilted against the normal, for a neighborhood of the vertices nearer than `r`.
         filter : fit only vertices whose normal makes less than 90 degrees with that of the query vertex, if they are at
@@ -589,8 +592,7 @@ class MeshIndex(Queries):
         several = radii.ndim > 0
         radii = self._scale(unit) * _convert.radii(radii, len(radii) if several else 1)
         options = {"libigl": like == "libigl", "filter": bool(filter), "threads": _convert.threads(workers)}
-        surface = make_surface(self._exact, F, normals, self._count)
-        return curvature(surface, rows, radii, several, options, progress)
+        return curvature(self._surfaces.of(F, normals), rows, radii, several, options, progress)
 
     def save(self, path: Union[str, os.PathLike[str]], *, progress: Progress = None) -> None:
         """Writes the index to a file for `load`. The same mesh gives the same bytes on every machine.
