@@ -5,6 +5,7 @@ shown is made from them.
     python3 -m bench tables      the paper's Table 1 and Table 2, the phases of its query, the account of all vertices
     python3 -m bench exact       the exact index beside the best breadth-first search, cold and warm
     python3 -m bench batch       all vertices of a mesh in one call, beside breadth-first search
+    python3 -m bench curvature   principal curvatures of all vertices, beside libigl, MeshLab and CGAL
     python3 -m bench pictures    the paper's Figure 4
     python3 -m bench accuracy    the paper's answer and the ball against the exact one
     python3 -m bench scaling     cost as mesh and radius grow
@@ -34,6 +35,12 @@ def exact(options):
 
 def batch(options):
     from . import batch as measuring
+
+    measuring.run(options.meshes)
+
+
+def curvature(options):
+    from . import curvature as measuring
 
     measuring.run(options.meshes)
 
@@ -68,7 +75,7 @@ def report(_):
     writing.write()
 
 
-PARTS = {part.__name__: part for part in (tables, exact, batch, pictures, accuracy, scaling, peers, report)}
+PARTS = {part.__name__: part for part in (tables, exact, batch, curvature, pictures, accuracy, scaling, peers, report)}
 
 
 def main():

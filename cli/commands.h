@@ -13,6 +13,7 @@ void add_build(CLI::App& program);
 void add_check(CLI::App& program);
 void add_compare(CLI::App& program);
 void add_curvature(CLI::App& program);
+void add_features(CLI::App& program);
 void add_generate(CLI::App& program);
 void add_info(CLI::App& program);
 void add_merge(CLI::App& program);

@@ -74,6 +74,7 @@ void add_subcommands(CLI::App& program) {
   add_batch(program);
   add_aggregate(program);
   add_curvature(program);
+  add_features(program);
   add_merge(program);
   add_partition(program);
   add_compare(program);

@@ -22,7 +22,7 @@ foreach(part
     exact/search/vertex_bfs exact/search/vertex_set
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
     region/region_mesher
-    curvature/curvatures curvature/quadric
+    curvature/corrected curvature/curvatures curvature/features curvature/moments curvature/quadric
     simd/aggregate_kernels simd/joint_kernels simd/kernels simd/moment_kernels
     whole/arguments whole/robustness whole/differential whole/metamorphic)
   meshhood_test(${part} meshhood_families)
@@ -61,6 +61,13 @@ if(CGAL_FOUND)
   meshhood_test(base/sphere_cgal ALONE meshhood_families meshhood_test_support CGAL::CGAL)
 else()
   meshhood_skip_test(base.sphere_cgal "no CGAL (libcgal-dev)")
+endif()
+
+if(CGAL_FOUND AND TARGET Eigen3::Eigen)
+  meshhood_test(curvature/jet_cgal ALONE meshhood_families CGAL::CGAL Eigen3::Eigen)
+  target_compile_definitions(curvature_jet_cgal_test PRIVATE CGAL_EIGEN3_ENABLED)
+else()
+  meshhood_skip_test(curvature.jet_cgal "no CGAL and Eigen (libcgal-dev, libeigen3-dev)")
 endif()
 
 # Meshes of other libraries, where these are found.

@@ -5,7 +5,7 @@
     text(data)      its page, docs/benchmarks/NAME.md
     summary(data)   what docs/benchmarks.md shows of it; may be absent
 """
-from . import accuracy, all_vertices, batch, exact_index, figure4, paper_tables, peers, scaling
+from . import accuracy, all_vertices, batch, curvature, exact_index, figure4, paper_tables, peers, scaling
 
 SECTIONS = {
     "batch": batch,
@@ -13,6 +13,7 @@ SECTIONS = {
     "paper_tables": paper_tables,
     "accuracy": accuracy,
     "all_vertices": all_vertices,
+    "curvature": curvature,
     "peers": peers,
     "scaling": scaling,
     "figure4": figure4,

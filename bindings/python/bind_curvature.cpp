@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: MIT
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
 
+#include "meshhood/corrected_curvature.h"
 #include "meshhood/curvature.h"
+#include "meshhood/features.h"
+#include "meshhood/moments.h"
 
 #include "arrays.h"
 #include "batch_query.h"
@@ -25,8 +32,7 @@ namespace meshhood::python {
 namespace {
 
 CurvatureIndex of_faces(const ExactMethod& method, const Input& corners, const std::optional<Input>& offsets) {
-  const IndicesView flat = indices_of(corners, "F");
-  const FacesView faces = offsets ? FacesView::polygons(indices_of(*offsets, "F"), flat) : FacesView::triangles(flat);
+  const FacesView faces = faces_of(corners, offsets);
   return without_lock([&] { return CurvatureIndex::build(method.index(), faces); });
 }
 
@@ -36,9 +42,10 @@ CurvatureIndex of_normals(const ExactMethod& method, const Radii& normals) {
 }
 
 auto curvatures_of(const CurvatureIndex& surface, const std::optional<Rows>& vertices,
-                   const std::variant<double, Radii>& radius, bool libigl, bool filter, unsigned threads,
+                   const std::variant<double, Radii>& radius, bool libigl, bool jet, bool filter, unsigned threads,
                    nb::handle progress) {
   CurvatureOptions options = libigl ? like_libigl() : CurvatureOptions{};
+  options.fit = jet ? CurvatureFit::Jet : CurvatureFit::Quadric;
   options.filter = filter;
   options.threads = threads;
   options.progress = progress_to(progress);
@@ -50,20 +57,113 @@ auto curvatures_of(const CurvatureIndex& surface, const std::optional<Rows>& ver
                     owned<std::uint8_t>(std::move(found.state)));
 }
 
+std::span<const double> numbers_of(const Radii& array) { return {array.data(), array.size()}; }
+
+auto corrected_curvatures_of(const CurvatureIndex& surface, const Input& corners, const std::optional<Input>& offsets,
+                             const std::optional<Rows>& vertices, double radius, unsigned threads,
+                             nb::handle progress) {
+  const FacesView faces = faces_of(corners, offsets);
+  const BatchQuery query = query_of(vertices, radius);
+  const CorrectedCurvatureOptions options{.threads = threads, .progress = progress_to(progress)};
+  CorrectedCurvatures found =
+      without_lock([&] { return corrected_curvatures(surface, faces, query.vertices, radius, options); });
+  const std::size_t rows = found.area.size();
+  return std::tuple(owned<double>(std::move(found.area)), owned<double>(std::move(found.mean)),
+                    owned<double>(std::move(found.gaussian)), owned<double>(std::move(found.k1)),
+                    owned<double>(std::move(found.k2)), owned<double>(std::move(found.d1), {rows, 3}),
+                    owned<double>(std::move(found.d2), {rows, 3}));
+}
+
+MomentOptions moment_options(unsigned degree, const std::optional<Radii>& weights, unsigned threads,
+                             nb::handle progress) {
+  MomentOptions options{.degree = degree, .weights = {}, .threads = threads, .progress = progress_to(progress)};
+  if (weights) options.weights = numbers_of(*weights);
+  return options;
+}
+
+Output<double> moments_of(const ExactMethod& method, const std::optional<Rows>& vertices,
+                          const std::variant<double, Radii>& radius, unsigned degree,
+                          const std::optional<Radii>& weights, unsigned threads, nb::handle progress) {
+  const BatchQuery query = query_of(vertices, radius);
+  const MomentOptions options = moment_options(degree, weights, threads, progress);
+  std::vector<double> found = without_lock([&] { return moments(method.index(), query, options); });
+  const std::size_t columns = moment_count(degree);
+  const std::size_t rows = found.size() / columns;
+  return owned<double>(std::move(found), {rows, columns});
+}
+
+auto components_of(const ExactMethod& method, const std::optional<Rows>& vertices,
+                   const std::variant<double, Radii>& radius, const std::optional<Radii>& weights, unsigned threads,
+                   nb::handle progress) {
+  const BatchQuery query = query_of(vertices, radius);
+  const MomentOptions options = moment_options(0, weights, threads, progress);
+  PrincipalComponents found = without_lock([&] { return principal_components(method.index(), query, options); });
+  const std::size_t rows = found.weight.size();
+  return std::tuple(owned<double>(std::move(found.weight)), owned<double>(std::move(found.centre), {rows, 3}),
+                    owned<double>(std::move(found.variances), {rows, 3}),
+                    owned<double>(std::move(found.axes), {rows, 3, 3}));
+}
+
+Output<double> features_of(const CurvatureIndex& surface, const std::optional<Rows>& vertices, const Radii& radii,
+                           std::vector<Feature> kinds, const std::optional<Radii>& areas, bool filter, unsigned threads,
+                           nb::handle progress) {
+  const BatchQuery query = query_of(vertices, 0.0);
+  FeatureOptions options{
+      .kinds = std::move(kinds), .areas = {}, .filter = filter, .threads = threads, .progress = progress_to(progress)};
+  if (areas) options.areas = numbers_of(*areas);
+  std::vector<double> found =
+      without_lock([&] { return features(surface, query.vertices, numbers_of(radii), options); });
+  const std::size_t rows = found.size() / radii.size() / options.kinds.size();
+  return owned<double>(std::move(found), {radii.size(), rows, options.kinds.size()});
+}
+
+auto persistence_of(const Radii& values, const Radii& radii, double threshold) {
+  Persistence found = without_lock([&] { return persistence(numbers_of(values), numbers_of(radii), threshold); });
+  return std::tuple(owned<std::int32_t>(std::move(found.scales)), owned<double>(std::move(found.strength)),
+                    owned<double>(std::move(found.radius)));
+}
+
 double radius_of_libigl(const Input& positions, const Input& corners, const std::optional<Input>& offsets,
                         double edges) {
-  const IndicesView flat = indices_of(corners, "F");
-  const FacesView faces = offsets ? FacesView::polygons(indices_of(*offsets, "F"), flat) : FacesView::triangles(flat);
-  const MeshView mesh{positions_of(positions, "V"), faces};
+  const MeshView mesh{positions_of(positions, "V"), faces_of(corners, offsets)};
   return without_lock([&] { return libigl_radius(mesh, edges); });
 }
 
 }  // namespace
 
 void bind_curvature(nb::module_& module) {
+  nb::enum_<Feature>(module, "Feature")
+      .value("crease", Feature::Crease)
+      .value("mean", Feature::Mean)
+      .value("gaussian", Feature::Gaussian)
+      .value("k1", Feature::K1)
+      .value("k2", Feature::K2)
+      .value("curvedness", Feature::Curvedness)
+      .value("shape_index", Feature::ShapeIndex)
+      .value("area", Feature::Area)
+      .value("height", Feature::Height)
+      .value("variation", Feature::Variation);
   nb::class_<CurvatureIndex>(module, "Surface")
-      .def("curvatures", &curvatures_of, nb::arg().none(), nb::arg(), nb::arg("libigl"), nb::arg("filter"),
-           nb::arg("threads"), nb::arg("progress").none());
+      .def("curvatures", &curvatures_of, nb::arg().none(), nb::arg(), nb::arg("libigl"), nb::arg("jet"),
+           nb::arg("filter"), nb::arg("threads"), nb::arg("progress").none())
+      .def("corrected", &corrected_curvatures_of, nb::arg(), nb::arg("offsets").none(), nb::arg("vertices").none(),
+           nb::arg("radius"), nb::arg("threads"), nb::arg("progress").none())
+      .def("features", &features_of, nb::arg().none(), nb::arg("radii"), nb::arg("kinds"), nb::arg("areas").none(),
+           nb::arg("filter"), nb::arg("threads"), nb::arg("progress").none());
+  module.def("moments", &moments_of, nb::arg(), nb::arg().none(), nb::arg(), nb::arg("degree"),
+             nb::arg("weights").none(), nb::arg("threads"), nb::arg("progress").none());
+  module.def("principal_components", &components_of, nb::arg(), nb::arg().none(), nb::arg(), nb::arg("weights").none(),
+             nb::arg("threads"), nb::arg("progress").none());
+  module.def("persistence", &persistence_of, nb::arg("values"), nb::arg("radii"), nb::arg("threshold"));
+  module.def(
+      "linear_radii", [](double largest, std::size_t count) { return owned<double>(linear_radii(largest, count)); },
+      nb::arg("largest"), nb::arg("count"));
+  module.def(
+      "geometric_radii",
+      [](double smallest, double largest, std::size_t count) {
+        return owned<double>(geometric_radii(smallest, largest, count));
+      },
+      nb::arg("smallest"), nb::arg("largest"), nb::arg("count"));
   module.def("surface_of_faces", &of_faces, nb::arg(), nb::arg(), nb::arg("offsets").none());
   module.def("surface_of_normals", &of_normals, nb::arg(), nb::arg());
   module.def("libigl_radius", &radius_of_libigl, nb::arg(), nb::arg(), nb::arg("offsets").none(), nb::arg("edges"));

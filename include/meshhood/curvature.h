@@ -71,6 +71,19 @@ enum class ShapeOperator : std::uint8_t {
   Libigl,
 };
 
+/// Which surface is fitted to a neighborhood.
+enum class CurvatureFit : std::uint8_t {
+  /// z = a x^2 + b x y + c y^2 + d x + e y over the tangent plane of the vertex normal, through the query vertex
+  /// (Panozzo et al.).
+  Quadric,
+
+  /// The polynomial of degree 2, with a constant term, over the plane of the principal components of the neighborhood
+  /// (F. Cazals, M. Pouget, "Estimating differential quantities using polynomial fitting of osculating jets", Computer
+  /// Aided Geometric Design 22, 2005): CGAL's `Monge_via_jet_fitting` of degrees 2 and 2, if there is no filter. The
+  /// vertex normal decides only the sign.
+  Jet,
+};
+
 /// What a row of `Curvatures` is worth.
 enum class CurvatureState : std::uint8_t {
   Fitted,         ///< the least-squares fit, which is unique
@@ -88,7 +101,10 @@ struct CurvatureOptions {
   /// counts.
   bool open_ball = false;
 
+  /// Of a quadric; that of a jet is `Exact`.
   ShapeOperator shape_operator = ShapeOperator::Exact;
+
+  CurvatureFit fit = CurvatureFit::Quadric;
 
   /// As for a batch (see `BatchOptions`). The result does not depend on `threads`.
   unsigned threads = 1;
@@ -120,7 +136,8 @@ struct Curvatures {
 };
 
 /// Fits a quadric through the query vertex to its neighborhood by least squares (Panozzo et al., "Efficient
-/// Multi-scale Curvature and Crease Estimation", GraVisMa 2010), and returns its principal curvatures at that vertex.
+/// Multi-scale Curvature and Crease Estimation", GraVisMa 2010), or a jet (see `CurvatureFit`), and returns its
+/// principal curvatures at that vertex.
 /// A neighborhood of fewer than six vertices is extended: by the nearest vertex that is linked to it, until there are
 /// six.
 ///

@@ -13,6 +13,7 @@
 
 #include "base/vector.h"
 #include "curvature/direct_fit.h"
+#include "curvature/jet.h"
 #include "curvature/packet_moments.h"
 #include "curvature/quadric.h"
 #include "curvature/surface.h"
@@ -37,13 +38,17 @@ class CurvatureFitter {
 
  private:
   void fit_row(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments, std::size_t query);
+  [[nodiscard]] TangentFrame fit_frame(const QueryMoments& moments, std::size_t query) const;
+  [[nodiscard]] std::optional<Quadric> solve(const PacketMoments& sums, const QueryMoments& moments,
+                                             std::size_t query) const;
   void write(std::size_t row, CurvatureState state, const PrincipalCurvature& curvature);
 
   const SurfaceState* surface_;
   const CurvatureOptions* options_;
   Curvatures* out_;
   DirectFit direct_;
-  std::array<TangentFrame, kPacketCapacity> frames_{};
+  std::array<TangentFrame, kPacketCapacity> frames_{};  // of the vertex normals
+  std::array<TangentFrame, kPacketCapacity> axes_{};    // of the fits
   QueryVectors u_{};
   QueryVectors v_{};
   QueryVectors n_{};
@@ -59,9 +64,10 @@ void set(QueryVectors& vectors, std::size_t query, const Point& value) {
 void CurvatureFitter::fit(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
   for (std::size_t q = 0; q < packet.places.size(); ++q) {
     frames_[q] = frame_at(*surface_, packet.places[q], options_->shape_operator);
-    set(u_, q, frames_[q].u);
-    set(v_, q, frames_[q].v);
-    set(n_, q, frames_[q].n);
+    axes_[q] = fit_frame(moments, q);
+    set(u_, q, axes_[q].u);
+    set(v_, q, axes_[q].v);
+    set(n_, q, axes_[q].n);
   }
   sums.kernels().rotate(moments, u_, v_, n_, in_frame_);
   for (std::size_t q = 0; q < packet.places.size(); ++q) fit_row(packet, sums, moments, q);
@@ -73,8 +79,8 @@ void CurvatureFitter::fit_row(const MomentRows& packet, const PacketMoments& sum
   // mutant: fit-without-normal
   if (std::isnan(frames_[query].n.x)) return write(row, CurvatureState::NoNormal, {});
   if (moments.at[0][query] >= kFewestPoints) {
-    if (const std::optional<Quadric> quadric = fit_moments(in_frame_, query, sums.sizes(query))) {
-      PrincipalCurvature result = principal_curvature(*quadric, frames_[query], options_->shape_operator);
+    if (const std::optional<Quadric> quadric = solve(sums, moments, query)) {
+      PrincipalCurvature result = principal_curvature(*quadric, axes_[query], options_->shape_operator);
       result.k1 *= sums.scale();
       result.k2 *= sums.scale();
       return write(row, CurvatureState::Fitted, result);
@@ -82,6 +88,17 @@ void CurvatureFitter::fit_row(const MomentRows& packet, const PacketMoments& sum
   }
   const DirectFit::Result direct = direct_.fit(packet.places[query], packet.radii[query], frames_[query]);
   write(row, direct.state, direct.curvature);
+}
+
+TangentFrame CurvatureFitter::fit_frame(const QueryMoments& moments, std::size_t query) const {
+  if (options_->fit == CurvatureFit::Quadric) return frames_[query];
+  return jet_frame(distribution_of(moments, query).axes, frames_[query].n);
+}
+
+std::optional<Quadric> CurvatureFitter::solve(const PacketMoments& sums, const QueryMoments& moments,
+                                              std::size_t query) const {
+  if (options_->fit == CurvatureFit::Quadric) return fit_moments(in_frame_, query, sums.sizes(query));
+  return fit_jet(moments, in_frame_, axes_[query], query, sums.sizes(query));
 }
 
 void CurvatureFitter::write(std::size_t row, CurvatureState state, const PrincipalCurvature& curvature) {
@@ -102,6 +119,9 @@ void CurvatureFitter::write(std::size_t row, CurvatureState state, const Princip
 CurvatureOptions like_libigl() { return {.filter = true, .open_ball = true, .shape_operator = ShapeOperator::Libigl}; }
 
 Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query, const CurvatureOptions& options) {
+  if (options.fit == CurvatureFit::Jet && options.shape_operator == ShapeOperator::Libigl) {
+    raise(ErrorCode::InvalidOption, "libigl's shape operator is for the quadric, not for the jet");
+  }
   const SurfaceState& state = CurvatureAccess::state(surface);
   const std::size_t rows = query.vertices.list() ? query.vertices.list()->size() : surface.vertex_count();
   Curvatures result;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/vector.h"
+#include "curvature/jet.h"
 #include "exact/neighbors.h"
 
 namespace meshhood {
@@ -50,29 +51,38 @@ void DirectFit::filter(const Point& normal) {
   if (facing_.size() >= kFewestPoints) found_.swap(facing_);  // mutant: filter-leaves-too-few
 }
 
-DirectFit::Result DirectFit::fit(std::uint32_t place, double radius, const TangentFrame& frame) {
-  const IndexView& index = *surface_->index;
-  find(place, radius);
-  extend(place);
-  if (found_.size() < kFewestPoints) return {CurvatureState::TooFew, {}};
-  if (options_->filter) filter(frame.n);
+/// Returns what their coordinates were multiplied by.
+double DirectFit::set_points(std::uint32_t place) {
   const Point centre = surface_->position(place);
   double extent = 0;
   for (const std::uint32_t i : found_) {
-    const Point p = index.frame.scale * (surface_->position(i) - centre);
+    const Point p = surface_->index->frame.scale * (surface_->position(i) - centre);
     extent = std::max({extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
   const double scale = scale_for(extent);
   points_.clear();
-  for (const std::uint32_t i : found_) {
-    const Point p = scale * (surface_->position(i) - centre);
-    points_.push_back({dot(p, frame.u), dot(p, frame.v), dot(p, frame.n)});
+  for (const std::uint32_t i : found_) points_.push_back(scale * (surface_->position(i) - centre));
+  return scale;
+}
+
+DirectFit::Result DirectFit::fit(std::uint32_t place, double radius, const TangentFrame& frame) {
+  find(place, radius);
+  extend(place);
+  if (found_.size() < kFewestPoints) return {CurvatureState::TooFew, {}};
+  if (options_->filter) filter(frame.n);
+  const double scale = set_points(place);
+  const auto result = [&](const PointFit& fit, const TangentFrame& axes) -> Result {
+    PrincipalCurvature curvature = principal_curvature(fit.quadric, axes, options_->shape_operator);
+    curvature.k1 *= scale;
+    curvature.k2 *= scale;
+    return {fit.unique ? CurvatureState::Fitted : CurvatureState::RankDeficient, curvature};
+  };
+  if (options_->fit == CurvatureFit::Jet) {
+    const JetFit jet = fit_jet(points_, frame.n);
+    return result(jet.fit, jet.frame);
   }
-  const PointFit fit = fit_points(points_);
-  PrincipalCurvature result = principal_curvature(fit.quadric, frame, options_->shape_operator);
-  result.k1 *= scale;
-  result.k2 *= scale;
-  return {fit.unique ? CurvatureState::Fitted : CurvatureState::RankDeficient, result};
+  for (Point& p : points_) p = {dot(p, frame.u), dot(p, frame.v), dot(p, frame.n)};
+  return result(fit_points(points_), frame);
 }
 
 /// What coordinates are multiplied by: a power of two. Of several fits, the one with the smallest coefficients depends

@@ -23,13 +23,14 @@ class DirectFit {
     PrincipalCurvature curvature;
   };
 
-  /// The vertex at `place` in index order. `frame` is that of its normal.
+  /// The vertex at `place` in index order. `frame` is that of its normal, for a quadric.
   Result fit(std::uint32_t place, double radius, const TangentFrame& frame);
 
  private:
   void find(std::uint32_t place, double radius);
   void extend(std::uint32_t place);
   void filter(const Point& normal);
+  [[nodiscard]] double set_points(std::uint32_t place);
   [[nodiscard]] double scale_for(double extent) const;
 
   const SurfaceState* surface_;
@@ -37,7 +38,7 @@ class DirectFit {
   std::optional<Searcher> searcher_;
   std::vector<std::uint32_t> found_;  // places in index order
   std::vector<std::uint32_t> facing_;
-  std::vector<Point> points_;
+  std::vector<Point> points_;  // relative to the query vertex
 };
 
 }  // namespace meshhood

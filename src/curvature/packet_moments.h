@@ -6,6 +6,7 @@
 #include <span>
 
 #include "curvature/surface.h"
+#include "curvature/symmetric.h"
 #include "simd/moments.h"
 
 namespace meshhood {
@@ -16,6 +17,13 @@ struct MomentSource {
   const SurfaceState* filter = nullptr;  // only vertices whose normal faces that of the query vertex, if set
   std::span<const double> weights = {};  // by vertex; 1 if empty
 };
+
+/// The mean of the points of a query and the axes of their covariance about it, in the unit of the moments.
+struct PointDistribution {
+  Point centre;
+  Eigen3 axes;
+};
+[[nodiscard]] PointDistribution distribution_of(const QueryMoments& moments, std::size_t query);
 
 /// See `PacketMoments::sizes`.
 struct MomentSizes {

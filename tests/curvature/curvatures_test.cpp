@@ -191,6 +191,43 @@ TEST(Curvatures, AreThoseOfTheFitToThePointsOnEveryFamily) {
   EXPECT_GT(rows, 1000U);
 }
 
+TEST(Curvatures, OfJetsAreThoseOfTheFitToThePoints) {
+  const CurvatureOptions options{.filter = false, .fit = CurvatureFit::Jet};
+  for (const TestMesh& mesh : {torus(3, 1), graph(0.2, 0.5, -0.4, 31)}) {
+    const Case one(mesh);
+    const SurfaceState& state = CurvatureAccess::state(one.surface);
+    const GraphData edges = extract_graph(one.index);
+    const double radius = 4 * mean_edge_length(edges.view());
+    const Curvatures k = curvatures(one.surface, {.radius = radius}, options);
+    DirectFit direct(state, options);
+    for (std::size_t i = 0; i < mesh.size(); i += 5) {
+      const VertexId v = state.index->id(i);
+      const auto expected = direct.fit(static_cast<std::uint32_t>(i), radius, frame_of(state.normal(i)));
+      const double size = std::max(std::abs(expected.curvature.k1), std::abs(expected.curvature.k2));
+      EXPECT_NEAR(k.k1[v], expected.curvature.k1, 1e-9 * size);
+      EXPECT_NEAR(k.k2[v], expected.curvature.k2, 1e-9 * size);
+    }
+  }
+}
+
+TEST(Curvatures, OfJetsAreThoseOfAGraphOfDegree2) {
+  const Case saddle(graph(0.3, 0.4, -0.5, 41));
+  const std::vector<VertexId> rows{20 * 41 + 20};
+  const Curvatures k =
+      curvatures(saddle.surface, {.vertices = rows, .radius = 0.4}, {.filter = false, .fit = CurvatureFit::Jet});
+  EXPECT_NEAR(k.k1[0], 0.2 + std::hypot(0.8, 0.4), 1e-10);
+  EXPECT_NEAR(k.k2[0], 0.2 - std::hypot(0.8, 0.4), 1e-10);
+}
+
+TEST(Curvatures, OfJetsAreThoseOfAnyUnit) {
+  TestMesh mesh = bumpy_grid(15).finish(false);
+  const CurvatureOptions options{.fit = CurvatureFit::Jet};
+  const Curvatures expected = curvatures(Case(mesh).surface, {.radius = 3.0}, options);
+  for (double& x : mesh.positions) x = std::ldexp(x, -400);
+  const Curvatures k = curvatures(Case(mesh).surface, {.radius = std::ldexp(3.0, -400)}, options);
+  for (std::size_t v = 0; v < mesh.size(); ++v) ASSERT_EQ(std::ldexp(k.k1[v], -400), expected.k1[v]);
+}
+
 TEST(Curvatures, ScaleByPowersOfTwoBitForBit) {
   TestMesh mesh = bumpy_grid(30).finish(false);
   const Case one(mesh);
@@ -408,6 +445,9 @@ TEST(Curvatures, RefuseWhatIsWrongByName) {
                  [&] { (void)curvatures(one.surface, {.radius = -1.0}, like_libigl()); });
   expect_refused(ErrorCode::InvalidOption, "thread",
                  [&] { (void)curvatures(one.surface, {.radius = 1.0}, {.threads = kMaxThreads + 1}); });
+  expect_refused(ErrorCode::InvalidOption, "not for the jet", [&] {
+    (void)curvatures(one.surface, {.radius = 1.0}, {.shape_operator = ShapeOperator::Libigl, .fit = CurvatureFit::Jet});
+  });
   expect_refused(ErrorCode::Cancelled, "cancel", [&] {
     (void)curvatures(one.surface, {.radius = 1.0}, {.progress = [](std::size_t, std::size_t) { return false; }});
   });

@@ -11,7 +11,7 @@ ROOT = Path(__file__).resolve().parents[2]
 BLOCK = re.compile(r"```python\n(.*?)```", re.DOTALL)
 
 
-@pytest.mark.parametrize("name", ("README.md", "docs/python.md", "docs/queries.md"))
+@pytest.mark.parametrize("name", ("README.md", "docs/curvature.md", "docs/python.md", "docs/queries.md"))
 def test_code_runs(name, tmp_path, monkeypatch):
     pytest.importorskip("trimesh").creation.icosphere(subdivisions=3).export(tmp_path / "hand.ply")
     monkeypatch.chdir(tmp_path)

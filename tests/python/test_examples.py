@@ -46,6 +46,16 @@ def test_smooth_cortex(tmp_path):
     assert twice.std() < once.std() < 0.5
 
 
+def test_curvature_map(tmp_path):
+    surface = meshes.shared("scan/cortex_left_41k.ply.zst", tmp_path)
+    assert "40962 vertices, 40962 fitted" in run("curvature_map.py", surface, "5", tmp_path / "map.ply")
+    assert (tmp_path / "map.ply").stat().st_size > 40962 * 15
+
+
+def test_relief(tmp_path):
+    assert "57600 vertices" in run("relief.py", tmp_path / "features.npz")
+
+
 def test_searchlight(tmp_path):
     run("searchlight.py", meshes.shared("scan/cortex_left_41k.ply.zst", tmp_path))
 

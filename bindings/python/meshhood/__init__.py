@@ -16,6 +16,7 @@ from ._curvature import Curvature, principal_curvature
 from ._files import Mesh, load, read_mesh
 from ._index import Chunk, MeshIndex, Quality
 from ._methods import Paper
+from ._moments import CorrectedCurvature, Persistence, PrincipalComponents, geometric_radii, linear_radii, persistence
 from ._partition import partition
 from ._plot import plot_neighborhood
 from ._region_mesh import RegionMesh, RimLine, Submesh
@@ -26,19 +27,25 @@ __version__: str = _core.__version__
 
 __all__ = [
     "Chunk",
+    "CorrectedCurvature",
     "Curvature",
     "Mesh",
     "MeshIndex",
     "Page",
     "Paper",
+    "Persistence",
+    "PrincipalComponents",
     "Quality",
     "RegionMesh",
     "RimLine",
     "Submesh",
     "__version__",
+    "geometric_radii",
+    "linear_radii",
     "load",
     "open_parts",
     "partition",
+    "persistence",
     "plot_neighborhood",
     "principal_curvature",
     "read_mesh",

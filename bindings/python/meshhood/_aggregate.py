@@ -57,7 +57,7 @@ def aggregate(
         result = _core.aggregate(
             index._exact,
             values=columns,
-            weights=_weights(weights, index, F),
+            weights=area_weights(weights, index, F),
             vertices=rows,
             progress=report,
             **options,
@@ -84,7 +84,8 @@ def _radii(r):
     return array
 
 
-def _weights(weights, index, F):
+def area_weights(weights, index, F):
+    """`weights` as float64, those of the name "area" from the faces; None if there are none."""
     if weights is None:
         return None
     if isinstance(weights, str):

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union, ove
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _aggregate, _convert, _core
+from . import _aggregate, _convert, _core, _moments
 from ._curvature import Curvature, Surfaces, curvature
 from ._mesh import mesh_arrays, moved_positions, warn_if_unwelded
 from ._methods import Method, Methods
@@ -564,6 +564,7 @@ class MeshIndex(Queries):
         F: Any = None,
         normals: Any = None,
         like: Literal[None, "libigl"] = None,
+        fit: Literal["quadric", "jet"] = "quadric",
         filter: bool = True,
         unit: Unit = "mesh",
         workers: int = -1,
@@ -578,6 +579,8 @@ class MeshIndex(Queries):
         normals : (#V, 3), instead of F, for a mesh without faces; of any length. NaN where a vertex has none.
         like : "libigl" gives the values of igl.principal_curvature, whose shape operator is wrong where the fitted
             quadric is tilted against the normal, for a neighborhood of the vertices nearer than `r`.
+        fit : "quadric", through the vertex and over its tangent plane, or "jet", over the plane of the principal
+            components of the neighborhood: with filter=False CGAL's Monge_via_jet_fitting of degrees 2 and 2.
         filter : fit only vertices whose normal makes less than 90 degrees with that of the query vertex, if they are at
             least six.
         unit, workers, progress : as for `query_ball`. The result does not depend on `workers`.
@@ -591,8 +594,95 @@ class MeshIndex(Queries):
         radii = np.array(_convert.as_array(r, "r"))
         several = radii.ndim > 0
         radii = self._scale(unit) * _convert.radii(radii, len(radii) if several else 1)
-        options = {"libigl": like == "libigl", "filter": bool(filter), "threads": _convert.threads(workers)}
+        options = {"libigl": like == "libigl", "jet": _convert.choice(fit, "fit", ("quadric", "jet")) == "jet"}
+        options |= {"filter": bool(filter), "threads": _convert.threads(workers)}
         return curvature(self._surfaces.of(F, normals), rows, radii, several, options, progress)
+
+    def corrected_curvature(
+        self,
+        r: Number,
+        vertices: Vertices = None,
+        *,
+        F: Any,
+        normals: Any = None,
+        unit: Unit = "mesh",
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> _moments.CorrectedCurvature:
+        """Curvatures by the interpolated corrected curvature measures (Lachaud et al. 2020; in CGAL 6
+        `interpolated_corrected_curvatures`): sums over the faces, without a fit.
+
+        r : the radius of all rows. F : the faces. normals : (#V, 3), instead of those that follow from the faces.
+        The other arguments are as for `curvature`. Returns a `CorrectedCurvature`: area, mean, gaussian, k1, k2, d1, d2.
+        """
+        rows = None if vertices is None else _convert.vertices(vertices, self._count)
+        radius = self._scale(unit) * _convert.radius(r)
+        return _moments.corrected_curvature(self, radius, rows, F, normals, workers, progress)
+
+    def moments(
+        self,
+        r: Radii,
+        vertices: Vertices = None,
+        *,
+        degree: int = 2,
+        weights: Union[Literal["area"], ArrayLike, None] = None,
+        F: Any = None,
+        unit: Unit = "mesh",
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> Reals:
+        """Sums of w x^i y^j z^k over each neighborhood for i + j + k <= degree, where x, y, z are the coordinates relative
+        to the query vertex, and w the weights.
+
+        r : a radius, or one for each row. degree : 0 to 4. weights, F : as for `aggregate`.
+        Returns (#rows, 1, 4, 10, 20 or 35) float64: 1, x, y, z, x^2, xy, xz, y^2, yz, z^2, x^3, ..., the order of
+        scikit-learn's PolynomialFeatures.
+        """
+        rows, radii, _ = self._batch(vertices, r, self._scale(unit), workers)
+        return _moments.moments(self, rows, radii, degree, weights, F, workers, progress)
+
+    def principal_components(
+        self,
+        r: Radii,
+        vertices: Vertices = None,
+        *,
+        weights: Union[Literal["area"], ArrayLike, None] = None,
+        F: Any = None,
+        unit: Unit = "mesh",
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> _moments.PrincipalComponents:
+        """The mean and the covariance of the positions of each neighborhood: normals, surface variation, and with
+        weights="area" the integral invariants area, barycentre and covariance. Arguments as of `moments`."""
+        rows, radii, _ = self._batch(vertices, r, self._scale(unit), workers)
+        return _moments.principal_components(self, rows, radii, weights, F, workers, progress)
+
+    def features(
+        self,
+        r: Union[Number, Sequence[float], ArrayLike],
+        vertices: Vertices = None,
+        *,
+        F: Any,
+        kinds: Union[str, Sequence[str]] = "crease",
+        filter: bool = True,
+        unit: Unit = "mesh",
+        workers: int = -1,
+        progress: Progress = None,
+    ) -> Reals:
+        """Feature vectors over several radii, without unit, so that scales can be compared.
+
+        r : radii, > 0, for example `linear_radii(R)` or `geometric_radii(a, b, count)`.
+        kinds : one name or several of crease, mean, gaussian, k1, k2, curvedness, shape_index, area, height, variation.
+            See docs/curvature.md for what they mean.
+        F, filter, unit, workers, progress : as for `curvature`.
+
+        Returns (#radii, #rows, #kinds) float64, without the last axis if `kinds` is one name. NaN where there is no
+        result. `persistence` tells over how many radii a feature lasts.
+        """
+        rows = None if vertices is None else _convert.vertices(vertices, self._count)
+        array = np.atleast_1d(np.array(_convert.as_array(r, "r")))
+        radii = self._scale(unit) * _convert.radii(array, len(array))
+        return _moments.features(self, np.atleast_1d(radii), rows, kinds, F, filter, workers, progress)
 
     def save(self, path: Union[str, os.PathLike[str]], *, progress: Progress = None) -> None:
         """Writes the index to a file for `load`. The same mesh gives the same bytes on every machine.

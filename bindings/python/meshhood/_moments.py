@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: MIT
+"""Moments, principal components, corrected curvature and features: converts arguments and results of `MeshIndex`."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _convert, _core
+from ._aggregate import area_weights
+from ._mesh import face_arrays
+from ._progress import reporter
+
+Reals = NDArray[np.float64]
+
+_KINDS = (
+    "crease", "mean", "gaussian", "k1", "k2", "curvedness", "shape_index", "area", "height", "variation",
+)  # fmt: skip
+
+
+class PrincipalComponents(NamedTuple):
+    """How the vertices of each neighborhood are distributed. With areas as weights, `weight`, `centre` and `variances` are
+    integral invariants of the patch of surface: its area, barycentre and covariance.
+
+    weight : (#rows,) the sum of the weights.
+    centre : (#rows, 3) the weighted mean of the positions, relative to the query vertex.
+    variances : (#rows, 3) ascending: the eigenvalues of the weighted covariance about `centre`.
+    axes : (#rows, 3, 3) axes[i, j] is the direction of variances[i, j], a unit vector; of either sign the one whose
+        component of largest magnitude is positive.
+
+    All but `weight` are NaN where the weights sum to 0.
+    """
+
+    weight: Reals
+    centre: Reals
+    variances: Reals
+    axes: Reals
+
+    @property
+    def normal(self) -> Reals:
+        """The normal of the plane that fits best."""
+        return self.axes[..., 0, :]
+
+    @property
+    def surface_variation(self) -> Reals:
+        """The share of the least variance in all (Pauly, Gross, Kobbelt 2002): 0 on a plane, at most 1/3."""
+        with np.errstate(invalid="ignore"):
+            shares = self.variances / self.variances[..., 2:]
+            return shares[..., 0] / shares.sum(axis=-1)
+
+
+class CorrectedCurvature(NamedTuple):
+    """Curvature from measures (see `MeshIndex.corrected_curvature`). All but the area are NaN where the area is 0.
+
+    area, mean, gaussian : (#rows,) area of the patch, H and K.
+    k1, k2 : (#rows,) principal curvatures, k1 >= k2. Their mean is not exactly `mean`.
+    d1, d2 : (#rows, 3) their directions in the plane of the vertex normal.
+    """
+
+    area: Reals
+    mean: Reals
+    gaussian: Reals
+    k1: Reals
+    k2: Reals
+    d1: Reals
+    d2: Reals
+
+
+class Persistence(NamedTuple):
+    """Over how many scales a feature lasts (see `persistence`).
+
+    scales : (#rows,) int32, negative if the feature is.
+    strength : (#rows,) the feature of largest magnitude in this run; 0 if there is none.
+    radius : (#rows,) the radius at which it has this strength; 0 if there is none.
+    """
+
+    scales: NDArray[np.int32]
+    strength: Reals
+    radius: Reals
+
+
+def linear_radii(largest: float, count: int = 16) -> Reals:
+    """`count` radii up to `largest` in equal steps: those of multi-scale integral invariants, where `count` is 16."""
+    return _core.linear_radii(_convert.finite(largest, "largest", or_zero=False), _count(count))
+
+
+def geometric_radii(smallest: float, largest: float, count: int) -> Reals:
+    """`count` radii from `smallest` to `largest` with a constant ratio."""
+    smallest = _convert.finite(smallest, "smallest", or_zero=False)
+    return _core.geometric_radii(smallest, _convert.finite(largest, "largest", or_zero=False), _count(count))
+
+
+def _count(count: Any) -> int:
+    return _convert.integer(count, "count", 1, 1000)
+
+
+def persistence(values: Any, radii: Any, threshold: float) -> Persistence:
+    """Over how many scales a feature lasts: the length of the longest run of consecutive radii at which it is at least
+    as strong as `threshold` and keeps its sign; negative if the sign is. Of several runs the one with the smallest
+    radii.
+
+    values : (#radii, #rows), one kind of feature. A NaN ends a run.
+    radii : (#radii,), ascending.
+    threshold : > 0.
+    """
+    array = np.array(_convert.as_array(values, "values"), np.float64)
+    scales = np.array(_convert.as_array(radii, "radii"), np.float64)
+    if scales.ndim != 1 or array.ndim != 2 or len(array) != len(scales):
+        raise ValueError(f"values: expected an array of shape (#radii, #rows), not {array.shape}, for radii {scales.shape}")
+    threshold = _convert.finite(threshold, "threshold", or_zero=False)
+    return Persistence(*_core.persistence(array.ravel(), scales, threshold))
+
+
+def moments(index: Any, rows: Any, radii: Any, degree: Any, weights: Any, F: Any, workers: Any, progress: Any) -> Any:
+    options = {"degree": _convert.integer(degree, "degree", 0, 4), "weights": area_weights(weights, index, F)}
+    with reporter(progress) as report:
+        return _core.moments(index._exact, rows, radii, **options, threads=_convert.threads(workers), progress=report)
+
+
+def principal_components(index: Any, rows: Any, radii: Any, weights: Any, F: Any, workers: Any, progress: Any) -> Any:
+    options = {"weights": area_weights(weights, index, F), "threads": _convert.threads(workers)}
+    with reporter(progress) as report:
+        return PrincipalComponents(*_core.principal_components(index._exact, rows, radii, **options, progress=report))
+
+
+def corrected_curvature(
+    index: Any, r: float, rows: Any, F: Any, normals: Any, workers: Any, progress: Any
+) -> CorrectedCurvature:
+    if F is None:
+        raise ValueError("F: expected the faces of the mesh, which an index does not keep")
+    surface = index._surfaces.of(None if normals is not None else F, normals)
+    corners, offsets = face_arrays(F)
+    with reporter(progress) as report:
+        found = surface.corrected(
+            corners, offsets=offsets, vertices=rows, radius=r, threads=_convert.threads(workers), progress=report
+        )
+    return CorrectedCurvature(*found)
+
+
+def features(
+    index: Any, radii: Any, rows: Any, kinds: Any, F: Any, filter: bool, workers: Any, progress: Any
+) -> Reals:
+    """#radii by #rows by #kinds, or without the last axis if `kinds` is one name."""
+    names = (kinds,) if isinstance(kinds, str) else tuple(kinds)
+    if F is None:
+        raise ValueError("F: expected the faces of the mesh, which an index does not keep")
+    if not names:
+        raise ValueError("kinds: there are none, expected at least one")
+    options = {
+        "radii": radii,
+        "kinds": [getattr(_core.Feature, _convert.choice(name, "kinds", _KINDS)) for name in names],
+        "areas": area_weights("area", index, F) if {"area", "height", "variation"} & set(names) else None,
+        "filter": bool(filter),
+        "threads": _convert.threads(workers),
+    }
+    with reporter(progress) as report:
+        found = index._surfaces.of(F, None).features(rows, progress=report, **options)
+    return found[..., 0] if isinstance(kinds, str) else found

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+// meshhood features: feature vectors over several scales, and how long each feature persists.
+#include "meshhood/features.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "meshhood/aggregate.h"
+#include "meshhood/error.h"
+
+#include "commands.h"
+#include "input.h"
+#include "io/mesh_io.h"
+#include "io/npz_writer.h"
+#include "options.h"
+#include "output.h"
+#include "task.h"
+
+namespace meshhood::cli {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Feature>, 10> kKinds{{{"crease", Feature::Crease},
+                                                                       {"mean", Feature::Mean},
+                                                                       {"gaussian", Feature::Gaussian},
+                                                                       {"k1", Feature::K1},
+                                                                       {"k2", Feature::K2},
+                                                                       {"curvedness", Feature::Curvedness},
+                                                                       {"shape_index", Feature::ShapeIndex},
+                                                                       {"area", Feature::Area},
+                                                                       {"height", Feature::Height},
+                                                                       {"variation", Feature::Variation}}};
+
+struct FeaturesCommand {
+  std::string file;
+  Radii radii;
+  std::string smallest;
+  std::string largest;
+  std::size_t count = 16;
+  std::vector<std::string> kinds{"crease"};
+  double threshold = 0.5;
+  bool no_filter = false;
+  unsigned threads = kAllThreads;
+  std::string output;
+  std::string ply;
+  bool json = false;
+};
+
+std::vector<std::string> kind_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, kind] : kKinds) names.emplace_back(name);
+  return names;
+}
+
+std::vector<Feature> kinds_of(const FeaturesCommand& options) {
+  std::vector<Feature> kinds;
+  for (const std::string& wanted : options.kinds) {
+    for (const auto& [name, kind] : kKinds) {
+      if (name == wanted) kinds.push_back(kind);
+    }
+  }
+  return kinds;
+}
+
+std::vector<double> radii_of(const FeaturesCommand& options, Input& input) {
+  if (options.radii.values.empty() == options.largest.empty()) {
+    raise(ErrorCode::InvalidOption, "expected either --radius or --largest");
+  }
+  if (options.largest.empty()) return resolve(options.radii, input);
+  const auto in_mesh = [&](const std::string& radius) { return resolve(Radius{radius, options.radii.unit}, input); };
+  if (options.smallest.empty()) return linear_radii(in_mesh(options.largest), options.count);
+  return geometric_radii(in_mesh(options.smallest), in_mesh(options.largest), options.count);
+}
+
+/// The features of all vertices, and how long each kind persists.
+struct FeaturesFound {
+  std::vector<double> radii;
+  std::size_t kinds;
+  std::vector<double> values;  // #radii by #V by #kinds
+  std::vector<Persistence> lasting;
+
+  [[nodiscard]] std::size_t rows() const { return values.size() / radii.size() / kinds; }
+  [[nodiscard]] double at(std::size_t radius, std::size_t row, std::size_t kind) const {
+    return values[(radius * rows() + row) * kinds + kind];
+  }
+};
+
+FeaturesFound compute(const FeaturesCommand& options, Input& input) {
+  FeaturesFound found{radii_of(options, input), options.kinds.size(), {}, {}};
+  static_cast<void>(persistence({}, found.radii, options.threshold));  // refuses wrong radii before the work begins
+  const CurvatureIndex surface = CurvatureIndex::build(input.exact_index(options.threads), input.mesh()->view());
+  const std::vector<double> areas = vertex_areas(input.mesh()->view());
+  Task task("measuring", {"rows", static_cast<double>(found.radii.size())});
+  found.values = features(surface, {}, found.radii,
+                          {.kinds = kinds_of(options),
+                           .areas = areas,
+                           .filter = !options.no_filter,
+                           .threads = options.threads,
+                           .progress = task.progress()});
+  for (std::size_t kind = 0; kind < found.kinds; ++kind) {
+    std::vector<double> one(found.radii.size() * found.rows());
+    for (std::size_t i = 0; i < one.size(); ++i) one[i] = found.values[i * found.kinds + kind];
+    found.lasting.push_back(persistence(one, found.radii, options.threshold));
+  }
+  return found;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ",") + word;
+  return text;
+}
+
+void write_npz(const FeaturesCommand& options, const FeaturesFound& found) {
+  io::NpzWriter npz(options.output);
+  npz.add<double>("radii", found.radii);
+  npz.add_text("kinds", joined(options.kinds));
+  const std::array<std::uint64_t, 3> shape{found.radii.size(), found.rows(), found.kinds};
+  npz.begin<double>("features", shape);
+  npz.append<double>(found.values);
+  const std::array<std::uint64_t, 2> by_kind{found.kinds, found.rows()};
+  npz.begin<std::int32_t>("scales", by_kind);
+  for (const Persistence& one : found.lasting) npz.append<std::int32_t>(one.scales);
+  npz.begin<double>("strength", by_kind);
+  for (const Persistence& one : found.lasting) npz.append<double>(one.strength);
+  npz.begin<double>("radius", by_kind);
+  for (const Persistence& one : found.lasting) npz.append<double>(one.radius);
+  npz.commit();
+}
+
+/// From blue over white to red, as the value goes from below to above 0; half way at `half`.
+std::array<std::uint8_t, 3> color_of(double value, double half) {
+  constexpr std::array<double, 3> kNegative{33, 82, 166};
+  constexpr std::array<double, 3> kZero{244, 243, 239};
+  constexpr std::array<double, 3> kPositive{178, 34, 34};
+  if (std::isnan(value)) return {128, 128, 128};
+  const double strength = std::abs(value) / (std::abs(value) + half);
+  const double share = strength * strength * (3 - 2 * strength);  // without a kink at 0
+  std::array<std::uint8_t, 3> color;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double end = value < 0 ? kNegative[i] : kPositive[i];
+    color[i] = static_cast<std::uint8_t>(std::lround(kZero[i] + share * (end - kZero[i])));
+  }
+  return color;
+}
+
+void write_ply(const FeaturesCommand& options, const FeaturesFound& found, const MeshView& mesh) {
+  const std::size_t rows = found.rows();
+  std::vector<std::vector<float>> columns;
+  std::vector<std::string> names;
+  const auto add = [&](std::string name, const auto& value_of) {
+    names.push_back(std::move(name));
+    std::vector<float>& column = columns.emplace_back(rows);
+    for (std::size_t row = 0; row < rows; ++row) column[row] = static_cast<float>(value_of(row));
+  };
+  for (std::size_t kind = 0; kind < found.kinds; ++kind) {
+    for (std::size_t i = 0; i < found.radii.size(); ++i) {
+      add(fmt::format("{}_{}", options.kinds[kind], i), [&](std::size_t row) { return found.at(i, row, kind); });
+    }
+    const Persistence& lasting = found.lasting[kind];
+    add(options.kinds[kind] + "_scales", [&](std::size_t row) { return lasting.scales[row]; });
+    add(options.kinds[kind] + "_strength", [&](std::size_t row) { return lasting.strength[row]; });
+    add(options.kinds[kind] + "_radius", [&](std::size_t row) { return lasting.radius[row]; });
+  }
+  std::vector<io::VertexProperty> properties;
+  for (std::size_t i = 0; i < columns.size(); ++i) properties.push_back({names[i], columns[i]});
+  std::vector<std::uint8_t> colors;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const auto color = color_of(found.at(found.radii.size() - 1, row, 0), options.threshold);
+    colors.insert(colors.end(), color.begin(), color.end());
+  }
+  Task task("writing");
+  io::write_ply(options.ply, mesh, {.colors = colors, .properties = properties, .progress = task.progress()});
+}
+
+void print(const FeaturesCommand& options, const FeaturesFound& found) {
+  std::vector<std::size_t> lasting;
+  for (const Persistence& one : found.lasting) {
+    lasting.push_back(static_cast<std::size_t>(
+        std::count_if(one.scales.begin(), one.scales.end(), [](std::int32_t scales) { return scales != 0; })));
+  }
+  std::string text = fmt::format("{} rows, {} radii\n", found.rows(), found.radii.size());
+  for (std::size_t kind = 0; kind < found.kinds; ++kind) {
+    text += fmt::format("{}: {} vertices at {} or more\n", options.kinds[kind], lasting[kind], options.threshold);
+  }
+  print_result(options.json,
+               {{"rows", found.rows()},
+                {"radii", found.radii},
+                {"kinds", options.kinds},
+                {"threshold", options.threshold},
+                {"lasting", lasting}},
+               text);
+}
+
+void features_command(const FeaturesCommand& options) {
+  if (options.output.empty() && options.ply.empty()) {
+    raise(ErrorCode::InvalidOption, "expected --output, --ply or both");
+  }
+  check_output(options.output, {options.file});
+  check_output(options.ply, {options.file, options.output});
+  Input input(options.file);
+  if (input.mesh() == nullptr) {
+    raise(
+        ErrorCode::InvalidOption,
+        printable_name(input.name()) + ": an index has no faces, from which the normals are computed; expected a mesh");
+  }
+  const FeaturesFound found = compute(options, input);
+  if (!options.output.empty()) write_npz(options, found);
+  if (!options.ply.empty()) write_ply(options, found, input.mesh()->view());
+  print(options, found);
+}
+
+void add_radii(CLI::App& command, FeaturesCommand& options) {
+  add_radii(command, options.radii);
+  command.get_option("--radius")->required(false);
+  command
+      .add_option("--largest", options.largest,
+                  "the largest of --count radii, in equal steps, or with --smallest in equal ratios")
+      ->type_name("NUMBER");
+  command.add_option("--smallest", options.smallest, "the smallest of --count radii")
+      ->type_name("NUMBER")
+      ->needs("--largest");
+  command.add_option("--count", options.count, "number of radii up to --largest")
+      ->transform(whole_number(1000))
+      ->type_name("NUMBER")
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_features(CLI::App& program) {
+  auto options = std::make_shared<FeaturesCommand>();
+  CLI::App* command = program.add_subcommand("features", "Write creases and other features at many scales");
+  add_mesh(*command, options->file);
+  add_radii(*command, *options);
+  command
+      ->add_option("--kinds", options->kinds,
+                   fmt::format("what to compute, separated by commas: {}", joined(kind_names())))
+      ->delimiter(',')
+      ->check(one_of(kind_names()))
+      ->type_name("NAMES")
+      ->capture_default_str();
+  command->add_option("--threshold", options->threshold, "the least strength of a feature that persists")
+      ->type_name("NUMBER")
+      ->capture_default_str();
+  command->add_flag("--no-filter", options->no_filter,
+                    "also fit vertices whose normal points away from that of the query vertex");
+  add_threads(*command, options->threads);
+  add_output(*command, ".npz", "file to write", options->output);
+  add_file_option(*command, "--ply",
+                  "mesh to write (.ply), with the features as properties; the colors show the first kind at the "
+                  "largest radius: blue below 0, red above",
+                  options->ply);
+  add_json(*command, options->json);
+  command->callback([options] { features_command(*options); });
+}
+
+}  // namespace meshhood::cli

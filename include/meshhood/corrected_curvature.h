@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "meshhood/batch.h"
+#include "meshhood/curvature.h"
+#include "meshhood/mesh.h"
+#include "meshhood/progress.h"
+
+/// Curvature from measures instead of a fit. See docs/curvature.md.
+namespace meshhood {
+
+/// Row by row of the query; all but the area are NaN where the area is 0.
+struct CorrectedCurvatures {
+  std::vector<double> area;      ///< #rows: of the patch, corrected by the normals
+  std::vector<double> mean;      ///< #rows: H, in 1 / unit of the positions, positive where convex, as in `Curvatures`
+  std::vector<double> gaussian;  ///< #rows: K
+  std::vector<double> k1;        ///< #rows: the principal curvatures, k1 >= k2. Their mean is not exactly `mean`
+  std::vector<double> k2;
+  std::vector<double> d1;  ///< #rows by 3: their directions in the plane of the vertex normal, as in `Curvatures`
+  std::vector<double> d2;
+};
+
+struct CorrectedCurvatureOptions {
+  /// As for a batch (see `BatchOptions`). The result does not depend on `threads`.
+  unsigned threads = 1;
+  Progress progress = {};
+};
+
+/// The interpolated corrected curvature measures (J.-O. Lachaud, P. Romon, B. Thibert, D. Coeurjolly, "Interpolated
+/// corrected curvature measures for polygonal surfaces", Computer Graphics Forum 39, 2020; CGAL 6 has them as
+/// `interpolated_corrected_curvatures`): integrals over the faces of area, mean curvature, Gaussian curvature and the
+/// anisotropic measure, with the vertex normals interpolated over each face, divided by the area.
+///
+/// A vertex of a face holds a third of its measures, so that those of a neighborhood are sums over its vertices. CGAL
+/// instead weighs each face by the share of it inside the ball. A polygon of more than three corners is divided into
+/// triangles around its barycentre, which has the mean normal of the corners. A face with a corner that has no normal
+/// counts 0.
+///
+/// No vertex is fitted, filtered or extended: robust where the mesh is noisy, and defined for a radius of 0.
+///
+/// faces     those of the mesh that the index was built from.
+/// vertices  as of a batch; radius of all rows.
+/// The same bits for any number of threads and on every processor. Time as of `aggregate` with nine channels.
+/// Throws Error{InvalidMesh, TooLarge, VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}.
+[[nodiscard]] CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const FacesView& faces,
+                                                       const BatchVertices& vertices, double radius,
+                                                       const CorrectedCurvatureOptions& options = {});
+
+}  // namespace meshhood

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "meshhood/batch.h"
+#include "meshhood/curvature.h"
+#include "meshhood/progress.h"
+
+/// How a surface looks around each vertex at many scales: feature vectors, and how long a feature persists. See
+/// docs/curvature.md.
+///
+///     const std::vector<double> radii = meshhood::geometric_radii(1.0, 16.0, 9);
+///     const std::vector<double> creases = meshhood::features(surface, {}, radii);
+///     const meshhood::Persistence lasting = meshhood::persistence(creases, radii, 0.5);
+namespace meshhood {
+
+/// A number without unit that describes the neighborhood of one radius r: it does not change if mesh and radius are
+/// scaled together, so that scales can be compared.
+enum class Feature : std::uint8_t {
+  Crease,      ///< r times the principal curvature of larger magnitude: > 0 on a ridge, < 0 in a valley
+  Mean,        ///< r H
+  Gaussian,    ///< r^2 K
+  K1,          ///< r k1
+  K2,          ///< r k2
+  Curvedness,  ///< r times Koenderink's curvedness
+  ShapeIndex,  ///< Koenderink's shape index
+  Area,        ///< area of the neighborhood / (pi r^2): 1 on a plane; the integral invariant of the surface
+  Height,      ///< -4 / r times the height of the barycentre over the tangent plane: an integral estimate of r H
+  Variation,   ///< surface variation of the neighborhood, weighted by area
+};
+
+struct FeatureOptions {
+  /// One column each, at least one.
+  std::vector<Feature> kinds = {Feature::Crease};
+
+  /// #V, the area of each vertex (see `vertex_areas`): required for Area, Height and Variation.
+  std::span<const double> areas = {};
+
+  /// As for `curvatures`.
+  bool filter = true;
+
+  /// As for a batch (see `BatchOptions`). The result does not depend on `threads`.
+  unsigned threads = 1;
+  Progress progress = {};
+};
+
+/// #radii by #rows by #kinds: the features of the neighborhood of each row at each radius. NaN where a fit has no
+/// result (see `CurvatureState`), where a row has no normal, or where the neighborhood has no area.
+///
+/// Each radius has a neighborhood of its own. Time of `curvatures`, of `principal_components`, or of both, for each
+/// radius, as the kinds require. The same bits for any number of threads and on every processor.
+/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}. A radius must be > 0 and finite.
+[[nodiscard]] std::vector<double> features(const CurvatureIndex& surface, const BatchVertices& vertices,
+                                           std::span<const double> radii, const FeatureOptions& options = {});
+
+/// `count` radii R / count, 2 R / count, ..., R: those of multi-scale integral invariants (H. Mara, S. Krömker, S.
+/// Jakob, B. Breuckmann, "GigaMesh and Gilgamesh: 3D multiscale integral invariant cuneiform character extraction",
+/// VAST 2010), where `count` is 16. Throws Error{InvalidRadius, InvalidOption}.
+[[nodiscard]] std::vector<double> linear_radii(double largest, std::size_t count = 16);
+
+/// `count` radii from `smallest` to `largest` with a constant ratio. Throws Error{InvalidRadius, InvalidOption}.
+[[nodiscard]] std::vector<double> geometric_radii(double smallest, double largest, std::size_t count);
+
+/// Row by row: over how many scales a feature lasts.
+struct Persistence {
+  /// #rows: the length of the longest run of consecutive radii at which the feature is at least as strong as the
+  /// threshold and keeps its sign; times -1 if that is negative. Of several runs the one with the smallest radii.
+  std::vector<std::int32_t> scales;
+  std::vector<double> strength;  ///< #rows: the feature of largest magnitude in this run; 0 if there is none
+  std::vector<double> radius;    ///< #rows: the radius at which it has this strength; 0 if there is none
+};
+
+/// values     #radii by #rows, one kind of feature. A NaN ends a run.
+/// radii      ascending.
+/// threshold  > 0.
+/// Throws Error{InvalidOption, InvalidRadius}.
+[[nodiscard]] Persistence persistence(std::span<const double> values, std::span<const double> radii, double threshold);
+
+}  // namespace meshhood

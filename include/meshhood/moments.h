@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "meshhood/batch.h"
+#include "meshhood/index.h"
+#include "meshhood/progress.h"
+
+/// Moments of neighborhoods: sums of powers of coordinates, from which fits of polynomials, principal components and
+/// integral invariants follow without a look at single vertices. See docs/curvature.md.
+///
+///     const std::vector<double> areas = meshhood::vertex_areas(mesh);
+///     const auto patches = meshhood::principal_components(index, {.radius = 2.5}, {.weights = areas});
+namespace meshhood {
+
+/// The largest i + j + k of a moment.
+inline constexpr unsigned kLargestMomentDegree = 4;
+
+/// The number of moments with i + j + k <= `degree`: 1, 4, 10, 20, 35.
+[[nodiscard]] constexpr std::size_t moment_count(unsigned degree) {
+  return std::size_t{degree + 1} * (degree + 2) * (degree + 3) / 6;
+}
+
+/// The column of M_ijk: 1, x, y, z, x^2, xy, xz, y^2, yz, z^2, x^3, ... Those of lower degree come first.
+[[nodiscard]] constexpr std::size_t moment_column(unsigned i, unsigned j, unsigned k) {
+  const unsigned degree = i + j + k;
+  return (degree == 0 ? 0 : moment_count(degree - 1)) + std::size_t{j + k} * (j + k + 1) / 2 + k;
+}
+
+struct MomentOptions {
+  /// At most `kLargestMomentDegree`. Ignored by `principal_components`.
+  unsigned degree = 2;
+
+  /// #V, finite and >= 0; empty: 1 each. With `vertex_areas`, sums become integrals over the surface.
+  std::span<const double> weights = {};
+
+  /// As for a batch (see `BatchOptions`). The result does not depend on `threads`.
+  unsigned threads = 1;
+  Progress progress = {};
+};
+
+/// M_ijk = sum of w x^i y^j z^k over the exact neighborhood of each row, where x, y, z are the coordinates relative to
+/// the query vertex and w the weights. #rows by `moment_count(degree)`, in the order of `moment_column`.
+///
+/// Sums are about a point near the query vertex, in a unit in which the neighborhood is about 1, and then moved: they
+/// are right to 1e-14 of the sum of w |p|^(i + j + k), wherever the mesh lies. A power of its coordinates that leaves
+/// the range of doubles is 0 or infinite.
+///
+/// The same bits for any number of threads and on every processor. Time as of `curvatures`.
+/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming row or vertex.
+[[nodiscard]] std::vector<double> moments(const Index& index, const BatchQuery& query,
+                                          const MomentOptions& options = {});
+
+/// How the vertices of each neighborhood are distributed, row by row of the query. With areas as weights, these are
+/// integral invariants: the area, the barycentre and the covariance of the patch of surface inside the ball.
+struct PrincipalComponents {
+  std::vector<double> weight;     ///< #rows: the sum of the weights
+  std::vector<double> centre;     ///< #rows by 3: the weighted mean of the positions, relative to the query vertex
+  std::vector<double> variances;  ///< #rows by 3, ascending: the eigenvalues of the weighted covariance about `centre`
+
+  /// #rows by 3 by 3: for each variance the direction of its axis. Unit vectors, orthogonal; of either sign the one
+  /// whose component of largest magnitude is positive. The first is the normal of the plane that fits best.
+  std::vector<double> axes;
+};
+
+/// All but the weight are NaN where the weights of a neighborhood sum to 0. Arguments, cost and errors as of `moments`.
+[[nodiscard]] PrincipalComponents principal_components(const Index& index, const BatchQuery& query,
+                                                       const MomentOptions& options = {});
+
+/// The share of the least variance in all (Pauly, Gross, Kobbelt 2002): 0 on a plane, at most 1/3. NaN where all are 0.
+[[nodiscard]] double surface_variation(double least, double middle, double largest);
+
+}  // namespace meshhood

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "meshhood/aggregate.h"
+#include "meshhood/corrected_curvature.h"
+
+#include "base/vector.h"
+#include "curvature/directions.h"
+#include "curvature/quadric.h"
+#include "curvature/surface.h"
+#include "curvature/symmetric.h"
+
+namespace meshhood {
+namespace {
+
+/// Area, mean and Gaussian curvature, and the symmetric part of the anisotropic measure: xx, xy, xz, yy, yz, zz.
+using Measures = std::array<double, 9>;
+
+/// A corner of a triangle and its normal.
+struct Corner {
+  Point x;
+  Point u;
+};
+
+std::array<double, 3> components(const Point& p) { return {p.x, p.y, p.z}; }
+
+/// Adds those of a triangle. With x01, x02 the sides at corner 0 and u the mean of the normals u0, u1, u2:
+///     area         u . (x01 x x02) / 2
+///     mean         u . ((u0 - u2) x x01 + (u1 - u0) x x02) / 2, twice the integral of H
+///     Gaussian     u0 . (u1 x u2) / 2
+///     anisotropic  u . (e_i x x01 (u2 - u0)_j - e_i x x02 (u1 - u0)_j) / 2 for row i, column j
+/// and u . (e_i x a) = (a x u)_i.
+void add_triangle(const Corner& c0, const Corner& c1, const Corner& c2, Measures& sum) {
+  const Point u = (1.0 / 3) * (c0.u + c1.u + c2.u);
+  const Point x01 = c1.x - c0.x;
+  const Point x02 = c2.x - c0.x;
+  const Point u01 = c1.u - c0.u;
+  const Point u02 = c2.u - c0.u;
+  sum[0] += dot(u, cross(x01, x02)) / 2;
+  sum[1] += dot(u, cross(u01, x02) - cross(u02, x01)) / 2;
+  sum[2] += dot(c0.u, cross(c1.u, c2.u)) / 2;
+  const auto a = components(cross(x01, u));
+  const auto b = components(cross(x02, u));
+  const auto p = components(u01);
+  const auto q = components(u02);
+  std::size_t at = 3;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = i; j < 3; ++j) sum[at++] += ((a[i] * q[j] - b[i] * p[j]) + (a[j] * q[i] - b[j] * p[i])) / 4;
+  }
+}
+
+Measures measures_of(std::span<const Corner> face) {
+  Measures sum{};
+  if (face.size() == 3) {
+    add_triangle(face[0], face[1], face[2], sum);
+    return sum;
+  }
+  Corner middle{{0, 0, 0}, {0, 0, 0}};
+  for (const Corner& corner : face) middle = {middle.x + corner.x, middle.u + corner.u};
+  middle.x = (1 / static_cast<double>(face.size())) * middle.x;
+  middle.u = unit(middle.u);
+  for (std::size_t i = 0; i < face.size(); ++i) add_triangle(face[i], face[(i + 1) % face.size()], middle, sum);
+  return sum;
+}
+
+/// The measures that each vertex holds, #V by 9 in the caller's order. Lengths are in the frame, where nothing
+/// overflows.
+std::vector<double> measures_by_vertex(const SurfaceState& surface, const FacesView& faces) {
+  const IndexView& index = *surface.index;
+  std::vector<double> held(std::tuple_size_v<Measures> * index.vertex_count());
+  std::vector<Corner> face;
+  faces.for_each([&](std::size_t, auto corners) {
+    if (corners.size() < 3) return;
+    face.clear();
+    const auto first = place_of(index, static_cast<VertexId>(corners[0]));
+    for (const auto corner : corners) {
+      const std::uint32_t place = place_of(index, static_cast<VertexId>(corner));
+      const Point x = index.frame.scale * (surface.position(place) - surface.position(first));
+      face.push_back({x, surface.normal(place)});
+    }
+    const Measures measures = measures_of(face);
+    for (const double measure : measures) {
+      if (std::isnan(measure)) return;
+    }
+    const double share = 1 / static_cast<double>(corners.size());
+    for (const auto corner : corners) {
+      double* const to = &held[measures.size() * static_cast<std::size_t>(corner)];
+      for (std::size_t i = 0; i < measures.size(); ++i)
+        to[i] += share * measures[i];  // mutant: measures-of-the-last-face
+    }
+  });
+  return held;
+}
+
+/// The principal curvatures from the measures of a neighborhood: the extremes of the anisotropic measure over the
+/// tangent plane, by the area. CGAL keeps the normal out by a large eigenvalue, to which this is the limit.
+PrincipalCurvature curvature_of(std::span<const double> m, const Point& normal) {
+  const TangentFrame frame = frame_of(normal);
+  const auto times = [&](const Point& a) {
+    return Point{m[3] * a.x + m[4] * a.y + m[5] * a.z, m[4] * a.x + m[6] * a.y + m[7] * a.z,
+                 m[5] * a.x + m[7] * a.y + m[8] * a.z};
+  };
+  const Eigen2 found = eigen(dot(frame.u, times(frame.u)), dot(frame.u, times(frame.v)), dot(frame.v, times(frame.v)));
+  const auto direction = [&](const std::array<double, 2>& v) {
+    return with_sign(unit(v[0] * frame.u + v[1] * frame.v));
+  };
+  return {-found.low / m[0], -found.high / m[0], direction(found.low_vector), direction(found.high_vector)};
+}
+
+void write_row(CorrectedCurvatures& out, std::size_t row, std::span<const double> m, const Point& normal,
+               double scale) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const bool some = m[0] != 0;
+  const Point nan{kNan, kNan, kNan};
+  const PrincipalCurvature k =
+      some && !std::isnan(normal.x) ? curvature_of(m, normal) : PrincipalCurvature{kNan, kNan, nan, nan};
+  out.area[row] = m[0] / scale / scale;
+  out.mean[row] = some ? m[1] / (2 * m[0]) * scale : kNan;
+  out.gaussian[row] = some ? m[2] / m[0] * scale * scale : kNan;
+  out.k1[row] = k.k1 * scale;
+  out.k2[row] = k.k2 * scale;
+  const auto set = [&](std::vector<double>& directions, const Point& d) {
+    directions[3 * row] = d.x;
+    directions[3 * row + 1] = d.y;
+    directions[3 * row + 2] = d.z;
+  };
+  set(out.d1, k.d1);
+  set(out.d2, k.d2);
+}
+
+}  // namespace
+
+CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const FacesView& faces,
+                                         const BatchVertices& vertices, double radius,
+                                         const CorrectedCurvatureOptions& options) {
+  const SurfaceState& state = CurvatureAccess::state(surface);
+  validate(MeshView{state.searched.positions(), faces});
+  constexpr std::size_t kChannels = std::tuple_size_v<Measures>;
+  const std::vector<double> held = measures_by_vertex(state, faces);
+  std::vector<VertexId> listed;
+  AggregateQuery query{.vertices = {}, .radii = {radius}, .reduce = Reduce::Sum};
+  if (vertices.list()) {
+    listed.assign(vertices.list()->begin(), vertices.list()->end());
+    query.vertices = listed;
+  }
+  const std::vector<double> sums = aggregate(state.searched, {.values = held, .channels = kChannels}, query,
+                                             {.threads = options.threads, .progress = options.progress});
+  const std::size_t rows = sums.size() / kChannels;
+  CorrectedCurvatures result;
+  for (auto* const numbers : {&result.area, &result.mean, &result.gaussian, &result.k1, &result.k2})
+    numbers->resize(rows);
+  result.d1.resize(3 * rows);
+  result.d2.resize(3 * rows);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const VertexId v = vertices.list() ? listed[row] : static_cast<VertexId>(row);
+    write_row(result, row, std::span(sums).subspan(kChannels * row, kChannels), state.normal(place_of(*state.index, v)),
+              state.index->frame.scale);
+  }
+  return result;
+}
+
+}  // namespace meshhood

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+#include "meshhood/features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "meshhood/error.h"
+#include "meshhood/moments.h"
+
+#include "base/distance.h"
+#include "base/text.h"
+#include "base/vector.h"
+#include "curvature/surface.h"
+
+namespace meshhood {
+namespace {
+
+constexpr double kNoFeature = std::numeric_limits<double>::quiet_NaN();
+
+bool follows_from_areas(Feature kind) {
+  return kind == Feature::Area || kind == Feature::Height || kind == Feature::Variation;
+}
+
+double crease(double k1, double k2) {
+  return std::abs(k1) >= std::abs(k2) ? k1 : k2;  // mutant: crease-of-the-weaker-curvature
+}
+
+/// From the curvatures, times the radius.
+double curvature_feature(Feature kind, double k1, double k2) {
+  switch (kind) {
+    case Feature::Crease: return crease(k1, k2);
+    case Feature::Mean: return mean_curvature(k1, k2);
+    case Feature::Gaussian: return gaussian_curvature(k1, k2);
+    case Feature::K1: return k1;
+    case Feature::K2: return k2;
+    case Feature::Curvedness: return curvedness(k1, k2);
+    case Feature::ShapeIndex: return shape_index(k1, k2);
+    case Feature::Area:
+    case Feature::Height:
+    case Feature::Variation: break;
+  }
+  return kNoFeature;
+}
+
+/// From the patch of one row around a vertex with this normal.
+double patch_feature(Feature kind, const PrincipalComponents& patch, std::size_t row, const Point& normal,
+                     double radius) {
+  if (!(patch.weight[row] > 0)) return kNoFeature;
+  if (kind == Feature::Area) return patch.weight[row] / radius / radius / std::numbers::pi;
+  if (kind == Feature::Variation) {
+    const double* const variances = &patch.variances[3 * row];
+    return surface_variation(variances[0], variances[1], variances[2]);
+  }
+  const double* const centre = &patch.centre[3 * row];
+  return -4 * dot({centre[0] / radius, centre[1] / radius, centre[2] / radius}, normal);
+}
+
+/// What one call of `features` computes, radius by radius.
+class FeatureExtraction {
+ public:
+  FeatureExtraction(const CurvatureIndex& surface, const BatchVertices& vertices, std::span<const double> radii,
+                    const FeatureOptions& options)
+      : surface_(surface),
+        state_(CurvatureAccess::state(surface)),
+        radii_(radii.begin(), radii.end()),
+        options_(options) {
+    check();
+    rows_ = surface.vertex_count();
+    if (!vertices.list()) return;
+    listed_.assign(vertices.list()->begin(), vertices.list()->end());
+    rows_ = listed_.size();
+    vertices_ = listed_;
+  }
+
+  std::vector<double> run() {
+    const std::size_t of_radius = rows_ * options_.kinds.size();
+    std::vector<double> result(radii_.size() * of_radius);
+    for (std::size_t i = 0; i < radii_.size(); ++i) {
+      const auto values = std::span(result).subspan(i * of_radius, of_radius);
+      if (fits_) write_curvatures(radii_[i], values);
+      if (sums_) write_patches(radii_[i], values);
+    }
+    return result;
+  }
+
+ private:
+  void check() {
+    if (options_.kinds.empty())
+      raise(ErrorCode::InvalidOption, "there are no kinds of features, expected at least one");
+    if (radii_.empty()) raise(ErrorCode::InvalidOption, "there are no radii, expected at least one");
+    for (std::size_t i = 0; i < radii_.size(); ++i) {
+      if (radii_[i] > 0 && std::isfinite(radii_[i])) continue;
+      raise(ErrorCode::InvalidRadius,
+            "radius " + std::to_string(i) + ": " + to_text(radii_[i]) + ", expected a finite number > 0");
+    }
+    sums_ = std::any_of(options_.kinds.begin(), options_.kinds.end(), follows_from_areas);
+    fits_ = !std::all_of(options_.kinds.begin(), options_.kinds.end(), follows_from_areas);
+    if (sums_ && options_.areas.empty() && surface_.vertex_count() > 0) {
+      raise(ErrorCode::InvalidOption, "area, height and variation need the areas of the vertices");
+    }
+  }
+
+  void write_curvatures(double radius, std::span<double> values) {
+    const Curvatures k = curvatures(surface_, {.vertices = vertices_, .radius = radius},
+                                    {.filter = options_.filter, .threads = options_.threads, .progress = next_pass()});
+    const std::size_t kinds = options_.kinds.size();
+    for (std::size_t row = 0; row < rows_; ++row) {
+      const bool has_fit = k.state[row] == CurvatureState::Fitted || k.state[row] == CurvatureState::RankDeficient;
+      for (std::size_t kind = 0; kind < kinds; ++kind) {
+        if (follows_from_areas(options_.kinds[kind])) continue;
+        values[row * kinds + kind] =
+            has_fit ? curvature_feature(options_.kinds[kind], radius * k.k1[row], radius * k.k2[row]) : kNoFeature;
+      }
+    }
+  }
+
+  void write_patches(double radius, std::span<double> values) {
+    const PrincipalComponents patch =
+        principal_components(state_.searched, {.vertices = vertices_, .radius = radius},
+                             {.weights = options_.areas, .threads = options_.threads, .progress = next_pass()});
+    const std::size_t kinds = options_.kinds.size();
+    for (std::size_t row = 0; row < rows_; ++row) {
+      const VertexId v = vertices_.list() ? listed_[row] : static_cast<VertexId>(row);
+      const Point normal = state_.normal(place_of(*state_.index, v));
+      for (std::size_t kind = 0; kind < kinds; ++kind) {
+        if (!follows_from_areas(options_.kinds[kind])) continue;
+        values[row * kinds + kind] = patch_feature(options_.kinds[kind], patch, row, normal, radius);
+      }
+    }
+  }
+
+  Progress next_pass() {
+    if (!options_.progress) return {};
+    const std::size_t passes = radii_.size() * (static_cast<std::size_t>(fits_) + static_cast<std::size_t>(sums_));
+    return [this, passes, before = passes_begun_++ * rows_](std::size_t done, std::size_t /*total*/) {
+      return options_.progress(before + done, passes * rows_);
+    };
+  }
+
+  const CurvatureIndex& surface_;
+  const SurfaceState& state_;
+  std::vector<double> radii_;
+  FeatureOptions options_;
+  std::vector<VertexId> listed_;
+  BatchVertices vertices_;
+  std::size_t rows_ = 0;
+  bool fits_ = false;
+  bool sums_ = false;
+  std::size_t passes_begun_ = 0;
+};
+
+void check_largest(double radius) {
+  if (radius > 0 && std::isfinite(radius)) return;
+  raise(ErrorCode::InvalidRadius, "radius " + to_text(radius) + ", expected a finite number > 0");
+}
+
+void check_count(std::size_t count) {
+  constexpr std::size_t kMost = 1000;
+  if (count >= 1 && count <= kMost) return;
+  raise(ErrorCode::InvalidOption, std::to_string(count) + " radii, expected 1 to " + std::to_string(kMost));
+}
+
+/// Radii `begin` to `end` - 1, at which a feature lasts.
+struct Run {
+  std::size_t begin;
+  std::size_t end;
+
+  [[nodiscard]] std::size_t size() const { return end - begin; }
+};
+
+/// The longest run of values of one sign that are as strong as the threshold.
+template <class ValueAt>
+Run longest_run(std::size_t radii, double threshold, const ValueAt& value) {
+  Run longest{0, 0};
+  Run run{0, 0};
+  for (std::size_t i = 0; i < radii; ++i) {
+    const bool strong = std::abs(value(i)) >= threshold;
+    const bool continues = strong && run.end == i && run.size() > 0 && (value(i) > 0) == (value(i - 1) > 0);
+    if (strong) run = {continues ? run.begin : i, i + 1};
+    if (run.size() > longest.size()) longest = run;  // mutant: last-run-of-a-feature
+  }
+  return longest;
+}
+
+}  // namespace
+
+std::vector<double> features(const CurvatureIndex& surface, const BatchVertices& vertices,
+                             std::span<const double> radii, const FeatureOptions& options) {
+  return FeatureExtraction(surface, vertices, radii, options).run();
+}
+
+std::vector<double> linear_radii(double largest, std::size_t count) {
+  check_largest(largest);
+  check_count(count);
+  std::vector<double> radii;
+  for (std::size_t i = 1; i <= count; ++i) {
+    radii.push_back(largest * (static_cast<double>(i) / static_cast<double>(count)));
+  }
+  return radii;
+}
+
+std::vector<double> geometric_radii(double smallest, double largest, std::size_t count) {
+  check_largest(smallest);
+  check_largest(largest);
+  check_count(count);
+  if (smallest > largest) {
+    raise(ErrorCode::InvalidRadius,
+          "the smallest radius is " + to_text(smallest) + ", but the largest " + to_text(largest));
+  }
+  if (count == 1) return {largest};
+  std::vector<double> radii;
+  const double ratio = std::log(largest / smallest) / static_cast<double>(count - 1);
+  for (std::size_t i = 0; i + 1 < count; ++i) radii.push_back(smallest * std::exp(ratio * static_cast<double>(i)));
+  radii.push_back(largest);
+  return radii;
+}
+
+Persistence persistence(std::span<const double> values, std::span<const double> radii, double threshold) {
+  if (radii.empty() || values.size() % radii.size() != 0) {
+    raise(ErrorCode::InvalidOption, std::to_string(values.size()) + " values for " + std::to_string(radii.size()) +
+                                        " radii, expected as many for each");
+  }
+  if (!(threshold > 0)) raise(ErrorCode::InvalidOption, "threshold " + to_text(threshold) + ", expected a number > 0");
+  for (std::size_t i = 1; i < radii.size(); ++i) {
+    if (radii[i] > radii[i - 1]) continue;
+    raise(ErrorCode::InvalidRadius, "radius " + std::to_string(i) + ": " + to_text(radii[i]) + " after " +
+                                        to_text(radii[i - 1]) + ", expected ascending radii");
+  }
+  const std::size_t rows = values.size() / radii.size();
+  Persistence result{std::vector<std::int32_t>(rows), std::vector<double>(rows), std::vector<double>(rows)};
+  for (std::size_t row = 0; row < rows; ++row) {
+    const auto value = [&](std::size_t i) { return values[i * rows + row]; };
+    const Run run = longest_run(radii.size(), threshold, value);
+    if (run.size() == 0) continue;
+    std::size_t best = run.begin;
+    for (std::size_t i = run.begin; i < run.end; ++i) {
+      if (std::abs(value(i)) > std::abs(value(best))) best = i;
+    }
+    const auto scales = static_cast<std::int32_t>(run.size());
+    result.scales[row] = value(best) > 0 ? scales : -scales;
+    result.strength[row] = value(best);
+    result.radius[row] = radii[best];
+  }
+  return result;
+}
+
+}  // namespace meshhood

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "curvature/jet.h"
+
+#include <array>
+#include <vector>
+
+#include "base/vector.h"
+#include "curvature/least_squares.h"
+
+namespace meshhood {
+
+TangentFrame jet_frame(const Eigen3& axes, const Point& normal) {
+  const Point n = dot(axes.vectors[0], normal) < 0 ? -1 * axes.vectors[0] : axes.vectors[0];
+  const Point& u = axes.vectors[2];
+  return {u, cross(n, u), n};
+}
+
+std::optional<Quadric> fit_jet(const QueryMoments& moments, const FrameMoments& in_frame, const TangentFrame& frame,
+                               std::size_t query, const MomentSizes& sizes) {
+  const auto at = [query](const QueryRow& row) { return row[query]; };
+  const auto sum_of = [&](std::size_t i, std::size_t j, std::size_t k) {
+    return at(moments.at[moment_index(i, j, k)]);
+  };
+  const Point sum{sum_of(1, 0, 0), sum_of(0, 1, 0), sum_of(0, 0, 1)};
+  const FrameMoments& s = in_frame;
+  const SmallMatrix<6> b{{{at(s.u4)},
+                          {at(s.u3v), at(s.u2v2)},
+                          {at(s.u2v2), at(s.uv3), at(s.v4)},
+                          {at(s.u3), at(s.u2v), at(s.uv2), at(s.uu)},
+                          {at(s.u2v), at(s.uv2), at(s.v3), at(s.uv), at(s.vv)},
+                          {at(s.uu), at(s.uv), at(s.vv), dot(sum, frame.u), dot(sum, frame.v), sum_of(0, 0, 0)}}};
+  const auto jet =
+      solve_normal_equations<6>(b, {at(s.uun), at(s.uvn), at(s.vvn), at(s.un), at(s.vn), dot(sum, frame.n)},
+                                smallest_determinant(s, query, sizes));
+  if (!jet) return std::nullopt;
+  return Quadric{(*jet)[0], (*jet)[1], (*jet)[2], (*jet)[3], (*jet)[4]};
+}
+
+JetFit fit_jet(std::span<const Point> points, const Point& normal) {
+  Point sum{0, 0, 0};
+  for (const Point& p : points) sum = sum + p;
+  const Point centre = (1 / static_cast<double>(points.size())) * sum;
+  Symmetric3 covariance{0, 0, 0, 0, 0, 0};
+  for (const Point& p : points) {
+    const Point q = p - centre;
+    covariance = {covariance.xx + q.x * q.x, covariance.xy + q.x * q.y, covariance.xz + q.x * q.z,
+                  covariance.yy + q.y * q.y, covariance.yz + q.y * q.z, covariance.zz + q.z * q.z};
+  }
+  const TangentFrame frame = jet_frame(eigen(covariance), normal);
+  std::array<std::vector<double>, 7> columns;
+  for (const Point& p : points) {
+    const double x = dot(p, frame.u);
+    const double y = dot(p, frame.v);
+    const std::array<double, 7> row{x * x, x * y, y * y, x, y, 1, dot(p, frame.n)};
+    for (std::size_t j = 0; j < row.size(); ++j) columns[j].push_back(row[j]);
+  }
+  const RowFit<6> fit = fit_rows<6>(columns);
+  const auto& [a, b, c, d, e, f] = fit.solution;
+  return {frame, {{a, b, c, d, e}, fit.unique}};
+}
+
+}  // namespace meshhood

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// The moments of neighborhoods as callers get them, and principal components.
+#include "meshhood/moments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "meshhood/error.h"
+
+#include "base/text.h"
+#include "curvature/directions.h"
+#include "curvature/packet_moments.h"
+#include "curvature/symmetric.h"
+#include "curvature/visit_moments.h"
+#include "exact/index_access.h"
+
+namespace meshhood {
+namespace {
+
+/// Weights in index order, times a power of two that makes the largest about 1.
+struct MomentWeights {
+  std::vector<double> values;
+  int exponent = 0;
+
+  MomentWeights(const IndexView& index, std::span<const double> given) {
+    if (given.empty()) return;
+    check(index, given);
+    const double largest = *std::max_element(given.begin(), given.end());
+    if (largest > 0) exponent = -std::ilogb(largest);
+    values.reserve(given.size());
+    for (std::size_t i = 0; i < given.size(); ++i) values.push_back(std::ldexp(given[index.id(i)], exponent));
+  }
+
+ private:
+  static void check(const IndexView& index, std::span<const double> given) {
+    if (given.size() != index.vertex_count()) {
+      raise(ErrorCode::InvalidOption, std::to_string(given.size()) + " weights, expected one for each of " +
+                                          std::to_string(index.vertex_count()) + " vertices");
+    }
+    for (std::size_t v = 0; v < given.size(); ++v) {
+      if (given[v] >= 0 && std::isfinite(given[v])) continue;
+      raise(ErrorCode::InvalidOption,
+            "vertex " + std::to_string(v) + ": the weight is " + to_text(given[v]) + ", expected a finite number >= 0");
+    }
+  }
+};
+
+std::size_t row_count(const Index& index, const BatchQuery& query) {
+  return query.vertices.list() ? query.vertices.list()->size() : index.vertex_count();
+}
+
+/// The moments of one row about its query vertex, as `PacketMoments` has them.
+struct RowMoments {
+  const QueryMoments& sums;
+  std::size_t query;
+  double scale;         // of coordinates, a power of two
+  int weight_exponent;  // of two, by which weights were multiplied
+
+  /// In the unit of the caller.
+  [[nodiscard]] double at(unsigned i, unsigned j, unsigned k) const {
+    const int degree = static_cast<int>(i + j + k);
+    return std::ldexp(sums.at[moment_index(i, j, k)][query], -degree * std::ilogb(scale) - weight_exponent);
+  }
+};
+
+/// Calls `take` with each row, on any of the threads.
+void for_each_row(const Index& index, const BatchQuery& query, const MomentOptions& options,
+                  const std::function<void(std::size_t row, const RowMoments&)>& take) {
+  const IndexView& view = IndexAccess::view(index);
+  const MomentWeights weights(view, options.weights);
+  visit_moments(index, query, false, {.index = &view, .weights = weights.values},
+                {.threads = options.threads, .progress = options.progress}, [&] {
+                  return [&](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
+                    for (std::size_t q = 0; q < packet.rows.size(); ++q) {
+                      take(packet.rows[q], {moments, q, sums.scale(), weights.exponent});
+                    }
+                  };
+                });
+}
+
+void put(std::vector<double>& values, std::size_t place, const Point& p) {
+  values[3 * place] = p.x;
+  values[3 * place + 1] = p.y;
+  values[3 * place + 2] = p.z;
+}
+
+void put_row(PrincipalComponents& out, std::size_t row, const RowMoments& m) {
+  out.weight[row] = m.at(0, 0, 0);
+  const PointDistribution found = distribution_of(m.sums, m.query);
+  const double to_caller = 1 / m.scale;
+  put(out.centre, row, to_caller * found.centre);
+  for (std::size_t i = 0; i < 3; ++i) {
+    out.variances[3 * row + i] = std::max(found.axes.values[i], 0.0) * to_caller * to_caller;  // NaN stays NaN
+    put(out.axes, 3 * row + i, with_sign(found.axes.vectors[i]));
+  }
+}
+
+}  // namespace
+
+PointDistribution distribution_of(const QueryMoments& moments, std::size_t query) {
+  const auto at = [&](std::size_t i, std::size_t j, std::size_t k) { return moments.at[moment_index(i, j, k)][query]; };
+  const double weight = at(0, 0, 0);
+  const Point centre{at(1, 0, 0) / weight, at(0, 1, 0) / weight, at(0, 0, 1) / weight};
+  const Symmetric3 covariance{at(2, 0, 0) / weight - centre.x * centre.x, at(1, 1, 0) / weight - centre.x * centre.y,
+                              at(1, 0, 1) / weight - centre.x * centre.z, at(0, 2, 0) / weight - centre.y * centre.y,
+                              at(0, 1, 1) / weight - centre.y * centre.z, at(0, 0, 2) / weight - centre.z * centre.z};
+  return {centre, eigen(covariance)};
+}
+
+std::vector<double> moments(const Index& index, const BatchQuery& query, const MomentOptions& options) {
+  if (options.degree > kLargestMomentDegree) {
+    raise(ErrorCode::InvalidOption,
+          "degree is " + std::to_string(options.degree) + ", expected at most " + std::to_string(kLargestMomentDegree));
+  }
+  const std::size_t columns = moment_count(options.degree);
+  std::vector<double> result(columns * row_count(index, query));
+  for_each_row(index, query, options, [&](std::size_t row, const RowMoments& m) {
+    for (unsigned i = 0; i <= options.degree; ++i) {
+      for (unsigned j = 0; i + j <= options.degree; ++j) {
+        for (unsigned k = 0; i + j + k <= options.degree; ++k) {
+          result[columns * row + moment_column(i, j, k)] = m.at(i, j, k);  // mutant: moments-in-another-order
+        }
+      }
+    }
+  });
+  return result;
+}
+
+PrincipalComponents principal_components(const Index& index, const BatchQuery& query, const MomentOptions& options) {
+  const std::size_t rows = row_count(index, query);
+  PrincipalComponents result;
+  result.weight.resize(rows);
+  result.centre.resize(3 * rows);
+  result.variances.resize(3 * rows);
+  result.axes.resize(9 * rows);
+  for_each_row(index, query, options, [&](std::size_t row, const RowMoments& m) { put_row(result, row, m); });
+  return result;
+}
+
+double surface_variation(double least, double middle, double largest) {
+  if (largest == 0) return std::numeric_limits<double>::quiet_NaN();
+  return least / largest / ((least / largest + middle / largest) + 1);
+}
+
+}  // namespace meshhood

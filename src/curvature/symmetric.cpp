@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "curvature/symmetric.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "base/vector.h"
+
+namespace meshhood {
+namespace {
+
+using Matrix3 = std::array<std::array<double, 3>, 3>;
+
+/// Makes element (p, q) 0 by a rotation of rows and columns p and q; `vectors` has the axes as columns.
+void rotate_to_zero(Matrix3& a, Matrix3& vectors, std::size_t p, std::size_t q) {
+  const double ratio = (a[q][q] - a[p][p]) / (2 * a[p][q]);
+  const double t = (ratio >= 0 ? 1 : -1) / (std::abs(ratio) + std::sqrt(1 + ratio * ratio));
+  const double c = 1 / std::sqrt(1 + t * t);
+  const double s = c * t;
+  const auto turn = [&](double& x, double& y) {
+    const double before = x;
+    x = c * before - s * y;
+    y = s * before + c * y;
+  };
+  for (std::size_t i = 0; i < 3; ++i) turn(a[i][p], a[i][q]);
+  for (std::size_t i = 0; i < 3; ++i) turn(a[p][i], a[q][i]);
+  for (std::size_t i = 0; i < 3; ++i) turn(vectors[i][p], vectors[i][q]);
+  a[p][q] = a[q][p] = 0;
+}
+
+}  // namespace
+
+Eigen2 eigen(double p, double o, double q) {
+  const double middle = (p + q) / 2;
+  const double half = (p - q) / 2;
+  const double radius = std::sqrt(half * half + o * o);
+  double x = 1;
+  double y = 0;
+  if (radius > 0 && half >= 0) {
+    x = std::sqrt((1 + half / radius) / 2);
+    y = o / (2 * radius * x);
+  } else if (radius > 0) {
+    y = std::sqrt((1 - half / radius) / 2);
+    x = o / (2 * radius * y);
+  }
+  return {middle - radius, middle + radius, {-y, x}, {x, y}};
+}
+
+Eigen3 eigen(const Symmetric3& m) {
+  const double size =
+      std::max({std::abs(m.xx), std::abs(m.xy), std::abs(m.xz), std::abs(m.yy), std::abs(m.yz), std::abs(m.zz)});
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  if (!std::isfinite(size + m.xx + m.xy + m.xz + m.yy + m.yz + m.zz)) {
+    return {{kNan, kNan, kNan}, {Point{kNan, kNan, kNan}, {kNan, kNan, kNan}, {kNan, kNan, kNan}}};
+  }
+  Matrix3 a{{{m.xx, m.xy, m.xz}, {m.xy, m.yy, m.yz}, {m.xz, m.yz, m.zz}}};
+  Matrix3 vectors{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  constexpr int kMostSweeps = 30;
+  const double negligible = 0x1p-60 * size;
+  const auto off = [&] { return std::max({std::abs(a[0][1]), std::abs(a[0][2]), std::abs(a[1][2])}); };
+  for (int sweep = 0; sweep < kMostSweeps && off() > negligible; ++sweep) {
+    for (const auto& [p, q] : {std::array<std::size_t, 2>{0, 1}, {0, 2}, {1, 2}}) {
+      if (std::abs(a[p][q]) > negligible) rotate_to_zero(a, vectors, p, q);
+    }
+  }
+  std::array<std::size_t, 3> order{0, 1, 2};
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return a[i][i] < a[j][j]; });
+  Eigen3 result{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t from = order[i];
+    result.values[i] = a[from][from];
+    result.vectors[i] = {vectors[0][from], vectors[1][from], vectors[2][from]};
+  }
+  return result;
+}
+
+}  // namespace meshhood

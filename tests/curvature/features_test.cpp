@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// Features over several radii, and over how many radii they last.
+#include "meshhood/features.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/aggregate.h"
+#include "meshhood/index.h"
+#include "meshhood/moments.h"
+
+#include "support/families.h"
+#include "support/refusal.h"
+#include "support/test_mesh.h"
+
+namespace meshhood::test {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+struct Bumps {
+  TestMesh mesh = bumpy_grid(20).finish(false);
+  Index index = build(mesh.view());
+  CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());
+  std::vector<double> areas = vertex_areas(mesh.view());
+  std::vector<double> radii{2.0, 3.5, 5.0};
+};
+
+TEST(Features, AreCurvaturesTimesTheRadius) {
+  const Bumps bumps;
+  const std::vector<double> found =
+      features(bumps.surface, {}, bumps.radii,
+               {.kinds = {Feature::K1, Feature::K2, Feature::Crease, Feature::Gaussian, Feature::ShapeIndex}});
+  const std::size_t vertices = bumps.mesh.size();
+  for (std::size_t i = 0; i < bumps.radii.size(); ++i) {
+    const double r = bumps.radii[i];
+    const Curvatures k = curvatures(bumps.surface, {.radius = r});
+    for (std::size_t v = 0; v < vertices; ++v) {
+      const double* const of_row = &found[5 * (i * vertices + v)];
+      ASSERT_EQ(of_row[0], r * k.k1[v]);
+      ASSERT_EQ(of_row[1], r * k.k2[v]);
+      ASSERT_EQ(of_row[2], std::abs(k.k1[v]) >= std::abs(k.k2[v]) ? of_row[0] : of_row[1]);
+      ASSERT_EQ(of_row[3], of_row[0] * of_row[1]);
+      ASSERT_NEAR(of_row[4], shape_index(k.k1[v], k.k2[v]), 1e-12);
+    }
+  }
+}
+
+TEST(Features, OfPatchesAreIntegralInvariants) {
+  const Bumps bumps;
+  const std::vector<VertexId> rows{210, 5, 399};
+  const std::vector<double> found =
+      features(bumps.surface, rows, bumps.radii,
+               {.kinds = {Feature::Area, Feature::Crease, Feature::Variation}, .areas = bumps.areas});
+  const PrincipalComponents patch =
+      principal_components(bumps.index, {.vertices = rows, .radius = bumps.radii[1]}, {.weights = bumps.areas});
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    const double* const of_row = &found[3 * (1 * rows.size() + row)];
+    EXPECT_NEAR(of_row[0], patch.weight[row] / (std::acos(-1.0) * 3.5 * 3.5), 1e-14);
+    EXPECT_EQ(of_row[2],
+              surface_variation(patch.variances[3 * row], patch.variances[3 * row + 1], patch.variances[3 * row + 2]));
+  }
+}
+
+TEST(Features, TheHeightOfASphereIsItsRadiusTimesTheMeanCurvature) {
+  // A cap of the sphere of radius 50 around its pole, as a graph.
+  TestMesh mesh = make_grid(41, 41, false);
+  for (std::size_t v = 0; v < mesh.size(); ++v) {
+    double* const p = &mesh.positions[3 * v];
+    p[0] -= 20;
+    p[1] -= 20;
+    p[2] = std::sqrt(2500 - p[0] * p[0] - p[1] * p[1]);
+  }
+  mesh.finish(false);
+  const Index index = build(mesh.view());
+  const std::vector<double> areas = vertex_areas(mesh.view());
+  const std::vector<VertexId> rows{20 * 41 + 20};
+  const std::vector<double> radii{12.0};
+  const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());
+  const std::vector<double> found =
+      features(surface, rows, radii, {.kinds = {Feature::Height, Feature::Mean}, .areas = areas});
+  EXPECT_NEAR(std::abs(found[1]), 12.0 / 50, 0.01);
+  EXPECT_NEAR(found[0], found[1], 0.02);
+}
+
+TEST(Features, DoNotDependOnTheUnit) {
+  const Bumps bumps;
+  TestMesh mesh = bumps.mesh;
+  for (double& x : mesh.positions) x = std::ldexp(x, -200);
+  const Index index = build(mesh.view());
+  std::vector<double> radii = bumps.radii;
+  for (double& r : radii) r = std::ldexp(r, -200);
+  EXPECT_EQ(features(CurvatureIndex::build(index, mesh.view()), {}, radii, {.threads = 2}),
+            features(bumps.surface, {}, bumps.radii));
+}
+
+TEST(Features, OfAVertexWithoutNormalAreNan) {
+  TestMesh mesh = bumpy_grid(6);
+  mesh.add_vertex(100, 0, 0);
+  mesh.finish(false);
+  const Index index = build(mesh.view());
+  const std::vector<double> areas = vertex_areas(mesh.view());
+  const std::vector<double> radii{2.0};
+  const std::vector<double> found = features(CurvatureIndex::build(index, mesh.view()), {}, radii,
+                                             {.kinds = {Feature::Crease, Feature::Area}, .areas = areas});
+  EXPECT_TRUE(std::isnan(found[2 * 36]) && std::isnan(found[2 * 36 + 1]));
+  EXPECT_FALSE(std::isnan(found[0]));
+}
+
+TEST(Features, RadiiAreSpacedAsTheNameSays) {
+  EXPECT_THAT(linear_radii(8, 4), testing::ElementsAre(2, 4, 6, 8));
+  EXPECT_EQ(linear_radii(1).size(), 16U);
+  const std::vector<double> radii = geometric_radii(1, 16, 5);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(radii[i], std::exp2(static_cast<double>(i)), 1e-13);
+  EXPECT_EQ(radii.back(), 16);
+  EXPECT_THAT(geometric_radii(1, 16, 1), testing::ElementsAre(16));
+}
+
+TEST(Features, PersistIsTheLongestRunOfOneSign) {
+  const std::vector<double> radii{1, 2, 4, 8, 16};
+  const auto of = [&](const std::vector<double>& values) { return persistence(values, radii, 0.5); };
+  const Persistence one = of({0.5, 0.9, 0.7, 0.4, 0.6});
+  EXPECT_EQ(one.scales[0], 3);
+  EXPECT_EQ(one.strength[0], 0.9);
+  EXPECT_EQ(one.radius[0], 2);
+  const Persistence valley = of({0.8, -0.6, -2, -0.5, kNan});
+  EXPECT_EQ(valley.scales[0], -3);
+  EXPECT_EQ(valley.strength[0], -2);
+  EXPECT_EQ(valley.radius[0], 4);
+  EXPECT_EQ(of({1, 1, 0, 1, 2}).radius[0], 1) << "of two runs of one length the first";
+  EXPECT_EQ(of({1, -1, 1, -1, 1}).scales[0], 1);
+  const Persistence none = of({0.1, kNan, -0.4, 0, 0.2});
+  EXPECT_EQ(none.scales[0], 0);
+  EXPECT_EQ(none.radius[0], 0);
+  const Persistence two = persistence(std::vector<double>{1, 0, 1, -1}, std::vector<double>{1, 2}, 0.5);
+  EXPECT_THAT(two.scales, testing::ElementsAre(2, -1));
+}
+
+TEST(Features, RefuseWhatIsWrongByName) {
+  const Bumps bumps;
+  const auto of = [&](const std::vector<double>& radii, const FeatureOptions& options) {
+    return features(bumps.surface, {}, radii, options);
+  };
+  expect_refused(ErrorCode::InvalidOption, "no kinds", [&] { (void)of({1.0}, {.kinds = {}}); });
+  expect_refused(ErrorCode::InvalidOption, "no radii", [&] { (void)of({}, {}); });
+  expect_refused(ErrorCode::InvalidRadius, "radius 1: 0", [&] { (void)of({1.0, 0.0}, {}); });
+  expect_refused(ErrorCode::InvalidRadius, "inf", [&] { (void)of({std::numeric_limits<double>::infinity()}, {}); });
+  expect_refused(ErrorCode::InvalidOption, "need the areas", [&] { (void)of({1.0}, {.kinds = {Feature::Area}}); });
+  expect_refused(ErrorCode::InvalidOption, "0 radii", [&] { (void)linear_radii(1, 0); });
+  expect_refused(ErrorCode::InvalidRadius, "-1", [&] { (void)linear_radii(-1); });
+  expect_refused(ErrorCode::InvalidRadius, "the smallest radius is 2", [&] { (void)geometric_radii(2, 1, 3); });
+  const std::vector<double> values(4);
+  const std::vector<double> radii{2.0, 1.0};
+  expect_refused(ErrorCode::InvalidRadius, "1 after 2", [&] { (void)persistence(values, radii, 1); });
+  expect_refused(ErrorCode::InvalidOption, "threshold 0", [&] { (void)persistence({}, std::vector<double>{1}, 0); });
+  expect_refused(ErrorCode::InvalidOption, "3 values",
+                 [&] { (void)persistence(std::span(values).first(3), std::vector<double>{1, 2}, 1); });
+  expect_refused(ErrorCode::Cancelled, "cancel", [&] {
+    (void)of({1.0, 2.0}, {.progress = [](std::size_t done, std::size_t total) { return done < total / 2; }});
+  });
+}
+
+}  // namespace
+}  // namespace meshhood::test

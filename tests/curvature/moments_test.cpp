@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// Moments and principal components, compared with sums over the vertices that breadth-first search finds.
+#include "meshhood/moments.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/aggregate.h"
+#include "meshhood/index.h"
+
+#include "base/vector.h"
+#include "curvature/symmetric.h"
+#include "support/families.h"
+#include "support/oracle.h"
+#include "support/random.h"
+#include "support/refusal.h"
+#include "support/scale.h"
+#include "support/test_mesh.h"
+
+namespace meshhood::test {
+namespace {
+
+long double power(double x, unsigned n) {
+  long double result = 1;
+  for (unsigned i = 0; i < n; ++i) result *= static_cast<long double>(x);
+  return result;
+}
+
+std::vector<double> some_weights(Random& random, std::size_t count) {
+  std::vector<double> weights;
+  for (std::size_t v = 0; v < count; ++v) weights.push_back(random.below(5) == 0 ? 0 : random.uniform(0, 3));
+  return weights;
+}
+
+/// The moments of one row by their definition, and the errors that rounding allows.
+struct Expected {
+  std::vector<long double> sums = std::vector<long double>(moment_count(kLargestMomentDegree));
+  std::vector<long double> sizes = sums;
+};
+
+Expected moments_of(const TestMesh& mesh, const std::vector<std::uint32_t>& ids, std::uint32_t v,
+                    const std::vector<double>& weights) {
+  Expected expected;
+  for (const std::uint32_t w : ids) {
+    double p[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = mesh.positions[3 * w + axis] - mesh.positions[3 * v + axis];
+    const double size = std::hypot(p[0], p[1], p[2]);
+    for (unsigned i = 0; i <= 4; ++i) {
+      for (unsigned j = 0; i + j <= 4; ++j) {
+        for (unsigned k = 0; i + j + k <= 4; ++k) {
+          const std::size_t column = moment_column(i, j, k);
+          const long double weight = weights.empty() ? 1 : static_cast<long double>(weights[w]);
+          expected.sums[column] += weight * power(p[0], i) * power(p[1], j) * power(p[2], k);
+          expected.sizes[column] += weight * power(size, i + j + k);
+        }
+      }
+    }
+  }
+  return expected;
+}
+
+TEST(Moments, AreTheSumsOfTheirDefinitionOnEveryFamily) {
+  std::size_t rows = 0;
+  for (const Family& family : surface_families()) {
+    const TestMesh mesh = make_mesh(family, 1, scaled(300));
+    const Oracle oracle(mesh);
+    const Index index = build(mesh.view());
+    Random random(5);
+    const double radius = 4 * oracle.mean_edge();
+    for (const std::vector<double>& weights : {std::vector<double>(), some_weights(random, mesh.size())}) {
+      const std::vector<double> found = moments(index, {.radius = radius}, {.degree = 4, .weights = weights});
+      for (std::uint32_t v = 0; v < mesh.size(); ++v) {
+        const Expected expected = moments_of(mesh, oracle.exact(v, radius), v, weights);
+        for (std::size_t column = 0; column < 35; ++column) {
+          // About a point of the packet, which may be an edge or two away, and moved by Taylor shifts.
+          const double tolerance = 1e-13 * static_cast<double>(expected.sizes[column]) +
+                                   1e-14 * static_cast<double>(expected.sizes[0]) * std::pow(radius, 4);
+          ASSERT_NEAR(found[35 * v + column], static_cast<double>(expected.sums[column]), tolerance)
+              << family.name << ", vertex " << v << ", column " << column;
+        }
+        ++rows;
+      }
+    }
+  }
+  std::printf("%zu rows\n", rows);
+  EXPECT_GT(rows, 100U);
+}
+
+TEST(Moments, OfALowerDegreeAreTheFirstColumns) {
+  const TestMesh mesh = bumpy_grid(15).finish(false);
+  const Index index = build(mesh.view());
+  const std::vector<double> all = moments(index, {.radius = 3.0}, {.degree = 4});
+  for (const unsigned degree : {0U, 1U, 2U, 3U}) {
+    const std::vector<double> some = moments(index, {.radius = 3.0}, {.degree = degree, .threads = 2});
+    const std::size_t columns = moment_count(degree);
+    ASSERT_EQ(some.size(), columns * mesh.size());
+    for (std::size_t i = 0; i < some.size(); ++i) ASSERT_EQ(some[i], all[35 * (i / columns) + i % columns]);
+  }
+}
+
+TEST(Moments, ScaleByPowersOfTwoBitForBit) {
+  const TestMesh mesh = bumpy_grid(12).finish(false);
+  const std::vector<double> expected = moments(build(mesh.view()), {.radius = 3.0}, {.degree = 4});
+  for (const int exponent : {-100, 100}) {
+    TestMesh other = mesh;
+    for (double& x : other.positions) x = std::ldexp(x, exponent);
+    const std::vector<double> weights(mesh.size(), 0x1p-300);
+    const std::vector<double> found =
+        moments(build(other.view()), {.radius = std::ldexp(3.0, exponent)}, {.degree = 4, .weights = weights});
+    for (unsigned i = 0; i <= 4; ++i) {
+      const std::size_t column = moment_column(i, 4 - i, 0);
+      for (std::size_t v = 0; v < mesh.size(); ++v) {
+        ASSERT_EQ(std::ldexp(found[35 * v + column], 300 - 4 * exponent), expected[35 * v + column]);
+      }
+    }
+  }
+}
+
+TEST(Moments, EigenvectorsOfASymmetricMatrixBelongToItsEigenvalues) {
+  Random random(8);
+  for (int round = 0; round < 500; ++round) {
+    const auto number = [&] { return random.uniform(-1, 1) * std::pow(10.0, random.uniform(-6, 0)); };
+    const Symmetric3 m{number(), number(), number(), number(), number(), number()};
+    const Eigen3 found = eigen(m);
+    const double size = std::max(std::abs(found.values[0]), std::abs(found.values[2]));
+    EXPECT_LE(found.values[0], found.values[1]);
+    EXPECT_LE(found.values[1], found.values[2]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point v = found.vectors[i];
+      const Point image{m.xx * v.x + m.xy * v.y + m.xz * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
+                        m.xz * v.x + m.yz * v.y + m.zz * v.z};
+      EXPECT_LT(length(image - found.values[i] * v), 1e-14 * size);
+      for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(dot(v, found.vectors[j]), i == j ? 1 : 0, 1e-14);
+    }
+  }
+}
+
+TEST(PrincipalComponents, AreTheMeanAndTheCovarianceOfTheVertices) {
+  Random random(2);
+  const TestMesh mesh = bumpy_grid(15).finish(false);
+  const Oracle oracle(mesh);
+  const Index index = build(mesh.view());
+  const std::vector<double> weights = some_weights(random, mesh.size());
+  const PrincipalComponents found = principal_components(index, {.radius = 2.5}, {.weights = weights});
+  for (std::uint32_t v = 0; v < mesh.size(); ++v) {
+    const Expected m = moments_of(mesh, oracle.exact(v, 2.5), v, weights);
+    const long double weight = m.sums[0];
+    EXPECT_NEAR(found.weight[v], static_cast<double>(weight), 1e-12);
+    const Point centre{found.centre[3 * v], found.centre[3 * v + 1], found.centre[3 * v + 2]};
+    EXPECT_NEAR(centre.x, static_cast<double>(m.sums[1] / weight), 1e-12);
+    EXPECT_NEAR(centre.z, static_cast<double>(m.sums[3] / weight), 1e-12);
+    const double xx = static_cast<double>(m.sums[4] / weight) - centre.x * centre.x;
+    const double xz = static_cast<double>(m.sums[6] / weight) - centre.x * centre.z;
+    double sum_xx = 0;
+    double sum_xz = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double* const axis = &found.axes[9 * v + 3 * i];
+      sum_xx += found.variances[3 * v + i] * axis[0] * axis[0];
+      sum_xz += found.variances[3 * v + i] * axis[0] * axis[2];
+    }
+    EXPECT_NEAR(sum_xx, xx, 1e-12);
+    EXPECT_NEAR(sum_xz, xz, 1e-12);
+  }
+}
+
+TEST(PrincipalComponents, OfAPlaneHaveItsNormalAndItsArea) {
+  const TestMesh mesh = make_grid(31, 31, true).finish(false);
+  const std::vector<double> areas = vertex_areas(mesh.view());
+  const std::vector<VertexId> rows{15 * 31 + 15};
+  const PrincipalComponents found =
+      principal_components(build(mesh.view()), {.vertices = rows, .radius = 10.0}, {.weights = areas});
+  EXPECT_DOUBLE_EQ(found.weight[0], 317);  // lattice points in a disc of radius 10
+  EXPECT_EQ(found.variances[0], 0);
+  EXPECT_EQ(found.axes[2], 1);
+  EXPECT_EQ(surface_variation(found.variances[0], found.variances[1], found.variances[2]), 0);
+}
+
+TEST(PrincipalComponents, OfNoWeightAreNan) {
+  const TestMesh mesh = bumpy_grid(5).finish(false);
+  const std::vector<double> weights(mesh.size(), 0.0);
+  const PrincipalComponents found = principal_components(build(mesh.view()), {.radius = 2.0}, {.weights = weights});
+  EXPECT_THAT(found.weight, testing::Each(0));
+  EXPECT_THAT(found.centre, testing::Each(testing::IsNan()));
+  EXPECT_THAT(found.variances, testing::Each(testing::IsNan()));
+  EXPECT_TRUE(std::isnan(surface_variation(0, 0, 0)));
+  EXPECT_DOUBLE_EQ(surface_variation(1e300, 1e300, 1e300), 1.0 / 3);
+}
+
+TEST(Moments, RefuseWhatIsWrongByName) {
+  const TestMesh mesh = bumpy_grid(5).finish(false);
+  const Index index = build(mesh.view());
+  std::vector<double> weights(mesh.size(), 1.0);
+  weights[7] = -2;
+  const std::vector<VertexId> outside{25};
+  expect_refused(ErrorCode::InvalidOption, "degree is 5",
+                 [&] { (void)moments(index, {.radius = 1.0}, {.degree = 5}); });
+  expect_refused(ErrorCode::InvalidOption, "vertex 7: the weight is -2",
+                 [&] { (void)moments(index, {.radius = 1.0}, {.weights = weights}); });
+  expect_refused(ErrorCode::InvalidOption, "3 weights",
+                 [&] { (void)principal_components(index, {.radius = 1.0}, {.weights = std::span(weights).first(3)}); });
+  expect_refused(ErrorCode::InvalidRadius, "-1", [&] { (void)moments(index, {.radius = -1.0}); });
+  expect_refused(ErrorCode::VertexOutOfRange, "25",
+                 [&] { (void)moments(index, {.vertices = outside, .radius = 1.0}); });
+}
+
+}  // namespace
+}  // namespace meshhood::test

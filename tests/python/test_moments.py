@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: MIT
+"""Moments, principal components, corrected curvature and features beside NumPy over the vertices that SciPy finds."""
+
+import meshes
+import meshhood
+import numpy as np
+import oracle
+import pytest
+from meshhood._moments import _KINDS
+from test_curvature import ellipsoid
+
+
+@pytest.fixture(scope="module")
+def plates():
+    V, F = meshes.two_plates(12)
+    V = V + np.random.default_rng(1).normal(scale=0.05, size=V.shape)
+    return V, F, oracle.triangle_graph(len(V), F), meshhood.MeshIndex(V, F)
+
+
+def powers(p, degree):
+    """The columns of PolynomialFeatures of scikit-learn."""
+    x, y, z = p.T
+    columns = [x**i * y**j * z ** (n - i - j) for n in range(degree + 1) for i in range(n, -1, -1) for j in range(n - i, -1, -1)]
+    return np.column_stack(columns)
+
+
+@pytest.mark.parametrize("degree", range(5))
+def test_moments_are_sums_of_powers(plates, degree):
+    V, _, edges, index = plates
+    weights = np.random.default_rng(2).uniform(size=len(V))
+    got = index.moments(2.5, degree=degree, weights=weights)
+    for v in range(0, len(V), 7):
+        ids = oracle.neighborhood(V, edges, v, 2.5)
+        np.testing.assert_allclose(got[v], weights[ids] @ powers(V[ids] - V[v], degree), rtol=1e-11, atol=1e-11)
+
+
+def test_a_radius_for_each_row_and_a_list_of_vertices(plates):
+    V, _, _, index = plates
+    rows, radii = [5, 5, 17], [1.0, 2.5, 2.5]
+    got = index.moments(radii, rows, degree=1)
+    assert got.shape == (3, 4)
+    for row, (v, r) in enumerate(zip(rows, radii)):
+        np.testing.assert_allclose(got[row], index.moments(r, [v], degree=1)[0], rtol=1e-12, atol=1e-12)
+
+
+def test_principal_components_are_those_of_the_covariance(plates):
+    V, F, edges, index = plates
+    areas = meshhood.vertex_areas(V, F)
+    got = index.principal_components(2.5, weights="area", F=F)
+    for v in range(0, len(V), 5):
+        ids = oracle.neighborhood(V, edges, v, 2.5)
+        values, vectors = np.linalg.eigh(np.cov(V[ids].T, aweights=areas[ids], ddof=0))
+        np.testing.assert_allclose(got.weight[v], areas[ids].sum(), rtol=1e-12)
+        np.testing.assert_allclose(got.centre[v], np.average(V[ids], axis=0, weights=areas[ids]) - V[v], atol=1e-12)
+        np.testing.assert_allclose(got.variances[v], values, atol=1e-12)
+        np.testing.assert_allclose(abs((got.axes[v] * vectors.T).sum(axis=1)), 1, atol=1e-6)
+        np.testing.assert_allclose(got.surface_variation[v], values[0] / values.sum(), atol=1e-12)
+    np.testing.assert_array_equal(got.normal, got.axes[:, 0])
+
+
+def measures_of_faces(V, F, u):
+    """m0, m1, m2 and mXY of each triangle, as CGAL 6 has them in Interpolated_corrected_curvatures.h."""
+    (x0, x1, x2), (u0, u1, u2) = V[F].transpose(1, 0, 2), u[F].transpose(1, 0, 2)
+    um = (u0 + u1 + u2) / 3
+    dot = lambda a, b: (a * b).sum(axis=1)  # noqa: E731
+    m0 = dot(um, np.cross(x1 - x0, x2 - x0)) / 2
+    m1 = dot(um, np.cross(u2 - u1, x0) + np.cross(u0 - u2, x1) + np.cross(u1 - u0, x2)) / 2
+    m2 = dot(u0, np.cross(u1, u2)) / 2
+    mxy = np.empty((len(F), 3, 3))
+    for i, e in enumerate(np.eye(3)):
+        along01 = dot(um, np.cross(e, x1 - x0))
+        along02 = dot(um, np.cross(e, x2 - x0))
+        mxy[:, i] = ((u2 - u0) * along01[:, None] - (u1 - u0) * along02[:, None]) / 2
+    return m0, m1, m2, mxy
+
+
+def test_corrected_curvature_has_the_measures_of_cgal():
+    V, F = ellipsoid(3)
+    index = meshhood.MeshIndex(V, F)
+    c = index.corrected_curvature(0.9, F=F)
+    edges = oracle.triangle_graph(len(V), F)
+    normals = np.zeros_like(V)
+    for corner in F.T:
+        np.add.at(normals, corner, np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]]))
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    held = [np.zeros((len(V),) + m.shape[1:]) for m in measures_of_faces(V, F, normals)]
+    for to, measure in zip(held, measures_of_faces(V, F, normals)):
+        for corner in F.T:
+            np.add.at(to, corner, measure / 3)
+    for v in range(0, len(V), 11):
+        ids = oracle.neighborhood(V, edges, v, 0.9)
+        m0, m1, m2, mxy = (measure[ids].sum(axis=0) for measure in held)
+        np.testing.assert_allclose([c.area[v], c.mean[v], c.gaussian[v]], [m0, m1 / (2 * m0), m2 / m0], rtol=1e-10)
+        tangent = np.linalg.svd(normals[v][None])[2][1:]
+        low, high = np.linalg.eigvalsh(tangent @ (mxy + mxy.T) / 2 @ tangent.T)
+        np.testing.assert_allclose([c.k1[v], c.k2[v]], [-low / m0, -high / m0], rtol=1e-9)
+
+
+def test_corrected_curvature_is_near_that_of_the_formula():
+    V, F = ellipsoid(6)
+    c = meshhood.MeshIndex(V, F).corrected_curvature(3, F=F, unit="edge")
+    x, y, z = V.T / np.array([[9.0], [4.0], [1.0]])
+    gaussian = 1 / (36 * (x**2 + y**2 + z**2) ** 2)
+    assert np.median(abs(c.gaussian / gaussian - 1)) < 0.04
+    np.testing.assert_allclose((c.d1 * c.d2).sum(axis=1), 0, atol=1e-12)
+
+
+def test_features_are_curvatures_times_the_radius_and_persist():
+    V, F = ellipsoid(3)
+    index = meshhood.MeshIndex(V, F)
+    radii = meshhood.geometric_radii(0.5, 2, 3)
+    found = index.features(radii, F=F, kinds=_KINDS)
+    assert found.shape == (3, len(V), len(_KINDS))
+    k = index.curvature(1.0, F=F)
+    np.testing.assert_allclose(found[1, :, _KINDS.index("mean")], k.mean, rtol=1e-12)
+    np.testing.assert_allclose(found[1, :, _KINDS.index("shape_index")], k.shape_index, rtol=1e-12)
+    patch = index.principal_components(1.0, weights="area", F=F)
+    np.testing.assert_allclose(found[1, :, _KINDS.index("variation")], patch.surface_variation, rtol=1e-12)
+    crease = index.features(radii, F=F)
+    np.testing.assert_array_equal(crease, found[..., 0])
+    lasting = meshhood.persistence(crease, radii, 0.3)
+    v = int(np.argmax(crease[2]))  # at an end of the long axis
+    assert lasting.scales[v] == (crease[:, v] >= 0.3).sum()
+    assert lasting.strength[v] == crease[:, v].max()
+    assert lasting.radius[v] == 2
+    np.testing.assert_allclose(meshhood.linear_radii(2.0), np.arange(1, 17) / 8)
+    np.testing.assert_array_equal(index.features([1.0], [4, 4], F=F, unit="edge").shape, (1, 2))
+
+
+def test_jets_are_near_quadrics_on_a_smooth_surface():
+    V, F = ellipsoid(5)
+    index = meshhood.MeshIndex(V, F)
+    quadric = index.curvature(4, F=F, unit="edge")
+    jet = index.curvature(4, F=F, unit="edge", fit="jet", filter=False)
+    assert jet.ok.all()
+    assert np.median(abs(jet.k1 / quadric.k1 - 1)) < 0.05
+
+
+def test_wrong_arguments_are_refused_by_name(plates):
+    V, F, _, index = plates
+    for call, message in (
+        (lambda: index.moments(1, degree=5), "degree: 5, expected 0 to 4"),
+        (lambda: index.moments(1, weights=[1.0]), "weights: expected an array of shape"),
+        (lambda: index.moments(1, weights=np.full(len(V), -1.0)), "vertex 0: the weight is -1"),
+        (lambda: index.principal_components(1, weights="area"), "weights: 'area' needs the faces"),
+        (lambda: index.corrected_curvature(-1, F=F), "r: radius -1"),
+        (lambda: index.corrected_curvature(1, F=None), "F: expected the faces"),
+        (lambda: index.features([1, 0], F=F), "radius 1: 0"),
+        (lambda: index.features([], F=F), "no radii"),
+        (lambda: index.features(1, F=F, kinds="ridge"), "kinds: 'ridge'"),
+        (lambda: index.features(1, F=F, kinds=[]), "kinds: there are none"),
+        (lambda: index.curvature(1, F=F, fit="sphere"), "fit: 'sphere'"),
+        (lambda: index.curvature(1, F=F, fit="jet", like="libigl"), "not for the jet"),
+        (lambda: meshhood.persistence(np.zeros((2, 3)), [1.0], 0.5), "values: expected an array of shape"),
+        (lambda: meshhood.persistence(np.zeros((2, 3)), [2.0, 1.0], 0.5), "1 after 2"),
+        (lambda: meshhood.linear_radii(1, 0), "count: 0"),
+        (lambda: meshhood.geometric_radii(2, 1, 3), "smallest radius is 2"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            call()
+
+
+@pytest.mark.parametrize("name", ("moments", "principal_components", "corrected_curvature", "features"))
+def test_progress_may_end_the_call(plates, name):
+    _, F, _, index = plates
+
+    def stop(done, total):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        getattr(index, name)(2.5, F=F, progress=stop)
