@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// CGAL's Monge_via_jet_fitting of degrees 2 and 2 for a sample of the vertices, on neighborhoods that our searcher finds:
-// the processor time of the fit and of the search, in microseconds a row, as JSON.
+// CGAL's Monge_via_jet_fitting of degrees 2 and 2 for a sample of the vertices, on neighborhoods that our searcher
+// finds: the processor time of the fit and of the search, in microseconds a row, as JSON.
 //
 //   cgal_jets MESH RADIUS_IN_MEAN_EDGES
 #include <algorithm>
@@ -55,7 +55,8 @@ void measure_jets(const MeshView& mesh, double edges) {
     ++done;
   }
   const double each = 1e6 / static_cast<double>(done);
-  std::printf("{\"rows\": %zu, \"fit\": %.5g, \"search\": %.5g, \"sum\": %.5g}\n", done, each * fit, each * search, sum);
+  std::printf("{\"rows\": %zu, \"fit\": %.5g, \"search\": %.5g, \"sum\": %.5g}\n", done, each * fit, each * search,
+              sum);
 }
 
 }  // namespace

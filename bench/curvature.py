@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Principal curvatures of all vertices in one call, beside libigl, the filter of MeshLab and CGAL's jets.
 
-libigl and MeshLab have no list of vertices: where all would take too long, every tool gets the same piece of the mesh, the
-vertices connected with one of them that are nearest to it. All run in this process, one after the other, in rounds; CGAL,
-which has no search, in a program that takes its neighborhoods from our searcher."""
+libigl and MeshLab have no list of vertices: where all would take too long, every tool gets the same piece of the mesh,
+the vertices connected with one of them that are nearest to it. All run in this process, one after the other, in rounds;
+CGAL, which has no search, in a program that takes its neighborhoods from our searcher."""
 import statistics
 import time
 
@@ -49,12 +49,12 @@ def measure_radius(name, mesh, index, edges):
     if wanted < len(V):
         V, F = piece(index, V, F, wanted)
     part = meshhood.MeshIndex(V, F)
-    tools = {"ours": ours(part, V, F, edges, {}), "right": ours(part, V, F, edges, {"like": None}),
+    tools = {"ours": ours(part, V, F, edges, {}), "default": ours(part, V, F, edges, {"like": None}),
              "jets": ours(part, V, F, edges, {"like": None, "fit": "jet", "filter": False}),
              "whole": lambda: meshhood.principal_curvature(V, F, edges, workers=1), **peers(V, F, part, edges, found)}
     times = in_turns(tools)
     threads = wall(ours(part, V, F, edges, {"workers": -1}))
-    row = {"radius_edges": edges, "found": found, "rows": len(V), "all": wanted >= len(index), "threads": 1e6 * threads / len(V)}
+    row = {"radius_edges": edges, "found": found, "rows": len(V), "threads": 1e6 * threads / len(V)}
     row |= {tool: timing.summary([1e6 * t / len(V) for t in spent]) for tool, spent in times.items()}
     cgal = cgal_jets(name, edges)
     return row | ({"cgal": cgal} if cgal else {})

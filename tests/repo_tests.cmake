@@ -39,12 +39,12 @@ endif()
 
 # No uninitialized byte reaches a file.
 if(TARGET meshhood_cli)
-  add_executable(uninitialised_control repo/uninitialised_control.cpp)
-  target_include_directories(uninitialised_control PRIVATE ${PROJECT_SOURCE_DIR})
-  target_link_libraries(uninitialised_control PRIVATE meshhood::io)
-  add_test(NAME no_uninitialised_bytes COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/repo/no_uninitialised_bytes.sh
-    $<TARGET_FILE:uninitialised_control> $<TARGET_FILE:meshhood_cli>)
-  set_tests_properties(no_uninitialised_bytes PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: no valgrind" TIMEOUT 300)
+  add_executable(uninitialized_control repo/uninitialized_control.cpp)
+  target_include_directories(uninitialized_control PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(uninitialized_control PRIVATE meshhood::io)
+  add_test(NAME no_uninitialized_bytes COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/repo/no_uninitialized_bytes.sh
+    $<TARGET_FILE:uninitialized_control> $<TARGET_FILE:meshhood_cli>)
+  set_tests_properties(no_uninitialized_bytes PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: no valgrind" TIMEOUT 300)
 endif()
 
 # Exact answers compared with breadth-first search on large meshes: a part of `tools/verify --full`.

@@ -16,7 +16,14 @@ from ._curvature import Curvature, principal_curvature
 from ._files import Mesh, load, read_mesh
 from ._index import Chunk, MeshIndex, Quality
 from ._methods import Paper
-from ._moments import CorrectedCurvature, Persistence, PrincipalComponents, geometric_radii, linear_radii, persistence
+from ._moments import (
+    CorrectedCurvature,
+    Persistence,
+    PrincipalComponents,
+    geometric_radii,
+    linear_radii,
+    persistence,
+)
 from ._partition import partition
 from ._plot import plot_neighborhood
 from ._region_mesh import RegionMesh, RimLine, Submesh

@@ -613,7 +613,8 @@ class MeshIndex(Queries):
         `interpolated_corrected_curvatures`): sums over the faces, without a fit.
 
         r : the radius of all rows. F : the faces. normals : (#V, 3), instead of those that follow from the faces.
-        The other arguments are as for `curvature`. Returns a `CorrectedCurvature`: area, mean, gaussian, k1, k2, d1, d2.
+        The other arguments are as for `curvature`. Returns a `CorrectedCurvature`: area, mean, gaussian, k1, k2, d1,
+        d2.
         """
         rows = None if vertices is None else _convert.vertices(vertices, self._count)
         radius = self._scale(unit) * _convert.radius(r)
@@ -631,8 +632,8 @@ class MeshIndex(Queries):
         workers: int = -1,
         progress: Progress = None,
     ) -> Reals:
-        """Sums of w x^i y^j z^k over each neighborhood for i + j + k <= degree, where x, y, z are the coordinates relative
-        to the query vertex, and w the weights.
+        """Sums of w x^i y^j z^k over each neighborhood for i + j + k <= degree, where x, y, z are the coordinates
+        relative to the query vertex, and w the weights.
 
         r : a radius, or one for each row. degree : 0 to 4. weights, F : as for `aggregate`.
         Returns (#rows, 1, 4, 10, 20 or 35) float64: 1, x, y, z, x^2, xy, xz, y^2, yz, z^2, x^3, ..., the order of

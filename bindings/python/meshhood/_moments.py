@@ -21,8 +21,8 @@ _KINDS = (
 
 
 class PrincipalComponents(NamedTuple):
-    """How the vertices of each neighborhood are distributed. With areas as weights, `weight`, `centre` and `variances` are
-    integral invariants of the patch of surface: its area, barycentre and covariance.
+    """How the vertices of each neighborhood are distributed. With areas as weights, `weight`, `centre` and `variances`
+    are integral invariants of the patch of surface: its area, barycentre and covariance.
 
     weight : (#rows,) the sum of the weights.
     centre : (#rows, 3) the weighted mean of the positions, relative to the query vertex.
@@ -108,7 +108,7 @@ def persistence(values: Any, radii: Any, threshold: float) -> Persistence:
     array = np.array(_convert.as_array(values, "values"), np.float64)
     scales = np.array(_convert.as_array(radii, "radii"), np.float64)
     if scales.ndim != 1 or array.ndim != 2 or len(array) != len(scales):
-        raise ValueError(f"values: expected an array of shape (#radii, #rows), not {array.shape}, for radii {scales.shape}")
+        raise ValueError(f"values: expected an array of shape (#radii, #rows), not {array.shape}, for {len(scales)} radii")
     threshold = _convert.finite(threshold, "threshold", or_zero=False)
     return Persistence(*_core.persistence(array.ravel(), scales, threshold))
 
