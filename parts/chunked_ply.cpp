@@ -10,7 +10,7 @@
 #include "meshhood/error.h"
 
 #include "io/byte_source.h"
-#include "io/input.h"
+#include "io/input_buffer.h"
 #include "io/messages.h"
 #include "io/ply_header.h"
 #include "io/ply_values.h"
@@ -188,7 +188,7 @@ class FaceReader {
   }
 
   io::FileSource source_;
-  io::Input input_;
+  io::InputBuffer input_;
   const Layout& layout_;
   std::unique_ptr<io::PlyValues> values_;
   std::uint64_t face_ = 0;
@@ -247,7 +247,7 @@ class ChunkedPly final : public ChunkedMesh {
 std::unique_ptr<ChunkedMesh> open_binary_ply(const std::filesystem::path& path) {
   io::FileSource source(path);
   if (!source.is_regular() || !source.peek(3).starts_with("ply")) return nullptr;
-  io::Input input(source, path.string(), kAnySize);
+  io::InputBuffer input(source, path.string(), kAnySize);
   io::PlyHeader header = io::read_ply_header(input);
   auto layout = find_layout(std::move(header), input.offset());
   if (!layout) return nullptr;

@@ -2,9 +2,7 @@
 #include "parts/partition.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 #include <span>
@@ -15,25 +13,22 @@
 
 #include "meshhood/error.h"
 
-#include "base/checksum.h"
-#include "base/distance.h"
 #include "base/text.h"
 #include "io/messages.h"
-#include "parts/corner_positions.h"
 #include "parts/cut_tree.h"
+#include "parts/distribution.h"
 #include "parts/edge_lengths.h"
 #include "parts/folder_lock.h"
 #include "parts/part_writer.h"
+#include "parts/stages.h"
+#include "parts/survey.h"
 #include "parts/temporary_folder.h"
+#include "parts/vertex_chunks.h"
 
 namespace meshhood::parts {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Of the vertices that are read at once. Fixed, because the content hash depends on it.
-constexpr std::size_t kVertexChunk = std::size_t{1} << 16;
-constexpr std::size_t kHashedCorners = std::size_t{1} << 18;
 
 constexpr std::string_view kTemporaryFolder = ".partition.tmp";
 
@@ -50,107 +45,6 @@ struct Budget {
         part_bytes(memory - memory / 4),
         sample_bytes(memory / 4) {}
 };
-
-/// The progress of the whole: each stage has a share of it.
-class Stages {
- public:
-  explicit Stages(const Progress& progress) : progress_(progress) { report(0); }
-
-  /// Begins a stage, at whose end `share` of the whole is done.
-  void begin(double share) {
-    begin_ = end_;
-    end_ = share;
-    report(0);
-  }
-
-  void report(double fraction) {
-    done_ = std::max(done_, static_cast<std::size_t>(kTotal * (begin_ + (end_ - begin_) * std::min(1.0, fraction))));
-    if (progress_ && !progress_(done_, kTotal)) raise(ErrorCode::Cancelled, "cancelled");
-  }
-
-  void report(std::uint64_t done, std::uint64_t total) {
-    report(total == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(total));
-  }
-
- private:
-  static constexpr std::size_t kTotal = 10'000;
-
-  const Progress& progress_;
-  double begin_ = 0;
-  double end_ = 0;
-  std::size_t done_ = 0;
-};
-
-/// Calls `f(first, positions)` for all vertices, a chunk at a time.
-template <class F>
-void for_each_vertex_chunk(ChunkedMesh& mesh, Stages& stages, F&& f) {
-  std::vector<Point> positions;
-  for (std::uint64_t first = 0; first < mesh.vertex_count(); first += positions.size()) {
-    positions.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kVertexChunk, mesh.vertex_count() - first)));
-    mesh.read_positions(first, positions);
-    f(first, std::span<const Point>(positions));
-    stages.report(first + positions.size(), mesh.vertex_count());
-  }
-}
-
-/// The same for single vertices: `f(site)`.
-template <class F>
-void for_each_vertex(ChunkedMesh& mesh, Stages& stages, F&& f) {
-  for_each_vertex_chunk(mesh, stages, [&](std::uint64_t first, std::span<const Point> positions) {
-    for (std::size_t i = 0; i < positions.size(); ++i) f(Site{positions[i], first + i});
-  });
-}
-
-/// What the first pass learns.
-struct Survey {
-  std::uint64_t faces = 0;
-  std::uint64_t corners = 0;
-  Fingerprint content_hash;
-  std::vector<Site> sample;
-};
-
-/// Spreads ids, so that a sample by this number does not follow a pattern of the numbering. The finalizer of
-/// SplitMix64 (Steele, Lea and Flood, 2014).
-std::uint64_t scattered(std::uint64_t id) {
-  id += 0x9e3779b97f4a7c15U;
-  id = (id ^ id >> 30U) * 0xbf58476d1ce4e5b9U;
-  id = (id ^ id >> 27U) * 0x94d049bb133111ebU;
-  return id ^ id >> 31U;
-}
-
-/// Every vertex with a number up to this is in the sample.
-std::uint64_t sample_limit(std::uint64_t vertices, std::uint64_t sample) {
-  constexpr auto kAll = std::numeric_limits<std::uint64_t>::max();
-  return vertices <= sample ? kAll : kAll / vertices * sample;
-}
-
-/// Reads the whole mesh once, so that every fault is found before anything is written.
-Survey survey(ChunkedMesh& mesh, std::uint64_t sample, Stages& stages) {
-  Survey result;
-  const auto hash = [&](std::span<const std::byte> bytes) {
-    const Fingerprint before = result.content_hash;
-    result.content_hash = wide_checksum({std::as_bytes(std::span(&before, 1)), bytes});
-  };
-  const std::array<std::uint64_t, 2> head{mesh.vertex_count(), mesh.is_double() ? 8U : 4U};
-  hash(std::as_bytes(std::span(head)));
-  const std::uint64_t limit = sample_limit(mesh.vertex_count(), sample);
-  for_each_vertex_chunk(mesh, stages, [&](std::uint64_t first, std::span<const Point> positions) {
-    hash(std::as_bytes(positions));
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-      if (scattered(first + i) <= limit) result.sample.push_back({positions[i], first + i});
-    }
-  });
-  FaceChunk chunk;
-  mesh.rewind_faces();
-  while (mesh.read_faces(kHashedCorners, chunk)) {
-    hash(std::as_bytes(std::span(chunk.corners)));
-    hash(std::as_bytes(std::span(chunk.ends)));
-    result.faces += chunk.size();
-    result.corners += chunk.corners.size();
-    stages.report(1.0);
-  }
-  return result;
-}
 
 std::uint64_t number_of_parts(const PartitionOptions& options, std::uint64_t vertices) {
   if (options.parts != 0) return options.parts;
@@ -170,42 +64,11 @@ void check(const PartitionOptions& options) {
   }
 }
 
-/// The number of vertices by which the cuts are chosen. It depends on the number of parts alone, so that a run with
-/// another memory cuts alike. A part then owns its share give or take a standard deviation of about 2 %.
-std::uint64_t sample_size(std::uint64_t parts) {
-  constexpr std::uint64_t kOfEachPart = 2048;
-  constexpr std::uint64_t kLeast = std::uint64_t{1} << 18;
-  return std::max(kLeast, parts * kOfEachPart);
-}
-
 void check_number_of_parts(std::uint64_t parts, std::uint64_t sample_bytes) {
   constexpr std::uint64_t kMostParts = std::numeric_limits<std::uint32_t>::max() / 4;
   if (parts <= kMostParts && sample_size(parts) * sizeof(Site) <= sample_bytes) return;
   raise(ErrorCode::TooLarge, fmt::format("{} parts need more memory than is allowed; use fewer parts", parts));
 }
-
-/// Which parts each corner of a chunk belongs to.
-class CornerParts {
- public:
-  CornerParts(const CornerPositions& vertices, const CutTree& tree, double squared_halo) {
-    begins_.reserve(vertices.size() + 1);
-    std::vector<std::uint32_t> near;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      begins_.push_back(parts_.size());
-      tree.find_near(vertices.at(i), squared_halo, near);
-      parts_.insert(parts_.end(), near.begin(), near.end());
-    }
-    begins_.push_back(parts_.size());
-  }
-
-  [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t number) const {
-    return std::span(parts_).subspan(begins_[number], begins_[number + 1] - begins_[number]);
-  }
-
- private:
-  std::vector<std::size_t> begins_;
-  std::vector<std::uint32_t> parts_;  // ascending for each vertex
-};
 
 /// One run of `partition`.
 class Run {
@@ -251,7 +114,7 @@ class Run {
 
   [[nodiscard]] fs::path folder_of(std::size_t part) const { return folder_ / part_name(part); }
 
-  /// Finds out which parts need not be written. A folder of another plan is refused.
+  /// Determines which parts need not be written. A folder of another plan is an error.
   void keep_finished_parts() {
     finished_.resize(plan().parts);
     result_.manifest.parts.resize(plan().parts);
@@ -299,9 +162,11 @@ class Run {
     for_each_vertex(mesh_, stages_, [&](const Site& vertex) { tree.add(vertex); });
     PartContents contents{.vertices = Spill(temporary, "vertices", plan().parts, budget_.spill_bytes / 2),
                           .faces = Spill(temporary, "faces", plan().parts, budget_.spill_bytes / 2)};
-    const double squared_halo = squared_radius(plan().halo);
-    distribute_vertices(tree, squared_halo, contents);
-    distribute_faces(tree, squared_halo, corners, contents);
+    Distribution distribution(mesh_, tree, plan().halo, finished_, contents);
+    stages_.begin(0.25);
+    warn_about(distribution.add_vertices(stages_));
+    stages_.begin(0.4);
+    distribution.add_faces(budget_.corners, corners, stages_);
     contents.vertices.flush();
     contents.faces.flush();
     check_memory(contents);
@@ -311,64 +176,12 @@ class Run {
     }
   }
 
-  void distribute_vertices(const CutTree& tree, double squared_halo, PartContents& contents) {
-    stages_.begin(0.25);
-    std::vector<std::uint64_t> sizes(plan().parts);
-    std::vector<std::uint32_t> near;
-    for_each_vertex(mesh_, stages_, [&](const Site& vertex) {
-      tree.find_near(vertex.position, squared_halo, near);
-      for (const std::uint32_t part : near) {
-        ++sizes[part];
-        if (!finished_[part]) contents.vertices.append(part, vertex_words(vertex));
-      }
-    });
-    warn_about(sizes);
-  }
-
   void warn_about(std::span<const std::uint64_t> sizes) {
     const auto whole = std::count(sizes.begin(), sizes.end(), plan().vertices);
     if (plan().parts == 1 || plan().vertices == 0 || whole == 0) return;
     result_.warnings.push_back(
         fmt::format("with the halo {}, {} of {} parts are as large as the mesh; a smaller halo makes smaller parts",
                     to_text(plan().halo), whole, plan().parts));
-  }
-
-  void distribute_faces(const CutTree& tree, double squared_halo, std::uint64_t corners, PartContents& contents) {
-    stages_.begin(0.4);
-    FaceChunk chunk;
-    std::uint64_t done = 0;
-    mesh_.rewind_faces();
-    while (mesh_.read_faces(budget_.corners, chunk)) {
-      const CornerPositions vertices(mesh_, chunk);
-      const CornerParts parts(vertices, tree, squared_halo);
-      for (std::size_t face = 0; face < chunk.size(); ++face) {
-        distribute_face(chunk.face(face), vertices, parts, contents);
-      }
-      stages_.report(done += chunk.corners.size(), corners);
-    }
-  }
-
-  /// Every part that has a corner of a face gets the face, and the other corners as its fringe.
-  void distribute_face(std::span<const std::uint64_t> face, const CornerPositions& vertices, const CornerParts& parts,
-                       PartContents& contents) {
-    takers_.clear();
-    for (const std::uint64_t corner : face) {
-      const auto more = parts[vertices.number(corner)];
-      takers_.insert(takers_.end(), more.begin(), more.end());
-    }
-    std::sort(takers_.begin(), takers_.end());
-    takers_.erase(std::unique(takers_.begin(), takers_.end()), takers_.end());
-    for (const std::uint32_t part : takers_) {
-      if (finished_[part]) continue;
-      contents.faces.append(part, std::array{std::uint64_t{face.size()}});
-      contents.faces.append(part, face);
-      for (const std::uint64_t corner : face) {
-        const std::size_t number = vertices.number(corner);
-        const auto has = parts[number];
-        if (std::binary_search(has.begin(), has.end(), part)) continue;
-        contents.vertices.append(part, vertex_words({vertices.at(number), corner}));
-      }
-    }
   }
 
   void check_memory(const PartContents& contents) const {
@@ -406,10 +219,9 @@ class Run {
   Stages stages_;
   PartitionResult result_;
   std::vector<bool> finished_;
-  std::vector<std::uint32_t> takers_;  // of the current face
 };
 
-/// Calls `f`. An error of the file system becomes one of ours.
+/// Calls `f`. Turns an error of the file system into an `Error` that names the file.
 template <class F>
 auto naming_file_errors(F&& f) {
   try {
