@@ -16,7 +16,7 @@
 #include "meshhood/error.h"
 
 #include "io/byte_source.h"
-#include "io/input.h"
+#include "io/input_buffer.h"
 #include "io/mesh_io.h"
 #include "io/messages.h"
 #include "io/npy.h"
@@ -27,11 +27,11 @@
 namespace meshhood::cli {
 namespace {
 
-[[noreturn]] void fail(const io::Input& input, std::string_view message) {
+[[noreturn]] void fail(const io::InputBuffer& input, std::string_view message) {
   raise(ErrorCode::InvalidOption, fmt::format("{}: {}", input.name(), message));
 }
 
-void check_rows(const io::Input& input, std::uint64_t rows, std::size_t vertices) {
+void check_rows(const io::InputBuffer& input, std::uint64_t rows, std::size_t vertices) {
   if (rows == vertices) return;
   fail(input, fmt::format("{} rows of values, expected one for each of {} vertices", rows, vertices));
 }
@@ -40,7 +40,7 @@ void check_rows(const io::Input& input, std::uint64_t rows, std::size_t vertices
 template <class Read>
 auto read_file(const std::string& file, Read&& read) {
   io::FileSource source(file);
-  io::Input input(source, file, io::ReadOptions{}.max_bytes);
+  io::InputBuffer input(source, file, io::ReadOptions{}.max_bytes);
   try {
     return read(input);
   } catch (const Error& error) {
@@ -66,7 +66,7 @@ std::optional<double> next_number(io::Text& text) {
   return number;
 }
 
-Channels read_text(io::Input& input, std::size_t vertices) {
+Channels read_text(io::InputBuffer& input, std::size_t vertices) {
   io::Text text(input, {.hash_comments = true});
   Channels values;
   std::size_t rows = 0;
@@ -108,7 +108,7 @@ constexpr std::array kNumberTypes{
     NumberType{'b', 1, number_at<std::uint8_t>},
 };
 
-const NumberType& number_type(const io::Input& input, const io::NpyHeader& header) {
+const NumberType& number_type(const io::InputBuffer& input, const io::NpyHeader& header) {
   for (const NumberType& type : kNumberTypes) {
     if (type.kind == header.kind && type.bytes == header.item) return type;
   }
@@ -116,7 +116,7 @@ const NumberType& number_type(const io::Input& input, const io::NpyHeader& heade
                           header.item));
 }
 
-Channels read_numpy(io::Input& input, std::size_t vertices) {
+Channels read_numpy(io::InputBuffer& input, std::size_t vertices) {
   const io::NpyHeader header = io::parse_npy_header(input.ahead(io::kNpyHeadBytes), input.name());
   if (header.shape.size() != 1 && header.shape.size() != 2) {
     fail(input, fmt::format("an array of {} dimensions, expected one or two", header.shape.size()));
@@ -144,7 +144,7 @@ Channels read_numpy(io::Input& input, std::size_t vertices) {
 }  // namespace
 
 std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vertices) {
-  return read_file(file, [&](io::Input& input) {
+  return read_file(file, [&](io::InputBuffer& input) {
     io::Text text(input, {.hash_comments = true});
     std::vector<VertexId> list;
     while (text.next_line()) {
@@ -160,7 +160,7 @@ std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vert
 }
 
 Channels read_channels(const std::string& file, std::size_t vertices) {
-  return read_file(file, [&](io::Input& input) {
+  return read_file(file, [&](io::InputBuffer& input) {
     return io::is_npy(input.ahead(io::kNpyHeadBytes)) ? read_numpy(input, vertices) : read_text(input, vertices);
   });
 }

@@ -9,7 +9,7 @@
 #include "meshhood/error.h"
 
 #include "io/byte_source.h"
-#include "io/input.h"
+#include "io/input_buffer.h"
 #include "judge.h"
 
 namespace meshhood::fuzz {
@@ -19,7 +19,7 @@ constexpr std::size_t kLarge = 300;  // vertices or corners; the oracle would be
 
 std::optional<io::Mesh> try_to_read(std::span<const std::byte> bytes, Reader reader) {
   io::MemorySource source(bytes);
-  io::Input input(source, "fuzz", bytes.size());
+  io::InputBuffer input(source, "fuzz", bytes.size());
   try {
     return reader(input, {});
   } catch (const Error& error) {

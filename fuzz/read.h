@@ -7,12 +7,12 @@
 #include "io/mesh_io.h"
 
 namespace meshhood::io {
-class Input;
+class InputBuffer;
 }
 
 namespace meshhood::fuzz {
 
-using Reader = io::Mesh (*)(io::Input& input, const io::ReadOptions& options);
+using Reader = io::Mesh (*)(io::InputBuffer& input, const io::ReadOptions& options);
 
 /// Checks that `reader` returns a valid mesh or throws an error of one line. Meshes that are not large are passed to
 /// `judge`.

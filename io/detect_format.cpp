@@ -25,7 +25,9 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-bool is_index_start(Input& input) { return meshhood::is_index(std::as_bytes(std::span(input.ahead(kIndexMark)))); }
+bool is_index_start(InputBuffer& input) {
+  return meshhood::is_index(std::as_bytes(std::span(input.ahead(kIndexMark))));
+}
 
 std::optional<Format> format_of_extension(const std::string& name) {
   const auto extension = lower_case(std::filesystem::path(name).extension().string());
@@ -36,7 +38,7 @@ std::optional<Format> format_of_extension(const std::string& name) {
   return std::nullopt;
 }
 
-void take_byte_order_mark(Input& input) {
+void take_byte_order_mark(InputBuffer& input) {
   const auto head = input.ahead(3);
   if (head.starts_with("\xef\xbb\xbf")) input.skip(3);
   if (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff")) {
@@ -60,7 +62,7 @@ bool begins_obj(std::string_view head, std::string_view word) {
   return is_obj_statement(word) && behind < head.size() && (head[behind] == ' ' || head[behind] == '\t');
 }
 
-std::optional<Format> format_of_content(Input& input) {
+std::optional<Format> format_of_content(InputBuffer& input) {
   if (has_binary_stl_size(input)) return Format::Stl;
   const auto head = input.ahead(kHead);
   const auto word = first_word(head);
@@ -73,7 +75,7 @@ std::optional<Format> format_of_content(Input& input) {
 
 }  // namespace
 
-Format detect_format(Input& input, const std::string& name) {
+Format detect_format(InputBuffer& input, const std::string& name) {
   take_byte_order_mark(input);
   const auto extension = format_of_extension(name);
   if (is_index_start(input)) {

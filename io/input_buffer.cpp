@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/input.h"
+#include "io/input_buffer.h"
 
 #include <algorithm>
 #include <cstring>
@@ -23,29 +23,29 @@ constexpr std::size_t kWindow = std::size_t{1} << 20;
 
 }  // namespace
 
-Input::Input(ByteSource& source, const std::string& name, std::uint64_t max_bytes)
+InputBuffer::InputBuffer(ByteSource& source, const std::string& name, std::uint64_t max_bytes)
     : source_(source), name_(printable_name(name)), max_bytes_(max_bytes) {
   if (source.size().value_or(0) > max_bytes) refuse_size(name_, max_bytes);
 }
 
-std::optional<std::uint64_t> Input::left() const {
+std::optional<std::uint64_t> InputBuffer::left() const {
   const auto size = source_.size();
   if (!size) return std::nullopt;
   return *size - offset_;
 }
 
-void Input::fill(std::size_t count) {
+void InputBuffer::fill(std::size_t count) {
   make_room(count);
   while (end_ - begin_ < count && !exhausted_) read_more();
 }
 
-void Input::make_room(std::size_t count) {
+void InputBuffer::make_room(std::size_t count) {
   if (capacity_ - begin_ >= count) return;
   if (count <= capacity_) {
     std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
   } else {
     const std::size_t capacity = std::max({kWindow, 2 * capacity_, count});
-    // Not initialised, so that unused pages take no memory. NOLINTNEXTLINE(modernize-avoid-c-arrays)
+    // Not initialized, so that unused pages take no memory. NOLINTNEXTLINE(modernize-avoid-c-arrays)
     auto wider = std::make_unique_for_overwrite<char[]>(capacity);
     if (end_ != begin_) std::memcpy(wider.get(), buffer_.get() + begin_, end_ - begin_);
     buffer_ = std::move(wider);
@@ -55,7 +55,7 @@ void Input::make_room(std::size_t count) {
   begin_ = 0;
 }
 
-void Input::read_more() {
+void InputBuffer::read_more() {
   // Of a file that grows while it is read, only the bytes that were there at the opening are read.
   const auto size = source_.size();
   const std::uint64_t expected = size ? *size - offset_ - (end_ - begin_) : capacity_;

@@ -12,13 +12,13 @@
 
 namespace meshhood::io {
 
-/// A file read through a window that moves forward. Only the window is in memory: a text takes more memory than the
-/// numbers it contains.
-class Input {
+/// A file read through a window that moves forward. Only the window is in memory, because a text takes more memory than
+/// the numbers it contains.
+class InputBuffer {
  public:
-  /// `name` is the file in messages. Throws Error{TooLarge} if the source declares, or turns out to hold, more than
+  /// `name` is the file in messages. Throws Error{TooLarge} if the source declares, or turns out to have, more than
   /// `max_bytes`.
-  Input(ByteSource& source, const std::string& name, std::uint64_t max_bytes);
+  InputBuffer(ByteSource& source, const std::string& name, std::uint64_t max_bytes);
 
   /// Printable.
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -53,7 +53,7 @@ class Input {
   ByteSource& source_;
   std::string name_;
   std::uint64_t max_bytes_;
-  std::unique_ptr<char[]> buffer_;  // NOLINT(modernize-avoid-c-arrays): a vector would initialise it
+  std::unique_ptr<char[]> buffer_;  // NOLINT(modernize-avoid-c-arrays): a vector would initialize it
   std::size_t capacity_ = 0;
   std::size_t begin_ = 0;
   std::size_t end_ = 0;

@@ -10,7 +10,7 @@
 
 #include "io/mesh_io.h"
 
-/// Reading files whose content is not known in advance.
+/// Reading files whose content is not known in advance. The implementation is in index_io.cpp.
 namespace meshhood::io {
 
 /// An index of either kind and the header of its file.

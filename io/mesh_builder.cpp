@@ -10,13 +10,11 @@
 
 #include "meshhood/mesh.h"
 
+#include "base/distance.h"
 #include "io/number.h"
 
 namespace meshhood::io {
 namespace {
-
-// The limit of `validate`.
-constexpr double kLargestCoordinate = 0x1p500;
 
 // The least double that overflows when it is rounded to float.
 constexpr double kFloatOverflow = 0x1.ffffffp127;
@@ -113,7 +111,7 @@ void Warnings::add(std::string_view what, const Location& location, std::uint64_
   }
 }
 
-MeshBuilder::MeshBuilder(const Input& input, const ReadOptions& options, bool file_has_doubles)
+MeshBuilder::MeshBuilder(const InputBuffer& input, const ReadOptions& options, bool file_has_doubles)
     : positions(chooses_double(options.precision, file_has_doubles)), warnings(input.name(), options.strict) {}
 
 Mesh MeshBuilder::finish(Format format) {

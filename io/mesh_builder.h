@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "io/input.h"
+#include "io/input_buffer.h"
 #include "io/mesh_io.h"
 #include "io/messages.h"
 
@@ -100,7 +100,7 @@ struct MeshBuilder {
   Faces faces;
   Warnings warnings;
 
-  MeshBuilder(const Input& input, const ReadOptions& options, bool file_has_doubles);
+  MeshBuilder(const InputBuffer& input, const ReadOptions& options, bool file_has_doubles);
 
   /// Moves the arrays out.
   [[nodiscard]] Mesh finish(Format format);

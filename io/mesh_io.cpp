@@ -7,14 +7,14 @@
 #include "meshhood/error.h"
 
 #include "io/byte_source.h"
-#include "io/input.h"
+#include "io/input_buffer.h"
 #include "io/readers.h"
 #include "io/watched_source.h"
 
 namespace meshhood::io {
 namespace {
 
-Mesh read_format(Input& input, const std::string& name, const ReadOptions& options) {
+Mesh read_format(InputBuffer& input, const std::string& name, const ReadOptions& options) {
   switch (detect_format(input, name)) {
     case Format::Ply: return read_ply(input, options);
     case Format::Obj: return read_obj(input, options);
@@ -24,19 +24,19 @@ Mesh read_format(Input& input, const std::string& name, const ReadOptions& optio
   raise(ErrorCode::UnsupportedFormat, input.name() + ": unknown format");
 }
 
-Mesh read_whole(WatchedSource& source, Input& input, const std::string& name, const ReadOptions& options) {
+Mesh read_whole(WatchedSource& source, InputBuffer& input, const std::string& name, const ReadOptions& options) {
   Mesh mesh = read_format(input, name, options);
   source.finish();
   return mesh;
 }
 
 #if defined(__cpp_exceptions)
-[[noreturn]] void refuse_memory(const Input& input) {
+[[noreturn]] void refuse_memory(const InputBuffer& input) {
   raise(ErrorCode::TooLarge, input.name() + ": not enough memory for this mesh");
 }
 
 Mesh read(WatchedSource& source, const std::string& name, const ReadOptions& options) {
-  Input input(source, name, options.max_bytes);
+  InputBuffer input(source, name, options.max_bytes);
   try {
     return read_whole(source, input, name, options);
   } catch (const std::bad_alloc&) {
@@ -47,7 +47,7 @@ Mesh read(WatchedSource& source, const std::string& name, const ReadOptions& opt
 }
 #else
 Mesh read(WatchedSource& source, const std::string& name, const ReadOptions& options) {
-  Input input(source, name, options.max_bytes);
+  InputBuffer input(source, name, options.max_bytes);
   return read_whole(source, input, name, options);
 }
 #endif

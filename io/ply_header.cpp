@@ -34,7 +34,7 @@ constexpr std::array<std::pair<std::string_view, PlyType>, 16> kTypeNames = {{
 }};
 
 // The byte that ends the header lines. A CR before an LF counts as a blank.
-char line_end_of(Input& input) {
+char line_end_of(InputBuffer& input) {
   const auto head = input.ahead(256);
   const auto end = head.find_first_of("\r\n");
   const bool only_cr = end != std::string_view::npos && head[end] == '\r' && !head.substr(end).starts_with("\r\n");
@@ -43,7 +43,7 @@ char line_end_of(Input& input) {
 
 class HeaderParser {
  public:
-  explicit HeaderParser(Input& input) : text_(input, {.line_end = line_end_of(input)}) {}
+  explicit HeaderParser(InputBuffer& input) : text_(input, {.line_end = line_end_of(input)}) {}
 
   PlyHeader parse() {
     if (!text_.next_line() || text_.token_on_line() != "ply") text_.malformed("expected 'ply'");
@@ -161,6 +161,6 @@ std::size_t size_of(PlyType type) {
   return 0;
 }
 
-PlyHeader read_ply_header(Input& input) { return HeaderParser(input).parse(); }
+PlyHeader read_ply_header(InputBuffer& input) { return HeaderParser(input).parse(); }
 
 }  // namespace meshhood::io

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/input.h"
+#include "io/input_buffer.h"
 #include "io/messages.h"
 
 /// The header of a PLY file.
@@ -51,6 +51,6 @@ struct PlyHeader {
 /// one line end after `end_header` belongs to the header.
 ///
 /// Throws Error{MalformedFile, UnsupportedFormat}.
-[[nodiscard]] PlyHeader read_ply_header(Input& input);
+[[nodiscard]] PlyHeader read_ply_header(InputBuffer& input);
 
 }  // namespace meshhood::io

@@ -42,7 +42,7 @@ bool is_in_range(std::int64_t value, PlyType type) {
 
 class TextValues final : public PlyValues {
  public:
-  TextValues(Input& input, const PlyHeader& header) : text_(input, {.lines_before = header.lines}) {}
+  TextValues(InputBuffer& input, const PlyHeader& header) : text_(input, {.lines_before = header.lines}) {}
 
   Problem take_coordinate(PlyType /*type*/, Positions& positions) override {
     const auto token = text_.token();
@@ -89,7 +89,7 @@ class TextValues final : public PlyValues {
 
 /// Reads the next value; false at the end of the file.
 template <class T>
-bool load(Input& input, bool swaps, T& value) {
+bool load(InputBuffer& input, bool swaps, T& value) {
   const auto bytes = input.ahead(sizeof(T));
   if (bytes.size() < sizeof(T)) return false;
   std::array<char, sizeof(T)> raw;
@@ -102,7 +102,7 @@ bool load(Input& input, bool swaps, T& value) {
 
 class BinaryValues final : public PlyValues {
  public:
-  BinaryValues(Input& input, bool big_endian)
+  BinaryValues(InputBuffer& input, bool big_endian)
       : input_(input), swaps_(big_endian != (std::endian::native == std::endian::big)) {}
 
   Problem take_coordinate(PlyType type, Positions& positions) override {
@@ -148,14 +148,14 @@ class BinaryValues final : public PlyValues {
   [[nodiscard]] Location location() const override { return {.byte = begin_}; }
 
  private:
-  Input& input_;
+  InputBuffer& input_;
   bool swaps_;
   std::uint64_t begin_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<PlyValues> ply_values(Input& input, const PlyHeader& header) {
+std::unique_ptr<PlyValues> ply_values(InputBuffer& input, const PlyHeader& header) {
   if (header.encoding == PlyEncoding::Ascii) return std::make_unique<TextValues>(input, header);
   return std::make_unique<BinaryValues>(input, header.encoding == PlyEncoding::BigEndian);
 }

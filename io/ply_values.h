@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/input.h"
+#include "io/input_buffer.h"
 #include "io/mesh_builder.h"
 #include "io/messages.h"
 #include "io/ply_header.h"
@@ -54,6 +54,6 @@ class PlyValues {
 };
 
 /// The values after a header that was read from `input`, which must outlive them.
-[[nodiscard]] std::unique_ptr<PlyValues> ply_values(Input& input, const PlyHeader& header);
+[[nodiscard]] std::unique_ptr<PlyValues> ply_values(InputBuffer& input, const PlyHeader& header);
 
 }  // namespace meshhood::io

@@ -32,7 +32,7 @@ bool contains(const Words& words, std::string_view word) {
 
 class ObjReader {
  public:
-  ObjReader(Input& input, const ReadOptions& options)
+  ObjReader(InputBuffer& input, const ReadOptions& options)
       : text_(input, {.hash_comments = true}), builder_(input, options, false) {}
 
   Mesh read() {
@@ -58,7 +58,7 @@ class ObjReader {
     }
   }
 
-  // x y z, then optionally a weight, a colour or both. Two coordinates are refused: a lost number is likelier than z =
+  // x y z, then optionally a weight, a color or both. Two coordinates are refused: a lost number is likelier than z =
   // 0.
   void read_vertex() {
     const auto vertex = builder_.positions.vertex_count();
@@ -159,6 +159,6 @@ bool is_obj_statement(std::string_view word) {
   return word == "v" || word == "f" || contains(kAttributes, word) || contains(kOtherGeometry, word);
 }
 
-Mesh read_obj(Input& input, const ReadOptions& options) { return ObjReader(input, options).read(); }
+Mesh read_obj(InputBuffer& input, const ReadOptions& options) { return ObjReader(input, options).read(); }
 
 }  // namespace meshhood::io

@@ -9,10 +9,10 @@
 #include "io/text.h"
 
 // `[ST][C][N]OFF` in text. The rest of a line after the position of a vertex or the corners of a face (normals,
-// colours, texture coordinates) is skipped. Vertices of 4 or n dimensions (4OFF, nOFF) and `OFF BINARY` are refused.
+// colors, texture coordinates) is skipped. Vertices of 4 or n dimensions (4OFF, nOFF) and `OFF BINARY` are refused.
 // Many files of ModelNet40 lack the separator before the counts (`OFF8 6 12`); they are read with a warning.
 //
-// Many programs write colours after the vertices of a plain OFF file, so a vertex ends with its line there too. If a
+// Many programs write colors after the vertices of a plain OFF file, so a vertex ends with its line there too. If a
 // line holds several vertices, the rest are skipped, the file ends too early and is refused.
 
 namespace meshhood::io {
@@ -26,7 +26,7 @@ constexpr uint64_t kLeastBytesOfFace = 2;
 
 class OffReader {
  public:
-  OffReader(Input& input, const ReadOptions& options)
+  OffReader(InputBuffer& input, const ReadOptions& options)
       : text_(input, {.hash_comments = true}), builder_(input, options, false) {}
 
   Mesh read() {
@@ -147,6 +147,6 @@ bool is_off_keyword(std::string_view word) {
   return take_prefix(word, "OFF") && (word.empty() || parse_count(word));
 }
 
-Mesh read_off(Input& input, const ReadOptions& options) { return OffReader(input, options).read(); }
+Mesh read_off(InputBuffer& input, const ReadOptions& options) { return OffReader(input, options).read(); }
 
 }  // namespace meshhood::io

@@ -20,7 +20,7 @@ namespace {
 using std::uint64_t;
 
 // The index of the property of `element` that has one of `names`, if there is one.
-std::optional<std::size_t> find_property(const Input& input, const PlyElement& element,
+std::optional<std::size_t> find_property(const InputBuffer& input, const PlyElement& element,
                                          std::initializer_list<std::string_view> names) {
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
@@ -43,7 +43,7 @@ const PlyElement* find_element(const PlyHeader& header, std::string_view name) {
 // The indices of x, y and z among the properties of a vertex.
 using Axes = std::array<std::size_t, 3>;
 
-Axes find_axes(const Input& input, const PlyElement& vertex) {
+Axes find_axes(const InputBuffer& input, const PlyElement& vertex) {
   Axes axes = {};
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string name(1, axis(i));
@@ -61,7 +61,7 @@ bool has_double_axis(const PlyElement& vertex, const Axes& axes) {
   return std::any_of(axes.begin(), axes.end(), [&](std::size_t i) { return !fits_float(vertex.properties[i].type); });
 }
 
-const PlyElement& vertex_element(const Input& input, const PlyHeader& header) {
+const PlyElement& vertex_element(const InputBuffer& input, const PlyHeader& header) {
   const auto* const vertex = find_element(header, "vertex");
   if (vertex == nullptr) {
     fail_at(input.name(), {.line = header.lines, .column = 1}, ErrorCode::MalformedFile,
@@ -72,7 +72,7 @@ const PlyElement& vertex_element(const Input& input, const PlyHeader& header) {
 
 class PlyReader {
  public:
-  PlyReader(Input& input, const ReadOptions& options)
+  PlyReader(InputBuffer& input, const ReadOptions& options)
       : input_(input),
         header_(read_ply_header(input)),
         vertex_(vertex_element(input, header_)),
@@ -255,7 +255,7 @@ class PlyReader {
                         problem, missing));
   }
 
-  Input& input_;
+  InputBuffer& input_;
   PlyHeader header_;
   const PlyElement& vertex_;
   Axes axes_;
@@ -270,6 +270,6 @@ class PlyReader {
 
 }  // namespace
 
-Mesh read_ply(Input& input, const ReadOptions& options) { return PlyReader(input, options).read(); }
+Mesh read_ply(InputBuffer& input, const ReadOptions& options) { return PlyReader(input, options).read(); }
 
 }  // namespace meshhood::io

@@ -40,7 +40,7 @@ bool is_text(std::string_view bytes) {
   });
 }
 
-bool is_binary(Input& input) {
+bool is_binary(InputBuffer& input) {
   if (has_binary_stl_size(input)) return true;
   const auto header = input.ahead(kHeaderBytes).substr(0, kHeaderBytes);
   if (header.size() < kHeaderBytes || is_text(header)) return false;
@@ -48,7 +48,7 @@ bool is_binary(Input& input) {
   return !left || *left >= binary_size(header);
 }
 
-std::string why_not_binary(Input& input) {
+std::string why_not_binary(InputBuffer& input) {
   const auto header = input.ahead(kHeaderBytes);
   if (header.size() < kHeaderBytes) return "it is not a binary STL, which has at least 84 bytes";
   return fmt::format("it is not a binary STL, which would have {} bytes for the {} facets of its header",
@@ -58,7 +58,7 @@ std::string why_not_binary(Input& input) {
 template <class Real>
 class BinaryStl {
  public:
-  BinaryStl(Input& input, MeshBuilder& builder, VertexWelder<Real>& welder)
+  BinaryStl(InputBuffer& input, MeshBuilder& builder, VertexWelder<Real>& welder)
       : input_(input), builder_(builder), welder_(welder) {}
 
   void read() {
@@ -88,13 +88,13 @@ class BinaryStl {
     input_.skip(kFacetBytes);
   }
 
-  Input& input_;
+  InputBuffer& input_;
   MeshBuilder& builder_;
   VertexWelder<Real>& welder_;
 };
 
 // Reserves memory for the largest possible number of corners, each with its own vertex.
-void reserve(MeshBuilder& builder, const Input& input, bool binary) {
+void reserve(MeshBuilder& builder, const InputBuffer& input, bool binary) {
   constexpr uint64_t kLeastTextOfVertex = 13;  // "vertex 0 0 0 "
   const auto left = input.left();
   if (!left) return;
@@ -104,7 +104,7 @@ void reserve(MeshBuilder& builder, const Input& input, bool binary) {
 }
 
 template <class Real>
-void read_soup(Input& input, bool binary, MeshBuilder& builder, std::vector<Real>& positions) {
+void read_soup(InputBuffer& input, bool binary, MeshBuilder& builder, std::vector<Real>& positions) {
   VertexWelder<Real> welder(positions, builder.faces.corners(), input.name());
   if (binary) {
     BinaryStl<Real>(input, builder, welder).read();
@@ -132,12 +132,12 @@ void read_or_explain([[maybe_unused]] bool may_be_either, [[maybe_unused]] const
 
 }  // namespace
 
-bool has_binary_stl_size(Input& input) {
+bool has_binary_stl_size(InputBuffer& input) {
   const auto header = input.ahead(kHeaderBytes);
   return header.size() >= kHeaderBytes && input.left() == binary_size(header);
 }
 
-Mesh read_stl(Input& input, const ReadOptions& options) {
+Mesh read_stl(InputBuffer& input, const ReadOptions& options) {
   const bool binary = is_binary(input);
   const bool may_be_either = !binary && !is_text(input.ahead(kHeaderBytes).substr(0, kHeaderBytes));
   const std::string not_binary = binary ? "" : why_not_binary(input);

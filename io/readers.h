@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "io/byte_source.h"
-#include "io/input.h"
+#include "io/input_buffer.h"
 #include "io/mesh_io.h"
 
 /// One reader for each format. Each begins at the front of `input` and throws as `read_mesh` does.
@@ -14,14 +14,14 @@ namespace meshhood::io {
 /// Reads a file of any format.
 [[nodiscard]] Mesh read_mesh(FileSource& file, const std::string& name, const ReadOptions& options);
 
-[[nodiscard]] Mesh read_ply(Input& input, const ReadOptions& options);
-[[nodiscard]] Mesh read_obj(Input& input, const ReadOptions& options);
-[[nodiscard]] Mesh read_off(Input& input, const ReadOptions& options);
-[[nodiscard]] Mesh read_stl(Input& input, const ReadOptions& options);
+[[nodiscard]] Mesh read_ply(InputBuffer& input, const ReadOptions& options);
+[[nodiscard]] Mesh read_obj(InputBuffer& input, const ReadOptions& options);
+[[nodiscard]] Mesh read_off(InputBuffer& input, const ReadOptions& options);
+[[nodiscard]] Mesh read_stl(InputBuffer& input, const ReadOptions& options);
 
 /// Detects the format by content or, if the content fits none, by the extension of `name`. Removes a byte-order mark
 /// from the front of `input`. Throws Error{UnsupportedFormat, MalformedFile}.
-[[nodiscard]] Format detect_format(Input& input, const std::string& name);
+[[nodiscard]] Format detect_format(InputBuffer& input, const std::string& name);
 
 /// Whether a line of an OBJ file may begin with `word`.
 [[nodiscard]] bool is_obj_statement(std::string_view word);
@@ -30,6 +30,6 @@ namespace meshhood::io {
 [[nodiscard]] bool is_off_keyword(std::string_view word);
 
 /// Whether the file has exactly the size that the number of facets in a binary STL header requires.
-[[nodiscard]] bool has_binary_stl_size(Input& input);
+[[nodiscard]] bool has_binary_stl_size(InputBuffer& input);
 
 }  // namespace meshhood::io

@@ -19,7 +19,7 @@ bool is_word(std::string_view token, std::string_view lower_case) {
 template <class Real>
 class StlText {
  public:
-  StlText(Input& input, MeshBuilder& builder, VertexWelder<Real>& weld)
+  StlText(InputBuffer& input, MeshBuilder& builder, VertexWelder<Real>& weld)
       : text_(input, {}), builder_(builder), weld_(weld) {}
 
   void read() {
@@ -112,11 +112,11 @@ class StlText {
 }  // namespace
 
 template <class Real>
-void read_stl_text(Input& input, MeshBuilder& builder, VertexWelder<Real>& weld) {
+void read_stl_text(InputBuffer& input, MeshBuilder& builder, VertexWelder<Real>& weld) {
   StlText<Real>(input, builder, weld).read();
 }
 
-template void read_stl_text(Input& input, MeshBuilder& builder, VertexWelder<float>& weld);
-template void read_stl_text(Input& input, MeshBuilder& builder, VertexWelder<double>& weld);
+template void read_stl_text(InputBuffer& input, MeshBuilder& builder, VertexWelder<float>& weld);
+template void read_stl_text(InputBuffer& input, MeshBuilder& builder, VertexWelder<double>& weld);
 
 }  // namespace meshhood::io

@@ -10,7 +10,7 @@
 
 #include "meshhood/error.h"
 
-#include "io/input.h"
+#include "io/input_buffer.h"
 #include "io/messages.h"
 
 namespace meshhood::io {
@@ -29,7 +29,8 @@ struct TextSyntax {
 class Text {
  public:
   /// Starts before the line at the front of `input`.
-  Text(Input& input, const TextSyntax& syntax) : input_(input), syntax_(syntax), line_number_(syntax.lines_before) {}
+  Text(InputBuffer& input, const TextSyntax& syntax)
+      : input_(input), syntax_(syntax), line_number_(syntax.lines_before) {}
 
   /// Moves to the next line; false at the end of the file. Throws Error{MalformedFile} for a NUL byte and for a line
   /// that is too long.
@@ -55,7 +56,7 @@ class Text {
   /// The location of the last token; of the end of the file, if there was none.
   [[nodiscard]] Location location() const { return {.line = line_number_, .column = token_begin_ + 1}; }
 
-  [[nodiscard]] Input& input() const { return input_; }
+  [[nodiscard]] InputBuffer& input() const { return input_; }
 
   /// Throws Error{code} at the location of the last token.
   [[noreturn]] void fail(ErrorCode code, std::string_view message) const {
@@ -72,7 +73,7 @@ class Text {
   void take_line(std::size_t length);
   [[nodiscard]] bool ends_line(char c) const;
 
-  Input& input_;
+  InputBuffer& input_;
   TextSyntax syntax_;
   std::uint64_t line_number_;
   std::string_view line_;

@@ -47,7 +47,7 @@ void check(const PlyOptions& options, std::size_t vertices) {
   if (!options.colors.empty()) {
     taken.insert(taken.end(), kColors.begin(), kColors.end());
     if (options.colors.size() != 3 * vertices) {
-      refuse(fmt::format("{} colour values, expected three for each of {} vertices", options.colors.size(), vertices));
+      refuse(fmt::format("{} color values, expected three for each of {} vertices", options.colors.size(), vertices));
     }
   }
   for (const auto& property : options.properties) check_property(property, vertices, taken);
