@@ -43,7 +43,7 @@ struct Leaf {
 /// The edges of the mesh from one leaf to one other leaf.
 struct Link {
   LeafId leaf;                     // the other leaf
-  LaneMask boundary;               // the vertices of this leaf that have a neighbour there
+  LaneMask boundary;               // the vertices of this leaf that have a neighbor there
   std::uint32_t first_cross_edge;  // see IndexView::cross_edges_of
 };
 
@@ -67,7 +67,7 @@ struct IndexView {
   std::span<const VertexId> leaf_begin;    // by leaf, and one more: its first vertex in index order
   std::span<const Link> links;             // and one more, for the end of the last cross edges
   std::span<const CrossEdge> cross_edges;  // padded
-  std::span<const LaneMask> adjacency;     // in index order: the neighbours within the leaf; padded
+  std::span<const LaneMask> adjacency;     // in index order: the neighbors within the leaf; padded
   std::span<const Group> groups;           // of all levels of the tree, leaves first
   std::span<const double> mean_radii;      // by level
   Tree tree;                               // `groups` and `mean_radii` by level
@@ -118,7 +118,7 @@ struct ArrayInfo {
 };
 
 /// Calls `f(info, array of each of indexes...)` for every array, in the order of an index file. `indexes` are
-/// `IndexView`s and `IndexData`s; their arrays have the same names.
+/// `IndexView`s and `IndexData`s; their arrays have the same names, which may differ from those in a file.
 template <class F, class... Indexes>
 void for_each_array(F&& f, Indexes&... indexes) {
   f(ArrayInfo{"positions", &IndexBytes::positions}, indexes.positions...);
