@@ -28,8 +28,8 @@ MESHES = {
                       "stand-in: one smooth sheet, nearest to the Raptor in kind"),
     "mri_head": Mesh("paper/mri_head_a_1m.ply.zst", "gyroid:1000000", "Raptor",
                      "stand-in: one very folded surface, far harder"),
-    "cat2": Mesh("paper/tosca_cat2.off", "folds:27894", remark="the cat in a close-folded pose"),
-    "cortex": Mesh("scan/cortex_left_41k.ply.zst", "folds:40962", remark="a folded sheet whose folds lie close"),
+    "cat2": Mesh("paper/tosca_cat2.off", "folds:27894", remark="the cat in a pose with limbs close together"),
+    "cortex": Mesh("scan/cortex_left_41k.ply.zst", "folds:40962", remark="a folded sheet whose folds lie close together"),
     "tiny": Mesh("", "scroll:3000", remark="by formula, to try the harness"),
     "scroll": Mesh("", "scroll:100000", remark="by formula: a rolled sheet, its turns 2.5 edges apart"),
 }

@@ -12,7 +12,7 @@ from .worker import Worker
 BLOCKS = 5
 BLOCK_QUERIES = 2000
 PATIENCE = 300  # seconds for one step of one peer
-WHOLE_MESH_BLOCKS = 30  # for who answers for all vertices: as long as so many blocks take, and at least one run
+WHOLE_MESH_BLOCKS = 30  # for a peer that answers for all vertices: as long as so many blocks take, and at least one run
 
 
 @dataclass

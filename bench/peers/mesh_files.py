@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The mesh of a contest, as files that each process reads: arrays, and the same as PLY for who reads that."""
+"""The mesh of a contest, as files that each process reads: arrays, and the same as PLY for peers that read PLY."""
 import numpy as np
 
 from .. import meshes, places

@@ -27,7 +27,7 @@ class Peer:
         """threads: 1, or -1 for all."""
 
     def ask(self, vertices, radius):
-        """The neighborhoods of `vertices` (int32; ignored by who answers for all), in whatever form this peer has."""
+        """The neighborhoods of `vertices` (int32; ignored by a peer that answers for all), in whatever form this peer has."""
         raise NotImplementedError
 
     def rows(self, answer, vertices):
@@ -42,7 +42,7 @@ class Peer:
 
 
 class OneByOne(Peer):
-    """Who can be asked for one neighborhood at a time."""
+    """A peer that answers for one neighborhood at a time."""
 
     remark = "a call for each; one thread in any case"
 

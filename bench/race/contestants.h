@@ -34,7 +34,7 @@ class Contestants {
 
   [[nodiscard]] GraphView graph() const { return {mesh_.positions, adjacency_.view()}; }
 
-  /// The vertices in an order that keeps neighbours close.
+  /// The vertices in an order that keeps neighbors close.
   [[nodiscard]] std::span<const VertexId> order() const { return order_.permutation(); }
 
   /// Throws Error{InvalidOption} if there is no method `name`.

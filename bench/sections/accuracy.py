@@ -7,7 +7,7 @@ TITLE = "Accuracy of the paper's method and of the ball"
 SHOWN_RADII = (5, 20, 65)
 
 NOTE = """`python3 -m bench accuracy`: {queries:,} random queries for each mesh and radius. The paper's answer and the ball never miss
-a vertex of the exact neighborhood. How many extra vertices they have, relative to the exact answer:
+a vertex of the exact neighborhood. This table shows their extra vertices, relative to the exact answer:
 
 """
 
@@ -17,7 +17,7 @@ The factor `f` decides how small the clusters are with which the paper's query s
 """
 
 LEVELS_NOTE = """
-The number of levels computed, with the lowest two discarded as in the paper:
+This table varies the number of levels computed; the lowest two are discarded, as in the paper:
 
 """
 

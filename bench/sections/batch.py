@@ -8,8 +8,8 @@ COMMAND = "python3 -m bench batch"
 SHOWN = ("head_skin", "dragon", "cortex", "mri_head")
 
 NOTE = """`{command}`: the neighborhoods of many vertices in one call, in index order ([how](../joint.md)). One thread, processor
-time in µs a row. `bfs` is breadth-first search on the mesh in index order, warm. *One* asks the exact index for one vertex
-after the other, *batch* for all in one call; each for sizes (count) and for ids. × is the ratio to `bfs`. 20,000
+time in µs a row. `bfs` is breadth-first search on the mesh in index order, warm. *One* queries the exact index for one
+vertex after another, *batch* for all in one call; each computes sizes (count) and ids. × is the ratio to `bfs`. 20,000
 consecutive vertices up to 10 mean edges, 3,000 above; the first 4,000 or 400 for `bfs` and *one*.
 
 """
