@@ -50,7 +50,7 @@ def load(
         the file. The file may be replaced by `save`; truncating or overwriting it in place ends those processes.
     trusted : with `mmap`, verify only the header and the layout of the file, so that no other page is read before a
         query needs it. Altered data can then have any effect: wrong results, a crash, an endless query. Only for files
-        that nobody else can write.
+        that no other user can write.
     progress : as for `read_mesh`.
 
     Unless `trusted`, all data is verified: a damaged file is refused; a forged one is refused or gives wrong results

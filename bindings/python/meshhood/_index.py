@@ -69,8 +69,8 @@ class MeshIndex(Queries):
 
     Vertices are numbered as in V, with int32 ids; at most 2^31 - 1 vertices. V and F are copied: later changes have no
     effect. V and F may have any memory layout, and be anything that offers its memory to NumPy (`__array__`,
-    `__array_interface__`) or by DLPack, as tensors of PyTorch on the CPU do; types other than float32, float64, int32, int64, uint32 and uint64 are
-    converted. Cost: O(#V log #V + #E).
+    `__array_interface__`) or by DLPack, as tensors of PyTorch on the CPU do. Types other than float32, float64, int32,
+    int64, uint32 and uint64 are converted. Cost: O(#V log #V + #E).
 
     Warns if faces with coinciding corners are not connected (an unwelded mesh).
 
@@ -337,9 +337,7 @@ class MeshIndex(Queries):
         permutation[begin:end] for each row `begin, end`. The ranges are disjoint, in unspecified order. No ids are
         copied."""
         scale = self._scale(unit)
-        return self._exact.ranges(
-            _convert.vertex(v, self._count), scale * _convert.radius(r)
-        )
+        return self._exact.ranges(_convert.vertex(v, self._count), scale * _convert.radius(r))
 
     def radius_neighbors_graph(
         self,

@@ -66,7 +66,7 @@ class Methods(dict):
 
     def _making(self):
         """The lock of this process: a fork copies a lock as it is, perhaps held by a thread that the child does not
-        have. Reentrant, for a signal handler may ask for a method while its thread makes another."""
+        have. Reentrant, because a signal handler may need a method while its thread makes another."""
         return self._locks.setdefault(os.getpid(), threading.RLock())
 
     def _make(self, method):

@@ -40,14 +40,14 @@ def partition(
     parts, vertices_per_part : the number of parts, or the vertices of a part without its halo, about. One of them.
     halo : the largest radius that the parts will answer, finite, >= 0.
     unit : of `halo`: "mesh" is that of the positions, "edge" is the mean edge length of the mesh.
-    memory : the most bytes of memory, a number or a text such as "4GiB"; at least 64 MiB. A part that takes more is
-        refused with advice.
+    memory : the most bytes of memory, a number or a text such as "4GiB"; at least 64 MiB. A part that needs more is
+        an error, which says how to avoid it.
     workers, progress : as for `MeshIndex`.
     resume : keep the parts that an earlier run on the same mesh with the same `halo` and `parts` has finished. Otherwise
         they are removed.
 
     Each vertex is owned by one part. A part also has every vertex within the halo of one that it owns, and all faces
-    around these, so that it answers for its vertices exactly, alone.
+    around these. So it answers queries of the vertices that it owns exactly, without the other parts.
 
     Returns the parts, as `open_parts`. Raises ValueError, naming the file and element; OSError, also if another run
     writes into the folder; KeyboardInterrupt on Ctrl-C. Finished parts then stay, and the next run goes on.

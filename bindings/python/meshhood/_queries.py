@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""More ways to ask an index: from any point, with filters, for several radii, along the edges."""
+"""More kinds of queries: around any point, with filters, for several radii, along the edges."""
 
 from __future__ import annotations
 

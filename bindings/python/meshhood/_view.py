@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A page in which one sees a mesh and its neighborhoods: viewer/ of the sources, built into one HTML file."""
+"""A page that shows a mesh and its neighborhoods: viewer/ of the sources, built into one HTML file."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from . import _convert
 from ._index import Number, Unit, Vertex, Vertices
 from ._mesh import mesh_arrays
 
-_PLACE = "<!-- meshhood:page -->"  # where the page takes a mesh
+_PLACE = "<!-- meshhood:page -->"  # replaced by the mesh
 
 
 class Page:
@@ -61,15 +61,15 @@ def view(
     name: str = "mesh",
     height: int = 600,
 ) -> Page:
-    """Makes a page in which one sees the mesh, chooses a vertex and a radius, and compares the answers of all methods:
-    the exact neighborhood in green, what the search of the paper adds in yellow, what the ball adds in blue.
+    """Makes an interactive page of the mesh, to choose a vertex and a radius and to compare the answers of all methods:
+    the exact neighborhood in green, extra vertices of the search of the paper in yellow, those of the ball in blue.
 
         meshhood.view(V, F, v=42, r=10, unit="edge")             # displayed by a notebook
         meshhood.view(V, F, values=sizes).save("sizes.html")
 
     V, F : the mesh, as for `MeshIndex`, but not a graph.
-    v, r, unit : the query to show at first, as for `MeshIndex.query_ball`; by default one of the page's choice.
-    ids : vertices to show instead of the answers, until another query is asked: a sequence or a bool mask (#V,).
+    v, r, unit : the query to show at first, as for `MeshIndex.query_ball`; by default the page chooses one.
+    ids : vertices to show instead of the answers, until another query is made: a sequence or a bool mask (#V,).
     values : (#V,) a number for each vertex, shown as colors. Those that are not finite get none.
     name : what the page calls the mesh.
     height : of the frame in a notebook, in pixels.
