@@ -2,7 +2,7 @@
 #
 #   make build                    installs the packages it needs and builds build/release/meshhood
 #   make demo [MESH=some.ply]     compares all methods on a mesh with a trap, or on your own, and draws a picture
-#   make view [MESH=some.ply]     the same in a page, to turn and to try: build/demo/view.html
+#   make view [MESH=some.ply]     an interactive page of the same: build/demo/view.html
 #   make test                     the short tests; about ten minutes
 #   make test-all                 also the long tests, the sanitizers, the fuzzers, the mutants and tools/verify
 #
@@ -32,7 +32,7 @@ test-all:
 
 demo: build
 	@tools/demo
-	@echo "== make view shows the same in a page, in which you turn the mesh and choose vertex and radius"
+	@echo "== make view shows the same in an interactive page, to turn the mesh and to choose vertex and radius"
 
 view: build
 	@tools/setup web

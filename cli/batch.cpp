@@ -136,7 +136,7 @@ std::string task_name(const BatchCommand& options, const std::optional<BatchEsti
                      file_bytes(options, estimate->mean, columns) / 1e6);
 }
 
-/// What a shard says about its batch and itself.
+/// The description of a shard and of its batch.
 std::string describe(const BatchCommand& options, const Shard& shard, double radius, std::size_t rows,
                      const Fingerprint& mesh, std::size_t columns) {
   return Json{{"number", shard.number},

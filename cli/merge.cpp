@@ -31,7 +31,7 @@ struct MergeCommand {
   bool json = false;
 };
 
-/// A file of a batch and what it says about itself.
+/// A file of a batch and its description.
 struct ShardFile {
   std::string name;
   Json about;  ///< without the number of the shard
@@ -54,7 +54,7 @@ ShardFile open(const std::string& name) {
     for (const char* const key : {"listed", "count", "distances"}) static_cast<void>(about.at(key).get<bool>());
     return {name, std::move(about), shard};
   } catch (const Json::exception& error) {
-    refuse(name, fmt::format("does not say which shard it is: {}", error.what()));
+    refuse(name, fmt::format("has no valid description of its shard: {}", error.what()));
   }
 }
 

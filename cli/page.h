@@ -9,7 +9,7 @@
 
 #include "meshhood/mesh.h"
 
-/// The page in which one sees neighborhoods: viewer/, built into one HTML file.
+/// The page that shows neighborhoods in a browser: viewer/, built into one HTML file.
 namespace meshhood::cli {
 
 /// What a page shows at first.

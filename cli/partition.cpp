@@ -107,7 +107,7 @@ void partition_mesh(const PartitionCommand& options) {
 void add_partition(CLI::App& program) {
   auto options = std::make_shared<PartitionCommand>();
   CLI::App* command =
-      program.add_subcommand("partition", "Cut a mesh of any size into parts that answer by themselves");
+      program.add_subcommand("partition", "Cut a mesh of any size into parts, each of which answers queries alone");
   add_file_option(*command, "MESH",
                   "binary PLY, or positions as .npy with --faces: read in chunks; other formats: read into memory",
                   options->mesh)

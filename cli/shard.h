@@ -26,7 +26,7 @@ struct Shard {
 /// Throws Error{InvalidOption}.
 [[nodiscard]] Shard parse_shard(const std::string& text);
 
-/// The name of the array in which a file of a batch says what it holds. Files of the same batch have the same text,
+/// The name of the array in which a file of a batch describes its shard. Files of the same batch have the same text,
 /// except for the number of the shard.
 inline constexpr const char* kShardArray = "shard";
 

@@ -65,7 +65,7 @@ void add_start(CLI::App& command, StartOptions& options) {
               options.seeds)
       ->needs(point);
   add_choice(command, "--metric",
-             "straight: all paths that stay within the radius; edge: the paths of edges that are at most as long",
+             "straight: distances in a straight line; edge: lengths of the shortest paths along the edges",
              {"straight", "edge"}, options.metric);
   add_file_option(command, "--walls", "a list of vertices that the search does not pass, one in each line",
                   options.walls);

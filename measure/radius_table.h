@@ -46,7 +46,7 @@ struct Plan {
 /// compared.
 ///
 /// unit          the mean edge length, in the unit of the positions.
-/// permutation   the vertices, #V >= 1, in an order that keeps neighbours close.
+/// permutation   the vertices, #V >= 1, in an order that keeps neighbors close.
 /// report        called after each block; what it throws ends the measurement.
 [[nodiscard]] std::vector<Measurement> measure_radii(
     std::span<const Method> methods, const Plan& plan, double unit, std::span<const VertexId> permutation,

@@ -29,7 +29,7 @@ Shape Kind::make(std::size_t vertices) const {
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all{
       {"book", "eight pages on one spine, close together: a ball contains several pages", 6, book},
-      {"comb", "long flat teeth, half an edge apart: a ball contains neighbouring teeth", 24, comb},
+      {"comb", "long flat teeth, half an edge apart: a ball contains neighboring teeth", 24, comb},
       {"folds", "an accordion with walls 1.5 edges apart: a ball contains several walls", 4, folds},
       {"grid", "a flat square grid of triangles: many vertices at equal distances", 3, grid},
       {"gyroid", "a smooth sheet that fills a box: a ball contains many parts, nearly all connected", 4, gyroid},
@@ -43,8 +43,8 @@ const std::vector<Kind>& kinds() {
       {"scroll", "a rolled sheet with turns 2.5 edges apart: a ball contains several turns", 4, scroll},
       {"soup", "spheres of about forty vertices half an edge apart: each is a component", 5, soup},
       {"sphere", "a sphere: no difficulty, until the radius is close to its size", 5, sphere},
-      {"star", "a hub and its spokes: one vertex has all neighbours, the others are near but not connected", 2, star},
-      {"strip", "a flat spiral ribbon: neighbouring turns are near, but far along the ribbon", 3, strip},
+      {"star", "a hub and its spokes: one vertex has all neighbors, the others are near but not connected", 2, star},
+      {"strip", "a flat spiral ribbon: neighboring turns are near, but far along the ribbon", 3, strip},
   };
   return all;
 }

@@ -12,10 +12,10 @@
 
 namespace meshhood {
 
-/// The largest number of neighbours over all vertices: twice the number of edges.
+/// The largest number of neighbors over all vertices: twice the number of edges.
 inline constexpr std::size_t kMaxNeighbors = std::numeric_limits<EdgeOffset>::max();
 
-/// A symmetric graph in CSR form, borrowed: the neighbours of `v` are `neighbors[offsets[v]] .. neighbors[offsets[v +
+/// A symmetric graph in CSR form, borrowed: the neighbors of `v` are `neighbors[offsets[v]] .. neighbors[offsets[v +
 /// 1] - 1]`. Each row ascends, without repetition and without `v` itself.
 struct AdjacencyView {
   std::span<const EdgeOffset> offsets;  ///< #V + 1; may be empty if there are no vertices
@@ -24,7 +24,7 @@ struct AdjacencyView {
   /// #V.
   [[nodiscard]] std::size_t size() const { return offsets.empty() ? 0 : offsets.size() - 1; }
 
-  /// The neighbours of `v`.
+  /// The neighbors of `v`.
   [[nodiscard]] std::span<const VertexId> operator[](std::size_t v) const {
     return neighbors.subspan(offsets[v], offsets[v + 1] - offsets[v]);
   }

@@ -20,7 +20,7 @@
 /// See docs/aggregate.md.
 namespace meshhood {
 
-/// What becomes of the values of a neighborhood.
+/// How the values of a neighborhood are combined.
 enum class Reduce : std::uint8_t {
   Sum,                ///< sum of w x
   Mean,               ///< sum of w x / sum of w; NaN if the sum of the weights is 0
@@ -106,12 +106,12 @@ struct AggregateOptions {
 ///
 /// Sums are exact to 1e-14 of the sum of the absolute terms (1e-13 with a smoothing kernel), whatever the size of the
 /// neighborhood, and have the same bits for any number of threads and on every processor. They may differ in the last
-/// bits if the same vertex is asked for in another list. Minimum, maximum and count are exact. Values are scaled by a
+/// bits if the same vertex is queried in another list. Minimum, maximum and count are exact. Values are scaled by a
 /// power of two before they are squared or added, so that nothing overflows but a result too large for a double;
 /// infinite values give what IEEE arithmetic gives.
 ///
 /// Cost: the neighborhoods of one leaf are found together (see joint.h), and vertices that they have in common are read
-/// once for all of them, most of them as sums made beforehand. Memory: for up to 16 channels at a time 9 bytes for each
+/// once for all of them, most of them as precomputed sums. Memory: for up to 16 channels at a time 9 bytes for each
 /// vertex and channel, and as much for the weights; with a kernel 14 bytes instead. Time and memory of
 /// `for_each_packet` besides.
 ///
@@ -124,7 +124,7 @@ void aggregate(const Index& index, const SignalView& signal, const AggregateQuer
 [[nodiscard]] std::vector<double> aggregate(const Index& index, const SignalView& signal, const AggregateQuery& query,
                                             const AggregateOptions& options = {});
 
-/// The area that each vertex stands for: of each face a share for each of its corners, a third of a triangle. #V, 0 for
+/// The area that each vertex represents: each face gives equal shares to its corners, a third of a triangle. #V, 0 for
 /// a vertex without a face. In the square of the unit of the positions; infinite where that overflows. The area of a
 /// polygon is the length of its vector area. Throws Error{InvalidMesh, TooLarge}. O(#corners).
 [[nodiscard]] std::vector<double> vertex_areas(const MeshView& mesh);

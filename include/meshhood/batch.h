@@ -24,7 +24,7 @@ namespace meshhood {
 
 class SearcherFactory;
 
-/// What a batch searches, and how. Converts from either index. Borrows what it is made from, which must outlive it.
+/// What a batch searches, and how. Converts from either index. Borrows its arguments, which must outlive it.
 class SearchMethod {
  public:
   /// The exact neighborhoods (see `Searcher`).
@@ -58,7 +58,7 @@ class SearchMethod {
   std::shared_ptr<const SearcherFactory> searchers_;
 };
 
-/// The query vertices of a batch: all of the mesh in order, or a borrowed list.
+/// The query vertices of a batch: all vertices of the mesh in order, or a borrowed list.
 class BatchVertices {
  public:
   /// All vertices, in order.
@@ -79,7 +79,7 @@ class BatchVertices {
 /// positions.
 class BatchRadius {
  public:
-  /// No radius: refused by every batch.
+  /// No radius: every batch rejects it.
   BatchRadius() = default;
 
   /// The same radius for every row, of any integer or floating-point type.

@@ -12,8 +12,8 @@
 #include "meshhood/mesh.h"
 #include "meshhood/progress.h"
 
-/// Curvature at a scale: what the neighborhood of a vertex with radius r says of the shape of the surface there. The
-/// measures and how to choose among them are explained in docs/curvature.md.
+/// Curvature at a scale: the shape of the surface in the neighborhood of a vertex with radius r. The measures and how
+/// to choose among them are explained in docs/curvature.md.
 ///
 ///     const auto surface = meshhood::CurvatureIndex::build(index, mesh);
 ///     const auto [k1, k2, d1, d2, state] = meshhood::curvatures(surface, {.radius = 2.5}, {.threads = 0});
@@ -23,7 +23,7 @@ namespace meshhood {
 /// use it. Shares the memory of the index, as a searcher does: the index may be moved or destroyed. 28 bytes a vertex.
 class CurvatureIndex {
  public:
-  /// The normal of a vertex is the sum of the vector areas of its faces, normalised. Of a triangle that is half the
+  /// The normal of a vertex is the sum of the vector areas of its faces, normalized. Of a triangle that is half the
   /// cross product of two edges, of a polygon Newell's sum.
   ///
   /// mesh    the mesh that the index was built from, with faces; borrowed for the call.
@@ -84,7 +84,7 @@ enum class CurvatureFit : std::uint8_t {
   Jet,
 };
 
-/// What a row of `Curvatures` is worth.
+/// How the values of a row of `Curvatures` were found.
 enum class CurvatureState : std::uint8_t {
   Fitted,         ///< the least-squares fit, which is unique
   RankDeficient,  ///< the points determine no unique quadric: the one with the smallest coefficients
@@ -94,7 +94,7 @@ enum class CurvatureState : std::uint8_t {
 
 struct CurvatureOptions {
   /// Fit only the vertices whose normal makes an angle of less than 90 degrees with that of the query vertex, if they
-  /// are at least six. Keeps what lies on the other side of a fold or a thin wall out of the fit.
+  /// are at least six. Keeps the other side of a fold or a thin wall out of the fit.
   bool filter = true;
 
   /// The neighborhood has the vertices nearer than the radius, as in libigl; otherwise a vertex at exactly the radius
@@ -143,7 +143,7 @@ struct Curvatures {
 ///
 /// query    as of a batch; a radius for all rows or for each.
 /// The result has the same bits for any number of threads and on every processor. O(size of the neighborhoods) in the
-/// worst case; where many vertices of a leaf are asked for, what their neighborhoods share is summed once.
+/// worst case; where many vertices of a leaf are queried, the common part of their neighborhoods is summed once.
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
 [[nodiscard]] Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query,
                                     const CurvatureOptions& options = {});

@@ -8,7 +8,7 @@
 
 namespace meshhood {
 
-/// Every way in which meshhood refuses. The list is closed: a program may switch over it.
+/// Why a call failed. The list is closed: a program may switch over it.
 enum class ErrorCode {
   VertexOutOfRange,  ///< a query vertex that the mesh does not have
   InvalidRadius,     ///< a radius that is NaN or negative
@@ -19,17 +19,17 @@ enum class ErrorCode {
   MalformedIndex,     ///< a saved index that has been changed, is of another version, or belongs to another mesh
   IoFailure,          ///< the operating system could not open, read, write or close
   TooLarge,           ///< more vertices, edges or bytes than the documented limits, or a file than there is memory for
-  Cancelled,          ///< the caller's `Progress` said to stop
+  Cancelled,          ///< the caller's `Progress` returned false
 };
 
 /// One sentence about `code`, the same in every language binding.
 [[nodiscard]] std::string_view describe(ErrorCode code) noexcept;
 
-/// The one exception that meshhood throws. `what()` is one line that names the culprit (file and place, face, corner,
+/// The one exception that meshhood throws. `what()` is one line that names the cause (file and place, face, corner,
 /// value) and what was expected. A failed call leaves its arguments and the object it was called on as they were.
 ///
-/// Where memory runs out, `std::bad_alloc` is passed on, with the same promise; what reads files says so with
-/// `TooLarge` if it still can.
+/// If memory runs out, `std::bad_alloc` is passed on, with the same promise. Functions that read files throw
+/// `TooLarge` instead if they still can.
 ///
 /// A core compiled without exceptions (WebAssembly) traps instead.
 class Error : public std::exception {

@@ -62,7 +62,7 @@ class Index {
   ///  - the leaves contain each vertex once, and the numberings agree;
   ///  - positions and edges are those of the mesh, and leaves marked connected are connected;
   ///  - each sphere encloses its vertices;
-  ///  - query points outside a region of local minima, of which some are tried, see no local minimum of the distance.
+  ///  - from sampled query points outside its minimum region, no vertex of a leaf or node is a local minimum.
   ///
   /// Throws Error{InvalidMesh, TooLarge} if `mesh` is invalid. O((#V + #E) log #V).
   [[nodiscard]] std::vector<std::string> check(const MeshView& mesh) const;
@@ -79,7 +79,7 @@ class Index {
 ///
 /// mesh    any polygonal mesh (see `validate`); borrowed for the call.
 /// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}. TooLarge also beyond 2^27 leaves; a leaf has at least
-/// 16 vertices, except around vertices with very many neighbours. O(#V log #V + #E).
+/// 16 vertices, except around vertices with very many neighbors. O(#V log #V + #E).
 [[nodiscard]] Index build(const MeshView& mesh, const BuildOptions& options = {});
 [[nodiscard]] Index build(const GraphView& graph, const BuildOptions& options = {});
 

@@ -15,7 +15,7 @@
 
 /// The neighborhoods of many vertices without a list of ids for each, for sums and other properties of neighborhoods.
 ///
-/// The rows of a batch that ask for vertices of one leaf form *packets* of up to 32 rows, and their neighborhoods are
+/// The rows of a batch whose query vertices lie in one leaf form *packets* of up to 32 rows, and their neighborhoods are
 /// found together (docs/joint.md). They have most of their vertices in common. The answer of a packet names each vertex
 /// once, with the set of rows that have it, so that a sum reads each value once for up to 32 rows.
 namespace meshhood {
@@ -41,13 +41,13 @@ struct LeafRun {
   friend bool operator==(const LeafRun&, const LeafRun&) = default;
 };
 
-/// Leaves that a set of rows has as a whole.
+/// Leaves whose vertices all belong to a set of rows.
 struct WholeLeaves {
   LeafRun run;
   QueryWord queries;  ///< not 0
 };
 
-/// Many linked leaves that a set of rows has as a whole. A core is the same in all packets of a group, so that a sum
+/// Many linked leaves whose vertices all belong to a set of rows. A core is the same in all packets of a group, so that a sum
 /// over it can be kept from one packet to the next.
 struct CoreLeaves {
   std::size_t number;             ///< of the core in its group, from 0
@@ -102,7 +102,7 @@ struct PacketOptions {
 /// must not write to the same memory, except that each row belongs to one packet: `result[rows[i]] = ...` is safe.
 /// Packets depend on the query alone, so floating-point sums have the same bits for any number of threads.
 ///
-/// A leaf with few rows is searched row by row: packets then have one row and no cores. If a vertex is asked for more
+/// A leaf with few rows is searched row by row: packets then have one row and no cores. If a vertex is queried more
 /// than once, its rows may be in different packets. Time is that of `neighborhood_sizes`. Memory: a copy of the query,
 /// 12 bytes a row (of at most 2^20 at a time), and for each thread a searcher, 4 bytes for each leaf of the mesh and 1
 /// kB for each leaf at the boundary of the largest ball.

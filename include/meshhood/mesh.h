@@ -47,7 +47,7 @@ struct StridedPositions {
 /// outlive the view. A temporary container is rejected by the compiler.
 ///
 /// A flat array and an array of `std::array<float, 3>` are read row by row: x, y, z of vertex 0, then of vertex 1. For
-/// other layouts say so: `column_major`, `strided`, or `meshhood/eigen.h` for matrices of Eigen.
+/// other layouts use `column_major`, `strided`, or `meshhood/eigen.h` for matrices of Eigen.
 class PositionsView {
  public:
   PositionsView() = default;

@@ -15,12 +15,12 @@
 ///
 /// The order of the vertices, the leaves and the edges stay as they are and are shared with the index that was given.
 /// Positions, bounding spheres and minimum regions are computed again from the leaves up. Answers are exact, whatever
-/// the positions. They take longer once vertices of a leaf have moved far apart: `quality` says so.
+/// the positions. Queries take longer once vertices of a leaf have moved far apart; `quality` measures this.
 namespace meshhood {
 
 /// The index of the mesh after its vertices have moved.
 ///
-/// index      stays as it is, with its searchers: they answer by the old positions.
+/// index      stays as it is, with its searchers, which answer by the old positions.
 /// positions  #V by 3, in the order and the unit in which the mesh of `index` was given; for an index that `reorder`
 ///            made, in index order. Float or double. Borrowed for the call.
 /// options    as for `build`.
@@ -61,7 +61,7 @@ struct Quality {
 /// Compares the leaves with those that `build` would make of the present positions.
 ///
 /// Most of the time of a query goes to the leaves that the surface of the ball meets, and their number grows with their
-/// radius. So `gain` says roughly how many times faster queries would be after `build`. It is measured at sixteen
+/// radius. So `gain` is roughly how many times faster queries would be after `build`. It is measured at sixteen
 /// places spread over the vertices: the thousand vertices nearest to each are divided into leaves as `build` divides a
 /// mesh, and for those in the middle the radius of the bounding sphere of the present leaf is compared with that of the
 /// new one.

@@ -20,7 +20,7 @@ struct Dab {
 };
 
 /// Finds regions by an `Index`. The *region* of a start and a radius is the set of vertices that are connected to a
-/// seed by a path of edges whose vertices, both ends included, all lie within the radius of the centre and are no
+/// seed by a path of edges whose vertices, both ends included, all lie within the radius of the center and are no
 /// walls; without the ignored vertices. For a vertex as start and no filter it is the neighborhood (see `Searcher`).
 ///
 /// radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` is inside.
@@ -45,7 +45,7 @@ class RegionSearcher {
   /// out     replaced, its capacity reused: ids in no stated order, without duplicates.
   void region(const Start& start, double radius, std::vector<VertexId>& out, const Filter& filter = {});
 
-  /// Also returns the distance of each vertex from the centre, in the order of the ids. See `distance`.
+  /// Also returns the distance of each vertex from the center, in the order of the ids. See `distance`.
   void region(const Start& start, double radius, std::vector<VertexId>& out, std::vector<double>& distances,
               const Filter& filter = {});
 
@@ -68,17 +68,17 @@ class RegionSearcher {
   void nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& out,
               std::vector<std::size_t>& counts, const Filter& filter = {});
 
-  /// Whether the region has vertex `w`. Costs at most as much as the region, and less where the search meets `w` early.
+  /// Whether the region has vertex `w`. Costs at most as much as the region, and less if the search reaches `w` early.
   [[nodiscard]] bool contains(const Start& start, VertexId w, double radius, const Filter& filter = {});
 
   /// The smallest radius whose region has vertex `w`; infinite if there is none. It is the least, over all paths from a
-  /// seed to `w`, of the largest distance of a vertex of the path from the centre (the bottleneck of the best path).
+  /// seed to `w`, of the largest distance of a vertex of the path from the center (the bottleneck of the best path).
   ///
   /// Costs about as much as the region of the result.
   [[nodiscard]] double connecting_radius(const Start& start, VertexId w, const Filter& filter = {});
 
   /// The `k` nearest connected vertices: the first `k` in the order of their connecting radii; vertices of equal
-  /// connecting radius in the order of their distances from the centre, then of their ids. So the answer for a smaller
+  /// connecting radius in the order of their distances from the center, then of their ids. So the answer for a smaller
   /// `k` is the beginning of that for a larger one. Fewer than `k` if no more are connected.
   ///
   /// out     replaced: ids in that order.

@@ -62,10 +62,10 @@ class RegionMesher {
   /// These faces as a mesh. Its positions are those of `vertices`.
   [[nodiscard]] Submesh submesh(std::span<const VertexId> ids, Corners corners = Corners::All);
 
-  /// Where the surface leaves a region: `ids` is the region of `centre` and `radius` (see `RegionSearcher`).
+  /// Where the surface leaves a region: `ids` is the region of `center` and `radius` (see `RegionSearcher`).
   ///
   /// A point of the rim lies on an edge from a vertex of `ids` to one that is not, where the edge leaves the ball: its
-  /// distance from `centre` is `radius` up to the rounding of its coordinates. If the outer end lies inside the ball,
+  /// distance from `center` is `radius` up to the rounding of its coordinates. If the outer end lies inside the ball,
   /// as a wall does, the point is that end. A face joins the two points between which its boundary leaves the region
   /// and comes back. Where two of these segments meet, they belong to one polyline; where one, three or more meet, as
   /// on the border of a mesh or at a non-manifold edge, polylines end. On a manifold mesh without border, all polylines
@@ -75,9 +75,9 @@ class RegionMesher {
   /// A face with fewer than three corners is no surface and adds nothing. Polylines, and the first point of a loop,
   /// come in a fixed order for each set of `ids`.
   ///
-  /// Throws also Error{InvalidRadius}, and Error{InvalidOption} if a coordinate of `centre` is not finite or a vertex
+  /// Throws also Error{InvalidRadius}, and Error{InvalidOption} if a coordinate of `center` is not finite or a vertex
   /// of `ids` at the rim lies outside the ball.
-  [[nodiscard]] Rim rim(std::span<const VertexId> ids, const SpacePoint& centre, double radius);
+  [[nodiscard]] Rim rim(std::span<const VertexId> ids, const SpacePoint& center, double radius);
 
  private:
   struct State;

@@ -26,7 +26,7 @@ namespace meshhood {
 /// Use one object per thread: it owns scratch memory, about 22 bytes per leaf. It shares the memory of the
 /// index, which may be moved, refitted or destroyed meanwhile: answers are those of the index as it was.
 ///
-/// A graph that is unlike a surface (around a vertex with very many neighbours, or with edges at random) is searched as
+/// A graph that is unlike a surface (around a vertex with very many neighbors, or with edges at random) is searched as
 /// `ReferenceSearcher` does. Each searcher then owns 20 bytes per vertex more (36 for double), and all of them share a
 /// copy of the graph, which the index keeps from the first one on.
 ///

@@ -24,7 +24,7 @@ struct VertexRange {
   friend bool operator==(const VertexRange&, const VertexRange&) = default;
 };
 
-/// What answers queries about the neighborhood of a vertex `v` within `radius`. `Searcher`, `paper::Searcher`,
+/// A type that answers queries about the neighborhood of a vertex `v` within `radius`. `Searcher`, `paper::Searcher`,
 /// `ReferenceSearcher` and `BallSearcher` satisfy it; they differ in what belongs to the neighborhood.
 ///
 /// - `v` is in [0, `vertex_count()`). `radius` is >= 0 or infinite, in the unit of the positions. A vertex at exactly

@@ -56,7 +56,7 @@ struct LoadOptions {
 struct MapOptions {
   /// Skip everything that reads the data: the checksums of the sections, and the verification of what a search relies
   /// on. The header and the table of sections are still verified. Mapping then takes no time, but damaged bytes lead to
-  /// undefined behaviour: wrong answers, a crash, or a query that does not end. Only for files that no other user can
+  /// undefined behavior: wrong answers, a crash, or a query that does not end. Only for files that no other user can
   /// write.
   bool trusted = false;
 
@@ -81,7 +81,7 @@ enum class IndexKind : std::uint8_t {
   Paper = 2,  ///< `paper::Index`
 };
 
-/// What the first bytes of a saved index say.
+/// The header of a saved index.
 struct IndexHeader {
   std::uint32_t format = 0;  ///< the version of the format
   IndexKind kind = IndexKind::Exact;

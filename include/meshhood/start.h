@@ -13,25 +13,25 @@ namespace meshhood {
 /// A point of space, in the unit of the positions.
 using SpacePoint = std::array<double, 3>;
 
-/// Where a search starts: the centre of its balls, and its seeds, the vertices from which it may go on. Borrows the
+/// Where a search starts: the center of its balls, and its seeds, the vertices from which it spreads. Borrows the
 /// seeds, which must outlive the call.
 class Start {
  public:
-  /// Vertex `v` is the centre and the only seed.
+  /// Vertex `v` is the center and the only seed.
   Start(VertexId v) : vertex_(v) {}
 
-  /// centre  any point of space: finite, no coordinate beyond 2^500 in magnitude.
+  /// center  any point of space: finite, no coordinate beyond 2^500 in magnitude.
   /// seeds   in [0, #V), in any order; repeats are allowed. A seed outside a ball does not count for that ball.
-  Start(const SpacePoint& centre, std::span<const VertexId> seeds) : centre_(centre), seeds_(seeds) {}
+  Start(const SpacePoint& center, std::span<const VertexId> seeds) : center_(center), seeds_(seeds) {}
 
-  /// The one vertex, if there is no centre.
+  /// The one vertex, if there is no center.
   [[nodiscard]] VertexId vertex() const { return vertex_; }
-  [[nodiscard]] const std::optional<SpacePoint>& centre() const { return centre_; }
+  [[nodiscard]] const std::optional<SpacePoint>& center() const { return center_; }
   [[nodiscard]] std::span<const VertexId> seeds() const { return seeds_; }
 
  private:
   VertexId vertex_ = 0;
-  std::optional<SpacePoint> centre_;
+  std::optional<SpacePoint> center_;
   std::span<const VertexId> seeds_;
 };
 

@@ -53,7 +53,7 @@ Adjacency with_unique_rows(Adjacency all, TaskContext& task) {
   return result;
 }
 
-std::string row_of(std::size_t v) { return "neighbours of vertex " + std::to_string(v) + ": "; }
+std::string row_of(std::size_t v) { return "neighbors of vertex " + std::to_string(v) + ": "; }
 
 void validate_row(const AdjacencyView& adjacency, std::size_t v) {
   const std::span<const VertexId> row = adjacency[v];
@@ -76,7 +76,7 @@ void validate_symmetry(const AdjacencyView& adjacency, std::size_t v) {
     const std::span<const VertexId> row = adjacency[w];
     if (!std::binary_search(row.begin(), row.end(), static_cast<VertexId>(v))) {
       raise(ErrorCode::InvalidMesh, row_of(v) + std::to_string(w) + ", but " + std::to_string(v) +
-                                        " is not among the neighbours of " + std::to_string(w));
+                                        " is not among the neighbors of " + std::to_string(w));
     }
   }
 }
@@ -84,7 +84,7 @@ void validate_symmetry(const AdjacencyView& adjacency, std::size_t v) {
 void validate_offsets(const AdjacencyView& adjacency) {
   const auto& offsets = adjacency.offsets;
   if (!offsets.empty() && offsets[0] != 0) {
-    raise(ErrorCode::InvalidMesh, "neighbour offsets begin with " + std::to_string(offsets[0]) + ", expected 0");
+    raise(ErrorCode::InvalidMesh, "neighbor offsets begin with " + std::to_string(offsets[0]) + ", expected 0");
   }
   for (std::size_t v = 0; v + 1 < offsets.size(); ++v) {
     if (offsets[v + 1] < offsets[v] || offsets[v + 1] > adjacency.neighbors.size()) {
@@ -95,8 +95,8 @@ void validate_offsets(const AdjacencyView& adjacency) {
   }
   const std::size_t end = offsets.empty() ? 0 : offsets.back();
   if (end != adjacency.neighbors.size()) {
-    raise(ErrorCode::InvalidMesh, "neighbour offsets end with " + std::to_string(end) + ", but there are " +
-                                      std::to_string(adjacency.neighbors.size()) + " neighbours");
+    raise(ErrorCode::InvalidMesh, "neighbor offsets end with " + std::to_string(end) + ", but there are " +
+                                      std::to_string(adjacency.neighbors.size()) + " neighbors");
   }
 }
 
@@ -127,7 +127,7 @@ void validate(const GraphView& graph) {
   validate(graph.positions);
   const AdjacencyView& adjacency = graph.adjacency;
   if (adjacency.size() != graph.positions.size()) {
-    raise(ErrorCode::InvalidMesh, std::to_string(adjacency.size()) + " rows of neighbours for " +
+    raise(ErrorCode::InvalidMesh, std::to_string(adjacency.size()) + " rows of neighbors for " +
                                       std::to_string(graph.positions.size()) + " vertices");
   }
   validate_offsets(adjacency);

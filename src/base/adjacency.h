@@ -10,7 +10,7 @@
 
 namespace meshhood {
 
-/// Rows of neighbours, each in no order, from all pairs: `for_each(f)` calls `f(v, w)` for every `w` in the row of `v`,
+/// Rows of neighbors, each in no order, from all pairs: `for_each(f)` calls `f(v, w)` for every `w` in the row of `v`,
 /// and does so twice. There are at most `kMaxNeighbors` pairs. O(#V + #pairs).
 template <class ForEach>
 [[nodiscard]] Adjacency gather_rows(std::size_t vertices, ForEach&& for_each) {

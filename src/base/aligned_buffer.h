@@ -13,7 +13,7 @@
 
 namespace meshhood {
 
-// NOLINTBEGIN(modernize-avoid-c-arrays): a vector would initialise its memory before it is overwritten.
+// NOLINTBEGIN(modernize-avoid-c-arrays): a vector would initialize its memory before it is overwritten.
 
 /// Growing bytes at the alignment that `map` requires.
 class AlignedBuffer {

@@ -112,7 +112,7 @@ class Check {
       std::sort(rows[v].begin(), rows[v].end());
       const auto given = graph_.adjacency[v];
       faults_.expect(std::equal(rows[v].begin(), rows[v].end(), given.begin(), given.end()),
-                     [&] { return "vertex " + std::to_string(v) + ": its neighbours differ from the mesh"; });
+                     [&] { return "vertex " + std::to_string(v) + ": its neighbors differ from the mesh"; });
     }
   }
 

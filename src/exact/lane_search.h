@@ -9,7 +9,7 @@
 namespace meshhood {
 
 /// The lanes of a leaf that can be reached from `from` by the edges within the leaf, `from` included. `adjacency[i]`
-/// are the neighbours of lane `i`.
+/// are the neighbors of lane `i`.
 [[nodiscard]] inline LaneMask reachable_lanes(const LaneMask* adjacency, LaneMask from) {
   LaneMask reached = from;
   for (LaneMask todo = from; todo != 0;) {

@@ -23,7 +23,7 @@ constexpr std::size_t kSampleSize = 1024;
 // The part of a sample, nearest to its center, that is compared. Leaves at its surface are cut off.
 constexpr std::size_t kInnerSize = kSampleSize / 4;
 
-/// Calls `f(slot)` for every neighbour of a vertex.
+/// Calls `f(slot)` for every neighbor of a vertex.
 template <class F>
 void for_each_neighbor(const IndexView& index, std::uint32_t slot, F&& f) {
   const LeafId leaf = leaf_of(slot);

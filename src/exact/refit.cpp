@@ -81,7 +81,7 @@ std::vector<Move> checked_moves(const IndexView& index, const PositionsView& pos
   return read_moves(index, positions, changed);
 }
 
-/// Whether `view` has no other owner, such as a searcher. Nobody can become one meanwhile.
+/// Whether `view` has no other owner, such as a searcher. No other owner can appear meanwhile.
 bool is_only_owner(const std::shared_ptr<IndexView>& view) {
   if (view.use_count() != 1) return false;
   // Reading the count does not synchronize with a searcher that another thread has just destroyed. Giving up one more

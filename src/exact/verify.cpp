@@ -102,7 +102,7 @@ void verify_edges_within(const IndexView& index, const SectionReader& file) {
     for (unsigned lane = 0; lane < record.size; ++lane) {
       if ((rows[lane] & (~first_lanes(record.size) | LaneMask{1} << lane)) != 0) {
         file.refuse(&rows[lane], name("leaf", leaf) + ": lane " + std::to_string(lane) +
-                                     " is a neighbour of itself or of a lane that the leaf does not have");
+                                     " is a neighbor of itself or of a lane that the leaf does not have");
       }
       for (LaneMask left = rows[lane]; left != 0; left &= left - 1) {
         const auto other = static_cast<unsigned>(std::countr_zero(left));

@@ -92,13 +92,13 @@ class LinkCheck {
     }
   }
 
-  /// `extract_graph` needs the number of neighbours to fit into its type.
+  /// `extract_graph` needs the number of neighbors to fit into its type.
   void check_count() const {
     std::uint64_t neighbors = cross_edges_;
     for (const LaneMask row : index_.adjacency) neighbors += static_cast<std::uint64_t>(std::popcount(row));
     if (neighbors > kMaxNeighbors) {
       file_.refuse(&index_.links.back(),
-                   std::to_string(neighbors) + " neighbours, but the limit is " + std::to_string(kMaxNeighbors));
+                   std::to_string(neighbors) + " neighbors, but the limit is " + std::to_string(kMaxNeighbors));
     }
   }
 

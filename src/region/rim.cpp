@@ -66,8 +66,8 @@ std::vector<Segment> segments_of(std::span<const ExitPair> pairs, const std::vec
 
 }  // namespace
 
-Rim RegionMesher::rim(std::span<const VertexId> ids, const SpacePoint& centre, double radius) {
-  check_point(centre, "centre: ");
+Rim RegionMesher::rim(std::span<const VertexId> ids, const SpacePoint& center, double radius) {
+  check_point(center, "center: ");
   check_radius(radius);
   const std::vector<std::size_t> faces = state_->select(ids, Corners::Any);
   const auto is_inside = [&](VertexId v) { return state_->is_marked(v); };
@@ -77,13 +77,13 @@ Rim RegionMesher::rim(std::span<const VertexId> ids, const SpacePoint& centre, d
     if (corners.size() >= 3) add_exits(corners, is_inside, pairs);
   }
   const std::vector<RimEdge> exits = distinct_exits(pairs);
-  const Point middle{centre[0], centre[1], centre[2]};
+  const Point middle{center[0], center[1], center[2]};
   std::vector<SpacePoint> points;
   for (const auto& [inner, outer] : exits) {
     const auto at = [&](VertexId v) { return state_->positions.visit([&](const auto& xyz) { return point(xyz, v); }); };
     if (!(squared_distance(at(inner), middle) <= squared_radius(radius))) {
       raise(ErrorCode::InvalidOption, "ids: vertex " + std::to_string(inner) + " is not within the radius " +
-                                          to_text(radius) + " of the centre, expected a region of this ball");
+                                          to_text(radius) + " of the center, expected a region of this ball");
     }
     const Point p = exit_point(at(inner), at(outer), middle, radius);
     points.push_back({p.x, p.y, p.z});

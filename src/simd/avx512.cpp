@@ -137,7 +137,7 @@ MESHHOOD_AVX512 LaneMask reachable(const LaneMask* adjacency, LaneMask among, La
   const __m512i high = _mm512_loadu_si512(adjacency + 16);
   for (LaneMask reached = from;;) {
     const __m512i all = _mm512_set1_epi32(static_cast<int>(reached));
-    // The lanes with a neighbour among those reached.
+    // The lanes with a neighbor among those reached.
     const LaneMask near = _mm512_test_epi32_mask(low, all) | LaneMask{_mm512_test_epi32_mask(high, all)} << 16;
     const LaneMask grown = reached | (near & among);
     if (grown == reached) return reached;

@@ -20,7 +20,7 @@ static_assert(kPacketCapacity == kLeafCapacity);
 template <class T>
 using PerLane = std::array<T, kLeafCapacity>;
 
-/// What a packet knows of a leaf, a word for each vertex.
+/// The state of a leaf in a packet: words for each vertex.
 struct alignas(64) LeafWords {
   PerLane<QueryWord> inside;   // the queries whose ball holds the vertex
   PerLane<QueryWord> reached;  // the queries whose answer holds the vertex, so far

@@ -375,7 +375,7 @@ TEST_F(Aggregate, OfInfiniteValuesFollowsIeee) {
   EXPECT_THAT(of(Reduce::Sum), IsNan());
 }
 
-TEST_F(Aggregate, OfMissingValuesAlone) {
+TEST_F(Aggregate, OfMissingValuesOnlyIsNaNExceptForSumAndCount) {
   const std::vector<double> values(scene.size(), kNan);
   const auto of = [&](Reduce reduce, MissingValues missing) {
     return aggregate(scene.index(), {values}, {.radii = {3}, .reduce = reduce, .missing = missing}).front();
@@ -423,9 +423,9 @@ TEST(AggregateOfAnEmptyMesh, IsEmpty) {
 
 TEST_F(Aggregate, RefusesWrongArguments) {
   const std::vector<double> values(scene.size(), 1.0);
-  const auto refuse = [&](ErrorCode code, const std::string& culprit, const SignalView& given,
+  const auto refuse = [&](ErrorCode code, const std::string& cause, const SignalView& given,
                           const AggregateQuery& query) {
-    expect_refused(code, culprit, [&] { static_cast<void>(aggregate(scene.index(), given, query)); });
+    expect_refused(code, cause, [&] { static_cast<void>(aggregate(scene.index(), given, query)); });
   };
   const AggregateQuery query{.radii = {1}};
   refuse(ErrorCode::InvalidOption, "channels is 0", {values, 0}, query);
@@ -476,7 +476,7 @@ TEST_F(Aggregate, ReportsItsProgressAndCanBeCancelled) {
   }
 }
 
-TEST_F(Aggregate, UsesTheListsAsTheyWereWhenItBegan) {
+TEST_F(Aggregate, CopiesItsListsWhenTheCallBegins) {
   std::vector<VertexId> list{5, 6, 7};
   const AggregateQuery query{.vertices = list, .radii = {2, 3, 4}};
   const std::vector<double> expected = aggregate(scene.index(), signal.view(false), query);

@@ -106,9 +106,9 @@ TEST(MeanEdgeLength, IsZeroWithoutEdges) {
 }
 
 /// Three vertices with the rows that the case gives.
-void expect_graph_refused(const char* culprit, const Adjacency& graph) {
+void expect_graph_refused(const char* cause, const Adjacency& graph) {
   const std::vector<double> positions(9, 0.0);
-  expect_refused(ErrorCode::InvalidMesh, culprit, [&] { validate(GraphView{positions, graph.view()}); });
+  expect_refused(ErrorCode::InvalidMesh, cause, [&] { validate(GraphView{positions, graph.view()}); });
 }
 
 TEST(ValidateGraph, AcceptsASymmetricGraph) {
@@ -119,17 +119,17 @@ TEST(ValidateGraph, AcceptsASymmetricGraph) {
 }
 
 TEST(ValidateGraph, NamesTheInconsistentVertex) {
-  expect_graph_refused("2 rows of neighbours for 3 vertices", {{0, 1, 2}, {1, 0}});
-  expect_graph_refused("0 rows of neighbours for 3 vertices", {});
-  expect_graph_refused("neighbour offsets begin with 1, expected 0", {{1, 1, 2, 2}, {1, 0}});
-  expect_graph_refused("neighbours of vertex 1: from 2 to 1 in a list of 4", {{0, 2, 1, 4}, {1, 2, 0, 0}});
-  expect_graph_refused("neighbours of vertex 2: from 2 to 9 in a list of 2", {{0, 1, 2, 9}, {1, 0}});
-  expect_graph_refused("neighbour offsets end with 2, but there are 3 neighbours", {{0, 1, 2, 2}, {1, 0, 0}});
-  expect_graph_refused("neighbours of vertex 1: vertex 3, but the graph has 3 vertices", {{0, 1, 2, 2}, {1, 3}});
-  expect_graph_refused("neighbours of vertex 1: the vertex itself", {{0, 0, 1, 1}, {1}});
-  expect_graph_refused("neighbours of vertex 0: 1 after 2, expected ascending ids", {{0, 2, 3, 4}, {2, 1, 0, 0}});
-  expect_graph_refused("neighbours of vertex 0: 1 after 1, expected ascending ids", {{0, 2, 4, 4}, {1, 1, 0, 0}});
-  expect_graph_refused("neighbours of vertex 0: 1, but 0 is not among the neighbours of 1", {{0, 1, 1, 1}, {1}});
+  expect_graph_refused("2 rows of neighbors for 3 vertices", {{0, 1, 2}, {1, 0}});
+  expect_graph_refused("0 rows of neighbors for 3 vertices", {});
+  expect_graph_refused("neighbor offsets begin with 1, expected 0", {{1, 1, 2, 2}, {1, 0}});
+  expect_graph_refused("neighbors of vertex 1: from 2 to 1 in a list of 4", {{0, 2, 1, 4}, {1, 2, 0, 0}});
+  expect_graph_refused("neighbors of vertex 2: from 2 to 9 in a list of 2", {{0, 1, 2, 9}, {1, 0}});
+  expect_graph_refused("neighbor offsets end with 2, but there are 3 neighbors", {{0, 1, 2, 2}, {1, 0, 0}});
+  expect_graph_refused("neighbors of vertex 1: vertex 3, but the graph has 3 vertices", {{0, 1, 2, 2}, {1, 3}});
+  expect_graph_refused("neighbors of vertex 1: the vertex itself", {{0, 0, 1, 1}, {1}});
+  expect_graph_refused("neighbors of vertex 0: 1 after 2, expected ascending ids", {{0, 2, 3, 4}, {2, 1, 0, 0}});
+  expect_graph_refused("neighbors of vertex 0: 1 after 1, expected ascending ids", {{0, 2, 4, 4}, {1, 1, 0, 0}});
+  expect_graph_refused("neighbors of vertex 0: 1, but 0 is not among the neighbors of 1", {{0, 1, 1, 1}, {1}});
 }
 
 }  // namespace

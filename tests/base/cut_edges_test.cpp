@@ -20,7 +20,7 @@
 namespace meshhood::test {
 namespace {
 
-TEST(CutEdges, LeavesTheOthersAsTheyWere) {
+TEST(CutEdges, KeepsAllOtherEdges) {
   std::size_t cut = 0;
   for (const Family& family : families()) {
     const TestMesh mesh = make_mesh(family, 3, 120);
@@ -53,7 +53,7 @@ TEST(CutEdges, LeavesTheOthersAsTheyWere) {
   EXPECT_GT(cut, 0U);
 }
 
-TEST(CutEdges, SeparateWhatTheyJoined) {
+TEST(CutEdges, SeparateTheTwoHalvesOfAStrip) {
   const TestMesh mesh = make_grid(8, 3, true);
   const std::vector<std::int32_t> edges{9, 12, 13, 10, 11, 14};
   const Adjacency graph = adjacency(mesh.view());
@@ -62,7 +62,7 @@ TEST(CutEdges, SeparateWhatTheyJoined) {
   EXPECT_EQ(Searcher(index).count(0, kInfinity), 12U);
 }
 
-TEST(CutEdges, RefusesWhatIsNoEdgeByItsRow) {
+TEST(CutEdges, RefusesPairsThatAreNotEdgesAndNamesTheRow) {
   const TestMesh mesh = make_grid(3, 3, true);
   const Adjacency graph = adjacency(mesh.view());
   const auto cut = [&](std::vector<std::int32_t> edges) {

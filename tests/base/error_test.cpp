@@ -32,7 +32,7 @@ TEST(Error, EachCodeHasItsOwnDescription) {
 }
 
 TEST(Error, HasACodeAndAMessage) {
-  expect_refused(ErrorCode::TooLarge, "the culprit", [] { raise(ErrorCode::TooLarge, "the culprit"); });
+  expect_refused(ErrorCode::TooLarge, "the cause", [] { raise(ErrorCode::TooLarge, "the cause"); });
   const Error error(ErrorCode::IoFailure, "why");
   const std::exception& base = error;
   EXPECT_STREQ(base.what(), "why");
@@ -77,7 +77,7 @@ TEST(Error, EveryFunctionRefusesAnInconsistentGraph) {
   const Adjacency one_way{{0, 1, 1}, {1}};
   const GraphView graph{positions, one_way.view()};
   const auto refuse = [](auto&& door) {
-    expect_refused(ErrorCode::InvalidMesh, "neighbours of vertex 0: 1, but", door);
+    expect_refused(ErrorCode::InvalidMesh, "neighbors of vertex 0: 1, but", door);
   };
   refuse([&] { validate(graph); });
   refuse([&] { static_cast<void>(build(graph)); });

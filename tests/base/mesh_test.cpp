@@ -18,8 +18,8 @@ using testing::ElementsAre;
 
 const std::vector<float> kThreePoints{0, 0, 0, 1, 0, 0, 0, 1, 0};
 
-void expect_mesh_refused(const char* culprit, const FacesView& faces) {
-  expect_refused(ErrorCode::InvalidMesh, culprit, [&] { validate(MeshView{kThreePoints, faces}); });
+void expect_mesh_refused(const char* cause, const FacesView& faces) {
+  expect_refused(ErrorCode::InvalidMesh, cause, [&] { validate(MeshView{kThreePoints, faces}); });
 }
 
 TEST(Views, HaveTheRightSizes) {
@@ -59,9 +59,9 @@ TEST(Validate, RefusesNonFiniteCoordinatesAndNamesTheVertex) {
       std::vector<double> wide(9, 0.0);
       wide[i] = value;
       const std::vector<float> narrow(wide.begin(), wide.end());
-      const std::string culprit = "vertex " + std::to_string(i / 3) + ": " + "xyz"[i % 3] + " is " + text;
-      expect_refused(ErrorCode::InvalidMesh, culprit, [&] { validate(PositionsView(wide)); });
-      expect_refused(ErrorCode::InvalidMesh, culprit, [&] { validate(MeshView{narrow, {}}); });
+      const std::string cause = "vertex " + std::to_string(i / 3) + ": " + "xyz"[i % 3] + " is " + text;
+      expect_refused(ErrorCode::InvalidMesh, cause, [&] { validate(PositionsView(wide)); });
+      expect_refused(ErrorCode::InvalidMesh, cause, [&] { validate(MeshView{narrow, {}}); });
     }
   }
 }
@@ -88,8 +88,8 @@ TEST(Validate, RefusesAnIncompleteTriangle) {
 template <class Index>
 void expect_corner_refused(Index corner, const std::string& text) {
   const std::vector<Index> corners{0, 1, 2, 0, corner, 1};
-  const std::string culprit = "face 1: corner 1 is vertex " + text + ", but the mesh has 3 vertices";
-  expect_mesh_refused(culprit.c_str(), FacesView::triangles(corners));
+  const std::string cause = "face 1: corner 1 is vertex " + text + ", but the mesh has 3 vertices";
+  expect_mesh_refused(cause.c_str(), FacesView::triangles(corners));
 }
 
 TEST(Validate, ACornerIsComparedBeforeItIsNarrowed) {
@@ -104,8 +104,8 @@ TEST(Validate, ACornerIsComparedBeforeItIsNarrowed) {
 
 TEST(Validate, RefusesInconsistentOffsets) {
   const std::vector<std::uint32_t> corners{0, 1, 2};
-  const auto expect = [&](const char* culprit, const std::vector<std::int64_t>& offsets) {
-    expect_mesh_refused(culprit, FacesView::polygons(offsets, corners));
+  const auto expect = [&](const char* cause, const std::vector<std::int64_t>& offsets) {
+    expect_mesh_refused(cause, FacesView::polygons(offsets, corners));
   };
   expect("face offsets are empty, but there are 3 corners", {});
   expect("face offsets begin with 1, expected 0", {1, 3});

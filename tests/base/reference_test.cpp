@@ -146,10 +146,10 @@ TEST(Reference, InvalidArgumentsAreRefusedAndResultsStayUnchanged) {
   const auto once = [&](VertexId v, double r) {
     return [&, v, r] { static_cast<void>(exact_neighborhood(mesh.view(), v, r)); };
   };
-  const auto expect_all_refused = [&](ErrorCode code, const char* culprit, VertexId v, double r) {
-    expect_refused(code, culprit, exact(v, r));
-    expect_refused(code, culprit, scan(v, r));
-    expect_refused(code, culprit, once(v, r));
+  const auto expect_all_refused = [&](ErrorCode code, const char* cause, VertexId v, double r) {
+    expect_refused(code, cause, exact(v, r));
+    expect_refused(code, cause, scan(v, r));
+    expect_refused(code, cause, once(v, r));
   };
   expect_all_refused(ErrorCode::VertexOutOfRange, "vertex 9, but the mesh has 9 vertices", 9, 1);
   expect_all_refused(ErrorCode::VertexOutOfRange, "but the mesh has 9 vertices", static_cast<VertexId>(-1), 1);

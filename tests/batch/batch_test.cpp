@@ -173,7 +173,7 @@ class Batches : public testing::Test {
   Index index = build(mesh.view());
 };
 
-TEST_F(Batches, WithoutVerticesTakeAllInOrder) {
+TEST_F(Batches, WithoutAListTakeAllVerticesInOrder) {
   std::vector<VertexId> all(index.vertex_count());
   std::iota(all.begin(), all.end(), VertexId{0});
   const BatchOptions options{.threads = 2, .sorted = true};
@@ -199,7 +199,7 @@ TEST_F(Batches, OfAnEmptyMeshAreEmpty) {
   EXPECT_THAT(stream(SearchMethod::ball_scan({}), {.radius = 1.0}, {}).ids, IsEmpty());
 }
 
-TEST_F(Batches, GiveDistancesOnlyWhenAsked) {
+TEST_F(Batches, GiveDistancesOnlyIfRequested) {
   EXPECT_THAT(neighborhoods(index, {.radius = 3.0}).distances, IsEmpty());
   const Neighborhoods all = neighborhoods(index, {.radius = 3.0}, {.distances = true});
   ASSERT_EQ(all.distances.size(), all.ids.size());
@@ -246,7 +246,7 @@ void expect_same_in_callers_memory(const SearchMethod& index, const BatchQuery& 
   EXPECT_EQ(distances.values(), expected.distances);
 }
 
-TEST_F(Batches, FillMemoryOfTheCallers) {
+TEST_F(Batches, FillMemoryThatTheCallerAllocates) {
   const paper::Index approximate = paper::build(mesh.view());
   const RandomRows rows(mesh.view(), 500, 3);
   for (const unsigned threads : kThreads) {
@@ -263,11 +263,11 @@ TEST_F(Batches, FillMemoryOfTheCallers) {
 TEST_F(Batches, RefuseMemoryOfAnotherSize) {
   std::vector<VertexId> ids(4000);
   std::vector<double> distances(4000);
-  const auto refused = [&](const std::string& culprit, std::size_t with_ids, std::size_t with_distances) {
+  const auto refused = [&](const std::string& cause, std::size_t with_ids, std::size_t with_distances) {
     const auto allocate = [&](std::size_t) -> BatchMemory {
       return {std::span(ids).first(with_ids), std::span(distances).first(with_distances)};
     };
-    expect_refused(ErrorCode::InvalidOption, culprit, [&] {
+    expect_refused(ErrorCode::InvalidOption, cause, [&] {
       static_cast<void>(neighborhoods(index, {.radius = 0.5}, allocate, {.threads = 2, .distances = true}));
     });
   };
@@ -286,7 +286,7 @@ TEST_F(Batches, PassOnWhatTheAllocatorThrows) {
   }
 }
 
-TEST_F(Batches, OfManyRowsAreAskedInSeveralPieces) {
+TEST_F(Batches, OfMoreRowsThanAPieceHaveAllRows) {
   const std::vector<VertexId> vertices((std::size_t{1} << 20) + 5, VertexId{7});
   const std::vector<std::uint64_t> all =
       neighborhood_sizes(index, {.vertices = vertices, .radius = 1.0}, {.threads = 2});
@@ -295,34 +295,34 @@ TEST_F(Batches, OfManyRowsAreAskedInSeveralPieces) {
 }
 
 /// Expects each of the calls to refuse before it hands out or reports anything.
-void expect_all_refused(ErrorCode code, const std::string& culprit, const SearchMethod& index, const BatchQuery& query,
+void expect_all_refused(ErrorCode code, const std::string& cause, const SearchMethod& index, const BatchQuery& query,
                         BatchOptions options) {
-  const auto never = [&](const BatchRow&) { ADD_FAILURE() << "handed out before: " << culprit; };
+  const auto never = [&](const BatchRow&) { ADD_FAILURE() << "handed out before: " << cause; };
   options.progress = [&](std::size_t, std::size_t) {
-    ADD_FAILURE() << "reported before: " << culprit;
+    ADD_FAILURE() << "reported before: " << cause;
     return true;
   };
-  expect_refused(code, culprit, [&] { for_each_neighborhood(index, query, never, options); });
-  expect_refused(code, culprit, [&] { static_cast<void>(neighborhoods(index, query, options)); });
-  expect_refused(code, culprit, [&] { static_cast<void>(neighborhood_sizes(index, query, options)); });
+  expect_refused(code, cause, [&] { for_each_neighborhood(index, query, never, options); });
+  expect_refused(code, cause, [&] { static_cast<void>(neighborhoods(index, query, options)); });
+  expect_refused(code, cause, [&] { static_cast<void>(neighborhood_sizes(index, query, options)); });
   const auto no_memory = [&](std::size_t) -> BatchMemory {
-    ADD_FAILURE() << "asked for memory before: " << culprit;
+    ADD_FAILURE() << "asked for memory before: " << cause;
     return {};
   };
-  expect_refused(code, culprit, [&] { static_cast<void>(neighborhoods(index, query, no_memory, options)); });
+  expect_refused(code, cause, [&] { static_cast<void>(neighborhoods(index, query, no_memory, options)); });
 }
 
-TEST_F(Batches, RefuseWhatCannotBeBeforeTheFirstRow) {
+TEST_F(Batches, RefuseInvalidArgumentsBeforeTheFirstRow) {
   const std::vector<VertexId> vertices{0, 1, 3600};
   const std::vector<double> two{1, 1};
   const std::vector<double> radii{1, -1, 1};
   const std::vector<VertexId> three{0, 1, 2};
   const paper::Index approximate = paper::build(mesh.view());
-  const auto refused = [&](ErrorCode code, const std::string& culprit, const BatchQuery& query,
+  const auto refused = [&](ErrorCode code, const std::string& cause, const BatchQuery& query,
                            const BatchOptions& options = {}) {
-    expect_all_refused(code, culprit, index, query, options);
-    expect_all_refused(code, culprit, approximate, query, options);
-    expect_all_refused(code, culprit, SearchMethod::ball_scan(mesh.view().positions), query, options);
+    expect_all_refused(code, cause, index, query, options);
+    expect_all_refused(code, cause, approximate, query, options);
+    expect_all_refused(code, cause, SearchMethod::ball_scan(mesh.view().positions), query, options);
   };
   refused(ErrorCode::VertexOutOfRange, "row 2: vertex 3600, but the mesh has 3600 vertices",
           {.vertices = vertices, .radius = 1.0});
@@ -337,11 +337,11 @@ TEST_F(Batches, RefuseWhatCannotBeBeforeTheFirstRow) {
   expect_refused(ErrorCode::InvalidOption, "sink is empty", [&] { for_each_neighborhood(index, {.radius = 1.0}, {}); });
 }
 
-TEST_F(Batches, RefuseAGraphThatIsNone) {
+TEST_F(Batches, RefuseAnInvalidGraph) {
   const std::vector<EdgeOffset> offsets{0, 1, 1};
   const std::vector<VertexId> neighbors{1};
   const std::vector<float> positions(6);
-  expect_refused(ErrorCode::InvalidMesh, "0 is not among the neighbours of 1",
+  expect_refused(ErrorCode::InvalidMesh, "0 is not among the neighbors of 1",
                  [&] { static_cast<void>(SearchMethod::breadth_first({positions, {offsets, neighbors}})); });
 }
 
@@ -395,7 +395,7 @@ TEST_F(Batches, RefuseAResultFarBeyondTheLimitByASample) {
   EXPECT_EQ(most, 0U) << "all rows of the refused batch were counted";
 }
 
-TEST_F(Batches, CountASampleOnlyToRefuse) {
+TEST_F(Batches, AcceptAResultWithinTheLimitThatTheSampleDoesNotExclude) {
   // Half of the rows are large: their sample does not prove that the result is too large.
   std::vector<VertexId> vertices(20'000, VertexId{7});
   std::vector<double> radii(vertices.size(), 0.0);
@@ -405,7 +405,7 @@ TEST_F(Batches, CountASampleOnlyToRefuse) {
   EXPECT_EQ(neighborhoods(index, query, {.max_bytes = ids * sizeof(VertexId)}).ids.size(), ids);
 }
 
-TEST_F(Batches, ReportFromNothingToAllOnTheCallingThread) {
+TEST_F(Batches, ReportFromZeroToTheTotalOnTheCallingThread) {
   for (const unsigned threads : kThreads) {
     std::vector<std::size_t> reports;
     const auto caller = std::this_thread::get_id();

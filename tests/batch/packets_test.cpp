@@ -290,8 +290,8 @@ TEST_F(Packets, AreRefusedBeforeTheFirstVisit) {
   const std::vector<VertexId> outside{0, static_cast<VertexId>(index.vertex_count())};
   const std::vector<double> two{1, 1};
   const std::vector<double> negative(index.vertex_count(), -1);
-  const auto refused = [&](ErrorCode code, const char* culprit, const BatchQuery& query) {
-    expect_refused(code, culprit, [&] { for_each_packet(index, query, never); });
+  const auto refused = [&](ErrorCode code, const char* cause, const BatchQuery& query) {
+    expect_refused(code, cause, [&] { for_each_packet(index, query, never); });
   };
   refused(ErrorCode::VertexOutOfRange, "row 1", {.vertices = outside, .radius = two});
   refused(ErrorCode::InvalidRadius, "row 0", {.radius = negative});

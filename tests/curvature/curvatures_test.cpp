@@ -325,7 +325,7 @@ TEST(Curvatures, TheFilterKeepsTheOtherSideOfAFoldOut) {
   EXPECT_LT(std::abs(with.k1[2]) + std::abs(with.k2[2]), 1e-12);
 }
 
-TEST(Curvatures, SayWhatARowIsWorth) {
+TEST(Curvatures, ReportTheStateOfEachRow) {
   // A fan of five vertices, a strip of six on a line, an isolated vertex, and a face without area.
   TestMesh mesh;
   for (int i = 0; i < 5; ++i) mesh.add_vertex(i, i % 2, 0);
@@ -425,7 +425,7 @@ TEST(Curvatures, AnOpenBallHasNoVertexAtExactlyTheRadius) {
             0);
 }
 
-TEST(Curvatures, RefuseWhatIsWrongByName) {
+TEST(Curvatures, RefuseInvalidArgumentsAndNameThem) {
   const Case one(bumpy_grid(5).finish(false));
   TestMesh moved = one.mesh;
   moved.positions[3 * 7] += 1;

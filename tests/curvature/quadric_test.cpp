@@ -132,7 +132,7 @@ std::vector<Point> points_on(Random& random, const Quadric& q, std::size_t count
   return points;
 }
 
-TEST(Quadric, PointsOnAQuadricGiveItBack) {
+TEST(Quadric, PointsOnAQuadricDetermineIt) {
   Random random(5);
   for (const std::size_t count : {5U, 6U, 7U, 50U, 1000U}) {
     const Quadric q = random_quadric(random, 2);

@@ -68,8 +68,8 @@ TEST(IndexCheck, FindsAWrongPosition) {
 }
 
 TEST(IndexCheck, FindsAWrongEdge) {
-  expect_found("its neighbours differ", [](IndexData& i) { i.adjacency[5] = 0; });
-  expect_found("its neighbours differ", [](IndexData& i) { i.cross_edges[9].to ^= 1; });
+  expect_found("its neighbors differ", [](IndexData& i) { i.adjacency[5] = 0; });
+  expect_found("its neighbors differ", [](IndexData& i) { i.cross_edges[9].to ^= 1; });
   expect_found("the boundary of its link", [](IndexData& i) { i.links[7].boundary = 0; });
 }
 

@@ -62,7 +62,7 @@ std::size_t expect_the_same_after_saving(const Index& index, const MeshView& mes
 
 class Serialize : public testing::TestWithParam<Family> {};
 
-TEST_P(Serialize, GivesTheSameIndexBack) {
+TEST_P(Serialize, RestoresTheIndex) {
   std::size_t queries = 0;
   for (const std::size_t vertices : {1U, 2U, 33U, 400U, 3000U}) {
     const TestMesh mesh = make_mesh(GetParam(), 5, vertices);
@@ -82,7 +82,7 @@ TEST_P(Serialize, GivesTheSameBytesForAnyThreads) {
   }
 }
 
-TEST_P(Serialize, GivesTheGraphOfTheMeshBack) {
+TEST_P(Serialize, RestoresTheGraphOfTheMesh) {
   const TestMesh mesh = make_mesh(GetParam(), 8, 1000);
   const Adjacency expected = adjacency(mesh.view());
   const GraphData found = extract_graph(build(mesh.view()));

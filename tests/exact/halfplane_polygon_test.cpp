@@ -119,7 +119,7 @@ TEST(HalfplanePolygon, NoCornerLiesFartherThanWidthPlusSlopeTimesHeight) {
 }
 
 TEST(HalfplanePolygon, SlopeIsThatOfThePlaneThroughTheNeighbors) {
-  // All neighbours lie in the plane with height 0.3 x, whose slope is 0.3.
+  // All neighbors lie in the plane with height 0.3 x, whose slope is 0.3.
   std::vector<Halfplane> halfplanes;
   for (const double turns : {0.05, 0.2, 0.4, 0.6, 0.75, 0.9}) {
     const Halfplane flat = at_angle(turns, 1);
@@ -161,7 +161,7 @@ TEST(HalfplanePolygon, IsUnboundedForAnyGapOfHalfATurn) {
 TEST(HalfplanePolygon, EdgesOfNoLengthOrOneDirectionDoNotBoundIt) {
   EXPECT_FALSE(is_bounded(extent_of({{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}})));
   EXPECT_FALSE(is_bounded(extent_of({at_angle(0.1, 1), at_angle(0.1, 2), at_angle(0.6, 1), at_angle(0.6, 2)})));
-  // Neighbours straight above, with no part in the plane.
+  // Neighbors straight above, with no part in the plane.
   EXPECT_FALSE(is_bounded(extent_of({of_edge(0, 0, 1), of_edge(0, 0, 2), of_edge(0, 0, -1)})));
 }
 

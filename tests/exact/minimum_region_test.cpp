@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Regions beside brute force. The set of points from which a vertex is a local minimum of the distance is its Voronoi
-// cell among its neighbours: a polyhedron whose corners are found here from all triples of bisector planes.
+// cell among its neighbors: a polyhedron whose corners are found here from all triples of bisector planes.
 #include "exact/build/minimum_region.h"
 
 #include <algorithm>
@@ -324,7 +324,7 @@ TEST(MinimumRegion, IsUnboundedForAVertexOfTheRim) {
   Random random(3);
   Patch patch = make_patch(jittered(random, 0.2, 0.001), Pose{}, random);
   ASSERT_TRUE(is_bounded(patch.region()));
-  // The first vertex of the leaf loses all neighbours with a smaller x.
+  // The first vertex of the leaf loses all neighbors with a smaller x.
   const double x = patch.vertex(0).x;
   std::erase_if(patch.edges, [&](const LeafEdge& e) { return e.lane == 0 && patch.points[e.neighbor].x < x; });
   EXPECT_FALSE(is_bounded(patch.region()));

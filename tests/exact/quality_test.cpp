@@ -50,7 +50,7 @@ TEST(Quality, DoesNotChangeWithPositionAndSize) {
   EXPECT_NEAR(after.mean_radius, 64 * before.mean_radius, 64 * 0.02 * before.mean_radius);
 }
 
-TEST(Quality, SaysWhatABuildGainsWhereLeavesAreStretchedOrTorn) {
+TEST(Quality, PredictsTheGainOfABuildWhereLeavesAreStretchedOrTorn) {
   const TestMesh mesh = bumpy_grid(150);
   const Index index = build(mesh.view());
   for (const double stretch : {2.0, 4.0, 8.0}) {
@@ -65,7 +65,7 @@ TEST(Quality, SaysWhatABuildGainsWhereLeavesAreStretchedOrTorn) {
   }
 }
 
-TEST(Quality, SaysThatTornLeavesAreBad) {
+TEST(Quality, IsLargeForTornLeaves) {
   const TestMesh mesh = bumpy_grid(150);
   TestMesh torn = mesh;
   Random random(1);
@@ -81,7 +81,7 @@ TEST(Quality, SaysThatTornLeavesAreBad) {
   EXPECT_GT(found, 1.5);
 }
 
-TEST(Quality, OfAMeshWithoutVerticesHasNothingToGain) {
+TEST(Quality, OfAMeshWithoutVerticesHasTheGainOne) {
   const TestMesh mesh;
   EXPECT_EQ(quality(build(mesh.view())).gain, 1);
 }

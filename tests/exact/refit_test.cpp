@@ -426,7 +426,7 @@ TEST(Refit, LeavesTheIndexAsItWasIfItFails) {
   EXPECT_NE(saved(index), before);
 }
 
-TEST(Refit, ReportsProgressFromNothingToAll) {
+TEST(Refit, ReportsProgressFromZeroToTheTotal) {
   const Sculpted sculpted;
   const Index index = build(sculpted.mesh.view());
   std::vector<std::size_t> done;

@@ -14,7 +14,7 @@
 namespace meshhood::test {
 namespace {
 
-/// Zero, everything, and the distances of some vertices with their neighbouring numbers.
+/// Zero, everything, and the distances of some vertices with their neighboring numbers.
 std::vector<double> radii_at(VertexId v, const MeshView& mesh, Random& random) {
   std::vector<double> radii{0, std::numeric_limits<double>::denorm_min(), kInfinity};
   for (int i = 0; i < 5; ++i) {

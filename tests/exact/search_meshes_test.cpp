@@ -42,7 +42,7 @@ TEST_P(RealMeshes, AnswersAreThoseOfTheReference) {
   report(GetParam(), exact);
 }
 
-TEST_P(RealMeshes, IndexHoldsWhatItPromisesInItsMemory) {
+TEST_P(RealMeshes, IndexIsSoundAndTakesAtMost34BytesAVertex) {
   MESHHOOD_NEED_SHARED_MESHES();
   const io::Mesh mesh = shared_mesh(GetParam());
   const Index index = build(mesh.view());

@@ -83,7 +83,7 @@ TEST(Rare, SheetOfAnotherComponentIsLeftOut) {
 
 TEST(Rare, SingleVerticesAreCutOffAtARoughBoundary) {
   // The edges of such a vertex into the next leaf lead out of the ball, while other vertices of its leaf have nearer
-  // neighbours in that leaf.
+  // neighbors in that leaf.
   TestMesh mesh = make_grid(100, 100, false);
   Random random(7);
   for (double& coordinate : mesh.positions) coordinate += random.uniform(-0.4, 0.4);

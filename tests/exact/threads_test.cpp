@@ -138,7 +138,7 @@ TEST(Threads, ManyThreadsMaySearchOneIndexWithEveryMethod) {
   std::printf("%zu threads, %zu queries, %zu mismatches\n", kThreads, 2 * kThreads * queries, wrong.load());
 }
 
-// Of more vertices than a thread takes at once; one mesh is built from by two callers, one of whom gives up.
+// The mesh has more vertices than a thread takes at once. Two callers build from it, and one of them cancels.
 TEST(Threads, ManyThreadsBuildTheSameIndex) {
   const TestMesh mesh = make_grid(250, 240, true).finish(true);
   const Index expected = build(mesh.view());

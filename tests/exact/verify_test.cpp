@@ -26,12 +26,12 @@ namespace {
 
 using Change = std::function<void(Forgery&)>;
 
-void expect_refused_after(const char* culprit, const Change& change) {
+void expect_refused_after(const char* cause, const Change& change) {
   Forgery forgery(saved(build(bumpy_grid(20).view())));
   change(forgery);
   seal(forgery.bytes());
   const auto call = [&] { static_cast<void>(load(forgery.bytes())); };
-  expect_refused(ErrorCode::MalformedIndex, culprit, call);
+  expect_refused(ErrorCode::MalformedIndex, cause, call);
   EXPECT_THAT(call, testing::ThrowsMessage<Error>(testing::Truly(names_a_place)));
 }
 
@@ -138,8 +138,8 @@ TEST(IndexVerify, RejectsAWrongNumbering) {
 }
 
 TEST(IndexVerify, RejectsWrongEdgesWithinLeaves) {
-  expect_refused_after("is a neighbour of itself", [](Forgery& f) { f.section<LaneMask>("adjacency")[0] |= 1; });
-  expect_refused_after("is a neighbour of itself", [](Forgery& f) {
+  expect_refused_after("is a neighbor of itself", [](Forgery& f) { f.section<LaneMask>("adjacency")[0] |= 1; });
+  expect_refused_after("is a neighbor of itself", [](Forgery& f) {
     const Leaf& leaf = f.section<Leaf>("leaves")[1];
     if (leaf.size < kLeafCapacity) f.section<LaneMask>("adjacency")[leaf.first] |= LaneMask{1} << leaf.size;
     if (leaf.size == kLeafCapacity) f.section<LaneMask>("adjacency")[leaf.first] |= 1;

@@ -141,7 +141,7 @@ class IndexSaveProgress : public testing::Test {
   std::filesystem::path path = scratch.write("index", "old");
 };
 
-TEST_F(IndexSaveProgress, TellsFromNothingToAll) {
+TEST_F(IndexSaveProgress, ReportsFromZeroToTheTotal) {
   for (const Save& save : {to_bytes(exact), to_bytes(approximate), to_file(exact), to_file(approximate)}) {
     expect_from_nothing_to_all(reports_of(save));
   }

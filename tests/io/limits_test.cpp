@@ -58,7 +58,7 @@ TEST(Limits, TheLastVertexThatHasAnIdIsReadAndTheNextIsRefused) {
 }
 
 // M20
-TEST(Limits, MoreCornersThanIdsAreNoProblem) {
+TEST(Limits, AcceptsMoreCornersThanIds) {
   std::string file = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (int face = 0; face < 50000; ++face) file += "f 1 2 3\n";
   const auto mesh = read("a.obj", file + "f 1 2\n");

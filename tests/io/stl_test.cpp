@@ -19,7 +19,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 const std::array<float, 9> kTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-const std::array<float, 9> kNeighbour = {1, 0, 0, 1, 1, 0, 0, 1, 0};
+const std::array<float, 9> kNeighbor = {1, 0, 0, 1, 1, 0, 0, 1, 0};
 
 std::string facet(const std::string& vertices) {
   return "facet normal 0 0 1\nouter loop\n" + vertices + "endloop\nendfacet\n";
@@ -36,7 +36,7 @@ TEST(Stl, AHugeFacetCountAllocatesNothing) {
 
 // M3
 TEST(Stl, TruncationAtAnyByteIsRefused) {
-  const std::string binary = binary_stl({kTriangle, kNeighbour});
+  const std::string binary = binary_stl({kTriangle, kNeighbor});
   for (std::size_t length = 0; length < binary.size(); ++length) {
     EXPECT_TRUE(refusal("a.stl", binary.substr(0, length)).refused) << length;
   }
@@ -65,7 +65,7 @@ TEST(Stl, BytesAfterTheLastFacetAreAWarning) {
 // M13
 TEST(Stl, ABinaryFileMayBeginWithSolid) {
   for (const std::string header : {"solid", "solid name", "SOLID facet normal 0 0 1"}) {
-    const auto mesh = read("a.stl", binary_stl({kTriangle, kNeighbour}, header));
+    const auto mesh = read("a.stl", binary_stl({kTriangle, kNeighbor}, header));
     EXPECT_EQ(face_count(mesh), 2U) << header;
     EXPECT_TRUE(mesh.warnings.empty()) << header;
     EXPECT_EQ(warned(read("a.stl", binary_stl({kTriangle}, header) + "x"), "after the last facet"), 1U) << header;
@@ -76,10 +76,10 @@ TEST(Stl, ABinaryFileMayBeginWithSolid) {
 
 // M13
 TEST(Stl, TheErrorHasBothReasonsIfNeitherFits) {
-  const std::string cut = binary_stl({kTriangle, kNeighbour}, "solid name").substr(0, 150);
+  const std::string cut = binary_stl({kTriangle, kNeighbor}, "solid name").substr(0, 150);
   expect_refused("a.stl", cut, ErrorCode::MalformedFile, "NUL byte", "not a binary STL",
                  "184 bytes for the 2 facets of its header");
-  const std::string no_solid = binary_stl({kTriangle, kNeighbour}, "name").substr(0, 150);
+  const std::string no_solid = binary_stl({kTriangle, kNeighbor}, "name").substr(0, 150);
   expect_refused("a.stl", no_solid, ErrorCode::MalformedFile, "not a binary STL", "184 bytes");
 }
 
@@ -167,7 +167,7 @@ TEST(Stl, WeldingInManyBatchesGivesWhatAMapGives) {
 TEST(Stl, CoordinatesMustBeFinite) {
   auto triangle = kTriangle;
   triangle[4] = std::numeric_limits<float>::infinity();
-  expect_refused("a.stl", binary_stl({kNeighbour, triangle}), ErrorCode::MalformedFile, "a.stl@162",
+  expect_refused("a.stl", binary_stl({kNeighbor, triangle}), ErrorCode::MalformedFile, "a.stl@162",
                  "facet 1, vertex 1, y is not finite");
   for (const std::string word : {"nan", "-inf", "1e39", "1,5", "0x1p3", "1.#QNAN"}) {
     expect_refused("a.stl", "solid\n" + facet("vertex 0 0 " + word + "\n"), ErrorCode::MalformedFile, "a.stl:4:12",

@@ -109,7 +109,7 @@ TEST_F(WritePly, FacesMayHaveMoreThan255Corners) {
   }
 }
 
-TEST_F(WritePly, ColoursAndPropertiesAreWritten) {
+TEST_F(WritePly, ColorsAndPropertiesAreWritten) {
   const std::vector<std::uint8_t> colors = {255, 0, 0, 0, 128, 0, 1, 2, 3};
   const std::vector<float> distance = {0.5F, std::numeric_limits<float>::infinity(), 2};
   const std::vector<float> level = {1, 2, 3};

@@ -53,19 +53,19 @@ TEST(NarrowIds, BuildsAtTheLimits) {
 
 TEST(NarrowIds, RefusesOneVertexMore) {
   const TestMesh mesh = polygon_on_line(kMaxVertices + 1, 3);
-  const char* const culprit = "65535 vertices, but the limit is 65534";
-  expect_refused(ErrorCode::TooLarge, culprit, [&] { validate(mesh.view()); });
-  expect_refused(ErrorCode::TooLarge, culprit, [&] { static_cast<void>(adjacency(mesh.view())); });
-  expect_refused(ErrorCode::TooLarge, culprit, [&] { static_cast<void>(paper::build(mesh.view())); });
-  expect_refused(ErrorCode::TooLarge, culprit, [&] { const ReferenceSearcher searcher(mesh.view()); });
+  const char* const cause = "65535 vertices, but the limit is 65534";
+  expect_refused(ErrorCode::TooLarge, cause, [&] { validate(mesh.view()); });
+  expect_refused(ErrorCode::TooLarge, cause, [&] { static_cast<void>(adjacency(mesh.view())); });
+  expect_refused(ErrorCode::TooLarge, cause, [&] { static_cast<void>(paper::build(mesh.view())); });
+  expect_refused(ErrorCode::TooLarge, cause, [&] { const ReferenceSearcher searcher(mesh.view()); });
 }
 
 TEST(NarrowIds, RefusesOneCornerMore) {
   const TestMesh mesh = polygon_on_line(40'000, kMaxNeighbors / 2 + 1);
-  const char* const culprit = "32768 face corners, but the limit is 32767";
+  const char* const cause = "32768 face corners, but the limit is 32767";
   EXPECT_NO_THROW(validate(mesh.view()));
-  expect_refused(ErrorCode::TooLarge, culprit, [&] { static_cast<void>(adjacency(mesh.view())); });
-  expect_refused(ErrorCode::TooLarge, culprit, [&] { static_cast<void>(paper::build(mesh.view())); });
+  expect_refused(ErrorCode::TooLarge, cause, [&] { static_cast<void>(adjacency(mesh.view())); });
+  expect_refused(ErrorCode::TooLarge, cause, [&] { static_cast<void>(paper::build(mesh.view())); });
 }
 
 TEST(NarrowIds, RefusesACornerThatNarrowingWouldHide) {

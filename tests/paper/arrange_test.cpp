@@ -104,7 +104,7 @@ TEST(Arrange, ChildrenOfRandomParentsAreContiguous) {
   std::printf("%zu arrangements\n", cases);
 }
 
-TEST(PackedIds, NumbersReadBackAsSet) {
+TEST(PackedIds, NumbersAreReadAsTheyWereSet) {
   std::size_t numbers = 0;
   for (unsigned width = 0; width <= 32; ++width) {
     const std::uint64_t bound = std::uint64_t{1} << width;

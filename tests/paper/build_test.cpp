@@ -209,8 +209,8 @@ TEST(Build, FloatAndDoublePositionsGiveTheSameClusters) {
 // Row A1 of docs/reliability.md.
 TEST(Build, OptionsOutOfRangeAreRefused) {
   const TestMesh mesh = make_grid(3, 3, false);
-  const auto refuse = [&](const BuildOptions& options, const char* culprit) {
-    expect_refused(ErrorCode::InvalidOption, culprit, [&] { static_cast<void>(paper::build(mesh.view(), options)); });
+  const auto refuse = [&](const BuildOptions& options, const char* cause) {
+    expect_refused(ErrorCode::InvalidOption, cause, [&] { static_cast<void>(paper::build(mesh.view(), options)); });
   };
   refuse({.levels = 0}, "levels is 0");
   refuse({.levels = -3}, "levels is -3");

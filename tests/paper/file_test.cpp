@@ -111,12 +111,12 @@ TEST(SerializePaperFaults, AForgedBitIsRefusedOrHarmless) {
 }
 
 template <class Change>
-void expect_refused_after(const char* culprit, Change&& change) {
+void expect_refused_after(const char* cause, Change&& change) {
   Forgery forgery(saved_grid());
   change(forgery);
   seal(forgery.bytes());
   const auto call = [&] { static_cast<void>(paper::load(forgery.bytes())); };
-  expect_refused(ErrorCode::MalformedIndex, culprit, call);
+  expect_refused(ErrorCode::MalformedIndex, cause, call);
   EXPECT_THAT(call, testing::ThrowsMessage<Error>(testing::Truly(names_a_place)));
 }
 

@@ -147,9 +147,9 @@ TEST_F(ChunkedMeshes, OfOtherFilesAreReadIntoMemory) {
 TEST_F(ChunkedMeshes, NameTheFaultOfAFile) {
   const std::vector<float> V{0, 0, 0, 1, 0, 0, 0, 1, 0};
   const std::vector<std::int32_t> F{0, 1, 2};
-  const auto refused = [&](ErrorCode code, const std::string& culprit, const std::string& positions,
+  const auto refused = [&](ErrorCode code, const std::string& cause, const std::string& positions,
                            const std::string& faces) {
-    expect_refused(code, culprit, [&] {
+    expect_refused(code, cause, [&] {
       const auto mesh = parts::open_arrays(scratch.write("V.npy", positions), scratch.write("F.npy", faces));
       static_cast<void>(read_all(*mesh, 10, 10));
     });

@@ -193,8 +193,8 @@ TEST_F(Folder, IsRefusedIfItsManifestHasBeenChanged) {
 TEST_F(Folder, IsRefusedIfItHasPartsOfAnotherMesh) {
   run(folder);
   const auto before = contents(folder);
-  const auto refuses = [&](const std::string& culprit, const TestMesh& other, const PartitionOptions& options) {
-    expect_refused(ErrorCode::MalformedIndex, culprit, [&] { partition(*chunked(other), folder, options); });
+  const auto refuses = [&](const std::string& cause, const TestMesh& other, const PartitionOptions& options) {
+    expect_refused(ErrorCode::MalformedIndex, cause, [&] { partition(*chunked(other), folder, options); });
     EXPECT_EQ(contents(folder), before);
   };
   TestMesh moved = mesh;

@@ -277,11 +277,11 @@ TEST(PartitionWarnings, NameAHaloThatMakesEveryPartTheMesh) {
             "with the halo 100, 2 of 2 parts are as large as the mesh; a smaller halo makes smaller parts");
 }
 
-TEST(PartitionOptionsCheck, RefusesWhatIsOutOfRange) {
+TEST(PartitionOptionsCheck, RefusesOptionsOutOfRange) {
   const TestMesh mesh = bumpy_grid(10);
   const Scratch scratch;
-  const auto refused = [&](ErrorCode code, const std::string& culprit, const PartitionOptions& options) {
-    expect_refused(code, culprit, [&] { make_parts(mesh, scratch.path() / "parts", options); });
+  const auto refused = [&](ErrorCode code, const std::string& cause, const PartitionOptions& options) {
+    expect_refused(code, cause, [&] { make_parts(mesh, scratch.path() / "parts", options); });
   };
   refused(ErrorCode::InvalidOption, "expected the number of parts or the vertices per part", {.halo = 1});
   refused(ErrorCode::InvalidOption, "one of them", {.parts = 1, .vertices_per_part = 5, .halo = 1});

@@ -127,7 +127,7 @@ def test_vertex_areas():
 def test_errors_name_the_argument(plates):
     _, _, _, index, values = plates
     n = len(index)
-    for culprit, error, call in (
+    for cause, error, call in (
         ("values: expected an array of shape", ValueError, lambda: index.aggregate(values[1:], 1)),
         ("values: expected numbers", TypeError, lambda: index.aggregate(values.astype(complex), 1)),
         ("r: radius -1", ValueError, lambda: index.aggregate(values, -1)),
@@ -146,7 +146,7 @@ def test_errors_name_the_argument(plates):
         ("more than the limit", ValueError, lambda: index.aggregate(values, 1, max_bytes=100)),
         ("fwhm: 0", ValueError, lambda: index.smooth(values, 0)),
     ):
-        with pytest.raises(error, match=culprit):
+        with pytest.raises(error, match=cause):
             call()
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The picture of a neighborhood: that it shows what it should, seen by its colours."""
+"""The picture of a neighborhood: that it shows what it should, seen by its colors."""
 
 import meshes
 import meshhood
@@ -17,7 +17,7 @@ def pixels(picture, red, green, blue):
     return int(((rgb @ wanted) > 0.99 * np.maximum(size, 60)).sum())
 
 
-def test_colours(tmp_path):
+def test_colors(tmp_path):
     V, F = meshes.two_plates(20)
     V[len(V) // 2 :, 0] += 25  # side by side, so that the camera sees both
     index = meshhood.MeshIndex(V, F)

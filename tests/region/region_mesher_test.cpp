@@ -231,7 +231,7 @@ TEST(ExitPoint, IsExactWhereTheNumbersAre) {
   EXPECT_EQ(exit_point({0x1p-900, 0, 0}, {0x1p-800, 0, 0}, {0, 0, 0}, 0).x, 0x1p-800) << "squares underflow";
 }
 
-TEST(RegionMesher, RefusesWhatItCannotAnswer) {
+TEST(RegionMesher, RefusesInvalidArguments) {
   const TestMesh mesh = make_grid(3, 3, true);
   RegionMesher mesher(mesh.view());
   const std::array<VertexId, 2> wrong{0, 9};
@@ -241,7 +241,7 @@ TEST(RegionMesher, RefusesWhatItCannotAnswer) {
   expect_refused(ErrorCode::InvalidOption, "vertex 8 is not within the radius 1",
                  [&] { static_cast<void>(mesher.rim(far, {0, 0, 0}, 1)); });
   expect_refused(ErrorCode::InvalidRadius, "radius -1", [&] { static_cast<void>(mesher.rim(far, {0, 0, 0}, -1)); });
-  expect_refused(ErrorCode::InvalidOption, "centre: coordinate 0 is inf",
+  expect_refused(ErrorCode::InvalidOption, "center: coordinate 0 is inf",
                  [&] { static_cast<void>(mesher.rim(far, {kInfinity, 0, 0}, 1)); });
   const std::vector<float> positions{0, 0, 0};
   const std::vector<std::uint32_t> corners{0, 0, 1};

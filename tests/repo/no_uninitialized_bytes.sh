@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # No byte that was never given a value reaches a file, for it may be anybody's, and another one each time: row F12 of the
 # catalogue. Nor does any decision hang on one. And such a byte in the file of a control: else valgrind would be blind.
-# Usage: no_uninitialised_bytes.sh CONTROL MESHHOOD
+# Usage: no_uninitialized_bytes.sh CONTROL MESHHOOD
 set -eu
 
 control=$1
@@ -19,7 +19,7 @@ watched() { valgrind --quiet --error-exitcode=99 --leak-check=no "$@"; }
 
 if watched "$control" control.bin 2>control.log || ! grep -q 'points to uninitialised byte' control.log; then
   cat control.log
-  echo "no uninitialised byte in the file of $control: valgrind is blind" >&2
+  echo "no uninitialized byte found in the file of $control: valgrind did not watch" >&2
   exit 1
 fi
 
@@ -31,4 +31,4 @@ watched "$meshhood" compare mesh.ply -v 7 -r 8 --unit edge -o compared.ply
 watched "$meshhood" batch exact.mhi -r 3 --unit edge --distances --threads 2 -o rows.npz
 watched "$meshhood" batch paper.mhi -r 3 --method paper --count -o counts.npz
 echo "$(ls mesh.ply part.ply compared.ply exact.mhi paper.mhi rows.npz counts.npz | wc -l) files," \
-  "$(cat ./*.ply ./*.mhi ./*.npz | wc -c) bytes, none uninitialised"
+  "$(cat ./*.ply ./*.mhi ./*.npz | wc -c) bytes, none uninitialized"

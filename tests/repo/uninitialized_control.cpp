@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes a file in which every second byte is uninitialized: `no_uninitialised_bytes.sh` must find that.
+// Writes a file in which every second byte is uninitialized: `no_uninitialized_bytes.sh` must find that.
 #include <cstddef>
 #include <memory>
 

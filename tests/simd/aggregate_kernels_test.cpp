@@ -128,7 +128,7 @@ TEST_P(EveryAggregatePath, AddsToTheRowsOfAWordAlone) {
   }
 }
 
-TEST_P(EveryAggregatePath, KeepsWhatAnAdditionRounds) {
+TEST_P(EveryAggregatePath, KeepsTheRoundingErrorOfAnAddition) {
   sums = {};
   const PerLane<QueryWord> all{~QueryWord{0}};
   for (const double value : {1.0, 1e-20, 1e-20, -1.0}) tried.add_values(std::vector{value}, all.data(), sums);

@@ -87,7 +87,7 @@ double expected(const Input& common, const Input& some, std::size_t query, const
   return sum;
 }
 
-TEST(MomentKernels, TheIndexOfAMomentIsItsPlace) {
+TEST(MomentKernels, EachMomentHasAnIndexOfItsOwn) {
   std::vector<std::size_t> places;
   for (const Powers& n : all_powers()) places.push_back(moment_index(n.i, n.j, n.k));
   std::vector<std::size_t> ascending(kMomentCount);

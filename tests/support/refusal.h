@@ -10,15 +10,15 @@
 
 namespace meshhood::test {
 
-/// Expects `call()` to throw `Error{code}` with a message that contains `culprit`.
+/// Expects `call()` to throw `Error{code}` with a message that contains `cause`.
 template <class F>
-void expect_refused(ErrorCode code, const std::string& culprit, F&& call) {
+void expect_refused(ErrorCode code, const std::string& cause, F&& call) {
   try {
     call();
-    ADD_FAILURE() << "accepted; expected: " << culprit;
+    ADD_FAILURE() << "accepted; expected: " << cause;
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), code) << error.what();
-    EXPECT_THAT(error.what(), testing::HasSubstr(culprit));
+    EXPECT_THAT(error.what(), testing::HasSubstr(cause));
   }
 }
 

@@ -47,11 +47,11 @@ class Arguments : public testing::Test {
   }
 
   /// Every method throws and leaves the previous answer unchanged.
-  void expect_all_refused(ErrorCode code, const std::string& culprit, VertexId v, double radius) {
+  void expect_all_refused(ErrorCode code, const std::string& cause, VertexId v, double radius) {
     for (const auto& [name, ask] : methods) {
       SCOPED_TRACE(name);
       std::vector<VertexId> out{7};
-      expect_refused(code, culprit, [&] { ask(v, radius, out); });
+      expect_refused(code, cause, [&] { ask(v, radius, out); });
       EXPECT_THAT(out, ElementsAre(7));
     }
   }

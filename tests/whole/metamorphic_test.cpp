@@ -157,7 +157,7 @@ void compare(const TestMesh& mesh, const Retold& retold, Random& random) {
   }
 }
 
-TEST_P(Metamorphic, ExactAnswersStay) {
+TEST_P(Metamorphic, ExactAnswersDoNotChange) {
   std::size_t meshes = 0;
   for (const auto some : {surface_families(), trap_families()}) {
     for (const Family& family : some) {
@@ -181,7 +181,7 @@ INSTANTIATE_TEST_SUITE_P(
                     NamedRetelling{"scaled_by_a_power", scaled_by_a_power}),
     [](const auto& retelling) { return std::string(retelling.param.name); });
 
-TEST(MetamorphicLattice, ExactAnswersStayUnderAShift) {
+TEST(MetamorphicLattice, ExactAnswersDoNotChangeUnderAShift) {
   const Family& lattice = *std::ranges::find(surface_families(), "lattice", &Family::name);
   for (std::uint64_t seed = 1; seed <= scaled(100, 3); ++seed) {
     const TestMesh mesh = make_mesh(lattice, seed, 200);

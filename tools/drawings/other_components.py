@@ -65,21 +65,21 @@ def traverse(sheet, start):
             return low, high, True
 
 
-def draw_sheet(picture, sheet, colour):
+def draw_sheet(picture, sheet, color):
     shown = [p for p in sheet if abs(p[0]) < 2.75]
     picture.polyline([place(p) for p in shown], stroke=INK, stroke_width=1)
     picture.dots([place(p) for p in shown if not inside(p)], 2.6, fill=INK)
-    picture.dots([place(p) for p in shown if inside(p)], 3.6, fill=colour)
+    picture.dots([place(p) for p in shown if inside(p)], 3.6, fill=color)
 
 
-def draw_traversal(picture, sheet, start, aside, colour):
+def draw_traversal(picture, sheet, start, aside, color):
     """Arrows beside the sheet from `start` to both ends of the traversal."""
     low, high, _ = traverse(sheet, start)
     for end in low, high:
         step = 1 if end > start else -1
         path = [(sheet[k][0], sheet[k][1] + aside) for k in range(start + step, end + step, step)]
         if len(path) > 1:
-            picture.polyline([place(p) for p in path], stroke=colour, stroke_width=2, marker_end="url(#tip)")
+            picture.polyline([place(p) for p in path], stroke=color, stroke_width=2, marker_end="url(#tip)")
 
 
 def draw_legend(picture, left):
@@ -89,8 +89,8 @@ def draw_legend(picture, left):
         (INK, "outside the ball"),
     ]
     y = 60
-    for colour, *rows in entries:
-        picture.dots([(left + 6, y - 5)], 4, fill=colour)
+    for color, *rows in entries:
+        picture.dots([(left + 6, y - 5)], 4, fill=color)
         picture.text(left + 22, y, *rows)
         y += 18 * len(rows) + 8
     picture.text(left, y + 20, "Circles: local minima of the distance,", "processed nearest first.")

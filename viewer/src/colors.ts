@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Colours: those of the methods, which people who are blind to some colours tell apart (Okabe and Ito, 2008), and a
+// Colors: those of the methods, which color-blind people can distinguish (Okabe and Ito, 2008), and a
 // perceptually uniform map for scalars (viridis of Matplotlib, by a polynomial fit).
 import { Color } from 'three';
 
@@ -15,7 +15,7 @@ export const SURFACE_COLOR = '#d9dbe0';
 
 export type Rgb = readonly [number, number, number];
 
-/** Bytes of linear light, as vertex colours are. */
+/** Bytes of linear light, as vertex colors are. */
 export function linearBytes(color: string): Rgb {
   const { r, g, b } = new Color(color);
   return [Math.round(255 * r), Math.round(255 * g), Math.round(255 * b)];
@@ -32,7 +32,7 @@ const VIRIDIS: readonly Rgb[] = [
   [-5.4354558559, 4.6458526121, 26.3124352496],
 ];
 
-/** The colour of `t` in [0, 1], each part in [0, 1], as it is displayed. */
+/** The color of `t` in [0, 1], each part in [0, 1], as it is displayed. */
 export function viridis(t: number): Rgb {
   return [0, 1, 2].map((channel) => {
     const value = VIRIDIS.reduceRight((sum, coefficients) => sum * t + coefficients[channel], 0);
@@ -44,5 +44,5 @@ export function toCss([r, g, b]: Rgb): string {
   return `rgb(${[r, g, b].map((part) => Math.round(255 * part)).join(' ')})`;
 }
 
-/** 256 colours of the map as bytes of linear light. */
+/** 256 colors of the map as bytes of linear light. */
 export const VIRIDIS_TABLE: readonly Rgb[] = Array.from({ length: 256 }, (_, i) => linearBytes(toCss(viridis(i / 255))));

@@ -326,7 +326,7 @@ class Page {
     this.#view.showQuery(this.#radius);
   }
 
-  // Colours.
+  // Colors.
 
   #setColor(choice: string): void {
     this.#color = choice;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The colours of all vertices: exact over paper over ball, or a scalar.
+// The colors of all vertices: exact over paper over ball, or a scalar.
 import { METHOD_COLORS, SURFACE_COLOR, VIRIDIS_TABLE, linearBytes } from './colors';
 import type { Rgb } from './colors';
 import type { Method } from './messages';
@@ -13,7 +13,7 @@ export interface Scalar {
   values: ArrayLike<number>;
 }
 
-/** The range of a colour map: from the 2nd to the 98th hundredth, so that a few extreme values do not hide the others. */
+/** The range of a color map: from the 2nd to the 98th hundredth, so that a few extreme values do not hide the others. */
 export function scalarRange(values: ArrayLike<number>): [number, number] {
   const step = Math.max(1, Math.floor(values.length / 100_000));
   const sample: number[] = [];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The additional numbers of the vertices of a PLY file, for colours. The reader of the library, which keeps positions and
+// The additional numbers of the vertices of a PLY file, for colors. The reader of the library, which keeps positions and
 // faces only, has accepted the file before, so that nothing is checked here.
 
 export interface PlyScalar {

@@ -9,7 +9,7 @@ import { Picker } from './picking';
 
 export type Cut = 'none' | 'x' | 'y' | 'z';
 
-/** How the mesh is shown, besides its colours. */
+/** How the mesh is shown, besides its colors. */
 export interface Look {
   wireframe: boolean;
   ball: boolean;
@@ -169,7 +169,7 @@ export class View {
     this.#edges = null;
   }
 
-  /** To be called after the bytes of the colours have changed. */
+  /** To be called after the bytes of the colors have changed. */
   updateColors(): void {
     if (this.#colors !== null) this.#colors.needsUpdate = true;
     this.draw();

@@ -36,11 +36,11 @@ void check_vertex(VertexId v, std::size_t vertices, std::string_view name) {
 
 void check_start(const Start& start, std::size_t vertices, std::string_view where) {
   const std::string prefix(where);
-  if (!start.centre()) {
+  if (!start.center()) {
     check_vertex(start.vertex(), vertices, prefix + "vertex");
     return;
   }
-  check_point(*start.centre(), prefix + "centre: ");
+  check_point(*start.center(), prefix + "center: ");
   for (std::size_t i = 0; i < start.seeds().size(); ++i) {
     check_vertex(start.seeds()[i], vertices, prefix + "seed " + std::to_string(i) + ": vertex");
   }

@@ -32,7 +32,7 @@ void Flood::start(const Point& centre, const LaneFilter& walls) {
   }
 }
 
-/// The state of a leaf, which is initialised when a flood first needs it.
+/// The state of a leaf, which is initialized when a flood first needs it.
 Flood::State& Flood::state_of(LeafId leaf) {
   State& state = states_[leaf];
   if (state.number == number_) return state;
@@ -145,7 +145,7 @@ LaneMask Flood::find_inside(State& state, const Leaf& leaf) {
   return state.inside;
 }
 
-/// Makes the vertices of other leaves pending that have a neighbour among those added to this one.
+/// Makes the vertices of other leaves pending that have a neighbor among those added to this one.
 void Flood::expand(LeafId leaf, LaneMask added) {
   for (const Link& link : index_->links_of(leaf)) {
     if ((link.boundary & added) == 0) continue;
@@ -161,7 +161,7 @@ void Flood::expand(LeafId leaf, LaneMask added) {
   }
 }
 
-/// The vertices that are not reached and have a neighbour that is, or are seeds.
+/// The vertices that are not reached and have a neighbor that is, or are seeds.
 LaneMask Flood::border(const State& state, const Leaf& leaf) const {
   LaneMask lanes = state.pending;
   for_each_lane(state.reached, [&](unsigned lane) { lanes |= index_->adjacency[leaf.first + lane]; });

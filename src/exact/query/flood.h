@@ -52,7 +52,7 @@ class Flood {
     std::uint32_t number = 0;  // the state is valid for this flood only
     LaneMask open = 0;         // no walls
     LaneMask reached = 0;
-    LaneMask pending = 0;  // not reached, with a neighbour that is, in another leaf; and seeds
+    LaneMask pending = 0;  // not reached, with a neighbor that is, in another leaf; and seeds
     LaneMask inside = 0;   // the vertices in the ball whose squared radius is `inside_of`
     bool connected = false;
     bool is_awake = false;  // in the work list

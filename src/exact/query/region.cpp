@@ -20,13 +20,13 @@ Point RegionSearcher::State::begin(const Start& start, const Filter& filter) {
   walls = LaneFilter(*index, filter.walls);
   ignored = LaneFilter(*index, filter.ignored);
   answer.clear();
-  if (!start.centre()) {
+  if (!start.center()) {
     const Point centre = position_of(*index, start.vertex());
     flood.start(centre, walls);
     flood.add_seed(slot(start.vertex()));
     return centre;
   }
-  const SpacePoint& p = *start.centre();
+  const SpacePoint& p = *start.center();
   flood.start({p[0], p[1], p[2]}, walls);
   for (const VertexId seed : start.seeds()) flood.add_seed(slot(seed));
   return {p[0], p[1], p[2]};

@@ -132,7 +132,7 @@ TEST_P(AlongEdges, RingsCountTheEdges) {
 
 INSTANTIATE_TEST_SUITE_P(All, AlongEdges, testing::ValuesIn(families()), family_name);
 
-TEST(EdgeSearch, KnowsTheLengthOfAPathAroundACorner) {
+TEST(EdgeSearch, MeasuresThePathAroundACorner) {
   const TestMesh mesh = make_grid(4, 4, true);
   const Index index = build(mesh.view());
   EdgeSearcher searcher(index);
@@ -152,7 +152,7 @@ TEST(EdgeSearch, FindsAllRingsIfKIsLargerThanTheMesh) {
   EXPECT_THAT(counts, ElementsAre(1, 3, 6, 10, 13, 15, 16));
 }
 
-TEST(EdgeSearch, RefusesWhatItCannotAnswer) {
+TEST(EdgeSearch, RefusesInvalidArguments) {
   const TestMesh mesh = make_grid(3, 3, true);
   const Index index = build(mesh.view());
   EdgeSearcher searcher(index);

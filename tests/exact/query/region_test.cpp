@@ -67,7 +67,7 @@ class Regions : public testing::TestWithParam<Family> {
   }
 };
 
-/// Zero, infinity, and distances of vertices with their neighbouring numbers.
+/// Zero, infinity, and distances of vertices with their neighboring numbers.
 std::vector<double> radii_of(const RegionOracle& oracle, const PlainStart& start, Random& random) {
   std::vector<double> radii{0, kInfinity};
   for (int i = 0; i < 3; ++i) {
@@ -242,7 +242,7 @@ TEST(Region, IsRightAfterTheCounterOfFloodsHasWrapped) {
   }
 }
 
-TEST(Region, RefusesWhatItCannotAnswer) {
+TEST(Region, RefusesInvalidArguments) {
   const TestMesh mesh = make_grid(3, 3, true);
   const Index index = build(mesh.view());
   RegionSearcher searcher(index);
