@@ -20,7 +20,7 @@ inline constexpr unsigned kAllThreads = 0;
 
 /// FILE: a mesh, or an index, which represents the mesh it was built from.
 ///
-/// What a command needs is derived from the content of the file at the first call. Only a mesh has faces. An index of
+/// Each form is derived from the content of the file when it is first needed. Only a mesh has faces. An index of
 /// the paper has no edges; commands that need edges call `need_edges` first.
 class Input {
  public:

@@ -12,7 +12,7 @@
 /// The page that shows neighborhoods in a browser: viewer/, built into one HTML file.
 namespace meshhood::cli {
 
-/// What a page shows at first.
+/// The initial state of a page.
 struct PageSettings {
   std::string name;                             ///< of the mesh, as displayed
   std::optional<VertexId> vertex;               ///< otherwise one of the page's choice

@@ -14,7 +14,7 @@
 
 namespace meshhood::cli {
 
-/// What the parts of a task are, for the displayed rate.
+/// The unit of the parts of a task, for the displayed rate.
 struct Unit {
   std::string_view name = {};  ///< "rows"; empty: no rate is displayed
   double parts = 1;            ///< parts per unit

@@ -39,7 +39,7 @@ void add_vertices(CLI::App& command, std::string& file);
 /// The query vertices of such a command.
 class QueryVertices {
  public:
-  /// Those that `file` lists, or all if it is "".
+  /// The vertices that `file` lists, or all if it is "".
   QueryVertices(const std::string& file, std::size_t vertices);
 
   /// Borrows from this object.

@@ -19,7 +19,7 @@ struct Location {
   std::uint64_t column = 0;
   std::uint64_t byte = 0;
 
-  /// What follows the name of the file in an error: ":12:7" or "@1048621".
+  /// The text after the name of the file in an error: ":12:7" or "@1048621".
   [[nodiscard]] std::string suffix() const;
 
   /// "line 12" or "byte 1048621".

@@ -23,7 +23,7 @@ template <class T>
 /// The bytes before the values, of version 1.0. `shape` is a tuple of Python: "(12,)".
 [[nodiscard]] std::string npy_header(std::string_view type, std::string_view shape);
 
-/// What the header of a file says.
+/// The contents of the header of a file.
 struct NpyHeader {
   std::size_t bytes = 0;  ///< of the header; the values follow
   char kind = 'f';        ///< 'f', 'i', 'u', ...

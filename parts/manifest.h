@@ -11,7 +11,7 @@
 
 #include "meshhood/fingerprint.h"
 
-/// What a folder of parts contains. docs/distributed.md describes the files.
+/// The contents of a folder of parts. docs/scale.md describes the files.
 namespace meshhood::parts {
 
 /// The version of the folder and its files.

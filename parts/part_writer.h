@@ -14,7 +14,7 @@
 
 namespace meshhood::parts {
 
-/// What the parts are made from: the vertices and faces of each part, as they were met.
+/// The vertices and faces of each part, in the order in which they were read.
 struct PartContents {
   Spill vertices;  ///< per vertex four words: id and position; in any order, with repeats
   Spill faces;     ///< per face: the number of corners and their ids

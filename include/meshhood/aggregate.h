@@ -39,13 +39,13 @@ enum class SmoothingKernel : std::uint8_t {
   Biweight,      ///< (1 - (d/r)^2)^2, close to a Gaussian of the standard deviation 0.4 r
 };
 
-/// What NaN means in the values.
+/// The meaning of NaN in the values.
 enum class MissingValues : std::uint8_t {
   Propagate,  ///< a neighborhood with a NaN gives NaN
   Omit,       ///< NaN marks a missing value, which is left out; a neighborhood without values gives NaN, its sum 0
 };
 
-/// What several radii mean.
+/// The meaning of several radii.
 enum class Nesting : std::uint8_t {
   Own,    ///< each radius has a neighborhood of its own
   Patch,  ///< the neighborhood of the largest radius, and of it the vertices within each smaller radius, whether

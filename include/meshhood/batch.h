@@ -24,7 +24,7 @@ namespace meshhood {
 
 class SearcherFactory;
 
-/// What a batch searches, and how. Converts from either index. Borrows its arguments, which must outlive it.
+/// The search of a batch, and its index. Converts from either index. Borrows its arguments, which must outlive it.
 class SearchMethod {
  public:
   /// The exact neighborhoods (see `Searcher`).

@@ -19,7 +19,7 @@
 ///     const auto [k1, k2, d1, d2, state] = meshhood::curvatures(surface, {.radius = 2.5}, {.threads = 0});
 namespace meshhood {
 
-/// What curvature needs of a mesh beyond its index: the normals of the vertices. Immutable: any number of threads may
+/// The data for curvature besides the index of a mesh: the normals of the vertices. Immutable: any number of threads may
 /// use it. Shares the memory of the index, as a searcher does: the index may be moved or destroyed. 28 bytes a vertex.
 class CurvatureIndex {
  public:

@@ -11,7 +11,7 @@
 
 namespace meshhood {
 
-/// What is added up for a sum, a mean or a count: the columns, and how the result follows from their sums.
+/// The columns that are added up for a sum, a mean or a count, and how the result follows from their sums.
 class SumColumns {
  public:
   /// `reduce` is one of these three. A count has no values to add; of a mean and a count, the weights are added, too.

@@ -13,7 +13,7 @@
 
 namespace meshhood {
 
-/// What the search reads of a vertex, in one cache line: its position, and the last query that visited it.
+/// The data of a vertex that the search reads, in one cache line: its position, and the last query that visited it.
 template <class Real>
 struct alignas(4 * sizeof(Real)) Record {
   Real x;

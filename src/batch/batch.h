@@ -16,7 +16,7 @@
 
 namespace meshhood {
 
-/// What all batches share: the rows, and threads that work through them in chunks that follow the index order.
+/// The common part of all batches: the rows, and threads that process them in chunks that follow the index order.
 class Batch {
  public:
   /// The most rows of one call of `for_each_chunk`.

@@ -12,7 +12,7 @@
 namespace meshhood {
 namespace {
 
-/// What a thread needs.
+/// The state of a thread.
 struct PacketThread {
   JointWorker worker;
   PacketVisitor visitor;

@@ -85,7 +85,7 @@ DirectFit::Result DirectFit::fit(std::uint32_t place, double radius, const Tange
   return result(fit_points(points_), frame);
 }
 
-/// What coordinates are multiplied by: a power of two. Of several fits, the one with the smallest coefficients depends
+/// The factor of all coordinates: a power of two. Of several fits, the one with the smallest coefficients depends
 /// on the unit. libigl fits in the unit of the mesh; where squares and coordinates differ too much there, it drops
 /// terms.
 double DirectFit::scale_for(double extent) const {

@@ -11,7 +11,7 @@
 
 namespace meshhood {
 
-/// What the moments of a packet are made of. In index order.
+/// The values from which the moments of a packet are computed, in index order.
 struct MomentSource {
   const IndexView* index;
   const SurfaceState* filter = nullptr;  // only vertices whose normal faces that of the query vertex, if set

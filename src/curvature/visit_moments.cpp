@@ -19,7 +19,7 @@ double open_radius(double radius) {
   return radius > 0 ? std::nextafter(radius, 0.0) : radius;  // mutant: open-ball-with-boundary
 }
 
-/// What a thread needs to sum the moments of packets.
+/// The state of a thread that sums the moments of packets.
 class PacketSummer {
  public:
   PacketSummer(const MomentSource& source, MomentVisitor visitor)

@@ -111,7 +111,7 @@ inline void prefetch_positions(const IndexView& index, std::size_t first, std::s
              index.positions);
 }
 
-/// What an array of an index is, beyond its type.
+/// The properties of an array of an index besides its type.
 struct ArrayInfo {
   const char* section;              // its name in an index file
   std::size_t IndexBytes::* bytes;  // the part of the index that its memory counts towards

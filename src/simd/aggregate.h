@@ -82,7 +82,7 @@ struct AggregateKernels {
                       QueryWord word, RowSums& sums);
 };
 
-/// Those for `isa`, which the processor must have.
+/// The kernels for `isa`, which the processor must have.
 [[nodiscard]] const AggregateKernels& aggregate_kernels(Isa isa);
 
 const AggregateKernels& portable_aggregate_kernels();

@@ -109,7 +109,7 @@ MESHHOOD_AVX2 inline float least_of(__m256 values) {
   return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
 }
 
-/// Those of eight values that are at most `most`.
+/// The values, of eight, that are at most `most`, as bits.
 MESHHOOD_AVX2 inline LaneMask at_most8(__m256 values, __m256 most) {
   return bits(_mm256_cmp_ps(values, most, _CMP_LE_OQ));
 }
@@ -142,7 +142,7 @@ MESHHOOD_AVX2 LaneMask cross_edges(std::span<const CrossEdge> edges, LaneMask fr
   return static_cast<LaneMask>(_mm_cvtsi128_si32(_mm_or_si128(pair, _mm_shuffle_epi32(pair, 0xB1))));
 }
 
-/// Those of eight lanes that have a neighbor among `reached`.
+/// The lanes, of eight, that have a neighbor among `reached`, as bits.
 MESHHOOD_AVX2 inline LaneMask near8(__m256i adjacency, __m256i reached) {
   const __m256i none = _mm256_cmpeq_epi32(_mm256_and_si256(adjacency, reached), _mm256_setzero_si256());
   return ~bits(_mm256_castsi256_ps(none)) & 0xFFU;

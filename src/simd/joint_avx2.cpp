@@ -26,7 +26,7 @@ MESHHOOD_AVX2 inline void store8(QueryWord* words, __m256i value) {
 
 MESHHOOD_AVX2 inline unsigned bits(__m256 mask) { return static_cast<unsigned>(_mm256_movemask_ps(mask)); }
 
-/// Those of eight lanes in which the words differ.
+/// The lanes, of eight, in which the words differ, as bits.
 MESHHOOD_AVX2 inline LaneMask differing8(__m256i a, __m256i b) {
   return ~bits(_mm256_castsi256_ps(_mm256_cmpeq_epi32(a, b))) & 0xFFU;
 }

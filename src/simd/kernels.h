@@ -29,7 +29,7 @@ struct Nearest {
 };
 
 struct Kernels {
-  /// Those of the first `size` vertices of `xyz`, #V by 3, that are in the ball; `size` <= 32. Reads 32 vertices.
+  /// The lanes, of the first `size` vertices of `xyz`, #V by 3, that are in the ball; `size` <= 32. Reads 32 vertices.
   LaneMask (*within_float)(const float* xyz, std::size_t size, const LeafBall& ball);
   LaneMask (*within_double)(const double* xyz, std::size_t size, const LeafBall& ball);
 

@@ -105,7 +105,7 @@ struct MomentKernels {
                  FrameMoments& out);
 };
 
-/// Those for `isa`, which the processor must have.
+/// The kernels for `isa`, which the processor must have.
 [[nodiscard]] const MomentKernels& moment_kernels(Isa isa);
 
 const MomentKernels& portable_moment_kernels();

@@ -10,7 +10,7 @@
 
 #include "support/system_calls.h"
 
-/// What a disk may hold after a loss of power, by the weakest guarantees that file systems give.
+/// The possible states of a disk after a loss of power, by the weakest guarantees that file systems give.
 namespace meshhood::test {
 
 /// Files and their names after a sequence of calls.

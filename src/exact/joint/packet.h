@@ -11,7 +11,7 @@
 
 namespace meshhood {
 
-/// What a radius is compared by, in the frame and exactly.
+/// A radius in the forms that are compared: in the frame, and exactly.
 struct JointRadius {
   double radius;
   double squared;  // of the predicate

@@ -47,7 +47,7 @@ class Flood {
   void set_number(std::uint32_t floods) { number_ = floods; }
 
  private:
-  /// What is known of a leaf in one flood; one cache line.
+  /// The state of a leaf in one flood; one cache line.
   struct alignas(64) State {
     std::uint32_t number = 0;  // the state is valid for this flood only
     LaneMask open = 0;         // no walls

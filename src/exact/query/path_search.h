@@ -36,7 +36,7 @@ class PathSearch {
   [[nodiscard]] std::span<const Found> found() const { return found_; }
 
  private:
-  /// What is known of a leaf in one run.
+  /// The state of a leaf in one run.
   struct State {
     std::uint32_t number = 0;  // the state is valid for this run only
     LaneMask settled = 0;      // found, or walls

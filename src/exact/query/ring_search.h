@@ -29,7 +29,7 @@ class RingSearch {
   void advance();
 
  private:
-  /// What is known of a leaf in one search.
+  /// The state of a leaf in one search.
   struct State {
     std::uint32_t number = 0;  // the state is valid for this search only
     LaneMask seen = 0;         // in a ring before the next, or walls
