@@ -105,7 +105,7 @@ void JointGroup::clear() {
   eights_.clear();
   cores_.clear();
   core_leaves_.clear();
-  rims_.clear();
+  core_links_.clear();
   links_.clear();
   core_runs_.clear();
 }
@@ -163,7 +163,7 @@ GroupEntry JointGroup::add_core(LeafId leaf) {
   const auto entry = static_cast<GroupEntry>(leaves_.size());
   add_to_eights(kCore + static_cast<LeafId>(cores_.size()), {0, 0, 0, 0}, false);
   eights_.back().cores |= bit_of(entry);
-  Core core{.first_rim = rims_.size(), .first_run = core_runs_.size()};
+  Core core{.first_link = core_links_.size(), .first_run = core_runs_.size()};
   entry_of_[leaf] = entry;
   core_leaves_.assign(1, leaf);
   for (std::size_t head = 0; head < core_leaves_.size(); ++head) {
@@ -177,12 +177,12 @@ GroupEntry JointGroup::add_core(LeafId leaf) {
       } else if (linked == kUnknown) {
         linked = discover(link.leaf);
       }
-      if (linked == entry || linked == kNoEntry) continue;  // mutant: core-without-rim
-      rims_.push_back({linked, kernels_->cross_edges(index_->cross_edges_of(link), link.boundary)});
+      if (linked == entry || linked == kNoEntry) continue;  // mutant: core-without-links
+      core_links_.push_back({linked, kernels_->cross_edges(index_->cross_edges_of(link), link.boundary)});
     }
   }
   add_core_runs();
-  core.end_rim = rims_.size();
+  core.end_link = core_links_.size();
   core.end_run = core_runs_.size();
   cores_.push_back(core);
   return entry;
@@ -199,9 +199,9 @@ void JointGroup::add_core_runs() {
   }
 }
 
-std::span<const JointGroup::RimLink> JointGroup::rim(GroupEntry core) const {
+std::span<const JointGroup::CoreLink> JointGroup::core_links(GroupEntry core) const {
   const Core& found = cores_[core_number(core)];
-  return std::span(rims_).subspan(found.first_rim, found.end_rim - found.first_rim);
+  return std::span(core_links_).subspan(found.first_link, found.end_link - found.first_link);
 }
 
 std::span<const LeafRun> JointGroup::core_runs(GroupEntry core) const {

@@ -16,11 +16,11 @@ using GroupEntry = std::uint32_t;
 
 /// The leaves that the balls around the vertices of a group may hold. A *group* is eight neighboring leaves whose
 /// queries are answered one leaf after the other; what their balls have in common is found once, by a breadth-first
-/// search over the links from the group's own leaves. So no leaf is looked at that no path from them leads to.
+/// search over the links from the group's own leaves. So it visits only leaves to which a path from them leads.
 ///
 /// A leaf that is connected and lies in every ball of the group is reached by all queries or by none that reach its
 /// neighbors. Such leaves, where linked, make one *core*, and a core is one entry. The entries that it is linked to are
-/// its *rim*. Every other leaf that the balls may meet is an entry by itself.
+/// its *core links*. Every other leaf that the balls may meet is an entry by itself.
 class JointGroup {
  public:
   JointGroup(const IndexView& index, const Kernels& kernels);
@@ -33,7 +33,7 @@ class JointGroup {
   };
 
   /// A link from a core to a leaf.
-  struct RimLink {
+  struct CoreLink {
     GroupEntry entry;
     LaneMask far_boundary;
   };
@@ -65,11 +65,11 @@ class JointGroup {
   [[nodiscard]] std::uint32_t rank(GroupEntry entry) const { return rank_[entry]; }
   [[nodiscard]] GroupEntry at_rank(std::uint32_t rank) const { return by_rank_[rank]; }
 
-  /// The links of an entry that is a leaf. Looked up when first asked for; valid until those of another are.
+  /// The links of an entry that is a leaf. Looked up at the first call; valid until those of another are.
   [[nodiscard]] std::span<const EntryLink> links(GroupEntry entry);
 
   // Of a core.
-  [[nodiscard]] std::span<const RimLink> rim(GroupEntry core) const;
+  [[nodiscard]] std::span<const CoreLink> core_links(GroupEntry core) const;
   [[nodiscard]] std::size_t core_number(GroupEntry core) const { return leaves_[core] - kCore; }
   [[nodiscard]] std::size_t core_vertices(GroupEntry core) const { return cores_[core_number(core)].vertices; }
   /// Its leaves, ascending.
@@ -94,8 +94,8 @@ class JointGroup {
   };
 
   struct Core {
-    std::size_t first_rim;  // in rims_
-    std::size_t end_rim = 0;
+    std::size_t first_link;  // in core_links_
+    std::size_t end_link = 0;
     std::size_t first_run;  // in core_runs_
     std::size_t end_run = 0;
     std::size_t vertices = 0;
@@ -127,7 +127,7 @@ class JointGroup {
   std::vector<Eight> eights_;
   std::vector<Core> cores_;
   std::vector<LeafId> core_leaves_;  // of the core that is being added
-  std::vector<RimLink> rims_;
+  std::vector<CoreLink> core_links_;
   std::vector<LinkRange> link_ranges_;  // by entry
   std::vector<EntryLink> links_;
   std::vector<std::uint32_t> rank_;

@@ -71,7 +71,7 @@ void JointSpread::take_whole(JointGroup& group, const Packet& packet, GroupEntry
   if (states_[entry].pushed == 0) whole_.push_back(entry);
   states_[entry].pushed |= word;
   if (group.is_core(entry)) {
-    for (const JointGroup::RimLink& link : group.rim(entry)) {
+    for (const JointGroup::CoreLink& link : group.core_links(entry)) {
       push(group, packet, link.entry, word, [&](PerLane<QueryWord>& pending) {
         for_each_lane(link.far_boundary, [&](unsigned lane) { pending[lane] |= word; });
       });
