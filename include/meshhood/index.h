@@ -54,7 +54,7 @@ class Index {
   /// long as the index.
   [[nodiscard]] std::span<const VertexId> permutation() const;
 
-  /// The first vertex of each leaf in index order, and #V: #leaves + 1. Valid as long as the index.
+  /// The first vertex of each leaf in index order, and #V: #leaves + 1, some empty. Valid as long as the index.
   [[nodiscard]] std::span<const VertexId> leaf_starts() const;
 
   /// Verifies the index against the mesh it was built from. Returns one line per violation, naming the leaf or node, at

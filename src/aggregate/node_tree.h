@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "meshhood/joint.h"
 #include "meshhood/searcher.h"
@@ -12,17 +11,17 @@
 
 namespace meshhood {
 
-/// The nodes of the tree of an index under one numbering: leaves first, then level by level. Everything that an
-/// aggregate keeps by node has this order.
+/// The nodes of the tree of an index, by their numbers. Everything that an aggregate keeps by node has this order, with
+/// places for nodes that do not exist, which have no vertices and no children.
 class NodeTree {
  public:
   using Node = std::uint32_t;
 
-  explicit NodeTree(const IndexView& index);
+  explicit NodeTree(const IndexView& index) : index_(&index) {}
 
-  /// The number of nodes on all levels.
-  [[nodiscard]] std::size_t size() const { return level_begin_.back(); }
-  [[nodiscard]] std::size_t leaf_count() const { return level_begin_[1]; }
+  /// The number of places for nodes on all levels.
+  [[nodiscard]] std::size_t size() const { return index_->records.size() * kFanOut; }
+  [[nodiscard]] std::size_t leaf_count() const { return index_->leaf_count(); }
   [[nodiscard]] bool is_leaf(Node node) const { return node < leaf_count(); }
 
   /// The children of a node that is not a leaf: consecutive nodes.
@@ -44,23 +43,21 @@ class NodeTree {
   /// Calls `f(node)` for few nodes whose vertices together are those of the run, in an order that the run determines.
   template <class F>
   void for_each_node(const LeafRun& run, F&& f) const {
-    std::size_t begin = run.first_leaf;
-    std::size_t end = run.end_leaf;
-    for (std::size_t level = 0; begin < end; ++level) {
-      const std::size_t first = level_begin_[level];
-      const bool is_top = level + 2 == level_begin_.size();
-      while (begin < end && (is_top || begin % kFanOut != 0)) f(static_cast<Node>(first + begin++));
-      while (begin < end && end % kFanOut != 0) f(static_cast<Node>(first + --end));
-      begin /= kFanOut;
-      end /= kFanOut;
+    for (std::size_t leaf = run.first_leaf; leaf < run.end_leaf;) {
+      const Node node = largest_from(leaf, run.end_leaf);
+      f(node);
+      leaf = end_leaf(node);
+      while (leaf < run.end_leaf && index_->leaves[leaf].size == 0) ++leaf;
     }
   }
 
  private:
-  [[nodiscard]] std::size_t level_of(Node node) const;
+  /// The largest node that begins with `leaf` and ends before the leaf `end`.
+  [[nodiscard]] Node largest_from(std::size_t leaf, std::size_t end) const;
+  /// The place after its last leaf.
+  [[nodiscard]] std::size_t end_leaf(Node node) const;
 
   const IndexView* index_;
-  std::vector<std::size_t> level_begin_;  // by level, and the number of all nodes
 };
 
 }  // namespace meshhood

@@ -20,6 +20,10 @@ struct ConnectivityData {
   std::vector<Link> links;
   std::vector<CrossEdge> cross_edges;
   std::vector<LaneMask> adjacency;
+  std::vector<std::uint32_t> levels;
+  std::vector<GroupRecord> records;
+  std::vector<NodeId> parents;
+  std::vector<NodeLink> node_links;
 };
 
 /// The arrays that change with the positions.

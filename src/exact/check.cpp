@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
@@ -9,8 +10,10 @@
 #include "meshhood/index.h"
 
 #include "exact/build/links.h"
+#include "exact/build/node_links.h"
 #include "exact/build/tree.h"
 #include "exact/layout.h"
+#include "exact/node_search.h"
 #include "simd/kernels.h"
 
 namespace meshhood {
@@ -38,9 +41,8 @@ class Faults {
 };
 
 std::string leaf_name(std::size_t leaf) { return "leaf " + std::to_string(leaf); }
-std::string node_name(std::size_t level, std::size_t node) {
-  return "level " + std::to_string(level) + ": node " + std::to_string(node);
-}
+std::string group_name(std::size_t group) { return "group " + std::to_string(group); }
+std::string node_name(std::size_t node) { return "node " + std::to_string(node); }
 
 /// Compares an index with the mesh that it should be built from.
 class Check {
@@ -54,6 +56,7 @@ class Check {
     check_positions();
     check_edges();
     check_connected();
+    check_forest();
     check_spheres();
     check_regions();
     return faults_.take();
@@ -61,6 +64,7 @@ class Check {
 
  private:
   [[nodiscard]] std::size_t leaf_end(std::size_t leaf) const { return index_.leaf_begin[leaf + 1]; }
+  [[nodiscard]] bool exists(std::size_t leaf) const { return leaf % kFanOut < index_.records[leaf / kFanOut].nodes; }
 
   void check_numbering() {
     const std::size_t vertices = graph_.positions.size();
@@ -74,7 +78,8 @@ class Check {
       const std::size_t end = leaf_end(leaf);
       const Leaf& record = index_.leaves[leaf];
       faults_.expect(
-          begin < end && end - begin <= kLeafCapacity && record.first == begin && record.size == end - begin,
+          begin <= end && end - begin <= kLeafCapacity && (begin < end) == exists(leaf) && record.first == begin &&
+              record.size == end - begin,
           [&] { return leaf_name(leaf) + ": does not hold 1 to 32 vertices, or its record differs from leaf_begin"; });
       for (std::size_t v = begin; v < end && faults_.none(); ++v) {
         const VertexId old = index_.id(v);
@@ -145,23 +150,43 @@ class Check {
   void check_connected() {
     for (std::size_t leaf = 0; leaf < index_.leaf_count(); ++leaf) {
       const Leaf& record = index_.leaves[leaf];
-      faults_.expect(record.connected == is_connected(&index_.adjacency[record.first], record.size),
-                     [&] { return leaf_name(leaf) + ": its mark as connected or not is wrong"; });
+      faults_.expect(
+          record.connected == (record.size > 0 && is_connected(&index_.adjacency[record.first], record.size)),
+          [&] { return leaf_name(leaf) + ": its mark as connected or not is wrong"; });
+    }
+  }
+
+  void check_forest() {
+    std::vector<std::uint32_t> first_link;
+    for (const Leaf& leaf : index_.leaves) first_link.push_back(leaf.first_link);
+    std::vector<GroupRecord> expected(index_.records.begin(), index_.records.end());
+    set_vertices(index_.leaf_begin, index_.levels, expected);
+    const auto links = make_node_links(first_link, index_.links, index_.levels, index_.parents, expected);
+    const auto is_same = [](const NodeLink& a, const NodeLink& b) { return a.node() == b.node() && a.mine == b.mine; };
+    const bool same_links = std::ranges::equal(links, index_.node_links, is_same);
+    faults_.expect(same_links, [] { return std::string("the links between nodes are not those of the leaves"); });
+    for (std::size_t group = 0; group < expected.size(); ++group) {
+      const GroupRecord& found = index_.records[group];
+      faults_.expect(found.begin == expected[group].begin && found.linked == expected[group].linked,
+                     [&] { return group_name(group) + ": its vertices or links are not those of its leaves"; });
+      const NodeSet all = first_nodes(found.nodes);
+      faults_.expect(index_.parents[group] == kNoNode || reachable_nodes(found.linked, 1, all) == all,
+                     [&] { return group_name(group) + ": it has a parent, but its nodes are not connected by links"; });
     }
   }
 
   void check_spheres() {
     for (std::size_t v = 0; v < index_.vertex_count(); ++v) {
       const Point p = index_.frame.to_frame(position(v));
-      std::size_t node = leaf_of(index_.slot[v]);
+      NodeId node = leaf_of(index_.slot[v]);
       faults_.expect(encloses(index_.leaves[node].bounds, p), [&] {
         return leaf_name(node) + ": vertex " + std::to_string(v) + " lies outside the bounding sphere";
       });
-      for (std::size_t level = 0; level < index_.tree.size(); ++level, node /= kFanOut) {
-        const Group& group = index_.tree[level].groups[node / kFanOut];
+      for (; node != kNoNode; node = index_.parents[node / kFanOut]) {
+        const Group& group = index_.groups[node / kFanOut];
         const std::size_t i = node % kFanOut;
         faults_.expect(encloses({group.x[i], group.y[i], group.z[i], group.radius[i]}, p), [&] {
-          return node_name(level, node) + ": vertex " + std::to_string(v) + " lies outside the bounding sphere";
+          return node_name(node) + ": vertex " + std::to_string(v) + " lies outside the bounding sphere";
         });
       }
     }
@@ -182,13 +207,12 @@ class Check {
     const TreeBall ball(index_.frame, position(v), 0);
     for (std::size_t w = 0; w < index_.vertex_count(); ++w) {
       if (w == v || !is_minimum(w, position(v))) continue;
-      std::size_t node = leaf_of(index_.slot[w]);
-      for (std::size_t level = 0; level < index_.tree.size(); ++level, node /= kFanOut) {
-        const auto group = static_cast<std::uint32_t>(node / kFanOut);
+      for (NodeId node = leaf_of(index_.slot[w]); node != kNoNode; node = index_.parents[node / kFanOut]) {
+        const std::uint32_t group = node / kFanOut;
         GroupContainment found{};
-        portable_kernels().classify(index_.tree[level].groups.data(), std::span(&group, 1), ball, &found);
+        portable_kernels().classify(index_.groups.data(), std::span(&group, 1), ball, &found);
         faults_.expect((found.may_have_minimum >> node % kFanOut & 1U) != 0, [&] {
-          return node_name(level, node) + ": vertex " + std::to_string(v) +
+          return node_name(node) + ": vertex " + std::to_string(v) +
                  " lies outside the minimum region, but sees vertex " + std::to_string(w) + " as a local minimum";
         });
       }

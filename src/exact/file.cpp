@@ -22,7 +22,7 @@ namespace {
 
 // No padding bytes: every byte in the file has a defined value.
 static_assert(sizeof(Frame) == 32 && sizeof(Leaf) == 28 && sizeof(Link) == 12 && sizeof(CrossEdge) == 2 &&
-              sizeof(Group) == 256);
+              sizeof(Group) == 256 && sizeof(GroupRecord) == 64 && sizeof(NodeLink) == 5);
 
 template <class T>
 void take(file::SectionReader& file, const char* section, std::span<const T>& array) {
@@ -52,9 +52,9 @@ void verify_sizes(const IndexView& view, const file::SectionReader& file) {
            std::to_string(view.permutation.size()) + " vertices, expected none or " + std::to_string(padded));
   }
   expect("place", view.slot.size(), vertices, " values");
-  // No leaf is empty, so there are at most as many leaves as vertices, and none without vertices.
+  // No leaf is empty, and no group of leaves, so there are at most eight places for each vertex.
   const std::size_t leaves = view.leaves.empty() ? 0 : view.leaves.size() - 1;
-  if (view.leaves.empty() || leaves > vertices || (leaves == 0) != (vertices == 0)) {
+  if (view.leaves.empty() || leaves > vertices * kFanOut || (leaves == 0) != (vertices == 0)) {
     refuse("leaves",
            std::to_string(view.leaves.size()) + " leaf records for " + std::to_string(vertices) + " vertices");
   }
@@ -65,8 +65,16 @@ void verify_sizes(const IndexView& view, const file::SectionReader& file) {
                             std::to_string(kLeafCapacity) + " of padding");
   }
   expect("adjacency", view.adjacency.size(), padded, " values");
-  expect("groups", view.groups.size(), tree_groups(leaves), " values");
-  expect("mean_radii", view.mean_radii.size(), tree_nodes(leaves).size(), " values");
+  if (view.levels.empty() || view.levels.front() != 0) refuse("levels", "the first level does not begin at group 0");
+  for (std::size_t level = 1; level < view.levels.size(); ++level) {
+    if (view.levels[level] <= view.levels[level - 1])
+      refuse("levels", "level " + std::to_string(level - 1) + " has no group");
+  }
+  expect("leaves", leaves, view.levels.size() > 1 ? std::uint64_t{view.levels[1]} * kFanOut : 0, " places for leaves");
+  expect("groups", view.groups.size(), view.levels.back(), " values");
+  expect("group_records", view.records.size(), view.levels.back(), " values");
+  expect("parents", view.parents.size(), view.levels.back(), " values");
+  expect("mean_radii", view.mean_radii.size(), view.levels.size() - 1, " values");
 }
 
 /// A view of the arrays in the file; only their sizes are verified.
@@ -75,7 +83,7 @@ std::shared_ptr<IndexView> take_arrays(file::SectionReader& file) {
   view->frame = file.take<Frame>("frame", 1).front();
   for_each_array([&](ArrayInfo info, auto& array) { take(file, info.section, array); }, *view);
   verify_sizes(*view, file);
-  view->tree = make_levels(view->leaf_count(), view->groups, view->mean_radii);
+  view->tree = make_levels(view->levels, view->records, view->mean_radii);
   return view;
 }
 

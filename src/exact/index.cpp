@@ -45,7 +45,7 @@ std::vector<LevelSummary> Index::levels() const {
                       .mean_vertices = static_cast<double>(vertex_count()) / static_cast<double>(level.nodes),
                       .mean_radius = level.mean_radius / view_->frame.scale,
                       .mean_siblings = 0,
-                      .bytes = bytes_of(level.groups)});
+                      .bytes = level.groups * (sizeof(Group) + sizeof(GroupRecord))});
   }
   if (result.empty()) return result;
   // Only leaves have links. The last link is an end marker.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -47,14 +49,48 @@ struct Link {
   std::uint32_t first_cross_edge;  // see IndexView::cross_edges_of
 };
 
-/// The nodes of one level. Node `i` is in group `i / 8`; its children are the nodes of group `i` one level lower.
+/// A *node* is named by 8 times its group plus its place in the group. Groups are numbered through all levels, leaves
+/// first, so a leaf and its node have the same number. A group of fewer than eight nodes has them at its first places.
+using NodeId = std::uint32_t;
+
+inline constexpr NodeId kNoNode = std::numeric_limits<NodeId>::max();
+
+/// Some of the nodes of a group: bit `i` stands for the node at place `i`.
+using NodeSet = std::uint8_t;
+
+/// The nodes of a group that has `nodes` of them.
+[[nodiscard]] constexpr NodeSet first_nodes(unsigned nodes) { return static_cast<NodeSet>((1U << nodes) - 1); }
+
+/// What a search reads of a group beside the bounds of its nodes.
+struct alignas(64) GroupRecord {
+  std::array<std::uint32_t, kFanOut + 1> begin{};  // by node: its first vertex in index order; and the end of the last
+  std::uint32_t first_child = 0;                   // node `i` covers the group `first_child + i`; 0 for leaves
+  std::uint32_t first_link = 0;                    // see IndexView::node_links_of
+  std::uint32_t end_link = 0;
+  std::array<NodeSet, kFanOut> linked{};  // by node: the nodes of the group that it is linked with
+  std::uint32_t nodes = 0;
+  std::uint32_t unused = 0;  // so that every byte has a defined value
+};
+
+/// At least one edge of the mesh joins `node()` to each of the nodes `mine` of the group that the link belongs to,
+/// which is another group of the same level. Of five bytes, because there are about as many links as vertices.
+struct NodeLink {
+  std::array<std::uint8_t, sizeof(NodeId)> node_bytes;
+  NodeSet mine;
+
+  NodeLink(NodeId other, NodeSet nodes) : node_bytes(std::bit_cast<decltype(node_bytes)>(other)), mine(nodes) {}
+  [[nodiscard]] NodeId node() const { return std::bit_cast<NodeId>(node_bytes); }
+};
+
+/// The groups of one level.
 struct TreeLevel {
-  std::span<const Group> groups;
+  std::size_t first_group = 0;
+  std::size_t groups = 0;
   std::size_t nodes = 0;
   double mean_radius = 0;  // of the bounding spheres, in the frame
 };
 
-/// Leaves first; the last level is one group.
+/// Leaves first.
 using Tree = std::vector<TreeLevel>;
 
 /// Read-only view of an index, used by searches. `owner` and `geometry` keep the arrays alive.
@@ -68,14 +104,19 @@ struct IndexView {
   std::span<const Link> links;             // and one more, for the end of the last cross edges
   std::span<const CrossEdge> cross_edges;  // padded
   std::span<const LaneMask> adjacency;     // in index order: the neighbors within the leaf; padded
+  std::span<const std::uint32_t> levels;   // the first group of each level, and one more: the number of groups
   std::span<const Group> groups;           // of all levels of the tree, leaves first
+  std::span<const GroupRecord> records;    // by group
+  std::span<const NodeId> parents;         // by group: the node that covers it, or kNoNode
+  std::span<const NodeLink> node_links;    // by group
   std::span<const double> mean_radii;      // by level
-  Tree tree;                               // `groups` and `mean_radii` by level
+  Tree tree;                               // what `levels`, `records` and `mean_radii` tell of each level
   std::shared_ptr<const void> owner;       // a `ConnectivityData`, or the bytes of an index file
   std::shared_ptr<GeometryData> geometry;  // of this view alone; none while all arrays are in a file
   std::shared_ptr<SharedGraph> graph = std::make_shared<SharedGraph>();  // for searches over vertices
 
   [[nodiscard]] std::size_t vertex_count() const { return slot.size(); }
+  /// The number of places for leaves. A leaf that does not exist has no vertices.
   [[nodiscard]] std::size_t leaf_count() const { return leaf_begin.size() - 1; }
 
   /// The caller's id of a vertex in index order.
@@ -96,6 +137,11 @@ struct IndexView {
   /// The links of a leaf, ascending by the linked leaf.
   [[nodiscard]] std::span<const Link> links_of(std::size_t leaf) const {
     return links.subspan(leaves[leaf].first_link, leaves[leaf + 1].first_link - leaves[leaf].first_link);
+  }
+
+  /// The links of the nodes of a group with nodes of other groups, ascending by node.
+  [[nodiscard]] std::span<const NodeLink> node_links_of(const GroupRecord& record) const {
+    return node_links.subspan(record.first_link, record.end_link - record.first_link);
   }
 
   /// The cross edges of a link, ascending by `from`, then `to`. `link` must be an element of `links`.
@@ -129,20 +175,16 @@ void for_each_array(F&& f, Indexes&... indexes) {
   f(ArrayInfo{"links", &IndexBytes::graph}, indexes.links...);
   f(ArrayInfo{"crossings", &IndexBytes::graph}, indexes.cross_edges...);
   f(ArrayInfo{"adjacency", &IndexBytes::graph}, indexes.adjacency...);
+  f(ArrayInfo{"levels", &IndexBytes::tree}, indexes.levels...);
   f(ArrayInfo{"groups", &IndexBytes::tree}, indexes.groups...);
+  f(ArrayInfo{"group_records", &IndexBytes::tree}, indexes.records...);
+  f(ArrayInfo{"parents", &IndexBytes::tree}, indexes.parents...);
+  f(ArrayInfo{"node_links", &IndexBytes::tree}, indexes.node_links...);
   f(ArrayInfo{"mean_radii", &IndexBytes::tree}, indexes.mean_radii...);
 }
 
-/// The number of groups that hold `nodes` nodes.
-[[nodiscard]] constexpr std::size_t group_count(std::size_t nodes) { return (nodes + kFanOut - 1) / kFanOut; }
-
-/// The number of nodes on each level of a tree with `leaves` leaves, leaves first.
-[[nodiscard]] std::vector<std::size_t> tree_nodes(std::size_t leaves);
-
-/// The number of groups on all its levels.
-[[nodiscard]] std::size_t tree_groups(std::size_t leaves);
-
-/// The levels of that tree. `groups` and `mean_radii` have as many elements as it needs.
-[[nodiscard]] Tree make_levels(std::size_t leaves, std::span<const Group> groups, std::span<const double> mean_radii);
+/// The levels of a tree. There is a mean radius for each.
+[[nodiscard]] Tree make_levels(std::span<const std::uint32_t> levels, std::span<const GroupRecord> records,
+                               std::span<const double> mean_radii);
 
 }  // namespace meshhood

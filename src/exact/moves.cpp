@@ -48,7 +48,7 @@ class Backup {
       : index_(index), geometry_(*index.geometry), mean_radii_(geometry_.mean_radii) {
     for (const Move& move : moves) positions_.push_back({move.slot, position_at(index, move.slot)});
     for (const LeafId leaf : leaves) bounds_.emplace_back(leaf, geometry_.leaves[leaf].bounds);
-    for (const std::size_t group : groups_above(leaves, index.leaf_count())) {
+    for (const std::size_t group : groups_above(leaves, index)) {
       groups_.emplace_back(group, geometry_.groups[group]);
     }
   }

@@ -48,6 +48,7 @@ std::vector<LeafId> leaves_around(const IndexView& index, const Point& center, s
   };
   std::vector<Reach> reaches;
   for (LeafId leaf = 0; leaf < index.leaf_count(); ++leaf) {
+    if (index.leaves[leaf].size == 0) continue;
     const FrameSphere& sphere = index.leaves[leaf].bounds;
     const double distance = std::sqrt(squared_distance(centre_of(sphere), center));
     const auto radius = static_cast<double>(sphere.radius);
@@ -122,6 +123,7 @@ std::vector<double> new_radii(const GraphData& graph, const Frame& frame) {
   for (std::size_t leaf = 0; leaf + 1 < leaves.leaf_begin.size(); ++leaf) {
     const auto vertices = std::span(leaves.permutation)
                               .subspan(leaves.leaf_begin[leaf], leaves.leaf_begin[leaf + 1] - leaves.leaf_begin[leaf]);
+    if (vertices.empty()) continue;
     std::vector<Point> points;
     for (const VertexId v : vertices) points.push_back(frame.to_frame(point(std::span<const double>(xyz), v)));
     const auto radius = static_cast<double>(enclosing_sphere(points).radius);

@@ -22,9 +22,11 @@ bool is_bool(const bool& value) { return std::to_integer<unsigned>(*reinterpret_
 void verify_leaf(const IndexView& index, std::size_t leaf, const SectionReader& file) {
   const std::size_t begin = index.leaf_begin[leaf];
   const std::size_t end = index.leaf_begin[leaf + 1];
-  if (begin >= end || end - begin > kLeafCapacity) {  // mutant: oversized-leaf-accepted
+  const bool exists = leaf % kFanOut < index.records[leaf / kFanOut].nodes;
+  if (begin > end || end - begin > kLeafCapacity || (begin < end) != exists) {  // mutant: oversized-leaf-accepted
     file.refuse(&index.leaf_begin[leaf + 1], name("leaf", leaf) + ": vertices " + std::to_string(begin) + " to " +
-                                                 std::to_string(end) + ", expected 1 to 32 vertices");
+                                                 std::to_string(end) + ", expected " + (exists ? "1 to 32" : "no") +
+                                                 " vertices");
   }
   const Leaf& record = index.leaves[leaf];
   if (record.first != begin || record.size != end - begin) {  // mutant: leaf-record-not-compared
@@ -60,7 +62,8 @@ void verify_last_leaf(const IndexView& index, const SectionReader& file) {
 }  // namespace
 
 void verify(const IndexView& index, const SectionReader& file, TaskContext& task) {
-  constexpr std::array kParts{verify_numbering, verify_edges_within, verify_links, verify_positions, verify_tree};
+  constexpr std::array kParts{verify_forest,     verify_numbering, verify_edges_within, verify_links,
+                              verify_node_links, verify_positions, verify_tree};
   static_assert(kParts.size() == kVerifyParts);
   for (const auto part : kParts) {
     part(index, file);
@@ -112,7 +115,8 @@ void verify_edges_within(const IndexView& index, const SectionReader& file) {
         }
       }
     }
-    if (record.connected != is_connected(rows.data(), record.size)) {  // mutant: connected-mark-not-compared
+    const bool connected = record.size > 0 && is_connected(rows.data(), record.size);
+    if (record.connected != connected) {  // mutant: connected-mark-not-compared
       file.refuse(&record.connected, name("leaf", leaf) + ": its mark as connected or not is wrong");
     }
   }

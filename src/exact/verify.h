@@ -17,9 +17,12 @@ namespace meshhood::file {
 /// Throws Error{MalformedIndex, Cancelled}. One pass over each array; advances `task` by `kVerifyParts`.
 void verify(const IndexView& index, const SectionReader& file, TaskContext& task);
 
-inline constexpr std::size_t kVerifyParts = 5;
+inline constexpr std::size_t kVerifyParts = 7;
 
 // The parts of the verification, in this order: each relies on those before.
+
+/// Every group is covered by one node of the level above, or by none.
+void verify_forest(const IndexView& index, const SectionReader& file);
 
 /// Leaves hold 1 to 32 vertices each and all vertices together; `permutation` and `slot` are inverse to each other.
 void verify_numbering(const IndexView& index, const SectionReader& file);
@@ -29,6 +32,10 @@ void verify_edges_within(const IndexView& index, const SectionReader& file);
 
 /// Links and cross edges refer to existing leaves and lanes, are in order, and are symmetric.
 void verify_links(const IndexView& index, const SectionReader& file);
+
+/// The vertices of groups are those of their leaves, the links between nodes are those that follow from the links
+/// between leaves, and every node above the leaves is connected by them.
+void verify_node_links(const IndexView& index, const SectionReader& file);
 
 /// Positions are finite, and the frame is that of the positions.
 void verify_positions(const IndexView& index, const SectionReader& file);

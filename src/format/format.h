@@ -18,12 +18,14 @@ namespace meshhood::file {
 inline constexpr std::array<std::uint8_t, 8> kMagic{0x8B, 'M', 'H', 'I', '\r', '\n', 0x1A, '\n'};
 inline constexpr std::uint32_t kByteOrderMark = 0x01020304;
 inline constexpr std::uint32_t kOtherByteOrder = 0x04030201;
-inline constexpr std::uint32_t kFormat = 1;
+
+/// The format of files of this kind. Exact indexes of format 1 had a tree without links.
+[[nodiscard]] constexpr std::uint32_t format_of(IndexKind kind) { return kind == IndexKind::Paper ? 1 : 2; }
 
 struct Header {
   std::array<std::uint8_t, 8> magic = kMagic;
   std::uint32_t byte_order = kByteOrderMark;
-  std::uint32_t format = kFormat;
+  std::uint32_t format = format_of(IndexKind::Exact);
   std::uint64_t bytes = 0;  // of the whole file
   std::uint64_t vertices = 0;
   Fingerprint mesh;

@@ -33,7 +33,7 @@ std::string quoted(std::string_view name) {
   return is_plain ? "section " + std::string(name) : "a section without a readable name";
 }
 
-/// The fields that all formats have in common, so that the error for a newer format states its number.
+/// The fields that all formats have in common, so that the error for another format states its number.
 void verify_beginning(const Header& header) {
   if (header.magic != kMagic) refuse_header(0, "not a saved index");
   if (header.byte_order == kOtherByteOrder) {
@@ -41,9 +41,11 @@ void verify_beginning(const Header& header) {
   }
   if (header.byte_order != kByteOrderMark)
     refuse_header(offsetof(Header, byte_order), "the byte order mark is not valid");
-  if (header.format != kFormat) {
+  const std::uint32_t format = format_of(header.kind);
+  if (header.format != format) {  // mutant: older-format-accepted
     refuse_header(offsetof(Header, format), "format " + std::to_string(header.format) +
-                                                ", but this version reads format " + std::to_string(kFormat));
+                                                ", but this version reads format " + std::to_string(format) +
+                                                (header.format < format ? ": build the index again" : ""));
   }
 }
 

@@ -64,6 +64,7 @@ void SectionWriter::write(Header header, const Sink& sink, TaskContext& task) co
   if constexpr (std::endian::native != std::endian::little) {
     raise(ErrorCode::MalformedIndex, "saving an index requires a little-endian machine");
   }
+  header.format = format_of(header.kind);
   std::vector<Section> table = make_table(task);
   header.sections = static_cast<std::uint32_t>(table.size());
   header.bytes = aligned(table.back().begin + table.back().bytes);

@@ -200,7 +200,7 @@ TEST_F(Packets, NameWholeLeaves) {
   };
   std::size_t core_runs = 0;
   std::size_t whole_runs = 0;
-  for_each_packet(index, {.vertices = vertices, .radius = 14}, everyone([&](const PacketAnswer& answer) {
+  for_each_packet(index, {.vertices = vertices, .radius = 20}, everyone([&](const PacketAnswer& answer) {
                     for (const CoreLeaves& core : answer.cores) {
                       EXPECT_TRUE(std::all_of(core.runs.begin(), core.runs.end(), is_whole));
                       core_runs += core.runs.size();

@@ -139,7 +139,7 @@ TEST_P(CellComponentsOfFamilies, AComponentStaysSmallOnlyIfNoNeighborHasRoom) {
 
 INSTANTIATE_TEST_SUITE_P(CellComponents, CellComponentsOfFamilies, testing::ValuesIn(families()), family_name);
 
-TEST(CellComponents, PointsWithoutEdgesShareTheirCell) {
+TEST(CellComponents, PointsWithoutEdgesFillLeavesInTheOrderOfTheCells) {
   TestMesh mesh;
   Random random(1);
   for (int i = 0; i < 300; ++i) mesh.add_vertex(random.uniform(), random.uniform(), random.uniform());
@@ -147,7 +147,9 @@ TEST(CellComponents, PointsWithoutEdgesShareTheirCell) {
   CellComponents components = split_cells(cells.graph, cells.task);
   EXPECT_EQ(components.size.size(), 300U);
   merge_small(cells.graph, components);
-  for (std::size_t i = 0; i < 300; ++i) EXPECT_EQ(components.of[i], components.of[i / kCellSize * kCellSize]);
+  const auto leaves = std::count_if(components.size.begin(), components.size.end(), [](auto size) { return size > 0; });
+  EXPECT_EQ(leaves, 10);
+  for (std::size_t i = 0; i < 300; ++i) EXPECT_EQ(components.of[i], components.of[i / kLeafCapacity * kLeafCapacity]);
 }
 
 /// Two sheets of `columns` columns, so near to each other that cells hold vertices of both.
@@ -157,6 +159,22 @@ TestMesh two_sheets(std::size_t columns) {
   for (std::size_t i = 2; i < other.positions.size(); i += 3) other.positions[i] = 0.01;
   append(mesh, other);
   return mesh.finish(true);
+}
+
+TEST(CellComponents, SmallComponentsOfTheMeshShareNoLeafWithASurface) {
+  TestMesh mesh = make_grid(30, 30, false);
+  Random random(2);
+  for (int i = 0; i < 40; ++i) mesh.add_vertex(random.uniform(0, 30), random.uniform(0, 30), 0.1);
+  Cells cells(mesh.finish(true));
+  CellComponents components = split_cells(cells.graph, cells.task);
+  merge_small(cells.graph, components);
+  std::vector<int> is_crumb(components.size.size(), -1);
+  for (std::size_t i = 0; i < components.of.size(); ++i) {
+    int& known = is_crumb[components.of[i]];
+    const int mine = cells.points[i].id < 900 ? 0 : 1;
+    EXPECT_TRUE(known == -1 || known == mine) << "vertex " << cells.points[i].id;
+    known = mine;
+  }
 }
 
 TEST(CellComponents, SheetsThatTouchInSpaceAreNotMerged) {

@@ -44,14 +44,6 @@ void expect_found(const char* fault, const std::function<void(IndexData&)>& dama
   EXPECT_LE(faults.size(), 16U);
 }
 
-/// The first group of a level.
-std::size_t first_group(const IndexData& index, std::size_t level) {
-  const std::vector<std::size_t> nodes = tree_nodes(index.leaf_begin.size() - 1);
-  std::size_t group = 0;
-  for (std::size_t below = 0; below < level; ++below) group += group_count(nodes[below]);
-  return group;
-}
-
 TEST(IndexCheck, FindsNothingInAnIndexOfTheMesh) {
   EXPECT_THAT(faults_after([](IndexData&) {}), IsEmpty());
 }
@@ -77,11 +69,17 @@ TEST(IndexCheck, FindsALeafWronglyMarkedAsConnected) {
   expect_found("its mark as connected", [](IndexData& i) { i.leaves[4].connected = !i.leaves[4].connected; });
 }
 
+TEST(IndexCheck, FindsAForestThatDoesNotFollowFromTheLeaves) {
+  expect_found("group 3: its vertices or links", [](IndexData& i) { i.records[3].linked[0] ^= 2; });
+  expect_found("group 3: its vertices or links", [](IndexData& i) { --i.records[3].begin[1]; });
+  expect_found("the links between nodes", [](IndexData& i) { i.node_links[5].mine ^= 1; });
+}
+
 TEST(IndexCheck, FindsASphereTooSmall) {
   expect_found("outside the bounding sphere", [](IndexData& i) { i.leaves[3].bounds.radius *= 0.9F; });
   for (std::size_t level = 0; level < 3; ++level) {
     expect_found("outside the bounding sphere",
-                 [&](IndexData& i) { i.groups.at(first_group(i, level)).radius[1] *= 0.9F; });
+                 [&](IndexData& i) { i.groups.at(i.levels.at(level)).radius[1] *= 0.9F; });
   }
 }
 

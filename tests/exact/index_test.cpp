@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "meshhood/index.h"
 
+#include <algorithm>
 #include <numbers>
 #include <vector>
 
@@ -25,7 +26,9 @@ TEST(IndexBuild, IsTheSameForTheSameMesh) {
 TEST(IndexBuild, LeavesOfASurfaceAreConnected) {
   const Index built = build(bumpy_grid(200).view());
   const IndexView& index = IndexAccess::view(built);
-  for (std::size_t leaf = 0; leaf < index.leaf_count(); ++leaf) EXPECT_TRUE(index.leaves[leaf].connected) << leaf;
+  for (std::size_t leaf = 0; leaf < index.leaf_count(); ++leaf) {
+    EXPECT_EQ(index.leaves[leaf].connected, index.leaves[leaf].size > 0) << leaf;
+  }
 }
 
 TEST(IndexLevels, DescribeTheLeavesAndTheTreeAboveThem) {
@@ -36,8 +39,10 @@ TEST(IndexLevels, DescribeTheLeavesAndTheTreeAboveThem) {
   const Index index = build(mesh.view());
   const std::vector<LevelSummary> levels = index.levels();
   const IndexData arrays = arrays_of(index);
-  ASSERT_EQ(levels.size(), tree_nodes(arrays.leaf_begin.size() - 1).size());
-  EXPECT_EQ(levels.front().clusters, arrays.leaf_begin.size() - 1);
+  ASSERT_EQ(levels.size(), arrays.levels.size() - 1);
+  const auto leaves =
+      std::count_if(arrays.leaves.begin(), arrays.leaves.end(), [](const Leaf& l) { return l.size > 0; });
+  EXPECT_EQ(levels.front().clusters, static_cast<std::size_t>(leaves));
   EXPECT_EQ(levels.front().mean_siblings,
             static_cast<double>(arrays.links.size() - 1) / static_cast<double>(levels.front().clusters));
   double radius = 0;

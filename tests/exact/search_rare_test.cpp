@@ -76,7 +76,7 @@ TEST(Rare, SheetOfAnotherComponentIsLeftOut) {
   const TestMesh mesh = plates(60, 0.6);
   ExactAnswer exact(mesh.view());
   exact.query(30 * 60 + 30, 15);
-  EXPECT_FALSE(last_was_proved(exact));
+  EXPECT_TRUE(last_was_proved(exact)) << "the outward search does not enter it";
   EXPECT_LE(*std::max_element(exact.answer().begin(), exact.answer().end()), 3599U);
   query_everywhere(exact, mesh.size(), {0.3, 0.6, 1, 2, 5, 10, 20, 40, 100});
 }

@@ -36,6 +36,32 @@ struct RandomLeaves {
       nodes.regions[leaf] = {random.uniform(1, 1.1) * axis, random.uniform(0.01, 0.2)};
     }
     leaf_begin[leaves] = static_cast<VertexId>(points.size());
+    group_leaves(leaves);
+  }
+
+  /// Full groups of eight on all levels. The places that no leaf takes have no vertices.
+  void group_leaves(std::size_t leaves) {
+    levels = {0};
+    for (std::size_t count = leaves; count > 0; count = count > kFanOut ? (count + kFanOut - 1) / kFanOut : 0) {
+      const auto first_below = levels.size() > 1 ? levels[levels.size() - 2] : 0;
+      const auto first = static_cast<std::uint32_t>(records.size());
+      for (std::size_t node = 0; node < count; node += kFanOut) {
+        GroupRecord record;
+        record.first_child = levels.size() == 1 ? 0 : first_below + static_cast<std::uint32_t>(node);
+        record.nodes = static_cast<std::uint32_t>(std::min<std::size_t>(kFanOut, count - node));
+        records.push_back(record);
+      }
+      parents.resize(records.size(), kNoNode);
+      for (std::size_t node = 0; levels.size() > 1 && node < count; ++node) {
+        parents[first_below + node] = static_cast<NodeId>(first * kFanOut + node);
+      }
+      levels.push_back(static_cast<std::uint32_t>(records.size()));
+    }
+    const std::size_t places = leaves == 0 ? 0 : levels[1] * kFanOut;
+    leaf_begin.resize(places + 1, leaf_begin.back());
+    nodes.bounds.resize(places);
+    nodes.regions.resize(places);
+    set_vertices(leaf_begin, levels, records);
   }
 
   [[nodiscard]] TreeArrays tree(unsigned threads = 1) const {
@@ -47,6 +73,9 @@ struct RandomLeaves {
   [[nodiscard]] IndexView view() const {
     IndexView index;
     index.leaf_begin = leaf_begin;
+    index.levels = levels;
+    index.records = records;
+    index.parents = parents;
     if (!points.empty()) index.positions = std::span(&points.data()->x, 3 * points.size());
     return index;
   }
@@ -54,6 +83,9 @@ struct RandomLeaves {
   NodeList nodes;
   std::vector<VertexId> leaf_begin;
   std::vector<Point> points;
+  std::vector<std::uint32_t> levels;
+  std::vector<GroupRecord> records;
+  std::vector<NodeId> parents;
 };
 
 Point centre(const Group& group, std::size_t i) {
@@ -72,10 +104,10 @@ bool region_contains(const MinimumRegion& region, const Point& x) {
 
 /// Calls `f(level, group, i)` for the node above a leaf on every level, the leaf itself first.
 template <class F>
-void for_each_node_above(const Tree& tree, std::size_t leaf, F&& f) {
-  std::size_t node = leaf;
-  for (std::size_t level = 0; level < tree.size(); ++level, node /= kFanOut) {
-    f(level, tree[level].groups[node / kFanOut], node % kFanOut);
+void for_each_node_above(const RandomLeaves& leaves, const TreeArrays& tree, std::size_t leaf, F&& f) {
+  std::size_t level = 0;
+  for (auto node = static_cast<NodeId>(leaf); node != kNoNode; node = leaves.parents[node / kFanOut], ++level) {
+    f(level, tree.groups[node / kFanOut], node % kFanOut);
   }
 }
 
@@ -87,10 +119,9 @@ TEST(Tree, SpheresEncloseTheVerticesBelowWithRoomForSinglePrecision) {
   for (const std::size_t size : kSizes) {
     const RandomLeaves leaves(random, size);
     const TreeArrays arrays = leaves.tree();
-    const Tree tree = make_levels(size, arrays.groups, arrays.mean_radii);
     for (std::size_t leaf = 0; leaf < size; ++leaf) {
       for (std::size_t v = leaves.leaf_begin[leaf]; v < leaves.leaf_begin[leaf + 1]; ++v) {
-        for_each_node_above(tree, leaf, [&](std::size_t level, const Group& group, std::size_t i) {
+        for_each_node_above(leaves, arrays, leaf, [&](std::size_t level, const Group& group, std::size_t i) {
           const double distance = length(leaves.points[v] - centre(group, i));
           ASSERT_GT(static_cast<double>(group.radius[i]), distance * (1 + 0x1p-20) + 0x1p-22 - 1e-15) << level;
           ++tests;
@@ -107,20 +138,19 @@ TEST(Tree, SpheresReachNoFartherThanTheirFarthestVertexNeeds) {
     const RandomLeaves leaves(random, size);
     const TreeArrays arrays = leaves.tree();
     std::vector<double> farthest(arrays.groups.size() * kFanOut, 0);
-    const Tree tree = make_levels(size, arrays.groups, arrays.mean_radii);
     const auto place = [&](const Group& group, std::size_t i) {
       return static_cast<std::size_t>(&group - arrays.groups.data()) * kFanOut + i;
     };
     for (std::size_t leaf = 0; leaf < size; ++leaf) {
       for (std::size_t v = leaves.leaf_begin[leaf]; v < leaves.leaf_begin[leaf + 1]; ++v) {
-        for_each_node_above(tree, leaf, [&](std::size_t, const Group& group, std::size_t i) {
+        for_each_node_above(leaves, arrays, leaf, [&](std::size_t, const Group& group, std::size_t i) {
           double& largest = farthest[place(group, i)];
           largest = std::max(largest, length(leaves.points[v] - centre(group, i)));
         });
       }
     }
     for (std::size_t leaf = 0; leaf < size; ++leaf) {
-      for_each_node_above(tree, leaf, [&](std::size_t level, const Group& group, std::size_t i) {
+      for_each_node_above(leaves, arrays, leaf, [&](std::size_t level, const Group& group, std::size_t i) {
         EXPECT_LT(static_cast<double>(group.radius[i]), farthest[place(group, i)] * (1 + 0x1p-19) + 0x1p-21) << level;
       });
     }
@@ -168,7 +198,7 @@ TEST(Tree, GroupsAboveSomeLeavesAreThoseThatAnUpdateChanges) {
   Random random(10);
   const RandomLeaves leaves(random, 600);
   const std::vector<LeafId> moved{3, 5, 8, 599};
-  EXPECT_THAT(groups_above(moved, 600), testing::ElementsAre(0, 1, 74, 75, 84, 85, 86, 87));
+  EXPECT_THAT(groups_above(moved, leaves.view()), testing::ElementsAre(0, 1, 74, 75, 84, 85, 86, 87));
 }
 
 TEST(Tree, RegionsContainThoseOfTheLeavesBelow) {
@@ -177,7 +207,6 @@ TEST(Tree, RegionsContainThoseOfTheLeavesBelow) {
   for (const std::size_t size : kSizes) {
     const RandomLeaves leaves(random, size);
     const TreeArrays arrays = leaves.tree();
-    const Tree tree = make_levels(size, arrays.groups, arrays.mean_radii);
     for (std::size_t n = 0; n < 30 * size; ++n) {
       const std::size_t leaf = n % size;
       const MinimumRegion& own = leaves.nodes.regions[leaf];
@@ -186,7 +215,7 @@ TEST(Tree, RegionsContainThoseOfTheLeavesBelow) {
       const double rest = 1 - std::abs(dot(direction, own.slope_axis));
       const double far = rest > 0 ? std::min(own.offset / rest, 3.5) : 3.5;
       const Point at = centre_of(leaves.nodes.bounds[leaf]) + far * direction;
-      for_each_node_above(tree, leaf, [&](std::size_t level, const Group& group, std::size_t i) {
+      for_each_node_above(leaves, arrays, leaf, [&](std::size_t level, const Group& group, std::size_t i) {
         ASSERT_TRUE(region_contains(region(group, i), at - centre(group, i))) << "level " << level;
         ++tests;
       });
@@ -198,10 +227,11 @@ TEST(Tree, RegionsContainThoseOfTheLeavesBelow) {
 TEST(Tree, NodesThatDoNotExistAreAbsentAndNoOthers) {
   Random random(3);
   for (const std::size_t size : kSizes) {
-    const TreeArrays arrays = RandomLeaves(random, size).tree();
-    for (const TreeLevel& level : make_levels(size, arrays.groups, arrays.mean_radii)) {
-      for (std::size_t node = 0; node < level.groups.size() * kFanOut; ++node) {
-        EXPECT_EQ(is_absent(level.groups[node / kFanOut], node % kFanOut), node >= level.nodes);
+    const RandomLeaves leaves(random, size);
+    const TreeArrays arrays = leaves.tree();
+    for (std::size_t group = 0; group < arrays.groups.size(); ++group) {
+      for (std::size_t i = 0; i < kFanOut; ++i) {
+        EXPECT_EQ(is_absent(arrays.groups[group], i), i >= leaves.records[group].nodes);
       }
     }
   }
@@ -209,15 +239,33 @@ TEST(Tree, NodesThatDoNotExistAreAbsentAndNoOthers) {
 
 TEST(Tree, MeanRadiiAreThoseOfTheNodesOfTheirLevel) {
   Random random(4);
-  const TreeArrays arrays = RandomLeaves(random, 600).tree();
-  for (const TreeLevel& level : make_levels(600, arrays.groups, arrays.mean_radii)) {
+  const RandomLeaves leaves(random, 600);
+  const TreeArrays arrays = leaves.tree();
+  const Tree tree = make_levels(leaves.levels, leaves.records, arrays.mean_radii);
+  ASSERT_EQ(tree.size(), 4U);
+  for (const TreeLevel& level : tree) {
     double sum = 0;
     for (std::size_t node = 0; node < level.nodes; ++node) {
-      sum += static_cast<double>(level.groups[node / kFanOut].radius[node % kFanOut]);
+      sum += static_cast<double>(arrays.groups[level.first_group + node / kFanOut].radius[node % kFanOut]);
     }
     EXPECT_DOUBLE_EQ(level.mean_radius, sum / static_cast<double>(level.nodes));
-    EXPECT_EQ(mean_radius(level.groups, level.nodes), level.mean_radius);
+    EXPECT_EQ(mean_radius(std::span(arrays.groups).subspan(level.first_group, level.groups),
+                          std::span(leaves.records).subspan(level.first_group, level.groups)),
+              level.mean_radius);
   }
+}
+
+TEST(Tree, RunsOfANodeAreThoseOfItsLeaves) {
+  Random random(11);
+  const RandomLeaves leaves(random, 600);
+  for (std::size_t leaf = 0; leaf < 600; ++leaf) {
+    for (auto node = static_cast<NodeId>(leaf); node != kNoNode; node = leaves.parents[node / kFanOut]) {
+      const GroupRecord& record = leaves.records[node / kFanOut];
+      EXPECT_LE(record.begin[node % kFanOut], leaves.leaf_begin[leaf]);
+      EXPECT_GE(record.begin[node % kFanOut + 1], leaves.leaf_begin[leaf + 1]);
+    }
+  }
+  EXPECT_EQ(leaves.records.back().begin.back(), leaves.points.size());
 }
 
 TEST(Tree, OfNoLeafHasNoLevel) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Forged index files with valid checksums are rejected: one forgery for each rule. Rows F4 to F6 and F12 of the
 // catalogue in docs/reliability.md.
+#include <algorithm>
 #include <cstdio>
 #include <functional>
 #include <limits>
@@ -16,6 +17,8 @@
 
 #include "meshhood/error.h"
 
+#include "exact/build/node_links.h"
+#include "exact/build/tree.h"
 #include "exact/layout.h"
 #include "support/families.h"
 #include "support/forged_index.h"
@@ -36,9 +39,11 @@ void expect_refused_after(const char* cause, const Change& change) {
 }
 
 TEST(IndexVerify, RejectsOtherFormatsAndStatesTheirNumbers) {
-  expect_refused_after("header, byte 12: format 3, but this version reads format 1",
+  expect_refused_after("header, byte 12: format 3, but this version reads format 2",
                        [](Forgery& f) { f.header().format = 3; });
-  expect_refused_after("format 0, but this version reads format 1", [](Forgery& f) { f.header().format = 0; });
+  expect_refused_after("format 0, but this version reads format 2", [](Forgery& f) { f.header().format = 0; });
+  expect_refused_after("format 1, but this version reads format 2: build the index again",
+                       [](Forgery& f) { f.header().format = 1; });
 }
 
 TEST(IndexVerify, RejectsHeadersOfOtherMachinesAndKinds) {
@@ -47,8 +52,10 @@ TEST(IndexVerify, RejectsHeadersOfOtherMachinesAndKinds) {
   expect_refused_after("vertex ids of 64 bits, expected 32", [](Forgery& f) { f.header().id_bytes = 8; });
   expect_refused_after("coordinates of 2 bytes", [](Forgery& f) { f.header().scalar_bytes = 2; });
   expect_refused_after("index kind 3", [](Forgery& f) { f.header().kind = static_cast<IndexKind>(3); });
-  expect_refused_after("a paper index, expected an exact index",
-                       [](Forgery& f) { f.header().kind = IndexKind::Paper; });
+  expect_refused_after("a paper index, expected an exact index", [](Forgery& f) {
+    f.header().kind = IndexKind::Paper;
+    f.header().format = file::format_of(IndexKind::Paper);
+  });
   expect_refused_after("header, byte 51: 1, expected 0", [](Forgery& f) { f.header().unused = 1; });
 }
 
@@ -153,7 +160,12 @@ TEST(IndexVerify, RejectsWrongLinks) {
   expect_refused_after("leaf 0: links 0 to 4000000000",
                        [](Forgery& f) { f.section<Leaf>("leaves")[1].first_link = 4000000000U; });
   expect_refused_after("leaf 1: links ", [](Forgery& f) { f.section<Leaf>("leaves")[2].first_link = 0; });
-  expect_refused_after("the links end at", [](Forgery& f) { --f.section<Leaf>("leaves").back().first_link; });
+  expect_refused_after("the links end at", [](Forgery& f) {
+    // The record of the end, and those of the leaves after the last that exists.
+    const auto leaves = f.section<Leaf>("leaves");
+    const std::uint32_t end = leaves.back().first_link;
+    for (Leaf& leaf : leaves) leaf.first_link = std::min(leaf.first_link, end - 1);
+  });
   expect_refused_after("link from leaf 0 to leaf 4000000000",
                        [](Forgery& f) { f.section<Link>("links")[0].leaf = 4000000000U; });
   expect_refused_after("link from leaf 0 to leaf 0", [](Forgery& f) { f.section<Link>("links")[0].leaf = 0; });
@@ -207,6 +219,96 @@ TEST(IndexVerify, RejectsWrongPositions) {
   expect_refused_after("lies outside the frame", [](Forgery& f) { f.section<Frame>("frame")[0].origin.x = kInfinity; });
 }
 
+TEST(IndexVerify, RejectsAWrongForest) {
+  const auto levels = [](Forgery& f) { return f.section<std::uint32_t>("levels"); };
+  const auto records = [](Forgery& f) { return f.section<GroupRecord>("group_records"); };
+  expect_refused_after("the first level does not begin at group 0", [&](Forgery& f) { levels(f)[0] = 1; });
+  expect_refused_after("level 0 has no group", [&](Forgery& f) { levels(f)[1] = 0; });
+  expect_refused_after("places for leaves", [](Forgery& f) { f.section<std::uint32_t>("levels")[1] = 1; });
+  expect_refused_after("section groups", [&](Forgery& f) { ++levels(f).back(); });
+  expect_refused_after("0 nodes, expected 1 to 8", [&](Forgery& f) { records(f)[1].nodes = 0; });
+  expect_refused_after("9 nodes, expected 1 to 8", [&](Forgery& f) { records(f)[1].nodes = 9; });
+  expect_refused_after("its first child is group 4000000000",
+                       [&](Forgery& f) { records(f).back().first_child = 4000000000U; });
+  expect_refused_after("its first child is group 1, expected 0", [&](Forgery& f) { records(f)[0].first_child = 1; });
+  expect_refused_after("group 0: expected a group covered by node",
+                       [](Forgery& f) { f.section<NodeId>("parents")[0] = 4000000000U; });
+  expect_refused_after("no node covers it, but it has a parent",
+                       [](Forgery& f) { f.section<NodeId>("parents").back() = 0; });
+  // One node more than there are groups below, in the last group.
+  expect_refused_after("expected a group covered by node", [&](Forgery& f) { records(f).back().nodes = 8; });
+}
+
+TEST(IndexVerify, RejectsWrongLinksBetweenNodes) {
+  const auto records = [](Forgery& f) { return f.section<GroupRecord>("group_records"); };
+  const char* const wrong = "its vertices or links are not those of its leaves";
+  // Of leaves, and of the highest level.
+  expect_refused_after(wrong, [&](Forgery& f) { records(f)[0].linked[0] ^= 2; });
+  expect_refused_after(wrong, [&](Forgery& f) { records(f).back().linked[0] ^= 2; });
+  expect_refused_after(wrong, [&](Forgery& f) { records(f)[0].first_link = 1; });
+  expect_refused_after(wrong, [&](Forgery& f) { records(f)[0].end_link = 4000000000U; });
+  expect_refused_after(wrong, [&](Forgery& f) { ++records(f)[0].begin[1]; });
+  expect_refused_after(wrong, [&](Forgery& f) { records(f).back().begin[0] = 4000000000U; });
+  expect_refused_after("unused bytes are not 0", [&](Forgery& f) { records(f)[0].unused = 1; });
+  expect_refused_after("link 0 between nodes: expected node", [](Forgery& f) {
+    NodeLink& link = f.section<NodeLink>("node_links")[0];
+    link = NodeLink(4000000000U, link.mine);
+  });
+  expect_refused_after("link 0 between nodes: expected node",
+                       [](Forgery& f) { f.section<NodeLink>("node_links")[0].mine ^= 1; });
+}
+
+/// A surface of two levels, and two patches that fill a leaf each.
+Forgery surface_and_patches() {
+  TestMesh mesh = bumpy_grid(20);
+  append(mesh, make_grid(5, 5, false));
+  append(mesh, make_grid(5, 5, false));
+  return Forgery(saved(build(mesh.finish(true).view())));
+}
+
+/// Gives groups and links what follows from `levels`, `parents` and the numbers of nodes.
+void relink(Forgery& f) {
+  const auto sections = f.section<GroupRecord>("group_records");
+  const auto levels = f.section<std::uint32_t>("levels");
+  std::vector<GroupRecord> records(sections.begin(), sections.end());
+  std::vector<std::uint32_t> first_link;
+  for (const Leaf& leaf : f.section<Leaf>("leaves")) first_link.push_back(leaf.first_link);
+  set_vertices(f.section<VertexId>("leaf_begin"), levels, records);
+  const std::vector<NodeLink> links =
+      make_node_links(first_link, f.section<Link>("links"), levels, f.section<NodeId>("parents"), records);
+  ASSERT_EQ(links.size(), f.section<NodeLink>("node_links").size());
+  std::copy(records.begin(), records.end(), sections.begin());
+  std::copy(links.begin(), links.end(), f.section<NodeLink>("node_links").begin());
+}
+
+void expect_refused_forgery(const char* culprit, Forgery& f) {
+  seal(f.bytes());
+  expect_refused(ErrorCode::MalformedIndex, culprit, [&] { static_cast<void>(load(f.bytes())); });
+}
+
+TEST(IndexVerify, RejectsANodeThatIsNotConnected) {
+  Forgery f = surface_and_patches();
+  const auto levels = f.section<std::uint32_t>("levels");
+  ASSERT_EQ(levels.size(), 4U);
+  GroupRecord& top = f.section<GroupRecord>("group_records")[levels[1]];
+  // The node after its last one would cover the group of the two patches.
+  const std::uint32_t patches = top.first_child + top.nodes;
+  ASSERT_EQ(f.section<GroupRecord>("group_records")[patches].nodes, 2U);
+  f.section<NodeId>("parents")[patches] = static_cast<NodeId>(levels[1] * kFanOut + top.nodes++);
+  relink(f);
+  expect_refused_forgery("its nodes are not connected by links", f);
+}
+
+TEST(IndexVerify, RejectsALinkFromAGroupWithAParentToOneWithout) {
+  Forgery f = surface_and_patches();
+  const auto levels = f.section<std::uint32_t>("levels");
+  GroupRecord& top = f.section<GroupRecord>("group_records")[levels[1]];
+  ASSERT_GT(top.nodes, 1U);
+  f.section<NodeId>("parents")[top.first_child + --top.nodes] = kNoNode;
+  relink(f);
+  expect_refused_forgery("a group linked with it has none", f);
+}
+
 TEST(IndexVerify, RejectsAWrongTree) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   const char* const none = "the bounding sphere or minimum region is not valid";
@@ -220,7 +322,7 @@ TEST(IndexVerify, RejectsAWrongTree) {
   expect_refused_after("the mean radius is wrong", [](Forgery& f) { f.section<double>("mean_radii")[0] = 1; });
   expect_refused_after("the bounding sphere differs from that in the tree",
                        [](Forgery& f) { f.section<Leaf>("leaves")[2].bounds.x += 0.5F; });
-  expect_refused_after("level 1: node 0: the bounding sphere does not enclose", [](Forgery& f) {
+  expect_refused_after(": the bounding sphere does not enclose", [](Forgery& f) {
     // The radius is unchanged, and so is the mean.
     f.section<Group>("groups").back().x[0] += 0.5F;
   });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Writes the golden files of the current format. Run it once for each format, never to make a test pass: released files
-// must stay readable. Usage: write_golden FOLDER
+// must stay readable or be refused. Usage: write_golden FOLDER
 #include <cstdio>
 #include <fstream>
 

@@ -7,11 +7,13 @@ import leaves
 import minimum_region
 import other_components
 import tree
+import waves
 import words
 
 IMAGES = Path(__file__).resolve().parents[2] / "docs" / "images"
 DRAWINGS = {
     "leaves": leaves,
+    "waves": waves,
     "tree": tree,
     "minimum_region": minimum_region,
     "other_components": other_components,

@@ -12,6 +12,8 @@
 #include "exact/build/geometry.h"
 #include "exact/build/leaves.h"
 #include "exact/build/links.h"
+#include "exact/build/node_links.h"
+#include "exact/build/tree.h"
 #include "exact/index_access.h"
 #include "exact/layout.h"
 
@@ -29,13 +31,27 @@ std::vector<Leaf> make_leaf_records(const LeafPartition& partition, const Links&
     for (std::size_t leaf = begin; leaf < end; ++leaf) {
       const std::uint32_t first = partition.leaf_begin[leaf];
       const auto size = static_cast<std::uint8_t>(partition.leaf_begin[leaf + 1] - first);
-      leaves[leaf] = {
-          {}, first, leaf == 0 ? 0 : links.link_end[leaf - 1], size, is_connected(&links.adjacency[first], size)};
+      leaves[leaf] = {{},
+                      first,
+                      leaf == 0 ? 0 : links.link_end[leaf - 1],
+                      size,
+                      size > 0 && is_connected(&links.adjacency[first], size)};
     }
   });
   leaves.back() = {
       {}, static_cast<std::uint32_t>(partition.permutation.size()), count == 0 ? 0 : links.link_end.back(), 0, false};
   return leaves;
+}
+
+/// The records of the groups, complete, and the links between nodes.
+void add_forest(LeafPartition& partition, const Links& links, IndexData& arrays) {
+  arrays.levels = std::move(partition.forest.levels);
+  arrays.records = std::move(partition.forest.records);
+  arrays.parents = std::move(partition.forest.parents);
+  set_vertices(partition.leaf_begin, arrays.levels, arrays.records);
+  std::vector<std::uint32_t> first_link{0};
+  first_link.insert(first_link.end(), links.link_end.begin(), links.link_end.end());
+  arrays.node_links = make_node_links(first_link, links.links, arrays.levels, arrays.parents, arrays.records);
 }
 
 template <class T>
@@ -72,6 +88,7 @@ IndexData IndexAccess::build_valid(const GraphView& graph, TaskContext& task) {
   Links links = make_links(graph.adjacency, partition, task);
   task.advance(1);
   arrays.leaves = make_leaf_records(partition, links, task);
+  add_forest(partition, links, arrays);
   pad(links.adjacency);
   pad(links.cross_edges);
   pad(partition.permutation);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -26,14 +27,14 @@ void for_each_cell(std::size_t cells, TaskContext& task, F&& f) {
 
 using CellMasks = std::array<LaneMask, kLeafCapacity>;
 
-/// For each vertex of a cell its neighbours in the cell.
+/// For each vertex of a cell its neighbors in the cell.
 CellMasks cell_adjacency(const CellGraph& graph, std::size_t cell) {
   const std::size_t begin = graph.begin(cell);
   const std::size_t size = graph.end(cell) - begin;
   CellMasks adjacency{};
   for (std::size_t i = 0; i < size; ++i) {
     graph.for_each_neighbor(begin + i, [&](std::size_t neighbor) {
-      // A neighbour before the cell wraps around to a number above its size.
+      // A neighbor before the cell wraps around to a number above its size.
       // mutant: edges-to-next-cell-kept
       if (neighbor - begin < size) adjacency[i] |= LaneMask{1} << (neighbor - begin);
     });
@@ -62,6 +63,8 @@ std::uint32_t split_cell(const CellGraph& graph, std::size_t cell, std::vector<s
   return count;
 }
 
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
 /// Merges small components, in the order of their numbers.
 class Merger {
  public:
@@ -76,21 +79,48 @@ class Merger {
         if (size(c) < kSmallComponent) merge(cell, c);  // mutant: small-components-not-merged
       }
     }
+    pack_crumbs();
     for (std::uint32_t& c : components_.of) c = root(c);  // mutant: merges-not-applied
   }
 
  private:
   [[nodiscard]] std::uint32_t& size(std::uint32_t component) { return components_.size[component]; }
 
-  /// Merges a small component into the neighbour with the most edges to it among those with room. One without
-  /// neighbours is a component of the whole mesh, and joins the largest of its cell: a cloud of points would else make
-  /// a leaf of each point.
+  /// Merges a small component into the neighbor with the most edges to it among those with room.
   void merge(std::size_t cell, std::uint32_t small) {
     const std::uint32_t merged = root(small);
     if (size(merged) >= kSmallComponent) return;
     gather_neighbors(cell, small, merged);
-    // mutant: merged-without-an-edge
-    join(merged, neighbors_.empty() ? root(components_.first[cell]) : best_neighbor(merged));
+    join(merged, best_neighbor(merged));
+  }
+
+  /// Fills leaves with crumbs, in the order of the cells.
+  void pack_crumbs() {
+    find_linked();
+    std::uint32_t open = kNone;
+    for (std::uint32_t c = 0; c < merged_into_.size(); ++c) {
+      // mutant: linked-part-is-crumb
+      const bool is_crumb = merged_into_[c] == c && !is_linked_[c] && size(c) < kSmallComponent;
+      if (!is_crumb) continue;
+      if (open != kNone && has_room(c, open)) {
+        join(c, open);
+      } else {
+        open = c;
+      }
+    }
+  }
+
+  /// The components that an edge leaves.
+  void find_linked() {
+    is_linked_.assign(merged_into_.size(), false);
+    for (std::size_t cell = 0; cell < graph_.cells(); ++cell) {
+      for (std::uint32_t c = components_.first[cell]; c < components_.first[cell + 1]; ++c) {
+        const std::uint32_t merged = root(c);
+        if (is_linked_[merged] || size(merged) >= kSmallComponent) continue;
+        gather_neighbors(cell, c, merged);
+        is_linked_[merged] = !neighbors_.empty();
+      }
+    }
   }
 
   /// The components at the other ends of all edges that leave `merged` from `small`, which is a part of it.
@@ -143,6 +173,7 @@ class Merger {
   CellComponents& components_;
   std::vector<std::uint32_t> merged_into_;  // by component: itself, or the component it has been merged into
   std::vector<std::uint32_t> neighbors_;    // of the component that is being merged, one for each edge
+  std::vector<bool> is_linked_;             // by component, if small
 };
 
 }  // namespace

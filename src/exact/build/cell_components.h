@@ -15,10 +15,10 @@
 namespace meshhood {
 
 // The number of vertices in a cell of the kd order. Below the capacity of a leaf, so that small components of
-// neighbouring cells fit in.
+// neighboring cells fit in.
 inline constexpr std::size_t kCellSize = 30;
 
-// A component with fewer vertices is merged into a neighbour with enough room, if there is one: two such components
+// A component with fewer vertices is merged into a neighbor with enough room, if there is one: two such components
 // make one leaf.
 inline constexpr std::uint32_t kSmallComponent = 17;
 
@@ -54,8 +54,10 @@ struct CellComponents {
 /// O(#V + #E).
 [[nodiscard]] CellComponents split_cells(const CellGraph& graph, TaskContext& task);
 
-/// Merges small components into neighbours that have room, so that few leaves are small. A component that has been
-/// merged into another keeps its number, and has size 0. O(#V + edges of small components).
+/// Merges small components into neighbors that have room, so that few leaves are small. What is merged is connected,
+/// or consists of *crumbs*: small components of the whole mesh, which share leaves so that a cloud of points does not
+/// take a leaf for each point. A component that has been merged into another keeps its number, and has size 0. O(#V +
+/// edges of small components).
 void merge_small(const CellGraph& graph, CellComponents& components);
 
 }  // namespace meshhood

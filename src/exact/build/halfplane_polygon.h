@@ -48,7 +48,7 @@ class HalfplanePolygon {
   /// half planes. O(size^2) in the worst case, mostly O(size).
   [[nodiscard]] PolygonExtent extent();
 
-  // A vertex has six neighbours on average; more would hardly make its polygon smaller.
+  // A vertex has six neighbors on average; more would hardly make its polygon smaller.
   static constexpr std::size_t kMaxHalfplanes = 24;
 
  private:

@@ -20,6 +20,7 @@ LeafMeasure::LeafMeasure(const IndexView& index)
 void LeafMeasure::measure(LeafId leaf, NodeList& out, std::size_t at) {
   const std::size_t begin = index_.leaf_begin[leaf];
   const std::size_t size = index_.leaf_begin[leaf + std::size_t{1}] - begin;
+  if (size == 0) return;
   points_.clear();
   for (std::size_t i = 0; i < size; ++i) points_.push_back(index_.in_frame(begin + i));
   out.bounds[at] = enclosing_sphere(points_);

@@ -9,19 +9,20 @@
 
 #include "base/frame.h"
 #include "base/parallel.h"
+#include "exact/build/forest.h"
 
 namespace meshhood {
 
 /// The vertices of each leaf, and the order of leaves and of vertices in them: the index order.
 struct LeafPartition {
+  Forest forest;                      // whose groups the leaves are numbered by
   std::vector<std::uint32_t> slot;    // by the caller's vertex: 32 times its leaf plus its lane
   std::vector<VertexId> permutation;  // in index order: the caller's vertex
-  std::vector<VertexId> leaf_begin;   // by leaf, and one more: its first vertex in index order
+  std::vector<VertexId> leaf_begin;   // by place of a leaf, and one more: its first vertex in index order
 };
 
-/// Divides the vertices into leaves of 1 to 32 vertices that lie close together and are connected, unless that would
-/// take leaves of few vertices. Runs of 8, 64, 512 ... leaves lie close together as well. Vertices within a leaf keep
-/// the caller's order.
+/// Divides the vertices into leaves of 1 to 32 vertices that lie close together and are connected; small components of
+/// the mesh share leaves. Groups the leaves. Vertices within a leaf keep the caller's order.
 ///
 /// graph  valid
 /// frame  the frame of its positions

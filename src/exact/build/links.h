@@ -16,7 +16,7 @@ namespace meshhood {
 
 /// The edges of the mesh, by leaf.
 struct Links {
-  std::vector<LaneMask> adjacency;      // in index order: the neighbours in the same leaf
+  std::vector<LaneMask> adjacency;      // in index order: the neighbors in the same leaf
   std::vector<std::uint32_t> link_end;  // by leaf: the end of its links
   std::vector<Link> links;              // by leaf, then by linked leaf; one more, for the end of the last cross edges
   std::vector<CrossEdge> cross_edges;   // by link, then by `from`, then by `to`

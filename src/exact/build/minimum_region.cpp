@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The region of one vertex u. Let e be the edge from u to a neighbour w, and let the query point be u + x. Then w is
+// The region of one vertex u. Let e be the edge from u to a neighbor w, and let the query point be u + x. Then w is
 // nearer than u if x . e > e . e / 2. Split x into its height h along the leaf's normal and a vector p in the plane
 // across it, and e likewise into k and d: w is nearer if
 //     p . d > e . e / 2 - h k.
-// The p from which no neighbour is nearer form a polygon of half planes, one for each neighbour; at h = 0 it is about
-// the Voronoi cell of u among its neighbours. HalfplanePolygon gives `width` and `slope` with |p| <= width + slope |h|.
+// The p from which no neighbor is nearer form a polygon of half planes, one for each neighbor; at h = 0 it is about
+// the Voronoi cell of u among its neighbors. HalfplanePolygon gives `width` and `slope` with |p| <= width + slope |h|.
 //
 // The region of a leaf. Let o be the vector from the leaf's centre to u, with height m and part q in the plane, and let
 // X = o + x be the query point seen from the centre, with height H and part P in the plane. Then

@@ -13,7 +13,7 @@
 namespace meshhood {
 
 /// The points from which some vertex of a set may be a local minimum of the distance, which means that none of its
-/// neighbours is nearer. Seen from any point outside the region, every vertex of the set has a nearer neighbour. For a
+/// neighbors is nearer. Seen from any point outside the region, every vertex of the set has a nearer neighbor. For a
 /// nearly flat set the region extends along the normal to both sides, like a double cone with a rounded waist.
 ///
 /// The point `x`, relative to the centre of the set's bounding sphere, lies in the region if
@@ -33,7 +33,7 @@ struct LeafEdge {
 
 /// A region of the vertices `first .. first + size - 1`, 1 to 32 of them.
 ///
-/// points  at least these vertices and their neighbours, in the frame
+/// points  at least these vertices and their neighbors, in the frame
 /// edges   all edges of these vertices, in any order
 /// centre  the centre of the leaf's bounding sphere
 /// O(edges log(valence)).

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <utility>
 
 #include "base/sphere.h"
@@ -80,105 +79,108 @@ void set_radius(FrameSphere& sphere, double farthest_squared) {
   sphere.radius = next_above(std::sqrt(farthest_squared) * (1 + kRelativeRoom) + kAbsoluteRoom);
 }
 
-/// The tree while it is made: a level is complete before the next begins.
+/// The bounds of all nodes while they are computed: a level is complete before the next begins.
 class GrowingTree {
  public:
   GrowingTree(const IndexView& index, std::span<Group> groups, std::span<double> mean_radii)
-      : index_(index), groups_(groups), mean_radii_(mean_radii) {
-    std::size_t begin = 0;
-    for (const std::size_t nodes : tree_nodes(index.leaf_count())) {
-      levels_.push_back({begin, nodes});
-      begin += group_count(nodes);
-    }
+      : index_(index), groups_(groups), mean_radii_(mean_radii) {}
+
+  [[nodiscard]] std::size_t level_count() const { return index_.levels.size() - 1; }
+  [[nodiscard]] std::size_t first_group(std::size_t level) const { return index_.levels[level]; }
+  [[nodiscard]] std::size_t end_group(std::size_t level) const { return index_.levels[level + 1]; }
+
+  /// The number of nodes of a group.
+  [[nodiscard]] std::size_t node_count(std::size_t group) const { return index_.records[group].nodes; }
+
+  /// The group that a node above the leaves covers.
+  [[nodiscard]] std::size_t child_group(NodeId node) const {
+    return std::size_t{index_.records[node / kFanOut].first_child} + node % kFanOut;
   }
 
-  [[nodiscard]] std::size_t level_count() const { return levels_.size(); }
-  [[nodiscard]] std::size_t node_count(std::size_t level) const { return levels_[level].nodes; }
+  [[nodiscard]] const Group& group(std::size_t group) const { return groups_[group]; }
 
-  [[nodiscard]] Group& group(std::size_t level, std::size_t group) const {
-    return groups_[levels_[level].first_group + group];
-  }
-
-  /// The number of children of a node of `level`, which is not the lowest.
-  [[nodiscard]] std::size_t child_count(std::size_t level, std::size_t node) const {
-    return std::min<std::size_t>(kFanOut, node_count(level - 1) - node * kFanOut);  // mutant: parent-without-last-child
-  }
-
-  void set(std::size_t level, std::size_t node, const FrameSphere& bounds, const MinimumRegion& region) const {
-    set_node(group(level, node / kFanOut), node % kFanOut, bounds, region);
+  void set(NodeId node, const FrameSphere& bounds, const MinimumRegion& region) const {
+    set_node(groups_[node / kFanOut], node % kFanOut, bounds, region);
   }
 
   /// After the nodes of the level are set.
   void finish(std::size_t level) const {
-    const std::size_t nodes = node_count(level);
-    for (std::size_t i = nodes; i % kFanOut != 0; ++i) set_absent(group(level, i / kFanOut), i % kFanOut);
-    mean_radii_[level] = mean_radius(groups_.subspan(levels_[level].first_group, group_count(nodes)), nodes);
+    const std::size_t first = first_group(level);
+    const std::size_t count = end_group(level) - first;
+    for (std::size_t group = first; group < first + count; ++group) {
+      for (std::size_t i = node_count(group); i < kFanOut; ++i) set_absent(groups_[group], i);
+    }
+    mean_radii_[level] = mean_radius(groups_.subspan(first, count), index_.records.subspan(first, count));
   }
 
-  /// Sets `out[at]` to the node of `level` above `children`.
-  void measure_parent(std::size_t level, std::size_t node, std::span<const FrameSphere> spheres,
-                      std::span<const MinimumRegion> regions, NodeList& out, std::size_t at) const {
+  /// Sets `out[at]` to `node` above the nodes of one group, whose bounds are given.
+  void measure_parent(NodeId node, std::span<const FrameSphere> spheres, std::span<const MinimumRegion> regions,
+                      NodeList& out, std::size_t at) const {
     std::vector<Point> centres;
     for (const FrameSphere& sphere : spheres) centres.push_back(centre_of(sphere));
     FrameSphere bounds = rounded(smallest_sphere_centre(centres));
     const Point centre = centre_of(bounds);
     double farthest = 0;
-    find_farthest(level, node, centre, farthest);
+    find_farthest(node, centre, farthest);
     set_radius(bounds, farthest);
     out.bounds[at] = bounds;
     out.regions[at] = enclosing_minimum_region(regions, centres, centre);
   }
 
  private:
-  struct Level {
-    std::size_t first_group;
-    std::size_t nodes;
-  };
-
   /// Raises `farthest` to the largest squared distance from `from` to a vertex below the node. Looks only at children
   /// whose spheres reach farther, the one that reaches farthest first.
-  void find_farthest(std::size_t level, std::size_t node, const Point& from, double& farthest) const {
-    if (level == 0) {
-      for (std::size_t i = index_.leaf_begin[node]; i < index_.leaf_begin[node + 1]; ++i) {
+  void find_farthest(NodeId node, const Point& from, double& farthest) const {
+    if (node < index_.leaf_count()) {
+      for (std::size_t i = index_.leaf_begin[node]; i < index_.leaf_begin[node + std::size_t{1}]; ++i) {
         farthest = std::max(farthest, squared_distance(index_.in_frame(i), from));
       }
       return;
     }
-    const Group& children = group(level - 1, node);
+    const std::size_t child = child_group(node);
+    const Group& children = group(child);
     std::array<std::pair<double, std::size_t>, kFanOut> reach;
-    const std::size_t count = child_count(level, node);
+    // At most eight, which the compiler cannot know.
+    const std::size_t count = std::min<std::size_t>(node_count(child), kFanOut);
     for (std::size_t i = 0; i < count; ++i) {
       const FrameSphere sphere = sphere_of(children, i);
       reach[i] = {std::sqrt(squared_distance(centre_of(sphere), from)) + static_cast<double>(sphere.radius), i};
     }
-    std::sort(reach.begin(), reach.begin() + static_cast<std::ptrdiff_t>(count), std::greater<>());
-    for (std::size_t i = 0; i < count; ++i) {
-      if (reach[i].first * reach[i].first <= farthest) return;  // mutant: farthest-vertex-skipped
-      find_farthest(level - 1, node * kFanOut + reach[i].second, from, farthest);
+    for (auto end = reach.begin() + static_cast<std::ptrdiff_t>(count); end != reach.begin(); --end) {
+      const auto next = std::max_element(reach.begin(), end);
+      if (next->first * next->first <= farthest) return;  // mutant: farthest-vertex-skipped
+      find_farthest(static_cast<NodeId>(child * kFanOut + next->second), from, farthest);
+      *next = *(end - 1);
     }
   }
 
   const IndexView& index_;
   std::span<Group> groups_;
   std::span<double> mean_radii_;
-  std::vector<Level> levels_;
 };
 
-/// All parents of the nodes of the level below.
-NodeList make_parents(const GrowingTree& tree, std::size_t level, const NodeList& children, TaskContext& task) {
-  NodeList parents(tree.node_count(level));
-  task.parallel_for(parents.bounds.size(), 1, [&](unsigned, std::size_t parent, std::size_t) {
-    const std::size_t begin = parent * kFanOut;
-    const std::size_t count = tree.child_count(level, parent);
-    tree.measure_parent(level, parent, std::span(children.bounds).subspan(begin, count),
-                        std::span(children.regions).subspan(begin, count), parents, parent);
+/// All nodes of a level, by place, from those of the level below.
+NodeList make_parents(const GrowingTree& tree, std::size_t level, const NodeList& below, TaskContext& task) {
+  const std::size_t first = tree.first_group(level);
+  const std::size_t first_below = tree.first_group(level - 1);
+  NodeList parents((tree.end_group(level) - first) * kFanOut);
+  task.parallel_for(tree.end_group(level) - first, 1, [&](unsigned, std::size_t group, std::size_t) {
+    for (std::size_t i = 0; i < tree.node_count(first + group); ++i) {
+      const auto node = static_cast<NodeId>((first + group) * kFanOut + i);
+      const std::size_t child = tree.child_group(node);
+      const std::size_t begin = (child - first_below) * kFanOut;
+      const std::size_t count = tree.node_count(child);  // mutant: parent-without-last-child
+      tree.measure_parent(node, std::span(below.bounds).subspan(begin, count),
+                          std::span(below.regions).subspan(begin, count), parents, group * kFanOut + i);
+    }
   });
   return parents;
 }
 
-/// Replaces ascending nodes by their parents.
-void climb(std::vector<std::size_t>& nodes) {
-  for (std::size_t& node : nodes) node /= kFanOut;
+/// Replaces ascending nodes by those that cover them.
+void climb(std::vector<NodeId>& nodes, std::span<const NodeId> parents) {
+  for (NodeId& node : nodes) node = parents[node / kFanOut];
+  std::erase(nodes, kNoNode);
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 }
 
@@ -203,21 +205,45 @@ bool is_absent(const Group& group, std::size_t i) {
   return std::memcmp(&other, &group, sizeof(Group)) == 0;
 }
 
-double mean_radius(std::span<const Group> level, std::size_t nodes) {
+double mean_radius(std::span<const Group> groups, std::span<const GroupRecord> records) {
   double sum = 0;
-  for (std::size_t node = 0; node < nodes; ++node) {
-    sum += static_cast<double>(level[node / kFanOut].radius[node % kFanOut]);
+  std::size_t nodes = 0;
+  for (std::size_t group = 0; group < groups.size(); ++group) {
+    for (std::size_t i = 0; i < records[group].nodes; ++i) sum += static_cast<double>(groups[group].radius[i]);
+    nodes += records[group].nodes;
   }
   return sum / static_cast<double>(nodes);  // mutant: mean-over-absent-nodes
 }
 
+void set_vertices(std::span<const VertexId> leaf_begin, std::span<const std::uint32_t> levels,
+                  std::vector<GroupRecord>& records) {
+  const std::size_t leaf_groups = levels.size() > 1 ? levels[1] : 0;
+  for (std::size_t group = 0; group < records.size(); ++group) {
+    GroupRecord& record = records[group];
+    for (std::size_t i = 0; i <= kFanOut; ++i) {
+      if (group < leaf_groups) {
+        record.begin[i] = leaf_begin[group * kFanOut + i];
+      } else if (i < record.nodes) {
+        record.begin[i] = records[record.first_child + i].begin.front();
+      } else {
+        record.begin[i] = records[record.first_child + record.nodes - 1].begin.back();
+      }
+    }
+  }
+}
+
 TreeArrays make_tree(NodeList nodes, const IndexView& index, TaskContext& task) {
-  const std::size_t leaves = index.leaf_count();
-  TreeArrays arrays{std::vector<Group>(tree_groups(leaves)), std::vector<double>(tree_nodes(leaves).size())};
+  TreeArrays arrays{std::vector<Group>(index.records.size()), std::vector<double>(index.levels.size() - 1)};
   const GrowingTree tree(index, arrays.groups, arrays.mean_radii);
   for (std::size_t level = 0; level < tree.level_count(); ++level) {
     if (level > 0) nodes = make_parents(tree, level, nodes, task);
-    for (std::size_t i = 0; i < nodes.bounds.size(); ++i) tree.set(level, i, nodes.bounds[i], nodes.regions[i]);
+    const std::size_t first = tree.first_group(level);
+    for (std::size_t group = first; group < tree.end_group(level); ++group) {
+      for (std::size_t i = 0; i < tree.node_count(group); ++i) {
+        const std::size_t at = (group - first) * kFanOut + i;
+        tree.set(static_cast<NodeId>(group * kFanOut + i), nodes.bounds[at], nodes.regions[at]);
+      }
+    }
     tree.finish(level);
   }
   return arrays;
@@ -226,29 +252,28 @@ TreeArrays make_tree(NodeList nodes, const IndexView& index, TaskContext& task) 
 void update_tree(std::span<const LeafId> leaves, NodeList bounds, const IndexView& index, std::span<Group> groups,
                  std::span<double> mean_radii) {
   const GrowingTree tree(index, groups, mean_radii);
-  std::vector<std::size_t> nodes(leaves.begin(), leaves.end());
+  std::vector<NodeId> nodes(leaves.begin(), leaves.end());
   for (std::size_t level = 0; level < tree.level_count(); ++level) {
     if (level > 0) {
-      climb(nodes);
+      climb(nodes, index.parents);
       bounds = NodeList(nodes.size());
       for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const NodeList children = nodes_of(tree.group(level - 1, nodes[i]), tree.child_count(level, nodes[i]));
-        tree.measure_parent(level, nodes[i], children.bounds, children.regions, bounds, i);
+        const std::size_t child = tree.child_group(nodes[i]);
+        const NodeList children = nodes_of(tree.group(child), tree.node_count(child));
+        tree.measure_parent(nodes[i], children.bounds, children.regions, bounds, i);
       }
     }
-    for (std::size_t i = 0; i < nodes.size(); ++i) tree.set(level, nodes[i], bounds.bounds[i], bounds.regions[i]);
+    for (std::size_t i = 0; i < nodes.size(); ++i) tree.set(nodes[i], bounds.bounds[i], bounds.regions[i]);
     tree.finish(level);
   }
 }
 
-std::vector<std::size_t> groups_above(std::span<const LeafId> leaves, std::size_t leaf_count) {
+std::vector<std::size_t> groups_above(std::span<const LeafId> leaves, const IndexView& index) {
   std::vector<std::size_t> result;
-  std::vector<std::size_t> nodes(leaves.begin(), leaves.end());
-  std::size_t begin = 0;
-  for (const std::size_t count : tree_nodes(leaf_count)) {
-    climb(nodes);
-    for (const std::size_t group : nodes) result.push_back(begin + group);
-    begin += group_count(count);
+  for (std::vector<NodeId> nodes(leaves.begin(), leaves.end()); !nodes.empty(); climb(nodes, index.parents)) {
+    for (const NodeId node : nodes) {
+      if (result.empty() || result.back() != node / kFanOut) result.push_back(node / kFanOut);
+    }
   }
   return result;
 }

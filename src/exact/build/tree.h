@@ -25,9 +25,14 @@ struct TreeArrays {
   std::vector<double> mean_radii;
 };
 
-/// The mean radius of the `nodes` nodes of a level. The order of summation is fixed, so that a loaded index can be
-/// verified bit for bit.
-[[nodiscard]] double mean_radius(std::span<const Group> level, std::size_t nodes);
+/// Sets the `begin` of every record: `leaf_begin` is, by place of a leaf, and one more, its first vertex in index
+/// order.
+void set_vertices(std::span<const VertexId> leaf_begin, std::span<const std::uint32_t> levels,
+                  std::vector<GroupRecord>& records);
+
+/// The mean radius of the nodes of some groups. The order of summation is fixed, so that a loaded index can be verified
+/// bit for bit.
+[[nodiscard]] double mean_radius(std::span<const Group> groups, std::span<const GroupRecord> records);
 
 /// Whether the group has no `i`-th node.
 [[nodiscard]] bool is_absent(const Group& group, std::size_t i);
@@ -35,7 +40,7 @@ struct TreeArrays {
 /// The tree over the leaves. O(#V), hardly more than #V / 4 distances.
 ///
 /// leaves  the bounds of all leaves
-/// index   the frame, the positions and `leaf_begin`
+/// index   the frame, the positions, `leaf_begin`, `levels`, `records` and `parents`
 [[nodiscard]] TreeArrays make_tree(NodeList leaves, const IndexView& index, TaskContext& task);
 
 /// Replaces the bounds of some leaves in a tree, and computes again those of the nodes above them. Bounding spheres
@@ -49,7 +54,7 @@ void update_tree(std::span<const LeafId> leaves, NodeList bounds, const IndexVie
                  std::span<double> mean_radii);
 
 /// The groups that `update_tree` changes, as their places in the array of all groups.
-[[nodiscard]] std::vector<std::size_t> groups_above(std::span<const LeafId> leaves, std::size_t leaf_count);
+[[nodiscard]] std::vector<std::size_t> groups_above(std::span<const LeafId> leaves, const IndexView& index);
 
 /// A sphere around `points` with this centre, rounded to floats. Its radius includes the margin that a comparison with
 /// a ball in single precision needs (see simd/kernels.h).

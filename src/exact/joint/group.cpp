@@ -15,8 +15,8 @@ namespace {
 /// Around everything: the frame is a cube with half an edge of 1.
 constexpr FrameSphere kWholeFrame{0, 0, 0, 2};
 
-FrameSphere node_bounds(const TreeLevel& level, std::size_t node) {
-  const Group& group = level.groups[node / kFanOut];
+FrameSphere node_bounds(const IndexView& index, NodeId node) {
+  const Group& group = index.groups[node / kFanOut];
   const std::size_t i = node % kFanOut;
   return {group.x[i], group.y[i], group.z[i], group.radius[i]};
 }
@@ -111,8 +111,8 @@ void JointGroup::clear() {
 }
 
 void JointGroup::set_sphere(std::span<const LeafId> leaves) {
-  const FrameSphere bounds =
-      index_->tree.size() > 1 ? node_bounds(index_->tree[1], leaves.front() / kFanOut) : kWholeFrame;
+  const NodeId parent = index_->parents[leaves.front() / kFanOut];
+  const FrameSphere bounds = parent != kNoNode ? node_bounds(*index_, parent) : kWholeFrame;
   ball_.x = bounds.x;
   ball_.y = bounds.y;
   ball_.z = bounds.z;

@@ -24,7 +24,7 @@ class NearestSearch {
   NearestSearch(const IndexView& index, const Point& p) : index_(&index), centre_(index.frame, p) {}
 
   NearestVertex run() {
-    visit_group(index_->tree.size() - 1, 0);
+    for (std::size_t level = index_->tree.size(); level-- > 0;) visit_roots(level);
     return {best_, std::sqrt(square_)};
   }
 
@@ -34,11 +34,20 @@ class NearestSearch {
     std::size_t node;
   };
 
-  void visit_group(std::size_t level, std::size_t group) {
-    const TreeLevel& nodes = index_->tree[level];
-    const Group& spheres = nodes.groups[group];
+  /// The root groups of a level follow those that the nodes of the level above cover.
+  void visit_roots(std::size_t level) {
+    const std::size_t covered = level + 1 < index_->tree.size() ? index_->tree[level + 1].nodes : 0;
+    for (std::size_t group = index_->levels[level] + covered; group < index_->levels[level + 1]; ++group) {
+      visit_group(group);
+    }
+  }
+
+  void visit_group(std::size_t group) {
+    const GroupRecord& record = index_->records[group];
+    const Group& spheres = index_->groups[group];
     std::array<Child, kFanOut> children{};
-    const std::size_t size = std::min<std::size_t>(kFanOut, nodes.nodes - group * kFanOut);
+    // At most eight, which the compiler cannot know.
+    const std::size_t size = std::min<std::size_t>(record.nodes, kFanOut);
     for (std::size_t i = 0; i < size; ++i) {
       const FrameSphere sphere{spheres.x[i], spheres.y[i], spheres.z[i], spheres.radius[i]};
       children[i] = {squared_distances(sphere, centre_).low, group * kFanOut + i};
@@ -47,10 +56,10 @@ class NearestSearch {
               [](const Child& a, const Child& b) { return a.low < b.low; });
     for (const Child& child : std::span(children).first(size)) {
       if (child.low > square_) return;  // mutant: nearest-looks-at-one-node
-      if (level == 0) {
+      if (child.node < index_->leaf_count()) {
         visit_leaf(child.node);
       } else {
-        visit_group(level - 1, child.node);
+        visit_group(record.first_child + child.node % kFanOut);
       }
     }
   }

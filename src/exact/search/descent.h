@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "exact/layout.h"
+#include "exact/search/group_states.h"
 #include "exact/search/query.h"
 #include "exact/search/search_limits.h"
-#include "exact/search/vertex_set.h"
 #include "simd/kernels.h"
 
 namespace meshhood {
 
-/// A list of nodes of one level. Its buffer never shrinks.
+/// A list of nodes. Its buffer never shrinks.
 class NodeQueue {
  public:
   void clear() { size_ = 0; }
@@ -23,7 +23,7 @@ class NodeQueue {
   void make_room(std::size_t groups);
 
   /// Appends the nodes of `group` whose bits are in `set`.
-  void append(std::uint32_t group, std::uint8_t set);
+  void append(std::uint32_t group, NodeSet set);
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] std::span<const std::uint32_t> nodes() const { return {nodes_.data(), size_}; }
@@ -33,33 +33,31 @@ class NodeQueue {
   std::size_t size_ = 0;
 };
 
-/// Compares the tree with a ball, level by level from the root: finds the nodes inside, the leaves that intersect the
-/// surface of the ball, and the candidate leaves, which may hold a local minimum of the distance from its centre.
+/// Refines the nodes that intersect the surface of the ball down to the leaves.
 class Descent {
  public:
   Descent(const IndexView& index, const Kernels& kernels) : index_(&index), kernels_(&kernels) {}
 
-  /// Adds the vertices of the nodes inside to `inside`. Returns false, with incomplete results, when more nodes
-  /// intersect than `limits` allow.
-  [[nodiscard]] bool run(const Query& query, const SearchLimits& limits, VertexSet& inside);
+  /// Begins with `groups` of `level`, whose states are known. Makes the states of the groups below that it visits.
+  /// Returns false as soon as more nodes intersect, on a level above `limited_above`, than `limits` allow.
+  [[nodiscard]] bool run(std::size_t level, std::span<const std::uint32_t> groups, const Query& query,
+                         const SearchLimits& limits, std::size_t limited_above, GroupStates& states);
 
-  [[nodiscard]] std::span<const LeafId> intersecting_leaves() const { return intersecting_.nodes(); }
-  [[nodiscard]] std::span<const LeafId> candidate_leaves() const { return candidates_.nodes(); }
+  /// All groups of known state, with those it began with, level by level downwards.
+  [[nodiscard]] std::span<const std::uint32_t> groups() const { return groups_; }
+
+  /// The leaves that intersect the surface of the ball.
+  [[nodiscard]] std::span<const LeafId> surface_leaves() const { return intersecting_.nodes(); }
 
  private:
-  void start();
-  void classify_groups(std::size_t level, const TreeBall& ball);
-  void refine_candidates(std::size_t level, const TreeBall& ball);
-  void refine_intersecting(std::size_t level, const TreeBall& ball);
-  void add_inside(std::size_t level, VertexSet& set) const;
+  void add_children();
+  void place(std::size_t first, const TreeBall& ball, GroupStates& states);
 
   const IndexView* index_;
   const Kernels* kernels_;
-  NodeQueue groups_;  // the nodes of the level above, whose children are compared
+  std::vector<std::uint32_t> groups_;
   std::vector<GroupContainment> containments_;
   NodeQueue intersecting_;
-  NodeQueue inside_;
-  NodeQueue candidates_;  // nodes inside, and leaves that intersect
 };
 
 }  // namespace meshhood

@@ -10,7 +10,7 @@
 
 namespace meshhood {
 
-/// Breadth-first search over leaves. Visits the leaves of the answer and their neighbours, so its cost does not depend
+/// Breadth-first search over leaves. Visits the leaves of the answer and their neighbors, so its cost does not depend
 /// on what else lies in the ball.
 class LeafBfs {
  public:
@@ -18,11 +18,11 @@ class LeafBfs {
 
   /// Adds the neighborhood of the query to `answer`, which is empty.
   ///
-  /// is_small  whether the ball reaches hardly beyond the neighbours of the first leaf. Then only those are prefetched.
+  /// is_small  whether the ball reaches hardly beyond the neighbors of the first leaf. Then only those are prefetched.
   void run(const Query& query, bool is_small, LeafTraversal& traversal, VertexSet& answer);
 
  private:
-  /// First in, first out. Prefetches the neighbours of the leaves that come next.
+  /// First in, first out. Prefetches the neighbors of the leaves that come next.
   class Queue {
    public:
     void start(const LeafTraversal& traversal, std::size_t most_prefetched);

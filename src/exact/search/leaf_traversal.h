@@ -42,7 +42,7 @@ class LeafTraversal {
   /// to be inside.
   void prefetch_leaf(const Leaf& leaf, bool intersecting = true) const;
 
-  /// Prefetches what a visit reads of the neighbours of the leaf.
+  /// Prefetches what a visit reads of the neighbors of the leaf.
   void prefetch_neighbors(LeafId leaf) const;
 
   /// Prefetches the first cross edges of the leaf.

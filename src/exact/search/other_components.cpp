@@ -27,24 +27,24 @@ LeafId OtherComponents::NearestFirst::pop() {
   return leaf;
 }
 
-bool OtherComponents::find(const Query& query, std::span<const LocalMinimum> minima, std::size_t most_visited,
-                           LeafTraversal& traversal) {
+bool OtherComponents::find(const Query& query, std::span<const LocalMinimum> minima, const GroupStates& states,
+                           std::size_t most_visited, LeafTraversal& traversal) {
   found_.clear();
+  visited_ = 0;
   if (minima.empty()) return true;  // mutant: one-minimum-ignored
   traversal.start(query);
   frontier_.start(*index_, query.tree_ball);
   settle_query_vertex(query, traversal);
-  std::size_t visited = 0;
   for (const LocalMinimum& minimum : minima) {
     const LaneMask lane = LaneMask{1} << minimum.lane;
     if (traversal.is_settled(minimum.leaf, lane)) continue;
     const auto is_known = [&](LeafId leaf, LaneMask added) {
-      if (++visited > most_visited) return true;
+      if (++visited_ > most_visited || states.is_home(leaf)) return true;
       const std::uint32_t first = index_->leaves[leaf].first;
       return kernels_->nearest(index_->positions, first, added, query.ball).square < minimum.square;
     };
     const bool is_other_component = traversal.traverse(minimum.leaf, lane, frontier_, is_known);
-    if (visited > most_visited) return false;
+    if (visited_ > most_visited) return false;
     if (is_other_component) append_reached(traversal);  // mutant: other-components-kept
     traversal.settle();
   }

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "exact/layout.h"
+#include "exact/search/group_states.h"
 #include "exact/search/leaf_traversal.h"
-#include "exact/search/local_minima.h"
+#include "exact/search/loose_pieces.h"
 #include "exact/search/vertex_set.h"
 #include "simd/kernels.h"
 
@@ -16,7 +17,7 @@ namespace meshhood {
 
 /// The components of the ball that do not hold the query vertex. The nearest vertex of each is a local minimum of the
 /// distance. From each minimum, nearest first, a traversal visits the nearest leaves first until it meets a vertex that
-/// is nearer than the minimum, or has reached the whole component.
+/// is nearer than the minimum or marked as home's, or has reached the whole component.
 ///
 /// A nearer vertex is connected with the query vertex: otherwise its component would have a minimum that is nearer, and
 /// that component, which holds this minimum too, would have been reached from there and settled.
@@ -27,8 +28,11 @@ class OtherComponents {
   /// Finds all these components. Returns false when that takes more than `most_visited` visits of leaves.
   ///
   /// minima  ascending by distance: the nearest vertex of each of these components, and any other vertices of the ball.
-  [[nodiscard]] bool find(const Query& query, std::span<const LocalMinimum> minima, std::size_t most_visited,
-                          LeafTraversal& traversal);
+  [[nodiscard]] bool find(const Query& query, std::span<const LocalMinimum> minima, const GroupStates& states,
+                          std::size_t most_visited, LeafTraversal& traversal);
+
+  /// The number of visits of leaves that the last call has taken.
+  [[nodiscard]] std::size_t visited() const { return visited_; }
 
   /// Their vertices, ascending by leaf, each leaf once.
   [[nodiscard]] std::span<const LeafSubset> found() const { return found_; }
@@ -60,6 +64,7 @@ class OtherComponents {
   const IndexView* index_;
   const Kernels* kernels_;
   NearestFirst frontier_;
+  std::size_t visited_ = 0;
   std::vector<LeafSubset> found_;
 };
 

@@ -5,25 +5,30 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "exact/layout.h"
 #include "exact/search/query.h"
 
 namespace meshhood {
 
-/// The limits at which a search gives up the proof (see searcher.cpp) and takes the breadth-first search instead. They
-/// decide how long a query takes and in what order its answer comes, never which vertices are in it.
+/// The limits that choose between the ways to search (see searcher.cpp). They decide how long a query takes and in what
+/// order its answer comes, never which vertices are in it.
 ///
 /// Factors marked "chosen" are not derived: they were tuned on the meshes of docs/benchmarks.md.
 struct SearchLimits {
-  /// False in tests: every query is then answered by the proof, whatever it costs.
+  /// False in tests: every query is then answered by the outward search, whatever it costs.
   bool enabled = true;
 
   /// Whether hardly any leaf lies inside the ball, so that the breadth-first search visits no more leaves than the
-  /// descent. Chosen.
+  /// outward search. Chosen.
   [[nodiscard]] bool is_small(const Query& query, const IndexView& index) const {
     constexpr double kMeanLeafRadii = 1.8;
+    return enabled && query.radius_in_frame < kMeanLeafRadii * index.tree[0].mean_radius;
+  }
+
+  /// Whether the ball is so small that the breadth-first search is faster on a folded mesh. Chosen.
+  [[nodiscard]] bool is_small_if_folded(const Query& query, const IndexView& index) const {
+    constexpr double kMeanLeafRadii = 4.4;
     return enabled && query.radius_in_frame < kMeanLeafRadii * index.tree[0].mean_radius;
   }
 
@@ -38,56 +43,57 @@ struct SearchLimits {
     return 12 + static_cast<std::size_t>(std::min(14 * radius_in_frame / mean_radius, 1e9));
   }
 
-  /// The most leaves to be searched for local minima, in a ball of `leaves` leaves. Chosen.
-  [[nodiscard]] std::size_t most_candidates(std::size_t leaves) const {
-    if (!enabled) return std::numeric_limits<std::size_t>::max();
-    return std::min(leaves, 16 + leaves / 4);
-  }
-
-  /// The most leaves to be visited in other components. Chosen.
+  /// The most leaves to be visited in other components, in a ball of `leaves` leaves. Chosen.
   [[nodiscard]] std::size_t most_visited(std::size_t leaves) const {
     if (!enabled) return std::numeric_limits<std::size_t>::max();
-    return std::min(leaves / 2, 16 + leaves / 10);
+    return 16 + leaves / 2;
   }
 };
 
-/// Remembers where and from which radius on the proof failed lately. It will probably fail there again.
-class FailureCache {
+/// Remembers what recent outward searches have met, to choose between them and the breadth-first search. Both say no
+/// now and then whatever they remember, because the next ball may lie elsewhere.
+class SearchMemory {
  public:
-  explicit FailureCache(std::size_t leaves) : entries_(leaves / kFanOut + 1) {}
-
   /// Forgets all earlier queries, so that the order of the next answer does not depend on them.
-  void clear() { ++round_; }
+  void clear() { *this = {}; }
 
-  [[nodiscard]] bool should_try(const Query& query) {
-    Entry& entry = entry_of(query.leaf());
-    // Tries again now and then, because a neighbouring vertex may succeed.
-    return query.radius < entry.failed_from || ++entry.skipped % kRetryInterval == 0;
+  /// Whether the mesh was folded: many leaves at the surface of the balls were in doubt.
+  [[nodiscard]] bool is_folded() {
+    // Chosen: the share is 0.05 on a smooth scan, 0.2 on the dragon, and 0.45 to 0.6 on bodies and brains.
+    constexpr double kFolded = 0.4;
+    return share_in_doubt_ > kFolded && !is_retry();
   }
 
-  void record(const Query& query, bool proved) {
-    Entry& entry = entry_of(query.leaf());
-    if (!proved && query.radius < entry.failed_from) entry.failed_from = query.radius;
-    if (proved && query.radius >= entry.failed_from) entry.failed_from = std::numeric_limits<double>::infinity();
+  /// Whether much of what was reached had to be visited leaf by leaf, to find out whether it is connected.
+  [[nodiscard]] bool is_torn() {
+    // Chosen: the share is below 0.3 on scans and bodies, and 0.4 or more in large balls on scrolls.
+    constexpr double kTorn = 0.35;
+    return share_visited_ > kTorn && !is_retry();
+  }
+
+  /// After an outward search: `in_doubt` of its `surface` leaves were in doubt, and of `leaves` leaves in all,
+  /// `visited` were visited.
+  void record(std::size_t in_doubt, std::size_t surface, std::size_t visited, std::size_t leaves) {
+    constexpr double kMemory = 8;  // balls; chosen
+    balls_ = std::min(balls_ + 1, kMemory);
+    approach(share_in_doubt_, in_doubt, surface);
+    approach(share_visited_, visited, leaves);
   }
 
  private:
-  static constexpr std::uint32_t kRetryInterval = 16;  // chosen
-
-  struct Entry {
-    double failed_from = std::numeric_limits<double>::infinity();
-    std::uint32_t skipped = 0;
-    std::uint32_t round = 0;
-  };
-
-  Entry& entry_of(LeafId leaf) {
-    Entry& entry = entries_[leaf / kFanOut];
-    if (entry.round != round_) entry = {.round = round_};
-    return entry;
+  void approach(double& share, std::size_t part, std::size_t all) const {
+    share += (static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1)) - share) / balls_;
   }
 
-  std::vector<Entry> entries_;  // by group of leaves; entries of an earlier round are not valid
-  std::uint32_t round_ = 0;
+  [[nodiscard]] bool is_retry() {
+    constexpr std::uint32_t kRetryInterval = 16;  // chosen
+    return ++asked_ % kRetryInterval == 0;
+  }
+
+  double balls_ = 0;
+  double share_in_doubt_ = 0;
+  double share_visited_ = 0;
+  std::uint32_t asked_ = 0;
 };
 
 }  // namespace meshhood

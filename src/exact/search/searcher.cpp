@@ -1,63 +1,144 @@
 // SPDX-License-Identifier: MIT
-// Exact queries. The ball around the query vertex falls into components of the mesh. The answer is the ball without the
-// components that do not hold the query vertex. Each of those has a vertex that is nearest to the query vertex, and
-// that is a local minimum of the distance among its neighbours. So a search finds all of them from the local minima in
-// the ball, which the tree bounds (see MinimumRegion). Where there is no other component, as on most surfaces, that
-// costs about the leaves at the surface of the ball.
+// Exact queries: the search of the paper, and the step that it leaves out. The outward search goes from the query
+// vertex over linked, connected nodes of the tree, and finds all that may be connected with it in the ball: whole
+// nodes, and leaves at the surface of the ball. That is the answer and perhaps other components of the ball. Each of
+// those has a vertex that is nearest to the query vertex, and that is a local minimum of the distance among its
+// neighbors, so its leaf is in doubt (see MinimumRegion). What is in doubt is settled by marks, which spread from the
+// query vertex over whole nodes, and by traversals from the local minima that no marked node touches. docs/design.md
+// says why that is exact.
 //
 // Where the ball is small, or much of it does not belong to the answer, a breadth-first search over leaves is faster;
 // and where the graph is unlike a surface, one over vertices.
+#include <algorithm>
+
 #include "meshhood/search.h"
 
 #include "base/distance.h"
 #include "exact/index_access.h"
+#include "exact/node_search.h"
 #include "exact/search/output.h"
 #include "exact/search/searcher_state.h"
 
 namespace meshhood {
+namespace {
+
+/// The vertices of the node at a place of a group.
+VertexRange run_of(const GroupRecord& group, unsigned place) {
+  return {static_cast<VertexId>(group.begin[place]), static_cast<VertexId>(group.begin[place + 1])};
+}
+
+}  // namespace
 
 Point Searcher::State::search(VertexId v, double radius) {
   check_query(v, index->vertex_count(), radius);
-  traversal.prefetch_leaf(index->leaves[leaf_of(index->slot[v])]);
+  const LeafId home = leaf_of(index->slot[v]);
+  traversal.prefetch_leaf(index->leaves[home]);
   if (radius != bounds.radius) bounds = RadiusBounds(index->frame, radius);
   const Query query(*index, v, bounds);
   const bool is_small = limits.is_small(query, *index);
   answer.clear();
-  was_proved = !is_small && prove(query);
-  if (!was_proved) leaf_bfs.run(query, is_small, traversal, answer);
+  // A leaf that is not connected has no links, so the answer is a part of it.
+  was_proved = !is_small && index->leaves[home].connected && !is_flood_faster(query) && search_outward(query);
+  if (!was_proved) {
+    answer.clear();  // mutant: failed-search-leaves-answer
+    leaf_bfs.run(query, is_small, traversal, answer);
+  }
   return query.centre();
 }
 
-/// Returns false, with an empty answer, if the breadth-first search is probably faster.
-bool Searcher::State::prove(const Query& query) {
-  if (limits.enabled && !failures.should_try(query)) return false;
-  const bool proved = subtract_other_components(query);
-  failures.record(query, proved);
-  if (!proved) answer.clear();  // mutant: failed-search-leaves-answer
-  return proved;
+/// Whether recent queries suggest it.
+bool Searcher::State::is_flood_faster(const Query& query) {
+  if (!limits.enabled) return false;
+  return (limits.is_small_if_folded(query, *index) && memory.is_folded()) || memory.is_torn();
 }
 
-bool Searcher::State::subtract_other_components(const Query& query) {
-  if (!descent.run(query, limits, answer)) return false;
-  const std::size_t leaves = answer.count() / kLeafCapacity + descent.intersecting_leaves().size();
-  if (descent.candidate_leaves().size() > limits.most_candidates(leaves)) return false;
-  find_local_minima(*index, *kernels, descent.candidate_leaves(), query, minima);
-  if (!other_components.find(query, minima, limits.most_visited(leaves), traversal)) return false;
-  add_intersecting_leaves(query);
+/// Returns false if the breadth-first search is probably faster.
+bool Searcher::State::search_outward(const Query& query) {
+  reach(query);
+  find_surface_leaves(query);
+  mark_home(query);
+  add_reached();
+  const std::size_t leaves = answer.count() / kLeafCapacity + surface_leaves.size();
+  loose.find(query, descent.groups(), surface_leaves, states);
+  const bool is_done = other_components.find(query, loose.minima(), states, limits.most_visited(leaves), traversal);
+  memory.record(loose.surface_count(), surface_leaves.size(), other_components.visited(), leaves);
+  if (!is_done) return false;
   answer.subtract(other_components.found());
   return true;
 }
 
-void Searcher::State::add_intersecting_leaves(const Query& query) {
-  constexpr std::size_t kPrefetchDistance = 4;
-  const std::span<const LeafId> leaves = descent.intersecting_leaves();
+/// Finds the nodes in the ball that may be connected with the query vertex. Begins with large nodes, which are few.
+/// Where they reach more than a single sheet, begins again with small ones, which leave out what is not connected at
+/// that scale.
+void Searcher::State::reach(const Query& query) {
+  // How many mean radii of nodes the radius of the ball has at most.
+  constexpr double kSmallNodes = 10;  // the paper's f
+  constexpr double kLargeNodes = 1.5;
+  const Home small = home_of(query, kSmallNodes);
+  const Home large = home_of(query, kLargeNodes);
+  if (large.level > small.level && reach_from(large, query, small.level)) return;
+  static_cast<void>(reach_from(small, query, small.level));
+}
+
+/// The node over the query vertex whose level is the first of nodes of about a `ratio`-th of the radius.
+Searcher::State::Home Searcher::State::home_of(const Query& query, double ratio) const {
+  Home home{0, query.leaf()};
+  for (; index->tree[home.level].mean_radius * ratio < query.radius_in_frame; ++home.level) {
+    const NodeId parent = index->parents[home.node / kFanOut];
+    if (parent == kNoNode) break;
+    home.node = parent;
+  }
+  return home;
+}
+
+/// Returns false if more nodes intersect the surface of the ball, on a level above `limited_above`, than a single sheet
+/// has.
+bool Searcher::State::reach_from(const Home& home, const Query& query, std::size_t limited_above) {
+  states.start(index->tree[home.level].first_group + index->tree[home.level].groups);
+  waves.run(home.node, query.tree_ball, states);
+  return descent.run(home.level, waves.groups(), query, limits, limited_above, states);
+}
+
+void Searcher::State::find_surface_leaves(const Query& query) {
+  constexpr std::size_t kAhead = 10;
+  const std::span<const LeafId> leaves = descent.surface_leaves();
+  // From the records of groups, which the descent has just read.
+  const auto vertices_of = [&](LeafId leaf) { return run_of(index->records[leaf / kFanOut], leaf % kFanOut); };
+  const auto prefetch_vertices = [&](LeafId leaf) {
+    prefetch_positions(*index, vertices_of(leaf).begin, kLeafCapacity);
+  };
+  for (const LeafId leaf : leaves.first(std::min(kAhead, leaves.size()))) prefetch_vertices(leaf);
+  surface_leaves.clear();
   for (std::size_t i = 0; i < leaves.size(); ++i) {
-    if (i + kPrefetchDistance < leaves.size())
-      prefetch_positions(*index, index->leaf_begin[leaves[i + kPrefetchDistance]], kLeafCapacity);
-    const VertexId first = index->leaf_begin[leaves[i]];
-    const std::size_t size = index->leaf_begin[leaves[i] + 1] - first;
-    const LaneMask lanes = kernels->within(index->positions, first, size, query.ball);
-    if (lanes != 0) answer.add(LeafSubset{leaves[i], lanes});
+    if (i + kAhead < leaves.size()) prefetch_vertices(leaves[i + kAhead]);
+    const auto [first, end] = vertices_of(leaves[i]);
+    surface_leaves.push_back({leaves[i], kernels->within(index->positions, first, end - first, query.ball)});
+  }
+}
+
+/// Marks the whole nodes that are surely connected with the query vertex.
+void Searcher::State::mark_home(const Query& query) {
+  marks.begin(query.leaf(), states);
+  const auto own = std::find_if(surface_leaves.begin(), surface_leaves.end(),
+                                [&](const LeafSubset& leaf) { return leaf.leaf == query.leaf(); });
+  if (own != surface_leaves.end()) {
+    const LaneMask piece =
+        kernels->reachable(&index->adjacency[index->leaves[own->leaf].first], own->lanes, query.lane());
+    for (const Link& link : index->links_of(own->leaf)) {
+      const bool is_linked = (link.boundary & piece) != 0;  // mutant: mark-of-another-piece
+      if (is_linked) marks.mark(link.leaf, states);
+    }
+  }
+  marks.spread(descent.groups(), states);
+}
+
+/// Adds all vertices reached to the answer.
+void Searcher::State::add_reached() {
+  for (const std::uint32_t group : descent.groups()) {
+    for_each_node(states[group].whole, [&](unsigned i) { answer.add(run_of(index->records[group], i)); });
+  }
+  for (const LeafSubset& leaf : surface_leaves) {
+    if (leaf.lanes != 0) answer.add(leaf);
   }
 }
 

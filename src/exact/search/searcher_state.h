@@ -10,14 +10,17 @@
 
 #include "exact/layout.h"
 #include "exact/search/descent.h"
+#include "exact/search/group_states.h"
+#include "exact/search/home_marks.h"
 #include "exact/search/leaf_bfs.h"
 #include "exact/search/leaf_traversal.h"
-#include "exact/search/local_minima.h"
+#include "exact/search/loose_pieces.h"
 #include "exact/search/other_components.h"
 #include "exact/search/query.h"
 #include "exact/search/search_limits.h"
 #include "exact/search/vertex_bfs.h"
 #include "exact/search/vertex_set.h"
+#include "exact/search/waves.h"
 #include "simd/kernels.h"
 
 namespace meshhood {
@@ -28,12 +31,17 @@ struct Searcher::State {
   const Kernels* kernels;
   SearchLimits limits;
   RadiusBounds bounds;
+  GroupStates states;
+  Waves waves;
   Descent descent;
+  HomeMarks marks;
+  LoosePieces loose;
   LeafTraversal traversal;
   OtherComponents other_components;
   LeafBfs leaf_bfs;
-  FailureCache failures;
-  std::vector<LocalMinimum> minima;
+  SearchMemory memory;
+  std::vector<LeafSubset>
+      surface_leaves;  // the leaves that intersect the surface of the ball, with their vertices in it
   VertexSet answer;
   std::optional<VertexBfs> vertex_bfs;  // answers instead of `search` where the graph is unlike a surface
   bool was_proved = false;              // whether the last answer was found by `subtract_other_components`
@@ -42,11 +50,14 @@ struct Searcher::State {
       : index(std::move(view)),
         kernels(&meshhood::kernels(isa)),
         bounds(index->frame, 0),
+        states(*index),
+        waves(*index, *kernels),
         descent(*index, *kernels),
+        marks(*index),
+        loose(*index, *kernels),
         traversal(*index, *kernels),
         other_components(*index, *kernels),
         leaf_bfs(*index),
-        failures(index->leaf_count()),
         answer(*index) {}
 
   /// Refills `answer` with the neighborhood, and returns the position of `v`.
@@ -56,12 +67,23 @@ struct Searcher::State {
   void write_answer(std::vector<VertexId>& out) const;
 
   /// Forgets earlier queries, so that the order of the next answer does not depend on them.
-  void forget() { failures.clear(); }
+  void forget() { memory.clear(); }
 
  private:
-  bool prove(const Query& query);
-  bool subtract_other_components(const Query& query);
-  void add_intersecting_leaves(const Query& query);
+  /// A node over the query vertex.
+  struct Home {
+    std::size_t level;
+    NodeId node;
+  };
+
+  [[nodiscard]] bool is_flood_faster(const Query& query);
+  bool search_outward(const Query& query);
+  void reach(const Query& query);
+  [[nodiscard]] Home home_of(const Query& query, double ratio) const;
+  bool reach_from(const Home& home, const Query& query, std::size_t limited_above);
+  void find_surface_leaves(const Query& query);
+  void mark_home(const Query& query);
+  void add_reached();
 };
 
 /// Access to the parts of a searcher, for the batch and for tests.

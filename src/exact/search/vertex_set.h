@@ -24,8 +24,14 @@ class VertexSet {
 
   void clear();
 
-  /// Adds a run of whole leaves.
-  void add(const VertexRange& run) { runs_.push_back(run); }
+  /// Adds a run of whole leaves. One that follows the last becomes a part of it.
+  void add(const VertexRange& run) {
+    if (!runs_.empty() && runs_.back().end == run.begin) {
+      runs_.back().end = run.end;
+    } else {
+      runs_.push_back(run);
+    }
+  }
   void add(const LeafSubset& subset) { subsets_.push_back(subset); }
 
   /// Removes the vertices of `others`, which ascend by leaf and name each leaf once. O(size of this * log size of

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The descent against brute force: nodes inside, intersecting leaves, and candidates for local minima.
+// The descent against brute force: whole nodes, leaves that intersect the surface, and nodes in doubt.
 #include "exact/search/descent.h"
 
 #include <algorithm>
@@ -8,83 +8,101 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "exact/search/waves.h"
 #include "support/family_name.h"
-#include "support/search_case.h"
+#include "support/outward_search.h"
 
 namespace meshhood::test {
 namespace {
 
 constexpr SearchLimits kNoLimits{.enabled = false};
 
+/// A descent from the outward search on a level.
+struct Descended {
+  Descended(const IndexView& index, const Kernels& kernels)
+      : waves(index, kernels), states(index), descent(index, kernels) {}
+
+  [[nodiscard]] bool run(const IndexView& index, const Query& query, std::size_t level, const SearchLimits& limits) {
+    states.start(end_of_level(index, level));
+    waves.run(nodes_above(index, query.leaf())[level], query.tree_ball, states);
+    return descent.run(level, waves.groups(), query, limits, 0, states);
+  }
+
+  Waves waves;
+  GroupStates states;
+  Descent descent;
+};
+
 class DescentOnFamilies : public testing::TestWithParam<Family> {};
 
-/// The caller's ids of all vertices of `leaves`.
-Ids vertices_of(const IndexView& index, std::span<const LeafId> leaves) {
-  Ids ids;
-  for (const LeafId leaf : leaves) {
-    for (std::size_t v = index.leaf_begin[leaf]; v < index.leaf_begin[leaf + 1]; ++v) ids.push_back(index.id(v));
-  }
-  return ids;
-}
-
-bool is_local_minimum(const SearchCase& c, std::uint32_t w) {
-  const auto& neighbors = c.oracle.neighbors(w);
-  const double distance = c.oracle.distance(c.query.vertex, w);
-  return std::none_of(neighbors.begin(), neighbors.end(),
-                      [&](std::uint32_t u) { return c.oracle.distance(c.query.vertex, u) < distance; });
-}
-
-TEST_P(DescentOnFamilies, RunsAreInTheBallAndIntersectingLeavesHoldTheRest) {
+TEST_P(DescentOnFamilies, WholeNodesAreInTheBallAndTheSurfaceHoldsTheRestOfWhatIsReached) {
   std::size_t inside_vertices = 0;
-  const std::size_t cases = for_each_search_case(GetParam(), scaled(40, 4), 4, [&](const SearchCase& c) {
-    Descent descent(c.index, c.kernels);
-    VertexSet inside(c.index);
-    ASSERT_TRUE(descent.run(c.query, kNoLimits, inside));
-    Ids ids;
-    inside.for_each([&](std::size_t v) { ids.push_back(c.index.id(v)); });
-    for (const std::uint32_t w : ids) ASSERT_TRUE(c.is_in_ball(w)) << c.mesh.name;
-    inside_vertices += ids.size();
-    Ids covered = vertices_of(c.index, descent.intersecting_leaves());
-    covered.insert(covered.end(), ids.begin(), ids.end());
-    covered = sorted(covered);
-    ASSERT_EQ(std::adjacent_find(covered.begin(), covered.end()), covered.end()) << "a vertex comes twice";
-    const Ids ball = c.ball();
-    ASSERT_TRUE(std::includes(covered.begin(), covered.end(), ball.begin(), ball.end())) << c.mesh.name;
-  });
-  std::printf("%zu queries, %zu vertices inside\n", cases, inside_vertices);
-}
-
-TEST_P(DescentOnFamilies, EveryLocalMinimumInTheBallIsInACandidateLeaf) {
-  std::size_t minima = 0;
-  const std::size_t cases = for_each_search_case(GetParam(), scaled(40, 4), 4, [&](const SearchCase& c) {
-    Descent descent(c.index, c.kernels);
-    VertexSet inside(c.index);
-    ASSERT_TRUE(descent.run(c.query, kNoLimits, inside));
-    std::vector<LeafId> candidates(descent.candidate_leaves().begin(), descent.candidate_leaves().end());
-    std::sort(candidates.begin(), candidates.end());
-    ASSERT_EQ(std::adjacent_find(candidates.begin(), candidates.end()), candidates.end()) << "a leaf comes twice";
-    for (const std::uint32_t w : c.ball()) {
-      if (!is_local_minimum(c, w)) continue;
-      ++minima;
-      ASSERT_TRUE(std::binary_search(candidates.begin(), candidates.end(), c.leaf_of_id(w)))
-          << c.mesh.name << ": vertex " << w << " seen from " << c.query.vertex << ", radius " << c.query.radius;
+  const std::size_t cases = for_each_search_case(GetParam(), scaled(30, 4), 4, [&](const SearchCase& c) {
+    if (!c.index.leaves[c.query.leaf()].connected) return;
+    Descended d(c.index, c.kernels);
+    const std::size_t levels = nodes_above(c.index, c.query.leaf()).size();
+    for (std::size_t level = 0; level < levels; ++level) {
+      ASSERT_TRUE(d.run(c.index, c.query, level, kNoLimits));
+      Ids whole;
+      for (const std::uint32_t group : d.descent.groups()) {
+        append_vertices(c.index, group, d.states[group].whole, whole);
+      }
+      ASSERT_EQ(in_ball(c, whole).size(), whole.size()) << c.mesh.name << ": a whole node is not in the ball";
+      inside_vertices += whole.size();
+      Ids covered = whole;
+      for (const LeafId leaf : d.descent.surface_leaves()) {
+        append_vertices(c.index, leaf / kFanOut, static_cast<NodeSet>(1U << leaf % kFanOut), covered);
+      }
+      covered = sorted(covered);
+      ASSERT_EQ(std::adjacent_find(covered.begin(), covered.end()), covered.end()) << "a vertex comes twice";
+      const Ids answer = c.neighborhood();
+      ASSERT_TRUE(std::includes(covered.begin(), covered.end(), answer.begin(), answer.end())) << c.mesh.name;
     }
   });
-  std::printf("%zu queries, %zu local minima\n", cases, minima);
-  EXPECT_TRUE(cases == 0 || minima > 0);
+  std::printf("%zu queries, %zu vertices in whole nodes\n", cases, inside_vertices);
+}
+
+TEST_P(DescentOnFamilies, EveryLocalMinimumThatIsReachedLiesInANodeInDoubt) {
+  std::size_t minima = 0;
+  for_each_search_case(GetParam(), scaled(30, 4), 4, [&](const SearchCase& c) {
+    if (!c.index.leaves[c.query.leaf()].connected) return;
+    Descended d(c.index, c.kernels);
+    ASSERT_TRUE(d.run(c.index, c.query, 0, kNoLimits));
+    for (const std::uint32_t group : d.descent.groups()) {
+      const GroupState& state = d.states[group];
+      Ids ids;
+      append_vertices(c.index, group, (state.whole | state.intersecting) & static_cast<NodeSet>(~state.in_doubt), ids);
+      for (const std::uint32_t w : in_ball(c, ids)) {
+        const auto& neighbors = c.oracle.neighbors(w);
+        const bool is_minimum = std::none_of(neighbors.begin(), neighbors.end(), [&](std::uint32_t u) {
+          return squared_distance_of(c, u) < squared_distance_of(c, w);
+        });
+        ASSERT_FALSE(is_minimum) << c.mesh.name << ": vertex " << w << " seen from " << c.query.vertex;
+        ++minima;
+      }
+    }
+  });
+  std::printf("%zu vertices outside of nodes in doubt\n", minima);
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, DescentOnFamilies, testing::ValuesIn(families()), family_name);
 
-TEST(Descent, CandidatesAreFewOnASmoothSurface) {
+TEST(Descent, HasFewNodesInDoubtOnASmoothSurface) {
   const TestMesh mesh = make_grid(120, 120, false);
   const Index built = build(mesh.view());
   const IndexView& index = IndexAccess::view(built);
-  Descent descent(index, portable_kernels());
-  VertexSet inside(index);
-  ASSERT_TRUE(descent.run(Query(index, 60 * 120 + 60, RadiusBounds(index.frame, 40)), SearchLimits{}, inside));
-  EXPECT_GT(inside.count(), 3000U);
-  EXPECT_LT(descent.candidate_leaves().size(), index.leaf_count() / 10);
+  const Query query(index, 60 * 120 + 60, RadiusBounds(index.frame, 40));
+  Descended d(index, portable_kernels());
+  ASSERT_TRUE(d.run(index, query, 1, SearchLimits{}));
+  std::size_t whole = 0;
+  std::size_t in_doubt = 0;
+  for (const std::uint32_t group : d.descent.groups()) {
+    whole += static_cast<std::size_t>(std::popcount(d.states[group].whole));
+    const unsigned known = d.states[group].whole | d.states[group].intersecting;
+    in_doubt += static_cast<std::size_t>(std::popcount(d.states[group].in_doubt & known));
+  }
+  EXPECT_GT(whole, 20U);
+  EXPECT_LT(in_doubt, 40U);
 }
 
 TEST(Descent, ManySheetsExceedTheLimitOfIntersectingNodes) {
@@ -92,16 +110,18 @@ TEST(Descent, ManySheetsExceedTheLimitOfIntersectingNodes) {
   for (int sheet = 1; sheet < 60; ++sheet) {
     TestMesh next = make_grid(24, 24, false);
     for (std::size_t i = 2; i < next.positions.size(); i += 3) next.positions[i] = 0.5 * sheet;
+    const auto first = static_cast<std::uint32_t>(mesh.size());
     append(mesh, next);
+    // Joined along one side, so that the search reaches all sheets.
+    for (std::uint32_t i = 0; i < 24; ++i) mesh.add_face({first - 24 * 24 + i, first + i});
   }
   const Index built = build(mesh.view());
   const IndexView& index = IndexAccess::view(built);
-  Descent descent(index, portable_kernels());
-  const Query query(index, 30 * 24 * 24 + 12 * 24 + 12, RadiusBounds(index.frame, 11));
-  VertexSet inside(index);
-  EXPECT_FALSE(descent.run(query, SearchLimits{}, inside));
-  inside.clear();
-  EXPECT_TRUE(descent.run(query, kNoLimits, inside));
+  const Query query(index, 30 * 24 * 24 + 12 * 24 + 12, RadiusBounds(index.frame, 20));
+  Descended d(index, portable_kernels());
+  const std::size_t top = nodes_above(index, query.leaf()).size() - 1;
+  EXPECT_FALSE(d.run(index, query, top, SearchLimits{}));
+  EXPECT_TRUE(d.run(index, query, top, kNoLimits));
 }
 
 }  // namespace

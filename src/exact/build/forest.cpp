@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "exact/build/forest.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace meshhood {
+namespace {
+
+/// The groups of one level: those that become nodes of the level above, by its numbers, and root groups.
+struct LevelGroups {
+  NodeGroups covered;
+  NodeGroups roots;
+
+  [[nodiscard]] std::size_t size() const { return covered.size() + roots.size(); }
+};
+
+/// The nodes with links, or those without, in a kd order of eight; ascending within each eight.
+std::vector<KdPoint> order_nodes(const NodeGraph& graph, bool with_links) {
+  std::vector<KdPoint> points;
+  for (std::uint32_t node = 0; node < graph.size(); ++node) {
+    if (graph[node].empty() == with_links) continue;
+    const Point& p = graph.balls[node].centre;
+    points.push_back({{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}, node});
+  }
+  kd_order(points, kFanOut);
+  for (std::size_t begin = 0; begin < points.size(); begin += kFanOut) {
+    const auto cell = std::span(points).subspan(begin, std::min<std::size_t>(kFanOut, points.size() - begin));
+    std::sort(cell.begin(), cell.end(), [](const KdPoint& a, const KdPoint& b) { return a.id < b.id; });
+  }
+  return points;
+}
+
+void pack(std::span<const KdPoint> order, NodeGroups& groups) {
+  std::vector<std::uint32_t> nodes;
+  for (std::size_t begin = 0; begin < order.size(); begin += kFanOut) {
+    nodes.clear();
+    for (const KdPoint& point : order.subspan(begin, std::min<std::size_t>(kFanOut, order.size() - begin))) {
+      nodes.push_back(point.id);
+    }
+    groups.add(nodes);
+  }
+}
+
+LevelGroups group_level(const NodeGraph& graph) {
+  LevelGroups result;
+  const std::vector<KdPoint> linked = order_nodes(graph, true);
+  result.covered = connected_groups(graph, linked);
+  // Around a hub, hardly any node finds a partner that has room.
+  if (4 * result.covered.size() > 3 * linked.size()) {  // mutant: levels-without-end
+    result.covered = {};
+    pack(linked, result.roots);
+  }
+  pack(order_nodes(graph, false), result.roots);
+  return result;
+}
+
+/// Numbers the groups of all levels from the top down.
+class Numbering {
+ public:
+  explicit Numbering(std::span<const LevelGroups> levels) : levels_(levels) {
+    forest_.levels.push_back(0);
+    for (const LevelGroups& level : levels) {
+      forest_.levels.push_back(forest_.levels.back() + static_cast<std::uint32_t>(level.size()));
+    }
+    forest_.records.resize(forest_.levels.back());
+    forest_.parents.assign(forest_.levels.back(), kNoNode);
+    forest_.leaves.assign(std::size_t{forest_.levels[1]} * kFanOut, kNoNode);
+  }
+
+  Forest run() {
+    // The groups of the level above that become its nodes, in their final order.
+    std::vector<std::uint32_t> covered;
+    for (std::size_t level = levels_.size(); level-- > 0;) covered = number_level(level, covered);
+    return std::move(forest_);
+  }
+
+ private:
+  /// Returns the nodes of the level, which are the groups of the level below, in their final order.
+  std::vector<std::uint32_t> number_level(std::size_t level, const std::vector<std::uint32_t>& covered) {
+    std::vector<std::uint32_t> nodes;
+    next_child_ = level == 0 ? 0 : forest_.levels[level - 1];
+    std::uint32_t group = forest_.levels[level];
+    for (const std::uint32_t old : covered) add_group(group++, level, levels_[level].covered[old], nodes);
+    const NodeGroups& roots = levels_[level].roots;
+    for (std::size_t root = 0; root < roots.size(); ++root) add_group(group++, level, roots[root], nodes);
+    return nodes;
+  }
+
+  void add_group(std::uint32_t group, std::size_t level, std::span<const std::uint32_t> members,
+                 std::vector<std::uint32_t>& nodes) {
+    GroupRecord& record = forest_.records[group];
+    record.nodes = static_cast<std::uint32_t>(members.size());
+    record.first_child = next_child_;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      const auto node = static_cast<NodeId>(group * kFanOut + i);
+      if (level == 0) {
+        forest_.leaves[node] = members[i];
+      } else {
+        forest_.parents[next_child_++] = node;
+        nodes.push_back(members[i]);
+      }
+    }
+  }
+
+  std::span<const LevelGroups> levels_;
+  Forest forest_;
+  std::uint32_t next_child_ = 0;
+};
+
+}  // namespace
+
+Forest make_forest(NodeGraph leaves) {
+  std::vector<LevelGroups> levels;
+  for (NodeGraph graph = std::move(leaves); graph.size() > 0;) {
+    levels.push_back(group_level(graph));
+    graph = contract(graph, levels.back().covered);
+  }
+  if (levels.empty()) return {{0}, {}, {}, {}};
+  return Numbering(levels).run();
+}
+
+}  // namespace meshhood

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "exact/build/node_groups.h"
+#include "exact/layout.h"
+
+namespace meshhood {
+
+/// How the leaves are grouped: a forest, because nodes that are not linked are never grouped together. So every node
+/// above the leaves is connected by links between its children.
+///
+/// A node without links has no parent. Such nodes of one level share *root groups*. Where grouping no longer makes a
+/// level much smaller, as around a hub, all nodes of the level are in root groups, and keep their links.
+struct Forest {
+  std::vector<std::uint32_t> levels;  // the first group of each level, and one more: the number of groups
+  std::vector<GroupRecord> records;   // by group; `nodes` and `first_child` are set
+  std::vector<NodeId> parents;        // by group: the node that covers it, or kNoNode
+  std::vector<std::uint32_t> leaves;  // by place: the number that the leaf had before, or kNoNode
+};
+
+/// Groups the leaves and numbers them in the order of the groups, from the top down. O(leaves log(leaves) + links).
+[[nodiscard]] Forest make_forest(NodeGraph leaves);
+
+}  // namespace meshhood

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/distance.h"
+#include "exact/build/kd_order.h"
+
+namespace meshhood {
+
+/// A rough bounding sphere of a node, by which nodes are grouped. The tree stores better ones.
+struct NodeBall {
+  Point centre;
+  double radius;
+};
+
+/// The nodes of one level while the tree is built, and the links between them.
+struct NodeGraph {
+  std::vector<NodeBall> balls;         // by node
+  std::vector<std::uint32_t> offsets;  // by node, and one more: where its neighbors begin
+  std::vector<std::uint32_t> neighbors;
+
+  [[nodiscard]] std::size_t size() const { return balls.size(); }
+  [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t node) const {
+    return std::span(neighbors).subspan(offsets[node], offsets[node + 1] - offsets[node]);
+  }
+};
+
+/// Sets of up to eight nodes.
+class NodeGroups {
+ public:
+  void add(std::span<const std::uint32_t> nodes) {
+    nodes_.insert(nodes_.end(), nodes.begin(), nodes.end());
+    begin_.push_back(static_cast<std::uint32_t>(nodes_.size()));
+  }
+  [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
+  [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t group) const {
+    return std::span(nodes_).subspan(begin_[group], begin_[group + 1] - begin_[group]);
+  }
+
+ private:
+  std::vector<std::uint32_t> begin_{0};
+  std::vector<std::uint32_t> nodes_;
+};
+
+/// Groups of up to eight nodes that lie close together and are connected by links between them. `order` are the nodes
+/// that have links, in a kd order of eight. O(links).
+[[nodiscard]] NodeGroups connected_groups(const NodeGraph& graph, std::span<const KdPoint> order);
+
+/// Each group becomes a node. Nodes that are in no group have no links.
+[[nodiscard]] NodeGraph contract(const NodeGraph& graph, const NodeGroups& groups);
+
+}  // namespace meshhood

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <bit>
+
+#include "exact/layout.h"
+
+namespace meshhood {
+
+/// Calls `f(place)` for every node of the set, in ascending order.
+template <class F>
+void for_each_node(NodeSet nodes, F&& f) {
+  for (unsigned left = nodes; left != 0; left &= left - 1) f(static_cast<unsigned>(std::countr_zero(left)));
+}
+
+/// The nodes of a group that can be reached from `from` by links within `among`; `from` is a part of it.
+[[nodiscard]] inline NodeSet reachable_nodes(const std::array<NodeSet, kFanOut>& linked, NodeSet from, NodeSet among) {
+  unsigned reached = from;
+  for (unsigned todo = from; todo != 0;) {
+    const unsigned added = linked[static_cast<unsigned>(std::countr_zero(todo))] & among & ~reached;
+    todo = (todo & (todo - 1)) | added;
+    reached |= added;
+  }
+  return static_cast<NodeSet>(reached);
+}
+
+}  // namespace meshhood

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "exact/search/loose_pieces.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "base/distance.h"
+#include "base/prefetch.h"
+#include "exact/node_search.h"
+
+namespace meshhood {
+
+void LoosePieces::find(const Query& query, std::span<const std::uint32_t> groups,
+                       std::span<const LeafSubset> surface_leaves, const GroupStates& states) {
+  leaves_.clear();
+  minima_.clear();
+  gather_surface_leaves(surface_leaves, states);
+  surface_count_ = leaves_.size();
+  gather_whole(groups, states, query.tree_ball);
+  for (std::size_t i = 0; i < leaves_.size(); ++i) {  // mutant: first-leaf-in-doubt-ignored
+    prefetch_ahead(i);
+    cut(leaves_[i], query, states);
+  }
+  std::sort(minima_.begin(), minima_.end(), [](const LocalMinimum& a, const LocalMinimum& b) {
+    return std::tie(a.square, a.leaf, a.lane) < std::tie(b.square, b.leaf, b.lane);
+  });
+}
+
+void LoosePieces::gather_surface_leaves(std::span<const LeafSubset> surface_leaves, const GroupStates& states) {
+  for (const LeafSubset& leaf : surface_leaves) {
+    const bool in_doubt = (states[leaf.leaf / kFanOut].in_doubt >> leaf.leaf % kFanOut & 1U) != 0;
+    if (in_doubt && leaf.lanes != 0) leaves_.push_back(leaf);
+  }
+}
+
+/// The leaves in doubt below unmarked whole nodes in doubt.
+void LoosePieces::gather_whole(std::span<const std::uint32_t> groups, const GroupStates& states, const TreeBall& ball) {
+  for (const std::uint32_t group : groups) {
+    const GroupState& state = states[group];
+    for_each_node(state.whole & state.in_doubt & static_cast<NodeSet>(~state.home), [&](unsigned i) {
+      const NodeId node = group * kFanOut + i;
+      if (node < index_->leaf_count()) {
+        leaves_.push_back({node, first_lanes(index_->leaves[node].size)});
+      } else {
+        gather_below(index_->records[group].first_child + i, ball);
+      }
+    });
+  }
+}
+
+void LoosePieces::gather_below(std::uint32_t group, const TreeBall& ball) {
+  GroupContainment found{};
+  kernels_->classify(index_->groups.data(), std::span(&group, 1), ball, &found);
+  const GroupRecord& record = index_->records[group];
+  for_each_node(found.may_have_minimum & first_nodes(record.nodes), [&](unsigned i) {
+    const NodeId node = group * kFanOut + i;
+    if (node < index_->leaf_count()) {
+      leaves_.push_back({node, first_lanes(index_->leaves[node].size)});
+    } else {
+      gather_below(record.first_child + i, ball);
+    }
+  });
+}
+
+/// Cuts the vertices of a leaf that are in the ball into connected pieces, and tests the nearest vertex of each that is
+/// loose. Other vertices of a piece have a nearer one in their component.
+void LoosePieces::cut(const LeafSubset& leaf, const Query& query, const GroupStates& states) {
+  const Leaf& record = index_->leaves[leaf.leaf];
+  const LaneMask query_lane = query.leaf() == leaf.leaf ? query.lane() : 0;
+  for (LaneMask left = leaf.lanes; left != 0;) {
+    const bool is_whole = record.connected && left == first_lanes(record.size);
+    const LaneMask piece = is_whole ? left : kernels_->reachable(&index_->adjacency[record.first], left, left & -left);
+    left &= ~piece;
+    if ((piece & query_lane) != 0 || touches_home(leaf.leaf, piece, states)) continue;
+    const Nearest nearest = kernels_->nearest(index_->positions, record.first, piece, query.ball);
+    const LocalMinimum vertex{nearest.square, leaf.leaf, nearest.lane};
+    if (!has_nearer_neighbor(vertex, query.centre())) minima_.push_back(vertex);
+  }
+}
+
+bool LoosePieces::touches_home(LeafId leaf, LaneMask piece, const GroupStates& states) const {
+  const std::span<const Link> links = index_->links_of(leaf);
+  return std::any_of(links.begin(), links.end(), [&](const Link& link) {
+    return (link.boundary & piece) != 0 && states.is_home(link.leaf);  // mutant: link-of-another-piece
+  });
+}
+
+bool LoosePieces::has_nearer_neighbor(const LocalMinimum& vertex, const Point& centre) const {
+  for (const Link& link : index_->links_of(vertex.leaf)) {
+    if ((link.boundary >> vertex.lane & 1U) == 0) continue;
+    for (const CrossEdge& edge : index_->cross_edges_of(link)) {
+      if (edge.from != vertex.lane) continue;  // mutant: cross-edges-of-every-lane
+      // mutant: tied-neighbor-taken-as-nearer
+      if (squared_distance(index_->position(link.leaf, edge.to), centre) < vertex.square) return true;
+    }
+  }
+  return false;
+}
+
+/// Prefetches what `cut` reads of the leaves that come next: their records first, and what those point to once they
+/// have arrived.
+void LoosePieces::prefetch_ahead(std::size_t next) const {
+  constexpr std::size_t kRecord = 8;
+  constexpr std::size_t kContents = 4;
+  if (next + kRecord < leaves_.size()) prefetch(&index_->leaves[leaves_[next + kRecord].leaf]);
+  if (next + kContents < leaves_.size()) {
+    const Leaf& leaf = index_->leaves[leaves_[next + kContents].leaf];
+    fetch_lines(&index_->adjacency[leaf.first], 2);
+    fetch_lines(&index_->links[leaf.first_link], 2);
+  }
+}
+
+}  // namespace meshhood

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// The groups of all levels: what is not linked is never grouped together.
+#include "exact/build/forest.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "meshhood/reference.h"
+
+#include "exact/index_access.h"
+#include "exact/node_search.h"
+#include "support/families.h"
+#include "support/family_name.h"
+
+namespace meshhood::test {
+namespace {
+
+class ForestOfFamilies : public testing::TestWithParam<Family> {};
+
+TEST_P(ForestOfFamilies, EveryNodeAboveTheLeavesIsConnectedByLinksBetweenItsChildren) {
+  std::size_t nodes = 0;
+  for (const std::size_t vertices : {1U, 50U, 3000U}) {
+    const Index built = build(make_mesh(GetParam(), 7, vertices).view());
+    const IndexView& index = IndexAccess::view(built);
+    for (std::size_t group = 0; group < index.records.size(); ++group) {
+      if (index.parents[group] == kNoNode) continue;
+      const GroupRecord& record = index.records[group];
+      ASSERT_EQ(reachable_nodes(record.linked, 1, first_nodes(record.nodes)), first_nodes(record.nodes)) << group;
+      ++nodes;
+    }
+  }
+  std::printf("%s: %zu nodes above the leaves\n", std::string(GetParam().name).c_str(), nodes);
+}
+
+TEST_P(ForestOfFamilies, ANodeOfMoreThanOneLeafHoldsVerticesOfOneComponentOfTheMesh) {
+  const TestMesh mesh = make_mesh(GetParam(), 8, 2000);
+  if (mesh.size() == 0) return;
+  const Index built = build(mesh.view());
+  const IndexView& index = IndexAccess::view(built);
+  ReferenceSearcher everything(mesh.view());
+  std::vector<VertexId> component;
+  for (std::size_t group = 0; group < index.records.size(); ++group) {
+    if (index.parents[group] == kNoNode) continue;
+    const GroupRecord& record = index.records[group];
+    everything.neighborhood(index.id(record.begin.front()), std::numeric_limits<double>::infinity(), component);
+    const std::set<VertexId> own(component.begin(), component.end());
+    for (std::size_t v = record.begin.front(); v < record.begin.back(); ++v) ASSERT_TRUE(own.contains(index.id(v)));
+  }
+}
+
+TEST_P(ForestOfFamilies, EachGroupIsCoveredByOneNodeOfTheLevelAboveOrByNone) {
+  for (const std::size_t vertices : {1U, 50U, 3000U}) {
+    const Index built = build(make_mesh(GetParam(), 9, vertices).view());
+    const IndexView& index = IndexAccess::view(built);
+    std::vector<NodeId> expected(index.records.size(), kNoNode);
+    for (std::size_t level = 1; level < index.tree.size(); ++level) {
+      for (std::size_t group = index.levels[level]; group < index.levels[level + 1]; ++group) {
+        const GroupRecord& record = index.records[group];
+        for (std::size_t i = 0; i < record.nodes; ++i) {
+          ASSERT_GE(record.first_child + i, index.levels[level - 1]);
+          ASSERT_LT(record.first_child + i, index.levels[level]);
+          expected[record.first_child + i] = static_cast<NodeId>(group * kFanOut + i);
+        }
+      }
+    }
+    ASSERT_TRUE(std::equal(expected.begin(), expected.end(), index.parents.begin(), index.parents.end()));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Forest, ForestOfFamilies, testing::ValuesIn(families()), family_name);
+
+/// Leaves in a row, each linked with the next within runs of `run`.
+NodeGraph rows_of(std::size_t leaves, std::size_t run) {
+  NodeGraph graph;
+  graph.offsets.push_back(0);
+  for (std::size_t leaf = 0; leaf < leaves; ++leaf) {
+    graph.balls.push_back({{static_cast<double>(leaf), 0, 0}, 0.5});
+    if (leaf % run != 0) graph.neighbors.push_back(static_cast<std::uint32_t>(leaf - 1));
+    if (leaf % run + 1 != run) graph.neighbors.push_back(static_cast<std::uint32_t>(leaf + 1));
+    graph.offsets.push_back(static_cast<std::uint32_t>(graph.neighbors.size()));
+  }
+  return graph;
+}
+
+TEST(Forest, OfLeavesWithoutLinksHasRootGroupsOfEight) {
+  const Forest forest = make_forest(rows_of(20, 1));
+  EXPECT_EQ(forest.levels, (std::vector<std::uint32_t>{0, 3}));
+  EXPECT_EQ(forest.records[0].nodes + forest.records[1].nodes + forest.records[2].nodes, 20U);
+  EXPECT_EQ(forest.parents, std::vector<NodeId>(3, kNoNode));
+}
+
+TEST(Forest, OfOneRowEndsInOneNodeWithoutLinks) {
+  const Forest forest = make_forest(rows_of(64, 64));
+  ASSERT_EQ(forest.levels.size(), 4U);
+  EXPECT_EQ(forest.records.back().nodes, 1U);
+  EXPECT_EQ(forest.leaves.size() % kFanOut, 0U);
+}
+
+TEST(Forest, AroundAHubStopsWhereGroupingNoLongerHelps) {
+  NodeGraph star;
+  star.offsets = {0, 999};
+  star.balls.assign(1000, {{0, 0, 0}, 1});
+  for (std::uint32_t leaf = 1; leaf < 1000; ++leaf) star.neighbors.push_back(leaf);
+  for (std::uint32_t leaf = 1; leaf < 1000; ++leaf) {
+    star.neighbors.push_back(0);
+    star.offsets.push_back(static_cast<std::uint32_t>(star.neighbors.size()));
+  }
+  const Forest forest = make_forest(star);
+  EXPECT_EQ(forest.levels.size(), 2U);
+  EXPECT_EQ(forest.parents, std::vector<NodeId>(125, kNoNode));
+}
+
+TEST(Forest, OfNoLeafHasNoLevel) {
+  const Forest forest = make_forest(NodeGraph{});
+  EXPECT_EQ(forest.levels, std::vector<std::uint32_t>{0});
+  EXPECT_TRUE(forest.records.empty());
+}
+
+}  // namespace
+}  // namespace meshhood::test

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "exact/search/group_states.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "exact/index_access.h"
+#include "support/families.h"
+
+namespace meshhood::test {
+namespace {
+
+TEST(GroupStates, OfAnEarlierQueryAreNotKnown) {
+  const Index built = build(make_grid(40, 40, false).view());
+  const IndexView& index = IndexAccess::view(built);
+  GroupStates states(index);
+  states.start(index.records.size());
+  states.make(3).whole = 5;
+  EXPECT_TRUE(states.is_known(3));
+  EXPECT_FALSE(states.is_known(4));
+  states.start(index.records.size());
+  EXPECT_FALSE(states.is_known(3));
+}
+
+TEST(GroupStates, AreForgottenWhenTheQueryNumbersRunOut) {
+  const Index built = build(make_grid(40, 40, false).view());
+  const IndexView& index = IndexAccess::view(built);
+  GroupStates states(index);
+  states.start(index.records.size());
+  states.make(3).whole = 5;
+  states.set_query_number(std::numeric_limits<std::uint32_t>::max());
+  states.start(index.records.size());
+  EXPECT_FALSE(states.is_known(3));
+}
+
+TEST(GroupStates, FindTheWholeNodeThatCoversANode) {
+  const Index built = build(make_grid(80, 80, false).view());
+  const IndexView& index = IndexAccess::view(built);
+  ASSERT_GE(index.tree.size(), 3U);
+  const NodeId leaf = 9;
+  const NodeId parent = index.parents[leaf / kFanOut];
+  const NodeId top = index.parents[parent / kFanOut];
+  GroupStates states(index);
+  states.start(index.tree[2].first_group + index.tree[2].groups);
+  EXPECT_EQ(states.whole_node(leaf), kNoNode);
+  states.make(top / kFanOut).whole = static_cast<NodeSet>(1U << top % kFanOut);
+  EXPECT_EQ(states.whole_node(leaf), top);
+  EXPECT_FALSE(states.is_home(leaf));
+  states[top / kFanOut].home = static_cast<NodeSet>(1U << top % kFanOut);
+  EXPECT_TRUE(states.is_home(leaf));
+  // A known group below says that the node above was refined.
+  states.make(leaf / kFanOut).intersecting = 0xFF;
+  EXPECT_EQ(states.whole_node(leaf), kNoNode);
+  // Levels above the outward search do not count.
+  states.start(index.tree[1].first_group + index.tree[1].groups);
+  states.make(top / kFanOut).whole = 0xFF;
+  EXPECT_EQ(states.whole_node(leaf), kNoNode);
+}
+
+}  // namespace
+}  // namespace meshhood::test
