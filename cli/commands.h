@@ -12,6 +12,7 @@ void add_bench(CLI::App& program);
 void add_build(CLI::App& program);
 void add_check(CLI::App& program);
 void add_compare(CLI::App& program);
+void add_connect(CLI::App& program);
 void add_curvature(CLI::App& program);
 void add_features(CLI::App& program);
 void add_generate(CLI::App& program);
@@ -19,6 +20,7 @@ void add_info(CLI::App& program);
 void add_merge(CLI::App& program);
 void add_partition(CLI::App& program);
 void add_query(CLI::App& program);
+void add_region(CLI::App& program);
 void add_view(CLI::App& program);
 
 }  // namespace meshhood::cli

@@ -71,6 +71,8 @@ void add_subcommands(CLI::App& program) {
   add_build(program);
   add_check(program);
   add_query(program);
+  add_connect(program);
+  add_region(program);
   add_batch(program);
   add_aggregate(program);
   add_curvature(program);

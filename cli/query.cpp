@@ -35,6 +35,7 @@ struct QueryCommand {
   std::string file;
   std::vector<std::uint64_t> vertices;
   Radius radius;
+  std::optional<std::uint64_t> rings;
   StartOptions start;
   std::string method = "exact";
   std::optional<std::string> factor;
@@ -89,7 +90,11 @@ Json to_json(const QueryCommand& options, double radius, const Answer& answer) {
   } else {
     document["point"] = options.start.point;
   }
-  document["radius"] = radius;
+  if (options.rings) {
+    document["rings"] = *options.rings;
+  } else {
+    document["radius"] = radius;
+  }
   document["method"] = options.method;
   if (options.start.is_along_edges()) document["metric"] = options.start.metric;
   document["count"] = answer.count;
@@ -134,11 +139,12 @@ void paint(const QueryCommand& options, Input& input, const std::vector<Answer>&
   painting.write(options.output, input.surface());
 }
 
-std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<const VertexId> vertices, double radius,
+std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<const QueryStart> starts, double radius,
                                       Input& input) {
   const Method method = method_of(options, input);
   std::vector<Answer> answers;
-  for (const VertexId v : vertices) {
+  for (const QueryStart& start : starts) {
+    const VertexId v = *start.vertex();
     Answer answer = timed_answer(options, method, v, radius);
     if (options.method == "exact" || options.method == "bfs") note_whole_component(method, radius, answer);
     if (options.distances) {
@@ -149,39 +155,43 @@ std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<con
   return answers;
 }
 
-Answer to_answer(const QueryCommand& options, std::optional<VertexId> v, StartAnswer found) {
-  if (!options.distances) found.distances.clear();
-  Answer answer{.vertex = v, .vertices = std::move(found.vertices), .distances = std::move(found.distances)};
-  answer.count = answer.vertices.size();
-  return answer;
-}
-
-/// The answers with a point, a filter or a metric, which the methods do not take.
-std::vector<Answer> answers_of_regions(const QueryCommand& options, std::span<const VertexId> vertices, double radius,
-                                       Input& input) {
+/// The answers that the methods do not give: from a point, with a filter, along edges, by rings.
+std::vector<Answer> answers_of_starts(const QueryCommand& options, std::span<const QueryStart> starts, double radius,
+                                      Input& input) {
   input.need_edges("this query");
   std::vector<Answer> answers;
-  if (!options.start.point.empty()) {
-    answers.push_back(to_answer(options, std::nullopt, region_of_point(options.start, radius, input)));
-  }
-  for (const VertexId v : vertices) {
-    answers.push_back(to_answer(options, v, region_of_vertex(options.start, v, radius, input)));
+  for (const QueryStart& start : starts) {
+    StartAnswer found = options.rings ? rings_of(options.start, *start.vertex(), *options.rings, input)
+                                      : region_of(options.start, start, radius, input);
+    const std::size_t count = found.vertices.size();
+    if (!options.distances) found.distances.clear();
+    answers.push_back({start.vertex(), count, std::move(found.vertices), std::move(found.distances)});
   }
   return answers;
 }
 
-void query(const QueryCommand& options) {
+void check_options(const QueryCommand& options) {
   if (options.factor && options.method != "paper") {
     raise(ErrorCode::InvalidOption, "--factor requires --method paper");
   }
+  if (options.radius.value.empty() == !options.rings) {
+    raise(ErrorCode::InvalidOption, "expected either --radius or --rings");
+  }
+  if (options.rings && (!options.start.point.empty() || options.start.is_along_edges() || options.method != "exact")) {
+    raise(ErrorCode::InvalidOption, "--rings: expected --vertex, and neither --metric nor --method");
+  }
   check_start_options(options.start, options.method, !options.vertices.empty());
+}
+
+void query(const QueryCommand& options) {
+  check_options(options);
   check_output(options.output, {options.file});
   Input input(options.file);
-  std::vector<VertexId> vertices;
-  for (const std::uint64_t v : options.vertices) vertices.push_back(resolve_vertex(v, input));
-  const double radius = resolve(options.radius, input);
-  const std::vector<Answer> answers = options.start.is_plain() ? answers_of_method(options, vertices, radius, input)
-                                                               : answers_of_regions(options, vertices, radius, input);
+  const std::vector<QueryStart> starts = starts_of(options.start, options.vertices, input);
+  const double radius = options.rings ? 0 : resolve(options.radius, input);
+  const std::vector<Answer> answers = options.start.is_plain() && !options.rings
+                                          ? answers_of_method(options, starts, radius, input)
+                                          : answers_of_starts(options, starts, radius, input);
   if (!options.output.empty()) paint(options, input, answers);
   print(options, radius, answers);
 }
@@ -196,7 +206,12 @@ void add_query(CLI::App& program) {
               "query vertex, by its number in the file from 0; several: -v 3,7 or -v 3 -v 7, then each line of the "
               "answer begins with the query vertex",
               options->vertices);
-  add_radius(*command, options->radius);
+  add_radius(*command, options->radius)->required(false);
+  command
+      ->add_option("--rings", options->rings,
+                   "instead of the radius: the vertices that at most so many edges separate from the query vertex")
+      ->transform(whole_number())
+      ->type_name("NUMBER");
   add_start(*command, options->start);
   add_method(*command, options->method);
   command
@@ -205,7 +220,10 @@ void add_query(CLI::App& program) {
                    "(default 10)")
       ->type_name("NUMBER");
   CLI::Option* count = command->add_flag("--count", options->count, "print only the number of vertices");
-  command->add_flag("--distances", options->distances, "print each vertex with its straight-line distance")
+  command
+      ->add_flag(
+          "--distances", options->distances,
+          "print each vertex with its distance: straight, along the edges with --metric edge, edges with --rings")
       ->excludes(count);
   add_output(*command, ".ply", "also write the mesh with the neighborhood in color", options->output);
   add_json(*command, options->json);

@@ -87,28 +87,38 @@ void check_start_options(const StartOptions& options, const std::string& method,
 FilterMasks::FilterMasks(const StartOptions& options, std::size_t vertices)
     : walls_(read_mask(options.walls, vertices)), ignored_(read_mask(options.ignored, vertices)) {}
 
-StartAnswer region_of_point(const StartOptions& options, double radius, Input& input) {
-  const SpacePoint p = parse_point(options.point);
-  const FilterMasks masks(options, input.vertex_count());
-  std::vector<VertexId> seeds;
-  for (const std::uint64_t seed : options.seeds) seeds.push_back(resolve_vertex(seed, input));
-  if (seeds.empty()) seeds.push_back(nearest(input.exact_index(), p).vertex);
-  std::vector<VertexId> ids;
-  std::vector<double> distances;
-  RegionSearcher(input.exact_index()).region({p, seeds}, radius, ids, distances, masks.filter());
-  return sorted_answer(ids, distances);
+QueryStart::QueryStart(const StartOptions& options, Input& input) : point_(parse_point(options.point)) {
+  for (const std::uint64_t seed : options.seeds) seeds_.push_back(resolve_vertex(seed, input));
+  if (seeds_.empty()) seeds_.push_back(nearest(input.exact_index(), point_).vertex);
 }
 
-StartAnswer region_of_vertex(const StartOptions& options, VertexId v, double radius, Input& input) {
+std::vector<QueryStart> starts_of(const StartOptions& options, std::span<const std::uint64_t> vertices, Input& input) {
+  std::vector<QueryStart> starts;
+  if (!options.point.empty()) starts.emplace_back(options, input);
+  for (const std::uint64_t v : vertices) starts.emplace_back(resolve_vertex(v, input));
+  return starts;
+}
+
+StartAnswer region_of(const StartOptions& options, const QueryStart& start, double radius, Input& input) {
   const FilterMasks masks(options, input.vertex_count());
   std::vector<VertexId> ids;
   std::vector<double> distances;
   if (options.is_along_edges()) {
-    EdgeSearcher(input.exact_index()).neighborhood(v, radius, ids, distances, masks.filter());
+    EdgeSearcher(input.exact_index()).neighborhood(*start.vertex(), radius, ids, distances, masks.filter());
   } else {
-    RegionSearcher(input.exact_index()).region(v, radius, ids, distances, masks.filter());
+    RegionSearcher(input.exact_index()).region(start.view(), radius, ids, distances, masks.filter());
   }
   return sorted_answer(ids, distances);
+}
+
+StartAnswer rings_of(const StartOptions& options, VertexId v, std::size_t k, Input& input) {
+  const FilterMasks masks(options, input.vertex_count());
+  std::vector<VertexId> ids;
+  std::vector<std::size_t> counts;
+  EdgeSearcher(input.exact_index()).rings(v, k, ids, counts, masks.filter());
+  std::vector<double> rings;
+  for (std::size_t ring = 0; ring < counts.size(); ++ring) rings.resize(counts[ring], static_cast<double>(ring));
+  return sorted_answer(ids, rings);
 }
 
 }  // namespace meshhood::cli

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,16 +50,41 @@ class FilterMasks {
   std::vector<std::uint8_t> ignored_;
 };
 
+/// Where a search starts. Owns the seeds.
+class QueryStart {
+ public:
+  explicit QueryStart(VertexId v) : vertex_(v) {}
+
+  /// At --point, from --seed or else from the vertex nearest to the point. Throws Error{InvalidOption,
+  /// VertexOutOfRange}.
+  QueryStart(const StartOptions& options, Input& input);
+
+  /// The vertex; none for --point.
+  [[nodiscard]] std::optional<VertexId> vertex() const { return vertex_; }
+
+  /// Borrows from this object.
+  [[nodiscard]] Start view() const { return vertex_ ? Start(*vertex_) : Start(point_, seeds_); }
+
+ private:
+  std::optional<VertexId> vertex_;
+  SpacePoint point_{};
+  std::vector<VertexId> seeds_;
+};
+
+/// The starts of a command: that of --point, or those of its vertices.
+[[nodiscard]] std::vector<QueryStart> starts_of(const StartOptions& options, std::span<const std::uint64_t> vertices,
+                                                Input& input);
+
 /// The answer to one query, ascending by vertex.
 struct StartAnswer {
   std::vector<VertexId> vertices;
   std::vector<double> distances;
 };
 
-/// The region of --point.
-[[nodiscard]] StartAnswer region_of_point(const StartOptions& options, double radius, Input& input);
+/// The region of a start; with --metric edge the vertices whose path distance is at most the radius.
+[[nodiscard]] StartAnswer region_of(const StartOptions& options, const QueryStart& start, double radius, Input& input);
 
-/// The region of a vertex; with --metric edge the vertices whose path distance is at most the radius.
-[[nodiscard]] StartAnswer region_of_vertex(const StartOptions& options, VertexId v, double radius, Input& input);
+/// The vertices that at most `k` edges separate from vertex `v`, with the number of these edges.
+[[nodiscard]] StartAnswer rings_of(const StartOptions& options, VertexId v, std::size_t k, Input& input);
 
 }  // namespace meshhood::cli

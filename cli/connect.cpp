@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// meshhood connect: the radii at which vertices join the neighborhood of a vertex.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "meshhood/error.h"
+#include "meshhood/region.h"
+
+#include "commands.h"
+#include "input.h"
+#include "options.h"
+#include "output.h"
+#include "start.h"
+
+namespace meshhood::cli {
+namespace {
+
+struct ConnectCommand {
+  std::string file;
+  std::vector<std::uint64_t> vertices;
+  StartOptions start;
+  std::vector<std::uint64_t> targets;
+  std::optional<std::uint64_t> nearest;
+  bool json = false;
+};
+
+struct Connections {
+  std::vector<VertexId> vertices;
+  std::vector<double> radii;  ///< of each vertex; infinite if no radius connects it
+};
+
+Connections connections_of(const ConnectCommand& options, const QueryStart& start, Input& input) {
+  const FilterMasks masks(options.start, input.vertex_count());
+  RegionSearcher searcher(input.exact_index());
+  Connections found;
+  if (options.nearest) {
+    const std::size_t k = std::min<std::size_t>(*options.nearest, input.vertex_count());
+    searcher.nearest_connected(start.view(), k, found.vertices, found.radii, masks.filter());
+    return found;
+  }
+  for (const std::uint64_t target : options.targets) {
+    const VertexId w = resolve_vertex(target, input);
+    found.vertices.push_back(w);
+    found.radii.push_back(searcher.connecting_radius(start.view(), w, masks.filter()));
+  }
+  return found;
+}
+
+std::string to_text(const Connections& found) {
+  std::string text;
+  for (std::size_t i = 0; i < found.vertices.size(); ++i) {
+    text += fmt::format("{} {}\n", found.vertices[i], found.radii[i]);
+  }
+  return text;
+}
+
+/// JSON has no infinity: such a radius is null.
+Json to_json(const Connections& found) { return {{"vertices", found.vertices}, {"radii", found.radii}}; }
+
+void connect(const ConnectCommand& options) {
+  if (options.targets.empty() == !options.nearest) {
+    raise(ErrorCode::InvalidOption, "expected either --to or --nearest");
+  }
+  if (options.vertices.size() > 1) raise(ErrorCode::InvalidOption, "--vertex: expected one vertex");
+  check_start_options(options.start, "exact", !options.vertices.empty());
+  Input input(options.file);
+  input.need_edges("connect");
+  const QueryStart start = std::move(starts_of(options.start, options.vertices, input).front());
+  const Connections found = connections_of(options, start, input);
+  print_result(options.json, to_json(found), to_text(found));
+}
+
+}  // namespace
+
+void add_connect(CLI::App& program) {
+  auto options = std::make_shared<ConnectCommand>();
+  CLI::App* command =
+      program.add_subcommand("connect", "Print the smallest radii at which vertices belong to a neighborhood");
+  add_file(*command, options->file);
+  add_numbers(*command, "-v,--vertex", "the vertex of the neighborhood, by its number in the file from 0",
+              options->vertices);
+  add_start(*command, options->start);
+  add_numbers(*command, "--to", "vertices; each line has one and its radius, or inf if no radius connects it",
+              options->targets);
+  command
+      ->add_option("--nearest", options->nearest,
+                   "instead of --to: so many vertices, in the order of the radii that connect them")
+      ->transform(whole_number())
+      ->type_name("NUMBER");
+  add_json(*command, options->json);
+  command->callback([options] { connect(*options); });
+}
+
+}  // namespace meshhood::cli

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// meshhood region: the part of the mesh in a neighborhood, as a mesh of its own.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "meshhood/error.h"
+#include "meshhood/region_mesh.h"
+
+#include "commands.h"
+#include "input.h"
+#include "io/mesh_io.h"
+#include "io/npz_writer.h"
+#include "options.h"
+#include "output.h"
+#include "start.h"
+#include "task.h"
+
+namespace meshhood::cli {
+namespace {
+
+struct RegionCommand {
+  std::string file;
+  std::vector<std::uint64_t> vertices;
+  Radius radius;
+  StartOptions start;
+  std::string faces = "all";
+  std::string output;
+  std::string arrays;
+  bool json = false;
+};
+
+void write_mesh(const std::string& file, const io::Mesh& whole, const Submesh& part) {
+  const Task task("writing " + file);
+  std::visit(
+      [&](const auto& all) {
+        std::remove_cvref_t<decltype(all)> positions;
+        for (const VertexId v : part.vertices) {
+          const auto first = all.begin() + static_cast<std::ptrdiff_t>(3 * std::size_t{v});
+          positions.insert(positions.end(), first, first + 3);
+        }
+        io::write_ply(file, {positions, FacesView::polygons(part.corners, part.offsets)},
+                      {.progress = task.progress()});
+      },
+      whole.positions);
+}
+
+SpacePoint center_of(const Start& start, const io::Mesh& mesh) {
+  if (start.centre()) return *start.centre();
+  return std::visit(
+      [&](const auto& all) {
+        const std::size_t first = 3 * std::size_t{start.vertex()};
+        return SpacePoint{all[first], all[first + 1], all[first + 2]};
+      },
+      mesh.positions);
+}
+
+template <class T, class Value, std::size_t n>
+void add_rows(io::NpzWriter& npz, const std::string& name, const std::vector<std::array<Value, n>>& rows) {
+  npz.begin<T>(name, std::array<std::uint64_t, 2>{rows.size(), n});
+  for (const auto& row : rows) {
+    std::array<T, n> values;
+    std::copy(row.begin(), row.end(), values.begin());
+    npz.append(std::span<const T>(values));
+  }
+}
+
+template <class Value>
+void add_numbers_of(io::NpzWriter& npz, const std::string& name, const std::vector<Value>& values) {
+  npz.add<std::int64_t>(name, std::vector<std::int64_t>(values.begin(), values.end()));
+}
+
+void write_arrays(const std::string& file, const Submesh& part, const Rim& rim) {
+  io::NpzWriter npz(file);
+  add_numbers_of(npz, "vertices", part.vertices);
+  add_numbers_of(npz, "faces", part.faces);
+  add_rows<double>(npz, "rim_points", rim.points);
+  add_rows<std::int64_t>(npz, "rim_edges", rim.edges);
+  add_numbers_of(npz, "rim_offsets", rim.offsets);
+  add_numbers_of(npz, "rim_closed", rim.closed);
+  npz.commit();
+}
+
+void region(const RegionCommand& options) {
+  if (options.vertices.size() > 1) raise(ErrorCode::InvalidOption, "--vertex: expected one vertex");
+  check_start_options(options.start, "exact", !options.vertices.empty());
+  if (options.start.is_along_edges())
+    raise(ErrorCode::InvalidOption, "--metric edge: a region has no rim in this metric");
+  check_output(options.output, {options.file});
+  check_output(options.arrays, {options.file, options.output});
+  Input input(options.file);
+  if (input.mesh() == nullptr) {
+    raise(ErrorCode::InvalidOption, printable_name(options.file) + ": an index has no faces, expected a mesh");
+  }
+  const QueryStart start = std::move(starts_of(options.start, options.vertices, input).front());
+  const double radius = resolve(options.radius, input);
+  const std::vector<VertexId> ids = region_of(options.start, start, radius, input).vertices;
+  RegionMesher mesher(input.surface());
+  const Submesh part = mesher.submesh(ids, options.faces == "all" ? Corners::All : Corners::Any);
+  const Rim rim = mesher.rim(ids, center_of(start.view(), *input.mesh()), radius);
+  write_mesh(options.output, *input.mesh(), part);
+  if (!options.arrays.empty()) write_arrays(options.arrays, part, rim);
+  const auto loops = static_cast<std::size_t>(std::count(rim.closed.begin(), rim.closed.end(), 1));
+  print_result(options.json,
+               {{"output", options.output},
+                {"vertices", part.vertices.size()},
+                {"faces", part.faces.size()},
+                {"loops", loops},
+                {"lines", rim.size() - loops}},
+               fmt::format("{}: {} vertices, {} faces; rim: {} loops, {} lines\n", printable_name(options.output),
+                           part.vertices.size(), part.faces.size(), loops, rim.size() - loops));
+}
+
+}  // namespace
+
+void add_region(CLI::App& program) {
+  auto options = std::make_shared<RegionCommand>();
+  CLI::App* command = program.add_subcommand("region", "Write the part of the mesh in a neighborhood, and its rim");
+  add_mesh(*command, options->file);
+  add_numbers(*command, "-v,--vertex", "query vertex, by its number in the file from 0", options->vertices);
+  add_radius(*command, options->radius);
+  add_start(*command, options->start);
+  add_choice(*command, "--faces", "the faces with all their corners in the neighborhood, or with any", {"all", "any"},
+             options->faces);
+  add_output(*command, ".ply", "mesh file to write", options->output)->required();
+  add_file_option(*command, "--arrays",
+                  "also write the numbers of its vertices and faces in MESH, and the rim: the lines where the surface "
+                  "leaves the ball (.npz)",
+                  options->arrays);
+  add_json(*command, options->json);
+  command->callback([options] { region(*options); });
+}
+
+}  // namespace meshhood::cli
