@@ -42,7 +42,7 @@ struct RegionCommand {
 };
 
 void write_mesh(const std::string& file, const io::Mesh& whole, const Submesh& part) {
-  const Task task("writing " + file);
+  Task task("writing " + file);
   std::visit(
       [&](const auto& all) {
         std::remove_cvref_t<decltype(all)> positions;
@@ -50,14 +50,14 @@ void write_mesh(const std::string& file, const io::Mesh& whole, const Submesh& p
           const auto first = all.begin() + static_cast<std::ptrdiff_t>(3 * std::size_t{v});
           positions.insert(positions.end(), first, first + 3);
         }
-        io::write_ply(file, {positions, FacesView::polygons(part.corners, part.offsets)},
+        io::write_ply(file, {positions, FacesView::polygons(part.offsets, part.corners)},
                       {.progress = task.progress()});
       },
       whole.positions);
 }
 
 SpacePoint center_of(const Start& start, const io::Mesh& mesh) {
-  if (start.centre()) return *start.centre();
+  if (start.center()) return *start.center();
   return std::visit(
       [&](const auto& all) {
         const std::size_t first = 3 * std::size_t{start.vertex()};
@@ -111,15 +111,15 @@ void region(const RegionCommand& options) {
   const Rim rim = mesher.rim(ids, center_of(start.view(), *input.mesh()), radius);
   write_mesh(options.output, *input.mesh(), part);
   if (!options.arrays.empty()) write_arrays(options.arrays, part, rim);
-  const auto loops = static_cast<std::size_t>(std::count(rim.closed.begin(), rim.closed.end(), 1));
+  const auto closed = static_cast<std::size_t>(std::count(rim.closed.begin(), rim.closed.end(), 1));
   print_result(options.json,
                {{"output", options.output},
                 {"vertices", part.vertices.size()},
                 {"faces", part.faces.size()},
-                {"loops", loops},
-                {"lines", rim.size() - loops}},
-               fmt::format("{}: {} vertices, {} faces; rim: {} loops, {} lines\n", printable_name(options.output),
-                           part.vertices.size(), part.faces.size(), loops, rim.size() - loops));
+                {"closed_lines", closed},
+                {"open_lines", rim.size() - closed}},
+               fmt::format("{}: {} vertices, {} faces; rim lines: {} closed, {} open\n", printable_name(options.output),
+                           part.vertices.size(), part.faces.size(), closed, rim.size() - closed));
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ std::vector<T> read_array(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
   const io::NpyHeader header = io::parse_npy_header(bytes, path.string());
   std::vector<T> values((bytes.size() - header.bytes) / sizeof(T));
-  std::memcpy(values.data(), bytes.data() + header.bytes, values.size() * sizeof(T));
+  if (!values.empty()) std::memcpy(values.data(), bytes.data() + header.bytes, values.size() * sizeof(T));
   return values;
 }
 
