@@ -237,7 +237,8 @@ TEST(Region, IsRightAfterTheCounterOfFloodsHasWrapped) {
   std::vector<VertexId> ids;
   searcher.region(VertexId{0}, 3.0, ids);
   RegionAccess::flood(searcher).set_number(0xFFFFFFFE);
-  for (const VertexId v : {VertexId{5}, VertexId{6}, VertexId{399}, VertexId{7}}) {
+  // The second has the number of states that no flood has used, the third that of the first flood.
+  for (const VertexId v : {VertexId{5}, VertexId{399}, VertexId{6}, VertexId{7}}) {
     EXPECT_EQ(searcher.count(v, 3.0), plain.count(v, 3.0));
   }
 }
