@@ -50,7 +50,8 @@ Point vector_area(const SurfaceState& state, const Corners& corners) {
 /// Stores the normals as unit vectors; one of length 0 becomes NaN.
 void set_normals(SurfaceState& state, std::span<const Point> normals) {
   for (const Point& n : normals) {
-    const double size = length(n);
+    const double norm = length(n);
+    const double size = norm > 0 ? norm : std::numeric_limits<double>::quiet_NaN();
     state.normal_x.push_back(n.x / size);
     state.normal_y.push_back(n.y / size);
     state.normal_z.push_back(n.z / size);
