@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "base/vector.h"
 
@@ -66,7 +67,8 @@ Eigen3 eigen(const Symmetric3& m) {
     }
   }
   std::array<std::size_t, 3> order{0, 1, 2};
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return a[i][i] < a[j][j]; });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t i, std::size_t j) { return std::pair(a[i][i], i) < std::pair(a[j][j], j); });
   Eigen3 result{};
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t from = order[i];
