@@ -20,6 +20,7 @@
 #include "commands.h"
 #include "input.h"
 #include "io/npz_writer.h"
+#include "names.h"
 #include "options.h"
 #include "output.h"
 #include "size_limit.h"
@@ -28,9 +29,6 @@
 
 namespace meshhood::cli {
 namespace {
-
-template <class T, std::size_t size>
-using Names = std::array<std::pair<std::string_view, T>, size>;
 
 constexpr Names<Reduce, 7> kReductions{{{"mean", Reduce::Mean},
                                         {"sum", Reduce::Sum},
@@ -44,22 +42,6 @@ constexpr Names<SmoothingKernel, 3> kKernels{{{"box", SmoothingKernel::Box},
                                               {"biweight", SmoothingKernel::Biweight}}};
 constexpr Names<MissingValues, 2> kMissing{{{"propagate", MissingValues::Propagate}, {"omit", MissingValues::Omit}}};
 constexpr Names<Nesting, 2> kNestings{{{"own", Nesting::Own}, {"patch", Nesting::Patch}}};
-
-template <class T, std::size_t size>
-std::vector<std::string> names_of(const Names<T, size>& names) {
-  std::vector<std::string> result;
-  for (const auto& [name, value] : names) result.emplace_back(name);
-  return result;
-}
-
-/// The value of a name, which is one of `names`.
-template <class T, std::size_t size>
-T value_of(const Names<T, size>& names, std::string_view name) {
-  for (const auto& [known, value] : names) {
-    if (known == name) return value;
-  }
-  return names.front().second;
-}
 
 struct AggregateCommand {
   std::string file;
@@ -80,10 +62,8 @@ struct AggregateCommand {
 std::vector<double> weights_of(const AggregateCommand& options, const Input& input) {
   if (options.weights.empty()) return {};
   if (options.weights == "area") {
-    if (input.mesh() != nullptr) return vertex_areas(input.mesh()->view());
-    raise(ErrorCode::InvalidOption,
-          fmt::format("{}: --weights area needs the faces, which an index does not contain; name the mesh",
-                      printable_name(input.name())));
+    input.need_faces("--weights area");
+    return vertex_areas(input.mesh()->view());
   }
   return read_channel(options.weights, input.vertex_count(), "weights");
 }

@@ -100,11 +100,7 @@ void print(const CurvatureCommand& options, std::size_t rows, std::size_t radii,
 void curvature(const CurvatureCommand& options) {
   check_output(options.output, {options.file, options.vertices});
   Input input(options.file);
-  if (input.mesh() == nullptr) {
-    raise(
-        ErrorCode::InvalidOption,
-        printable_name(input.name()) + ": an index has no faces, from which the normals are computed; expected a mesh");
-  }
+  input.need_faces("curvature");
   const std::vector<double> radii = resolve(options.radii, input);
   const QueryVertices vertices(options.vertices, input.vertex_count());
   const Index& index = input.exact_index(options.threads);

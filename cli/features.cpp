@@ -25,6 +25,7 @@
 #include "input.h"
 #include "io/mesh_io.h"
 #include "io/npz_writer.h"
+#include "names.h"
 #include "options.h"
 #include "output.h"
 #include "task.h"
@@ -32,16 +33,16 @@
 namespace meshhood::cli {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Feature>, 10> kKinds{{{"crease", Feature::Crease},
-                                                                       {"mean", Feature::Mean},
-                                                                       {"gaussian", Feature::Gaussian},
-                                                                       {"k1", Feature::K1},
-                                                                       {"k2", Feature::K2},
-                                                                       {"curvedness", Feature::Curvedness},
-                                                                       {"shape_index", Feature::ShapeIndex},
-                                                                       {"area", Feature::Area},
-                                                                       {"height", Feature::Height},
-                                                                       {"variation", Feature::Variation}}};
+constexpr Names<Feature, 10> kKinds{{{"crease", Feature::Crease},
+                                     {"mean", Feature::Mean},
+                                     {"gaussian", Feature::Gaussian},
+                                     {"k1", Feature::K1},
+                                     {"k2", Feature::K2},
+                                     {"curvedness", Feature::Curvedness},
+                                     {"shape_index", Feature::ShapeIndex},
+                                     {"area", Feature::Area},
+                                     {"height", Feature::Height},
+                                     {"variation", Feature::Variation}}};
 
 struct FeaturesCommand {
   std::string file;
@@ -58,19 +59,9 @@ struct FeaturesCommand {
   bool json = false;
 };
 
-std::vector<std::string> kind_names() {
-  std::vector<std::string> names;
-  for (const auto& [name, kind] : kKinds) names.emplace_back(name);
-  return names;
-}
-
 std::vector<Feature> kinds_of(const FeaturesCommand& options) {
   std::vector<Feature> kinds;
-  for (const std::string& wanted : options.kinds) {
-    for (const auto& [name, kind] : kKinds) {
-      if (name == wanted) kinds.push_back(kind);
-    }
-  }
+  for (const std::string& name : options.kinds) kinds.push_back(value_of(kKinds, name));
   return kinds;
 }
 
@@ -211,11 +202,7 @@ void features_command(const FeaturesCommand& options) {
   check_output(options.output, {options.file});
   check_output(options.ply, {options.file, options.output});
   Input input(options.file);
-  if (input.mesh() == nullptr) {
-    raise(
-        ErrorCode::InvalidOption,
-        printable_name(input.name()) + ": an index has no faces, from which the normals are computed; expected a mesh");
-  }
+  input.need_faces("features");
   const FeaturesFound found = compute(options, input);
   if (!options.output.empty()) write_npz(options, found);
   if (!options.ply.empty()) write_ply(options, found, input.mesh()->view());
@@ -223,8 +210,7 @@ void features_command(const FeaturesCommand& options) {
 }
 
 void add_radii(CLI::App& command, FeaturesCommand& options) {
-  add_radii(command, options.radii);
-  command.get_option("--radius")->required(false);
+  add_radii(command, options.radii)->required(false);
   command
       .add_option("--largest", options.largest,
                   "the largest of --count radii, in equal steps, or with --smallest in equal ratios")
@@ -232,10 +218,7 @@ void add_radii(CLI::App& command, FeaturesCommand& options) {
   command.add_option("--smallest", options.smallest, "the smallest of --count radii")
       ->type_name("NUMBER")
       ->needs("--largest");
-  command.add_option("--count", options.count, "number of radii up to --largest")
-      ->transform(whole_number(1000))
-      ->type_name("NUMBER")
-      ->capture_default_str();
+  add_number(command, "--count", "number of radii up to --largest", options.count, 1000)->capture_default_str();
 }
 
 }  // namespace
@@ -247,9 +230,9 @@ void add_features(CLI::App& program) {
   add_radii(*command, *options);
   command
       ->add_option("--kinds", options->kinds,
-                   fmt::format("what to compute, separated by commas: {}", joined(kind_names())))
+                   fmt::format("what to compute, separated by commas: {}", joined(names_of(kKinds))))
       ->delimiter(',')
-      ->check(one_of(kind_names()))
+      ->check(one_of(names_of(kKinds)))
       ->type_name("NAMES")
       ->capture_default_str();
   command->add_option("--threshold", options->threshold, "the least strength of a feature that persists")

@@ -76,6 +76,13 @@ void Input::need_edges(const std::string& purpose) const {
                     printable_name(name_), purpose));
 }
 
+void Input::need_faces(const std::string& purpose) const {
+  if (mesh_) return;
+  raise(ErrorCode::InvalidOption,
+        fmt::format("{}: {} needs the faces of the mesh, which an index does not contain; name the mesh",
+                    printable_name(name_), purpose));
+}
+
 PositionsView Input::positions() {
   if (mesh_) return mesh_->view().positions;
   if (exact_) return graph().positions;

@@ -41,6 +41,9 @@ class Input {
   /// Throws Error{InvalidOption} if the file has no edges. `purpose` is for the message: "--method bfs".
   void need_edges(const std::string& purpose) const;
 
+  /// The same if it has no faces.
+  void need_faces(const std::string& purpose) const;
+
   /// In the numbering of the mesh. Borrowed, as all views below.
   [[nodiscard]] PositionsView positions();
 

@@ -161,15 +161,18 @@ CLI::Option* add_radius(CLI::App& command, Radius& radius) {
   return option;
 }
 
-void add_radii(CLI::App& command, Radii& radii) {
-  command
-      .add_option("-r,--radius", radii.values,
-                  "radius of the ball, or several, separated by commas; a vertex at exactly this distance is inside")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("NUMBER")
-      ->required();
+CLI::Option* add_radii(CLI::App& command, Radii& radii) {
+  CLI::Option* const option =
+      command
+          .add_option(
+              "-r,--radius", radii.values,
+              "radius of the ball, or several, separated by commas; a vertex at exactly this distance is inside")
+          ->delimiter(',')
+          ->allow_extra_args(false)
+          ->type_name("NUMBER")
+          ->required();
   add_unit(command, "radius", radii.unit);
+  return option;
 }
 
 void add_unit(CLI::App& command, const std::string& length, std::string& unit) {

@@ -82,7 +82,7 @@ struct Radii {
 CLI::Option* add_radius(CLI::App& command, Radius& radius);
 
 /// The same for one radius or several, separated by commas.
-void add_radii(CLI::App& command, Radii& radii);
+CLI::Option* add_radii(CLI::App& command, Radii& radii);
 
 /// --unit. `length` is what has the unit: "radius".
 void add_unit(CLI::App& command, const std::string& length, std::string& unit);

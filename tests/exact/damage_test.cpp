@@ -65,7 +65,7 @@ class Damage {
     const std::string refusal = refusal_of(copy_.bytes());
     copy_.data()[byte] = original_[byte];
     ++tried_;
-    if (refusal.starts_with(culprit_of(original_, byte))) return;
+    if (refusal.starts_with(beginning_of_error(original_, byte))) return;
     ++missed_;
     if (missed_ < 10) ADD_FAILURE() << "byte " << byte << " changed by " << mask << ": " << refusal;
   }

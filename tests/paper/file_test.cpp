@@ -84,7 +84,7 @@ TEST(SerializePaperFaults, EveryBitFlippedIsRefused) {
   std::size_t missed = 0;
   for (std::size_t bit = 0; bit < 8 * bytes.size(); bit += step, ++flips) {
     bytes[bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
-    if (!refusal_of(bytes).starts_with(culprit_of(original, bit / 8))) ++missed;
+    if (!refusal_of(bytes).starts_with(beginning_of_error(original, bit / 8))) ++missed;
     bytes[bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
   }
   std::printf("%zu bytes, %zu flips, %zu missed\n", bytes.size(), flips, missed);

@@ -33,7 +33,7 @@ namespace meshhood::test {
 }
 
 /// The beginning of the error message for a changed byte `byte`.
-[[nodiscard]] inline std::string culprit_of(std::span<const std::byte> bytes, std::size_t byte) {
+[[nodiscard]] inline std::string beginning_of_error(std::span<const std::byte> bytes, std::size_t byte) {
   std::string name = "header";
   for (const file::Section& section : table_of(bytes)) {
     if (section.begin <= byte) name = "section " + std::string(section.name.data());

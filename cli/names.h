@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace meshhood::cli {
+
+/// The values of an enumeration and their names on the command line.
+template <class T, std::size_t size>
+using Names = std::array<std::pair<std::string_view, T>, size>;
+
+/// The names, in their order.
+template <class T, std::size_t size>
+[[nodiscard]] std::vector<std::string> names_of(const Names<T, size>& names) {
+  std::vector<std::string> result;
+  for (const auto& [name, value] : names) result.emplace_back(name);
+  return result;
+}
+
+/// The value of a name, which is one of `names`.
+template <class T, std::size_t size>
+[[nodiscard]] T value_of(const Names<T, size>& names, std::string_view name) {
+  for (const auto& [known, value] : names) {
+    if (known == name) return value;
+  }
+  return names.front().second;
+}
+
+}  // namespace meshhood::cli
