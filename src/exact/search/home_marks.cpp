@@ -98,7 +98,7 @@ void HomeMarks::push(std::uint32_t group, GroupStates& states) {
 }
 
 void HomeMarks::prefetch_links(std::uint32_t group, const GroupStates& states) const {
-  if (states[group].whole != 0) fetch_lines(&index_->node_links[index_->records[group].first_link], 2);
+  if (states[group].whole != 0) fetch_lines(index_->node_links.data() + index_->records[group].first_link, 2);
 }
 
 }  // namespace meshhood

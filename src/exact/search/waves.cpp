@@ -55,7 +55,7 @@ void Waves::place(std::size_t first_new, const TreeBall& ball, GroupStates& stat
     state.whole = containments_[i].inside & exist;
     state.intersecting = containments_[i].intersecting & exist;
     state.in_doubt = containments_[i].may_have_minimum;
-    fetch_lines(&index_->node_links[index_->records[met[i]].first_link], 2);
+    fetch_lines(index_->node_links.data() + index_->records[met[i]].first_link, 2);
   }
 }
 
