@@ -11,7 +11,7 @@
 namespace meshhood {
 namespace {
 
-constexpr std::size_t kAhead = 4;  // runs or subsets
+constexpr std::size_t kRunsAhead = 4;  // or subsets
 constexpr std::size_t kIdsPerLine = kCacheLine / sizeof(VertexId);
 
 void prefetch_ids(const VertexId* first, std::size_t count) {
@@ -21,8 +21,8 @@ void prefetch_ids(const VertexId* first, std::size_t count) {
 
 VertexId* write_runs(std::span<const VertexRange> runs, const VertexId* permutation, VertexId* out) {
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (i + kAhead < runs.size()) {
-      const VertexRange next = runs[i + kAhead];
+    if (i + kRunsAhead < runs.size()) {
+      const VertexRange next = runs[i + kRunsAhead];
       prefetch_ids(permutation + next.begin, std::size_t{next.end} - next.begin);
     }
     out = std::copy(permutation + runs[i].begin, permutation + runs[i].end, out);
@@ -33,8 +33,8 @@ VertexId* write_runs(std::span<const VertexRange> runs, const VertexId* permutat
 void write_subsets(std::span<const LeafSubset> subsets, const IndexView& index, const Kernels& kernels, VertexId* out) {
   const VertexId* permutation = index.permutation.data();
   for (std::size_t i = 0; i < subsets.size(); ++i) {
-    if (i + kAhead < subsets.size()) {
-      prefetch_ids(permutation + index.leaf_begin[subsets[i + kAhead].leaf], kLeafCapacity);
+    if (i + kRunsAhead < subsets.size()) {
+      prefetch_ids(permutation + index.leaf_begin[subsets[i + kRunsAhead].leaf], kLeafCapacity);
     }
     out = kernels.compress(permutation + index.leaf_begin[subsets[i].leaf], subsets[i].lanes, out);
   }
