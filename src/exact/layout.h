@@ -73,7 +73,7 @@ struct alignas(64) GroupRecord {
 };
 
 /// At least one edge of the mesh joins `node()` to each of the nodes `mine` of the group that the link belongs to,
-/// which is another group of the same level. Of five bytes, because there are about as many links as vertices.
+/// which is another group of the same level. Of five bytes, without padding.
 struct NodeLink {
   std::array<std::uint8_t, sizeof(NodeId)> node_bytes;
   NodeSet mine;

@@ -27,6 +27,7 @@ bool HomeMarks::mark(NodeId node, GroupStates& states) const {
 }
 
 void HomeMarks::begin(NodeId leaf, GroupStates& states) {
+  gained_.clear();
   const NodeId whole = states.whole_node(leaf);
   if (whole == kNoNode) return;
   static_cast<void>(mark(whole, states));
