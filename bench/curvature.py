@@ -5,6 +5,7 @@ libigl and MeshLab have no list of vertices: where all would take too long, ever
 the vertices connected with one of them that are nearest to it. All run in this process, one after the other, in rounds;
 CGAL, which has no search, in a program that takes its neighborhoods from our searcher."""
 import statistics
+import subprocess
 import time
 
 from . import meshes, places, programs, results, timing
@@ -12,18 +13,24 @@ from . import meshes, places, programs, results, timing
 MESHES = ("cortex", "cat0", "dragon", "head_skin")
 RADII = (3, 5, 10, 20, 65)
 ROUNDS = 3
-SECONDS = 12  # that libigl may take for a mesh and radius
+SIZES = (10_000, 100_000, 1_000_000)
+LIBIGL_SIZE = 100_000  # the largest of these that libigl gets
+GROWTH_RADIUS = 5
+SECONDS = 12  # that libigl should take for a mesh and radius
+MOST_SECONDS = 40  # that it may
 LIBIGL_COST = 0.27e-6  # seconds for each vertex found, about
 MESHLAB_COST = 0.5e-6
+NORMAL_BYTES = 28  # of a vertex, in a CurvatureIndex
 
 
 def run(names):
     watched = results.begin("curvature")
     measured = {}
+    growth = [] if names else [grown(size) for size in SIZES]
     for name in names or MESHES:
         print(f"  {name}", flush=True)
         measured[name] = measure(name)
-        results.save("curvature", {"meshes": measured}, watched)
+        results.save("curvature", {"meshes": measured, "growth": growth}, watched)
 
 
 def measure(name):
@@ -33,7 +40,11 @@ def measure(name):
     index = meshhood.MeshIndex(mesh.vertices, mesh.faces)
     rows = []
     for radius in RADII:
-        rows.append(measure_radius(name, mesh, index, radius))
+        row = measure_radius(name, mesh, index, radius)
+        if row is None:
+            print(f"    {radius}: left out, libigl would take too long", flush=True)
+            continue
+        rows.append(row)
         print(f"    {radius}: {rows[-1]['libigl']['median']:.3g} / {rows[-1]['ours']['median']:.3g} µs", flush=True)
     return {"vertices": len(index), "rows": rows}
 
@@ -44,7 +55,9 @@ def measure_radius(name, mesh, index, edges):
 
     sample = index.permutation[:: max(1, len(index) // 1000)]
     found = float(index.query_ball_count(sample, edges, unit="edge").mean())
-    wanted = int(max(SECONDS / (LIBIGL_COST * found + 1e-5), 1.5 * found))
+    wanted = min(len(index), int(max(SECONDS / (LIBIGL_COST * found + 1e-5), 0.6 * found)))
+    if wanted * min(wanted, found) * LIBIGL_COST > MOST_SECONDS:
+        return None
     V, F = (np.asarray(mesh.vertices, float), np.asarray(mesh.faces, np.int64))
     if wanted < len(V):
         V, F = piece(index, V, F, wanted)
@@ -58,6 +71,28 @@ def measure_radius(name, mesh, index, edges):
     row |= {tool: timing.summary([1e6 * t / len(V) for t in spent]) for tool, spent in times.items()}
     cgal = cgal_jets(name, edges)
     return row | ({"cgal": cgal} if cgal else {})
+
+
+def grown(size):
+    """A sphere of `size` vertices: µs a vertex, and bytes a vertex of the index with the normals."""
+    import meshhood
+    import numpy as np
+
+    file = places.SCRATCH / f"sphere-{size}.ply"
+    file.parent.mkdir(parents=True, exist_ok=True)
+    if not file.exists():
+        subprocess.run([places.MESHHOOD, "generate", "sphere", "--vertices", str(size), "-o", file], check=True,
+                       stdout=subprocess.DEVNULL)
+    V, F = (np.asarray(array) for array in meshhood.read_mesh(file))
+    V, F = V.astype(float), F.astype(np.int64)
+    index = meshhood.MeshIndex(V, F)
+    tools = {"ours": ours(index, V, F, GROWTH_RADIUS, {})}
+    if size <= LIBIGL_SIZE:
+        tools |= {"libigl": peers(V, F, index, GROWTH_RADIUS, 1e9)["libigl"]}
+    times = {tool: statistics.median(spent) for tool, spent in in_turns(tools).items()}
+    print(f"  sphere of {size:,}", flush=True)
+    return {"vertices": len(V), "bytes": index.nbytes / len(V) + NORMAL_BYTES,
+            **{tool: 1e6 * spent / len(V) for tool, spent in times.items()}}
 
 
 def piece(index, V, F, count):

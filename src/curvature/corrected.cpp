@@ -123,13 +123,8 @@ void write_row(CorrectedCurvatures& out, std::size_t row, std::span<const double
   out.gaussian[row] = some ? m[2] / m[0] * scale * scale : kNan;
   out.k1[row] = k.k1 * scale;
   out.k2[row] = k.k2 * scale;
-  const auto set = [&](std::vector<double>& directions, const Point& d) {
-    directions[3 * row] = d.x;
-    directions[3 * row + 1] = d.y;
-    directions[3 * row + 2] = d.z;
-  };
-  set(out.d1, k.d1);
-  set(out.d2, k.d2);
+  set_row(out.d1, row, k.d1);
+  set_row(out.d2, row, k.d2);
 }
 
 }  // namespace

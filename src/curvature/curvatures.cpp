@@ -13,6 +13,7 @@
 
 #include "base/vector.h"
 #include "curvature/direct_fit.h"
+#include "curvature/directions.h"
 #include "curvature/jet.h"
 #include "curvature/packet_moments.h"
 #include "curvature/quadric.h"
@@ -105,13 +106,8 @@ void CurvatureFitter::write(std::size_t row, CurvatureState state, const Princip
   out_->state[row] = state;
   out_->k1[row] = curvature.k1;
   out_->k2[row] = curvature.k2;
-  const auto set_direction = [&](std::vector<double>& directions, const Point& d) {
-    directions[3 * row] = d.x;
-    directions[3 * row + 1] = d.y;
-    directions[3 * row + 2] = d.z;
-  };
-  set_direction(out_->d1, curvature.d1);
-  set_direction(out_->d2, curvature.d2);
+  set_row(out_->d1, row, curvature.d1);
+  set_row(out_->d2, row, curvature.d2);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "base/vector.h"
 
@@ -15,6 +17,13 @@ namespace meshhood {
   const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
   const bool negative = a.x == -largest || (a.x != largest && (a.y == -largest || (a.y != largest && a.z < 0)));
   return negative ? -1 * a : a;
+}
+
+/// Writes row `row` of an array of 3 columns.
+inline void set_row(std::vector<double>& rows, std::size_t row, const Point& p) {
+  rows[3 * row] = p.x;
+  rows[3 * row + 1] = p.y;
+  rows[3 * row + 2] = p.z;
 }
 
 }  // namespace meshhood

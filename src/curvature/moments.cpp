@@ -82,20 +82,14 @@ void for_each_row(const Index& index, const BatchQuery& query, const MomentOptio
                 });
 }
 
-void put(std::vector<double>& values, std::size_t place, const Point& p) {
-  values[3 * place] = p.x;
-  values[3 * place + 1] = p.y;
-  values[3 * place + 2] = p.z;
-}
-
-void put_row(PrincipalComponents& out, std::size_t row, const RowMoments& m) {
+void write_row(PrincipalComponents& out, std::size_t row, const RowMoments& m) {
   out.weight[row] = m.at(0, 0, 0);
   const PointDistribution found = distribution_of(m.sums, m.query);
   const double to_caller = 1 / m.scale;
-  put(out.centre, row, to_caller * found.centre);
+  set_row(out.centre, row, to_caller * found.centre);
   for (std::size_t i = 0; i < 3; ++i) {
     out.variances[3 * row + i] = std::max(found.axes.values[i], 0.0) * to_caller * to_caller;  // NaN stays NaN
-    put(out.axes, 3 * row + i, with_sign(found.axes.vectors[i]));
+    set_row(out.axes, 3 * row + i, with_sign(found.axes.vectors[i]));
   }
 }
 
@@ -137,7 +131,7 @@ PrincipalComponents principal_components(const Index& index, const BatchQuery& q
   result.centre.resize(3 * rows);
   result.variances.resize(3 * rows);
   result.axes.resize(9 * rows);
-  for_each_row(index, query, options, [&](std::size_t row, const RowMoments& m) { put_row(result, row, m); });
+  for_each_row(index, query, options, [&](std::size_t row, const RowMoments& m) { write_row(result, row, m); });
   return result;
 }
 
