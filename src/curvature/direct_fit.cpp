@@ -35,7 +35,7 @@ void DirectFit::extend(std::uint32_t place) {
       for_each_neighbor(index, leaf_of(slot), lane_of(slot), [&](std::size_t to) {
         const auto other = static_cast<std::uint32_t>(to);
         if (std::find(found_.begin(), found_.end(), other) != found_.end()) return;
-        if (!nearest || key(other) < key(*nearest)) nearest = other;  // mutant: extension-by-the-farthest
+        if (!nearest || key(other) < key(*nearest)) nearest = other;
       });
     }
     if (!nearest) return;
@@ -48,7 +48,7 @@ void DirectFit::filter(const Point& normal) {
   for (const std::uint32_t i : found_) {
     if (dot(surface_->normal(i), normal) > 0) facing_.push_back(i);
   }
-  if (facing_.size() >= kFewestPoints) found_.swap(facing_);  // mutant: filter-leaves-too-few
+  if (facing_.size() >= kFewestPoints) found_.swap(facing_);
 }
 
 /// Returns what their coordinates were multiplied by.
