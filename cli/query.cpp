@@ -35,7 +35,8 @@ struct QueryCommand {
   std::string file;
   std::vector<std::uint64_t> vertices;
   Radius radius;
-  std::optional<std::uint64_t> rings;
+  bool has_radius = false;
+  std::optional<std::uint64_t> rings;  ///< instead of the radius
   StartOptions start;
   std::string method = "exact";
   std::optional<std::string> factor;
@@ -174,7 +175,7 @@ void check_options(const QueryCommand& options) {
   if (options.factor && options.method != "paper") {
     raise(ErrorCode::InvalidOption, "--factor requires --method paper");
   }
-  if (options.radius.value.empty() == !options.rings) {
+  if (options.has_radius == options.rings.has_value()) {
     raise(ErrorCode::InvalidOption, "expected either --radius or --rings");
   }
   if (options.rings && (!options.start.point.empty() || options.start.is_along_edges() || options.method != "exact")) {
@@ -206,7 +207,7 @@ void add_query(CLI::App& program) {
               "query vertex, by its number in the file from 0; several: -v 3,7 or -v 3 -v 7, then each line of the "
               "answer begins with the query vertex",
               options->vertices);
-  add_radius(*command, options->radius)->required(false);
+  CLI::Option* radius = add_radius(*command, options->radius)->required(false);
   command
       ->add_option("--rings", options->rings,
                    "instead of the radius: the vertices that at most so many edges separate from the query vertex")
@@ -227,7 +228,10 @@ void add_query(CLI::App& program) {
       ->excludes(count);
   add_output(*command, ".ply", "also write the mesh with the neighborhood in color", options->output);
   add_json(*command, options->json);
-  command->callback([options] { query(*options); });
+  command->callback([options, radius] {
+    options->has_radius = !radius->empty();
+    query(*options);
+  });
 }
 
 }  // namespace meshhood::cli
