@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace meshhood {
 
@@ -18,10 +19,11 @@ inline void prefetch(const void* address) {
 
 inline constexpr std::size_t kCacheLine = 64;
 
-/// The same for `count` lines from `address` on.
+/// The same for `count` lines from `address` on, which may be null or end before the last line.
 inline void fetch_lines(const void* address, std::size_t count) {
-  const auto* line = static_cast<const char*>(address);
-  for (std::size_t i = 0; i < count; ++i) prefetch(line + i * kCacheLine);
+  // Not an array: arithmetic on the pointer would be undefined beyond the end of one.
+  const auto first = reinterpret_cast<std::uintptr_t>(address);
+  for (std::size_t i = 0; i < count; ++i) prefetch(reinterpret_cast<const void*>(first + i * kCacheLine));
 }
 
 }  // namespace meshhood

@@ -100,12 +100,13 @@ Expected reduce_items(std::vector<Item> items, const AggregateQuery& query, doub
     case Reduce::Sum: return {as_double(sum), as_double(1e-13L * size)};
     case Reduce::Mean:
       // Weights that nearly vanish come from vertices at the rim alone, and are rounding.
-      if (weights != 0 && weights < 1e-9L * plain_weights) return {kNan, kInfinity};
-      return {weights == 0 ? kNan : as_double(sum / weights),
-              as_double(1e-13L * (size + std::abs(sum / weights) * plain_weights) / weights)};
+      if (weights == 0) return {kNan, 0};
+      if (weights < 1e-9L * plain_weights) return {kNan, kInfinity};
+      return {as_double(sum / weights), as_double(1e-13L * (size + std::abs(sum / weights) * plain_weights) / weights)};
     case Reduce::Variance:
     case Reduce::StandardDeviation: break;
   }
+  if (weights == 0) return {kNan, 0};
   const long double mean = sum / weights;
   long double squares = 0;
   for (const Item& item : items) squares += item.weight * (item.value - mean) * (item.value - mean);
