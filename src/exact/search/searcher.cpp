@@ -9,9 +9,9 @@
 //
 // Where the ball is small, or much of it does not belong to the answer, a breadth-first search over leaves is faster;
 // and where the graph is unlike a surface, one over vertices.
-#include "meshhood/search.h"
-
 #include <algorithm>
+
+#include "meshhood/search.h"
 
 #include "base/distance.h"
 #include "exact/index_access.h"
