@@ -19,8 +19,9 @@
 ///     const auto [k1, k2, d1, d2, state] = meshhood::curvatures(surface, {.radius = 2.5}, {.threads = 0});
 namespace meshhood {
 
-/// The data for curvature besides the index of a mesh: the normals of the vertices. Immutable: any number of threads may
-/// use it. Shares the memory of the index, as a searcher does: the index may be moved or destroyed. 28 bytes a vertex.
+/// The data for curvature besides the index of a mesh: the normals of the vertices. Immutable: any number of threads
+/// may use it. Shares the memory of the index, as a searcher does: the index may be moved or destroyed. 28 bytes a
+/// vertex.
 class CurvatureIndex {
  public:
   /// The normal of a vertex is the sum of the vector areas of its faces, normalized. Of a triangle that is half the

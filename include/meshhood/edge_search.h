@@ -13,10 +13,11 @@
 
 namespace meshhood {
 
-/// Finds vertices by their path distance along the edges, with an `Index`. The *path distance* of a vertex `w` from `v` is the
-/// least length of a path of edges from `v` to `w`. The length of an edge is the distance of its ends (see `distance`);
-/// the length of a path is the sum of those of its edges, added in double in the order of the path. This sum never
-/// decreases where a summand grows, so that the algorithm of Dijkstra (1959) finds the least of them to the last bit.
+/// Finds vertices by their path distance along the edges, with an `Index`. The *path distance* of a vertex `w` from `v`
+/// is the least length of a path of edges from `v` to `w`. The length of an edge is the distance of its ends (see
+/// `distance`); the length of a path is the sum of those of its edges, added in double in the order of the path. This
+/// sum never decreases where a summand grows, so that the algorithm of Dijkstra (1959) finds the least of them to the
+/// last bit.
 ///
 /// v       in [0, #V).
 /// radius  >= 0 or infinite, in the unit of the positions; a vertex whose path distance is exactly `radius` is inside.

@@ -15,9 +15,9 @@
 
 /// The neighborhoods of many vertices without a list of ids for each, for sums and other properties of neighborhoods.
 ///
-/// The rows of a batch whose query vertices lie in one leaf form *packets* of up to 32 rows, and their neighborhoods are
-/// found together (docs/joint.md). They have most of their vertices in common. The answer of a packet names each vertex
-/// once, with the set of rows that have it, so that a sum reads each value once for up to 32 rows.
+/// The rows of a batch whose query vertices lie in one leaf form *packets* of up to 32 rows, and their neighborhoods
+/// are found together (docs/joint.md). They have most of their vertices in common. The answer of a packet names each
+/// vertex once, with the set of rows that have it, so that a sum reads each value once for up to 32 rows.
 namespace meshhood {
 
 /// A set of rows of a packet: bit `i` stands for row `i` of the packet.
@@ -47,8 +47,8 @@ struct WholeLeaves {
   QueryWord queries;  ///< not 0
 };
 
-/// Many linked leaves whose vertices all belong to a set of rows. A core is the same in all packets of a group, so that a sum
-/// over it can be kept from one packet to the next.
+/// Many linked leaves whose vertices all belong to a set of rows. A core is the same in all packets of a group, so that
+/// a sum over it can be kept from one packet to the next.
 struct CoreLeaves {
   std::size_t number;             ///< of the core in its group, from 0
   std::span<const LeafRun> runs;  ///< ascending, with gaps between them

@@ -65,8 +65,8 @@ class ReferenceSearcher {
   std::unique_ptr<State> state_;
 };
 
-/// Finds every vertex within `radius` of `v` in space, by a scan of all positions (sec. 4.3). This is not a neighborhood:
-/// it contains vertices of other parts of the surface that pass through the ball.
+/// Finds every vertex within `radius` of `v` in space, by a scan of all positions (sec. 4.3). This is not a
+/// neighborhood: it contains vertices of other parts of the surface that pass through the ball.
 ///
 /// Arguments and errors are those of `ReferenceSearcher`. Each query costs O(#V). The coordinates must be valid (see
 /// `validate`) and outlive the searcher. One object per thread.
