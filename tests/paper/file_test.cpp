@@ -122,7 +122,10 @@ void expect_refused_after(const char* cause, Change&& change) {
 
 TEST(SerializePaperFaults, EachRuleHasAForgeryThatItRefuses) {
   using paper::ClusterId;
-  expect_refused_after("an exact index", [](Forgery& f) { f.header().kind = IndexKind::Exact; });
+  expect_refused_after("an exact index", [](Forgery& f) {
+    f.header().kind = IndexKind::Exact;
+    f.header().format = file::format_of(IndexKind::Exact);
+  });
   expect_refused_after("expected ascending numbers", [](Forgery& f) { ++f.section<std::uint32_t>("levels")[0]; });
   expect_refused_after("section first_vertex", [](Forgery& f) { ++f.section<std::uint32_t>("levels")[1]; });
   expect_refused_after("vertex 132, expected", [](Forgery& f) { f.section<VertexId>("vertices")[3] = 132; });
