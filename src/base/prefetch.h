@@ -21,9 +21,11 @@ inline constexpr std::size_t kCacheLine = 64;
 
 /// The same for `count` lines from `address` on, which may be null or end before the last line.
 inline void fetch_lines(const void* address, std::size_t count) {
-  // Not an array: arithmetic on the pointer would be undefined beyond the end of one.
+  // Arithmetic on the pointer would be undefined beyond the end of an array.
   const auto first = reinterpret_cast<std::uintptr_t>(address);
-  for (std::size_t i = 0; i < count; ++i) prefetch(reinterpret_cast<const void*>(first + i * kCacheLine));
+  for (std::size_t i = 0; i < count; ++i) {
+    prefetch(reinterpret_cast<const void*>(first + i * kCacheLine));  // NOLINT(performance-no-int-to-ptr)
+  }
 }
 
 }  // namespace meshhood
