@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -70,11 +69,10 @@ void connect(const ConnectCommand& options) {
   if (options.targets.empty() == !options.nearest) {
     raise(ErrorCode::InvalidOption, "expected either --to or --nearest");
   }
-  if (options.vertices.size() > 1) raise(ErrorCode::InvalidOption, "--vertex: expected one vertex");
   check_start_options(options.start, "exact", !options.vertices.empty());
   Input input(options.file);
   input.need_edges("connect");
-  const QueryStart start = std::move(starts_of(options.start, options.vertices, input).front());
+  const QueryStart start = start_of(options.start, options.vertices, input);
   const Connections found = connections_of(options, start, input);
   print_result(options.json, to_json(found), to_text(found));
 }

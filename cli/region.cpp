@@ -8,7 +8,6 @@
 #include <span>
 #include <string>
 #include <type_traits>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -93,17 +92,15 @@ void write_arrays(const std::string& file, const Submesh& part, const Rim& rim) 
 }
 
 void region(const RegionCommand& options) {
-  if (options.vertices.size() > 1) raise(ErrorCode::InvalidOption, "--vertex: expected one vertex");
   check_start_options(options.start, "exact", !options.vertices.empty());
-  if (options.start.is_along_edges())
+  if (options.start.is_along_edges()) {
     raise(ErrorCode::InvalidOption, "--metric edge: a region has no rim in this metric");
+  }
   check_output(options.output, {options.file});
   check_output(options.arrays, {options.file, options.output});
   Input input(options.file);
-  if (input.mesh() == nullptr) {
-    raise(ErrorCode::InvalidOption, printable_name(options.file) + ": an index has no faces, expected a mesh");
-  }
-  const QueryStart start = std::move(starts_of(options.start, options.vertices, input).front());
+  input.need_faces("region");
+  const QueryStart start = start_of(options.start, options.vertices, input);
   const double radius = resolve(options.radius, input);
   const std::vector<VertexId> ids = region_of(options.start, start, radius, input).vertices;
   RegionMesher mesher(input.surface());

@@ -99,6 +99,11 @@ std::vector<QueryStart> starts_of(const StartOptions& options, std::span<const s
   return starts;
 }
 
+QueryStart start_of(const StartOptions& options, std::span<const std::uint64_t> vertices, Input& input) {
+  if (vertices.size() > 1) raise(ErrorCode::InvalidOption, "--vertex: expected one vertex");
+  return starts_of(options, vertices, input).front();
+}
+
 StartAnswer region_of(const StartOptions& options, const QueryStart& start, double radius, Input& input) {
   const FilterMasks masks(options, input.vertex_count());
   std::vector<VertexId> ids;

@@ -75,6 +75,9 @@ class QueryStart {
 [[nodiscard]] std::vector<QueryStart> starts_of(const StartOptions& options, std::span<const std::uint64_t> vertices,
                                                 Input& input);
 
+/// The start of a command that takes one. Throws Error{InvalidOption} if there are several vertices.
+[[nodiscard]] QueryStart start_of(const StartOptions& options, std::span<const std::uint64_t> vertices, Input& input);
+
 /// The answer to one query, ascending by vertex.
 struct StartAnswer {
   std::vector<VertexId> vertices;

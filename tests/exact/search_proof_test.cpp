@@ -20,7 +20,7 @@ namespace {
 struct ProofTally {
   std::size_t meshes = 0;
   std::size_t queries = 0;
-  std::size_t proved = 0;
+  std::size_t outward = 0;
   std::size_t of_crumbs = 0;
   std::size_t mismatches = 0;
 };
@@ -39,7 +39,7 @@ void compare_proofs(const TestMesh& mesh, std::uint64_t seed, std::size_t querie
       Searcher& searcher = searchers[tally.queries++ % searchers.size()];
       searcher.neighborhood(v, radius, ids);
       const SearcherAccess::State& state = SearcherAccess::state(searcher);
-      tally.proved += static_cast<std::size_t>(state.was_proved);
+      tally.outward += static_cast<std::size_t>(state.was_outward);
       // Vertices of crumbs are answered within their leaf.
       tally.of_crumbs += static_cast<std::size_t>(!state.index->leaves[leaf_of(state.index->slot[v])].connected);
       std::sort(ids.begin(), ids.end());
@@ -61,7 +61,7 @@ TEST_P(SearchProof, AloneGivesTheAnswersOfTheOracle) {
   std::printf("%s: %zu queries, %zu meshes, %zu mismatches\n", std::string(GetParam().name).c_str(), tally.queries,
               tally.meshes, tally.mismatches);
   EXPECT_EQ(tally.mismatches, 0U);
-  EXPECT_EQ(tally.proved + tally.of_crumbs, tally.queries);
+  EXPECT_EQ(tally.outward + tally.of_crumbs, tally.queries);
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, SearchProof, testing::ValuesIn(families()), family_name);

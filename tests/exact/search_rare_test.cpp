@@ -57,17 +57,17 @@ void query_everywhere(ExactAnswer& exact, std::size_t vertices, std::initializer
   std::printf("%zu queries, 0 mismatches\n", exact.queries());
 }
 
-bool last_was_proved(ExactAnswer& exact) {
+bool last_was_outward(ExactAnswer& exact) {
   return std::any_of(exact.searchers().begin(), exact.searchers().end(),
-                     [](Searcher& searcher) { return SearcherAccess::state(searcher).was_proved; });
+                     [](Searcher& searcher) { return SearcherAccess::state(searcher).was_outward; });
 }
 
-TEST(Rare, BallOnOneSheetIsProved) {
+TEST(Rare, BallOnOneSheetIsSearchedOutward) {
   const TestMesh mesh = make_grid(120, 120, false);
   ExactAnswer exact(mesh.view());
   for (Searcher& searcher : exact.searchers()) {
     EXPECT_GT(searcher.count(60 * 120 + 60, 30), 2000U);
-    EXPECT_TRUE(SearcherAccess::state(searcher).was_proved);
+    EXPECT_TRUE(SearcherAccess::state(searcher).was_outward);
   }
   query_everywhere(exact, mesh.size(), {9, 10, 20, 30, 50, 1000});
 }
@@ -76,7 +76,7 @@ TEST(Rare, SheetOfAnotherComponentIsLeftOut) {
   const TestMesh mesh = plates(60, 0.6);
   ExactAnswer exact(mesh.view());
   exact.query(30 * 60 + 30, 15);
-  EXPECT_TRUE(last_was_proved(exact)) << "the outward search does not enter it";
+  EXPECT_TRUE(last_was_outward(exact)) << "the outward search does not enter it";
   EXPECT_LE(*std::max_element(exact.answer().begin(), exact.answer().end()), 3599U);
   query_everywhere(exact, mesh.size(), {0.3, 0.6, 1, 2, 5, 10, 20, 40, 100});
 }
@@ -124,7 +124,7 @@ TEST(Rare, PatchesOfOtherComponentsAreSubtracted) {
   const TestMesh mesh = grid_below(9, 0);
   ExactAnswer exact(mesh.view());
   exact.query(50 * 100 + 50, 45);
-  EXPECT_TRUE(last_was_proved(exact));
+  EXPECT_TRUE(last_was_outward(exact));
   EXPECT_LT(*std::max_element(exact.answer().begin(), exact.answer().end()), 100 * 100U);
   query_everywhere(exact, mesh.size(), {1, 5, 8, 12, 20, 33, 45, 60});
 }
@@ -149,7 +149,7 @@ TEST(Rare, VerticesOfOtherComponentsAreRemovedFromLeaves) {
   for (int i = 0; i < 12; ++i) mesh.add_vertex(random.uniform(20, 80), random.uniform(20, 80), 0.3);
   ExactAnswer exact(mesh.finish(true).view());
   exact.query(50 * 100 + 50, 45);
-  EXPECT_TRUE(last_was_proved(exact));
+  EXPECT_TRUE(last_was_outward(exact));
   EXPECT_LT(*std::max_element(exact.answer().begin(), exact.answer().end()), 100 * 100U);
   query_everywhere(exact, mesh.size(), {1, 5, 12, 20, 33, 45, 60, 200});
 }
@@ -158,7 +158,7 @@ TEST(Rare, TonguesBelongToTheAnswerWhereTheirRootIsInTheBall) {
   const TestMesh mesh = grid_below(2, 3);
   ExactAnswer exact(mesh.view());
   exact.query(50 * 100 + 50, 80);
-  EXPECT_TRUE(last_was_proved(exact));
+  EXPECT_TRUE(last_was_outward(exact));
   EXPECT_EQ(exact.answer().size(), mesh.size() - 2 * 81);
   query_everywhere(exact, mesh.size(), {1, 5, 8, 10, 12, 15, 18, 20, 25, 33, 45});
 }
@@ -180,7 +180,7 @@ TEST(Rare, ManyIntersectingNodesEndTheDescent) {
   }
   ExactAnswer exact(mesh.view());
   exact.query(30 * 24 * 24 + 12 * 24 + 12, 11);
-  EXPECT_FALSE(last_was_proved(exact));
+  EXPECT_FALSE(last_was_outward(exact));
   query_everywhere(exact, mesh.size(), {0.5, 1, 3, 8, 11, 16, 30, kInfinity});
 }
 

@@ -26,7 +26,7 @@ namespace {
 constexpr std::size_t kThreads = 8;
 constexpr std::size_t kVertices = 3000;
 
-/// A surface in one piece, on which balls are proved, and one of many sheets, on which they are flooded.
+/// A surface in one piece, on which balls are searched outward, and one of many sheets, on which they are flooded.
 std::vector<TestMesh> meshes() {
   std::vector<TestMesh> result;
   result.push_back(make_grid(60, 50, false));

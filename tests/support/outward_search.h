@@ -73,7 +73,7 @@ std::size_t for_each_outward_search(const Family& family, std::size_t meshes, st
         SearcherAccess::State& state = SearcherAccess::state(searchers[searches % searchers.size()]);
         state.limits.enabled = random.below(2) == 0;
         static_cast<void>(state.search(v, radius));
-        if (!state.was_proved) continue;
+        if (!state.was_outward) continue;
         const Query query(*state.index, v, RadiusBounds(state.index->frame, radius));
         f(SearchCase{mesh, oracle, *state.index, query, *state.kernels}, state);
         ++searches;

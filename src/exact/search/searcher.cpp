@@ -38,8 +38,8 @@ Point Searcher::State::search(VertexId v, double radius) {
   const bool is_small = limits.is_small(query, *index);
   answer.clear();
   // A leaf that is not connected has no links, so the answer is a part of it.
-  was_proved = !is_small && index->leaves[home].connected && !is_flood_faster(query) && search_outward(query);
-  if (!was_proved) {
+  was_outward = !is_small && index->leaves[home].connected && !is_flood_faster(query) && search_outward(query);
+  if (!was_outward) {
     answer.clear();  // mutant: failed-search-leaves-answer
     leaf_bfs.run(query, is_small, traversal, answer);
   }

@@ -44,7 +44,7 @@ struct Searcher::State {
       surface_leaves;  // the leaves that intersect the surface of the ball, with their vertices in it
   VertexSet answer;
   std::optional<VertexBfs> vertex_bfs;  // answers instead of `search` where the graph is unlike a surface
-  bool was_proved = false;              // whether the last answer was found by `search_outward`
+  bool was_outward = false;             // whether the last answer was found by `search_outward`
 
   State(std::shared_ptr<const IndexView> view, Isa isa)
       : index(std::move(view)),
