@@ -2,7 +2,8 @@
 """Meshes in parts: that they are exact, and what they take.
 
 python3 -m bench.scale verify MESH      a mesh in 2, 7 and 32 parts, compared with one index
-python3 -m bench.scale grow COUNT       a mesh of COUNT vertices by formula: partition, and counts of all vertices
+python3 -m bench.scale grow COUNT       a mesh of COUNT vertices by formula: partition; counts, mean positions and curvatures
+                                        of all vertices at 5 edges
 
 Needs the package meshhood with [dask]. Temporary files go to --folder, about 150 bytes a vertex.
 """
@@ -74,14 +75,18 @@ def grow(count, folder, vertices_per_part, memory):
             parts = meshhood.partition(
                 mesh, folder / "parts", vertices_per_part=vertices_per_part, halo=5, unit="edge", memory=memory
             )
+        radius = 5 * parts.mean_edge_length
         with stage("counts", stages):
-            count_of = functools.partial(_counts, 5 * parts.mean_edge_length)
-            paths = parts.write(count_of, 5, folder / "counts", unit="edge")
+            paths = parts.write(functools.partial(_counts, radius), radius, folder / "counts")
+        with stage("means", stages):
+            parts.write(functools.partial(_mean_positions, radius, mesh[0]), radius, folder / "means")
+        with stage("curvature", stages):
+            parts.write(functools.partial(_curvatures, radius), radius, folder / "curvature")
     total = sum(int(np.load(path, mmap_mode="r").sum()) for path in paths)
     with_halo = sum(size.vertices for size in parts.sizes) / parts.n_vertices
-    print("| vertices | parts | vertices with halos | write, s | partition, s | counts, s | peak, MB | vertices found |")
-    print("|--:|--:|--:|--:|--:|--:|--:|--:|")
-    times = " | ".join(f"{stages[name]:.0f}" for name in ("write", "partition", "counts"))
+    print(f"| vertices | parts | vertices with halos | {', s | '.join(stages)}, s | peak, MB | vertices found |")
+    print("|--:" * (5 + len(stages)) + "|")
+    times = " | ".join(f"{seconds:.0f}" for seconds in stages.values())
     print(f"| {parts.n_vertices} | {len(parts)} | {with_halo:.3f} #V | {times} | {peak.bytes / 1e6:.0f} | {total} |")
 
 
@@ -89,18 +94,34 @@ def _counts(radius, part, index, owned):
     return index.query_ball_count(owned, radius, workers=1)
 
 
+def _mean_positions(radius, positions, part, index, owned):
+    values = np.load(positions, mmap_mode="r")[part.vertices]
+    return index.aggregate(values, radius, vertices=owned, workers=1)
+
+
+def _curvatures(radius, part, index, owned):
+    found = index.curvature(radius, owned, F=part.mesh.faces, workers=1)
+    return np.column_stack([found.k1, found.k2])
+
+
 def write_grid(side, positions, faces):
     """A wavy grid of side by side vertices, row by row, in two triangles a cell."""
-    V = np.lib.format.open_memmap(positions, "w+", np.float32, (side * side, 3))
-    F = np.lib.format.open_memmap(faces, "w+", np.int32, (2 * (side - 1) ** 2, 3))
     step = max(1, _ROWS // side)
-    for first in range(0, side, step):
-        y, x = np.mgrid[first : min(first + step, side), 0:side]
-        z = 3 * np.sin(x / 15) * np.cos(y / 20)
-        V[first * side : first * side + x.size] = np.column_stack([x.ravel(), y.ravel(), z.ravel()])
-        corner = (y[:, :-1] * side + x[:, :-1])[y[:, 0] < side - 1].ravel()
-        cells = np.stack([corner, corner + 1, corner + side + 1, corner, corner + side + 1, corner + side], axis=1)
-        F[2 * first * (side - 1) : 2 * first * (side - 1) + 2 * len(corner)] = cells.reshape(-1, 3)
+    with array_file(positions, "<f4", (side * side, 3)) as V, array_file(faces, "<i4", (2 * (side - 1) ** 2, 3)) as F:
+        for first in range(0, side, step):
+            y, x = np.mgrid[first : min(first + step, side), 0:side]
+            z = 3 * np.sin(x / 15) * np.cos(y / 20)
+            V.write(np.column_stack([x.ravel(), y.ravel(), z.ravel()]).astype("<f4"))
+            corner = (y[:, :-1] * side + x[:, :-1])[y[:, 0] < side - 1].ravel()
+            cells = np.stack([corner, corner + 1, corner + side + 1, corner, corner + side + 1, corner + side], axis=1)
+            F.write(cells.astype("<i4"))
+
+
+def array_file(path, dtype, shape):
+    """A `.npy` file whose rows are to be written in order; a mapped one would count as memory."""
+    file = open(path, "wb")
+    np.lib.format.write_array_header_1_0(file, {"descr": dtype, "fortran_order": False, "shape": shape})
+    return file
 
 
 class stage:

@@ -139,6 +139,26 @@ def test_aggregates_refuse_values_of_another_mesh(parts):
         parts.aggregate(np.ones(parts.n_vertices), 2 * HALO)
 
 
+@pytest.mark.parametrize("options", ({}, {"like": "libigl"}, {"fit": "jet", "filter": False}))
+def test_curvatures_are_those_of_one_index(tmp_path, options):
+    V, quads = meshes.grid(50)
+    V[:, 2] = 3 * np.sin(V[:, 0] / 5) * np.cos(V[:, 1] / 7)
+    F = meshes.triangles(quads)
+    order = np.random.default_rng(3).permutation(len(V))
+    V, F = V[np.argsort(order)].astype(np.float32), order[F]
+    parts = meshhood.partition(write_ply(tmp_path / "mesh.ply", V, F), tmp_path / "parts", parts=5, halo=6)
+    expected = meshhood.MeshIndex(V, F).curvature(6, F=F, **options)
+    found = parts.curvature(6, **options)
+    assert [array.shape for array in found] == [array.shape for array in expected]
+    computed = meshhood.Curvature(*dask.compute(*found))
+    np.testing.assert_array_equal(computed.state, expected.state)
+    for one, other in zip(computed[:4], expected[:4]):
+        np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(found.mean.compute(), expected.mean, rtol=1e-9, atol=1e-9)
+    with pytest.raises(ValueError, match="halo="):
+        parts.curvature(6.1)
+
+
 def ones_too_many(part, index, owned):
     return np.ones(len(owned) + 1)
 

@@ -16,6 +16,9 @@ from ._result_files import SAVERS, atomic_file
 
 _ROWS = 4096  # searched at once, so that a part of any size takes little memory
 
+CURVATURE_COLUMNS = 9
+"""k1, k2, the components of d1 and d2, and the state."""
+
 PartFunction = Callable[[OpenPart, MeshIndex, "NDArray[np.int32]"], Any]
 
 
@@ -60,6 +63,12 @@ def aggregate_values(
         workers=1,
         **options,
     )
+
+
+def curvature_rows(
+    radius: float, options: dict[str, Any], part: OpenPart, index: MeshIndex, owned: Any
+) -> NDArray[np.float64]:
+    return np.column_stack(index.curvature(radius, owned, F=part.mesh.faces, workers=1, **options))
 
 
 def is_area(weights: Any) -> bool:

@@ -21,12 +21,15 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from . import _convert, _core
 from ._aggregate import Kernel, Reduce
+from ._curvature import Curvature
 from ._index import MeshIndex
 from ._open_part import OpenPart, PartName, PartSize
 from ._part_tasks import (
+    CURVATURE_COLUMNS,
     PartFunction,
     aggregate_values,
     count_vertices,
+    curvature_rows,
     in_mesh_order,
     is_area,
     on_mesh,
@@ -127,6 +130,29 @@ class Parts:
         options = {"reduce": reduce, "kernel": kernel, "nan": nan, "ddof": ddof}
         function = functools.partial(aggregate_values, radius, values, weights, options)
         return self.map(function, r, unit=unit, shape=shape_of(values)[1:], order=order)
+
+    def curvature(
+        self,
+        r: float,
+        *,
+        like: Literal[None, "libigl"] = None,
+        fit: Literal["quadric", "jet"] = "quadric",
+        filter: bool = True,
+        unit: Unit = "mesh",
+        order: Literal["mesh", "parts"] = "mesh",
+    ) -> Curvature:
+        """Principal curvatures at every vertex, as `MeshIndex.curvature`: a `Curvature` whose arrays are dask.arrays with
+        #V rows. See `map` for `order`.
+
+        Normals are those of the whole mesh, as each part has all faces around the vertices within its halo. The last
+        digits may differ from those of one index, as the order of the sums does. Compute all arrays together:
+
+            k1, k2 = dask.compute(found.k1, found.k2)
+        """
+        options = {"like": like, "fit": fit, "filter": bool(filter)}
+        function = functools.partial(curvature_rows, self._radius(r, unit), options)
+        rows = self.map(function, r, unit=unit, shape=(CURVATURE_COLUMNS,), order=order)
+        return Curvature(rows[:, 0], rows[:, 1], rows[:, 2:5], rows[:, 5:8], rows[:, 8].astype(np.uint8))
 
     def _per_vertex(self, values: Any, name: str) -> Any:
         """`values` as an array, or as the text of a path."""
