@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "exact/layout.h"
 #include "exact/query/lane_filter.h"
+#include "exact/query/radix_heap.h"
 
 namespace meshhood {
 
 /// The algorithm of Dijkstra on the graph of an index, up to a radius. The lengths of paths are kept in index order, so
-/// that those of near vertices are near in memory. The lengths of the edges of a leaf are computed together, when its
-/// first vertex is found.
+/// that those of near vertices are near in memory.
 class PathSearch {
  public:
   explicit PathSearch(const IndexView& index);
@@ -23,51 +21,31 @@ class PathSearch {
   struct Found {
     double length;
     std::uint32_t slot;
-
-    friend bool operator>(const Found& a, const Found& b) {
-      return a.length != b.length ? a.length > b.length : a.slot > b.slot;
-    }
+    VertexId vertex;  // in index order
   };
 
   /// Finds the vertices whose path distance from the vertex `slot` is at most `radius`, without passing `walls`.
   void run(std::uint32_t slot, double radius, const LaneFilter& walls);
 
-  /// The vertices found by the last run, ascending by path distance, then by slot.
+  /// The vertices found by the last run, ascending by path distance, the first vertex first.
   [[nodiscard]] std::span<const Found> found() const { return found_; }
 
  private:
-  /// The state of a leaf in one run.
-  struct State {
-    std::uint32_t number = 0;  // the state is valid for this run only
-    LaneMask settled = 0;      // found, or walls
-    bool has_arcs = false;
-    std::size_t first_row = 0;  // in `rows_`
-  };
-
-  /// An edge from a vertex, as its search follows it.
-  struct Arc {
-    double length;
-    std::uint32_t to;  // a slot
-  };
-
-  using RowBegins = std::array<std::size_t, kLeafCapacity + 1>;
-
-  [[nodiscard]] std::span<const Arc> arcs_of(std::uint32_t slot);
-  [[nodiscard]] RowBegins row_begins(LeafId leaf) const;
   template <class Real>
-  void add_arcs(std::span<const Real> xyz, LeafId leaf, RowBegins ends);
-  State& state_of(LeafId leaf);
-  void offer(const Found& path, double radius);
+  void run(std::span<const Real> xyz);
+  template <class Real>
+  void follow_edges(const Found& from, std::span<const Real> xyz);
+  void open(LeafId leaf);
+  void offer(const Found& path);
 
   const IndexView* index_;
   const LaneFilter* walls_ = nullptr;
-  std::vector<State> states_;      // by leaf
-  std::vector<double> lengths_;    // in index order: the least length so far; valid where the state of the leaf is
-  std::vector<std::size_t> rows_;  // of leaves with arcs: where those of each lane begin in `arcs_`, and their end
-  std::vector<Arc> arcs_;
-  std::vector<Found> queue_;  // a heap, the shortest path first; holds longer paths to the same vertices too
+  std::vector<std::uint32_t> runs_;  // by leaf: the number of the run that made its vertices ready for paths
+  std::vector<double> lengths_;      // in index order: the least length so far, if the leaf is of this run
+  double unreached_ = 0;             // the length of vertices without a path: the least one beyond the radius
+  RadixHeap<Found> queue_;           // holds longer paths to the same vertices too
   std::vector<Found> found_;
-  std::uint32_t number_ = 0;
+  std::uint32_t run_ = 0;
 };
 
 }  // namespace meshhood
