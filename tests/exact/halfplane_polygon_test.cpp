@@ -50,11 +50,13 @@ double farthest(const std::vector<Point2>& points) {
   return result;
 }
 
-PolygonExtent extent_of(const std::vector<Halfplane>& halfplanes) {
+HalfplanePolygon polygon_of(const std::vector<Halfplane>& halfplanes) {
   HalfplanePolygon polygon;
   for (const Halfplane& halfplane : halfplanes) polygon.add(halfplane);
-  return polygon.extent();
+  return polygon;
 }
+
+PolygonExtent extent_of(const std::vector<Halfplane>& halfplanes) { return polygon_of(halfplanes).extent(); }
 
 bool is_bounded(const PolygonExtent& extent) { return std::isfinite(extent.width) && std::isfinite(extent.slope); }
 
@@ -105,17 +107,24 @@ TEST(HalfplanePolygon, WidthIsTheDistanceOfTheFarthestCorner) {
 TEST(HalfplanePolygon, NoCornerLiesFartherThanWidthPlusSlopeTimesHeight) {
   Random random(2);
   std::size_t found = 0;
+  std::size_t larger = 0;
   for (std::size_t i = 0; i < scaled(2000, 200); ++i) {
     const std::vector<Halfplane> halfplanes = random_edges(random, 4 + i % 21);
-    const PolygonExtent extent = extent_of(halfplanes);
+    HalfplanePolygon polygon = polygon_of(halfplanes);
+    const PolygonExtent rough = polygon.rough_extent();
+    const PolygonExtent extent = polygon.extent();
+    larger += static_cast<std::size_t>(rough.width > extent.width);
     for (const double height : {-10.0, -1.0, -0.1, 0.0, 0.1, 1.0, 10.0}) {
       const std::vector<Point2> at_height = corners(halfplanes, height);
-      ASSERT_LE(farthest(at_height), (extent.width + extent.slope * std::abs(height)) * (1 + 1e-6)) << height;
+      const double reach = farthest(at_height);
+      ASSERT_LE(reach, (extent.width + extent.slope * std::abs(height)) * (1 + 1e-6)) << height;
+      ASSERT_LE(reach, (rough.width + rough.slope * std::abs(height)) * (1 + 1e-6)) << height;
       found += at_height.size();
     }
   }
   std::printf("%zu corners\n", found);
   EXPECT_GT(found, 0U);
+  EXPECT_GT(larger, 0U);
 }
 
 TEST(HalfplanePolygon, SlopeIsThatOfThePlaneThroughTheNeighbors) {

@@ -101,7 +101,7 @@ struct LargeIndex {
 
 std::vector<LargeIndex> large_indexes() {
   return {
-      {{"large float", wavy_grids(200, false, true)}, "1fd56e625f0667dcdabb6841b8bb9bef"},
+      {{"large float", wavy_grids(200, false, true)}, "cc9f0304fe9b9937e0103963792fff0e"},
       {{"large double", wavy_grids(190, true, false)}, "f536a73b0f222b4c2bfa1f3c67071aa7"},
       {{"large reordered", wavy_grids(180, true, true), GoldenIndex::Reordered}, "c6deef9e676fa9878762b3b9be02d735"},
       {{"large paper", wavy_grids(200, false, true), GoldenIndex::Paper}, "1efa9731acbfa2ff8e3b9e4586fb8958"},

@@ -45,6 +45,10 @@ bool HalfplanePolygon::have_corner(const Line& a, const Line& b) {
 
 PolygonExtent HalfplanePolygon::extent() {
   remove_redundant();
+  return rough_extent();
+}
+
+PolygonExtent HalfplanePolygon::rough_extent() const {
   if (size_ < 3) return kUnboundedExtent;  // mutant: two-lines-make-a-polygon
   PolygonExtent squared;
   for (std::size_t i = 0; i < size_; ++i) {  // mutant: last-corner-ignored

@@ -108,15 +108,20 @@ MinimumRegion leaf_minimum_region(std::span<const Point> points, std::size_t fir
   double width = 0;
   double slope = 0;
   for (std::size_t i = 0; i < size; ++i) {
-    const PolygonExtent extent = polygons[i].extent();
     const Point o = own[i] - centre;
     const double x = dot(o, basis.first);
     const double y = dot(o, basis.second);
     // No std::hypot, which every C library rounds in its own way.
     const double distance = std::sqrt(x * x + y * y);
     const double height = std::abs(dot(o, basis.normal));
-    // mutant: slope-over-own-height-ignored, distance-from-centre-ignored
-    width = std::max(width, distance + extent.width + extent.slope * height);
+    const auto offset = [&](const PolygonExtent& extent) {
+      // mutant: slope-over-own-height-ignored, distance-from-centre-ignored
+      return distance + extent.width + extent.slope * height;
+    };
+    const PolygonExtent rough = polygons[i].rough_extent();
+    if (offset(rough) <= width && rough.slope <= slope) continue;
+    const PolygonExtent extent = polygons[i].extent();
+    width = std::max(width, offset(extent));
     slope = std::max(slope, extent.slope);  // mutant: region-never-opens
   }
   const double stretch = std::sqrt(1 + slope * slope);  // mutant: stretch-of-slope-only
