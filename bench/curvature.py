@@ -13,8 +13,8 @@ from . import meshes, places, programs, results, timing
 MESHES = ("cortex", "cat0", "dragon", "head_skin")
 RADII = (3, 5, 10, 20, 65)
 ROUNDS = 3
-SIZES = (10_000, 100_000, 1_000_000)
-LIBIGL_SIZE = 100_000  # the largest of these that libigl gets
+SIZES = (10_000, 100_000, 1_000_000, 10_000_000)
+LIBIGL_SIZE = 1_000_000  # the largest of these that libigl gets
 GROWTH_RADIUS = 5
 SECONDS = 12  # that libigl should take for a mesh and radius
 MOST_SECONDS = 40  # that it may
