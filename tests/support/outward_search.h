@@ -56,7 +56,7 @@ inline void append_vertices(const IndexView& index, std::uint32_t group, NodeSet
 }
 
 /// Calls `f(case, state)` after outward searches for queries on small meshes of `family`, with and without limits.
-/// Returns the number of queries that the outward search has answered.
+/// Returns the number of queries that all steps of the outward search have answered.
 template <class F>
 std::size_t for_each_outward_search(const Family& family, std::size_t meshes, std::size_t vertices_per_mesh, F&& f) {
   std::size_t searches = 0;
@@ -73,7 +73,7 @@ std::size_t for_each_outward_search(const Family& family, std::size_t meshes, st
         SearcherAccess::State& state = SearcherAccess::state(searchers[searches % searchers.size()]);
         state.limits.enabled = random.below(2) == 0;
         static_cast<void>(state.search(v, radius));
-        if (!state.was_outward) continue;
+        if (!state.was_outward || state.was_united) continue;
         const Query query(*state.index, v, RadiusBounds(state.index->frame, radius));
         f(SearchCase{mesh, oracle, *state.index, query, *state.kernels}, state);
         ++searches;

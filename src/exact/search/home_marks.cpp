@@ -47,14 +47,25 @@ void HomeMarks::spread(std::span<const std::uint32_t> groups, GroupStates& state
   for (const std::uint32_t group : groups) {
     if (states[group].home != 0) gained_.push_back(group);
   }
-  while (!gained_.empty()) {
+  pull_unmarked(states);
+  // A larger node does not see the smaller ones beside it, so these push. The first of `unmarked_` are the largest.
+  const std::size_t leaf_groups = index_->leaf_count() / kFanOut;
+  while (!gained_.empty() && !unmarked_.empty() && unmarked_.front() >= leaf_groups) {
     for (std::size_t head = 0; head < gained_.size(); ++head) push(gained_[head], states);
     gained_.clear();
+    pull_unmarked(states);
+  }
+}
+
+/// Pulls until no group of `unmarked_` gains a mark.
+void HomeMarks::pull_unmarked(GroupStates& states) {
+  for (std::size_t before = gained_.size() + 1; gained_.size() != before;) {
+    before = gained_.size();
     std::erase_if(unmarked_, [&](std::uint32_t group) {
-      const NodeSet before = states[group].home;
-      const bool all = pull(group, states);
-      if (states[group].home != before) gained_.push_back(group);
-      return all;
+      const NodeSet home = states[group].home;
+      const bool is_settled = pull(group, states);
+      if (states[group].home != home) gained_.push_back(group);
+      return is_settled;
     });
   }
 }

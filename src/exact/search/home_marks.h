@@ -35,6 +35,7 @@ class HomeMarks {
 
   [[nodiscard]] std::size_t count_doubts(std::span<const std::uint32_t> groups, const GroupStates& states) const;
   [[nodiscard]] bool pull(std::uint32_t group, GroupStates& states) const;
+  void pull_unmarked(GroupStates& states);
   void push(std::uint32_t group, GroupStates& states);
   void prefetch_links(std::uint32_t group, const GroupStates& states) const;
 

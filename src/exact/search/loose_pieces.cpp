@@ -5,8 +5,8 @@
 #include <tuple>
 
 #include "base/distance.h"
-#include "base/prefetch.h"
 #include "exact/node_search.h"
+#include "exact/search/prefetch_edges.h"
 
 namespace meshhood {
 
@@ -18,11 +18,11 @@ void LoosePieces::find(const Query& query, std::span<const std::uint32_t> groups
   surface_count_ = leaves_.size();
   gather_whole(groups, states, query.tree_ball);
   for (std::size_t i = 0; i < leaves_.size(); ++i) {  // mutant: first-leaf-in-doubt-ignored
-    prefetch_ahead(i);
+    prefetch_edges_ahead(*index_, leaves_, i);
     cut(leaves_[i], query, states);
   }
   std::sort(minima_.begin(), minima_.end(), [](const LocalMinimum& a, const LocalMinimum& b) {
-    return std::tie(a.square, a.leaf, a.lane) < std::tie(b.square, b.leaf, b.lane);
+    return std::tie(a.square, a.leaf, a.lane) < std::tie(b.square, b.leaf, b.lane);  // mutant: farthest-minimum-first
   });
 }
 
@@ -42,7 +42,7 @@ void LoosePieces::gather_whole(std::span<const std::uint32_t> groups, const Grou
       if (node < index_->leaf_count()) {
         leaves_.push_back({node, first_lanes(index_->leaves[node].size)});
       } else {
-        gather_below(index_->records[group].first_child + i, ball);
+        gather_below(index_->records[group].first_child + i, ball);  // mutant: large-unmarked-node-ignored
       }
     });
   }
@@ -81,7 +81,8 @@ void LoosePieces::cut(const LeafSubset& leaf, const Query& query, const GroupSta
 bool LoosePieces::touches_home(LeafId leaf, LaneMask piece, const GroupStates& states) const {
   const std::span<const Link> links = index_->links_of(leaf);
   return std::any_of(links.begin(), links.end(), [&](const Link& link) {
-    return (link.boundary & piece) != 0 && states.is_home(link.leaf);  // mutant: link-of-another-piece
+    const bool is_met = (link.boundary & piece) != 0;  // mutant: link-of-another-piece
+    return is_met && states.is_home(link.leaf);        // mutant: unmarked-node-taken-as-home
   });
 }
 
@@ -95,19 +96,6 @@ bool LoosePieces::has_nearer_neighbor(const LocalMinimum& vertex, const Point& c
     }
   }
   return false;
-}
-
-/// Prefetches what `cut` reads of the leaves that come next: their records first, and what those point to once they
-/// have arrived.
-void LoosePieces::prefetch_ahead(std::size_t next) const {
-  constexpr std::size_t kRecord = 8;
-  constexpr std::size_t kContents = 4;
-  if (next + kRecord < leaves_.size()) prefetch(&index_->leaves[leaves_[next + kRecord].leaf]);
-  if (next + kContents < leaves_.size()) {
-    const Leaf& leaf = index_->leaves[leaves_[next + kContents].leaf];
-    fetch_lines(&index_->adjacency[leaf.first], 2);
-    fetch_lines(&index_->links[leaf.first_link], 2);
-  }
 }
 
 }  // namespace meshhood

@@ -46,7 +46,6 @@ class LoosePieces {
   void cut(const LeafSubset& leaf, const Query& query, const GroupStates& states);
   [[nodiscard]] bool touches_home(LeafId leaf, LaneMask piece, const GroupStates& states) const;
   [[nodiscard]] bool has_nearer_neighbor(const LocalMinimum& vertex, const Point& centre) const;
-  void prefetch_ahead(std::size_t next) const;
 
   const IndexView* index_;
   const Kernels* kernels_;

@@ -43,10 +43,11 @@ struct SearchLimits {
     return 12 + static_cast<std::size_t>(std::min(14 * radius_in_frame / mean_radius, 1e9));
   }
 
-  /// The most leaves to be visited in other components, in a ball of `leaves` leaves. Chosen.
-  [[nodiscard]] std::size_t most_visited(std::size_t leaves) const {
+  /// The most leaves to be visited in other components. Uniting all that was reached takes about as long as that many
+  /// visits: it looks at each surface leaf, and at the links of the nodes. Chosen.
+  [[nodiscard]] std::size_t most_visited(std::size_t surface_leaves) const {
     if (!enabled) return std::numeric_limits<std::size_t>::max();
-    return 16 + leaves / 2;
+    return 16 + surface_leaves;
   }
 };
 
@@ -64,20 +65,19 @@ class SearchMemory {
     return share_in_doubt_ > kFolded && !is_retry();
   }
 
-  /// Whether much of what was reached had to be visited leaf by leaf, to find out whether it is connected.
+  /// Whether traversals were given up: much of what was reached is connected only at the surface of the ball.
   [[nodiscard]] bool is_torn() {
-    // Chosen: the share is below 0.3 on scans and bodies, and 0.4 or more in large balls on scrolls.
-    constexpr double kTorn = 0.35;
-    return share_visited_ > kTorn && !is_retry();
+    constexpr double kTorn = 0.5;  // chosen
+    return share_given_up_ > kTorn && !is_retry();
   }
 
-  /// After an outward search: `in_doubt` of its `surface` leaves were in doubt, and of `leaves` leaves in all,
-  /// `visited` were visited.
-  void record(std::size_t in_doubt, std::size_t surface, std::size_t visited, std::size_t leaves) {
+  /// After an outward search: `in_doubt` of its `surface` leaves were in doubt; `is_done` says whether the traversals
+  /// came to their end.
+  void record(std::size_t in_doubt, std::size_t surface, bool is_done) {
     constexpr double kMemory = 8;  // balls; chosen
     balls_ = std::min(balls_ + 1, kMemory);
     approach(share_in_doubt_, in_doubt, surface);
-    approach(share_visited_, visited, leaves);
+    approach(share_given_up_, is_done ? 0 : 1, 1);
   }
 
  private:
@@ -92,7 +92,7 @@ class SearchMemory {
 
   double balls_ = 0;
   double share_in_doubt_ = 0;
-  double share_visited_ = 0;
+  double share_given_up_ = 0;
   std::uint32_t asked_ = 0;
 };
 

@@ -20,14 +20,6 @@
 #include "exact/search/searcher_state.h"
 
 namespace meshhood {
-namespace {
-
-/// The vertices of the node at a place of a group.
-VertexRange run_of(const GroupRecord& group, unsigned place) {
-  return {static_cast<VertexId>(group.begin[place]), static_cast<VertexId>(group.begin[place + 1])};
-}
-
-}  // namespace
 
 Point Searcher::State::search(VertexId v, double radius) {
   check_query(v, index->vertex_count(), radius);
@@ -38,9 +30,10 @@ Point Searcher::State::search(VertexId v, double radius) {
   const bool is_small = limits.is_small(query, *index);
   answer.clear();
   // A leaf that is not connected has no links, so the answer is a part of it.
-  was_outward = !is_small && index->leaves[home].connected && !is_flood_faster(query) && search_outward(query);
-  if (!was_outward) {
-    answer.clear();  // mutant: failed-search-leaves-answer
+  was_outward = !is_small && index->leaves[home].connected && !is_flood_faster(query);
+  if (was_outward) {
+    search_outward(query);
+  } else {
     leaf_bfs.run(query, is_small, traversal, answer);
   }
   return query.centre();
@@ -48,23 +41,29 @@ Point Searcher::State::search(VertexId v, double radius) {
 
 /// Whether recent queries suggest it.
 bool Searcher::State::is_flood_faster(const Query& query) {
-  if (!limits.enabled) return false;
-  return (limits.is_small_if_folded(query, *index) && memory.is_folded()) || memory.is_torn();
+  return limits.is_small_if_folded(query, *index) && memory.is_folded();
 }
 
-/// Returns false if the breadth-first search is probably faster.
-bool Searcher::State::search_outward(const Query& query) {
+void Searcher::State::search_outward(const Query& query) {
   reach(query);
   find_surface_leaves(query);
+  was_united = (limits.enabled && memory.is_torn()) || !remove_other_components(query);
+  if (!was_united) return;
+  answer.clear();  // mutant: failed-search-leaves-answer
+  reached_components.find(query, descent.groups(), surface_leaves, states, answer);
+}
+
+/// Adds what was reached to the answer, without the other components. Returns false if uniting all that was reached is
+/// probably faster.
+bool Searcher::State::remove_other_components(const Query& query) {
   mark_home(query);
   add_reached();
-  const std::size_t leaves = answer.count() / kLeafCapacity + surface_leaves.size();
   loose.find(query, descent.groups(), surface_leaves, states);
-  const bool is_done = other_components.find(query, loose.minima(), states, limits.most_visited(leaves), traversal);
-  memory.record(loose.surface_count(), surface_leaves.size(), other_components.visited(), leaves);
-  if (!is_done) return false;
-  answer.subtract(other_components.found());
-  return true;
+  const std::size_t most_visited = limits.most_visited(surface_leaves.size());
+  const bool is_done = other_components.find(query, loose.minima(), states, most_visited, traversal);
+  memory.record(loose.surface_count(), surface_leaves.size(), is_done);
+  if (is_done) answer.subtract(other_components.found());
+  return is_done;
 }
 
 /// Finds the nodes in the ball that may be connected with the query vertex. Begins with large nodes, which are few.

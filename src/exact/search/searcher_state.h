@@ -17,6 +17,7 @@
 #include "exact/search/loose_pieces.h"
 #include "exact/search/other_components.h"
 #include "exact/search/query.h"
+#include "exact/search/reached_components.h"
 #include "exact/search/search_limits.h"
 #include "exact/search/vertex_bfs.h"
 #include "exact/search/vertex_set.h"
@@ -38,6 +39,7 @@ struct Searcher::State {
   LoosePieces loose;
   LeafTraversal traversal;
   OtherComponents other_components;
+  ReachedComponents reached_components;
   LeafBfs leaf_bfs;
   SearchMemory memory;
   std::vector<LeafSubset>
@@ -45,6 +47,7 @@ struct Searcher::State {
   VertexSet answer;
   std::optional<VertexBfs> vertex_bfs;  // answers instead of `search` where the graph is unlike a surface
   bool was_outward = false;             // whether the last answer was found by `search_outward`
+  bool was_united = false;              // and whether that united what it had reached
 
   State(std::shared_ptr<const IndexView> view, Isa isa)
       : index(std::move(view)),
@@ -57,6 +60,7 @@ struct Searcher::State {
         loose(*index, *kernels),
         traversal(*index, *kernels),
         other_components(*index, *kernels),
+        reached_components(*index, *kernels),
         leaf_bfs(*index),
         answer(*index) {}
 
@@ -77,7 +81,8 @@ struct Searcher::State {
   };
 
   [[nodiscard]] bool is_flood_faster(const Query& query);
-  bool search_outward(const Query& query);
+  void search_outward(const Query& query);
+  bool remove_other_components(const Query& query);
   void reach(const Query& query);
   [[nodiscard]] Home home_of(const Query& query, double ratio) const;
   bool reach_from(const Home& home, const Query& query, std::size_t limited_above);

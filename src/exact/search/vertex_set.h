@@ -17,6 +17,11 @@ struct LeafSubset {
   LaneMask lanes;
 };
 
+/// The vertices of the node at a place of a group.
+[[nodiscard]] inline VertexRange run_of(const GroupRecord& group, unsigned place) {
+  return {static_cast<VertexId>(group.begin[place]), static_cast<VertexId>(group.begin[place + 1])};
+}
+
 /// A set of vertices: runs of whole leaves in index order, and subsets of leaves. No vertex is added twice.
 class VertexSet {
  public:

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Rules of the outward search that are easily broken. On a folded sheet the ball does not reach the fold, but nodes
+// across its surface do, so the outward search reaches the other half. Without its rule, each of these tests fails.
+#include <bit>
+#include <cstdio>
+
+#include <gtest/gtest.h>
+
+#include "support/folded_sheet.h"
+#include "support/outward_search.h"
+
+namespace meshhood::test {
+namespace {
+
+constexpr std::size_t kSide = 100;
+
+/// Calls `f(case, state)` after outward searches whose balls end shortly before the fold.
+template <class F>
+void for_each_ball_before_the_fold(const TestMesh& mesh, F&& f) {
+  const Oracle oracle(mesh);
+  const Index index = build(mesh.view());
+  for (Searcher& searcher : searchers_of(index)) {
+    SearcherAccess::State& state = SearcherAccess::state(searcher);
+    state.limits.enabled = false;
+    for (std::uint32_t row = 40; row < 80; row += 5) {
+      for (const double below : {0.5, 1.5, 3.5}) {
+        const VertexId v = row * kSide + kSide / 2;
+        const double radius = static_cast<double>(kSide - 1 - row) - below;
+        std::vector<VertexId> ids;
+        searcher.neighborhood(v, radius, ids);
+        const Query query(*state.index, v, RadiusBounds(state.index->frame, radius));
+        const SearchCase c{mesh, oracle, *state.index, query, *state.kernels};
+        ASSERT_EQ(sorted(std::move(ids)), c.neighborhood()) << "vertex " << v << ", radius " << radius;
+        ASSERT_TRUE(state.was_outward);
+        f(c, state);
+      }
+    }
+  }
+}
+
+/// The number of whole nodes above the leaves that are in doubt, not marked, and not part of the answer.
+std::size_t large_others(const SearchCase& c, const SearcherAccess::State& state) {
+  const Ids answer = c.neighborhood();
+  std::size_t found = 0;
+  for (const std::uint32_t group : state.descent.groups()) {
+    if (group < c.index.leaf_count() / kFanOut) continue;
+    const GroupState& known = state.states[group];
+    for_each_node(known.whole & known.in_doubt & static_cast<NodeSet>(~known.home), [&](unsigned i) {
+      const std::uint32_t v = c.index.id(c.index.records[group].begin[i]);
+      found += static_cast<std::size_t>(!std::binary_search(answer.begin(), answer.end(), v));
+    });
+  }
+  return found;
+}
+
+// The nearest vertex of the other half lies below a large whole node. Its leaf is not a surface leaf, and found only by
+// descending from that node.
+TEST(SearchTraps, LeavesBelowLargeNodesOfAnotherComponentAreCandidates) {
+  std::size_t others = 0;
+  for_each_ball_before_the_fold(make_folded_sheet(kSide), [&](const SearchCase& c, const SearcherAccess::State& state) {
+    others += large_others(c, state);
+  });
+  EXPECT_GT(others, 10U);
+  std::printf("%zu large nodes of other components in doubt\n", others);
+}
+
+// A traversal may meet what another one has reached. That is connected with the query vertex only because the minima
+// are processed in order of distance: the nearest one of a component exhausts it for all others.
+TEST(SearchTraps, MinimaOfOneComponentAreRemovedTogether) {
+  std::size_t with_several = 0;
+  for_each_ball_before_the_fold(
+      make_folded_sheet(kSide, 1.5), [&](const SearchCase&, const SearcherAccess::State& state) {
+        const bool has_others = !state.other_components.found().empty();
+        with_several += static_cast<std::size_t>(has_others && state.loose.minima().size() > 1);
+      });
+  EXPECT_GT(with_several, 5U);
+  std::printf("%zu queries with several minima of another component\n", with_several);
+}
+
+// A piece of a leaf that touches a whole node belongs to the answer only if that node is marked: the whole nodes of the
+// other half touch pieces of their own component. Uniting pieces looks from the smaller node to the larger, too.
+TEST(SearchTraps, PiecesThatTouchNodesOfAnotherComponentAreRemoved) {
+  std::size_t removed = 0;
+  for_each_ball_before_the_fold(
+      make_folded_sheet(kSide, 1.5), [&](const SearchCase& c, const SearcherAccess::State& state) {
+        ReachedComponents components(c.index, c.kernels);
+        VertexSet answer(c.index);
+        components.find(c.query, state.descent.groups(), state.surface_leaves, state.states, answer);
+        ASSERT_EQ(answer.count(), c.neighborhood().size());
+        removed += static_cast<std::size_t>(std::count_if(state.surface_leaves.begin(), state.surface_leaves.end(),
+                                                          [&](const LeafSubset& leaf) { return leaf.lanes != 0; }));
+        removed -= answer.subsets().size();
+      });
+  EXPECT_GT(removed, 50U);
+  std::printf("%zu surface leaves removed\n", removed);
+}
+
+}  // namespace
+}  // namespace meshhood::test
