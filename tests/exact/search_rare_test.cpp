@@ -6,12 +6,15 @@
 #include <cstdio>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "meshhood/start.h"
 
 #include "support/exact_answer.h"
 #include "support/families.h"
@@ -225,6 +228,39 @@ TEST(Rare, LeavesOfManyComponents) {
   EXPECT_GT(disconnected, 30);
   EXPECT_LT(index.leaf_count(), mesh.size() / 25);
   query_everywhere(exact, mesh.size(), {0, 0.01, 0.2, kInfinity});
+}
+
+TEST(Rare, SurfacesOfManyComponents) {
+  // A hundred thousand small sheets of more than 16 vertices: each has a leaf of its own, in a root group.
+  constexpr std::size_t kSheet = 18;
+  const std::size_t sheets = scaled(100'000, 1000);
+  Random random(11);
+  TestMesh mesh;
+  for (std::size_t i = 0; i < sheets; ++i) {
+    const auto first = static_cast<std::uint32_t>(mesh.size());
+    const std::array<double, 3> corner{random.uniform(0, 300), random.uniform(0, 300), random.uniform(0, 300)};
+    for (std::size_t k = 0; k < kSheet; ++k) {
+      mesh.add_vertex(corner[0] + static_cast<double>(k % 6), corner[1] + static_cast<double>(k / 6), corner[2]);
+    }
+    for (std::uint32_t k = 0; k + 7 < kSheet; ++k) {
+      if (k % 6 < 5) mesh.add_face({first + k, first + k + 1, first + k + 7, first + k + 6});
+    }
+  }
+  mesh.finish(true);
+  ExactAnswer exact(mesh.view());
+  const IndexView& index = exact.storage();
+  EXPECT_GT(std::count(index.parents.begin(), index.parents.end(), kNoNode), static_cast<std::ptrdiff_t>(sheets / 16));
+  EXPECT_TRUE(exact.index().check(mesh.view()).empty());
+  query_everywhere(exact, mesh.size(), {0.5, 1, 3, 6, 40, kInfinity});
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    const SpacePoint p{random.uniform(-50, 350), random.uniform(0, 300), random.uniform(0, 300)};
+    const NearestVertex found = nearest(exact.index(), p);
+    double least = kInfinity;
+    for (std::size_t v = 0; v < mesh.size(); ++v) {
+      least = std::min(least, squared_distance(point(std::span<const double>(mesh.positions), v), {p[0], p[1], p[2]}));
+    }
+    ASSERT_EQ(found.distance, std::sqrt(least));
+  }
 }
 
 TEST(Rare, PathOfAMillion) {

@@ -12,7 +12,7 @@
 namespace meshhood::test {
 namespace {
 
-constexpr std::size_t kSide = 100;
+constexpr std::size_t kFoldRow = 100;
 
 /// Calls `f(case, state)` after outward searches whose balls end shortly before the fold.
 template <class F>
@@ -24,8 +24,8 @@ void for_each_ball_before_the_fold(const TestMesh& mesh, F&& f) {
     state.limits.enabled = false;
     for (std::uint32_t row = 40; row < 80; row += 5) {
       for (const double below : {0.5, 1.5, 3.5}) {
-        const VertexId v = row * kSide + kSide / 2;
-        const double radius = static_cast<double>(kSide - 1 - row) - below;
+        const VertexId v = row * kFoldRow + kFoldRow / 2;
+        const double radius = static_cast<double>(kFoldRow - 1 - row) - below;
         std::vector<VertexId> ids;
         searcher.neighborhood(v, radius, ids);
         const Query query(*state.index, v, RadiusBounds(state.index->frame, radius));
@@ -57,7 +57,7 @@ std::size_t large_others(const SearchCase& c, const SearcherAccess::State& state
 // descending from that node.
 TEST(SearchTraps, LeavesBelowLargeNodesOfAnotherComponentAreCandidates) {
   std::size_t others = 0;
-  for_each_ball_before_the_fold(make_folded_sheet(kSide), [&](const SearchCase& c, const SearcherAccess::State& state) {
+  for_each_ball_before_the_fold(make_folded_sheet(kFoldRow), [&](const SearchCase& c, const SearcherAccess::State& state) {
     others += large_others(c, state);
   });
   EXPECT_GT(others, 10U);
@@ -69,7 +69,7 @@ TEST(SearchTraps, LeavesBelowLargeNodesOfAnotherComponentAreCandidates) {
 TEST(SearchTraps, MinimaOfOneComponentAreRemovedTogether) {
   std::size_t with_several = 0;
   for_each_ball_before_the_fold(
-      make_folded_sheet(kSide, 1.5), [&](const SearchCase&, const SearcherAccess::State& state) {
+      make_folded_sheet(kFoldRow, 1.5), [&](const SearchCase&, const SearcherAccess::State& state) {
         const bool has_others = !state.other_components.found().empty();
         with_several += static_cast<std::size_t>(has_others && state.loose.minima().size() > 1);
       });
@@ -82,7 +82,7 @@ TEST(SearchTraps, MinimaOfOneComponentAreRemovedTogether) {
 TEST(SearchTraps, PiecesThatTouchNodesOfAnotherComponentAreRemoved) {
   std::size_t removed = 0;
   for_each_ball_before_the_fold(
-      make_folded_sheet(kSide, 1.5), [&](const SearchCase& c, const SearcherAccess::State& state) {
+      make_folded_sheet(kFoldRow, 1.5), [&](const SearchCase& c, const SearcherAccess::State& state) {
         ReachedComponents components(c.index, c.kernels);
         VertexSet answer(c.index);
         components.find(c.query, state.descent.groups(), state.surface_leaves, state.states, answer);

@@ -33,7 +33,8 @@ class LoosePieces {
   void find(const Query& query, std::span<const std::uint32_t> groups, std::span<const LeafSubset> surface_leaves,
             const GroupStates& states);
 
-  /// The number of surface leaves that are in doubt.
+  /// The number of leaves in doubt, and of surface leaves among them.
+  [[nodiscard]] std::size_t leaf_count() const { return leaves_.size(); }
   [[nodiscard]] std::size_t surface_count() const { return surface_count_; }
 
   /// Ascending by distance.

@@ -65,19 +65,21 @@ class SearchMemory {
     return share_in_doubt_ > kFolded && !is_retry();
   }
 
-  /// Whether traversals were given up: much of what was reached is connected only at the surface of the ball.
+  /// Whether telling other components apart took longer than uniting all that was reached.
   [[nodiscard]] bool is_torn() {
-    constexpr double kTorn = 0.5;  // chosen
-    return share_given_up_ > kTorn && !is_retry();
+    // Chosen: on eight meshes, uniting takes as long as settling one leaf in doubt, or one visit of a traversal, for
+    // each surface leaf.
+    constexpr double kTorn = 1.3;
+    return steps_per_surface_leaf_ > kTorn && !is_retry();
   }
 
-  /// After an outward search: `in_doubt` of its `surface` leaves were in doubt; `is_done` says whether the traversals
-  /// came to their end.
-  void record(std::size_t in_doubt, std::size_t surface, bool is_done) {
+  /// After an outward search: `in_doubt` of its `surface` leaves were in doubt, and other components were told apart in
+  /// `steps`: leaves in doubt and visits.
+  void record(std::size_t in_doubt, std::size_t surface, std::size_t steps) {
     constexpr double kMemory = 8;  // balls; chosen
     balls_ = std::min(balls_ + 1, kMemory);
     approach(share_in_doubt_, in_doubt, surface);
-    approach(share_given_up_, is_done ? 0 : 1, 1);
+    approach(steps_per_surface_leaf_, steps, surface);
   }
 
  private:
@@ -92,7 +94,7 @@ class SearchMemory {
 
   double balls_ = 0;
   double share_in_doubt_ = 0;
-  double share_given_up_ = 0;
+  double steps_per_surface_leaf_ = 0;
   std::uint32_t asked_ = 0;
 };
 

@@ -4,11 +4,12 @@
 // nodes, and leaves at the surface of the ball. That is the answer and perhaps other components of the ball. Each of
 // those has a vertex that is nearest to the query vertex, and that is a local minimum of the distance among its
 // neighbors, so its leaf is in doubt (see MinimumRegion). What is in doubt is settled by marks, which spread from the
-// query vertex over whole nodes, and by traversals from the local minima that no marked node touches. docs/design.md
-// says why that is exact.
+// query vertex over whole nodes, and by traversals from the local minima that no marked node touches. Where these would
+// visit much of the ball, all that was reached is united along its links instead. docs/design.md says why that is
+// exact.
 //
-// Where the ball is small, or much of it does not belong to the answer, a breadth-first search over leaves is faster;
-// and where the graph is unlike a surface, one over vertices.
+// Where the ball is small, a breadth-first search over leaves is faster; and where the graph is unlike a surface, one
+// over vertices.
 #include <algorithm>
 
 #include "meshhood/search.h"
@@ -61,7 +62,8 @@ bool Searcher::State::remove_other_components(const Query& query) {
   loose.find(query, descent.groups(), surface_leaves, states);
   const std::size_t most_visited = limits.most_visited(surface_leaves.size());
   const bool is_done = other_components.find(query, loose.minima(), states, most_visited, traversal);
-  memory.record(loose.surface_count(), surface_leaves.size(), is_done);
+  const std::size_t united = is_done ? 0 : surface_leaves.size();
+  memory.record(loose.surface_count(), surface_leaves.size(), loose.leaf_count() + other_components.visited() + united);
   if (is_done) answer.subtract(other_components.found());
   return is_done;
 }

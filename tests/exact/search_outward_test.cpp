@@ -17,7 +17,7 @@
 namespace meshhood::test {
 namespace {
 
-struct ProofTally {
+struct OutwardTally {
   std::size_t meshes = 0;
   std::size_t queries = 0;
   std::size_t outward = 0;
@@ -25,7 +25,7 @@ struct ProofTally {
   std::size_t mismatches = 0;
 };
 
-void compare_proofs(const TestMesh& mesh, std::uint64_t seed, std::size_t queries, ProofTally& tally) {
+void compare_outward(const TestMesh& mesh, std::uint64_t seed, std::size_t queries, OutwardTally& tally) {
   const Oracle oracle(mesh);
   const Index index = build(mesh.view());
   std::vector<Searcher> searchers = searchers_of(index);
@@ -50,13 +50,13 @@ void compare_proofs(const TestMesh& mesh, std::uint64_t seed, std::size_t querie
   }
 }
 
-class SearchProof : public testing::TestWithParam<Family> {};
+class SearchOutward : public testing::TestWithParam<Family> {};
 
-TEST_P(SearchProof, AloneGivesTheAnswersOfTheOracle) {
-  ProofTally tally;
+TEST_P(SearchOutward, AloneGivesTheAnswersOfTheOracle) {
+  OutwardTally tally;
   for (std::uint64_t seed = 0; seed < scaled(25, 2) && tally.mismatches < 10; ++seed) {
     const TestMesh mesh = make_mesh(GetParam(), seed, std::min<std::size_t>(draw_size(seed), 1500));
-    if (mesh.size() > 0) compare_proofs(mesh, seed, 150, tally);
+    if (mesh.size() > 0) compare_outward(mesh, seed, 150, tally);
   }
   std::printf("%s: %zu queries, %zu meshes, %zu mismatches\n", std::string(GetParam().name).c_str(), tally.queries,
               tally.meshes, tally.mismatches);
@@ -64,7 +64,7 @@ TEST_P(SearchProof, AloneGivesTheAnswersOfTheOracle) {
   EXPECT_EQ(tally.outward + tally.of_crumbs, tally.queries);
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, SearchProof, testing::ValuesIn(families()), family_name);
+INSTANTIATE_TEST_SUITE_P(Families, SearchOutward, testing::ValuesIn(families()), family_name);
 
 }  // namespace
 }  // namespace meshhood::test
