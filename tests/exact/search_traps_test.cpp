@@ -12,7 +12,7 @@
 namespace meshhood::test {
 namespace {
 
-constexpr std::size_t kFoldRow = 100;
+constexpr std::uint32_t kFoldRow = 100;
 
 /// Calls `f(case, state)` after outward searches whose balls end shortly before the fold.
 template <class F>
