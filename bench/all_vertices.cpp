@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 
@@ -18,6 +17,7 @@
 
 #include "measure/timing.h"
 #include "mesh_argument.h"
+#include "program.h"
 
 namespace meshhood::bench {
 namespace {
@@ -172,10 +172,5 @@ int run(std::vector<std::string> arguments) {
 }  // namespace meshhood::bench
 
 int main(int argc, char** argv) {
-  try {
-    return meshhood::bench::run({argv + 1, argv + argc});
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "all_vertices: %s\n", error.what());
-    return 1;
-  }
+  return meshhood::bench::exit_status("all_vertices", [&] { return meshhood::bench::run({argv + 1, argv + argc}); });
 }

@@ -5,7 +5,6 @@
 //   cgal_jets MESH RADIUS_IN_MEAN_EDGES
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 
@@ -16,6 +15,7 @@
 
 #include "measure/timing.h"
 #include "mesh_argument.h"
+#include "program.h"
 
 namespace meshhood::bench {
 namespace {
@@ -67,12 +67,9 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: cgal_jets MESH RADIUS_IN_MEAN_EDGES\n");
     return 2;
   }
-  try {
+  return meshhood::bench::exit_status("cgal_jets", [&] {
     const meshhood::bench::MeshArgument mesh(argv[1]);
     meshhood::bench::measure_jets(mesh.view(), std::stod(argv[2]));
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "cgal_jets: %s\n", error.what());
-    return 1;
-  }
-  return 0;
+    return 0;
+  });
 }

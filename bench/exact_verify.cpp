@@ -14,6 +14,7 @@
 #include "meshhood/meshhood.h"
 
 #include "mesh_argument.h"
+#include "program.h"
 
 namespace meshhood::bench {
 namespace {
@@ -112,12 +113,9 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: exact_verify MESH STEP RADIUS...\n");
     return 2;
   }
-  try {
+  return meshhood::bench::exit_status("exact_verify", [&] {
     std::vector<double> edges;
     for (int i = 3; i < argc; ++i) edges.push_back(std::stod(argv[i]));
     return meshhood::bench::run(argv[1], std::stoul(argv[2]), edges);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "exact_verify: %s: %s\n", argv[1], error.what());
-    return 1;
-  }
+  });
 }

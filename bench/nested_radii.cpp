@@ -5,7 +5,6 @@
 //   nested_radii MESH [LARGEST RADIUS IN MEAN EDGES...]
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <limits>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@
 
 #include "measure/timing.h"
 #include "mesh_argument.h"
+#include "program.h"
 
 namespace meshhood::bench {
 namespace {
@@ -98,10 +98,6 @@ int run(std::span<char*> arguments) {
 }  // namespace meshhood::bench
 
 int main(int argc, char** argv) {
-  try {
-    return meshhood::bench::run({argv, static_cast<std::size_t>(argc)});
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "nested_radii: %s\n", error.what());
-    return 1;
-  }
+  return meshhood::bench::exit_status("nested_radii",
+                                      [&] { return meshhood::bench::run({argv, static_cast<std::size_t>(argc)}); });
 }

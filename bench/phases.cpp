@@ -6,13 +6,13 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "mesh_argument.h"
 #include "paper/query.cpp"
+#include "program.h"
 
 namespace meshhood::paper {
 
@@ -98,13 +98,10 @@ int main(int arguments, char** values) {
     std::fprintf(stderr, "usage: phases MESH QUERIES RADIUS...\n");
     return 2;
   }
-  try {
+  return meshhood::bench::exit_status("phases", [&] {
     std::vector<double> radii;
     for (int i = 3; i < arguments; ++i) radii.push_back(std::stod(values[i]));
     meshhood::bench::profile(meshhood::bench::MeshArgument(values[1]).view(), std::stoul(values[2]), radii);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "phases: %s\n", error.what());
-    return 1;
-  }
-  return 0;
+    return 0;
+  });
 }

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -18,6 +17,7 @@
 
 #include "measure/timing.h"
 #include "mesh_argument.h"
+#include "program.h"
 
 namespace meshhood::bench {
 namespace {
@@ -188,10 +188,5 @@ int run(const std::vector<std::string>& arguments) {
 }  // namespace meshhood::bench
 
 int main(int argc, char** argv) {
-  try {
-    return meshhood::bench::run({argv + 1, argv + argc});
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bench_refit: %s\n", error.what());
-    return 1;
-  }
+  return meshhood::bench::exit_status("bench_refit", [&] { return meshhood::bench::run({argv + 1, argv + argc}); });
 }

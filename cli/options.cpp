@@ -26,6 +26,7 @@
 
 #include "io/messages.h"
 #include "io/number.h"
+#include "io/text.h"
 #include "output.h"
 
 namespace meshhood::cli {
@@ -56,17 +57,10 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last.back();
 }
 
-std::string lower_case(std::string text) {
-  for (char& c : text) {
-    if ('A' <= c && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return text;
-}
-
 /// A name without extension may be a pipe or a device, and is accepted.
 CLI::Validator output_name(const std::string& extension) {
   const auto check = [extension](const std::string& name) -> std::string {
-    const std::string found = lower_case(std::filesystem::path(name).extension().string());
+    const std::string found = io::lower_case(std::filesystem::path(name).extension().string());
     if (found.empty() || found == extension) return {};
     return fmt::format("'{}' has the extension {}, but the file will be {}", name, found, extension);
   };

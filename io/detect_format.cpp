@@ -10,6 +10,7 @@
 
 #include "io/messages.h"
 #include "io/readers.h"
+#include "io/text.h"
 
 namespace meshhood::io {
 namespace {
@@ -17,13 +18,6 @@ namespace {
 constexpr std::size_t kHead = std::size_t{1} << 16;
 constexpr std::size_t kIndexMark = 8;
 constexpr std::string_view kLfsMark = "version https://git-lfs.github.com/spec/";
-
-std::string lower_case(std::string text) {
-  for (char& c : text) {
-    if ('A' <= c && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return text;
-}
 
 bool is_index_start(InputBuffer& input) {
   return meshhood::is_index(std::as_bytes(std::span(input.ahead(kIndexMark))));

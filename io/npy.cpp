@@ -16,7 +16,7 @@ namespace meshhood::io {
 namespace {
 
 constexpr std::string_view kMagic = "\x93NUMPY";
-constexpr std::string_view kBlanks = " \n";
+constexpr std::string_view kHeaderBlanks = " \n";
 
 /// The dictionary of a header: keys and values as Python prints them.
 class Dictionary {
@@ -28,7 +28,7 @@ class Dictionary {
     const auto place = text_.find(fmt::format("'{}':", key));
     if (place == std::string_view::npos) fail(key);
     const std::string_view rest = text_.substr(place + key.size() + 3);
-    return rest.substr(std::min(rest.size(), rest.find_first_not_of(kBlanks)));
+    return rest.substr(std::min(rest.size(), rest.find_first_not_of(kHeaderBlanks)));
   }
 
   /// The text of a value between `open` and `close`.

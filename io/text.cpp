@@ -14,6 +14,13 @@ bool is_blank(char c) { return c == ' ' || ('\t' <= c && c <= '\r'); }
 
 }  // namespace
 
+std::string lower_case(std::string text) {
+  for (char& c : text) {
+    if ('A' <= c && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
 bool Text::next_line() {
   leave_line();
   if (input_.ahead(1).empty()) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -14,6 +15,9 @@
 #include "io/messages.h"
 
 namespace meshhood::io {
+
+/// With a to z in place of A to Z, whatever the locale.
+[[nodiscard]] std::string lower_case(std::string text);
 
 inline constexpr char kAnyLineEnd = 0;
 

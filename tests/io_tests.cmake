@@ -1,43 +1,50 @@
 # The tests of mesh and index files.
-foreach(stem shared_meshes ply obj text file progress index_progress write mutation)
-  meshhood_test(io/${stem} meshhood_test_support)
+foreach(stem shared_meshes ply obj off stl text file progress index index_progress write mutation)
+  meshhood_test(io/${stem} meshhood_test_support meshhood_families)
 endforeach()
-meshhood_test(io/off ALONE meshhood_test_support)
-meshhood_test(io/stl ALONE meshhood_test_support)
-meshhood_test(io/index ALONE meshhood_test_support meshhood_families)
-meshhood_test(io/memory ALONE meshhood_test_support)
 
-# The process whose peak memory `io/memory` measures.
-add_executable(read_peak support/read_peak.cpp)
-target_link_libraries(read_peak PRIVATE meshhood::io)
-meshhood_own_target(read_peak)
-target_compile_definitions(io_memory_test PRIVATE MESHHOOD_READ_PEAK="$<TARGET_FILE:read_peak>")
-add_dependencies(io_memory_test read_peak)
+# A file system in memory that can be filled.
+add_library(meshhood_small_disk STATIC support/small_disk.cpp)
+target_include_directories(meshhood_small_disk PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
+meshhood_own_target(meshhood_small_disk)
 
 # Saves that fail, are killed or meet a full disk, for every function that writes a file.
-add_library(meshhood_save_trial STATIC support/save_trial.cpp support/savers.cpp support/small_disk.cpp)
+add_library(meshhood_save_trial STATIC support/save_trial.cpp support/savers.cpp)
 target_include_directories(meshhood_save_trial PUBLIC ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR})
 target_link_libraries(meshhood_save_trial PUBLIC
-  meshhood_npz meshhood::io meshhood_shapes GTest::gtest)
+  meshhood_small_disk meshhood_npz meshhood::io meshhood_shapes GTest::gtest)
 meshhood_own_target(meshhood_save_trial)
-foreach(stem calls full kill power race)
+meshhood_compile_quickly(meshhood_save_trial)
+function(meshhood_watch_system_calls stem)
   meshhood_test(io/save_${stem} ALONE meshhood_save_trial)
-endforeach()
-foreach(stem calls power)
   target_sources(io_save_${stem}_test PRIVATE support/system_calls.cpp)
   foreach(call open write lseek stat fchown fchmod fsync close rename unlink)
     target_link_options(io_save_${stem}_test PRIVATE LINKER:--wrap=${call})
   endforeach()
-endforeach()
+endfunction()
+meshhood_watch_system_calls(calls)
+
+if(NOT MESHHOOD_LONG_TESTS)
+  return()
+endif()
+
+meshhood_watch_system_calls(power)
 target_sources(io_save_power_test PRIVATE support/disk_model.cpp)
+foreach(stem full kill race)
+  meshhood_test(io/save_${stem} ALONE meshhood_save_trial)
+endforeach()
 
 meshhood_test(io/allocation ALONE meshhood_save_trial)
 target_sources(io_allocation_test PRIVATE support/failing_allocations.cpp)
 target_compile_definitions(io_allocation_test PRIVATE MESHHOOD_CORPUS="${PROJECT_BINARY_DIR}/fuzz/corpus")
 
-if(NOT MESHHOOD_LONG_TESTS)
-  return()
-endif()
+# The process whose peak memory `io/memory` measures.
+meshhood_test(io/memory ALONE meshhood_test_support)
+add_executable(read_peak support/read_peak.cpp)
+target_link_libraries(read_peak PRIVATE meshhood::io)
+meshhood_own_target(read_peak)
+target_compile_definitions(io_memory_test PRIVATE MESHHOOD_READ_PEAK="$<TARGET_FILE:read_peak>")
+add_dependencies(io_memory_test read_peak)
 
 meshhood_test(whole/soak ALONE meshhood_test_support meshhood_families)
 add_subdirectory(interop)

@@ -2,8 +2,10 @@
 foreach(stem partition chunked_mesh cut_tree)
   meshhood_test(parts/${stem} meshhood_parts meshhood_families)
 endforeach()
-meshhood_test(parts/folder ALONE meshhood_parts meshhood_families)
-target_sources(parts_folder_test PRIVATE support/small_disk.cpp)
+meshhood_test(parts/folder meshhood_parts meshhood_families meshhood_small_disk)
+if(NOT MESHHOOD_LONG_TESTS)
+  return()
+endif()
 
 meshhood_test(parts/memory ALONE meshhood_parts meshhood_shapes)
 # The process whose peak memory `parts/memory` measures.

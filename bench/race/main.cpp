@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Times methods in alternation on one mesh, and compares their answers with those of the first method. Prints one JSON
 // document, which bench/programs.py reads.
-#include <exception>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "measure/radius_table.h"
 #include "measure/timing.h"
 #include "mesh_argument.h"
+#include "program.h"
 
 namespace meshhood::bench {
 namespace {
@@ -88,10 +88,5 @@ int run(int arguments, char** values) {
 }  // namespace meshhood::bench
 
 int main(int arguments, char** values) {
-  try {
-    return meshhood::bench::run(arguments, values);
-  } catch (const std::exception& error) {
-    std::cerr << "race: " << error.what() << '\n';
-    return 1;
-  }
+  return meshhood::bench::exit_status("race", [&] { return meshhood::bench::run(arguments, values); });
 }

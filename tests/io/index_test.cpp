@@ -30,10 +30,6 @@ Index index_of(std::size_t side) {
   return build(mesh.finish(true).view());
 }
 
-std::size_t files_in(const std::filesystem::path& folder) {
-  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
-}
-
 class IndexFile : public testing::Test {
  protected:
   Scratch scratch;

@@ -13,13 +13,13 @@ namespace {
 
 using ::testing::ElementsAre;
 
-const std::string kVertices = "0 0 0\n1 0 0\n0 1 0\n";
+const std::string kOffVertices = "0 0 0\n1 0 0\n0 1 0\n";
 
 // M1
 TEST(Off, HugeCountsAreRefusedBeforeTheyAllocate) {
   for (const std::string counts :
        {"2000000000 1 0", "3 2000000000 0", "1099511627776 0 0", "18446744073709551615 0 0"}) {
-    expect_refused("a.off", "OFF\n" + counts + "\n" + kVertices + "3 0 1 2\n", ErrorCode::MalformedFile,
+    expect_refused("a.off", "OFF\n" + counts + "\n" + kOffVertices + "3 0 1 2\n", ErrorCode::MalformedFile,
                    "a.off:2:", "bytes are left");
   }
   expect_refused("a.off", "OFF\n999999999999999999999999999999999 0 0\n", ErrorCode::MalformedFile,
@@ -29,34 +29,35 @@ TEST(Off, HugeCountsAreRefusedBeforeTheyAllocate) {
 
 // M3
 TEST(Off, TruncationAtAnyByteIsRefused) {
-  const std::string whole = "OFF\n3 1 0\n" + kVertices + "3 0 1 2";
+  const std::string whole = "OFF\n3 1 0\n" + kOffVertices + "3 0 1 2";
   EXPECT_EQ(face_count(read("a.off", whole)), 1U);
   for (std::size_t length = 0; length < whole.size(); ++length) {
     EXPECT_TRUE(refusal("a.off", whole.substr(0, length)).refused) << length;
   }
-  expect_refused("a.off", "OFF\n3 1 0\n" + kVertices + "3  0  1", ErrorCode::MalformedFile, "a.off:6:8",
+  expect_refused("a.off", "OFF\n3 1 0\n" + kOffVertices + "3  0  1", ErrorCode::MalformedFile, "a.off:6:8",
                  "the file ends in face 0 of 1");
 }
 
 // M4
 TEST(Off, DataAfterTheLastFaceIsAWarning) {
-  const std::string file = "OFF\n3 1 0\n" + kVertices + "3 0 1 2\n3 2 1 0\n";
+  const std::string file = "OFF\n3 1 0\n" + kOffVertices + "3 0 1 2\n3 2 1 0\n";
   EXPECT_EQ(warned(read("a.off", file), "after the last face"), 1U);
   EXPECT_TRUE(refusal("a.off", file, {.strict = true}).refused);
 }
 
 // M5
 TEST(Off, WrongFaceCountsAreRefused) {
-  expect_refused("a.off", "OFF 3 1 0\n" + kVertices + "-3 0 1 2\n", ErrorCode::MalformedFile, "face 0 has -3 corners");
-  expect_refused("a.off", "OFF 3 1 0\n" + kVertices + "9223372036854775807 0 1 2\n", ErrorCode::MalformedFile,
+  expect_refused("a.off", "OFF 3 1 0\n" + kOffVertices + "-3 0 1 2\n", ErrorCode::MalformedFile,
+                 "face 0 has -3 corners");
+  expect_refused("a.off", "OFF 3 1 0\n" + kOffVertices + "9223372036854775807 0 1 2\n", ErrorCode::MalformedFile,
                  "the file ends in face 0 of 1");
-  expect_refused("a.off", "OFF 3 1 0\n" + kVertices + "3.0 0 1 2\n", ErrorCode::MalformedFile, "'3.0'");
+  expect_refused("a.off", "OFF 3 1 0\n" + kOffVertices + "3.0 0 1 2\n", ErrorCode::MalformedFile, "'3.0'");
 }
 
 // M6
 TEST(Off, IndicesOutOfRangeAreRefusedByFaceAndCorner) {
   for (const std::string index : {"3", "-1", "4294967295", "2147483648", "4294967296"}) {
-    expect_refused("a.off", "OFF 3 1 0\n" + kVertices + "3 0 1 " + index + "\n", ErrorCode::MalformedFile,
+    expect_refused("a.off", "OFF 3 1 0\n" + kOffVertices + "3 0 1 " + index + "\n", ErrorCode::MalformedFile,
                    "a.off:5:7: face 0, corner 2 = " + index + ", but there are 3 vertices");
   }
 }
@@ -71,8 +72,8 @@ TEST(Off, TheDocumentedFamilyIsRead) {
     EXPECT_THAT(floats(mesh), ElementsAre(0, 0, 0, 1, 0, 0, 0, 1, 0)) << file;
     EXPECT_TRUE(mesh.warnings.empty()) << file;
   };
-  expect_triangle("OFF\n" + rest + kVertices + face);
-  expect_triangle("# first\nOFF 3 1 0 # counts\n" + kVertices + face);
+  expect_triangle("OFF\n" + rest + kOffVertices + face);
+  expect_triangle("# first\nOFF 3 1 0 # counts\n" + kOffVertices + face);
   expect_triangle("COFF\n" + rest + "0 0 0 1 1 1 1\n1 0 0 0 0 0 1\n0 1 0 1 0 0 1\n" + face);
   expect_triangle("NOFF\n" + rest + "0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n" + face);
   expect_triangle("CNOFF\n" + rest + "0 0 0 0 0 1 1 1 1 1\n1 0 0 0 0 1 1 1 1 1\n0 1 0 0 0 1 1 1 1 1\n" + face);
@@ -81,11 +82,11 @@ TEST(Off, TheDocumentedFamilyIsRead) {
 }
 
 TEST(Off, CountsWithoutABlankAfterTheKeywordAreAWarning) {
-  const auto mesh = read("a.off", "OFF3 1 0\n" + kVertices + "3 0 1 2\n");
+  const auto mesh = read("a.off", "OFF3 1 0\n" + kOffVertices + "3 0 1 2\n");
   EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 2));
   EXPECT_EQ(vertex_count(mesh), 3U);
   EXPECT_EQ(warned(mesh, "no blank between 'OFF' and the counts"), 1U);
-  EXPECT_TRUE(refusal("a.off", "OFF3 1 0\n" + kVertices + "3 0 1 2\n", {.strict = true}).refused);
+  EXPECT_TRUE(refusal("a.off", "OFF3 1 0\n" + kOffVertices + "3 0 1 2\n", {.strict = true}).refused);
   EXPECT_EQ(vertex_count(read("a", "COFF1 0 0\n0 0 0 1 1 1 1\n")), 1U);
   expect_refused("a.off", "OFF3x 1 0\n", ErrorCode::MalformedFile, "expected 'OFF', found 'OFF3x'");
   expect_refused("a.off", "OFF-3 1 0\n", ErrorCode::MalformedFile, "expected 'OFF', found 'OFF-3'");
@@ -97,7 +98,7 @@ TEST(Off, UnsupportedVariantsAreRefusedByName) {
     expect_refused("a.off", keyword + "\n3 1 0\n", ErrorCode::UnsupportedFormat, "'" + keyword + "'");
   }
   expect_refused("a.off", std::string("OFF BINARY\n\0\0\0\3", 15), ErrorCode::UnsupportedFormat, "'OFF BINARY'");
-  expect_refused("a.off", "3 1 0\n" + kVertices + "3 0 1 2\n", ErrorCode::MalformedFile, "expected 'OFF'");
+  expect_refused("a.off", "3 1 0\n" + kOffVertices + "3 0 1 2\n", ErrorCode::MalformedFile, "expected 'OFF'");
   expect_refused("a.off", "FOFF\n3 1 0\n", ErrorCode::MalformedFile, "'FOFF'");
 }
 

@@ -25,7 +25,7 @@ std::string facet(const std::string& vertices) {
   return "facet normal 0 0 1\nouter loop\n" + vertices + "endloop\nendfacet\n";
 }
 
-const std::string kVertices = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
+const std::string kStlVertices = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
 
 // M1
 TEST(Stl, AHugeFacetCountAllocatesNothing) {
@@ -40,7 +40,7 @@ TEST(Stl, TruncationAtAnyByteIsRefused) {
   for (std::size_t length = 0; length < binary.size(); ++length) {
     EXPECT_TRUE(refusal("a.stl", binary.substr(0, length)).refused) << length;
   }
-  const std::string text = "solid\n" + facet(kVertices);
+  const std::string text = "solid\n" + facet(kStlVertices);
   for (std::size_t length = 0; length + 1 < text.size(); ++length) {
     EXPECT_TRUE(refusal("a.stl", text.substr(0, length)).refused) << length;
   }
@@ -88,7 +88,7 @@ TEST(Stl, TextOfAnyCaseAndAnyNumberOfSolids) {
   const std::string upper =
       "SOLID A b c\nFacet Normal 0 0 1 OUTER LOOP VERTEX 0 0 0 Vertex 1 0 0 vertex 0 1 0 EndLoop\n"
       "ENDFACET EndSolid A b c\n";
-  const auto mesh = read("a.stl", upper + "solid empty\nendsolid\nsolid\n" + facet(kVertices) + "endsolid\n");
+  const auto mesh = read("a.stl", upper + "solid empty\nendsolid\nsolid\n" + facet(kStlVertices) + "endsolid\n");
   EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 2, 0, 1, 2));
   EXPECT_TRUE(mesh.warnings.empty());
   expect_refused("a.stl", "solid\nface\n", ErrorCode::MalformedFile, "a.stl:2:1", "found 'face'");
@@ -110,8 +110,8 @@ TEST(Stl, TextWithoutFacetsIsAnEmptyMesh) {
 // M13
 TEST(Stl, FacetsOfOtherThanThreeVertices) {
   const std::string quad = "vertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\n";
-  const auto mesh =
-      read("a.stl", "solid\n" + facet(kVertices) + facet("vertex 9 9 9\nvertex 8 8 8\n") + facet(quad) + "endsolid\n");
+  const auto mesh = read(
+      "a.stl", "solid\n" + facet(kStlVertices) + facet("vertex 9 9 9\nvertex 8 8 8\n") + facet(quad) + "endsolid\n");
   EXPECT_THAT(mesh.offsets, ElementsAre(0, 3, 7));
   EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 2, 0, 1, 3, 2));
   EXPECT_EQ(vertex_count(mesh), 4U) << "the facet that is left out leaves no vertex";
@@ -173,8 +173,8 @@ TEST(Stl, CoordinatesMustBeFinite) {
     expect_refused("a.stl", "solid\n" + facet("vertex 0 0 " + word + "\n"), ErrorCode::MalformedFile, "a.stl:4:12",
                    "facet 0, vertex 0, z = '" + word + "' is ");
   }
-  EXPECT_EQ(face_count(read(
-                "a.stl", "solid\nfacet normal nan nan nan\nouter loop\n" + kVertices + "endloop\nendfacet\nendsolid")),
+  EXPECT_EQ(face_count(read("a.stl", "solid\nfacet normal nan nan nan\nouter loop\n" + kStlVertices +
+                                         "endloop\nendfacet\nendsolid")),
             1U);
 }
 
