@@ -8,7 +8,7 @@ add_library(meshhood_families STATIC
 target_include_directories(meshhood_families PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(meshhood_families PUBLIC meshhood::meshhood)
 meshhood_own_target(meshhood_families)
-meshhood_compile_quickly(meshhood_families)
+target_compile_options(meshhood_families PRIVATE $<$<CONFIG:Release>:-O1>)
 
 foreach(part
     base/adjacency base/frame base/mesh base/distance base/sphere base/reference base/error base/parallel

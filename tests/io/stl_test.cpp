@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "support/hostile.h"
+#include "support/scale.h"
 
 // STL files: rows of the catalogue of mesh files.
 
@@ -149,7 +150,7 @@ TEST(Stl, WeldingInManyBatchesGivesWhatAMapGives) {
   std::mt19937 random(14);
   std::size_t corners = 0;
   for (const int range : {1, 20, 90, 100000}) {
-    std::vector<std::array<float, 9>> triangles(150000);
+    std::vector<std::array<float, 9>> triangles(scaled(150'000, 70'000));
     for (auto& triangle : triangles) {
       for (float& number : triangle)
         number = static_cast<float>(static_cast<int>(random() % static_cast<unsigned>(range)) - range / 2);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Chromium without a window, with WebGL in software, and the page in it.
-import { existsSync } from 'node:fs';
+import { existsSync, readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -38,6 +38,17 @@ export async function waitForMesh(page, name) {
   };
   await page.waitForFunction(isOpen, name);
   await waitForAnswers(page);
+}
+
+/** The most memory, in bytes, that the process of any open page has held since it began: its peak resident set. */
+export async function memoryOfPages(browser) {
+  const session = await browser.newBrowserCDPSession();
+  const { processInfo } = await session.send('SystemInfo.getProcessInfo');
+  const peaks = processInfo.filter(({ type }) => type === 'renderer').map(({ id }) => {
+    const [, kilobytes] = /^VmHWM:\s+(\d+) kB$/m.exec(readFileSync(`/proc/${id}/status`, 'utf8'));
+    return 1024 * Number(kilobytes);
+  });
+  return Math.max(...peaks);
 }
 
 /** Until the methods of the table have answered the query that is shown. */
