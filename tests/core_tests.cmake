@@ -16,7 +16,7 @@ foreach(part
     aggregate/aggregate
     batch/batch batch/joint_batch batch/packets
     exact/cell_components exact/forest exact/halfplane_polygon exact/joint_search exact/kd_order exact/leaf_nodes exact/leaves
-    exact/links exact/minimum_region exact/node_groups exact/node_links exact/quality exact/refit exact/tree exact/check exact/damage exact/file exact/index exact/verify
+    exact/links exact/minimum_region exact/node_groups exact/node_links exact/quality exact/refit exact/root_tree exact/tree exact/check exact/damage exact/file exact/index exact/verify
     exact/search_families exact/search_differential exact/search_outward exact/search_rare exact/search_traps exact/threads
     exact/query/edge_search exact/query/nearest exact/query/radix_heap exact/query/region exact/query/square_range
     exact/search/descent exact/search/leaf_traversal exact/search/group_states exact/search/home_marks exact/search/loose_pieces exact/search/other_components exact/search/reached_components exact/search/output

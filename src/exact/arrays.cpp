@@ -23,7 +23,7 @@ IndexView view_of(const IndexData& data) {
   IndexView view;
   view.frame = data.frame;
   for_each_array([](ArrayInfo, auto& span, const auto& array) { borrow(span, array); }, view, data);
-  if (!view.groups.empty()) view.tree = make_levels(view.levels, view.records, view.mean_radii);
+  if (!view.groups.empty()) derive(view);
   return view;
 }
 
@@ -41,7 +41,7 @@ void set_geometry(IndexView& view, std::shared_ptr<GeometryData> geometry) {
   borrow(view.leaves, geometry->leaves);
   borrow(view.groups, geometry->groups);
   borrow(view.mean_radii, geometry->mean_radii);
-  view.tree = make_levels(view.levels, view.records, view.mean_radii);
+  derive(view);
   view.geometry = std::move(geometry);
 }
 

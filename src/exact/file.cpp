@@ -83,7 +83,7 @@ std::shared_ptr<IndexView> take_arrays(file::SectionReader& file) {
   view->frame = file.take<Frame>("frame", 1).front();
   for_each_array([&](ArrayInfo info, auto& array) { take(file, info.section, array); }, *view);
   verify_sizes(*view, file);
-  view->tree = make_levels(view->levels, view->records, view->mean_radii);
+  derive(*view);
   return view;
 }
 

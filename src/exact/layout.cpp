@@ -14,4 +14,9 @@ Tree make_levels(std::span<const std::uint32_t> levels, std::span<const GroupRec
   return tree;
 }
 
+void derive(IndexView& index) {
+  index.tree = make_levels(index.levels, index.records, index.mean_radii);
+  index.roots = make_root_tree(index.groups, index.records, index.parents);
+}
+
 }  // namespace meshhood

@@ -15,6 +15,7 @@
 
 #include "base/frame.h"
 #include "base/prefetch.h"
+#include "exact/root_tree.h"
 #include "exact/shared_graph.h"
 #include "simd/leaf.h"
 #include "simd/node_group.h"
@@ -111,6 +112,7 @@ struct IndexView {
   std::span<const NodeLink> node_links;    // by group
   std::span<const double> mean_radii;      // by level
   Tree tree;                               // what `levels`, `records` and `mean_radii` tell of each level
+  RootTree roots;                          // over the groups that no node covers
   std::shared_ptr<const void> owner;       // a `ConnectivityData`, or the bytes of an index file
   std::shared_ptr<GeometryData> geometry;  // of this view alone; none while all arrays are in a file
   std::shared_ptr<SharedGraph> graph = std::make_shared<SharedGraph>();  // for searches over vertices
@@ -186,5 +188,8 @@ void for_each_array(F&& f, Indexes&... indexes) {
 /// The levels of a tree. There is a mean radius for each.
 [[nodiscard]] Tree make_levels(std::span<const std::uint32_t> levels, std::span<const GroupRecord> records,
                                std::span<const double> mean_radii);
+
+/// Sets `tree` and `roots`, which follow from the arrays.
+void derive(IndexView& index);
 
 }  // namespace meshhood

@@ -57,9 +57,9 @@ std::size_t large_others(const SearchCase& c, const SearcherAccess::State& state
 // descending from that node.
 TEST(SearchTraps, LeavesBelowLargeNodesOfAnotherComponentAreCandidates) {
   std::size_t others = 0;
-  for_each_ball_before_the_fold(make_folded_sheet(kFoldRow), [&](const SearchCase& c, const SearcherAccess::State& state) {
-    others += large_others(c, state);
-  });
+  for_each_ball_before_the_fold(
+      make_folded_sheet(kFoldRow),
+      [&](const SearchCase& c, const SearcherAccess::State& state) { others += large_others(c, state); });
   EXPECT_GT(others, 10U);
   std::printf("%zu large nodes of other components in doubt\n", others);
 }

@@ -24,43 +24,57 @@ class NearestSearch {
   NearestSearch(const IndexView& index, const Point& p) : index_(&index), centre_(index.frame, p) {}
 
   NearestVertex run() {
-    for (std::size_t level = index_->tree.size(); level-- > 0;) visit_roots(level);
+    visit_roots(index_->roots.levels.size() - 1, 0);
     return {best_, std::sqrt(square_)};
   }
 
  private:
   struct Child {
     double low;  // of the squared distances of its vertices
-    std::size_t node;
+    std::size_t place;
   };
 
-  /// The root groups of a level follow those that the nodes of the level above cover.
-  void visit_roots(std::size_t level) {
-    const std::size_t covered = level + 1 < index_->tree.size() ? index_->tree[level + 1].nodes : 0;
-    for (std::size_t group = index_->levels[level] + covered; group < index_->levels[level + 1]; ++group) {
-      visit_group(group);
-    }
+  /// Visits up to eight spheres of a level over the root groups, from `first` on.
+  void visit_roots(std::size_t level, std::size_t first) {
+    const RootTree& roots = index_->roots;
+    const std::span<const FrameSphere> spheres = std::span(roots.levels[level]).subspan(first);
+    const auto sphere_at = [&](std::size_t i) { return spheres[i]; };
+    visit_nearest_first(spheres.size(), sphere_at, [&](std::size_t i) {
+      if (level == 0) {
+        visit_group(roots.groups[first + i]);
+      } else {
+        visit_roots(level - 1, (first + i) * kFanOut);
+      }
+    });
   }
 
   void visit_group(std::size_t group) {
     const GroupRecord& record = index_->records[group];
     const Group& spheres = index_->groups[group];
+    const auto sphere_at = [&](std::size_t i) {
+      return FrameSphere{spheres.x[i], spheres.y[i], spheres.z[i], spheres.radius[i]};
+    };
+    visit_nearest_first(record.nodes, sphere_at, [&](std::size_t i) {
+      const std::size_t node = group * kFanOut + i;
+      if (node < index_->leaf_count()) {
+        visit_leaf(node);
+      } else {
+        visit_group(record.first_child + i);
+      }
+    });
+  }
+
+  /// Calls `visit(i)` for up to eight of `count` spheres, the nearest first, as long as they may hold a nearer vertex.
+  template <class SphereAt, class Visit>
+  void visit_nearest_first(std::size_t count, SphereAt&& sphere_at, Visit&& visit) {
     std::array<Child, kFanOut> children{};
-    // At most eight, which the compiler cannot know.
-    const std::size_t size = std::min<std::size_t>(record.nodes, kFanOut);
-    for (std::size_t i = 0; i < size; ++i) {
-      const FrameSphere sphere{spheres.x[i], spheres.y[i], spheres.z[i], spheres.radius[i]};
-      children[i] = {squared_distances(sphere, centre_).low, group * kFanOut + i};
-    }
+    const std::size_t size = std::min<std::size_t>(count, kFanOut);
+    for (std::size_t i = 0; i < size; ++i) children[i] = {squared_distances(sphere_at(i), centre_).low, i};
     std::sort(children.begin(), children.begin() + static_cast<std::ptrdiff_t>(size),
               [](const Child& a, const Child& b) { return a.low < b.low; });
     for (const Child& child : std::span(children).first(size)) {
       if (child.low > square_) return;  // mutant: nearest-looks-at-one-node
-      if (child.node < index_->leaf_count()) {
-        visit_leaf(child.node);
-      } else {
-        visit_group(record.first_child + child.node % kFanOut);
-      }
+      visit(child.place);
     }
   }
 

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "exact/root_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/vector.h"
+#include "exact/layout.h"
+
+namespace meshhood {
+namespace {
+
+Point centre_of(const FrameSphere& sphere) {
+  return {static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
+}
+
+/// A sphere around at least one sphere.
+FrameSphere enclosing(std::span<const FrameSphere> spheres) {
+  Point sum{0, 0, 0};
+  for (const FrameSphere& sphere : spheres) sum = sum + centre_of(sphere);
+  const Point mean = 1 / static_cast<double>(spheres.size()) * sum;
+  FrameSphere result{static_cast<float>(mean.x), static_cast<float>(mean.y), static_cast<float>(mean.z), 0};
+  double radius = 0;
+  for (const FrameSphere& sphere : spheres) {
+    radius = std::max(radius, length(centre_of(sphere) - centre_of(result)) + static_cast<double>(sphere.radius));
+  }
+  result.radius = next_above(radius);  // mutant: root-sphere-too-small
+  return result;
+}
+
+FrameSphere enclosing(const Group& group, std::size_t nodes) {
+  std::array<FrameSphere, kFanOut> spheres{};
+  const std::size_t size = std::clamp<std::size_t>(nodes, 1, kFanOut);
+  for (std::size_t i = 0; i < size; ++i) spheres[i] = {group.x[i], group.y[i], group.z[i], group.radius[i]};
+  return enclosing(std::span(spheres).first(size));
+}
+
+}  // namespace
+
+RootTree make_root_tree(std::span<const Group> groups, std::span<const GroupRecord> records,
+                        std::span<const std::uint32_t> parents) {
+  RootTree tree;
+  std::vector<FrameSphere> level;
+  for (std::size_t group = parents.size(); group-- > 0;) {
+    if (parents[group] != kNoNode) continue;
+    tree.groups.push_back(static_cast<std::uint32_t>(group));
+    level.push_back(enclosing(groups[group], records[group].nodes));
+  }
+  while (!level.empty()) {
+    std::vector<FrameSphere> above;
+    for (std::size_t i = 0; level.size() > 1 && i < level.size(); i += kFanOut) {
+      above.push_back(enclosing(std::span(level).subspan(i, std::min<std::size_t>(kFanOut, level.size() - i))));
+    }
+    tree.levels.push_back(std::move(level));
+    level = std::move(above);
+  }
+  return tree;
+}
+
+}  // namespace meshhood
