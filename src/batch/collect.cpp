@@ -69,13 +69,16 @@ void check_sample(Batch& batch, const SizeLimit& limit) {
 }
 
 void count_rows(Batch& batch, std::uint64_t* sizes, SizeLimit* limit) {
+  constexpr std::size_t kAtOnce = 32;  // a row may take less time than the counter, which the threads share
   batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
+    std::size_t done = 0;
     batch.worker(thread).count(chunk, [&](std::size_t row, std::size_t size) {
       sizes[row] = size;
       if (limit != nullptr) limit->add(size);
-      batch.task().advance(1);
+      if (++done % kAtOnce == 0) batch.task().advance(kAtOnce);
       return batch.task().should_continue(thread);
     });
+    batch.task().advance(done % kAtOnce);
   });
 }
 

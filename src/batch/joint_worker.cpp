@@ -154,9 +154,11 @@ LeafId JointWorker::leaf_of_item(const BatchItem& item) const { return leaf_of(v
 
 bool JointWorker::pays(std::span<const BatchItem> items) const {
   if (unlike_a_surface_) return false;  // few vertices of a leaf have the same neighbors
-  const double large = kLargeRadius * view_.tree.front().mean_radius / view_.frame.scale;
+  const bool is_large = items.front().radius > kLargeRadius * view_.tree.front().mean_radius / view_.frame.scale;
+  // A small leaf of which all is asked mostly belongs to a group of which all is asked.
+  if (is_large && items.size() == view_.leaves[leaf_of_item(items.front())].size) return true;
   const BreakEven& least = best_isa() == Isa::Portable ? kPortable : kVectors;
-  return items.size() >= (items.front().radius > large ? least.large_rows : least.rows);
+  return items.size() >= (is_large ? least.large_rows : least.rows);
 }
 
 const JointRadius& JointWorker::prepared(double radius) {

@@ -35,6 +35,14 @@ struct alignas(64) LeafPoints {
   PerLane<float> square;  // of the length
 };
 
+/// The centre of a group in the unit of the mesh, which floats hold exactly, and the scale of the frame.
+struct FloatCentre {
+  float x;
+  float y;
+  float z;
+  float scale;  // a power of two
+};
+
 /// The balls of a packet, relative to the same centre. A vertex p is compared with the ball around q by
 /// `2 p.q - p.p`, which is at least `q.q - r^2` where p is inside.
 struct alignas(64) PacketBalls {
@@ -78,6 +86,12 @@ struct RowPiece {
 };
 
 struct JointKernels {
+  /// Converts `size` vertices, three coordinates each, to points relative to the centre.
+  void (*convert_points)(const float* xyz, unsigned size, const FloatCentre& centre, LeafPoints& points);
+
+  /// Sets `reached` and `pending` to 0. Compilers may do it by a string instruction, which takes much longer.
+  void (*clear_words)(LeafWords& words);
+
   /// Fills `inside` with the queries that surely hold each vertex, and `doubts` of the lanes `in_doubt` with those that
   /// only the exact predicate can decide. `lanes`: the vertices that exist; the others get empty words.
   BallWords (*ball_words)(const LeafPoints& points, LaneMask lanes, const PacketBalls& balls,
@@ -98,6 +112,20 @@ struct JointKernels {
   void (*write_row)(std::span<const RowPiece> pieces, unsigned query, const VertexId* permutation,
                     std::span<VertexId> out);
 };
+
+/// `JointKernels::convert_points`, for compilers to vectorize.
+inline void convert_points_in_turn(const float* xyz, unsigned size, const FloatCentre& centre, LeafPoints& points) {
+  points = {};
+  for (std::size_t i = 0; i < size; ++i) {
+    const float x = (xyz[3 * i] - centre.x) * centre.scale;
+    const float y = (xyz[3 * i + 1] - centre.y) * centre.scale;
+    const float z = (xyz[3 * i + 2] - centre.z) * centre.scale;
+    points.x[i] = x;
+    points.y[i] = y;
+    points.z[i] = z;
+    points.square[i] = (x * x + y * y) + z * z;
+  }
+}
 
 /// Pushes words over the edges between two leaves. Scalar on every processor: a link has six edges on average.
 inline void push_words(std::span<const CrossEdge> edges, const PerLane<QueryWord>& reached,

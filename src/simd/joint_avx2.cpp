@@ -63,6 +63,10 @@ MESHHOOD_AVX2 inline QueryWord compare(const LeafPoints& points, std::size_t lan
   return sure;
 }
 
+MESHHOOD_AVX2 void convert_points(const float* xyz, unsigned size, const FloatCentre& centre, LeafPoints& points) {
+  convert_points_in_turn(xyz, size, centre, points);
+}
+
 MESHHOOD_AVX2 BallWords ball_words(const LeafPoints& points, LaneMask lanes, const PacketBalls& balls,
                                    PerLane<QueryWord>& inside, PerLane<QueryWord>& doubts) {
   LaneMask in_all = 0;
@@ -88,6 +92,13 @@ MESHHOOD_AVX2 BallWords ball_words(const LeafPoints& points, LaneMask lanes, con
     result.in_doubt |= LaneMask{maybe != sure} << lane;
   }
   return result;
+}
+
+MESHHOOD_AVX2 void clear_words(LeafWords& words) {
+  for (std::size_t i = 0; i < kParts; ++i) {
+    store8(&words.reached[8 * i], _mm256_setzero_si256());
+    store8(&words.pending[8 * i], _mm256_setzero_si256());
+  }
 }
 
 /// Moves what is pending to `reached`; returns the lanes that gained.
@@ -275,7 +286,8 @@ MESHHOOD_AVX2 void write_row(std::span<const RowPiece> pieces, unsigned query, c
 }  // namespace
 
 const JointKernels& avx2_joint_kernels() {
-  static constexpr JointKernels kAll{ball_words, spread_words, count_words, lanes_of, write_row};
+  static constexpr JointKernels kAll{convert_points, clear_words, ball_words, spread_words,
+                                     count_words,    lanes_of,    write_row};
   return kAll;
 }
 

@@ -9,8 +9,10 @@
 #endif
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 
 #include <immintrin.h>
 
@@ -56,6 +58,68 @@ MESHHOOD_AVX512 inline Words32 in_lanes(LaneMask lanes, QueryWord word) {
   const auto value = static_cast<int>(word);
   return {_mm512_maskz_set1_epi32(static_cast<__mmask16>(lanes), value),
           _mm512_maskz_set1_epi32(static_cast<__mmask16>(lanes >> 16), value)};
+}
+
+/// The lanes whose word has one of `bits`.
+MESHHOOD_AVX512 inline LaneMask lanes_with(const QueryWord* reached, __m512i bits) {
+  return join(_mm512_test_epi32_mask(_mm512_loadu_si512(reached), bits),
+              _mm512_test_epi32_mask(_mm512_loadu_si512(reached + 16), bits));
+}
+
+/// Where three vectors hold one coordinate of sixteen vertices.
+struct CoordinateOrder {
+  alignas(64) std::array<std::int32_t, 16> in_first_two;
+  alignas(64) std::array<std::int32_t, 16> in_third;  // or in what was found in the first two
+};
+
+constexpr std::array<CoordinateOrder, 3> kCoordinateOrders = [] {
+  std::array<CoordinateOrder, 3> orders{};
+  for (std::int32_t axis = 0; axis < 3; ++axis) {
+    for (std::int32_t i = 0; i < 16; ++i) {
+      const std::int32_t place = 3 * i + axis;
+      const auto at = static_cast<std::size_t>(i);
+      orders[static_cast<std::size_t>(axis)].in_first_two[at] = place < 32 ? place : 0;
+      orders[static_cast<std::size_t>(axis)].in_third[at] = place < 32 ? i : 16 + (place - 32);
+    }
+  }
+  return orders;
+}();
+
+/// Three vectors with the coordinates of sixteen vertices; zeros from `count` floats on.
+struct Interleaved {
+  __m512 first;
+  __m512 second;
+  __m512 third;
+};
+
+MESHHOOD_AVX512 inline __m512 load_floats(const float* from, unsigned begin, unsigned count) {
+  const auto wanted = static_cast<__mmask16>(_bzhi_u32(0xFFFF, count > begin ? count - begin : 0));
+  return _mm512_maskz_loadu_ps(wanted, from + begin);
+}
+
+/// One coordinate of the vertices of `lanes`, relative to the centre; 0 in the other lanes.
+MESHHOOD_AVX512 inline __m512 coordinate(const Interleaved& xyz, const CoordinateOrder& order, __mmask16 lanes,
+                                         float centre, float scale) {
+  const __m512 two = _mm512_permutex2var_ps(xyz.first, _mm512_load_si512(order.in_first_two.data()), xyz.second);
+  const __m512 all = _mm512_permutex2var_ps(two, _mm512_load_si512(order.in_third.data()), xyz.third);
+  // mutant: avx512-points-in-every-lane
+  return _mm512_maskz_mul_ps(lanes, _mm512_sub_ps(all, _mm512_set1_ps(centre)), _mm512_set1_ps(scale));
+}
+
+MESHHOOD_AVX512 void convert_points(const float* xyz, unsigned size, const FloatCentre& centre, LeafPoints& points) {
+  for (unsigned i = 0; i < kLeafCapacity; i += 16) {
+    const Interleaved some{load_floats(xyz, 3 * i, 3 * size), load_floats(xyz, 3 * i + 16, 3 * size),
+                           load_floats(xyz, 3 * i + 32, 3 * size)};
+    const auto lanes = static_cast<__mmask16>(_bzhi_u32(0xFFFFFFFF, size) >> i);
+    const __m512 x = coordinate(some, kCoordinateOrders[0], lanes, centre.x, centre.scale);
+    const __m512 y = coordinate(some, kCoordinateOrders[1], lanes, centre.y, centre.scale);
+    const __m512 z = coordinate(some, kCoordinateOrders[2], lanes, centre.z, centre.scale);
+    _mm512_store_ps(&points.x[i], x);
+    _mm512_store_ps(&points.y[i], y);
+    _mm512_store_ps(&points.z[i], z);
+    _mm512_store_ps(&points.square[i],
+                    _mm512_add_ps(_mm512_add_ps(_mm512_mul_ps(x, x), _mm512_mul_ps(y, y)), _mm512_mul_ps(z, z)));
+  }
 }
 
 /// Sixteen balls of a packet.
@@ -117,6 +181,12 @@ MESHHOOD_AVX512 BallWords ball_words(const LeafPoints& points, LaneMask lanes, c
   return result;
 }
 
+MESHHOOD_AVX512 void clear_words(LeafWords& words) {
+  const Words32 none{_mm512_setzero_si512(), _mm512_setzero_si512()};
+  store(words.reached, none);
+  store(words.pending, none);
+}
+
 /// Moves what is pending to `reached`.
 MESHHOOD_AVX512 inline Words32 take_pending(LeafWords& words, const Words32& inside, QueryWord whole) {
   Words32 reached = load(words.reached) | (load(words.pending) & inside);
@@ -137,10 +207,9 @@ MESHHOOD_AVX512 SpreadWords spread_words(LeafWords& words, const LaneMask* adjac
   LaneMask open = differing(reached, inside);
   for (LaneMask fresh = differing(reached, before); fresh != 0 && open != 0;) {
     Words32 arriving{_mm512_setzero_si512(), _mm512_setzero_si512()};
-    for (; fresh != 0; fresh &= fresh - 1) {
+    for (fresh &= lanes_with(adjacency, _mm512_set1_epi32(static_cast<int>(open))); fresh != 0; fresh &= fresh - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(fresh));
-      const LaneMask to = adjacency[lane] & open;
-      if (to != 0) arriving = arriving | in_lanes(to, words.reached[lane]);
+      arriving = arriving | in_lanes(adjacency[lane], words.reached[lane]);
     }
     const Words32 grown = reached | (arriving & inside);  // mutant: avx512-words-spread-outside
     fresh = differing(grown, reached);
@@ -155,6 +224,8 @@ MESHHOOD_AVX512 SpreadWords spread_words(LeafWords& words, const LaneMask* adjac
 /// plane n.
 class BitCounters {
  public:
+  MESHHOOD_AVX512 BitCounters() { planes_[0] = _mm512_setzero_si512(); }
+
   MESHHOOD_AVX512 void add(const Words32& words) {
     __m512i carry = add_to_plane(0, words.low, words.high);
     std::size_t plane = 1;
@@ -164,11 +235,16 @@ class BitCounters {
     ++leaves_;
   }
 
-  MESHHOOD_AVX512 void add_to(PerLane<std::uint64_t>& counts) const {
+  MESHHOOD_AVX512 void add_to(PerLane<std::uint64_t>& counts) {
+    // What waits is added first, so that a digit has one plane.
+    const __m512i none = _mm512_setzero_si512();
+    __m512i carry = none;
     for (std::size_t plane = 0; plane < used_; ++plane) {
+      const bool waits = plane > 0 && (leaves_ >> (plane - 1) & 1U) != 0;
+      carry = add_to_plane(plane, waits ? waiting_[plane] : none, carry);
       add_plane(planes_[plane], plane, counts);
-      if (plane > 0 && (leaves_ >> (plane - 1) & 1U) != 0) add_plane(waiting_[plane], plane, counts);
     }
+    add_plane(carry, used_, counts);
   }
 
  private:
@@ -187,7 +263,7 @@ class BitCounters {
   }
 
   static constexpr std::size_t kPlanes = 34;  // enough for all leaves of an index
-  alignas(64) __m512i planes_[kPlanes]{};     // NOLINT(modernize-avoid-c-arrays): std::array drops the alignment
+  alignas(64) __m512i planes_[kPlanes];       // NOLINT(modernize-avoid-c-arrays): std::array drops the alignment
   alignas(64) __m512i waiting_[kPlanes];      // NOLINT(modernize-avoid-c-arrays)
   std::size_t used_ = 1;
   std::uint64_t leaves_ = 0;
@@ -198,11 +274,6 @@ MESHHOOD_AVX512 void count_words(const LeafWords* words, std::span<const LeafOfW
   BitCounters counters;
   for (const LeafOfWords& leaf : list) counters.add(load(words[leaf.words].reached));
   counters.add_to(counts);
-}
-
-MESHHOOD_AVX512 inline LaneMask lanes_with(const QueryWord* reached, __m512i bit) {
-  return join(_mm512_test_epi32_mask(_mm512_loadu_si512(reached), bit),
-              _mm512_test_epi32_mask(_mm512_loadu_si512(reached + 16), bit));
 }
 
 MESHHOOD_AVX512 LaneMask lanes_of(const QueryWord* reached, unsigned query) {
@@ -250,7 +321,8 @@ MESHHOOD_AVX512 void write_row(std::span<const RowPiece> pieces, unsigned query,
 }  // namespace
 
 const JointKernels& avx512_joint_kernels() {
-  static constexpr JointKernels kAll{ball_words, spread_words, count_words, lanes_of, write_row};
+  static constexpr JointKernels kAll{convert_points, clear_words, ball_words, spread_words,
+                                     count_words,    lanes_of,    write_row};
   return kAll;
 }
 

@@ -63,6 +63,11 @@ BallWords ball_words(const LeafPoints& points, LaneMask lanes, const PacketBalls
   return result;
 }
 
+void clear_words(LeafWords& words) {
+  words.reached = {};
+  words.pending = {};
+}
+
 /// Reaches the open neighbors of the lanes `from`; returns those that have gained.
 LaneMask spread_once(LeafWords& words, const LaneMask* adjacency, LaneMask from, LaneMask open) {
   LaneMask gained = 0;
@@ -164,7 +169,8 @@ void write_row(std::span<const RowPiece> pieces, unsigned query, const VertexId*
 }  // namespace
 
 const JointKernels& portable_joint_kernels() {
-  static constexpr JointKernels kAll{ball_words, spread_words, count_words, lanes_of, write_row};
+  static constexpr JointKernels kAll{
+      convert_points_in_turn, clear_words, ball_words, spread_words, count_words, lanes_of, write_row};
   return kAll;
 }
 

@@ -2,6 +2,7 @@
 // The kernels of the joint search give the same bits on every processor, and what their definitions say.
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <limits>
@@ -35,6 +36,35 @@ class EveryJointPath : public testing::TestWithParam<Isa> {
   const JointKernels& plain = portable_joint_kernels();
   Random random{11};
 };
+
+TEST_P(EveryJointPath, PointsAreRoundedOnceAndReadNothingBeyondTheLeaf) {
+  for (std::size_t round = 0; round < scaled(2000, 100); ++round) {
+    const unsigned size = 1 + static_cast<unsigned>(random.below(kLeafCapacity));
+    std::vector<float> xyz(std::size_t{3} * size);
+    for (float& value : xyz) value = 100 * coordinate();
+    const FloatCentre centre{coordinate(), coordinate(), coordinate(), std::ldexp(1.0F, -7)};
+    LeafPoints points;
+    tried.convert_points(xyz.data(), size, centre, points);
+    for (std::size_t i = 0; i < kLeafCapacity; ++i) {
+      const auto relative = [&](std::size_t axis, float origin) {
+        return i < size ? static_cast<float>(double{xyz[3 * i + axis]} - double{origin}) * centre.scale : 0;
+      };
+      ASSERT_EQ(points.x[i], relative(0, centre.x));
+      ASSERT_EQ(points.y[i], relative(1, centre.y));
+      ASSERT_EQ(points.z[i], relative(2, centre.z));
+      ASSERT_EQ(points.square[i], (points.x[i] * points.x[i] + points.y[i] * points.y[i]) + points.z[i] * points.z[i]);
+    }
+  }
+}
+
+TEST_P(EveryJointPath, ClearedWordsReachNothing) {
+  LeafWords words{random_words(), random_words(), random_words()};
+  const PerLane<QueryWord> inside = words.inside;
+  tried.clear_words(words);
+  EXPECT_EQ(words.reached, PerLane<QueryWord>{});
+  EXPECT_EQ(words.pending, PerLane<QueryWord>{});
+  EXPECT_EQ(words.inside, inside);
+}
 
 TEST_P(EveryJointPath, BallWordsAreThoseOfThePortableKernel) {
   std::size_t doubts = 0;

@@ -21,6 +21,15 @@ FrameSphere node_bounds(const IndexView& index, NodeId node) {
   return {group.x[i], group.y[i], group.z[i], group.radius[i]};
 }
 
+/// The positions, or null if they are doubles.
+const float* float_positions(const IndexView& index) {
+  const auto* xyz = std::get_if<std::span<const float>>(&index.positions);
+  return xyz == nullptr ? nullptr : xyz->data();
+}
+
+/// The nearest float. Not inlined: where g++ 12 converts two numbers at once, it leaves both conversions out.
+[[gnu::noinline]] double rounded(double value) { return static_cast<double>(static_cast<float>(value)); }
+
 /// Some vertices of the index relative to `centre`, in frame units.
 template <class Real>
 void convert(std::span<const Real> xyz, const Leaf& leaf, const Point& centre, double scale, LeafPoints& out) {
@@ -36,15 +45,19 @@ void convert(std::span<const Real> xyz, const Leaf& leaf, const Point& centre, d
 
 }  // namespace
 
-JointGroup::JointGroup(const IndexView& index, const Kernels& kernels)
+JointGroup::JointGroup(const IndexView& index, Isa isa)
     : index_(&index),
-      kernels_(&kernels),
+      kernels_(&kernels(isa)),
+      joint_kernels_(&joint_kernels(isa)),
+      in_floats_(float_positions(index) != nullptr && index.frame.scale >= 0x1p-100 && index.frame.scale <= 0x1p100),
       ball_({0, 0, 0}, TreeBounds(index.frame, 0)),
       entry_of_(index.leaf_count(), kUnknown) {}
 
 void JointGroup::begin(std::span<const LeafId> leaves, const TreeBounds& low, const TreeBounds& high) {
   clear();
   set_sphere(leaves);
+  group_ = leaves.front() / kFanOut;
+  high_ = high.outer;                                                   // mutant: group-without-its-balls
   ball_.outer = next_above(static_cast<double>(high.outer) + radius_);  // mutant: group-without-its-radius
   ball_.inner = -next_above(radius_ - static_cast<double>(low.inner));  // mutant: core-of-the-largest-ball
   for (const LeafId leaf : leaves) {
@@ -117,6 +130,7 @@ void JointGroup::set_sphere(std::span<const LeafId> leaves) {
   ball_.y = bounds.y;
   ball_.z = bounds.z;
   centre_ = index_->frame.origin + 1 / index_->frame.scale * centre_of(Sphere<float>{bounds.x, bounds.y, bounds.z, 0});
+  if (in_floats_) centre_ = {rounded(centre_.x), rounded(centre_.y), rounded(centre_.z)};
   // Where the coordinates are large for the size of the mesh, the centre is not quite that of the sphere.
   centre_in_frame_ = index_->frame.to_frame(centre_);
   const Point off = centre_in_frame_ - centre_of(Sphere<float>{bounds.x, bounds.y, bounds.z, 0});
@@ -128,9 +142,22 @@ GroupEntry JointGroup::discover(LeafId leaf) {
   touched_.push_back(leaf);
   const Leaf& record = index_->leaves[leaf];
   const Containment side = classify(record.bounds, ball_);
-  if (side == Containment::Outside) return entry_of_[leaf] = kNoEntry;
+  if (side == Containment::Outside || !meets_a_leaf(record.bounds)) return entry_of_[leaf] = kNoEntry;
   if (side == Containment::Inside && record.connected) return add_core(leaf);  // mutant: core-of-disconnected-leaves
   return entry_of_[leaf] = add_entry(leaf);
+}
+
+/// Whether a ball around a vertex of the group may meet the sphere. The sphere of the group alone would let in many
+/// more leaves where the radius is small.
+bool JointGroup::meets_a_leaf(const FrameSphere& sphere) const {
+  TreeBall ball = ball_;
+  ball.x = sphere.x;
+  ball.y = sphere.y;
+  ball.z = sphere.z;
+  ball.outer = next_above(static_cast<double>(high_) + static_cast<double>(sphere.radius));
+  GroupContainment sides;
+  kernels_->classify(index_->groups.data(), std::span(&group_, 1), ball, &sides);
+  return (sides.inside | sides.intersecting) != 0;
 }
 
 GroupEntry JointGroup::add_entry(LeafId leaf) {
@@ -212,11 +239,21 @@ std::span<const LeafRun> JointGroup::core_runs(GroupEntry core) const {
 const LeafPoints& JointGroup::points(GroupEntry entry) {
   if (has_points_[entry] == 0) {
     has_points_[entry] = 1;
-    std::visit(
-        [&](auto xyz) { convert(xyz, index_->leaves[leaves_[entry]], centre_, index_->frame.scale, points_[entry]); },
-        index_->positions);
+    read_points(leaves_[entry], points_[entry]);
   }
   return points_[entry];
+}
+
+void JointGroup::read_points(LeafId leaf, LeafPoints& points) const {
+  const Leaf& record = index_->leaves[leaf];
+  if (in_floats_) {
+    const FloatCentre centre{static_cast<float>(centre_.x), static_cast<float>(centre_.y),
+                             static_cast<float>(centre_.z), static_cast<float>(index_->frame.scale)};
+    joint_kernels_->convert_points(float_positions(*index_) + std::size_t{3} * record.first, record.size, centre,
+                                   points);
+  } else {
+    std::visit([&](auto xyz) { convert(xyz, record, centre_, index_->frame.scale, points); }, index_->positions);
+  }
 }
 
 }  // namespace meshhood

@@ -23,7 +23,7 @@ using GroupEntry = std::uint32_t;
 /// its *core links*. Every other leaf that the balls may meet is an entry by itself.
 class JointGroup {
  public:
-  JointGroup(const IndexView& index, const Kernels& kernels);
+  JointGroup(const IndexView& index, Isa isa);
 
   /// A link from a leaf to another entry.
   struct EntryLink {
@@ -83,6 +83,8 @@ class JointGroup {
 
   /// The vertices of an entry that is a leaf, relative to the centre. Converted when first asked for.
   [[nodiscard]] const LeafPoints& points(GroupEntry entry);
+  /// Those of any leaf.
+  void read_points(LeafId leaf, LeafPoints& points) const;
 
  private:
   static constexpr LeafId kCore = 0xF0000000;  // more than any leaf: there are at most 2^27
@@ -113,10 +115,15 @@ class JointGroup {
     return static_cast<std::uint8_t>(1U << entry % kFanOut);
   }
   [[nodiscard]] bool is_inside(LeafId leaf) const;
+  [[nodiscard]] bool meets_a_leaf(const FrameSphere& sphere) const;
 
   const IndexView* index_;
   const Kernels* kernels_;
-  TreeBall ball_;  // around the group: what its balls hold together, and what each of them holds
+  const JointKernels* joint_kernels_;
+  bool in_floats_;  // positions and the centre are floats, and their differences are neither too large nor too small
+  std::uint32_t group_ = 0;  // that the leaves belong to
+  float high_ = 0;           // the radius of the largest ball, in the frame
+  TreeBall ball_;            // around the group: what its balls hold together, and what each of them holds
   Point centre_{0, 0, 0};
   Point centre_in_frame_{0, 0, 0};
   double radius_ = 0;

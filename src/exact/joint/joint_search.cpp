@@ -6,7 +6,7 @@
 namespace meshhood {
 
 JointSearch::JointSearch(const IndexView& index, Isa isa)
-    : index_(&index), kernels_(&joint_kernels(isa)), group_(index, kernels(isa)), spread_(index, isa) {}
+    : index_(&index), kernels_(&joint_kernels(isa)), group_(index, isa), spread_(index, isa) {}
 
 void JointSearch::run(LeafId leaf, std::span<const JointQuery> queries) {
   packet_.emplace(*index_, group_, leaf, queries);

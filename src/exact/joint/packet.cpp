@@ -30,15 +30,14 @@ double outer_of(const TreeBounds& bounds) { return std::min(static_cast<double>(
 }  // namespace
 
 Packet::Packet(const IndexView& index, const JointGroup& group, LeafId leaf, std::span<const JointQuery> queries)
-    : leaf_(leaf), size_(queries.size()), ball_({0, 0, 0}, queries.front().radius.bounds) {
+    : index_(&index), leaf_(leaf), size_(queries.size()), ball_({0, 0, 0}, queries.front().radius.bounds) {
   for (std::size_t i = 0; i < size_; ++i) {
     lanes_[i] = queries[i].lane;
-    centres_[i] = index.position(leaf, queries[i].lane);
     squared_radii_[i] = queries[i].radius.squared;
     ball_.inner = std::min(ball_.inner, queries[i].radius.bounds.inner);  // mutant: packet-inside-one-ball
     ball_.outer = std::max(ball_.outer, queries[i].radius.bounds.outer);
   }
-  set_balls(index, group, queries);
+  set_balls(group, queries);
   const FrameSphere& bounds = index.leaves[leaf].bounds;
   ball_.x = bounds.x;
   ball_.y = bounds.y;
@@ -47,8 +46,8 @@ Packet::Packet(const IndexView& index, const JointGroup& group, LeafId leaf, std
   ball_.outer = float_above(static_cast<double>(ball_.outer) + static_cast<double>(bounds.radius));
 }
 
-void Packet::set_balls(const IndexView& index, const JointGroup& group, std::span<const JointQuery> queries) {
-  const FrameSphere& bounds = index.leaves[leaf_].bounds;
+void Packet::set_balls(const JointGroup& group, std::span<const JointQuery> queries) {
+  const FrameSphere& bounds = index_->leaves[leaf_].bounds;
   const auto leaf_radius = static_cast<double>(bounds.radius);
   const double low = inner_of(ball_) - leaf_radius;
   const double high = outer_of(ball_) + leaf_radius;
@@ -64,13 +63,15 @@ void Packet::set_balls(const IndexView& index, const JointGroup& group, std::spa
   balls_.queries = first_lanes(static_cast<unsigned>(size_));
   balls_.surely_inside.fill(kFloatInfinity);
   balls_.maybe_inside.fill(kFloatInfinity);
+  LeafPoints points;
+  group.read_points(leaf_, points);
   for (std::size_t i = 0; i < size_; ++i) {
-    const Point exact = index.frame.scale * (centres_[i] - group.centre());
-    const Point q{static_cast<double>(static_cast<float>(exact.x)), static_cast<double>(static_cast<float>(exact.y)),
-                  static_cast<double>(static_cast<float>(exact.z))};
-    balls_.x[i] = static_cast<float>(2 * q.x);
-    balls_.y[i] = static_cast<float>(2 * q.y);
-    balls_.z[i] = static_cast<float>(2 * q.z);
+    const unsigned lane = lanes_[i];
+    balls_.x[i] = 2 * points.x[lane];
+    balls_.y[i] = 2 * points.y[lane];
+    balls_.z[i] = 2 * points.z[lane];
+    const Point q{static_cast<double>(points.x[lane]), static_cast<double>(points.y[lane]),
+                  static_cast<double>(points.z[lane])};
     const double inner = inner_of(queries[i].radius.bounds);
     const double outer = outer_of(queries[i].radius.bounds);
     // mutant: packet-doubts-inside

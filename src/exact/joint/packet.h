@@ -37,25 +37,24 @@ class Packet {
   [[nodiscard]] const PacketBalls& balls() const { return balls_; }
   [[nodiscard]] LeafId leaf() const { return leaf_; }
   [[nodiscard]] unsigned lane(std::size_t query) const { return lanes_[query]; }
-  [[nodiscard]] const Point& centre(std::size_t query) const { return centres_[query]; }
 
   /// Around the leaf: `outer` around all balls, `inner` within each.
   [[nodiscard]] const TreeBall& ball() const { return ball_; }
 
   /// The exact predicate.
   [[nodiscard]] bool holds(std::size_t query, const Point& vertex) const {
-    return squared_distance(vertex, centres_[query]) <= squared_radii_[query];
+    return squared_distance(vertex, index_->position(leaf_, lanes_[query])) <= squared_radii_[query];
   }
 
  private:
-  void set_balls(const IndexView& index, const JointGroup& group, std::span<const JointQuery> queries);
+  void set_balls(const JointGroup& group, std::span<const JointQuery> queries);
 
+  const IndexView* index_;
   LeafId leaf_;
   std::size_t size_;
   TreeBall ball_;
   PacketBalls balls_;
   std::array<unsigned, kPacketCapacity> lanes_{};
-  std::array<Point, kPacketCapacity> centres_{};
   std::array<double, kPacketCapacity> squared_radii_{};
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "exact/joint/spread.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace meshhood {
@@ -119,19 +120,34 @@ void JointSpread::find_inside(JointGroup& group, const Packet& packet, GroupEntr
   }
 }
 
-/// Pushes the words of a leaf over its links.
+/// Pushes the words of a leaf over its links. Which links take them cannot be predicted, so they are chosen first,
+/// without branches.
 void JointSpread::push_leaf(JointGroup& group, const Packet& packet, GroupEntry entry, LaneMask gained) {
-  const PerLane<QueryWord>& reached = words_[entry].reached;
-  for (const JointGroup::EntryLink& link : group.links(entry)) {
-    if ((link.boundary & gained) == 0 || states_[link.entry].closed) continue;  // mutant: gained-not-pushed
-    if (states_[link.entry].kind == Kind::Whole) {
-      QueryWord word = 0;
-      for_each_lane(link.boundary, [&](unsigned lane) { word |= reached[lane]; });
-      add_to_whole(group, packet, link.entry, word);
-    } else {
-      push_words(link.edges, reached, pending(link.entry));
-      worklist_.add(group.rank(link.entry));
+  constexpr std::size_t kAtOnce = 64;
+  for (std::span<const JointGroup::EntryLink> links = group.links(entry); !links.empty();) {
+    const std::span<const JointGroup::EntryLink> some = links.first(std::min(links.size(), kAtOnce));
+    std::uint64_t taken = 0;
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      const bool has_gained = (some[i].boundary & gained) != 0;  // mutant: gained-not-pushed
+      const bool is_open = !states_[some[i].entry].closed;
+      taken |= static_cast<std::uint64_t>(has_gained & is_open) << i;
     }
+    for (; taken != 0; taken &= taken - 1) {
+      push_over(group, packet, words_[entry].reached, some[static_cast<std::size_t>(std::countr_zero(taken))]);
+    }
+    links = links.subspan(some.size());
+  }
+}
+
+void JointSpread::push_over(const JointGroup& group, const Packet& packet, const PerLane<QueryWord>& reached,
+                            const JointGroup::EntryLink& link) {
+  if (states_[link.entry].kind == Kind::Whole) {
+    QueryWord word = 0;
+    for_each_lane(link.boundary, [&](unsigned lane) { word |= reached[lane]; });
+    add_to_whole(group, packet, link.entry, word);
+  } else {
+    push_words(link.edges, reached, pending(link.entry));
+    worklist_.add(group.rank(link.entry));
   }
 }
 
@@ -146,8 +162,7 @@ void JointSpread::add_to_whole(const JointGroup& group, const Packet& packet, Gr
 PerLane<QueryWord>& JointSpread::pending(GroupEntry entry) {
   if (!states_[entry].is_touched) {
     states_[entry].is_touched = true;
-    words_[entry].reached = {};
-    words_[entry].pending = {};
+    kernels_->clear_words(words_[entry]);
   }
   return words_[entry].pending;
 }

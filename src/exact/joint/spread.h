@@ -52,6 +52,8 @@ class JointSpread {
   void take_partial(JointGroup& group, const Packet& packet, GroupEntry entry);
   void find_inside(JointGroup& group, const Packet& packet, GroupEntry entry);
   void push_leaf(JointGroup& group, const Packet& packet, GroupEntry entry, LaneMask gained);
+  void push_over(const JointGroup& group, const Packet& packet, const PerLane<QueryWord>& reached,
+                 const JointGroup::EntryLink& link);
   template <class F>
   void push(const JointGroup& group, const Packet& packet, GroupEntry entry, QueryWord word, F&& f);
   void add_to_whole(const JointGroup& group, const Packet& packet, GroupEntry entry, QueryWord word);
