@@ -24,39 +24,34 @@ using SmallMatrix = std::array<SmallVector<N>, N>;
   return sum;
 }
 
-/// Solves b x = right by Cholesky's method, where `b` is symmetric and given by its lower triangle. None if the
-/// determinant of `b`, scaled to a diagonal of ones, is less than `smallest_determinant`: the condition of such a
-/// matrix is at most 12 / determinant.
+/// Solves b x = right by the decomposition b = L D L^T, where `b` is symmetric and given by its lower triangle. None if
+/// the determinant of `b`, scaled to a diagonal of ones, is less than `smallest_determinant`: the condition of such a
+/// matrix is at most 12 / determinant. The scaling itself is left out, since it changes L, D and x by factors only; so
+/// are the roots of Cholesky's method.
 template <std::size_t N>
 [[nodiscard]] std::optional<SmallVector<N>> solve_normal_equations(SmallMatrix<N> b, SmallVector<N> right,
                                                                    double smallest_determinant) {
-  SmallVector<N> scale{};
-  for (std::size_t i = 0; i < N; ++i) {
-    if (!(b[i][i] > 0)) return std::nullopt;
-    scale[i] = 1 / std::sqrt(b[i][i]);
-    for (std::size_t j = 0; j <= i; ++j) b[i][j] *= scale[i] * scale[j];
-    right[i] *= scale[i];
-  }
+  SmallMatrix<N> l{};  // while `b` becomes L D
+  SmallVector<N> inverse{};
   double determinant = 1;
   for (std::size_t j = 0; j < N; ++j) {
-    for (std::size_t k = 0; k < j; ++k) b[j][j] -= b[j][k] * b[j][k];
-    determinant *= b[j][j];
-    if (!(determinant >= smallest_determinant)) return std::nullopt;
-    b[j][j] = std::sqrt(b[j][j]);
-    for (std::size_t i = j + 1; i < N; ++i) {
-      for (std::size_t k = 0; k < j; ++k) b[i][j] -= b[i][k] * b[j][k];
-      b[i][j] /= b[j][j];
+    const double diagonal = b[j][j];
+    if (!(diagonal > 0)) return std::nullopt;
+    for (std::size_t i = j; i < N; ++i) {
+      for (std::size_t k = 0; k < j; ++k) b[i][j] -= b[i][k] * l[j][k];
     }
+    determinant *= b[j][j] / diagonal;
+    if (!(determinant >= smallest_determinant)) return std::nullopt;
+    inverse[j] = 1 / b[j][j];
+    for (std::size_t i = j + 1; i < N; ++i) l[i][j] = b[i][j] * inverse[j];
   }
   for (std::size_t i = 0; i < N; ++i) {
-    for (std::size_t k = 0; k < i; ++k) right[i] -= b[i][k] * right[k];
-    right[i] /= b[i][i];
+    for (std::size_t k = 0; k < i; ++k) right[i] -= l[i][k] * right[k];
   }
   for (std::size_t i = N; i-- > 0;) {
-    for (std::size_t k = i + 1; k < N; ++k) right[i] -= b[k][i] * right[k];
-    right[i] /= b[i][i];
+    right[i] *= inverse[i];
+    for (std::size_t k = i + 1; k < N; ++k) right[i] -= l[k][i] * right[k];
   }
-  for (std::size_t i = 0; i < N; ++i) right[i] *= scale[i];
   return right;
 }
 
