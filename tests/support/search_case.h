@@ -15,6 +15,7 @@
 #include "support/families.h"
 #include "support/oracle.h"
 #include "support/scale.h"
+#include "support/sorted.h"
 
 /// Meshes and queries for testing one step of the search against brute force.
 namespace meshhood::test {
@@ -72,11 +73,6 @@ std::size_t for_each_search_case(const Family& family, std::size_t meshes, std::
     }
   }
   return cases;
-}
-
-inline Ids sorted(Ids ids) {
-  std::sort(ids.begin(), ids.end());
-  return ids;
 }
 
 }  // namespace meshhood::test
