@@ -49,7 +49,7 @@ bool ChunkedMesh::read_faces(std::size_t corners, FaceChunk& chunk) {
   chunk.first = next_face_;
   chunk.corners.clear();
   chunk.ends.clear();
-  while (chunk.corners.size() < corners) {
+  while (chunk.corners.size() < corners && chunk.size() < corners) {  // mutant: faces-without-corners-fill-memory
     const std::size_t begin = chunk.corners.size();
     if (!load_face(chunk.corners)) break;
     check_face(std::span(chunk.corners).subspan(begin));
@@ -61,7 +61,7 @@ bool ChunkedMesh::read_faces(std::size_t corners, FaceChunk& chunk) {
 
 void ChunkedMesh::check_face(std::span<const std::uint64_t> corners) const {
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (corners[i] < vertices_) [[likely]] {
+    if (corners[i] < vertices_) [[likely]] {  // mutant: corner-one-too-large
       continue;
     }
     raise(ErrorCode::InvalidMesh, fmt::format("{}: face {}: corner {} is vertex {}, but the mesh has {} vertices",

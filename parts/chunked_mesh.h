@@ -51,8 +51,8 @@ class ChunkedMesh {
   /// Moves to the first face.
   void rewind_faces();
 
-  /// Replaces `chunk` by the next faces: at least `corners` corners, unless the mesh ends before. False if there is no
-  /// further face.
+  /// Replaces `chunk` by the next faces: at least `corners` corners, unless there are as many faces before, or the mesh
+  /// ends. False if there is no further face.
   bool read_faces(std::size_t corners, FaceChunk& chunk);
 
   /// The longest face.

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "meshhood/error.h"
 
@@ -20,14 +19,15 @@
 #include "io/file_writer.h"
 #include "io/mapped_file.h"
 #include "io/messages.h"
+#include "parts/json.h"
 
 // Each JSON file begins with a line of fixed length that holds the checksum of all bytes after it.
 
 namespace meshhood::parts {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
+constexpr std::string_view kFloat = "float";
+constexpr std::string_view kDouble = "double";
 constexpr std::array kPartFiles{kIndexFile, kVerticesFile, kOwnedFile, kCornersFile, kOffsetsFile};
 
 std::string hex(std::uint64_t number) { return fmt::format("{:016x}", number); }
@@ -52,8 +52,8 @@ std::string first_line(std::string_view rest) {
   raise(ErrorCode::MalformedIndex, fmt::format("{}: {}", io::printable_name(file.string()), reason));
 }
 
-void write_json(const std::filesystem::path& file, const Json& document) {
-  const std::string rest = document.dump(1).substr(1) + "\n";  // without the brace, which the first line has
+void write_json(const std::filesystem::path& file, JsonText document) {
+  const std::string rest = document.take().substr(1) + "\n";  // without the brace, which the first line has
   io::FileWriter writer(file);
   writer.write(first_line(rest) + rest);
   writer.commit();
@@ -65,73 +65,93 @@ std::string read_text(const std::filesystem::path& file) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// Calls `read(document)`. Every fault of the text becomes an error that names the file.
+/// Calls `read(values)`. Every fault of the text becomes an error that names the file.
 template <class F>
 auto read_json(const std::filesystem::path& file, F&& read) {
   const std::string text = read_text(file);
   const std::size_t line = std::min(text.find('\n'), text.size() - 1) + 1;
   const std::string rest = text.substr(line);
-  if (text.empty() || text.substr(0, line) != first_line(rest)) {
+  if (text.empty() || text.substr(0, line) != first_line(rest)) {  // mutant: manifest-without-checksum
     refuse(file, "has been changed or truncated: its checksum does not match");
   }
   try {
-    return read(Json::parse(text));
-  } catch (const Json::exception& error) {
-    refuse(file, fmt::format("is not written by meshhood partition: {}", error.what()));
+    return read(JsonValues(text));
   } catch (const Error& error) {
-    refuse(file, error.what());
+    refuse(file, fmt::format("is not written by meshhood partition: {}", error.what()));
   }
 }
 
-Json to_json(const Plan& plan) {
-  return {{"format", kFormat},
-          {"vertices", plan.vertices},
-          {"faces", plan.faces},
-          {"precision", plan.is_double ? "double" : "float"},
-          {"content_hash", to_text(plan.content_hash)},
-          {"mean_edge_length", plan.mean_edge_length},
-          {"halo", plan.halo},
-          {"parts", plan.parts}};
+void add_plan(JsonText& json, const Plan& plan) {
+  json.begin("plan", '{');
+  json.add("format", std::uint64_t{kFormat});
+  json.add("vertices", plan.vertices);
+  json.add("faces", plan.faces);
+  json.add("precision", plan.is_double ? kDouble : kFloat);
+  json.add("content_hash", to_text(plan.content_hash));
+  json.add("mean_edge_length", plan.mean_edge_length);
+  json.add("halo", plan.halo);
+  json.add("parts", std::uint64_t{plan.parts});
+  json.end('}');
 }
 
-Plan plan_from(const Json& json) {
-  if (const auto format = json.at("format").get<unsigned>(); format != kFormat) {
+/// A finite number >= 0.
+double length_at(const JsonValues& json, const std::string& path) {
+  const double length = json.number(path);
+  if (length >= 0 && std::isfinite(length)) return length;
+  raise(ErrorCode::MalformedIndex, fmt::format("'{}' is {}, expected a finite number >= 0", path, length));
+}
+
+bool is_double_at(const JsonValues& json, const std::string& path) {
+  const std::string& precision = json.text(path);
+  if (precision != kFloat && precision != kDouble) {
+    raise(ErrorCode::MalformedIndex,
+          fmt::format("'{}' is {}, expected {} or {}", path, io::quote(precision), kFloat, kDouble));
+  }
+  return precision == kDouble;
+}
+
+Plan plan_from(const JsonValues& json) {
+  if (const std::uint64_t format = json.count("plan/format"); format != kFormat) {
     raise(ErrorCode::MalformedIndex, fmt::format("format {}, expected {}", format, kFormat));
   }
-  const auto hash = json.at("content_hash").get<std::string>();
-  const Plan plan{.vertices = json.at("vertices").get<std::uint64_t>(),
-                  .faces = json.at("faces").get<std::uint64_t>(),
-                  .is_double = json.at("precision").get<std::string>() == "double",
-                  .content_hash = {number_of(hash.substr(0, hash.size() / 2)), number_of(hash.substr(hash.size() / 2))},
-                  .mean_edge_length = json.at("mean_edge_length").get<double>(),
-                  .halo = json.at("halo").get<double>(),
-                  .parts = json.at("parts").get<std::size_t>()};
-  if (!(plan.halo >= 0) || !std::isfinite(plan.halo)) {
-    raise(ErrorCode::MalformedIndex, fmt::format("halo {}, expected a finite number >= 0", plan.halo));
-  }
-  return plan;
+  const std::string& hash = json.text("plan/content_hash");
+  return {.vertices = json.count("plan/vertices"),
+          .faces = json.count("plan/faces"),
+          .is_double = is_double_at(json, "plan/precision"),
+          .content_hash = {number_of(hash.substr(0, hash.size() / 2)), number_of(hash.substr(hash.size() / 2))},
+          .mean_edge_length = length_at(json, "plan/mean_edge_length"),
+          .halo = length_at(json, "plan/halo"),
+          .parts = static_cast<std::size_t>(json.count("plan/parts"))};
 }
 
-Json to_json(const Part& part) {
-  Json files = Json::object();
+/// `name` is empty in an array.
+void add_part(JsonText& json, std::string_view name, const Part& part) {
+  json.begin(name, '{');
+  json.add("vertices", part.vertices);
+  json.add("owned", part.owned);
+  json.add("faces", part.faces);
+  json.begin("files", '{');
   for (const PartFile& file : part.files) {
-    files[file.name] = {{"bytes", file.bytes}, {"checksum", hex(file.checksum)}};
+    json.begin(file.name, '{');
+    json.add("bytes", file.bytes);
+    json.add("checksum", hex(file.checksum));
+    json.end('}');
   }
-  return {{"vertices", part.vertices}, {"owned", part.owned}, {"faces", part.faces}, {"files", std::move(files)}};
+  json.end('}');
+  json.end('}');
 }
 
-Part part_from(const Json& json) {
-  Part part{.vertices = json.at("vertices").get<std::uint64_t>(),
-            .owned = json.at("owned").get<std::uint64_t>(),
-            .faces = json.at("faces").get<std::uint64_t>(),
+Part part_from(const JsonValues& json, const std::string& path) {
+  Part part{.vertices = json.count(path + "/vertices"),
+            .owned = json.count(path + "/owned"),
+            .faces = json.count(path + "/faces"),
             .files = {}};
-  if (part.owned > part.vertices) {
+  if (part.owned > part.vertices) {  // mutant: part-owns-more-than-it-has
     raise(ErrorCode::MalformedIndex, fmt::format("a part that owns {} of its {} vertices", part.owned, part.vertices));
   }
   for (const std::string_view name : kPartFiles) {
-    const Json& file = json.at("files").at(std::string(name));
-    part.files.push_back(
-        {std::string(name), file.at("bytes").get<std::uint64_t>(), number_of(file.at("checksum").get<std::string>())});
+    const std::string file = fmt::format("{}/files/{}", path, name);
+    part.files.push_back({std::string(name), json.count(file + "/bytes"), number_of(json.text(file + "/checksum"))});
   }
   return part;
 }
@@ -142,7 +162,7 @@ void check_counts(const Manifest& manifest) {
   }
   const std::uint64_t owned = std::accumulate(manifest.parts.begin(), manifest.parts.end(), std::uint64_t{0},
                                               [](std::uint64_t sum, const Part& part) { return sum + part.owned; });
-  if (owned != manifest.plan.vertices) {
+  if (owned != manifest.plan.vertices) {  // mutant: parts-own-too-little
     raise(ErrorCode::MalformedIndex, fmt::format("the parts own {} vertices of {}", owned, manifest.plan.vertices));
   }
 }
@@ -157,18 +177,23 @@ PartFile describe_file(const std::filesystem::path& folder, std::string_view nam
 }
 
 void write_part(const std::filesystem::path& part_folder, const Plan& plan, std::size_t number, const Part& part) {
-  write_json(part_folder / kPartFile, {{"plan", to_json(plan)}, {"number", number}, {"part", to_json(part)}});
+  JsonText json;
+  add_plan(json, plan);
+  json.add("number", std::uint64_t{number});
+  add_part(json, "part", part);
+  write_json(part_folder / kPartFile, std::move(json));
 }
 
 std::optional<Part> read_part(const std::filesystem::path& part_folder, const Plan& plan, std::size_t number) {
   const std::filesystem::path file = part_folder / kPartFile;
   std::error_code unknown;
   if (!std::filesystem::exists(file, unknown)) return std::nullopt;
-  return read_json(file, [&](const Json& json) {
-    if (plan_from(json.at("plan")) != plan || json.at("number").get<std::size_t>() != number) {
+  return read_json(file, [&](const JsonValues& json) {
+    // mutant: part-of-another-number, part-of-another-plan
+    if (plan_from(json) != plan || json.count("number") != number) {
       raise(ErrorCode::MalformedIndex, "is a part of another mesh, or of another number of parts or halo");
     }
-    return part_from(json.at("part"));
+    return part_from(json, "part");
   });
 }
 
@@ -176,10 +201,10 @@ void verify_part(const std::filesystem::path& part_folder, const Part& part) {
   for (const PartFile& expected : part.files) {
     const std::filesystem::path file = part_folder / expected.name;
     const PartFile found = describe_file(part_folder, expected.name);
-    if (found.bytes != expected.bytes) {
+    if (found.bytes != expected.bytes) {  // mutant: file-of-another-size
       refuse(file, fmt::format("has {} bytes, but the manifest says {}", found.bytes, expected.bytes));
     }
-    if (found.checksum != expected.checksum) {
+    if (found.checksum != expected.checksum) {  // mutant: file-of-another-content
       refuse(file, fmt::format("has the checksum {}, but the manifest says {}: it has been changed, or is of another "
                                "mesh",
                                hex(found.checksum), hex(expected.checksum)));
@@ -188,15 +213,19 @@ void verify_part(const std::filesystem::path& part_folder, const Part& part) {
 }
 
 void write_manifest(const std::filesystem::path& folder, const Manifest& manifest) {
-  Json parts = Json::array();
-  for (const Part& part : manifest.parts) parts.push_back(to_json(part));
-  write_json(folder / kManifestFile, {{"plan", to_json(manifest.plan)}, {"parts", std::move(parts)}});
+  JsonText json;
+  add_plan(json, manifest.plan);
+  json.begin("parts", '[');
+  for (const Part& part : manifest.parts) add_part(json, {}, part);
+  json.end(']');
+  write_json(folder / kManifestFile, std::move(json));
 }
 
 Manifest read_manifest(const std::filesystem::path& folder) {
-  return read_json(folder / kManifestFile, [](const Json& json) {
-    Manifest manifest{.plan = plan_from(json.at("plan")), .parts = {}};
-    for (const Json& part : json.at("parts")) manifest.parts.push_back(part_from(part));
+  return read_json(folder / kManifestFile, [](const JsonValues& json) {
+    Manifest manifest{.plan = plan_from(json), .parts = {}};
+    const std::size_t parts = json.size("parts");
+    for (std::size_t i = 0; i < parts; ++i) manifest.parts.push_back(part_from(json, fmt::format("parts/{}", i)));
     check_counts(manifest);
     return manifest;
   });

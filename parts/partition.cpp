@@ -122,7 +122,7 @@ class Run {
     if (fs::exists(folder_ / kManifestFile)) check_plan(read_manifest(folder_).plan);
     for (std::size_t part = 0; part < plan().parts; ++part) {
       std::optional<Part> found = read_part(folder_of(part), plan(), part);
-      if (!found || !is_whole(folder_of(part), *found)) continue;
+      if (!found || !is_whole(folder_of(part), *found)) continue;  // mutant: damaged-part-kept
       result_.manifest.parts[part] = std::move(*found);
       finished_[part] = true;
       ++result_.kept;
@@ -130,7 +130,7 @@ class Run {
   }
 
   void check_plan(const Plan& old) {
-    if (old == plan()) return;
+    if (old == plan()) return;  // mutant: folder-of-another-plan
     raise(ErrorCode::MalformedIndex,
           fmt::format("{}: holds {} parts of {} with halo {} already; expected an empty folder, or the same mesh, halo "
                       "and number of parts",
@@ -205,7 +205,8 @@ class Run {
     const BuildOptions build{.threads = options_.threads, .progress = progress};
     Part written = write_part_files(work, contents, part, tree, plan().is_double, build);
     write_part(work, plan(), part, written);
-    fs::remove_all(folder_of(part));  // a damaged one
+    // A damaged one.
+    fs::remove_all(folder_of(part));  // mutant: damaged-part-stays
     fs::rename(work, folder_of(part));
     fs::remove(contents.vertices.file(part));
     fs::remove(contents.faces.file(part));

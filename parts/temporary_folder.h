@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdio>
 #include <filesystem>
 #include <system_error>
 #include <utility>
+
+#include <ftw.h>
+#include <sys/stat.h>
 
 #include "io/messages.h"
 
@@ -21,9 +25,11 @@ class TemporaryFolder {
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  /// Not by `std::filesystem::remove_all`, which throws if memory runs out.
   ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
+    constexpr int kOpenFolders = 4;
+    const auto remove = [](const char* file, const struct stat*, int, FTW*) { return std::remove(file); };
+    static_cast<void>(::nftw(path_.c_str(), remove, kOpenFolders, FTW_DEPTH | FTW_PHYS));
   }
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }

@@ -2,10 +2,14 @@
 foreach(stem partition chunked_mesh cut_tree)
   meshhood_test(parts/${stem} meshhood_parts meshhood_families)
 endforeach()
-meshhood_test(parts/folder meshhood_parts meshhood_families meshhood_small_disk)
+find_package(fmt REQUIRED)
+meshhood_test(parts/folder meshhood_parts meshhood_families meshhood_small_disk fmt::fmt)
 if(NOT MESHHOOD_LONG_TESTS)
   return()
 endif()
+
+meshhood_test(parts/allocation ALONE meshhood_parts meshhood_families)
+target_sources(parts_allocation_test PRIVATE support/failing_allocations.cpp)
 
 meshhood_test(parts/memory ALONE meshhood_parts meshhood_shapes)
 # The process whose peak memory `parts/memory` measures.

@@ -144,6 +144,21 @@ TEST_F(ChunkedMeshes, OfOtherFilesAreReadIntoMemory) {
                  [&] { static_cast<void>(parts::open_mesh(file, 10)); });
 }
 
+TEST_F(ChunkedMeshes, CountFacesWithoutCornersInEachChunk) {
+  io::Mesh mesh;
+  mesh.positions = std::vector<float>{0, 0, 0};
+  mesh.offsets.assign(1001, 0);
+  const auto opened = parts::chunked(std::move(mesh), "empty faces");
+  parts::FaceChunk chunk;
+  std::size_t faces = 0;
+  opened->rewind_faces();
+  while (opened->read_faces(10, chunk)) {
+    ASSERT_LE(chunk.size(), 10U);
+    faces += chunk.size();
+  }
+  EXPECT_EQ(faces, 1000U);
+}
+
 TEST_F(ChunkedMeshes, NameTheFaultOfAFile) {
   const std::vector<float> V{0, 0, 0, 1, 0, 0, 0, 1, 0};
   const std::vector<std::int32_t> F{0, 1, 2};
@@ -166,6 +181,9 @@ TEST_F(ChunkedMeshes, NameTheFaultOfAFile) {
   refused(ErrorCode::MalformedFile, "the file is truncated", npy(V, 3).substr(0, 150), npy(F, 3));
   refused(ErrorCode::MalformedFile, "the file is truncated", npy(V, 3), head("<i4", "(18446744073709551615, 3)"));
   refused(ErrorCode::MalformedFile, "the file is truncated", npy(V, 3), head("<i4", "(3, 18446744073709551615)"));
+  // No byte of the file bounds the number of these rows.
+  refused(ErrorCode::MalformedFile, "shape (1000000000000, 0), expected values", npy(V, 3),
+          head("<i4", "(1000000000000, 0)"));
   refused(ErrorCode::TooLarge, "has 2000000 corners, but the limit of a partition is 1048576", npy(V, 3),
           npy(std::vector<std::int32_t>(2'000'000), 2'000'000));
   refused(ErrorCode::UnsupportedFormat, "expected (#V, 3) float32 or float64 in C order", npy(F, 3), npy(F, 3));

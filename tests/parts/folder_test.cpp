@@ -10,12 +10,14 @@
 #include <string>
 #include <thread>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/checksum.h"
 #include "parts/folder_lock.h"
 #include "parts/partition.h"
 #include "support/families.h"
@@ -47,6 +49,11 @@ std::map<std::string, std::string> contents(const fs::path& folder) {
 void overwrite(const fs::path& file, const std::string& bytes) {
   fs::remove(file);  // a file that is mapped or linked keeps its content
   std::ofstream(file, std::ios::binary) << bytes;
+}
+
+/// The text of a JSON file of a folder, whose first line is its checksum.
+std::string sealed(const std::string& rest) {
+  return fmt::format("{{\"checksum\": \"{:016x}\",\n{}", checksum({std::as_bytes(std::span(rest))}), rest);
 }
 
 class Folder : public testing::Test {
@@ -188,6 +195,35 @@ TEST_F(Folder, IsRefusedIfItsManifestHasBeenChanged) {
     }
   }
   std::printf("%zu changes of the manifest were refused\n", changes);
+}
+
+TEST_F(Folder, IsRefusedIfItsManifestContradictsItself) {
+  run(folder);
+  const fs::path file = folder / parts::kManifestFile;
+  const std::string text = read_file(file);
+  // With the right checksum.
+  const auto refuses = [&](const std::string& cause, const std::string& from, const std::string& to) {
+    std::string rest = text.substr(text.find('\n') + 1);
+    ASSERT_NE(rest.find(from), std::string::npos) << from;
+    rest.replace(rest.find(from), from.size(), to);
+    overwrite(file, sealed(rest));
+    expect_refused(ErrorCode::MalformedIndex, "manifest.json: is not written by meshhood partition: " + cause,
+                   [&] { static_cast<void>(parts::read_manifest(folder)); });
+  };
+  refuses("no JSON at byte", "{", "<\x9b\x7f");
+  refuses("more than 8 levels", "{", "[[[[[[[[[");
+  refuses("format 2, expected 1", "\"format\": 1", "\"format\": 2");
+  refuses("'plan/vertices' is missing", "\"vertices\": 900", "\"vertexes\": 900");
+  refuses("'plan/vertices' is not a whole number >= 0", "\"vertices\": 900", "\"vertices\": -900");
+  refuses("'plan/vertices' is not a whole number >= 0", "\"vertices\": 900", "\"vertices\": 1e300");
+  refuses("'plan/vertices' is not a whole number >= 0", "\"vertices\": 900", "\"vertices\": true");
+  refuses("'plan/precision' is 'half'", "\"float\"", "\"half\"");
+  refuses("'plan/halo' is -3", "\"halo\": 3.0", "\"halo\": -3.0");
+  refuses("'plan/halo' is not a number", "\"halo\": 3.0", "\"halo\": null");
+  refuses("'parts' is not an array", "\"parts\": [", "\"parts\": 1, \"others\": [");
+  refuses("lists 4 parts of 5", "\"parts\": 4", "\"parts\": 5");
+  refuses("the parts own 900 vertices of 901", "\"vertices\": 900", "\"vertices\": 901");
+  refuses("a part that owns", "\"owned\": 2", "\"owned\": 9002");
 }
 
 TEST_F(Folder, IsRefusedIfItHasPartsOfAnotherMesh) {
