@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 """Adds the first inputs of each fuzzer, small files that reach all parts of the readers, to its archive in fuzz/corpus."""
+import io
+import json
 import random
 import struct
+import zipfile
 
 import corpus
 
@@ -106,6 +109,70 @@ SEEDS["kernels"] |= {f"small_{i}": bytes([i % 4, 31, 255, 255, 255, 255, 3])
                      + struct.pack("<99f" if i % 4 != 1 else "<99d", *(DRAW.uniform(-1, 1) for _ in range(99)))
                      for i in range(20)}
 SEEDS["any"] = {f"{kind}_{name}": data for kind in ("ply", "obj", "off", "stl") for name, data in SEEDS[kind].items()}
+
+
+
+def npy(descr, shape, data, version=1, order=False):
+    header = f"{{'descr': '{descr}', 'fortran_order': {order}, 'shape': {shape}, }}\n".encode()
+    size = struct.pack("<H" if version == 1 else "<I", len(header))
+    return b"\x93NUMPY" + bytes([version, 0]) + size + header + data
+
+
+def arrays(positions, faces):
+    """Two files after the head of the target: an even byte, and the size of the first."""
+    return struct.pack("<BH", 0, len(positions)) + positions + faces
+
+
+def npz(**members):
+    archive = io.BytesIO()
+    with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as file:
+        for name, data in members.items():
+            file.writestr(zipfile.ZipInfo(f"{name}.npy"), data)
+    return struct.pack("<BH", 1, 0) + archive.getvalue()
+
+
+FLOATS = npy("<f4", "(4, 3)", struct.pack("<12f", *range(12)))
+DOUBLES = npy(">f8", "(3, 3)", struct.pack(">9d", *range(9)), version=2)
+INTEGERS = npy("<i8", "(2, 3)", struct.pack("<6q", 0, 1, 2, 2, 1, 3))
+ROWS = {"offsets": npy("<i8", "(3,)", struct.pack("<3q", 0, 1, 3)), "ids": npy("<i4", "(3,)", struct.pack("<3i", 0, 0, 1)),
+        "distances": npy("<f8", "(3,)", struct.pack("<3d", 0, 0, 1)), "radius": npy("|S3", "()", b"1.5")}
+SEEDS["npy"] = {
+    "triangles": arrays(FLOATS, INTEGERS),
+    "big_endian": arrays(DOUBLES, npy(">i4", "(1, 4)", struct.pack(">4i", 0, 1, 2, 0), version=3)),
+    "no_faces": arrays(FLOATS, npy("<i8", "(0, 3)", b"")),
+    "no_columns": arrays(FLOATS, npy("<i8", "(1000000000000, 0)", b"")),
+    "negative": arrays(FLOATS, npy("<i4", "(1, 3)", struct.pack("<3i", 0, -1, 2))),
+    "fortran": arrays(FLOATS, npy("<i4", "(1, 3)", bytes(12), order=True)),
+    "huge": arrays(npy("<f4", "(6148914691236517206, 3)", bytes(24)), INTEGERS),
+    "truncated": arrays(FLOATS[:-1], INTEGERS),
+    "unsigned": arrays(FLOATS, npy("<u8", "(2, 3)", struct.pack("<6Q", 0, 1, 2, 2, 1, 3))),
+    "rows": npz(**ROWS),
+    "rows_without_ids": npz(offsets=ROWS["offsets"]),
+    "rows_too_short": npz(**ROWS | {"ids": npy("<i4", "(9,)", bytes(12))}),
+}
+FILES = ("index.mhi", "vertices.npy", "owned.npy", "face_corners.npy", "face_offsets.npy")
+PART = {"vertices": 20, "owned": 16, "faces": 24,
+        "files": {name: {"bytes": 200, "checksum": "0123456789abcdef"} for name in FILES}}
+PLAN = {"format": 1, "vertices": 32, "faces": 42, "precision": "float", "content_hash": "0123456789abcdef" * 2,
+        "mean_edge_length": 1.2, "halo": 1.0, "parts": 2}
+
+
+def document(kind, **values):
+    """A JSON file of a folder after the byte that says which it is, without its first line."""
+    return bytes([kind]) + json.dumps(values, indent=1)[1:].encode()
+
+
+SEEDS["parts"] = {
+    "manifest": document(0, plan=PLAN, parts=[PART, PART]),
+    "manifest_of_one": document(0, plan=PLAN | {"parts": 1, "vertices": 16}, parts=[PART]),
+    "manifest_of_nothing": document(0, plan=PLAN | {"parts": 0, "vertices": 0}, parts=[]),
+    "negative": document(0, plan=PLAN | {"vertices": -1}, parts=[PART, PART]),
+    "part": document(1, plan=PLAN, number=1, part=PART),
+    "deep": bytes([0]) + b'"a": ' + b"[" * 1000,
+    "unsealed": document(2, plan=PLAN, parts=[PART, PART]),
+}
+# Changes of files: which, how, where and with what.
+SEEDS["parts"] |= {f"changes_{i}": bytes([3]) + DRAW.randbytes(5 * (1 + i % 6)) for i in range(24)}
 
 for target, seeds in SEEDS.items():
     corpus.write(target, corpus.read(target) | seeds)

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Any bytes as `.npy` and `.npz` files. The first byte of an input says what it is: two arrays, of positions and faces,
+// of which the next two bytes give the size of the first; or an archive of arrays.
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "io/npz_reader.h"
+#include "memory_file.h"
+#include "parts/chunked_mesh.h"
+#include "refusal.h"
+#include "target.h"
+
+namespace meshhood::fuzz {
+namespace {
+
+using parts::ChunkedMesh;
+
+/// In pieces of `size` vertices.
+std::vector<Point> read_positions(ChunkedMesh& mesh, std::size_t size) {
+  std::vector<Point> all(static_cast<std::size_t>(mesh.vertex_count()));
+  for (std::size_t first = 0; first < all.size(); first += size) {
+    mesh.read_positions(first, std::span(all).subspan(first, std::min(size, all.size() - first)));
+  }
+  return all;
+}
+
+struct Faces {
+  std::vector<std::uint64_t> corners = {};
+  std::vector<std::size_t> degrees = {};
+
+  friend bool operator==(const Faces&, const Faces&) = default;
+};
+
+/// In chunks of `size` corners.
+Faces read_faces(ChunkedMesh& mesh, std::size_t size) {
+  Faces all;
+  parts::FaceChunk chunk;
+  mesh.rewind_faces();
+  while (mesh.read_faces(size, chunk)) {
+    if (chunk.first != all.degrees.size()) fail("a chunk begins at another face");
+    for (std::size_t i = 0; i < chunk.size(); ++i) all.degrees.push_back(chunk.face(i).size());
+    all.corners.insert(all.corners.end(), chunk.corners.begin(), chunk.corners.end());
+  }
+  return all;
+}
+
+bool is_same(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+void read_arrays(std::span<const std::byte> positions, std::span<const std::byte> faces) {
+  static const MemoryFile positions_file;
+  static const MemoryFile faces_file;
+  positions_file.replace(positions);
+  faces_file.replace(faces);
+  try {
+    const auto mesh = parts::open_arrays(positions_file.path(), faces_file.path());
+    if (!std::ranges::equal(read_positions(*mesh, 7), read_positions(*mesh, 1000), is_same)) {
+      fail("positions depend on the pieces in which they are read");
+    }
+    const Faces read = read_faces(*mesh, 5);
+    if (read != read_faces(*mesh, 1000)) fail("faces depend on the chunks in which they are read");
+    for (const std::uint64_t corner : read.corners) {
+      if (corner >= mesh->vertex_count()) fail("a corner that is no vertex was accepted");
+    }
+  } catch (const Error& error) {
+    expect_clear(error,
+                 {ErrorCode::MalformedFile, ErrorCode::UnsupportedFormat, ErrorCode::InvalidMesh, ErrorCode::TooLarge},
+                 "/proc/self/fd/");
+  }
+}
+
+template <class T>
+void read_values(io::NpzReader& reader, std::string_view name) {
+  reader.begin(name);
+  std::vector<T> values;
+  while (reader.read(values)) {
+  }
+}
+
+void read_archive(std::span<const std::byte> bytes) {
+  static const MemoryFile file;
+  file.replace(bytes);
+  const auto attempt = [&](auto&& read) {
+    try {
+      io::NpzReader reader(file.path());
+      read(reader);
+    } catch (const Error& error) {
+      expect_clear(error, {ErrorCode::IoFailure, ErrorCode::MalformedFile, ErrorCode::UnsupportedFormat},
+                   "/proc/self/fd/");
+    }
+  };
+  attempt([](io::NpzReader& reader) { static_cast<void>(reader.integers("offsets")); });
+  attempt([](io::NpzReader& reader) { read_values<std::int64_t>(reader, "ids"); });
+  attempt([](io::NpzReader& reader) { read_values<double>(reader, "distances"); });
+  attempt([](io::NpzReader& reader) { static_cast<void>(reader.text("radius")); });
+}
+
+}  // namespace
+
+void run(std::span<const std::byte> input) {
+  constexpr std::size_t kHead = 3;
+  if (input.size() < kHead) return;
+  const auto byte = [&](std::size_t i) { return std::to_integer<std::size_t>(input[i]); };
+  const auto body = input.subspan(kHead);
+  if (byte(0) % 2 == 1) return read_archive(body);
+  const std::size_t first = std::min(body.size(), byte(1) | byte(2) << 8U);
+  read_arrays(body.first(first), body.subspan(first));
+}
+
+}  // namespace meshhood::fuzz
