@@ -19,6 +19,14 @@ struct SearchLimits {
   /// False in tests: every query is then answered by the outward search, whatever it costs.
   bool enabled = true;
 
+  /// Whether the answer may well lie in the leaf of the query vertex: the ball is tiny, or the leaf has no links.
+  /// Chosen.
+  [[nodiscard]] bool may_lie_in_one_leaf(const Query& query, const IndexView& index) const {
+    constexpr double kMeanLeafRadii = 0.4;
+    const bool is_tiny = query.radius_in_frame < kMeanLeafRadii * index.tree[0].mean_radius;
+    return enabled && (is_tiny || index.links_of(query.leaf()).empty());
+  }
+
   /// Whether hardly any leaf lies inside the ball, so that the breadth-first search visits no more leaves than the
   /// outward search. Chosen.
   [[nodiscard]] bool is_small(const Query& query, const IndexView& index) const {

@@ -8,8 +8,8 @@
 // visit much of the ball, all that was reached is united along its links instead. docs/design.md says why that is
 // exact.
 //
-// Where the ball is small, a breadth-first search over leaves is faster; and where the graph is unlike a surface, one
-// over vertices.
+// An answer that lies in one leaf takes none of these steps. Where the ball is small, a breadth-first search over leaves
+// is faster; and where the graph is unlike a surface, one over vertices.
 #include <algorithm>
 
 #include "meshhood/search.h"
@@ -28,8 +28,10 @@ Point Searcher::State::search(VertexId v, double radius) {
   traversal.prefetch_leaf(index->leaves[home]);
   if (radius != bounds.radius) bounds = RadiusBounds(index->frame, radius);
   const Query query(*index, v, bounds);
-  const bool is_small = limits.is_small(query, *index);
   answer.clear();
+  was_outward = false;
+  if (search_single_leaf(query)) return query.centre();
+  const bool is_small = limits.is_small(query, *index);
   // A leaf that is not connected has no links, so the answer is a part of it.
   was_outward = !is_small && index->leaves[home].connected && !is_flood_faster(query);
   if (was_outward) {
@@ -38,6 +40,14 @@ Point Searcher::State::search(VertexId v, double radius) {
     leaf_bfs.run(query, is_small, traversal, answer);
   }
   return query.centre();
+}
+
+/// Returns false if the answer has vertices of other leaves, or probably has.
+bool Searcher::State::search_single_leaf(const Query& query) {
+  if (!limits.may_lie_in_one_leaf(query, *index)) return false;
+  const LaneMask found = single_leaf.find(query);
+  if (found != 0) answer.add(LeafSubset{query.leaf(), found});
+  return found != 0;
 }
 
 /// Whether recent queries suggest it.

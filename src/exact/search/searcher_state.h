@@ -19,6 +19,7 @@
 #include "exact/search/query.h"
 #include "exact/search/reached_components.h"
 #include "exact/search/search_limits.h"
+#include "exact/search/single_leaf.h"
 #include "exact/search/vertex_bfs.h"
 #include "exact/search/vertex_set.h"
 #include "exact/search/waves.h"
@@ -40,6 +41,7 @@ struct Searcher::State {
   LeafTraversal traversal;
   OtherComponents other_components;
   ReachedComponents reached_components;
+  SingleLeaf single_leaf;
   LeafBfs leaf_bfs;
   SearchMemory memory;
   std::vector<LeafSubset>
@@ -61,6 +63,7 @@ struct Searcher::State {
         traversal(*index, *kernels),
         other_components(*index, *kernels),
         reached_components(*index, *kernels),
+        single_leaf(*index, *kernels),
         leaf_bfs(*index),
         answer(*index) {}
 
@@ -80,6 +83,7 @@ struct Searcher::State {
     NodeId node;
   };
 
+  [[nodiscard]] bool search_single_leaf(const Query& query);
   [[nodiscard]] bool is_flood_faster(const Query& query);
   void search_outward(const Query& query);
   bool remove_other_components(const Query& query);

@@ -10,9 +10,10 @@ namespace meshhood {
 
 bool is_unlike_a_surface(const IndexView& index) {
   // On a surface, a leaf of 30 vertices has six links of eight edges: a link for every five vertices. Chosen: between
-  // those and the graphs of bench/odd_graphs, which have a link for every vertex or two, of hardly more than one edge.
-  constexpr double kMostLinks = 0.3;  // for each vertex
-  constexpr double kFewestEdges = 2;  // of each link
+  // those and the graphs of bench/odd_graphs, which have a link for every four vertices or fewer, of hardly more than
+  // one edge.
+  constexpr double kMostLinks = 0.255;  // for each vertex
+  constexpr double kFewestEdges = 2;    // of each link
   const auto links = static_cast<double>(index.links.size() - 1);
   const auto cross_edges = static_cast<double>(index.cross_edges.size() - kLeafCapacity);
   // mutant: few-links-suffice, links-of-many-edges-suffice
