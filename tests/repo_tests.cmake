@@ -66,18 +66,25 @@ if(CMAKE_BUILD_TYPE STREQUAL "Release")
   list(REMOVE_DUPLICATES mutant_tests)
   list(TRANSFORM mutant_tests APPEND _test.cpp)
   add_library(mutant_tests OBJECT EXCLUDE_FROM_ALL ${mutant_tests})
-  add_library(mutant_library STATIC EXCLUDE_FROM_ALL ${core_sources})
+  get_target_property(mutant_sources meshhood_parts SOURCES)
+  list(TRANSFORM mutant_sources PREPEND ${PROJECT_SOURCE_DIR}/parts/)
+  find_package(fmt REQUIRED)
+  find_package(nlohmann_json REQUIRED)
+  add_library(mutant_library STATIC EXCLUDE_FROM_ALL ${core_sources} ${mutant_sources} support/small_disk.cpp)
+  target_link_libraries(mutant_library PRIVATE nlohmann_json::nlohmann_json)
+  add_dependencies(mutant_library meshhood_families meshhood_io)
   foreach(target mutant_tests mutant_library)
     target_include_directories(${target} PRIVATE
       $<TARGET_PROPERTY:meshhood,INCLUDE_DIRECTORIES> ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR})
-    target_link_libraries(${target} PRIVATE GTest::gmock)
+    target_link_libraries(${target} PRIVATE GTest::gmock fmt::fmt)
     target_compile_features(${target} PRIVATE cxx_std_20)
     meshhood_own_target(${target})
     meshhood_compile_quickly(${target})
     set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
   endforeach()
   file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/mutants/link.txt CONTENT "${CMAKE_CXX_COMPILER}
-$<TARGET_FILE:meshhood_families> $<TARGET_FILE:mutant_library>
+-Wl,--start-group $<TARGET_FILE:meshhood_families> $<TARGET_FILE:mutant_library> $<TARGET_FILE:meshhood_io>
+-Wl,--end-group $<TARGET_FILE:fmt::fmt>
 $<TARGET_FILE:GTest::gmock> $<TARGET_FILE:GTest::gtest_main> $<TARGET_FILE:GTest::gtest>
 ")
   add_test(NAME mutants.build COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR}

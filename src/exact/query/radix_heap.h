@@ -63,7 +63,7 @@ class RadixHeap {
   void spread(std::vector<Item>& items) {
     base_ = bits(*least_of(items));
     occupied_ &= occupied_ - 1;
-    for (const Item& item : items) push(item);  // mutant: moved-items-lost
+    for (const Item& item : items) push(item);
     items.clear();
   }
 
