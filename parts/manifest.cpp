@@ -77,7 +77,7 @@ auto read_json(const std::filesystem::path& file, F&& read) {
   try {
     return read(JsonValues(text));
   } catch (const Error& error) {
-    refuse(file, fmt::format("is not written by meshhood partition: {}", error.what()));
+    refuse(file, error.what());
   }
 }
 
@@ -201,7 +201,7 @@ void verify_part(const std::filesystem::path& part_folder, const Part& part) {
   for (const PartFile& expected : part.files) {
     const std::filesystem::path file = part_folder / expected.name;
     const PartFile found = describe_file(part_folder, expected.name);
-    if (found.bytes != expected.bytes) {  // mutant: file-of-another-size
+    if (found.bytes != expected.bytes) {
       refuse(file, fmt::format("has {} bytes, but the manifest says {}", found.bytes, expected.bytes));
     }
     if (found.checksum != expected.checksum) {  // mutant: file-of-another-content

@@ -207,7 +207,7 @@ TEST_F(Folder, IsRefusedIfItsManifestContradictsItself) {
     ASSERT_NE(rest.find(from), std::string::npos) << from;
     rest.replace(rest.find(from), from.size(), to);
     overwrite(file, sealed(rest));
-    expect_refused(ErrorCode::MalformedIndex, "manifest.json: is not written by meshhood partition: " + cause,
+    expect_refused(ErrorCode::MalformedIndex, "manifest.json: " + cause,
                    [&] { static_cast<void>(parts::read_manifest(folder)); });
   };
   refuses("no JSON at byte", "{", "<\x9b\x7f");
@@ -248,6 +248,14 @@ TEST_F(Folder, IsRefusedIfItHasPartsOfAnotherMesh) {
   again.resume = false;
   EXPECT_EQ(partition(*chunked(moved), folder, again).kept, 0U);
   EXPECT_EQ(partition(*chunked(moved), folder, kOptions).kept, 4U);
+}
+
+TEST_F(Folder, IsRefusedIfItsPartsHaveOtherNumbers) {
+  run(folder);
+  fs::rename(folder / parts::part_name(0), folder / "kept");
+  fs::rename(folder / parts::part_name(1), folder / parts::part_name(0));
+  fs::rename(folder / "kept", folder / parts::part_name(1));
+  expect_refused(ErrorCode::MalformedIndex, "part.json: is a part of another mesh", [&] { run(folder); });
 }
 
 TEST_F(Folder, IsNotMadeForAMeshWithAFault) {
