@@ -25,6 +25,11 @@ class FolderLock {
     if (errno != EWOULDBLOCK) io::raise_errno(folder, errno, "lock");
     io::raise_io(folder, EWOULDBLOCK, "another run writes into this folder");
   }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+  /// Closing would leave the lock to a child that was forked meanwhile.
+  ~FolderLock() { static_cast<void>(::flock(folder_.number(), LOCK_UN)); }
 
  private:
   io::Descriptor folder_;

@@ -151,6 +151,23 @@ TEST_F(Folder, IsWrittenByOneOfTwoRunsThatStartTogether) {
   EXPECT_EQ(contents(folder), whole());
 }
 
+TEST_F(Folder, IsFreeAfterARunDuringWhichTheProcessWasForked) {
+  PartitionOptions options = kOptions;
+  pid_t child = -1;
+  options.progress = [&](std::size_t done, std::size_t) {
+    if (done > 0 && child < 0) child = ::fork();
+    if (child == 0) {
+      ::pause();
+      ::_exit(0);
+    }
+    return true;
+  };
+  run(folder, options);
+  EXPECT_NO_THROW(run(folder));
+  ::kill(child, SIGKILL);
+  EXPECT_EQ(::waitpid(child, nullptr, 0), child);
+}
+
 TEST_F(Folder, KeepsDamagedPartsFromBeingUsed) {
   const auto expected = whole();
   std::size_t damaged = 0;

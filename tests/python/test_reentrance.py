@@ -226,3 +226,20 @@ with multiprocessing.get_context("fork").Pool(2) as pool:
     counts = pool.map(count, ["exact", "paper", "bfs", "ball"])
 assert counts[0] == counts[2] <= counts[1] <= counts[3]
 """)
+
+
+def test_a_child_that_was_forked_during_a_call_into_a_folder_does_not_keep_its_lock(tmp_path):
+    run(f"""
+import os, signal
+from meshhood._result_files import result_folder
+with result_folder({str(tmp_path)!r}, {{}}):
+    child = os.fork()
+    if child == 0:
+        signal.pause()
+try:
+    with result_folder({str(tmp_path)!r}, {{}}):
+        pass
+finally:
+    os.kill(child, signal.SIGKILL)
+    os.waitpid(child, 0)
+""")

@@ -52,7 +52,10 @@ def _lock(folder: str) -> Iterator[None]:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as error:
             raise BlockingIOError(error.errno, "another call writes into this folder", folder) from None
-        yield
+        try:
+            yield
+        finally:  # closing would leave the lock to a child that was forked meanwhile
+            fcntl.flock(descriptor, fcntl.LOCK_UN)
     finally:
         os.close(descriptor)
 
