@@ -84,6 +84,13 @@ TEST(VertexBfs, HubsAndRandomGraphsAreUnlikeASurface) {
   }
 }
 
+TEST(VertexBfs, ACombIsUnlikeASurface) {
+  const std::vector<Family> all = families();
+  const auto far_away = std::find_if(all.begin(), all.end(), [](const Family& f) { return f.name == "far away"; });
+  ASSERT_NE(far_away, all.end());
+  EXPECT_TRUE(is_odd(make_mesh(*far_away, 1, 20'000))) << "a link of one edge for every four vertices";
+}
+
 TEST(VertexBfs, SurfacesAndGraphsWithoutEdgesAreNot) {
   for (const Family& family : surface_families()) {
     for (const std::size_t vertices : {60U, 200U, 3000U}) {
