@@ -75,14 +75,14 @@ class SearchMemory {
 
   /// Whether telling other components apart took longer than uniting all that was reached.
   [[nodiscard]] bool is_torn() {
-    // Chosen: on eight meshes, uniting takes as long as settling one leaf in doubt, or one visit of a traversal, for
-    // each surface leaf.
+    // Chosen: uniting takes about as long as one step for each surface leaf. A little more, because a few balls of many
+    // steps do not mean that the next is one.
     constexpr double kTorn = 1.3;
     return steps_per_surface_leaf_ > kTorn && !is_retry();
   }
 
   /// After an outward search: `in_doubt` of its `surface` leaves were in doubt, and other components were told apart in
-  /// `steps`: leaves in doubt and visits.
+  /// `steps`: leaves in doubt, and visits of leaves.
   void record(std::size_t in_doubt, std::size_t surface, std::size_t steps) {
     constexpr double kMemory = 8;  // balls; chosen
     balls_ = std::min(balls_ + 1, kMemory);

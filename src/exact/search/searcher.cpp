@@ -72,8 +72,9 @@ bool Searcher::State::remove_other_components(const Query& query) {
   loose.find(query, descent.groups(), surface_leaves, states);
   const std::size_t most_visited = limits.most_visited(surface_leaves.size());
   const bool is_done = other_components.find(query, loose.minima(), states, most_visited, traversal);
-  const std::size_t united = is_done ? 0 : surface_leaves.size();
-  memory.record(loose.surface_count(), surface_leaves.size(), loose.leaf_count() + other_components.visited() + united);
+  std::size_t steps = loose.leaf_count() + other_components.visited();
+  if (!is_done) steps += surface_leaves.size();  // uniting comes on top
+  memory.record(loose.surface_count(), surface_leaves.size(), steps);
   if (is_done) answer.subtract(other_components.found());
   return is_done;
 }
