@@ -71,13 +71,13 @@ def middle(positions):
     return (positions.min(0) + positions.max(0)) / 2
 
 
-def look(plotter, centre, radius, picture):
+def look(plotter, center, radius, picture):
     import numpy as np
 
     towards = np.array(picture.towards, float)
     plotter.enable_parallel_projection()
-    plotter.camera.focal_point = centre
-    plotter.camera.position = centre + 100 * radius * towards / np.linalg.norm(towards)
+    plotter.camera.focal_point = center
+    plotter.camera.position = center + 100 * radius * towards / np.linalg.norm(towards)
     plotter.camera.up = picture.up
     plotter.camera.parallel_scale = picture.width * radius / 2
     plotter.camera.reset_clipping_range()

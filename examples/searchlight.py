@@ -44,13 +44,13 @@ def main():
     radius = float(sys.argv[2]) if len(sys.argv) > 2 else 8.0
     index = meshhood.MeshIndex(V, F)
     rng = np.random.default_rng(7)
-    centre = int(rng.integers(len(index)))
-    patch = index.query_ball(centre, radius)
+    center = int(rng.integers(len(index)))
+    patch = index.query_ball(center, radius)
     peak = int(searchlight(index, radius, evidence(*trials(len(index), patch, rng))).argmax())
 
     sample = rng.integers(len(index), size=50)
     inside, ball = (index.query_ball_count(sample, radius, method=method).sum() for method in ("exact", "ball"))
-    print(f"effect around vertex {centre}, found at vertex {peak}, {np.linalg.norm(V[peak] - V[centre]):.1f} mm away")
+    print(f"effect around vertex {center}, found at vertex {peak}, {np.linalg.norm(V[peak] - V[center]):.1f} mm away")
     print(f"of the vertices in a ball, {1 - inside / ball:.0%} are on other folds")
     if peak not in patch:
         sys.exit("the effect was not found")

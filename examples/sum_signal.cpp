@@ -91,8 +91,8 @@ int main() {
   meshhood::for_each_packet(index, {.radius = 10}, [&](unsigned /*thread*/) { return MeanOfPackets(signal, means); },
                             {.threads = 0});
 
-  const meshhood::VertexId centre = kSide * kSide / 2 + kSide / 2;
-  std::printf("means around vertices 0 and %u: %g and %g\n", static_cast<unsigned>(centre), means[0], means[centre]);
+  const meshhood::VertexId center = kSide * kSide / 2 + kSide / 2;
+  std::printf("means around vertices 0 and %u: %g and %g\n", static_cast<unsigned>(center), means[0], means[center]);
 
   // For a single vertex: the neighborhood as runs. A visit may end early: is the signal above 55 anywhere?
   meshhood::Searcher searcher(index);
@@ -102,7 +102,7 @@ int main() {
     }
     return true;
   };
-  const bool all_low = meshhood::visit(searcher, centre, 10.0, is_low);
-  std::printf("around vertex %u, %s above 55\n", static_cast<unsigned>(centre), all_low ? "none is" : "some are");
-  return means[centre] == centre % kSide && !all_low ? 0 : 1;
+  const bool all_low = meshhood::visit(searcher, center, 10.0, is_low);
+  std::printf("around vertex %u, %s above 55\n", static_cast<unsigned>(center), all_low ? "none is" : "some are");
+  return means[center] == center % kSide && !all_low ? 0 : 1;
 }

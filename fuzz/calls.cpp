@@ -318,7 +318,7 @@ class Session {
     const test::RegionOracle oracle(place.subject->mesh);
     const std::size_t vertices = oracle.graph().size();
     test::PlainStart start;
-    for (double& coordinate : start.centre) coordinate = place.subject->mesh.positions[below(3 * vertices)];
+    for (double& coordinate : start.center) coordinate = place.subject->mesh.positions[below(3 * vertices)];
     for (std::size_t i = below(4); i > 0; --i) start.seeds.push_back(static_cast<VertexId>(below(vertices)));
     start.walls.assign(vertices, 0);
     start.ignored.assign(vertices, 0);
@@ -327,10 +327,10 @@ class Session {
     const auto w = static_cast<VertexId>(below(vertices));
     const Filter filter{.walls = start.walls};
     RegionSearcher searcher(*place.index);
-    searcher.region({start.centre, start.seeds}, radius, ids_, filter);
+    searcher.region({start.center, start.seeds}, radius, ids_, filter);
     std::sort(ids_.begin(), ids_.end());
     if (ids_ != oracle.region(start, radius)) fail("the region differs");
-    const double connecting = searcher.connecting_radius({start.centre, start.seeds}, w, filter);
+    const double connecting = searcher.connecting_radius({start.center, start.seeds}, w, filter);
     if (connecting != oracle.connecting_radii(start)[w]) fail("the connecting radius differs");
   }
 

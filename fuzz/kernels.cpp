@@ -19,7 +19,7 @@ namespace meshhood::fuzz {
 namespace {
 
 constexpr double kLargestCoordinate = 0x1p500;  // see `validate`
-constexpr double kLargestInFrame = 1e18;        // the centres of nodes that do not exist
+constexpr double kLargestInFrame = 1e18;        // the centers of nodes that do not exist
 
 /// The next number; 0 instead of a number that no index holds.
 template <class Real>
@@ -56,16 +56,16 @@ void compare_distances(Bytes bytes, const Kernels& tried) {
   const auto lanes = bytes.take<LaneMask>(1);
   const std::size_t nearest_to = bytes.take<std::uint8_t>() % size;
   const auto xyz = take_leaf<Real>(bytes, size);
-  const Point centre{static_cast<double>(take_real<Real>(bytes, kLargestCoordinate)),
+  const Point center{static_cast<double>(take_real<Real>(bytes, kLargestCoordinate)),
                      static_cast<double>(take_real<Real>(bytes, kLargestCoordinate)),
                      static_cast<double>(take_real<Real>(bytes, kLargestCoordinate))};
   const std::span<const Real> vertices(xyz);
-  const double radius = take_radius(bytes, std::sqrt(squared_distance(point(vertices, nearest_to), centre)));
-  const LeafBall ball(centre, LeafBounds(radius));
+  const double radius = take_radius(bytes, std::sqrt(squared_distance(point(vertices, nearest_to), center)));
+  const LeafBall ball(center, LeafBounds(radius));
 
   const LaneMask inside = tried.within(xyz.data(), size, ball);
   for (std::size_t i = 0; i < size; ++i) {
-    const bool expected = squared_distance(point(vertices, i), centre) <= ball.squared_radius;
+    const bool expected = squared_distance(point(vertices, i), center) <= ball.squared_radius;
     if ((inside >> i & 1U) != static_cast<unsigned>(expected)) fail("within differs from the predicate");
   }
   if (size < kLeafCapacity && inside >> size != 0) fail("within returns a lane beyond the size");
@@ -125,10 +125,10 @@ Group take_group(Bytes& bytes) {
 void compare_groups(Bytes bytes, const Kernels& tried) {
   const std::array groups{take_group(bytes), take_group(bytes)};
   const std::array<std::uint32_t, 3> list{1, 0, 1};
-  const Point centre{static_cast<double>(take_real<float>(bytes, kLargestInFrame)),
+  const Point center{static_cast<double>(take_real<float>(bytes, kLargestInFrame)),
                      static_cast<double>(take_real<float>(bytes, kLargestInFrame)),
                      static_cast<double>(take_real<float>(bytes, kLargestInFrame))};
-  const TreeBall ball({}, centre, take_radius(bytes, 1));
+  const TreeBall ball({}, center, take_radius(bytes, 1));
   std::array<GroupContainment, list.size()> found{};
   std::array<GroupContainment, list.size()> expected{};
   tried.classify(groups.data(), list, ball, found.data());

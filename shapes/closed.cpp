@@ -58,7 +58,7 @@ std::vector<std::size_t> ring_sizes(std::size_t n, double radius) {
   return sizes;
 }
 
-void add_sphere(Shape& shape, std::size_t n, const Point& centre) {
+void add_sphere(Shape& shape, std::size_t n, const Point& center) {
   const double radius = sphere_radius(static_cast<double>(n));
   const auto sizes = ring_sizes(n, radius);
   Ring upper{shape.positions.size() / 3, 1};
@@ -67,7 +67,7 @@ void add_sphere(Shape& shape, std::size_t n, const Point& centre) {
     const Direction polar = direction(0.5 * static_cast<double>(k) / static_cast<double>(sizes.size() - 1));
     for (std::size_t i = 0; i < ring.size; ++i) {
       const Direction around = direction(static_cast<double>(i) / static_cast<double>(ring.size));
-      add_vertex(shape, centre + radius * Point{polar.sin * around.cos, polar.sin * around.sin, polar.cos});
+      add_vertex(shape, center + radius * Point{polar.sin * around.cos, polar.sin * around.sin, polar.cos});
     }
     if (k > 0) add_band(shape, upper, ring);
     upper = ring;
@@ -77,7 +77,7 @@ void add_sphere(Shape& shape, std::size_t n, const Point& centre) {
 /// A point of the (2, 3) torus knot, which runs twice around the axis of a torus of radius 1 and three times around its
 /// tube, and two directions perpendicular to the knot.
 struct KnotPoint {
-  Point centre;
+  Point center;
   Point outwards;
   Point sideways;
 };
@@ -128,7 +128,7 @@ Shape knot(std::size_t n) {
     const KnotPoint p = knot_point(static_cast<double>(ring) / static_cast<double>(rings));
     for (std::size_t i = 0; i < width; ++i) {
       const Direction d = direction(static_cast<double>(i) / static_cast<double>(width));
-      add_vertex(shape, scale * (p.centre + kThickness * (d.cos * p.outwards + d.sin * p.sideways)));
+      add_vertex(shape, scale * (p.center + kThickness * (d.cos * p.outwards + d.sin * p.sideways)));
     }
   }
   for (std::size_t ring = 0; ring < rings; ++ring) {

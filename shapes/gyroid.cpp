@@ -49,7 +49,7 @@ class Net {
   static constexpr std::size_t kUnused = SIZE_MAX;
 
   struct Cell {
-    Point centre;
+    Point center;
     std::size_t vertex = kUnused;  // once a face has used it
   };
 
@@ -73,13 +73,13 @@ class Net {
   [[nodiscard]] Cells layer() const {
     Cells cells(side_ * side_);
     for (std::size_t j = 0; j < side_; ++j) {
-      for (std::size_t i = 0; i < side_; ++i) cells[j * side_ + i].centre = centre(i, j);
+      for (std::size_t i = 0; i < side_; ++i) cells[j * side_ + i].center = center(i, j);
     }
     return cells;
   }
 
   /// The mean of the points where the surface crosses the edges of a cell.
-  [[nodiscard]] Point centre(std::size_t i, std::size_t j) const {
+  [[nodiscard]] Point center(std::size_t i, std::size_t j) const {
     Point sum;
     double cross_edges = 0;
     for (const unsigned axis : {1U, 2U, 4U}) {
@@ -133,7 +133,7 @@ class Net {
   std::size_t vertex(Cell& cell) {
     if (cell.vertex == kUnused) {
       cell.vertex = shape_.positions.size() / 3;
-      add_vertex(shape_, cell.centre);
+      add_vertex(shape_, cell.center);
     }
     return cell.vertex;
   }

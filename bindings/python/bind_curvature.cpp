@@ -99,7 +99,7 @@ auto components_of(const ExactMethod& method, const std::optional<Rows>& vertice
   const MomentOptions options = moment_options(0, weights, threads, progress);
   PrincipalComponents found = without_lock([&] { return principal_components(method.index(), query, options); });
   const std::size_t rows = found.weight.size();
-  return std::tuple(owned<double>(std::move(found.weight)), owned<double>(std::move(found.centre), {rows, 3}),
+  return std::tuple(owned<double>(std::move(found.weight)), owned<double>(std::move(found.center), {rows, 3}),
                     owned<double>(std::move(found.variances), {rows, 3}),
                     owned<double>(std::move(found.axes), {rows, 3, 3}));
 }

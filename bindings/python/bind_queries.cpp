@@ -44,25 +44,25 @@ std::span<const VertexId> ids_of(const std::int32_t* first, std::size_t count) {
   return {reinterpret_cast<const VertexId*>(first), count};
 }
 
-Start start_of(const SpacePoint& centre, const Seeds& seeds) { return {centre, ids_of(seeds.data(), seeds.size())}; }
+Start start_of(const SpacePoint& center, const Seeds& seeds) { return {center, ids_of(seeds.data(), seeds.size())}; }
 
 SpacePoint point_of(const Points& points, std::size_t i) {
   return {points.data()[3 * i], points.data()[3 * i + 1], points.data()[3 * i + 2]};
 }
 
-auto region(Queries& queries, const SpacePoint& centre, const Seeds& seeds, double radius, const Mask& walls,
+auto region(Queries& queries, const SpacePoint& center, const Seeds& seeds, double radius, const Mask& walls,
             const Mask& ignored) {
   std::vector<VertexId> ids;
   std::vector<double> distances;
   queries.with_regions([&](RegionSearcher& searcher) {
-    searcher.region(start_of(centre, seeds), radius, ids, distances, filter_of(walls, ignored));
+    searcher.region(start_of(center, seeds), radius, ids, distances, filter_of(walls, ignored));
     return true;
   });
   return std::pair(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(distances)));
 }
 
 /// Seeds that do not exist are -1.
-Output<std::int32_t> stroke(Queries& queries, const Points& centres, const SeedRows& seeds, const Reals& radii,
+Output<std::int32_t> stroke(Queries& queries, const Points& centers, const SeedRows& seeds, const Reals& radii,
                             const Mask& walls, const Mask& ignored) {
   std::vector<VertexId> ids;
   queries.with_regions([&](RegionSearcher& searcher) {
@@ -71,7 +71,7 @@ Output<std::int32_t> stroke(Queries& queries, const Points& centres, const SeedR
       const std::int32_t* const row = seeds.data() + i * seeds.shape(1);
       std::size_t count = 0;
       while (count < seeds.shape(1) && row[count] >= 0) ++count;
-      dabs.push_back({{point_of(centres, i), ids_of(row, count)}, radii.data()[i]});
+      dabs.push_back({{point_of(centers, i), ids_of(row, count)}, radii.data()[i]});
     }
     searcher.stroke(dabs, ids, filter_of(walls, ignored));
     return true;
@@ -79,38 +79,38 @@ Output<std::int32_t> stroke(Queries& queries, const Points& centres, const SeedR
   return owned<std::int32_t>(std::move(ids));
 }
 
-auto nested(Queries& queries, const SpacePoint& centre, const Seeds& seeds, const Reals& radii, const Mask& walls,
+auto nested(Queries& queries, const SpacePoint& center, const Seeds& seeds, const Reals& radii, const Mask& walls,
             const Mask& ignored) {
   std::vector<VertexId> ids;
   std::vector<std::size_t> counts;
   queries.with_regions([&](RegionSearcher& searcher) {
-    searcher.nested(start_of(centre, seeds), std::span(radii.data(), radii.size()), ids, counts,
+    searcher.nested(start_of(center, seeds), std::span(radii.data(), radii.size()), ids, counts,
                     filter_of(walls, ignored));
     return true;
   });
   return std::pair(owned<std::int64_t>(std::move(counts)), owned<std::int32_t>(std::move(ids)));
 }
 
-bool contains(Queries& queries, const SpacePoint& centre, const Seeds& seeds, VertexId w, double radius,
+bool contains(Queries& queries, const SpacePoint& center, const Seeds& seeds, VertexId w, double radius,
               const Mask& walls, const Mask& ignored) {
   return queries.with_regions([&](RegionSearcher& searcher) {
-    return searcher.contains(start_of(centre, seeds), w, radius, filter_of(walls, ignored));
+    return searcher.contains(start_of(center, seeds), w, radius, filter_of(walls, ignored));
   });
 }
 
-double connecting_radius(Queries& queries, const SpacePoint& centre, const Seeds& seeds, VertexId w, const Mask& walls,
+double connecting_radius(Queries& queries, const SpacePoint& center, const Seeds& seeds, VertexId w, const Mask& walls,
                          const Mask& ignored) {
   return queries.with_regions([&](RegionSearcher& searcher) {
-    return searcher.connecting_radius(start_of(centre, seeds), w, filter_of(walls, ignored));
+    return searcher.connecting_radius(start_of(center, seeds), w, filter_of(walls, ignored));
   });
 }
 
-auto nearest_connected(Queries& queries, const SpacePoint& centre, const Seeds& seeds, std::size_t k, const Mask& walls,
+auto nearest_connected(Queries& queries, const SpacePoint& center, const Seeds& seeds, std::size_t k, const Mask& walls,
                        const Mask& ignored) {
   std::vector<VertexId> ids;
   std::vector<double> radii;
   queries.with_regions([&](RegionSearcher& searcher) {
-    searcher.nearest_connected(start_of(centre, seeds), k, ids, radii, filter_of(walls, ignored));
+    searcher.nearest_connected(start_of(center, seeds), k, ids, radii, filter_of(walls, ignored));
     return true;
   });
   return std::pair(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(radii)));

@@ -50,8 +50,8 @@ auto submesh(RegionMesher& mesher, const IdList& ids, bool all) {
                     owned<std::int64_t>(std::move(part.offsets)), owned<std::int32_t>(std::move(part.corners)));
 }
 
-auto rim(RegionMesher& mesher, const IdList& ids, const SpacePoint& centre, double radius) {
-  Rim rim = mesher.rim(id_span(ids), centre, radius);
+auto rim(RegionMesher& mesher, const IdList& ids, const SpacePoint& center, double radius) {
+  Rim rim = mesher.rim(id_span(ids), center, radius);
   const std::size_t size = rim.points.size();
   return std::tuple(owned<double>(std::move(rim.points), {size, 3}),
                     owned<std::int32_t>(std::move(rim.edges), {size, 2}), owned<std::int64_t>(std::move(rim.offsets)),

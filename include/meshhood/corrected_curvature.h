@@ -35,7 +35,7 @@ struct CorrectedCurvatureOptions {
 ///
 /// A vertex of a face holds a third of its measures, so that those of a neighborhood are sums over its vertices. CGAL
 /// instead weighs each face by the share of it inside the ball. A polygon of more than three corners is divided into
-/// triangles around its barycentre, which has the mean normal of the corners. A face with a corner that has no normal
+/// triangles around its barycenter, which has the mean normal of the corners. A face with a corner that has no normal
 /// counts 0.
 ///
 /// No vertex is fitted, filtered or extended: robust where the mesh is noisy, and defined for a radius of 0.

@@ -29,7 +29,7 @@ enum class Feature : std::uint8_t {
   Curvedness,  ///< r times Koenderink's curvedness
   ShapeIndex,  ///< Koenderink's shape index
   Area,        ///< area of the neighborhood / (pi r^2): 1 on a plane; the integral invariant of the surface
-  Height,      ///< -4 / r times the height of the barycentre over the tangent plane: an integral estimate of r H
+  Height,      ///< -4 / r times the height of the barycenter over the tangent plane: an integral estimate of r H
   Variation,   ///< surface variation of the neighborhood, weighted by area
 };
 

@@ -55,11 +55,11 @@ struct MomentOptions {
                                           const MomentOptions& options = {});
 
 /// How the vertices of each neighborhood are distributed, row by row of the query. With areas as weights, these are
-/// integral invariants: the area, the barycentre and the covariance of the patch of surface inside the ball.
+/// integral invariants: the area, the barycenter and the covariance of the patch of surface inside the ball.
 struct PrincipalComponents {
   std::vector<double> weight;     ///< #rows: the sum of the weights
-  std::vector<double> centre;     ///< #rows by 3: the weighted mean of the positions, relative to the query vertex
-  std::vector<double> variances;  ///< #rows by 3, ascending: the eigenvalues of the weighted covariance about `centre`
+  std::vector<double> center;     ///< #rows by 3: the weighted mean of the positions, relative to the query vertex
+  std::vector<double> variances;  ///< #rows by 3, ascending: the eigenvalues of the weighted covariance about `center`
 
   /// #rows by 3 by 3: for each variance the direction of its axis. Unit vectors, orthogonal; of either sign the one
   /// whose component of largest magnitude is positive. The first is the normal of the plane that fits best.

@@ -21,13 +21,13 @@ class KernelSumReducer final : public PacketReducer {
       : reduction_(&reduction), sums_(reduction.columns().size()), totals_(sums_.size()) {
     const double scale = reduction.index().frame.scale;
     radius_in_frame_ = radius * scale;
-    centres_.unit = scale;
+    centers_.unit = scale;
     if (radius > 0 && std::isfinite(radius)) {
-      centres_.unit = std::ldexp(1.0, std::min(-std::ilogb(radius), 1000));
-      const double in_unit = radius * centres_.unit;
-      centres_.inverse_square = 1 / (in_unit * in_unit);
+      centers_.unit = std::ldexp(1.0, std::min(-std::ilogb(radius), 1000));
+      const double in_unit = radius * centers_.unit;
+      centers_.inverse_square = 1 / (in_unit * in_unit);
     }
-    from_frame_ = centres_.unit / scale;
+    from_frame_ = centers_.unit / scale;
   }
 
   void begin(const PacketAnswer& packet) override {
@@ -35,19 +35,19 @@ class KernelSumReducer final : public PacketReducer {
     const IndexView& index = reduction_->index();
     for (std::size_t row = 0; row < packet.vertices.size(); ++row) {
       const std::uint32_t slot = index.slot[packet.vertices[row]];
-      const Point centre = index.position(leaf_of(slot), lane_of(slot));
-      centres_.x[row] = centre.x;
-      centres_.y[row] = centre.y;
-      centres_.z[row] = centre.z;
+      const Point center = index.position(leaf_of(slot), lane_of(slot));
+      centers_.x[row] = center.x;
+      centers_.y[row] = center.y;
+      centers_.z[row] = center.z;
     }
   }
 
   void add_node(NodeTree::Node node, QueryWord queries) override {
     if (!has_moments_for(node)) return add_vertices(node, queries);
-    reduction_->kernels().set_offsets(reduction_->tree().centre(node), centres_, offsets_);
+    reduction_->kernels().set_offsets(reduction_->tree().center(node), centers_, offsets_);
     for (std::size_t i = 0; i < sums_.size(); ++i) {
       const Moments moments = rescaled(reduction_->moments(i, node), from_frame_);
-      reduction_->kernels().add_moments(moments, offsets_, centres_.inverse_square, reduction_->squared(), queries,
+      reduction_->kernels().add_moments(moments, offsets_, centers_.inverse_square, reduction_->squared(), queries,
                                         sums_[i]);
     }
   }
@@ -57,8 +57,8 @@ class KernelSumReducer final : public PacketReducer {
     std::visit(
         [&](auto xyz) {
           for (std::size_t k = 0; k < vertices.size(); ++k) {
-            kernels.set_offsets(point(xyz, vertices.begin + k), centres_, offsets_);
-            kernels.set_weights(offsets_, centres_.inverse_square, reduction_->squared(), weights_.of_vertex[k]);
+            kernels.set_offsets(point(xyz, vertices.begin + k), centers_, offsets_);
+            kernels.set_weights(offsets_, centers_.inverse_square, reduction_->squared(), weights_.of_vertex[k]);
           }
         },
         reduction_->index().positions);
@@ -76,8 +76,8 @@ class KernelSumReducer final : public PacketReducer {
   }
 
  private:
-  /// The vertices of a node that is added lie in the ball, but its sphere, whose centre is rounded to floats, may be
-  /// larger. Then offsets from the centre are longer than the radius, and their sums would cancel.
+  /// The vertices of a node that is added lie in the ball, but its sphere, whose center is rounded to floats, may be
+  /// larger. Then offsets from the center are longer than the radius, and their sums would cancel.
   [[nodiscard]] bool has_moments_for(NodeTree::Node node) const {
     return radius_in_frame_ >= kLeastRadius &&
            // mutant: moments-of-wide-leaf
@@ -99,7 +99,7 @@ class KernelSumReducer final : public PacketReducer {
   const KernelSumReduction* reduction_;
   double radius_in_frame_;
   double from_frame_;
-  PacketCentres centres_{};
+  PacketCenters centers_{};
   Offsets offsets_{};
   RowWeights weights_{};
   std::vector<RowSums> sums_;  // by column

@@ -73,20 +73,20 @@ Moments rescaled(const Moments& moments, double factor) {
 std::vector<Moments> moments_by_node(const IndexView& index, const NodeTree& tree, const Column& column) {
   std::vector<Moments> moments(tree.size());
   for (NodeTree::Node node = 0; node < tree.size(); ++node) {
-    const Point centre = tree.centre(node);
+    const Point center = tree.center(node);
     if (tree.is_leaf(node)) {
       const VertexRange vertices = tree.vertices(node);
       std::visit(
           [&](auto xyz) {
             for (std::size_t i = vertices.begin; i < vertices.end; ++i)
-              add(moments[node], moments_of(column[i], index.frame.scale * (point(xyz, i) - centre)));
+              add(moments[node], moments_of(column[i], index.frame.scale * (point(xyz, i) - center)));
           },
           index.positions);
     } else {
       const auto [begin, end] = tree.children(node);
       for (NodeTree::Node child = begin; child < end; ++child)
         // mutant: moments-not-shifted
-        add(moments[node], shifted(moments[child], index.frame.scale * (tree.centre(child) - centre)));
+        add(moments[node], shifted(moments[child], index.frame.scale * (tree.center(child) - center)));
     }
   }
   return moments;

@@ -11,7 +11,7 @@
 
 namespace meshhood {
 
-/// The moments of a column over each node, about its centre (see `NodeTree::centre`), in units of the frame.
+/// The moments of a column over each node, about its center (see `NodeTree::center`), in units of the frame.
 [[nodiscard]] std::vector<Moments> moments_by_node(const IndexView& index, const NodeTree& tree, const Column& column);
 
 /// The same moments about the point that lies at `-step` from the present one: every offset grows by `step`.

@@ -38,9 +38,9 @@ std::size_t NodeTree::end_leaf(Node node) const {
   return std::size_t{node} + 1;
 }
 
-Point NodeTree::centre(Node node) const {
+Point NodeTree::center(Node node) const {
   const FrameSphere bounds = sphere(node);
-  const Point in_frame = centre_of(Sphere<float>{bounds.x, bounds.y, bounds.z, 0});
+  const Point in_frame = center_of(Sphere<float>{bounds.x, bounds.y, bounds.z, 0});
   return index_->frame.origin + (1 / index_->frame.scale) * in_frame;
 }
 

@@ -37,8 +37,8 @@ class NodeTree {
   /// The bounding sphere, in the frame.
   [[nodiscard]] FrameSphere sphere(Node node) const;
 
-  /// The centre of that sphere in the unit of the positions: the same double wherever it is used.
-  [[nodiscard]] Point centre(Node node) const;
+  /// The center of that sphere in the unit of the positions: the same double wherever it is used.
+  [[nodiscard]] Point center(Node node) const;
 
   /// Calls `f(node)` for few nodes whose vertices together are those of the run, in an order that the run determines.
   template <class F>

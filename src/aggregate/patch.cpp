@@ -37,7 +37,7 @@ void PatchCutter::begin(const PacketAnswer& packet) {
   ball_ = TreeBall({leaf.x, leaf.y, leaf.z}, bounds);
   for (std::size_t row = 0; row < packet.vertices.size(); ++row) {
     const std::uint32_t slot = index_->slot[packet.vertices[row]];
-    centres_[row] = index_->position(leaf_of(slot), lane_of(slot));
+    centers_[row] = index_->position(leaf_of(slot), lane_of(slot));
   }
 }
 
@@ -82,7 +82,7 @@ QueryWord PatchCutter::inside(std::size_t vertex, QueryWord queries) const {
   const Point p = std::visit([&](auto xyz) { return point(xyz, vertex); }, index_->positions);
   QueryWord result = 0;
   for_each_query(queries, [&](std::size_t row) {
-    const bool is_inside = squared_distance(p, centres_[row]) <= squared_radius_;  // mutant: patch-without-boundary
+    const bool is_inside = squared_distance(p, centers_[row]) <= squared_radius_;  // mutant: patch-without-boundary
     result |= QueryWord{is_inside} << row;
   });
   return result;

@@ -34,7 +34,7 @@ class PatchCutter {
   TreeBounds bounds_;
   double squared_radius_;
   TreeBall ball_;  // around the leaf of the packet: `outer` around all balls, `inner` within each
-  std::array<Point, kPacketCapacity> centres_{};
+  std::array<Point, kPacketCapacity> centers_{};
 };
 
 }  // namespace meshhood

@@ -53,7 +53,7 @@ void check_radius(double radius, std::string_view where = {});
 /// Throws Error{VertexOutOfRange} unless `v` < `vertices`, and as `check_radius`.
 void check_query(VertexId v, std::size_t vertices, double radius, std::string_view where = {});
 
-/// A sphere stored with an index, its centre and radius rounded so that it still encloses what it was made for.
+/// A sphere stored with an index, its center and radius rounded so that it still encloses what it was made for.
 template <class Real>
 struct Sphere {
   Real x;
@@ -63,7 +63,7 @@ struct Sphere {
 };
 
 template <class Real>
-[[nodiscard]] Point centre_of(const Sphere<Real>& sphere) {
+[[nodiscard]] Point center_of(const Sphere<Real>& sphere) {
   return {static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
 }
 
@@ -72,20 +72,20 @@ enum class Containment { Outside, Intersecting, Inside };
 /// The closed ball around a query vertex: decides single vertices exactly and whole spheres conservatively.
 class SearchBall {
  public:
-  SearchBall(const Point& centre, double radius)
-      : centre_(centre),
+  SearchBall(const Point& center, double radius)
+      : center_(center),
         squared_radius_(meshhood::squared_radius(radius)),
         outer_radius_(radius * (1 + kSlack) + kTiny),
         inner_radius_((radius - kTiny) * (1 - kSlack)) {}
 
-  [[nodiscard]] bool contains(const Point& p) const { return squared_distance(centre_, p) <= squared_radius_; }
+  [[nodiscard]] bool contains(const Point& p) const { return squared_distance(center_, p) <= squared_radius_; }
 
-  [[nodiscard]] const Point& centre() const { return centre_; }
+  [[nodiscard]] const Point& center() const { return center_; }
 
   /// Outside: no vertex in `sphere` is contained. Inside: every one is. Intersecting: neither is certain.
   template <class Real>
   [[nodiscard]] Containment classify(const Sphere<Real>& sphere) const {
-    const double distance2 = squared_distance(centre_, centre_of(sphere));
+    const double distance2 = squared_distance(center_, center_of(sphere));
     const auto sphere_radius = static_cast<double>(sphere.radius);
     const double far = outer_radius_ + sphere_radius * (1 + kSlack);
     if (distance2 > far * far) return Containment::Outside;
@@ -100,7 +100,7 @@ class SearchBall {
   static constexpr double kSlack = 1e-14;
   static constexpr double kTiny = 0x1p-500;
 
-  Point centre_;
+  Point center_;
   double squared_radius_;
   double outer_radius_;
   double inner_radius_;

@@ -36,9 +36,9 @@ Frame make_frame(const PositionsView& positions) {
   if (positions.size() == 0) return {};
   const Box box = positions.visit([](const auto& xyz) { return bounding_box(xyz); });
   const Point origin{box.low.x / 2 + box.high.x / 2, box.low.y / 2 + box.high.y / 2, box.low.z / 2 + box.high.z / 2};
-  // Measured from the rounded centre: half the width of the box may round to less.
+  // Measured from the rounded center: half the width of the box may round to less.
   // mutant: box-width-for-extent
-  const auto extent = [](double low, double centre, double high) { return std::max(centre - low, high - centre); };
+  const auto extent = [](double low, double center, double high) { return std::max(center - low, high - center); };
   return {origin, unit_scale(std::max({extent(box.low.x, origin.x, box.high.x), extent(box.low.y, origin.y, box.high.y),
                                        extent(box.low.z, origin.z, box.high.z)}))};
 }

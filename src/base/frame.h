@@ -47,7 +47,7 @@ struct Frame {
   return std::abs(q.x) <= 1 && std::abs(q.y) <= 1 && std::abs(q.z) <= 1;
 }
 
-/// The frame centred at the bounding box of the positions, which must be valid.
+/// The frame centered at the bounding box of the positions, which must be valid.
 [[nodiscard]] Frame make_frame(const PositionsView& positions);
 
 /// A float greater than `value`: the one after the nearest.

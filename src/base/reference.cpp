@@ -112,10 +112,10 @@ struct ReferenceSearcher::State {
   void measure(VertexId v, std::span<const VertexId> ids, std::vector<double>& out) const {
     std::visit(
         [&](const auto& all) {
-          const Point centre = position(all[v]);
+          const Point center = position(all[v]);
           out.resize(ids.size());
           std::transform(ids.begin(), ids.end(), out.begin(),
-                         [&](VertexId w) { return std::sqrt(squared_distance(position(all[w]), centre)); });
+                         [&](VertexId w) { return std::sqrt(squared_distance(position(all[w]), center)); });
         },
         records);
   }
@@ -176,7 +176,7 @@ std::vector<VertexId> exact_neighborhood(const MeshView& mesh, VertexId v, doubl
 
 namespace {
 
-/// Calls `f(w, position, centre)` for every vertex of the ball, in ascending order.
+/// Calls `f(w, position, center)` for every vertex of the ball, in ascending order.
 template <class F>
 void scan(const PositionsView& positions, VertexId v, double radius, F&& f) {
   check_query(v, positions.size(), radius);
@@ -185,7 +185,7 @@ void scan(const PositionsView& positions, VertexId v, double radius, F&& f) {
     const auto scan_all = [&](const auto& all) {
       for (std::size_t w = 0; w < positions.size(); ++w) {
         const Point p = point(all, w);
-        if (ball.contains(p)) f(static_cast<VertexId>(w), p, ball.centre());
+        if (ball.contains(p)) f(static_cast<VertexId>(w), p, ball.center());
       }
     };
     xyz.is_packed() ? scan_all(xyz.packed()) : scan_all(xyz);
@@ -204,9 +204,9 @@ void BallSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>
   check_query(v, vertex_count(), radius);
   out.clear();
   distances.clear();
-  scan(positions_, v, radius, [&](VertexId w, const Point& p, const Point& centre) {
+  scan(positions_, v, radius, [&](VertexId w, const Point& p, const Point& center) {
     out.push_back(w);
-    distances.push_back(std::sqrt(squared_distance(p, centre)));
+    distances.push_back(std::sqrt(squared_distance(p, center)));
   });
 }
 

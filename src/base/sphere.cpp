@@ -4,8 +4,8 @@
 // of Gaertner, "Fast and robust smallest enclosing balls" (ESA 1999), with the basis computation of Matousek, Sharir
 // and Welzl, "A subexponential bound for linear programming" (1996), done by trying all supports. The radius grows with
 // every exchange, so no support comes back and the loop ends. If rounding spoils an exchange (points almost on one
-// line, plane or sphere), the loop ends with the centre it has: the radius is measured last, over all points, and is
-// right for any centre.
+// line, plane or sphere), the loop ends with the center it has: the radius is measured last, over all points, and is
+// right for any center.
 #include "base/sphere.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ using Vector = std::array<double, 3>;
 double largest_component(const Point& a) { return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}); }
 
 struct Ball {
-  Point centre{};
+  Point center{};
   double squared_radius = 0;
 };
 
@@ -71,7 +71,7 @@ std::optional<Vector> solve(Matrix a, Vector b, std::size_t n) {
   return x;
 }
 
-/// The ball with all of `support` on its boundary and its centre in their convex hull, if there is one. If the centre
+/// The ball with all of `support` on its boundary and its center in their convex hull, if there is one. If the center
 /// lies outside the hull, fewer of the points determine the smallest ball.
 std::optional<Ball> circumscribed(const Support& support) {
   const std::size_t n = support.size() - 1;
@@ -100,8 +100,8 @@ std::optional<Ball> circumscribed(const Support& support) {
     offset = offset + (*weight)[i] * edge[i];
   }
   if (first_weight < 0) return std::nullopt;
-  const Point centre = support[0] + scale * offset;
-  return Ball{centre, squared_distance(centre, support[0])};
+  const Point center = support[0] + scale * offset;
+  return Ball{center, squared_distance(center, support[0])};
 }
 
 /// `p` and the points of `support` whose bits are set in `chosen`, at most three.
@@ -116,7 +116,7 @@ Support select(const Support& support, unsigned chosen, const Point& p) {
 
 bool encloses(const Ball& ball, const Support& support) {
   for (std::size_t i = 0; i < support.size(); ++i) {
-    if (!(squared_distance(ball.centre, support[i]) <= ball.squared_radius * (1 + 1e-10))) return false;
+    if (!(squared_distance(ball.center, support[i]) <= ball.squared_radius * (1 + 1e-10))) return false;
   }
   return true;
 }
@@ -151,18 +151,18 @@ std::pair<std::size_t, double> farthest(std::span<const Real> xyz, const Point& 
 }
 
 template <class Real>
-Point smallest_ball_centre(std::span<const Real> xyz) {
+Point smallest_ball_center(std::span<const Real> xyz) {
   Support support;
   support.add(point(xyz, farthest(xyz, point(xyz, 0)).first));
   Ball ball{support[0], 0};
   for (int exchanges = 0; exchanges < kMaxExchanges; ++exchanges) {
-    const auto [index, d2] = farthest(xyz, ball.centre);
+    const auto [index, d2] = farthest(xyz, ball.center);
     if (d2 <= ball.squared_radius * (1 + kTolerance) * (1 + kTolerance)) break;
     const std::optional<Ball> larger = exchange(support, point(xyz, index));
     if (!larger || larger->squared_radius <= ball.squared_radius) break;
     ball = *larger;
   }
-  return ball.centre;
+  return ball.center;
 }
 
 template <class Real>
@@ -177,9 +177,9 @@ Real round_up(double value) {
 
 template <class Real>
 Sphere<Real> bounding_sphere(std::span<const Real> xyz) {
-  const Point centre = smallest_ball_centre(xyz);
-  Sphere<Real> sphere{static_cast<Real>(centre.x), static_cast<Real>(centre.y), static_cast<Real>(centre.z), 0};
-  sphere.radius = round_up<Real>(std::sqrt(farthest(xyz, centre_of(sphere)).second));
+  const Point center = smallest_ball_center(xyz);
+  Sphere<Real> sphere{static_cast<Real>(center.x), static_cast<Real>(center.y), static_cast<Real>(center.z), 0};
+  sphere.radius = round_up<Real>(std::sqrt(farthest(xyz, center_of(sphere)).second));
   return sphere;
 }
 

@@ -8,7 +8,7 @@
 namespace meshhood {
 
 /// A sphere around the points `xyz` (`#points by 3`, at least one), at most a thousandth larger than the smallest,
-/// except that its centre is rounded to `Real`. The radius is rounded up, so that every point is inside as distances
+/// except that its center is rounded to `Real`. The radius is rounded up, so that every point is inside as distances
 /// are computed. If all points coincide, the radius is 0. O(#points), about ten passes and never more than 66.
 template <class Real>
 [[nodiscard]] Sphere<Real> bounding_sphere(std::span<const Real> xyz);

@@ -24,11 +24,11 @@ void DirectFit::find(std::uint32_t place, double radius) {
 /// with the lowest id.
 void DirectFit::extend(std::uint32_t place) {
   const IndexView& index = *surface_->index;
-  const Point centre = surface_->position(place);
+  const Point center = surface_->position(place);
   while (found_.size() < kFewestPoints) {
     std::optional<std::uint32_t> nearest;
     const auto key = [&](std::uint32_t i) {
-      return std::pair(squared_distance(surface_->position(i), centre), index.id(i));
+      return std::pair(squared_distance(surface_->position(i), center), index.id(i));
     };
     for (const std::uint32_t i : found_) {
       const std::uint32_t slot = index.slot[index.id(i)];
@@ -53,15 +53,15 @@ void DirectFit::filter(const Point& normal) {
 
 /// Returns what their coordinates were multiplied by.
 double DirectFit::set_points(std::uint32_t place) {
-  const Point centre = surface_->position(place);
+  const Point center = surface_->position(place);
   double extent = 0;
   for (const std::uint32_t i : found_) {
-    const Point p = surface_->index->frame.scale * (surface_->position(i) - centre);
+    const Point p = surface_->index->frame.scale * (surface_->position(i) - center);
     extent = std::max({extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
   const double scale = scale_for(extent);
   points_.clear();
-  for (const std::uint32_t i : found_) points_.push_back(scale * (surface_->position(i) - centre));
+  for (const std::uint32_t i : found_) points_.push_back(scale * (surface_->position(i) - center));
   return scale;
 }
 

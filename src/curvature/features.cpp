@@ -55,8 +55,8 @@ double patch_feature(Feature kind, const PrincipalComponents& patch, std::size_t
     const double* const variances = &patch.variances[3 * row];
     return surface_variation(variances[0], variances[1], variances[2]);
   }
-  const double* const centre = &patch.centre[3 * row];
-  return -4 * dot({centre[0] / radius, centre[1] / radius, centre[2] / radius}, normal);
+  const double* const center = &patch.center[3 * row];
+  return -4 * dot({center[0] / radius, center[1] / radius, center[2] / radius}, normal);
 }
 
 /// What one call of `features` computes, radius by radius.

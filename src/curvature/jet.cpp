@@ -39,10 +39,10 @@ std::optional<Quadric> fit_jet(const QueryMoments& moments, const FrameMoments& 
 JetFit fit_jet(std::span<const Point> points, const Point& normal) {
   Point sum{0, 0, 0};
   for (const Point& p : points) sum = sum + p;
-  const Point centre = (1 / static_cast<double>(points.size())) * sum;
+  const Point center = (1 / static_cast<double>(points.size())) * sum;
   Symmetric3 covariance{0, 0, 0, 0, 0, 0};
   for (const Point& p : points) {
-    const Point q = p - centre;
+    const Point q = p - center;
     covariance = {covariance.xx + q.x * q.x, covariance.xy + q.x * q.y, covariance.xz + q.x * q.z,
                   covariance.yy + q.y * q.y, covariance.yz + q.y * q.z, covariance.zz + q.z * q.z};
   }

@@ -86,7 +86,7 @@ void write_row(PrincipalComponents& out, std::size_t row, const RowMoments& m) {
   out.weight[row] = m.at(0, 0, 0);
   const PointDistribution found = distribution_of(m.sums, m.query);
   const double to_caller = 1 / m.scale;
-  set_row(out.centre, row, to_caller * found.centre);
+  set_row(out.center, row, to_caller * found.center);
   for (std::size_t i = 0; i < 3; ++i) {
     out.variances[3 * row + i] = std::max(found.axes.values[i], 0.0) * to_caller * to_caller;  // NaN stays NaN
     set_row(out.axes, 3 * row + i, with_sign(found.axes.vectors[i]));
@@ -98,11 +98,11 @@ void write_row(PrincipalComponents& out, std::size_t row, const RowMoments& m) {
 PointDistribution distribution_of(const QueryMoments& moments, std::size_t query) {
   const auto at = [&](std::size_t i, std::size_t j, std::size_t k) { return moments.at[moment_index(i, j, k)][query]; };
   const double weight = at(0, 0, 0);
-  const Point centre{at(1, 0, 0) / weight, at(0, 1, 0) / weight, at(0, 0, 1) / weight};
-  const Symmetric3 covariance{at(2, 0, 0) / weight - centre.x * centre.x, at(1, 1, 0) / weight - centre.x * centre.y,
-                              at(1, 0, 1) / weight - centre.x * centre.z, at(0, 2, 0) / weight - centre.y * centre.y,
-                              at(0, 1, 1) / weight - centre.y * centre.z, at(0, 0, 2) / weight - centre.z * centre.z};
-  return {centre, eigen(covariance)};
+  const Point center{at(1, 0, 0) / weight, at(0, 1, 0) / weight, at(0, 0, 1) / weight};
+  const Symmetric3 covariance{at(2, 0, 0) / weight - center.x * center.x, at(1, 1, 0) / weight - center.x * center.y,
+                              at(1, 0, 1) / weight - center.x * center.z, at(0, 2, 0) / weight - center.y * center.y,
+                              at(0, 1, 1) / weight - center.y * center.z, at(0, 0, 2) / weight - center.z * center.z};
+  return {center, eigen(covariance)};
 }
 
 std::vector<double> moments(const Index& index, const BatchQuery& query, const MomentOptions& options) {
@@ -128,7 +128,7 @@ PrincipalComponents principal_components(const Index& index, const BatchQuery& q
   const std::size_t rows = row_count(index, query);
   PrincipalComponents result;
   result.weight.resize(rows);
-  result.centre.resize(3 * rows);
+  result.center.resize(3 * rows);
   result.variances.resize(3 * rows);
   result.axes.resize(9 * rows);
   for_each_row(index, query, options, [&](std::size_t row, const RowMoments& m) { write_row(result, row, m); });

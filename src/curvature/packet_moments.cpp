@@ -41,7 +41,7 @@ void PacketMoments::begin(std::span<const std::uint32_t> places, double reach) {
     offsets_.y[q] = p.y;
     offsets_.z[q] = p.z;
   }
-  set_centre(reach);
+  set_center(reach);
   common_ = {};
   some_ = {};
 }
@@ -57,20 +57,20 @@ void PacketMoments::set_normals(std::span<const std::uint32_t> places) {
   set_axis();
 }
 
-/// The centre is that of the box around the query vertices.
-void PacketMoments::set_centre(double reach) {
+/// The center is that of the box around the query vertices.
+void PacketMoments::set_center(double reach) {
   double extent = std::min(reach * source_.index->frame.scale, 4.0);  // the mesh has no larger one
   const auto middle = [&](QueryRow& row) {
     const auto [low, high] = std::minmax_element(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(size_));
     extent = std::max(extent, (*high - *low) * source_.index->frame.scale);
     return *low + (*high - *low) / 2;
   };
-  centre_ = {middle(offsets_.x), middle(offsets_.y), middle(offsets_.z)};
+  center_ = {middle(offsets_.x), middle(offsets_.y), middle(offsets_.z)};
   scale_ = scale_of(extent) * source_.index->frame.scale;
   for (std::size_t q = 0; q < size_; ++q) {
-    offsets_.x[q] = (centre_.x - offsets_.x[q]) * scale_;
-    offsets_.y[q] = (centre_.y - offsets_.y[q]) * scale_;
-    offsets_.z[q] = (centre_.z - offsets_.z[q]) * scale_;
+    offsets_.x[q] = (center_.x - offsets_.x[q]) * scale_;
+    offsets_.y[q] = (center_.y - offsets_.y[q]) * scale_;
+    offsets_.z[q] = (center_.z - offsets_.z[q]) * scale_;
   }
 }
 
@@ -129,9 +129,9 @@ void PacketMoments::set_points(std::size_t first, std::size_t size) {
       [&](auto xyz) {
         for (std::size_t i = 0; i < size; ++i) {
           const Point p = point(xyz, first + i);
-          points_.x[i] = scale_ * (p.x - centre_.x);
-          points_.y[i] = scale_ * (p.y - centre_.y);
-          points_.z[i] = scale_ * (p.z - centre_.z);
+          points_.x[i] = scale_ * (p.x - center_.x);
+          points_.y[i] = scale_ * (p.y - center_.y);
+          points_.z[i] = scale_ * (p.z - center_.z);
         }
       },
       source_.index->positions);

@@ -20,7 +20,7 @@ struct MomentSource {
 
 /// The mean of the points of a query and the axes of their covariance about it, in the unit of the moments.
 struct PointDistribution {
-  Point centre;
+  Point center;
   Eigen3 axes;
 };
 [[nodiscard]] PointDistribution distribution_of(const QueryMoments& moments, std::size_t query);
@@ -32,7 +32,7 @@ struct MomentSizes {
 };
 
 /// The moments of the neighborhoods of up to 32 vertices that lie close together. A vertex that counts for all queries
-/// is added once, about a common centre; the sums are moved to each query vertex at the end. Owns 60 kB of memory.
+/// is added once, about a common center; the sums are moved to each query vertex at the end. Owns 60 kB of memory.
 class PacketMoments {
  public:
   /// Borrows what `source` names.
@@ -60,7 +60,7 @@ class PacketMoments {
   [[nodiscard]] const MomentSizes& sizes(std::size_t query) const { return sizes_[query]; }
 
  private:
-  void set_centre(double reach);
+  void set_center(double reach);
   void set_normals(std::span<const std::uint32_t> places);
   void set_axis();
   template <class WordOf>
@@ -74,9 +74,9 @@ class PacketMoments {
 
   std::size_t size_ = 0;
   QueryWord active_ = 0;  // without the queries that have no normal, if there is a filter
-  Point centre_{0, 0, 0};
+  Point center_{0, 0, 0};
   double scale_ = 1;
-  QueryVectors offsets_;  // from the query vertices to the centre
+  QueryVectors offsets_;  // from the query vertices to the center
   QueryVectors normals_;
   // A vertex faces all queries if the product of its normal and the axis is > all_face_, and none if it is <
   // -all_face_.

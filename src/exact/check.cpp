@@ -193,7 +193,7 @@ class Check {
   }
 
   static bool encloses(const FrameSphere& sphere, const Point& p) {
-    return std::sqrt(squared_distance(centre_of(sphere), p)) <= static_cast<double>(sphere.radius);
+    return std::sqrt(squared_distance(center_of(sphere), p)) <= static_cast<double>(sphere.radius);
   }
 
   void check_regions() {

@@ -50,7 +50,7 @@ std::vector<LeafId> leaves_around(const IndexView& index, const Point& center, s
   for (LeafId leaf = 0; leaf < index.leaf_count(); ++leaf) {
     if (index.leaves[leaf].size == 0) continue;
     const FrameSphere& sphere = index.leaves[leaf].bounds;
-    const double distance = std::sqrt(squared_distance(centre_of(sphere), center));
+    const double distance = std::sqrt(squared_distance(center_of(sphere), center));
     const auto radius = static_cast<double>(sphere.radius);
     reaches.push_back({distance - radius, distance + radius, leaf});
   }

@@ -11,19 +11,19 @@
 namespace meshhood {
 namespace {
 
-Point centre_of(const FrameSphere& sphere) {
+Point center_of(const FrameSphere& sphere) {
   return {static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
 }
 
 /// A sphere around at least one sphere.
 FrameSphere enclosing(std::span<const FrameSphere> spheres) {
   Point sum{0, 0, 0};
-  for (const FrameSphere& sphere : spheres) sum = sum + centre_of(sphere);
+  for (const FrameSphere& sphere : spheres) sum = sum + center_of(sphere);
   const Point mean = 1 / static_cast<double>(spheres.size()) * sum;
   FrameSphere result{static_cast<float>(mean.x), static_cast<float>(mean.y), static_cast<float>(mean.z), 0};
   double radius = 0;
   for (const FrameSphere& sphere : spheres) {
-    radius = std::max(radius, length(centre_of(sphere) - centre_of(result)) + static_cast<double>(sphere.radius));
+    radius = std::max(radius, length(center_of(sphere) - center_of(result)) + static_cast<double>(sphere.radius));
   }
   result.radius = next_above(radius);  // mutant: root-sphere-too-small
   return result;

@@ -71,7 +71,7 @@ class TreeCheck {
       for (auto node = static_cast<NodeId>(leaf); node != kNoNode; node = index_.parents[node / kFanOut]) {
         const FrameSphere bounds = sphere(node);
         const auto radius = static_cast<double>(bounds.radius);
-        if (squared_distance(centre_of(bounds), p) <= radius * radius) continue;  // mutant: sphere-need-not-enclose
+        if (squared_distance(center_of(bounds), p) <= radius * radius) continue;  // mutant: sphere-need-not-enclose
         file_.refuse(&index_.groups[node / kFanOut], name(node) + ": the bounding sphere does not enclose lane " +
                                                          std::to_string(lane) + " of leaf " + std::to_string(leaf));
       }

@@ -193,7 +193,7 @@ class Check {
       const bool fits = end - first == 1 ? radius == 0 : std::isfinite(radius) && radius >= 0;
       if (!fits) cluster_fault(c, std::to_string(end - first) + " vertices, but radius " + to_text(radius));
       for (std::size_t i = first; i < end; ++i) {
-        const double d2 = squared_distance(centre_of(sphere), point<Real>(hierarchy_.positions, i));
+        const double d2 = squared_distance(center_of(sphere), point<Real>(hierarchy_.positions, i));
         if (std::sqrt(d2) <= radius) continue;
         cluster_fault(c, "its vertex " + std::to_string(hierarchy_.vertices[i]) + " lies outside its sphere");
       }

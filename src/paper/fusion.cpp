@@ -86,13 +86,13 @@ class Fusion {
 
   /// Deviation: the distance between clusters is that of the means of their vertices, which stays exact as they grow.
   [[nodiscard]] ClusterId nearest_touching(ClusterId child, ClusterId donor) const {
-    const Point centre = mean(below_.position_sum[child], below_.vertex_count[child]);
+    const Point center = mean(below_.position_sum[child], below_.vertex_count[child]);
     ClusterId nearest = kNoCluster;
     double smallest = std::numeric_limits<double>::infinity();
     for (const ClusterId sibling : below_.siblings[child]) {
       const ClusterId cluster = partition_.parent[sibling];
       if (cluster == donor || cluster == nearest) continue;
-      const double d2 = squared_distance(centre, mean(position_sum_[cluster], vertex_count_[cluster]));
+      const double d2 = squared_distance(center, mean(position_sum_[cluster], vertex_count_[cluster]));
       if (d2 < smallest || (d2 == smallest && cluster < nearest)) {
         smallest = d2;
         nearest = cluster;

@@ -150,7 +150,7 @@ void Searcher::Query<Real>::collect(std::vector<VertexId>& out, std::vector<doub
       const Point p = point<Real>(hierarchy_.positions, i);
       if (!piece.inside && !ball_.contains(p)) continue;
       out.push_back(hierarchy_.vertices[i]);
-      distances.push_back(std::sqrt(squared_distance(p, ball_.centre())));
+      distances.push_back(std::sqrt(squared_distance(p, ball_.center())));
     }
   }
 }

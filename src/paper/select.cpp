@@ -34,10 +34,10 @@ class Selection {
  private:
   [[nodiscard]] bool visited(ClusterId c) const { return partition_.parent[c] != kNoCluster; }
 
-  void add_cluster(ClusterId centre) {
+  void add_cluster(ClusterId center) {
     const auto parent = static_cast<ClusterId>(partition_.clusters++);
-    visit(centre, parent);
-    for (const ClusterId child : below_.siblings[centre]) {
+    visit(center, parent);
+    for (const ClusterId child : below_.siblings[center]) {
       if (!visited(child)) visit(child, parent);
     }
   }

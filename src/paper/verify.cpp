@@ -74,7 +74,7 @@ void verify_enclosed(const paper::Hierarchy<Real>& hierarchy, const SectionReade
     for (std::size_t c = 0; c < level.size(); ++c) {
       const Sphere<Real>& sphere = level.spheres[c];
       for (std::size_t i = level.first_vertex[c]; i < level.first_vertex[c + 1]; ++i) {
-        const double d2 = squared_distance(centre_of(sphere), point<Real>(hierarchy.positions, i));
+        const double d2 = squared_distance(center_of(sphere), point<Real>(hierarchy.positions, i));
         if (std::sqrt(d2) <= static_cast<double>(sphere.radius)) continue;
         file.refuse_in(
             "spheres " + std::to_string(l), c * sizeof(Sphere<Real>),

@@ -6,6 +6,6 @@
 namespace meshhood {
 
 /// Where the segment from `inside`, a point of the ball, to `outside` leaves the ball; `outside` if that is inside too.
-[[nodiscard]] Point exit_point(const Point& inside, const Point& outside, const Point& centre, double radius);
+[[nodiscard]] Point exit_point(const Point& inside, const Point& outside, const Point& center, double radius);
 
 }  // namespace meshhood

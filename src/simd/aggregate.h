@@ -21,7 +21,7 @@ struct alignas(64) RowSums {
 };
 
 /// The query vertices of a packet, and the unit in which distances from them are computed.
-struct alignas(64) PacketCentres {
+struct alignas(64) PacketCenters {
   PerLane<double> x;
   PerLane<double> y;
   PerLane<double> z;
@@ -66,7 +66,7 @@ struct AggregateKernels {
                          const PerLane<double>& means, PerLane<double>& deviations, PerLane<double>& squares);
 
   /// Sets the offsets of `point` from the query vertices.
-  void (*set_offsets)(const Point& point, const PacketCentres& centres, Offsets& offsets);
+  void (*set_offsets)(const Point& point, const PacketCenters& centers, Offsets& offsets);
 
   /// Sets the weights of a vertex with these offsets, `1 - d^2/r^2` or, if `squared`, the square of that. None is
   /// negative.

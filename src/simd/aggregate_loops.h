@@ -100,17 +100,17 @@ MESHHOOD_TARGET void sum_deviations(std::span<const double> values, const double
   }
 }
 
-MESHHOOD_TARGET void set_offsets(const Point& point, const PacketCentres& centres, Offsets& offsets) {
+MESHHOOD_TARGET void set_offsets(const Point& point, const PacketCenters& centers, Offsets& offsets) {
   for (std::size_t first = 0; first < kPacketCapacity; first += kWidth) {
     Doubles x;
     Doubles y;
     Doubles z;
-    MESHHOOD_LOAD(x, centres.x[first]);
-    MESHHOOD_LOAD(y, centres.y[first]);
-    MESHHOOD_LOAD(z, centres.z[first]);
-    x = (point.x - x) * centres.unit;
-    y = (point.y - y) * centres.unit;
-    z = (point.z - z) * centres.unit;
+    MESHHOOD_LOAD(x, centers.x[first]);
+    MESHHOOD_LOAD(y, centers.y[first]);
+    MESHHOOD_LOAD(z, centers.z[first]);
+    x = (point.x - x) * centers.unit;
+    y = (point.y - y) * centers.unit;
+    z = (point.z - z) * centers.unit;
     const Doubles square = (x * x + y * y) + z * z;
     MESHHOOD_STORE(offsets.x[first], x);
     MESHHOOD_STORE(offsets.y[first], y);

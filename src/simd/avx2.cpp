@@ -38,9 +38,9 @@ MESHHOOD_AVX2 inline Points4 load_points4(const Real* xyz) {
 template <class Real>
 MESHHOOD_AVX2 inline LaneMask within4(const Real* xyz, const LeafBall& ball) {
   const Points4 points = load_points4(xyz);
-  const __m256d dx = _mm256_sub_pd(points.x, _mm256_set1_pd(ball.centre.x));
-  const __m256d dy = _mm256_sub_pd(points.y, _mm256_set1_pd(ball.centre.y));
-  const __m256d dz = _mm256_sub_pd(points.z, _mm256_set1_pd(ball.centre.z));
+  const __m256d dx = _mm256_sub_pd(points.x, _mm256_set1_pd(ball.center.x));
+  const __m256d dy = _mm256_sub_pd(points.y, _mm256_set1_pd(ball.center.y));
+  const __m256d dz = _mm256_sub_pd(points.z, _mm256_set1_pd(ball.center.z));
   const __m256d square =
       _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(dx, dx), _mm256_mul_pd(dy, dy)), _mm256_mul_pd(dz, dz));
   return static_cast<LaneMask>(

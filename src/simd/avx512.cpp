@@ -47,9 +47,9 @@ MESHHOOD_AVX512 inline Points8 load_points8(const Real* xyz) {
 template <class Real>
 MESHHOOD_AVX512 inline LaneMask within8(const Real* xyz, const LeafBall& ball) {
   const Points8 points = load_points8(xyz);
-  const __m512d dx = _mm512_sub_pd(points.x, _mm512_set1_pd(ball.centre.x));
-  const __m512d dy = _mm512_sub_pd(points.y, _mm512_set1_pd(ball.centre.y));
-  const __m512d dz = _mm512_sub_pd(points.z, _mm512_set1_pd(ball.centre.z));
+  const __m512d dx = _mm512_sub_pd(points.x, _mm512_set1_pd(ball.center.x));
+  const __m512d dy = _mm512_sub_pd(points.y, _mm512_set1_pd(ball.center.y));
+  const __m512d dz = _mm512_sub_pd(points.z, _mm512_set1_pd(ball.center.z));
   const __m512d square =
       _mm512_add_pd(_mm512_add_pd(_mm512_mul_pd(dx, dx), _mm512_mul_pd(dy, dy)), _mm512_mul_pd(dz, dz));
   return _mm512_cmp_pd_mask(square, _mm512_set1_pd(ball.squared_radius), _CMP_LE_OQ);

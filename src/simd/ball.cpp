@@ -27,7 +27,7 @@ float round_up(double value) { return -round_down(-value); }
 constexpr double kFloatError = 0x1p-21;  // mutant: no-float-margin
 constexpr double kFloatUnderflow = 0x1p-140;
 
-// The centre and the points that the spheres enclose are rounded by 2^-25 along each axis; the radii of the spheres
+// The center and the points that the spheres enclose are rounded by 2^-25 along each axis; the radii of the spheres
 // include that. The comparison itself rounds by at most 2^-22 of either radius; spheres and ball each have room for
 // 2^-20.
 constexpr double kTreeError = 0x1p-20;
@@ -44,7 +44,7 @@ LeafBounds::LeafBounds(double radius)
 
 LeafBall::LeafBall(const Point& at, const LeafBounds& bounds)
     : LeafBounds(bounds),
-      centre(at),
+      center(at),
       x(static_cast<float>(at.x)),
       y(static_cast<float>(at.y)),
       z(static_cast<float>(at.z)) {}

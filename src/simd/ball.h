@@ -21,13 +21,13 @@ struct LeafBounds {
 
 /// A search ball to be compared with vertices.
 struct LeafBall : LeafBounds {
-  Point centre;
-  // The centre in single precision; exact where the positions are floats.
+  Point center;
+  // The center in single precision; exact where the positions are floats.
   float x;
   float y;
   float z;
 
-  LeafBall(const Point& centre, const LeafBounds& bounds);
+  LeafBall(const Point& center, const LeafBounds& bounds);
 };
 
 /// The radius in the frame, rounded to be compared with bounding spheres.
@@ -44,9 +44,9 @@ struct TreeBall : TreeBounds {
   float y;
   float z;
 
-  TreeBall(const FramePoint& centre, const TreeBounds& bounds);
-  TreeBall(const Frame& frame, const Point& centre, double radius)
-      : TreeBall(frame.round(centre), TreeBounds(frame, radius)) {}
+  TreeBall(const FramePoint& center, const TreeBounds& bounds);
+  TreeBall(const Frame& frame, const Point& center, double radius)
+      : TreeBall(frame.round(center), TreeBounds(frame, radius)) {}
 };
 
 /// One node against the ball, with the same result as `Kernels::classify`.

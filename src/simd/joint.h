@@ -27,7 +27,7 @@ struct alignas(64) LeafWords {
   PerLane<QueryWord> pending;  // the queries that reach a neighbor in another leaf; not yet compared with `inside`
 };
 
-/// The vertices of a leaf in frame units, relative to the centre of a group. Lanes without a vertex hold zeros.
+/// The vertices of a leaf in frame units, relative to the center of a group. Lanes without a vertex hold zeros.
 struct alignas(64) LeafPoints {
   PerLane<float> x;
   PerLane<float> y;
@@ -35,15 +35,15 @@ struct alignas(64) LeafPoints {
   PerLane<float> square;  // of the length
 };
 
-/// The centre of a group in the unit of the mesh, which floats hold exactly, and the scale of the frame.
-struct FloatCentre {
+/// The center of a group in the unit of the mesh, which floats hold exactly, and the scale of the frame.
+struct FloatCenter {
   float x;
   float y;
   float z;
   float scale;  // a power of two
 };
 
-/// The balls of a packet, relative to the same centre. A vertex p is compared with the ball around q by
+/// The balls of a packet, relative to the same center. A vertex p is compared with the ball around q by
 /// `2 p.q - p.p`, which is at least `q.q - r^2` where p is inside.
 struct alignas(64) PacketBalls {
   // Twice the coordinates of the query vertices.
@@ -52,10 +52,10 @@ struct alignas(64) PacketBalls {
   PerLane<float> z;
   PerLane<float> surely_inside;  // >=; infinite for queries that do not exist
   PerLane<float> maybe_inside;   // >=; likewise
-  // The centre of the leaf of the queries, and squared distances from it.
-  float centre_x;
-  float centre_y;
-  float centre_z;
+  // The center of the leaf of the queries, and squared distances from it.
+  float center_x;
+  float center_y;
+  float center_z;
   float inside_all;   // a vertex nearer than this is in all balls
   float outside_all;  // a vertex farther than this is in none
   QueryWord queries;  // those that exist
@@ -86,8 +86,8 @@ struct RowPiece {
 };
 
 struct JointKernels {
-  /// Converts `size` vertices, three coordinates each, to points relative to the centre.
-  void (*convert_points)(const float* xyz, unsigned size, const FloatCentre& centre, LeafPoints& points);
+  /// Converts `size` vertices, three coordinates each, to points relative to the center.
+  void (*convert_points)(const float* xyz, unsigned size, const FloatCenter& center, LeafPoints& points);
 
   /// Sets `reached` and `pending` to 0. Compilers may do it by a string instruction, which takes much longer.
   void (*clear_words)(LeafWords& words);
@@ -114,12 +114,12 @@ struct JointKernels {
 };
 
 /// `JointKernels::convert_points`, for compilers to vectorize.
-inline void convert_points_in_turn(const float* xyz, unsigned size, const FloatCentre& centre, LeafPoints& points) {
+inline void convert_points_in_turn(const float* xyz, unsigned size, const FloatCenter& center, LeafPoints& points) {
   points = {};
   for (std::size_t i = 0; i < size; ++i) {
-    const float x = (xyz[3 * i] - centre.x) * centre.scale;
-    const float y = (xyz[3 * i + 1] - centre.y) * centre.scale;
-    const float z = (xyz[3 * i + 2] - centre.z) * centre.scale;
+    const float x = (xyz[3 * i] - center.x) * center.scale;
+    const float y = (xyz[3 * i + 1] - center.y) * center.scale;
+    const float z = (xyz[3 * i + 2] - center.z) * center.scale;
     points.x[i] = x;
     points.y[i] = y;
     points.z[i] = z;

@@ -37,10 +37,10 @@ MESHHOOD_AVX2 inline __m256i wide_mask(__m256i lanes, std::size_t part) {
   return _mm256_cmpeq_epi32(_mm256_and_si256(lanes, bit), bit);
 }
 
-MESHHOOD_AVX2 inline __m256 squares_from_centre(const LeafPoints& points, std::size_t i, const PacketBalls& balls) {
-  const __m256 x = _mm256_sub_ps(_mm256_load_ps(&points.x[i]), _mm256_set1_ps(balls.centre_x));
-  const __m256 y = _mm256_sub_ps(_mm256_load_ps(&points.y[i]), _mm256_set1_ps(balls.centre_y));
-  const __m256 z = _mm256_sub_ps(_mm256_load_ps(&points.z[i]), _mm256_set1_ps(balls.centre_z));
+MESHHOOD_AVX2 inline __m256 squares_from_center(const LeafPoints& points, std::size_t i, const PacketBalls& balls) {
+  const __m256 x = _mm256_sub_ps(_mm256_load_ps(&points.x[i]), _mm256_set1_ps(balls.center_x));
+  const __m256 y = _mm256_sub_ps(_mm256_load_ps(&points.y[i]), _mm256_set1_ps(balls.center_y));
+  const __m256 z = _mm256_sub_ps(_mm256_load_ps(&points.z[i]), _mm256_set1_ps(balls.center_z));
   return _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x, x), _mm256_mul_ps(y, y)), _mm256_mul_ps(z, z));
 }
 
@@ -63,8 +63,8 @@ MESHHOOD_AVX2 inline QueryWord compare(const LeafPoints& points, std::size_t lan
   return sure;
 }
 
-MESHHOOD_AVX2 void convert_points(const float* xyz, unsigned size, const FloatCentre& centre, LeafPoints& points) {
-  convert_points_in_turn(xyz, size, centre, points);
+MESHHOOD_AVX2 void convert_points(const float* xyz, unsigned size, const FloatCenter& center, LeafPoints& points) {
+  convert_points_in_turn(xyz, size, center, points);
 }
 
 MESHHOOD_AVX2 BallWords ball_words(const LeafPoints& points, LaneMask lanes, const PacketBalls& balls,
@@ -72,7 +72,7 @@ MESHHOOD_AVX2 BallWords ball_words(const LeafPoints& points, LaneMask lanes, con
   LaneMask in_all = 0;
   LaneMask in_none = 0;
   for (std::size_t i = 0; i < kLeafCapacity; i += 8) {
-    const __m256 square = squares_from_centre(points, i, balls);
+    const __m256 square = squares_from_center(points, i, balls);
     in_all |= bits(_mm256_cmp_ps(square, _mm256_set1_ps(balls.inside_all), _CMP_LT_OQ)) << i;
     in_none |= bits(_mm256_cmp_ps(square, _mm256_set1_ps(balls.outside_all), _CMP_GT_OQ)) << i;
   }

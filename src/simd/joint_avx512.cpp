@@ -97,23 +97,23 @@ MESHHOOD_AVX512 inline __m512 load_floats(const float* from, unsigned begin, uns
   return _mm512_maskz_loadu_ps(wanted, from + begin);
 }
 
-/// One coordinate of the vertices of `lanes`, relative to the centre; 0 in the other lanes.
+/// One coordinate of the vertices of `lanes`, relative to the center; 0 in the other lanes.
 MESHHOOD_AVX512 inline __m512 coordinate(const Interleaved& xyz, const CoordinateOrder& order, __mmask16 lanes,
-                                         float centre, float scale) {
+                                         float center, float scale) {
   const __m512 two = _mm512_permutex2var_ps(xyz.first, _mm512_load_si512(order.in_first_two.data()), xyz.second);
   const __m512 all = _mm512_permutex2var_ps(two, _mm512_load_si512(order.in_third.data()), xyz.third);
   // mutant: avx512-points-in-every-lane
-  return _mm512_maskz_mul_ps(lanes, _mm512_sub_ps(all, _mm512_set1_ps(centre)), _mm512_set1_ps(scale));
+  return _mm512_maskz_mul_ps(lanes, _mm512_sub_ps(all, _mm512_set1_ps(center)), _mm512_set1_ps(scale));
 }
 
-MESHHOOD_AVX512 void convert_points(const float* xyz, unsigned size, const FloatCentre& centre, LeafPoints& points) {
+MESHHOOD_AVX512 void convert_points(const float* xyz, unsigned size, const FloatCenter& center, LeafPoints& points) {
   for (unsigned i = 0; i < kLeafCapacity; i += 16) {
     const Interleaved some{load_floats(xyz, 3 * i, 3 * size), load_floats(xyz, 3 * i + 16, 3 * size),
                            load_floats(xyz, 3 * i + 32, 3 * size)};
     const auto lanes = static_cast<__mmask16>(_bzhi_u32(0xFFFFFFFF, size) >> i);
-    const __m512 x = coordinate(some, kCoordinateOrders[0], lanes, centre.x, centre.scale);
-    const __m512 y = coordinate(some, kCoordinateOrders[1], lanes, centre.y, centre.scale);
-    const __m512 z = coordinate(some, kCoordinateOrders[2], lanes, centre.z, centre.scale);
+    const __m512 x = coordinate(some, kCoordinateOrders[0], lanes, center.x, center.scale);
+    const __m512 y = coordinate(some, kCoordinateOrders[1], lanes, center.y, center.scale);
+    const __m512 z = coordinate(some, kCoordinateOrders[2], lanes, center.z, center.scale);
     _mm512_store_ps(&points.x[i], x);
     _mm512_store_ps(&points.y[i], y);
     _mm512_store_ps(&points.z[i], z);
@@ -144,17 +144,17 @@ MESHHOOD_AVX512 inline __m512 heights(const LeafPoints& points, std::size_t lane
   return _mm512_sub_ps(_mm512_add_ps(_mm512_add_ps(x, y), z), _mm512_set1_ps(points.square[lane]));
 }
 
-MESHHOOD_AVX512 inline __m512 squares_from_centre(const LeafPoints& points, std::size_t i, const PacketBalls& balls) {
-  const __m512 x = _mm512_sub_ps(_mm512_load_ps(&points.x[i]), _mm512_set1_ps(balls.centre_x));
-  const __m512 y = _mm512_sub_ps(_mm512_load_ps(&points.y[i]), _mm512_set1_ps(balls.centre_y));
-  const __m512 z = _mm512_sub_ps(_mm512_load_ps(&points.z[i]), _mm512_set1_ps(balls.centre_z));
+MESHHOOD_AVX512 inline __m512 squares_from_center(const LeafPoints& points, std::size_t i, const PacketBalls& balls) {
+  const __m512 x = _mm512_sub_ps(_mm512_load_ps(&points.x[i]), _mm512_set1_ps(balls.center_x));
+  const __m512 y = _mm512_sub_ps(_mm512_load_ps(&points.y[i]), _mm512_set1_ps(balls.center_y));
+  const __m512 z = _mm512_sub_ps(_mm512_load_ps(&points.z[i]), _mm512_set1_ps(balls.center_z));
   return _mm512_add_ps(_mm512_add_ps(_mm512_mul_ps(x, x), _mm512_mul_ps(y, y)), _mm512_mul_ps(z, z));
 }
 
 MESHHOOD_AVX512 BallWords ball_words(const LeafPoints& points, LaneMask lanes, const PacketBalls& balls,
                                      PerLane<QueryWord>& inside, PerLane<QueryWord>& doubts) {
-  const __m512 low = squares_from_centre(points, 0, balls);
-  const __m512 high = squares_from_centre(points, 16, balls);
+  const __m512 low = squares_from_center(points, 0, balls);
+  const __m512 high = squares_from_center(points, 16, balls);
   const __m512 nearest = _mm512_set1_ps(balls.inside_all);
   const __m512 farthest = _mm512_set1_ps(balls.outside_all);
   const LaneMask in_all =

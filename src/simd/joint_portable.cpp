@@ -34,10 +34,10 @@ QueryWord compare(const LeafPoints& points, std::size_t lane, const PacketBalls&
   return sure;
 }
 
-float squared_distance_to_centre(const LeafPoints& points, std::size_t lane, const PacketBalls& balls) {
-  const float x = points.x[lane] - balls.centre_x;
-  const float y = points.y[lane] - balls.centre_y;
-  const float z = points.z[lane] - balls.centre_z;
+float squared_distance_to_center(const LeafPoints& points, std::size_t lane, const PacketBalls& balls) {
+  const float x = points.x[lane] - balls.center_x;
+  const float y = points.y[lane] - balls.center_y;
+  const float z = points.z[lane] - balls.center_z;
   return (x * x + y * y) + z * z;
 }
 
@@ -47,7 +47,7 @@ BallWords ball_words(const LeafPoints& points, LaneMask lanes, const PacketBalls
   inside = {};
   for (LaneMask left = lanes; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-    const float square = squared_distance_to_centre(points, lane, balls);
+    const float square = squared_distance_to_center(points, lane, balls);
     if (square > balls.outside_all) {  // mutant: portable-words-outside-all
       result.all = 0;
     } else if (square < balls.inside_all) {

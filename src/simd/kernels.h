@@ -33,7 +33,7 @@ struct Kernels {
   LaneMask (*within_float)(const float* xyz, std::size_t size, const LeafBall& ball);
   LaneMask (*within_double)(const double* xyz, std::size_t size, const LeafBall& ball);
 
-  /// The vertex among `lanes` of `xyz` that is nearest to the centre; the first of several. `lanes` is not empty. Reads
+  /// The vertex among `lanes` of `xyz` that is nearest to the center; the first of several. `lanes` is not empty. Reads
   /// 32 vertices.
   Nearest (*nearest_float)(const float* xyz, LaneMask lanes, const LeafBall& ball);
   Nearest (*nearest_double)(const double* xyz, LaneMask lanes, const LeafBall& ball);
@@ -84,7 +84,7 @@ template <class Real>
   Nearest result{std::numeric_limits<double>::infinity(), 0};
   for (; lanes != 0; lanes &= lanes - 1) {
     const auto lane = static_cast<unsigned>(std::countr_zero(lanes));
-    const double square = squared_distance(point(vertices, lane), ball.centre);
+    const double square = squared_distance(point(vertices, lane), ball.center);
     if (square < result.square) result = {square, lane};
   }
   return result;

@@ -14,8 +14,8 @@
 /// each function gives the same result on every processor, bit for bit.
 namespace meshhood {
 
-/// The moments of a set of vertices about a centre: M_ijk = sum of weight x^i y^j z^k for i + j + k <= 4, where x, y, z
-/// are the coordinates relative to the centre. Ordered by i; then by n = j + k; then by k. So the moments with j + k <=
+/// The moments of a set of vertices about a center: M_ijk = sum of weight x^i y^j z^k for i + j + k <= 4, where x, y, z
+/// are the coordinates relative to the center. Ordered by i; then by n = j + k; then by k. So the moments with j + k <=
 /// 4 - i of each i are a prefix of those of i - 1.
 inline constexpr std::size_t kMomentCount = 35;
 
@@ -60,7 +60,7 @@ struct alignas(64) PartialMoments {
   std::array<std::array<double, kParts>, kMomentCount> at;
 };
 
-/// Vertices relative to the centre of a packet, in a unit in which they are about 1.
+/// Vertices relative to the center of a packet, in a unit in which they are about 1.
 struct alignas(64) MomentPoints {
   static constexpr std::size_t kCapacity = 64;
   std::array<double, kCapacity> x;
@@ -97,7 +97,7 @@ struct MomentKernels {
   /// The sums of each query.
   void (*collect)(const PartialMoments& common, const MomentsByWord& some, QueryMoments& out);
 
-  /// Moves the centres by `-by`: the coordinates grow by `by`. By a Taylor shift along each axis, 105 multiply-adds.
+  /// Moves the centers by `-by`: the coordinates grow by `by`. By a Taylor shift along each axis, 105 multiply-adds.
   void (*shift)(QueryMoments& moments, const QueryVectors& by);
 
   /// Contracts the moments of degree 2 to 4 with the axes of the frames.

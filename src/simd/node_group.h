@@ -17,7 +17,7 @@ struct alignas(64) Group {
   Row y;
   Row z;
   Row radius;
-  // Minimum regions: a query point at `p` from the centre of the sphere is in the region where
+  // Minimum regions: a query point at `p` from the center of the sphere is in the region where
   // |p| <= offset + |p . slope|.
   Row slope_x;
   Row slope_y;
@@ -30,7 +30,7 @@ struct alignas(64) Group {
 struct GroupContainment {
   std::uint8_t inside;
   std::uint8_t intersecting;
-  std::uint8_t may_have_minimum;  // the ball's centre may lie in the minimum region of the node
+  std::uint8_t may_have_minimum;  // the ball's center may lie in the minimum region of the node
 };
 
 /// The square of a distance is multiplied by this before it is compared with the square of the extent of a minimum

@@ -12,7 +12,7 @@ LaneMask within(const Real* xyz, std::size_t size, const LeafBall& ball) {
   LaneMask result = 0;
   for (std::size_t i = 0; i < size; ++i) {  // mutant: last-lane-not-tested
     const Point p = point(std::span(xyz, 3 * size), i);
-    result |= LaneMask{squared_distance(p, ball.centre) <= ball.squared_radius} << i;  // mutant: ball-without-boundary
+    result |= LaneMask{squared_distance(p, ball.center) <= ball.squared_radius} << i;  // mutant: ball-without-boundary
   }
   return result;
 }

@@ -16,9 +16,9 @@ LaneMask within2(const Real* xyz, const LeafBall& ball) {
   const v128_t a = load2(xyz);      // x0 y0
   const v128_t b = load2(xyz + 2);  // z0 x1
   const v128_t c = load2(xyz + 4);  // y1 z1
-  const v128_t dx = wasm_f64x2_sub(wasm_i64x2_shuffle(a, b, 0, 3), wasm_f64x2_splat(ball.centre.x));
-  const v128_t dy = wasm_f64x2_sub(wasm_i64x2_shuffle(a, c, 1, 2), wasm_f64x2_splat(ball.centre.y));
-  const v128_t dz = wasm_f64x2_sub(wasm_i64x2_shuffle(b, c, 0, 3), wasm_f64x2_splat(ball.centre.z));
+  const v128_t dx = wasm_f64x2_sub(wasm_i64x2_shuffle(a, b, 0, 3), wasm_f64x2_splat(ball.center.x));
+  const v128_t dy = wasm_f64x2_sub(wasm_i64x2_shuffle(a, c, 1, 2), wasm_f64x2_splat(ball.center.y));
+  const v128_t dz = wasm_f64x2_sub(wasm_i64x2_shuffle(b, c, 0, 3), wasm_f64x2_splat(ball.center.z));
   const v128_t square =
       wasm_f64x2_add(wasm_f64x2_add(wasm_f64x2_mul(dx, dx), wasm_f64x2_mul(dy, dy)), wasm_f64x2_mul(dz, dz));
   return wasm_i64x2_bitmask(wasm_f64x2_le(square, wasm_f64x2_splat(ball.squared_radius)));

@@ -76,7 +76,7 @@ TEST(SearchBall, ContainsItsOwnDistance) {
   }
 }
 
-TEST(SearchBall, ContainsItsCentreAtRadiusZero) {
+TEST(SearchBall, ContainsItsCenterAtRadiusZero) {
   EXPECT_TRUE(SearchBall({1, 2, 3}, 0).contains({1, 2, 3}));
   EXPECT_TRUE(SearchBall({1, 2, 3}, -0.0).contains({1, 2, 3}));
   EXPECT_FALSE(SearchBall({1, 2, 3}, 0).contains({1, 2, std::nextafter(3.0, 4.0)}));
@@ -107,8 +107,8 @@ double moved(double value, int steps) {
 
 /// A sphere around the given points, tight under the arithmetic of the query.
 template <class Real>
-Sphere<Real> around(const Point& centre, const std::vector<Point>& points) {
-  Sphere<Real> sphere{static_cast<Real>(centre.x), static_cast<Real>(centre.y), static_cast<Real>(centre.z), 0};
+Sphere<Real> around(const Point& center, const std::vector<Point>& points) {
+  Sphere<Real> sphere{static_cast<Real>(center.x), static_cast<Real>(center.y), static_cast<Real>(center.z), 0};
   for (const Point& p : points) {
     const double d = std::sqrt(squared_distance(
         {static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)}, p));
@@ -119,16 +119,16 @@ Sphere<Real> around(const Point& centre, const std::vector<Point>& points) {
   return sphere;
 }
 
-/// The points of `centre` plus and minus `extent` along the line from `origin`: where the sphere is nearest to the ball
+/// The points of `center` plus and minus `extent` along the line from `origin`: where the sphere is nearest to the ball
 /// and farthest from it; and along the axes.
-std::vector<Point> extremes(const Point& origin, const Point& centre, double extent) {
-  const double d = std::sqrt(squared_distance(origin, centre));
+std::vector<Point> extremes(const Point& origin, const Point& center, double extent) {
+  const double d = std::sqrt(squared_distance(origin, center));
   const double scale = d > 0 ? extent / d : 0;
-  const Point along{(centre.x - origin.x) * scale, (centre.y - origin.y) * scale, (centre.z - origin.z) * scale};
-  return {{centre.x - along.x, centre.y - along.y, centre.z - along.z},
-          {centre.x + along.x, centre.y + along.y, centre.z + along.z},
-          {centre.x + extent, centre.y, centre.z},
-          {centre.x, centre.y - extent, centre.z}};
+  const Point along{(center.x - origin.x) * scale, (center.y - origin.y) * scale, (center.z - origin.z) * scale};
+  return {{center.x - along.x, center.y - along.y, center.z - along.z},
+          {center.x + along.x, center.y + along.y, center.z + along.z},
+          {center.x + extent, center.y, center.z},
+          {center.x, center.y - extent, center.z}};
 }
 
 struct GroupContainment {
@@ -140,10 +140,10 @@ template <class Real>
 void expect_conservative(Random& random, double size, GroupContainment& seen) {
   const auto coordinate = [&] { return static_cast<double>(static_cast<Real>(random.uniform(-size, size))); };
   const Point origin{coordinate(), coordinate(), coordinate()};
-  const Point centre{coordinate(), coordinate(), coordinate()};
-  const auto points = extremes(origin, centre, size * random.uniform(0, 0.5));
-  const Sphere<Real> sphere = around<Real>(centre, points);
-  const double d = std::sqrt(squared_distance(origin, centre));
+  const Point center{coordinate(), coordinate(), coordinate()};
+  const auto points = extremes(origin, center, size * random.uniform(0, 0.5));
+  const Sphere<Real> sphere = around<Real>(center, points);
+  const double d = std::sqrt(squared_distance(origin, center));
   const auto r = static_cast<double>(sphere.radius);
   for (const double decision : {std::abs(d - r), d + r, d, std::sqrt(squared_distance(origin, points[0])),
                                 std::sqrt(squared_distance(origin, points[1]))}) {

@@ -23,14 +23,14 @@ using Points = std::vector<double>;  // #points by 3
 /// Whether every point is inside as distances are computed in double, and nearly inside in long double.
 template <class Real>
 bool encloses(const Sphere<Real>& sphere, const std::vector<Real>& xyz) {
-  const Point centre{static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
+  const Point center{static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
   const auto radius = static_cast<double>(sphere.radius);
   for (std::size_t i = 0; i < xyz.size() / 3; ++i) {
     const Point p = point(std::span<const Real>(xyz), i);
-    if (!(std::sqrt(squared_distance(centre, p)) <= radius)) return false;
-    const long double dx = static_cast<long double>(p.x) - centre.x;
-    const long double dy = static_cast<long double>(p.y) - centre.y;
-    const long double dz = static_cast<long double>(p.z) - centre.z;
+    if (!(std::sqrt(squared_distance(center, p)) <= radius)) return false;
+    const long double dx = static_cast<long double>(p.x) - center.x;
+    const long double dy = static_cast<long double>(p.y) - center.y;
+    const long double dz = static_cast<long double>(p.z) - center.z;
     if (std::sqrt(dx * dx + dy * dy + dz * dz) > radius * (1 + 1e-15L) + 1e-160L) return false;
   }
   return true;
@@ -44,7 +44,7 @@ Sphere<Real> sphere_of(const std::vector<Real>& xyz) {
   return sphere;
 }
 
-/// Within a thousandth of `smallest` in double, and in float up to the rounding of the centre.
+/// Within a thousandth of `smallest` in double, and in float up to the rounding of the center.
 void expect_tight(const Points& points, double smallest) {
   EXPECT_LE(sphere_of(points).radius, smallest * 1.001 * (1 + 1e-12));
   const std::vector<float> single(points.begin(), points.end());

@@ -151,11 +151,11 @@ TEST(PrincipalComponents, AreTheMeanAndTheCovarianceOfTheVertices) {
     const Expected m = moments_of(mesh, oracle.exact(v, 2.5), v, weights);
     const long double weight = m.sums[0];
     EXPECT_NEAR(found.weight[v], static_cast<double>(weight), 1e-12);
-    const Point centre{found.centre[3 * v], found.centre[3 * v + 1], found.centre[3 * v + 2]};
-    EXPECT_NEAR(centre.x, static_cast<double>(m.sums[1] / weight), 1e-12);
-    EXPECT_NEAR(centre.z, static_cast<double>(m.sums[3] / weight), 1e-12);
-    const double xx = static_cast<double>(m.sums[4] / weight) - centre.x * centre.x;
-    const double xz = static_cast<double>(m.sums[6] / weight) - centre.x * centre.z;
+    const Point center{found.center[3 * v], found.center[3 * v + 1], found.center[3 * v + 2]};
+    EXPECT_NEAR(center.x, static_cast<double>(m.sums[1] / weight), 1e-12);
+    EXPECT_NEAR(center.z, static_cast<double>(m.sums[3] / weight), 1e-12);
+    const double xx = static_cast<double>(m.sums[4] / weight) - center.x * center.x;
+    const double xz = static_cast<double>(m.sums[6] / weight) - center.x * center.z;
     double sum_xx = 0;
     double sum_xz = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -185,7 +185,7 @@ TEST(PrincipalComponents, OfNoWeightAreNan) {
   const std::vector<double> weights(mesh.size(), 0.0);
   const PrincipalComponents found = principal_components(build(mesh.view()), {.radius = 2.0}, {.weights = weights});
   EXPECT_THAT(found.weight, testing::Each(0));
-  EXPECT_THAT(found.centre, testing::Each(testing::IsNan()));
+  EXPECT_THAT(found.center, testing::Each(testing::IsNan()));
   EXPECT_THAT(found.variances, testing::Each(testing::IsNan()));
   EXPECT_TRUE(std::isnan(surface_variation(0, 0, 0)));
   EXPECT_DOUBLE_EQ(surface_variation(1e300, 1e300, 1e300), 1.0 / 3);

@@ -62,7 +62,7 @@ TEST(LeafNodes, HaveTheRegionOfAllEdgesOfTheirVertices) {
     const std::size_t begin = mesh.index.leaf_begin[leaf];
     const std::size_t size = mesh.index.leaf_begin[leaf + 1] - begin;
     const MinimumRegion expected =
-        leaf_minimum_region(mesh.points, begin, size, mesh.edges(leaf), centre_of(nodes.bounds[leaf]));
+        leaf_minimum_region(mesh.points, begin, size, mesh.edges(leaf), center_of(nodes.bounds[leaf]));
     const MinimumRegion& region = nodes.regions[leaf];
     ASSERT_EQ(std::isfinite(region.offset), std::isfinite(expected.offset)) << "leaf " << leaf;
     if (!std::isfinite(expected.offset)) continue;
@@ -79,7 +79,7 @@ TEST(LeafNodes, HaveSpheresAroundTheirVertices) {
   const NodeList nodes = mesh.nodes();
   for (std::size_t leaf = 0; leaf < nodes.bounds.size(); ++leaf) {
     for (std::size_t i = mesh.index.leaf_begin[leaf]; i < mesh.index.leaf_begin[leaf + 1]; ++i) {
-      EXPECT_LT(length(mesh.points[i] - centre_of(nodes.bounds[leaf])), static_cast<double>(nodes.bounds[leaf].radius));
+      EXPECT_LT(length(mesh.points[i] - center_of(nodes.bounds[leaf])), static_cast<double>(nodes.bounds[leaf].radius));
     }
   }
 }

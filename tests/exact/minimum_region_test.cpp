@@ -31,7 +31,7 @@ struct Patch {
   std::size_t first = 0;
   std::size_t size = 0;
   std::vector<LeafEdge> edges;
-  Point centre{};
+  Point center{};
 
   [[nodiscard]] const Point& vertex(std::size_t lane) const { return points[first + lane]; }
 
@@ -43,7 +43,7 @@ struct Patch {
     return result;
   }
 
-  [[nodiscard]] MinimumRegion region() const { return leaf_minimum_region(points, first, size, edges, centre); }
+  [[nodiscard]] MinimumRegion region() const { return leaf_minimum_region(points, first, size, edges, center); }
 };
 
 bool is_bounded(const MinimumRegion& region) { return std::isfinite(region.offset); }
@@ -107,7 +107,7 @@ std::size_t expect_cells_inside(const Patch& patch, const MinimumRegion& region,
     for (const Point& w : neighbors) edges.push_back(w - patch.vertex(lane));
     const auto expect_inside = [&](const Point& offset) {
       const Point query = patch.vertex(lane) + offset;
-      const Point x = query - patch.centre;
+      const Point x = query - patch.center;
       if (!(length(x) < kFarthest) || !is_minimum(patch.vertex(lane), neighbors, query)) return;
       ++found;
       EXPECT_TRUE(contains(region, x)) << "vertex " << lane << " is a local minimum seen from " << x.x << ' ' << x.y
@@ -138,7 +138,7 @@ std::size_t expect_no_minima_outside(const Patch& patch, const MinimumRegion& re
     const Point x = (surface(region, direction) * (1 + 1e-4) + 4 * kRoom) * direction;
     if (contains(region, x)) continue;
     for (std::size_t lane = 0; lane < patch.size; ++lane, ++seen) {
-      EXPECT_FALSE(is_minimum(patch.vertex(lane), patch.neighbors(lane), patch.centre + x)) << "vertex " << lane;
+      EXPECT_FALSE(is_minimum(patch.vertex(lane), patch.neighbors(lane), patch.center + x)) << "vertex " << lane;
     }
   }
   return seen;
@@ -201,7 +201,7 @@ Patch make_patch(const Shape& shape, const Pose& pose, Random& random) {
     if (up) join(n, n + kColumns);
     if (right && up) join(n, n + kColumns + 1);
   }
-  patch.centre = pose({random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)});
+  patch.center = pose({random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)});
   return patch;
 }
 
@@ -299,7 +299,7 @@ Patch random_cloud(Random& random, std::size_t size, std::size_t valence) {
     });
     for (std::size_t i = 0; i < valence; ++i) patch.edges.push_back({lane, others[i]});
   }
-  patch.centre = {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)};
+  patch.center = {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)};
   return patch;
 }
 
@@ -360,7 +360,7 @@ TEST(MinimumRegion, OfAFlatLeafReachesToTheVoronoiCellsAndNoFarther) {
     const MinimumRegion region = patch.region();
     double offset = 0;
     for (std::size_t lane = 0; lane < patch.size; ++lane) {
-      const Point o = patch.vertex(lane) - patch.centre;
+      const Point o = patch.vertex(lane) - patch.center;
       offset = std::max(offset, length({o.x, o.y, 0}) + farthest_corner(patch, lane));
     }
     ASSERT_NEAR(region.offset, offset, 1e-6);
@@ -386,7 +386,7 @@ TEST(MinimumRegion, OfASmoothLeafIsLittleWiderThanTheLeaf) {
     EXPECT_LT(length(region.slope_axis), 1.1);
     double radius = 0;
     for (std::size_t lane = 0; lane < patch.size; ++lane) {
-      radius = std::max(radius, length(patch.vertex(lane) - patch.centre));
+      radius = std::max(radius, length(patch.vertex(lane) - patch.center));
     }
     widest = std::max(widest, region.offset / radius);
   }
@@ -408,18 +408,18 @@ TEST(EnclosingMinimumRegion, HoldsTheRegionsOfAllChildren) {
     SCOPED_TRACE(i);
     const Point normal = random_direction(random);
     std::vector<MinimumRegion> children;
-    std::vector<Point> centres;
+    std::vector<Point> centers;
     for (std::size_t k = 0; k <= i % 8; ++k) {
       children.push_back(random_region(random, normal));
-      centres.push_back(random.uniform(0, 0.5) * random_direction(random));
+      centers.push_back(random.uniform(0, 0.5) * random_direction(random));
     }
-    const Point centre = random.uniform(0, 0.5) * random_direction(random);
-    const MinimumRegion parent = enclosing_minimum_region(children, centres, centre);
+    const Point center = random.uniform(0, 0.5) * random_direction(random);
+    const MinimumRegion parent = enclosing_minimum_region(children, centers, center);
     bounded += is_bounded(parent) ? 1 : 0;
     for (std::size_t k = 0; k < children.size(); ++k) {
       for (int n = 0; n < 40; ++n, ++points) {
         const Point direction = random_direction(random);
-        const Point x = centres[k] + surface(children[k], direction) * direction - centre;
+        const Point x = centers[k] + surface(children[k], direction) * direction - center;
         EXPECT_TRUE(contains(parent, x)) << "child " << k;
       }
     }
@@ -428,13 +428,13 @@ TEST(EnclosingMinimumRegion, HoldsTheRegionsOfAllChildren) {
   EXPECT_GT(bounded, 0U);
 }
 
-TEST(EnclosingMinimumRegion, OfOneChildAtTheSameCentreIsThatRegion) {
+TEST(EnclosingMinimumRegion, OfOneChildAtTheSameCenterIsThatRegion) {
   Random random(7);
   for (int i = 0; i < 100; ++i) {
     const MinimumRegion child = random_region(random, random_direction(random));
     const std::vector<MinimumRegion> children(static_cast<std::size_t>(1 + i % 8), child);
-    const std::vector<Point> centres(children.size(), random_direction(random));
-    const MinimumRegion parent = enclosing_minimum_region(children, centres, centres[0]);
+    const std::vector<Point> centers(children.size(), random_direction(random));
+    const MinimumRegion parent = enclosing_minimum_region(children, centers, centers[0]);
     EXPECT_NEAR(parent.offset, child.offset, 1e-12);
     EXPECT_NEAR(length(parent.slope_axis - child.slope_axis), 0, 1e-12);
   }
@@ -444,25 +444,25 @@ TEST(EnclosingMinimumRegion, DoesNotDependOnTheSignsOfAxes) {
   Random random(8);
   const Point normal = random_direction(random);
   std::vector<MinimumRegion> children;
-  std::vector<Point> centres;
+  std::vector<Point> centers;
   for (int i = 0; i < 8; ++i) {
     children.push_back(random_region(random, normal));
-    centres.push_back(0.1 * random_direction(random));
+    centers.push_back(0.1 * random_direction(random));
   }
-  const MinimumRegion expected = enclosing_minimum_region(children, centres, {0, 0, 0});
+  const MinimumRegion expected = enclosing_minimum_region(children, centers, {0, 0, 0});
   for (std::size_t i = 0; i < children.size(); ++i) {
     children[i].slope_axis = -1.0 * children[i].slope_axis;
-    const MinimumRegion parent = enclosing_minimum_region(children, centres, {0, 0, 0});
+    const MinimumRegion parent = enclosing_minimum_region(children, centers, {0, 0, 0});
     EXPECT_NEAR(parent.offset, expected.offset, 1e-12);
     EXPECT_NEAR(length(parent.slope_axis), length(expected.slope_axis), 1e-12);
   }
 }
 
 TEST(EnclosingMinimumRegion, IsNoWiderThanNeededForChildrenSideBySide) {
-  // Parallel axes, and centres across them: the farthest point of the plane is known.
+  // Parallel axes, and centers across them: the farthest point of the plane is known.
   const std::vector<MinimumRegion> children{{{0, 0, 1}, 0.1}, {{0, 0, -1.5}, 0.2}, {{0, 0, 1.2}, 0.3}};
-  const std::vector<Point> centres{{1, 0, 0}, {0, 0.5, 0}, {-0.5, 0, 0}};
-  const MinimumRegion parent = enclosing_minimum_region(children, centres, {0, 0, 0});
+  const std::vector<Point> centers{{1, 0, 0}, {0, 0.5, 0}, {-0.5, 0, 0}};
+  const MinimumRegion parent = enclosing_minimum_region(children, centers, {0, 0, 0});
   EXPECT_DOUBLE_EQ(parent.offset, 1.1);
   EXPECT_DOUBLE_EQ(std::abs(parent.slope_axis.z), 1.5);
 }
@@ -470,9 +470,9 @@ TEST(EnclosingMinimumRegion, IsNoWiderThanNeededForChildrenSideBySide) {
 TEST(EnclosingMinimumRegion, IsUnboundedIfAChildIsOrTheAxesSpreadTooWide) {
   const MinimumRegion along_z{{0, 0, 1}, 0.1};
   const MinimumRegion along_x{{1, 0, 0}, 0.1};
-  const std::vector<Point> centres(2);
+  const std::vector<Point> centers(2);
   const auto enclose = [&](const MinimumRegion& a, const MinimumRegion& b) {
-    return enclosing_minimum_region(std::vector{a, b}, centres, {0, 0, 0});
+    return enclosing_minimum_region(std::vector{a, b}, centers, {0, 0, 0});
   };
   EXPECT_TRUE(is_bounded(enclose(along_z, along_z)));
   EXPECT_FALSE(is_bounded(enclose(along_z, kUnboundedRegion)));

@@ -77,7 +77,7 @@ TEST(NodeGroups, BecomeTheNodesOfTheLevelAbove) {
   EXPECT_THAT(above[0], ElementsAre(1));
   EXPECT_THAT(above[1], ElementsAre(0));
   EXPECT_TRUE(above[2].empty());
-  EXPECT_EQ(above.balls[1].centre.x, 4);
+  EXPECT_EQ(above.balls[1].center.x, 4);
   EXPECT_EQ(above.balls[1].radius, 1.5);
 }
 

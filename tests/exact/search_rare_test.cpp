@@ -290,7 +290,7 @@ TEST(Rare, CoincidentVertices) {
 }
 
 TEST(Rare, DistancesThatSinglePrecisionCannotDecide) {
-  // All distances from the centre differ from the radius by a few units in the last place of a float.
+  // All distances from the center differ from the radius by a few units in the last place of a float.
   Random random(5);
   TestMesh mesh;
   mesh.add_vertex(0, 0, 0);

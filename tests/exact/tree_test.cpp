@@ -88,7 +88,7 @@ struct RandomLeaves {
   std::vector<NodeId> parents;
 };
 
-Point centre(const Group& group, std::size_t i) {
+Point center(const Group& group, std::size_t i) {
   return {static_cast<double>(group.x[i]), static_cast<double>(group.y[i]), static_cast<double>(group.z[i])};
 }
 
@@ -122,7 +122,7 @@ TEST(Tree, SpheresEncloseTheVerticesBelowWithRoomForSinglePrecision) {
     for (std::size_t leaf = 0; leaf < size; ++leaf) {
       for (std::size_t v = leaves.leaf_begin[leaf]; v < leaves.leaf_begin[leaf + 1]; ++v) {
         for_each_node_above(leaves, arrays, leaf, [&](std::size_t level, const Group& group, std::size_t i) {
-          const double distance = length(leaves.points[v] - centre(group, i));
+          const double distance = length(leaves.points[v] - center(group, i));
           ASSERT_GT(static_cast<double>(group.radius[i]), distance * (1 + 0x1p-20) + 0x1p-22 - 1e-15) << level;
           ++tests;
         });
@@ -145,7 +145,7 @@ TEST(Tree, SpheresReachNoFartherThanTheirFarthestVertexNeeds) {
       for (std::size_t v = leaves.leaf_begin[leaf]; v < leaves.leaf_begin[leaf + 1]; ++v) {
         for_each_node_above(leaves, arrays, leaf, [&](std::size_t, const Group& group, std::size_t i) {
           double& largest = farthest[place(group, i)];
-          largest = std::max(largest, length(leaves.points[v] - centre(group, i)));
+          largest = std::max(largest, length(leaves.points[v] - center(group, i)));
         });
       }
     }
@@ -214,9 +214,9 @@ TEST(Tree, RegionsContainThoseOfTheLeavesBelow) {
       const Point direction = unit(random_point(random, 1));
       const double rest = 1 - std::abs(dot(direction, own.slope_axis));
       const double far = rest > 0 ? std::min(own.offset / rest, 3.5) : 3.5;
-      const Point at = centre_of(leaves.nodes.bounds[leaf]) + far * direction;
+      const Point at = center_of(leaves.nodes.bounds[leaf]) + far * direction;
       for_each_node_above(leaves, arrays, leaf, [&](std::size_t level, const Group& group, std::size_t i) {
-        ASSERT_TRUE(region_contains(region(group, i), at - centre(group, i))) << "level " << level;
+        ASSERT_TRUE(region_contains(region(group, i), at - center(group, i))) << "level " << level;
         ++tests;
       });
     }
@@ -305,7 +305,7 @@ TEST(EnclosingSphere, IsHardlyLargerThanTheSmallest) {
   }
 }
 
-TEST(EnclosingSphere, HasTheGivenCentre) {
+TEST(EnclosingSphere, HasTheGivenCenter) {
   const std::vector<Point> points{{0.5, 0, 0}, {0, 0.25, 0}};
   const FrameSphere sphere = enclosing_sphere(points, {0, 0, 0});
   EXPECT_EQ(sphere.x, 0);

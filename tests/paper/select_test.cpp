@@ -19,12 +19,12 @@ using testing::ElementsAre;
 Partition select(const DraftLevel& level) { return paper::select(level, paper::create(level)); }
 
 /// Whether each cluster consists of one of its children and siblings of that child.
-bool is_made_around_a_centre(const DraftLevel& level, const Partition& partition) {
+bool is_made_around_a_center(const DraftLevel& level, const Partition& partition) {
   const auto siblings = sibling_sets(level);
   return std::ranges::all_of(children_of(partition), [&](const auto& children) {
-    return std::ranges::any_of(children, [&](std::uint32_t centre) {
+    return std::ranges::any_of(children, [&](std::uint32_t center) {
       return std::ranges::all_of(children,
-                                 [&](std::uint32_t c) { return c == centre || siblings[centre].contains(c); });
+                                 [&](std::uint32_t c) { return c == center || siblings[center].contains(c); });
     });
   });
 }
@@ -62,7 +62,7 @@ TEST(Select, EachClusterHasOneParentAndParentsAreConnected) {
   const std::size_t levels = for_each_small_level(scaled(1000, 40), [](const TestMesh& mesh, const DraftLevel& level) {
     const Partition partition = select(level);
     EXPECT_TRUE(is_connected_partition(level, partition)) << mesh.name;
-    EXPECT_TRUE(is_made_around_a_centre(level, partition)) << mesh.name;
+    EXPECT_TRUE(is_made_around_a_center(level, partition)) << mesh.name;
   });
   std::printf("%zu levels\n", levels);
 }

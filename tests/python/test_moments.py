@@ -51,7 +51,7 @@ def test_principal_components_are_those_of_the_covariance(plates):
         ids = oracle.neighborhood(V, edges, v, 2.5)
         values, vectors = np.linalg.eigh(np.cov(V[ids].T, aweights=areas[ids], ddof=0))
         np.testing.assert_allclose(got.weight[v], areas[ids].sum(), rtol=1e-12)
-        np.testing.assert_allclose(got.centre[v], np.average(V[ids], axis=0, weights=areas[ids]) - V[v], atol=1e-12)
+        np.testing.assert_allclose(got.center[v], np.average(V[ids], axis=0, weights=areas[ids]) - V[v], atol=1e-12)
         np.testing.assert_allclose(got.variances[v], values, atol=1e-12)
         np.testing.assert_allclose(abs((got.axes[v] * vectors.T).sum(axis=1)), 1, atol=1e-6)
         np.testing.assert_allclose(got.surface_variation[v], values[0] / values.sum(), atol=1e-12)

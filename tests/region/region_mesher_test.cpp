@@ -123,7 +123,7 @@ TEST_P(RegionMeshes, HaveARimOfTheSegmentsOfTheirFaces) {
   std::size_t points = 0;
   for_each_region([&](const TestMesh& mesh, RegionMesher& mesher, const std::vector<VertexId>& ids,
                       const PlainStart& start, double radius) {
-    const Rim rim = mesher.rim(ids, start.centre, radius);
+    const Rim rim = mesher.rim(ids, start.center, radius);
     ASSERT_EQ(rim.points.size(), rim.edges.size());
     ASSERT_EQ(rim.offsets.size(), rim.size() + 1);
     ASSERT_EQ(segments_of_rim(rim), segments_of_all_faces(mesh, {ids.begin(), ids.end()}));
@@ -146,17 +146,17 @@ TEST_P(RegionMeshes, HaveARimOfTheSegmentsOfTheirFaces) {
 TEST_P(RegionMeshes, HaveARimAtTheRadius) {
   for_each_region([](const TestMesh& mesh, RegionMesher& mesher, const std::vector<VertexId>& ids,
                      const PlainStart& start, double radius) {
-    const Rim rim = mesher.rim(ids, start.centre, radius);
+    const Rim rim = mesher.rim(ids, start.center, radius);
     for (std::size_t i = 0; i < rim.points.size(); ++i) {
       const auto a = position(mesh, rim.edges[i][0]);
       const auto b = position(mesh, rim.edges[i][1]);
-      const auto from_centre = [&](const SpacePoint& p) {
-        return std::hypot(p[0] - start.centre[0], p[1] - start.centre[1], p[2] - start.centre[2]);
+      const auto from_center = [&](const SpacePoint& p) {
+        return std::hypot(p[0] - start.center[0], p[1] - start.center[1], p[2] - start.center[2]);
       };
-      const bool ends_at_a_wall = start.walls[rim.edges[i][1]] != 0 && from_centre(b) <= radius;
+      const bool ends_at_a_wall = start.walls[rim.edges[i][1]] != 0 && from_center(b) <= radius;
       double scale = radius;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        scale = std::max({scale, std::abs(a[axis]), std::abs(b[axis]), std::abs(start.centre[axis])});
+        scale = std::max({scale, std::abs(a[axis]), std::abs(b[axis]), std::abs(start.center[axis])});
         const auto [low, high] = std::minmax(a[axis], b[axis]);
         ASSERT_GE(rim.points[i][axis], low - 1e-14 * scale);
         ASSERT_LE(rim.points[i][axis], high + 1e-14 * scale);
@@ -165,7 +165,7 @@ TEST_P(RegionMeshes, HaveARimAtTheRadius) {
         ASSERT_EQ(rim.points[i], b);
       } else {
         // Where squares underflow, the predicate takes small distances for 0.
-        ASSERT_NEAR(from_centre(rim.points[i]), radius, 1e-14 * scale + 1e-160);
+        ASSERT_NEAR(from_center(rim.points[i]), radius, 1e-14 * scale + 1e-160);
       }
     }
   });
@@ -178,7 +178,7 @@ TEST(Rim, OfABallOnAGridIsOneLoopWithTheRegionOnItsLeft) {
   const RegionOracle oracle(mesh);
   const PlainStart start{{5, 5, 0}, {60}, std::vector<std::uint8_t>(121), std::vector<std::uint8_t>(121)};
   RegionMesher mesher(mesh.view());
-  const Rim rim = mesher.rim(oracle.region(start, 3.3), start.centre, 3.3);
+  const Rim rim = mesher.rim(oracle.region(start, 3.3), start.center, 3.3);
   ASSERT_THAT(rim.closed, ElementsAre(1));
   double area = 0;
   for (std::size_t i = 0; i < rim.points.size(); ++i) {

@@ -43,11 +43,11 @@ class EveryAggregatePath : public testing::TestWithParam<Isa> {
     for (QueryWord& word : words) word = static_cast<QueryWord>(random.bits());
     fill(sums.high);
     fill(sums.low);
-    fill(centres.x);
-    fill(centres.y);
-    fill(centres.z);
-    centres.unit = std::exp2(static_cast<double>(random.below(20)) - 10);
-    centres.inverse_square = random.uniform(0.25, 1);
+    fill(centers.x);
+    fill(centers.y);
+    fill(centers.z);
+    centers.unit = std::exp2(static_cast<double>(random.below(20)) - 10);
+    centers.inverse_square = random.uniform(0.25, 1);
   }
 
   const AggregateKernels& tried = aggregate_kernels(GetParam());
@@ -56,7 +56,7 @@ class EveryAggregatePath : public testing::TestWithParam<Isa> {
   std::vector<double> values;
   PerLane<QueryWord> words{};
   RowSums sums{};
-  PacketCentres centres{};
+  PacketCenters centers{};
 };
 
 TEST_P(EveryAggregatePath, GivesTheBitsOfThePortableKernel) {
@@ -77,8 +77,8 @@ TEST_P(EveryAggregatePath, GivesTheBitsOfThePortableKernel) {
     std::array<PerLane<double>, 2> results;
     std::array<PerLane<double>, 2> others;
     fill(weights);
-    tried.sum_deviations(values, weights.data(), words.data(), centres.x, results[0], results[1]);
-    plain.sum_deviations(values, weights.data(), words.data(), centres.x, others[0], others[1]);
+    tried.sum_deviations(values, weights.data(), words.data(), centers.x, results[0], results[1]);
+    plain.sum_deviations(values, weights.data(), words.data(), centers.x, others[0], others[1]);
     ASSERT_EQ(bits_of(results), bits_of(others));
   }
 }
@@ -93,11 +93,11 @@ TEST_P(EveryAggregatePath, GivesTheBitsOfThePortableKernelForWeightsByDistance) 
     RowWeights other_weights;
     for (std::size_t k = 0; k < kLeafCapacity; ++k) {
       const Point point{number(), number(), number()};
-      tried.set_offsets(point, centres, offsets);
-      plain.set_offsets(point, centres, other_offsets);
+      tried.set_offsets(point, centers, offsets);
+      plain.set_offsets(point, centers, other_offsets);
       ASSERT_EQ(bits_of(offsets), bits_of(other_offsets));
-      tried.set_weights(offsets, centres.inverse_square, squared, weights.of_vertex[k]);
-      plain.set_weights(other_offsets, centres.inverse_square, squared, other_weights.of_vertex[k]);
+      tried.set_weights(offsets, centers.inverse_square, squared, weights.of_vertex[k]);
+      plain.set_weights(other_offsets, centers.inverse_square, squared, other_weights.of_vertex[k]);
     }
     ASSERT_EQ(bits_of(weights), bits_of(other_weights));
     RowSums other = sums;
@@ -108,8 +108,8 @@ TEST_P(EveryAggregatePath, GivesTheBitsOfThePortableKernelForWeightsByDistance) 
     Moments moments{number(), {number(), number(), number()}, number(), {}, {}, number()};
     fill(moments.second);
     fill(moments.third);
-    tried.add_moments(moments, offsets, centres.inverse_square, squared, words[0], sums);
-    plain.add_moments(moments, offsets, centres.inverse_square, squared, words[0], other);
+    tried.add_moments(moments, offsets, centers.inverse_square, squared, words[0], sums);
+    plain.add_moments(moments, offsets, centers.inverse_square, squared, words[0], other);
     ASSERT_EQ(bits_of(sums), bits_of(other));
   }
 }

@@ -42,16 +42,16 @@ TEST_P(EveryJointPath, PointsAreRoundedOnceAndReadNothingBeyondTheLeaf) {
     const unsigned size = 1 + static_cast<unsigned>(random.below(kLeafCapacity));
     std::vector<float> xyz(std::size_t{3} * size);
     for (float& value : xyz) value = 100 * coordinate();
-    const FloatCentre centre{coordinate(), coordinate(), coordinate(), std::ldexp(1.0F, -7)};
+    const FloatCenter center{coordinate(), coordinate(), coordinate(), std::ldexp(1.0F, -7)};
     LeafPoints points;
-    tried.convert_points(xyz.data(), size, centre, points);
+    tried.convert_points(xyz.data(), size, center, points);
     for (std::size_t i = 0; i < kLeafCapacity; ++i) {
       const auto relative = [&](std::size_t axis, float origin) {
-        return i < size ? static_cast<float>(double{xyz[3 * i + axis]} - double{origin}) * centre.scale : 0;
+        return i < size ? static_cast<float>(double{xyz[3 * i + axis]} - double{origin}) * center.scale : 0;
       };
-      ASSERT_EQ(points.x[i], relative(0, centre.x));
-      ASSERT_EQ(points.y[i], relative(1, centre.y));
-      ASSERT_EQ(points.z[i], relative(2, centre.z));
+      ASSERT_EQ(points.x[i], relative(0, center.x));
+      ASSERT_EQ(points.y[i], relative(1, center.y));
+      ASSERT_EQ(points.z[i], relative(2, center.z));
       ASSERT_EQ(points.square[i], (points.x[i] * points.x[i] + points.y[i] * points.y[i]) + points.z[i] * points.z[i]);
     }
   }
@@ -88,7 +88,7 @@ TEST_P(EveryJointPath, BallWordsAreThoseOfThePortableKernel) {
       balls.surely_inside[i] = exists ? threshold : std::numeric_limits<float>::infinity();
       balls.maybe_inside[i] = exists ? threshold - 0.05F : std::numeric_limits<float>::infinity();
     }
-    balls.centre_x = coordinate();
+    balls.center_x = coordinate();
     balls.inside_all = static_cast<float>(random.uniform(0, 0.5));
     balls.outside_all = balls.inside_all + static_cast<float>(random.uniform(0, 2));
     PerLane<QueryWord> expected;

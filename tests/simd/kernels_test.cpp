@@ -42,8 +42,8 @@ double rounded(double value) {
 
 /// The result of the predicate.
 template <class Real>
-LaneMask by_predicate(const std::vector<Real>& xyz, std::size_t size, const Point& centre, double radius) {
-  const SearchBall ball(centre, radius);
+LaneMask by_predicate(const std::vector<Real>& xyz, std::size_t size, const Point& center, double radius) {
+  const SearchBall ball(center, radius);
   LaneMask lanes = 0;
   for (std::size_t i = 0; i < size; ++i) {
     const Point p = point(std::span(xyz), i);
@@ -59,15 +59,15 @@ void expect_within_is_the_predicate(const Kernels& tried, Random& random) {
     const std::size_t size = 1 + random.below(kLeafCapacity);
     const double extent = std::ldexp(1.0, static_cast<int>(random.below(120)) - 60);
     const auto xyz = random_leaf<Real>(random, size, extent);
-    const Point centre{rounded<Real>(random.uniform(-extent, extent)), rounded<Real>(random.uniform(-extent, extent)),
+    const Point center{rounded<Real>(random.uniform(-extent, extent)), rounded<Real>(random.uniform(-extent, extent)),
                        rounded<Real>(random.uniform(-extent, extent))};
     const std::size_t lane = random.below(size);
     const Point p = point(std::span(xyz), lane);
-    const double tie = std::sqrt(squared_distance(p, centre));
+    const double tie = std::sqrt(squared_distance(p, center));
     for (const double radius : {std::nextafter(tie, 0.0), tie, std::nextafter(tie, 1e300), tie * (1 + 1e-7),
                                 tie * (1 - 1e-7), random.uniform(0, 3 * extent), 0.0}) {
-      ASSERT_EQ(tried.within(xyz.data(), size, LeafBall(centre, LeafBounds(radius))),
-                by_predicate(xyz, size, centre, radius));
+      ASSERT_EQ(tried.within(xyz.data(), size, LeafBall(center, LeafBounds(radius))),
+                by_predicate(xyz, size, center, radius));
       ++balls;
     }
   }
@@ -92,7 +92,7 @@ void expect_nearest_is_by_the_predicate(const Kernels& tried, Random& random) {
     const Nearest found = tried.nearest(xyz.data(), lanes, ball);
     Nearest expected{std::numeric_limits<double>::infinity(), 0};
     for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
-      const double square = squared_distance(point(std::span<const Real>(xyz), lane), ball.centre);
+      const double square = squared_distance(point(std::span<const Real>(xyz), lane), ball.center);
       if ((lanes >> lane & 1U) != 0 && square < expected.square) expected = {square, lane};
     }
     ASSERT_EQ(found.lane, expected.lane);
@@ -155,9 +155,9 @@ TEST_P(EveryIsa, ClassifyComparesAllEightNodes) {
         offset = random.below(20) == 0 ? std::numeric_limits<float>::infinity() : std::abs(offset);
       }
     }
-    const Point centre{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+    const Point center{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
     const double radius = round == 0 ? std::numeric_limits<double>::infinity() : random.uniform(0, 2);
-    const TreeBall ball({}, centre, radius);
+    const TreeBall ball({}, center, radius);
     plain.classify(groups.data(), list, ball, expected.data());
     tried.classify(groups.data(), list, ball, found.data());
     for (std::size_t i = 0; i < groups.size(); ++i) {

@@ -20,7 +20,7 @@ struct DrawnStart {
   bool is_vertex = false;
   bool has_filter = false;
 
-  [[nodiscard]] Start start() const { return is_vertex ? Start(plain.seeds[0]) : Start(plain.centre, plain.seeds); }
+  [[nodiscard]] Start start() const { return is_vertex ? Start(plain.seeds[0]) : Start(plain.center, plain.seeds); }
   [[nodiscard]] Filter filter() const {
     return has_filter ? Filter{.walls = plain.walls, .ignored = plain.ignored} : Filter{};
   }
@@ -46,14 +46,14 @@ inline DrawnStart draw_start(Random& random, const TestMesh& mesh) {
   drawn.plain.walls = draw_mask(random, mesh.size(), drawn.has_filter ? 4 + random.below(30) : 0);
   drawn.plain.ignored = draw_mask(random, mesh.size(), drawn.has_filter ? 3 : 0);
   const std::uint32_t v = any();
-  drawn.plain.centre = position(mesh, v);
+  drawn.plain.center = position(mesh, v);
   drawn.plain.seeds = {v};
   drawn.is_vertex = random.below(3) == 0;
   if (drawn.is_vertex) return drawn;
   const auto other = position(mesh, any());
   const double weight = random.uniform();
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    drawn.plain.centre[axis] = (1 - weight) * drawn.plain.centre[axis] + weight * other[axis];
+    drawn.plain.center[axis] = (1 - weight) * drawn.plain.center[axis] + weight * other[axis];
   }
   while (random.below(2) == 0) drawn.plain.seeds.push_back(any());
   return drawn;

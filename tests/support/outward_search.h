@@ -52,7 +52,7 @@ inline void append_vertices(const IndexView& index, std::uint32_t group, NodeSet
 }
 
 [[nodiscard]] inline double squared_distance_of(const SearchCase& c, std::uint32_t w) {
-  return squared_distance(c.index.position(c.leaf_of_id(w), lane_of(c.index.slot[w])), c.query.centre());
+  return squared_distance(c.index.position(c.leaf_of_id(w), lane_of(c.index.slot[w])), c.query.center());
 }
 
 /// Calls `f(case, state)` after outward searches for queries on small meshes of `family`, with and without limits.

@@ -20,7 +20,7 @@ namespace meshhood::test {
 
 /// A start of a search, with its filter, as the oracle sees it.
 struct PlainStart {
-  std::array<double, 3> centre{};
+  std::array<double, 3> center{};
   std::vector<std::uint32_t> seeds;
   std::vector<std::uint8_t> walls;    // #V
   std::vector<std::uint8_t> ignored;  // #V
@@ -35,9 +35,9 @@ class RegionOracle {
 
   [[nodiscard]] double distance(const PlainStart& start, std::size_t w) const {
     const double* const p = positions_->data() + 3 * w;
-    const double dx = start.centre[0] - p[0];
-    const double dy = start.centre[1] - p[1];
-    const double dz = start.centre[2] - p[2];
+    const double dx = start.center[0] - p[0];
+    const double dy = start.center[1] - p[1];
+    const double dz = start.center[2] - p[2];
     return std::sqrt((dx * dx + dy * dy) + dz * dz);
   }
 

@@ -214,10 +214,10 @@ TEST_P(Allocation, FailsInASearchAlongEdges) {
 TEST_P(Allocation, FailsInARegionMesh) {
   std::vector<VertexId> ids;
   Searcher(index).neighborhood(0, distance(mesh.view().positions, 0, 9), ids);
-  const SpacePoint centre = point_on_face(index, std::array<VertexId, 1>{0}, std::array{1.0});
+  const SpacePoint center = point_on_face(index, std::array<VertexId, 1>{0}, std::array{1.0});
   const auto make = [&](std::optional<Submesh>& made) {
     RegionMesher mesher(mesh.view());
-    static_cast<void>(mesher.rim(ids, centre, kInfinity));
+    static_cast<void>(mesher.rim(ids, center, kInfinity));
     made = mesher.submesh(ids, Corners::Any);
   };
   std::optional<Submesh> well;

@@ -5,7 +5,7 @@ import math
 from svg import BLUE, GREEN, GREY, INK, ORANGE, Picture
 
 UNIT = 92
-CENTRE = (330, 225)
+CENTER = (330, 225)
 RADIUS = 2.0
 NODE = 60  # points of the curve in a node
 STEP = 0.01
@@ -13,7 +13,7 @@ COLOURS = ["#123a5e", BLUE, "#5aa0dc", "#8fc1ea"]
 
 
 def place(p):
-    return CENTRE[0] + UNIT * p[0], CENTRE[1] - UNIT * p[1]
+    return CENTER[0] + UNIT * p[0], CENTER[1] - UNIT * p[1]
 
 
 def strip():
@@ -29,15 +29,15 @@ def strip():
 
 
 def bounds(points):
-    """The centre and the radius of a circle around the points."""
+    """The center and the radius of a circle around the points."""
     x = (min(p[0] for p in points) + max(p[0] for p in points)) / 2
     y = (min(p[1] for p in points) + max(p[1] for p in points)) / 2
     return (x, y), max(math.dist((x, y), p) for p in points)
 
 
 def is_outside(points):
-    centre, radius = bounds(points)
-    return math.hypot(*centre) > RADIUS + radius
+    center, radius = bounds(points)
+    return math.hypot(*center) > RADIUS + radius
 
 
 def waves(nodes, home):
@@ -53,10 +53,10 @@ def waves(nodes, home):
 
 
 def draw_node(picture, points, colour, is_reached):
-    centre, radius = bounds(points)
+    center, radius = bounds(points)
     picture.polyline([place(p) for p in points[::3] + points[-1:]], stroke=colour, stroke_width=5)
     style = {"stroke": colour, "stroke_width": 1} if is_reached else {"stroke": GREY, "stroke_dasharray": "4 4"}
-    picture.dots([place(centre)], UNIT * radius, fill="none", **style)
+    picture.dots([place(center)], UNIT * radius, fill="none", **style)
 
 
 def draw_legend(picture, left):
@@ -89,11 +89,11 @@ def draw():
     nodes = [points[i : i + NODE + 1] for i in range(0, len(points) - 1, NODE)]
     v = min(range(len(points)), key=lambda i: math.hypot(*points[i]))
     reached = waves(nodes, v // NODE)
-    picture.dots([CENTRE], UNIT * RADIUS, fill="#f4f8fc", stroke=ORANGE, stroke_width=2.5)
+    picture.dots([CENTER], UNIT * RADIUS, fill="#f4f8fc", stroke=ORANGE, stroke_width=2.5)
     for i, node in enumerate(nodes):
         is_reached = i in reached
         draw_node(picture, node, COLOURS[min(reached[i], 3)] if is_reached else GREY, is_reached)
     picture.dots([place(points[v])], 6, fill=INK)
-    picture.text(CENTRE[0] - 5, CENTRE[1] + 30, "v", font_size=18, font_style="italic")
+    picture.text(CENTER[0] - 5, CENTER[1] + 30, "v", font_size=18, font_style="italic")
     draw_legend(picture, 650)
     return picture

@@ -652,7 +652,7 @@ class MeshIndex(Queries):
         progress: Progress = None,
     ) -> _moments.PrincipalComponents:
         """The mean and the covariance of the positions of each neighborhood: normals, surface variation, and with
-        weights="area" the integral invariants area, barycentre and covariance. Arguments as of `moments`."""
+        weights="area" the integral invariants area, barycenter and covariance. Arguments as of `moments`."""
         rows, radii, _ = self._batch(vertices, r, self._scale(unit), workers)
         return _moments.principal_components(self, rows, radii, weights, F, workers, progress)
 

@@ -21,12 +21,12 @@ _KINDS = (
 
 
 class PrincipalComponents(NamedTuple):
-    """How the vertices of each neighborhood are distributed. With areas as weights, `weight`, `centre` and `variances`
-    are integral invariants of the patch of surface: its area, barycentre and covariance.
+    """How the vertices of each neighborhood are distributed. With areas as weights, `weight`, `center` and `variances`
+    are integral invariants of the patch of surface: its area, barycenter and covariance.
 
     weight : (#rows,) the sum of the weights.
-    centre : (#rows, 3) the weighted mean of the positions, relative to the query vertex.
-    variances : (#rows, 3) ascending: the eigenvalues of the weighted covariance about `centre`.
+    center : (#rows, 3) the weighted mean of the positions, relative to the query vertex.
+    variances : (#rows, 3) ascending: the eigenvalues of the weighted covariance about `center`.
     axes : (#rows, 3, 3) axes[i, j] is the direction of variances[i, j], a unit vector; of either sign the one whose
         component of largest magnitude is positive.
 
@@ -34,7 +34,7 @@ class PrincipalComponents(NamedTuple):
     """
 
     weight: Reals
-    centre: Reals
+    center: Reals
     variances: Reals
     axes: Reals
 

@@ -29,7 +29,7 @@ void LeafMeasure::measure(LeafId leaf, NodeList& out, std::size_t at) {
   edges_.clear();
   gather_edges_within(begin, size);  // mutant: edges-within-leaf-ignored
   gather_edges_out(leaf);            // mutant: edges-to-other-leaves-ignored
-  out.regions[at] = leaf_minimum_region(points_, 0, size, edges_, centre_of(out.bounds[at]));
+  out.regions[at] = leaf_minimum_region(points_, 0, size, edges_, center_of(out.bounds[at]));
 }
 
 void LeafMeasure::gather_edges_within(std::size_t begin, std::size_t size) {

@@ -25,7 +25,7 @@ namespace {
 // Enough work to be worth a thread's while.
 constexpr std::size_t kVerticesPerTask = 4096;
 
-Point centre_of(const KdPoint& p) {
+Point center_of(const KdPoint& p) {
   return {static_cast<double>(p.at[0]), static_cast<double>(p.at[1]), static_cast<double>(p.at[2])};
 }
 
@@ -55,14 +55,14 @@ std::vector<NodeBall> measure_leaves(std::span<const KdPoint> points, std::span<
                                      std::span<const std::uint32_t> sizes) {
   std::vector<NodeBall> balls(sizes.size(), NodeBall{{0, 0, 0}, 0});
   for (std::size_t i = 0; i < points.size(); ++i) {
-    balls[leaf_of[i]].centre = balls[leaf_of[i]].centre + centre_of(points[i]);
+    balls[leaf_of[i]].center = balls[leaf_of[i]].center + center_of(points[i]);
   }
   for (std::size_t leaf = 0; leaf < sizes.size(); ++leaf) {
-    balls[leaf].centre = 1 / static_cast<double>(sizes[leaf]) * balls[leaf].centre;
+    balls[leaf].center = 1 / static_cast<double>(sizes[leaf]) * balls[leaf].center;
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     NodeBall& ball = balls[leaf_of[i]];
-    ball.radius = std::max(ball.radius, squared_distance(ball.centre, centre_of(points[i])));
+    ball.radius = std::max(ball.radius, squared_distance(ball.center, center_of(points[i])));
   }
   for (NodeBall& ball : balls) ball.radius = std::sqrt(ball.radius);
   return balls;

@@ -6,8 +6,8 @@
 // The p from which no neighbor is nearer form a polygon of half planes, one for each neighbor; at h = 0 it is about
 // the Voronoi cell of u among its neighbors. HalfplanePolygon gives `width` and `slope` with |p| <= width + slope |h|.
 //
-// The region of a leaf. Let o be the vector from the leaf's centre to u, with height m and part q in the plane, and let
-// X = o + x be the query point seen from the centre, with height H and part P in the plane. Then
+// The region of a leaf. Let o be the vector from the leaf's center to u, with height m and part q in the plane, and let
+// X = o + x be the query point seen from the center, with height H and part P in the plane. Then
 //     |P| <= |q| + |p| <= |q| + width + slope (|H| + |m|).
 // The maxima over all vertices of |q| + width + slope |m| and of slope hold for the leaf; call them W and S. As (|P|,
 // |H|) is componentwise at most (W, 0) + |H| (S, 1),
@@ -36,10 +36,10 @@ constexpr double kLongestSlopeAxis = 4;
 // The rows of a symmetric matrix.
 using Symmetric = std::array<Point, 3>;
 
-Symmetric covariance(std::span<const Point> points, const Point& centre) {
+Symmetric covariance(std::span<const Point> points, const Point& center) {
   Symmetric sum{};
   for (const Point& p : points) {
-    const Point d = p - centre;
+    const Point d = p - center;
     sum[0] = sum[0] + d.x * d;
     sum[1] = sum[1] + d.y * d;
     sum[2] = sum[2] + d.z * d;
@@ -97,7 +97,7 @@ Halfplane halfplane_of(const Point& e, const Basis& basis) {
 }  // namespace
 
 MinimumRegion leaf_minimum_region(std::span<const Point> points, std::size_t first, std::size_t size,
-                                  std::span<const LeafEdge> edges, const Point& centre) {
+                                  std::span<const LeafEdge> edges, const Point& center) {
   const std::span<const Point> own = points.subspan(first, size);
   const Basis basis(flattest_direction(own));
   std::array<HalfplanePolygon, kLeafCapacity> polygons;
@@ -108,14 +108,14 @@ MinimumRegion leaf_minimum_region(std::span<const Point> points, std::size_t fir
   double width = 0;
   double slope = 0;
   for (std::size_t i = 0; i < size; ++i) {
-    const Point o = own[i] - centre;
+    const Point o = own[i] - center;
     const double x = dot(o, basis.first);
     const double y = dot(o, basis.second);
     // No std::hypot, which every C library rounds in its own way.
     const double distance = std::sqrt(x * x + y * y);
     const double height = std::abs(dot(o, basis.normal));
     const auto offset = [&](const PolygonExtent& extent) {
-      // mutant: slope-over-own-height-ignored, distance-from-centre-ignored
+      // mutant: slope-over-own-height-ignored, distance-from-center-ignored
       return distance + extent.width + extent.slope * height;
     };
     const PolygonExtent rough = polygons[i].rough_extent();
@@ -129,7 +129,7 @@ MinimumRegion leaf_minimum_region(std::span<const Point> points, std::size_t fir
   return {stretch * basis.normal, width};
 }
 
-// Let o be the vector from `centre` to the centre of a child, x and x' = x - o a point seen from the two, a the child's
+// Let o be the vector from `center` to the center of a child, x and x' = x - o a point seen from the two, a the child's
 // slope axis and b the unit vector of the new one. The child's inequality is |x'| <= offset + |x' . a|. Split a into
 // its part along b, of length `cosine` = |a . b|, and the part across, of length |a x b|:
 //     |x'| <= offset + cosine |x' . b| + |a x b| |x'|,
@@ -138,8 +138,8 @@ MinimumRegion leaf_minimum_region(std::span<const Point> points, std::size_t fir
 // By |x| <= |o| + |x'| and |x' . b| <= |x . b| + |o . b|,
 //     |x| <= |o| + (offset + cosine |o . b|) / rest + (cosine / rest) |x . b|.
 // The largest offset and the largest `stretch` = cosine / rest hold for all children.
-MinimumRegion enclosing_minimum_region(std::span<const MinimumRegion> children, std::span<const Point> centres,
-                                       const Point& centre) {
+MinimumRegion enclosing_minimum_region(std::span<const MinimumRegion> children, std::span<const Point> centers,
+                                       const Point& center) {
   Point sum{};
   // An axis and its opposite mean the same region: each is turned to the side of those before.
   for (const MinimumRegion& child : children) {
@@ -155,8 +155,8 @@ MinimumRegion enclosing_minimum_region(std::span<const MinimumRegion> children, 
     const double cosine = std::abs(dot(children[i].slope_axis, axis));
     const double rest = 1 - length(cross(children[i].slope_axis, axis));            // mutant: tilted-axis-costs-nothing
     if (!(rest > 0) || !(children[i].offset < kInfinity)) return kUnboundedRegion;  // mutant: tilted-child-accepted
-    const Point o = centres[i] - centre;
-    // mutant: centre-offset-ignored, height-of-centre-ignored
+    const Point o = centers[i] - center;
+    // mutant: center-offset-ignored, height-of-center-ignored
     offset = std::max(offset, length(o) + (children[i].offset + cosine * std::abs(dot(o, axis))) / rest);
     stretch = std::max(stretch, cosine / rest);  // mutant: slope-not-stretched
   }

@@ -16,7 +16,7 @@ namespace meshhood {
 /// neighbors is nearer. Seen from any point outside the region, every vertex of the set has a nearer neighbor. For a
 /// nearly flat set the region extends along the normal to both sides, like a double cone with a rounded waist.
 ///
-/// The point `x`, relative to the centre of the set's bounding sphere, lies in the region if
+/// The point `x`, relative to the center of the set's bounding sphere, lies in the region if
 /// `|x| <= offset + |x . slope_axis|`.
 struct MinimumRegion {
   Point slope_axis{0, 0, 0};  // its length is at least 1, and grows with the opening angle
@@ -35,13 +35,13 @@ struct LeafEdge {
 ///
 /// points  at least these vertices and their neighbors, in the frame
 /// edges   all edges of these vertices, in any order
-/// centre  the centre of the leaf's bounding sphere
+/// center  the center of the leaf's bounding sphere
 /// O(edges log(valence)).
 [[nodiscard]] MinimumRegion leaf_minimum_region(std::span<const Point> points, std::size_t first, std::size_t size,
-                                                std::span<const LeafEdge> edges, const Point& centre);
+                                                std::span<const LeafEdge> edges, const Point& center);
 
-/// A region, relative to `centre`, that contains the regions of `children`, which are relative to `centres`.
+/// A region, relative to `center`, that contains the regions of `children`, which are relative to `centers`.
 [[nodiscard]] MinimumRegion enclosing_minimum_region(std::span<const MinimumRegion> children,
-                                                     std::span<const Point> centres, const Point& centre);
+                                                     std::span<const Point> centers, const Point& center);
 
 }  // namespace meshhood

@@ -16,16 +16,16 @@ namespace {
 
 constexpr std::uint32_t kUnset = std::numeric_limits<std::uint32_t>::max();
 
-/// The sphere around the mean of the centres that holds all spheres.
+/// The sphere around the mean of the centers that holds all spheres.
 NodeBall ball_of(const NodeGraph& graph, std::span<const std::uint32_t> a, std::span<const std::uint32_t> b = {}) {
   Point sum{0, 0, 0};
   for (const auto nodes : {a, b}) {
-    for (const std::uint32_t node : nodes) sum = sum + graph.balls[node].centre;
+    for (const std::uint32_t node : nodes) sum = sum + graph.balls[node].center;
   }
   NodeBall ball{1 / static_cast<double>(a.size() + b.size()) * sum, 0};
   for (const auto nodes : {a, b}) {
     for (const std::uint32_t node : nodes) {
-      const double distance = std::sqrt(squared_distance(graph.balls[node].centre, ball.centre));
+      const double distance = std::sqrt(squared_distance(graph.balls[node].center, ball.center));
       ball.radius = std::max(ball.radius, distance + graph.balls[node].radius);
     }
   }

@@ -13,7 +13,7 @@ namespace meshhood {
 
 /// A rough bounding sphere of a node, by which nodes are grouped. The tree stores better ones.
 struct NodeBall {
-  Point centre;
+  Point center;
   double radius;
 };
 

@@ -12,7 +12,7 @@
 namespace meshhood {
 namespace {
 
-// The margin that single precision needs: a vertex, the query vertex and a centre are each rounded by up to 2^-24.2 in
+// The margin that single precision needs: a vertex, the query vertex and a center are each rounded by up to 2^-24.2 in
 // the frame, and the comparison of a distance with a radius by about 2^-22 of the radius.
 constexpr double kRelativeRoom = 0x1p-20;
 constexpr double kAbsoluteRoom = 0x1p-22;
@@ -32,10 +32,10 @@ std::vector<float> as_floats(std::span<const Point> points) {
   return xyz;
 }
 
-Point smallest_sphere_centre(std::span<const Point> points) {
+Point smallest_sphere_center(std::span<const Point> points) {
   const std::vector<float> xyz = as_floats(points);
   const Sphere<float> sphere = bounding_sphere(std::span<const float>(xyz));
-  return centre_of(sphere);
+  return center_of(sphere);
 }
 
 FrameSphere sphere_of(const Group& group, std::size_t i) {
@@ -70,8 +70,8 @@ NodeList nodes_of(const Group& group, std::size_t count) {
 }
 
 /// A sphere of radius 0.
-FrameSphere rounded(const Point& centre) {
-  return {static_cast<float>(centre.x), static_cast<float>(centre.y), static_cast<float>(centre.z), 0};
+FrameSphere rounded(const Point& center) {
+  return {static_cast<float>(center.x), static_cast<float>(center.y), static_cast<float>(center.z), 0};
 }
 
 void set_radius(FrameSphere& sphere, double farthest_squared) {
@@ -116,15 +116,15 @@ class GrowingTree {
   /// Sets `out[at]` to `node` above the nodes of one group, whose bounds are given.
   void measure_parent(NodeId node, std::span<const FrameSphere> spheres, std::span<const MinimumRegion> regions,
                       NodeList& out, std::size_t at) const {
-    std::vector<Point> centres;
-    for (const FrameSphere& sphere : spheres) centres.push_back(centre_of(sphere));
-    FrameSphere bounds = rounded(smallest_sphere_centre(centres));
-    const Point centre = centre_of(bounds);
+    std::vector<Point> centers;
+    for (const FrameSphere& sphere : spheres) centers.push_back(center_of(sphere));
+    FrameSphere bounds = rounded(smallest_sphere_center(centers));
+    const Point center = center_of(bounds);
     double farthest = 0;
-    find_farthest(node, centre, farthest);
+    find_farthest(node, center, farthest);
     set_radius(bounds, farthest);
     out.bounds[at] = bounds;
-    out.regions[at] = enclosing_minimum_region(regions, centres, centre);
+    out.regions[at] = enclosing_minimum_region(regions, centers, center);
   }
 
  private:
@@ -144,7 +144,7 @@ class GrowingTree {
     const std::size_t count = std::min<std::size_t>(node_count(child), kFanOut);
     for (std::size_t i = 0; i < count; ++i) {
       const FrameSphere sphere = sphere_of(children, i);
-      reach[i] = {std::sqrt(squared_distance(centre_of(sphere), from)) + static_cast<double>(sphere.radius), i};
+      reach[i] = {std::sqrt(squared_distance(center_of(sphere), from)) + static_cast<double>(sphere.radius), i};
     }
     for (auto end = reach.begin() + static_cast<std::ptrdiff_t>(count); end != reach.begin(); --end) {
       const auto next = std::max_element(reach.begin(), end);
@@ -186,16 +186,16 @@ void climb(std::vector<NodeId>& nodes, std::span<const NodeId> parents) {
 
 }  // namespace
 
-FrameSphere enclosing_sphere(std::span<const Point> points, const Point& centre) {
-  FrameSphere sphere = rounded(centre);
+FrameSphere enclosing_sphere(std::span<const Point> points, const Point& center) {
+  FrameSphere sphere = rounded(center);
   double farthest = 0;
-  for (const Point& p : points) farthest = std::max(farthest, squared_distance(p, centre_of(sphere)));
+  for (const Point& p : points) farthest = std::max(farthest, squared_distance(p, center_of(sphere)));
   set_radius(sphere, farthest);
   return sphere;
 }
 
 FrameSphere enclosing_sphere(std::span<const Point> points) {
-  return enclosing_sphere(points, smallest_sphere_centre(points));
+  return enclosing_sphere(points, smallest_sphere_center(points));
 }
 
 bool is_absent(const Group& group, std::size_t i) {

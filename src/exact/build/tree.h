@@ -56,14 +56,14 @@ void update_tree(std::span<const LeafId> leaves, NodeList bounds, const IndexVie
 /// The groups that `update_tree` changes, as their places in the array of all groups.
 [[nodiscard]] std::vector<std::size_t> groups_above(std::span<const LeafId> leaves, const IndexView& index);
 
-/// A sphere around `points` with this centre, rounded to floats. Its radius includes the margin that a comparison with
+/// A sphere around `points` with this center, rounded to floats. Its radius includes the margin that a comparison with
 /// a ball in single precision needs (see simd/kernels.h).
-[[nodiscard]] FrameSphere enclosing_sphere(std::span<const Point> points, const Point& centre);
+[[nodiscard]] FrameSphere enclosing_sphere(std::span<const Point> points, const Point& center);
 
-/// The same around nearly the best centre.
+/// The same around nearly the best center.
 [[nodiscard]] FrameSphere enclosing_sphere(std::span<const Point> points);
 
-[[nodiscard]] inline Point centre_of(const FrameSphere& sphere) {
+[[nodiscard]] inline Point center_of(const FrameSphere& sphere) {
   return {static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
 }
 

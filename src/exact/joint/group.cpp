@@ -30,12 +30,12 @@ const float* float_positions(const IndexView& index) {
 /// The nearest float. Not inlined: where g++ 12 converts two numbers at once, it leaves both conversions out.
 [[gnu::noinline]] double rounded(double value) { return static_cast<double>(static_cast<float>(value)); }
 
-/// Some vertices of the index relative to `centre`, in frame units.
+/// Some vertices of the index relative to `center`, in frame units.
 template <class Real>
-void convert(std::span<const Real> xyz, const Leaf& leaf, const Point& centre, double scale, LeafPoints& out) {
+void convert(std::span<const Real> xyz, const Leaf& leaf, const Point& center, double scale, LeafPoints& out) {
   out = {};
   for (std::size_t i = 0; i < leaf.size; ++i) {
-    const Point p = scale * (point(xyz, leaf.first + i) - centre);
+    const Point p = scale * (point(xyz, leaf.first + i) - center);
     out.x[i] = static_cast<float>(p.x);
     out.y[i] = static_cast<float>(p.y);
     out.z[i] = static_cast<float>(p.z);
@@ -73,7 +73,7 @@ void JointGroup::begin(std::span<const LeafId> leaves, const TreeBounds& low, co
   link_ranges_.assign(size(), {kUnknown, kUnknown});
 }
 
-/// Sorts the entries by squared distance from the centre, roughly, in linear time.
+/// Sorts the entries by squared distance from the center, roughly, in linear time.
 void JointGroup::rank_by_distance() {
   constexpr std::size_t kBuckets = 64;
   const float scale = static_cast<float>(kBuckets) / (ball_.outer * ball_.outer);
@@ -129,11 +129,11 @@ void JointGroup::set_sphere(std::span<const LeafId> leaves) {
   ball_.x = bounds.x;
   ball_.y = bounds.y;
   ball_.z = bounds.z;
-  centre_ = index_->frame.origin + 1 / index_->frame.scale * centre_of(Sphere<float>{bounds.x, bounds.y, bounds.z, 0});
-  if (in_floats_) centre_ = {rounded(centre_.x), rounded(centre_.y), rounded(centre_.z)};
-  // Where the coordinates are large for the size of the mesh, the centre is not quite that of the sphere.
-  centre_in_frame_ = index_->frame.to_frame(centre_);
-  const Point off = centre_in_frame_ - centre_of(Sphere<float>{bounds.x, bounds.y, bounds.z, 0});
+  center_ = index_->frame.origin + 1 / index_->frame.scale * center_of(Sphere<float>{bounds.x, bounds.y, bounds.z, 0});
+  if (in_floats_) center_ = {rounded(center_.x), rounded(center_.y), rounded(center_.z)};
+  // Where the coordinates are large for the size of the mesh, the center is not quite that of the sphere.
+  center_in_frame_ = index_->frame.to_frame(center_);
+  const Point off = center_in_frame_ - center_of(Sphere<float>{bounds.x, bounds.y, bounds.z, 0});
   radius_ = static_cast<double>(bounds.radius) + length(off);
 }
 
@@ -247,12 +247,12 @@ const LeafPoints& JointGroup::points(GroupEntry entry) {
 void JointGroup::read_points(LeafId leaf, LeafPoints& points) const {
   const Leaf& record = index_->leaves[leaf];
   if (in_floats_) {
-    const FloatCentre centre{static_cast<float>(centre_.x), static_cast<float>(centre_.y),
-                             static_cast<float>(centre_.z), static_cast<float>(index_->frame.scale)};
-    joint_kernels_->convert_points(float_positions(*index_) + std::size_t{3} * record.first, record.size, centre,
+    const FloatCenter center{static_cast<float>(center_.x), static_cast<float>(center_.y),
+                             static_cast<float>(center_.z), static_cast<float>(index_->frame.scale)};
+    joint_kernels_->convert_points(float_positions(*index_) + std::size_t{3} * record.first, record.size, center,
                                    points);
   } else {
-    std::visit([&](auto xyz) { convert(xyz, record, centre_, index_->frame.scale, points); }, index_->positions);
+    std::visit([&](auto xyz) { convert(xyz, record, center_, index_->frame.scale, points); }, index_->positions);
   }
 }
 

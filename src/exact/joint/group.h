@@ -61,7 +61,7 @@ class JointGroup {
   [[nodiscard]] GroupEntry entry_of(LeafId leaf) const { return entry_of_[leaf]; }
   static constexpr GroupEntry kNoEntry = 0xFFFFFFFE;
 
-  /// The place of an entry among all, sorted by the distance from the centre; and the reverse.
+  /// The place of an entry among all, sorted by the distance from the center; and the reverse.
   [[nodiscard]] std::uint32_t rank(GroupEntry entry) const { return rank_[entry]; }
   [[nodiscard]] GroupEntry at_rank(std::uint32_t rank) const { return by_rank_[rank]; }
 
@@ -75,13 +75,13 @@ class JointGroup {
   /// Its leaves, ascending.
   [[nodiscard]] std::span<const LeafRun> core_runs(GroupEntry core) const;
 
-  /// The centre of the group: exactly, and in the frame.
-  [[nodiscard]] const Point& centre() const { return centre_; }
-  [[nodiscard]] const Point& centre_in_frame() const { return centre_in_frame_; }
-  /// No vertex of the group is farther than this from its centre, in the frame.
+  /// The center of the group: exactly, and in the frame.
+  [[nodiscard]] const Point& center() const { return center_; }
+  [[nodiscard]] const Point& center_in_frame() const { return center_in_frame_; }
+  /// No vertex of the group is farther than this from its center, in the frame.
   [[nodiscard]] double radius() const { return radius_; }
 
-  /// The vertices of an entry that is a leaf, relative to the centre. Converted when first asked for.
+  /// The vertices of an entry that is a leaf, relative to the center. Converted when first asked for.
   [[nodiscard]] const LeafPoints& points(GroupEntry entry);
   /// Those of any leaf.
   void read_points(LeafId leaf, LeafPoints& points) const;
@@ -120,12 +120,12 @@ class JointGroup {
   const IndexView* index_;
   const Kernels* kernels_;
   const JointKernels* joint_kernels_;
-  bool in_floats_;  // positions and the centre are floats, and their differences are neither too large nor too small
+  bool in_floats_;  // positions and the center are floats, and their differences are neither too large nor too small
   std::uint32_t group_ = 0;  // that the leaves belong to
   float high_ = 0;           // the radius of the largest ball, in the frame
   TreeBall ball_;            // around the group: what its balls hold together, and what each of them holds
-  Point centre_{0, 0, 0};
-  Point centre_in_frame_{0, 0, 0};
+  Point center_{0, 0, 0};
+  Point center_in_frame_{0, 0, 0};
   double radius_ = 0;
   std::vector<GroupEntry> entry_of_;  // by leaf of the index
   std::vector<LeafId> touched_;       // the leaves whose entry is known

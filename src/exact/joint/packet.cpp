@@ -15,10 +15,10 @@ constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 // Longer than any distance in the frame, so that larger radii may be replaced by it.
 constexpr double kLargestRadius = 8;
 
-// Let every vertex that is compared, and every query, lie within `a` of the centre of the group, and u = 2^-24. The
+// Let every vertex that is compared, and every query, lie within `a` of the center of the group, and u = 2^-24. The
 // coordinates of both are rounded by u, which moves a squared distance by 8 u a^2; `2 p.q - p.p` is computed with an
 // error of 12 u a^2, and a threshold is rounded by u a^2: 21 u a^2 in all, less than 2^-19 a^2. A squared distance from
-// the centre of the leaf is off by 28 u a^2, less than four times as much.
+// the center of the leaf is off by 28 u a^2, less than four times as much.
 constexpr double kRelativeError = 0x1p-19;  // mutant: packet-without-margin
 
 float float_above(double value) { return std::nextafter(static_cast<float>(value), kFloatInfinity); }
@@ -53,11 +53,11 @@ void Packet::set_balls(const JointGroup& group, std::span<const JointQuery> quer
   const double high = outer_of(ball_) + leaf_radius;
   const double reach = high + leaf_radius + group.radius();
   const double error = kRelativeError * reach * reach;
-  const Point centre = centre_of(Sphere<float>{bounds.x, bounds.y, bounds.z, 0}) - group.centre_in_frame();
+  const Point center = center_of(Sphere<float>{bounds.x, bounds.y, bounds.z, 0}) - group.center_in_frame();
   balls_ = {};
-  balls_.centre_x = static_cast<float>(centre.x);
-  balls_.centre_y = static_cast<float>(centre.y);
-  balls_.centre_z = static_cast<float>(centre.z);
+  balls_.center_x = static_cast<float>(center.x);
+  balls_.center_y = static_cast<float>(center.y);
+  balls_.center_z = static_cast<float>(center.z);
   balls_.inside_all = low > 0 ? static_cast<float>(low * low - 4 * error) : 0;
   balls_.outside_all = static_cast<float>(high * high + 4 * error);
   balls_.queries = first_lanes(static_cast<unsigned>(size_));

@@ -43,12 +43,12 @@ void RowWriter::write_ids(unsigned query, std::span<VertexId> ids) const {
   kernels_->write_row(pieces_, query, permutation, ids);
 }
 
-void RowWriter::write_distances(unsigned query, const Point& centre, std::span<double> distances) const {
+void RowWriter::write_distances(unsigned query, const Point& center, std::span<double> distances) const {
   double* next = distances.data();
   std::visit(
       [&](auto xyz) {
         const auto write = [&](std::size_t vertex) {
-          *next++ = std::sqrt(squared_distance(point(xyz, vertex), centre));
+          *next++ = std::sqrt(squared_distance(point(xyz, vertex), center));
         };
         for (const RowPiece& piece : pieces_) {
           if (piece.reached != nullptr) {

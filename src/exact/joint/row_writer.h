@@ -23,8 +23,8 @@ class RowWriter {
   /// Writes the ids of a row. `ids` has as many places as the row has vertices.
   void write_ids(unsigned query, std::span<VertexId> ids) const;
 
-  /// Writes the distances from `centre` in the order of the ids.
-  void write_distances(unsigned query, const Point& centre, std::span<double> distances) const;
+  /// Writes the distances from `center` in the order of the ids.
+  void write_distances(unsigned query, const Point& center, std::span<double> distances) const;
 
  private:
   void add_run(const VertexRange& run, QueryWord queries);

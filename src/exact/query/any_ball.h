@@ -5,8 +5,8 @@
 
 namespace meshhood {
 
-/// A ball to be compared with vertices, whose centre need not be a vertex: `LeafBall` by itself assumes that the centre
+/// A ball to be compared with vertices, whose center need not be a vertex: `LeafBall` by itself assumes that the center
 /// is exact in single precision where the positions are floats.
-[[nodiscard]] LeafBall any_ball(const Point& centre, double radius);
+[[nodiscard]] LeafBall any_ball(const Point& center, double radius);
 
 }  // namespace meshhood

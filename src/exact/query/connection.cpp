@@ -33,9 +33,9 @@ bool RegionSearcher::contains(const Start& start, VertexId w, double radius, con
   check_vertex(w, state.index->vertex_count(), "vertex");
   check_radius(radius);
   state.check(filter);
-  const Point centre = state.begin(start, filter);
+  const Point center = state.begin(start, filter);
   const std::uint32_t slot = state.slot(w);
-  if (!(squared_distance(position_of(*state.index, w), centre) <= squared_radius(radius))) return false;
+  if (!(squared_distance(position_of(*state.index, w), center) <= squared_radius(radius))) return false;
   if (state.ignored.has(w)) return false;
   state.flood.grow(radius, slot);
   return state.flood.has_reached(slot);
@@ -46,11 +46,11 @@ double RegionSearcher::connecting_radius(const Start& start, VertexId w, const F
   state.check(start);
   check_vertex(w, state.index->vertex_count(), "vertex");
   state.check(filter);
-  const Point centre = state.begin(start, filter);
+  const Point center = state.begin(start, filter);
   const std::uint32_t slot = state.slot(w);
   if (state.ignored.has(w)) return kNoRadius;
   // No smaller ball holds `w` itself.
-  double radius = std::sqrt(squared_distance(position_of(*state.index, w), centre));
+  double radius = std::sqrt(squared_distance(position_of(*state.index, w), center));
   state.flood.grow(radius, slot);
   while (!state.flood.has_reached(slot)) {
     radius = state.flood.next_radius();
@@ -65,7 +65,7 @@ void RegionSearcher::nearest_connected(const Start& start, std::size_t k, std::v
   State& state = *state_;
   state.check(start);
   state.check(filter);
-  const Point centre = state.begin(start, filter);
+  const Point center = state.begin(start, filter);
   std::vector<VertexId> ids;
   std::vector<double> found_radii;
   std::vector<NextVertex> ring;
@@ -77,7 +77,7 @@ void RegionSearcher::nearest_connected(const Start& start, std::size_t k, std::v
     ring.clear();
     state.for_each_found(before, [&](const LeafSubset& subset) {
       for_each_lane(subset.lanes, [&](unsigned lane) {
-        const double square = squared_distance(state.index->position(subset.leaf, lane), centre);
+        const double square = squared_distance(state.index->position(subset.leaf, lane), center);
         ring.push_back({std::sqrt(square), state.index->id(state.index->leaf_begin[subset.leaf] + lane)});
       });
     });

@@ -14,15 +14,15 @@ namespace meshhood {
 Flood::Flood(const IndexView& index, const Kernels& kernels)
     : index_(&index),
       kernels_(&kernels),
-      centre_(index.frame, {0, 0, 0}),
+      center_(index.frame, {0, 0, 0}),
       ball_(any_ball({0, 0, 0}, 0)),
       states_(index.leaf_count()) {}
 
-void Flood::start(const Point& centre, const LaneFilter& walls) {
-  centre_ = Centre(index_->frame, centre);
+void Flood::start(const Point& center, const LaneFilter& walls) {
+  center_ = Center(index_->frame, center);
   walls_ = &walls;
-  ball_ = any_ball(centre, 0);
-  ball_.squared_radius = -1;  // until it grows, it does not even hold its centre
+  ball_ = any_ball(center, 0);
+  ball_.squared_radius = -1;  // until it grows, it does not even hold its center
   awake_.clear();
   sleepers_.clear();
   reached_.clear();
@@ -42,7 +42,7 @@ Flood::State& Flood::state_of(LeafId leaf) {
            .open = first_lanes(record.size) & ~walls,    // mutant: walls-are-passed
            .connected = record.connected && walls == 0,  // mutant: leaf-with-walls-taken-whole
            .wakes = std::numeric_limits<double>::infinity(),
-           .squares = squared_distances(record.bounds, centre_)};
+           .squares = squared_distances(record.bounds, center_)};
   return state;
 }
 
@@ -85,7 +85,7 @@ void Flood::rest(LeafId leaf, State& state, double bound, bool is_exact) {
 }
 
 void Flood::grow(double radius, std::uint32_t target) {
-  ball_ = any_ball(centre_.exact, radius);
+  ball_ = any_ball(center_.exact, radius);
   sleepers_.wake(ball_.squared_radius, [&](const Sleepers::Entry& entry) {
     State& state = states_[entry.leaf];
     if (state.wakes != entry.bound) return;  // it has been put to sleep again since, to wake earlier

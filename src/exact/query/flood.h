@@ -24,8 +24,8 @@ class Flood {
  public:
   Flood(const IndexView& index, const Kernels& kernels);
 
-  /// Begins around `centre`, with nothing reached. `walls` must outlive the flood.
-  void start(const Point& centre, const LaneFilter& walls);
+  /// Begins around `center`, with nothing reached. `walls` must outlive the flood.
+  void start(const Point& center, const LaneFilter& walls);
 
   /// Adds a seed: it is reached when the ball holds it, unless it is a wall.
   void add_seed(std::uint32_t slot);
@@ -80,7 +80,7 @@ class Flood {
   const IndexView* index_;
   const Kernels* kernels_;
   const LaneFilter* walls_ = nullptr;
-  Centre centre_;
+  Center center_;
   LeafBall ball_;
   std::vector<State> states_;  // by leaf
   std::vector<LeafId> awake_;

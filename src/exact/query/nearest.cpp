@@ -21,7 +21,7 @@ namespace {
 
 class NearestSearch {
  public:
-  NearestSearch(const IndexView& index, const Point& p) : index_(&index), centre_(index.frame, p) {}
+  NearestSearch(const IndexView& index, const Point& p) : index_(&index), center_(index.frame, p) {}
 
   NearestVertex run() {
     visit_roots(index_->roots.levels.size() - 1, 0);
@@ -69,7 +69,7 @@ class NearestSearch {
   void visit_nearest_first(std::size_t count, SphereAt&& sphere_at, Visit&& visit) {
     std::array<Child, kFanOut> children{};
     const std::size_t size = std::min<std::size_t>(count, kFanOut);
-    for (std::size_t i = 0; i < size; ++i) children[i] = {squared_distances(sphere_at(i), centre_).low, i};
+    for (std::size_t i = 0; i < size; ++i) children[i] = {squared_distances(sphere_at(i), center_).low, i};
     std::sort(children.begin(), children.begin() + static_cast<std::ptrdiff_t>(size),
               [](const Child& a, const Child& b) { return a.low < b.low; });
     for (const Child& child : std::span(children).first(size)) {
@@ -81,7 +81,7 @@ class NearestSearch {
   void visit_leaf(std::size_t leaf) {
     for (std::size_t v = index_->leaf_begin[leaf]; v < index_->leaf_begin[leaf + 1]; ++v) {
       const Point p = std::visit([&](auto xyz) { return point(xyz, v); }, index_->positions);
-      const double square = squared_distance(centre_.exact, p);
+      const double square = squared_distance(center_.exact, p);
       if (square > square_) continue;
       const VertexId id = index_->id(v);
       if (square == square_ && best_ < id) continue;  // mutant: nearest-ignores-ties
@@ -91,7 +91,7 @@ class NearestSearch {
   }
 
   const IndexView* index_;
-  Centre centre_;
+  Center center_;
   double square_ = std::numeric_limits<double>::infinity();
   VertexId best_ = std::numeric_limits<VertexId>::max();
 };

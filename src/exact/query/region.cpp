@@ -21,10 +21,10 @@ Point RegionSearcher::State::begin(const Start& start, const Filter& filter) {
   ignored = LaneFilter(*index, filter.ignored);
   answer.clear();
   if (!start.center()) {
-    const Point centre = position_of(*index, start.vertex());
-    flood.start(centre, walls);
+    const Point center = position_of(*index, start.vertex());
+    flood.start(center, walls);
     flood.add_seed(slot(start.vertex()));
-    return centre;
+    return center;
   }
   const SpacePoint& p = *start.center();
   flood.start({p[0], p[1], p[2]}, walls);
@@ -51,10 +51,10 @@ Point RegionSearcher::State::search(const Start& start, double radius, const Fil
   check(start);
   check_radius(radius);
   check(filter);
-  const Point centre = begin(start, filter);
+  const Point center = begin(start, filter);
   flood.grow(radius);
   add_found();
-  return centre;
+  return center;
 }
 
 RegionSearcher::RegionSearcher(const Index& index)
@@ -70,12 +70,12 @@ void RegionSearcher::region(const Start& start, double radius, std::vector<Verte
 
 void RegionSearcher::region(const Start& start, double radius, std::vector<VertexId>& out,
                             std::vector<double>& distances, const Filter& filter) {
-  const Point centre = state_->search(start, radius, filter);
+  const Point center = state_->search(start, radius, filter);
   // Before `out` changes: if this throws, neither has changed.
   distances.reserve(state_->answer.count());
   state_->write_ids_to(out);
   distances.resize(out.size());
-  write_distances(state_->answer, *state_->index, centre, distances.data());
+  write_distances(state_->answer, *state_->index, center, distances.data());
 }
 
 std::size_t RegionSearcher::count(const Start& start, double radius, const Filter& filter) {

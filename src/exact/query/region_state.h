@@ -34,7 +34,7 @@ struct RegionSearcher::State {
   void check(const Start& start, std::string_view where = {}) const;
   void check(const Filter& filter) const;
 
-  /// Begins a flood from valid arguments, with nothing reached. Returns its centre.
+  /// Begins a flood from valid arguments, with nothing reached. Returns its center.
   Point begin(const Start& start, const Filter& filter);
 
   /// The slot of a vertex, whose id is valid.
@@ -56,7 +56,7 @@ struct RegionSearcher::State {
   void add_found();
   void write_ids_to(std::vector<VertexId>& out) const;
 
-  /// Refills `answer` with the region, and returns its centre.
+  /// Refills `answer` with the region, and returns its center.
   Point search(const Start& start, double radius, const Filter& filter);
 };
 

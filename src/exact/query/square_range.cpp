@@ -10,7 +10,7 @@
 namespace meshhood {
 namespace {
 
-// Spheres and vertices lie within 4 of the origin of the frame. The centre, its distance from that of the sphere, and
+// Spheres and vertices lie within 4 of the origin of the frame. The center, its distance from that of the sphere, and
 // the predicate are each rounded a few times by 2^-53 of the distance plus 4. This covers a thousand such errors.
 constexpr double kRangeSlack = 0x1p-43;
 
@@ -19,14 +19,14 @@ constexpr double kSmallestSquare = 0x1p-1000;
 
 }  // namespace
 
-SquareRange squared_distances(const FrameSphere& sphere, const Centre& centre) {
+SquareRange squared_distances(const FrameSphere& sphere, const Center& center) {
   const Point middle{static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
-  const double distance = length(centre.in_frame - middle);
+  const double distance = length(center.in_frame - middle);
   const double slack = kRangeSlack * (distance + 4);
   const double reach = static_cast<double>(sphere.radius) + slack;  // mutant: range-too-narrow
-  const double near = (distance - reach) * centre.unit;
-  const double far = (distance + reach) * centre.unit;
-  // A centre so far away that its distance overflows gives no bounds: infinity less infinity is not > 0.
+  const double near = (distance - reach) * center.unit;
+  const double far = (distance + reach) * center.unit;
+  // A center so far away that its distance overflows gives no bounds: infinity less infinity is not > 0.
   const double low = near > 0 ? std::max(near * near * (1 - kRangeSlack) - kSmallestSquare, 0.0) : 0.0;
   return {low, far * far * (1 + kRangeSlack) + kSmallestSquare};
 }

@@ -13,15 +13,15 @@ struct SquareRange {
 };
 
 /// The point from which distances are measured, in the coordinates of the mesh and of its frame.
-struct Centre {
+struct Center {
   Point exact;
   Point in_frame;
   double unit;  // the length of a unit of the frame
 
-  Centre(const Frame& frame, const Point& p) : exact(p), in_frame(frame.to_frame(p)), unit(1 / frame.scale) {}
+  Center(const Frame& frame, const Point& p) : exact(p), in_frame(frame.to_frame(p)), unit(1 / frame.scale) {}
 };
 
-/// Bounds on the squared distances, as the predicate computes them, from `centre` to the vertices in `sphere`.
-[[nodiscard]] SquareRange squared_distances(const FrameSphere& sphere, const Centre& centre);
+/// Bounds on the squared distances, as the predicate computes them, from `center` to the vertices in `sphere`.
+[[nodiscard]] SquareRange squared_distances(const FrameSphere& sphere, const Center& center);
 
 }  // namespace meshhood

@@ -74,7 +74,7 @@ void LoosePieces::cut(const LeafSubset& leaf, const Query& query, const GroupSta
     if ((piece & query_lane) != 0 || touches_home(leaf.leaf, piece, states)) continue;
     const Nearest nearest = kernels_->nearest(index_->positions, record.first, piece, query.ball);
     const LocalMinimum vertex{nearest.square, leaf.leaf, nearest.lane};
-    if (!has_nearer_neighbor(vertex, query.centre())) minima_.push_back(vertex);
+    if (!has_nearer_neighbor(vertex, query.center())) minima_.push_back(vertex);
   }
 }
 
@@ -86,13 +86,13 @@ bool LoosePieces::touches_home(LeafId leaf, LaneMask piece, const GroupStates& s
   });
 }
 
-bool LoosePieces::has_nearer_neighbor(const LocalMinimum& vertex, const Point& centre) const {
+bool LoosePieces::has_nearer_neighbor(const LocalMinimum& vertex, const Point& center) const {
   for (const Link& link : index_->links_of(vertex.leaf)) {
     if ((link.boundary >> vertex.lane & 1U) == 0) continue;
     for (const CrossEdge& edge : index_->cross_edges_of(link)) {
       if (edge.from != vertex.lane) continue;  // mutant: cross-edges-of-every-lane
       // mutant: tied-neighbor-taken-as-nearer
-      if (squared_distance(index_->position(link.leaf, edge.to), centre) < vertex.square) return true;
+      if (squared_distance(index_->position(link.leaf, edge.to), center) < vertex.square) return true;
     }
   }
   return false;

@@ -46,7 +46,7 @@ class LoosePieces {
   void gather_below(std::uint32_t group, const TreeBall& ball);
   void cut(const LeafSubset& leaf, const Query& query, const GroupStates& states);
   [[nodiscard]] bool touches_home(LeafId leaf, LaneMask piece, const GroupStates& states) const;
-  [[nodiscard]] bool has_nearer_neighbor(const LocalMinimum& vertex, const Point& centre) const;
+  [[nodiscard]] bool has_nearer_neighbor(const LocalMinimum& vertex, const Point& center) const;
 
   const IndexView* index_;
   const Kernels* kernels_;

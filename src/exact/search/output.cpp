@@ -64,10 +64,10 @@ void write_ids(const VertexSet& set, const IndexView& index, const Kernels& kern
   }
 }
 
-void write_distances(const VertexSet& set, const IndexView& index, const Point& centre, double* out) {
+void write_distances(const VertexSet& set, const IndexView& index, const Point& center, double* out) {
   std::visit(
       [&](auto xyz) {
-        set.for_each([&](std::size_t v) { *out++ = std::sqrt(squared_distance(point(xyz, v), centre)); });
+        set.for_each([&](std::size_t v) { *out++ = std::sqrt(squared_distance(point(xyz, v), center)); });
       },
       index.positions);
 }

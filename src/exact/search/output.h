@@ -11,7 +11,7 @@ namespace meshhood {
 /// for `kLeafCapacity` more, whose content is unspecified afterwards.
 void write_ids(const VertexSet& set, const IndexView& index, const Kernels& kernels, VertexId* out);
 
-/// Writes the distances of the same vertices from `centre`, in the same order; `set.count()` of them.
-void write_distances(const VertexSet& set, const IndexView& index, const Point& centre, double* out);
+/// Writes the distances of the same vertices from `center`, in the same order; `set.count()` of them.
+void write_distances(const VertexSet& set, const IndexView& index, const Point& center, double* out);
 
 }  // namespace meshhood

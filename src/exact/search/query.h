@@ -32,16 +32,16 @@ struct Query {
 
   [[nodiscard]] LeafId leaf() const { return leaf_of(slot); }
   [[nodiscard]] LaneMask lane() const { return LaneMask{1} << lane_of(slot); }
-  [[nodiscard]] const Point& centre() const { return ball.centre; }
+  [[nodiscard]] const Point& center() const { return ball.center; }
 
  private:
-  Query(const IndexView& index, VertexId v, std::uint32_t slot_of_v, const Point& centre, const RadiusBounds& bounds)
+  Query(const IndexView& index, VertexId v, std::uint32_t slot_of_v, const Point& center, const RadiusBounds& bounds)
       : vertex(v),
         slot(slot_of_v),
         radius(bounds.radius),
         radius_in_frame(bounds.radius_in_frame),
-        ball(centre, bounds.leaf),
-        tree_ball(index.frame.round(centre), bounds.tree) {}
+        ball(center, bounds.leaf),
+        tree_ball(index.frame.round(center), bounds.tree) {}
 };
 
 }  // namespace meshhood

@@ -43,7 +43,7 @@ struct SearchLimits {
   /// The most nodes of a level that may intersect the surface of the ball: more than one sheet of mesh has.
   ///
   /// On a plane, nodes that are squares with a half diagonal of m have an area of 2 m^2. The nodes that intersect have
-  /// their centres within m of a circle of radius r, so there are about 4 pi r m / 2 m^2 = 6.3 r / m of them; on a
+  /// their centers within m of a circle of radius r, so there are about 4 pi r m / 2 m^2 = 6.3 r / m of them; on a
   /// smooth scan, 5.6 were measured. 14 is chosen: a little more than two such sheets. So is 12, for balls no larger
   /// than a node: a group and a half.
   [[nodiscard]] std::size_t most_intersecting(double radius_in_frame, double mean_radius) const {

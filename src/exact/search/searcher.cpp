@@ -30,7 +30,7 @@ Point Searcher::State::search(VertexId v, double radius) {
   const Query query(*index, v, bounds);
   answer.clear();
   was_outward = false;
-  if (search_single_leaf(query)) return query.centre();
+  if (search_single_leaf(query)) return query.center();
   const bool is_small = limits.is_small(query, *index);
   // A leaf that is not connected has no links, so the answer is a part of it.
   was_outward = !is_small && index->leaves[home].connected && !is_flood_faster(query);
@@ -39,7 +39,7 @@ Point Searcher::State::search(VertexId v, double radius) {
   } else {
     leaf_bfs.run(query, is_small, traversal, answer);
   }
-  return query.centre();
+  return query.center();
 }
 
 /// Returns false if the answer has vertices of other leaves, or probably has.
@@ -183,12 +183,12 @@ void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& ou
 
 void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
   if (state_->vertex_bfs) return state_->vertex_bfs->searcher().neighborhood(v, radius, out, distances);
-  const Point centre = state_->search(v, radius);
+  const Point center = state_->search(v, radius);
   // Before `out` changes: if this throws, neither has changed.
   distances.reserve(state_->answer.count());
   state_->write_answer(out);
   distances.resize(out.size());
-  write_distances(state_->answer, *state_->index, centre, distances.data());
+  write_distances(state_->answer, *state_->index, center, distances.data());
 }
 
 std::span<const VertexRange> Searcher::ranges(VertexId v, double radius) {

@@ -28,7 +28,7 @@ bool SingleLeaf::has_vertex_in_ball(LeafId leaf, LaneMask lanes, const LeafBall&
   bool has = false;
   for_each_lane(lanes, [&](unsigned lane) {
     // mutant: ball-of-a-leaf-without-boundary
-    has = has || squared_distance(index_->position(leaf, lane), ball.centre) <= ball.squared_radius;
+    has = has || squared_distance(index_->position(leaf, lane), ball.center) <= ball.squared_radius;
   });
   return has;
 }

@@ -34,12 +34,12 @@ TEST_P(NearestIn, IsTheFirstOfAScan) {
     Random random(vertices);
     for (std::size_t i = 0; i < scaled(60, 6); ++i, ++points) {
       PlainStart start = draw_start(random, mesh).plain;
-      if (i % 7 == 6) start.centre = {-start.centre[1], start.centre[2], 1e30};
+      if (i % 7 == 6) start.center = {-start.center[1], start.center[2], 1e30};
       VertexId expected = 0;
       for (VertexId v = 1; v < mesh.size(); ++v) {
         if (oracle.distance(start, v) < oracle.distance(start, expected)) expected = v;
       }
-      const NearestVertex found = nearest(index, start.centre);
+      const NearestVertex found = nearest(index, start.center);
       ASSERT_EQ(found.distance, oracle.distance(start, expected));
       ASSERT_EQ(oracle.distance(start, found.vertex), found.distance);
     }

@@ -22,9 +22,9 @@ namespace {
 
 class Bounds : public testing::TestWithParam<Family> {
  protected:
-  /// Calls `f(view, centre, random)` for centres near and far.
+  /// Calls `f(view, center, random)` for centers near and far.
   template <class F>
-  void for_each_centre(F&& f) {
+  void for_each_center(F&& f) {
     for (const std::size_t vertices : {1U, 3U, 200U, 900U}) {
       const TestMesh mesh = make_mesh(GetParam(), vertices, vertices);
       if (mesh.size() == 0) continue;
@@ -32,11 +32,11 @@ class Bounds : public testing::TestWithParam<Family> {
       const Index index = build(mesh.view());
       Random random(vertices);
       for (std::size_t i = 0; i < scaled(30, 6); ++i) {
-        const auto p = draw_start(random, mesh).plain.centre;
+        const auto p = draw_start(random, mesh).plain.center;
         for (const double factor : {1.0, 1.0 + 0x1p-30, 7.0, 1e9, 1e40}) {
-          const Point centre{factor * p[0], p[1], factor * p[2]};
-          if (std::max(std::abs(centre.x), std::abs(centre.z)) > kLargestCoordinate) continue;
-          f(IndexAccess::view(index), centre, random);
+          const Point center{factor * p[0], p[1], factor * p[2]};
+          if (std::max(std::abs(center.x), std::abs(center.z)) > kLargestCoordinate) continue;
+          f(IndexAccess::view(index), center, random);
         }
       }
     }
@@ -50,10 +50,10 @@ Point vertex(const IndexView& index, std::size_t v) {
 TEST_P(Bounds, OfALeafHoldTheDistancesOfItsVertices) {
   std::size_t tight = 0;
   std::size_t leaves = 0;
-  for_each_centre([&](const IndexView& index, const Point& p, Random&) {
-    const Centre centre(index.frame, p);
+  for_each_center([&](const IndexView& index, const Point& p, Random&) {
+    const Center center(index.frame, p);
     for (LeafId leaf = 0; leaf < index.leaf_count(); ++leaf, ++leaves) {
-      const SquareRange range = squared_distances(index.leaves[leaf].bounds, centre);
+      const SquareRange range = squared_distances(index.leaves[leaf].bounds, center);
       tight += static_cast<std::size_t>(range.low > 0 && range.high <= 4 * range.low);
       for (std::size_t v = index.leaf_begin[leaf]; v < index.leaf_begin[leaf + 1]; ++v) {
         const double square = squared_distance(p, vertex(index, v));
@@ -67,7 +67,7 @@ TEST_P(Bounds, OfALeafHoldTheDistancesOfItsVertices) {
 
 TEST_P(Bounds, OfABallAnywhereGiveTheVerticesOfThePredicate) {
   std::size_t tests = 0;
-  for_each_centre([&](const IndexView& index, const Point& p, Random& random) {
+  for_each_center([&](const IndexView& index, const Point& p, Random& random) {
     const Point tie = vertex(index, random.below(index.vertex_count()));
     for (const double radius : around(std::sqrt(squared_distance(p, tie)))) {
       const LeafBall ball = any_ball(p, radius);

@@ -42,14 +42,14 @@ void expect_output(const IndexView& index, const VertexSet& set, const Kernels& 
   ids.resize(set.count());
   EXPECT_EQ(ids, expected);
 
-  const Point centre = index.position(0, 0);
+  const Point center = index.position(0, 0);
   std::vector<double> distances(set.count() + 1, -1);
-  write_distances(set, index, centre, distances.data());
+  write_distances(set, index, center, distances.data());
   EXPECT_EQ(distances.back(), -1) << "written beyond the room";
   std::size_t next = 0;
   set.for_each([&](std::size_t v) {
     const Point p = std::visit([&](auto xyz) { return point(xyz, v); }, index.positions);
-    EXPECT_EQ(distances[next++], std::sqrt(squared_distance(p, centre)));
+    EXPECT_EQ(distances[next++], std::sqrt(squared_distance(p, center)));
   });
 }
 
