@@ -6,7 +6,8 @@
 
 namespace meshhood {
 
-/// Asks the processor to fetch what lies at `address`, which will be read soon. Never faults.
+/// Asks the processor to fetch what lies at `address`, which will be read soon. Never faults. Loops keep the number of
+/// items they prefetch ahead in a constant named after the items: `kLeavesAhead`.
 inline void prefetch(const void* address) {
 #if defined(__GNUC__) || defined(__clang__)
   __builtin_prefetch(address);

@@ -186,10 +186,10 @@ MESHHOOD_AVX2 inline GroupContainment classify_group(const Group& group, const T
 
 MESHHOOD_AVX2 void classify(const Group* groups, std::span<const std::uint32_t> list, const TreeBall& ball,
                             GroupContainment* out) {
-  constexpr std::size_t kAhead = 4;
+  constexpr std::size_t kGroupsAhead = 4;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    if (i + kAhead < list.size()) {
-      const auto* next = reinterpret_cast<const char*>(groups + list[i + kAhead]);
+    if (i + kGroupsAhead < list.size()) {
+      const auto* next = reinterpret_cast<const char*>(groups + list[i + kGroupsAhead]);
       for (std::size_t line = 0; line < sizeof(Group); line += 64) _mm_prefetch(next + line, _MM_HINT_T0);
     }
     out[i] = classify_group(groups[list[i]], ball);

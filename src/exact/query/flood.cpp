@@ -92,9 +92,9 @@ void Flood::grow(double radius, std::uint32_t target) {
     state.wakes = std::numeric_limits<double>::infinity();
     wake(entry.leaf, state);
   });
-  constexpr std::size_t kAhead = 8;
+  constexpr std::size_t kVerticesAhead = 8;
   for (std::size_t head = 0; head < awake_.size(); ++head) {
-    if (head + kAhead < awake_.size()) prefetch_neighbors(awake_[head + kAhead]);
+    if (head + kVerticesAhead < awake_.size()) prefetch_neighbors(awake_[head + kVerticesAhead]);
     visit(awake_[head]);
     if (target != kNoTarget && has_reached(target)) return;
   }

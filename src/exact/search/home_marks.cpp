@@ -39,7 +39,7 @@ void HomeMarks::spread(std::span<const std::uint32_t> groups, GroupStates& state
   // Each leaf in doubt takes longer to test than a group to mark.
   if (2 * count_doubts(groups, states) < groups.size()) return;
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    if (i + kAhead < groups.size()) prefetch_links(groups[i + kAhead], states);
+    if (i + kGroupsAhead < groups.size()) prefetch_links(groups[i + kGroupsAhead], states);
     if (!pull(groups[i], states) && has_doubt(states[groups[i]])) unmarked_.push_back(groups[i]);
   }
   if (unmarked_.empty()) return;

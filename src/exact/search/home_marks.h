@@ -31,7 +31,7 @@ class HomeMarks {
   void spread(std::span<const std::uint32_t> groups, GroupStates& states);
 
  private:
-  static constexpr std::size_t kAhead = 6;
+  static constexpr std::size_t kGroupsAhead = 6;
 
   [[nodiscard]] std::size_t count_doubts(std::span<const std::uint32_t> groups, const GroupStates& states) const;
   [[nodiscard]] bool pull(std::uint32_t group, GroupStates& states) const;

@@ -112,17 +112,17 @@ bool Searcher::State::reach_from(const Home& home, const Query& query, std::size
 }
 
 void Searcher::State::find_surface_leaves(const Query& query) {
-  constexpr std::size_t kAhead = 10;
+  constexpr std::size_t kLeavesAhead = 10;
   const std::span<const LeafId> leaves = descent.surface_leaves();
   // From the records of groups, which the descent has just read.
   const auto vertices_of = [&](LeafId leaf) { return run_of(index->records[leaf / kFanOut], leaf % kFanOut); };
   const auto prefetch_vertices = [&](LeafId leaf) {
     prefetch_positions(*index, vertices_of(leaf).begin, kLeafCapacity);
   };
-  for (const LeafId leaf : leaves.first(std::min(kAhead, leaves.size()))) prefetch_vertices(leaf);
+  for (const LeafId leaf : leaves.first(std::min(kLeavesAhead, leaves.size()))) prefetch_vertices(leaf);
   surface_leaves.clear();
   for (std::size_t i = 0; i < leaves.size(); ++i) {
-    if (i + kAhead < leaves.size()) prefetch_vertices(leaves[i + kAhead]);
+    if (i + kLeavesAhead < leaves.size()) prefetch_vertices(leaves[i + kLeavesAhead]);
     const auto [first, end] = vertices_of(leaves[i]);
     surface_leaves.push_back({leaves[i], kernels->within(index->positions, first, end - first, query.ball)});
   }
