@@ -8,8 +8,8 @@
 // visit much of the ball, all that was reached is united along its links instead. docs/design.md says why that is
 // exact.
 //
-// An answer that lies in one leaf takes none of these steps. Where the ball is small, a breadth-first search over leaves
-// is faster; and where the graph is unlike a surface, one over vertices.
+// An answer that lies in one leaf takes none of these steps. Where the ball is small, a breadth-first search over
+// leaves is faster; and where the graph is unlike a surface, one over vertices.
 #include <algorithm>
 
 #include "meshhood/search.h"
