@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <variant>
 
 #include "base/vector.h"
@@ -119,8 +120,8 @@ void JointGroup::clear() {
   cores_.clear();
   core_leaves_.clear();
   core_links_.clear();
+  last_core_link_.clear();
   links_.clear();
-  core_runs_.clear();
 }
 
 void JointGroup::set_sphere(std::span<const LeafId> leaves) {
@@ -190,10 +191,10 @@ GroupEntry JointGroup::add_core(LeafId leaf) {
   const auto entry = static_cast<GroupEntry>(leaves_.size());
   add_to_eights(kCore + static_cast<LeafId>(cores_.size()), {0, 0, 0, 0}, false);
   eights_.back().cores |= bit_of(entry);
-  Core core{.first_link = core_links_.size(), .first_run = core_runs_.size()};
+  Core core{.first_link = core_links_.size(), .first_leaf = core_leaves_.size()};
   entry_of_[leaf] = entry;
-  core_leaves_.assign(1, leaf);
-  for (std::size_t head = 0; head < core_leaves_.size(); ++head) {
+  core_leaves_.push_back(leaf);
+  for (std::size_t head = core.first_leaf; head < core_leaves_.size(); ++head) {
     core.vertices += index_->leaves[core_leaves_[head]].size;
     for (const Link& link : index_->links_of(core_leaves_[head])) {
       GroupEntry linked = entry_of_[link.leaf];
@@ -205,24 +206,24 @@ GroupEntry JointGroup::add_core(LeafId leaf) {
         linked = discover(link.leaf);
       }
       if (linked == entry || linked == kNoEntry) continue;  // mutant: core-without-links
-      core_links_.push_back({linked, kernels_->cross_edges(index_->cross_edges_of(link), link.boundary)});
+      add_core_link(core, linked, kernels_->cross_edges(index_->cross_edges_of(link), link.boundary));
     }
   }
-  add_core_runs();
   core.end_link = core_links_.size();
-  core.end_run = core_runs_.size();
-  cores_.push_back(core);
+  core.end_leaf = core_leaves_.size();
+  cores_.push_back(std::move(core));
   return entry;
 }
 
-/// The leaves of the core as runs.
-void JointGroup::add_core_runs() {
-  std::sort(core_leaves_.begin(), core_leaves_.end());
-  for (std::size_t i = 0; i < core_leaves_.size(); ++i) {
-    const LeafId leaf = core_leaves_[i];
-    if (i == 0 || leaf != core_leaves_[i - 1] + 1) core_runs_.push_back({leaf, leaf, {index_->leaf_begin[leaf], 0}});
-    core_runs_.back().end_leaf = leaf + 1;
-    core_runs_.back().vertices.end = index_->leaf_begin[leaf + 1];
+/// Several leaves of a core may be linked with the same entry.
+void JointGroup::add_core_link(const Core& core, GroupEntry linked, LaneMask far_boundary) {
+  last_core_link_.resize(leaves_.size(), kUnknown);
+  std::uint32_t& last = last_core_link_[linked];
+  if (last != kUnknown && last >= core.first_link) {
+    core_links_[last].far_boundary |= far_boundary;  // mutant: core-with-one-link
+  } else {
+    last = static_cast<std::uint32_t>(core_links_.size());
+    core_links_.push_back({linked, far_boundary});
   }
 }
 
@@ -231,9 +232,18 @@ std::span<const JointGroup::CoreLink> JointGroup::core_links(GroupEntry core) co
   return std::span(core_links_).subspan(found.first_link, found.end_link - found.first_link);
 }
 
-std::span<const LeafRun> JointGroup::core_runs(GroupEntry core) const {
-  const Core& found = cores_[core_number(core)];
-  return std::span(core_runs_).subspan(found.first_run, found.end_run - found.first_run);
+std::span<const LeafRun> JointGroup::core_runs(GroupEntry core) {
+  Core& found = cores_[core_number(core)];
+  if (!found.runs.empty()) return found.runs;
+  const auto leaves = std::span(core_leaves_).subspan(found.first_leaf, found.end_leaf - found.first_leaf);
+  std::sort(leaves.begin(), leaves.end());
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    const LeafId leaf = leaves[i];
+    if (i == 0 || leaf != leaves[i - 1] + 1) found.runs.push_back({leaf, leaf, {index_->leaf_begin[leaf], 0}});
+    found.runs.back().end_leaf = leaf + 1;
+    found.runs.back().vertices.end = index_->leaf_begin[leaf + 1];
+  }
+  return found.runs;
 }
 
 const LeafPoints& JointGroup::points(GroupEntry entry) {

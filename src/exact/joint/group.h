@@ -32,7 +32,7 @@ class JointGroup {
     std::span<const CrossEdge> edges;
   };
 
-  /// A link from a core to a leaf.
+  /// The links from a core to a leaf, together.
   struct CoreLink {
     GroupEntry entry;
     LaneMask far_boundary;
@@ -72,8 +72,8 @@ class JointGroup {
   [[nodiscard]] std::span<const CoreLink> core_links(GroupEntry core) const;
   [[nodiscard]] std::size_t core_number(GroupEntry core) const { return leaves_[core] - kCore; }
   [[nodiscard]] std::size_t core_vertices(GroupEntry core) const { return cores_[core_number(core)].vertices; }
-  /// Its leaves, ascending.
-  [[nodiscard]] std::span<const LeafRun> core_runs(GroupEntry core) const;
+  /// Its leaves, ascending. Sorted at the first call.
+  [[nodiscard]] std::span<const LeafRun> core_runs(GroupEntry core);
 
   /// The center of the group: exactly, and in the frame.
   [[nodiscard]] const Point& center() const { return center_; }
@@ -98,9 +98,10 @@ class JointGroup {
   struct Core {
     std::size_t first_link;  // in core_links_
     std::size_t end_link = 0;
-    std::size_t first_run;  // in core_runs_
-    std::size_t end_run = 0;
+    std::size_t first_leaf;  // in core_leaves_
+    std::size_t end_leaf = 0;
     std::size_t vertices = 0;
+    std::vector<LeafRun> runs{};  // empty until they are asked for
   };
 
   void clear();
@@ -108,7 +109,7 @@ class JointGroup {
   GroupEntry discover(LeafId leaf);
   GroupEntry add_entry(LeafId leaf);
   GroupEntry add_core(LeafId leaf);
-  void add_core_runs();
+  void add_core_link(const Core& core, GroupEntry linked, LaneMask far_boundary);
   void rank_by_distance();
   void add_to_eights(LeafId leaf, const FrameSphere& sphere, bool connected);
   [[nodiscard]] static std::uint8_t bit_of(GroupEntry entry) {
@@ -133,13 +134,13 @@ class JointGroup {
   std::vector<Group> spheres_;
   std::vector<Eight> eights_;
   std::vector<Core> cores_;
-  std::vector<LeafId> core_leaves_;  // of the core that is being added
+  std::vector<LeafId> core_leaves_;
   std::vector<CoreLink> core_links_;
-  std::vector<LinkRange> link_ranges_;  // by entry
+  std::vector<std::uint32_t> last_core_link_;  // by entry: the last core link to it, in core_links_
+  std::vector<LinkRange> link_ranges_;         // by entry
   std::vector<EntryLink> links_;
   std::vector<std::uint32_t> rank_;
   std::vector<GroupEntry> by_rank_;
-  std::vector<LeafRun> core_runs_;
   std::vector<LeafPoints> points_;  // by entry
   std::vector<std::uint8_t> has_points_;
 };
