@@ -40,7 +40,7 @@ std::size_t NodeTree::end_leaf(Node node) const {
 
 Point NodeTree::center(Node node) const {
   const FrameSphere bounds = sphere(node);
-  const Point in_frame = center_of(Sphere<float>{bounds.x, bounds.y, bounds.z, 0});
+  const Point in_frame = center_of(bounds);
   return index_->frame.origin + (1 / index_->frame.scale) * in_frame;
 }
 

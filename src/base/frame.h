@@ -25,6 +25,10 @@ struct FrameSphere {
   float radius;
 };
 
+[[nodiscard]] inline Point center_of(const FrameSphere& sphere) {
+  return {static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
+}
+
 /// Coordinates in which every vertex lies in [-1, 1]^3, whatever the unit of the positions. The tree stores floats,
 /// which rounds a vertex by at most 2^-25 along each axis.
 struct Frame {

@@ -11,10 +11,6 @@
 namespace meshhood {
 namespace {
 
-Point center_of(const FrameSphere& sphere) {
-  return {static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
-}
-
 /// A sphere around at least one sphere.
 FrameSphere enclosing(std::span<const FrameSphere> spheres) {
   Point sum{0, 0, 0};

@@ -63,8 +63,4 @@ void update_tree(std::span<const LeafId> leaves, NodeList bounds, const IndexVie
 /// The same around nearly the best center.
 [[nodiscard]] FrameSphere enclosing_sphere(std::span<const Point> points);
 
-[[nodiscard]] inline Point center_of(const FrameSphere& sphere) {
-  return {static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
-}
-
 }  // namespace meshhood

@@ -130,11 +130,11 @@ void JointGroup::set_sphere(std::span<const LeafId> leaves) {
   ball_.x = bounds.x;
   ball_.y = bounds.y;
   ball_.z = bounds.z;
-  center_ = index_->frame.origin + 1 / index_->frame.scale * center_of(Sphere<float>{bounds.x, bounds.y, bounds.z, 0});
+  center_ = index_->frame.origin + 1 / index_->frame.scale * center_of(bounds);
   if (in_floats_) center_ = {rounded(center_.x), rounded(center_.y), rounded(center_.z)};
   // Where the coordinates are large for the size of the mesh, the center is not quite that of the sphere.
   center_in_frame_ = index_->frame.to_frame(center_);
-  const Point off = center_in_frame_ - center_of(Sphere<float>{bounds.x, bounds.y, bounds.z, 0});
+  const Point off = center_in_frame_ - center_of(bounds);
   radius_ = static_cast<double>(bounds.radius) + length(off);
 }
 

@@ -53,7 +53,7 @@ void Packet::set_balls(const JointGroup& group, std::span<const JointQuery> quer
   const double high = outer_of(ball_) + leaf_radius;
   const double reach = high + leaf_radius + group.radius();
   const double error = kRelativeError * reach * reach;
-  const Point center = center_of(Sphere<float>{bounds.x, bounds.y, bounds.z, 0}) - group.center_in_frame();
+  const Point center = center_of(bounds) - group.center_in_frame();
   balls_ = {};
   balls_.center_x = static_cast<float>(center.x);
   balls_.center_y = static_cast<float>(center.y);
