@@ -93,6 +93,7 @@ class Checker {
     EXPECT_EQ(part.owned.size(), listed.owned);
     EXPECT_EQ(part.index.vertex_count(), listed.vertices);
     EXPECT_TRUE(std::is_sorted(part.ids.begin(), part.ids.end()));
+    EXPECT_EQ(std::adjacent_find(part.ids.begin(), part.ids.end()), part.ids.end()) << "no vertex twice";
     EXPECT_TRUE(std::is_sorted(part.owned.begin(), part.owned.end()));
     for (const auto number : part.owned) ++owners_[static_cast<std::size_t>(id(part, number))];
   }
