@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "aggregate/pending_nodes.h"
+#include "base/limits.h"
 
 namespace meshhood {
 namespace {
 
 constexpr double kAboveAll = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 class MinimumReducer final : public PacketReducer {
  public:

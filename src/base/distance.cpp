@@ -2,17 +2,16 @@
 #include "base/distance.h"
 
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "meshhood/error.h"
 
+#include "base/limits.h"
 #include "base/text.h"
 
 namespace meshhood {
 
 double squared_radius(double radius) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double threshold = radius * radius;  // mutant: threshold-one-step-low
   if (threshold == kInfinity) return kInfinity;
   // Product and root are rounded once each, so the result is one or two steps away. The number of steps is bounded

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "meshhood/aggregate.h"
 #include "meshhood/corrected_curvature.h"
 
+#include "base/limits.h"
 #include "base/vector.h"
 #include "curvature/directions.h"
 #include "curvature/quadric.h"
@@ -113,7 +113,6 @@ PrincipalCurvature curvature_of(std::span<const double> m, const Point& normal) 
 
 void write_row(CorrectedCurvatures& out, std::size_t row, std::span<const double> m, const Point& normal,
                double scale) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const bool some = m[0] != 0;
   const Point nan{kNan, kNan, kNan};
   const PrincipalCurvature k =

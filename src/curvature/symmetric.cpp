@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
+#include "base/limits.h"
 #include "base/vector.h"
 
 namespace meshhood {
@@ -52,7 +52,6 @@ Eigen2 eigen(double p, double o, double q) {
 Eigen3 eigen(const Symmetric3& m) {
   const double size =
       std::max({std::abs(m.xx), std::abs(m.xy), std::abs(m.xz), std::abs(m.yy), std::abs(m.yz), std::abs(m.zz)});
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   if (!std::isfinite(size + m.xx + m.xy + m.xz + m.yy + m.yz + m.zz)) {
     return {{kNan, kNan, kNan}, {Point{kNan, kNan, kNan}, {kNan, kNan, kNan}, {kNan, kNan, kNan}}};
   }

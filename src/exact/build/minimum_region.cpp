@@ -18,16 +18,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "base/limits.h"
 #include "base/vector.h"
 #include "exact/build/halfplane_polygon.h"
 #include "exact/layout.h"
 
 namespace meshhood {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A longer slope axis, of a region that opens wide, would use up the margin that the search leaves for rounding
 // (kRegionMargin).
