@@ -38,18 +38,13 @@ struct EdgeSearcher::State {
     paths.run(index->slot[v], radius, LaneFilter(*index, filter.walls));
   }
 
-  /// Calls `f(slot, length)` for the vertices found that are not ignored.
+  /// Calls `f(found)` for the vertices found that are not ignored.
   template <class F>
   void for_each_found(const Filter& filter, F&& f) const {
     const LaneFilter ignored(*index, filter.ignored);
     for (const PathSearch::Found& found : paths.found()) {
-      if (!ignored.has(index->id(position(found.slot)))) f(found);
+      if (!ignored.has(index->id(found.vertex))) f(found);
     }
-  }
-
-  /// In index order.
-  [[nodiscard]] std::size_t position(std::uint32_t slot) const {
-    return std::size_t{index->leaf_begin[leaf_of(slot)]} + lane_of(slot);
   }
 };
 
@@ -69,8 +64,8 @@ void EdgeSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>
   state_->search(v, radius, filter);
   out.reserve(state_->paths.found().size());
   out.clear();
-  state_->for_each_found(
-      filter, [&](const PathSearch::Found& found) { out.push_back(state_->index->id(state_->position(found.slot))); });
+  state_->for_each_found(filter,
+                         [&](const PathSearch::Found& found) { out.push_back(state_->index->id(found.vertex)); });
 }
 
 void EdgeSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances,
@@ -82,7 +77,7 @@ void EdgeSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>
   out.clear();
   distances.clear();
   state_->for_each_found(filter, [&](const PathSearch::Found& found) {
-    out.push_back(state_->index->id(state_->position(found.slot)));
+    out.push_back(state_->index->id(found.vertex));
     distances.push_back(found.length);
   });
 }
@@ -98,9 +93,8 @@ std::span<const VertexRange> EdgeSearcher::ranges(VertexId v, double radius, con
   state_->search(v, radius, filter);
   std::vector<VertexRange>& ranges = state_->ranges;
   std::vector<VertexId> positions;
-  state_->for_each_found(filter, [&](const PathSearch::Found& found) {
-    positions.push_back(static_cast<VertexId>(state_->position(found.slot)));
-  });
+  state_->for_each_found(
+      filter, [&](const PathSearch::Found& found) { positions.push_back(static_cast<VertexId>(found.vertex)); });
   std::sort(positions.begin(), positions.end());
   ranges.clear();
   for (const VertexId i : positions) {

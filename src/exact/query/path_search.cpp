@@ -42,7 +42,7 @@ void PathSearch::follow_edges(const Found& from, std::span<const Real> xyz) {
   const LeafId leaf = leaf_of(from.slot);
   const unsigned lane = lane_of(from.slot);
   const Point start = point(xyz, from.vertex);
-  const auto follow = [&](LeafId other, VertexId first, unsigned to) {
+  const auto follow = [&](LeafId other, std::uint32_t first, unsigned to) {
     if (lengths_[first + to] <= from.length) return;
     const double length = std::sqrt(squared_distance(start, point(xyz, first + to)));
     offer({from.length + length, kLeafCapacity * other + to, first + to});
@@ -61,7 +61,7 @@ void PathSearch::follow_edges(const Found& from, std::span<const Real> xyz) {
 void PathSearch::open(LeafId leaf) {
   if (runs_[leaf] == run_) return;
   runs_[leaf] = run_;
-  const VertexId first = index_->leaf_begin[leaf];
+  const std::size_t first = index_->leaf_begin[leaf];
   const std::span lengths = std::span(lengths_).subspan(first, index_->leaf_begin[leaf + 1] - first);
   std::fill(lengths.begin(), lengths.end(), unreached_);
   for_each_lane(walls_->of(leaf), [&](unsigned lane) { lengths[lane] = 0; });

@@ -21,7 +21,7 @@ class PathSearch {
   struct Found {
     double length;
     std::uint32_t slot;
-    VertexId vertex;  // in index order
+    std::uint32_t vertex;  // in index order
   };
 
   /// Finds the vertices whose path distance from the vertex `slot` is at most `radius`, without passing `walls`.
