@@ -6,6 +6,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <unistd.h>
 
 #include "io/descriptor.h"
 #include "io/messages.h"
@@ -19,7 +20,8 @@ namespace meshhood::parts {
 class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& folder)
-      : folder_(io::uninterrupted([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); })) {
+      : path_(folder),
+        folder_(io::uninterrupted([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); })) {
     if (!folder_.is_open()) io::raise_errno(folder, errno, "open");
     if (io::uninterrupted([&] { return ::flock(folder_.number(), LOCK_EX | LOCK_NB); }) == 0) return;
     if (errno != EWOULDBLOCK) io::raise_errno(folder, errno, "lock");
@@ -31,7 +33,13 @@ class FolderLock {
   /// Closing would leave the lock to a child that was forked meanwhile.
   ~FolderLock() { static_cast<void>(::flock(folder_.number(), LOCK_UN)); }
 
+  /// Writes the names in the folder to the disk. Throws Error{IoFailure}.
+  void sync() const {
+    if (io::uninterrupted([&] { return ::fsync(folder_.number()); }) != 0) io::raise_errno(path_, errno, "sync");
+  }
+
  private:
+  std::filesystem::path path_;
   io::Descriptor folder_;
 };
 

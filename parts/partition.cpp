@@ -91,7 +91,10 @@ class Run {
     }
     stages_.begin(1.0);
     stages_.report(1.0);
-    write_manifest(folder_, result_.manifest);
+    // A run that is killed meanwhile leaves its file where the next one removes it.
+    write_manifest(temporary.path(), result_.manifest);
+    fs::rename(temporary.path() / kManifestFile, folder_ / kManifestFile);
+    lock.sync();
     return std::move(result_);
   }
 
