@@ -59,26 +59,37 @@ struct SearchLimits {
   }
 };
 
-/// Remembers what recent outward searches have met, to choose between them and the breadth-first search. Both say no
-/// now and then whatever they remember, because the next ball may lie elsewhere.
+/// Remembers what recent outward searches have met, to choose between them and the breadth-first search.
 class SearchMemory {
  public:
   /// Forgets all earlier queries, so that the order of the next answer does not depend on them.
   void clear() { *this = {}; }
 
+  /// Begins a ball. For some, all questions are answered by no whatever is remembered, because they may lie elsewhere.
+  void begin_ball() {
+    constexpr std::uint32_t kRetryInterval = 16;  // chosen
+    is_retry_ = ++balls_begun_ % kRetryInterval == 0;
+  }
+
   /// Whether the mesh was folded: many leaves at the surface of the balls were in doubt.
-  [[nodiscard]] bool is_folded() {
+  [[nodiscard]] bool is_folded() const {
     // Chosen: the share is 0.05 on a smooth scan, 0.2 on the dragon, and 0.45 to 0.6 on bodies and brains.
     constexpr double kFolded = 0.4;
-    return share_in_doubt_ > kFolded && !is_retry();
+    return share_in_doubt_ > kFolded && !is_retry_;
   }
 
   /// Whether telling other components apart took longer than uniting all that was reached.
-  [[nodiscard]] bool is_torn() {
+  [[nodiscard]] bool is_torn() const {
     // Chosen: uniting takes about as long as one step for each surface leaf. A little more, because a few balls of many
     // steps do not mean that the next is one.
     constexpr double kTorn = 1.3;
-    return steps_per_surface_leaf_ > kTorn && !is_retry();
+    return steps_per_surface_leaf_ > kTorn && !is_retry_;
+  }
+
+  /// Whether the answers had fewer leaves than telling other components apart took steps, so that the breadth-first
+  /// search, which visits the leaves of the answer alone, is faster.
+  [[nodiscard]] bool is_answer_small() const {
+    return answer_per_surface_leaf_ < steps_per_surface_leaf_ && !is_retry_;
   }
 
   /// After an outward search: `in_doubt` of its `surface` leaves were in doubt, and other components were told apart in
@@ -90,20 +101,20 @@ class SearchMemory {
     approach(steps_per_surface_leaf_, steps, surface);
   }
 
+  /// After an outward search whose answer fills `leaves` leaves.
+  void record_answer(std::size_t leaves, std::size_t surface) { approach(answer_per_surface_leaf_, leaves, surface); }
+
  private:
   void approach(double& share, std::size_t part, std::size_t all) const {
     share += (static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1)) - share) / balls_;
   }
 
-  [[nodiscard]] bool is_retry() {
-    constexpr std::uint32_t kRetryInterval = 16;  // chosen
-    return ++asked_ % kRetryInterval == 0;
-  }
-
   double balls_ = 0;
   double share_in_doubt_ = 0;
   double steps_per_surface_leaf_ = 0;
-  std::uint32_t asked_ = 0;
+  double answer_per_surface_leaf_ = 0;
+  std::uint32_t balls_begun_ = 0;
+  bool is_retry_ = false;
 };
 
 }  // namespace meshhood

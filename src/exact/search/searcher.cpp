@@ -8,8 +8,9 @@
 // visit much of the ball, all that was reached is united along its links instead. docs/design.md says why that is
 // exact.
 //
-// An answer that lies in one leaf takes none of these steps. Where the ball is small, a breadth-first search over
-// leaves is faster; and where the graph is unlike a surface, one over vertices.
+// An answer that lies in one leaf takes none of these steps. Where the ball is small, or the answer is a small part of
+// what is reached, a breadth-first search over leaves is faster; and where the graph is unlike a surface, one over
+// vertices.
 #include <algorithm>
 
 #include "meshhood/search.h"
@@ -52,16 +53,20 @@ bool Searcher::State::search_single_leaf(const Query& query) {
 
 /// Whether recent queries suggest it.
 bool Searcher::State::is_flood_faster(const Query& query) {
-  return limits.is_small_if_folded(query, *index) && memory.is_folded();
+  memory.begin_ball();
+  return (limits.is_small_if_folded(query, *index) && memory.is_folded()) ||
+         (limits.enabled && memory.is_answer_small());
 }
 
 void Searcher::State::search_outward(const Query& query) {
   reach(query);
   find_surface_leaves(query);
   was_united = (limits.enabled && memory.is_torn()) || !remove_other_components(query);
-  if (!was_united) return;
-  answer.clear();  // mutant: failed-search-leaves-answer
-  reached_components.find(query, descent.groups(), surface_leaves, states, answer);
+  if (was_united) {
+    answer.clear();  // mutant: failed-search-leaves-answer
+    reached_components.find(query, descent.groups(), surface_leaves, states, answer);
+  }
+  memory.record_answer(answer.count() / kLeafCapacity, surface_leaves.size());
 }
 
 /// Adds what was reached to the answer, without the other components. Returns false if uniting all that was reached is
