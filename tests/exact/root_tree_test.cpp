@@ -18,10 +18,10 @@ namespace {
 
 /// Whether all vertices of a group are in the sphere.
 bool holds(const IndexView& index, const FrameSphere& sphere, std::uint32_t group) {
-  const Point center{static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
   const GroupRecord& record = index.records[group];
   for (std::size_t v = record.begin.front(); v < record.begin.back(); ++v) {
-    if (std::sqrt(squared_distance(index.in_frame(v), center)) > static_cast<double>(sphere.radius)) return false;
+    if (std::sqrt(squared_distance(index.in_frame(v), center_of(sphere))) > static_cast<double>(sphere.radius))
+      return false;
   }
   return true;
 }

@@ -173,8 +173,8 @@ TEST(Rare, SheetsThatMeetAtOneSideAreConnectedOnlyInALargeBall) {
   query_everywhere(exact, mesh.size(), {1, 3, 7, 12, 15, 18, 25, 39, 41, 60});
 }
 
-TEST(Rare, ManyIntersectingNodesEndTheDescent) {
-  // Sixty sheets: the surface of the ball cuts far more nodes than on one sheet.
+TEST(Rare, BallThroughManySheetsIsSearchedByLeaves) {
+  // Sixty sheets. After the first query, the memory of the searcher prefers the breadth-first search.
   TestMesh mesh = make_grid(24, 24, false);
   for (int sheet = 1; sheet < 60; ++sheet) {
     TestMesh next = make_grid(24, 24, false);

@@ -30,7 +30,7 @@ Point Searcher::State::search(VertexId v, double radius) {
   if (radius != bounds.radius) bounds = RadiusBounds(index->frame, radius);
   const Query query(*index, v, bounds);
   answer.clear();
-  was_outward = false;
+  was_outward = was_united = false;
   if (search_single_leaf(query)) return query.center();
   const bool is_small = limits.is_small(query, *index);
   // A leaf that is not connected has no links, so the answer is a part of it.

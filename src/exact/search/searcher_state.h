@@ -49,7 +49,7 @@ struct Searcher::State {
   VertexSet answer;
   std::optional<VertexBfs> vertex_bfs;  // answers instead of `search` where the graph is unlike a surface
   bool was_outward = false;             // whether the last answer was found by `search_outward`
-  bool was_united = false;              // and whether that united what it had reached
+  bool was_united = false;              // and whether that has united what it reached
 
   State(std::shared_ptr<const IndexView> view, Isa isa)
       : index(std::move(view)),

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// What recent outward searches have met decides which search answers the next ball.
+#include "exact/search/search_limits.h"
+
+#include <gtest/gtest.h>
+
+namespace meshhood::test {
+namespace {
+
+/// Outward searches whose balls have a hundred surface leaves.
+SearchMemory memory_of(std::size_t in_doubt, std::size_t steps, std::size_t answer) {
+  SearchMemory memory;
+  for (int i = 0; i < 20; ++i) {
+    memory.begin_ball();
+    memory.record(in_doubt, 100, steps);
+    memory.record_answer(answer, 100);
+  }
+  memory.begin_ball();
+  return memory;
+}
+
+TEST(SearchMemory, SaysNothingBeforeTheFirstSearch) {
+  SearchMemory memory;
+  memory.begin_ball();
+  EXPECT_FALSE(memory.is_folded());
+  EXPECT_FALSE(memory.is_torn());
+  EXPECT_FALSE(memory.is_answer_small());
+}
+
+TEST(SearchMemory, TellsAFoldedMeshByTheLeavesInDoubt) {
+  EXPECT_FALSE(memory_of(20, 20, 500).is_folded());
+  EXPECT_TRUE(memory_of(60, 60, 500).is_folded());
+}
+
+TEST(SearchMemory, ComparesTheStepsWithUnitingAndWithTheAnswer) {
+  const SearchMemory smooth = memory_of(5, 5, 75);
+  EXPECT_FALSE(smooth.is_torn());
+  EXPECT_FALSE(smooth.is_answer_small());
+  const SearchMemory small_answer = memory_of(60, 100, 30);
+  EXPECT_FALSE(small_answer.is_torn());
+  EXPECT_TRUE(small_answer.is_answer_small());
+  const SearchMemory torn = memory_of(60, 200, 900);
+  EXPECT_TRUE(torn.is_torn());
+  EXPECT_FALSE(torn.is_answer_small());
+}
+
+TEST(SearchMemory, IsNotAskedForOneBallInSixteen) {
+  SearchMemory memory = memory_of(60, 200, 30);
+  std::size_t answered_no = 0;
+  for (int i = 0; i < 160; ++i) {
+    memory.begin_ball();
+    EXPECT_EQ(memory.is_folded(), memory.is_torn());
+    EXPECT_EQ(memory.is_folded(), memory.is_answer_small());
+    answered_no += static_cast<std::size_t>(!memory.is_folded());
+  }
+  EXPECT_EQ(answered_no, 10U);
+  memory.clear();
+  memory.begin_ball();
+  EXPECT_FALSE(memory.is_answer_small());
+}
+
+}  // namespace
+}  // namespace meshhood::test
