@@ -5,9 +5,9 @@ import os
 import platform
 import time
 
-# Above this share of the processors, somebody else was at work.
+# Above this share of the processors, the machine counts as busy.
 BUSY = 0.25
-WAITED = 2  # seconds, to see what runs without us; the load average would tell of what we ran just before
+WAITED = 2  # seconds in which other programs are observed; the load average would include our own last run
 
 
 class Watched:

@@ -15,12 +15,13 @@ function(meshhood_own_target target)
     CXX_EXTENSIONS OFF COMPILE_WARNING_AS_ERROR ${meshhood_IS_TOP_LEVEL})
 endfunction()
 
-# For large programs that spend little time in their own code: optimizing them takes longer than it saves.
+# For large programs that spend little time in their own code: optimizing them takes longer than it saves. -Og compiles
+# in three quarters of the time of -O1, and the tests run as fast.
 function(meshhood_compile_quickly target)
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     target_compile_options(${target} PRIVATE -O0)
   else()
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Og>)
   endif()
 endfunction()
 

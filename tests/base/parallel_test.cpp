@@ -22,12 +22,12 @@ namespace meshhood::test {
 namespace {
 
 constexpr std::array kThreads{1U, 2U, 3U, 8U};
-const Progress kNobody;
+const Progress kNoProgress;
 
 TEST(ParallelFor, ChunksCoverAllNumbersAndDoNotDependOnTheThreads) {
   for (const unsigned threads : kThreads) {
     for (const std::size_t count : {0U, 1U, 9U, 10U, 11U, 1000U}) {
-      TaskContext task(threads, kNobody, 0);
+      TaskContext task(threads, kNoProgress, 0);
       std::vector<std::atomic<int>> visits(count);
       task.parallel_for(count, 10, [&](unsigned thread, std::size_t begin, std::size_t end) {
         EXPECT_LT(thread, threads);
@@ -42,7 +42,7 @@ TEST(ParallelFor, ChunksCoverAllNumbersAndDoNotDependOnTheThreads) {
 
 TEST(ParallelFor, PassesOnOneExceptionOfMany) {
   for (const unsigned threads : kThreads) {
-    TaskContext task(threads, kNobody, 0);
+    TaskContext task(threads, kNoProgress, 0);
     EXPECT_THROW(task.parallel_for(1000, 1, [](unsigned, std::size_t, std::size_t) { throw std::bad_alloc(); }),
                  std::bad_alloc);
   }
@@ -50,7 +50,7 @@ TEST(ParallelFor, PassesOnOneExceptionOfMany) {
 
 TEST(ParallelFor, BeginsNoChunkAfterAnException) {
   for (const unsigned threads : kThreads) {
-    TaskContext task(threads, kNobody, 0);
+    TaskContext task(threads, kNoProgress, 0);
     std::atomic<std::size_t> after{0};
     std::atomic<bool> thrown{false};
     EXPECT_THROW(task.parallel_for(100000, 1,
@@ -66,9 +66,9 @@ TEST(ParallelFor, BeginsNoChunkAfterAnException) {
 }
 
 TEST(TaskContext, UsesAsManyThreadsAsTheProcessorHas) {
-  EXPECT_GE(TaskContext(0, kNobody, 0).threads(), 1U);
-  EXPECT_EQ(TaskContext(kMaxThreads, kNobody, 0).threads(), kMaxThreads);
-  expect_refused(ErrorCode::InvalidOption, "threads is 1025", [] { const TaskContext task(1025, kNobody, 0); });
+  EXPECT_GE(TaskContext(0, kNoProgress, 0).threads(), 1U);
+  EXPECT_EQ(TaskContext(kMaxThreads, kNoProgress, 0).threads(), kMaxThreads);
+  expect_refused(ErrorCode::InvalidOption, "threads is 1025", [] { const TaskContext task(1025, kNoProgress, 0); });
 }
 
 TEST(TaskContext, ReportsWhatWasDone) {

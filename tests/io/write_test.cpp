@@ -221,14 +221,14 @@ TEST_F(WritePly, TheTemporaryFileOfAPrivateFileIsPrivate) {
 
 TEST_F(WritePly, KeepsTheOwnerWherePermitted) {
   if (::geteuid() != 0) GTEST_SKIP() << "only root may";
-  constexpr uid_t kSomebody = 1234;
+  constexpr uid_t kOtherUser = 1234;
   ASSERT_EQ(scratch.write("out.ply", "old"), file);
-  ASSERT_EQ(::chown(file.c_str(), kSomebody, kSomebody), 0);
+  ASSERT_EQ(::chown(file.c_str(), kOtherUser, kOtherUser), 0);
   io::write_ply(file, triangle);
   struct stat status = {};
   ASSERT_EQ(::stat(file.c_str(), &status), 0);
-  EXPECT_EQ(status.st_uid, kSomebody);
-  EXPECT_EQ(status.st_gid, kSomebody);
+  EXPECT_EQ(status.st_uid, kOtherUser);
+  EXPECT_EQ(status.st_gid, kOtherUser);
 }
 
 TEST_F(WritePly, CancelledAtAnyReportKeepsTheOldFile) {

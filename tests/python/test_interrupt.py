@@ -31,7 +31,7 @@ def curvature(index, r, **options):
 
 
 def without_end(index, method="exact", progress=None):
-    """Batches that nobody waits for, in little memory."""
+    """Batches without a receiver, in little memory."""
     while True:
         index.query_ball_count(None, SIDE / 3.0, method=method, progress=progress)
 
@@ -152,7 +152,7 @@ def test_ctrl_c_in_unpickling(index, ctrl_c):
 def test_ctrl_c_while_waiting_for_a_pipe(tmp_path, ctrl_c, read):
     pipe = tmp_path / "pipe.ply"
     os.mkfifo(pipe)
-    with open(pipe, "r+b", buffering=0), nothing_stays_open():  # a writer who never writes
+    with open(pipe, "r+b", buffering=0), nothing_stays_open():  # a writer that never writes
         seconds = ctrl_c(lambda: read(pipe))
     print(f"{read.__name__}: KeyboardInterrupt after {1000 * seconds:.0f} ms")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Who owns the memory, and who may change it when (reliability rows P2 to P4)."""
+"""Ownership of memory and the times at which it may change (reliability rows P2 to P4)."""
 
 import gc
 import multiprocessing

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# No byte that was never given a value reaches a file, for it may be anybody's, and another one each time: row F12 of the
-# catalogue. Nor does any decision hang on one. And such a byte in the file of a control: else valgrind would be blind.
+# No uninitialized byte reaches a file, and no branch depends on one (row F12 of the catalogue): such a byte may hold
+# private data and differs from run to run. The control writes such a byte, to show that valgrind finds it.
 # Usage: no_uninitialized_bytes.sh CONTROL MESHHOOD
 set -eu
 
