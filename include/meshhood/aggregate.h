@@ -107,13 +107,13 @@ struct AggregateOptions {
 /// Sums are exact to 1e-14 of the sum of the absolute terms (1e-13 with a smoothing kernel), whatever the size of the
 /// neighborhood, and have the same bits for any number of threads and on every processor. They may differ in the last
 /// bits if the same vertex is queried in another list. Minimum, maximum and count are exact. Values are scaled by a
-/// power of two before they are squared or added, so that nothing overflows but a result too large for a double;
-/// infinite values give what IEEE arithmetic gives.
+/// power of two before they are squared or added, so that only a result too large for a double overflows; infinite
+/// values give what IEEE arithmetic gives.
 ///
 /// Cost: the neighborhoods of one leaf are found together (see joint.h), and vertices that they have in common are read
 /// once for all of them, most of them as precomputed sums. Memory: for up to 16 channels at a time 9 bytes for each
-/// vertex and channel, and as much for the weights; with a kernel 14 bytes instead. Time and memory of
-/// `for_each_packet` besides.
+/// vertex and channel, and as much for the weights; with a kernel 14 bytes instead. The time and memory of
+/// `for_each_packet` are added.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming row, radius or vertex. The
 /// contents of `result` are then unspecified.

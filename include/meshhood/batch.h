@@ -49,7 +49,7 @@ class SearchMethod {
   /// #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
-  /// For the batch itself.
+  /// Used by the batches.
   [[nodiscard]] const SearcherFactory& searchers() const { return *searchers_; }
 
  private:

@@ -11,7 +11,7 @@
 /// Curvature from measures instead of a fit. See docs/curvature.md.
 namespace meshhood {
 
-/// Row by row of the query; all but the area are NaN where the area is 0.
+/// One value for each row of the query. All but the area are NaN where the area is 0.
 struct CorrectedCurvatures {
   std::vector<double> area;      ///< #rows: of the patch, corrected by the normals
   std::vector<double> mean;      ///< #rows: H, in 1 / unit of the positions, positive where convex, as in `Curvatures`
@@ -38,11 +38,13 @@ struct CorrectedCurvatureOptions {
 /// triangles around its barycenter, which has the mean normal of the corners. A face with a corner that has no normal
 /// counts 0.
 ///
-/// No vertex is fitted, filtered or extended: robust where the mesh is noisy, and defined for a radius of 0.
+/// Nothing is fitted, and neighborhoods are neither filtered nor extended. The measures are robust on noisy meshes, and
+/// defined for a radius of 0.
 ///
 /// faces     those of the mesh that the index was built from.
 /// vertices  as of a batch; radius of all rows.
-/// The same bits for any number of threads and on every processor. Time as of `aggregate` with nine channels.
+/// The result has the same bits for any number of threads and on every processor. Takes the time of `aggregate` with
+/// nine channels.
 /// Throws Error{InvalidMesh, TooLarge, VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}.
 [[nodiscard]] CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const FacesView& faces,
                                                        const BatchVertices& vertices, double radius,

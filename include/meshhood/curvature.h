@@ -24,8 +24,8 @@ namespace meshhood {
 /// vertex.
 class CurvatureIndex {
  public:
-  /// The normal of a vertex is the sum of the vector areas of its faces, normalized. Of a triangle that is half the
-  /// cross product of two edges, of a polygon Newell's sum.
+  /// The normal of a vertex is the sum of the vector areas of its faces, normalized. The vector area of a triangle is
+  /// half the cross product of two edges. That of a polygon is Newell's sum.
   ///
   /// mesh    the mesh that the index was built from, with faces; borrowed for the call.
   /// Throws Error{InvalidMesh, TooLarge} if `mesh` is invalid, has no faces, or has other positions than the index.
@@ -66,9 +66,9 @@ enum class ShapeOperator : std::uint8_t {
   /// are tangent to the quadric. The result does not depend on the numbering of the vertices.
   Exact,
 
-  /// The matrix that libigl uses, which differs where d or e is not 0: its two corners are both ME - LF, where the
-  /// shape operator has ME - LF and MG - NF. The error is of second order in the slope of the fit against the vertex
-  /// normal, and depends on the numbering. The directions lie in the plane of the vertex normal.
+  /// The matrix that libigl uses, which differs where d or e is not 0: both of its off-diagonal elements are ME - LF;
+  /// those of the shape operator are ME - LF and MG - NF. The error is of second order in the slope of the fit against
+  /// the vertex normal, and depends on the numbering. The directions lie in the plane of the vertex normal.
   Libigl,
 };
 
@@ -94,15 +94,14 @@ enum class CurvatureState : std::uint8_t {
 };
 
 struct CurvatureOptions {
-  /// Fit only the vertices whose normal makes an angle of less than 90 degrees with that of the query vertex, if they
+  /// Fit only the vertices whose normal makes an angle of less than 90 degrees with that of the query vertex, if there
   /// are at least six. Keeps the other side of a fold or a thin wall out of the fit.
   bool filter = true;
 
-  /// The neighborhood has the vertices nearer than the radius, as in libigl; otherwise a vertex at exactly the radius
-  /// counts.
+  /// If true, a vertex at exactly the radius is outside, as in libigl. Otherwise it is inside.
   bool open_ball = false;
 
-  /// Of a quadric; that of a jet is `Exact`.
+  /// For the quadric. A jet always uses `Exact`.
   ShapeOperator shape_operator = ShapeOperator::Exact;
 
   CurvatureFit fit = CurvatureFit::Quadric;
@@ -121,15 +120,15 @@ struct CurvatureOptions {
 /// Throws Error{InvalidMesh, TooLarge}.
 [[nodiscard]] double libigl_radius(const MeshView& mesh, double edges);
 
-/// Principal curvatures, row by row of the query.
+/// Principal curvatures, one entry for each row of the query.
 struct Curvatures {
   /// #rows, in 1 / unit of the positions, k1 >= k2. Positive where the surface is convex, seen from the side to which
   /// the normals point: 1 / R on a sphere with normals outward.
   std::vector<double> k1;
   std::vector<double> k2;
 
-  /// #rows by 3: the directions of k1 and k2. Unit vectors, orthogonal to each other; of either sign the one whose
-  /// component of largest magnitude is positive.
+  /// #rows by 3: the directions of k1 and k2. Unit vectors, orthogonal to each other, with the sign that makes the
+  /// component of largest magnitude positive.
   std::vector<double> d1;
   std::vector<double> d2;
 
@@ -139,10 +138,9 @@ struct Curvatures {
 /// Fits a quadric through the query vertex to its neighborhood by least squares (Panozzo et al., "Efficient
 /// Multi-scale Curvature and Crease Estimation", GraVisMa 2010), or a jet (see `CurvatureFit`), and returns its
 /// principal curvatures at that vertex.
-/// A neighborhood of fewer than six vertices is extended: by the nearest vertex that is linked to it, until there are
+/// A neighborhood of fewer than six vertices is extended by the nearest vertex that an edge joins to it, until it has
 /// six.
-///
-/// query    as of a batch; a radius for all rows or for each.
+/// query    as for a batch: one radius for all rows, or one for each row.
 /// The result has the same bits for any number of threads and on every processor. O(size of the neighborhoods) in the
 /// worst case; where many vertices of a leaf are queried, the common part of their neighborhoods is summed once.
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.

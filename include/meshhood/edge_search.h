@@ -15,9 +15,9 @@ namespace meshhood {
 
 /// Finds vertices by their path distance along the edges, with an `Index`. The *path distance* of a vertex `w` from `v`
 /// is the least length of a path of edges from `v` to `w`. The length of an edge is the distance of its ends (see
-/// `distance`); the length of a path is the sum of those of its edges, added in double in the order of the path. This
-/// sum never decreases where a summand grows, so that the algorithm of Dijkstra (1959) finds the least of them to the
-/// last bit.
+/// `distance`); the length of a path is the sum of those of its edges, added in double in the order of the path. The
+/// rounded sum never decreases if a summand grows, so the algorithm of Dijkstra (1959) finds the least sum to the last
+/// bit.
 ///
 /// v       in [0, #V).
 /// radius  >= 0 or infinite, in the unit of the positions; a vertex whose path distance is exactly `radius` is inside.
@@ -41,7 +41,7 @@ class EdgeSearcher {
   /// #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
-  /// That of the index.
+  /// The permutation of the index.
   [[nodiscard]] std::span<const VertexId> permutation() const;
 
   /// out     replaced, its capacity reused: the vertices whose path distance is at most `radius`, ascending by path

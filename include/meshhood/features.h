@@ -52,7 +52,7 @@ struct FeatureOptions {
 /// result (see `CurvatureState`), where a row has no normal, or where the neighborhood has no area.
 ///
 /// Each radius has a neighborhood of its own. Time of `curvatures`, of `principal_components`, or of both, for each
-/// radius, as the kinds require. The same bits for any number of threads and on every processor.
+/// radius, as the kinds require. The result has the same bits for any number of threads and on every processor.
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}. A radius must be > 0 and finite.
 [[nodiscard]] std::vector<double> features(const CurvatureIndex& surface, const BatchVertices& vertices,
                                            std::span<const double> radii, const FeatureOptions& options = {});
@@ -65,10 +65,11 @@ struct FeatureOptions {
 /// `count` radii from `smallest` to `largest` with a constant ratio. Throws Error{InvalidRadius, InvalidOption}.
 [[nodiscard]] std::vector<double> geometric_radii(double smallest, double largest, std::size_t count);
 
-/// Row by row: over how many scales a feature lasts.
+/// Over how many scales a feature lasts, one entry for each row.
 struct Persistence {
   /// #rows: the length of the longest run of consecutive radii at which the feature is at least as strong as the
-  /// threshold and keeps its sign; times -1 if that is negative. Of several runs the one with the smallest radii.
+  /// threshold and keeps its sign; times -1 if that is negative. If several runs have this length, the one with the
+  /// smallest radii counts.
   std::vector<std::int32_t> scales;
   std::vector<double> strength;  ///< #rows: the feature of largest magnitude in this run; 0 if there is none
   std::vector<double> radius;    ///< #rows: the radius at which it has this strength; 0 if there is none

@@ -32,7 +32,8 @@ class VertexMask {
 
 /// Restricts one search. A mask is read for the leaves that the search reaches, and not copied.
 struct Filter {
-  /// The search does not pass these vertices, and they do not belong to its answer: as if they were not in the mesh.
+  /// The search does not pass these vertices, and they do not belong to its answer. The result is as if they were not
+  /// in the mesh.
   VertexMask walls = {};
 
   /// The search passes these vertices, but they do not belong to its answer.

@@ -75,7 +75,7 @@ class Index {
   std::shared_ptr<IndexView> view_;  // searchers share it
 };
 
-/// Builds the index. The same mesh gives the same index, for any number of threads.
+/// Builds the index. The same mesh gives the same index for any number of threads.
 ///
 /// mesh    any polygonal mesh (see `validate`); borrowed for the call.
 /// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}. TooLarge also beyond 2^27 leaves; a leaf has at least

@@ -71,8 +71,8 @@ struct PacketAnswer {
   std::span<const double> radii;       ///< of each row
   QueryWord queries = 0;               ///< all rows
 
-  /// Whether a group begins. The cores of earlier packets are then forgotten, and their numbers used again. The packets
-  /// of a group come one after the other, to one visitor.
+  /// Whether a group begins. The cores of earlier packets are then no longer valid, and their numbers are used again.
+  /// The packets of a group come one after the other, to one visitor.
   bool begins_group = true;
 
   std::span<const CoreLeaves> cores;

@@ -10,7 +10,7 @@
 #include "meshhood/progress.h"
 
 /// Moments of neighborhoods: sums of powers of coordinates, from which fits of polynomials, principal components and
-/// integral invariants follow without a look at single vertices. See docs/curvature.md.
+/// integral invariants are computed without another pass over the vertices. See docs/curvature.md.
 ///
 ///     const std::vector<double> areas = meshhood::vertex_areas(mesh);
 ///     const auto patches = meshhood::principal_components(index, {.radius = 2.5}, {.weights = areas});
@@ -45,32 +45,34 @@ struct MomentOptions {
 /// M_ijk = sum of w x^i y^j z^k over the exact neighborhood of each row, where x, y, z are the coordinates relative to
 /// the query vertex and w the weights. #rows by `moment_count(degree)`, in the order of `moment_column`.
 ///
-/// Sums are about a point near the query vertex, in a unit in which the neighborhood is about 1, and then moved: they
-/// are right to 1e-14 of the sum of w |p|^(i + j + k), wherever the mesh lies. A power of its coordinates that leaves
-/// the range of doubles is 0 or infinite.
+/// Sums are computed about a point near the query vertex, in a unit in which the size of the neighborhood is about 1,
+/// and then shifted to the query vertex. They are accurate to 1e-14 of the sum of w |p|^(i + j + k), wherever the mesh
+/// lies. A power of a coordinate outside the range of doubles becomes 0 or infinite.
 ///
-/// The same bits for any number of threads and on every processor. Time as of `curvatures`.
+/// The result has the same bits for any number of threads and on every processor. Takes the time of `curvatures`.
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming row or vertex.
 [[nodiscard]] std::vector<double> moments(const Index& index, const BatchQuery& query,
                                           const MomentOptions& options = {});
 
-/// How the vertices of each neighborhood are distributed, row by row of the query. With areas as weights, these are
-/// integral invariants: the area, the barycenter and the covariance of the patch of surface inside the ball.
+/// How the vertices of each neighborhood are distributed, one entry for each row of the query. With areas as weights,
+/// these are integral invariants: the area, the barycenter and the covariance of the patch of surface inside the ball.
 struct PrincipalComponents {
   std::vector<double> weight;     ///< #rows: the sum of the weights
   std::vector<double> center;     ///< #rows by 3: the weighted mean of the positions, relative to the query vertex
   std::vector<double> variances;  ///< #rows by 3, ascending: the eigenvalues of the weighted covariance about `center`
 
-  /// #rows by 3 by 3: for each variance the direction of its axis. Unit vectors, orthogonal; of either sign the one
-  /// whose component of largest magnitude is positive. The first is the normal of the plane that fits best.
+  /// #rows by 3 by 3: for each variance the direction of its axis. Unit vectors, orthogonal, with the sign that makes
+  /// the component of largest magnitude positive. The first is the normal of the plane that fits best.
   std::vector<double> axes;
 };
 
-/// All but the weight are NaN where the weights of a neighborhood sum to 0. Arguments, cost and errors as of `moments`.
+/// All but the weight are NaN where the weights of a neighborhood sum to 0. Arguments, cost and errors are those of
+/// `moments`.
 [[nodiscard]] PrincipalComponents principal_components(const Index& index, const BatchQuery& query,
                                                        const MomentOptions& options = {});
 
-/// The share of the least variance in all (Pauly, Gross, Kobbelt 2002): 0 on a plane, at most 1/3. NaN where all are 0.
+/// The least variance divided by the sum of the three (Pauly, Gross, Kobbelt 2002): 0 on a plane, at most 1/3. NaN
+/// where all are 0.
 [[nodiscard]] double surface_variation(double least, double middle, double largest);
 
 }  // namespace meshhood

@@ -141,7 +141,7 @@ class Searcher {
   /// #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
-  /// That of the index.
+  /// The permutation of the index.
   [[nodiscard]] std::span<const VertexId> permutation() const;
 
   /// out     replaced, its capacity reused: ids in no stated order, without duplicates, `v` included.
@@ -157,7 +157,7 @@ class Searcher {
   /// The number of vertices of the neighborhood.
   [[nodiscard]] std::size_t count(VertexId v, double radius);
 
-  /// About the last successful query.
+  /// Statistics of the last successful query.
   [[nodiscard]] const QueryProfile& profile() const { return profile_; }
 
  private:

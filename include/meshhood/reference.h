@@ -19,7 +19,7 @@ namespace meshhood {
 /// v       in [0, #V).
 /// radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` is inside.
 ///
-/// A query costs O(vertices and edges of the result). Nothing is allocated but for the result.
+/// A query costs O(vertices and edges of the result). Only the result is allocated.
 ///
 /// Use one object per thread. It owns a copy of the positions, 20 bytes per vertex (36 for double), and the graph
 /// unless that was given.

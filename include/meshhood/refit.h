@@ -29,8 +29,8 @@ namespace meshhood {
 /// tree. It shares the rest of the memory with `index`; if that was loaded or mapped, it keeps the bytes of the file
 /// alive.
 ///
-/// Throws Error{InvalidMesh, InvalidOption, Cancelled}: positions of other than #V vertices, or one that `validate`
-/// rejects, by its id. O(#V + #E log(valence)), about a third of `build`.
+/// Throws Error{InvalidMesh, InvalidOption, Cancelled}: InvalidMesh if there are not #V positions, or if `validate`
+/// rejects one, naming the vertex. O(#V + #E log(valence)), about a third of `build`.
 [[nodiscard]] Index refit(const Index& index, const PositionsView& positions, const BuildOptions& options = {});
 
 /// The same if only the vertices `changed` have moved. Positions of others are not read.
@@ -38,9 +38,10 @@ namespace meshhood {
 /// positions  as above; may be float for an index in double, but not the reverse.
 /// changed    ids of vertices, in any order; duplicates are allowed. Borrowed for the call; read once.
 ///
-/// Of all that depends on the positions, the first makes a copy: 14 bytes a vertex in float, 26 in double. The second
-/// works in the memory of `index`, unless a searcher still uses that: a searcher keeps the state for which it was made,
-/// and the call then makes a copy. So destroy searchers first. If the call fails, `index` is as it was.
+/// The first overload copies everything that depends on the positions: 14 bytes a vertex in float, 26 in double. The
+/// second works in the memory of `index`. If a searcher still uses that memory, the second makes the copy too, because
+/// a searcher keeps the state for which it was made. So destroy searchers first. If the call fails, `index` is as it
+/// was.
 ///
 /// If a vertex leaves the cube in which the tree is stored, all bounds are computed again, as above.
 ///

@@ -13,21 +13,21 @@
 
 namespace meshhood {
 
-/// One touch of a brush.
+/// One step of a brush stroke: a start and a radius.
 struct Dab {
   Start start;
   double radius;
 };
 
 /// Finds regions by an `Index`. The *region* of a start and a radius is the set of vertices that are connected to a
-/// seed by a path of edges whose vertices, both ends included, all lie within the radius of the center and are no
-/// walls; without the ignored vertices. For a vertex as start and no filter it is the neighborhood (see `Searcher`).
+/// seed by a path of edges whose vertices, both ends included, all lie within the radius of the center and are not
+/// walls. Ignored vertices are left out. If the start is a vertex and there is no filter, the region is the
+/// neighborhood (see `Searcher`).
 ///
 /// radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` is inside.
 /// filter  see `Filter`.
-///
-/// The same vertices on every processor. The cost grows with the number of leaves of the result. Nothing is allocated
-/// once the buffers have grown.
+/// The result is the same set on every processor. The cost grows with the number of leaves of the result. Nothing is
+/// allocated once the buffers have grown.
 ///
 /// Use one object per thread: it owns scratch memory, about 64 bytes per leaf. It shares the memory of the
 /// index, which may be moved, refitted or destroyed meanwhile: answers are those of the index as it was.
@@ -55,15 +55,15 @@ class RegionSearcher {
   /// The union of the regions of `dabs`, such as those of a brush stroke.
   ///
   /// out     replaced: ids in no stated order, without duplicates.
-  /// A message names the dab. The cost is that of the regions one by one.
+  /// An error names the dab. The cost is that of the single regions together.
   void stroke(std::span<const Dab> dabs, std::vector<VertexId>& out, const Filter& filter = {});
 
   /// The regions of one start for several radii, in one pass.
   ///
   /// radii   strictly ascending.
   /// out     replaced: the region of the largest radius, ring by ring. Ring `i` has the vertices of the region of
-  ///         `radii[i]` that the region of `radii[i - 1]` does not have. A vertex may be near and belong to a late
-  ///         ring, because only the wider ball connects it. No stated order within a ring.
+  ///         `radii[i]` that the region of `radii[i - 1]` does not have. A near vertex may belong to a late ring if
+  /// only the wider ball connects it. No stated order within a ring.
   /// counts  replaced, one for each radius: the region of `radii[i]` is the first `counts[i]` ids of `out`.
   void nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& out,
               std::vector<std::size_t>& counts, const Filter& filter = {});
@@ -71,15 +71,15 @@ class RegionSearcher {
   /// Whether the region has vertex `w`. Costs at most as much as the region, and less if the search reaches `w` early.
   [[nodiscard]] bool contains(const Start& start, VertexId w, double radius, const Filter& filter = {});
 
-  /// The smallest radius whose region has vertex `w`; infinite if there is none. It is the least, over all paths from a
-  /// seed to `w`, of the largest distance of a vertex of the path from the center (the bottleneck of the best path).
+  /// The smallest radius whose region has vertex `w`; infinite if there is none. It is the minimum, over all paths from
+  /// a seed to `w`, of the largest distance between a vertex of the path and the center (a bottleneck shortest path).
   ///
   /// Costs about as much as the region of the result.
   [[nodiscard]] double connecting_radius(const Start& start, VertexId w, const Filter& filter = {});
 
-  /// The `k` nearest connected vertices: the first `k` in the order of their connecting radii; vertices of equal
-  /// connecting radius in the order of their distances from the center, then of their ids. So the answer for a smaller
-  /// `k` is the beginning of that for a larger one. Fewer than `k` if no more are connected.
+  /// The `k` nearest connected vertices: the first `k`, ordered by connecting radius, then by distance from the center,
+  /// then by id. So the answer for a smaller `k` is the beginning of that for a larger one. Fewer than `k` if no more
+  /// are connected.
   ///
   /// out     replaced: ids in that order.
   /// radii   replaced: the connecting radius of each vertex.

@@ -72,8 +72,8 @@ class RegionMesher {
   /// are loops. On consistently oriented faces the region lies to the left, seen from the side on which their corners
   /// run counterclockwise.
   ///
-  /// A face with fewer than three corners is no surface and adds nothing. Polylines, and the first point of a loop,
-  /// come in a fixed order for each set of `ids`.
+  /// A face with fewer than three corners adds nothing. Polylines, and the first point of a loop, come in a fixed order
+  /// for each set of `ids`.
   ///
   /// Throws also Error{InvalidRadius}, and Error{InvalidOption} if a coordinate of `center` is not finite or a vertex
   /// of `ids` at the rim lies outside the ball.

@@ -12,9 +12,9 @@
 
 namespace meshhood {
 
-/// Finds exact neighborhoods by an `Index`: the connected component that holds `v` of the mesh inside the ball of
-/// `radius` around `v`. More precisely, of the graph induced by the vertices in the ball. The result is the same set as
-/// that of `ReferenceSearcher`, on every processor.
+/// Finds exact neighborhoods by an `Index`: the connected component, containing `v`, of the part of the mesh inside the
+/// ball of `radius` around `v`. More precisely, it is a component of the graph induced by the vertices in the ball. The
+/// result is the same set as that of `ReferenceSearcher`, on every processor.
 ///
 /// v       in [0, #V).
 /// radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` is inside.
@@ -26,8 +26,8 @@ namespace meshhood {
 /// Use one object per thread: it owns scratch memory, about 22 bytes per leaf. It shares the memory of the
 /// index, which may be moved, refitted or destroyed meanwhile: answers are those of the index as it was.
 ///
-/// A graph that is unlike a surface (around a vertex with very many neighbors, or with edges at random) is searched as
-/// `ReferenceSearcher` does. Each searcher then owns 20 bytes per vertex more (36 for double), and all of them share a
+/// A graph that is unlike a surface (with a vertex that has very many neighbors, or with random edges) is searched as
+/// by `ReferenceSearcher`. Each searcher then owns 20 bytes per vertex more (36 for double), and all of them share a
 /// copy of the graph, which the index keeps from the first one on.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius}; arguments are then unchanged.
@@ -42,7 +42,7 @@ class Searcher {
   /// #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
-  /// That of the index.
+  /// The permutation of the index.
   [[nodiscard]] std::span<const VertexId> permutation() const;
 
   /// out     replaced, its capacity reused: ids in no stated order, without duplicates, `v` included.

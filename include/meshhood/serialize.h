@@ -75,7 +75,7 @@ struct MapOptions {
 [[nodiscard]] Index map(std::span<const std::byte> bytes, std::shared_ptr<const void> owner,
                         const MapOptions& options = {});
 
-/// Which of the two indexes.
+/// The kind of a saved index.
 enum class IndexKind : std::uint8_t {
   Exact = 1,  ///< `Index`
   Paper = 2,  ///< `paper::Index`

@@ -10,7 +10,7 @@
 
 namespace meshhood {
 
-/// A point of space, in the unit of the positions.
+/// A point in space, in the unit of the positions.
 using SpacePoint = std::array<double, 3>;
 
 /// Where a search starts: the center of its balls, and its seeds, the vertices from which it spreads. Borrows the
@@ -20,7 +20,7 @@ class Start {
   /// Vertex `v` is the center and the only seed.
   Start(VertexId v) : vertex_(v) {}
 
-  /// center  any point of space: finite, no coordinate beyond 2^500 in magnitude.
+  /// center  any point in space: finite, no coordinate beyond 2^500 in magnitude.
   /// seeds   in [0, #V), in any order; repeats are allowed. A seed outside a ball does not count for that ball.
   Start(const SpacePoint& center, std::span<const VertexId> seeds) : center_(center), seeds_(seeds) {}
 

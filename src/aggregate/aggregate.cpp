@@ -96,7 +96,7 @@ SignalBlock make_block(const IndexView& index, SignalView signal, std::size_t fi
                        const AggregateQuery& query) {
   const bool compares = query.reduce == Reduce::Minimum || query.reduce == Reduce::Maximum;
   if (compares || query.reduce == Reduce::Count) signal.weights = {};
-  // A minimum handles NaN itself, for 0 in place of a missing value would be one of the values.
+  // A minimum handles NaN itself: a 0 in place of a missing value would take part in the minimum.
   return {index, signal, first, count, compares ? MissingValues::Propagate : query.missing, !compares};
 }
 
@@ -123,7 +123,7 @@ std::unique_ptr<Reduction> make_reduction(const IndexView& index, const NodeTree
                                               query.kernel == SmoothingKernel::Biweight);
 }
 
-/// Where the numbers of one radius and some channels go.
+/// The destination of the results of one radius and some channels.
 struct Destination {
   double* first;       // of the radius and the first of the channels
   std::size_t stride;  // from row to row: all channels

@@ -12,7 +12,7 @@
 namespace meshhood {
 namespace {
 
-// In balls so much smaller than the frame, products of four offsets might underflow.
+// In smaller balls, relative to the frame, products of four offsets might underflow.
 constexpr double kLeastRadius = 0x1p-200;
 
 class KernelSumReducer final : public PacketReducer {

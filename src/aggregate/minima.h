@@ -12,7 +12,7 @@
 
 namespace meshhood {
 
-/// The minimum; of negated values for the maximum. NaN marks a missing value, or spoils what it belongs to.
+/// The minimum; of negated values for the maximum. NaN marks a missing value, or propagates to the result.
 class MinimumReduction final : public Reduction {
  public:
   /// The block is not scaled, and its values were not omitted.

@@ -23,7 +23,7 @@ void add(Moments& sum, const Moments& moments) {
   for (std::size_t i = 0; i < 3; ++i) sum.third[i] += moments.third[i];
 }
 
-/// Of a value `s` at the offset `q`.
+/// The moments of a value `s` at the offset `q`.
 Moments moments_of(double s, const Point& q) {
   const double square = dot(q, q);
   const Point first = s * q;

@@ -20,7 +20,7 @@ class PacketReducer {
   PacketReducer& operator=(const PacketReducer&) = delete;
   virtual ~PacketReducer() = default;
 
-  /// Forgets the last packet, and begins with the rows of another.
+  /// Begins with the rows of another packet.
   virtual void begin(const PacketAnswer& packet) = 0;
 
   /// Adds all vertices of a node to the rows of `queries`.
@@ -29,7 +29,7 @@ class PacketReducer {
   /// Adds each vertex of a leaf to the rows of its word.
   virtual void add_leaf(const VertexRange& vertices, const QueryWord* queries) = 0;
 
-  /// Writes the result of a row, a number for each channel. Called after all has been added.
+  /// Writes the result of a row, a number for each channel. Called after everything has been added.
   virtual void write(std::size_t row, std::span<double> channels) = 0;
 };
 

@@ -11,7 +11,7 @@ namespace {
 // overflow, and squares of numbers 2^800 times smaller do not underflow.
 constexpr int kLargestExponent = 300;
 
-/// By what power of two to multiply a column.
+/// The power of two by which a column is multiplied.
 int exponent_of(const Column& column) {
   double largest = 0;
   for (const double value : column) {

@@ -34,7 +34,7 @@ class SignalBlock {
   /// Multiplies the values by their weights.
   void weight_values();
 
-  /// Values were multiplied by two to this power, and weights likewise.
+  /// The exponents of the powers of two by which values and weights were multiplied.
   [[nodiscard]] int exponent(std::size_t channel) const { return exponents_[channel]; }
   [[nodiscard]] int weight_exponent() const { return weight_exponent_; }
 

@@ -17,8 +17,8 @@ namespace meshhood {
 /// The weight, the mean and the sum of squared deviations from the mean, of a set of values. Two sets are merged
 /// without the cancellation of `sum of x^2 - n mean^2`: T. F. Chan, G. H. Golub, R. J. LeVeque, "Algorithms for
 /// Computing the Sample Variance: Analysis and Recommendations", The American Statistician 37 (1983), eq. 2.1. The mean
-/// is kept as `mean + low`, for where it is large compared with the deviations, its rounding would spoil the difference
-/// of means.
+/// is kept as `mean + low`, because where it is large compared with the deviations, its rounding error would dominate
+/// the difference of means.
 struct Spread {
   double weight = 0;
   double mean = 0;

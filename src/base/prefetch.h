@@ -11,7 +11,7 @@ namespace meshhood {
 inline void prefetch(const void* address) {
 #if defined(__GNUC__) || defined(__clang__)
   __builtin_prefetch(address);
-  // Without this, g++ takes a function of nothing but prefetches for one without effect, and drops its calls.
+  // Without this, g++ treats a function that only prefetches as one without effect, and removes its calls.
   asm volatile("");
 #else
   static_cast<void>(address);

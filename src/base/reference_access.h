@@ -7,9 +7,9 @@
 
 namespace meshhood {
 
-/// For tests that force what is rare.
+/// Lets tests bring a searcher into rare states.
 struct ReferenceAccess {
-  /// As if so many queries had been asked.
+  /// Continues as if there had been `queries` queries.
   static void set_query(ReferenceSearcher& searcher, std::uint32_t queries);
 };
 

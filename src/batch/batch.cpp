@@ -61,7 +61,7 @@ void Batch::cut_into_chunks() {
   if (!std::is_sorted(in_order_.begin(), in_order_.end())) std::sort(in_order_.begin(), in_order_.end());
   const std::size_t count = in_order_.size();
   const std::uint64_t together = std::uint64_t{factory_.traits().positions_together} << 32;
-  // Few rows may be large: each is a chunk of its own, unless it belongs to others.
+  // Where there are few rows, each may take long: then a chunk has one row, and those that belong together with it.
   const std::size_t grain = std::clamp<std::size_t>(count / kChunk, 1, kChunk);
   chunk_ends_.clear();
   for (std::size_t end = 0; end < count;) {

@@ -22,7 +22,7 @@ class Batch {
   /// The most rows of one call of `for_each_chunk`.
   static constexpr std::size_t kMaxRows = std::size_t{1} << 20;
 
-  /// Shares `method` and borrows `options`. `passes`: how often all rows will be worked through.
+  /// Shares `method` and borrows `options`. `passes`: the number of passes over all rows.
   /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}.
   Batch(SearchMethod method, const BatchQuery& query, const BatchOptions& options, std::size_t passes);
 
@@ -31,14 +31,14 @@ class Batch {
   [[nodiscard]] std::size_t vertex_count() const { return factory_.vertex_count(); }
   [[nodiscard]] TaskContext& task() { return task_; }
 
-  /// Sorts the rows by their position in the index, and returns what their numbers were.
+  /// Sorts the rows by their position in the index, and returns the former number of each.
   std::vector<std::size_t> put_in_index_order();
 
   /// Whether the positions of the rows ascend.
   [[nodiscard]] bool is_in_index_order() const;
 
-  /// How many rows of the window from `first` on, in index order, leave no group of leaves cut in two; or no leaf, if
-  /// the window has no whole group; or all.
+  /// The largest number of rows, in index order from `first` on, that fit the window and end with a group of leaves. If
+  /// the window has no whole group, they end with a leaf; if it has no whole leaf, they are all.
   [[nodiscard]] std::size_t whole_units(std::size_t first, std::size_t window) const;
 
   /// Calls `f(thread, items)` for chunks of the rows `row_of(i)`, `i < count`, on any thread. Which chunks there are
@@ -50,7 +50,7 @@ class Batch {
   template <class F>
   void for_all_chunks(F&& f);
 
-  /// The worker of a thread, made when the thread first asks for it.
+  /// The worker of a thread, made at its first use.
   [[nodiscard]] BatchWorker& worker(unsigned thread);
 
  private:

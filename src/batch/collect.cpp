@@ -47,11 +47,12 @@ class SizeLimit {
 /// most of the time is spent.
 void check_sample(Batch& batch, const SizeLimit& limit) {
   constexpr std::size_t kSample = 256;
-  constexpr std::size_t kWorthwhile = 64;  // as many rows per row of the sample
-  constexpr double kDeviations = 4;        // so that chance refuses nothing
+  constexpr std::size_t kWorthwhile = 64;  // rows for each row of the sample
+  constexpr double kDeviations = 4;        // so that no result is refused by chance
   const auto rows = static_cast<double>(batch.rows().size());
   if (rows < kWorthwhile * kSample || limit.allows(rows * static_cast<double>(batch.vertex_count()))) return;
-  // One row from each stretch of the batch. The multiplier scatters them, so that rows that alternate are no trap.
+  // One row from each stretch of the batch. The multiplier scatters them, so that the sample is right for alternating
+  // rows too.
   const std::size_t stretch = batch.rows().size() / kSample;
   const auto row_of = [stretch](std::size_t i) { return i * stretch + i * std::size_t{0x9E37'79B1} % stretch; };
   std::vector<double> sizes(kSample);
@@ -69,7 +70,7 @@ void check_sample(Batch& batch, const SizeLimit& limit) {
 }
 
 void count_rows(Batch& batch, std::uint64_t* sizes, SizeLimit* limit) {
-  constexpr std::size_t kAtOnce = 32;  // a row may take less time than the counter, which the threads share
+  constexpr std::size_t kAtOnce = 32;  // a row may take less time than an update of the shared counter
   batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
     std::size_t done = 0;
     batch.worker(thread).count(chunk, [&](std::size_t row, std::size_t size) {
@@ -115,7 +116,7 @@ std::vector<std::uint64_t> stream_and_copy(const SearchMethod& method, const Bat
   return std::move(rows.offsets);
 }
 
-/// Puts each row where its offset says.
+/// Moves each row to its offset.
 class RowsInPlace final : public RowReceiver {
  public:
   RowsInPlace(Batch& batch, unsigned thread, std::span<const std::uint64_t> offsets, const BatchMemory& memory)

@@ -90,7 +90,7 @@ void JointWorker::visit(std::span<const BatchItem> chunk, const std::function<bo
 /// them returns false.
 template <class Together, class Single>
 void JointWorker::for_each_run(std::span<const BatchItem> chunk, Together&& together, Single&& single) {
-  // The order of an answer depends on what the searcher remembers of earlier queries.
+  // The order of an answer depends on the earlier queries of the searcher.
   if (searcher_) SearcherAccess::state(*searcher_).forget();
   split(chunk);
   const auto group_of = [](const Run& run) { return run.leaf / kFanOut; };
@@ -155,7 +155,7 @@ LeafId JointWorker::leaf_of_item(const BatchItem& item) const { return leaf_of(v
 bool JointWorker::pays(std::span<const BatchItem> items) const {
   if (unlike_a_surface_) return false;  // few vertices of a leaf have the same neighbors
   const bool is_large = items.front().radius > kLargeRadius * view_.tree.front().mean_radius / view_.frame.scale;
-  // A small leaf of which all is asked mostly belongs to a group of which all is asked.
+  // If all vertices of a small leaf are queried, then mostly all vertices of its group are.
   if (is_large && items.size() == view_.leaves[leaf_of_item(items.front())].size) return true;
   const BreakEven& least = best_isa() == Isa::Portable ? kPortable : kVectors;
   return items.size() >= (is_large ? least.large_rows : least.rows);

@@ -58,7 +58,7 @@ class JointWorker final : public BatchWorker {
   const IndexView& view_;
   std::optional<Searcher> searcher_;
   std::optional<JointSearch> joint_;
-  JointRadius radius_;  // of the last row, for most batches have one radius
+  JointRadius radius_;  // of the last row, because most batches have one radius
   std::vector<Run> runs_;
   std::vector<LeafId> leaves_;
   std::vector<JointQuery> queries_;

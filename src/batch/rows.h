@@ -24,7 +24,7 @@ class Rows {
 
   [[nodiscard]] double radius(std::size_t row) const { return radii_ ? (*radii_)[row] : radius_; }
 
-  /// Row `i` becomes what row `order[i]` is now. `order` is a permutation of the rows.
+  /// Replaces row `i` by the former row `order[i]`. `order` is a permutation of the rows.
   void reorder(std::span<const std::size_t> order);
 
  private:

@@ -42,7 +42,7 @@ class RowReceiver {
 };
 
 /// Computes chunks of rows, on one thread. The vertices of a chunk ascend in index order. The result of a chunk must
-/// not depend on earlier chunks, for it is chance which chunks a thread gets.
+/// not depend on earlier chunks, because which chunks a thread gets differs from run to run.
 class BatchWorker {
  public:
   BatchWorker() = default;
@@ -55,7 +55,7 @@ class BatchWorker {
   virtual void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) = 0;
 };
 
-/// How a batch had better use a method.
+/// How a batch uses a method to be fast.
 struct MethodTraits {
   /// Counting takes much less time than listing. If not, rows to be kept are searched once, and copied.
   bool is_count_cheap;

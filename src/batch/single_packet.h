@@ -14,7 +14,7 @@
 
 namespace meshhood {
 
-/// The rows of a packet, each property by itself.
+/// The rows of a packet, an array for each property.
 struct PacketRows {
   std::vector<std::size_t> rows;
   std::vector<VertexId> vertices;

@@ -15,7 +15,7 @@
 namespace meshhood {
 namespace {
 
-// The first windows, before the size of rows is known.
+// The size of the first windows, while the size of rows is not known.
 constexpr std::size_t kFirstWindow = 256;
 constexpr std::size_t kGrowth = 4;
 
@@ -158,7 +158,7 @@ class Stream {
     }
   }
 
-  /// Computes `window` rows; false if they need more memory than they may have, and are more than one.
+  /// Computes `window` rows. Returns false if there are several and they need more memory than the limit.
   bool fill(std::size_t first, std::size_t window) {
     waiting_.resize(window);
     for (Store& store : stores_) store.clear();
@@ -190,7 +190,7 @@ class Stream {
     }
   }
 
-  /// As many rows as will probably fit, with some room to spare.
+  /// The number of rows that will probably fit, with a margin.
   [[nodiscard]] std::size_t next_window(std::size_t window) const {
     const double row = static_cast<double>(bytes_) / static_cast<double>(window);
     const auto most = static_cast<double>(batch_.options().buffer_bytes);

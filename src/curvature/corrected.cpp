@@ -28,7 +28,7 @@ struct Corner {
 
 std::array<double, 3> components(const Point& p) { return {p.x, p.y, p.z}; }
 
-/// Adds those of a triangle. With x01, x02 the sides at corner 0 and u the mean of the normals u0, u1, u2:
+/// Adds the measures of a triangle. With x01, x02 the sides at corner 0 and u the mean of the normals u0, u1, u2:
 ///     area         u . (x01 x x02) / 2
 ///     mean         u . ((u0 - u2) x x01 + (u1 - u0) x x02) / 2, twice the integral of H
 ///     Gaussian     u0 . (u1 x u2) / 2
@@ -97,7 +97,8 @@ std::vector<double> measures_by_vertex(const SurfaceState& surface, const FacesV
 }
 
 /// The principal curvatures from the measures of a neighborhood: the extremes of the anisotropic measure over the
-/// tangent plane, by the area. CGAL keeps the normal out by a large eigenvalue, to which this is the limit.
+/// tangent plane, by the area. CGAL excludes the normal by a large eigenvalue; this is the limit of its result for an
+/// infinite one.
 PrincipalCurvature curvature_of(std::span<const double> m, const Point& normal) {
   const TangentFrame frame = frame_of(normal);
   const auto times = [&](const Point& a) {

@@ -116,7 +116,7 @@ CurvatureOptions like_libigl() { return {.filter = true, .open_ball = true, .sha
 
 Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query, const CurvatureOptions& options) {
   if (options.fit == CurvatureFit::Jet && options.shape_operator == ShapeOperator::Libigl) {
-    raise(ErrorCode::InvalidOption, "libigl's shape operator is for the quadric, not for the jet");
+    raise(ErrorCode::InvalidOption, "libigl's shape operator requires the quadric, not the jet");
   }
   const SurfaceState& state = CurvatureAccess::state(surface);
   const std::size_t rows = query.vertices.list() ? query.vertices.list()->size() : surface.vertex_count();

@@ -10,7 +10,7 @@
 
 namespace meshhood {
 
-/// Ascending, so that sums do not depend on what the searcher remembers.
+/// Ascending, so that sums do not depend on the earlier queries of the searcher.
 void DirectFit::find(std::uint32_t place, double radius) {
   if (!searcher_) searcher_.emplace(surface_->searched);
   found_.clear();
@@ -51,7 +51,7 @@ void DirectFit::filter(const Point& normal) {
   if (facing_.size() >= kFewestPoints) found_.swap(facing_);
 }
 
-/// Returns what their coordinates were multiplied by.
+/// Returns the factor by which the coordinates were multiplied.
 double DirectFit::set_points(std::uint32_t place) {
   const Point center = surface_->position(place);
   double extent = 0;

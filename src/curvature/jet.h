@@ -17,7 +17,8 @@ namespace meshhood {
 /// The axes of the principal components, that of the least variance as `n`, on the side of `normal`.
 [[nodiscard]] TangentFrame jet_frame(const Eigen3& axes, const Point& normal);
 
-/// The fit by the normal equations. `in_frame` are the moments in the frame of the jet. None as of `fit_moments`.
+/// The fit by the normal equations. `in_frame` are the moments in the frame of the jet. None where `fit_moments`
+/// returns none.
 [[nodiscard]] std::optional<Quadric> fit_jet(const QueryMoments& moments, const FrameMoments& in_frame,
                                              const TangentFrame& frame, std::size_t query, const MomentSizes& sizes);
 

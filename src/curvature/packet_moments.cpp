@@ -109,7 +109,7 @@ void PacketMoments::add_blocks(std::size_t first, std::size_t size, const WordOf
   }
 }
 
-/// Takes the queries that a vertex does not face from its word.
+/// Removes from the word of a vertex the queries that it does not face.
 void PacketMoments::keep_facing(std::size_t first, std::span<QueryWord> words) {
   alignas(64) std::array<double, MomentPoints::kCapacity> products;
   kernels_->products(&source_.filter->normal_x[first], &source_.filter->normal_y[first],

@@ -39,7 +39,7 @@ struct TangentFrame {
 [[nodiscard]] std::optional<Quadric> fit_moments(const FrameMoments& moments, std::size_t query,
                                                  const MomentSizes& sizes);
 
-/// What the determinant of the normal equations of `query`, scaled to a diagonal of ones, must at least be.
+/// The smallest accepted determinant of the normal equations of `query`, scaled to a diagonal of ones.
 [[nodiscard]] double smallest_determinant(const FrameMoments& moments, std::size_t query, const MomentSizes& sizes);
 
 /// A least-squares fit by the points themselves.

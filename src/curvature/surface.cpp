@@ -30,8 +30,7 @@ void check_positions(const IndexView& index, const MeshView& mesh) {
           for (std::size_t i = 0; i < index.vertex_count(); ++i) {
             if (same(point(given, index.id(i)), point(kept, i))) continue;
             raise(ErrorCode::InvalidMesh, "vertex " + std::to_string(index.id(i)) +
-                                              " does not lie where it lay when the index was built: expected the same "
-                                              "mesh");
+                                              " has moved since the index was built, expected the same mesh");
           }
         },
         index.positions);
@@ -98,7 +97,7 @@ CurvatureIndex CurvatureIndex::build(const Index& index, const MeshView& mesh) {
 CurvatureIndex CurvatureIndex::build(const Index& index, const FacesView& faces) {
   validate(MeshView{index.positions(), faces});
   if (faces.size() == 0 && index.vertex_count() != 0) {
-    raise(ErrorCode::InvalidMesh, "the mesh has no faces, from which normals could be made: give the normals");
+    raise(ErrorCode::InvalidMesh, "the mesh has no faces, expected faces or normals");
   }
   auto state = std::make_unique<State>(index);
   add_faces(*state, faces);

@@ -13,8 +13,8 @@
 namespace meshhood {
 namespace {
 
-/// The largest double below `radius`; as a radius it holds what is nearer than that. NaN and negative ones are left for
-/// the batch to refuse.
+/// The largest double below `radius`: its closed ball has the vertices nearer than `radius`. Returns NaN and negative
+/// radii unchanged; the batch rejects them.
 double open_radius(double radius) {
   return radius > 0 ? std::nextafter(radius, 0.0) : radius;  // mutant: open-ball-with-boundary
 }

@@ -28,7 +28,7 @@ IndexView view_of(const IndexData& data) {
 }
 
 std::shared_ptr<IndexView> make_view(IndexData data) {
-  // Arrays keep their place when they are moved.
+  // Moving an array does not change its address.
   auto view = std::make_shared<IndexView>(view_of(data));
   view->owner = std::make_shared<const ConnectivityData>(static_cast<ConnectivityData&&>(data));
   view->geometry = std::make_shared<GeometryData>(static_cast<GeometryData&&>(data));

@@ -8,7 +8,7 @@
 
 namespace meshhood {
 
-/// The same as without `task`, which it polls for cancellation; reports no progress. Throws Error{Cancelled}.
+/// As without `task`, but polls `task` for cancellation. Reports no progress. Throws Error{Cancelled}.
 [[nodiscard]] GraphData extract_graph(const Index& index, TaskContext& task);
 [[nodiscard]] Fingerprint fingerprint(const Index& index, TaskContext& task);
 

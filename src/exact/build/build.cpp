@@ -20,7 +20,7 @@
 namespace meshhood {
 namespace {
 
-// Enough leaves to be worth a thread's while.
+// Enough leaves for the cost of starting a thread.
 constexpr std::size_t kLeafGrain = 64;
 
 /// The leaves without their bounding spheres.

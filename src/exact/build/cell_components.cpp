@@ -15,7 +15,7 @@ namespace {
 
 static_assert(kCellSize <= kLeafCapacity);
 
-// Enough work to be worth a thread's while.
+// Enough work for the cost of starting a thread.
 constexpr std::size_t kCellsPerTask = 128;
 
 template <class F>
@@ -110,7 +110,7 @@ class Merger {
     }
   }
 
-  /// The components that an edge leaves.
+  /// Marks the small components that an edge joins to another one.
   void find_linked() {
     is_linked_.assign(merged_into_.size(), false);
     for (std::size_t cell = 0; cell < graph_.cells(); ++cell) {
@@ -161,7 +161,7 @@ class Merger {
     size(other) += std::exchange(size(component), 0U);  // mutant: size-of-merged-component-kept
   }
 
-  /// Follows the merges, and shortens the way for the next time.
+  /// Follows the merges, and shortens the path (path compression).
   std::uint32_t root(std::uint32_t component) {
     while (merged_into_[component] != component) {
       component = merged_into_[component] = merged_into_[merged_into_[component]];

@@ -10,7 +10,7 @@
 namespace meshhood {
 namespace {
 
-// Enough vertices to be worth a thread's while.
+// Enough vertices for the cost of starting a thread.
 constexpr std::size_t kVertexGrain = 8192;
 
 /// The positions in index order, padded.

@@ -51,7 +51,7 @@ void LeafMeasure::gather_edges_out(LeafId leaf) {
 }
 
 NodeList make_leaf_nodes(const IndexView& index, TaskContext& task) {
-  // Enough leaves to be worth a thread's while.
+  // Enough leaves for the cost of starting a thread.
   constexpr std::size_t kGrain = 64;
   NodeList result(index.leaf_count());
   task.parallel_for(result.bounds.size(), kGrain, [&](unsigned, std::size_t begin, std::size_t end) {

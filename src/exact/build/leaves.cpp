@@ -22,7 +22,7 @@
 namespace meshhood {
 namespace {
 
-// Enough work to be worth a thread's while.
+// Enough work for the cost of starting a thread.
 constexpr std::size_t kVerticesPerTask = 4096;
 
 Point center_of(const KdPoint& p) {

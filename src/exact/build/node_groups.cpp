@@ -42,7 +42,7 @@ class Grouping {
 
   NodeGroups run() {
     for (std::size_t begin = 0; begin < order_.size(); begin += kFanOut) split_cell(begin);
-    // The smallest first: a single node has the fewest places to go.
+    // The smallest first: a single node has the fewest parts to join.
     const double full = mean_full_radius();
     for (std::size_t size = 1; size <= kFanOut / 2; ++size) {
       const double limit = (size <= 2 ? kSmallStretch : kLargeStretch) * full;
@@ -58,8 +58,8 @@ class Grouping {
   }
 
  private:
-  // The radius that a joined part may have, by that of a full one. Chosen: a part of one or two nodes is worth more to
-  // be rid of.
+  // The largest radius of a joined part, divided by that of a full one. Chosen: joining a part of one or two nodes
+  // gains more.
   static constexpr double kSmallStretch = 2.5;
   static constexpr double kLargeStretch = 1.5;
 
@@ -94,7 +94,7 @@ class Grouping {
     }
   }
 
-  /// Of the parts that fill a cell; infinite if there is none.
+  /// The mean radius of the parts that fill a cell; infinite if there is none.
   [[nodiscard]] double mean_full_radius() const {
     double sum = 0;
     std::size_t count = 0;

@@ -33,9 +33,9 @@ template <class T, class Less>
   }
 }
 
-/// As `std::nth_element` for distinct values, but with one result: the order within both parts is the same with every
-/// standard library, so that the index is. It is that of libstdc++, with which the golden files were made. O(n), or
-/// O(n log n) in the worst case.
+/// As `std::nth_element` for distinct values, but deterministic: the order within both parts, and so the index, is the
+/// same with every standard library. It is the order of libstdc++, with which the golden files were made. O(n), or O(n
+/// log n) in the worst case.
 template <class T, class Less>
 void nth_element(std::span<T> range, std::size_t nth, const Less& less) {
   for (auto rounds = 2 * std::bit_width(range.size() / 2); range.size() > 3 && rounds > 0; --rounds) {

@@ -13,7 +13,7 @@
 namespace meshhood {
 namespace {
 
-/// Around everything: the frame is a cube with half an edge of 1.
+/// Contains every vertex: the frame is the cube [-1, 1]^3.
 constexpr FrameSphere kWholeFrame{0, 0, 0, 2};
 
 FrameSphere node_bounds(const IndexView& index, NodeId node) {
@@ -28,7 +28,7 @@ const float* float_positions(const IndexView& index) {
   return xyz == nullptr ? nullptr : xyz->data();
 }
 
-/// The nearest float. Not inlined: where g++ 12 converts two numbers at once, it leaves both conversions out.
+/// The nearest float. Not inlined, because g++ 12 omits both conversions where it converts two numbers at once.
 [[gnu::noinline]] double rounded(double value) { return static_cast<double>(static_cast<float>(value)); }
 
 /// Some vertices of the index relative to `center`, in frame units.
@@ -62,7 +62,7 @@ void JointGroup::begin(std::span<const LeafId> leaves, const TreeBounds& low, co
   ball_.outer = next_above(static_cast<double>(high.outer) + radius_);  // mutant: group-without-its-radius
   ball_.inner = -next_above(radius_ - static_cast<double>(low.inner));  // mutant: core-of-the-largest-ball
   for (const LeafId leaf : leaves) {
-    if (discover(leaf) == kNoEntry) entry_of_[leaf] = add_entry(leaf);  // of an index whose spheres are wrong
+    if (discover(leaf) == kNoEntry) entry_of_[leaf] = add_entry(leaf);  // if the spheres of the index are wrong
   }
   for (GroupEntry entry = 0; entry < leaves_.size(); ++entry) {
     if (is_core(entry)) continue;
@@ -148,8 +148,8 @@ GroupEntry JointGroup::discover(LeafId leaf) {
   return entry_of_[leaf] = add_entry(leaf);
 }
 
-/// Whether a ball around a vertex of the group may meet the sphere. The sphere of the group alone would let in many
-/// more leaves where the radius is small.
+/// Whether a ball around a vertex of the group may meet the sphere. The sphere of the group alone would admit many more
+/// leaves where the radius is small.
 bool JointGroup::meets_a_leaf(const FrameSphere& sphere) const {
   TreeBall ball = ball_;
   ball.x = sphere.x;

@@ -11,7 +11,7 @@
 
 namespace meshhood {
 
-/// A number of a group's own for a leaf that its balls may meet, or for a core.
+/// Numbers the leaves that the balls of a group may meet, and its cores.
 using GroupEntry = std::uint32_t;
 
 /// The leaves that the balls around the vertices of a group may hold. A *group* is eight neighboring leaves whose
@@ -81,7 +81,7 @@ class JointGroup {
   /// No vertex of the group is farther than this from its center, in the frame.
   [[nodiscard]] double radius() const { return radius_; }
 
-  /// The vertices of an entry that is a leaf, relative to the center. Converted when first asked for.
+  /// The vertices of an entry that is a leaf, relative to the center. Converted at the first call.
   [[nodiscard]] const LeafPoints& points(GroupEntry entry);
   /// Those of any leaf.
   void read_points(LeafId leaf, LeafPoints& points) const;
@@ -101,7 +101,7 @@ class JointGroup {
     std::size_t first_leaf;  // in core_leaves_
     std::size_t end_leaf = 0;
     std::size_t vertices = 0;
-    std::vector<LeafRun> runs{};  // empty until they are asked for
+    std::vector<LeafRun> runs{};  // filled at the first call of `core_runs`
   };
 
   void clear();
@@ -124,7 +124,7 @@ class JointGroup {
   bool in_floats_;  // positions and the center are floats, and their differences are neither too large nor too small
   std::uint32_t group_ = 0;  // that the leaves belong to
   float high_ = 0;           // the radius of the largest ball, in the frame
-  TreeBall ball_;            // around the group: what its balls hold together, and what each of them holds
+  TreeBall ball_;            // around the group: `outer` encloses its balls, `inner` lies in each of them
   Point center_{0, 0, 0};
   Point center_in_frame_{0, 0, 0};
   double radius_ = 0;

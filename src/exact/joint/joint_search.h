@@ -25,7 +25,7 @@ class JointSearch {
  public:
   JointSearch(const IndexView& index, Isa isa);
 
-  /// Begins with a group: `leaves` belong to one node above the leaves, and the radii to be asked for lie between `low`
+  /// Begins with a group: `leaves` belong to one node above the leaves, and the radii of its queries lie between `low`
   /// and `high`.
   void begin_group(std::span<const LeafId> leaves, const TreeBounds& low, const TreeBounds& high) {
     group_.begin(leaves, low, high);

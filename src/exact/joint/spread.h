@@ -13,9 +13,10 @@
 
 namespace meshhood {
 
-/// How the entries of a group lie to a packet, and what its queries reach there: breadth-first search for all queries
-/// at once. A query reaches a vertex if its ball holds the vertex, and it reaches a neighbor of it. Words only grow,
-/// and a entry that has gained pushes its words over its links, so the search ends, and with exactly the components.
+/// Compares the entries of a group with the balls of a packet, and finds what its queries reach there, by a
+/// breadth-first search for all queries at once. A query reaches a vertex if its ball holds the vertex and the query
+/// reaches a neighbor of the vertex. Words only grow, and an entry that has gained pushes its words over its links. So
+/// the search ends, and its result is exactly the components.
 class JointSpread {
  public:
   JointSpread(const IndexView& index, Isa isa)

@@ -8,8 +8,8 @@
 
 namespace meshhood {
 
-/// A set of entries that wait for their turn, a bit each. They are taken in ascending order, sweep by sweep: entries
-/// near the group come first, and an entry that gains several times in one sweep is taken once.
+/// A set of pending entries, a bit for each. They are taken in ascending order, sweep by sweep: entries near the group
+/// come first, and an entry that gains several times in one sweep is taken once.
 class Worklist {
  public:
   /// Empty, for entries below `size`.
