@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// meshhood aggregate: a mean, a sum or the like of values over the neighborhood of each vertex.
+// meshhood aggregate: a mean, a sum or another aggregate of values over the neighborhood of each vertex.
 #include "meshhood/aggregate.h"
 
 #include <array>
@@ -131,7 +131,7 @@ void aggregate_command(const AggregateCommand& options) {
 void add_aggregate(CLI::App& program) {
   auto options = std::make_shared<AggregateCommand>();
   CLI::App* command =
-      program.add_subcommand("aggregate", "Write the mean, or the like, of values over each neighborhood");
+      program.add_subcommand("aggregate", "Write the mean or another aggregate of values over each neighborhood");
   add_file(*command, options->file);
   add_file_option(*command, "--values", "numbers by vertex: text with a line per vertex, or an array of NumPy (.npy)",
                   options->values)
@@ -141,11 +141,11 @@ void add_aggregate(CLI::App& program) {
   add_choice(*command, "--kernel", "how the weight falls with the distance, for sum and mean", names_of(kKernels),
              options->kernel);
   add_file_option(*command, "--weights",
-                  "weights of the vertices: area, or a file as that of --values (default: 1 each)", options->weights)
+                  "weights of the vertices: area, or a file like that of --values (default: 1 each)", options->weights)
       ->type_name("area|FILE");
   add_choice(*command, "--nan", "what NaN means; omit: a missing value", names_of(kMissing), options->missing);
   add_choice(*command, "--nesting",
-             "several radii; own: neighborhoods of their own; patch: parts of the neighborhood of the largest",
+             "with several radii; own: a neighborhood for each; patch: the neighborhood of the largest, cut by each",
              names_of(kNestings), options->nesting);
   add_vertices(*command, options->vertices);
   add_threads(*command, options->threads);

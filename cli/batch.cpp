@@ -50,8 +50,8 @@ struct BatchCommand {
   std::string output;
 };
 
-/// The size of the file, about: the members without the zip headers. The ones of a matrix without distances compress to
-/// a thousandth.
+/// The approximate size of the file: the members without the zip headers. The ones of a matrix without distances
+/// compress to a thousandth.
 double file_bytes(const BatchCommand& options, const BatchSize& total, std::size_t columns) {
   const auto rows = static_cast<double>(total.rows);
   const auto count = static_cast<double>(total.count);
@@ -232,10 +232,9 @@ void add_batch(CLI::App& program) {
   add_radius(*command, options->radius);
   add_vertices(*command, options->vertices);
   command
-      ->add_flag(
-          "--index-order", options->index_order,
-          "write the rows in the order in which the index stores vertices, which the array vertices says; faster "
-          "for a mesh in random order")
+      ->add_flag("--index-order", options->index_order,
+                 "write the rows in the order of the index, which the array vertices contains; faster "
+                 "for a mesh in random order")
       ->excludes("--vertices");
   add_method(*command, options->method);
   add_threads(*command, options->threads);

@@ -87,11 +87,11 @@ void add_connect(CLI::App& program) {
   add_numbers(*command, "-v,--vertex", "the vertex of the neighborhood, by its number in the file from 0",
               options->vertices);
   add_start(*command, options->start);
-  add_numbers(*command, "--to", "vertices; each line has one and its radius, or inf if no radius connects it",
+  add_numbers(*command, "--to", "vertices to connect; prints each with its radius, or inf if no radius connects it",
               options->targets);
   command
       ->add_option("--nearest", options->nearest,
-                   "instead of --to: so many vertices, in the order of the radii that connect them")
+                   "instead of --to: the number of vertices to print, in the order of the radii that connect them")
       ->transform(whole_number())
       ->type_name("NUMBER");
   add_json(*command, options->json);

@@ -167,7 +167,7 @@ void occupy_standard_streams() {
 }  // namespace
 }  // namespace meshhood::cli
 
-// What still escapes is a bug, or memory too short for an error message.
+// An exception that escapes is a bug, or there is not enough memory for an error message.
 int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   meshhood::cli::occupy_standard_streams();
   // Both become errors of the write: a closed pipe, and a file-size limit for standard output.

@@ -115,7 +115,8 @@ void add_partition(CLI::App& program) {
       ->type_name("");
   add_file_option(*command, "--faces", "faces as .npy, (#F, k) integers; MESH then has the positions", options->faces);
   CLI::Option* parts = add_number(*command, "--parts", "number of parts", options->parts);
-  add_number(*command, "--vertices-per-part", "vertices of a part without its halo, about; sets the number of parts",
+  add_number(*command, "--vertices-per-part",
+             "approximate number of vertices of a part without its halo; sets the number of parts",
              options->vertices_per_part)
       ->excludes(parts);
   command->add_option("--halo", options->halo, "the largest radius that the parts answer")

@@ -210,7 +210,7 @@ void add_query(CLI::App& program) {
   CLI::Option* radius = add_radius(*command, options->radius)->required(false);
   command
       ->add_option("--rings", options->rings,
-                   "instead of the radius: the vertices that at most so many edges separate from the query vertex")
+                   "instead of the radius: find the vertices at most this number of edges away from the query vertex")
       ->transform(whole_number())
       ->type_name("NUMBER");
   add_start(*command, options->start);

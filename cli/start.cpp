@@ -55,7 +55,7 @@ StartAnswer sorted_answer(const std::vector<VertexId>& ids, const std::vector<do
 }  // namespace
 
 void add_start(CLI::App& command, StartOptions& options) {
-  CLI::Option* point = command.add_option("--point", options.point, "start at any point of space instead of a vertex")
+  CLI::Option* point = command.add_option("--point", options.point, "start at any point in space instead of a vertex")
                            ->delimiter(',')
                            ->allow_extra_args(false)
                            ->type_name("X,Y,Z");
@@ -77,7 +77,7 @@ void check_start_options(const StartOptions& options, const std::string& method,
   const bool has_point = !options.point.empty();
   if (has_point == has_vertices) raise(ErrorCode::InvalidOption, "expected either --vertex or --point");
   if (has_point && options.is_along_edges()) {
-    raise(ErrorCode::InvalidOption, "--metric edge: expected --vertex, for a point has no edges");
+    raise(ErrorCode::InvalidOption, "--metric edge: expected --vertex, because a point has no edges");
   }
   if (method != "exact" && !options.is_plain()) {
     raise(ErrorCode::InvalidOption, "--point, --metric edge, --walls and --ignored require --method exact");

@@ -39,9 +39,9 @@ std::string temporary_name(const std::filesystem::path& target) {
   return fmt::format(".{}.meshhood-{}-{}.tmp", target.filename().string().substr(0, kMost), ::getpid(), serial++);
 }
 
-/// While it lives, a write beyond the file-size limit (`ulimit -f`) fails with EFBIG and does not raise SIGXFSZ, which
-/// would end the process and leave the temporary file. The signal goes to the writing thread: it is blocked there and
-/// removed, and the disposition of the process, which is not ours, stays as it is.
+/// During its lifetime, a write beyond the file-size limit (`ulimit -f`) fails with EFBIG and does not raise SIGXFSZ,
+/// which would end the process and leave the temporary file. The signal goes to the writing thread: it is blocked there
+/// and removed, and the signal disposition of the process stays as it is.
 class BlockedFileSizeSignal {
  public:
   BlockedFileSizeSignal() {

@@ -13,9 +13,9 @@ namespace meshhood::io {
 /// Merges all corners of equal position (-0 equals 0) into one vertex. Vertices are numbered in order of first
 /// appearance.
 ///
-/// Sorts instead of hashing, so that no file is slow on purpose. Corners are welded in batches, so the unwelded
-/// triangles are never in memory as a whole. Memory beside the result: 4 bytes per vertex, and at most 28 (for double
-/// 40) per corner of a batch, which has an eighth as many corners as there are vertices. O(n log n).
+/// Sorts instead of hashing, so that no file can be made that is slow to weld. Corners are welded in batches, so the
+/// unwelded triangles are never in memory as a whole. Memory beside the result: 4 bytes per vertex, and at most 28 (for
+/// double 40) per corner of a batch, which has an eighth as many corners as there are vertices. O(n log n).
 template <class Real>
 class VertexWelder {
  public:

@@ -140,7 +140,7 @@ class Arrays final : public ChunkedMesh {
   Rows positions_;
   Rows faces_;
   std::uint64_t face_ = 0;
-  std::vector<std::uint64_t> ahead_;  // corners of the faces from `face_` on, of which `taken_` are behind
+  std::vector<std::uint64_t> ahead_;  // corners of the faces from `face_` on; the first `taken_` have been read
   std::size_t taken_ = 0;
 };
 

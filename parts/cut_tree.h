@@ -39,7 +39,7 @@ struct Box {
 /// if many have the same coordinate or the same position.
 class CutTree {
  public:
-  /// Cuts so that each part owns the same number of the vertices in `sample`, give or take one a level.
+  /// Cuts so that each part owns the same number of the vertices in `sample`, up to one for each level.
   /// `parts` >= 1. O(#sample log #parts).
   CutTree(std::vector<Site> sample, std::size_t parts);
 

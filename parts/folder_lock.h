@@ -14,8 +14,8 @@
 
 namespace meshhood::parts {
 
-/// The right to write into a folder, which one run at a time has. The system takes it back when the process ends,
-/// however it ends, and no file remains.
+/// An exclusive lock of a folder, so that one run at a time writes into it. The system releases it when the process
+/// ends in any way, and no file remains.
 /// Throws Error{IoFailure} with EWOULDBLOCK if another run has it.
 class FolderLock {
  public:
@@ -30,7 +30,7 @@ class FolderLock {
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  /// Closing would leave the lock to a child that was forked meanwhile.
+  /// Unlocks explicitly: if the file were only closed, a child that was forked meanwhile would keep the lock.
   ~FolderLock() { static_cast<void>(::flock(folder_.number(), LOCK_UN)); }
 
   /// Writes the names in the folder to the disk. Throws Error{IoFailure}.

@@ -85,7 +85,7 @@ class JsonValues::Reader {
     if (!levels_.empty()) ++levels_.back().elements;
   }
 
-  /// That of the value that was counted last.
+  /// The path of the value that was counted last.
   [[nodiscard]] std::string path() const {
     if (levels_.empty()) return {};
     const Level& level = levels_.back();

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <variant>
 
-/// JSON documents without a tree of values: that of nlohmann_json allocates where it is destroyed, so the process would
-/// end if memory ran out there.
+/// JSON documents without a tree of values. The tree of nlohmann_json allocates memory in its destructor, so the
+/// process would end if memory ran out there.
 namespace meshhood::parts {
 
 /// The values of a document by their path: "plan/vertices", "parts/0/owned".
@@ -33,7 +33,7 @@ class JsonValues {
   struct Length {
     std::size_t elements = 0;
   };
-  struct Nothing {};  // null, and what no function returns
+  struct Nothing {};  // null, and types that no function returns
   using Value = std::variant<Nothing, std::uint64_t, double, std::string, Length>;
   class Reader;
 

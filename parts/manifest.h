@@ -19,7 +19,7 @@ inline constexpr unsigned kFormat = 1;
 
 inline constexpr std::string_view kManifestFile = "manifest.json";
 
-/// The mesh that was partitioned, and how: parts of one folder agree in all of it.
+/// The mesh that was partitioned, and the options: the same for all parts of a folder.
 struct Plan {
   std::uint64_t vertices = 0;
   std::uint64_t faces = 0;

@@ -21,7 +21,7 @@ struct Survey {
 };
 
 /// The number of vertices by which the cuts are chosen. It depends on the number of parts alone, so that a run with
-/// another memory cuts alike. A part then owns its share give or take a standard deviation of about 2 %.
+/// another memory cuts alike. The share that a part owns then has a standard deviation of about 2 %.
 [[nodiscard]] std::uint64_t sample_size(std::uint64_t parts);
 
 /// Reads the whole mesh once, so that every fault is found before anything is written.

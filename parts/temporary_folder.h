@@ -13,7 +13,7 @@
 
 namespace meshhood::parts {
 
-/// A folder for temporary files, removed with its content. One that a killed run has left is emptied first.
+/// A folder for temporary files, removed with its content. A folder that a killed run has left is emptied first.
 /// Throws Error{IoFailure}.
 class TemporaryFolder {
  public:

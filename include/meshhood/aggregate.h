@@ -12,7 +12,7 @@
 #include "meshhood/mesh.h"
 #include "meshhood/progress.h"
 
-/// Sums, means and other properties of numbers over neighborhoods, without a list of ids.
+/// Sums, means and other aggregates of values over neighborhoods, without lists of ids.
 ///
 ///     const std::vector<double> smooth =
 ///         meshhood::aggregate(index, {.values = thickness}, {.radii = {6.0}, .kernel = SmoothingKernel::Biweight});

@@ -74,7 +74,7 @@ struct alignas(64) GroupRecord {
 };
 
 /// At least one edge of the mesh joins `node()` to each of the nodes `mine` of the group that the link belongs to,
-/// which is another group of the same level. Of five bytes, without padding.
+/// which is another group of the same level. Has five bytes, without padding.
 struct NodeLink {
   std::array<std::uint8_t, sizeof(NodeId)> node_bytes;
   NodeSet mine;
@@ -111,7 +111,7 @@ struct IndexView {
   std::span<const NodeId> parents;         // by group: the node that covers it, or kNoNode
   std::span<const NodeLink> node_links;    // by group
   std::span<const double> mean_radii;      // by level
-  Tree tree;                               // what `levels`, `records` and `mean_radii` tell of each level
+  Tree tree;                               // the levels, made from `levels`, `records` and `mean_radii`
   RootTree roots;                          // over the groups that no node covers
   std::shared_ptr<const void> owner;       // a `ConnectivityData`, or the bytes of an index file
   std::shared_ptr<GeometryData> geometry;  // of this view alone; none while all arrays are in a file

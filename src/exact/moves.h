@@ -18,7 +18,8 @@ struct Move {
   Point to;
 };
 
-/// The vertices `changed`, ascending by slot, each once. Reads each argument once, for another thread may write to it.
+/// The vertices `changed`, ascending by slot, each once. Reads each argument once, because another thread may write to
+/// it.
 /// Throws Error{InvalidMesh, VertexOutOfRange} for a vertex that the mesh does not have, and for an invalid position.
 [[nodiscard]] std::vector<Move> read_moves(const IndexView& index, const PositionsView& positions,
                                            const IndicesView& changed);

@@ -38,8 +38,8 @@ void for_each_neighbor(const IndexView& index, std::uint32_t slot, F&& f) {
   }
 }
 
-/// Leaves that together hold the `size` vertices nearest to a point: those that come as near as the farthest reach of
-/// enough others.
+/// Leaves that together hold the `size` vertices nearest to a point. If a ball around the point holds enough leaves for
+/// that many vertices, the leaves that meet the ball are sufficient.
 std::vector<LeafId> leaves_around(const IndexView& index, const Point& center, std::size_t size) {
   struct Reach {
     double nearest;

@@ -84,8 +84,8 @@ std::vector<Move> checked_moves(const IndexView& index, const PositionsView& pos
 /// Whether `view` has no other owner, such as a searcher. No other owner can appear meanwhile.
 bool is_only_owner(const std::shared_ptr<IndexView>& view) {
   if (view.use_count() != 1) return false;
-  // Reading the count does not synchronize with a searcher that another thread has just destroyed. Giving up one more
-  // share does, so that what that thread has read is read before this one writes.
+  // Reading the count does not synchronize with a searcher that another thread has just destroyed. Releasing another
+  // reference does: the reads of that thread then happen before the writes of this one.
   static_cast<void>(std::shared_ptr<IndexView>(view));
   return true;
 }

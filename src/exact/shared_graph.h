@@ -9,7 +9,7 @@ namespace meshhood {
 
 class Index;
 
-/// The graph of an index in the caller's order, made when it is first asked for and kept for all searchers.
+/// The graph of an index in the caller's order, made at its first use and kept for all searchers.
 class SharedGraph {
  public:
   SharedGraph() = default;
@@ -17,8 +17,8 @@ class SharedGraph {
   SharedGraph& operator=(const SharedGraph&) = delete;
   ~SharedGraph();
 
-  /// That of `index`, which this belongs to. From any thread. Without a lock, which a fork could leave held: of several
-  /// threads that make the graph at once, one keeps its own. O(#V + #E) the first time.
+  /// The graph of `index`, which owns this object. Any thread may call it. There is no lock, because a fork could leave
+  /// it held: if several threads make the graph at once, one result is kept. O(#V + #E) the first time.
   [[nodiscard]] const GraphData& of(const Index& index);
 
  private:

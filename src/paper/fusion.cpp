@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Step 4 of sec. 3.2, fusion: Algorithm 2. Deviation: it runs before step 3, because it only needs to know which
-// cluster is whose parent. So there are no siblings or spheres yet that would have to be updated.
+// Step 4 of sec. 3.2, fusion: Algorithm 2. Deviation: it runs before step 3, because it only needs the parents of the
+// clusters. So there are no siblings or spheres yet to update.
 #include "paper/fusion.h"
 
 #include <limits>

@@ -10,8 +10,8 @@ namespace meshhood {
 
 // The point inside + t d, with d = outside - inside and e = inside - center, has the distance r from the center where
 //   (d.d) t^2 + 2 (d.e) t + (e.e - r^2) = 0.
-// The last term is not positive, so there is one root t >= 0. Of its two usual forms, the one is computed that adds
-// numbers of equal sign. All lengths are first divided by the largest of them, so that no product overflows.
+// The last term is not positive, so there is one root t >= 0. Of its two usual forms, this is the one that adds numbers
+// of equal sign. All lengths are first divided by the largest of them, so that no product overflows.
 Point exit_point(const Point& inside, const Point& outside, const Point& center, double radius) {
   if (squared_distance(outside, center) <= squared_radius(radius)) return outside;  // mutant: exit-behind-a-wall
   const Point d = outside - inside;

@@ -26,7 +26,7 @@ class Joiner {
     for (std::size_t i = 0; i < segments_.size(); ++i) {
       if (!is_used_[i] && is_end(segments_[i].from)) result.push_back(walk(i, segments_[i].from));
     }
-    // What runs against the others, on faces that are not consistently oriented.
+    // Segments that run against the others, where faces are not consistently oriented.
     for (std::size_t i = 0; i < segments_.size(); ++i) {
       if (!is_used_[i] && is_end(segments_[i].to)) result.push_back(walk(i, segments_[i].to));
     }

@@ -31,8 +31,8 @@ struct ExitPair {
   RimEdge to;
 };
 
-/// Adds a pair for each run of corners inside: where the boundary of the face leaves after it, and where it has come
-/// in.
+/// Adds a pair for each run of corners inside the region: the edges on which the boundary of the face leaves the region
+/// after the run and enters it before the run.
 template <class IsInside>
 void add_exits(std::span<const VertexId> corners, IsInside&& is_inside, std::vector<ExitPair>& pairs) {
   const std::size_t size = corners.size();

@@ -280,7 +280,7 @@ MESHHOOD_AVX512 LaneMask lanes_of(const QueryWord* reached, unsigned query) {
   return lanes_with(reached, _mm512_set1_epi32(static_cast<int>(1U << query)));
 }
 
-/// Writes the first `count` of sixteen ids, and nothing behind them.
+/// Writes the first `count` of sixteen ids, and nothing after them.
 MESHHOOD_AVX512 inline VertexId* write_first(__m512i ids, unsigned count, VertexId* out) {
   // mutant: avx512-row-beyond-its-end
   _mm512_mask_storeu_epi32(out, static_cast<__mmask16>(_bzhi_u32(0xFFFF, count)), ids);

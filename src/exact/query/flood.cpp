@@ -22,7 +22,7 @@ void Flood::start(const Point& center, const LaneFilter& walls) {
   center_ = Center(index_->frame, center);
   walls_ = &walls;
   ball_ = any_ball(center, 0);
-  ball_.squared_radius = -1;  // until it grows, it does not even hold its center
+  ball_.squared_radius = -1;  // the ball is empty: it does not hold its center
   awake_.clear();
   sleepers_.clear();
   reached_.clear();
@@ -76,7 +76,7 @@ void Flood::wake(LeafId leaf, State& state) {
   prefetch_positions(*index_, record.first, record.size);
 }
 
-/// Puts the leaf to sleep, unless it does already and wakes no later.
+/// Puts the leaf to sleep, unless it already sleeps with a bound that is no larger.
 void Flood::rest(LeafId leaf, State& state, double bound, bool is_exact) {
   if (state.wakes <= bound) return;
   state.wakes = bound;
@@ -88,7 +88,7 @@ void Flood::grow(double radius, std::uint32_t target) {
   ball_ = any_ball(center_.exact, radius);
   sleepers_.wake(ball_.squared_radius, [&](const Sleepers::Entry& entry) {
     State& state = states_[entry.leaf];
-    if (state.wakes != entry.bound) return;  // it has been put to sleep again since, to wake earlier
+    if (state.wakes != entry.bound) return;  // outdated: the leaf has another entry with a smaller bound
     state.wakes = std::numeric_limits<double>::infinity();
     wake(entry.leaf, state);
   });
@@ -152,7 +152,7 @@ void Flood::expand(LeafId leaf, LaneMask added) {
     State& other = state_of(link.leaf);
     const LaneMask open = other.open & ~(other.reached | other.pending);
     if (open == 0) continue;
-    // Of a leaf that the ball takes whole, one vertex is as good as all.
+    // In a leaf that the ball takes as a whole, each vertex leads to all others.
     const LaneMask met = is_whole(other) ? open  // mutant: intersecting-leaf-met-whole
                                          : kernels_->cross_edges(index_->cross_edges_of(link), added) & open;
     if (met == 0) continue;
@@ -161,7 +161,7 @@ void Flood::expand(LeafId leaf, LaneMask added) {
   }
 }
 
-/// The vertices that are not reached and have a neighbor that is, or are seeds.
+/// The vertices not yet reached that have a reached neighbor or are seeds.
 LaneMask Flood::border(const State& state, const Leaf& leaf) const {
   LaneMask lanes = state.pending;
   for_each_lane(state.reached, [&](unsigned lane) { lanes |= index_->adjacency[leaf.first + lane]; });

@@ -31,7 +31,7 @@ class Flood {
   void add_seed(std::uint32_t slot);
 
   /// Grows the ball to `radius`, which is not smaller than before, and reaches what is connected to the seeds in it.
-  /// Ends early, and cannot go on, when it has reached the slot `target`.
+  /// Ends early when it has reached the slot `target`; the flood cannot continue after that.
   void grow(double radius, std::uint32_t target = kNoTarget);
   static constexpr std::uint32_t kNoTarget = 0xFFFFFFFF;
 
@@ -52,7 +52,7 @@ class Flood {
     std::uint32_t number = 0;  // the state is valid for this flood only
     LaneMask open = 0;         // no walls
     LaneMask reached = 0;
-    LaneMask pending = 0;  // not reached, with a neighbor that is, in another leaf; and seeds
+    LaneMask pending = 0;  // not reached, but with a reached neighbor in another leaf; and seeds
     LaneMask inside = 0;   // the vertices in the ball whose squared radius is `inside_of`
     bool connected = false;
     bool is_awake = false;  // in the work list

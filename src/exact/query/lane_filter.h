@@ -11,7 +11,7 @@
 
 namespace meshhood {
 
-/// A mask of the caller's, read a leaf at a time.
+/// A mask of the caller, read a leaf at a time.
 class LaneFilter {
  public:
   /// No vertex.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The vertex nearest to a point: depth first through the tree, the nearest node of a group first. A node whose bounding
-// sphere begins beyond the best vertex found is left out.
+// The vertex nearest to a point: depth first through the tree, the nearest node of a group first. A node is skipped if
+// its bounding sphere is farther away than the nearest vertex so far.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -57,7 +57,7 @@ void PathSearch::follow_edges(const Found& from, std::span<const Real> xyz) {
   }
 }
 
-/// Makes the vertices of a leaf ready for paths. No path to a wall is short enough.
+/// Initializes the lengths of a leaf. That of a wall is 0, so that no path to it is shorter.
 void PathSearch::open(LeafId leaf) {
   if (runs_[leaf] == run_) return;
   runs_[leaf] = run_;

@@ -14,10 +14,11 @@ namespace meshhood {
 /// and Tarjan (1990). `Item` has a member `length`, which is +0 or positive: the bits of such doubles ascend as their
 /// values do.
 ///
-/// An item is in the bucket of the highest bit in which its length differs from a length that is not above any other,
-/// the base. So the items of a bucket are less than those of the next. When the lowest bucket has many items, the least
-/// of them becomes the base, and all go to lower buckets: an item moves at most 63 times. Of few items, the least is
-/// found without moving them; what is pushed later is not less, so it belongs to this bucket or a higher one.
+/// The base is a length that no item is below. An item is in the bucket of the highest bit in which its length differs
+/// from the base. So the items of a bucket are less than those of the next. When the lowest bucket has many items, the
+/// least of them becomes the base, and all go to lower buckets: an item moves at most 63 times. If the bucket has few
+/// items, the least is found without moving them: items pushed later are not less, so they belong to this bucket or a
+/// higher one.
 template <class Item>
 class RadixHeap {
  public:

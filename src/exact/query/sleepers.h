@@ -9,10 +9,11 @@
 
 namespace meshhood {
 
-/// Leaves that a flood has met and cannot enter yet, each with a bound: it may enter when its own bound is as large.
+/// Leaves that a flood has met and cannot enter yet, each with a bound: the flood can enter a leaf when its ball has
+/// reached that bound.
 ///
-/// A list, because a flood that rises in few steps wakes them in bulk. It becomes a heap when the smallest is asked
-/// for.
+/// They are a list, because a flood that grows in few steps wakes them in bulk. The first call of `first` makes the
+/// list a heap.
 class Sleepers {
  public:
   void clear() {
@@ -32,20 +33,20 @@ class Sleepers {
     LeafId leaf;
   };
 
-  /// One with the smallest bound. There must be one.
+  /// An entry with the smallest bound. There must be one.
   [[nodiscard]] Entry first() {
     if (!is_heap_) std::make_heap(entries_.begin(), entries_.end(), later);
     is_heap_ = true;
     return entries_.front();
   }
 
-  /// Removes what `first` returned.
+  /// Removes the entry that `first` returned.
   void remove_first() {
     std::pop_heap(entries_.begin(), entries_.end(), later);
     entries_.pop_back();
   }
 
-  /// Removes those whose bound is at most `bound`, and calls `f(entry)` for each. `f` must not add any.
+  /// Removes the entries whose bound is at most `bound`, and calls `f(entry)` for each. `f` must not add entries.
   template <class F>
   void wake(double bound, F&& f) {
     if (is_heap_) {

@@ -21,8 +21,8 @@ struct GroupState {
   NodeSet home = 0;          // whole, and known to be connected with the query vertex
 };
 
-/// The states of all groups in one query. A state that no step of the search has made says that its nodes are outside,
-/// or not connected with the query vertex, or covered by a node of a higher level.
+/// The states of all groups in one query. If no step of the search has made the state of a group, its nodes are
+/// outside, not connected with the query vertex, or covered by a node of a higher level.
 class GroupStates {
  public:
   explicit GroupStates(const IndexView& index) : parents_(index.parents), states_(index.parents.size()) {}
@@ -54,7 +54,7 @@ class GroupStates {
     return kNoNode;
   }
 
-  /// Whether `node` is marked as home's, or covered by such a node.
+  /// Whether `node`, or a node that covers it, has a home mark.
   [[nodiscard]] bool is_home(NodeId node) const {
     const NodeId whole = whole_node(node);
     return whole != kNoNode && (states_[whole / kFanOut].home >> whole % kFanOut & 1U) != 0;

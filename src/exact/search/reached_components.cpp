@@ -23,7 +23,8 @@ void ReachedComponents::find(const Query& query, std::span<const std::uint32_t> 
   number_nodes(groups, states);
   for (const std::uint32_t group : groups) unite_nodes(group, states);
   cut_leaves(surface_leaves, states);
-  // By now nearly all belongs to home. An edge between two surface leaves matters only if one of them does not.
+  // Nearly all elements now belong to the set of `home`. An edge between two surface leaves matters only if one of them
+  // does not.
   const Element home = element_at(query, states);
   for (std::size_t i = 0; i < surface_leaves.size(); ++i) {
     if (has_other_than(home, i)) unite_leaves(i, surface_leaves[i].leaf, states);  // mutant: leaves-not-united

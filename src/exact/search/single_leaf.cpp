@@ -23,7 +23,7 @@ bool SingleLeaf::leads_out(const Query& query, LaneMask found) const {
   return false;
 }
 
-/// Vertex by vertex: few of a leaf are met.
+/// Vertex by vertex, because few vertices of a leaf are met.
 bool SingleLeaf::has_vertex_in_ball(LeafId leaf, LaneMask lanes, const LeafBall& ball) const {
   bool has = false;
   for_each_lane(lanes, [&](unsigned lane) {

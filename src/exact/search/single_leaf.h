@@ -7,8 +7,8 @@
 
 namespace meshhood {
 
-/// Answers within the leaf of the query vertex, as in tiny balls and in components of few vertices. What the other
-/// searches prepare would take longer than such a query.
+/// Answers within the leaf of the query vertex, as in tiny balls and in components of few vertices. The preparations of
+/// the other searches would take longer than such a query.
 class SingleLeaf {
  public:
   SingleLeaf(const IndexView& index, const Kernels& kernels) : index_(&index), kernels_(&kernels) {}
