@@ -36,7 +36,7 @@ struct PartitionCommand {
 
 std::unique_ptr<parts::ChunkedMesh> open(const PartitionCommand& options) {
   if (!options.faces.empty()) return parts::open_arrays(options.mesh, options.faces);
-  // A mesh that is read into memory takes some times the bytes of its file.
+  // A mesh that is read into memory takes several times the bytes of its file.
   constexpr std::uint64_t kMemoryPerByte = 4;
   return parts::open_mesh(options.mesh, options.memory / kMemoryPerByte);
 }

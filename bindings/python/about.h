@@ -7,7 +7,7 @@
 
 namespace meshhood::python {
 
-/// Calls `f`; an error of it then begins with the name of the argument that it is about.
+/// Calls `f`. If it throws, the message begins with the name of the argument.
 template <class F>
 auto about(const char* argument, F&& f) {
   try {

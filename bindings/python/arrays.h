@@ -16,10 +16,10 @@
 
 namespace meshhood::python {
 
-/// An array of Python's, read in place: C order, in the memory of the processor, of any type.
+/// An array of Python, read in place: C order, in the memory of the processor, of any type.
 using Input = nanobind::ndarray<nanobind::ro, nanobind::c_contig, nanobind::device::cpu>;
 
-/// An array that Python gets.
+/// An array that is returned to Python.
 template <class T>
 using Output = nanobind::ndarray<nanobind::numpy, T>;
 
@@ -49,8 +49,8 @@ auto owned(std::vector<Value>&& values) {
   return owned<T>(std::move(values), {size});
 }
 
-/// An array of NumPy's own memory, in one dimension, whose values are not set. Large ones are cheaper so than as a
-/// vector, which writes to all of itself first: NumPy asks the system for large pages.
+/// An array in memory of NumPy, in one dimension, whose values are not set. For large arrays this is faster than a
+/// vector, which would be initialized first: NumPy asks the system for large pages.
 [[nodiscard]] nanobind::object unset(std::size_t size, const char* dtype);
 
 /// The values of such an array, whose type has as many bytes as `T`.

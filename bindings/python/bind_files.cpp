@@ -69,7 +69,7 @@ std::shared_ptr<ExactMethod> loaded(Index index) {
   return exact_method(std::move(index));
 }
 
-/// `trusted` is for what is mapped alone.
+/// `trusted` applies to mapped files only.
 std::shared_ptr<ExactMethod> load_file(const std::filesystem::path& path, bool mmap, bool trusted,
                                        nb::handle progress) {
   const Progress reported = progress_to(progress);

@@ -35,7 +35,7 @@ std::tuple<std::size_t, std::vector<std::string>> partition_file(const Path& mes
                                                                  std::uint64_t vertices_per_part, double halo,
                                                                  bool halo_in_edges, std::uint64_t memory,
                                                                  unsigned threads, bool resume, nb::handle progress) {
-  // A mesh that is read into memory takes some times the bytes of its file.
+  // A mesh that is read into memory takes several times the bytes of its file.
   constexpr std::uint64_t kMemoryPerByte = 4;
   const parts::PartitionOptions options{.parts = parts,
                                         .vertices_per_part = vertices_per_part,

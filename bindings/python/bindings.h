@@ -3,17 +3,17 @@
 
 #include <nanobind/nanobind.h>
 
-/// What the Python package meshhood is made from: conversions, and the interpreter lock. Arguments have been checked
-/// and converted by meshhood/_mesh.py and meshhood/_convert.py.
+/// The extension module of the Python package: conversions, and the interpreter lock. Arguments have been checked and
+/// converted by meshhood/_mesh.py and meshhood/_convert.py.
 namespace meshhood::python {
 
-/// The ways to ask an index.
+/// The methods that answer queries.
 void bind_methods(nanobind::module_& module);
 
 /// Sums and other properties of values over neighborhoods.
 void bind_aggregates(nanobind::module_& module);
 
-/// What makes an index, and the other methods from it.
+/// The functions that make an index, and the other methods from it.
 void bind_makers(nanobind::module_& module);
 
 /// Regions, connecting radii, rings and nearest vertices.

@@ -37,7 +37,7 @@ class Method {
   virtual std::vector<std::uint64_t> neighborhood_sizes(const BatchQuery& query, const BatchOptions& options) = 0;
 };
 
-/// The exact neighborhood by the index, and what only the index has.
+/// The exact neighborhood by the index, and the calls that only the index has.
 class ExactMethod : public Method {
  public:
   [[nodiscard]] virtual const Index& index() const = 0;
@@ -50,7 +50,7 @@ class ExactMethod : public Method {
 [[nodiscard]] std::shared_ptr<Method> paper_method(std::shared_ptr<const paper::Index> hierarchy,
                                                    const paper::QueryOptions& options);
 
-/// What lies within the radius along the edges, with path distances.
+/// The vertices within the radius along the edges, with path distances.
 [[nodiscard]] std::shared_ptr<Method> edge_method(std::shared_ptr<const ExactMethod> exact);
 
 /// Breadth-first search.

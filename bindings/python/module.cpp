@@ -23,7 +23,7 @@ PyObject* python_type(ErrorCode code) {
   }
 }
 
-/// The argument that an error of a query is about.
+/// The argument that caused an error of a query.
 const char* argument_of(ErrorCode code) {
   switch (code) {
     case ErrorCode::VertexOutOfRange: return "v: ";

@@ -12,7 +12,7 @@
 
 namespace meshhood::python {
 
-/// What an index answers beyond neighborhoods. Any number of threads may use it at the same time. Each call is made
+/// The queries of an index beyond neighborhoods. Any number of threads may use it at the same time. Each call is made
 /// with the interpreter lock, which is released while the call works.
 class Queries {
  public:

@@ -19,7 +19,7 @@ _REDUCTIONS = ("sum", "mean", "min", "max", "var", "std", "count")
 
 
 def vertex_areas(V: Any, F: Any = None) -> NDArray[np.float64]:
-    """The area that each vertex stands for: of each face a share for each of its corners, a third of a triangle. (#V,)
+    """The area that each vertex represents: each face gives equal shares to its corners, a third of a triangle. (#V,)
     float64, in the square of the unit of V. V and F as for `MeshIndex`."""
     positions, corners, offsets = mesh_arrays(V, F)
     return _core.vertex_areas(positions, corners, offsets=offsets)
@@ -85,7 +85,7 @@ def _radii(r):
 
 
 def area_weights(weights, index, F):
-    """`weights` as float64, those of the name "area" from the faces; None if there are none."""
+    """`weights` as float64, computed from the faces if they are "area"; None if there are none."""
     if weights is None:
         return None
     if isinstance(weights, str):

@@ -172,7 +172,7 @@ def max_bytes(value):
 
 
 def path(value):
-    """`value` as str or bytes. Calls `__fspath__` here, for Python code must not run below C++ functions."""
+    """`value` as str or bytes. Calls `__fspath__` here, because Python code must not run below C++ functions."""
     value = os.fspath(value)
     if ("\0" if isinstance(value, str) else b"\0") in value:
         raise ValueError(f"path: {value!r} has a null byte")
@@ -242,7 +242,8 @@ def as_array(values, name):
 
 
 def _has_only_dlpack(values):
-    """Whether DLPack is the one protocol by which `values` offers its memory. NumPy's own keep more types."""
+    """Whether DLPack is the only protocol by which `values` offers its memory. The protocols of NumPy keep more
+    types."""
     others = ("__array__", "__array_interface__", "__array_struct__")
     return hasattr(values, "__dlpack__") and not any(hasattr(values, name) for name in others)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Curvature at a scale: what the neighborhood of a vertex says of the shape of the surface there."""
+"""Curvature at a scale: the shape of the surface in the neighborhood of a vertex."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Curvature(NamedTuple):
 
     k1, k2 : (#rows,) float64. Positive where the surface is convex, seen from the side of the normals: 1 / R on a
         sphere with normals outward.
-    d1, d2 : (#rows, 3) float64, unit vectors; of either sign the one whose component of largest magnitude is positive.
+    d1, d2 : (#rows, 3) float64, unit vectors, with the sign that makes the component of largest magnitude positive.
     state : (#rows,) uint8. 0: fitted. 1: the points determine no unique quadric; the values are those of the one with
         the smallest coefficients. 2: fewer than six vertices are connected with the vertex; all values are 0. 3: the
         vertex has no normal, as it belongs to no face with an area; all values are 0.
@@ -130,8 +130,8 @@ def principal_curvature(
         default is True.
     workers : number of threads, -1 for one per processor.
 
-    Differs from libigl: vertices without a normal are in the list, too, the sign of a direction is the one with
-    positive component of largest magnitude, and isolated vertices at the end of V do not end the program. See
+    Differences from libigl: the list includes vertices without a normal; directions have the sign that makes the
+    component of largest magnitude positive; isolated vertices at the end of V do not end the program. See
     `MeshIndex.curvature` for a shape operator without libigl's error.
     """
     from ._index import MeshIndex

@@ -52,8 +52,8 @@ class Quality(NamedTuple):
 
 
 class MeshIndex(Queries):
-    """An index of a mesh that finds the neighborhood of a vertex v with a radius r: the connected component that holds
-    v of the mesh inside the ball of radius r around v.
+    """An index of a mesh that finds the neighborhood of a vertex v with a radius r: the connected component, containing
+    v, of the part of the mesh inside the ball of radius r around v.
 
     V : (#V, 3) float32 or float64, the positions, in any unit. Or a mesh without F: of
         trimesh, PyVista, VTK (vtkPolyData), vedo, meshio, Open3D, or a GIFTI surface of nibabel.
@@ -116,7 +116,7 @@ class MeshIndex(Queries):
 
     def __reduce_ex__(self, protocol: Any) -> tuple[Any, ...]:
         """The bytes of an index file, which are verified when they are loaded, and the attributes of a subclass. With
-        protocol 5 the bytes may travel out of band."""
+        protocol 5 the bytes may be sent out of band."""
         saved = _core.to_bytes(self._exact)
         buffer = pickle.PickleBuffer(saved) if protocol >= 5 else saved.tobytes()
         return _unpickled, (type(self), buffer), self.__getstate__()
@@ -434,15 +434,15 @@ class MeshIndex(Queries):
         max_bytes: Optional[int] = None,
         progress: Progress = None,
     ) -> Any:
-        """A sum, a mean or the like of values over the exact neighborhood of each vertex.
+        """A sum, a mean or another aggregate of values over the exact neighborhood of each vertex.
 
         values : (#V,) or (#V, ...), numbers or bools; each channel by itself. Converted to float64.
         r : the radius, >= 0 or inf, or several. A vertex at exactly `r` is inside.
         reduce : "sum", "mean", "min", "max", "var", "std" or "count".
         weights : (#V,) finite and >= 0, for sum, mean, var and std; "area" for `vertex_areas`, which needs F. A vertex
             of weight 0 is left out.
-        kernel : for sum and mean, how the weight falls with the distance d: None not at all, "epanechnikov"
-            1 - (d/r)^2, "biweight" (1 - (d/r)^2)^2, which is close to a Gaussian of the standard deviation 0.4 r.
+        kernel : for sum and mean, how the weight falls with the distance d. None: not at all; "epanechnikov":
+            1 - (d/r)^2; "biweight": (1 - (d/r)^2)^2, which is close to a Gaussian of the standard deviation 0.4 r.
         vertices : a vertex, a sequence of vertices, a bool mask (#V,), or None for all.
         nan : "propagate", a neighborhood with a NaN gives NaN; "omit", NaN marks a missing value, which is left out.
         nesting : what several radii mean. "own": each has its own neighborhoods. "patch": the neighborhoods of the
@@ -572,15 +572,15 @@ class MeshIndex(Queries):
 
         r : a radius, or a list of radii: the arrays of the result then have a leading axis.
         vertices : a list of vertices, a bool mask, or None for all.
-        F : the faces of the mesh that the index was built from. The index does not keep them, but the normals that
-            follow from them: a call with the same faces finds these again.
+        F : the faces of the mesh that the index was built from. The index does not keep them, but it keeps their
+            normals for the next call with the same faces.
         normals : (#V, 3), instead of F, for a mesh without faces; of any length. NaN where a vertex has none.
-        like : "libigl" gives the values of igl.principal_curvature, whose shape operator is wrong where the fitted
-            quadric is tilted against the normal, for a neighborhood of the vertices nearer than `r`.
+        like : "libigl" gives the values of igl.principal_curvature. Its shape operator is wrong where the fitted
+            quadric is tilted against the normal, and its neighborhoods have the vertices nearer than `r`.
         fit : "quadric", through the vertex and over its tangent plane, or "jet", over the plane of the principal
             components of the neighborhood: with filter=False CGAL's Monge_via_jet_fitting of degrees 2 and 2.
-        filter : fit only vertices whose normal makes less than 90 degrees with that of the query vertex, if they are at
-            least six.
+        filter : fit only vertices whose normal makes less than 90 degrees with that of the query vertex, if there are
+            at least six.
         unit, workers, progress : as for `query_ball`. The result does not depend on `workers`.
 
         Returns a `Curvature`: k1, k2, d1, d2, state, and as properties mean, gaussian, shape_index, curvedness, ok.
@@ -652,7 +652,7 @@ class MeshIndex(Queries):
         progress: Progress = None,
     ) -> _moments.PrincipalComponents:
         """The mean and the covariance of the positions of each neighborhood: normals, surface variation, and with
-        weights="area" the integral invariants area, barycenter and covariance. Arguments as of `moments`."""
+        weights="area" the integral invariants area, barycenter and covariance. The arguments are those of `moments`."""
         rows, radii, _ = self._batch(vertices, r, self._scale(unit), workers)
         return _moments.principal_components(self, rows, radii, weights, F, workers, progress)
 
@@ -676,7 +676,7 @@ class MeshIndex(Queries):
         F, filter, unit, workers, progress : as for `curvature`.
 
         Returns (#radii, #rows, #kinds) float64, without the last axis if `kinds` is one name. NaN where there is no
-        result. `persistence` tells over how many radii a feature lasts.
+        result. `persistence` finds over how many radii a feature lasts.
         """
         rows = None if vertices is None else _convert.vertices(vertices, self._count)
         array = np.atleast_1d(np.array(_convert.as_array(r, "r")))

@@ -50,7 +50,8 @@ def _as_float64(array):
 
 
 def _integers(F, name):
-    """`F` as a new array of 32 or 64 bits in C order. A copy, for another thread may write to `F` once it is checked."""
+    """`F` as a new array of 32 or 64 bits in C order. A copy, because another thread may write to `F` after it is
+    checked."""
     array = as_array(F, name)
     if array.size == 0 and not isinstance(F, np.ndarray):
         array = array.astype(np.int32)
@@ -287,7 +288,8 @@ def _meshio_block(block):
 
 
 def warn_if_unwelded(positions, corners, offsets, stacklevel):
-    """Warns if the faces are separate although their corners coincide, as loaders leave an STL file."""
+    """Warns if the faces are separate although their corners coincide, as in an STL file that was read without
+    welding."""
     faces = len(corners) // 3 if offsets is None else len(offsets) - 1
     triangles = len(corners) - 2 * faces
     # A connected surface of n vertices has at least n - 2 triangles; separate polygons have a third of n to nearly n.

@@ -27,8 +27,8 @@ class PrincipalComponents(NamedTuple):
     weight : (#rows,) the sum of the weights.
     center : (#rows, 3) the weighted mean of the positions, relative to the query vertex.
     variances : (#rows, 3) ascending: the eigenvalues of the weighted covariance about `center`.
-    axes : (#rows, 3, 3) axes[i, j] is the direction of variances[i, j], a unit vector; of either sign the one whose
-        component of largest magnitude is positive.
+    axes : (#rows, 3, 3) axes[i, j] is the direction of variances[i, j], a unit vector, with the sign that makes the
+        component of largest magnitude positive.
 
     All but `weight` are NaN where the weights sum to 0.
     """
@@ -45,7 +45,8 @@ class PrincipalComponents(NamedTuple):
 
     @property
     def surface_variation(self) -> Reals:
-        """The share of the least variance in all (Pauly, Gross, Kobbelt 2002): 0 on a plane, at most 1/3."""
+        """The least variance divided by the sum of the three (Pauly, Gross, Kobbelt 2002): 0 on a plane, at most
+        1/3."""
         with np.errstate(invalid="ignore"):
             shares = self.variances / self.variances[..., 2:]
             return shares[..., 0] / shares.sum(axis=-1)
@@ -98,8 +99,8 @@ def _count(count: Any) -> int:
 
 def persistence(values: Any, radii: Any, threshold: float) -> Persistence:
     """Over how many scales a feature lasts: the length of the longest run of consecutive radii at which it is at least
-    as strong as `threshold` and keeps its sign; negative if the sign is. Of several runs the one with the smallest
-    radii.
+    as strong as `threshold` and keeps its sign; negative if the feature is. If several runs have this length, the one
+    with the smallest radii counts.
 
     values : (#radii, #rows), one kind of feature. A NaN ends a run.
     radii : (#radii,), ascending.

@@ -37,7 +37,8 @@ def partition(
     mesh : a binary PLY file, or a tuple (V, F) of `.npy` files, positions (#V, 3) and faces (#F, k); these are read in
         chunks and may be larger than the memory. A mesh file of another format is read into memory.
     folder : created if it does not exist.
-    parts, vertices_per_part : the number of parts, or the vertices of a part without its halo, about. One of them.
+    parts, vertices_per_part : the number of parts, or the approximate number of vertices of a part without its halo.
+        Give one of them.
     halo : the largest radius that the parts will answer, finite, >= 0.
     unit : of `halo`: "mesh" is that of the positions, "edge" is the mean edge length of the mesh.
     memory : the most bytes of memory, a number or a text such as "4GiB"; at least 64 MiB. A part that needs more is
@@ -50,7 +51,7 @@ def partition(
     around these. So it answers queries of the vertices that it owns exactly, without the other parts.
 
     Returns the parts, as `open_parts`. Raises ValueError, naming the file and element; OSError, also if another run
-    writes into the folder; KeyboardInterrupt on Ctrl-C. Finished parts then stay, and the next run goes on.
+    writes into the folder; KeyboardInterrupt on Ctrl-C. Finished parts then stay, and the next run continues.
     """
     from .distributed import open_parts
 

@@ -33,7 +33,8 @@ def plot_neighborhood(
     plotter: Any = None,
 ) -> Any:
     """Draws the neighborhood of `v` within `r` on the mesh: the exact neighborhood in green, what the search of the
-    paper adds in yellow, what the ball adds in blue, the rest in gray, and the vertex as a red dot that nothing hides.
+    paper adds in yellow, what the ball adds in blue, the rest in gray, and the vertex as a red dot that is always
+    visible.
 
     index : the `MeshIndex` of the mesh.
     v, r, unit : the query, as for `MeshIndex.query_ball`.
@@ -98,7 +99,7 @@ def _aim(plotter, mesh, v, labels):
     """Looks at vertex `v` along its normal, so that what is not "other" fills the picture."""
     offsets = mesh.points.astype(np.float64) - mesh.points[v]
     normal, edge = _normal_and_edge(mesh, offsets, v)
-    # From the side on which fewer of the other parts lie, for they would hide the exact neighborhood.
+    # From the side on which fewer of the other parts lie, because they would hide the exact neighborhood.
     if np.sign(offsets[(labels == 1) | (labels == 2)] @ normal).sum() > 0:
         normal = -normal
     extent = np.linalg.norm(offsets[labels > 0], axis=1).max() + 1.5 * edge or 1.0

@@ -72,7 +72,7 @@ class Queries:
         """The region of `start` and the radius `r`: the vertices that are connected to a seed by edges between vertices
         within `r` of `start`. For a vertex as start, without masks, it is the neighborhood that `query_ball` returns.
 
-        start : a vertex, or a point of space (3 numbers). It is the center of the ball.
+        start : a vertex, or a point in space (3 numbers). It is the center of the ball.
         seeds : if `start` is a point: the vertices from which the search starts, for example the corners of the face
             on which the point lies; None for the vertex nearest to the point. A seed outside the ball does not count.
         walls : a bool mask (#V,): vertices that the search does not pass and that belong to no answer, as if they were
@@ -132,7 +132,7 @@ class Queries:
         radii : strictly ascending.
 
         So indices[counts[i - 1]:counts[i]] is ring i: the vertices that only the ball of radii[i] connects with the
-        start. A vertex may be near and belong to a late ring. Sums over the regions are sums over the rings:
+        start. A near vertex may belong to a late ring. Sums over the regions are sums over the rings:
         `np.add.reduceat`, then `np.cumsum`.
         """
         center, first = self._start(start, seeds)
@@ -166,8 +166,8 @@ class Queries:
     def connecting_radius(
         self, start: ArrayLike, w: Any, *, seeds: Seeds = None, walls: Mask = None, ignored: Mask = None
     ) -> float:
-        """The smallest radius whose region has vertex `w`; inf if there is none. It is the least, over all paths of
-        edges from a seed to `w`, of the largest distance of a vertex of the path from `start`."""
+        """The smallest radius whose region has vertex `w`; inf if there is none. It is the minimum, over all paths of
+        edges from a seed to `w`, of the largest distance between a vertex of the path and `start`."""
         center, first = self._start(start, seeds)
         w = _convert.vertex(w, self._count, "w")
         return float(self._queries.connecting_radius(center, first, w, *self._masks(walls, ignored)))
@@ -175,9 +175,8 @@ class Queries:
     def nearest_connected(
         self, start: ArrayLike, k: Any, *, seeds: Seeds = None, walls: Mask = None, ignored: Mask = None
     ) -> tuple[Ids, Reals]:
-        """The `k` nearest connected vertices and their connecting radii: the first k in the order of their connecting
-        radii; of equal radius, in the order of their distances from `start`, then of their ids. Fewer if no more are
-        connected."""
+        """The `k` nearest connected vertices and their connecting radii: the first k, ordered by connecting radius,
+        then by distance from `start`, then by id. Fewer if no more are connected."""
         center, first = self._start(start, seeds)
         k = _convert.integer(k, "k", 0, 2**63 - 1)
         indices, radii = self._queries.nearest_connected(center, first, k, *self._masks(walls, ignored))
@@ -196,7 +195,7 @@ class Queries:
         """The center and the seeds."""
         if np.ndim(start) == 0:
             if seeds is not None:
-                raise ValueError("seeds: expected None, for the start is a vertex")
+                raise ValueError("seeds: expected None, because the start is a vertex")
             v = _convert.vertex(start, self._count, "start")
             return self._queries.position(v), np.array([v], np.int32)
         point = _convert.points(start, "start")

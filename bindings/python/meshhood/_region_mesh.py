@@ -65,7 +65,7 @@ class RegionMesh:
         """Where the surface leaves a region: polylines whose points lie on edges, at the distance `r` from `start`.
 
         ids : the region of `start` and `r` (see `MeshIndex.query_region`).
-        start : the center of the ball, a vertex or a point of space (3 numbers).
+        start : the center of the ball, a vertex or a point in space (3 numbers).
 
         On a manifold mesh without border all polylines are closed. They end at the border, and where three or more of
         them meet. If the faces are consistently oriented, the region lies to the left. Where an edge ends inside the

@@ -54,7 +54,7 @@ def _lock(folder: str) -> Iterator[None]:
             raise BlockingIOError(error.errno, "another call writes into this folder", folder) from None
         try:
             yield
-        finally:  # closing would leave the lock to a child that was forked meanwhile
+        finally:  # if the file were only closed, a child forked meanwhile would keep the lock
             fcntl.flock(descriptor, fcntl.LOCK_UN)
     finally:
         os.close(descriptor)

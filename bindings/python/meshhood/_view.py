@@ -70,8 +70,8 @@ def view(
     V, F : the mesh, as for `MeshIndex`, but not a graph.
     v, r, unit : the query to show at first, as for `MeshIndex.query_ball`; by default the page chooses one.
     ids : vertices to show instead of the answers, until another query is made: a sequence or a bool mask (#V,).
-    values : (#V,) a number for each vertex, shown as colors. Those that are not finite get none.
-    name : what the page calls the mesh.
+    values : (#V,) a number for each vertex, shown as colors. Values that are not finite get no color.
+    name : the name of the mesh on the page.
     height : of the frame in a notebook, in pixels.
 
     The page holds the positions and faces, about 50 bytes for each vertex of a closed triangle mesh, and builds its own

@@ -114,14 +114,14 @@ class Parts:
         unit: Unit = "mesh",
         order: Literal["mesh", "parts"] = "mesh",
     ) -> da.Array:
-        """A sum, a mean or the like of values over the neighborhood of each vertex, as `MeshIndex.aggregate`: a
-        dask.array (#V, ...) float64. See `map` for `order`.
+        """A sum, a mean or another aggregate of values over the neighborhood of each vertex, as `MeshIndex.aggregate`:
+        a dask.array (#V, ...) float64. See `map` for `order`.
 
         values : (#V, ...), by vertex id; or the `pathlib.Path` of a `.npy` file, of which each task reads the rows of
-            its part. An array travels to every task, so a cluster should be given a path.
+            its part. An array is sent to every task, so use a path on a cluster.
         weights : None, "area", or (#V,) as `values`. Areas are those of the whole mesh.
 
-        Minima, maxima and counts are those of one index. The last digits of sums may differ, as the order does.
+        Minima, maxima and counts are those of one index. The last digits of sums may differ, because their order does.
         """
         radius = self._radius(r, unit)
         values = self._per_vertex(values, "values")
@@ -144,8 +144,8 @@ class Parts:
         """Principal curvatures at every vertex, as `MeshIndex.curvature`: a `Curvature` whose arrays are dask.arrays with
         #V rows. See `map` for `order`.
 
-        Normals are those of the whole mesh, as each part has all faces around the vertices within its halo. The last
-        digits may differ from those of one index, as the order of the sums does. Compute all arrays together:
+        Normals are those of the whole mesh, because each part has all faces around the vertices within its halo. The
+        last digits may differ from those of one index, because the order of the sums does. Compute all arrays together:
 
             k1, k2 = dask.compute(found.k1, found.k2)
         """
@@ -177,9 +177,9 @@ class Parts:
 
         function : called as `function(part, index, owned)`, with `part` an `OpenPart`, `index` its index and `owned`
             the vertices that it owns, numbered as in the index. It returns an array with a row for each of `owned`. It
-            must be picklable for a cluster of processes, and asks for radii up to `r`. Tasks run side by side, so it
+            must be picklable for a cluster of processes, and may use radii up to `r`. Tasks run side by side, so it
             should use `workers=1`.
-        r : the largest radius that `function` asks for.
+        r : the largest radius that `function` uses.
         order : "mesh", by vertex id, one block; or "parts", one block for each part, with the vertices of `ids`. For a
             mesh whose results do not fit into the memory of one worker, use "parts" or `write`.
 
@@ -209,8 +209,8 @@ class Parts:
         part-00000.npy, ... Returns the paths.
 
         A file appears whole or not at all. Files that an earlier call with the same parts, function name and radius has
-        written are kept, so that a call that was stopped goes on; a folder with other results is refused, as is one into
-        which another call writes. The rows are in the order of `part.owned`.
+        written are kept, so that a call that was stopped can be continued. A folder with other results, or into which
+        another call writes, is refused. The rows are in the order of `part.owned`.
         progress : True shows a bar of tqdm; a function is called as progress(done, total), in parts.
         """
         radius = self._radius(r, unit)
