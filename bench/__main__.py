@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: MIT
-"""Measures what meshhood says of itself, each part by one command; the results are docs/benchmarks/*.json, and what is
-shown is made from them.
+"""Measures the figures that meshhood publishes, each part by one command. The results are docs/benchmarks/*.json; all
+pages and plots are made from them.
 
-    python3 -m bench tables      the paper's Table 1 and Table 2, the phases of its query, the account of all vertices
-    python3 -m bench exact       the exact index beside the best breadth-first search, cold and warm
+    python3 -m bench tables the paper's Table 1 and Table 2, the phases of its query, the times for all vertices python3
+    -m bench exact the exact index beside the best breadth-first search, cold and warm
     python3 -m bench batch       all vertices of a mesh in one call, beside breadth-first search
     python3 -m bench curvature   principal curvatures of all vertices, beside libigl, MeshLab and CGAL
     python3 -m bench pictures    the paper's Figure 4
     python3 -m bench accuracy    the paper's answer and the ball against the exact one
     python3 -m bench scaling     cost as mesh and radius grow
-    python3 -m bench peers       other products on the same queries
+    python3 -m bench peers       other libraries on the same queries
     python3 -m bench report      plots and docs/benchmarks.md, from the results
 
-`make reproduce` and `make peers` install what is needed and run them. On a busy machine the figures say so.
+`make reproduce` and `make peers` install what is needed and run them. Figures from a busy machine are marked.
 """
 import argparse
 import time
@@ -85,7 +85,7 @@ def main():
     parser.add_argument("--meshes", nargs="+", choices=meshes.MESHES, metavar="NAME", help=", ".join(meshes.MESHES))
     parser.add_argument("--queries", type=int, help="a mesh and radius")
     parser.add_argument("--largest", type=int, default=10_000_000, help="vertices of the largest mesh of `scaling`")
-    parser.add_argument("--block-seconds", type=float, default=0.3, help="of a peer and block, about")
+    parser.add_argument("--block-seconds", type=float, default=0.3, help="approximate time of a library and block")
     options = parser.parse_args()
     for part in options.parts:
         begin = time.monotonic()

@@ -7,9 +7,8 @@
 MESH is a file; radii are in mean edge lengths. Both have the same rows, consecutive in index order: all vertices, or
 the first ones, so that the matrix has at most 100 million entries. The matrix is made by `query_ball` without sorting,
 with a value of one for each entry, in pieces of 20 million entries; the product is divided by the size of each row. Both
-results are compared. Times are medians of rounds in which each has its turn; `aggregate` includes what it prepares for
-the whole mesh, which is shared by few rows where the radius is large. The table is Markdown.
-"""
+results are compared. Times are medians of alternating rounds. `aggregate` includes its preparation for the whole mesh,
+which few rows share where the radius is large. The table is Markdown. """
 
 import argparse
 import statistics
@@ -37,7 +36,7 @@ def mean_by_matrix(index, values, rows, piece, r, workers):
 
 
 def seconds(work, workers):
-    """Of one thread its processor time, which other programs disturb less."""
+    """Processor time if there is one thread, because other programs disturb it less."""
     clock = time.process_time if workers == 1 else time.perf_counter
     start = clock()
     result = work()

@@ -12,7 +12,7 @@ def run(names):
     measured = {}
     for name in names or MESHES:
         print(f"  {name}", flush=True)
-        found = programs.ask(places.PROGRAMS / "all_vertices", "--json", meshes.argument(name), *RADII)
+        found = programs.run(places.PROGRAMS / "all_vertices", "--json", meshes.argument(name), *RADII)
         rows = [row | {method: timing.summary(row[method]) for method in METHODS} for row in found["rows"]]
         measured[name] = {"vertices": found["vertices"], "rows": rows}
     results.save("batch", {"meshes": measured}, watched)

@@ -14,11 +14,11 @@ MESHES = ("cortex", "cat0", "dragon", "head_skin")
 RADII = (3, 5, 10, 20, 65)
 ROUNDS = 3
 SIZES = (10_000, 100_000, 1_000_000, 10_000_000)
-LIBIGL_SIZE = 1_000_000  # the largest of these that libigl gets
+LIBIGL_SIZE = 1_000_000  # the largest of these on which libigl runs
 GROWTH_RADIUS = 5
-SECONDS = 12  # that libigl should take for a mesh and radius
-MOST_SECONDS = 40  # that it may
-LIBIGL_COST = 0.27e-6  # seconds for each vertex found, about
+SECONDS = 12  # intended for libigl, for a mesh and radius
+MOST_SECONDS = 40  # allowed for libigl
+LIBIGL_COST = 0.27e-6  # approximate seconds for each vertex found
 MESHLAB_COST = 0.5e-6
 NORMAL_BYTES = 28  # of a vertex, in a CurvatureIndex
 
@@ -105,7 +105,7 @@ def piece(index, V, F, count):
     number[ids] = np.arange(len(ids))
     inside = number[F]
     F = inside[(inside >= 0).all(axis=1)]
-    used = np.unique(F)  # libigl ends the program where a vertex behind the last face is isolated
+    used = np.unique(F)  # libigl ends the program if an isolated vertex has a larger id than those of all faces
     return V[ids[used]], np.searchsorted(used, F)
 
 
@@ -141,7 +141,7 @@ def peers(V, F, index, edges, found):
 
 
 def in_turns(tools):
-    """Processor seconds by tool. A tool that takes long gets one turn."""
+    """Processor seconds by tool. A slow tool runs once."""
     times = {tool: [] for tool in tools}
     for _ in range(ROUNDS):
         for tool, work in tools.items():
@@ -167,4 +167,4 @@ def cgal_jets(name, edges):
     program = places.PROGRAMS / "cgal_jets"
     if not program.is_file():
         return None
-    return programs.ask(program, meshes.argument(name), edges)
+    return programs.run(program, meshes.argument(name), edges)

@@ -5,7 +5,7 @@ from .paper_tables import RADII
 
 METHODS = ("bfs", "bfs-reordered", "ids", "count", "ranges")
 
-# By formula, with sheets so close that a ball takes several; vertices.
+# By formula, with sheets so close together that a ball contains several; with their numbers of vertices.
 SHEETS = {"scroll": 1_000_000, "plates": 1_000_000, "folds": 1_000_000, "gyroid": 1_000_000}
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a figure was measured on, for it means nothing without: the machine, and how busy others kept it."""
+"""The conditions of a measurement: the machine, and its load by other programs."""
 import datetime
 import os
 import platform
@@ -18,7 +18,7 @@ class Watched:
         self.begun = Usage()
 
     def description(self):
-        """To be taken when all that was started has ended, for what runs still counts as others'."""
+        """Call it when all started processes have ended: a running one would count as another program."""
         return {
             "processor": processor(),
             "processors": os.cpu_count(),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The meshes, by name: those that lie beside the repository, or one by formula of the same size where they do not."""
+"""The meshes, by name: files beside the repository, or a generated mesh of the same size where there is none."""
 import os
 import subprocess
 from dataclasses import dataclass
@@ -37,7 +37,7 @@ OF_PAPER = [name for name, mesh in MESHES.items() if mesh.of_paper]
 
 
 def argument(name):
-    """What our programs take: a file, unpacked, or a shape as kind:vertices."""
+    """The argument of our programs: an unpacked file, or a shape as kind:vertices."""
     mesh = MESHES[name]
     packed = SHARED / mesh.file
     if not mesh.file or not packed.exists():

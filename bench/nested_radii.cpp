@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Eight nested radii in one pass beside eight queries, on one thread, in turn. Microseconds for each vertex, and the
-// ratio.
+// Compares eight nested radii in one pass with eight queries, on one thread, in alternating rounds. Microseconds for
+// each vertex, and the ratio.
 //
 //   nested_radii MESH [LARGEST RADIUS IN MEAN EDGES...]
 #include <algorithm>

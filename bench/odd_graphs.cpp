@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The exact index against breadth-first search on graphs that are no surface: stars, hubs, random graphs, and all
+// The exact index against breadth-first search on graphs that are unlike a surface: stars, hubs, random graphs, and all
 // families of the tests. Prints the ratio of the two times; above 1 the index is faster. Usage: odd_graphs [VERTICES]
 #include <algorithm>
 #include <array>
@@ -52,7 +52,7 @@ TestMesh make_random_graph(Random& random, std::size_t vertices, std::size_t deg
   return mesh.finish(true);
 }
 
-/// Of processor time, which depends less on what else the machine does.
+/// Processor time, which depends less on other programs.
 double seconds_of(const std::function<void()>& work) {
   const auto now = [] {
     timespec time{};

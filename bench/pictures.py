@@ -5,15 +5,15 @@ from dataclasses import dataclass
 
 from . import meshes, places, programs, results
 
-# Where VTK would look for a screen, it is told that there is none.
+# VTK would otherwise look for a screen.
 os.environ.setdefault("PYVISTA_OFF_SCREEN", "true")
 PIXELS = (800, 800)
 
 
 @dataclass(frozen=True)
 class Picture:
-    """The vertex is the one nearest to `at`, a place in the box of the mesh (0 to 1 along each axis); the paper does
-    not say which it took."""
+    """The vertex is the one nearest to `at`, a place in the box of the mesh (0 to 1 along each axis), because the paper
+    does not state its vertices."""
 
     letter: str
     mesh: str

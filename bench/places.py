@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where things are."""
+"""The paths of programs, meshes and results."""
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent

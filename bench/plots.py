@@ -23,7 +23,7 @@ STYLES = {
 
 
 def draw_all():
-    """What there are results for. Returns the names of the plots."""
+    """Draws the plots for which there are results. Returns their names."""
     plots = {"paper_tables": table2, "accuracy": accuracy_plots, "scaling": scaling_plots}
     return [name for source, plot in plots.items() if results.load(source) for name in plot(results.load(source))]
 
@@ -34,13 +34,13 @@ def panels(count, height=3.2):
 
 
 def common_legend(figure, axis):
-    """Above all panels, where it hides no line."""
+    """Above all panels, so that it hides no line."""
     handles, labels = axis.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=len(labels))
 
 
 def legend_below(axis):
-    """For a panel whose labels are its own."""
+    """For a panel with labels of its own."""
     axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2))
 
 

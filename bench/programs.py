@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Our own programs, asked for JSON."""
+"""Runs our own programs, which print JSON."""
 import json
 import subprocess
 import sys
@@ -7,7 +7,7 @@ import sys
 from . import places
 
 
-def ask(program, *arguments):
+def run(program, *arguments):
     command = [str(program), *map(str, arguments)]
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
     if done.returncode != 0:
@@ -16,13 +16,13 @@ def ask(program, *arguments):
 
 
 def race(mesh, methods=(), *, radii=(), queries=0, order="cold", builds=0):
-    """All `methods` on the same queries in one run; the first is taken as exact. See bench/race/main.cpp."""
+    """All `methods` on the same queries in one run; the first defines the exact answer. See bench/race/main.cpp."""
     arguments = [mesh, "--order", order, "--builds", builds]
     for method in methods:
         arguments += ["--method", method]
     if radii:
         arguments += ["--radii", ",".join(map(str, radii)), "--queries", queries]
-    return ask(places.PROGRAMS / "race", *arguments)
+    return run(places.PROGRAMS / "race", *arguments)
 
 
 def by_radius(rows):

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What a call from Python costs over the query itself, and a batch beside its rows, all timed in the same run.
+"""The overhead of a call from Python over the query itself, and of a batch over its rows, all timed in the same run.
 
     PYTHONPATH=build/release/python bench/python_overhead.py
 
-A grid of 250,000 vertices, the same vertex over and over, so that all is in the cache; the median of several rounds.
-The query itself is a batch of one thread that only counts, so the overhead is no less than it should be.
-"""
+A grid of 250,000 vertices, always the same vertex, so that all data is in the cache; the median of several rounds. The
+query itself is a batch of one thread that only counts, so the overhead is not underestimated. """
 
 import statistics
 import time
@@ -36,7 +35,7 @@ def microseconds(work):
 
 
 def medians(*works):
-    """Of rounds in which each has its turn."""
+    """The medians of alternating rounds."""
     rounds = [[microseconds(work) for work in works] for _ in range(ROUNDS)]
     return [statistics.median(times) for times in zip(*rounds)]
 
@@ -54,7 +53,7 @@ def print_calls(index, v, r):
 
 
 def print_batch(index, v, r):
-    """A batch is one call of the library, so what it costs beside its rows does not depend on how many they are."""
+    """A batch is one call of the library, so its overhead does not depend on the number of rows."""
     one, rows, everything = np.array([v]), np.full(CALLS, v), np.arange(len(index))
 
     def batches():
@@ -66,11 +65,11 @@ def print_batch(index, v, r):
     index.query_ball(everything, r, workers=1)
     whole = (time.perf_counter() - start) * 1e6
     beside = batch - query
-    print(f"a batch costs {beside:.1f} us beside its rows: {beside / whole:.5%} of one over all {len(index)} vertices")
+    print(f"a batch has an overhead of {beside:.1f} us: {beside / whole:.5%} of a batch of all {len(index)} vertices")
 
 
 def print_rows(index, v, r):
-    """Rows of many ids, kept in arrays chunk by chunk, beside the same that are only counted."""
+    """Rows of many ids, kept in arrays chunk by chunk, compared with the same rows only counted."""
     rows = np.arange(v, v + CALLS)
 
     def kept():
@@ -79,7 +78,7 @@ def print_rows(index, v, r):
 
     ids, counted = medians(kept, lambda: index.query_ball_count(rows, r, workers=1))
     count = index.query_ball_count(rows, r).mean()
-    print(f"a row of {count:.0f} ids takes {ids:.1f} us in chunks of {CHUNK}, {counted:.1f} us where it is only counted")
+    print(f"a row of {count:.0f} ids takes {ids:.1f} us in chunks of {CHUNK}, {counted:.1f} us if it is only counted")
 
 
 def main():

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The time to refit an index after its vertices have moved, beside the time to build it again: all vertices, those
-// under a brush, and as many anywhere; then what queries take with the refitted index and with a new one. Interleaved
+// under a brush, and as many anywhere; then the time of queries with the refitted index and with a new one. Interleaved
 // in one run, on one thread.
 //
 //   bench_refit MESH [CHANGED VERTICES]

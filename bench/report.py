@@ -53,7 +53,7 @@ def page(source, data):
 
 
 def overview(measured):
-    """The page that a person reads: plots, the main tables, and links to the others."""
+    """The main page: plots, the main tables, and links to the others."""
     parts = [HEAD]
     parts += [image(name, text, folder="benchmarks/") + "\n" for name, text in PLOTS]
     more = []

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Results as files: what is measured is kept as JSON, and everything shown is made from that."""
+"""Results as files: measurements are kept as JSON, from which all pages and plots are made."""
 import json
 
 from . import machine, places
 
 
 def begin(what):
-    """What `save` is to be given: the machine, watched from now on."""
+    """The argument of `save`: the machine, observed from now on."""
     print(f"{what} ...", flush=True)
     return machine.Watched()
 
@@ -20,13 +20,13 @@ def save(name, data, watched):
 
 
 def load(name):
-    """What `save` has written, or None."""
+    """The result that `save` has written, or None."""
     path = places.RESULTS / f"{name}.json"
     return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
 
 
 def as_text(value, indent=""):
-    """JSON with a line for each thing that fits on one, so that a change of it is a change of a line."""
+    """JSON with a line for each value that fits on one, so that a changed value changes one line."""
     line = json.dumps(value)
     if not isinstance(value, (dict, list)) or len(line) < 200:
         return line

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Meshes in parts: that they are exact, and what they take.
+"""Meshes in parts: their exactness, time and memory.
 
 python3 -m bench.scale verify MESH      a mesh in 2, 7 and 32 parts, compared with one index
 python3 -m bench.scale grow COUNT       a mesh of COUNT vertices by formula: partition; counts, mean positions and curvatures
@@ -22,7 +22,7 @@ import numpy as np
 
 import meshhood
 
-_ROWS = 1 << 20  # written at once
+_ROWS = 1 << 20  # written at a time
 
 
 def verify(mesh, folder):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Cost as work grows: building and asking from ten thousand to ten million vertices, and asking over the radius."""
+"""Cost as mesh and radius grow: builds and queries from ten thousand to ten million vertices, and queries over the
+radius."""
 from . import programs, results, timing
 
 SHAPES = ("sphere", "scroll", "noise")
@@ -46,6 +47,6 @@ def cost_by_found(race, method):
 
 
 def large(found, costs):
-    """Where the exponent is fitted: below, what every query costs in any case hides it."""
+    """The answers to which the exponent is fitted: for smaller ones, the fixed cost of a query hides it."""
     pairs = [pair for pair in zip(found, costs) if pair[0] >= LARGE]
     return tuple(zip(*pairs)) if pairs else ((), ())

@@ -5,7 +5,8 @@ import statistics
 
 
 def summary(values):
-    """The median and the quartiles: of fewer than three values, the least and the greatest stand for these."""
+    """The median and the quartiles: of fewer than three values, the least and the greatest in place of the
+    quartiles."""
     if len(values) < 3:
         return {"median": statistics.median(values), "quartiles": [min(values), max(values)], "runs": len(values)}
     lower, middle, upper = statistics.quantiles(values, n=4, method="inclusive")
@@ -13,5 +14,5 @@ def summary(values):
 
 
 def fitted_exponent(sizes, costs):
-    """The slope of the straight line that lies closest to the points in log-log."""
+    """The slope of the line that fits the points best in log-log scale."""
     return statistics.linear_regression([math.log(size) for size in sizes], [math.log(cost) for cost in costs]).slope

@@ -5,7 +5,7 @@
     curvature_map.py SCAN EDGES OUTPUT.ply
 
 SCAN    PLY, OBJ, OFF or STL of triangles
-EDGES   the radius, in mean edge lengths: larger than the noise, smaller than what is to be seen
+EDGES   the radius, in mean edge lengths: larger than the noise, smaller than the features of interest
 """
 
 import sys

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A mesh that is in memory already: nothing is copied but what the index keeps. A paper strip, folded so that its ends
-// lie on each other, shows what a ball takes and a neighborhood does not.
+// A mesh that is already in memory: only the data that the index keeps is copied. The mesh is a paper strip, folded so
+// that its ends lie on each other. The ball contains vertices of both ends, the neighborhood those of one.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kLength = 4000;
 
-/// Two vertices a step, the second half of the strip back over the first at a height of a tenth of a step.
+/// Two vertices for each step. The second half of the strip runs back over the first, a tenth of a step above it.
 std::vector<float> strip_positions() {
   std::vector<float> xyz;
   for (std::uint32_t step = 0; step < kLength; ++step) {

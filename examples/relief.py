@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tells the signs on a tablet from its curved, rough surface by features over 16 radii, as multi-scale integral
+"""Distinguishes the signs on a tablet from its curved, rough surface by features over 16 radii, as multi-scale integral
 invariants do for cuneiform tablets. The tablet is made by formula, so that the answer is known.
 
     relief.py [OUTPUT.npz]

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""All neighborhoods of a large scan as a sparse matrix of SciPy, and what one does with it: roughness at every vertex.
+"""All neighborhoods of a large scan as a sparse matrix of SciPy, and a use of it: the roughness at every vertex.
 
     scan_graph.py MESH [RADIUS]
 

@@ -6,8 +6,8 @@
 
 MESH     a surface, in mm        RADIUS   of the searchlight, 8 mm unless given
 
-The measurements are made up: 20 trials, noise everywhere, and an effect in one patch, which is to be found again. A
-ball instead of the neighborhood would mix in the other bank of the sulcus; how much of it is printed.
+The measurements are made up: 20 trials, noise everywhere, and an effect in one patch, which the analysis must find. A
+ball instead of the neighborhood would include the other bank of the sulcus. The script prints how much of it.
 """
 
 import sys
@@ -21,7 +21,7 @@ TRIALS = 20
 def trials(vertex_count, patch, rng):
     """Measurements of two conditions, each TRIALS by #V; they differ in the patch."""
     first, second = rng.normal(size=(2, TRIALS, vertex_count))
-    second[:, patch] += rng.choice([-1.0, 1.0], size=len(patch))  # a pattern whose mean tells nothing
+    second[:, patch] += rng.choice([-1.0, 1.0], size=len(patch))  # a pattern whose mean contains no information
     return first, second
 
 

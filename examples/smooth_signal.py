@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Smooths a noisy signal on a mesh of trimesh: each value becomes the mean of its neighborhood, the near ones counting
-more.
+"""Smooths a noisy signal on a mesh of trimesh: each value becomes the mean of its neighborhood, in which near values
+have more weight.
 
     smooth_signal.py [MESH]
 
@@ -31,7 +31,7 @@ def main():
     before, after = root_mean_square(noisy - clean), root_mean_square(smooth - clean)
     print(f"{len(clean)} vertices, noise before {before:.2f}, after {after:.2f}")
     if after > before / 2:
-        sys.exit("the noise did not go")
+        sys.exit("the noise was not reduced")
 
 
 if __name__ == "__main__":

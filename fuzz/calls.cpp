@@ -292,7 +292,7 @@ class Session {
     }
   }
 
-  /// Curvatures have the same bits however many threads there are, and each row has a state that it deserves.
+  /// Curvatures have the same bits however many threads there are, and the state of each row is correct.
   static void fit_rows(const Exact& place, const std::vector<VertexId>& vertices, double radius, unsigned threads) {
     const test::TestMesh& mesh = place.subject->mesh;
     if (mesh.face_count() == 0) return;

@@ -6,8 +6,8 @@
 #include "meshhood/error.h"
 #include "meshhood/serialize.h"
 
-#include "ask.h"
 #include "judge.h"
+#include "query_untrusted.h"
 #include "support/index_bytes.h"
 #include "target.h"
 
@@ -16,7 +16,7 @@ namespace meshhood::fuzz {
 void run(std::span<const std::byte> input) {
   try {
     const Index index = load(input);
-    ask(index);
+    query_untrusted(index);
     if (!std::ranges::equal(test::saved(index), input)) fail("saved again, not the same bytes");
   } catch (const Error& error) {
     if (error.code() != ErrorCode::MalformedIndex) fail(error.what());

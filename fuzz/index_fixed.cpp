@@ -8,8 +8,8 @@
 #include "meshhood/error.h"
 #include "meshhood/serialize.h"
 
-#include "ask.h"
 #include "judge.h"
+#include "query_untrusted.h"
 #include "support/forged_index.h"
 #include "target.h"
 
@@ -54,7 +54,7 @@ void run(std::span<const std::byte> input) {
   std::memcpy(bytes.data(), &header, sizeof(header));
   test::seal(bytes);
   try {
-    ask(load(bytes));
+    query_untrusted(load(bytes));
   } catch (const Error& error) {
     if (error.code() != ErrorCode::MalformedIndex) fail(error.what());
   }

@@ -47,7 +47,7 @@ struct Plan {
 ///
 /// unit          the mean edge length, in the unit of the positions.
 /// permutation   the vertices, #V >= 1, in an order that keeps neighbors close.
-/// report        called after each block; what it throws ends the measurement.
+/// report        called after each block; an exception from it ends the measurement.
 [[nodiscard]] std::vector<Measurement> measure_radii(
     std::span<const Method> methods, const Plan& plan, double unit, std::span<const VertexId> permutation,
     const std::function<void(std::size_t done, std::size_t total)>& report);

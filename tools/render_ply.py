@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws a colored mesh, as `meshhood compare -o` writes it, into a PNG. Needs the standard library alone.
+"""Draws a colored mesh, as `meshhood compare -o` writes it, into a PNG. Needs only the standard library.
 
 The view is orthographic. By default the camera faces the surface at the red vertex. `--cut` removes the part of the
 mesh on one side of that vertex, which opens a rolled or folded sheet.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The peers, in the order of the tables: those that answer the same question come first."""
+"""The libraries to compare with, in the order of the tables: those with the same kind of answer come first."""
 from .libigl_curvature import LibiglBall, LibiglRings
 from .meshhood_exact import MeshhoodBatch, MeshhoodCalls, MeshhoodCount, MeshhoodPaper
 from .native import BreadthFirst, Curvature, CurvatureBreadthFirst, Nanoflann

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""All peers on the same queries: block by block in turn, so that what disturbs the machine disturbs all of them."""
+"""All libraries on the same queries, in alternating blocks, so that a disturbance of the machine affects all of
+them."""
 import numpy as np
 
 from .. import meshes, results
@@ -19,14 +20,14 @@ def run(names, block_seconds):
     contests = []
     for name in names or CONTESTS:
         for order, threads in RUNS:
-            spoken = "one thread" if threads == ONE_THREAD else "all threads"
-            print(f"  {name}, order: {order}, {spoken}", flush=True)
+            thread_text = "one thread" if threads == ONE_THREAD else "all threads"
+            print(f"  {name}, order: {order}, {thread_text}", flush=True)
             contests += contest(name, order, threads, block_seconds)
     results.save("peers", {"blocks": BLOCKS, "block_seconds": block_seconds, "contests": contests}, watched)
 
 
 def contest(name, order, threads, block_seconds):
-    """One result for each radius: the same workers answer for all of them."""
+    """One result for each radius. All radii use the same workers."""
     import meshhood
 
     path = mesh_files.prepared(name, order)

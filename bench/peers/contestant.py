@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""One peer in a contest: how many queries there is time for, what its answers are worth, and how long it took."""
+"""One library in a comparison: the number of queries for which there is time, the quality of its answers, and its
+times."""
 import time
 from dataclasses import dataclass, field
 
@@ -11,13 +12,14 @@ from .worker import Worker
 
 BLOCKS = 5
 BLOCK_QUERIES = 2000
-PATIENCE = 300  # seconds for one step of one peer
-WHOLE_MESH_BLOCKS = 30  # for a peer that answers for all vertices: as long as so many blocks take, and at least one run
+STEP_TIMEOUT = 300  # seconds for one step of one library
+# For a library that answers all vertices at once: the time of this many blocks, but at least one run.
+WHOLE_MESH_BLOCKS = 30
 
 
 @dataclass
 class Judged:
-    """A few vertices, and what is right for them."""
+    """A few vertices and their correct answers."""
 
     vertices: np.ndarray
     truth: list  # of sets of ids
@@ -26,7 +28,7 @@ class Judged:
         return float(np.mean([len(row) for row in self.truth]))
 
     def difference(self, answers):
-        """Vertices an answer, on average."""
+        """Extra and missing vertices for each answer, on average."""
         pairs = [(set(answer), right) for answer, right in zip(answers, self.truth)]
         return {"extra": float(np.mean([len(answer - right) for answer, right in pairs])),
                 "missing": float(np.mean([len(right - answer) for answer, right in pairs]))}
@@ -38,10 +40,10 @@ class Contestant:
     worker: Worker
     built: dict = None
     failure: str = None
-    spent: float = 0  # seconds, on all it was asked to do
+    spent: float = 0  # seconds, in all calls
     # At this radius:
-    queries: int = 0  # a block
-    runs: int = 0  # blocks it has part in
+    queries: int = 0  # for each block
+    runs: int = 0  # the number of blocks in which it takes part
     microseconds: list = field(default_factory=list)
     row: dict = field(default_factory=dict)
 
@@ -55,7 +57,7 @@ class Contestant:
         return self.built is not None and self.failure is None
 
     def begin_radius(self, judged, radius, vertices, block_seconds):
-        """Judges the answers, and finds how many queries there is time for; both warm what must be warm."""
+        """Compares the answers, and finds for how many queries there is time. Both warm the caches."""
         self.queries, self.runs, self.microseconds, self.row = 0, 0, [], {}
         if not self.is_running():
             return
@@ -64,7 +66,7 @@ class Contestant:
         if peer.largest_answer and ids > peer.largest_answer:
             self.row = {"left_out": f"{ids:.1e} ids in all would be too many"}
             return
-        judgement = self.attempt(self.worker.ask, "judge", judged.vertices, radius)
+        judgement = self.attempt(self.worker.call, "judge", judged.vertices, radius)
         if judgement is None:
             return
         seconds, answers = judgement
@@ -77,19 +79,19 @@ class Contestant:
 
     def plan_whole(self, seconds, vertices, block_seconds):
         self.queries = vertices
-        self.microseconds.append(1e6 * seconds / vertices)  # too long for a run that does not count
+        self.microseconds.append(1e6 * seconds / vertices)  # it takes too long for a run that is not counted
         self.runs = int(np.clip(WHOLE_MESH_BLOCKS * block_seconds / seconds, 1, BLOCKS)) - 1
 
     def plan_blocks(self, seconds, vertices, radius, block_seconds):
-        if seconds < block_seconds:  # once more, without what only the first call does
-            seconds = self.attempt(self.worker.ask, "time", vertices, radius) or seconds
+        if seconds < block_seconds:  # again, without the work that only the first call does
+            seconds = self.attempt(self.worker.call, "time", vertices, radius) or seconds
         self.queries = int(np.clip(block_seconds * len(vertices) / seconds, 1, BLOCK_QUERIES))
         self.runs = BLOCKS
 
     def run_block(self, number, block, radius):
         if not self.is_running() or number >= self.runs:
             return
-        seconds = self.attempt(self.worker.ask, "time", block[:self.queries], radius)
+        seconds = self.attempt(self.worker.call, "time", block[:self.queries], radius)
         if seconds is not None:
             self.microseconds.append(1e6 * seconds / self.queries)
 
@@ -104,10 +106,10 @@ class Contestant:
         return row
 
     def attempt(self, call, *arguments):
-        """What the call of the worker returns, or None: a failure ends the part of this contestant, and is kept."""
+        """The result of the call of the worker, or None. A failure is kept, and ends the runs of this library."""
         begin = time.perf_counter()
         try:
-            return call(*arguments, timeout=PATIENCE)
+            return call(*arguments, timeout=STEP_TIMEOUT)
         except RuntimeError as error:
             self.failure = str(error)
             return None

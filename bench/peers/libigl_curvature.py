@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""libigl's curvature, whose search is the same breadth-first search with a ball, and its k-ring. It does not hand out
-the neighborhoods; what is timed is the whole job, search and fit."""
+"""libigl's curvature, over the ball and over the k-ring. Its search is the same breadth-first search limited to a ball.
+It does not return the neighborhoods, so the time includes both search and fit."""
 import numpy as np
 
 from .peer import Peer
@@ -23,7 +23,7 @@ class LibiglBall(Peer):
         self.positions, self.triangles = mesh.positions.astype(np.float64), mesh.triangles.astype(np.int64)
         self.edge = igl.avg_edge_length(self.positions, self.triangles)
 
-    def ask(self, vertices, radius):
+    def query(self, vertices, radius):
         edges = max(2, round(radius / self.edge))
         self.igl.principal_curvature(self.positions, self.triangles, edges, self.use_rings)
 

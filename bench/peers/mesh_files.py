@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The mesh of a contest, as files that each process reads: arrays, and the same as PLY for peers that read PLY."""
+"""The mesh of a comparison, as files that each process reads: arrays, and the same as PLY."""
 import numpy as np
 
 from .. import meshes, places
@@ -7,7 +7,7 @@ from .peer import Mesh
 
 
 def prepared(name, order):
-    """The path of the arrays, in the order of the file or with the vertices shuffled; the PLY stands beside it."""
+    """The path of the arrays, in the order of the file or with the vertices shuffled; the PLY file is beside it."""
     import meshhood
 
     places.SCRATCH.mkdir(parents=True, exist_ok=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""We ourselves, through the Python package: many vertices in one call, and a call for each."""
+"""meshhood itself, through the Python package: many vertices in one call, and a call for each."""
 from .peer import OneByOne, Peer, rows_of
 
 
@@ -19,7 +19,7 @@ class MeshhoodBatch(Meshhood):
     name = "meshhood, one call"
     method = "exact"
 
-    def ask(self, vertices, radius):
+    def query(self, vertices, radius):
         return self.index.query_ball(vertices, radius, method=self.method, workers=self.threads)
 
     def rows(self, answer, vertices):
@@ -34,14 +34,14 @@ class MeshhoodPaper(MeshhoodBatch):
 
     def __init__(self, mesh, threads):
         super().__init__(mesh, threads)
-        self.index.query_ball_count(0, 0.0, method=self.method)  # which builds it
+        self.index.query_ball_count(0, 0.0, method=self.method)  # builds the paper's index
 
 
 class MeshhoodCount(Meshhood):
     name = "meshhood, counts only"
     answers = "how many"
 
-    def ask(self, vertices, radius):
+    def query(self, vertices, radius):
         return self.index.query_ball_count(vertices, radius, workers=self.threads)
 
     def rows(self, answer, vertices):

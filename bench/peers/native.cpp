@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Peers that are C++: our breadth-first search, nanoflann's ball, and curvature by our search and by breadth-first
-// search. bench/peers/native.py talks to it.
-// Usage: native bfs|nanoflann|curvature|curvature-bfs MESH THREADS. The first line says how many seconds building took.
-// Then, for each line `RADIUS QUERIES_FILE [ANSWERS_FILE]`: answers the queries (32-bit vertices) and says how many
-// seconds that took; answers are kept until then, and written if so asked (32-bit: how many, then the ids, each query;
-// of curvatures, two floats).
+// Libraries in C++: our breadth-first search, nanoflann's ball, and curvature by our search and by breadth-first
+// search. bench/peers/native.py runs it.
+//
+//   native_peers bfs|nanoflann|curvature|curvature-bfs MESH THREADS
+//
+// The first line of output is the build time in seconds. Each line of input is `RADIUS QUERIES_FILE [ANSWERS_FILE]`:
+// the program answers the queries (32-bit vertices) and prints the time in seconds. All answers are kept in memory
+// during the measurement. If there is an ANSWERS_FILE, it receives for each query the number of ids and the ids, all of
+// 32 bits; for curvatures, two floats in place of the ids.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -34,7 +37,7 @@ namespace meshhood::bench {
 namespace {
 
 using Answer = std::vector<VertexId>;
-/// Answers a query in the thread of that number.
+/// Answers a query on the thread with this number.
 using Ask = std::function<void(unsigned thread, VertexId v, double radius, Answer& out)>;
 using Clock = std::chrono::steady_clock;
 
@@ -70,7 +73,7 @@ Ask exact(const MeshView& mesh, unsigned threads) {
   };
 }
 
-/// The curvatures that a quadric fitted to what `search` finds has, in place of the ids.
+/// The curvatures of a quadric fitted to the vertices that `search` finds, in place of the ids.
 Ask curvature(const MeshView& mesh, const Ask& search) {
   auto fit = std::make_shared<QuadricFit>(mesh);
   return [fit, search](unsigned thread, VertexId v, double radius, Answer& out) {
@@ -87,7 +90,7 @@ Ask make(const std::string& kind, const MeshView& mesh, unsigned threads) {
   if (kind == "nanoflann") return kd_tree(mesh);
   if (kind == "curvature") return curvature(mesh, exact(mesh, threads));
   if (kind == "curvature-bfs") return curvature(mesh, breadth_first(mesh, threads));
-  throw std::invalid_argument("no such peer: " + kind);
+  throw std::invalid_argument("unknown library: " + kind);
 }
 
 std::vector<VertexId> read_queries(const std::string& path) {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Peers in C++, each in a program of its own; what it says it took counts."""
+"""Libraries in C++, each in a program of its own, which measures its time."""
 import os
 import subprocess
 import tempfile
@@ -25,7 +25,7 @@ class Native(Peer):
         self.build_seconds = float(self.program.stdout.readline())
         self.scratch = tempfile.TemporaryDirectory()
 
-    def ask(self, vertices, radius):
+    def query(self, vertices, radius):
         self.seconds = self.command(vertices, radius)
         return vertices, radius
 

@@ -17,8 +17,8 @@ class Open3d(Peer):
         self.search = open3d.core.nns.NearestNeighborSearch(self.points)
         self.radius = None
 
-    def ask(self, vertices, radius):
-        if radius != self.radius:  # when it is judged, which is not timed
+    def query(self, vertices, radius):
+        if radius != self.radius:  # in the first call, which is not timed
             self.search.fixed_radius_index(radius)
             self.radius = radius
         return self.search.fixed_radius_search(self.points[vertices], radius, sort=False)

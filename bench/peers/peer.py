@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What every peer offers."""
+"""The interface of all libraries that are compared."""
 from importlib import metadata
 from typing import NamedTuple
 
@@ -13,40 +13,41 @@ class Mesh(NamedTuple):
 
 
 class Peer:
-    """One way to ask for neighborhoods. It is built and asked in a process of its own, and `ask` alone is timed."""
+    """One way to compute neighborhoods. It is built and queried in a process of its own, and only `query` is timed."""
 
     name = ""
-    package = None  # as PyPI calls it, for the version
-    module = None  # what it is imported as, before any time is taken
-    answers = ""  # which question: "exact", "ball", or what else
+    package = None  # its name on PyPI, for the version
+    module = None  # the module to import before anything is timed
+    answers = ""  # the kind of answer: "exact", "ball", or another
     remark = ""
-    whole = False  # answers for all vertices at once, and for nothing less
-    largest_answer = None  # ids of all answers of one call, where more would not fit into memory or take too long
+    whole = False  # always answers all vertices at once
+    largest_answer = None  # the most ids in the answers of one call, if more would not fit into memory or take too long
 
     def __init__(self, mesh, threads):
         """threads: 1, or -1 for all."""
 
-    def ask(self, vertices, radius):
-        """The neighborhoods of `vertices` (int32; ignored by a peer that answers for all), in whatever form this peer has."""
+    def query(self, vertices, radius):
+        """The neighborhoods of `vertices` (int32; ignored if `whole`), in the form that this library returns."""
         raise NotImplementedError
 
     def rows(self, answer, vertices):
-        """Of what `ask` gave: an array of ids for each of `vertices`, or None where it has none to compare."""
+        """From the result of `query`: an array of ids for each of `vertices`, or None if there are no ids to
+        compare."""
         return answer
 
     def version(self):
         return metadata.version(self.package) if self.package else ""
 
     def end(self):
-        """Ends what it has started."""
+        """Ends the processes that it has started."""
 
 
 class OneByOne(Peer):
-    """A peer that answers for one neighborhood at a time."""
+    """A library that answers one query at a time."""
 
     remark = "a call for each; one thread in any case"
 
-    def ask(self, vertices, radius):
+    def query(self, vertices, radius):
         return [self.neighborhood(v, radius) for v in vertices]
 
     def neighborhood(self, v, radius):

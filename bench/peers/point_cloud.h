@@ -11,7 +11,7 @@
 
 namespace meshhood::bench {
 
-/// Positions as nanoflann wants to be asked for them.
+/// Positions in the interface that nanoflann requires.
 struct PointCloud {
   std::vector<float> xyz;
 
@@ -32,7 +32,7 @@ struct PointCloud {
   // NOLINTEND(readability-identifier-naming)
 };
 
-/// A kd-tree over the vertices, which knows nothing of the mesh.
+/// A kd-tree over the vertices, without the mesh.
 using KdTree =
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PointCloud>, PointCloud, 3, VertexId>;
 

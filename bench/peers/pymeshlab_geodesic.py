@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""PyMeshLab has no such query. Nearest comes its distance along the surface from a point, up to a limit."""
+"""PyMeshLab has no such query. The closest one is the distance along the surface from a point, up to a limit."""
 import numpy as np
 
 from .peer import OneByOne
@@ -23,7 +23,7 @@ class PyMeshLab(OneByOne):
         self.meshes.compute_scalar_by_geodesic_distance_from_given_point_per_vertex(
             startpoint=self.positions[v], maxdistance=self.pymeshlab.PureValue(radius))
         distances = self.meshes.current_mesh().vertex_scalar_array()
-        # Zero is also what lies beyond the limit.
+        # The distance is 0 beyond the limit, too.
         reached = (distances > 0) & (distances <= radius)
         reached[v] = True
         return np.flatnonzero(reached)

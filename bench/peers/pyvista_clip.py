@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""PyVista: cut the ball out of the mesh, then take the connected region of the vertex."""
+"""PyVista: extracts the ball from the mesh, then takes the connected region of the vertex."""
 import numpy as np
 
 from .peer import OneByOne

@@ -13,9 +13,9 @@
 
 namespace meshhood::bench {
 
-/// The principal curvatures at a vertex of a mesh of triangles, from the quadric that fits its neighborhood best: a job
-/// like that of libigl's principal_curvature, which takes the same ball, another mean of the normals, and the same kind
-/// of least squares. The values are near each other, not the same.
+/// The principal curvatures at a vertex of a mesh of triangles, from the quadric that fits its neighborhood best:
+/// similar to libigl's principal_curvature, which uses the same ball, another mean of the normals, and the same kind of
+/// least squares. The values are close, but not equal.
 class QuadricFit {
  public:
   explicit QuadricFit(const MeshView& mesh)

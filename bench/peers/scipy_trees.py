@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What SciPy offers: the ball; the ball and the component of the vertex in it, which is exact; and paths along edges."""
+"""SciPy: the ball; the component of the vertex in the ball, which is exact; and paths along edges."""
 import numpy as np
 
 from .edges import edges_of, lengths_of
@@ -28,7 +28,7 @@ class KdTree(Peer):
         self.positions, self.threads = mesh.positions, threads
         self.tree = cKDTree(mesh.positions)
 
-    def ask(self, vertices, radius):
+    def query(self, vertices, radius):
         return self.tree.query_ball_point(self.positions[vertices], radius, workers=self.threads)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""trueform, the only other product that asks the same question. Licensed for noncommercial use only."""
+"""trueform, the only other library with the same query. Licensed for noncommercial use only."""
 from .peer import Peer, rows_of
 
 
@@ -20,7 +20,7 @@ class Trueform(Peer):
         membership = trueform.cell_membership(mesh.triangles, n_ids=len(mesh.positions))
         self.links = trueform.vertex_link_faces(mesh.triangles, membership)
 
-    def ask(self, vertices, radius):
+    def query(self, vertices, radius):
         return self.trueform.neighborhoods(self.links, self.positions, radius, inclusive=True)
 
     def rows(self, answer, vertices):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The process of one peer: builds it, then answers and times blocks of queries as it is told to."""
+"""The process of one library: builds it, then answers and times blocks of queries on command."""
 import contextlib
 import ctypes
 import gc
@@ -14,7 +14,7 @@ ALL_THREADS = -1
 
 
 class Worker:
-    """A peer in a process of its own, so that threads can be held to one processor and memory be told apart."""
+    """A library in a process of its own, so that its threads can be bound to one processor and its memory measured."""
 
     def __init__(self, name, mesh, threads):
         """mesh: the path of its arrays, see mesh_files.py."""
@@ -25,8 +25,8 @@ class Worker:
             self.process.start()
         theirs.close()
 
-    def ask(self, command, *arguments, timeout):
-        """What the command returns. Raises RuntimeError where it fails, ends the process or takes too long."""
+    def call(self, command, *arguments, timeout):
+        """The result of the command. Raises RuntimeError if the command fails, ends the process or takes too long."""
         try:
             self.pipe.send((command, *arguments))
             return self.result(timeout)
@@ -40,13 +40,13 @@ class Worker:
         try:
             kind, value = self.pipe.recv()
         except EOFError:
-            raise RuntimeError("its process has ended, as where memory runs out") from None
+            raise RuntimeError("its process has ended, perhaps because memory ran out") from None
         if kind == "error":
             raise RuntimeError(value)
         return value
 
     def end(self, patience=5):
-        """Lets it end by itself, if it does."""
+        """Waits for the process to end by itself, then kills it."""
         self.pipe.close()
         self.process.join(patience)
         self.process.kill()
@@ -64,7 +64,7 @@ def serve(name, mesh, threads, pipe):
             pipe.send(("ok", commands[command](peer, *arguments)))
     except EOFError:
         pass
-    except Exception as error:  # whatever a foreign library raises is told, not raised
+    except Exception as error:  # any exception of the library is reported, not raised
         traceback.print_exc()
         pipe.send(("error", f"{type(error).__name__}: {error}".splitlines()[0]))
     finally:
@@ -74,7 +74,7 @@ def serve(name, mesh, threads, pipe):
 
 @contextlib.contextmanager
 def one_processor():
-    """What is started meanwhile has but one, so that no library starts more threads than it should."""
+    """Processes started meanwhile have one processor, so that no library starts more threads."""
     mine = os.sched_getaffinity(0)
     os.sched_setaffinity(0, {min(mine)})
     try:
@@ -97,25 +97,26 @@ def build(name, mesh, threads):
 
 
 def timed(peer, vertices, radius):
-    """Seconds for all of `vertices`: as the program says that answers them, else by the clock around the call."""
-    return asked(peer, vertices, radius)[0]
+    """Seconds for all of `vertices`: as measured by the program that answers them, otherwise by the clock around the
+    call."""
+    return run_timed(peer, vertices, radius)[0]
 
 
 def judged(peer, vertices, radius):
-    """The seconds, and the answers as lists of ids, or None where there is nothing to compare."""
-    seconds, answer = asked(peer, vertices, radius)
+    """The seconds, and the answers as lists of ids, or None if there are no ids to compare."""
+    seconds, answer = run_timed(peer, vertices, radius)
     rows = peer.rows(answer, vertices)
     return seconds, None if rows is None else [list(map(int, row)) for row in rows]
 
 
-def asked(peer, vertices, radius):
+def run_timed(peer, vertices, radius):
     begin = time.perf_counter()
-    answer = peer.ask(vertices, radius)
+    answer = peer.query(vertices, radius)
     return getattr(peer, "seconds", time.perf_counter() - begin), answer
 
 
 def resident_bytes():
-    """Of this process and its children, after what is free has been given back."""
+    """The memory of this process and its children, after free memory has been returned to the system."""
     gc.collect()
     ctypes.CDLL(None).malloc_trim(0)
     children = open(f"/proc/self/task/{os.getpid()}/children", encoding="ascii").read().split()

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The sections of the benchmarks, by the results each is made from. A section has
+"""The sections of the benchmarks, by the results from which each is made. A section has
 
     TITLE           its heading
     text(data)      its page, docs/benchmarks/NAME.md
-    summary(data)   what docs/benchmarks.md shows of it; may be absent
+    summary(data)   its part of docs/benchmarks.md; may be absent
 """
 from . import accuracy, all_vertices, batch, curvature, exact_index, figure4, paper_tables, peers, scaling
 

@@ -29,7 +29,7 @@ def text(data):
 
 GROWTH_NOTE = """
 Spheres, 5 mean edges: µs a vertex, one thread, and the bytes for each vertex that the index and the normals take. The
-result takes 65 bytes besides.
+result takes another 65 bytes.
 
 """
 

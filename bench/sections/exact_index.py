@@ -80,15 +80,15 @@ def mesh_table(result):
     rows = []
     for order in ("cold", "warm"):
         for radius, row in programs.by_radius(result[order]).items():
-            asked = [row[method] for method in ("ids", "count", "ranges")]
-            times = [with_spread(m["microseconds"], m["quartiles"]) for m in (row["bfs"], row["bfs-reordered"], *asked)]
+            kinds = [row[method] for method in ("ids", "count", "ranges")]
+            times = [with_spread(m["microseconds"], m["quartiles"]) for m in (row["bfs"], row["bfs-reordered"], *kinds)]
             rows.append([order, f"{radius:g}", number(row["bfs"]["count"]), *times,
-                         *(f"{best_bfs(row) / m['microseconds']:.1f}" for m in asked)])
+                         *(f"{best_bfs(row) / m['microseconds']:.1f}" for m in kinds)])
     return table(header, rows)
 
 
 def head_table(data):
-    """What the README says of single queries: one smooth mesh and one folded mesh, cold."""
+    """The line of the README on single queries: one smooth mesh and one folded mesh, cold."""
     meshes = data["meshes"]
     said = []
     for name in dict.fromkeys(next(n for n in (wanted, *meshes) if n in meshes) for wanted in ("head_skin", "mri_head")):

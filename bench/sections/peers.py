@@ -6,10 +6,10 @@ TITLE = "Other libraries"
 
 NOTE = """`make peers`: each library runs in a process of its own, all in one run on the same vertices, in {blocks} alternating blocks
 of about {seconds:g} s. Times are µs a query, wall clock; answers are computed but not read. One thread: the process is
-bound to one processor. A library that only answers for all vertices at once is called so, and its time is divided by
-their number. A library that takes minutes for one step is stopped, and the table says so. Extra and missing: vertices of
-a query compared with the exact answer, on 20 vertices. MB: what building added to the process. The column `answers` says
-which question a library answers; a ball is wrong wherever two sheets lie close together.
+bound to one processor. A library that only answers all vertices at once is called for all, and its time is divided by
+their number. A library that takes minutes for one step is stopped, and the table says so. Extra and missing: vertices
+of a query compared with the exact answer, on 20 vertices. MB: the memory that building added to the process. The column
+`answers` names the kind of answer; a ball is wrong wherever two sheets lie close together.
 
 """
 

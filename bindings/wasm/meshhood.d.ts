@@ -3,8 +3,8 @@
 /**
  * meshhood: the connected component of a mesh inside a ball around a vertex. Exact, by an index.
  *
- * The neighborhood of vertex v with radius r is the connected component that holds v of the mesh inside the ball of
- * radius r around v.
+ * The neighborhood of vertex v with radius r is the connected component, containing v, of the part of the mesh inside
+ * the ball of radius r around v.
  *
  *     import { MeshIndex, initialize, readMesh } from 'meshhood';
  *
@@ -14,7 +14,7 @@
  *     const near = index.queryBall(42, 1.5);
  */
 
-/** What a `MeshhoodError` is about; as `meshhood::ErrorCode` in C++. */
+/** The cause of a `MeshhoodError`; as `meshhood::ErrorCode` in C++. */
 export type ErrorCode =
   | 'VertexOutOfRange'
   | 'InvalidRadius'
@@ -27,7 +27,7 @@ export type ErrorCode =
   | 'TooLarge'
   | 'Cancelled';
 
-/** An error of the library, with the words of the C++ library. Arguments of a wrong type give a TypeError instead. */
+/** An error of the library, with the message of the C++ library. Arguments of a wrong type give a TypeError instead. */
 export class MeshhoodError extends Error {
   readonly code: ErrorCode;
 }

@@ -34,7 +34,7 @@ class RowReceiver {
   RowReceiver& operator=(const RowReceiver&) = delete;
   virtual ~RowReceiver() = default;
 
-  /// Memory for the ids of a row of `size` vertices, and for its distances if they are asked for.
+  /// Memory for the ids of a row of `size` vertices, and for its distances if they are requested.
   virtual BatchMemory memory(std::size_t row, std::size_t size) = 0;
 
   /// The row has been written there. Returns false to drop the rest of the chunk.

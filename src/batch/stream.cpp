@@ -58,7 +58,7 @@ struct Store {
     distances.clear();
   }
 
-  /// Memory for a row, to which `size` distances belong if they are asked for.
+  /// Memory for a row, with `size` distances if they are requested.
   BatchMemory add(std::size_t size, bool with_distances) {
     return {ids.add(size), with_distances ? distances.add(size) : std::span<double>()};
   }

@@ -45,7 +45,7 @@ class Programs(unittest.TestCase):
         self.assertGreater(rows[20]["ball"]["extra"], 0, "a scroll whose ball is exact tests nothing")
 
     def test_all_vertices_times_batches_beside_breadth_first_search(self):
-        found = programs.ask(places.PROGRAMS / "all_vertices", "--json", MESH, 3, 20)
+        found = programs.run(places.PROGRAMS / "all_vertices", "--json", MESH, 3, 20)
         self.assertEqual(found["vertices"], 3000)
         self.assertEqual([row["radius_edges"] for row in found["rows"]], [3, 20])
         for row in found["rows"]:
@@ -61,7 +61,7 @@ class Programs(unittest.TestCase):
             self.assertIn(method, done.stderr)
 
     def test_phases_are_shares_of_a_whole(self):
-        for row in programs.ask(places.PROGRAMS / "phases", MESH, 50, 3, 20):
+        for row in programs.run(places.PROGRAMS / "phases", MESH, 50, 3, 20):
             shares = [row[phase] for phase in ("climb_up", "breadth_first", "range_search")]
             self.assertTrue(all(share > 0 for share in shares))
             self.assertAlmostEqual(sum(shares), 100, delta=0.1)

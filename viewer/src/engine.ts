@@ -100,7 +100,7 @@ export class Engine {
   #receiveAnswer(id: number, method: Method, ids: Uint32Array): void {
     this.#busy = false;
     if (id === this.#id) --this.#unanswered;
-    // While the pointer moves, the answer before the last is shown too, or nothing would follow the pointer.
+    // While the pointer moves, the answer before the last is shown too. Otherwise no answer would follow the pointer.
     if (id === this.#id || this.#waiting !== null) this.#handlers.answer(method, ids);
     if (this.#waiting !== null) this.#start(this.#waiting);
   }

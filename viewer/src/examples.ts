@@ -10,7 +10,7 @@ export interface ExampleMesh {
 export interface Example {
   name: string;
   title: string;
-  /** Why a search may go wrong on it. */
+  /** Why a search may fail on it. */
   trap: string;
   make(vertices: number): ExampleMesh;
   vertices: number;

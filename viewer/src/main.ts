@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page: what is open, what is asked, and what is shown of the answers.
+// The page: the open mesh, the query, and the display of the answers.
 import { download, stem } from './download';
 import { Engine } from './engine';
 import { EXAMPLES, findExample } from './examples';
@@ -36,7 +36,7 @@ class Page {
   #radius = 0; // in the unit of the mesh
   #color = 'answers'; // or 'sizes', or a key of the scalars
   #scalars = new Map<string, Scalar>();
-  #given: Uint32Array | null = null; // an answer that was handed over, shown until another query is asked
+  #given: Uint32Array | null = null; // an answer that was passed to the page, shown until the next query
   #recount = 0;
 
   constructor() {
@@ -203,7 +203,7 @@ class Page {
     this.#showHanded();
   }
 
-  /** The scalar and the answer that were handed over with the mesh. */
+  /** The scalar and the answer that were passed with the mesh. */
   #showHanded(): void {
     if (this.#pageData === null) return;
     const { settings } = this.#pageData;
@@ -236,9 +236,9 @@ class Page {
     }
   }
 
-  // Asking.
+  // Queries.
 
-  /** Asks for the neighborhood of another vertex. */
+  /** Queries the neighborhood of another vertex. */
   select(vertex: number, isFinal = true): void {
     if (this.#opened === null) return;
     const isFirst = this.#vertex < 0;
@@ -337,7 +337,7 @@ class Page {
     else this.#setScalar(this.#scalars.get(choice) ?? null);
   }
 
-  /** Once the radius rests. */
+  /** Once the radius has stopped changing. */
   #countLater(): void {
     clearTimeout(this.#recount);
     this.#recount = window.setTimeout(() => this.#setColor('sizes'), 400);
@@ -418,7 +418,7 @@ class Page {
   }
 }
 
-/** The exact answer is always asked for, as the others are compared with it. */
+/** The exact answer is always requested, because the others are compared with it. */
 function withExact(methods: Method[]): Method[] {
   return methods.includes('exact') ? methods : ['exact', ...methods];
 }

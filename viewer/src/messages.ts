@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the page and its worker say to each other.
+// The messages between the page and its worker.
 import type { Method } from 'meshhood';
 
 import type { PlyScalar } from './ply_scalars';

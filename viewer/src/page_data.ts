@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `meshhood view` and `meshhood.view` have written into the page: a mesh file, and what to show of it.
+// The data that `meshhood view` and `meshhood.view` have written into the page: a mesh file and settings.
 
 export interface Settings {
   /** The name of the mesh file. */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The controls: what they show, and what they ask for.
+// The controls: the values that they show, and the changes that they request.
 import { METHOD_COLORS, toCss, viridis } from './colors';
 import { EXAMPLES } from './examples';
 import type { Method } from './messages';
@@ -9,7 +9,7 @@ export interface Wishes {
   open(file: File): void;
   example(name: string): void;
   vertex(vertex: number): void;
-  /** `isFinal` once the slider is let go. */
+  /** `isFinal` once the slider is released. */
   radius(radius: number, unit: 'mesh' | 'edge', isFinal: boolean): void;
   method(method: Method, isShown: boolean): void;
   color(choice: string): void;

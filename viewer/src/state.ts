@@ -29,7 +29,7 @@ export function toHash(state: State): string {
   return `#${parameters.toString().replaceAll('%2C', ',')}`;
 }
 
-/** What is missing or is no number in the address is null. */
+/** Values that are missing in the address, or are not numbers, are null. */
 export function fromHash(hash: string): State {
   const parameters = new URLSearchParams(hash.replace(/^#/, ''));
   const camera = (parameters.get('camera') ?? '').split(',').map(Number);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ask.h"
+#include "query_untrusted.h"
 
 #include <algorithm>
 #include <limits>
@@ -22,7 +22,7 @@ double draw_radius(const Index& index, VertexId v, test::Random& random) {
   return distance(mesh.view().positions, v, w) * random.uniform(0, 1.5);
 }
 
-/// All vertices at one radius, and at a radius of their own, so that leaves are asked together.
+/// All vertices at one radius, and each at a radius of its own, so that leaves are answered together.
 void ask_together(const Index& index, test::Random& random) {
   const std::size_t vertices = index.vertex_count();
   std::vector<double> radii(vertices, draw_radius(index, 0, random));
@@ -40,7 +40,7 @@ void ask_together(const Index& index, test::Random& random) {
 
 }  // namespace
 
-void ask(const Index& index) {
+void query_untrusted(const Index& index) {
   const std::size_t vertices = index.vertex_count();
   const GraphData graph = extract_graph(index);
   validate(graph.view());

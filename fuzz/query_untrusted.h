@@ -7,6 +7,6 @@ namespace meshhood::fuzz {
 
 /// Extracts the graph of an untrusted index and runs 64 queries and two batches. The answers may be wrong; the program
 /// ends if one has ids outside the index.
-void ask(const Index& index);
+void query_untrusted(const Index& index);
 
 }  // namespace meshhood::fuzz
