@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The neighborhoods of all vertices at one radius, on one thread: breadth-first search on the reordered mesh, the exact
-// index one query at a time, and the batch, interleaved in one run. Microseconds a row, the median of the rounds: a
-// table, or JSON with the times of each round.
+// The neighborhoods of all vertices at one radius: breadth-first search on the reordered mesh, the exact index one
+// query at a time, and the batch, with each instruction set and with two threads, interleaved in one run. Microseconds
+// a row, the median of the rounds: a table, or JSON with the times of each round. With --index, the index of the
+// reordered mesh is saved, so that the same rows can be asked from Python.
 //
-//   all_vertices [--json] MESH [RADIUS IN MEAN EDGES...]
+//   all_vertices [--json] [--index FILE] MESH [RADIUS IN MEAN EDGES...]
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,6 +18,9 @@
 #include "meshhood/meshhood.h"
 #include "meshhood/reorder.h"
 
+#include "batch/joint_worker.h"
+#include "exact/index_access.h"
+#include "io/index_io.h"
 #include "measure/timing.h"
 #include "mesh_argument.h"
 #include "program.h"
@@ -41,10 +47,10 @@ struct Timing {
   double found = 0;                    // the mean number of vertices
 
   template <class F>
-  void round(std::size_t rows, F&& ids_of_all) {
-    const double start = measure::processor_time();
+  void round(std::size_t rows, F&& ids_of_all, double (*clock)() = measure::processor_time) {
+    const double start = clock();
     const std::uint64_t ids = ids_of_all();
-    microseconds.push_back(1e6 * (measure::processor_time() - start) / static_cast<double>(rows));
+    microseconds.push_back(1e6 * (clock() - start) / static_cast<double>(rows));
     found = static_cast<double>(ids) / static_cast<double>(rows);
   }
 
@@ -55,24 +61,48 @@ struct Timing {
   }
 };
 
-/// The methods in the order of the table.
+double wall_clock() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// The methods in the order of the table. `kept` writes all rows into one array. Of `one_thread` and `two_threads`,
+/// which count, the time on the wall counts; `portable` to `avx512` count by one worker of the batch each.
 struct Row {
   double edges;
-  std::array<Timing, 5> timings{Timing{"bfs"}, Timing{"single_count"}, Timing{"single_ids"}, Timing{"count"},
-                                Timing{"ids"}};
+  double radius;
+  Timing bfs{"bfs"};
+  Timing single_count{"single_count"};
+  Timing single_ids{"single_ids"};
+  Timing count{"count"};
+  Timing ids{"ids"};
+  Timing kept{"kept"};
+  Timing one_thread{"one_thread"};
+  Timing two_threads{"two_threads"};
+  std::array<Timing, 3> by_isa{Timing{"portable"}, Timing{"avx2"}, Timing{"avx512"}};
 
   void print() const {
-    const auto& [bfs, single_count, single_ids, count, ids] = timings;
-    std::printf("%6.4g %8.0f %9.3f %8.3f %8.3f %8.3f %8.3f %8.1f %6.1f %8.1f %6.1f\n", edges, ids.found, bfs.median(),
+    std::printf("%6.4g %8.0f %9.3f %8.3f %8.3f %8.3f %8.3f %8.1f %6.1f %8.1f %6.1f", edges, ids.found, bfs.median(),
                 single_count.median(), single_ids.median(), count.median(), ids.median(), bfs.median() / count.median(),
                 bfs.median() / ids.median(), single_count.median() / count.median(),
                 single_ids.median() / ids.median());
+    std::printf("%10.2f", one_thread.median() / two_threads.median());
+    const Timing& best = by_isa[static_cast<std::size_t>(best_isa())];
+    for (const Timing& isa : by_isa) {
+      if (!isa.microseconds.empty()) std::printf("%10.2f", best.median() / isa.median());
+    }
+    std::printf("\n");
     std::fflush(stdout);
   }
 
   [[nodiscard]] Json json() const {
-    Json result{{"radius_edges", edges}, {"found", timings.back().found}};
-    for (const Timing& timing : timings) result[timing.name] = timing.microseconds;
+    Json result{{"radius_edges", edges}, {"radius", radius}, {"found", ids.found}};
+    const auto add = [&](const Timing& timing) {
+      if (!timing.microseconds.empty()) result[timing.name] = timing.microseconds;
+    };
+    for (const Timing* timing : {&bfs, &single_count, &single_ids, &count, &ids, &kept, &one_thread, &two_threads}) {
+      add(*timing);
+    }
+    for (const Timing& timing : by_isa) add(timing);
     return result;
   }
 };
@@ -85,20 +115,27 @@ class AllVertices {
 
   [[nodiscard]] std::size_t vertices() const { return mesh_.index.vertex_count(); }
 
+  void save(const std::string& path) const { io::save(path, mesh_.index); }
+
   Row measure(double edges) {
     const double radius = edges * mean_edge_;
     const std::vector<VertexId> rows = contiguous_rows(vertices(), edges <= 10 ? 20000 : 3000);
     // Slow methods take a part of the rows.
     const std::span<const VertexId> fewer =
         std::span(rows).first(std::min<std::size_t>(rows.size(), edges <= 10 ? 4000 : 400));
-    Row result{edges};
-    auto& [bfs, single_count, single_ids, count, ids] = result.timings;
+    Row result{.edges = edges, .radius = radius};
     for (int round = 0; round < kRounds; ++round) {
-      bfs.round(fewer.size(), [&] { return ids_one_by_one(reference_, fewer, radius); });
-      single_count.round(fewer.size(), [&] { return counts_one_by_one(fewer, radius); });
-      single_ids.round(fewer.size(), [&] { return ids_one_by_one(searcher_, fewer, radius); });
-      count.round(rows.size(), [&] { return counts_of_batch(rows, radius); });
-      ids.round(rows.size(), [&] { return ids_of_batch(rows, radius); });
+      result.bfs.round(fewer.size(), [&] { return ids_one_by_one(reference_, fewer, radius); });
+      result.single_count.round(fewer.size(), [&] { return counts_one_by_one(fewer, radius); });
+      result.single_ids.round(fewer.size(), [&] { return ids_one_by_one(searcher_, fewer, radius); });
+      result.count.round(rows.size(), [&] { return counts_of_batch(rows, radius, 1); });
+      result.ids.round(rows.size(), [&] { return ids_of_batch(rows, radius); });
+      result.kept.round(rows.size(), [&] { return kept_of_batch(rows, radius); });
+      result.one_thread.round(rows.size(), [&] { return counts_of_batch(rows, radius, 1); }, wall_clock);
+      result.two_threads.round(rows.size(), [&] { return counts_of_batch(rows, radius, 2); }, wall_clock);
+      for (std::size_t isa = 0; isa <= static_cast<std::size_t>(best_isa()); ++isa) {
+        result.by_isa[isa].round(rows.size(), [&] { return counts_of_worker(static_cast<Isa>(isa), rows, radius); });
+      }
     }
     return result;
   }
@@ -120,10 +157,43 @@ class AllVertices {
     return ids;
   }
 
-  std::uint64_t counts_of_batch(const std::vector<VertexId>& rows, double radius) {
+  std::uint64_t counts_of_batch(const std::vector<VertexId>& rows, double radius, unsigned threads) {
     std::uint64_t ids = 0;
-    for (const std::uint64_t size : neighborhood_sizes(mesh_.index, {.vertices = rows, .radius = radius})) ids += size;
+    for (const std::uint64_t size :
+         neighborhood_sizes(mesh_.index, {.vertices = rows, .radius = radius}, {.threads = threads})) {
+      ids += size;
+    }
     return ids;
+  }
+
+  /// One worker of the batch, which it gets group by group.
+  std::uint64_t counts_of_worker(Isa isa, std::span<const VertexId> rows, double radius) {
+    JointWorker worker(mesh_.index, isa);
+    const auto group_of = [&](VertexId v) {
+      return IndexAccess::view(mesh_.index).slot[v] / JointWorker::kGroupPositions;
+    };
+    std::vector<BatchItem> chunk;
+    std::uint64_t ids = 0;
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      chunk.push_back({row, rows[row], radius});
+      if (row + 1 < rows.size() && group_of(rows[row]) == group_of(rows[row + 1])) continue;
+      worker.count(chunk, [&](std::size_t /*row*/, std::size_t size) {
+        ids += size;
+        return true;
+      });
+      chunk.clear();
+    }
+    return ids;
+  }
+
+  /// All rows in memory that is new, as for a caller who keeps them.
+  std::uint64_t kept_of_batch(const std::vector<VertexId>& rows, double radius) {
+    std::unique_ptr<VertexId[]> ids;  // NOLINT(modernize-avoid-c-arrays): a vector would be written twice
+    const auto allocate = [&](std::size_t count) -> BatchMemory {
+      ids = std::make_unique_for_overwrite<VertexId[]>(count);  // NOLINT(modernize-avoid-c-arrays)
+      return {{ids.get(), count}};
+    };
+    return neighborhoods(mesh_.index, {.vertices = rows, .radius = radius}, allocate).back();
   }
 
   std::uint64_t ids_of_batch(const std::vector<VertexId>& rows, double radius) {
@@ -142,8 +212,8 @@ class AllVertices {
 
 void print_table(AllVertices& all, const std::vector<double>& radii) {
   std::printf("microseconds a row; x: times as fast as\n");
-  std::printf("%6s %8s %9s %17s %17s %15s %15s\n", "edges", "vertices", "BFS", "one: count, ids", "batch: count, ids",
-              "x BFS", "x one");
+  std::printf("%6s %8s %9s %17s %17s %15s %15s %9s  %s\n", "edges", "vertices", "BFS", "one: count, ids",
+              "batch: count, ids", "x BFS", "x one", "threads", "portable, AVX2, AVX-512 / best");
   for (const double edges : radii) all.measure(edges).print();
 }
 
@@ -153,14 +223,23 @@ void print_json(AllVertices& all, const std::vector<double>& radii) {
   std::printf("%s\n", Json{{"vertices", all.vertices()}, {"rows", rows}}.dump().c_str());
 }
 
+/// Removes `name` from the front of the arguments, and `more` of them behind it, of which it returns the last.
+std::string take(std::vector<std::string>& arguments, const char* name, std::size_t more) {
+  if (arguments.size() <= more || arguments.front() != name) return "";
+  const std::string last = arguments[more];
+  arguments.erase(arguments.begin(), arguments.begin() + static_cast<std::ptrdiff_t>(more) + 1);
+  return last;
+}
+
 int run(std::vector<std::string> arguments) {
-  const bool json = !arguments.empty() && arguments.front() == "--json";
-  if (json) arguments.erase(arguments.begin());
+  const bool json = !take(arguments, "--json", 0).empty();
+  const std::string index = take(arguments, "--index", 1);
   if (arguments.empty()) {
-    std::fprintf(stderr, "usage: all_vertices [--json] MESH [RADIUS IN MEAN EDGES...]\n");
+    std::fprintf(stderr, "usage: all_vertices [--json] [--index FILE] MESH [RADIUS IN MEAN EDGES...]\n");
     return 2;
   }
   AllVertices all(MeshArgument(arguments.front()).view());
+  if (!index.empty()) all.save(index);
   std::vector<double> radii;
   for (std::size_t i = 1; i < arguments.size(); ++i) radii.push_back(std::stod(arguments[i]));
   if (radii.empty()) radii = {2, 3, 5, 10, 20, 65};

@@ -67,7 +67,8 @@ void Batch::cut_into_chunks() {
   for (std::size_t end = 0; end < count;) {
     const std::size_t most = std::min(end + kMaxChunk, count);
     end = std::min(end + grain, count);
-    while (end < most && in_order_[end] / together == in_order_[end - 1] / together) ++end;
+    const std::uint64_t unit = in_order_[end - 1] / together * together;
+    while (end < most && in_order_[end] - unit < together) ++end;
     chunk_ends_.push_back(end);
   }
 }

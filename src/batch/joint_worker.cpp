@@ -20,13 +20,14 @@ constexpr double kLargeRadius = 5;  // in mean leaf radii
 
 }  // namespace
 
-JointWorker::JointWorker(const Index& index)
+JointWorker::JointWorker(const Index& index, Isa isa)
     : index_(index),
       view_(IndexAccess::view(index)),
+      isa_(isa),
       radius_(view_.frame, 0),
       unlike_a_surface_(is_unlike_a_surface(view_)),
       by_leaf_(view_),
-      writer_(view_, best_isa()) {}
+      writer_(view_, isa) {}
 
 void JointWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink) {
   for_each_run(
@@ -137,7 +138,7 @@ void JointWorker::begin_group(std::span<const Run> runs) {
       high = std::max(high, item.radius);
     }
   }
-  if (!joint_) joint_.emplace(view_, best_isa());
+  if (!joint_) joint_.emplace(view_, isa_);
   const TreeBounds low_bounds = prepared(low).bounds;
   joint_->begin_group(leaves_, low_bounds, prepared(high).bounds);
 }
@@ -157,7 +158,7 @@ bool JointWorker::pays(std::span<const BatchItem> items) const {
   const bool is_large = items.front().radius > kLargeRadius * view_.tree.front().mean_radius / view_.frame.scale;
   // If all vertices of a small leaf are queried, then mostly all vertices of its group are.
   if (is_large && items.size() == view_.leaves[leaf_of_item(items.front())].size) return true;
-  const BreakEven& least = best_isa() == Isa::Portable ? kPortable : kVectors;
+  const BreakEven& least = isa_ == Isa::Portable ? kPortable : kVectors;
   return items.size() >= (is_large ? least.large_rows : least.rows);
 }
 

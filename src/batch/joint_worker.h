@@ -25,7 +25,7 @@ class JointWorker final : public BatchWorker {
   /// The positions of a group: rows that lie between two multiples of it should come in one chunk.
   static constexpr std::uint32_t kGroupPositions = kFanOut * kLeafCapacity;
 
-  explicit JointWorker(const Index& index);
+  explicit JointWorker(const Index& index, Isa isa = best_isa());
 
   void count(std::span<const BatchItem> chunk, const SizeSink& sink) override;
   void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) override;
@@ -56,6 +56,7 @@ class JointWorker final : public BatchWorker {
 
   const Index& index_;
   const IndexView& view_;
+  Isa isa_;
   std::optional<Searcher> searcher_;
   std::optional<JointSearch> joint_;
   JointRadius radius_;  // of the last row, because most batches have one radius

@@ -16,7 +16,7 @@
 
 #include <immintrin.h>
 
-#define MESHHOOD_AVX512 __attribute__((target("avx512f,avx512bw,avx512vl,avx512dq,bmi,bmi2,popcnt")))
+#define MESHHOOD_AVX512 __attribute__((target("avx512f,avx512bw,avx512cd,avx512vl,avx512dq,bmi,bmi2,popcnt")))
 
 namespace meshhood {
 namespace {
@@ -46,6 +46,33 @@ MESHHOOD_AVX512 inline Words32 operator|(const Words32& a, const Words32& b) {
 
 MESHHOOD_AVX512 inline LaneMask join(__mmask16 low, __mmask16 high) {
   return static_cast<LaneMask>(_mm512_kunpackw(high, low));
+}
+
+/// The words of `lanes`; 0 in the others, which are not read.
+MESHHOOD_AVX512 inline Words32 load_lanes(const PerLane<QueryWord>& words, LaneMask lanes) {
+  return {_mm512_maskz_loadu_epi32(static_cast<__mmask16>(lanes), words.data()),
+          _mm512_maskz_loadu_epi32(static_cast<__mmask16>(lanes >> 16), words.data() + 16)};
+}
+
+/// The bits of `a` that `b` does not have.
+MESHHOOD_AVX512 inline Words32 without(const Words32& a, const Words32& b) {
+  return {_mm512_andnot_si512(b.low, a.low), _mm512_andnot_si512(b.high, a.high)};
+}
+
+/// The bits that the words of all `lanes` have.
+MESHHOOD_AVX512 inline QueryWord common_bits(const Words32& words, LaneMask lanes) {
+  const __m512i ones = _mm512_set1_epi32(-1);
+  return static_cast<QueryWord>(_mm512_reduce_and_epi32(
+      _mm512_and_si512(_mm512_mask_mov_epi32(ones, static_cast<__mmask16>(lanes), words.low),
+                       _mm512_mask_mov_epi32(ones, static_cast<__mmask16>(lanes >> 16), words.high))));
+}
+
+/// Writes the halves of a word. Joining them first takes the ports that the comparisons need.
+MESHHOOD_AVX512 inline void store_halves(__mmask16 low, __mmask16 high, QueryWord& word) {
+  using Half [[gnu::may_alias]] = __mmask16;
+  auto* halves = reinterpret_cast<Half*>(&word);
+  _store_mask16(halves, low);
+  _store_mask16(halves + 1, high);
 }
 
 /// The lanes in which the words differ.
@@ -162,23 +189,25 @@ MESHHOOD_AVX512 BallWords ball_words(const LeafPoints& points, LaneMask lanes, c
   const LaneMask in_none =
       lanes & join(_mm512_cmp_ps_mask(low, farthest, _CMP_GT_OQ), _mm512_cmp_ps_mask(high, farthest, _CMP_GT_OQ));
   store(inside, in_lanes(in_all & ~in_none, balls.queries));
-  BallWords result{in_none == 0 ? balls.queries : 0, 0};
+  const LaneMask undecided = lanes & ~(in_all | in_none);
   const Balls16 first = load_balls(balls, 0);
   const Balls16 second = load_balls(balls, 16);
-  for (LaneMask left = lanes & ~(in_all | in_none); left != 0; left &= left - 1) {
+  PerLane<QueryWord> maybe;
+  for (LaneMask left = undecided; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));
     const __m512 a = heights(points, lane, first);
     const __m512 b = heights(points, lane, second);
-    const QueryWord sure = join(_mm512_cmp_ps_mask(a, first.surely_inside, _CMP_GE_OQ),
-                                _mm512_cmp_ps_mask(b, second.surely_inside, _CMP_GE_OQ));
-    const QueryWord maybe = join(_mm512_cmp_ps_mask(a, first.maybe_inside, _CMP_GE_OQ),
-                                 _mm512_cmp_ps_mask(b, second.maybe_inside, _CMP_GE_OQ));
-    inside[lane] = sure;
-    result.all &= sure;
-    doubts[lane] = maybe & ~sure;  // mutant: avx512-words-without-doubts
-    result.in_doubt |= LaneMask{maybe != sure} << lane;
+    store_halves(_mm512_cmp_ps_mask(a, first.surely_inside, _CMP_GE_OQ),
+                 _mm512_cmp_ps_mask(b, second.surely_inside, _CMP_GE_OQ), inside[lane]);
+    store_halves(_mm512_cmp_ps_mask(a, first.maybe_inside, _CMP_GE_OQ),
+                 _mm512_cmp_ps_mask(b, second.maybe_inside, _CMP_GE_OQ), maybe[lane]);
   }
-  return result;
+  const Words32 sure = load(inside);
+  const Words32 in_doubt = without(load_lanes(maybe, undecided), sure);  // mutant: avx512-words-without-doubts
+  _mm512_storeu_si512(doubts.data(), in_doubt.low);
+  _mm512_storeu_si512(doubts.data() + 16, in_doubt.high);
+  const QueryWord all = in_none != 0 ? 0 : balls.queries & common_bits(sure, undecided);
+  return {all, differing(in_doubt, {_mm512_setzero_si512(), _mm512_setzero_si512()})};
 }
 
 MESHHOOD_AVX512 void clear_words(LeafWords& words) {
@@ -199,80 +228,141 @@ MESHHOOD_AVX512 inline Words32 take_pending(LeafWords& words, const Words32& ins
   return reached;
 }
 
+/// The edges within a leaf as lists with one neighbor of each lane. A lane that has no more names itself.
+class NeighborLists {
+ public:
+  MESHHOOD_AVX512 explicit NeighborLists(const LaneMask* adjacency) {
+    const __m512i lanes = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    Words32 left{_mm512_loadu_si512(adjacency), _mm512_loadu_si512(adjacency + 16)};
+    while (_mm512_test_epi32_mask(_mm512_or_si512(left.low, left.high), _mm512_set1_epi32(-1)) != 0) {
+      lists_[size_++] = {take_last(left.low, lanes),
+                         take_last(left.high, _mm512_add_epi32(lanes, _mm512_set1_epi32(16)))};
+    }
+  }
+
+  /// The words of all neighbors of each lane, and its own.
+  MESHHOOD_AVX512 [[nodiscard]] Words32 gather(const Words32& words) const {
+    Words32 all = words;
+    for (std::size_t i = 0; i < size_; ++i) {
+      all = all | Words32{_mm512_permutex2var_epi32(words.low, lists_[i].low, words.high),
+                          _mm512_permutex2var_epi32(words.low, lists_[i].high, words.high)};
+    }
+    return all;
+  }
+
+ private:
+  /// Removes the last neighbor of each lane, and returns it.
+  MESHHOOD_AVX512 static __m512i take_last(__m512i& neighbors, __m512i lanes) {
+    const __mmask16 has = _mm512_test_epi32_mask(neighbors, neighbors);
+    const __m512i last = _mm512_mask_sub_epi32(lanes, has, _mm512_set1_epi32(31), _mm512_lzcnt_epi32(neighbors));
+    neighbors = _mm512_andnot_si512(_mm512_sllv_epi32(_mm512_set1_epi32(1), last), neighbors);
+    return last;
+  }
+
+  Words32 lists_[kLeafCapacity];  // NOLINT(modernize-avoid-c-arrays): std::array drops the alignment
+  std::size_t size_ = 0;
+};
+
 MESHHOOD_AVX512 SpreadWords spread_words(LeafWords& words, const LaneMask* adjacency, QueryWord whole) {
   const Words32 inside = load(words.inside);
   const Words32 before = load(words.reached);
   Words32 reached = take_pending(words, inside, whole);
-  store(words.reached, reached);
   LaneMask open = differing(reached, inside);
-  for (LaneMask fresh = differing(reached, before); fresh != 0 && open != 0;) {
-    Words32 arriving{_mm512_setzero_si512(), _mm512_setzero_si512()};
-    for (fresh &= lanes_with(adjacency, _mm512_set1_epi32(static_cast<int>(open))); fresh != 0; fresh &= fresh - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(fresh));
-      arriving = arriving | in_lanes(adjacency[lane], words.reached[lane]);
+  if (open != 0 && differing(reached, before) != 0) {
+    const NeighborLists neighbors(adjacency);
+    for (LaneMask gained = open; gained != 0 && open != 0;) {
+      const Words32 grown = neighbors.gather(reached) & inside;  // mutant: avx512-words-spread-outside
+      gained = differing(grown, reached);
+      open = differing(grown, inside);
+      reached = grown;
     }
-    const Words32 grown = reached | (arriving & inside);  // mutant: avx512-words-spread-outside
-    fresh = differing(grown, reached);
-    reached = grown;
-    store(words.reached, reached);
-    open = differing(reached, inside);
   }
+  store(words.reached, reached);
   return {differing(reached, before), open == 0};
 }
 
-/// Adds words to counters for each bit, a plane for each binary digit: of every 2^n vectors of words, one carry reaches
-/// plane n.
+/// Counts bits in each position of many words. Sixteen vectors are added at once, as binary numbers: a vector for each
+/// digit, with a number in each of its bits.
 class BitCounters {
  public:
-  MESHHOOD_AVX512 BitCounters() { planes_[0] = _mm512_setzero_si512(); }
+  MESHHOOD_AVX512 BitCounters() { ones_ = twos_ = fours_ = eights_ = counts_ = _mm512_setzero_si512(); }
 
-  MESHHOOD_AVX512 void add(const Words32& words) {
-    __m512i carry = add_to_plane(0, words.low, words.high);
-    std::size_t plane = 1;
-    for (; (leaves_ >> (plane - 1) & 1U) != 0; ++plane) carry = add_to_plane(plane, waiting_[plane], carry);
-    waiting_[plane] = carry;
-    if (plane == used_) planes_[used_++] = _mm512_setzero_si512();
-    ++leaves_;
+  /// Adds the words of eight leaves.
+  MESHHOOD_AVX512 void add(const std::array<const QueryWord*, 8>& leaves) {
+    const __m512i fours0 = add_four(leaves[0], leaves[1]);
+    const __m512i fours1 = add_four(leaves[2], leaves[3]);
+    const __m512i eights0 = add_digit(fours_, fours0, fours1);
+    const __m512i fours2 = add_four(leaves[4], leaves[5]);
+    const __m512i fours3 = add_four(leaves[6], leaves[7]);
+    const __m512i eights1 = add_digit(fours_, fours2, fours3);
+    count(add_digit(eights_, eights0, eights1), 16);
   }
 
   MESHHOOD_AVX512 void add_to(PerLane<std::uint64_t>& counts) {
-    // What waits is added first, so that a digit has one plane.
-    const __m512i none = _mm512_setzero_si512();
-    __m512i carry = none;
-    for (std::size_t plane = 0; plane < used_; ++plane) {
-      const bool waits = plane > 0 && (leaves_ >> (plane - 1) & 1U) != 0;
-      carry = add_to_plane(plane, waits ? waiting_[plane] : none, carry);
-      add_plane(planes_[plane], plane, counts);
-    }
-    add_plane(carry, used_, counts);
+    count(ones_, 1);
+    count(twos_, 2);
+    count(fours_, 4);
+    count(eights_, 8);
+    flush(counts);
   }
 
+  /// Moves what was counted to `counts`. To be called every `kMostBlocks` calls of `add`.
+  MESHHOOD_AVX512 void flush(PerLane<std::uint64_t>& counts) {
+    alignas(64) std::array<std::uint16_t, kPacketCapacity> small;
+    _mm512_store_si512(small.data(), counts_);
+    counts_ = _mm512_setzero_si512();
+    for (std::size_t i = 0; i < kPacketCapacity; ++i) counts[i] += small[i];
+  }
+
+  static constexpr std::size_t kMostBlocks = 128;
+
  private:
-  /// The sum of three bits each stays in the plane, the carry is returned.
-  MESHHOOD_AVX512 __m512i add_to_plane(std::size_t plane, __m512i a, __m512i b) {
-    const __m512i old = planes_[plane];
-    planes_[plane] = _mm512_ternarylogic_epi32(old, a, b, 0x96);
+  /// The sum of three bits each stays in the digit, the carry is returned.
+  MESHHOOD_AVX512 static __m512i add_digit(__m512i& digit, __m512i a, __m512i b) {
+    const __m512i old = digit;
+    digit = _mm512_ternarylogic_epi32(old, a, b, 0x96);
     return _mm512_ternarylogic_epi32(old, a, b, 0xE8);
   }
 
-  MESHHOOD_AVX512 static void add_plane(__m512i plane, std::size_t digit, PerLane<std::uint64_t>& counts) {
-    for (unsigned query = 0; query < kPacketCapacity; ++query) {
-      const __mmask16 set = _mm512_test_epi32_mask(plane, _mm512_set1_epi32(static_cast<int>(1U << query)));
-      counts[query] += static_cast<std::uint64_t>(_mm_popcnt_u32(set)) << digit;
-    }
+  MESHHOOD_AVX512 __m512i add_four(const QueryWord* first, const QueryWord* second) {
+    const __m512i a = add_digit(ones_, _mm512_load_si512(first), _mm512_load_si512(first + 16));
+    const __m512i b = add_digit(ones_, _mm512_load_si512(second), _mm512_load_si512(second + 16));
+    return add_digit(twos_, a, b);
   }
 
-  static constexpr std::size_t kPlanes = 34;  // enough for all leaves of an index
-  alignas(64) __m512i planes_[kPlanes];       // NOLINT(modernize-avoid-c-arrays): std::array drops the alignment
-  alignas(64) __m512i waiting_[kPlanes];      // NOLINT(modernize-avoid-c-arrays)
-  std::size_t used_ = 1;
-  std::uint64_t leaves_ = 0;
+  /// Adds `weight` to the counters of all bits that are set, word by word.
+  MESHHOOD_AVX512 void count(__m512i words, std::int16_t weight) {
+    alignas(64) std::array<QueryWord, 16> each;
+    _mm512_store_si512(each.data(), words);
+    const __m512i weights = _mm512_set1_epi16(weight);
+    __m512i other = _mm512_setzero_si512();
+    for (std::size_t i = 0; i < each.size(); i += 2) {
+      counts_ = _mm512_mask_add_epi16(counts_, each[i], counts_, weights);
+      other = _mm512_mask_add_epi16(other, each[i + 1], other, weights);
+    }
+    counts_ = _mm512_add_epi16(counts_, other);
+  }
+
+  __m512i ones_;
+  __m512i twos_;
+  __m512i fours_;
+  __m512i eights_;
+  __m512i counts_;  // 16 bits for each query
 };
 
 MESHHOOD_AVX512 void count_words(const LeafWords* words, std::span<const LeafOfWords> list,
                                  PerLane<std::uint64_t>& counts) {
+  alignas(64) static constexpr PerLane<QueryWord> kNone{};
   BitCounters counters;
-  for (const LeafOfWords& leaf : list) counters.add(load(words[leaf.words].reached));
+  std::size_t blocks = 0;
+  for (std::size_t i = 0; i < list.size(); i += 8) {
+    std::array<const QueryWord*, 8> leaves;
+    for (std::size_t k = 0; k < leaves.size(); ++k) {
+      leaves[k] = i + k < list.size() ? words[list[i + k].words].reached.data() : kNone.data();
+    }
+    counters.add(leaves);
+    if (++blocks % BitCounters::kMostBlocks == 0) counters.flush(counts);
+  }
   counters.add_to(counts);
 }
 

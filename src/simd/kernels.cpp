@@ -8,8 +8,8 @@ namespace meshhood {
 Isa best_isa() {
 #if defined(MESHHOOD_HAS_X86)
   if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&
-      __builtin_cpu_supports("avx512vl") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
-      __builtin_cpu_supports("bmi2") != 0) {
+      __builtin_cpu_supports("avx512cd") != 0 && __builtin_cpu_supports("avx512vl") != 0 &&
+      __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("bmi2") != 0) {
     return Isa::Avx512;
   }
   if (__builtin_cpu_supports("avx2") != 0) return Isa::Avx2;

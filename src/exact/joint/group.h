@@ -115,6 +115,7 @@ class JointGroup {
   [[nodiscard]] static std::uint8_t bit_of(GroupEntry entry) {
     return static_cast<std::uint8_t>(1U << entry % kFanOut);
   }
+  void prefetch(const Leaf& leaf) const;
   [[nodiscard]] bool is_inside(LeafId leaf) const;
   [[nodiscard]] bool meets_a_leaf(const FrameSphere& sphere) const;
 

@@ -54,7 +54,7 @@ void Packet::set_balls(const JointGroup& group, std::span<const JointQuery> quer
   const double reach = high + leaf_radius + group.radius();
   const double error = kRelativeError * reach * reach;
   const Point center = center_of(bounds) - group.center_in_frame();
-  balls_ = {};
+  for (PerLane<float>* coordinate : {&balls_.x, &balls_.y, &balls_.z}) coordinate->fill(0);
   balls_.center_x = static_cast<float>(center.x);
   balls_.center_y = static_cast<float>(center.y);
   balls_.center_z = static_cast<float>(center.z);

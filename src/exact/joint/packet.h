@@ -54,8 +54,8 @@ class Packet {
   std::size_t size_;
   TreeBall ball_;
   PacketBalls balls_;
-  std::array<unsigned, kPacketCapacity> lanes_{};
-  std::array<double, kPacketCapacity> squared_radii_{};
+  std::array<unsigned, kPacketCapacity> lanes_;
+  std::array<double, kPacketCapacity> squared_radii_;
 };
 
 }  // namespace meshhood
