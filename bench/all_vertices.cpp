@@ -70,6 +70,7 @@ double wall_clock() {
 struct Row {
   double edges;
   double radius;
+  std::vector<VertexId> vertices;  // consecutive
   Timing bfs{"bfs"};
   Timing single_count{"single_count"};
   Timing single_ids{"single_ids"};
@@ -95,7 +96,11 @@ struct Row {
   }
 
   [[nodiscard]] Json json() const {
-    Json result{{"radius_edges", edges}, {"radius", radius}, {"found", ids.found}};
+    Json result{{"radius_edges", edges},
+                {"radius", radius},
+                {"first_vertex", vertices.front()},
+                {"rows", vertices.size()},
+                {"found", ids.found}};
     const auto add = [&](const Timing& timing) {
       if (!timing.microseconds.empty()) result[timing.name] = timing.microseconds;
     };
@@ -119,11 +124,11 @@ class AllVertices {
 
   Row measure(double edges) {
     const double radius = edges * mean_edge_;
-    const std::vector<VertexId> rows = contiguous_rows(vertices(), edges <= 10 ? 20000 : 3000);
+    Row result{.edges = edges, .radius = radius, .vertices = contiguous_rows(vertices(), edges <= 10 ? 20000 : 3000)};
+    const std::vector<VertexId>& rows = result.vertices;
     // Slow methods take a part of the rows.
     const std::span<const VertexId> fewer =
         std::span(rows).first(std::min<std::size_t>(rows.size(), edges <= 10 ? 4000 : 400));
-    Row result{.edges = edges, .radius = radius};
     for (int round = 0; round < kRounds; ++round) {
       result.bfs.round(fewer.size(), [&] { return ids_one_by_one(reference_, fewer, radius); });
       result.single_count.round(fewer.size(), [&] { return counts_one_by_one(fewer, radius); });

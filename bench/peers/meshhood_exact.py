@@ -26,6 +26,19 @@ class MeshhoodBatch(Meshhood):
         return rows_of(*answer, range(len(vertices)))
 
 
+class MeshhoodAll(Meshhood):
+    name = "meshhood, all vertices"
+    remark = "all vertices at once"
+    whole = True
+    largest_answer = 1_000_000_000
+
+    def query(self, vertices, radius):
+        return self.index.query_ball(None, radius, workers=self.threads)
+
+    def rows(self, answer, vertices):
+        return rows_of(*answer, vertices)
+
+
 class MeshhoodPaper(MeshhoodBatch):
     name = "meshhood, the paper's index"
     answers = "the paper's"

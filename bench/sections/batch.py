@@ -14,6 +14,28 @@ consecutive vertices up to 10 mean edges, 3,000 above; the first 4,000 or 400 fo
 
 """
 
+OTHERS_NOTE = """
+## Threads, instruction sets, Python
+
+*Two threads*: how many times as fast as one, counts, wall clock. *AVX2* and *portable*: the speed of the kernels for
+these processors as a part of that of the best ones here, counts. *Python*: `query_ball` for the same rows, kept in one
+array, in µs a row, and its time over that of the same call of C++, `neighborhoods`; one thread, processor time.
+
+"""
+
+
+# Times as fast as breadth-first search: at the radii of bench/batch.py. Counts of each mesh, and ids of all of them.
+COUNT_GOALS = {"cortex": (5, 7, 9, 18, 45, 400), "head_skin": (6, 10, 16, 30, 55, 170), "dragon": (4, 6, 10, 20, 45, 200),
+               "mri_head": (4, 6, 10, 20, 45, 200)}
+IDS_GOALS = (3, 5, 6, 11, 25, 75)
+GOALS_NOTE = """
+## Goals
+
+Times as fast as breadth-first search, and in parentheses what was aimed at; in bold where it is missed.
+[What was tried](../joint.md).
+
+"""
+
 
 def text(data):
     header = ["mesh", "radius", "found", "bfs", "one, count", "one, ids", "batch, count", "batch, ids", "× count", "× ids"]
@@ -23,7 +45,43 @@ def text(data):
             times = (row[method] for method in ("bfs", "single_count", "single_ids", "count", "ids"))
             rows.append([name, f"{row['radius_edges']:g}", number(row["found"]),
                          *(with_spread(time["median"], time["quartiles"]) for time in times), *ratios(row)])
-    return NOTE.format(command=COMMAND) + table(header, rows)
+    return NOTE.format(command=COMMAND) + table(header, rows) + others(data) + goals(data)
+
+
+def goals(data):
+    shown = {name: data["meshes"][name]["rows"] for name in COUNT_GOALS if name in data["meshes"]}
+    rows = []
+    for name, measured in shown.items():
+        for what, aims, at in (("counts", COUNT_GOALS[name], 0), ("ids", IDS_GOALS, 1)):
+            rows.append([name, what, *(compared(ratios(row)[at], aim) for row, aim in zip(measured, aims))])
+    if not rows:
+        return ""
+    header = ["mesh", "", *(f"r = {row['radius_edges']:g}" for row in next(iter(shown.values())))]
+    return GOALS_NOTE + table(header, rows)
+
+
+def compared(reached, aim):
+    cell = f"{reached} ({aim})"
+    return cell if float(reached.replace(",", "")) >= aim else f"**{cell}**"
+
+
+def others(data):
+    header = ["mesh", "radius", "two threads", "AVX2", "portable", "Python", "Python / C++"]
+    rows = []
+    for name, result in data["meshes"].items():
+        for row in result["rows"]:
+            if "python" not in row:
+                continue
+            best = next(isa for isa in ("avx512", "avx2", "portable") if isa in row)
+            rows.append([name, f"{row['radius_edges']:g}", ratio(row, "one_thread", "two_threads"),
+                         ratio(row, best, "avx2"), ratio(row, best, "portable"), number(row["python"]["median"]),
+                         ratio(row, "python", "kept")])
+    return OTHERS_NOTE + table(header, rows) if rows else ""
+
+
+def ratio(row, method, other):
+    """How many times as long `method` takes as `other`."""
+    return f"{row[method]['median'] / row[other]['median']:.2f}" if other in row else "—"
 
 
 def summary(data):

@@ -146,6 +146,7 @@ def test_the_arguments_of_chunks_are_checked_at_the_call():
         (([0], 1.0), {"workers": 0}, ValueError),
         (([0], 1.0), {"method": "fast"}, ValueError),
         (([0], 1.0), {"unit": "mile"}, ValueError),
+        (([0], 1.0), {"order": "file"}, ValueError),
     ):
         with pytest.raises(error):
             index.iter_neighborhoods(*arguments, **options)

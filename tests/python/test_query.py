@@ -141,6 +141,28 @@ def test_chunks_of_some_vertices(plates):
     np.testing.assert_array_equal(parts[1].indices, index.query_ball(9, 1.0, sort=True))
 
 
+@pytest.mark.parametrize("method", ("exact", "bfs"))
+def test_chunks_in_index_order_are_the_rows(plates, method):
+    index = plates[3]
+    v = np.random.default_rng(5).integers(0, len(index), 300)  # some of them more than once
+    r = np.linspace(0, 4, len(v))
+    parts = list(index.iter_neighborhoods(v, r, chunk=70, order="index", sort=True, method=method))
+    place = np.argsort(index.permutation)
+    order = np.argsort(place[v], kind="stable")
+    np.testing.assert_array_equal(np.concatenate([p.vertices for p in parts]), v[order])
+    indptr, indices = index.query_ball(v[order], r[order], sort=True, method=method)
+    np.testing.assert_array_equal(np.concatenate([np.diff(p.indptr) for p in parts]), np.diff(indptr))
+    np.testing.assert_array_equal(np.concatenate([p.indices for p in parts]), indices)
+
+
+def test_all_vertices_in_index_order(plates):
+    index = plates[3]
+    r = np.linspace(0, 4, len(index))
+    (part,) = index.iter_neighborhoods(None, r, chunk=len(index), order="index")
+    np.testing.assert_array_equal(part.vertices, index.permutation)
+    np.testing.assert_array_equal(np.diff(part.indptr), index.query_ball_count(None, r)[index.permutation])
+
+
 def test_index_does_not_depend_on_workers():
     V, F = meshes.two_plates(60)
     one, many = (meshhood.MeshIndex(V, F, workers=workers) for workers in (1, 4))
