@@ -2,7 +2,7 @@
 // The neighborhoods of all vertices at one radius: breadth-first search on the reordered mesh, the exact index one
 // query at a time, and the batch, with each instruction set and with two threads, interleaved in one run. Microseconds
 // a row, the median of the rounds: a table, or JSON with the times of each round. With --index, the index of the
-// reordered mesh is saved, so that the same rows can be asked from Python.
+// reordered mesh is saved, so that the same rows can be queried from Python.
 //
 //   all_vertices [--json] [--index FILE] MESH [RADIUS IN MEAN EDGES...]
 #include <algorithm>

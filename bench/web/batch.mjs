@@ -9,7 +9,7 @@ import { fileURLToPath } from 'node:url';
 
 const RADII = [2, 5, 10, 20]; // in mean edge lengths
 const ROUNDS = 7;
-const SINGLE = 500; // vertices asked one after another
+const SINGLE = 500; // vertices, queried one after another
 
 const [file, folder] = process.argv.slice(2);
 if (file === undefined) throw new Error('usage: node bench/web/batch.mjs MESH.ply [FOLDER OF ANOTHER BUILD]');
