@@ -8,8 +8,8 @@ const CODES = [
   'MalformedIndex', 'IoFailure', 'TooLarge', 'Cancelled',
 ];
 
-/** Errors of the arguments of a query, after which the instance is as it was. */
-const ARGUMENT_ERRORS = new Set(['VertexOutOfRange', 'InvalidRadius', 'InvalidOption']);
+/** Errors of the arguments of a call, after which the instance is as it was. */
+const ARGUMENT_ERRORS = new Set(['VertexOutOfRange', 'InvalidRadius', 'InvalidOption', 'InvalidMesh']);
 
 export class MeshhoodError extends Error {
   constructor(code, message) {
@@ -158,18 +158,25 @@ export class Instance {
     }
   }
 
-  /** Copies `array`, or the bytes of an ArrayBuffer, into the memory of the module, and calls `use` with the address. */
-  with(array, use) {
-    const bytes = array instanceof ArrayBuffer || ArrayBuffer.isView(array) === false
-      ? new Uint8Array(array)
-      : new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
-    const address = this.call('allocate', bytes.byteLength) >>> 0;
+  /** Copies arrays into the memory of the module, and calls `use` with their addresses, 0 for null. */
+  with(arrays, use) {
+    const addresses = [];
     try {
-      new Uint8Array(this.#exports.memory.buffer, address, bytes.byteLength).set(bytes);
-      return use(address, array.length ?? bytes.length);
+      for (const array of arrays) addresses.push(array === null ? 0 : this.#place(array));
+      return use(...addresses);
     } finally {
-      this.#exports?.release(address);
+      for (const address of addresses) this.#exports?.release(address);
     }
+  }
+
+  /** Copies a typed array or an ArrayBuffer. Returns the address. */
+  #place(array) {
+    const bytes = ArrayBuffer.isView(array)
+      ? new Uint8Array(array.buffer, array.byteOffset, array.byteLength)
+      : new Uint8Array(array);
+    const address = this.call('allocate', bytes.byteLength) >>> 0;
+    new Uint8Array(this.#exports.memory.buffer, address, bytes.byteLength).set(bytes);
+    return address;
   }
 
   /** A view of `count` numbers in the memory of the module, valid until the next call. */
@@ -177,7 +184,63 @@ export class Instance {
     return new Type(this.#exports.memory.buffer, address >>> 0, count >>> 0);
   }
 
+  /** A copy. */
+  take(Type, address, count) {
+    return this.view(Type, address, count).slice();
+  }
+
+  takeIds() {
+    return this.take(Uint32Array, this.call('answer_ids'), this.call('answer_ids_size'));
+  }
+
+  takeReals() {
+    return this.take(Float64Array, this.call('answer_reals'), this.call('answer_reals_size'));
+  }
+
+  takeCounts() {
+    return this.take(Uint32Array, this.call('answer_counts'), this.call('answer_counts_size'));
+  }
+
+  /** To be called after large answers. */
+  releaseAnswer() {
+    this.call('release_answer');
+  }
+
   text(address, size) {
     return new TextDecoder().decode(this.view(Uint8Array, address, size));
   }
 }
+
+/** An instance that `fill` has filled. It is disposed if that fails. */
+export function makeInstance(fill) {
+  const instance = new Instance();
+  try {
+    fill(instance);
+  } catch (error) {
+    instance.dispose();
+    throw error;
+  }
+  return instance;
+}
+
+/** Disposes the instances of owners that are garbage-collected without `dispose`. */
+const forgotten = new FinalizationRegistry((instance) => instance.dispose());
+
+/** An object of the package that owns an instance, and with it all its memory. */
+export class Owner {
+  constructor(instance) {
+    Object.defineProperty(this, 'instance', { value: instance }); // for the classes of the package only
+    forgotten.register(this, instance, this);
+  }
+
+  get memoryBytes() {
+    return this.instance.memoryBytes;
+  }
+
+  dispose() {
+    forgotten.unregister(this);
+    this.instance.dispose();
+  }
+}
+
+if (Symbol.dispose !== undefined) Owner.prototype[Symbol.dispose] = Owner.prototype.dispose;

@@ -42,14 +42,21 @@ export function initialize(source?: BufferSource | WebAssembly.Module): Promise<
 /** Called during long calls, at most twenty times a second. Return false to end the call with the error `Cancelled`. */
 export type Progress = (done: number, total: number) => boolean | void;
 
+/** Triangles or polygons. A `Mesh` has these, too. */
+export interface Faces {
+  /** The corners of all faces, face after face. */
+  corners: Uint32Array | Int32Array;
+  /** Face f has the corners `corners[offsets[f]]` to `corners[offsets[f + 1] - 1]`. Null: all are triangles. */
+  offsets?: Uint32Array | Int32Array | null;
+}
+
 /** The triangles or polygons of a file, in the numbering of the file. */
 export interface Mesh {
   format: 'ply' | 'obj' | 'off' | 'stl';
   /** #V by 3, row by row. */
   positions: Float32Array | Float64Array;
-  /** The corners of all faces, face after face. */
+  /** See `Faces`. */
   corners: Uint32Array;
-  /** Face f has the corners `corners[offsets[f]]` to `corners[offsets[f + 1] - 1]`; null if all are triangles. */
   offsets: Uint32Array | null;
   /** Deviations from the format that were accepted, one sentence each. */
   warnings: string[];
@@ -79,10 +86,17 @@ export function readMesh(bytes: BufferSource, name: string, options?: ReadOption
  */
 export type Method = 'exact' | 'paper' | 'bfs' | 'ball';
 
+/** Of a radius: `mesh` is the unit of the positions, `edge` is `meanEdgeLength`. */
+export type Unit = 'mesh' | 'edge';
+
 export interface QueryOptions {
   method?: Method;
-  /** Of the radius: `mesh` is the unit of the positions, `edge` is `meanEdgeLength`. */
-  unit?: 'mesh' | 'edge';
+  /**
+   * `straight`: the neighborhood in the ball. `edge`: the vertices whose shortest path along edges is at most r long.
+   * Distances are then those lengths, and the vertices of one neighborhood ascend by them. It needs method `exact`.
+   */
+  metric?: 'straight' | 'edge';
+  unit?: Unit;
 }
 
 export interface AnswerOptions extends QueryOptions {
@@ -94,6 +108,111 @@ export interface AnswerOptions extends QueryOptions {
 export interface Rows {
   offsets: Uint32Array;
   ids: Uint32Array;
+}
+
+/** A vertex, or a point of space, which is then the center of the ball. */
+export type Start = number | readonly [number, number, number] | Float32Array | Float64Array;
+
+/** Restricts a search. A mask has #V bytes; one other than 0 puts its vertex into the set. */
+export interface Masks {
+  /** The search does not pass these vertices, and they belong to no answer: as if they were not in the mesh. */
+  walls?: Uint8Array | null;
+  /** The search passes these vertices, but they belong to no answer. */
+  ignored?: Uint8Array | null;
+}
+
+export interface RegionOptions extends Masks {
+  /**
+   * If the start is a point: the vertices from which the search spreads, for example the corners of the face on which
+   * the point lies; by default the vertex nearest to the point. A seed outside the ball does not count.
+   */
+  seeds?: Uint32Array | null;
+}
+
+/** Parts that contain each other: part i is `ids[0]` to `ids[counts[i] - 1]`. */
+export interface Rings {
+  counts: Uint32Array;
+  ids: Uint32Array;
+}
+
+export interface AggregateOptions {
+  reduce?: 'sum' | 'mean' | 'min' | 'max' | 'var' | 'std' | 'count';
+  /**
+   * #V numbers >= 0, for `sum`, `mean`, `var` and `std`; `area` is the area that each vertex stands for, which needs
+   * `faces`. A vertex of weight 0 is left out.
+   */
+  weights?: Float64Array | Float32Array | 'area' | null;
+  faces?: Faces | null;
+  /**
+   * For `sum` and `mean`, how the weight falls with the distance d: not at all, as 1 - (d/r)^2, or as (1 - (d/r)^2)^2,
+   * which is close to a Gaussian of the standard deviation 0.4 r.
+   */
+  kernel?: 'box' | 'epanechnikov' | 'biweight';
+  /** The vertices whose neighborhoods are aggregated; null for all. */
+  vertices?: Uint32Array | null;
+  /** `propagate`: a neighborhood with a NaN gives NaN. `omit`: NaN marks a missing value, which is left out. */
+  nan?: 'propagate' | 'omit';
+  /**
+   * What several radii mean. `own`: each has its own neighborhoods. `patch`: the neighborhoods of the largest, and of
+   * them the vertices within each smaller radius.
+   */
+  nesting?: 'own' | 'patch';
+  /** `var` and `std` divide by the number of values minus this, 0 or 1. */
+  ddof?: 0 | 1;
+  unit?: Unit;
+}
+
+/** Principal curvatures, row by row. */
+export class Curvature {
+  /**
+   * k1 >= k2, in 1 / unit of the positions. Positive where the surface is convex, seen from the side of the normals:
+   * 1 / R on a sphere with normals outward.
+   */
+  readonly k1: Float64Array;
+  readonly k2: Float64Array;
+  /** #rows by 3: unit vectors; of either sign the one whose component of largest magnitude is positive. */
+  readonly d1: Float64Array;
+  readonly d2: Float64Array;
+  /**
+   * 0: fitted. 1: the points determine no unique quadric; the values are those of the one with the smallest
+   * coefficients. 2: fewer than six vertices are connected with the vertex; all values are 0. 3: the vertex has no
+   * normal, as it belongs to no face with an area; all values are 0.
+   */
+  readonly state: Uint8Array;
+
+  /** H = (k1 + k2) / 2. A new array, as of the others. */
+  readonly mean: Float64Array;
+  /** K = k1 k2. */
+  readonly gaussian: Float64Array;
+  /**
+   * Koenderink's shape index: 1 on a dome, 0.5 on a ridge, 0 on a saddle, -0.5 in a valley, -1 in a bowl. NaN where
+   * both curvatures are 0.
+   */
+  readonly shapeIndex: Float64Array;
+  /** Koenderink's curvedness, the root of (k1^2 + k2^2) / 2. */
+  readonly curvedness: Float64Array;
+}
+
+export interface CurvatureOptions {
+  /** The rows; null for all vertices. */
+  vertices?: Uint32Array | null;
+  /**
+   * The faces that the index was built from, for the normals; or `normals`, one of both. The index keeps the normals
+   * until other faces or normals are given: a call with faces of the same content finds them again.
+   */
+  faces?: Faces | null;
+  /** #V by 3, of any length. NaN where a vertex has none. */
+  normals?: Float64Array | Float32Array | null;
+  /**
+   * The values of `igl::principal_curvature`, whose shape operator is wrong where the fitted quadric is tilted against
+   * the normal, for a neighborhood of the vertices nearer than r.
+   */
+  like?: 'libigl' | null;
+  /** `quadric`: through the vertex and over its tangent plane. `jet`: as CGAL's `Monge_via_jet_fitting`. */
+  fit?: 'quadric' | 'jet';
+  /** Fit only vertices whose normal makes less than 90 degrees with that of the query vertex, if they are six. */
+  filter?: boolean;
+  unit?: Unit;
 }
 
 /**
@@ -108,18 +227,25 @@ export class MeshIndex {
    *
    * @param positions #V by 3, row by row, in any unit
    * @param corners #F by 3 vertices of triangles; with `offsets` the corners of polygons (see `Mesh`)
-   * @throws MeshhoodError InvalidMesh, TooLarge, Cancelled
+   * @throws MeshhoodError InvalidMesh, TooLarge, Cancelled; of `cut` VertexOutOfRange, InvalidOption
    */
   constructor(
     positions: Float32Array | Float64Array,
     corners: Uint32Array | Int32Array,
-    options?: { offsets?: Uint32Array | Int32Array | null; progress?: Progress },
+    options?: {
+      offsets?: Uint32Array | Int32Array | null;
+      /** Edges that no search crosses: #cut by 2 vertices, in either order. */
+      cut?: Uint32Array | null;
+      progress?: Progress;
+    },
   );
 
   /**
-   * Loads a saved index and verifies all of it. The bytes are those of an index file of C++, Python or the command line.
+   * Loads a saved index and verifies all of it. The bytes are those of an index file of C++, Python or the command
+   * line.
    *
-   * @throws MeshhoodError MalformedIndex, naming the section, the byte, what it contains and what was expected; TooLarge
+   * @throws MeshhoodError MalformedIndex, naming the section, the byte, what it contains and what was expected;
+   * TooLarge
    */
   static load(bytes: BufferSource, options?: { progress?: Progress }): MeshIndex;
 
@@ -140,6 +266,28 @@ export class MeshIndex {
 
   /** A copy of the positions, #V by 3, in the numbering and precision of the mesh. */
   readonly positions: Float32Array | Float64Array;
+
+  /**
+   * The vertices in index order: vertices that are near each other in the mesh are near each other here. Batches of
+   * vertices in this order are faster. A copy.
+   */
+  readonly permutation: Uint32Array;
+
+  /**
+   * Moves the vertices; the edges stay. About a third of the time of a build. Answers are exact whatever the positions;
+   * `quality` says when a new index would answer faster.
+   *
+   * @param positions #V by 3
+   * @param options `changed`: the vertices that have moved, null for all. Positions of others are not read.
+   * @throws MeshhoodError InvalidMesh, VertexOutOfRange: the index is then as it was
+   */
+  refit(positions: Float32Array | Float64Array, options?: { changed?: Uint32Array | null }): void;
+
+  /**
+   * How well the leaves fit the positions: their mean radius at some places of the mesh, that in a new index, and the
+   * ratio. After a build, `gain` is about 1; at 1.5 and above a new index pays off if many queries follow.
+   */
+  quality(): { meanRadius: number; rebuiltRadius: number; gain: number };
 
   /**
    * The vertices of the neighborhood of v, itself included. A vertex at exactly r is inside. With `distances`, also
@@ -168,6 +316,141 @@ export class MeshIndex {
   /** The number of vertices of each neighborhood. */
   queryBallCount(v: number, r: number, options?: QueryOptions): number;
   queryBallCount(v: Uint32Array | null, r: number | Float64Array, options?: QueryOptions): Uint32Array;
+
+  /**
+   * The region of a start and the radius r: the vertices that are connected to a seed by edges between vertices within
+   * r of the start. For a vertex as start, without masks, it is the neighborhood that `queryBall` returns.
+   *
+   * @throws MeshhoodError VertexOutOfRange, InvalidRadius, InvalidOption, as the calls below
+   */
+  queryRegion(
+    start: Start,
+    r: number,
+    options?: RegionOptions & { unit?: Unit; sort?: boolean; distances?: false },
+  ): Uint32Array;
+  queryRegion(
+    start: Start,
+    r: number,
+    options: RegionOptions & { unit?: Unit; sort?: boolean; distances: true },
+  ): { ids: Uint32Array; distances: Float64Array };
+
+  /** The regions of strictly ascending radii in one pass. A vertex may be near and belong to a late ring. */
+  queryNested(
+    start: Start,
+    radii: Float64Array | Float32Array,
+    options?: RegionOptions & { unit?: Unit },
+  ): Rings;
+
+  /** The vertices that at most k edges separate from v: part i has those that are at most i edges away. */
+  queryRings(v: number, k: number, options?: Masks): Rings;
+
+  /** Whether the region of a start and the radius r has vertex w. */
+  contains(start: Start, w: number, r: number, options?: RegionOptions & { unit?: Unit }): boolean;
+
+  /**
+   * The smallest radius whose region has vertex w; Infinity if there is none. It is the least, over all paths of edges
+   * from a seed to w, of the largest distance of a vertex of the path from the start.
+   */
+  connectingRadius(start: Start, w: number, options?: RegionOptions): number;
+
+  /**
+   * The k nearest connected vertices and their connecting radii, which ascend; of equal radius, in the order of their
+   * distances from the start, then of their ids. Fewer if no more are connected.
+   */
+  nearestConnected(start: Start, k: number, options?: RegionOptions): { ids: Uint32Array; radii: Float64Array };
+
+  /** The vertex nearest to a point of space, connected or not; of several, the one with the smallest id. */
+  nearest(point: Exclude<Start, number>): { vertex: number; distance: number };
+
+  /**
+   * A sum, a mean or the like of values over the exact neighborhood of each vertex. No ids are listed.
+   *
+   * @param values #V numbers, or #V by channels, vertex after vertex; each channel by itself
+   * @param r the radius, or several
+   * @returns #radii by #rows by channels. NaN where a neighborhood has no values; 0 for their sum.
+   * @throws MeshhoodError InvalidOption, InvalidRadius, VertexOutOfRange, InvalidMesh; TooLarge, which disposes the
+   * index
+   */
+  aggregate(
+    values: Float64Array | Float32Array | Uint32Array | Int32Array | Uint16Array | Int16Array | Uint8Array | Int8Array,
+    r: number | Float64Array,
+    options?: AggregateOptions,
+  ): Float64Array;
+
+  /**
+   * The values smoothed by a biweight that is close to a Gaussian of this full width at half maximum. Values beyond
+   * 1.06 fwhm, or not connected within it, have no influence.
+   */
+  smooth(
+    values: Float64Array | Float32Array,
+    fwhm: number,
+    options?: Pick<AggregateOptions, 'weights' | 'faces' | 'vertices' | 'nan' | 'unit'>,
+  ): Float64Array;
+
+  /**
+   * Principal curvatures by a quadric that is fitted to the neighborhoods of radius r. docs/curvature.md explains the
+   * numbers.
+   *
+   * @throws MeshhoodError InvalidOption, InvalidRadius, VertexOutOfRange, InvalidMesh; TooLarge, which disposes the
+   * index
+   */
+  curvature(r: number, options: CurvatureOptions): Curvature;
+
+  /** Gives the memory back. All later calls throw an Error. */
+  dispose(): void;
+  [Symbol.dispose](): void;
+}
+
+/** Some faces of a mesh, as a mesh of their own. */
+export interface Submesh {
+  positions: Float32Array | Float64Array;
+  corners: Uint32Array;
+  offsets: Uint32Array | null;
+  /** Its vertices by their ids in the whole mesh, ascending. */
+  vertices: Uint32Array;
+  /** Its faces by their numbers in the whole mesh, ascending. */
+  faces: Uint32Array;
+}
+
+/** A polyline along which a surface leaves a ball. */
+export interface RimLine {
+  /** #points by 3. */
+  points: Float64Array;
+  /** #points by 2: of each point, the end of its edge inside the region, and the other. */
+  edges: Uint32Array;
+  /** A loop, whose last point is joined to its first. */
+  isClosed: boolean;
+}
+
+/**
+ * Makes meshes and outlines of the regions of a mesh, for drawing, remeshing and patches. Copies the mesh, and owns
+ * memory as a `MeshIndex` does, which does not keep the faces.
+ *
+ * ids: the vertices of a region, in any order.
+ */
+export class RegionMesh {
+  /** @throws MeshhoodError InvalidMesh, TooLarge */
+  constructor(
+    positions: Float32Array | Float64Array,
+    corners: Uint32Array | Int32Array,
+    options?: { offsets?: Uint32Array | Int32Array | null },
+  );
+
+  readonly memoryBytes: number;
+
+  /** The faces with all corners in `ids`, or with any; ascending. */
+  faces(ids: Uint32Array, corners?: 'all' | 'any'): Uint32Array;
+
+  /** These faces as a mesh. */
+  submesh(ids: Uint32Array, corners?: 'all' | 'any'): Submesh;
+
+  /**
+   * Where the surface leaves a region: polylines whose points lie on edges, at the distance r from the start. On a
+   * manifold mesh without border all are closed. If the faces are consistently oriented, the region lies to the left.
+   *
+   * @param ids the region of `start` and `r`
+   */
+  rim(ids: Uint32Array, start: Start, r: number): RimLine[];
 
   /** Gives the memory back. All later calls throw an Error. */
   dispose(): void;

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The package for JavaScript under Node. MESHHOOD_PACKAGE is its folder, MESHHOOD_CLI the command line,
-// MESHHOOD_GOLDEN the folder of the golden files.
+// The package for JavaScript under Node: reading, building, loading and queries. MESHHOOD_GOLDEN is the folder of the
+// golden files.
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, test } from 'node:test';
-import { pathToFileURL } from 'node:url';
+import { test } from 'node:test';
 
 import { ball, distance, grid, neighborhood, neighbors, plates, polygons, random, roll, toPly } from './meshes.mjs';
+import { build, library, meshhood, read as readFile, scaled, write } from './setup.mjs';
 
-const library = await import(pathToFileURL(join(process.env.MESHHOOD_PACKAGE, 'meshhood.js')));
 const { MeshIndex, MeshhoodError, initialize, readMesh } = library;
 
 test('nothing works before the module is compiled, and the error says what to call', () => {
@@ -23,15 +20,7 @@ test('compiling twice at once compiles', async () => {
   await initialize();
 });
 
-const folder = mkdtempSync(join(tmpdir(), 'meshhood-'));
-after(() => rmSync(folder, { recursive: true }));
-
-const meshhood = (...options) => execFileSync(process.env.MESHHOOD_CLI, options, { cwd: folder, encoding: 'utf8' });
-const build = (mesh, options) => new MeshIndex(mesh.positions, mesh.corners, { offsets: mesh.offsets, ...options });
 const golden = (name) => readFileSync(join(process.env.MESHHOOD_GOLDEN, name));
-
-/** `count` times $MESHHOOD_TEST_SCALE, as in the tests of the library. */
-const scaled = (count) => Math.round(count * Number(process.env.MESHHOOD_TEST_SCALE ?? 1));
 
 const families = { roll: roll(60, 12), 'double roll': roll(40, 9, Float64Array), plates: plates(18), polygons: polygons(300, 260) };
 
@@ -123,9 +112,9 @@ test('an index of the golden file answers as recorded', () => {
 
 test('the same file gives the same index and the same answers as the command line', () => {
   const mesh = roll(70, 15);
-  writeFileSync(join(folder, 'roll.ply'), toPly(mesh));
+  write('roll.ply', toPly(mesh));
   meshhood('build', 'roll.ply', '-o', 'roll.mhi');
-  const saved = readFileSync(join(folder, 'roll.mhi'));
+  const saved = readFile('roll.mhi');
   const read = readMesh(toPly(mesh), 'roll.ply');
   assert.deepEqual(read.positions, mesh.positions);
   assert.deepEqual(read.corners, mesh.corners);
@@ -136,7 +125,7 @@ test('the same file gives the same index and the same answers as the command lin
       meshhood('query', 'roll.mhi', '-v', '500', '-r', '3.5', '--method', method, '--json'));
     assert.deepEqual([...MeshIndex.load(saved).queryBall(500, 3.5, { method, sort: true })], vertices);
   }
-  writeFileSync(join(folder, 'page.mhi'), index.save());
+  write('page.mhi', index.save());
   assert.match(meshhood('check', 'page.mhi', '--mesh', 'roll.ply'), /\S/);
 });
 
@@ -154,9 +143,9 @@ test('polygons, precision and warnings of a file', () => {
 
 /** What the command line says about a file, without its own name in front. */
 function wordsOfCommandLine(name, content) {
-  writeFileSync(join(folder, name), content);
+  write(name, content);
   try {
-    execFileSync(process.env.MESHHOOD_CLI, ['info', name], { cwd: folder, encoding: 'utf8', stdio: 'pipe' });
+    meshhood('info', name);
   } catch (error) {
     return error.stderr.replace(/^meshhood: /, '').trimEnd();
   }

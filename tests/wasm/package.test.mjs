@@ -19,7 +19,8 @@ test('the packed package works in an empty project', () => {
   writeFileSync(join(project, 'package.json'), '{"type": "module"}');
   run('npm', 'install', '--silent', '--offline', `./${archive}`);
   assert.deepEqual(readdirSync(join(project, 'node_modules', 'meshhood')).sort(), [
-    'LICENSE', 'README.md', 'instance.js', 'meshhood.d.ts', 'meshhood.js', 'meshhood.wasm', 'package.json',
+    'LICENSE', 'README.md', 'arguments.js', 'curvature.js', 'instance.js', 'mesh_file.js', 'mesh_index.js',
+    'meshhood.d.ts', 'meshhood.js', 'meshhood.wasm', 'package.json', 'region_mesh.js',
   ]);
   writeFileSync(join(project, 'use.js'), `
     import { MeshIndex, initialize } from 'meshhood';

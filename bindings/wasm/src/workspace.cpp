@@ -9,15 +9,36 @@ void Workspace::read(std::span<const std::byte> file, const std::string& name, c
   mesh_ = io::read_mesh(file, name, options);
 }
 
-void Workspace::build(const MeshView& mesh, const BuildOptions& options) {
-  replace_index(meshhood::build(mesh, options));
+void Workspace::build(const MeshView& mesh, std::span<const VertexId> cut, const BuildOptions& options) {
+  if (cut.empty()) return replace_index(meshhood::build(mesh, options));
+  const Adjacency whole = adjacency(mesh);
+  const Adjacency rest = cut_edges(whole.view(), cut);
+  replace_index(meshhood::build(GraphView{mesh.positions, rest.view()}, options));
 }
 
 void Workspace::load(std::span<const std::byte> bytes, const LoadOptions& options) {
   replace_index(meshhood::load(bytes, options));
 }
 
+void Workspace::refit(const PositionsView& positions, const std::optional<IndicesView>& changed) {
+  forget_derived();
+  if (changed) {
+    index_ = meshhood::refit(std::move(*index_), positions, *changed);
+  } else {
+    index_ = meshhood::refit(*index_, positions);
+  }
+}
+
 void Workspace::replace_index(Index&& index) {
+  forget_derived();
+  index_ = std::move(index);
+}
+
+void Workspace::forget_derived() {
+  faces_.reset();
+  surface_.reset();
+  edges_.reset();
+  regions_.reset();
   ball_.reset();
   bfs_.reset();
   paper_.reset();
@@ -25,7 +46,6 @@ void Workspace::replace_index(Index&& index) {
   paper_index_.reset();
   mean_edge_.reset();
   graph_.reset();
-  index_ = std::move(index);
 }
 
 const GraphData& Workspace::graph() {
@@ -69,8 +89,36 @@ SearchMethod Workspace::search_method(Method method) {
     case Method::Paper: return paper_index();
     case Method::Bfs: return SearchMethod::breadth_first(graph().view());
     case Method::Ball: return SearchMethod::ball_scan(graph().view().positions);
+    case Method::Edges: return SearchMethod::along_edges(index());
   }
   __builtin_unreachable();
+}
+
+RegionSearcher& Workspace::regions() {
+  if (!regions_) regions_.emplace(index());
+  return *regions_;
+}
+
+EdgeSearcher& Workspace::edges() {
+  if (!edges_) edges_.emplace(index());
+  return *edges_;
+}
+
+void Workspace::use_faces(const FacesView& faces, const Fingerprint& content) {
+  if (faces_ == content) return;
+  surface_ = CurvatureIndex::build(index(), faces);
+  faces_ = content;
+}
+
+void Workspace::use_normals(std::span<const double> normals) {
+  surface_ = CurvatureIndex::build(index(), normals);
+  faces_.reset();
+}
+
+void Workspace::prepare_regions(const PositionsView& positions, const FacesView& faces) {
+  positions.visit(
+      [&](const auto& xyz) { region_positions_ = std::vector(xyz.first, xyz.first + positions.scalar_count()); });
+  mesher_.emplace(MeshView{std::visit([](const auto& xyz) { return PositionsView(xyz); }, region_positions_), faces});
 }
 
 }  // namespace meshhood::wasm

@@ -14,8 +14,8 @@
 
 namespace meshhood::wasm {
 
-/// The numbers are part of the interface with JavaScript.
-enum class Method : std::uint8_t { Exact, Paper, Bfs, Ball };
+/// The numbers are part of the interface with JavaScript. `Edges` is the exact search by the metric of the edges.
+enum class Method : std::uint8_t { Exact, Paper, Bfs, Ball, Edges };
 
 /// One mesh, its index, and what the methods need besides: the graph, the paper's index, searchers. Each part is made
 /// when it is first used.
@@ -27,13 +27,17 @@ class Workspace {
   /// The mesh that was read.
   [[nodiscard]] const io::Mesh& mesh() const { return mesh_; }
 
-  /// Replaces the index. Throws as `meshhood::build`.
-  void build(const MeshView& mesh, const BuildOptions& options);
+  /// Replaces the index. `cut` are the ends of edges that no search crosses. Throws as `meshhood::build` and
+  /// `cut_edges`.
+  void build(const MeshView& mesh, std::span<const VertexId> cut, const BuildOptions& options);
 
   /// Replaces the index by a saved one. Throws as `meshhood::load`.
   void load(std::span<const std::byte> bytes, const LoadOptions& options);
 
-  /// There must be an index, as for all functions below.
+  /// Moves the vertices `changed`, or all. Throws as `meshhood::refit`; the index is then as it was.
+  void refit(const PositionsView& positions, const std::optional<IndicesView>& changed);
+
+  /// There must be an index, as for all functions below but those of the mesher.
   [[nodiscard]] const Index& index() const { return *index_; }
 
   /// The graph and the positions, in the numbering of the mesh.
@@ -50,6 +54,7 @@ class Workspace {
       case Method::Paper: return f(paper());
       case Method::Bfs: return f(bfs());
       case Method::Ball: return f(ball());
+      case Method::Edges: return f(edges());
     }
     __builtin_unreachable();
   }
@@ -57,8 +62,27 @@ class Workspace {
   /// The method of a batch.
   [[nodiscard]] SearchMethod search_method(Method method);
 
+  [[nodiscard]] RegionSearcher& regions();
+  [[nodiscard]] EdgeSearcher& edges();
+
+  /// Makes the normals from faces; nothing is done if `content`, a hash of the faces, is that of the faces before.
+  /// Throws as `CurvatureIndex::build`.
+  void use_faces(const FacesView& faces, const Fingerprint& content);
+
+  /// Throws as `CurvatureIndex::build`.
+  void use_normals(std::span<const double> normals);
+
+  /// With the normals of the last `use_...`.
+  [[nodiscard]] const CurvatureIndex& surface() const { return *surface_; }
+
+  /// Copies the mesh whose regions are made. Throws as `RegionMesher`.
+  void prepare_regions(const PositionsView& positions, const FacesView& faces);
+
+  [[nodiscard]] RegionMesher& mesher() { return *mesher_; }
+
  private:
   void replace_index(Index&& index);
+  void forget_derived();
   [[nodiscard]] const paper::Index& paper_index();
   [[nodiscard]] Searcher& exact();
   [[nodiscard]] paper::Searcher& paper();
@@ -74,6 +98,15 @@ class Workspace {
   std::optional<paper::Searcher> paper_;
   std::optional<ReferenceSearcher> bfs_;
   std::optional<BallSearcher> ball_;
+  std::optional<RegionSearcher> regions_;
+  std::optional<EdgeSearcher> edges_;
+  std::optional<CurvatureIndex> surface_;
+  std::optional<Fingerprint> faces_;  // those of `surface_`, if it was made from faces
+  PositionsData region_positions_;    // borrowed by `mesher_`
+  std::optional<RegionMesher> mesher_;
 };
+
+/// One for each instance of the module, which has one thread.
+inline Workspace workspace;
 
 }  // namespace meshhood::wasm

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Checks of arguments that the module cannot make: types and names. Numbers are checked in C++.
+import { MeshhoodError } from './instance.js';
+
+/** The place of `value` in `choices`. */
+export function choose(choices, value, name) {
+  const place = choices.indexOf(value);
+  if (place >= 0) return place;
+  const expected = choices.map((choice) => `'${choice}'`).join(', ');
+  throw new MeshhoodError('InvalidOption', `${name}: '${value}', expected one of ${expected}`);
+}
+
+export function expectType(value, types, name) {
+  if (types.some((type) => value instanceof type)) return;
+  const found = value === null || typeof value !== 'object' ? String(value) : value.constructor?.name;
+  throw new TypeError(`${name}: ${found}, expected ${types.map((type) => type.name).join(' or ')}`);
+}
+
+export function expectBytes(value, name) {
+  if (value instanceof ArrayBuffer || ArrayBuffer.isView(value)) return;
+  throw new TypeError(`${name}: ${typeof value}, expected an ArrayBuffer or a typed array`);
+}
+
+export function expectVertex(v) {
+  if (!Number.isInteger(v)) throw new TypeError(`vertex ${String(v)}, expected a whole number`);
+}
+
+export function expectVertices(vertices, name) {
+  if (vertices !== null) expectType(vertices, [Uint32Array], name);
+}
+
+export function expectNumber(value, name) {
+  if (typeof value !== 'number') throw new TypeError(`${name} ${String(value)}, expected a number`);
+}
+
+export function expectRadius(radius) {
+  expectNumber(radius, 'radius');
+}
+
+/** Of how many vertices or rings. */
+export function expectSize(k, name) {
+  if (!Number.isInteger(k) || k < 0) throw new TypeError(`${name}: ${String(k)}, expected a whole number >= 0`);
+}
+
+/** Three numbers. */
+export function expectPoint(point, name) {
+  const isPoint = (Array.isArray(point) || ArrayBuffer.isView(point)) && point.length === 3;
+  if (!isPoint) throw new TypeError(`${name}: expected a vertex or three numbers`);
+  for (const coordinate of point) expectNumber(coordinate, `${name}: coordinate`);
+}
+
+/** Any typed array of numbers, as one of 64 bits. */
+export function toReals(values, name) {
+  if (values instanceof Float64Array) return values;
+  if (ArrayBuffer.isView(values) && typeof (values[0] ?? 0) === 'number' && !(values instanceof DataView)) {
+    return Float64Array.from(values);
+  }
+  throw new TypeError(`${name}: expected a typed array of numbers`);
+}
+
+export function expectMesh(positions, { corners, offsets }) {
+  expectType(positions, [Float32Array, Float64Array], 'positions');
+  expectFaces({ corners, offsets });
+}
+
+export function expectFaces({ corners, offsets }) {
+  expectType(corners, [Uint32Array, Int32Array], 'corners');
+  if (offsets !== null && offsets !== undefined) expectType(offsets, [Uint32Array, Int32Array], 'offsets');
+}
+
+/** Copies faces into the module, and calls `use` with the six arguments that stand for them. */
+export function withFaces(instance, { corners, offsets = null }, use) {
+  return instance.with([corners, offsets], (ids, begins) => use(
+    ids, corners.length, corners instanceof Int32Array, begins, offsets?.length ?? 0, offsets instanceof Int32Array));
+}
+
+/** The same with positions before them. */
+export function withMesh(instance, positions, faces, use) {
+  return instance.with([positions], (xyz) =>
+    withFaces(instance, faces, (...six) => use(xyz, positions.length, positions instanceof Float64Array, ...six)));
+}

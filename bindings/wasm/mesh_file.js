@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+import { choose, expectBytes } from './arguments.js';
+import { Instance } from './instance.js';
+
+const FORMATS = ['ply', 'obj', 'off', 'stl'];
+const PRECISIONS = ['file', 'float', 'double'];
+
+export function readMesh(bytes, name, { precision = 'file', strict = false, progress } = {}) {
+  expectBytes(bytes, 'bytes');
+  const place = choose(PRECISIONS, precision, 'precision');
+  const encoded = new TextEncoder().encode(name);
+  const instance = new Instance();
+  try {
+    instance.with([bytes, encoded], (file, text) => instance.callWithProgress(
+      progress, 'read_mesh', file, bytes.byteLength, text, encoded.length, place, strict));
+    return takeMesh(instance);
+  } finally {
+    instance.dispose();
+  }
+}
+
+function takeMesh(instance) {
+  const take = (Type, address, count) => instance.take(Type, instance.call(address), instance.call(count));
+  const Reals = instance.call('mesh_is_double') ? Float64Array : Float32Array;
+  const offsets = take(Uint32Array, 'mesh_offsets', 'mesh_offset_count');
+  const warnings = instance.call('mesh_warnings');
+  return {
+    format: FORMATS[instance.call('mesh_format')],
+    positions: take(Reals, 'mesh_positions', 'mesh_scalar_count'),
+    corners: take(Uint32Array, 'mesh_corners', 'mesh_corner_count'),
+    offsets: offsets.length === 0 ? null : offsets,
+    warnings: instance.text(warnings, instance.call('warnings_size')).split('\n').filter((line) => line !== ''),
+  };
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Values over neighborhoods.
+#include <cstddef>
+#include <span>
+
+#include "meshhood/meshhood.h"
+
+#include "answer.h"
+#include "arguments.h"
+#include "workspace.h"
+
+namespace meshhood::wasm {
+
+extern "C" {
+
+/// All vertices if `vertices` is null.
+[[clang::export_name("aggregate")]] void aggregate(const double* values, std::size_t value_count, std::size_t channels,
+                                                   const double* weights, std::size_t weight_count,
+                                                   const VertexId* vertices, std::size_t vertex_count,
+                                                   const double* radii, std::size_t radius_count, Reduce reduce,
+                                                   SmoothingKernel kernel, MissingValues missing, Nesting nesting,
+                                                   unsigned ddof) {
+  const SignalView signal{.values = {values, value_count}, .channels = channels, .weights = {weights, weight_count}};
+  answer.reals = meshhood::aggregate(workspace.index(), signal,
+                                     {.vertices = view_vertices(vertices, vertex_count),
+                                      .radii = {radii, radii + radius_count},
+                                      .reduce = reduce,
+                                      .kernel = kernel,
+                                      .missing = missing,
+                                      .nesting = nesting,
+                                      .ddof = ddof});
+}
+
+[[clang::export_name("smoothing_radius")]] double smoothing_radius(double fwhm) {
+  return meshhood::smoothing_radius(fwhm);
+}
+
+/// Of the mesh with the positions of the index.
+[[clang::export_name("areas")]] void areas(const void* corners, std::size_t corner_count, bool signed_corners,
+                                           const void* offsets, std::size_t offset_count, bool signed_offsets) {
+  answer.reals = vertex_areas({workspace.graph().view().positions, view_faces(corners, corner_count, signed_corners,
+                                                                              offsets, offset_count, signed_offsets)});
+}
+
+}  // extern "C"
+
+}  // namespace meshhood::wasm

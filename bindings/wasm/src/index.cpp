@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// The index: making, saving and loading it, and what is known of it.
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "meshhood/meshhood.h"
+
+#include "answer.h"
+#include "arguments.h"
+#include "host.h"
+#include "workspace.h"
+
+namespace meshhood::wasm {
+namespace {
+
+std::vector<std::byte> saved;
+
+}  // namespace
+
+VertexId to_vertex(double v) {
+  const std::size_t vertices = workspace.index().vertex_count();
+  if (v >= 0 && v < static_cast<double>(vertices)) return static_cast<VertexId>(v);
+  raise(ErrorCode::VertexOutOfRange, "vertex " + std::to_string(static_cast<std::int64_t>(v)) + ", but the mesh has " +
+                                         std::to_string(vertices) + " vertices");
+}
+
+extern "C" {
+
+/// `cut` are the ends of edges that no search crosses, or null.
+[[clang::export_name("build")]] void build(const void* xyz, std::size_t scalars, bool is_double, const void* corners,
+                                           std::size_t corner_count, bool signed_corners, const void* offsets,
+                                           std::size_t offset_count, bool signed_offsets, const VertexId* cut,
+                                           std::size_t cut_count) {
+  const MeshView mesh(view_positions(xyz, scalars, is_double),
+                      view_faces(corners, corner_count, signed_corners, offsets, offset_count, signed_offsets));
+  workspace.build(mesh, std::span(cut, cut_count), {.progress = report_progress});
+}
+
+[[clang::export_name("load")]] void load(const void* bytes, std::size_t size) {
+  workspace.load(view_bytes(bytes, size), {.progress = report_progress});
+}
+
+/// All vertices have moved if `changed` is null.
+[[clang::export_name("refit")]] void refit(const void* xyz, std::size_t scalars, bool is_double,
+                                           const VertexId* changed, std::size_t changed_count) {
+  std::optional<IndicesView> list;
+  if (changed != nullptr) list = std::span(changed, changed_count);
+  workspace.refit(view_positions(xyz, scalars, is_double), list);
+}
+
+/// Returns the bytes of the index file; `saved_size` has their number.
+[[clang::export_name("save")]] const std::byte* save() {
+  saved.clear();
+  meshhood::save(workspace.index(),
+                 [](std::span<const std::byte> bytes) { saved.insert(saved.end(), bytes.begin(), bytes.end()); });
+  return saved.data();
+}
+
+[[clang::export_name("saved_size")]] std::size_t saved_size() { return saved.size(); }
+
+[[clang::export_name("release_saved")]] void release_saved() { saved = {}; }
+
+[[clang::export_name("vertex_count")]] std::size_t vertex_count() { return workspace.index().vertex_count(); }
+
+[[clang::export_name("index_bytes")]] std::size_t index_bytes() { return workspace.index().bytes().total(); }
+
+[[clang::export_name("mean_edge_length")]] double mean_edge_length() { return workspace.mean_edge(); }
+
+[[clang::export_name("permutation")]] const VertexId* permutation() { return workspace.index().permutation().data(); }
+
+[[clang::export_name("graph_is_double")]] bool graph_is_double() { return workspace.graph().positions.index() == 1; }
+
+[[clang::export_name("graph_positions")]] const void* graph_positions() {
+  return std::visit([](const auto& xyz) { return static_cast<const void*>(xyz.data()); }, workspace.graph().positions);
+}
+
+/// Three reals: see `Quality`.
+[[clang::export_name("quality")]] void quality() {
+  const Quality found = meshhood::quality(workspace.index());
+  answer.reals = {found.mean_radius, found.rebuilt_radius, found.gain};
+}
+
+}  // extern "C"
+
+}  // namespace meshhood::wasm

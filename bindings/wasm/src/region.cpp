@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Regions: searches from any point, with masks. `start_at_...` and `restrict_search` come first, and borrow their
+// arrays for the calls that follow.
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "meshhood/meshhood.h"
+
+#include "answer.h"
+#include "arguments.h"
+#include "workspace.h"
+
+namespace meshhood::wasm {
+namespace {
+
+Start origin = VertexId{0};
+Filter restriction;
+VertexId closest = 0;
+std::vector<std::size_t> region_sizes;
+
+void answer_sizes() { answer.counts.assign(region_sizes.begin(), region_sizes.end()); }
+
+}  // namespace
+
+extern "C" {
+
+[[clang::export_name("start_at_vertex")]] void start_at_vertex(double v) { origin = to_vertex(v); }
+
+/// The vertex nearest to the point is the seed if `seeds` is null.
+[[clang::export_name("start_at_point")]] void start_at_point(double x, double y, double z, const VertexId* seeds,
+                                                             std::size_t seed_count) {
+  const SpacePoint center{x, y, z};
+  if (seeds == nullptr) {
+    closest = meshhood::nearest(workspace.index(), center).vertex;
+    origin = Start(center, std::span(&closest, 1));
+  } else {
+    origin = Start(center, std::span(seeds, seed_count));
+  }
+}
+
+[[clang::export_name("restrict_search")]] void restrict_search(const std::uint8_t* walls, std::size_t wall_count,
+                                                               const std::uint8_t* ignored, std::size_t ignored_count) {
+  restriction = {.walls = std::span(walls, wall_count), .ignored = std::span(ignored, ignored_count)};
+}
+
+[[clang::export_name("region")]] void region(double radius, bool with_distances) {
+  if (with_distances) {
+    workspace.regions().region(origin, radius, answer.ids, answer.reals, restriction);
+  } else {
+    workspace.regions().region(origin, radius, answer.ids, restriction);
+  }
+}
+
+[[clang::export_name("nested")]] void nested(const double* radii, std::size_t radius_count) {
+  workspace.regions().nested(origin, std::span(radii, radius_count), answer.ids, region_sizes, restriction);
+  answer_sizes();
+}
+
+/// Of the vertex `v`; not of the start.
+[[clang::export_name("rings")]] void rings(double v, double k) {
+  constexpr auto kMost = static_cast<double>(std::numeric_limits<std::size_t>::max());
+  const std::size_t most = k < kMost ? static_cast<std::size_t>(k) : std::numeric_limits<std::size_t>::max();
+  workspace.edges().rings(to_vertex(v), most, answer.ids, region_sizes, restriction);
+  answer_sizes();
+}
+
+[[clang::export_name("contains")]] bool contains(double w, double radius) {
+  return workspace.regions().contains(origin, to_vertex(w), radius, restriction);
+}
+
+[[clang::export_name("connecting_radius")]] double connecting_radius(double w) {
+  return workspace.regions().connecting_radius(origin, to_vertex(w), restriction);
+}
+
+[[clang::export_name("nearest_connected")]] void nearest_connected(double k) {
+  const auto vertices = static_cast<double>(workspace.index().vertex_count());
+  workspace.regions().nearest_connected(origin, static_cast<std::size_t>(k < vertices ? k : vertices), answer.ids,
+                                        answer.reals, restriction);
+}
+
+/// Returns the vertex; the first real of the answer is its distance.
+[[clang::export_name("nearest")]] VertexId nearest(double x, double y, double z) {
+  const NearestVertex found = meshhood::nearest(workspace.index(), {x, y, z});
+  answer.reals = {found.distance};
+  return found.vertex;
+}
+
+}  // extern "C"
+
+}  // namespace meshhood::wasm

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Regions as meshes. An instance for these has no index.
+#include <cstddef>
+#include <cstdint>
+
+#include "meshhood/meshhood.h"
+
+#include "answer.h"
+#include "arguments.h"
+#include "workspace.h"
+
+namespace meshhood::wasm {
+
+extern "C" {
+
+[[clang::export_name("prepare_regions")]] void prepare_regions(const void* xyz, std::size_t scalars, bool is_double,
+                                                               const void* corners, std::size_t corner_count,
+                                                               bool signed_corners, const void* offsets,
+                                                               std::size_t offset_count, bool signed_offsets) {
+  workspace.prepare_regions(view_positions(xyz, scalars, is_double),
+                            view_faces(corners, corner_count, signed_corners, offsets, offset_count, signed_offsets));
+}
+
+/// The counts of the answer are faces.
+[[clang::export_name("faces")]] void faces(const VertexId* ids, std::size_t count, Corners corners) {
+  const auto found = workspace.mesher().faces({ids, count}, corners);
+  answer.counts.assign(found.begin(), found.end());
+}
+
+/// The ids of the answer are the vertices, and the counts first the offsets of the faces, then the corners.
+[[clang::export_name("submesh")]] void submesh(const VertexId* ids, std::size_t count, Corners corners) {
+  const Submesh part = workspace.mesher().submesh({ids, count}, corners);
+  answer.ids.assign(part.vertices.begin(), part.vertices.end());
+  answer.counts.assign(part.offsets.begin(), part.offsets.end());
+  answer.counts.insert(answer.counts.end(), part.corners.begin(), part.corners.end());
+}
+
+/// The reals of the answer are the points, the ids the ends of their edges, and the counts first the offsets, then
+/// whether each polyline is closed.
+[[clang::export_name("rim")]] void rim(const VertexId* ids, std::size_t count, double x, double y, double z,
+                                       double radius) {
+  const Rim outline = workspace.mesher().rim({ids, count}, {x, y, z}, radius);
+  answer.reals.clear();
+  for (const SpacePoint& point : outline.points) answer.reals.insert(answer.reals.end(), point.begin(), point.end());
+  answer.ids.clear();
+  for (const auto& edge : outline.edges) answer.ids.insert(answer.ids.end(), edge.begin(), edge.end());
+  answer.counts.assign(outline.offsets.begin(), outline.offsets.end());
+  answer.counts.insert(answer.counts.end(), outline.closed.begin(), outline.closed.end());
+}
+
+}  // extern "C"
+
+}  // namespace meshhood::wasm

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// Aggregates and curvature in the package for JavaScript: the values of the command line, bit by bit.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+import { grid, neighborhood, neighbors, polygons, random, roll, toPly } from './meshes.mjs';
+import { build, library, meshhood, readArrays, write } from './setup.mjs';
+
+const { initialize } = library;
+await initialize();
+
+/** Hills with a fold, and normals that point up. */
+const hills = grid(40, 35, (row, column) =>
+  [row, column, 2 * Math.sin(0.4 * row) + Math.cos(0.3 * row + 0.5 * column)], Float64Array);
+const rolled = roll(60, 14);
+const mixed = polygons(200, 300);
+const meshes = { hills, rolled, mixed };
+for (const [name, mesh] of Object.entries(meshes)) write(`${name}.ply`, toPly(mesh));
+
+const next = random(21);
+const values = (mesh, channels = 1) =>
+  Float64Array.from({ length: (channels * mesh.positions.length) / 3 }, () => 10 * next() - 3);
+const toText = (numbers) => `${Array.from(numbers).join('\n')}\n`;
+
+for (const [name, mesh] of Object.entries(meshes)) {
+  test(`curvatures of ${name} are those of the command line`, () => {
+    const index = build(mesh);
+    const choices = [[{}, []], [{ like: 'libigl' }, ['--like-libigl']], [{ filter: false }, ['--no-filter']]];
+    for (const [options, flags] of choices) {
+      meshhood('curvature', `${name}.ply`, '-r', '3.5', '-o', 'k.npz', ...flags);
+      const expected = readArrays('k.npz');
+      const found = index.curvature(3.5, { faces: mesh, ...options });
+      for (const part of ['k1', 'k2', 'd1', 'd2']) assert.deepEqual(found[part], expected[part], `${part} ${flags}`);
+      assert.deepEqual([...found.state], [...expected.state]);
+      assert.ok(found.state.includes(0));
+    }
+  });
+
+  test(`aggregates of ${name} are those of the command line`, () => {
+    const index = build(mesh);
+    const signal = values(mesh);
+    write('values.txt', toText(signal));
+    const aggregate = (...options) => {
+      meshhood('aggregate', `${name}.ply`, '--values', 'values.txt', '-o', 'a.npz', ...options);
+      return readArrays('a.npz').values;
+    };
+    for (const reduce of ['sum', 'mean', 'min', 'max', 'var', 'std', 'count']) {
+      assert.deepEqual(index.aggregate(signal, 3, { reduce }), aggregate('-r', '3', '--reduce', reduce), reduce);
+    }
+    for (const kernel of ['epanechnikov', 'biweight']) {
+      const expected = aggregate('-r', '2,4', '--kernel', kernel, '--nesting', 'patch', '--weights', 'area');
+      const options = { kernel, nesting: 'patch', weights: 'area', faces: mesh };
+      assert.deepEqual(index.aggregate(signal, Float64Array.of(2, 4), options), expected, kernel);
+    }
+  });
+}
+
+test('the mean of several channels is that of the definition', () => {
+  const index = build(hills);
+  const signal = values(hills, 2);
+  const vertices = Uint32Array.of(700, 3);
+  const rows = neighbors(hills);
+  const found = index.aggregate(signal, 3, { vertices });
+  assert.equal(found.length, 4);
+  vertices.forEach((v, row) => {
+    const ids = neighborhood(hills.positions, rows, v, 3);
+    for (const channel of [0, 1]) {
+      const mean = ids.reduce((sum, w) => sum + signal[2 * w + channel], 0) / ids.length;
+      assert.ok(Math.abs(found[2 * row + channel] - mean) < 1e-12);
+    }
+  });
+});
+
+test('missing values are left out or spread', () => {
+  const index = build(hills);
+  const signal = values(hills);
+  signal[700] = NaN;
+  const vertices = Uint32Array.of(700);
+  assert.ok(Number.isNaN(index.aggregate(signal, 2, { vertices })[0]));
+  const count = index.queryBallCount(700, 2);
+  assert.deepEqual(index.aggregate(signal, 2, { vertices, nan: 'omit', reduce: 'count' }), Float64Array.of(count - 1));
+});
+
+test('smoothing is a biweight mean within 1.06 of the width', () => {
+  const index = build(hills);
+  const signal = values(hills);
+  const smooth = index.smooth(signal, 4);
+  assert.equal(smooth.length, signal.length);
+  const radii = [4 * 1.06, 4 * 1.07].map((r) => index.aggregate(signal, r, { kernel: 'biweight' })[700]);
+  assert.ok(smooth[700] > Math.min(...radii) - 0.01 && smooth[700] < Math.max(...radii) + 0.01);
+  assert.deepEqual(index.smooth(Float32Array.from(signal, () => 2), 4), new Float64Array(signal.length).fill(2));
+  assert.throws(() => index.smooth(signal, NaN), { code: 'InvalidRadius' });
+});
+
+test('a sphere has the curvature of its radius', () => {
+  const ball = grid(30, 60, (row, column) => {
+    const [theta, phi] = [(Math.PI * (row + 0.5)) / 30, (2 * Math.PI * column) / 59];
+    return [5 * Math.sin(theta) * Math.cos(phi), 5 * Math.sin(theta) * Math.sin(phi), 5 * Math.cos(theta)];
+  }, Float64Array);
+  const curvature = build(ball).curvature(1.5, { normals: ball.positions, vertices: Uint32Array.of(15 * 60 + 30) });
+  const near = (array, expected) => assert.ok(Math.abs(array[0] - expected) < 0.02, `${array} ${expected}`);
+  near(curvature.k1, 0.2);
+  near(curvature.mean, 0.2);
+  near(curvature.gaussian, 0.04);
+  near(curvature.curvedness, 0.2);
+  assert.ok(curvature.shapeIndex[0] > 0.9);
+});
+
+test('quantities of principal curvatures follow their definitions', () => {
+  const { Curvature } = library;
+  const none = new Float64Array();
+  const [k1, k2] = [Float64Array.of(2, 1, 0, 1), Float64Array.of(2, -1, 0, 0)];
+  const curvature = new Curvature(k1, k2, none, none, new Uint8Array(4));
+  assert.deepEqual(curvature.mean, Float64Array.of(2, 0, 0, 0.5));
+  assert.deepEqual(curvature.gaussian, Float64Array.of(4, -1, 0, 0));
+  assert.deepEqual(curvature.shapeIndex, Float64Array.of(1, 0, NaN, 0.5));
+  curvature.curvedness.forEach((value, i) => assert.ok(Math.abs(value - [2, 1, 0, Math.SQRT1_2][i]) < 1e-15));
+});
+
+test('normals of other faces replace those that are kept, and faces may change in place', () => {
+  const index = build(hills);
+  const flipped = { corners: hills.corners.slice() };
+  const first = index.curvature(3, { faces: flipped }).mean;
+  for (let i = 0; i < flipped.corners.length; i += 3) flipped.corners.subarray(i, i + 2).reverse();
+  const second = index.curvature(3, { faces: flipped }).mean;
+  assert.ok(Math.abs(first[700]) > 0.01);
+  second.forEach((value, v) => assert.ok(Math.abs(value + first[v]) < 1e-12));
+});
+
+test('the rows of a part are those of the whole up to rounding', () => {
+  const index = build(hills);
+  const whole = index.curvature(3, { faces: hills });
+  const vertices = index.permutation.subarray(100, 200);
+  const part = index.curvature(3, { faces: hills, vertices });
+  vertices.forEach((v, row) => {
+    assert.ok(Math.abs(part.k1[row] - whole.k1[v]) < 1e-12);
+    assert.ok(Math.abs(part.k2[row] - whole.k2[v]) < 1e-12);
+  });
+});
+
+test('wrong arguments give the errors of C++ and leave the index usable', () => {
+  const index = build(hills);
+  const signal = values(hills);
+  const refuse = (call, expected) => assert.throws(call, expected);
+  refuse(() => index.curvature(3), { code: 'InvalidOption', message: /^faces: expected the faces/ });
+  refuse(() => index.curvature(3, { faces: hills, normals: hills.positions }), { code: 'InvalidOption' });
+  const other = { corners: Uint32Array.of(0, 1, 9999) };
+  refuse(() => index.curvature(3, { faces: other }), { code: 'InvalidMesh', message: /9999/ });
+  refuse(() => index.curvature(3, { normals: new Float64Array(6) }), { code: 'InvalidMesh' });
+  refuse(() => index.curvature(-3, { faces: hills }), { code: 'InvalidRadius' });
+  refuse(() => index.curvature(3, { faces: hills, fit: 'cubic' }), { code: 'InvalidOption', message: /'jet'/ });
+  refuse(() => index.curvature(3, { faces: hills, vertices: [1] }), TypeError);
+  const vertices = Uint32Array.of(1, 9999);
+  refuse(() => index.curvature(3, { faces: hills, vertices }), { code: 'VertexOutOfRange', message: /row 1/ });
+  refuse(() => index.aggregate(signal, 3, { reduce: 'median' }), { code: 'InvalidOption', message: /^reduce/ });
+  refuse(() => index.aggregate(signal, 3, { reduce: 'max', kernel: 'biweight' }), { message: /kernel is for sum/ });
+  refuse(() => index.aggregate(signal, 3, { weights: 'area' }), { code: 'InvalidOption', message: /faces/ });
+  refuse(() => index.aggregate(signal, 3, { weights: signal }), { code: 'InvalidOption', message: /weight is -/ });
+  refuse(() => index.aggregate(signal, new Float64Array()), { code: 'InvalidOption', message: /no radii/ });
+  refuse(() => index.aggregate([1, 2], 3), TypeError);
+  refuse(() => index.aggregate(new BigInt64Array(1400), 3), TypeError);
+  assert.equal(index.aggregate(signal, 0)[5], signal[5]);
+});

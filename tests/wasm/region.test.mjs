@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+// Regions in the package for JavaScript: the answers of the command line, and those of definitions.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+import { distance, grid, neighbors, polygons, random, roll, toPly } from './meshes.mjs';
+import { build, library, meshhood, readArrays, scaled, write } from './setup.mjs';
+
+const { MeshIndex, RegionMesh, initialize } = library;
+await initialize();
+
+const mesh = roll(70, 15, Float64Array);
+const index = build(mesh);
+const vertices = mesh.positions.length / 3;
+write('roll.ply', toPly(mesh));
+
+const every = (step) => Uint32Array.from({ length: Math.floor(vertices / step) }, (_, i) => step * i);
+const mask = (ids) => {
+  const bytes = new Uint8Array(vertices);
+  for (const v of ids) bytes[v] = 1;
+  return bytes;
+};
+const walls = mask(every(7));
+const ignored = mask(every(5));
+write('walls.txt', `${every(7).join('\n')}\n`);
+write('ignored.txt', `${every(5).join('\n')}\n`);
+
+/** The region of a center, by the definition: breadth-first from the seeds; ascending. */
+function region(center, seeds, radius, { walls, ignored } = {}) {
+  const isOpen = (w) => !walls?.[w] && distance([...center, ...mesh.positions], 0, w + 1) <= radius;
+  const rows = neighbors(mesh);
+  const found = new Set(seeds.filter(isOpen));
+  for (const w of found) for (const next of rows[w]) if (isOpen(next)) found.add(next);
+  return Uint32Array.from(found).filter((w) => !ignored?.[w]).sort();
+}
+
+const query = (...options) => JSON.parse(meshhood('query', 'roll.ply', ...options, '--json')).vertices;
+
+test('a region around a vertex with masks is that of the command line', () => {
+  const found = index.queryRegion(502, 5, { walls, ignored, sort: true });
+  assert.deepEqual([...found], query('-v', '502', '-r', '5', '--walls', 'walls.txt', '--ignored', 'ignored.txt'));
+  assert.ok(found.length > 20);
+  assert.deepEqual(index.queryRegion(502, 5, { sort: true }), index.queryBall(502, 5, { sort: true }));
+});
+
+test('a region around a point with seeds is that of the command line', () => {
+  const point = Array.from(mesh.positions.subarray(3 * 502, 3 * 503), (x) => x + 0.25);
+  for (const seeds of [null, Uint32Array.of(500, 30)]) {
+    const options = seeds === null ? [] : ['--seed', seeds.join()];
+    const found = index.queryRegion(point, 6, { seeds, sort: true });
+    assert.deepEqual([...found], query('--point', point.join(), '-r', '6', ...options));
+    assert.ok(found.length > 20);
+  }
+});
+
+test('random regions have the vertices of the definition, with their distances', () => {
+  const next = random(3);
+  let found = 0;
+  for (let i = 0; i < scaled(200); ++i) {
+    const center = Array.from({ length: 3 }, () => 12 * next() - 4);
+    const seeds = Uint32Array.from({ length: 1 + Math.floor(4 * next()) }, () => Math.floor(vertices * next()));
+    const masks = i % 2 === 0 ? {} : { walls, ignored };
+    const radius = 12 * next();
+    const { ids, distances } = index.queryRegion(center, radius, { seeds, ...masks, sort: true, distances: true });
+    assert.deepEqual(ids, region(center, [...seeds], radius, masks));
+    ids.forEach((w, k) => assert.equal(distances[k], distance([...center, ...mesh.positions], 0, w + 1)));
+    found += ids.length;
+  }
+  console.log(`${found} vertices in ${scaled(200)} regions`);
+  assert.ok(found > 10 * scaled(200));
+});
+
+test('nested radii have the regions of each radius', () => {
+  const radii = Float64Array.of(1, 2.5, 4, 9);
+  const { counts, ids } = index.queryNested(333, radii, { walls });
+  radii.forEach((radius, i) => {
+    assert.deepEqual(ids.slice(0, counts[i]).sort(), index.queryRegion(333, radius, { walls, sort: true }));
+  });
+  assert.throws(() => index.queryNested(333, Float64Array.of(2, 1)), { code: 'InvalidRadius', message: /more than 2/ });
+});
+
+test('rings of edges are those of the command line', () => {
+  const { counts, ids } = index.queryRings(333, 3);
+  assert.deepEqual([...ids].sort((a, b) => a - b), query('-v', '333', '--rings', '3'));
+  assert.equal(counts.length, 4);
+  assert.equal(counts[0], 1);
+  assert.equal(counts[3], ids.length);
+  assert.equal(index.queryRings(333, 1e6).ids.length, index.queryBallCount(333, Infinity));
+});
+
+test('distances along edges are those of the command line', () => {
+  const { ids, distances } = index.queryBall(333, 4, { metric: 'edge', distances: true });
+  const lines = meshhood('query', 'roll.ply', '-v', '333', '-r', '4', '--metric', 'edge', '--distances')
+    .trimEnd().split('\n').map((line) => line.split(/\s+/));
+  const byId = new Map(lines.map(([id, length]) => [Number(id), Number(length)]));
+  assert.equal(ids.length, byId.size);
+  ids.forEach((w, i) => assert.ok(Math.abs(byId.get(w) - distances[i]) < 1e-6));
+  assert.deepEqual(distances, distances.slice().sort());
+  assert.equal(index.queryBallCount(333, 4, { metric: 'edge' }), ids.length);
+  const rows = index.queryBall(Uint32Array.of(1, 333), 4, { metric: 'edge' });
+  assert.deepEqual(rows.ids.slice(rows.offsets[1]), ids);
+  assert.throws(() => index.queryBall(1, 1, { metric: 'edge', method: 'bfs' }), { code: 'InvalidOption' });
+});
+
+test('connecting radii are those of the command line, and the least that contain the vertex', () => {
+  const near = index.nearestConnected(333, 60);
+  const printed = JSON.parse(meshhood('connect', 'roll.ply', '-v', '333', '--nearest', '60', '--json'));
+  assert.deepEqual([...near.ids], printed.vertices);
+  assert.deepEqual([...near.radii], printed.radii);
+  near.ids.forEach((w, i) => assert.equal(index.connectingRadius(333, w), near.radii[i]));
+  const w = near.ids[40];
+  assert.ok(index.contains(333, w, near.radii[40]));
+  assert.ok(!index.contains(333, w, 0.999 * near.radii[40]));
+  assert.equal(index.connectingRadius(333, 334, { walls: mask([334]) }), Infinity);
+});
+
+test('the nearest vertex is that of a scan', () => {
+  const next = random(9);
+  for (let i = 0; i < 50; ++i) {
+    const point = Float64Array.from({ length: 3 }, () => 20 * next() - 6);
+    const all = Array.from({ length: vertices }, (_, w) => distance([...point, ...mesh.positions], 0, w + 1));
+    const expected = Math.min(...all);
+    assert.deepEqual(index.nearest(point), { vertex: all.indexOf(expected), distance: expected });
+  }
+});
+
+test('no search crosses an edge that was cut', () => {
+  const flat = grid(4, 4, (row, column) => [row, column, 0]);
+  const around = Uint32Array.of(0, 1, 4, 0); // all edges of vertex 0
+  const cut = build(flat, { cut: around });
+  assert.deepEqual(cut.queryBall(0, 10), Uint32Array.of(0));
+  assert.equal(cut.queryBallCount(1, 10), 15);
+  assert.throws(() => build(flat, { cut: Uint32Array.of(0, 15) }), { code: 'InvalidOption', message: /not joined/ });
+});
+
+test('a refitted index answers as a new one', () => {
+  const moved = mesh.positions.map((x, i) => x + 0.3 * Math.sin(i));
+  const expected = build({ ...mesh, positions: moved });
+  const same = () => {
+    for (const v of [0, 333, 1000]) {
+      assert.deepEqual(refitted.queryBall(v, 4, { sort: true }), expected.queryBall(v, 4, { sort: true }));
+    }
+  };
+  const refitted = build(mesh);
+  refitted.queryBall(0, 4);
+  refitted.refit(moved);
+  same();
+  assert.ok(refitted.quality().gain > 0.5);
+  refitted.refit(mesh.positions);
+  assert.deepEqual(refitted.save(), index.save());
+  refitted.refit(moved, { changed: Uint32Array.from({ length: vertices }, (_, v) => v) });
+  same();
+  const wrong = moved.slice();
+  wrong[30] = NaN;
+  assert.throws(() => refitted.refit(wrong), { code: 'InvalidMesh', message: /vertex 10/ });
+  assert.throws(() => refitted.refit(moved.subarray(3)), { code: 'InvalidMesh' });
+  assert.throws(() => refitted.refit(moved, { changed: Uint32Array.of(vertices) }), { code: 'VertexOutOfRange' });
+  same();
+});
+
+test('the permutation has each vertex once', () => {
+  assert.deepEqual(index.permutation.sort(), Uint32Array.from({ length: vertices }, (_, v) => v));
+});
+
+test('the mesh and the rim of a region are those of the command line', () => {
+  const ids = index.queryBall(502, 5);
+  meshhood('region', 'roll.ply', '-v', '502', '-r', '5', '-o', 'part.ply', '--arrays', 'part.npz');
+  const expected = readArrays('part.npz');
+  const regions = new RegionMesh(mesh.positions, mesh.corners);
+  const part = regions.submesh(ids);
+  assert.deepEqual([...part.vertices], [...expected.vertices].map(Number));
+  assert.deepEqual([...part.faces], [...expected.faces].map(Number));
+  assert.deepEqual(part.faces, regions.faces(ids));
+  assert.equal(part.offsets, null);
+  part.corners.forEach((corner, i) => {
+    const [face, place] = [part.faces[Math.floor(i / 3)], i % 3];
+    assert.equal(part.vertices[corner], mesh.corners[3 * face + place]);
+    const at = 3 * part.vertices[corner];
+    assert.deepEqual(part.positions.slice(3 * corner, 3 * corner + 3), mesh.positions.slice(at, at + 3));
+  });
+  const rim = regions.rim(ids, 502, 5);
+  assert.deepEqual(rim.flatMap((line) => [...line.points]), [...expected.rim_points]);
+  assert.ok(rim.length > 0);
+  for (const { points } of rim) {
+    for (let i = 0; i < points.length; i += 3) {
+      assert.ok(Math.abs(distance([...points.subarray(i, i + 3), ...mesh.positions], 0, 503) - 5) < 1e-9);
+    }
+  }
+  assert.deepEqual(regions.rim(ids, mesh.positions.subarray(3 * 502, 3 * 503), 5), rim);
+  regions.dispose();
+  assert.throws(() => regions.faces(ids), /has been disposed/);
+});
+
+test('a part of polygons keeps its polygons', () => {
+  const mixed = polygons(40, 30);
+  const part = new RegionMesh(mixed.positions, mixed.corners, { offsets: mixed.offsets })
+    .submesh(Uint32Array.from({ length: 25 }, (_, v) => v), 'any');
+  assert.equal(part.offsets.length, part.faces.length + 1);
+  part.faces.forEach((face, i) => {
+    const own = part.corners.slice(part.offsets[i], part.offsets[i + 1]).map((corner) => part.vertices[corner]);
+    assert.deepEqual(own, mixed.corners.slice(mixed.offsets[face], mixed.offsets[face + 1]));
+  });
+  assert.ok(part.faces.length > 5);
+});
+
+test('wrong arguments of regions give the errors of C++ and leave the index usable', () => {
+  const refuse = (call, expected) => assert.throws(call, expected);
+  refuse(() => index.queryRegion(vertices, 1), { code: 'VertexOutOfRange' });
+  refuse(() => index.queryRegion([0, 0, NaN], 1), { code: 'InvalidOption', message: /coordinate 2 is nan/ });
+  refuse(() => index.queryRegion([0, 0, 0], 1, { seeds: Uint32Array.of(vertices) }), { code: 'VertexOutOfRange' });
+  refuse(() => index.queryRegion(1, 1, { seeds: Uint32Array.of(1) }), { code: 'InvalidOption', message: /^seeds/ });
+  refuse(() => index.queryRegion(1, -1), { code: 'InvalidRadius' });
+  refuse(() => index.queryRegion(1, 1, { walls: new Uint8Array(3) }), { message: /^walls: 3 values/ });
+  refuse(() => index.queryRegion(1, 1, { walls: [1] }), TypeError);
+  refuse(() => index.queryRegion([1, 2], 1), TypeError);
+  refuse(() => index.queryRings(1, -1), TypeError);
+  refuse(() => index.contains(1, vertices, 1), { code: 'VertexOutOfRange' });
+  refuse(() => new MeshIndex(new Float32Array(), new Uint32Array()).nearest([0, 0, 0]), { code: 'VertexOutOfRange' });
+  refuse(() => new RegionMesh(mesh.positions, Uint32Array.of(0, 1, vertices)), { code: 'InvalidMesh' });
+  const regions = new RegionMesh(mesh.positions, mesh.corners);
+  refuse(() => regions.faces(Uint32Array.of(vertices)), { code: 'VertexOutOfRange', message: /position 0/ });
+  refuse(() => regions.rim(Uint32Array.of(1), vertices, 1), { code: 'VertexOutOfRange' });
+  assert.deepEqual(index.queryRegion(7, 2), index.queryBall(7, 2));
+});
