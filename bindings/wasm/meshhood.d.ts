@@ -164,6 +164,9 @@ export interface AggregateOptions {
 
 /** Principal curvatures, row by row. */
 export class Curvature {
+  /** Of arrays that were computed in parts. They are not copied. */
+  constructor(k1: Float64Array, k2: Float64Array, d1: Float64Array, d2: Float64Array, state: Uint8Array);
+
   /**
    * k1 >= k2, in 1 / unit of the positions. Positive where the surface is convex, seen from the side of the normals:
    * 1 / R on a sphere with normals outward.

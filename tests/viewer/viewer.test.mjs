@@ -11,6 +11,7 @@ import { after, test } from 'node:test';
 import {
   countPixels, drop, idsOf, launch, memoryOfPages, openPage, placeOf, setRadius, setVertex, waitForAnswers, waitForMesh,
 } from './browser.mjs';
+import { arraysOf } from '../wasm/npz.mjs';
 
 const folder = mkdtempSync(join(tmpdir(), 'meshhood-'));
 const browser = await launch();
@@ -150,13 +151,92 @@ test('the properties of a PLY file are colors', async () => {
   await page.close();
 });
 
+/** Chooses what the colors show, and waits until they do. */
+async function chooseColor(page, color) {
+  const before = await page.evaluate(() => document.querySelectorAll('#legend span')[1].textContent);
+  await page.selectOption('#color', color);
+  await page.waitForFunction(
+    (before) => document.querySelectorAll('#legend span')[1].textContent !== before, before);
+}
+
+const valuesOf = (page) => page.evaluate(() => Array.from(window.meshhoodPage.values));
+
+test('curvatures are those of the command line, where something could be fitted', async () => {
+  meshhood('generate', 'folds', '--vertices', '5000', '-o', 'folds.ply');
+  meshhood('curvature', 'folds.ply', '-r', '3', '-o', 'folds.npz');
+  const { k1, k2, state } = arraysOf(readFileSync(file('folds.npz')));
+  const bent = k1.indexOf(Math.max(...k1));
+  const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=5&radius=3' });
+  await drop(page, 'folds.ply', readFileSync(file('folds.ply')));
+  await waitForMesh(page, 'folds.ply');
+  await setRadius(page, 3);
+  await setVertex(page, bent);
+  await page.click('#display summary');
+  const definitions = {
+    mean: (a, b) => (a + b) / 2, gaussian: (a, b) => a * b, k1: (a) => a, k2: (_, b) => b,
+    curvedness: (a, b) => Math.hypot(a, b) / Math.SQRT2,
+    shapeIndex: (a, b) => (a === 0 && b === 0 ? NaN : (2 / Math.PI) * Math.atan2(a + b, a - b)),
+  };
+  for (const [color, definition] of Object.entries(definitions)) {
+    await chooseColor(page, color);
+    const values = await valuesOf(page);
+    assert.equal(values.length, k1.length);
+    values.forEach((value, v) => {
+      const expected = state[v] < 2 ? definition(k1[v], k2[v]) : NaN;
+      const isNear = Math.abs(value - expected) <= 1e-9 * (1 + Math.abs(expected));
+      // The shape index of a plane is the direction of a rounding error.
+      const isFlat = color === 'shapeIndex' && Math.hypot(k1[v], k2[v]) < 1e-9;
+      assert.ok(isFlat || isNear || (Number.isNaN(value) && Number.isNaN(expected)), `${color} of ${v}: ${value}`);
+    });
+    const [low, , high] = await page.locator('#legend span').allTextContents();
+    if (color === 'shapeIndex') assert.deepEqual([low, high], ['-1', '1']);
+    else if (color !== 'curvedness') assert.equal(Number(low), -Number(high));
+    const shown = /^at the vertex: (.*)$/.exec(await page.textContent('#legend p'))[1];
+    assert.ok(Math.abs(Number(shown) - values[bent]) <= 1e-3 * Math.abs(values[bent]), `${color}: ${shown}`);
+  }
+  await setRadius(page, 5);
+  meshhood('curvature', 'folds.ply', '-r', '5', '-o', 'wider.npz');
+  const wider = arraysOf(readFileSync(file('wider.npz')));
+  const expected = definitions.shapeIndex(wider.k1[bent], wider.k2[bent]);
+  assert.ok(Math.abs(expected - definitions.shapeIndex(k1[bent], k2[bent])) > 1e-3);
+  await page.waitForFunction(
+    ([v, expected]) => Math.abs(window.meshhoodPage.values[v] - expected) < 1e-9, [bent, expected]);
+  await page.close();
+});
+
+test('a computation that is given up leaves neither colors nor a bar', async () => {
+  const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=scroll&vertex=5000&radius=30' });
+  await page.click('#display summary');
+  await page.selectOption('#color', 'mean');
+  await page.waitForSelector('#status:not([hidden])');
+  await setVertex(page, 6000);
+  await page.selectOption('#color', 'answers');
+  await page.waitForSelector('#status', { state: 'hidden' });
+  await setVertex(page, 7000);
+  assert.equal(await page.evaluate(() => window.meshhoodPage.values), null);
+  assert.ok(await page.isHidden('#legend'));
+  await page.close();
+});
+
+test('an index file has no faces, and so no curvature', async () => {
+  const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=5&radius=3' });
+  meshhood('build', 'scroll.ply', '-o', 'points.mhi');
+  await drop(page, 'points.mhi', readFileSync(file('points.mhi')));
+  await waitForMesh(page, 'points.mhi');
+  assert.ok(await page.locator('#color option[value=mean]').isDisabled());
+  assert.ok(await page.locator('#color option[value=sizes]').isEnabled());
+  await page.close();
+});
+
 test('a link shows the same again', async () => {
   const page = await openPage(browser, process.env.MESHHOOD_PAGE, {
-    hash: '#example=folds&vertex=1000&radius=5&without=ball&cut=x&edges=shown',
+    hash: '#example=folds&vertex=1000&radius=5&without=ball&cut=x&edges=shown&color=gaussian',
   });
   assert.equal(await page.inputValue('#vertex'), '1000');
   assert.equal(await page.inputValue('#radius-edges'), '5');
   assert.equal(await page.inputValue('#cut'), 'x');
+  assert.equal(await page.inputValue('#color'), 'gaussian');
+  await page.waitForSelector('#legend:not([hidden])');
   assert.equal(await page.isChecked('tr[data-method=ball] input'), false);
   await page.click('#copy-link');
   await page.waitForFunction(() => location.hash.includes('camera='));
@@ -164,6 +244,7 @@ test('a link shows the same again', async () => {
   const ids = await idsOf(page, 'exact');
   const again = await openPage(browser, process.env.MESHHOOD_PAGE, { hash });
   assert.deepEqual(await idsOf(again, 'exact'), ids);
+  assert.equal(await again.inputValue('#color'), 'gaussian');
   const state = (p) => p.evaluate(() => window.meshhoodPage.view.cameraState);
   const [a, b] = [await state(page), await state(again)];
   a.forEach((x, i) => assert.ok(Math.abs(x - b[i]) < 1e-3 * (1 + Math.abs(x)), `${a} and ${b}`));

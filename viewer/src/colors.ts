@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Colors: those of the methods, which color-blind people can distinguish (Okabe and Ito, 2008), and a
-// perceptually uniform map for scalars (viridis of Matplotlib, by a polynomial fit).
+// Colors: those of the methods, which color-blind people can distinguish (Okabe and Ito, 2008), and two maps for
+// scalars, which they can read as well: viridis of Matplotlib, by a polynomial fit, for amounts; and RdBu of ColorBrewer
+// (Harrower and Brewer, 2003) for numbers of both signs, blue below 0 and red above.
 import { Color } from 'three';
 
 import type { Method } from './messages';
@@ -12,6 +13,8 @@ export const METHOD_COLORS: Record<Exclude<Method, 'bfs'>, string> = {
 };
 export const VERTEX_COLOR = '#d55e00';
 export const SURFACE_COLOR = '#d9dbe0';
+/** Of a vertex without a value. */
+export const MISSING_COLOR = '#85888f';
 
 export type Rgb = readonly [number, number, number];
 
@@ -33,16 +36,41 @@ const VIRIDIS: readonly Rgb[] = [
 ];
 
 /** The color of `t` in [0, 1], each part in [0, 1], as it is displayed. */
-export function viridis(t: number): Rgb {
+function viridis(t: number): Rgb {
   return [0, 1, 2].map((channel) => {
     const value = VIRIDIS.reduceRight((sum, coefficients) => sum * t + coefficients[channel], 0);
     return Math.min(1, Math.max(0, value));
   }) as unknown as Rgb;
 }
 
-export function toCss([r, g, b]: Rgb): string {
+/** From blue to red, at equal distances. */
+const BLUE_TO_RED = [
+  '#053061', '#2166ac', '#4393c3', '#92c5de', '#d1e5f0', '#f7f7f7', '#fddbc7', '#f4a582', '#d6604d', '#b2182b', '#67001f',
+].map((color) => [1, 3, 5].map((at) => parseInt(color.slice(at, at + 2), 16) / 255));
+
+function blueToRed(t: number): Rgb {
+  const place = t * (BLUE_TO_RED.length - 1);
+  const step = Math.min(Math.floor(place), BLUE_TO_RED.length - 2);
+  const [from, to] = [BLUE_TO_RED[step], BLUE_TO_RED[step + 1]];
+  return from.map((part, channel) => part + (place - step) * (to[channel] - part)) as unknown as Rgb;
+}
+
+function toCss([r, g, b]: Rgb): string {
   return `rgb(${[r, g, b].map((part) => Math.round(255 * part)).join(' ')})`;
 }
 
-/** 256 colors of the map as bytes of linear light. */
-export const VIRIDIS_TABLE: readonly Rgb[] = Array.from({ length: 256 }, (_, i) => linearBytes(toCss(viridis(i / 255))));
+/** Colors for the numbers of a range. */
+export interface ColorMap {
+  /** 256 colors as bytes of linear light. */
+  readonly table: readonly Rgb[];
+  /** The same from left to right, for a style sheet. */
+  readonly gradient: string;
+}
+
+function makeMap(color: (t: number) => Rgb): ColorMap {
+  const colors = (count: number) => Array.from({ length: count }, (_, i) => toCss(color(i / (count - 1))));
+  return { table: colors(256).map(linearBytes), gradient: `linear-gradient(to right, ${colors(21).join(', ')})` };
+}
+
+export const AMOUNTS = makeMap(viridis);
+export const SIGNED = makeMap(blueToRed);

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The worker as the page sees it: opens meshes, and answers the latest query.
 import type { Method, Opened, Query, Reply, Request, Source } from './messages';
+import type { QuantityName } from './quantities';
 import EngineWorker from './worker?worker&inline';
 
 export interface Handlers {
-  progress(stage: string, fraction: number | null): void;
+  /** `stage` is null once nothing is being done. */
+  progress(stage: string | null, fraction: number | null): void;
   opened(opened: Opened): void;
   failed(during: 'open' | 'query', message: string): void;
   answer(method: Method, ids: Uint32Array): void;
   time(method: Method, microseconds: number): void;
-  sizes(radius: number, sizes: Uint32Array): void;
+  computed(quantity: QuantityName, radius: number, values: Uint32Array | Float64Array): void;
   index(bytes: Uint8Array): void;
 }
 
@@ -64,12 +66,13 @@ export class Engine {
     this.#send({ kind: 'query', query });
   }
 
-  countAll(radius: number, method: Method): void {
-    this.#send({ kind: 'sizes', radius, method });
+  /** For all vertices. */
+  compute(quantity: QuantityName, radius: number): void {
+    this.#send({ kind: 'compute', quantity, radius });
   }
 
-  cancelCount(): void {
-    this.#send({ kind: 'cancel-sizes' });
+  cancel(): void {
+    this.#send({ kind: 'cancel' });
   }
 
   saveIndex(): void {
@@ -87,7 +90,7 @@ export class Engine {
       case 'time':
         if (reply.id === this.#id) this.#handlers.time(reply.method, reply.microseconds);
         return;
-      case 'sizes': return this.#handlers.sizes(reply.radius, reply.sizes);
+      case 'computed': return this.#handlers.computed(reply.quantity, reply.radius, reply.values);
       case 'index': return this.#handlers.index(reply.bytes);
     }
   }

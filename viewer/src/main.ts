@@ -11,6 +11,8 @@ import { takePageData } from './page_data';
 import type { PageData } from './page_data';
 import { Painting } from './paint';
 import type { Scalar } from './paint';
+import { isQuantity, toScalar } from './quantities';
+import type { QuantityName } from './quantities';
 import { Panel, format, hideHint, shortNumber, showError, showProgress } from './panel';
 import { connectPointer } from './pointer';
 import { fromHash, toHash } from './state';
@@ -34,10 +36,11 @@ class Page {
   #wanted = fromHash(location.hash); // applied once the mesh is open
   #vertex = -1;
   #radius = 0; // in the unit of the mesh
-  #color = 'answers'; // or 'sizes', or a key of the scalars
+  #color = 'answers'; // or a quantity, or a key of the scalars
   #scalars = new Map<string, Scalar>();
+  #scalar: Scalar | null = null; // what the colors show, unless the answers
   #given: Uint32Array | null = null; // an answer that was passed to the page, shown until the next query
-  #recount = 0;
+  #recompute = 0;
 
   constructor() {
     this.#engine = new Engine({
@@ -46,7 +49,7 @@ class Page {
       failed: (during, message) => this.#fail(during, message),
       answer: (method, ids) => this.#receive(method, ids),
       time: (method, microseconds) => this.#receiveTime(method, microseconds),
-      sizes: (radius, sizes) => this.#receiveSizes(radius, sizes),
+      computed: (quantity, radius, values) => this.#receiveQuantity(quantity, radius, values),
       index: (bytes) => download(new Blob([bytes as Uint8Array<ArrayBuffer>]), `${this.#stem}.mhi`),
     });
     this.#panel = new Panel({
@@ -164,16 +167,15 @@ class Page {
     this.#view.setMesh(opened.surface, opened.tree, this.#painting.bytes);
     const meanEdge = opened.meanEdge;
     const mostEdges = meanEdge > 0 ? (2 * opened.surface.extent) / meanEdge : 1;
-    this.#panel.setMesh(example?.title ?? opened.name, facts(opened), opened.vertices, meanEdge, mostEdges);
-    this.#panel.removeColorChoices(['answers', 'sizes']);
+    this.#panel.setMesh(
+      example?.title ?? opened.name, facts(opened), opened.vertices, opened.faces, meanEdge, mostEdges);
     this.#scalars = new Map(opened.scalars.map(({ name, values }) => [`ply:${name}`, { title: name, values }]));
-    this.#color = 'answers';
-    this.#panel.setLegend(null, null);
     showProgress(null);
     if (opened.warnings.length > 0) showError(`${opened.name}: accepted with a warning: ${opened.warnings.join('; ')}`);
     const handed = this.#pageData?.scalar ?? null;
     if (handed !== null) this.#scalars.set('handed', handed);
-    for (const [choice, { title }] of this.#scalars) this.#panel.addColorChoice(choice, title);
+    this.#panel.ownColors = new Map([...this.#scalars].map(([choice, { title }]) => [choice, title]));
+    this.#setColor('answers');
     if (opened.vertices > 0) this.#askFirst(example?.query ?? { at: 0.5, radius: FIRST_RADIUS });
     document.body.dataset.mesh = opened.name; // for tests: the mesh is open
   }
@@ -201,17 +203,14 @@ class Page {
       this.#view.showQuery(this.#radius, isLink ? undefined : query.from);
     }
     this.#showHanded();
+    if (this.#panel.hasColor(wanted.color) && wanted.color !== 'answers') this.#showColor(wanted.color);
   }
 
   /** The scalar and the answer that were passed with the mesh. */
   #showHanded(): void {
     if (this.#pageData === null) return;
     const { settings } = this.#pageData;
-    if (this.#scalars.has('handed')) {
-      this.#panel.setColorChoice('handed');
-      this.#panel.openDisplay();
-      this.#setColor('handed');
-    }
+    if (this.#scalars.has('handed')) this.#showColor('handed');
     if (settings.ids !== undefined) {
       this.#given = Uint32Array.from(settings.ids);
       this.#paint();
@@ -256,7 +255,7 @@ class Page {
   setRadius(radius: number, isFinal = true): void {
     this.#radius = radius;
     this.#ask(isFinal);
-    if (this.#color === 'sizes') this.#countLater();
+    if (isQuantity(this.#color)) this.#computeLater();
   }
 
   /** 1 without edges. */
@@ -268,6 +267,7 @@ class Page {
     if (this.#opened === null || this.#vertex < 0) return;
     this.#given = null;
     this.#panel.setRadius(this.#radius);
+    this.#showValue();
     this.#view.setQuery(this.#vertex, this.#radius);
     const methods = METHODS.filter((method) => this.#shown.has(method) && method !== 'bfs');
     for (const method of METHODS) this.#panel.setTime(method, null);
@@ -294,9 +294,10 @@ class Page {
     this.#times.set(method, microseconds);
     const [exact, bfs] = [this.#times.get('exact'), this.#times.get('bfs')];
     if (exact === undefined || bfs === undefined) return;
+    const times = Number((bfs / exact).toPrecision(2));
     const ratio = document.createElement('b');
-    ratio.textContent = `${shortNumber(Number((bfs / exact).toPrecision(2)))} times`;
-    this.#panel.setVerdict('Breadth-first search takes ', ratio, ' as long as the index.');
+    ratio.textContent = times === 1 ? 'as long' : `${shortNumber(times)} times as long`;
+    this.#panel.setVerdict('Breadth-first search takes ', ratio, ' as the index.');
   }
 
   #paint(): void {
@@ -329,31 +330,44 @@ class Page {
   // Colors.
 
   #setColor(choice: string): void {
+    // The colors of a quantity stay until those of the new radius are there.
+    if (!isQuantity(choice) || choice !== this.#color) this.#setScalar(this.#scalars.get(choice) ?? null);
     this.#color = choice;
-    this.#engine.cancelCount();
-    showProgress(null);
-    this.#panel.setLegend(null, null);
-    if (choice === 'sizes') this.#engine.countAll(this.#radius, 'exact');
-    else this.#setScalar(this.#scalars.get(choice) ?? null);
+    this.#panel.color = choice;
+    this.#engine.cancel();
+    if (isQuantity(choice)) this.#engine.compute(choice, this.#radius);
+    this.#paint();
+    this.#updateLink();
+  }
+
+  /** The same where the controls for it may be hidden. */
+  #showColor(choice: string): void {
+    this.#panel.openDisplay();
+    this.#setColor(choice);
   }
 
   /** Once the radius has stopped changing. */
-  #countLater(): void {
-    clearTimeout(this.#recount);
-    this.#recount = window.setTimeout(() => this.#setColor('sizes'), 400);
+  #computeLater(): void {
+    clearTimeout(this.#recompute);
+    this.#recompute = window.setTimeout(() => this.#setColor(this.#color), 400);
   }
 
-  #receiveSizes(radius: number, sizes: Uint32Array): void {
+  #receiveQuantity(quantity: QuantityName, radius: number, values: Uint32Array | Float64Array): void {
+    if (this.#color !== quantity || radius !== this.#radius) return;
     showProgress(null);
-    if (this.#color !== 'sizes' || radius !== this.#radius) return;
-    this.#setScalar({ title: 'vertices', values: sizes });
+    this.#setScalar(toScalar(quantity, values));
   }
 
   #setScalar(scalar: Scalar | null): void {
     if (this.#painting === null) return;
-    const range = this.#painting.setScalar(scalar);
-    this.#panel.setLegend(scalar?.title ?? null, range);
+    this.#scalar = scalar;
+    this.#panel.setLegend(scalar, this.#painting.setScalar(scalar));
+    this.#showValue();
     this.#paint();
+  }
+
+  #showValue(): void {
+    if (this.#scalar !== null && this.#vertex >= 0) this.#panel.setValue(this.#scalar.values[this.#vertex]);
   }
 
   #setLook(look: Look): void {
@@ -384,6 +398,7 @@ class Page {
       radius: this.#radius / this.#meanEdge,
       hidden: METHODS.filter((method) => !this.#shown.has(method)),
       look: this.#panel.look,
+      color: this.#color,
       camera,
     });
   }
@@ -410,6 +425,11 @@ class Page {
 
   get isAnswered(): boolean {
     return this.#engine.isAnswered;
+  }
+
+  /** What the colors show; null for the answers of the methods. */
+  get values(): ArrayLike<number> | null {
+    return this.#scalar?.values ?? null;
   }
 
   /** The last answer of a method, ascending; empty if there is none. */

@@ -3,6 +3,7 @@
 import type { Method } from 'meshhood';
 
 import type { PlyScalar } from './ply_scalars';
+import type { QuantityName } from './quantities';
 
 export type { Method };
 
@@ -24,8 +25,8 @@ export type Request =
   | { kind: 'open'; source: Source }
   | { kind: 'query'; query: Query }
   | { kind: 'time'; query: Query }
-  | { kind: 'sizes'; radius: number; method: Method }
-  | { kind: 'cancel-sizes' }
+  | { kind: 'compute'; quantity: QuantityName; radius: number }
+  | { kind: 'cancel' }
   | { kind: 'save-index' };
 
 /** A mesh for drawing. Positions are relative to `center`, so that float represents them well. */
@@ -55,10 +56,10 @@ export interface Opened {
 }
 
 export type Reply =
-  | { kind: 'progress'; stage: string; fraction: number | null }
+  | { kind: 'progress'; stage: string | null; fraction: number | null }
   | { kind: 'opened'; opened: Opened }
   | { kind: 'failed'; during: 'open' | 'query'; message: string }
   | { kind: 'answer'; id: number; method: Method; ids: Uint32Array }
   | { kind: 'time'; id: number; method: Method; microseconds: number }
-  | { kind: 'sizes'; radius: number; sizes: Uint32Array }
+  | { kind: 'computed'; quantity: QuantityName; radius: number; values: Uint32Array | Float64Array }
   | { kind: 'index'; bytes: Uint8Array };

@@ -1,30 +1,49 @@
 // SPDX-License-Identifier: MIT
 // The colors of all vertices: exact over paper over ball, or a scalar.
-import { METHOD_COLORS, SURFACE_COLOR, VIRIDIS_TABLE, linearBytes } from './colors';
-import type { Rgb } from './colors';
+import { AMOUNTS, METHOD_COLORS, MISSING_COLOR, SIGNED, SURFACE_COLOR, linearBytes } from './colors';
+import type { ColorMap, Rgb } from './colors';
 import type { Method } from './messages';
 
 /** From bottom to top, as in Figure 4 of the paper. */
 const LAYERS = ['ball', 'paper', 'exact'] as const;
 
-/** A value for each vertex; those that are not finite are drawn as surface. */
+/** A value for each vertex; one that is not finite is missing. */
 export interface Scalar {
   title: string;
   values: ArrayLike<number>;
+  /** 0 is in the middle of the colors. */
+  isSigned?: boolean;
+  /** Of the colors; by default it follows from the values. */
+  range?: Range;
 }
 
-/** The range of a color map: from the 2nd to the 98th hundredth, so that a few extreme values do not hide the others. */
-export function scalarRange(values: ArrayLike<number>): [number, number] {
+export type Range = [number, number];
+
+/** Values of at most 100,000 vertices, ascending. */
+function sampleOf(values: ArrayLike<number>, of: (value: number) => number): number[] {
   const step = Math.max(1, Math.floor(values.length / 100_000));
   const sample: number[] = [];
   for (let v = 0; v < values.length; v += step) {
-    if (Number.isFinite(values[v])) sample.push(values[v]);
+    if (Number.isFinite(values[v])) sample.push(of(values[v]));
   }
+  return sample.sort((a, b) => a - b);
+}
+
+/**
+ * The range of a color map: from the 2nd to the 98th hundredth, so that a few extreme values do not hide the others. Of
+ * numbers of both signs, from -m to m, where m is the 96th hundredth of their magnitudes.
+ */
+export function scalarRange({ values, isSigned = false, range }: Scalar): Range {
+  if (range !== undefined) return range;
+  const sample = sampleOf(values, isSigned ? Math.abs : (value) => value);
   if (sample.length === 0) return [0, 1];
-  sample.sort((a, b) => a - b);
   const at = (fraction: number) => sample[Math.round(fraction * (sample.length - 1))];
-  const [low, high] = [at(0.02), at(0.98)];
+  const [low, high] = isSigned ? [-at(0.96), at(0.96)] : [at(0.02), at(0.98)];
   return low < high ? [low, high] : [at(0), at(1)];
+}
+
+export function mapOf(scalar: Scalar): ColorMap {
+  return scalar.isSigned ? SIGNED : AMOUNTS;
 }
 
 export class Painting {
@@ -40,12 +59,10 @@ export class Painting {
   }
 
   /** Replaces what is drawn under the answers. */
-  setScalar(scalar: Scalar | null): [number, number] | null {
-    const surface = linearBytes(SURFACE_COLOR);
-    const range = scalar === null ? null : scalarRange(scalar.values);
-    for (let v = 0; 4 * v < this.#base.length; ++v) {
-      this.#base.set(scalar === null ? surface : scalarColor(scalar.values[v], range!, surface), 4 * v);
-    }
+  setScalar(scalar: Scalar | null): Range | null {
+    const range = scalar === null ? null : scalarRange(scalar);
+    const color = scalar === null ? () => SURFACE : colorsOf(scalar, range!);
+    for (let v = 0; 4 * v < this.#base.length; ++v) this.#base.set(color(v), 4 * v);
     this.bytes.set(this.#base);
     this.#painted = [];
     return range;
@@ -79,8 +96,16 @@ export class Painting {
   }
 }
 
-function scalarColor(value: number, [low, high]: [number, number], other: Rgb): Rgb {
-  if (!Number.isFinite(value)) return other;
-  const t = high > low ? (value - low) / (high - low) : 0;
-  return VIRIDIS_TABLE[Math.round(255 * Math.min(1, Math.max(0, t)))];
+const SURFACE = linearBytes(SURFACE_COLOR);
+const MISSING = linearBytes(MISSING_COLOR);
+
+/** The color of each vertex. */
+function colorsOf(scalar: Scalar, [low, high]: Range): (v: number) => Rgb {
+  const { table } = mapOf(scalar);
+  return (v) => {
+    const value = scalar.values[v];
+    if (!Number.isFinite(value)) return MISSING;
+    const t = high > low ? (value - low) / (high - low) : 0;
+    return table[Math.round(255 * Math.min(1, Math.max(0, t)))];
+  };
 }

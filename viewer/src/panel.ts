@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The controls: the values that they show, and the changes that they request.
-import { METHOD_COLORS, toCss, viridis } from './colors';
+import { METHOD_COLORS } from './colors';
 import { EXAMPLES } from './examples';
 import type { Method } from './messages';
+import { mapOf } from './paint';
+import type { Range, Scalar } from './paint';
 import type { Cut, Look } from './view';
 
 export interface Wishes {
@@ -153,32 +155,31 @@ export class Panel {
     find<HTMLInputElement>('ball').checked = look.ball;
   }
 
-  setMesh(name: string, facts: string, vertices: number, meanEdge: number, mostEdges: number): void {
+  setMesh(name: string, facts: string, vertices: number, faces: number, meanEdge: number, mostEdges: number): void {
     find('name').textContent = name;
     find('facts').textContent = facts;
     this.#meanEdge = meanEdge;
     this.#mostEdges = Math.max(mostEdges, 2 * LEAST_EDGES);
     find<HTMLInputElement>('vertex').max = String(Math.max(vertices - 1, 0));
+    for (const option of document.querySelectorAll<HTMLOptionElement>('[data-needs=faces]')) option.disabled = faces === 0;
   }
 
   setExample(name: string | null): void {
     find<HTMLSelectElement>('example').value = name ?? '';
   }
 
-  addColorChoice(value: string, title: string): void {
-    const color = find<HTMLSelectElement>('color');
-    if (![...color.options].some((option) => option.value === value)) color.add(new Option(title, value));
+  /** The choices of colors that this mesh adds, by their values. */
+  set ownColors(titles: Map<string, string>) {
+    const group = find<HTMLOptGroupElement>('own-colors');
+    group.replaceChildren(...[...titles].map(([value, title]) => new Option(title, value)));
+    group.hidden = titles.size === 0;
   }
 
-  removeColorChoices(kept: readonly string[]): void {
-    const color = find<HTMLSelectElement>('color');
-    for (const option of [...color.options]) {
-      if (!kept.includes(option.value)) option.remove();
-    }
-    color.value = kept[0];
+  hasColor(value: string): boolean {
+    return [...find<HTMLSelectElement>('color').options].some((option) => option.value === value && !option.disabled);
   }
 
-  setColorChoice(value: string): void {
+  set color(value: string) {
     find<HTMLSelectElement>('color').value = value;
   }
 
@@ -227,15 +228,20 @@ export class Panel {
     find('verdict').replaceChildren(...(parts.length > 0 ? parts : ['\u00a0']));
   }
 
-  setLegend(title: string | null, range: [number, number] | null): void {
+  setLegend(scalar: Scalar | null, range: Range | null): void {
     const legend = find('legend');
-    legend.hidden = title === null || range === null;
-    if (title === null || range === null) return;
-    const stops = Array.from({ length: 12 }, (_, i) => toCss(viridis(i / 11)));
-    legend.querySelector<HTMLElement>('.ramp')!.style.background = `linear-gradient(to right, ${stops.join(', ')})`;
-    [shortNumber(range[0]), title, shortNumber(range[1])].forEach((text, i) => {
+    legend.hidden = scalar === null || range === null;
+    if (scalar === null || range === null) return;
+    legend.querySelector<HTMLElement>('.ramp')!.style.background = mapOf(scalar).gradient;
+    [shortNumber(range[0]), scalar.title, shortNumber(range[1])].forEach((text, i) => {
       legend.querySelectorAll('span')[i].textContent = text;
     });
+  }
+
+  /** Below the legend: the value at the vertex. */
+  setValue(value: number): void {
+    find('legend').querySelector('p')!.textContent =
+      `at the vertex: ${Number.isFinite(value) ? shortNumber(value) : 'no value'}`;
   }
 
   openDisplay(): void {

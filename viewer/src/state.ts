@@ -10,6 +10,8 @@ export interface State {
   radius: number | null;
   hidden: string[];
   look: Look;
+  /** What the colors show: the methods, a quantity, or a property of the file. */
+  color: string;
   camera: number[] | null;
 }
 
@@ -25,6 +27,7 @@ export function toHash(state: State): string {
   if (state.look.hideNearer) parameters.set('nearer', 'hidden');
   if (state.look.wireframe) parameters.set('edges', 'shown');
   if (!state.look.ball) parameters.set('ball', 'hidden');
+  if (state.color !== 'answers') parameters.set('color', state.color);
   if (state.camera !== null) parameters.set('camera', state.camera.join(','));
   return `#${parameters.toString().replaceAll('%2C', ',')}`;
 }
@@ -44,6 +47,7 @@ export function fromHash(hash: string): State {
       wireframe: parameters.get('edges') === 'shown',
       ball: parameters.get('ball') !== 'hidden',
     },
+    color: parameters.get('color') ?? 'answers',
     camera: camera.length === 6 && camera.every(Number.isFinite) ? camera : null,
   };
 }

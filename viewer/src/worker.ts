@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reads meshes, builds indexes and answers queries, so that the page never waits.
-import { initialize, MeshIndex, readMesh } from 'meshhood';
+import { Curvature, initialize, MeshIndex, readMesh } from 'meshhood';
+import type { Faces } from 'meshhood';
 import { BufferAttribute, BufferGeometry } from 'three';
 import { MeshBVH } from 'three-mesh-bvh';
 
@@ -8,6 +9,7 @@ import { EXAMPLES, findExample } from './examples';
 import type { Method, Query, Reply, Request, Source } from './messages';
 import { readPlyScalars } from './ply_scalars';
 import type { PlyScalar } from './ply_scalars';
+import type { CurvatureName, QuantityName } from './quantities';
 import { makeSurface } from './surface';
 
 interface Arrays {
@@ -19,8 +21,10 @@ interface Arrays {
 }
 
 let index: MeshIndex | null = null;
+let faces: Faces | null = null;
+let curvature: { radius: number; values: Curvature } | null = null; // the last one
 let latestQuery = 0;
-let sizesRun = 0;
+let latestComputation = 0;
 
 function reply(message: Reply, transfer: Transferable[] = []): void {
   self.postMessage(message, { transfer });
@@ -93,8 +97,11 @@ async function open(source: Source): Promise<void> {
   const vertices = opened.vertexCount;
   index?.dispose();
   index = opened;
+  // The triangles go to the page.
+  faces = mesh.offsets === null ? { corners: mesh.corners.slice() } : { corners: mesh.corners, offsets: mesh.offsets };
+  curvature = null;
   latestQuery = 0;
-  ++sizesRun;
+  ++latestComputation;
   reply({
     kind: 'opened',
     opened: {
@@ -129,20 +136,26 @@ function answer(query: Query): Promise<void> {
   });
 }
 
-/** Milliseconds for `runs` queries. */
+/** Milliseconds for `runs` queries: the median of seven blocks. */
 function duration(index: MeshIndex, query: Query, method: Method, runs: number): number {
-  const begin = performance.now();
-  for (let run = 0; run < runs; ++run) index.viewBall(query.vertex, query.radius, { method });
-  return performance.now() - begin;
+  const durations = Array.from({ length: 7 }, () => {
+    const begin = performance.now();
+    for (let run = 0; run < runs; ++run) index.viewBall(query.vertex, query.radius, { method });
+    return performance.now() - begin;
+  });
+  return durations.sort((a, b) => a - b)[3];
 }
 
-/** Microseconds of a warm query: a median of means, each over some milliseconds, as the clock of a browser is coarse. */
+/** Microseconds of a warm query, over some milliseconds, as the clock of a browser is coarse. */
 function microseconds(index: MeshIndex, query: Query, method: Method): number {
   const enough = 2; // milliseconds
   let runs = 1;
-  while (duration(index, query, method, runs) < enough) runs *= 2;
-  const durations = Array.from({ length: 7 }, () => duration(index, query, method, runs)).sort((a, b) => a - b);
-  return (1000 * durations[3]) / runs;
+  let measured = duration(index, query, method, runs);
+  while (measured < enough) {
+    runs *= 4;
+    measured = duration(index, query, method, runs);
+  }
+  return (1000 * measured) / runs;
 }
 
 function time(query: Query): Promise<void> {
@@ -151,20 +164,64 @@ function time(query: Query): Promise<void> {
   });
 }
 
-/** The sizes of all neighborhoods, in parts, so that it can be stopped. */
-async function countAll(radius: number, method: Method): Promise<void> {
-  const run = ++sizesRun;
-  const rows = 8192;
-  const sizes = new Uint32Array(index?.vertexCount ?? 0);
-  for (let begin = 0; begin < sizes.length; begin += rows) {
+/** Milliseconds for a part of a computation, after which queries are answered. */
+const PART = 80;
+
+/**
+ * Calls `work` with all vertices, a part at a time, in index order. Returns whether no other computation has begun
+ * meanwhile.
+ */
+async function forEachPart(stage: string, work: (index: MeshIndex, vertices: Uint32Array) => void): Promise<boolean> {
+  const computation = ++latestComputation;
+  const order = index?.permutation ?? new Uint32Array();
+  for (let begin = 0, rows = 256; begin < order.length; ) {
     await nextTask();
-    if (run !== sizesRun || index === null) return;
-    const count = Math.min(rows, sizes.length - begin);
-    const vertices = Uint32Array.from({ length: count }, (_, i) => begin + i);
-    sizes.set(index.queryBallCount(vertices, radius, { method }), begin);
-    reply({ kind: 'progress', stage: 'Counting all neighborhoods', fraction: (begin + count) / sizes.length });
+    if (computation !== latestComputation || index === null) {
+      reply({ kind: 'progress', stage: null, fraction: null });
+      return false;
+    }
+    const vertices = order.subarray(begin, begin + rows);
+    const { seconds } = await timed(() => work(index!, vertices));
+    begin += vertices.length;
+    rows = Math.max(64, Math.round(rows * Math.min(2, Math.max(0.5, PART / (1000 * seconds)))));
+    reply({ kind: 'progress', stage, fraction: begin / order.length });
   }
-  reply({ kind: 'sizes', radius, sizes }, [sizes.buffer]);
+  return computation === latestComputation;
+}
+
+async function computeSizes(radius: number): Promise<Uint32Array | null> {
+  const sizes = new Uint32Array(index!.vertexCount);
+  const isDone = await forEachPart('Counting all neighborhoods', (index, vertices) => {
+    const counts = index.queryBallCount(vertices, radius);
+    vertices.forEach((v, row) => (sizes[v] = counts[row]));
+  });
+  return isDone ? sizes : null;
+}
+
+/** NaN where nothing could be fitted. */
+async function computeCurvature(radius: number): Promise<Curvature | null> {
+  if (curvature?.radius === radius) return curvature.values;
+  const [k1, k2] = [0, 1].map(() => new Float64Array(index!.vertexCount));
+  const isDone = await forEachPart('Fitting all neighborhoods', (index, vertices) => {
+    const found = index.curvature(radius, { faces, vertices });
+    vertices.forEach((v, row) => {
+      const isFitted = found.state[row] < 2;
+      k1[v] = isFitted ? found.k1[row] : NaN;
+      k2[v] = isFitted ? found.k2[row] : NaN;
+    });
+  });
+  if (!isDone) return null;
+  const none = new Float64Array();
+  curvature = { radius, values: new Curvature(k1, k2, none, none, new Uint8Array()) };
+  return curvature.values;
+}
+
+async function compute(quantity: QuantityName, radius: number): Promise<void> {
+  if (index === null) return;
+  const values = quantity === 'sizes'
+    ? await computeSizes(radius)
+    : (await computeCurvature(radius))?.[quantity as CurvatureName];
+  if (values) reply({ kind: 'computed', quantity, radius, values });
 }
 
 function saveIndex(): void {
@@ -178,8 +235,8 @@ async function handle(request: Request): Promise<void> {
     case 'open': return open(request.source);
     case 'query': return answer(request.query);
     case 'time': return time(request.query);
-    case 'sizes': return countAll(request.radius, request.method);
-    case 'cancel-sizes': ++sizesRun; return;
+    case 'compute': return compute(request.quantity, request.radius);
+    case 'cancel': ++latestComputation; return;
     case 'save-index': return saveIndex();
   }
 }
