@@ -37,6 +37,15 @@ async function expectAnswers(page, mesh, vertex, radius) {
   }
 }
 
+/** Each of the colors is seen. */
+async function expectColors(page, colors) {
+  for (const [name, rgb] of Object.entries(colors)) {
+    const pixels = await countPixels(page, rgb);
+    console.log(`${pixels} pixels of ${name}`);
+    assert.ok(pixels > 500, name);
+  }
+}
+
 meshhood('generate', 'scroll', '--vertices', '20000', '-o', 'scroll.ply');
 
 test('a page of the command line shows the query with the answers of the command line', async () => {
@@ -148,6 +157,18 @@ test('the properties of a PLY file are colors', async () => {
   await page.click('#display summary');
   await page.selectOption('#color', { label: 'heat' });
   assert.deepEqual(await page.locator('#legend span').allTextContents(), ['0', 'heat', '30']);
+  await expectColors(page, { violet: [68, 1, 84], teal: [33, 145, 140], yellow: [253, 231, 37] });
+  await page.close();
+});
+
+test('curvature of both signs is blue and red', async () => {
+  const page = await openPage(browser, process.env.MESHHOOD_PAGE, {
+    hash: '#example=terrain&vertex=45000&radius=12&ball=hidden&color=mean&camera=-150,-250,330,0,0,0',
+  });
+  await page.waitForSelector('#legend:not([hidden])');
+  await page.waitForTimeout(500);
+  await page.screenshot({ path: join(pictures, 'curvature.png') });
+  await expectColors(page, { blue: [33, 102, 172], white: [247, 247, 247], red: [178, 24, 43] });
   await page.close();
 });
 
@@ -261,11 +282,7 @@ for (const [name, [width, height]] of Object.entries(SIZES)) {
     });
     await page.waitForTimeout(500);
     await page.screenshot({ path: join(pictures, `${name}.png`) });
-    for (const [method, color] of Object.entries(COLORS)) {
-      const pixels = await countPixels(page, color);
-      console.log(`${name}: ${pixels} pixels of ${method}`);
-      assert.ok(pixels > 500, method);
-    }
+    await expectColors(page, COLORS);
     const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert.ok(overflow <= 0);
     const panel = await page.locator('#panel').boundingBox();

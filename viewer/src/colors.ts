@@ -56,7 +56,7 @@ function blueToRed(t: number): Rgb {
 }
 
 function toCss([r, g, b]: Rgb): string {
-  return `rgb(${[r, g, b].map((part) => Math.round(255 * part)).join(' ')})`;
+  return `rgb(${[r, g, b].map((part) => Math.round(255 * part)).join(', ')})`;
 }
 
 /** Colors for the numbers of a range. */

@@ -44,7 +44,7 @@ function sheet(rows: number, columns: number, place: (row: number, column: numbe
   for (let row = 0; row < lastRow; ++row) {
     for (let column = 0; column < lastColumn; ++column) {
       const at = (r: number, c: number) => ((row + r) % rows) * columns + ((column + c) % columns);
-      corners.set([at(0, 0), at(0, 1), at(1, 0), at(1, 0), at(0, 1), at(1, 1)], end);
+      corners.set([at(0, 0), at(1, 0), at(0, 1), at(0, 1), at(1, 0), at(1, 1)], end);
       end += 6;
     }
   }
@@ -90,9 +90,9 @@ function knot(vertices: number): ExampleMesh {
     const t = (2 * Math.PI * row) / rows;
     const [center, next] = [curve(t), curve(t + 1e-3)];
     const tangent = unit(subtract(next, center));
-    const side = unit(cross(tangent, [Math.sin(t / 2), Math.cos(t / 2), 2]));
+    const side = unit(cross(tangent, [Math.sin(t), Math.cos(t), 2]));
     const up = cross(tangent, side);
-    const angle = (2 * Math.PI * column) / columns;
+    const angle = (-2 * Math.PI * column) / columns;
     return center.map((x, axis) => x + thickness * (Math.cos(angle) * side[axis] + Math.sin(angle) * up[axis])) as Point;
   }, true, true);
 }
