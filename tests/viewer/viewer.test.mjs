@@ -3,10 +3,11 @@
 // line, MESHHOOD_VIEWER_SOURCES the folder of the page's sources, MESHHOOD_PICTURES a folder for screenshots.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdirSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
 
 import {
   countPixels, drop, idsOf, launch, memoryOfPages, openPage, placeOf, setRadius, setVertex, waitForAnswers, waitForMesh,
@@ -90,6 +91,83 @@ test('a click on a vertex asks for it, and a drag of the marker takes it along',
   await page.waitForFunction(() => document.getElementById('vertex').value === '690');
   await waitForAnswers(page);
   await expectAnswers(page, 'plates.ply', 690, 3);
+  await page.close();
+});
+
+test('the slider and both numbers set the same radius', async () => {
+  const page = await openPage(browser, file('page.html'));
+  const read = async () => [Number(await page.inputValue('#radius-edges')), Number(await page.inputValue('#radius-units'))];
+  const [edges, units] = await read();
+  await page.fill('#radius-edges', '5');
+  await page.press('#radius-edges', 'Enter');
+  await waitForAnswers(page);
+  assert.ok(Math.abs((await read())[1] - (5 * units) / edges) < 1e-2);
+  await expectAnswers(page, 'scroll.ply', 7000, await page.evaluate(() => 5 * window.meshhoodPage.meanEdge));
+  const size = (await idsOf(page, 'exact')).length;
+  await page.focus('#radius');
+  await page.keyboard.press('PageUp');
+  await waitForAnswers(page);
+  assert.ok((await read())[0] > 5);
+  assert.ok((await idsOf(page, 'exact')).length > size);
+  await page.keyboard.press('Home');
+  await waitForAnswers(page);
+  assert.deepEqual(await read(), [0, 0]);
+  assert.deepEqual(await idsOf(page, 'exact'), [7000]);
+  await page.close();
+});
+
+test('keys do what their list says', async () => {
+  const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=45000&radius=10' });
+  const press = (key) => page.locator('#canvas').press(key);
+  const edges = async () => Number(await page.inputValue('#radius-edges'));
+  const camera = () => page.evaluate(() => window.meshhoodPage.view.cameraState);
+  await press('+');
+  assert.equal(await edges(), 11.2);
+  await press('-');
+  assert.equal(await edges(), 10);
+  for (const [key, id] of [['h', 'nearer'], ['w', 'wireframe'], ['b', 'ball']]) {
+    const before = await page.evaluate((id) => document.getElementById(id).checked, id);
+    await press(key);
+    assert.equal(await page.evaluate((id) => document.getElementById(id).checked, id), !before, key);
+  }
+  await press('c');
+  assert.equal(await page.evaluate(() => document.getElementById('cut').value), 'x');
+  for (const key of ['ArrowLeft', 'ArrowUp', 'a', 'f']) {
+    const before = await camera();
+    await press(key);
+    assert.notDeepEqual(await camera(), before, key);
+  }
+  await press('r');
+  assert.notEqual(await page.inputValue('#vertex'), '45000');
+  const [picture] = await Promise.all([page.waitForEvent('download'), press('s')]);
+  assert.equal(picture.suggestedFilename(), 'terrain.png');
+  await press('?');
+  await page.waitForSelector('#keys[open]');
+  await page.keyboard.press('Escape');
+  await page.waitForSelector('#keys', { state: 'hidden' });
+  await page.close();
+});
+
+test('a finger chooses a vertex, and takes the marker along', async () => {
+  const page = await openPage(browser, process.env.MESHHOOD_PAGE, {
+    hash: '#example=terrain&vertex=45000&radius=10', viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true,
+  });
+  const tapped = 46207;
+  const at = await placeOf(page, tapped);
+  await page.touchscreen.tap(at.x, at.y);
+  await waitForAnswers(page);
+  assert.equal(await page.inputValue('#vertex'), String(tapped));
+  const target = 45006;
+  const to = await placeOf(page, target);
+  const session = await page.context().newCDPSession(page);
+  const touch = (type, points) => session.send('Input.dispatchTouchEvent', { type, touchPoints: points });
+  await touch('touchStart', [at]);
+  for (let i = 1; i <= 8; ++i) {
+    await touch('touchMove', [{ x: at.x + ((to.x - at.x) * i) / 8, y: at.y + ((to.y - at.y) * i) / 8 }]);
+  }
+  await touch('touchEnd', []);
+  await waitForAnswers(page);
+  assert.equal(await page.inputValue('#vertex'), String(target));
   await page.close();
 });
 
@@ -270,6 +348,21 @@ test('a link shows the same again', async () => {
   const [a, b] = [await state(page), await state(again)];
   a.forEach((x, i) => assert.ok(Math.abs(x - b[i]) < 1e-3 * (1 + Math.abs(x)), `${a} and ${b}`));
   await Promise.all([page.close(), again.close()]);
+});
+
+test('in the frame of a notebook the page answers, and offers no link', async () => {
+  const html = readFileSync(file('page.html'), 'utf8').replaceAll('&', '&amp;').replaceAll('"', '&quot;');
+  writeFileSync(file('notebook.html'), `<!doctype html><iframe srcdoc="${html}" style="width: 900px; height: 700px">`);
+  const page = await browser.newPage({ viewport: { width: 1000, height: 800 } });
+  const errors = [];
+  page.on('pageerror', (error) => errors.push(error.message));
+  await page.goto(pathToFileURL(file('notebook.html')).href);
+  const frame = await (await page.waitForSelector('iframe')).contentFrame();
+  await frame.waitForFunction(() => document.body.dataset.mesh === 'scroll.ply' && window.meshhoodPage.isAnswered);
+  assert.deepEqual(await idsOf(frame, 'exact'), expected('scroll.ply', 7000, 12, 'exact'));
+  assert.ok(await frame.isHidden('#copy-link'));
+  assert.deepEqual(errors, []);
+  await page.close();
 });
 
 const SIZES = { wide: [1440, 900], tablet: [820, 1100], phone: [390, 844] };

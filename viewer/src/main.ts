@@ -21,6 +21,9 @@ import type { Look } from './view';
 
 const FIRST_RADIUS = 20; // in mean edge lengths
 
+/** The frame of a notebook has no address, and so no link. */
+const HAS_ADDRESS = location.protocol !== 'about:';
+
 class Page {
   readonly #canvas = document.getElementById('canvas') as HTMLCanvasElement;
   readonly #view = new View(this.#canvas);
@@ -56,7 +59,7 @@ class Page {
       open: (file) => this.#open({ kind: 'file', name: file.name, content: file }),
       example: (name) => this.#openExample(name),
       vertex: (vertex) => this.select(vertex),
-      radius: (radius, unit, isFinal) => this.setRadius(radius * (unit === 'edge' ? this.#meanEdge : 1), isFinal),
+      radius: (radius, unit, isFinal) => this.setRadius(radius * (unit === 'edge' ? this.meanEdge : 1), isFinal),
       method: (method, isShown) => this.#showMethod(method, isShown),
       color: (choice) => this.#setColor(choice),
       look: (look) => this.#setLook(look),
@@ -73,6 +76,7 @@ class Page {
     this.#keepClearOfPanel();
     document.querySelector('#error button')!.addEventListener('click', () => showError(null));
     window.addEventListener('hashchange', () => this.#follow());
+    document.getElementById('copy-link')!.hidden = !HAS_ADDRESS;
     this.#openFirst();
   }
 
@@ -82,7 +86,7 @@ class Page {
       this.#setLook(this.#panel.look);
     };
     const cuts = ['none', 'x', 'y', 'z'] as const;
-    const step = (factor: number) => this.setRadius(Math.max(this.#radius, 0.5 * this.#meanEdge) * factor);
+    const step = (factor: number) => this.setRadius(Math.max(this.#radius, 0.5 * this.meanEdge) * factor);
     connectKeyboard({
       '+': () => step(1.12), '=': () => step(1.12), '-': () => step(1 / 1.12),
       ArrowLeft: () => this.#view.turn(-0.12, 0), ArrowRight: () => this.#view.turn(0.12, 0),
@@ -191,10 +195,10 @@ class Page {
     const { vertices } = this.#opened!;
     for (const method of METHODS) this.#showMethod(method, !wanted.hidden.includes(method));
     this.#panel.look = look;
-    const handedUnit = settings?.unit === 'edge' ? this.#meanEdge : 1;
+    const handedUnit = settings?.unit === 'edge' ? this.meanEdge : 1;
     const handed = settings?.radius === undefined ? null : settings.radius * handedUnit;
-    const inLink = wanted.radius === null ? null : wanted.radius * this.#meanEdge;
-    this.#radius = inLink ?? handed ?? query.radius * this.#meanEdge;
+    const inLink = wanted.radius === null ? null : wanted.radius * this.meanEdge;
+    this.#radius = inLink ?? handed ?? query.radius * this.meanEdge;
     const vertex = wanted.vertex ?? settings?.vertex ?? Math.floor(query.at * vertices);
     this.select(Math.min(vertex, vertices - 1));
     this.#view.setLook(look);
@@ -231,7 +235,7 @@ class Page {
       this.#openExample(wanted.example, true);
     } else if (this.#opened !== null) {
       this.#wanted = wanted;
-      this.#askFirst({ at: 0.5, radius: this.#radius / this.#meanEdge });
+      this.#askFirst({ at: 0.5, radius: this.#radius / this.meanEdge });
     }
   }
 
@@ -259,7 +263,7 @@ class Page {
   }
 
   /** 1 without edges. */
-  get #meanEdge(): number {
+  get meanEdge(): number {
     return this.#opened?.meanEdge || 1;
   }
 
@@ -395,7 +399,7 @@ class Page {
     return toHash({
       example: this.#example,
       vertex: this.#vertex < 0 ? null : this.#vertex,
-      radius: this.#radius / this.#meanEdge,
+      radius: this.#radius / this.meanEdge,
       hidden: METHODS.filter((method) => !this.#shown.has(method)),
       look: this.#panel.look,
       color: this.#color,
@@ -403,12 +407,12 @@ class Page {
     });
   }
 
-  #updateLink(): void {
-    history.replaceState(null, '', this.#link(null));
+  #updateLink(camera: number[] | null = null): void {
+    if (HAS_ADDRESS) history.replaceState(null, '', this.#link(camera));
   }
 
   async #copyLink(): Promise<void> {
-    history.replaceState(null, '', this.#link(this.#view.cameraState));
+    this.#updateLink(this.#view.cameraState);
     try {
       await navigator.clipboard.writeText(location.href);
       this.#panel.setVerdict('The link is in the clipboard.');
