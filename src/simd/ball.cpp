@@ -42,13 +42,6 @@ LeafBounds::LeafBounds(double radius)
       surely_inside(round_down(squared_radius * (1 - kFloatError) - kFloatUnderflow)),
       surely_outside(round_up(squared_radius * (1 + kFloatError) + kFloatUnderflow)) {}
 
-LeafBall::LeafBall(const Point& at, const LeafBounds& bounds)
-    : LeafBounds(bounds),
-      center(at),
-      x(static_cast<float>(at.x)),
-      y(static_cast<float>(at.y)),
-      z(static_cast<float>(at.z)) {}
-
 TreeBounds::TreeBounds(const Frame& frame, double radius)
     : outer(round_up((radius * (1 + kTreeError) + kTiny) * frame.scale)),
       inner(round_down((radius * (1 - kTreeError) - kTiny) * frame.scale)) {}

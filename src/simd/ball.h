@@ -27,7 +27,12 @@ struct LeafBall : LeafBounds {
   float y;
   float z;
 
-  LeafBall(const Point& center, const LeafBounds& bounds);
+  LeafBall(const Point& at, const LeafBounds& bounds)
+      : LeafBounds(bounds),
+        center(at),
+        x(static_cast<float>(at.x)),
+        y(static_cast<float>(at.y)),
+        z(static_cast<float>(at.z)) {}
 };
 
 /// The radius in the frame, rounded to be compared with bounding spheres.

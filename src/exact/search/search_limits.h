@@ -19,19 +19,16 @@ struct SearchLimits {
   /// False in tests: every query is then answered by the outward search, whatever it costs.
   bool enabled = true;
 
-  /// Whether the answer may well lie in the leaf of the query vertex: the ball is tiny, or the leaf has no links.
-  /// Chosen.
-  [[nodiscard]] bool may_lie_in_one_leaf(const Query& query, const IndexView& index) const {
-    constexpr double kMeanLeafRadii = 0.4;
-    const bool is_tiny = query.radius_in_frame < kMeanLeafRadii * index.tree[0].mean_radius;
-    return enabled && (is_tiny || index.links_of(query.leaf()).empty());
-  }
-
   /// Whether hardly any leaf lies inside the ball, so that the breadth-first search visits no more leaves than the
   /// outward search. Chosen.
-  [[nodiscard]] bool is_small(const Query& query, const IndexView& index) const {
+  [[nodiscard]] bool is_small(double radius_in_frame, const IndexView& index) const {
     constexpr double kMeanLeafRadii = 1.8;
-    return enabled && query.radius_in_frame < kMeanLeafRadii * index.tree[0].mean_radius;
+    return enabled && radius_in_frame < kMeanLeafRadii * index.tree[0].mean_radius;
+  }
+
+  /// Whether the answer may well lie in few leaves: the ball is small, or the leaf of the query vertex has no links.
+  [[nodiscard]] bool may_lie_in_few_leaves(double radius_in_frame, LeafId home, const IndexView& index) const {
+    return is_small(radius_in_frame, index) || (enabled && index.links_of(home).empty());
   }
 
   /// Whether the ball is so small that the breadth-first search is faster on a folded mesh. Chosen.
@@ -92,6 +89,15 @@ class SearchMemory {
     return answer_per_surface_leaf_ < steps_per_surface_leaf_ && !is_retry_;
   }
 
+  /// Whether most answers in few leaves were the query vertex alone.
+  [[nodiscard]] bool was_alone() const { return alone_ > kAlways / 2; }
+
+  /// After an answer in few leaves.
+  void record_alone(bool is_alone) {
+    constexpr int kAnswers = 8;  // chosen
+    alone_ += ((is_alone ? kAlways : 0) - alone_) / kAnswers;
+  }
+
   /// After an outward search: `in_doubt` of its `surface` leaves were in doubt, and other components were told apart in
   /// `steps`: leaves in doubt, and visits of leaves.
   void record(std::size_t in_doubt, std::size_t surface, std::size_t steps) {
@@ -113,6 +119,8 @@ class SearchMemory {
   double share_in_doubt_ = 0;
   double steps_per_surface_leaf_ = 0;
   double answer_per_surface_leaf_ = 0;
+  static constexpr int kAlways = 256;
+  int alone_ = 0;  // the share of answers that were one vertex, of `kAlways`; a double would become denormal, and slow
   std::uint32_t balls_begun_ = 0;
   bool is_retry_ = false;
 };

@@ -8,8 +8,8 @@
 // visit much of the ball, all that was reached is united along its links instead. docs/design.md says why that is
 // exact.
 //
-// An answer that lies in one leaf takes none of these steps. Where the ball is small, or the answer is a small part of
-// what is reached, a breadth-first search over leaves is faster; and where the graph is unlike a surface, one over
+// An answer that lies in few leaves takes none of these steps. Where the ball is small, or the answer is a small part
+// of what is reached, a breadth-first search over leaves is faster; and where the graph is unlike a surface, one over
 // vertices.
 #include <algorithm>
 
@@ -24,15 +24,18 @@
 namespace meshhood {
 
 Point Searcher::State::search(VertexId v, double radius) {
-  check_query(v, index->vertex_count(), radius);
-  const LeafId home = leaf_of(index->slot[v]);
-  traversal.prefetch_leaf(index->leaves[home]);
+  // A call for valid arguments would take a tenth of the shortest queries.
+  if (v >= index->vertex_count() || !(radius >= 0)) check_query(v, index->vertex_count(), radius);
+  const std::uint32_t slot = index->slot[v];
+  const LeafId home = leaf_of(slot);
+  if (!memory.was_alone()) traversal.prefetch_leaf(index->leaves[home]);
   if (radius != bounds.radius) bounds = RadiusBounds(index->frame, radius);
-  const Query query(*index, v, bounds);
+  const Point center = index->position(home, lane_of(slot));
   answer.clear();
   was_outward = was_united = false;
-  if (search_single_leaf(query)) return query.center();
-  const bool is_small = limits.is_small(query, *index);
+  if (search_few_leaves(slot, center)) return center;
+  const Query query(*index, v, bounds);
+  const bool is_small = limits.is_small(bounds.radius_in_frame, *index);
   // A leaf that is not connected has no links, so the answer is a part of it.
   was_outward = !is_small && index->leaves[home].connected && !is_flood_faster(query);
   if (was_outward) {
@@ -43,12 +46,18 @@ Point Searcher::State::search(VertexId v, double radius) {
   return query.center();
 }
 
-/// Returns false if the answer has vertices of other leaves, or probably has.
-bool Searcher::State::search_single_leaf(const Query& query) {
-  if (!limits.may_lie_in_one_leaf(query, *index)) return false;
-  const LaneMask found = single_leaf.find(query);
-  if (found != 0) answer.add(LeafSubset{query.leaf(), found});
-  return found != 0;
+/// Returns false if the answer has vertices of many leaves, or probably has.
+bool Searcher::State::search_few_leaves(std::uint32_t slot, const Point& center) {
+  if (!limits.may_lie_in_few_leaves(bounds.radius_in_frame, leaf_of(slot), *index)) return false;
+  bool is_alone = memory.was_alone() && few_leaves.is_alone(slot, center, bounds.leaf.squared_radius);
+  if (is_alone) {
+    answer.add(LeafSubset{leaf_of(slot), LaneMask{1} << lane_of(slot)});
+  } else {
+    if (!few_leaves.find(slot, LeafBall(center, bounds.leaf), answer)) return false;
+    is_alone = answer.is_one_vertex();
+  }
+  memory.record_alone(is_alone);
+  return true;
 }
 
 /// Whether recent queries suggest it.
@@ -160,10 +169,17 @@ void Searcher::State::add_reached() {
 }
 
 void Searcher::State::write_answer(std::vector<VertexId>& out) const {
+  constexpr std::size_t kFew = 8;  // chosen; for more, kernels are faster
   const std::size_t size = answer.count();
-  out.resize(size + kLeafCapacity);
-  write_ids(answer, *index, *kernels, out.data());
-  out.resize(size);
+  if (size <= kFew) {
+    out.resize(size);
+    VertexId* id = out.data();
+    answer.for_each([&](std::size_t vertex) { *id++ = index->id(vertex); });
+  } else {
+    out.resize(size + kLeafCapacity);
+    write_ids(answer, *index, *kernels, out.data());
+    out.resize(size);
+  }
 }
 
 Searcher::Searcher(const Index& index) : state_(std::make_unique<State>(IndexAccess::share(index), best_isa())) {

@@ -10,6 +10,7 @@
 
 #include "exact/layout.h"
 #include "exact/search/descent.h"
+#include "exact/search/few_leaves.h"
 #include "exact/search/group_states.h"
 #include "exact/search/home_marks.h"
 #include "exact/search/leaf_bfs.h"
@@ -19,7 +20,6 @@
 #include "exact/search/query.h"
 #include "exact/search/reached_components.h"
 #include "exact/search/search_limits.h"
-#include "exact/search/single_leaf.h"
 #include "exact/search/vertex_bfs.h"
 #include "exact/search/vertex_set.h"
 #include "exact/search/waves.h"
@@ -41,7 +41,7 @@ struct Searcher::State {
   LeafTraversal traversal;
   OtherComponents other_components;
   ReachedComponents reached_components;
-  SingleLeaf single_leaf;
+  FewLeaves few_leaves;
   LeafBfs leaf_bfs;
   SearchMemory memory;
   std::vector<LeafSubset>
@@ -63,7 +63,7 @@ struct Searcher::State {
         traversal(*index, *kernels),
         other_components(*index, *kernels),
         reached_components(*index, *kernels),
-        single_leaf(*index, *kernels),
+        few_leaves(*index, *kernels),
         leaf_bfs(*index),
         answer(*index) {}
 
@@ -83,7 +83,7 @@ struct Searcher::State {
     NodeId node;
   };
 
-  [[nodiscard]] bool search_single_leaf(const Query& query);
+  [[nodiscard]] bool search_few_leaves(std::uint32_t slot, const Point& center);
   [[nodiscard]] bool is_flood_faster(const Query& query);
   void search_outward(const Query& query);
   bool remove_other_components(const Query& query);

@@ -7,22 +7,6 @@
 #include <utility>
 
 namespace meshhood {
-namespace {
-
-/// std::popcount, which is a call into a library when compiling for the oldest processors.
-std::size_t count_of(LaneMask lanes) {
-  lanes -= lanes >> 1 & 0x55555555U;
-  lanes = (lanes & 0x33333333U) + (lanes >> 2 & 0x33333333U);
-  return ((lanes + (lanes >> 4)) & 0x0F0F0F0FU) * 0x01010101U >> 24;
-}
-
-}  // namespace
-
-void VertexSet::clear() {
-  runs_.clear();
-  subsets_.clear();
-}
-
 void VertexSet::subtract(std::span<const LeafSubset> others) {
   if (others.empty()) return;
   for (LeafSubset& subset : subsets_) {
@@ -56,13 +40,6 @@ std::size_t VertexSet::find_from(std::span<const LeafSubset> subsets, VertexId v
     return index_->leaf_begin[subset.leaf] < vertex;
   });
   return static_cast<std::size_t>(found - subsets.begin());
-}
-
-std::size_t VertexSet::count() const {
-  std::size_t result = 0;
-  for (const VertexRange& run : runs_) result += std::size_t{run.end} - run.begin;
-  for (const LeafSubset& subset : subsets_) result += count_of(subset.lanes);
-  return result;
 }
 
 std::span<const VertexRange> VertexSet::all_as_runs() {

@@ -17,6 +17,13 @@ struct LeafSubset {
   LaneMask lanes;
 };
 
+/// std::popcount, which is a call into a library when compiling for the oldest processors.
+[[nodiscard]] inline std::size_t count_of(LaneMask lanes) {
+  lanes -= lanes >> 1 & 0x55555555U;
+  lanes = (lanes & 0x33333333U) + (lanes >> 2 & 0x33333333U);
+  return ((lanes + (lanes >> 4)) & 0x0F0F0F0FU) * 0x01010101U >> 24;
+}
+
 /// The vertices of the node at a place of a group.
 [[nodiscard]] inline VertexRange run_of(const GroupRecord& group, unsigned place) {
   return {static_cast<VertexId>(group.begin[place]), static_cast<VertexId>(group.begin[place + 1])};
@@ -27,7 +34,10 @@ class VertexSet {
  public:
   explicit VertexSet(const IndexView& index) : index_(&index) {}
 
-  void clear();
+  void clear() {
+    runs_.clear();
+    subsets_.clear();
+  }
 
   /// Adds a run of whole leaves. One that follows the last becomes a part of it.
   void add(const VertexRange& run) {
@@ -43,7 +53,16 @@ class VertexSet {
   /// others).
   void subtract(std::span<const LeafSubset> others);
 
-  [[nodiscard]] std::size_t count() const;
+  [[nodiscard]] bool is_one_vertex() const {
+    return runs_.empty() && subsets_.size() == 1 && (subsets_[0].lanes & (subsets_[0].lanes - 1)) == 0;
+  }
+
+  [[nodiscard]] std::size_t count() const {
+    std::size_t result = 0;
+    for (const VertexRange& run : runs_) result += std::size_t{run.end} - run.begin;
+    for (const LeafSubset& subset : subsets_) result += count_of(subset.lanes);
+    return result;
+  }
   [[nodiscard]] std::span<const VertexRange> runs() const { return runs_; }
   [[nodiscard]] std::span<const LeafSubset> subsets() const { return subsets_; }
 

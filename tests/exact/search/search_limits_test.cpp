@@ -59,5 +59,17 @@ TEST(SearchMemory, IsNotAskedForOneBallInSixteen) {
   EXPECT_FALSE(memory.is_answer_small());
 }
 
+TEST(SearchMemory, TellsWhetherMostAnswersWereOneVertex) {
+  SearchMemory memory;
+  EXPECT_FALSE(memory.was_alone());
+  for (int i = 0; i < 20; ++i) memory.record_alone(i % 4 != 0);
+  EXPECT_TRUE(memory.was_alone());
+  for (int i = 0; i < 20; ++i) memory.record_alone(i % 4 == 0);
+  EXPECT_FALSE(memory.was_alone());
+  for (int i = 0; i < 20; ++i) memory.record_alone(true);
+  memory.clear();
+  EXPECT_FALSE(memory.was_alone());
+}
+
 }  // namespace
 }  // namespace meshhood::test
