@@ -9,6 +9,8 @@
 
 #include "meshhood/progress.h"
 
+#include "base/coarse_clock.h"
+
 namespace meshhood {
 
 /// A long call: its threads, its progress and whether it was cancelled. Belongs to the calling thread, which takes part
@@ -37,7 +39,7 @@ class TaskContext {
   /// Whether to continue; called within chunks that take long. Thread 0 reports progress if it is due, and may throw as
   /// `report_progress`.
   bool should_continue(unsigned thread) {
-    if (thread == 0 && *progress_ && std::chrono::steady_clock::now() >= next_report_) report_progress();
+    if (thread == 0 && *progress_ && coarse_time() >= next_report_) report_progress();
     return !stopped_.load(std::memory_order_relaxed);
   }
 
