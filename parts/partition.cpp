@@ -53,7 +53,7 @@ std::uint64_t number_of_parts(const PartitionOptions& options, std::uint64_t ver
 
 void check(const PartitionOptions& options) {
   if ((options.parts == 0) == (options.vertices_per_part == 0)) {
-    raise(ErrorCode::InvalidOption, "expected the number of parts or the vertices per part, one of them");
+    raise(ErrorCode::InvalidOption, "expected either the number of parts or the vertices per part");
   }
   if (!(options.halo >= 0) || std::isinf(options.halo)) {
     raise(ErrorCode::InvalidRadius, "halo " + to_text(options.halo) + ", expected a finite number >= 0");

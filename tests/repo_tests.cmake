@@ -1,5 +1,5 @@
-# Checks that one plain build makes for all: the documents, the installed package, other compilers and processors, large
-# meshes, seeded faults, instruction counts.
+# Checks that are made once, in one plain build: the documents, the installed package, other compilers and processors,
+# large meshes, seeded faults, instruction counts.
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize|--coverage")
   return()
 endif()
@@ -57,8 +57,8 @@ if(TARGET exact_verify)
   endforeach()
 endif()
 
-# Every seeded fault must be noticed by a test. The library and these tests are compiled once more, file by file, so that a
-# faulty file can take the place of one, when the mutants are run and not before.
+# Every seeded fault must be detected by a test. The library and these tests are compiled once more, file by file, so
+# that a faulty file can take the place of one, when the mutants are run and not before.
 add_test(NAME mutants.list COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/mutants/run)
 if(CMAKE_BUILD_TYPE STREQUAL "Release")
   file(STRINGS mutants/mutants.txt mutant_tests REGEX "^\\[")

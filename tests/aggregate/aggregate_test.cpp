@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Aggregates equal what the definitions give over the vertices that breadth-first search finds.
+// Aggregates equal their definitions over the vertices that breadth-first search finds.
 #include "meshhood/aggregate.h"
 
 #include <algorithm>
@@ -392,7 +392,7 @@ TEST_F(Aggregate, OfMissingValuesOnlyIsNaNExceptForSumAndCount) {
 }
 
 TEST_F(Aggregate, IgnoresAHugeValueOutsideTheNeighborhood) {
-  // In the same leaf as vertices of the neighborhood, so that what is kept for the leaf has it.
+  // In the same leaf as vertices of the neighborhood, so that the sums stored for the leaf include it.
   std::vector<double> values(scene.size(), 1.0);
   for (std::size_t v = 0; v < scene.size(); v += 2) values[v] = 3.0;
   values[1000] = 1e150;

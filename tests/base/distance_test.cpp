@@ -18,7 +18,7 @@
 namespace meshhood::test {
 namespace {
 
-/// What makes `squared_radius` right: nothing larger has a root within the radius, and it has.
+/// The definition of `squared_radius`: its root is within the radius, and that of the next double is not.
 void expect_largest(double radius) {
   const double threshold = squared_radius(radius);
   ASSERT_LE(std::sqrt(threshold), radius) << radius;
@@ -26,7 +26,7 @@ void expect_largest(double radius) {
   ASSERT_GT(std::sqrt(std::nextafter(threshold, kInfinity)), radius) << radius;
 }
 
-TEST(SquaredRadius, IsTheLargestWhoseRootIsWithin) {
+TEST(SquaredRadius, IsTheLargestDoubleWhoseRootIsWithinTheRadius) {
   Random random(1);
   const std::size_t radii = scaled(1'000'000);
   for (std::size_t i = 0; i < radii; ++i) {
@@ -65,7 +65,7 @@ TEST(SquaredRadius, HoldsAtTheEndsOfTheRange) {
   }
 }
 
-TEST(SearchBall, ContainsItsOwnDistance) {
+TEST(SearchBall, ContainsAVertexAtExactlyItsRadius) {
   Random random(3);
   for (int i = 0; i < 100'000; ++i) {
     const Point p{random.uniform(), random.uniform(), random.uniform()};
@@ -135,7 +135,7 @@ struct GroupContainment {
   std::array<std::size_t, 3> of{};
 };
 
-/// N3: a containment is never against the predicate, with radii as near as can be to where it changes.
+/// N3: a containment never contradicts the predicate, with radii as close as possible to where it changes.
 template <class Real>
 void expect_conservative(Random& random, double size, GroupContainment& seen) {
   const auto coordinate = [&] { return static_cast<double>(static_cast<Real>(random.uniform(-size, size))); };
@@ -171,7 +171,7 @@ TEST(SearchBall, ClassificationNeverContradictsThePredicate) {
     expect_conservative<float>(random, std::ldexp(1.0, static_cast<int>(random.below(250)) - 140), seen);
     expect_conservative<double>(random, 1, seen);
   }
-  std::printf("%zu outside, %zu straddling, %zu inside\n", seen.of[0], seen.of[1], seen.of[2]);
+  std::printf("%zu outside, %zu intersecting, %zu inside\n", seen.of[0], seen.of[1], seen.of[2]);
   for (const std::size_t count : seen.of) EXPECT_GT(count, spheres / 100);
 }
 

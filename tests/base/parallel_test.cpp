@@ -71,7 +71,7 @@ TEST(TaskContext, UsesAsManyThreadsAsTheProcessorHas) {
   expect_refused(ErrorCode::InvalidOption, "threads is 1025", [] { const TaskContext task(1025, kNoProgress, 0); });
 }
 
-TEST(TaskContext, ReportsWhatWasDone) {
+TEST(TaskContext, ReportsFinishedParts) {
   std::vector<std::pair<std::size_t, std::size_t>> reports;
   const Progress progress = [&](std::size_t done, std::size_t total) {
     reports.emplace_back(done, total);

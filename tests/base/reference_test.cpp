@@ -81,7 +81,6 @@ TEST(ReferenceSearcher, CanBeMoved) {
   EXPECT_EQ(out.size(), 5U);
 }
 
-/// Exact answers against the oracle are the business of differential_test; here the ball, and that exact grows.
 TEST(ReferenceSearcher, AnswersStayTheSameWhenTheQueryNumberWrapsAround) {
   const TestMesh mesh = make_grid(20, 20, false);
   ReferenceSearcher searcher(mesh.view());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All searchers keep the promises of `NeighborhoodSearcher`: their calls agree, and a visit gives the same vertices.
+// All searchers satisfy `NeighborhoodSearcher`: their calls agree, and a visit gives the same vertices.
 #include "meshhood/searcher.h"
 
 #include <algorithm>

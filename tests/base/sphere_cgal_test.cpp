@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Our bounding spheres beside those of CGAL, which are the smallest: on random points, and on every cluster of meshes.
+// Our bounding spheres compared with those of CGAL, which are the smallest: on random points, and on every cluster of
+// meshes.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -36,7 +37,7 @@ double smallest_radius(std::span<const Real> xyz) {
   return sphere.radius();
 }
 
-/// The largest of ours / CGAL's, and how many were compared.
+/// The largest ratio of our radius to that of CGAL, and the number of compared spheres.
 struct Ratio {
   double largest = 1;
   std::size_t spheres = 0;

@@ -190,7 +190,7 @@ concept ViewedAsPositions = requires(M&& matrix) { positions_view(std::forward<M
 static_assert(ViewedAsPositions<const Eigen::MatrixXd&>);
 static_assert(ViewedAsPositions<Eigen::Map<const Eigen::MatrixXf>>);
 static_assert(!ViewedAsPositions<Eigen::MatrixXd>);
-// Which order its entries are in is lost if a matrix is passed as an array.
+// If a matrix is passed as an array, the order of its entries is lost.
 static_assert(!std::constructible_from<PositionsView, const Eigen::MatrixXd&>);
 static_assert(!MakesTriangles<const Eigen::MatrixXi&>);
 

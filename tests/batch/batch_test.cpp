@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Batches give what single queries give, in their order, the same for every number of threads; and they end as the
-// caller wants.
+// Batches give the answers of single queries, row by row, for every number of threads. Callers can end them.
 #include "meshhood/batch.h"
 
 #include <algorithm>
@@ -31,7 +30,7 @@ using testing::IsEmpty;
 
 constexpr std::array kThreads{1U, 2U, 3U, 8U};
 
-/// Rows as a sink was given them.
+/// The rows that a sink has received.
 struct Streamed {
   std::vector<std::vector<VertexId>> ids;
   std::vector<std::vector<double>> distances;
@@ -215,7 +214,7 @@ class Guarded {
     return std::span(values_).subspan(kGuards, count);
   }
 
-  /// What was taken, if its surroundings are as they were.
+  /// The allocated values, if the guards around them are unchanged.
   [[nodiscard]] std::vector<T> values() const {
     const auto is_untouched = [](T value) { return value == kUntouched; };
     EXPECT_TRUE(std::all_of(values_.begin(), values_.begin() + kGuards, is_untouched));
@@ -278,7 +277,7 @@ TEST_F(Batches, RefuseMemoryOfAnotherSize) {
                  [&] { static_cast<void>(neighborhoods(index, {.radius = 1.0}, BatchAllocator{})); });
 }
 
-TEST_F(Batches, PassOnWhatTheAllocatorThrows) {
+TEST_F(Batches, PassOnExceptionsOfTheAllocator) {
   for (const unsigned threads : kThreads) {
     const auto allocate = [](std::size_t) -> BatchMemory { throw std::bad_alloc(); };
     EXPECT_THROW(static_cast<void>(neighborhoods(index, {.radius = 2.0}, allocate, {.threads = threads})),
@@ -294,10 +293,10 @@ TEST_F(Batches, OfMoreRowsThanAPieceHaveAllRows) {
   EXPECT_EQ(std::count(all.begin(), all.end(), all.front()), static_cast<std::ptrdiff_t>(all.size()));
 }
 
-/// Expects each of the calls to refuse before it hands out or reports anything.
+/// Expects each of the calls to refuse before it passes on rows or reports progress.
 void expect_all_refused(ErrorCode code, const std::string& cause, const SearchMethod& index, const BatchQuery& query,
                         BatchOptions options) {
-  const auto never = [&](const BatchRow&) { ADD_FAILURE() << "handed out before: " << cause; };
+  const auto never = [&](const BatchRow&) { ADD_FAILURE() << "passed on before: " << cause; };
   options.progress = [&](std::size_t, std::size_t) {
     ADD_FAILURE() << "reported before: " << cause;
     return true;
@@ -306,7 +305,7 @@ void expect_all_refused(ErrorCode code, const std::string& cause, const SearchMe
   expect_refused(code, cause, [&] { static_cast<void>(neighborhoods(index, query, options)); });
   expect_refused(code, cause, [&] { static_cast<void>(neighborhood_sizes(index, query, options)); });
   const auto no_memory = [&](std::size_t) -> BatchMemory {
-    ADD_FAILURE() << "asked for memory before: " << cause;
+    ADD_FAILURE() << "allocated before: " << cause;
     return {};
   };
   expect_refused(code, cause, [&] { static_cast<void>(neighborhoods(index, query, no_memory, options)); });
@@ -429,7 +428,7 @@ TEST_F(Batches, ReportFromZeroToTheTotalOnTheCallingThread) {
   }
 }
 
-/// Runs a slow batch whose progress says no at its `last` report; returns how many rows were handed out.
+/// Runs a slow batch that is cancelled at its report `last`. Returns the number of rows that were passed on.
 std::size_t rows_before_cancel(const Index& index, unsigned threads, std::size_t last) {
   std::size_t reports = 0;
   std::size_t rows = 0;
@@ -462,7 +461,7 @@ TEST_F(Batches, CanBeCancelledAtAnyReport) {
   }
 }
 
-TEST_F(Batches, PassOnWhatTheSinkThrows) {
+TEST_F(Batches, PassOnExceptionsOfTheSink) {
   for (const unsigned threads : kThreads) {
     for (const std::size_t last : {0U, 1U, 255U, 256U, 3599U}) {
       std::size_t rows = 0;
@@ -477,7 +476,7 @@ TEST_F(Batches, PassOnWhatTheSinkThrows) {
   }
 }
 
-TEST_F(Batches, PassOnWhatProgressThrows) {
+TEST_F(Batches, PassOnExceptionsOfTheProgressCallback) {
   for (const unsigned threads : kThreads) {
     const BatchOptions options{.threads = threads, .progress = [](std::size_t done, std::size_t total) {
                                  if (done == total) throw std::bad_alloc();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A batch that answers the rows of a leaf together gives what single queries give, in any order and on any threads.
+// A batch that answers the rows of a leaf together gives the answers of single queries, in any order and on any number
+// of threads.
 #include <algorithm>
 #include <cstddef>
 #include <vector>

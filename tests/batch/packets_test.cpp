@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The packets of a batch hold the neighborhoods of its rows, whichever rows are asked for together.
+// The packets of a batch hold the neighborhoods of its rows, for any selection of rows.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -257,7 +257,7 @@ TEST_F(Packets, OfNoRowsMakeNoVisitor) {
                   [](unsigned) -> PacketVisitor { throw std::logic_error(""); });
 }
 
-TEST_F(Packets, PassOnWhatAVisitorThrows) {
+TEST_F(Packets, PassOnExceptionsOfAVisitor) {
   for (const unsigned threads : {1U, 3U}) {
     std::atomic<int> calls{0};
     const auto visitor = everyone([&](const PacketAnswer&) {

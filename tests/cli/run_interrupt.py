@@ -27,7 +27,7 @@ SAVES = (
 
 
 def reset_signals():
-    """A background job or nohup passes ignored signals on, and the program leaves ignored signals ignored."""
+    """Background jobs and nohup pass on ignored signals, which the program must not handle."""
     for number in SIGNALS:
         signal.signal(number, signal.SIG_DFL)
 

@@ -86,7 +86,7 @@ TEST(CorrectedCurvature, OfAVertexWithoutFacesIsNan) {
   EXPECT_FALSE(std::isnan(found.k1[0]));
 }
 
-TEST(CorrectedCurvature, RefusesWhatIsWrongByName) {
+TEST(CorrectedCurvature, RefusesInvalidArgumentsAndNamesThem) {
   const TestMesh mesh = bumpy_grid(6).finish(false);
   const Index index = build(mesh.view());
   const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());

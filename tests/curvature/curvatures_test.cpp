@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Curvatures of meshes, compared with formulas, with the fit to the points themselves, and with themselves after a
-// change that must not matter.
+// Curvatures of meshes, compared with formulas, with the fit to the points themselves, and with themselves after
+// changes that must have no effect.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -388,7 +388,7 @@ TEST(Curvatures, TheSurfaceOutlivesItsIndex) {
   EXPECT_EQ(curvatures(surface, {.radius = 3.0}).k1, expected.k1);
 }
 
-TEST(Curvatures, ARefitOfTheIndexLeavesTheSurfaceAsItWas) {
+TEST(Curvatures, ARefitOfTheIndexLeavesTheSurfaceUnchanged) {
   TestMesh mesh = bumpy_grid(12).finish(false);
   Index index = build(mesh.view());
   const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());

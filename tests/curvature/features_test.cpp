@@ -140,7 +140,7 @@ TEST(Features, PersistIsTheLongestRunOfOneSign) {
   EXPECT_THAT(two.scales, testing::ElementsAre(2, -1));
 }
 
-TEST(Features, RefuseWhatIsWrongByName) {
+TEST(Features, RefuseInvalidArgumentsAndNameThem) {
   const Bumps bumps;
   const auto of = [&](const std::vector<double>& radii, const FeatureOptions& options) {
     return features(bumps.surface, {}, radii, options);

@@ -40,7 +40,7 @@ Kernel::Point_3 position(const TestMesh& mesh, std::size_t v) {
   return {mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]};
 }
 
-/// CGAL takes the first point as the one at which the curvatures are wanted.
+/// CGAL computes the curvatures at the first point.
 Fitting::Monge_form monge_form(const TestMesh& mesh, const std::vector<std::uint32_t>& ids, std::uint32_t v) {
   std::vector<Kernel::Point_3> points{position(mesh, v)};
   for (const std::uint32_t w : ids) {

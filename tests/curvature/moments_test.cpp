@@ -191,7 +191,7 @@ TEST(PrincipalComponents, OfNoWeightAreNan) {
   EXPECT_DOUBLE_EQ(surface_variation(1e300, 1e300, 1e300), 1.0 / 3);
 }
 
-TEST(Moments, RefuseWhatIsWrongByName) {
+TEST(Moments, RefuseInvalidArgumentsAndNameThem) {
   const TestMesh mesh = bumpy_grid(5).finish(false);
   const Index index = build(mesh.view());
   std::vector<double> weights(mesh.size(), 1.0);

@@ -139,7 +139,7 @@ TEST(IndexDamage, AForgedBitIsRejectedOrHarmless) {
       ++tried;
     }
   }
-  std::printf("F2: %zu forgeries, %zu accepted and asked\n", tried, accepted);
+  std::printf("F2: %zu forgeries, %zu accepted and queried\n", tried, accepted);
   EXPECT_GT(accepted, 0U) << "nothing was asked";
   EXPECT_LT(accepted, tried / 2);
 }
@@ -163,7 +163,7 @@ TEST(IndexDamage, ManyForgedBytesAreRejectedOrHarmless) {
     }
     std::ranges::copy(original, copy.data());
   }
-  std::printf("F2: %zu forgeries, %zu accepted and asked\n", tries, accepted);
+  std::printf("F2: %zu forgeries, %zu accepted and queried\n", tries, accepted);
   EXPECT_GT(accepted, 0U);
 }
 

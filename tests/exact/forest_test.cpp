@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The groups of all levels: what is not linked is never grouped together.
+// The groups of all levels: nodes that are not linked are never grouped together.
 #include "exact/build/forest.h"
 
 #include <algorithm>

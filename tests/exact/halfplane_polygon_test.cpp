@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The extent of a polygon of half planes beside the corners of all pairs of lines.
+// The extent of a polygon of half planes, compared with the corners of all pairs of lines.
 #include "exact/build/halfplane_polygon.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Batches on real meshes, on shapes with a trap for a search, and at every scale: whole leaves at many radii, compared
-// with the reference. The long run is tools/verify.
+// Batches on real meshes, on shapes that are difficult for a search, and at every scale: whole leaves at many radii,
+// compared with the reference. The long run is tools/verify.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The joint search gives the neighborhoods of the reference, whichever queries are answered together.
+// The joint search gives the neighborhoods of the reference, for any selection of queries.
 #include "exact/joint/joint_search.h"
 
 #include <algorithm>

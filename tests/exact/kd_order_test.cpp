@@ -134,7 +134,7 @@ TEST(KdOrder, PutsPointsOnALineInTheirOrder) {
   }
 }
 
-TEST(KdOrder, TellsCoincidentPointsApartByTheirIds) {
+TEST(KdOrder, OrdersCoincidentPointsByTheirIds) {
   Random random(5);
   Points points(1000, KdPoint{{0.1F, 0.2F, 0.3F}, 0});
   for (std::uint32_t i = 0; i < points.size(); ++i) points[i].id = i;

@@ -90,7 +90,8 @@ TEST(Leaves, OfASurfaceAreNearlyFull) {
 }
 
 TEST(Leaves, OfSurfacesAreConnectedAndHoldNoOtherComponent) {
-  // Two sheets so close that cells hold vertices of both, and points near them: a leaf never joins what no edge joins.
+  // Two sheets so close that cells hold vertices of both, and points near them: a leaf has no vertices that only an
+  // edge outside the leaf could connect.
   TestMesh mesh = make_grid(90, 90, false);
   TestMesh upper = make_grid(90, 90, false);
   for (std::size_t i = 2; i < upper.positions.size(); i += 3) upper.positions[i] = 0.01;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Regions beside brute force. The set of points from which a vertex is a local minimum of the distance is its Voronoi
-// cell among its neighbors: a polyhedron whose corners are found here from all triples of bisector planes.
+// Regions compared with brute force. The set of points from which a vertex is a local minimum of the distance is its
+// Voronoi cell among its neighbors: a polyhedron whose corners are found here from all triples of bisector planes.
 #include "exact/build/minimum_region.h"
 
 #include <algorithm>
@@ -65,7 +65,7 @@ Point random_direction(Random& random) {
   }
 }
 
-/// The corners of a vertex's Voronoi cell, relative to the vertex and moved inwards by a hair.
+/// The corners of a vertex's Voronoi cell, relative to the vertex and moved slightly inwards.
 std::vector<Point> cell_corners(const std::vector<Point>& edges) {
   std::vector<Point> result;
   for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -98,7 +98,7 @@ std::vector<Point> cell_directions(const std::vector<Point>& edges, Random& rand
   return result;
 }
 
-/// How many points in the cells of the vertices have been looked for in the region.
+/// The number of points in the cells of the vertices that were tested against the region.
 std::size_t expect_cells_inside(const Patch& patch, const MinimumRegion& region, Random& random) {
   std::size_t found = 0;
   for (std::size_t lane = 0; lane < patch.size; ++lane) {
@@ -130,7 +130,7 @@ double surface(const MinimumRegion& region, const Point& direction) {
   return rest > 0 ? std::min(region.offset / rest, kFarthest) : kFarthest;
 }
 
-/// How many vertices have been seen from just outside the region.
+/// The number of vertices that were tested from points just outside the region.
 std::size_t expect_no_minima_outside(const Patch& patch, const MinimumRegion& region, Random& random) {
   std::size_t seen = 0;
   for (int i = 0; i < 100; ++i) {

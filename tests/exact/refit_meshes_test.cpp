@@ -27,7 +27,7 @@ std::vector<double> copy_positions(const MeshView& mesh) {
   return xyz;
 }
 
-/// Winds the mesh around its first axis, `turns` times over its length.
+/// Twists the mesh around its first axis, `turns` times over its length.
 std::vector<double> twisted(std::vector<double> xyz, double turns) {
   double low = xyz[0];
   double high = xyz[0];

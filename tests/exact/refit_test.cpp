@@ -78,7 +78,7 @@ TestMesh deformed(const TestMesh& mesh, const std::function<void(std::vector<dou
   return result.finish(mesh.single_precision);
 }
 
-/// Queries at random vertices and at all radii that could be a trap, compared with the oracle.
+/// Queries at random vertices and at all radii at which errors are likely, compared with the oracle.
 std::size_t expect_right_answers(const Index& index, const TestMesh& mesh, Random& random, std::size_t vertices) {
   const Oracle oracle(mesh);
   std::vector<Searcher> searchers = searchers_of(index);
@@ -355,7 +355,7 @@ TEST(Refit, LeavesSearchersOfTheOldStateWithTheOldAnswers) {
   EXPECT_THAT(ids, testing::IsSupersetOf({0U, 1U}));
 }
 
-// Each thread takes the present index, searches it while the next one is made of it, and lets it go.
+// Each thread takes the present index, searches it while the next one is made from it, and releases it.
 TEST(Refit, LetsOtherThreadsSearchTheOldState) {
   const Sculpted sculpted;
   const Oracle even(sculpted.mesh);
@@ -431,7 +431,7 @@ TEST(Refit, RefusesToRoundDoublesToAnIndexInFloat) {
   EXPECT_THAT(refitted.check({sculpted.moved.positions, sculpted.moved.view().faces}), IsEmpty());
 }
 
-TEST(Refit, LeavesTheIndexAsItWasIfItFails) {
+TEST(Refit, LeavesTheIndexUnchangedIfItFails) {
   Sculpted sculpted;
   Index index = build(sculpted.mesh.view());
   const std::vector<std::byte> before = saved(index);

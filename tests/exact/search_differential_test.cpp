@@ -22,7 +22,7 @@ struct Tally {
   std::size_t mismatches = 0;
 };
 
-/// Asks one mesh at least `queries` times, on every SIMD path in turn.
+/// Queries one mesh at least `queries` times, with every instruction set in turn.
 void compare(const TestMesh& mesh, std::uint64_t seed, std::size_t queries, Tally& tally) {
   const Oracle oracle(mesh);
   const Index index = build(mesh.view());

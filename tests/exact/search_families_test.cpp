@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Exact answers on small meshes of every kind, at every radius that could be a trap.
+// Exact answers on small meshes of every kind, at all radii at which errors are likely.
 #include <cstdio>
 #include <limits>
 

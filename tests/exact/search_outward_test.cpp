@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The outward search without its limits: the breadth-first search never answers, so every query is what the search has
-// reached without the other components. Compared with the oracle on all families.
+// The outward search without its limits: the breadth-first search never answers, so every answer is the part that the
+// outward search has reached, without the other components. Compared with the oracle on all families.
 #include <algorithm>
 #include <cstdio>
 #include <string>

@@ -64,8 +64,8 @@ TEST(SearchTraps, LeavesBelowLargeNodesOfAnotherComponentAreCandidates) {
   std::printf("%zu large nodes of other components in doubt\n", others);
 }
 
-// A traversal may meet what another one has reached. That is connected with the query vertex only because the minima
-// are processed in order of distance: the nearest one of a component exhausts it for all others.
+// A traversal may meet vertices that another one has reached. They are connected with the query vertex only because the
+// minima are processed in order of distance: the nearest one of a component exhausts it for all others.
 TEST(SearchTraps, MinimaOfOneComponentAreRemovedTogether) {
   std::size_t with_several = 0;
   for_each_ball_before_the_fold(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One index asked by many threads at once, in every way there is; and built by many.
+// Many threads query one index at once, by every method; and many threads build one.
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
@@ -40,49 +40,49 @@ std::vector<TestMesh> meshes() {
   return result;
 }
 
-/// A query, and what one thread alone was told.
-struct Question {
+/// A query, and its answers on a single thread.
+struct ExpectedAnswers {
   VertexId v;
   double radius;
   std::vector<VertexId> exact;
   std::vector<VertexId> paper;
 };
 
-std::vector<Question> ask_alone(const MeshView& mesh, const paper::Index& paper_index) {
+std::vector<ExpectedAnswers> expected_answers(const MeshView& mesh, const paper::Index& paper_index) {
   ReferenceSearcher reference(mesh);
   paper::Searcher paper(paper_index);
   Random random(11);
-  std::vector<Question> questions;
+  std::vector<ExpectedAnswers> result;
   for (std::size_t i = 0; i < 300; ++i) {
-    Question question{static_cast<VertexId>(random.below(mesh.positions.size())), random.uniform(0, 12), {}, {}};
-    if (i % 50 == 0) question.radius = kInfinity;
-    reference.neighborhood(question.v, question.radius, question.exact);
-    paper.neighborhood(question.v, question.radius, question.paper);
-    question.exact = sorted(question.exact);
-    question.paper = sorted(question.paper);
-    questions.push_back(question);
+    ExpectedAnswers row{static_cast<VertexId>(random.below(mesh.positions.size())), random.uniform(0, 12), {}, {}};
+    if (i % 50 == 0) row.radius = kInfinity;
+    reference.neighborhood(row.v, row.radius, row.exact);
+    paper.neighborhood(row.v, row.radius, row.paper);
+    row.exact = sorted(row.exact);
+    row.paper = sorted(row.paper);
+    result.push_back(row);
   }
-  return questions;
+  return result;
 }
 
-/// What one of the threads does: its own searchers on the indexes of all.
-class Asker {
+/// The queries of one thread: it has its own searchers on the shared indexes.
+class QueryThread {
  public:
-  Asker(const Index& index, const paper::Index& paper_index)
+  QueryThread(const Index& index, const paper::Index& paper_index)
       : index_(index), paper_index_(paper_index), searcher_(index), paper_(paper_index) {}
 
-  /// One of the ways to ask, in turn. False where the answer is not that of `question`.
-  bool ask(const Question& question, std::size_t way) {
+  /// Queries by one of the methods in turn. Returns whether the answer is that of `expected`.
+  bool answers_correctly(const ExpectedAnswers& expected, std::size_t way) {
     switch (way % 7) {
-      case 0: searcher_.neighborhood(question.v, question.radius, ids_); return sorted(ids_) == question.exact;
-      case 1: return searcher_.count(question.v, question.radius) == question.exact.size();
-      case 2: return ids_of(searcher_.ranges(question.v, question.radius)) == question.exact;
+      case 0: searcher_.neighborhood(expected.v, expected.radius, ids_); return sorted(ids_) == expected.exact;
+      case 1: return searcher_.count(expected.v, expected.radius) == expected.exact.size();
+      case 2: return ids_of(searcher_.ranges(expected.v, expected.radius)) == expected.exact;
       case 3:
-        searcher_.neighborhood(question.v, question.radius, ids_, distances_);
-        return sorted(ids_) == question.exact && distances_.size() == ids_.size();
-      case 4: paper_.neighborhood(question.v, question.radius, ids_); return sorted(ids_) == question.paper;
-      case 5: return paper_.count(question.v, question.radius) == question.paper.size();
-      default: return batches_agree(question, way);
+        searcher_.neighborhood(expected.v, expected.radius, ids_, distances_);
+        return sorted(ids_) == expected.exact && distances_.size() == ids_.size();
+      case 4: paper_.neighborhood(expected.v, expected.radius, ids_); return sorted(ids_) == expected.paper;
+      case 5: return paper_.count(expected.v, expected.radius) == expected.paper.size();
+      default: return batches_agree(expected, way);
     }
   }
 
@@ -96,11 +96,11 @@ class Asker {
     return sorted(ids_);
   }
 
-  bool batches_agree(const Question& question, std::size_t way) {
-    const BatchQuery query{.vertices = std::span(&question.v, 1), .radius = question.radius};
+  bool batches_agree(const ExpectedAnswers& expected, std::size_t way) {
+    const BatchQuery query{.vertices = std::span(&expected.v, 1), .radius = expected.radius};
     const BatchOptions options{.threads = 1 + static_cast<unsigned>(way % 2), .sorted = true};
-    return neighborhoods(index_, query, options).ids == question.exact &&
-           neighborhoods(paper_index_, query, options).ids == question.paper;
+    return neighborhoods(index_, query, options).ids == expected.exact &&
+           neighborhoods(paper_index_, query, options).ids == expected.paper;
   }
 
   const Index& index_;
@@ -118,16 +118,16 @@ TEST(Threads, ManyThreadsMaySearchOneIndexWithEveryMethod) {
     ASSERT_EQ(mesh.size(), kVertices);
     const Index index = build(mesh.view());
     const paper::Index paper_index = paper::build(mesh.view());
-    const std::vector<Question> questions = ask_alone(mesh.view(), paper_index);
+    const std::vector<ExpectedAnswers> expected = expected_answers(mesh.view(), paper_index);
     std::latch start(kThreads);  // the first queries race with each other
     std::vector<std::thread> threads;
     threads.reserve(kThreads);
     for (std::size_t t = 0; t < kThreads; ++t) {
       threads.emplace_back([&, t] {
-        Asker asker(index, paper_index);
+        QueryThread own(index, paper_index);
         start.arrive_and_wait();
         for (std::size_t i = 0; i < queries; ++i) {
-          const bool right = asker.ask(questions[(37 * t + i) % questions.size()], t + i);
+          const bool right = own.answers_correctly(expected[(37 * t + i) % expected.size()], t + i);
           if (!right) ++wrong;
         }
       });

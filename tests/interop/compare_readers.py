@@ -75,7 +75,7 @@ def compare_soup(ours, theirs):
 
 
 def compare(dump_mesh, name):
-    """Whether the mesh could be compared; an AssertionError where the readers differ."""
+    """Whether the mesh could be compared. Raises AssertionError if the readers differ."""
     kind = name.removesuffix(".zst").rsplit(".", 1)[1]
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
@@ -100,7 +100,7 @@ def main(dump_mesh, meshes):
     kinds = (".ply", ".off", ".stl", ".ply.zst", ".stl.zst")
     tally, failures = {"ply": 0, "off": 0, "stl": 0}, 0
     for name in names:
-        # Triangle strips are no faces to plyfile.
+        # plyfile does not read triangle strips as faces.
         if name.startswith("broken/") or not name.endswith(kinds) or "tristrips" in name:
             continue
         try:

@@ -45,7 +45,7 @@ def theirs(file):
         if extension == ".off":
             import trimesh
             return "trimesh", len(trimesh.load(str(file), file_type="off", process=False, maintain_order=True).vertices)
-    except Exception:  # whatever another reader does with a foreign file is no fault of ours
+    except Exception:  # a failure of another reader is not a fault of meshhood
         pass
     return None, None
 

@@ -175,7 +175,7 @@ TEST_F(Files, AFileThatShrinksWhileReadIsAnError) {
     const auto result = file_refusal(path);
     if (!result.refused) continue;
     ++refused;
-    // While a page is cut off, the system may hand out zeros for it.
+    // While a page is cut off, the system may return zeros for it.
     if (result.code == ErrorCode::MalformedFile) {
       EXPECT_THAT(result.message, HasSubstr("found a NUL byte"));
     } else {

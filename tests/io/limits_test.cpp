@@ -54,7 +54,7 @@ TEST(Limits, TheLastVertexThatHasAnIdIsReadAndTheNextIsRefused) {
     EXPECT_EQ(vertex_count(read(name, file(kMaxVertices))), kMaxVertices);
     expect_refused(name, file(kMaxVertices + 1), ErrorCode::TooLarge, "65534");
   }
-  std::printf("%zu formats reach the limit and stop behind it\n", formats.size());
+  std::printf("%zu formats reach the limit and stop after it\n", formats.size());
 }
 
 // M20

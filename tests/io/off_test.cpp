@@ -63,7 +63,7 @@ TEST(Off, IndicesOutOfRangeAreRefusedByFaceAndCorner) {
 }
 
 // M15
-TEST(Off, TheDocumentedFamilyIsRead) {
+TEST(Off, AllDocumentedVariantsAreRead) {
   const std::string rest = "# a comment\n3 1 3\n\n";
   const std::string face = "3 0 1 2 255 0 0\n";
   const auto expect_triangle = [](const std::string& file) {

@@ -70,7 +70,7 @@ TEST(CutTree, HasNoPartNearbyThatOwnsNothing) {
 }
 
 // The predicate is true of a corner of the box whenever it is true of a point inside.
-TEST(Box, MayHoldWhateverThePredicateAccepts) {
+TEST(Box, MayHoldEveryPointThatThePredicateAccepts) {
   Random random(3);
   for (int i = 0; i < 100'000; ++i) {
     const auto point = [&] { return Point{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}; };

@@ -73,7 +73,7 @@ class Folder : public testing::Test {
   TestMesh mesh = bumpy_grid(30);
 };
 
-TEST_F(Folder, IsLeftAsItIsByASecondRun) {
+TEST_F(Folder, IsUnchangedByASecondRun) {
   EXPECT_EQ(run(folder).kept, 0U);
   const auto before = contents(folder);
   EXPECT_EQ(run(folder).kept, 4U);
@@ -168,7 +168,7 @@ TEST_F(Folder, IsFreeAfterARunDuringWhichTheProcessWasForked) {
   EXPECT_EQ(::waitpid(child, nullptr, 0), child);
 }
 
-TEST_F(Folder, KeepsDamagedPartsFromBeingUsed) {
+TEST_F(Folder, HasItsDamagedPartsWrittenAgain) {
   const auto expected = whole();
   std::size_t damaged = 0;
   for (const auto& [name, content] : expected) {
@@ -260,7 +260,7 @@ TEST_F(Folder, IsRefusedIfItHasPartsOfAnotherMesh) {
   expect_refused(ErrorCode::MalformedIndex, "is a part of another mesh",
                  [&] { partition(*chunked(moved), folder, kOptions); });
 
-  // Without `resume`, the old parts go.
+  // Without `resume`, the old parts are removed.
   PartitionOptions again = kOptions;
   again.resume = false;
   EXPECT_EQ(partition(*chunked(moved), folder, again).kept, 0U);

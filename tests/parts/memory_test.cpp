@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The peak memory of a partition is what the options allow, whatever the size of the mesh.
+// The peak memory of a partition stays within the limit of its options, for meshes of any size.
 #include <cstdint>
 #include <cstdio>
 #include <memory>

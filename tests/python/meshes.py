@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Small meshes made by formula, and those that lie beside the repository."""
+"""Small meshes made by formula, and the shared meshes beside the repository."""
 
 import os
 from pathlib import Path
@@ -21,7 +21,7 @@ def triangles(quads):
 
 
 def two_plates(side):
-    """Two grids that nearly touch, so that every larger ball takes of both."""
+    """Two grids that nearly touch, so that every larger ball has vertices of both."""
     (low, quads), (high, _) = grid(side), grid(side, 0.25)
     return np.concatenate([low, high]).astype(np.float32), triangles(np.concatenate([quads, quads + len(low)]))
 

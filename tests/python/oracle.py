@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Neighborhoods by SciPy, which knows nothing of us: the component of the graph within the ball."""
+"""Neighborhoods by SciPy, independent of this library: the component of the graph within the ball."""
 
 import numpy as np
 from scipy.sparse import coo_array

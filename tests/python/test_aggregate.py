@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Aggregates beside NumPy over the vertices that SciPy finds."""
+"""Aggregates, compared with NumPy over the vertices that SciPy finds."""
 
 import meshes
 import meshhood

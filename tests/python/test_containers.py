@@ -142,7 +142,7 @@ def test_a_trimesh_whose_cached_faces_are_wrong_is_refused():
 
 
 def test_a_memory_map_may_be_replaced_after_the_call(tmp_path):
-    """Only what was read counts. (To truncate a map while it is read ends any process that reads it.)"""
+    """Changes after the call have no effect. (Truncating a map while it is read would end the process.)"""
     np.save(tmp_path / "V.npy", V)
     mapped = np.load(tmp_path / "V.npy", mmap_mode="r+")
     index = meshhood.MeshIndex(mapped, QUADS)
@@ -156,19 +156,19 @@ def soup(V, F):
 
 
 @pytest.mark.parametrize("faces", (F, QUADS), ids=("triangles", "quads"))
-def test_an_unwelded_mesh_is_warned_of_and_the_advice_welds_it(faces):
+def test_an_unwelded_mesh_causes_a_warning_whose_advice_welds_it(faces):
     apart, separate = soup(V, faces)
     with pytest.warns(UserWarning, match="(100|150) vertices at 36 different positions.*np.unique") as caught:
         meshhood.MeshIndex(apart, separate)
     assert caught[0].filename == __file__
     names = {"np": np, "V": apart, "F": separate}
     exec(str(caught[0].message).split("Weld the mesh first: ")[1], names)
-    welded = meshhood.MeshIndex(names["V"], names["F"])  # warns no more
+    welded = meshhood.MeshIndex(names["V"], names["F"])  # no warning
     assert len(welded) == len(V)
     assert welded.query_ball_count(None, np.inf).min() == len(V)
 
 
-def test_quads_that_are_split_but_not_welded_are_warned_of():
+def test_quads_that_are_split_but_not_welded_cause_a_warning():
     apart, separate = soup(V, QUADS)
     with pytest.warns(UserWarning, match="Weld"):
         meshhood.MeshIndex(apart, meshes.triangles(separate))
@@ -187,5 +187,5 @@ def test_quads_that_are_split_but_not_welded_are_warned_of():
     ),
     ids=("triangles", "quads", "graph", "one face", "faces far apart", "twice the same", "no faces"),
 )
-def test_other_meshes_are_not_warned_of(mesh):
+def test_other_meshes_cause_no_warning(mesh):
     meshhood.MeshIndex(*mesh)

@@ -156,7 +156,7 @@ def test_the_result_does_not_depend_on_workers():
         assert (a == b).all()
 
 
-def test_the_normals_are_kept_for_the_same_faces_alone():
+def test_the_normals_are_kept_only_for_the_same_faces():
     V, F = ellipsoid(2)
     index = meshhood.MeshIndex(V, F)
     first = index.curvature(1, F=F)

@@ -92,7 +92,7 @@ def test_counts_in_the_order_of_the_parts(parts, index):
     np.testing.assert_array_equal(counts.compute(), index.query_ball_count(ids, 2, unit="edge"))
 
 
-def test_a_radius_above_the_halo_is_refused_with_the_halo_that_would_do(parts, tmp_path):
+def test_a_radius_above_the_halo_is_refused_naming_the_required_halo(parts, tmp_path):
     wider = np.nextafter(HALO, 10)
     for call in (
         lambda: parts.counts(wider),
@@ -200,7 +200,7 @@ def test_neighborhoods_are_those_of_one_index(parts, index, tmp_path, format):
     assert rows == len(index)
 
 
-def test_a_call_that_was_stopped_goes_on(parts, tmp_path):
+def test_a_stopped_call_can_be_continued(parts, tmp_path):
     out = tmp_path / "out"
     calls = []
 
@@ -382,7 +382,7 @@ def process(part, index, owned):
 
 
 def slow_count(folder, part, index, owned):
-    """Says which process computes the part, and leaves time to kill it."""
+    """Writes which process computes the part, and leaves time to kill it."""
     with open(os.path.join(folder, f"{part.number}-{os.getpid()}"), "w"):
         time.sleep(0.3)
     return index.query_ball_count(owned, 3, workers=1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The Python in the documents runs as it stands, on a file named as there."""
+"""The Python code of the documents runs unchanged, on files with the names used there."""
 
 import re
 from pathlib import Path

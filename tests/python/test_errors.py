@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The same failure raises the same exception, whatever method or function meets it: class, errno and filename."""
+"""The same failure raises the same exception in every method and function: class, errno and filename."""
 
 import errno
 import os
@@ -130,7 +130,7 @@ def test_a_name_with_a_null_byte(call, path):
 
 @pytest.mark.parametrize("call", (*READERS, save))
 @pytest.mark.parametrize("path", (None, 3, ["x"]))
-def test_what_is_not_a_path(call, path):
+def test_arguments_that_are_not_paths_are_refused(call, path):
     assert type(raised(call, path)) is TypeError
 
 
@@ -154,14 +154,14 @@ def test_what_is_not_a_path(call, path):
         ([0], 1.0, {"unit": ["edge"]}),
     ),
 )
-def test_every_method_and_function_refuses_alike(v, r, options):
+def test_every_method_and_function_gives_the_same_error(v, r, options):
     calls = INDEX.query_ball, INDEX.query_ball_count, INDEX.iter_neighborhoods
     errors = [raised(call, v, r, method=method, **options) for call in calls for method in METHODS]
     assert len({(type(error), str(error)) for error in errors}) == 1, errors
 
 
 @pytest.mark.parametrize(("v", "r"), ((50, 1.0), (-1, 1.0), (0, -1.0), (0, float("nan")), (True, 1.0), (0, True), (0, [1.0])))
-def test_every_method_and_function_refuses_one_vertex_alike(v, r):
+def test_every_method_and_function_gives_the_same_error_for_one_vertex(v, r):
     calls = INDEX.query_ball, INDEX.query_ball_count
     errors = [raised(call, v, r, method=method) for call in calls for method in METHODS]
     errors.append(raised(INDEX.query_ranges, v, r))
@@ -169,7 +169,7 @@ def test_every_method_and_function_refuses_one_vertex_alike(v, r):
 
 
 def star(count):
-    """A vertex joined to all others, so that every larger neighborhood is the whole."""
+    """A vertex joined to all others, so that every larger neighborhood is the whole mesh."""
     V = np.random.default_rng(3).normal(size=(count, 3))
     V[0] = 0
     edges = np.column_stack([np.zeros(count - 1, int), np.arange(1, count)])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The Python programs under examples/, as their users run them."""
+"""The Python programs of examples/, run as users run them."""
 
 import resource
 import subprocess
@@ -14,7 +14,7 @@ FOUR_GB = 4 << 30
 
 
 def run(script, *arguments, memory=None):
-    """Runs it, in so much address space, and prints what it printed."""
+    """Runs the program with a limit on the address space, and prints its output."""
 
     def limit():
         resource.setrlimit(resource.RLIMIT_AS, (memory, memory))

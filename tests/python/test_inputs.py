@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What may be given as a mesh, and what is refused (reliability row P1)."""
+"""Arguments that are accepted as a mesh, and arguments that are refused (reliability row P1)."""
 
 import meshes
 import meshhood
@@ -31,7 +31,7 @@ def read_only(array):
 
 
 def spread(array):
-    """Every other row and column of something larger."""
+    """Every other row and column of a larger array."""
     larger = np.full((2 * len(array), 2 * array.shape[1]), 99, array.dtype)
     larger[::2, ::2] = array
     return larger[::2, ::2]
@@ -212,7 +212,7 @@ def test_refused_queries(v, r, error, message, method):
 
 
 @pytest.mark.parametrize(
-    ("ask", "error", "message"),
+    ("call", "error", "message"),
     (
         (lambda: INDEX.query_ball(0, 1, method="fast"), ValueError, "method: 'fast'"),
         (lambda: INDEX.query_ball(0, 1, method=["exact"]), TypeError, "method: .*list"),
@@ -236,6 +236,6 @@ def test_refused_queries(v, r, error, message, method):
         (lambda: meshhood.MeshIndex(V, F, workers=5000), ValueError, "workers: 5000"),
     ),
 )
-def test_refused_options(ask, error, message):
+def test_refused_options(call, error, message):
     with pytest.raises(error, match=message):
-        ask()
+        call()

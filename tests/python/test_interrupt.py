@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Long calls: progress, Ctrl-C, and that others run meanwhile (reliability rows P3 and P5)."""
+"""Long calls: progress, Ctrl-C, and other threads that run meanwhile (reliability rows P3 and P5)."""
 
 import contextlib
 import os
@@ -46,7 +46,7 @@ def again_and_again(call):
 
 @pytest.fixture
 def ctrl_c():
-    """Calls a function that does not end, presses Ctrl-C, and tells how long it went on."""
+    """Calls a function that does not end, sends Ctrl-C, and returns how long the call continued."""
     if threading.current_thread() is not threading.main_thread():
         pytest.skip("signals reach the main thread alone")
 
@@ -193,7 +193,7 @@ def test_progress_of_a_build():
 
 
 @pytest.mark.parametrize("method", ("exact", "paper", "bfs", "ball"))
-def test_what_progress_raises_ends_the_call(index, method):
+def test_an_exception_of_progress_ends_the_call(index, method):
     def enough(done, total):
         raise LookupError("enough")
 
@@ -210,8 +210,8 @@ def test_progress_bar(index, capsys):
     assert "100" in capsys.readouterr().err
 
 
-def test_others_run_during_a_batch(index):
-    """Another thread hands over to this one while the batch runs, which it could not if the batch held the lock."""
+def test_other_threads_run_during_a_batch(index):
+    """This thread runs Python code during the batch, which is impossible if the batch holds the lock."""
     begun, seen = threading.Event(), []
 
     def watch(done, total):

@@ -110,7 +110,7 @@ class Open3dTensors:
 
 
 @pytest.mark.parametrize("kind", (Open3dLike, Open3dTensors))
-def test_what_looks_like_a_mesh_of_open3d_is_read(kind):
+def test_objects_with_the_attributes_of_open3d_are_read(kind):
     index = meshhood.MeshIndex(kind())
     expect_same(index)
     expect_same(index.refit(kind()))

@@ -28,7 +28,7 @@ def test_results_outlive_the_index():
         np.testing.assert_array_equal(now, then)
 
 
-def test_what_is_not_copied_is_read_only():
+def test_arrays_that_are_not_copied_are_read_only():
     index = make()
     assert np.shares_memory(index.permutation, index.permutation)
     with pytest.raises(ValueError, match="read-only"):
@@ -54,13 +54,13 @@ def test_arrays_may_change_after_the_index_is_made(method):
 def test_threads_may_share_an_index(method):
     index = make()
     wanted = [index.query_ball(v, 4.0, sort=True, method=method) for v in range(len(index))]
-    shared = make()  # whose searchers, and index of the paper, are not there yet
+    shared = make()  # which has made neither searchers nor the index of the paper yet
 
-    def ask(v):
+    def run_query(v):
         return shared.query_ball(v, 4.0, sort=True, method=method)
 
     with ThreadPoolExecutor(4) as pool:
-        for got, want in zip(pool.map(ask, range(len(index))), wanted):
+        for got, want in zip(pool.map(run_query, range(len(index))), wanted):
             np.testing.assert_array_equal(got, want)
 
 
@@ -70,12 +70,12 @@ def test_an_index_works_in_a_forked_child():
     index = make()
     wanted = index.query_ball(None, 4.0)[1]
 
-    def ask(answers):
+    def run_query(answers):
         answers.put(index.query_ball(None, 4.0, workers=2)[1])
 
     context = multiprocessing.get_context("fork")
     answers = context.SimpleQueue()
-    child = context.Process(target=ask, args=(answers,))
+    child = context.Process(target=run_query, args=(answers,))
     child.start()
     np.testing.assert_array_equal(answers.get(), wanted)
     child.join()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Moments, principal components, corrected curvature and features beside NumPy over the vertices that SciPy finds."""
+"""Moments, principal components, corrected curvature and features, compared with NumPy over the vertices that SciPy
+finds."""
 
 import meshes
 import meshhood

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The picture of a neighborhood: that it shows what it should, seen by its colors."""
+"""The picture of a neighborhood, checked by its colors."""
 
 import meshes
 import meshhood
@@ -10,7 +10,7 @@ pyvista = pytest.importorskip("pyvista")
 
 
 def pixels(picture, red, green, blue):
-    """How many pixels are of about this hue."""
+    """The number of pixels of about this hue."""
     wanted = np.array([red, green, blue]) / np.linalg.norm([red, green, blue])
     rgb = picture.reshape(-1, 3).astype(float)
     size = np.linalg.norm(rgb, axis=1)
@@ -31,7 +31,7 @@ def test_colors(tmp_path):
     assert blue > 1000
 
 
-def test_the_vertex_is_seen_through_what_lies_before_it():
+def test_the_vertex_is_visible_through_the_mesh_in_front_of_it():
     V, F = meshes.two_plates(20)
     V[len(V) // 2 :, 2] += 10
     index = meshhood.MeshIndex(V, F)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""More ways to ask: regions from anywhere, nested radii, connecting radii, filters, path distances, rims."""
+"""More kinds of queries: regions around any point, nested radii, connecting radii, filters, path distances, rims."""
 
 import numpy as np
 import pytest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Every way to ask, beside SciPy's answer."""
+"""Every kind of query, compared with SciPy."""
 
 import meshes
 import meshhood
@@ -48,7 +48,7 @@ def test_paper_lies_between_exact_and_ball(plates, r):
         assert set(oracle.neighborhood(V, edges, v, r)) <= set(ids) <= set(oracle.ball(V, v, r))
 
 
-def test_paper_with_parameters_of_ones_own():
+def test_paper_with_other_parameters():
     index = meshhood.MeshIndex(*meshes.folded(12))
     one_cluster = meshhood.Paper(levels=64, discard=64, fusion_growth=0)
     single_vertices = meshhood.Paper(levels=1)

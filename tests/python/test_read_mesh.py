@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Mesh files, as the C++ library reads them."""
+"""Mesh files, read by the C++ library."""
 
 import meshes
 import meshhood
@@ -43,7 +43,7 @@ def test_progress(tmp_path):
     assert calls[-1] == (len(TRIANGLE), len(TRIANGLE))
 
 
-def test_what_progress_raises_ends_the_reading(tmp_path):
+def test_an_exception_of_progress_ends_reading(tmp_path):
     def enough(done, total):
         raise LookupError("enough")
 

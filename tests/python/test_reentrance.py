@@ -33,15 +33,15 @@ def run(program, times=1):
 
 
 @pytest.mark.parametrize("made", ("paper", "bfs", "ball"))
-@pytest.mark.parametrize("asked", METHODS)
-def test_a_signal_handler_may_use_any_method_while_its_thread_makes_one(made, asked):
+@pytest.mark.parametrize("other", METHODS)
+def test_a_signal_handler_may_use_any_method_while_its_thread_makes_one(made, other):
     """The signal arrives while the main thread holds the lock under which a method is made."""
     run(f"""
 import os, signal
 from meshhood import _core
 index = meshhood.MeshIndex(*meshes.two_plates(30))
 answers = []
-signal.signal(signal.SIGUSR1, lambda number, frame: answers.append(index.query_ball_count(0, 2.0, method={asked!r})))
+signal.signal(signal.SIGUSR1, lambda number, frame: answers.append(index.query_ball_count(0, 2.0, method={other!r})))
 graph = _core.graph
 def interrupted(exact):
     _core.graph = graph
@@ -49,13 +49,13 @@ def interrupted(exact):
     return graph(exact)
 _core.graph = interrupted
 index.query_ball(0, 2.0, method={made!r})
-assert len(answers) == 1 and answers[0] == index.query_ball_count(0, 2.0, method={asked!r})
+assert len(answers) == 1 and answers[0] == index.query_ball_count(0, 2.0, method={other!r})
 """)
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
-@pytest.mark.parametrize("asked", METHODS)
-def test_a_fork_while_another_thread_makes_a_method_leaves_a_child_that_works(asked):
+@pytest.mark.parametrize("other", METHODS)
+def test_a_fork_while_another_thread_makes_a_method_leaves_a_child_that_works(other):
     """The fork happens while another thread holds the lock, which the child's copy of the index must not wait for."""
     run(f"""
 import os, threading
@@ -74,7 +74,7 @@ making.wait()
 child = os.fork()
 if child == 0:
     _core.graph = graph
-    os._exit(0 if index.query_ball_count(0, 2.0, method={asked!r}) > 3 else 1)
+    os._exit(0 if index.query_ball_count(0, 2.0, method={other!r}) > 3 else 1)
 forked.set()
 thread.join()
 assert os.waitpid(child, 0)[1] == 0
@@ -89,11 +89,11 @@ import os, threading
 index = meshhood.MeshIndex(*meshes.two_plates(20))
 wanted = index.query_ball_count(5, 3.0, method={method!r})
 stop = threading.Event()
-def ask():
+def run_query():
     while not stop.is_set():
         index.query_ball(5, 3.0, method={method!r})
         index.query_ball(range(20), 3.0, method={method!r}, workers=2)
-threads = [threading.Thread(target=ask) for _ in range(3)]
+threads = [threading.Thread(target=run_query) for _ in range(3)]
 for thread in threads:
     thread.start()
 for _ in range(50):
@@ -117,10 +117,10 @@ V, F = meshes.two_plates(20)
 index = meshhood.MeshIndex(V, F)
 wanted = {SUMS[call]}
 stop = threading.Event()
-def ask():
+def run_query():
     while not stop.is_set():
         {SUMS[call]}
-threads = [threading.Thread(target=ask) for _ in range(3)]
+threads = [threading.Thread(target=run_query) for _ in range(3)]
 for thread in threads:
     thread.start()
 for _ in range(50):
@@ -187,12 +187,12 @@ def test_threads_that_make_the_same_method_make_it_once():
     start = threading.Barrier(4)
     made = []
 
-    def ask():
+    def run_query():
         start.wait()
         index.query_ball(0, 1.0, method="paper")
         made.append(index._methods["paper"])
 
-    threads = [threading.Thread(target=ask) for _ in range(4)]
+    threads = [threading.Thread(target=run_query) for _ in range(4)]
     for thread in threads:
         thread.start()
     for thread in threads:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Meshes that deform: answers after `refit`, what stays as it was, and what is refused."""
+"""Meshes that deform: answers after `refit`, objects that must not change, and refused arguments."""
 
 import threading
 
@@ -126,7 +126,7 @@ def test_other_threads_search_the_old_index_meanwhile(mesh):
     assert not np.array_equal(wanted[id(kept[0])], wanted[id(kept[1])])
 
 
-def test_arguments_that_a_callback_changes_during_the_call_do_no_harm(mesh):
+def test_arguments_that_a_callback_changes_during_the_call_have_no_effect(mesh):
     V, F = mesh
     index = meshhood.MeshIndex(V, F)
     moved, changed = bent(V, 2), np.arange(50)
@@ -196,7 +196,7 @@ def test_the_attributes_of_a_subclass_are_kept():
     assert type(moved) is Named and moved.name == "hand" and moved is not index
 
 
-def test_quality_says_that_stretched_leaves_are_bad():
+def test_quality_detects_stretched_leaves():
     V, F = meshes.folded(60)
     index = meshhood.MeshIndex(V, F)
     fresh = index.quality()

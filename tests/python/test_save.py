@@ -64,7 +64,7 @@ def test_a_trusted_file_is_verified_in_its_header_alone(file):
         meshhood.load(file, mmap=True, trusted=True)
 
 
-def test_only_what_is_mapped_can_be_trusted(file):
+def test_only_mapped_files_can_be_trusted(file):
     with pytest.raises(ValueError, match="trusted: .*mmap"):
         meshhood.load(file, trusted=True)
 
@@ -78,7 +78,7 @@ def test_the_bytes_depend_on_the_mesh_alone(index, file, tmp_path):
 
 
 @pytest.mark.parametrize("mmap", (False, True))
-def test_a_loaded_index_does_not_mind_its_file_being_replaced(index, file, mmap):
+def test_the_file_of_a_loaded_index_may_be_replaced(index, file, mmap):
     loaded = meshhood.load(file, mmap=mmap)
     meshhood.MeshIndex(*meshes.two_plates(5)).save(file)
     assert_same(loaded, index)
@@ -94,7 +94,7 @@ def test_results_outlive_a_loaded_index(index, file, mmap):
 
 
 @pytest.mark.parametrize("V", (np.zeros((0, 3)), np.ones((1, 3), np.float32)))
-def test_next_to_nothing(V, tmp_path):
+def test_tiny_meshes(V, tmp_path):
     index = meshhood.MeshIndex(V, np.zeros((0, 3), int))
     index.save(tmp_path / "small")
     for other in (meshhood.load(tmp_path / "small"), pickle.loads(pickle.dumps(index))):
@@ -103,7 +103,7 @@ def test_next_to_nothing(V, tmp_path):
 
 
 @pytest.mark.parametrize("mmap", (False, True))
-def test_what_is_no_index_is_refused(file, mmap, tmp_path):
+def test_files_that_are_not_indexes_are_refused(file, mmap, tmp_path):
     with pytest.raises(FileNotFoundError, match="nothing"):
         meshhood.load(tmp_path / "nothing", mmap=mmap)
     with pytest.raises(OSError, match=tmp_path.name):
@@ -116,12 +116,12 @@ def test_what_is_no_index_is_refused(file, mmap, tmp_path):
             meshhood.load(tmp_path / name, mmap=mmap)
 
 
-def test_an_endless_file_that_is_no_index_is_refused():
+def test_an_endless_file_that_is_not_an_index_is_refused():
     with pytest.raises(ValueError, match="not a saved index"):
         meshhood.load("/dev/zero")
 
 
-def test_a_changed_byte_is_noticed(index, file):
+def test_a_changed_byte_is_refused(index, file):
     whole = file.read_bytes()
     places = range(0, len(whole), 997)
     for place in places:
@@ -159,8 +159,8 @@ def test_an_index_of_the_paper_is_refused(file):
 
 
 @pytest.mark.parametrize("file", sorted(GOLDEN.glob("format2/*.mhi")), ids=lambda file: file.stem)
-def test_what_the_cpp_library_has_saved(file):
-    """Among them one of a mesh that was reordered, whose index holds no permutation."""
+def test_indexes_saved_by_the_cpp_library_are_loaded(file):
+    """One of them is the index of a reordered mesh, which has no permutation."""
     index = meshhood.load(file)
     np.testing.assert_array_equal(np.sort(index.permutation), np.arange(len(index)))
     for v in range(0, len(index), 7):
@@ -179,7 +179,7 @@ def test_progress_of_loading(file):
 
 
 @pytest.mark.parametrize("mmap", (False, True))
-def test_what_progress_raises_ends_the_loading(file, mmap):
+def test_an_exception_of_progress_ends_loading(file, mmap):
     def enough(done, total):
         raise LookupError("enough")
 
@@ -194,7 +194,7 @@ def test_progress_of_saving(index, tmp_path):
     assert calls == sorted(calls) and len({total for _, total in calls}) == 1
 
 
-def test_what_progress_raises_leaves_the_old_file(index, file):
+def test_an_exception_of_progress_leaves_the_old_file(index, file):
     calls = []
     other = meshhood.MeshIndex(*meshes.two_plates(5))
     other.save(file, progress=lambda done, total: calls.append(done))
@@ -238,18 +238,18 @@ def test_a_copy_is_the_index_itself(index):
     assert copy.deepcopy([index])[0] is index
 
 
-def ask(index, v):
+def run_query(index, v):
     return index.query_ball(v, 3.5)
 
 
 @pytest.mark.parametrize("method", multiprocessing.get_all_start_methods())
-def test_other_processes_may_ask(index, method):
+def test_other_processes_may_query(index, method):
     wanted = [index.query_ball(v, 3.5) for v in range(5)]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)  # of forking where there are threads
         pool = concurrent.futures.ProcessPoolExecutor(2, multiprocessing.get_context(method))
         with pool:
-            for got, want in zip(pool.map(ask, [index] * 5, range(5)), wanted):
+            for got, want in zip(pool.map(run_query, [index] * 5, range(5)), wanted):
                 np.testing.assert_array_equal(got, want)
 
 
@@ -262,7 +262,7 @@ def map_index(file):
 
 
 def ask_mapped(v):
-    return ask(_mapped, v)
+    return run_query(_mapped, v)
 
 
 def test_processes_may_share_a_file(index, file):
@@ -276,5 +276,5 @@ class Mine(meshhood.MeshIndex):
     pass
 
 
-def test_subclasses_stay_what_they_are():
+def test_subclasses_keep_their_class():
     assert type(pickle.loads(pickle.dumps(Mine(*meshes.two_plates(3))))) is Mine

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Real meshes, beside SciPy's answer."""
+"""Real meshes, compared with SciPy."""
 
 import meshes
 import meshhood
@@ -13,7 +13,7 @@ VERTICES = 10
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_exact_is_what_scipy_gives(name, tmp_path):
+def test_exact_equals_scipy(name, tmp_path):
     V, F = meshhood.read_mesh(meshes.shared(name, tmp_path))
     edges = oracle.triangle_graph(len(V), F.astype(int))
     length = np.linalg.norm(V[F[:, 0]] - V[F[:, 1]], axis=1).mean()

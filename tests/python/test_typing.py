@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a type checker sees: `mypy --strict` accepts these programs, with exactly these types."""
+"""The types that a type checker finds: `mypy --strict` accepts these programs, with exactly these types."""
 
 import subprocess
 import sys

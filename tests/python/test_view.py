@@ -47,7 +47,7 @@ def test_polygons_keep_their_corners(tmp_path):
     assert np.array_equal(faces[1], corners)
 
 
-def test_a_query_an_answer_and_values_are_handed_over():
+def test_a_query_an_answer_and_values_are_passed_to_the_page():
     V, F = meshes.two_plates(9)
     values = np.arange(len(V)) / 2
     page = meshhood.view(V, F, v=np.int64(7), r=2, unit="edge", ids=[3, 1], values=values, name="</script>")
@@ -87,7 +87,7 @@ def test_faces_beyond_the_vertices_are_refused():
         meshhood.view(np.zeros((3, 3)), np.array([[0, 1, 7]]))
 
 
-def test_a_page_that_is_not_built_says_how_to_build_it(monkeypatch, stand_in):
+def test_the_error_for_a_missing_page_says_how_to_build_it(monkeypatch, stand_in):
     monkeypatch.delenv("MESHHOOD_VIEWER")
     monkeypatch.setattr(meshhood._view, "__file__", str(stand_in.parent / "nowhere" / "_view.py"))
     with pytest.raises(FileNotFoundError, match="make view"):

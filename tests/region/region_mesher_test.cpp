@@ -34,7 +34,7 @@ using EdgePair = std::pair<MeshEdge, MeshEdge>;
 
 EdgePair undirected(const MeshEdge& a, const MeshEdge& b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// For each face: where its boundary leaves the region, and where it last came in before that.
+/// For each face: where its boundary leaves the region, and where it last entered it before that.
 std::multiset<EdgePair> segments_of_all_faces(const TestMesh& mesh, const std::set<VertexId>& region) {
   std::multiset<EdgePair> segments;
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
@@ -222,7 +222,7 @@ TEST(Rim, OfTheWholeMeshIsEmpty) {
   EXPECT_THAT(mesher.rim(all, {0, 0, 0}, kInfinity).points, IsEmpty());
 }
 
-TEST(ExitPoint, IsExactWhereTheNumbersAre) {
+TEST(ExitPoint, IsExactForExactNumbers) {
   const Point p = exit_point({1, 0, 0}, {5, 0, 0}, {0, 0, 0}, 3);
   EXPECT_EQ(p.x, 3);
   EXPECT_EQ(exit_point({3, 0, 0}, {5, 0, 0}, {0, 0, 0}, 3).x, 3) << "the inner end lies at the radius";

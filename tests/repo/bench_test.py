@@ -54,7 +54,7 @@ class Programs(unittest.TestCase):
                 self.assertEqual(len(row[method]), 5)
                 self.assertTrue(all(time > 0 for time in row[method]))
 
-    def test_race_refuses_what_it_does_not_know(self):
+    def test_race_refuses_unknown_methods(self):
         for method in ("nope", "paper,x=3"):
             done = subprocess.run([places.PROGRAMS / "race", MESH, "--method", method], capture_output=True, text=True)
             self.assertEqual(done.returncode, 1)
@@ -97,7 +97,7 @@ class NativePeers(unittest.TestCase):
 
 
 class Parts(unittest.TestCase):
-    """Each part that needs no more than our programs, from the measuring to the page."""
+    """Each part that needs only our programs, from the measurement to the page."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -109,7 +109,7 @@ class Parts(unittest.TestCase):
             self.addCleanup(patched.stop)
 
     def page(self, part):
-        """What the page says of the part, which has been run."""
+        """Runs the part, and returns its page."""
         data = results.load(part)
         self.assertGreaterEqual(data["machine"]["load_beside"], 0)
         text = SECTIONS[part].text(data)
@@ -142,7 +142,7 @@ class Parts(unittest.TestCase):
 
 
 class Watching(unittest.TestCase):
-    def test_what_we_run_is_not_taken_for_others(self):
+    def test_our_own_load_is_not_counted_as_that_of_others(self):
         usage = machine.Usage()
         begin = time.process_time()
         while time.process_time() < begin + 0.5:

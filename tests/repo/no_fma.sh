@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# No fused multiply-add in the object files given, for it would round distances differently from machine to machine.
-# And one in the first of them, which is compiled to have it: else the search itself would be blind.
+# The given object files have no fused multiply-add, which would round distances differently on different machines. The
+# first file is a control: it is compiled to have one, which shows that this script finds them.
 set -eu
 
 fused() {
@@ -11,7 +11,7 @@ fused() {
 control=$1
 shift
 if [ "$(fused "$control")" -eq 0 ]; then
-  echo "no fused multiply-add in the control $control: the search is blind" >&2
+  echo "no fused multiply-add found in the control $control: this check does not work" >&2
   exit 1
 fi
 for object in "$@"; do

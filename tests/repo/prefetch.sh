@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# The breadth-first search prefetches. g++ 12 took a function of nothing but prefetches for one without effect and
-# dropped its calls, which made cold queries up to 1.7 times as slow and changed no answer (see src/base/prefetch.h).
-# The arguments are object files of the library, compiled with optimization for x86-64.
+# The breadth-first search prefetches. g++ 12 treated a function that only prefetches as one without effect and removed
+# its calls, which made cold queries up to 1.7 times as slow and changed no answer (see src/base/prefetch.h). The
+# arguments are object files of the library, compiled with optimization for x86-64.
 set -eu
 
 found=$(objdump --disassemble --demangle --no-show-raw-insn "$@" |

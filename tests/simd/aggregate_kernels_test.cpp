@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The kernels of aggregates give the same bits on every processor, and what their definitions say.
+// The kernels of aggregates give the results of their definitions, with the same bits on every processor.
 #include <bit>
 #include <cmath>
 #include <cstring>

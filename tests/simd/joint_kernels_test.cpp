@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The kernels of the joint search give the same bits on every processor, and what their definitions say.
+// The kernels of the joint search give the results of their definitions, with the same bits on every processor.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -114,7 +114,7 @@ TEST_P(EveryJointPath, BallWordsAreThoseOfThePortableKernel) {
   std::printf("%zu lanes in doubt\n", doubts);
 }
 
-/// What the words must become: bits move along edges between lanes whose `inside` has them, until none can.
+/// The expected words: bits move along edges between lanes whose `inside` has them, until none can.
 PerLane<QueryWord> spread_by_definition(const LeafWords& words, const std::vector<LaneMask>& adjacency) {
   PerLane<QueryWord> reached = words.reached;
   for (std::size_t i = 0; i < kLeafCapacity; ++i) reached[i] |= words.pending[i] & words.inside[i];
@@ -148,7 +148,7 @@ TEST_P(EveryJointPath, SpreadingFollowsEveryEdgeWithinTheBalls) {
     words.pending = random_words();
     words.reached = random_words();
     for (std::size_t i = 0; i < kLeafCapacity; ++i) words.reached[i] &= words.inside[i] & random_word();
-    // What was reached before has been spread before.
+    // Bits that were reached before have been spread already.
     LeafWords before = words;
     before.pending = {};
     words.reached = spread_by_definition(before, adjacency);

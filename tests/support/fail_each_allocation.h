@@ -20,7 +20,7 @@ namespace meshhood::test {
 
 enum class Ending { Well, OutOfMemory };
 
-/// Runs `call()` and says how it ends. Other exceptions are passed on.
+/// Runs `call()` and returns how it ended. Other exceptions are passed on.
 template <class Call>
 [[nodiscard]] Ending ending_of(Call&& call) {
   try {
@@ -55,7 +55,7 @@ class Shortages {
  public:
   ~Shortages() {
     EXPECT_GT(failures_, 0U);
-    std::printf("%zu allocations failed; %zu of the calls did without\n", failures_, did_without_);
+    std::printf("%zu allocations failed; %zu of the calls succeeded without the memory\n", failures_, did_without_);
   }
   Shortages() = default;
   Shortages(const Shortages&) = delete;

@@ -12,12 +12,12 @@ namespace {
 constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
 
 std::atomic<std::size_t> live_blocks{0};
-std::atomic<std::size_t> asked{0};  // since the fault was set
+std::atomic<std::size_t> requested{0};  // since the fault was set
 std::atomic<std::size_t> first_to_fail{kNever};
 std::atomic<std::size_t> last_to_fail{kNever};
 
 bool is_to_fail() {
-  const std::size_t number = asked.fetch_add(1, std::memory_order_relaxed);
+  const std::size_t number = requested.fetch_add(1, std::memory_order_relaxed);
   return number >= first_to_fail.load(std::memory_order_relaxed) &&
          number <= last_to_fail.load(std::memory_order_relaxed);
 }
@@ -50,14 +50,14 @@ void give_back(void* block) {
 }  // namespace
 
 FailingAllocations::FailingAllocations(std::size_t at, Shortage shortage) : at_(at) {
-  asked = 0;
+  requested = 0;
   last_to_fail = shortage == Shortage::Once ? at : kNever;
   first_to_fail = at;
 }
 
 FailingAllocations::~FailingAllocations() { first_to_fail = kNever; }
 
-bool FailingAllocations::happened() const { return asked > at_; }
+bool FailingAllocations::happened() const { return requested > at_; }
 
 std::size_t blocks_in_use() { return live_blocks; }
 

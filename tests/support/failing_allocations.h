@@ -12,7 +12,7 @@ enum class Shortage {
   FromThereOn,  ///< one fails, and all later ones
 };
 
-/// While it lives, allocation number `at` fails, counted from 0 over all threads. At most one object at a time.
+/// During its lifetime, allocation number `at` fails, counted from 0 over all threads. At most one object at a time.
 class FailingAllocations {
  public:
   FailingAllocations(std::size_t at, Shortage shortage);

@@ -28,7 +28,7 @@ struct Family {
 };
 
 [[nodiscard]] std::span<const Family> surface_families();  ///< well-behaved surfaces
-[[nodiscard]] std::span<const Family> trap_families();     ///< graphs and shapes with a trap for a search or a build
+[[nodiscard]] std::span<const Family> trap_families();     ///< graphs and shapes that are difficult to search
 [[nodiscard]] std::span<const Family> extreme_families();  ///< coordinates and faces at the limits of what is allowed
 
 /// All of the above.

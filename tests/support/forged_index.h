@@ -41,7 +41,7 @@ namespace meshhood::test {
   return name + ", byte ";
 }
 
-/// Whether the error message says where before it says what.
+/// Whether the error message begins with the location of the fault.
 [[nodiscard]] inline bool names_a_place(std::string_view message) {
   const std::string_view where = message.substr(0, message.find(": "));
   return (where.starts_with("header, ") || where.starts_with("section ")) && where.find("byte ") != where.npos;

@@ -11,7 +11,7 @@
 
 namespace meshhood::test {
 
-/// Correct answers by the simplest means. Shares nothing with the library but the definition of distance.
+/// Correct answers by the simplest means. Shares only the definition of distance with the library.
 class Oracle {
  public:
   explicit Oracle(const TestMesh& mesh);

@@ -26,7 +26,7 @@ struct PlainStart {
   std::vector<std::uint8_t> ignored;  // #V
 };
 
-/// Regions and connecting radii by the simplest means. Shares nothing with the library but the definition of distance.
+/// Regions and connecting radii by the simplest means. Shares only the definition of distance with the library.
 class RegionOracle {
  public:
   explicit RegionOracle(const TestMesh& mesh) : positions_(&mesh.positions), graph_(mesh) {}

@@ -3,7 +3,7 @@
 
 namespace meshhood::test {
 
-/// Whether a sanitizer, which needs memory and stack of its own, is on. Compilers say so in different ways.
+/// Whether a sanitizer is on, which needs memory and stack of its own. Compilers report this in different ways.
 #if defined(__has_feature)
 inline constexpr bool kSanitized =
     __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(undefined_behavior_sanitizer);

@@ -43,7 +43,7 @@ struct Effect {
   std::uint64_t position = 0;  ///< for `Seek`: the new position
 };
 
-/// While it lives, records calls and lets one fail. At most one object at a time, one thread.
+/// During its lifetime, records calls and lets one fail. At most one object at a time, one thread.
 class SystemCalls {
  public:
   explicit SystemCalls(const Fault& fault = {});

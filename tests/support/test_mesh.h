@@ -16,7 +16,7 @@ namespace meshhood::test {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A mesh that tests take apart and put together again. Its view has positions of either precision.
+/// A mesh that tests can change. Its view has positions of either precision.
 struct TestMesh {
   std::string name;
   bool single_precision = true;

@@ -9,7 +9,7 @@ import { pathToFileURL } from 'node:url';
 const require = createRequire(join(process.env.MESHHOOD_VIEWER_SOURCES, 'package.json'));
 const { chromium } = require('playwright-core');
 
-const PATIENCE = 120_000; // milliseconds, on a machine that does other things besides
+const TIMEOUT = 120_000; // milliseconds; long, because the machine may be busy
 
 export function launch() {
   return chromium.launch({
@@ -24,7 +24,7 @@ export function launch() {
 /** Opens a page file and waits until its mesh is shown. Errors of the page fail the test. */
 export async function openPage(browser, file, { hash = '', ...options } = {}) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, acceptDownloads: true, ...options });
-  page.setDefaultTimeout(PATIENCE);
+  page.setDefaultTimeout(TIMEOUT);
   page.on('pageerror', (error) => { throw error; });
   await page.goto(`${pathToFileURL(file)}${hash}`);
   await waitForMesh(page);

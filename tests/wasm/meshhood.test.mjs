@@ -141,7 +141,7 @@ test('polygons, precision and warnings of a file', () => {
   assert.throws(() => readMesh(more, 'p.ply', { strict: true }), { code: 'MalformedFile' });
 });
 
-/** What the command line says about a file, without its own name in front. */
+/** The message of the command line about a file, without the name of the program. */
 function wordsOfCommandLine(name, content) {
   write(name, content);
   try {
@@ -253,17 +253,17 @@ test('memory stays flat over many queries, refused ones included', () => {
   const mesh = families.roll;
   const index = build(mesh);
   const next = random(5);
-  const ask = () => {
+  const runQuery = () => {
     const v = Math.floor(index.vertexCount * next());
     const radius = 5 * next();
     for (const method of ['exact', 'paper']) index.queryBall(v, radius, { method, distances: true });
     index.queryBallCount(v, radius, { method: 'bfs' });
     assert.throws(() => index.queryBall(v + 1e6, radius), MeshhoodError);
   };
-  for (let i = 0; i < 1000; ++i) ask();
+  for (let i = 0; i < 1000; ++i) runQuery();
   index.queryBall(0, Infinity, { distances: true });
   const before = index.memoryBytes;
-  for (let i = 0; i < scaled(25_000); ++i) ask();
+  for (let i = 0; i < scaled(25_000); ++i) runQuery();
   for (let i = 0; i < 100; ++i) index.queryBall(null, 3);
   const grown = index.memoryBytes - before;
   console.log(`${before} bytes, ${grown} more after ${4 * scaled(25_000)} queries and 100 batches`);

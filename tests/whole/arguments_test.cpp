@@ -42,16 +42,16 @@ class Arguments : public testing::Test {
   /// The answers of all methods to a query.
   std::vector<std::vector<VertexId>> answers(VertexId v, double radius) {
     std::vector<std::vector<VertexId>> result;
-    for (const auto& [name, ask] : methods) ask(v, radius, result.emplace_back());
+    for (const auto& [name, search] : methods) search(v, radius, result.emplace_back());
     return result;
   }
 
   /// Every method throws and leaves the previous answer unchanged.
   void expect_all_refused(ErrorCode code, const std::string& cause, VertexId v, double radius) {
-    for (const auto& [name, ask] : methods) {
+    for (const auto& [name, search] : methods) {
       SCOPED_TRACE(name);
       std::vector<VertexId> out{7};
-      expect_refused(code, cause, [&] { ask(v, radius, out); });
+      expect_refused(code, cause, [&] { search(v, radius, out); });
       EXPECT_THAT(out, ElementsAre(7));
     }
   }
@@ -117,8 +117,8 @@ TEST_F(Arguments, ArraysOfTheWrongLengthAreRefused) {
 
 TEST_F(Arguments, AnswersMayReuseAnyBuffer) {
   std::vector<VertexId> out(1000, 7);
-  for (const auto& [name, ask] : methods) {
-    ask(4, kInfinity, out);
+  for (const auto& [name, search] : methods) {
+    search(4, kInfinity, out);
     EXPECT_THAT(out, SizeIs(9)) << name;
   }
 }

@@ -18,7 +18,7 @@
 namespace meshhood::test {
 namespace {
 
-/// While it lives, denormal results and operands are zero.
+/// During its lifetime, denormal results and operands are zero.
 class FlushDenormals {
  public:
   FlushDenormals() { _mm_setcsr(before_ | 0x8040U); }

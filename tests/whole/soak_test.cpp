@@ -108,7 +108,7 @@ class Soak : public testing::Test {
 
 TEST_F(Soak, MemoryAndOpenFilesDoNotIncrease) {
   const std::size_t rounds = scaled(60, 10);
-  run(rounds);  // allocates what is allocated once
+  run(rounds);  // makes all allocations that are made only once
   const std::ptrdiff_t files = open_files();
   std::array<std::size_t, 2> resident{};
   for (std::size_t& bytes : resident) {

@@ -115,7 +115,7 @@ TEST_P(Regions, OfNestedRadiiAreThoseOfOneRadiusEach) {
   });
 }
 
-TEST_P(Regions, ContainWhatAPlainSearchFindsFromItsConnectingRadiusOn) {
+TEST_P(Regions, ContainAVertexFromItsConnectingRadiusOn) {
   for_each_case(8, [](const TestMesh& mesh, const RegionOracle& oracle, RegionSearcher& searcher, Random& random) {
     const DrawnStart drawn = draw_start(random, mesh);
     const std::vector<double> expected = oracle.connecting_radii(drawn.plain);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a region search rests on: the bounds on distances and the filter of balls agree with the predicate.
+// The bounds on distances and the filter of balls, on which region searches rely, agree with the predicate.
 #include "exact/query/square_range.h"
 
 #include <array>

@@ -23,7 +23,7 @@ TEST(GroupStates, OfAnEarlierQueryAreNotKnown) {
   EXPECT_FALSE(states.is_known(3));
 }
 
-TEST(GroupStates, AreForgottenWhenTheQueryNumbersRunOut) {
+TEST(GroupStates, AreClearedWhenTheQueryNumbersRunOut) {
   const Index built = build(make_grid(40, 40, false).view());
   const IndexView& index = IndexAccess::view(built);
   GroupStates states(index);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Nodes marked as home's against breadth-first search.
+// Nodes with home marks, compared with breadth-first search.
 #include "exact/search/home_marks.h"
 
 #include <algorithm>

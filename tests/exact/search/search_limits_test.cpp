@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What recent outward searches have met decides which search answers the next ball.
+// The record of recent outward searches decides which search answers the next ball.
 #include "exact/search/search_limits.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ SearchMemory memory_of(std::size_t in_doubt, std::size_t steps, std::size_t answ
   return memory;
 }
 
-TEST(SearchMemory, SaysNothingBeforeTheFirstSearch) {
+TEST(SearchMemory, HasNoPreferenceBeforeTheFirstSearch) {
   SearchMemory memory;
   memory.begin_ball();
   EXPECT_FALSE(memory.is_folded());
@@ -27,7 +27,7 @@ TEST(SearchMemory, SaysNothingBeforeTheFirstSearch) {
   EXPECT_FALSE(memory.is_answer_small());
 }
 
-TEST(SearchMemory, TellsAFoldedMeshByTheLeavesInDoubt) {
+TEST(SearchMemory, RecognizesAFoldedMeshByTheLeavesInDoubt) {
   EXPECT_FALSE(memory_of(20, 20, 500).is_folded());
   EXPECT_TRUE(memory_of(60, 60, 500).is_folded());
 }
@@ -44,7 +44,7 @@ TEST(SearchMemory, ComparesTheStepsWithUnitingAndWithTheAnswer) {
   EXPECT_FALSE(torn.is_answer_small());
 }
 
-TEST(SearchMemory, IsNotAskedForOneBallInSixteen) {
+TEST(SearchMemory, IsIgnoredForOneBallInSixteen) {
   SearchMemory memory = memory_of(60, 200, 30);
   std::size_t answered_no = 0;
   for (int i = 0; i < 160; ++i) {

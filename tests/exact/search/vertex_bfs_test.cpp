@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a searcher searches over vertices, and what it then answers.
+// The graphs on which a searcher searches over vertices, and its answers there.
 #include "exact/search/vertex_bfs.h"
 
 #include <algorithm>
@@ -91,7 +91,7 @@ TEST(VertexBfs, ACombIsUnlikeASurface) {
   EXPECT_TRUE(is_odd(make_mesh(*far_away, 1, 20'000))) << "a link of one edge for every four vertices";
 }
 
-TEST(VertexBfs, SurfacesAndGraphsWithoutEdgesAreNot) {
+TEST(VertexBfs, SurfacesAndGraphsWithoutEdgesAreNotUnlikeASurface) {
   for (const Family& family : surface_families()) {
     for (const std::size_t vertices : {60U, 200U, 3000U}) {
       EXPECT_FALSE(is_odd(make_mesh(family, 2, vertices))) << family.name << ", " << vertices << " vertices";
@@ -101,7 +101,7 @@ TEST(VertexBfs, SurfacesAndGraphsWithoutEdgesAreNot) {
   EXPECT_FALSE(is_odd(TestMesh{}));
 }
 
-TEST(VertexBfs, GraphsOfFewLinksOrOfLinksWithManyEdgesAreNot) {
+TEST(VertexBfs, GraphsOfFewLinksOrOfLinksWithManyEdgesAreNotUnlikeASurface) {
   TestMesh path;
   for (std::uint32_t i = 0; i < 3000; ++i) {
     path.add_vertex(i, 0, 0);

@@ -70,7 +70,7 @@ class VertexSetTest : public testing::Test {
   Random random{4};
 };
 
-TEST_F(VertexSetTest, HoldsWhatWasAdded) {
+TEST_F(VertexSetTest, HoldsTheAddedVertices) {
   VertexSet set(index);
   for (std::size_t round = 0; round < scaled(2000, 100); ++round) {
     set.clear();

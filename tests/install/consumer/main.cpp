@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every installed library does something here, so that what one needs and the package forgot fails to link.
+// Uses every installed library, so that a missing dependency of the package is an error of the linker.
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
