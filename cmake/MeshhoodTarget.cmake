@@ -22,6 +22,7 @@ function(meshhood_compile_quickly target)
     target_compile_options(${target} PRIVATE -O0)
   else()
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Og>)
+    target_compile_definitions(${target} PRIVATE XXH_NO_INLINE_HINTS=1)  # xxHash demands inlining that -Og does not do
   endif()
 endfunction()
 
