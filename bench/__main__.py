@@ -2,10 +2,11 @@
 """Measures the figures that meshhood publishes, each part by one command. The results are docs/benchmarks/*.json; all
 pages and plots are made from them.
 
-    python3 -m bench tables the paper's Table 1 and Table 2, the phases of its query, the times for all vertices python3
-    -m bench exact the exact index beside the best breadth-first search, cold and warm
+    python3 -m bench tables      the paper's Table 1 and Table 2, the phases of its query, the times for all vertices
+    python3 -m bench exact       the exact index beside the best breadth-first search, cold and warm
     python3 -m bench batch       all vertices of a mesh in one call, beside breadth-first search
     python3 -m bench curvature   principal curvatures of all vertices, beside libigl, MeshLab and CGAL
+    python3 -m bench growth      the same as the mesh grows to 10 million vertices
     python3 -m bench pictures    the paper's Figure 4
     python3 -m bench accuracy    the paper's answer and the ball against the exact one
     python3 -m bench scaling     cost as mesh and radius grow
@@ -45,6 +46,12 @@ def curvature(options):
     measuring.run(options.meshes)
 
 
+def growth(options):
+    from . import curvature as measuring
+
+    measuring.run_growth(options.largest)
+
+
 def pictures(options):
     from . import pictures as drawing
 
@@ -75,7 +82,8 @@ def report(_):
     writing.write()
 
 
-PARTS = {part.__name__: part for part in (tables, exact, batch, curvature, pictures, accuracy, scaling, peers, report)}
+PARTS = {part.__name__: part for part in (tables, exact, batch, curvature, growth, pictures, accuracy, scaling, peers,
+                                       report)}
 
 
 def main():
@@ -84,7 +92,8 @@ def main():
     parser.add_argument("parts", nargs="+", choices=PARTS, metavar="PART", help=", ".join(PARTS))
     parser.add_argument("--meshes", nargs="+", choices=meshes.MESHES, metavar="NAME", help=", ".join(meshes.MESHES))
     parser.add_argument("--queries", type=int, help="a mesh and radius")
-    parser.add_argument("--largest", type=int, default=10_000_000, help="vertices of the largest mesh of `scaling`")
+    parser.add_argument("--largest", type=int, default=10_000_000,
+                        help="vertices of the largest mesh of `scaling` and `growth`")
     parser.add_argument("--block-seconds", type=float, default=0.3, help="approximate time of a library and block")
     options = parser.parse_args()
     for part in options.parts:

@@ -26,11 +26,17 @@ NORMAL_BYTES = 28  # of a vertex, in a CurvatureIndex
 def run(names):
     watched = results.begin("curvature")
     measured = {}
-    growth = [] if names else [grown(size) for size in SIZES]
     for name in names or MESHES:
         print(f"  {name}", flush=True)
         measured[name] = measure(name)
-        results.save("curvature", {"meshes": measured, "growth": growth}, watched)
+        results.save("curvature", {"meshes": measured}, watched)
+
+
+def run_growth(largest):
+    """Over the size of the mesh."""
+    watched = results.begin("curvature_growth")
+    rows = [grown(size) for size in SIZES if size <= largest]
+    results.save("curvature_growth", {"radius_edges": GROWTH_RADIUS, "rows": rows}, watched)
 
 
 def measure(name):

@@ -5,7 +5,8 @@
     text(data)      its page, docs/benchmarks/NAME.md
     summary(data)   its part of docs/benchmarks.md; may be absent
 """
-from . import accuracy, all_vertices, batch, curvature, exact_index, figure4, paper_tables, peers, scaling
+from . import (accuracy, all_vertices, batch, curvature, curvature_growth, exact_index, figure4, paper_tables, peers,
+               scaling)
 
 SECTIONS = {
     "batch": batch,
@@ -14,6 +15,7 @@ SECTIONS = {
     "accuracy": accuracy,
     "all_vertices": all_vertices,
     "curvature": curvature,
+    "curvature_growth": curvature_growth,
     "peers": peers,
     "scaling": scaling,
     "figure4": figure4,

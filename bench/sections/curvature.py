@@ -24,22 +24,7 @@ def text(data):
     for name, result in data["meshes"].items():
         for row in result["rows"]:
             rows.append([name, f"{row['radius_edges']:g}", number(row["found"]), f"{row['rows']:,}", *times(row)])
-    return NOTE.format(command=COMMAND) + table(header, rows) + growth_table(data.get("growth", []))
-
-
-GROWTH_NOTE = """
-Spheres, 5 mean edges: µs a vertex, one thread, and the bytes for each vertex that the index and the normals take. The
-result takes another 65 bytes.
-
-"""
-
-
-def growth_table(growth):
-    if not growth:
-        return ""
-    rows = [[f"{row['vertices']:,}", number(row["libigl"]) if "libigl" in row else "–", number(row["ours"]),
-             number(row["bytes"])] for row in growth]
-    return GROWTH_NOTE + table(["vertices", "libigl", "ours", "bytes a vertex"], rows)
+    return NOTE.format(command=COMMAND) + table(header, rows)
 
 
 def times(row):

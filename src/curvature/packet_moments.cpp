@@ -25,7 +25,9 @@ PacketMoments::PacketMoments(const MomentSource& source, Isa isa)
     : source_(source),
       kernels_(&moment_kernels(isa)),
       offsets_{},
-      normals_{},
+      facing_{},
+      waiting_common_{},
+      waiting_some_{},
       points_{},
       common_{},
       some_{},
@@ -44,15 +46,17 @@ void PacketMoments::begin(std::span<const std::uint32_t> places, double reach) {
   set_center(reach);
   common_ = {};
   some_ = {};
+  waiting_common_.size = 0;
+  waiting_some_.size = 0;
 }
 
 void PacketMoments::set_normals(std::span<const std::uint32_t> places) {
   for (std::size_t q = 0; q < size_; ++q) {
     const Point n = source_.filter->normal(places[q]);
     if (std::isnan(n.x)) active_ &= ~(QueryWord{1} << q);
-    normals_.x[q] = n.x;
-    normals_.y[q] = n.y;
-    normals_.z[q] = n.z;
+    facing_.normals.x[q] = n.x;
+    facing_.normals.y[q] = n.y;
+    facing_.normals.z[q] = n.z;
   }
   set_axis();
 }
@@ -78,89 +82,97 @@ void PacketMoments::set_center(double reach) {
 /// with it faces all of them.
 void PacketMoments::set_axis() {
   Point sum{0, 0, 0};
-  const auto normal = [&](std::size_t q) { return Point{normals_.x[q], normals_.y[q], normals_.z[q]}; };
+  const auto normal = [&](std::size_t q) {
+    return Point{facing_.normals.x[q], facing_.normals.y[q], facing_.normals.z[q]};
+  };
   for_each_lane(active_, [&](unsigned q) { sum = sum + normal(q); });
-  axis_ = (1 / length(sum)) * sum;
+  facing_.axis = (1 / length(sum)) * sum;
   double least = 1;
-  for_each_lane(active_, [&](unsigned q) { least = std::min(least, dot(axis_, normal(q))); });
+  for_each_lane(active_, [&](unsigned q) { least = std::min(least, dot(facing_.axis, normal(q))); });
   constexpr double kMargin = 1e-12;  // of rounding
-  all_face_ = least > 0 ? std::sqrt(std::max(0.0, 1 - least * least)) + kMargin : 2;
-  if (!(all_face_ < 2)) all_face_ = 2;
+  // mutant: faces-the-axis-alone
+  facing_.all = least > 0 ? std::sqrt(std::max(0.0, 1 - least * least)) + kMargin : 2;
+  if (!(facing_.all < 2)) facing_.all = 2;
 }
 
 void PacketMoments::add(std::size_t first, std::size_t size, QueryWord word) {
-  add_blocks(first, size, [word](std::size_t) { return word; });
+  add_leaves(first, size, [word](std::size_t) { return word; });
 }
 
 void PacketMoments::add(std::size_t first, std::size_t size, std::span<const QueryWord, kPacketCapacity> words) {
-  add_blocks(first, size, [words](std::size_t i) { return words[i]; });
+  add_leaves(first, size, [words](std::size_t i) { return words[i]; });
 }
 
 template <class WordOf>
-void PacketMoments::add_blocks(std::size_t first, std::size_t size, const WordOf& word_of) {
+void PacketMoments::add_leaves(std::size_t first, std::size_t size, const WordOf& word_of) {
   if (active_ == 0) return;
-  std::array<QueryWord, MomentPoints::kCapacity> words;
+  std::array<QueryWord, kLeafCapacity> words;
   for (std::size_t begin = 0; begin < size; begin += words.size()) {
-    const std::size_t count = std::min(size - begin, words.size());
-    for (std::size_t i = 0; i < count; ++i) words[i] = word_of(begin + i) & active_;
-    const auto block = std::span(words).first(count);
-    if (source_.filter != nullptr) keep_facing(first + begin, block);
-    add_points(first + begin, block);
-  }
-}
-
-/// Removes from the word of a vertex the queries that it does not face.
-void PacketMoments::keep_facing(std::size_t first, std::span<QueryWord> words) {
-  alignas(64) std::array<double, MomentPoints::kCapacity> products;
-  kernels_->products(&source_.filter->normal_x[first], &source_.filter->normal_y[first],
-                     &source_.filter->normal_z[first], words.size(), axis_, products.data());
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (products[i] > all_face_) continue;  // mutant: faces-the-axis-alone
-    if (products[i] < -all_face_) {
-      words[i] = 0;
-    } else if (words[i] != 0) {
-      words[i] &= kernels_->facing(source_.filter->normal(first + i), normals_);
+    const auto leaf = std::span(words).first(std::min(size - begin, words.size()));
+    for (std::size_t i = 0; i < leaf.size(); ++i) leaf[i] = word_of(begin + i) & active_;
+    if (source_.filter != nullptr) {
+      const SurfaceState& surface = *source_.filter;
+      const std::size_t at = first + begin;
+      kernels_->keep_facing({&surface.normal_x[at], &surface.normal_y[at], &surface.normal_z[at]}, facing_, leaf);
     }
+    append(first + begin, leaf);
   }
 }
 
-void PacketMoments::set_points(std::size_t first, std::size_t size) {
+/// Written without branches, which could not be predicted: each vertex goes to the end of both lists, and the lists
+/// that keep it grow.
+void PacketMoments::append(std::size_t first, std::span<const QueryWord> words) {
+  if (waiting_common_.size + words.size() > MomentPoints::kCapacity) add_common();
+  if (waiting_some_.size + words.size() > MomentPoints::kCapacity) add_some();
+  std::size_t common = waiting_common_.size;
+  std::size_t some = waiting_some_.size;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool is_common = words[i] == active_;
+    waiting_common_.places[common] = static_cast<std::uint32_t>(first + i);
+    waiting_some_.places[some] = static_cast<std::uint32_t>(first + i);
+    waiting_some_.words[some] = words[i];
+    common += static_cast<std::size_t>(is_common);
+    some += static_cast<std::size_t>(!is_common) & static_cast<std::size_t>(words[i] != 0);
+  }
+  waiting_common_.size = common;
+  waiting_some_.size = some;
+}
+
+/// Vertices that count for all queries are added once, about the center of the packet.
+void PacketMoments::add_common() {
+  const auto places = std::span(waiting_common_.places).first(waiting_common_.size);
+  set_points(places);
+  for (std::size_t i = places.size(); i % PartialMoments::kParts != 0; ++i) points_.weight[i] = 0;
+  kernels_->add_powers(points_, places.size(), common_);
+  waiting_common_.size = 0;
+}
+
+void PacketMoments::add_some() {
+  const std::size_t size = waiting_some_.size;
+  set_points(std::span(waiting_some_.places).first(size));
+  kernels_->add_powers_by_word(points_, std::span(waiting_some_.words).first(size), size_, some_);
+  waiting_some_.size = 0;
+}
+
+void PacketMoments::set_points(std::span<const std::uint32_t> places) {
   std::visit(
       [&](auto xyz) {
-        for (std::size_t i = 0; i < size; ++i) {
-          const Point p = point(xyz, first + i);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+          const Point p = point(xyz, places[i]);
           points_.x[i] = scale_ * (p.x - center_.x);
           points_.y[i] = scale_ * (p.y - center_.y);
           points_.z[i] = scale_ * (p.z - center_.z);
         }
       },
       source_.index->positions);
-  for (std::size_t i = 0; i < size; ++i) {
-    points_.weight[i] = source_.weights.empty() ? 1 : source_.weights[first + i];
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    points_.weight[i] = source_.weights.empty() ? 1 : source_.weights[places[i]];
   }
-  for (std::size_t i = size; i % PartialMoments::kParts != 0; ++i) points_.weight[i] = 0;
-}
-
-/// Adds the vertices that count for all queries to one sum, and the others by their words.
-void PacketMoments::add_points(std::size_t first, std::span<QueryWord> words) {
-  set_points(first, words.size());
-  const auto common = static_cast<std::size_t>(std::count(words.begin(), words.end(), active_));
-  if (common < words.size()) {
-    std::array<double, MomentPoints::kCapacity> weights = points_.weight;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-      if (words[i] == active_) {
-        words[i] = 0;
-      } else {
-        weights[i] = 0;
-      }
-    }
-    kernels_->add_powers_by_word(points_, words, some_);
-    points_.weight = weights;
-  }
-  if (common > 0) kernels_->add_powers(points_, words.size(), common_);
 }
 
 const QueryMoments& PacketMoments::finish() {
+  add_common();
+  add_some();
   kernels_->collect(common_, some_, moments_);
   for (std::size_t q = 0; q < size_; ++q) sizes_[q] = sizes_of(moments_, q);
   kernels_->shift(moments_, offsets_);  // mutant: moments-about-the-packet

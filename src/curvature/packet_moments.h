@@ -32,7 +32,7 @@ struct MomentSizes {
 };
 
 /// The moments of the neighborhoods of up to 32 vertices that lie close together. A vertex that counts for all queries
-/// is added once, about a common center; the sums are moved to each query vertex at the end. Owns 60 kB of memory.
+/// is added once, about a common center; the sums are moved to each query vertex at the end. Owns 64 kB of memory.
 class PacketMoments {
  public:
   /// Borrows what `source` names.
@@ -64,10 +64,18 @@ class PacketMoments {
   void set_normals(std::span<const std::uint32_t> places);
   void set_axis();
   template <class WordOf>
-  void add_blocks(std::size_t first, std::size_t size, const WordOf& word_of);
-  void set_points(std::size_t first, std::size_t size);
-  void keep_facing(std::size_t first, std::span<QueryWord> words);
-  void add_points(std::size_t first, std::span<QueryWord> words);
+  void add_leaves(std::size_t first, std::size_t size, const WordOf& word_of);
+  void append(std::size_t first, std::span<const QueryWord> words);
+  void add_common();
+  void add_some();
+  void set_points(std::span<const std::uint32_t> places);
+
+  /// Vertices that are not added yet. Added together, they fill the vectors of the kernels.
+  struct Waiting {
+    std::size_t size = 0;
+    std::array<std::uint32_t, MomentPoints::kCapacity> places;
+    std::array<QueryWord, MomentPoints::kCapacity> words;
+  };
 
   MomentSource source_;
   const MomentKernels* kernels_;
@@ -77,12 +85,10 @@ class PacketMoments {
   Point center_{0, 0, 0};
   double scale_ = 1;
   QueryVectors offsets_;  // from the query vertices to the center
-  QueryVectors normals_;
-  // A vertex faces all queries if the product of its normal and the axis is > all_face_, and none if it is <
-  // -all_face_.
-  Point axis_{0, 0, 0};
-  double all_face_ = 0;
+  FacingTest facing_;
 
+  Waiting waiting_common_;  // for all queries
+  Waiting waiting_some_;
   MomentPoints points_;
   PartialMoments common_;
   MomentsByWord some_;

@@ -47,9 +47,10 @@ struct alignas(64) PaddedMoments {
 };
 
 /// Sums for sets of queries. A word of 32 queries has eight parts of four bits; there is a sum for each value of each
-/// part. A vertex is added to at most eight of them, however many queries it counts for.
+/// part. A vertex is added to one sum of each part, however many queries it counts for; those of value 0 are not used.
 struct MomentsByWord {
   static constexpr std::size_t kParts = 8;
+  static constexpr std::size_t kQueries = kPacketCapacity / kParts;
   static constexpr std::size_t kValues = 16;
   std::array<std::array<PaddedMoments, kValues>, kParts> at;
 };
@@ -79,20 +80,39 @@ struct alignas(64) FrameMoments {
   QueryRow un, vn;
 };
 
+/// Columns of normals.
+struct NormalColumns {
+  const double* x;
+  const double* y;
+  const double* z;
+};
+
+/// Which vertices face the queries of a packet: those whose normal makes an angle of less than 90 degrees with that of
+/// the query. The product of the two, in double, each operation rounded, is > 0.
+struct FacingTest {
+  QueryVectors normals;  // of the queries
+  // A vertex faces all queries if the product of its normal and the axis is > `all`, and none if it is < `-all`.
+  Point axis{0, 0, 0};
+  double all = 0;
+};
+
+/// Eight numbers, which the compiler keeps in as many registers as it takes.
+using Eight = double __attribute__((vector_size(64), may_alias));
+inline constexpr std::size_t kEight = 8;
+
 struct MomentKernels {
   /// Adds the powers of `size` points, times their weights, to `sums`. Reads points up to the next multiple of eight:
   /// they must be finite, with weight 0 beyond the size.
   void (*add_powers)(const MomentPoints& points, std::size_t size, PartialMoments& sums);
 
-  /// Adds the powers of point `i`, times its weight, to the sums of the queries of `words[i]`.
-  void (*add_powers_by_word)(const MomentPoints& points, std::span<const QueryWord> words, MomentsByWord& sums);
+  /// Adds the powers of point `i`, times its weight, to the sums of the queries of `words[i]`. The words have no query
+  /// from number `queries` on.
+  void (*add_powers_by_word)(const MomentPoints& points, std::span<const QueryWord> words, std::size_t queries,
+                             MomentsByWord& sums);
 
-  /// The products of `axis` with `size` vectors.
-  void (*products)(const double* x, const double* y, const double* z, std::size_t size, const Point& axis, double* out);
-
-  /// The queries whose normal makes an angle of less than 90 degrees with `normal`: the product in double, each
-  /// operation rounded, is > 0. None if `normal` is NaN.
-  QueryWord (*facing)(const Point& normal, const QueryVectors& normals);
+  /// Removes from `words[i]` the queries that vertex `i` does not face. A normal of NaN faces none. At most
+  /// `kLeafCapacity` words; the columns begin with the first vertex.
+  void (*keep_facing)(const NormalColumns& normals, const FacingTest& test, std::span<QueryWord> words);
 
   /// The sums of each query.
   void (*collect)(const PartialMoments& common, const MomentsByWord& some, QueryMoments& out);

@@ -11,14 +11,13 @@
 namespace meshhood {
 namespace {
 
-/// The queries whose number is > 0.
-MESHHOOD_MOMENTS QueryWord positive(const QueryRow& row) {
-  QueryWord word = 0;
-  for (std::size_t q = 0; q < kPacketCapacity; q += 4) {
-    const __m256d is_positive = _mm256_cmp_pd(_mm256_load_pd(&row[q]), _mm256_setzero_pd(), _CMP_GT_OQ);
-    word |= static_cast<QueryWord>(_mm256_movemask_pd(is_positive)) << q;
-  }
-  return word;
+/// Bit `i` is set if number `i` is > 0.
+MESHHOOD_MOMENTS inline QueryWord positive(const Eight& numbers) {
+  const auto* const halves = reinterpret_cast<const __m256d*>(&numbers);
+  const auto word = [](__m256d half) MESHHOOD_MOMENTS {
+    return static_cast<QueryWord>(_mm256_movemask_pd(_mm256_cmp_pd(half, _mm256_setzero_pd(), _CMP_GT_OQ)));
+  };
+  return word(halves[0]) | word(halves[1]) << 4;
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 #include "simd/moments.h"
 
 #if defined(MESHHOOD_HAS_X86)
+#include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include <immintrin.h>
 
@@ -11,14 +13,9 @@
 namespace meshhood {
 namespace {
 
-/// The queries whose number is > 0.
-MESHHOOD_MOMENTS QueryWord positive(const QueryRow& row) {
-  QueryWord word = 0;
-  for (std::size_t q = 0; q < kPacketCapacity; q += 8) {
-    const __mmask8 is_positive = _mm512_cmp_pd_mask(_mm512_load_pd(&row[q]), _mm512_setzero_pd(), _CMP_GT_OQ);
-    word |= static_cast<QueryWord>(is_positive) << q;
-  }
-  return word;
+/// Bit `i` is set if number `i` is > 0.
+MESHHOOD_MOMENTS inline QueryWord positive(const Eight& numbers) {
+  return _mm512_cmp_pd_mask(reinterpret_cast<const __m512d&>(numbers), _mm512_setzero_pd(), _CMP_GT_OQ);
 }
 
 }  // namespace
@@ -27,8 +24,58 @@ MESHHOOD_MOMENTS QueryWord positive(const QueryRow& row) {
 #include "simd/moments_loops.h"
 
 namespace meshhood {
+namespace {
 
-const MomentKernels& avx512_moment_kernels() { return kMomentKernels; }
+/// The powers of degree 2 and less: eight, and two.
+struct SmallPowers {
+  __m512d low;
+  __m512d high;
+};
+
+/// The numbers of `powers` that `places` names.
+MESHHOOD_MOMENTS inline __m512d chosen(const SmallPowers& powers, __m512i places) {
+  return _mm512_permutex2var_pd(powers.low, places, powers.high);
+}
+
+using FactorColumn = std::array<std::uint64_t, PaddedMoments::kPadded>;
+constexpr auto column = [](std::size_t Factors::* factor) {
+  FactorColumn places{};
+  for (std::size_t m = 0; m < places.size(); ++m) places[m] = kFactors[m].*factor;
+  return places;
+};
+alignas(64) constexpr FactorColumn kFirstFactors = column(&Factors::first);
+alignas(64) constexpr FactorColumn kSecondFactors = column(&Factors::second);
+
+/// As `powers_of`, by permutations: each power is a product of two of the ten small ones.
+MESHHOOD_MOMENTS inline void permuted_powers(const MomentPoints& points, std::size_t i, PaddedMoments& out) {
+  const __m512d one = _mm512_set1_pd(1);
+  const __m512d x = _mm512_set1_pd(points.x[i]);
+  const __m512d y = _mm512_set1_pd(points.y[i]);
+  const __m512d z = _mm512_set1_pd(points.z[i]);
+  // 1 x y z xx xy xz yy, and yz zz: products of two coordinates.
+  const __m512d left = _mm512_mask_mov_pd(_mm512_mask_mov_pd(x, 0b1000'0100, y), 0b0000'1000, z);
+  const __m512d right = _mm512_mask_mov_pd(_mm512_mask_mov_pd(x, 0b1010'0000, y), 0b0100'0000, z);
+  const SmallPowers small{
+      _mm512_mul_pd(_mm512_mask_mov_pd(left, 0b0000'0001, one), _mm512_mask_mov_pd(right, 0b0000'1111, one)),
+      _mm512_mul_pd(_mm512_mask_mov_pd(z, 0b0000'0001, y), z)};
+  const __m512d weight = _mm512_set1_pd(points.weight[i]);
+  const SmallPowers weighted{_mm512_mul_pd(weight, small.low), _mm512_mul_pd(weight, small.high)};
+#pragma GCC unroll 5
+  for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kEight) {
+    _mm512_store_pd(&out.at[m], _mm512_mul_pd(chosen(weighted, _mm512_load_si512(&kFirstFactors[m])),
+                                              chosen(small, _mm512_load_si512(&kSecondFactors[m]))));
+  }
+}
+
+constexpr MomentKernels kAvx512Kernels = [] {
+  MomentKernels kernels = kMomentKernels;
+  kernels.add_powers_by_word = add_powers_by_word<permuted_powers>;
+  return kernels;
+}();
+
+}  // namespace
+
+const MomentKernels& avx512_moment_kernels() { return kAvx512Kernels; }
 
 }  // namespace meshhood
 #endif

@@ -4,19 +4,16 @@
 // The loops of `MomentKernels`, which the sources moments_*.cpp compile once for each instruction set: they define
 // MESHHOOD_MOMENTS, the attribute of each function. The loops run over queries or vertices that do not depend on each
 // other, so that the compiler may use vectors of any width without changing a bit of the result.
+#include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "simd/moments.h"
 
 namespace meshhood {
 namespace {
-
-/// Eight numbers, which the compiler keeps in as many registers as it takes.
-using Eight = double __attribute__((vector_size(64), may_alias));
-constexpr std::size_t kEight = 8;
 
 /// The eight numbers from `first` on, which is aligned to them.
 MESHHOOD_MOMENTS inline Eight& eight(double& first) { return reinterpret_cast<Eight&>(first); }
@@ -59,6 +56,50 @@ constexpr std::array<std::size_t, kMomentCount> kByDegree = [] {
   return order;
 }();
 
+/// Two numbers whose product is a power.
+struct Factors {
+  std::size_t first;
+  std::size_t second;
+};
+
+/// The powers of degree 2 and less, 1 x y z xx xy xz yy yz zz, as products of two of 1 x y z.
+constexpr std::array<Factors, 10> kSmallPowers{
+    {{0, 0}, {0, 1}, {0, 2}, {0, 3}, {1, 1}, {1, 2}, {1, 3}, {2, 2}, {2, 3}, {3, 3}}};
+
+/// The moments, as products of two of these: the first two of the factors x..., y..., z... in this order, and the rest.
+constexpr std::array<Factors, PaddedMoments::kPadded> kFactors = [] {
+  constexpr auto small = [](std::array<std::size_t, 3> n) {
+    constexpr std::array<std::size_t, 3> kFirstOfAxis{4, 7, 9};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (n[axis] == 2) return kFirstOfAxis[axis];
+      for (std::size_t other = axis + 1; other < 3; ++other) {
+        if (n[axis] == 1 && n[other] == 1) return kFirstOfAxis[axis] + other - axis;
+      }
+    }
+    return n[0] + 2 * n[1] + 3 * n[2];
+  };
+  std::array<Factors, PaddedMoments::kPadded> factors{};
+  for (std::size_t i = 0; i <= 4; ++i) {
+    for (std::size_t j = 0; i + j <= 4; ++j) {
+      for (std::size_t k = 0; i + j + k <= 4; ++k) {
+        std::array<std::size_t, 3> first{};
+        std::array<std::size_t, 3> rest{i, j, k};
+        for (std::size_t taken = 0, axis = 0; taken < 2 && axis < 3;) {
+          if (rest[axis] == 0) {
+            ++axis;
+            continue;
+          }
+          --rest[axis];
+          ++first[axis];
+          ++taken;
+        }
+        factors[moment_index(i, j, k)] = {small(first), small(rest)};
+      }
+    }
+  }
+  return factors;
+}();
+
 MESHHOOD_MOMENTS void add_powers(const MomentPoints& points, std::size_t size, PartialMoments& sums) {
   static_assert(PartialMoments::kParts == kEight);
   for (std::size_t first = 0; first < size; first += kEight) {
@@ -77,44 +118,70 @@ MESHHOOD_MOMENTS void add_powers(const MomentPoints& points, std::size_t size, P
   }
 }
 
+/// The powers of point `i`, times its weight.
+MESHHOOD_MOMENTS inline void powers_of(const MomentPoints& points, std::size_t i, PaddedMoments& out) {
+  const std::array<double, 4> coordinates{1, points.x[i], points.y[i], points.z[i]};
+  std::array<double, kSmallPowers.size()> small;
+#pragma GCC unroll 10
+  for (std::size_t m = 0; m < small.size(); ++m) {
+    small[m] = coordinates[kSmallPowers[m].first] * coordinates[kSmallPowers[m].second];
+  }
+#pragma GCC unroll 40
+  for (std::size_t m = 0; m < PaddedMoments::kPadded; ++m) {
+    out.at[m] = (points.weight[i] * small[kFactors[m].first]) * small[kFactors[m].second];
+  }
+}
+
+/// As `MomentKernels::add_powers_by_word`. Finds the powers of eight points before it adds them, because a processor
+/// waits if it reads as a vector what it has just written number by number. Parts that are 0 are added like others: to
+/// skip them takes branches, which cannot be predicted.
+template <void (*PowersOf)(const MomentPoints&, std::size_t, PaddedMoments&)>
 MESHHOOD_MOMENTS void add_powers_by_word(const MomentPoints& points, std::span<const QueryWord> words,
-                                         MomentsByWord& sums) {
-  for (std::size_t p = 0; p < words.size(); ++p) {
-    if (words[p] == 0) continue;
-    PaddedMoments powers{};
-    const std::array<double, 3> axes{points.x[p], points.y[p], points.z[p]};
-    powers.at[0] = points.weight[p];
-#pragma GCC unroll 34
-    for (std::size_t step = 1; step < kMomentCount; ++step) {
-      const std::size_t m = kByDegree[step];
-      powers.at[m] = powers.at[kPowers[m].from] * axes[kPowers[m].axis];
-    }
-    QueryWord left = words[p];
-    for (std::size_t part = 0; left != 0; ++part, left /= MomentsByWord::kValues) {
-      const std::size_t value = left % MomentsByWord::kValues;
-      if (value == 0) continue;
-      PaddedMoments& sum = sums.at[part][value];
-      for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kEight) eight(sum.at[m]) += eight(powers.at[m]);
+                                         std::size_t queries, MomentsByWord& sums) {
+  const std::size_t parts = (queries + MomentsByWord::kQueries - 1) / MomentsByWord::kQueries;
+  std::array<PaddedMoments, kEight> powers;
+  for (std::size_t first = 0; first < words.size(); first += kEight) {
+    const std::size_t count = std::min(kEight, words.size() - first);
+    for (std::size_t i = 0; i < count; ++i) PowersOf(points, first + i, powers[i]);
+    for (std::size_t i = 0; i < count; ++i) {
+      QueryWord left = words[first + i];
+      for (std::size_t part = 0; part < parts; ++part, left /= MomentsByWord::kValues) {
+        PaddedMoments& sum = sums.at[part][left % MomentsByWord::kValues];
+        for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kEight) eight(sum.at[m]) += eight(powers[i].at[m]);
+      }
     }
   }
 }
 
-MESHHOOD_MOMENTS void products(const double* x, const double* y, const double* z, std::size_t size, const Point& axis,
-                               double* out) {
-  for (std::size_t i = 0; i < size; ++i) out[i] = (x[i] * axis.x + y[i] * axis.y) + z[i] * axis.z;
-}
-
-MESHHOOD_MOMENTS QueryWord facing(const Point& normal, const QueryVectors& normals) {
-  alignas(64) QueryRow products;
+MESHHOOD_MOMENTS inline QueryWord facing(const Point& normal, const QueryVectors& normals) {
+  QueryWord word = 0;
   for (std::size_t q = 0; q < kPacketCapacity; q += kEight) {
-    eight(products[q]) =
+    const Eight products =
         (normal.x * eight(normals.x[q]) + normal.y * eight(normals.y[q])) + normal.z * eight(normals.z[q]);
+    word |= positive(products) << q;
   }
-  return positive(products);
+  return word;
+}
+
+/// The vertices that the axis leaves undecided are listed without branches, which could not be predicted.
+MESHHOOD_MOMENTS void keep_facing(const NormalColumns& normals, const FacingTest& test, std::span<QueryWord> words) {
+  const auto& [x, y, z] = normals;
+  std::array<double, kLeafCapacity> products;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    products[i] = (x[i] * test.axis.x + y[i] * test.axis.y) + z[i] * test.axis.z;
+  }
+  std::array<std::uint8_t, kLeafCapacity> undecided;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    words[i] = products[i] < -test.all ? 0 : words[i];
+    undecided[count] = static_cast<std::uint8_t>(i);
+    count += static_cast<std::size_t>(words[i] != 0) & static_cast<std::size_t>(!(products[i] > test.all));
+  }
+  for (const std::uint8_t i : std::span(undecided).first(count)) words[i] &= facing({x[i], y[i], z[i]}, test.normals);
 }
 
 MESHHOOD_MOMENTS void collect(const PartialMoments& common, const MomentsByWord& some, QueryMoments& out) {
-  constexpr std::size_t kQueries = kPacketCapacity / MomentsByWord::kParts;
+  constexpr std::size_t kQueries = MomentsByWord::kQueries;
   PaddedMoments all{};
   for (std::size_t m = 0; m < kMomentCount; ++m) {
     const auto& part = common.at[m];
@@ -272,9 +339,8 @@ MESHHOOD_MOMENTS void rotate(const QueryMoments& moments, const QueryVectors& u,
 
 constexpr MomentKernels kMomentKernels{
     .add_powers = add_powers,
-    .add_powers_by_word = add_powers_by_word,
-    .products = products,
-    .facing = facing,
+    .add_powers_by_word = add_powers_by_word<powers_of>,
+    .keep_facing = keep_facing,
     .collect = collect,
     .shift = shift,
     .rotate = rotate,

@@ -8,10 +8,10 @@
 namespace meshhood {
 namespace {
 
-/// The queries whose number is > 0.
-QueryWord positive(const QueryRow& row) {
+/// Bit `i` is set if number `i` is > 0.
+inline QueryWord positive(const Eight& numbers) {
   QueryWord word = 0;
-  for (std::size_t q = 0; q < kPacketCapacity; ++q) word |= QueryWord{row[q] > 0} << q;
+  for (std::size_t i = 0; i < kEight; ++i) word |= QueryWord{numbers[i] > 0} << i;
   return word;
 }
 

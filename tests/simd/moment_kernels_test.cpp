@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The kernels of the moments compute the sums that they name, with the same bits for every instruction set.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -70,7 +71,7 @@ QueryMoments collected(const MomentKernels& kernels, const Input& common, const 
   const auto by_word = std::make_unique<MomentsByWord>();
   QueryMoments out{};
   kernels.add_powers(common.points, common.words.size(), parts);
-  kernels.add_powers_by_word(some.points, some.words, *by_word);
+  kernels.add_powers_by_word(some.points, some.words, kPacketCapacity, *by_word);
   kernels.collect(parts, *by_word, out);
   return out;
 }
@@ -169,17 +170,66 @@ TEST(MomentKernels, RotatedMomentsAreThoseOfRotatedPoints) {
   }
 }
 
+TEST(MomentKernels, SumsOfFewQueriesAreThoseOfThePowers) {
+  Random random(5);
+  Input some = random_input(random, 20);
+  for (const std::size_t queries : {1U, 4U, 5U, 27U, 31U}) {
+    for (QueryWord& word : some.words) word &= (QueryWord{1} << queries) - 1;
+    for (const Isa isa : available_isas()) {
+      const auto by_word = std::make_unique<MomentsByWord>();
+      QueryMoments sums{};
+      moment_kernels(isa).add_powers_by_word(some.points, some.words, queries, *by_word);
+      moment_kernels(isa).collect({}, *by_word, sums);
+      for (std::size_t q = 0; q < queries; ++q) {
+        EXPECT_NEAR(sums.at[moment_index(1, 2, 1)][q], expected({}, some, q, {1, 2, 1}), 1e-13);
+      }
+    }
+    some = random_input(random, 20);
+  }
+}
+
+struct Normals {
+  std::vector<double> x;
+  std::vector<double> y;
+  std::vector<double> z;
+
+  void add(const Point& normal) {
+    x.push_back(normal.x);
+    y.push_back(normal.y);
+    z.push_back(normal.z);
+  }
+  [[nodiscard]] NormalColumns columns() const { return {x.data(), y.data(), z.data()}; }
+};
+
 TEST(MomentKernels, FacingComparesTheRoundedProductWithZero) {
-  QueryVectors normals{};
-  normals.x[0] = 1;
-  normals.x[1] = -1;
-  normals.y[2] = 1;
-  normals.z[3] = 1e-300;
-  normals.x[4] = std::nan("");
-  const Point normal{0.5, 0, 0.5};
+  FacingTest test{};
+  test.normals.x = {1, -1, 0, 0, std::nan("")};
+  test.normals.y = {0, 0, 1};
+  test.normals.z = {0, 0, 0, 1e-300};
+  test.axis = {1, 0, 0};
+  test.all = 2;  // leaves all undecided
+  Normals normals;
+  normals.add({0.5, 0, 0.5});
+  normals.add({std::nan(""), 0, 1});
+  normals.add({0.5, 0, 0.5});
   for (const Isa isa : available_isas()) {
-    EXPECT_EQ(moment_kernels(isa).facing(normal, normals), 0b01001U);
-    EXPECT_EQ(moment_kernels(isa).facing({std::nan(""), 0, 1}, normals), 0U);
+    std::vector<QueryWord> words{~QueryWord{0}, ~QueryWord{0}, 0b01110U};
+    moment_kernels(isa).keep_facing(normals.columns(), test, words);
+    EXPECT_THAT(words, testing::ElementsAre(0b01001U, 0U, 0b01000U));
+  }
+}
+
+TEST(MomentKernels, TheAxisDecidesOnlyBeyondItsBound) {
+  FacingTest test{};
+  test.normals.x.fill(-1);  // so that the products would decide otherwise
+  test.axis = {1, 0, 0};
+  test.all = 0.5;
+  Normals normals;
+  for (const double x : {1.0, 0.5, -0.5, -1.0, std::nan("")}) normals.add({x, 0, 0});
+  for (const Isa isa : available_isas()) {
+    std::vector<QueryWord> words(5, 0b11U);
+    moment_kernels(isa).keep_facing(normals.columns(), test, words);
+    EXPECT_THAT(words, testing::ElementsAre(0b11U, 0U, 0b11U, 0U, 0U));
   }
 }
 
@@ -191,13 +241,20 @@ TEST(MomentKernels, EveryInstructionSetGivesTheSameBits) {
     const QueryVectors by = random_vectors(random);
     const QueryVectors u = random_vectors(random);
     const QueryVectors v = random_vectors(random);
+    const FacingTest test{.normals = u, .axis = {0.6, 0, 0.8}, .all = 0.5};
+    const std::size_t leaf = std::min<std::size_t>(some.words.size(), kLeafCapacity);
+    const NormalColumns normals{some.points.x.data(), some.points.y.data(), some.points.z.data()};
+    std::vector<std::vector<QueryWord>> facing;
     std::vector<FrameMoments> results;
     for (const Isa isa : available_isas()) {
       const MomentKernels& kernels = moment_kernels(isa);
       QueryMoments moments = collected(kernels, common, some);
       kernels.shift(moments, by);
       kernels.rotate(moments, u, v, by, results.emplace_back());
+      facing.emplace_back(some.words).resize(leaf);
+      kernels.keep_facing(normals, test, facing.back());
     }
+    EXPECT_THAT(facing, testing::Each(facing.front()));
     for (const FrameMoments& result : results) EXPECT_EQ(std::memcmp(&result, results.data(), sizeof(result)), 0);
   }
 }
