@@ -7,8 +7,8 @@ COMMAND = "python3 -m bench growth"
 
 NOTE = """`{command}`: principal curvatures of all vertices of a sphere at {radius:g} mean edges, in one call on one thread;
 processor time, the median of three rounds, with libigl's numbers. *Index* is the memory of the index and of the normals,
-which a call needs, in bytes for each vertex. The result takes 65 bytes for each vertex besides. libigl is left out
-where it would take too long.
+which a call needs, in bytes for each vertex. The result takes another 65 bytes for each vertex. libigl is left out where
+it would take too long.
 
 """
 

@@ -32,7 +32,7 @@ struct MomentSizes {
 };
 
 /// The moments of the neighborhoods of up to 32 vertices that lie close together. A vertex that counts for all queries
-/// is added once, about a common center; the sums are moved to each query vertex at the end. Owns 64 kB of memory.
+/// is added once, about a common center; the sums are moved to each query vertex at the end. Owns 60 kB of memory.
 class PacketMoments {
  public:
   /// Borrows what `source` names.

@@ -11,13 +11,14 @@
 namespace meshhood {
 namespace {
 
+MESHHOOD_MOMENTS inline QueryWord positive_half(__m256d numbers) {
+  return static_cast<QueryWord>(_mm256_movemask_pd(_mm256_cmp_pd(numbers, _mm256_setzero_pd(), _CMP_GT_OQ)));
+}
+
 /// Bit `i` is set if number `i` is > 0.
 MESHHOOD_MOMENTS inline QueryWord positive(const Eight& numbers) {
   const auto* const halves = reinterpret_cast<const __m256d*>(&numbers);
-  const auto word = [](__m256d half) MESHHOOD_MOMENTS {
-    return static_cast<QueryWord>(_mm256_movemask_pd(_mm256_cmp_pd(half, _mm256_setzero_pd(), _CMP_GT_OQ)));
-  };
-  return word(halves[0]) | word(halves[1]) << 4;
+  return positive_half(halves[0]) | positive_half(halves[1]) << 4;
 }
 
 }  // namespace

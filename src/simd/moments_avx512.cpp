@@ -38,11 +38,11 @@ MESHHOOD_MOMENTS inline __m512d chosen(const SmallPowers& powers, __m512i places
 }
 
 using FactorColumn = std::array<std::uint64_t, PaddedMoments::kPadded>;
-constexpr auto column = [](std::size_t Factors::* factor) {
+constexpr FactorColumn column(std::size_t Factors::* factor) {
   FactorColumn places{};
   for (std::size_t m = 0; m < places.size(); ++m) places[m] = kFactors[m].*factor;
   return places;
-};
+}
 alignas(64) constexpr FactorColumn kFirstFactors = column(&Factors::first);
 alignas(64) constexpr FactorColumn kSecondFactors = column(&Factors::second);
 
