@@ -8,7 +8,7 @@ class Open3d(Peer):
     package = "open3d"
     module = "open3d"
     answers = "ball"
-    remark = "its index is made anew for each radius, which is not in `built`"
+    remark = "its index is built again for each radius, which is not in `built`"
 
     def __init__(self, mesh, threads):
         import open3d

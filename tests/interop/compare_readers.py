@@ -29,7 +29,7 @@ except ImportError as missing:
 
 
 def flat(faces):
-    """Corners per face, and all corners: compared as a whole, for a face at a time takes a minute."""
+    """Corners per face, and all corners: compared as a whole, because one face at a time takes a minute."""
     faces = list(faces)
     sides = np.fromiter(map(len, faces), np.int64, len(faces))
     return sides, np.concatenate(faces) if faces else np.empty(0, np.uint32)
