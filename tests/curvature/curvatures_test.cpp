@@ -445,7 +445,7 @@ TEST(Curvatures, RefuseInvalidArgumentsAndNameThem) {
                  [&] { (void)curvatures(one.surface, {.radius = -1.0}, like_libigl()); });
   expect_refused(ErrorCode::InvalidOption, "thread",
                  [&] { (void)curvatures(one.surface, {.radius = 1.0}, {.threads = kMaxThreads + 1}); });
-  expect_refused(ErrorCode::InvalidOption, "not for the jet", [&] {
+  expect_refused(ErrorCode::InvalidOption, "not the jet", [&] {
     (void)curvatures(one.surface, {.radius = 1.0}, {.shape_operator = ShapeOperator::Libigl, .fit = CurvatureFit::Jet});
   });
   expect_refused(ErrorCode::Cancelled, "cancel", [&] {
