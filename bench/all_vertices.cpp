@@ -66,7 +66,7 @@ double wall_clock() {
 }
 
 /// The methods in the order of the table. `kept` writes all rows into one array. Of `one_thread` and `two_threads`,
-/// which count, the time on the wall counts; `portable` to `avx512` count by one worker of the batch each.
+/// which count, the wall-clock time is measured; `portable` to `avx512` count by one worker of the batch each.
 struct Row {
   double edges;
   double radius;
@@ -171,7 +171,7 @@ class AllVertices {
     return ids;
   }
 
-  /// One worker of the batch, which it gets group by group.
+  /// One worker, which receives the batch group by group.
   std::uint64_t counts_of_worker(Isa isa, std::span<const VertexId> rows, double radius) {
     JointWorker worker(mesh_.index, isa);
     const auto group_of = [&](VertexId v) {
@@ -191,7 +191,7 @@ class AllVertices {
     return ids;
   }
 
-  /// All rows in memory that is new, as for a caller who keeps them.
+  /// All rows in new memory, as for a caller that keeps them.
   std::uint64_t kept_of_batch(const std::vector<VertexId>& rows, double radius) {
     std::unique_ptr<VertexId[]> ids;  // NOLINT(modernize-avoid-c-arrays): a vector would be written twice
     const auto allocate = [&](std::size_t count) -> BatchMemory {

@@ -31,7 +31,7 @@ IDS_GOALS = (3, 5, 6, 11, 25, 75)
 GOALS_NOTE = """
 ## Goals
 
-Times as fast as breadth-first search, and in parentheses what was aimed at; in bold where it is missed.
+Times as fast as breadth-first search, and in parentheses the goal; in bold where it is missed.
 [What was tried](../joint.md).
 
 """

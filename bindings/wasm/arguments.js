@@ -68,7 +68,7 @@ export function expectFaces({ corners, offsets }) {
   if (offsets !== null && offsets !== undefined) expectType(offsets, [Uint32Array, Int32Array], 'offsets');
 }
 
-/** Copies faces into the module, and calls `use` with the six arguments that stand for them. */
+/** Copies faces into the module, and calls `use` with the six arguments that describe them. */
 export function withFaces(instance, { corners, offsets = null }, use) {
   return instance.with([corners, offsets], (ids, begins) => use(
     ids, corners.length, corners instanceof Int32Array, begins, offsets?.length ?? 0, offsets instanceof Int32Array));

@@ -8,7 +8,7 @@ const CODES = [
   'MalformedIndex', 'IoFailure', 'TooLarge', 'Cancelled',
 ];
 
-/** Errors of the arguments of a call, after which the instance is as it was. */
+/** Errors of the arguments of a call, after which the instance is unchanged. */
 const ARGUMENT_ERRORS = new Set(['VertexOutOfRange', 'InvalidRadius', 'InvalidOption', 'InvalidMesh']);
 
 export class MeshhoodError extends Error {

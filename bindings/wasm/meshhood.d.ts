@@ -110,7 +110,7 @@ export interface Rows {
   ids: Uint32Array;
 }
 
-/** A vertex, or a point of space, which is then the center of the ball. */
+/** A vertex, or a point in space, which is then the center of the ball. */
 export type Start = number | readonly [number, number, number] | Float32Array | Float64Array;
 
 /** Restricts a search. A mask has #V bytes; one other than 0 puts its vertex into the set. */
@@ -138,7 +138,7 @@ export interface Rings {
 export interface AggregateOptions {
   reduce?: 'sum' | 'mean' | 'min' | 'max' | 'var' | 'std' | 'count';
   /**
-   * #V numbers >= 0, for `sum`, `mean`, `var` and `std`; `area` is the area that each vertex stands for, which needs
+   * #V numbers >= 0, for `sum`, `mean`, `var` and `std`; `area` is the area that each vertex represents, which needs
    * `faces`. A vertex of weight 0 is left out.
    */
   weights?: Float64Array | Float32Array | 'area' | null;
@@ -162,7 +162,7 @@ export interface AggregateOptions {
   unit?: Unit;
 }
 
-/** Principal curvatures, row by row. */
+/** Principal curvatures, one entry for each row. */
 export class Curvature {
   /** Of arrays that were computed in parts. They are not copied. */
   constructor(k1: Float64Array, k2: Float64Array, d1: Float64Array, d2: Float64Array, state: Uint8Array);
@@ -173,7 +173,7 @@ export class Curvature {
    */
   readonly k1: Float64Array;
   readonly k2: Float64Array;
-  /** #rows by 3: unit vectors; of either sign the one whose component of largest magnitude is positive. */
+  /** #rows by 3: unit vectors, with the sign that makes the component of largest magnitude positive. */
   readonly d1: Float64Array;
   readonly d2: Float64Array;
   /**
@@ -213,7 +213,7 @@ export interface CurvatureOptions {
   like?: 'libigl' | null;
   /** `quadric`: through the vertex and over its tangent plane. `jet`: as CGAL's `Monge_via_jet_fitting`. */
   fit?: 'quadric' | 'jet';
-  /** Fit only vertices whose normal makes less than 90 degrees with that of the query vertex, if they are six. */
+  /** Fit only vertices whose normal makes less than 90 degrees with that of the query vertex, if six remain. */
   filter?: boolean;
   unit?: Unit;
 }
@@ -337,7 +337,7 @@ export class MeshIndex {
     options: RegionOptions & { unit?: Unit; sort?: boolean; distances: true },
   ): { ids: Uint32Array; distances: Float64Array };
 
-  /** The regions of strictly ascending radii in one pass. A vertex may be near and belong to a late ring. */
+  /** The regions of strictly ascending radii in one pass. A near vertex may belong to a late ring. */
   queryNested(
     start: Start,
     radii: Float64Array | Float32Array,
@@ -351,8 +351,8 @@ export class MeshIndex {
   contains(start: Start, w: number, r: number, options?: RegionOptions & { unit?: Unit }): boolean;
 
   /**
-   * The smallest radius whose region has vertex w; Infinity if there is none. It is the least, over all paths of edges
-   * from a seed to w, of the largest distance of a vertex of the path from the start.
+   * The smallest radius whose region has vertex w; Infinity if there is none. It is the minimum, over all paths of
+   * edges from a seed to w, of the largest distance between a vertex of the path and the start.
    */
   connectingRadius(start: Start, w: number, options?: RegionOptions): number;
 
@@ -362,11 +362,11 @@ export class MeshIndex {
    */
   nearestConnected(start: Start, k: number, options?: RegionOptions): { ids: Uint32Array; radii: Float64Array };
 
-  /** The vertex nearest to a point of space, connected or not; of several, the one with the smallest id. */
+  /** The vertex nearest to a point in space, connected or not; of several, the one with the smallest id. */
   nearest(point: Exclude<Start, number>): { vertex: number; distance: number };
 
   /**
-   * A sum, a mean or the like of values over the exact neighborhood of each vertex. No ids are listed.
+   * A sum, a mean or another aggregate of values over the exact neighborhood of each vertex. No ids are listed.
    *
    * @param values #V numbers, or #V by channels, vertex after vertex; each channel by itself
    * @param r the radius, or several

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The index: making, saving and loading it, and what is known of it.
+// The index: making, saving and loading it, and its properties.
 #include <cstddef>
 #include <cstdint>
 #include <optional>

@@ -168,8 +168,8 @@ GroupEntry JointGroup::add_entry(LeafId leaf) {
   return static_cast<GroupEntry>(leaves_.size() - 1);
 }
 
-/// What a packet reads of a leaf that it reaches. At small radii most entries are reached by few packets, so that this
-/// is the first time in a while.
+/// Prefetches the data that a packet reads of a leaf that it reaches. At small radii, few packets reach an entry, so
+/// its data is rarely in the cache.
 void JointGroup::prefetch(const Leaf& leaf) const {
   constexpr std::size_t kEdgeLines = 2;  // a leaf has some 50 edges to others
   prefetch_positions(*index_, leaf.first, leaf.size);

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kLinksAtOnce = 8;
 
 /// Which of the links leave from one of `lanes`, as bits. There are `count`, at most `kLinksAtOnce`, and one more to
-/// read. Without branches, which no processor could predict.
+/// read. Without branches, which could not be predicted.
 std::uint32_t links_from(const Link* links, std::size_t count, LaneMask lanes) {
   std::uint32_t result = 0;
   for (std::size_t i = 0; i < kLinksAtOnce; ++i) {

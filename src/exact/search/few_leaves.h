@@ -13,8 +13,8 @@
 
 namespace meshhood {
 
-/// Answers in few leaves, as in small balls and in components of few vertices. What the other searches prepare would
-/// take longer than such a query.
+/// Answers in few leaves, as in small balls and in components of few vertices. The preparations of the other searches
+/// would take longer than such a query.
 class FewLeaves {
  public:
   static constexpr unsigned kMostLeaves = 32;
@@ -35,7 +35,7 @@ class FewLeaves {
     LeafId leaf;
     LaneMask open;     // in the ball, and not reached
     LaneMask reached;  // connected with the query vertex in the ball
-    LaneMask pending;  // those open that an edge leads to from what is reached in other leaves
+    LaneMask pending;  // the open ones with an edge from a reached vertex of another leaf
   };
 
   /// Leaves are numbered as they are met. A hash table finds their numbers.

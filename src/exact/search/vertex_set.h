@@ -17,7 +17,7 @@ struct LeafSubset {
   LaneMask lanes;
 };
 
-/// std::popcount, which is a call into a library when compiling for the oldest processors.
+/// std::popcount, which is a call of a library function when compiling for the oldest processors.
 [[nodiscard]] inline std::size_t count_of(LaneMask lanes) {
   lanes -= lanes >> 1 & 0x55555555U;
   lanes = (lanes & 0x33333333U) + (lanes >> 2 & 0x33333333U);

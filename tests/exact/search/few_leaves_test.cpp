@@ -26,7 +26,7 @@ std::set<LeafId> leaves_around(const SearchCase& c, const Ids& answer) {
   return leaves;
 }
 
-/// What a search of its own finds. Fails the test if it gives up, or does not, against `is_few`.
+/// The result of a new search. Fails the test if the search gives up although `is_few`, or does not give up otherwise.
 Ids find(const SearchCase& c, bool is_few) {
   VertexSet answer(c.index);
   EXPECT_EQ(FewLeaves(c.index, c.kernels).find(c.query.slot, c.query.ball, answer), is_few);
@@ -115,7 +115,7 @@ TEST(FewLeaves, FollowsAllLinksOfAHub) {
   EXPECT_GT(few, 0U);
 }
 
-/// The same bytes whatever was asked before.
+/// The same bytes for any earlier queries.
 TEST(FewLeaves, ItsOrderDependsOnTheQueryAlone) {
   const TestMesh mesh = bumpy_grid(60);
   const Index index = build(mesh.view());
