@@ -241,7 +241,7 @@ class NeighborLists {
   }
 
   /// The words of all neighbors of each lane, and its own.
-  MESHHOOD_AVX512 [[nodiscard]] Words32 gather(const Words32& words) const {
+  [[nodiscard]] MESHHOOD_AVX512 Words32 gather(const Words32& words) const {
     Words32 all = words;
     for (std::size_t i = 0; i < size_; ++i) {
       all = all | Words32{_mm512_permutex2var_epi32(words.low, lists_[i].low, words.high),
