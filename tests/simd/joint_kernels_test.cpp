@@ -92,7 +92,7 @@ TEST_P(EveryJointPath, BallWordsAreThoseOfThePortableKernel) {
     balls.inside_all = static_cast<float>(random.uniform(0, 0.5));
     balls.outside_all = balls.inside_all + static_cast<float>(random.uniform(0, 2));
     PerLane<QueryWord> expected;
-    PerLane<QueryWord> found;
+    alignas(64) PerLane<QueryWord> found;  // as in LeafWords
     PerLane<QueryWord> expected_doubts{};
     PerLane<QueryWord> found_doubts{};
     const BallWords a = plain.ball_words(points, first_lanes(size), balls, expected, expected_doubts);
