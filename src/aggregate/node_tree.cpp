@@ -2,6 +2,7 @@
 #include "aggregate/node_tree.h"
 
 #include "base/vector.h"
+#include "exact/node_search.h"
 
 namespace meshhood {
 
@@ -18,9 +19,7 @@ VertexRange NodeTree::vertices(Node node) const {
 }
 
 FrameSphere NodeTree::sphere(Node node) const {
-  const Group& group = index_->groups[node / kFanOut];
-  const std::size_t place = node % kFanOut;
-  return {group.x[place], group.y[place], group.z[place], group.radius[place]};
+  return sphere_of(index_->groups[node / kFanOut], node % kFanOut);
 }
 
 NodeTree::Node NodeTree::largest_from(std::size_t leaf, std::size_t end) const {

@@ -3,10 +3,19 @@
 
 #include <array>
 #include <bit>
+#include <cstddef>
 
 #include "exact/layout.h"
 
 namespace meshhood {
+
+/// The bounding sphere of the node at a place of a group.
+[[nodiscard]] inline FrameSphere sphere_of(const Group& group, std::size_t place) {
+  return {group.x[place], group.y[place], group.z[place], group.radius[place]};
+}
+
+/// The set of the node at a place.
+[[nodiscard]] constexpr NodeSet node_at(unsigned place) { return static_cast<NodeSet>(1U << place); }
 
 /// Calls `f(place)` for every node of the set, in ascending order.
 template <class F>

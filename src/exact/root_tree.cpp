@@ -7,6 +7,7 @@
 
 #include "base/vector.h"
 #include "exact/layout.h"
+#include "exact/node_search.h"
 
 namespace meshhood {
 namespace {
@@ -28,7 +29,7 @@ FrameSphere enclosing(std::span<const FrameSphere> spheres) {
 FrameSphere enclosing(const Group& group, std::size_t nodes) {
   std::array<FrameSphere, kFanOut> spheres{};
   const std::size_t size = std::clamp<std::size_t>(nodes, 1, kFanOut);
-  for (std::size_t i = 0; i < size; ++i) spheres[i] = {group.x[i], group.y[i], group.z[i], group.radius[i]};
+  for (std::size_t i = 0; i < size; ++i) spheres[i] = sphere_of(group, i);
   return enclosing(std::span(spheres).first(size));
 }
 

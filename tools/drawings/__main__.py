@@ -4,6 +4,7 @@ import sys
 from pathlib import Path
 
 import leaves
+import marks
 import minimum_region
 import other_components
 import tree
@@ -15,6 +16,7 @@ DRAWINGS = {
     "leaves": leaves,
     "waves": waves,
     "tree": tree,
+    "marks": marks,
     "minimum_region": minimum_region,
     "other_components": other_components,
     "words": words,

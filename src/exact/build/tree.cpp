@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/sphere.h"
+#include "exact/node_search.h"
 
 namespace meshhood {
 namespace {
@@ -36,10 +37,6 @@ Point smallest_sphere_center(std::span<const Point> points) {
   const std::vector<float> xyz = as_floats(points);
   const Sphere<float> sphere = bounding_sphere(std::span<const float>(xyz));
   return center_of(sphere);
-}
-
-FrameSphere sphere_of(const Group& group, std::size_t i) {
-  return {group.x[i], group.y[i], group.z[i], group.radius[i]};
 }
 
 void set_node(Group& group, std::size_t i, const FrameSphere& bounds, const MinimumRegion& region) {

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "base/vector.h"
+#include "exact/node_search.h"
 
 namespace meshhood {
 namespace {
@@ -17,9 +18,7 @@ namespace {
 constexpr FrameSphere kWholeFrame{0, 0, 0, 2};
 
 FrameSphere node_bounds(const IndexView& index, NodeId node) {
-  const Group& group = index.groups[node / kFanOut];
-  const std::size_t i = node % kFanOut;
-  return {group.x[i], group.y[i], group.z[i], group.radius[i]};
+  return sphere_of(index.groups[node / kFanOut], node % kFanOut);
 }
 
 /// The positions, or null if they are doubles.

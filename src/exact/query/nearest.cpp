@@ -13,6 +13,7 @@
 #include "meshhood/start.h"
 
 #include "exact/index_access.h"
+#include "exact/node_search.h"
 #include "exact/query/arguments.h"
 #include "exact/query/square_range.h"
 
@@ -51,9 +52,7 @@ class NearestSearch {
   void visit_group(std::size_t group) {
     const GroupRecord& record = index_->records[group];
     const Group& spheres = index_->groups[group];
-    const auto sphere_at = [&](std::size_t i) {
-      return FrameSphere{spheres.x[i], spheres.y[i], spheres.z[i], spheres.radius[i]};
-    };
+    const auto sphere_at = [&](std::size_t i) { return sphere_of(spheres, i); };
     visit_nearest_first(record.nodes, sphere_at, [&](std::size_t i) {
       const std::size_t node = group * kFanOut + i;
       if (node < index_->leaf_count()) {

@@ -19,6 +19,7 @@ struct GroupState {
   NodeSet reached = 0;       // by the outward search
   NodeSet pending = 0;       // linked with a reached node, and not yet reached
   NodeSet home = 0;          // whole, and known to be connected with the query vertex
+  NodeSet explored = 0;      // by `HomeMarks`
 };
 
 /// The states of all groups in one query. If no step of the search has made the state of a group, its nodes are

@@ -1,116 +1,105 @@
 // SPDX-License-Identifier: MIT
 #include "exact/search/home_marks.h"
 
-#include <bit>
-
-#include "base/prefetch.h"
 #include "exact/node_search.h"
 
 namespace meshhood {
 
-namespace {
+void HomeMarks::mark(NodeId node, GroupStates& states) const {
+  const NodeId whole = states.whole_node(node);
+  if (whole == kNoNode) return;
+  const Patch patch = patch_of(whole, states);
+  states[patch.group].home |= patch.nodes;
+}
 
-/// Whether a whole node in doubt is not marked.
-bool has_doubt(const GroupState& state) { return (state.whole & state.in_doubt & ~state.home) != 0; }
-
-}  // namespace
-
-bool HomeMarks::mark(NodeId node, GroupStates& states) const {
+bool HomeMarks::leads_home(NodeId node, GroupStates& states) {
   const NodeId whole = states.whole_node(node);
   if (whole == kNoNode) return false;
-  GroupState& state = states[whole / kFanOut];
-  if ((state.home >> whole % kFanOut & 1U) != 0) return false;
-  const auto bit = static_cast<NodeSet>(1U << whole % kFanOut);
-  // mutant: home-mark-skips-the-outside
-  state.home |= reachable_nodes(index_->records[whole / kFanOut].linked, bit, state.whole);
-  return true;
+  const GroupState& state = states[whole / kFanOut];
+  const NodeSet bit = node_at(whole % kFanOut);
+  if ((state.home & bit) != 0) return true;
+  return (state.explored & bit) == 0 && explore(whole, states);
 }
 
-void HomeMarks::begin(NodeId leaf, GroupStates& states) {
-  gained_.clear();
-  const NodeId whole = states.whole_node(leaf);
-  if (whole == kNoNode) return;
-  static_cast<void>(mark(whole, states));
-  push(whole / kFanOut, states);
+/// Breadth-first search from a whole node to a marked one.
+bool HomeMarks::explore(NodeId whole, GroupStates& states) {
+  visited_.clear();
+  bool is_home = visit(whole, states);
+  for (std::size_t i = 0; !is_home && i < visited_.size(); ++i) is_home = visit_linked(Patch{visited_[i]}, states);
+  if (is_home) {
+    for (const Patch& patch : visited_) states[patch.group].home |= patch.nodes;
+  }
+  return is_home;
 }
 
-void HomeMarks::spread(std::span<const std::uint32_t> groups, GroupStates& states) {
-  unmarked_.clear();
-  // Each leaf in doubt takes longer to test than a group to mark.
-  if (2 * count_doubts(groups, states) < groups.size()) return;
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    if (i + kGroupsAhead < groups.size()) prefetch_links(groups[i + kGroupsAhead], states);
-    if (!pull(groups[i], states) && has_doubt(states[groups[i]])) unmarked_.push_back(groups[i]);
-  }
-  if (unmarked_.empty()) return;
-  gained_.clear();
-  for (const std::uint32_t group : groups) {
-    if (states[group].home != 0) gained_.push_back(group);
-  }
-  pull_unmarked(states);
-  // A larger node does not see the smaller ones beside it, so these push. The first of `unmarked_` are the largest.
-  const std::size_t leaf_groups = index_->leaf_count() / kFanOut;
-  while (!gained_.empty() && !unmarked_.empty() && unmarked_.front() >= leaf_groups) {
-    for (std::size_t head = 0; head < gained_.size(); ++head) push(gained_[head], states);
-    gained_.clear();
-    pull_unmarked(states);
-  }
+/// Visits the patch of a whole node. Returns whether a node of it is marked.
+bool HomeMarks::visit(NodeId whole, GroupStates& states) {
+  const Patch patch = patch_of(whole, states);
+  GroupState& state = states[patch.group];
+  state.explored |= patch.nodes;
+  visited_.push_back(patch);
+  return (patch.nodes & state.home) != 0;
 }
 
-/// Pulls until no group of `unmarked_` gains a mark.
-void HomeMarks::pull_unmarked(GroupStates& states) {
-  for (std::size_t before = gained_.size() + 1; gained_.size() != before;) {
-    before = gained_.size();
-    std::erase_if(unmarked_, [&](std::uint32_t group) {
-      const NodeSet home = states[group].home;
-      const bool is_settled = pull(group, states);
-      if (states[group].home != home) gained_.push_back(group);
-      return is_settled;
-    });
-  }
-}
-
-/// The number of nodes that are in doubt and not marked: whole ones, and leaves that intersect the ball.
-std::size_t HomeMarks::count_doubts(std::span<const std::uint32_t> groups, const GroupStates& states) const {
-  const std::size_t leaf_groups = index_->leaf_count() / kFanOut;
-  std::size_t doubts = 0;
-  for (const std::uint32_t group : groups) {
-    const GroupState& state = states[group];
-    const unsigned surface_leaves = group < leaf_groups ? state.intersecting : 0U;
-    doubts += static_cast<std::size_t>(
-        std::popcount(state.in_doubt & ((state.whole & ~unsigned{state.home}) | surface_leaves)));
-  }
-  return doubts;
-}
-
-/// Marks the whole nodes of a group that are linked with a marked one of its level, or with one that covers such.
-/// Returns whether all are marked.
-bool HomeMarks::pull(std::uint32_t group, GroupStates& states) const {
-  GroupState& state = states[group];
-  if (state.whole == state.home) return true;
-  const GroupRecord& record = index_->records[group];
-  for (const NodeLink& link : index_->node_links_of(record)) {
-    const auto open = static_cast<NodeSet>(link.mine & state.whole & ~state.home);
-    if (open == 0 || !states.is_home(link.node())) continue;
-    state.home |= reachable_nodes(record.linked, open, state.whole);
-    if (state.whole == state.home) return true;
+/// Visits what the patch is linked with. Returns true as soon as a node of it is marked.
+bool HomeMarks::visit_linked(const Patch& patch, GroupStates& states) {
+  for (const NodeLink& link : index_->node_links_of(index_->records[patch.group])) {
+    if ((link.mine & patch.nodes) == 0) continue;  // mutant: link-of-another-node-followed
+    const NodeId other = states.whole_node(link.node());
+    if (other == kNoNode) continue;
+    const GroupState& state = states[other / kFanOut];
+    const NodeSet bit = node_at(other % kFanOut);
+    if ((state.home & bit) != 0) return true;
+    // What was explored in vain does not lead to a mark.
+    if ((state.explored & bit) == 0 && visit(other, states)) return true;
   }
   return false;
 }
 
-/// Marks the whole nodes that the marked nodes of a group are linked with: of its level, or larger.
-void HomeMarks::push(std::uint32_t group, GroupStates& states) {
-  const NodeSet home = states[group].home;
-  if (home == 0) return;
-  for (const NodeLink& link : index_->node_links_of(index_->records[group])) {
-    if ((link.mine & home) == 0) continue;
-    const NodeId whole = states.whole_node(link.node());
-    if (whole != kNoNode && mark(whole, states)) gained_.push_back(whole / kFanOut);
+bool HomeMarks::smaller_leads_home(NodeId whole, GroupStates& states) {
+  const Patch patch = patch_of(whole, states);
+  const GroupRecord& record = index_->records[patch.group];
+  NodeSet beside = 0;
+  for_each_node(patch.nodes, [&](unsigned i) { beside |= record.linked[i]; });
+  bool is_home = false;
+  for_each_node(beside, [&](unsigned i) {
+    is_home = is_home || smaller_leads_home_below(patch.group * kFanOut + i, patch, states);
+  });
+  for (const NodeLink& link : index_->node_links_of(record)) {
+    if (is_home) break;
+    is_home = (link.mine & patch.nodes) != 0 && smaller_leads_home_below(link.node(), patch, states);
   }
+  if (is_home) states[patch.group].home |= patch.nodes;
+  return is_home;
 }
 
-void HomeMarks::prefetch_links(std::uint32_t group, const GroupStates& states) const {
-  if (states[group].whole != 0) fetch_lines(index_->node_links.data() + index_->records[group].first_link, 2);
+/// Whether a whole node below `node` is linked with the patch and leads home.
+bool HomeMarks::smaller_leads_home_below(NodeId node, const Patch& patch, GroupStates& states) {
+  const std::uint32_t group = node / kFanOut;
+  if (node < index_->leaf_count() || !states.is_known(group)) return false;
+  if ((states[group].intersecting & node_at(node % kFanOut)) == 0) return false;
+  const std::uint32_t below = index_->records[group].first_child + node % kFanOut;
+  const GroupState& state = states[below];
+  bool is_home = false;
+  for (const NodeLink& link : index_->node_links_of(index_->records[below])) {
+    const NodeId whole = states.whole_node(link.node());
+    // mutant: neighbor-of-any-node-asked
+    if (whole == kNoNode || whole / kFanOut != patch.group || (patch.nodes & node_at(whole % kFanOut)) == 0) continue;
+    for_each_node(link.mine & state.whole,
+                  [&](unsigned i) { is_home = is_home || leads_home(below * kFanOut + i, states); });
+    for_each_node(link.mine & state.intersecting, [&](unsigned i) {
+      is_home = is_home || smaller_leads_home_below(below * kFanOut + i, patch, states);
+    });
+    if (is_home) break;
+  }
+  return is_home;
+}
+
+/// The patch of a whole node.
+HomeMarks::Patch HomeMarks::patch_of(NodeId whole, const GroupStates& states) const {
+  const std::uint32_t group = whole / kFanOut;
+  // mutant: home-mark-skips-the-outside
+  return {group, reachable_nodes(index_->records[group].linked, node_at(whole % kFanOut), states[group].whole)};
 }
 
 }  // namespace meshhood

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "exact/layout.h"
@@ -11,37 +9,40 @@
 
 namespace meshhood {
 
-/// Marks whole nodes that are surely connected with the query vertex: from its own node on, along links between whole
-/// nodes, which are connected and in the ball, so that each link is an edge of the answer. A link leads to a node of
-/// its own level, or to the whole node that covers it. Finds nearly all of them; what it misses costs time in the steps
-/// that follow.
+/// Marks whole nodes that are surely connected with the query vertex, as far as they are asked for. Whole nodes are
+/// connected and in the ball, so each link between two of them is an edge of the answer. A link leads to a node of its
+/// own level, or to the whole node that covers it; so a large node does not see the small ones beside it. Marks that
+/// are missed cost time in the steps that follow.
 class HomeMarks {
  public:
   explicit HomeMarks(const IndexView& index) : index_(&index) {}
 
-  /// Marks `node` if it is whole, or the whole node that covers it. Returns whether it was not marked before.
-  bool mark(NodeId node, GroupStates& states) const;
+  /// Marks `node` if it is whole, or the whole node that covers it.
+  void mark(NodeId node, GroupStates& states) const;
 
-  /// Does so for the leaf of the query vertex, and marks what is next to it: on a smooth surface nearly all that is in
-  /// doubt.
-  void begin(NodeId leaf, GroupStates& states);
+  /// Whether `node`, or the node that covers it, is whole and marked, or links between whole nodes lead from it to a
+  /// marked one. Then all nodes on the way are marked, too. Looks at the links of each node once in a query.
+  [[nodiscard]] bool leads_home(NodeId node, GroupStates& states);
 
-  /// Marks what the marked nodes lead to, in `groups`, which are in the order of the descent, if enough is in doubt to
-  /// be worth it.
-  void spread(std::span<const std::uint32_t> groups, GroupStates& states);
+  /// Whether a smaller whole node beside the whole node `whole` leads home. Then `whole` is marked. Looks for such
+  /// nodes below the nodes that intersect the surface of the ball, so it takes longer than `leads_home`.
+  [[nodiscard]] bool smaller_leads_home(NodeId whole, GroupStates& states);
 
  private:
-  static constexpr std::size_t kGroupsAhead = 6;
+  /// Whole nodes of a group that are connected there.
+  struct Patch {
+    std::uint32_t group;
+    NodeSet nodes;
+  };
 
-  [[nodiscard]] std::size_t count_doubts(std::span<const std::uint32_t> groups, const GroupStates& states) const;
-  [[nodiscard]] bool pull(std::uint32_t group, GroupStates& states) const;
-  void pull_unmarked(GroupStates& states);
-  void push(std::uint32_t group, GroupStates& states);
-  void prefetch_links(std::uint32_t group, const GroupStates& states) const;
+  [[nodiscard]] bool explore(NodeId whole, GroupStates& states);
+  [[nodiscard]] bool visit(NodeId whole, GroupStates& states);
+  [[nodiscard]] bool visit_linked(const Patch& patch, GroupStates& states);
+  [[nodiscard]] bool smaller_leads_home_below(NodeId node, const Patch& patch, GroupStates& states);
+  [[nodiscard]] Patch patch_of(NodeId whole, const GroupStates& states) const;
 
   const IndexView* index_;
-  std::vector<std::uint32_t> gained_;    // groups with new marks, which spread from there
-  std::vector<std::uint32_t> unmarked_;  // groups with a whole node in doubt that is not marked
+  std::vector<Patch> visited_;  // by the present exploration
 };
 
 }  // namespace meshhood

@@ -11,16 +11,16 @@
 namespace meshhood {
 
 void LoosePieces::find(const Query& query, std::span<const std::uint32_t> groups,
-                       std::span<const LeafSubset> surface_leaves, const GroupStates& states) {
+                       std::span<const LeafSubset> surface_leaves, HomeMarks& marks, GroupStates& states) {
   leaves_.clear();
   minima_.clear();
+  leaf_count_ = 0;
   gather_surface_leaves(surface_leaves, states);
   surface_count_ = leaves_.size();
-  gather_whole(groups, states, query.tree_ball);
-  for (std::size_t i = 0; i < leaves_.size(); ++i) {  // mutant: first-leaf-in-doubt-ignored
-    prefetch_edges_ahead(*index_, leaves_, i);
-    cut(leaves_[i], query, states);
-  }
+  cut_from(0, query, marks, states);
+  // By now most whole nodes in doubt are marked.
+  gather_whole(groups, query.tree_ball, marks, states);
+  cut_from(surface_count_, query, marks, states);
   std::sort(minima_.begin(), minima_.end(), [](const LocalMinimum& a, const LocalMinimum& b) {
     return std::tie(a.square, a.leaf, a.lane) < std::tie(b.square, b.leaf, b.lane);  // mutant: farthest-minimum-first
   });
@@ -28,17 +28,20 @@ void LoosePieces::find(const Query& query, std::span<const std::uint32_t> groups
 
 void LoosePieces::gather_surface_leaves(std::span<const LeafSubset> surface_leaves, const GroupStates& states) {
   for (const LeafSubset& leaf : surface_leaves) {
-    const bool in_doubt = (states[leaf.leaf / kFanOut].in_doubt >> leaf.leaf % kFanOut & 1U) != 0;
-    if (in_doubt && leaf.lanes != 0) leaves_.push_back(leaf);
+    if ((states[leaf.leaf / kFanOut].in_doubt & node_at(leaf.leaf % kFanOut)) != 0) leaves_.push_back(leaf);
   }
 }
 
-/// The leaves in doubt below unmarked whole nodes in doubt.
-void LoosePieces::gather_whole(std::span<const std::uint32_t> groups, const GroupStates& states, const TreeBall& ball) {
-  for (const std::uint32_t group : groups) {
+/// The leaves in doubt below unmarked whole nodes in doubt. Small nodes come first, because their marks spread to the
+/// large ones.
+void LoosePieces::gather_whole(std::span<const std::uint32_t> groups, const TreeBall& ball, HomeMarks& marks,
+                               GroupStates& states) {
+  for (auto at = groups.rbegin(); at != groups.rend(); ++at) {
+    const std::uint32_t group = *at;
     const GroupState& state = states[group];
     for_each_node(state.whole & state.in_doubt & static_cast<NodeSet>(~state.home), [&](unsigned i) {
       const NodeId node = group * kFanOut + i;
+      if (marks.leads_home(node, states) || marks.smaller_leads_home(node, states)) return;
       if (node < index_->leaf_count()) {
         leaves_.push_back({node, first_lanes(index_->leaves[node].size)});
       } else {
@@ -62,27 +65,40 @@ void LoosePieces::gather_below(std::uint32_t group, const TreeBall& ball) {
   });
 }
 
+void LoosePieces::cut_from(std::size_t first, const Query& query, HomeMarks& marks, GroupStates& states) {
+  for (std::size_t i = first; i < leaves_.size(); ++i) {  // mutant: first-leaf-in-doubt-ignored
+    prefetch_edges_ahead(*index_, leaves_, i);
+    // Another leaf below the same whole node may have marked it.
+    if (states.is_home(leaves_[i].leaf)) continue;
+    cut(leaves_[i], query, marks, states);
+    ++leaf_count_;
+  }
+}
+
 /// Cuts the vertices of a leaf that are in the ball into connected pieces, and tests the nearest vertex of each that is
 /// loose. Other vertices of a piece have a nearer one in their component.
-void LoosePieces::cut(const LeafSubset& leaf, const Query& query, const GroupStates& states) {
+void LoosePieces::cut(const LeafSubset& leaf, const Query& query, HomeMarks& marks, GroupStates& states) {
   const Leaf& record = index_->leaves[leaf.leaf];
   const LaneMask query_lane = query.leaf() == leaf.leaf ? query.lane() : 0;
   for (LaneMask left = leaf.lanes; left != 0;) {
     const bool is_whole = record.connected && left == first_lanes(record.size);
     const LaneMask piece = is_whole ? left : kernels_->reachable(&index_->adjacency[record.first], left, left & -left);
     left &= ~piece;
-    if ((piece & query_lane) != 0 || touches_home(leaf.leaf, piece, states)) continue;
+    if ((piece & query_lane) != 0 || touches_home(leaf.leaf, piece, marks, states)) {
+      marks.mark(leaf.leaf, states);
+      continue;
+    }
     const Nearest nearest = kernels_->nearest(index_->positions, record.first, piece, query.ball);
     const LocalMinimum vertex{nearest.square, leaf.leaf, nearest.lane};
     if (!has_nearer_neighbor(vertex, query.center())) minima_.push_back(vertex);
   }
 }
 
-bool LoosePieces::touches_home(LeafId leaf, LaneMask piece, const GroupStates& states) const {
+bool LoosePieces::touches_home(LeafId leaf, LaneMask piece, HomeMarks& marks, GroupStates& states) const {
   const std::span<const Link> links = index_->links_of(leaf);
   return std::any_of(links.begin(), links.end(), [&](const Link& link) {
-    const bool is_met = (link.boundary & piece) != 0;  // mutant: link-of-another-piece
-    return is_met && states.is_home(link.leaf);        // mutant: unmarked-node-taken-as-home
+    const bool is_met = (link.boundary & piece) != 0;      // mutant: link-of-another-piece
+    return is_met && marks.leads_home(link.leaf, states);  // mutant: unmarked-node-taken-as-home
   });
 }
 

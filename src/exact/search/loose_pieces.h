@@ -7,6 +7,7 @@
 
 #include "exact/layout.h"
 #include "exact/search/group_states.h"
+#include "exact/search/home_marks.h"
 #include "exact/search/query.h"
 #include "exact/search/vertex_set.h"
 #include "simd/kernels.h"
@@ -28,13 +29,13 @@ class LoosePieces {
  public:
   LoosePieces(const IndexView& index, const Kernels& kernels) : index_(&index), kernels_(&kernels) {}
 
-  /// groups          those of known state
+  /// groups          those of known state, larger nodes first
   /// surface_leaves  the leaves that intersect the surface of the ball, with their vertices in the ball
   void find(const Query& query, std::span<const std::uint32_t> groups, std::span<const LeafSubset> surface_leaves,
-            const GroupStates& states);
+            HomeMarks& marks, GroupStates& states);
 
-  /// The number of leaves in doubt, and of surface leaves among them.
-  [[nodiscard]] std::size_t leaf_count() const { return leaves_.size(); }
+  /// The number of leaves in doubt that were cut, and of surface leaves among them.
+  [[nodiscard]] std::size_t leaf_count() const { return leaf_count_; }
   [[nodiscard]] std::size_t surface_count() const { return surface_count_; }
 
   /// Ascending by distance.
@@ -42,16 +43,18 @@ class LoosePieces {
 
  private:
   void gather_surface_leaves(std::span<const LeafSubset> surface_leaves, const GroupStates& states);
-  void gather_whole(std::span<const std::uint32_t> groups, const GroupStates& states, const TreeBall& ball);
+  void gather_whole(std::span<const std::uint32_t> groups, const TreeBall& ball, HomeMarks& marks, GroupStates& states);
   void gather_below(std::uint32_t group, const TreeBall& ball);
-  void cut(const LeafSubset& leaf, const Query& query, const GroupStates& states);
-  [[nodiscard]] bool touches_home(LeafId leaf, LaneMask piece, const GroupStates& states) const;
+  void cut_from(std::size_t first, const Query& query, HomeMarks& marks, GroupStates& states);
+  void cut(const LeafSubset& leaf, const Query& query, HomeMarks& marks, GroupStates& states);
+  [[nodiscard]] bool touches_home(LeafId leaf, LaneMask piece, HomeMarks& marks, GroupStates& states) const;
   [[nodiscard]] bool has_nearer_neighbor(const LocalMinimum& vertex, const Point& center) const;
 
   const IndexView* index_;
   const Kernels* kernels_;
   std::vector<LeafSubset> leaves_;  // in doubt; first the surface leaves
   std::size_t surface_count_ = 0;
+  std::size_t leaf_count_ = 0;
   std::vector<LocalMinimum> minima_;
 };
 

@@ -27,8 +27,8 @@ LeafId OtherComponents::NearestFirst::pop() {
   return leaf;
 }
 
-bool OtherComponents::find(const Query& query, std::span<const LocalMinimum> minima, const GroupStates& states,
-                           std::size_t most_visited, LeafTraversal& traversal) {
+bool OtherComponents::find(const Query& query, std::span<const LocalMinimum> minima, HomeMarks& marks,
+                           GroupStates& states, std::size_t most_visited, LeafTraversal& traversal) {
   found_.clear();
   visited_ = 0;
   if (minima.empty()) return true;  // mutant: one-minimum-ignored
@@ -39,7 +39,7 @@ bool OtherComponents::find(const Query& query, std::span<const LocalMinimum> min
     const LaneMask lane = LaneMask{1} << minimum.lane;
     if (traversal.is_settled(minimum.leaf, lane)) continue;
     const auto is_known = [&](LeafId leaf, LaneMask added) {
-      if (++visited_ > most_visited || states.is_home(leaf)) return true;
+      if (++visited_ > most_visited || marks.leads_home(leaf, states)) return true;
       const std::uint32_t first = index_->leaves[leaf].first;
       return kernels_->nearest(index_->positions, first, added, query.ball).square < minimum.square;
     };

@@ -8,6 +8,7 @@
 
 #include "exact/layout.h"
 #include "exact/search/group_states.h"
+#include "exact/search/home_marks.h"
 #include "exact/search/leaf_traversal.h"
 #include "exact/search/loose_pieces.h"
 #include "exact/search/vertex_set.h"
@@ -28,8 +29,8 @@ class OtherComponents {
   /// Finds all these components. Returns false when that takes more than `most_visited` visits of leaves.
   ///
   /// minima  ascending by distance: the nearest vertex of each of these components, and any other vertices of the ball.
-  [[nodiscard]] bool find(const Query& query, std::span<const LocalMinimum> minima, const GroupStates& states,
-                          std::size_t most_visited, LeafTraversal& traversal);
+  [[nodiscard]] bool find(const Query& query, std::span<const LocalMinimum> minima, HomeMarks& marks,
+                          GroupStates& states, std::size_t most_visited, LeafTraversal& traversal);
 
   /// The number of visits of leaves that the last call has taken.
   [[nodiscard]] std::size_t visited() const { return visited_; }

@@ -70,8 +70,8 @@ class SearchMemory {
 
   /// Whether the mesh was folded: many leaves at the surface of the balls were in doubt.
   [[nodiscard]] bool is_folded() const {
-    // Chosen: the share is 0.05 on a smooth scan, 0.2 on the dragon, and 0.45 to 0.6 on bodies and brains.
-    constexpr double kFolded = 0.4;
+    // Chosen: the share is 0.1 on the dragon, 0.15 on bodies, and 0.35 to 0.45 on brains.
+    constexpr double kFolded = 0.3;
     return share_in_doubt_ > kFolded && !is_retry_;
   }
 
@@ -93,10 +93,16 @@ class SearchMemory {
   [[nodiscard]] bool was_alone() const { return alone_ > kAlways / 2; }
 
   /// After an answer in few leaves.
-  void record_alone(bool is_alone) {
-    constexpr int kAnswers = 8;  // chosen
-    alone_ += ((is_alone ? kAlways : 0) - alone_) / kAnswers;
+  void record_alone(bool is_alone) { remember(alone_, is_alone); }
+
+  /// Whether beginning with large nodes did not pay: they reached more than a single sheet.
+  [[nodiscard]] bool is_large_start_vain() const {
+    constexpr int kVain = kAlways * 7 / 10;  // chosen
+    return large_start_failures_ > kVain && !is_retry_;
   }
+
+  /// After an outward search that began with large nodes.
+  void record_large_start(bool is_single_sheet) { remember(large_start_failures_, !is_single_sheet); }
 
   /// After an outward search: `in_doubt` of its `surface` leaves were in doubt, and other components were told apart in
   /// `steps`: leaves in doubt, and visits of leaves.
@@ -115,12 +121,20 @@ class SearchMemory {
     share += (static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1)) - share) / balls_;
   }
 
+  static constexpr int kAlways = 256;
+
+  static void remember(int& share, bool is_so) {
+    constexpr int kAnswers = 8;  // chosen
+    share += ((is_so ? kAlways : 0) - share) / kAnswers;
+  }
+
   double balls_ = 0;
   double share_in_doubt_ = 0;
   double steps_per_surface_leaf_ = 0;
   double answer_per_surface_leaf_ = 0;
-  static constexpr int kAlways = 256;
-  int alone_ = 0;  // the share of answers that were one vertex, of `kAlways`; a double would become denormal, and slow
+  // Shares of answers, of `kAlways`; doubles would become denormal, and slow.
+  int alone_ = 0;  // that were one vertex
+  int large_start_failures_ = 0;
   std::uint32_t balls_begun_ = 0;
   bool is_retry_ = false;
 };

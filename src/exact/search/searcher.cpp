@@ -3,10 +3,10 @@
 // vertex over linked, connected nodes of the tree, and finds all that may be connected with it in the ball: whole
 // nodes, and leaves at the surface of the ball. That is the answer and perhaps other components of the ball. Each of
 // those has a vertex that is nearest to the query vertex, and that is a local minimum of the distance among its
-// neighbors, so its leaf is in doubt (see MinimumRegion). What is in doubt is settled by marks, which spread from the
-// query vertex over whole nodes, and by traversals from the local minima that no marked node touches. Where these would
-// visit much of the ball, all that was reached is united along its links instead. docs/design.md says why that is
-// exact.
+// neighbors, so its leaf is in doubt (see MinimumRegion). What is in doubt is settled by marks on whole nodes
+// that are surely connected with the query vertex, and by traversals from the local minima that no marked node touches.
+// Where these would visit much of the ball, all that was reached is united along its links instead. docs/design.md says
+// why that is exact.
 //
 // An answer that lies in few leaves takes none of these steps. Where the ball is small, or the answer is a small part
 // of what is reached, a breadth-first search over leaves is faster; and where the graph is unlike a surface, one over
@@ -75,7 +75,7 @@ void Searcher::State::search_outward(const Query& query) {
     answer.clear();  // mutant: failed-search-leaves-answer
     reached_components.find(query, descent.groups(), surface_leaves, states, answer);
   }
-  memory.record_answer(answer.count() / kLeafCapacity, surface_leaves.size());
+  memory.record_answer(answer.count() / kLeafCapacity, descent.surface_leaves().size());
 }
 
 /// Adds what was reached to the answer, without the other components. Returns false if uniting all that was reached is
@@ -83,12 +83,13 @@ void Searcher::State::search_outward(const Query& query) {
 bool Searcher::State::remove_other_components(const Query& query) {
   mark_home(query);
   add_reached();
-  loose.find(query, descent.groups(), surface_leaves, states);
-  const std::size_t most_visited = limits.most_visited(surface_leaves.size());
-  const bool is_done = other_components.find(query, loose.minima(), states, most_visited, traversal);
+  loose.find(query, descent.groups(), surface_leaves, marks, states);
+  const std::size_t surface = descent.surface_leaves().size();
+  const std::size_t most_visited = limits.most_visited(surface);
+  const bool is_done = other_components.find(query, loose.minima(), marks, states, most_visited, traversal);
   std::size_t steps = loose.leaf_count() + other_components.visited();
-  if (!is_done) steps += surface_leaves.size();  // uniting comes on top
-  memory.record(loose.surface_count(), surface_leaves.size(), steps);
+  if (!is_done) steps += surface;  // uniting comes on top
+  memory.record(loose.surface_count(), surface, steps);
   if (is_done) answer.subtract(other_components.found());
   return is_done;
 }
@@ -102,7 +103,11 @@ void Searcher::State::reach(const Query& query) {
   constexpr double kLargeNodes = 1.5;
   const Home small = home_of(query, kSmallNodes);
   const Home large = home_of(query, kLargeNodes);
-  if (large.level > small.level && reach_from(large, query, small.level)) return;
+  if (large.level > small.level && !memory.is_large_start_vain()) {
+    const bool is_single_sheet = reach_from(large, query, small.level);
+    memory.record_large_start(is_single_sheet);
+    if (is_single_sheet) return;
+  }
   static_cast<void>(reach_from(small, query, small.level));
 }
 
@@ -138,13 +143,26 @@ void Searcher::State::find_surface_leaves(const Query& query) {
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     if (i + kLeavesAhead < leaves.size()) prefetch_vertices(leaves[i + kLeavesAhead]);
     const auto [first, end] = vertices_of(leaves[i]);
-    surface_leaves.push_back({leaves[i], kernels->within(index->positions, first, end - first, query.ball)});
+    const LaneMask lanes = kernels->within(index->positions, first, end - first, query.ball);
+    if (lanes == 0 || lanes == first_lanes(end - first)) {
+      settle(leaves[i], lanes != 0);
+    } else {
+      surface_leaves.push_back({leaves[i], lanes});
+    }
   }
 }
 
-/// Marks the whole nodes that are surely connected with the query vertex.
+/// For a leaf that intersects the ball by its sphere, but whose vertices are all in the ball, or all outside.
+void Searcher::State::settle(LeafId leaf, bool is_whole) {
+  GroupState& state = states[leaf / kFanOut];
+  const NodeSet bit = node_at(leaf % kFanOut);
+  state.intersecting &= static_cast<NodeSet>(~bit);
+  if (is_whole) state.whole |= bit;  // mutant: whole-surface-leaf-dropped
+}
+
+/// Marks the whole nodes at the query vertex, from which the marks spread.
 void Searcher::State::mark_home(const Query& query) {
-  marks.begin(query.leaf(), states);
+  marks.mark(query.leaf(), states);
   const auto own = std::find_if(surface_leaves.begin(), surface_leaves.end(),
                                 [&](const LeafSubset& leaf) { return leaf.leaf == query.leaf(); });
   if (own != surface_leaves.end()) {
@@ -155,7 +173,6 @@ void Searcher::State::mark_home(const Query& query) {
       if (is_linked) marks.mark(link.leaf, states);
     }
   }
-  marks.spread(descent.groups(), states);
 }
 
 /// Adds all vertices reached to the answer.
@@ -163,9 +180,7 @@ void Searcher::State::add_reached() {
   for (const std::uint32_t group : descent.groups()) {
     for_each_node(states[group].whole, [&](unsigned i) { answer.add(run_of(index->records[group], i)); });
   }
-  for (const LeafSubset& leaf : surface_leaves) {
-    if (leaf.lanes != 0) answer.add(leaf);
-  }
+  for (const LeafSubset& leaf : surface_leaves) answer.add(leaf);
 }
 
 void Searcher::State::write_answer(std::vector<VertexId>& out) const {

@@ -44,8 +44,7 @@ struct Searcher::State {
   FewLeaves few_leaves;
   LeafBfs leaf_bfs;
   SearchMemory memory;
-  std::vector<LeafSubset>
-      surface_leaves;  // the leaves that intersect the surface of the ball, with their vertices in it
+  std::vector<LeafSubset> surface_leaves;  // with vertices in the ball, which they have, and others
   VertexSet answer;
   std::optional<VertexBfs> vertex_bfs;  // answers instead of `search` where the graph is unlike a surface
   bool was_outward = false;             // whether the last answer was found by `search_outward`
@@ -91,6 +90,7 @@ struct Searcher::State {
   [[nodiscard]] Home home_of(const Query& query, double ratio) const;
   bool reach_from(const Home& home, const Query& query, std::size_t limited_above);
   void find_surface_leaves(const Query& query);
+  void settle(LeafId leaf, bool is_whole);
   void mark_home(const Query& query);
   void add_reached();
 };

@@ -40,8 +40,10 @@ TEST_P(OtherComponentsOnFamilies, AreTheBallWithoutTheAnswer) {
   for_each_search_case(GetParam(), scaled(20, 3), 2, [&](const SearchCase& c) {
     LeafTraversal traversal(c.index, c.kernels);
     OtherComponents others(c.index, c.kernels);
+    HomeMarks marks(c.index);
+    GroupStates states = unmarked(c.index);
     ASSERT_TRUE(
-        others.find(c.query, all_vertices(c), unmarked(c.index), std::numeric_limits<std::size_t>::max(), traversal));
+        others.find(c.query, all_vertices(c), marks, states, std::numeric_limits<std::size_t>::max(), traversal));
     Ids found;
     LeafId next = 0;
     for (const LeafSubset& subset : others.found()) {
@@ -74,8 +76,10 @@ TEST(OtherComponents, ReturnsFalseWhenTheLimitOfVisitsIsExceeded) {
   LeafTraversal traversal(index, portable_kernels());
   OtherComponents others(index, portable_kernels());
   const std::vector<LocalMinimum> minima = all_vertices(c);
-  EXPECT_FALSE(others.find(query, minima, unmarked(index), 3, traversal));
-  EXPECT_TRUE(others.find(query, minima, unmarked(index), std::numeric_limits<std::size_t>::max(), traversal));
+  HomeMarks marks(index);
+  GroupStates states = unmarked(index);
+  EXPECT_FALSE(others.find(query, minima, marks, states, 3, traversal));
+  EXPECT_TRUE(others.find(query, minima, marks, states, std::numeric_limits<std::size_t>::max(), traversal));
   EXPECT_GT(others.found().size(), 3U);
 }
 

@@ -44,6 +44,16 @@ TEST(SearchMemory, ComparesTheStepsWithUnitingAndWithTheAnswer) {
   EXPECT_FALSE(torn.is_answer_small());
 }
 
+TEST(SearchMemory, LeavesOutALargeStartThatFailedInMostRecentBalls) {
+  SearchMemory memory;
+  memory.begin_ball();
+  EXPECT_FALSE(memory.is_large_start_vain());
+  for (int i = 0; i < 20; ++i) memory.record_large_start(false);
+  EXPECT_TRUE(memory.is_large_start_vain());
+  for (int i = 0; i < 4; ++i) memory.record_large_start(true);
+  EXPECT_FALSE(memory.is_large_start_vain());
+}
+
 TEST(SearchMemory, IsIgnoredForOneBallInSixteen) {
   SearchMemory memory = memory_of(60, 200, 30);
   std::size_t answered_no = 0;
