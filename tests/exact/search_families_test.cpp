@@ -49,6 +49,22 @@ TEST_P(Families, AnswersAreThoseOfTheReference) {
   std::printf("%s: %zu meshes, %zu queries, 0 mismatches\n", std::string(GetParam().name).c_str(), meshes, queries);
 }
 
+TEST_P(Families, EveryVertexOfSmallMeshesAtFiveRadii) {
+  std::size_t queries = 0;
+  for (const std::size_t vertices : {33U, 120U, 300U}) {
+    const TestMesh mesh = make_mesh(GetParam(), 0, vertices);
+    SCOPED_TRACE(mesh.name);
+    ExactAnswer exact(mesh.view());
+    const double unit = mean_edge_length(exact.graph());
+    for (VertexId v = 0; v < mesh.size(); ++v) {
+      for (const double edges : {0.5, 1.0, 2.0, 5.0, 20.0}) exact.query_ids(v, edges * unit);
+    }
+    ASSERT_EQ(exact.mismatches(), 0U);
+    queries += exact.queries();
+  }
+  std::printf("%zu queries\n", queries);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, Families, testing::ValuesIn(families()), family_name);
 
 }  // namespace
