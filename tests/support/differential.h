@@ -29,6 +29,7 @@ struct Tally {
 template <class Prepare, class Inspect>
 void compare_with_oracle(const TestMesh& mesh, std::uint64_t seed, std::size_t queries, Tally& tally, Prepare&& prepare,
                          Inspect&& inspect) {
+  ++tally.meshes;
   if (mesh.size() == 0) return;
   const Oracle oracle(mesh);
   const Index index = build(mesh.view());
@@ -36,7 +37,6 @@ void compare_with_oracle(const TestMesh& mesh, std::uint64_t seed, std::size_t q
   for (Searcher& searcher : searchers) prepare(searcher);
   Random random(seed);
   std::vector<VertexId> ids;
-  ++tally.meshes;
   for (std::size_t asked = 0; asked < queries;) {
     const auto v = static_cast<std::uint32_t>(random.below(mesh.size()));
     for (const double radius : draw_radii(random, oracle, v)) {
