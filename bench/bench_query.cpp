@@ -18,7 +18,7 @@ constexpr std::size_t kStride = 7919;  // a prime, so that all vertices are used
 
 /// Runs `answer(v, radius, out)` for one vertex after the other; the radius is the argument of the benchmark.
 template <class F>
-void ask_everywhere(benchmark::State& state, F&& answer) {
+void time_queries(benchmark::State& state, F&& answer) {
   const auto radius = static_cast<double>(state.range(0));
   std::vector<VertexId> out;
   std::size_t v = 0;
@@ -34,25 +34,25 @@ void ask_everywhere(benchmark::State& state, F&& answer) {
 void bm_bfs(benchmark::State& state, const std::string& kind) {
   const shapes::Shape mesh = shapes::find_kind(kind)->make(kVertices);
   ReferenceSearcher searcher(mesh.view());
-  ask_everywhere(state, [&](VertexId v, double radius, auto& out) { searcher.neighborhood(v, radius, out); });
+  time_queries(state, [&](VertexId v, double radius, auto& out) { searcher.neighborhood(v, radius, out); });
 }
 
 void bm_ball(benchmark::State& state, const std::string& kind) {
   const shapes::Shape mesh = shapes::find_kind(kind)->make(kVertices);
-  ask_everywhere(
-      state, [&](VertexId v, double radius, auto& out) { vertices_in_ball(mesh.view().positions, v, radius, out); });
+  time_queries(state,
+               [&](VertexId v, double radius, auto& out) { vertices_in_ball(mesh.view().positions, v, radius, out); });
 }
 
 void bm_exact(benchmark::State& state, const std::string& kind) {
   const Index index = build(shapes::find_kind(kind)->make(kVertices).view());
   Searcher searcher(index);
-  ask_everywhere(state, [&](VertexId v, double radius, auto& out) { searcher.neighborhood(v, radius, out); });
+  time_queries(state, [&](VertexId v, double radius, auto& out) { searcher.neighborhood(v, radius, out); });
 }
 
 void bm_paper(benchmark::State& state, const std::string& kind) {
   const paper::Index index = paper::build(shapes::find_kind(kind)->make(kVertices).view());
   paper::Searcher searcher(index);
-  ask_everywhere(state, [&](VertexId v, double radius, auto& out) { searcher.neighborhood(v, radius, out); });
+  time_queries(state, [&](VertexId v, double radius, auto& out) { searcher.neighborhood(v, radius, out); });
 }
 
 BENCHMARK_CAPTURE(bm_bfs, sphere, "sphere")->Arg(2)->Arg(10)->Arg(40);

@@ -20,7 +20,7 @@ namespace meshhood::paper {
 using PhaseSeconds = std::array<double, 3>;
 
 struct SearcherAccess {
-  static PhaseSeconds ask(Searcher& searcher, VertexId v, double radius, std::vector<VertexId>& out) {
+  static PhaseSeconds time_phases(Searcher& searcher, VertexId v, double radius, std::vector<VertexId>& out) {
     return std::visit([&](const auto& hierarchy) { return run_phases(hierarchy, searcher, v, radius, out); },
                       searcher.storage_->hierarchy);
   }
@@ -83,7 +83,7 @@ void profile(const MeshView& mesh, std::size_t queries, const std::vector<double
     Shares shares;
     for (std::size_t i = 0; i < queries; ++i) {
       const auto v = static_cast<VertexId>(random() % index.vertex_count());
-      shares.add(paper::SearcherAccess::ask(searcher, v, radius * unit, out));
+      shares.add(paper::SearcherAccess::time_phases(searcher, v, radius * unit, out));
     }
     shares.print(radius, radius == radii.back());
   }

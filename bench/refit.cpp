@@ -146,13 +146,13 @@ class Refits {
     for (const double height : {0.02, 0.1, 0.5, 2.0}) {
       const std::vector<double> moved = bent(xyz_, height);
       const Index refitted = refit(index_, moved);
-      const Index young = build_at(moved);
+      const Index built = build_at(moved);
       const double radius = 20 * mean_edge_length({moved, graph_.view()});
       Shortest old_time;
       Shortest new_time;
       for (int round = 0; round < 3; ++round) {
-        old_time.round([&] { ask(refitted, radius); });
-        new_time.round([&] { ask(young, radius); });
+        old_time.round([&] { run_queries(refitted, radius); });
+        new_time.round([&] { run_queries(built, radius); });
       }
       std::printf("wave of %4.2f %24.2f %13.1f %8.1f %16.2f\n", height, quality(refitted).gain,
                   1e3 * old_time.milliseconds / kQueries, 1e3 * new_time.milliseconds / kQueries,
@@ -160,7 +160,7 @@ class Refits {
     }
   }
 
-  static void ask(const Index& index, double radius) {
+  static void run_queries(const Index& index, double radius) {
     Searcher searcher(index);
     for (const VertexId v : anywhere(index.vertex_count(), kQueries)) static_cast<void>(searcher.count(v, radius));
   }

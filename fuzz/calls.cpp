@@ -20,8 +20,8 @@
 #include "support/families.h"
 #include "support/index_bytes.h"
 #include "support/oracle.h"
+#include "support/paper_bounds.h"
 #include "support/region_oracle.h"
-#include "support/sandwich.h"
 #include "target.h"
 
 namespace meshhood::fuzz {
@@ -243,11 +243,11 @@ class Session {
     const test::Oracle& oracle = place.subject->oracle;
     const Query query = any_query(oracle);
     place.searcher->neighborhood(query.vertex, query.radius, ids_);
-    test::Sandwich sandwich(oracle.size());
+    test::PaperBounds bounds(oracle.size());
     const auto inside = [&](VertexId w) {
       return oracle.distance(query.vertex, w) <= query.radius && oracle.component(query.vertex) == oracle.component(w);
     };
-    if (!sandwich.holds(oracle.exact(query.vertex, query.radius), ids_, inside)) fail("paper's answer differs");
+    if (!bounds.holds(oracle.exact(query.vertex, query.radius), ids_, inside)) fail("paper's answer differs");
   }
 
   void ask_batch() {

@@ -13,7 +13,7 @@
 
 #include "support/exact_answer.h"
 #include "support/oracle.h"
-#include "support/sandwich.h"
+#include "support/paper_bounds.h"
 
 namespace meshhood::fuzz {
 namespace {
@@ -40,7 +40,7 @@ class Judge {
         exact_(mesh.view()),
         paper_(paper::build(mesh.view(), draw_options(random))),
         paper_searcher_(paper_),
-        sandwich_(mesh.size()) {
+        bounds_(mesh.size()) {
     expect_sound(exact_.index().check(mesh.view()), "exact");
     expect_sound(paper_.check(mesh.view()), "paper's");
   }
@@ -60,7 +60,7 @@ class Judge {
     const auto inside = [&](VertexId w) {
       return oracle_.distance(v, w) <= radius && oracle_.component(v) == oracle_.component(w);
     };
-    if (!sandwich_.holds(expected, answer_, inside)) refuse("paper's", v, radius);
+    if (!bounds_.holds(expected, answer_, inside)) refuse("paper's", v, radius);
   }
 
  private:
@@ -88,7 +88,7 @@ class Judge {
   test::ExactAnswer exact_;
   paper::Index paper_;
   paper::Searcher paper_searcher_;
-  test::Sandwich sandwich_;
+  test::PaperBounds bounds_;
   std::vector<VertexId> answer_;
 };
 

@@ -28,7 +28,7 @@ struct PartContents {
 
 /// Builds the index of a part and writes its files to `folder`, which must exist and be empty.
 ///
-/// tree   tells which vertices the part owns.
+/// tree   determines which vertices the part owns.
 /// Throws Error{IoFailure, TooLarge, Cancelled}.
 [[nodiscard]] Part write_part_files(const std::filesystem::path& folder, const PartContents& contents,
                                     std::size_t number, const CutTree& tree, bool is_double,

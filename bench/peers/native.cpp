@@ -38,12 +38,12 @@ namespace {
 
 using Answer = std::vector<VertexId>;
 /// Answers a query on the thread with this number.
-using Ask = std::function<void(unsigned thread, VertexId v, double radius, Answer& out)>;
+using Search = std::function<void(unsigned thread, VertexId v, double radius, Answer& out)>;
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-Ask breadth_first(const MeshView& mesh, unsigned threads) {
+Search breadth_first(const MeshView& mesh, unsigned threads) {
   auto graph = std::make_shared<Adjacency>(adjacency(mesh));
   auto searchers = std::make_shared<std::vector<ReferenceSearcher>>();
   for (unsigned i = 0; i < threads; ++i) searchers->emplace_back(GraphView{mesh.positions, graph->view()});
@@ -52,7 +52,7 @@ Ask breadth_first(const MeshView& mesh, unsigned threads) {
   };
 }
 
-Ask kd_tree(const MeshView& mesh) {
+Search kd_tree(const MeshView& mesh) {
   auto cloud = std::make_shared<PointCloud>(mesh.positions);
   auto tree = std::make_shared<KdTree>(3, *cloud);
   return [cloud, tree](unsigned /*thread*/, VertexId v, double radius, Answer& out) {
@@ -64,7 +64,7 @@ Ask kd_tree(const MeshView& mesh) {
   };
 }
 
-Ask exact(const MeshView& mesh, unsigned threads) {
+Search exact(const MeshView& mesh, unsigned threads) {
   auto index = std::make_shared<Index>(build(mesh, {.threads = threads}));
   auto searchers = std::make_shared<std::vector<Searcher>>();
   for (unsigned i = 0; i < threads; ++i) searchers->emplace_back(*index);
@@ -74,7 +74,7 @@ Ask exact(const MeshView& mesh, unsigned threads) {
 }
 
 /// The curvatures of a quadric fitted to the vertices that `search` finds, in place of the ids.
-Ask curvature(const MeshView& mesh, const Ask& search) {
+Search curvature(const MeshView& mesh, const Search& search) {
   auto fit = std::make_shared<QuadricFit>(mesh);
   return [fit, search](unsigned thread, VertexId v, double radius, Answer& out) {
     search(thread, v, radius, out);
@@ -85,7 +85,7 @@ Ask curvature(const MeshView& mesh, const Ask& search) {
   };
 }
 
-Ask make(const std::string& kind, const MeshView& mesh, unsigned threads) {
+Search make(const std::string& kind, const MeshView& mesh, unsigned threads) {
   if (kind == "bfs") return breadth_first(mesh, threads);
   if (kind == "nanoflann") return kd_tree(mesh);
   if (kind == "curvature") return curvature(mesh, exact(mesh, threads));
@@ -112,14 +112,14 @@ void write_answers(const std::string& path, const std::vector<Answer>& answers) 
 }
 
 /// Each thread takes the next few queries until none is left.
-void answer_all(const Ask& ask, const std::vector<VertexId>& queries, double radius, unsigned threads,
+void answer_all(const Search& search, const std::vector<VertexId>& queries, double radius, unsigned threads,
                 std::vector<Answer>& answers) {
   constexpr std::size_t kChunk = 16;
   std::atomic<std::size_t> next{0};
   const auto work = [&](unsigned thread) {
     for (std::size_t begin; (begin = next.fetch_add(kChunk)) < queries.size();) {
       const std::size_t end = std::min(begin + kChunk, queries.size());
-      for (std::size_t i = begin; i < end; ++i) ask(thread, queries[i], radius, answers[i]);
+      for (std::size_t i = begin; i < end; ++i) search(thread, queries[i], radius, answers[i]);
     }
   };
   std::vector<std::jthread> helpers;
@@ -127,7 +127,7 @@ void answer_all(const Ask& ask, const std::vector<VertexId>& queries, double rad
   work(0);
 }
 
-void serve(const Ask& ask, unsigned threads) {
+void serve(const Search& search, unsigned threads) {
   for (std::string line; std::getline(std::cin, line);) {
     std::istringstream words(line);
     double radius = 0;
@@ -137,7 +137,7 @@ void serve(const Ask& ask, unsigned threads) {
     const std::vector<VertexId> queries = read_queries(from);
     std::vector<Answer> answers(queries.size());
     const auto begin = Clock::now();
-    answer_all(ask, queries, radius, threads, answers);
+    answer_all(search, queries, radius, threads, answers);
     const double seconds = seconds_since(begin);
     if (!to.empty()) write_answers(to, answers);
     std::cout << seconds << std::endl;
@@ -153,8 +153,8 @@ int main(int arguments, char** values) {
   const MeshArgument mesh(values[2]);
   const auto threads = static_cast<unsigned>(std::stoul(values[3]));
   const auto begin = Clock::now();
-  const Ask ask = make(values[1], mesh.view(), threads);
+  const Search search = make(values[1], mesh.view(), threads);
   std::cout << seconds_since(begin) << std::endl;
-  serve(ask, threads);
+  serve(search, threads);
   return 0;
 }

@@ -18,7 +18,7 @@ namespace meshhood {
 /// z = a x^2 + b x y + c y^2 + d x + e y in the frame of a vertex.
 using Quadric = std::array<double, 5>;
 
-/// A quadric has five coefficients; libigl asks for one vertex more.
+/// A quadric has five coefficients; libigl requires one vertex more.
 inline constexpr std::size_t kFewestPoints = 6;
 
 /// Orthonormal axes at a vertex; `n` is its normal.

@@ -72,7 +72,7 @@ std::vector<std::uint64_t> sizes_of(const Streamed& rows) {
 
 /// A row by a searcher of its own, ids ascending, with distances.
 template <class Searcher>
-void ask(Searcher& searcher, VertexId v, double radius, Streamed& out) {
+void append_answer(Searcher& searcher, VertexId v, double radius, Streamed& out) {
   std::vector<VertexId> ids;
   std::vector<double> distances;
   searcher.neighborhood(v, radius, ids, distances);
@@ -91,7 +91,7 @@ template <class Searcher, class Index>
 Streamed one_by_one(const Index& index, std::span<const VertexId> vertices, std::span<const double> radii) {
   Streamed result;
   Searcher searcher(index);
-  for (std::size_t row = 0; row < vertices.size(); ++row) ask(searcher, vertices[row], radii[row], result);
+  for (std::size_t row = 0; row < vertices.size(); ++row) append_answer(searcher, vertices[row], radii[row], result);
   return result;
 }
 

@@ -140,7 +140,7 @@ TEST(IndexDamage, AForgedBitIsRejectedOrHarmless) {
     }
   }
   std::printf("F2: %zu forgeries, %zu accepted and queried\n", tried, accepted);
-  EXPECT_GT(accepted, 0U) << "nothing was asked";
+  EXPECT_GT(accepted, 0U) << "nothing was queried";
   EXPECT_LT(accepted, tried / 2);
 }
 

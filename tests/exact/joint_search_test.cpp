@@ -20,7 +20,7 @@ namespace meshhood::test {
 namespace {
 
 /// A query of the test: a vertex of the index by its leaf and lane, and a radius.
-struct Asked {
+struct TestQuery {
   LeafId leaf;
   unsigned lane;
   double radius;
@@ -42,11 +42,11 @@ class JointAnswer {
   [[nodiscard]] std::size_t mismatches() const { return mismatches_; }
 
   /// Answers `queries`, sorted by leaf, group by group and leaf by leaf, with the searches in turn.
-  void query(std::span<const Asked> queries) {
+  void query(std::span<const TestQuery> queries) {
     while (!queries.empty()) {
       const LeafId group = queries.front().leaf / kFanOut;
       const auto end = std::find_if(queries.begin(), queries.end(),
-                                    [&](const Asked& asked) { return asked.leaf / kFanOut != group; });
+                                    [&](const TestQuery& item) { return item.leaf / kFanOut != group; });
       const auto count = static_cast<std::size_t>(end - queries.begin());
       query_group(queries.first(count));
       queries = queries.subspan(count);
@@ -54,16 +54,16 @@ class JointAnswer {
   }
 
  private:
-  void query_group(std::span<const Asked> queries) {
+  void query_group(std::span<const TestQuery> queries) {
     JointSearch& search = searches_[groups_++ % searches_.size()];
     writer_ = &writers_[static_cast<std::size_t>(&search - searches_.data())];
     double low = kInfinity;
     double high = 0;
     std::vector<LeafId> leaves;
-    for (const Asked& asked : queries) {
-      low = std::min(low, asked.radius);
-      high = std::max(high, asked.radius);
-      if (leaves.empty() || leaves.back() != asked.leaf) leaves.push_back(asked.leaf);
+    for (const TestQuery& item : queries) {
+      low = std::min(low, item.radius);
+      high = std::max(high, item.radius);
+      if (leaves.empty() || leaves.back() != item.leaf) leaves.push_back(item.leaf);
     }
     search.begin_group(leaves, TreeBounds(view_.frame, low), TreeBounds(view_.frame, high));
     while (!queries.empty()) {
@@ -77,9 +77,9 @@ class JointAnswer {
     }
   }
 
-  void query_packet(JointSearch& search, std::span<const Asked> queries) {
+  void query_packet(JointSearch& search, std::span<const TestQuery> queries) {
     std::vector<JointQuery> packet;
-    for (const Asked& asked : queries) packet.push_back({asked.lane, JointRadius(view_.frame, asked.radius)});
+    for (const TestQuery& item : queries) packet.push_back({item.lane, JointRadius(view_.frame, item.radius)});
     search.run(queries.front().leaf, packet);
     const PerLane<std::uint64_t> counts = search.counts();
     writer_->begin(search.answer());
@@ -131,8 +131,8 @@ class JointAnswer {
 
 /// Every vertex of the index with the radius that `radius(vertex)` gives; a part of them where `part` is less than 1.
 template <class F>
-std::vector<Asked> all_vertices(const IndexView& index, Random& random, double part, F&& radius) {
-  std::vector<Asked> result;
+std::vector<TestQuery> all_vertices(const IndexView& index, Random& random, double part, F&& radius) {
+  std::vector<TestQuery> result;
   for (LeafId leaf = 0; leaf < index.leaf_count(); ++leaf) {
     for (unsigned lane = 0; lane < index.leaves[leaf].size; ++lane) {
       if (random.uniform(0, 1) < part) result.push_back({leaf, lane, radius(index.id(index.leaf_begin[leaf] + lane))});

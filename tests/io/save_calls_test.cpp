@@ -52,7 +52,7 @@ class SaveCalls : public SaveTrial {
     return message;
   }
 
-  void expect_all_well(const std::string& message) const {
+  void expect_success(const std::string& message) const {
     EXPECT_EQ(message, "");
     EXPECT_EQ(held(), Version::New);
     EXPECT_EQ(remove_leftovers(), 0U);
@@ -93,14 +93,14 @@ TEST_P(SaveCalls, EachFailureIsAnErrorAndLeavesTheOldFile) {
       for (const int error : {EIO, ENOSPC, EDQUOT}) {
         SCOPED_TRACE(label(calls, at, before));
         restore(before);
-        const std::string message = save_with({Mishap::Error, at, error});
+        const std::string message = save_with({FaultKind::Error, at, error});
         if (at <= rename_in(calls)) {
           expect_refused(message, error, before);
         } else if (calls[at] == Call::Sync) {
           expect_refused(message, error, Version::New);
           EXPECT_THAT(message, HasSubstr("the new file is in place"));
         } else {
-          expect_all_well(message);  // only the folder was closed
+          expect_success(message);  // only the folder was closed
         }
         EXPECT_EQ(remove_leftovers(), 0U);
         EXPECT_EQ(open_files(), files);
@@ -116,7 +116,7 @@ TEST_P(SaveCalls, TheFirstErrorIsReportedIfRemovingFailsToo) {
   for (std::size_t at = 1; at <= rename_in(calls); ++at) {
     SCOPED_TRACE(label(calls, at, Version::Old));
     restore(Version::Old);
-    expect_refused(save_with({.mishap = Mishap::Error, .at = at, .error = ENOSPC, .stuck = true}), ENOSPC,
+    expect_refused(save_with({.kind = FaultKind::Error, .at = at, .error = ENOSPC, .stuck = true}), ENOSPC,
                    Version::Old);
     EXPECT_EQ(remove_leftovers(), 1U);
   }
@@ -127,10 +127,10 @@ TEST_P(SaveCalls, SignalsAndShortWritesAreNoErrors) {
   for (const Version before : kBefore) {
     const auto calls = calls_of_a_save(before);
     for (std::size_t at = 0; at < calls.size(); ++at) {
-      for (const Mishap mishap : {Mishap::Error, Mishap::Short}) {
+      for (const FaultKind kind : {FaultKind::Error, FaultKind::Short}) {
         SCOPED_TRACE(label(calls, at, before));
         restore(before);
-        expect_all_well(save_with({mishap, at, EINTR}));
+        expect_success(save_with({kind, at, EINTR}));
         ++times;
       }
     }
@@ -142,11 +142,12 @@ TEST_P(SaveCalls, SignalsAndShortWritesAreNoErrors) {
 TEST_P(SaveCalls, OptionalCallsMayFail) {
   const auto calls = calls_of_a_save(Version::Old);
   const std::size_t rename = rename_in(calls);
-  for (const Fault& fault : {Fault{Mishap::Error, rename - 5, EPERM}, Fault{Mishap::Error, rename - 5, EINVAL},
-                             Fault{Mishap::Error, rename - 3, EACCES}, Fault{Mishap::Error, rename + 1, EINVAL}}) {
+  for (const Fault& fault :
+       {Fault{FaultKind::Error, rename - 5, EPERM}, Fault{FaultKind::Error, rename - 5, EINVAL},
+        Fault{FaultKind::Error, rename - 3, EACCES}, Fault{FaultKind::Error, rename + 1, EINVAL}}) {
     SCOPED_TRACE(label(calls, fault.at, Version::Old));
     restore(Version::Old);
-    expect_all_well(save_with(fault));
+    expect_success(save_with(fault));
   }
 }
 
@@ -155,12 +156,12 @@ TEST_P(SaveCalls, TheProcessMayEndBeforeAnyCall) {
   for (const Version before : kBefore) {
     const auto calls = calls_of_a_save(before);
     for (std::size_t at = 0; at < calls.size(); ++at) {
-      for (const Mishap mishap : {Mishap::Kill, Mishap::KillWithin}) {
+      for (const FaultKind kind : {FaultKind::Kill, FaultKind::KillWithin}) {
         SCOPED_TRACE(label(calls, at, before));
         restore(before);
         const pid_t child = ::fork();
         if (child == 0) {
-          static_cast<void>(save_with({mishap, at, 0}));
+          static_cast<void>(save_with({kind, at, 0}));
           ::_exit(0);
         }
         int status = 0;
@@ -187,9 +188,9 @@ TEST_P(SaveCalls, ADeviceFailsByName) {
   ASSERT_EQ(std::count(calls.begin(), calls.end(), Call::Rename), 0);
   for (std::size_t at = 0; at < calls.size(); ++at) {
     SCOPED_TRACE(label(calls, at, Version::None));
-    EXPECT_THAT(save_with({Mishap::Error, at, EIO}), HasSubstr("/dev/null: cannot "));
-    EXPECT_EQ(save_with({Mishap::Error, at, EINTR}), "");
-    EXPECT_EQ(save_with({Mishap::Short, at, 0}), "");
+    EXPECT_THAT(save_with({FaultKind::Error, at, EIO}), HasSubstr("/dev/null: cannot "));
+    EXPECT_EQ(save_with({FaultKind::Error, at, EINTR}), "");
+    EXPECT_EQ(save_with({FaultKind::Short, at, 0}), "");
   }
 }
 

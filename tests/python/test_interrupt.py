@@ -168,7 +168,7 @@ def test_ctrl_c_in_a_build_of_the_paper(index, ctrl_c):
     print(f"hierarchy: KeyboardInterrupt after {1000 * seconds:.0f} ms")
 
 
-def told(call):
+def check_reports(call):
     calls = []
     call(lambda done, total: calls.append((done, total)))
     assert calls[0][0] == 0
@@ -179,17 +179,17 @@ def told(call):
 
 @pytest.mark.parametrize("method", ("exact", "paper", "bfs", "ball"))
 def test_progress_of_a_batch(index, method):
-    told(lambda watch: index.query_ball(range(100), 3.0, method=method, progress=watch))
-    told(lambda watch: index.query_ball_count(range(100), 3.0, method=method, progress=watch))
+    check_reports(lambda watch: index.query_ball(range(100), 3.0, method=method, progress=watch))
+    check_reports(lambda watch: index.query_ball_count(range(100), 3.0, method=method, progress=watch))
 
 
 @pytest.mark.parametrize("call", (aggregate, curvature))
 def test_progress_of_sums_over_neighborhoods(index, call):
-    told(lambda watch: call(index, 3.0, vertices=range(100), progress=watch))
+    check_reports(lambda watch: call(index, 3.0, vertices=range(100), progress=watch))
 
 
 def test_progress_of_a_build():
-    told(lambda watch: meshhood.MeshIndex(*meshes.two_plates(20), progress=watch))
+    check_reports(lambda watch: meshhood.MeshIndex(*meshes.two_plates(20), progress=watch))
 
 
 @pytest.mark.parametrize("method", ("exact", "paper", "bfs", "ball"))

@@ -261,14 +261,14 @@ def map_index(file):
     _mapped = meshhood.load(file, mmap=True)
 
 
-def ask_mapped(v):
+def query_mapped(v):
     return run_query(_mapped, v)
 
 
 def test_processes_may_share_a_file(index, file):
     context = multiprocessing.get_context("spawn")
     with concurrent.futures.ProcessPoolExecutor(2, context, initializer=map_index, initargs=(file,)) as pool:
-        for v, got in enumerate(pool.map(ask_mapped, range(5))):
+        for v, got in enumerate(pool.map(query_mapped, range(5))):
             np.testing.assert_array_equal(got, index.query_ball(v, 3.5))
 
 

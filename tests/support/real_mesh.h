@@ -11,8 +11,8 @@
 
 #include "meshhood/meshhood.h"
 
+#include "support/paper_bounds.h"
 #include "support/random.h"
-#include "support/sandwich.h"
 
 namespace meshhood::test {
 
@@ -38,7 +38,7 @@ class RealMesh {
         index_(paper::build(mesh, options)),
         searcher_(index_),
         component_(components(reference_)),
-        sandwich_(component_.size()),
+        bounds_(component_.size()),
         mean_edge_(mean_edge_length({mesh.positions, reference_.adjacency()})) {
     EXPECT_THAT(index_.check(GraphView{mesh.positions, reference_.adjacency()}), testing::IsEmpty());
   }
@@ -63,7 +63,7 @@ class RealMesh {
     const auto inside = [&](VertexId w) {
       return component_[w] == component_[v] && distance(mesh_.positions, v, w) <= radius;
     };
-    const bool right = sandwich_.holds(exact_, answer_, inside) && searcher_.count(v, radius) == answer_.size();
+    const bool right = bounds_.holds(exact_, answer_, inside) && searcher_.count(v, radius) == answer_.size();
     EXPECT_TRUE(right) << "vertex " << v << ", radius " << radius;
     ++tally_.queries;
     tally_.exact += exact_.size();
@@ -80,7 +80,7 @@ class RealMesh {
   paper::Index index_;
   paper::Searcher searcher_;
   std::vector<VertexId> component_;
-  Sandwich sandwich_;
+  PaperBounds bounds_;
   double mean_edge_;
   std::vector<VertexId> exact_;
   std::vector<VertexId> answer_;

@@ -19,7 +19,7 @@ namespace {
 
 SystemCalls* active = nullptr;
 
-Mishap next(Call call) { return active == nullptr ? Mishap::None : active->next(call); }
+FaultKind next(Call call) { return active == nullptr ? FaultKind::None : active->next(call); }
 
 int fail() {
   errno = active->error();
@@ -29,7 +29,7 @@ int fail() {
 /// `real()`, or the fault.
 template <class F>
 auto call_or_fail(Call call, F&& real) -> decltype(real()) {
-  return next(call) == Mishap::Error ? fail() : real();
+  return next(call) == FaultKind::Error ? fail() : real();
 }
 
 /// Records the call unless it failed, and returns `result`.
@@ -51,14 +51,14 @@ SystemCalls::SystemCalls(const Fault& fault) : fault_(fault) { active = this; }
 
 SystemCalls::~SystemCalls() { active = nullptr; }
 
-Mishap SystemCalls::next(Call call) {
+FaultKind SystemCalls::next(Call call) {
   made_.push_back(call);
-  if (call == Call::Unlink && fault_.stuck) return Mishap::Error;
-  if (made_.size() != fault_.at + 1) return Mishap::None;
-  if (fault_.mishap == Mishap::Kill || (fault_.mishap == Mishap::KillWithin && call != Call::Write)) {
+  if (call == Call::Unlink && fault_.stuck) return FaultKind::Error;
+  if (made_.size() != fault_.at + 1) return FaultKind::None;
+  if (fault_.kind == FaultKind::Kill || (fault_.kind == FaultKind::KillWithin && call != Call::Write)) {
     static_cast<void>(std::raise(SIGKILL));
   }
-  return fault_.mishap;
+  return fault_.kind;
 }
 
 }  // namespace meshhood::test
@@ -80,7 +80,7 @@ int __real_unlink(const char* path);
 
 using meshhood::test::Call;
 using meshhood::test::call_or_fail;
-using meshhood::test::Mishap;
+using meshhood::test::FaultKind;
 using meshhood::test::noted;
 
 int __wrap_open(const char* path, int flags, ...) {
@@ -93,11 +93,11 @@ int __wrap_open(const char* path, int flags, ...) {
 }
 
 ssize_t __wrap_write(int file, const void* bytes, size_t size) {
-  const Mishap mishap = meshhood::test::next(Call::Write);
-  if (mishap == Mishap::Error) return meshhood::test::fail();
-  const size_t taken = mishap == Mishap::None ? size : (size + 1) / 2;
+  const FaultKind kind = meshhood::test::next(Call::Write);
+  if (kind == FaultKind::Error) return meshhood::test::fail();
+  const size_t taken = kind == FaultKind::None ? size : (size + 1) / 2;
   const ssize_t written = __real_write(file, bytes, taken);
-  if (mishap == Mishap::KillWithin) static_cast<void>(std::raise(SIGKILL));
+  if (kind == FaultKind::KillWithin) static_cast<void>(std::raise(SIGKILL));
   const auto count = static_cast<size_t>(written < 0 ? 0 : written);
   return noted(written, {.call = Call::Write, .file = file, .bytes = {static_cast<const char*>(bytes), count}});
 }
@@ -125,9 +125,9 @@ int __wrap_fsync(int file) {
 }
 
 int __wrap_close(int file) {
-  const Mishap mishap = meshhood::test::next(Call::Close);
+  const FaultKind kind = meshhood::test::next(Call::Close);
   const int closed = noted(__real_close(file), {.call = Call::Close, .file = file});
-  return mishap == Mishap::Error ? meshhood::test::fail() : closed;
+  return kind == FaultKind::Error ? meshhood::test::fail() : closed;
 }
 
 int __wrap_rename(const char* from, const char* to) {

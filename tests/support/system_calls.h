@@ -17,7 +17,7 @@ inline constexpr std::size_t kCalls = 10;
 
 [[nodiscard]] std::string_view name_of(Call call);
 
-enum class Mishap {
+enum class FaultKind {
   None,
   Error,       ///< the call does nothing and fails; `close` fails, but has closed
   Short,       ///< a write takes half of its bytes; other calls succeed
@@ -27,7 +27,7 @@ enum class Mishap {
 
 /// The fault and its time.
 struct Fault {
-  Mishap mishap = Mishap::None;
+  FaultKind kind = FaultKind::None;
   std::size_t at = 0;  ///< number of the call, from 0
   int error = 0;       ///< `errno` of the failure
   bool stuck = false;  ///< removing files fails as well
@@ -56,7 +56,7 @@ class SystemCalls {
   [[nodiscard]] const std::vector<Effect>& effects() const { return effects_; }
 
   /// Counts a call that is about to be made, and returns its fault.
-  [[nodiscard]] Mishap next(Call call);
+  [[nodiscard]] FaultKind next(Call call);
   [[nodiscard]] int error() const { return fault_.error; }
 
   /// Records a call that succeeded.

@@ -19,7 +19,7 @@
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/oracle.h"
-#include "support/sandwich.h"
+#include "support/paper_bounds.h"
 #include "support/scale.h"
 
 namespace meshhood::test {
@@ -44,7 +44,7 @@ struct Tally {
 class Comparison {
  public:
   Comparison(const TestMesh& mesh, std::uint64_t seed, Tally& tally)
-      : mesh_(mesh), oracle_(mesh), reference_(mesh.view()), sandwich_(mesh.size()), random_(seed), tally_(tally) {
+      : mesh_(mesh), oracle_(mesh), reference_(mesh.view()), bounds_(mesh.size()), random_(seed), tally_(tally) {
     for (int i = 0; i < 5; ++i) add_index(draw_build_options(random_));
     ++tally_.meshes;
   }
@@ -81,7 +81,7 @@ class Comparison {
     const auto inside = [&](VertexId w) {
       return oracle_.distance(v, w) <= radius && oracle_.component(v) == oracle_.component(w);
     };
-    expect(sandwich_.holds(exact_, answer_, inside), "paper", v, radius);
+    expect(bounds_.holds(exact_, answer_, inside), "paper", v, radius);
     expect(searcher.count(static_cast<VertexId>(v), radius) == answer_.size(), "count", v, radius);
   }
 
@@ -95,7 +95,7 @@ class Comparison {
   const TestMesh& mesh_;
   Oracle oracle_;
   ReferenceSearcher reference_;
-  Sandwich sandwich_;
+  PaperBounds bounds_;
   Random random_;
   Tally& tally_;
   std::vector<paper::Index> indexes_;

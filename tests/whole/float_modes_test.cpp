@@ -30,7 +30,7 @@ class FlushDenormals {
   unsigned before_ = _mm_getcsr();
 };
 
-struct Question {
+struct ExpectedAnswer {
   VertexId v;
   double radius;
   std::vector<VertexId> expected;
@@ -42,32 +42,32 @@ bool is_denormal(const Family& family) {
   return std::ranges::find(kDenormal, family.name) != kDenormal.end();
 }
 
-std::vector<Question> ask_before(const TestMesh& mesh, Random& random) {
+std::vector<ExpectedAnswer> expected_answers(const TestMesh& mesh, Random& random) {
   ReferenceSearcher reference(mesh.view());
-  std::vector<Question> questions;
+  std::vector<ExpectedAnswer> expected;
   for (std::size_t i = 0; mesh.size() > 0 && i < 100; ++i) {
     const auto v = static_cast<VertexId>(random.below(mesh.size()));
     const double radius = distance(mesh.positions_view(), v, static_cast<VertexId>(random.below(mesh.size())));
     std::vector<VertexId> ids;
     reference.neighborhood(v, radius, ids);
-    questions.push_back({v, radius, sorted(ids)});
+    expected.push_back({v, radius, sorted(ids)});
   }
-  return questions;
+  return expected;
 }
 
 /// The number of wrong answers with flushed denormals, of an index built in that mode.
-std::size_t count_changed(const TestMesh& mesh, const std::vector<Question>& questions) {
+std::size_t count_changed(const TestMesh& mesh, const std::vector<ExpectedAnswer>& expected) {
   const FlushDenormals flushed;
   const Index index = build(mesh.view());
   Searcher searcher(index);
   ReferenceSearcher reference(mesh.view());
   std::vector<VertexId> ids;
   std::size_t changed = 0;
-  for (const Question& question : questions) {
-    searcher.neighborhood(question.v, question.radius, ids);
-    changed += static_cast<std::size_t>(sorted(ids) != question.expected);
-    reference.neighborhood(question.v, question.radius, ids);
-    changed += static_cast<std::size_t>(sorted(ids) != question.expected);
+  for (const ExpectedAnswer& item : expected) {
+    searcher.neighborhood(item.v, item.radius, ids);
+    changed += static_cast<std::size_t>(sorted(ids) != item.expected);
+    reference.neighborhood(item.v, item.radius, ids);
+    changed += static_cast<std::size_t>(sorted(ids) != item.expected);
   }
   return changed;
 }
@@ -80,9 +80,9 @@ TEST_P(FloatModes, FlushingDenormalsChangesNoAnswer) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const TestMesh mesh = make_mesh(GetParam(), seed, 400);
     Random random(seed);
-    const std::vector<Question> questions = ask_before(mesh, random);
-    changed += count_changed(mesh, questions);
-    queries += 2 * questions.size();
+    const std::vector<ExpectedAnswer> expected = expected_answers(mesh, random);
+    changed += count_changed(mesh, expected);
+    queries += 2 * expected.size();
   }
   std::printf("%zu queries, %zu changed\n", queries, changed);
   if (!is_denormal(GetParam())) {

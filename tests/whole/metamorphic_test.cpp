@@ -23,15 +23,15 @@ namespace meshhood::test {
 namespace {
 
 /// An equivalent mesh: the new id of each vertex, and the scale of distances.
-struct Retold {
+struct Equivalent {
   TestMesh mesh;
   std::vector<std::uint32_t> place;  // new id of each old vertex
   double scale = 1;
 };
 
-using Retelling = std::function<Retold(const TestMesh&, Random&)>;
+using Transformation = std::function<Equivalent(const TestMesh&, Random&)>;
 
-Retold in_place(TestMesh mesh) {
+Equivalent in_place(TestMesh mesh) {
   std::vector<std::uint32_t> same(mesh.size());
   std::iota(same.begin(), same.end(), 0U);
   mesh.finish(mesh.single_precision);
@@ -58,34 +58,34 @@ std::vector<std::uint32_t> in_order(const TestMesh& mesh) {
   return faces;
 }
 
-Retold vertices_shuffled(const TestMesh& mesh, Random& random) {
+Equivalent vertices_shuffled(const TestMesh& mesh, Random& random) {
   const auto place = random.permutation(mesh.size());
   return {renumbered(mesh, place), place};
 }
 
-Retold faces_shuffled(const TestMesh& mesh, Random& random) {
+Equivalent faces_shuffled(const TestMesh& mesh, Random& random) {
   return in_place(with_faces(mesh, random.permutation(mesh.face_count()), [](auto&) {}));
 }
 
-Retold corners_rotated(const TestMesh& mesh, Random& random) {
+Equivalent corners_rotated(const TestMesh& mesh, Random& random) {
   return in_place(with_faces(mesh, in_order(mesh), [&](auto& corners) {
     if (corners.empty()) return;
     std::ranges::rotate(corners, corners.begin() + static_cast<std::ptrdiff_t>(random.below(corners.size())));
   }));
 }
 
-Retold faces_flipped(const TestMesh& mesh, Random&) {
+Equivalent faces_flipped(const TestMesh& mesh, Random&) {
   return in_place(with_faces(mesh, in_order(mesh), [](auto& corners) { std::ranges::reverse(corners); }));
 }
 
-Retold faces_doubled(const TestMesh& mesh, Random&) {
+Equivalent faces_doubled(const TestMesh& mesh, Random&) {
   auto faces = in_order(mesh);
   faces.insert(faces.end(), faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(mesh.face_count()));
   return in_place(with_faces(mesh, faces, [](auto&) {}));
 }
 
-Retold isolated_added(const TestMesh& mesh, Random& random) {
-  Retold result = in_place(mesh);
+Equivalent isolated_added(const TestMesh& mesh, Random& random) {
+  Equivalent result = in_place(mesh);
   for (int i = 0; i < 20; ++i) {
     const std::size_t at = random.below(mesh.size());
     result.mesh.add_vertex(mesh.positions[3 * at], mesh.positions[3 * at + 1], mesh.positions[3 * at + 2]);
@@ -94,36 +94,36 @@ Retold isolated_added(const TestMesh& mesh, Random& random) {
   return result;
 }
 
-Retold united_with_a_copy(const TestMesh& mesh, Random&) {
-  Retold result = in_place(mesh);
+Equivalent united_with_a_copy(const TestMesh& mesh, Random&) {
+  Equivalent result = in_place(mesh);
   append(result.mesh, mesh);
   return result;
 }
 
-Retold mirrored(const TestMesh& mesh, Random& random) {
+Equivalent mirrored(const TestMesh& mesh, Random& random) {
   TestMesh result = mesh;
   const std::size_t axis = random.below(3);
   for (std::size_t v = 0; v < mesh.size(); ++v) result.positions[3 * v + axis] *= -1;
   return in_place(std::move(result));
 }
 
-Retold scaled_by_a_power(const TestMesh& mesh, Random& random) {
+Equivalent scaled_by_a_power(const TestMesh& mesh, Random& random) {
   TestMesh result = mesh;
   const double scale = std::ldexp(1.0, static_cast<int>(random.below(41)) - 20);
   for (double& x : result.positions) x *= scale;
-  Retold retold = in_place(std::move(result));
-  retold.scale = scale;
-  return retold;
+  Equivalent changed = in_place(std::move(result));
+  changed.scale = scale;
+  return changed;
 }
 
-struct NamedRetelling {
+struct NamedTransformation {
   const char* name;
-  Retelling retell;
+  Transformation apply;
 
-  friend void PrintTo(const NamedRetelling& retelling, std::ostream* out) { *out << retelling.name; }
+  friend void PrintTo(const NamedTransformation& transformation, std::ostream* out) { *out << transformation.name; }
 };
 
-class Metamorphic : public testing::TestWithParam<NamedRetelling> {};
+class Metamorphic : public testing::TestWithParam<NamedTransformation> {};
 
 std::vector<std::uint32_t> sorted(const std::vector<VertexId>& ids) {
   std::vector<std::uint32_t> result(ids.begin(), ids.end());
@@ -131,13 +131,13 @@ std::vector<std::uint32_t> sorted(const std::vector<VertexId>& ids) {
   return result;
 }
 
-void compare(const TestMesh& mesh, const Retold& retold, Random& random) {
+void compare(const TestMesh& mesh, const Equivalent& changed, Random& random) {
   ReferenceSearcher before(mesh.view());
-  ReferenceSearcher after(retold.mesh.view());
-  const paper::Index index = paper::build(retold.mesh.view());
-  ASSERT_THAT(index.check(retold.mesh.view()), testing::IsEmpty()) << mesh.name;
+  ReferenceSearcher after(changed.mesh.view());
+  const paper::Index index = paper::build(changed.mesh.view());
+  ASSERT_THAT(index.check(changed.mesh.view()), testing::IsEmpty()) << mesh.name;
   paper::Searcher searcher(index);
-  const Index exact_index = build(retold.mesh.view());
+  const Index exact_index = build(changed.mesh.view());
   Searcher exact_searcher(exact_index);
   std::vector<VertexId> out;
   for (int i = 0; i < 40; ++i) {
@@ -145,14 +145,14 @@ void compare(const TestMesh& mesh, const Retold& retold, Random& random) {
     const auto w = static_cast<VertexId>(random.below(mesh.size()));
     const double radius = i == 0 ? std::numeric_limits<double>::infinity() : distance(mesh.positions_view(), v, w);
     before.neighborhood(v, radius, out);
-    for (VertexId& id : out) id = static_cast<VertexId>(retold.place[id]);
+    for (VertexId& id : out) id = static_cast<VertexId>(changed.place[id]);
     const auto expected = sorted(out);
-    const auto place = static_cast<VertexId>(retold.place[v]);
-    after.neighborhood(place, radius * retold.scale, out);
+    const auto place = static_cast<VertexId>(changed.place[v]);
+    after.neighborhood(place, radius * changed.scale, out);
     ASSERT_EQ(sorted(out), expected) << mesh.name << ", vertex " << v << ", radius " << radius;
-    exact_searcher.neighborhood(place, radius * retold.scale, out);
+    exact_searcher.neighborhood(place, radius * changed.scale, out);
     ASSERT_EQ(sorted(out), expected) << mesh.name << ", vertex " << v << ", radius " << radius;
-    searcher.neighborhood(place, radius * retold.scale, out);
+    searcher.neighborhood(place, radius * changed.scale, out);
     ASSERT_TRUE(std::ranges::includes(sorted(out), expected)) << mesh.name << ", vertex " << v << ", radius " << radius;
   }
 }
@@ -164,22 +164,24 @@ TEST_P(Metamorphic, ExactAnswersDoNotChange) {
       for (std::uint64_t seed = 1; seed <= scaled(20, 1); ++seed, ++meshes) {
         const TestMesh mesh = make_mesh(family, seed, 10 + 20 * seed);
         Random random(seed);
-        compare(mesh, GetParam().retell(mesh, random), random);
+        compare(mesh, GetParam().apply(mesh, random), random);
       }
     }
   }
   std::printf("%s: %zu meshes, %zu queries, 0 mismatches\n", GetParam().name, meshes, 80 * meshes);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Retellings, Metamorphic,
-    testing::Values(NamedRetelling{"vertices_shuffled", vertices_shuffled},
-                    NamedRetelling{"faces_shuffled", faces_shuffled},
-                    NamedRetelling{"corners_rotated", corners_rotated}, NamedRetelling{"faces_flipped", faces_flipped},
-                    NamedRetelling{"faces_doubled", faces_doubled}, NamedRetelling{"isolated_added", isolated_added},
-                    NamedRetelling{"united_with_a_copy", united_with_a_copy}, NamedRetelling{"mirrored", mirrored},
-                    NamedRetelling{"scaled_by_a_power", scaled_by_a_power}),
-    [](const auto& retelling) { return std::string(retelling.param.name); });
+INSTANTIATE_TEST_SUITE_P(Retellings, Metamorphic,
+                         testing::Values(NamedTransformation{"vertices_shuffled", vertices_shuffled},
+                                         NamedTransformation{"faces_shuffled", faces_shuffled},
+                                         NamedTransformation{"corners_rotated", corners_rotated},
+                                         NamedTransformation{"faces_flipped", faces_flipped},
+                                         NamedTransformation{"faces_doubled", faces_doubled},
+                                         NamedTransformation{"isolated_added", isolated_added},
+                                         NamedTransformation{"united_with_a_copy", united_with_a_copy},
+                                         NamedTransformation{"mirrored", mirrored},
+                                         NamedTransformation{"scaled_by_a_power", scaled_by_a_power}),
+                         [](const auto& transformation) { return std::string(transformation.param.name); });
 
 TEST(MetamorphicLattice, ExactAnswersDoNotChangeUnderAShift) {
   const Family& lattice = *std::ranges::find(surface_families(), "lattice", &Family::name);

@@ -19,8 +19,8 @@
 #include "support/exact_answer.h"
 #include "support/families.h"
 #include "support/index_bytes.h"
+#include "support/paper_bounds.h"
 #include "support/refusal.h"
-#include "support/sandwich.h"
 #include "support/sanitized.h"
 #include "support/scale.h"
 
@@ -65,14 +65,14 @@ std::vector<std::string> faults_of_paper(const TestMesh& mesh, const std::vector
     const paper::Index index = paper::build(mesh.view(), {.levels = levels});
     for (const std::string& fault : index.check(mesh.view())) faults.push_back(fault);
     paper::Searcher searcher(index);
-    Sandwich sandwich(mesh.size());
+    PaperBounds bounds(mesh.size());
     std::vector<VertexId> exact;
     std::vector<VertexId> answer;
-    for (const Question& asked : questions) {
-      reference.neighborhood(asked.v, asked.radius, exact);
-      searcher.neighborhood(asked.v, asked.radius, answer);
-      const auto inside = [&](VertexId u) { return distance(mesh.positions_view(), asked.v, u) <= asked.radius; };
-      if (!sandwich.holds(exact, answer, inside)) faults.push_back("vertex " + std::to_string(asked.v));
+    for (const Question& query : questions) {
+      reference.neighborhood(query.v, query.radius, exact);
+      searcher.neighborhood(query.v, query.radius, answer);
+      const auto inside = [&](VertexId u) { return distance(mesh.positions_view(), query.v, u) <= query.radius; };
+      if (!bounds.holds(exact, answer, inside)) faults.push_back("vertex " + std::to_string(query.v));
     }
   }
   return faults;

@@ -252,16 +252,16 @@ TEST(Region, RefusesInvalidArguments) {
   const std::vector<VertexId> seeds{0, 9};
   const std::vector<std::uint8_t> short_mask(8);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto ask = [&](const Start& start, double radius, const Filter& filter = {}) {
+  const auto search = [&](const Start& start, double radius, const Filter& filter = {}) {
     return [&, start, radius, filter] { searcher.region(start, radius, ids, filter); };
   };
-  expect_refused(ErrorCode::VertexOutOfRange, "vertex 9", ask(VertexId{9}, 1));
-  expect_refused(ErrorCode::VertexOutOfRange, "seed 1: vertex 9", ask({{0, 0, 0}, seeds}, 1));
-  expect_refused(ErrorCode::InvalidOption, "coordinate 1 is nan", ask({{0, nan, 0}, {}}, 1));
-  expect_refused(ErrorCode::InvalidOption, "coordinate 2 is inf", ask({{0, 0, kInfinity}, {}}, 1));
-  expect_refused(ErrorCode::InvalidRadius, "radius -1", ask(VertexId{0}, -1));
-  expect_refused(ErrorCode::InvalidOption, "walls: 8 values", ask(VertexId{0}, 1, {.walls = short_mask}));
-  expect_refused(ErrorCode::InvalidOption, "ignored: 8 values", ask(VertexId{0}, 1, {.ignored = short_mask}));
+  expect_refused(ErrorCode::VertexOutOfRange, "vertex 9", search(VertexId{9}, 1));
+  expect_refused(ErrorCode::VertexOutOfRange, "seed 1: vertex 9", search({{0, 0, 0}, seeds}, 1));
+  expect_refused(ErrorCode::InvalidOption, "coordinate 1 is nan", search({{0, nan, 0}, {}}, 1));
+  expect_refused(ErrorCode::InvalidOption, "coordinate 2 is inf", search({{0, 0, kInfinity}, {}}, 1));
+  expect_refused(ErrorCode::InvalidRadius, "radius -1", search(VertexId{0}, -1));
+  expect_refused(ErrorCode::InvalidOption, "walls: 8 values", search(VertexId{0}, 1, {.walls = short_mask}));
+  expect_refused(ErrorCode::InvalidOption, "ignored: 8 values", search(VertexId{0}, 1, {.ignored = short_mask}));
   expect_refused(ErrorCode::InvalidRadius, "radii: value 1",
                  [&] { searcher.nested(VertexId{0}, std::array{1.0, 1.0}, ids, counts); });
   expect_refused(ErrorCode::VertexOutOfRange, "dab 1: vertex 9",

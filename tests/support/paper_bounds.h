@@ -11,9 +11,9 @@
 namespace meshhood::test {
 
 /// Checks the promise of the paper's method: its answer contains the exact one and lies in the ball.
-class Sandwich {
+class PaperBounds {
  public:
-  explicit Sandwich(std::size_t vertices) : seen_(vertices, 0) {}
+  explicit PaperBounds(std::size_t vertices) : seen_(vertices, 0) {}
 
   /// Whether `paper` has every vertex of `exact`, no vertex twice, and none for which `inside(w)` is false.
   template <class Inside>
