@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <array>
 #include <cstddef>
+#include <cstring>
 
 #include "simd/moments.h"
 
@@ -8,10 +10,12 @@
 namespace meshhood {
 namespace {
 
-/// Bit `i` is set if number `i` is > 0.
+/// Bit `i` is set if number `i` is > 0. Copied first: g++ 12 with -fsanitize=undefined compiles `numbers[i] > 0` wrongly.
 inline QueryWord positive(const Eight& numbers) {
+  std::array<double, kEight> row;
+  std::memcpy(row.data(), &numbers, sizeof(row));
   QueryWord word = 0;
-  for (std::size_t i = 0; i < kEight; ++i) word |= QueryWord{numbers[i] > 0} << i;
+  for (std::size_t i = 0; i < kEight; ++i) word |= QueryWord{row[i] > 0} << i;
   return word;
 }
 
