@@ -10,7 +10,8 @@
 namespace meshhood {
 namespace {
 
-/// Bit `i` is set if number `i` is > 0. Copied first: g++ 12 with -fsanitize=undefined compiles `numbers[i] > 0` wrongly.
+/// Bit `i` is set if number `i` is > 0. Copied first: g++ 12 with -fsanitize=undefined compiles `numbers[i] > 0`
+/// wrongly.
 inline QueryWord positive(const Eight& numbers) {
   std::array<double, kEight> row;
   std::memcpy(row.data(), &numbers, sizeof(row));
