@@ -50,7 +50,7 @@ bool HomeMarks::visit_linked(const Patch& patch, GroupStates& states) {
     const GroupState& state = states[other / kFanOut];
     const NodeSet bit = node_at(other % kFanOut);
     if ((state.home & bit) != 0) return true;
-    // What was explored in vain does not lead to a mark.
+    // The nodes explored without success do not lead to a mark.
     if ((state.explored & bit) == 0 && visit(other, states)) return true;
   }
   return false;

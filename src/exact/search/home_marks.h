@@ -9,9 +9,9 @@
 
 namespace meshhood {
 
-/// Marks whole nodes that are surely connected with the query vertex, as far as they are asked for. Whole nodes are
+/// Marks whole nodes that are surely connected with the query vertex, as far as a caller requests it. Whole nodes are
 /// connected and in the ball, so each link between two of them is an edge of the answer. A link leads to a node of its
-/// own level, or to the whole node that covers it; so a large node does not see the small ones beside it. Marks that
+/// own level, or to the whole node that covers it; so a large node has no links to the small ones beside it. Marks that
 /// are missed cost time in the steps that follow.
 class HomeMarks {
  public:

@@ -18,7 +18,7 @@ void LoosePieces::find(const Query& query, std::span<const std::uint32_t> groups
   gather_surface_leaves(surface_leaves, states);
   surface_count_ = leaves_.size();
   cut_from(0, query, marks, states);
-  // By now most whole nodes in doubt are marked.
+  // Most whole nodes in doubt are marked now.
   gather_whole(groups, query.tree_ball, marks, states);
   cut_from(surface_count_, query, marks, states);
   std::sort(minima_.begin(), minima_.end(), [](const LocalMinimum& a, const LocalMinimum& b) {

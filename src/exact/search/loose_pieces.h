@@ -22,7 +22,7 @@ struct LocalMinimum {
 };
 
 /// Finds the local minima of the distance in *loose pieces*: parts of the ball in one leaf, connected there, that no
-/// edge joins with a vertex marked as home's. Every component of the ball without the query vertex has one of its
+/// edge joins with a vertex of a marked node. Every component of the ball without the query vertex has one of its
 /// nearest vertices among them: no vertex of it is marked; its nearest vertex is a local minimum, so its leaf is in
 /// doubt, and so is the whole node that covers the leaf, if there is one.
 class LoosePieces {

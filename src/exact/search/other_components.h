@@ -18,7 +18,7 @@ namespace meshhood {
 
 /// The components of the ball that do not hold the query vertex. The nearest vertex of each is a local minimum of the
 /// distance. From each minimum, nearest first, a traversal visits the nearest leaves first until it meets a vertex that
-/// is nearer than the minimum or marked as home's, or has reached the whole component.
+/// is nearer than the minimum or belongs to a marked node, or has reached the whole component.
 ///
 /// A nearer vertex is connected with the query vertex: otherwise its component would have a minimum that is nearer, and
 /// that component, which holds this minimum too, would have been reached from there and settled.

@@ -56,13 +56,14 @@ struct SearchLimits {
   }
 };
 
-/// Remembers what recent outward searches have met, to choose between them and the breadth-first search.
+/// Statistics of recent searches, to choose between the outward search and the breadth-first search.
 class SearchMemory {
  public:
   /// Forgets all earlier queries, so that the order of the next answer does not depend on them.
   void clear() { *this = {}; }
 
-  /// Begins a ball. For some, all questions are answered by no whatever is remembered, because they may lie elsewhere.
+  /// Begins a ball. For one ball in `kRetryInterval`, all functions except `was_alone` return false, because the ball
+  /// may lie in another part of the mesh.
   void begin_ball() {
     constexpr std::uint32_t kRetryInterval = 16;  // chosen
     is_retry_ = ++balls_begun_ % kRetryInterval == 0;
@@ -75,16 +76,16 @@ class SearchMemory {
     return share_in_doubt_ > kFolded && !is_retry_;
   }
 
-  /// Whether telling other components apart took longer than uniting all that was reached.
+  /// Whether the search for other components took longer than uniting all that was reached would take.
   [[nodiscard]] bool is_torn() const {
-    // Chosen: uniting takes about as long as one step for each surface leaf. A little more, because a few balls of many
-    // steps do not mean that the next is one.
+    // Chosen: uniting takes about as long as one step for each surface leaf. A little more, because a few expensive
+    // balls do not mean that the next is expensive.
     constexpr double kTorn = 1.3;
     return steps_per_surface_leaf_ > kTorn && !is_retry_;
   }
 
-  /// Whether the answers had fewer leaves than telling other components apart took steps, so that the breadth-first
-  /// search, which visits the leaves of the answer alone, is faster.
+  /// Whether the answers had fewer leaves than the search for other components took steps. The breadth-first search,
+  /// which visits only the leaves of the answer, is then faster.
   [[nodiscard]] bool is_answer_small() const {
     return answer_per_surface_leaf_ < steps_per_surface_leaf_ && !is_retry_;
   }
@@ -95,17 +96,17 @@ class SearchMemory {
   /// After an answer in few leaves.
   void record_alone(bool is_alone) { remember(alone_, is_alone); }
 
-  /// Whether beginning with large nodes did not pay: they reached more than a single sheet.
-  [[nodiscard]] bool is_large_start_vain() const {
-    constexpr int kVain = kAlways * 7 / 10;  // chosen
-    return large_start_failures_ > kVain && !is_retry_;
+  /// Whether beginning with large nodes was mostly useless: they reached more than a single sheet.
+  [[nodiscard]] bool should_start_small() const {
+    constexpr int kMostFailures = kAlways * 7 / 10;  // chosen
+    return large_start_failures_ > kMostFailures && !is_retry_;
   }
 
   /// After an outward search that began with large nodes.
   void record_large_start(bool is_single_sheet) { remember(large_start_failures_, !is_single_sheet); }
 
-  /// After an outward search: `in_doubt` of its `surface` leaves were in doubt, and other components were told apart in
-  /// `steps`: leaves in doubt, and visits of leaves.
+  /// After an outward search: `in_doubt` of its `surface` leaves were in doubt, and the search for other components
+  /// took `steps`: leaves in doubt, and visits of leaves.
   void record(std::size_t in_doubt, std::size_t surface, std::size_t steps) {
     constexpr double kMemory = 8;  // balls; chosen
     balls_ = std::min(balls_ + 1, kMemory);

@@ -88,7 +88,7 @@ bool Searcher::State::remove_other_components(const Query& query) {
   const std::size_t most_visited = limits.most_visited(surface);
   const bool is_done = other_components.find(query, loose.minima(), marks, states, most_visited, traversal);
   std::size_t steps = loose.leaf_count() + other_components.visited();
-  if (!is_done) steps += surface;  // uniting comes on top
+  if (!is_done) steps += surface;  // the cost of uniting is added
   memory.record(loose.surface_count(), surface, steps);
   if (is_done) answer.subtract(other_components.found());
   return is_done;
@@ -103,7 +103,7 @@ void Searcher::State::reach(const Query& query) {
   constexpr double kLargeNodes = 1.5;
   const Home small = home_of(query, kSmallNodes);
   const Home large = home_of(query, kLargeNodes);
-  if (large.level > small.level && !memory.is_large_start_vain()) {
+  if (large.level > small.level && !memory.should_start_small()) {
     const bool is_single_sheet = reach_from(large, query, small.level);
     memory.record_large_start(is_single_sheet);
     if (is_single_sheet) return;
@@ -111,7 +111,8 @@ void Searcher::State::reach(const Query& query) {
   static_cast<void>(reach_from(small, query, small.level));
 }
 
-/// The node over the query vertex whose level is the first of nodes of about a `ratio`-th of the radius.
+/// The node over the query vertex on the lowest level whose nodes have a mean radius of a `ratio`-th of the radius or
+/// more.
 Searcher::State::Home Searcher::State::home_of(const Query& query, double ratio) const {
   Home home{0, query.leaf()};
   for (; index->tree[home.level].mean_radius * ratio < query.radius_in_frame; ++home.level) {

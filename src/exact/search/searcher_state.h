@@ -44,7 +44,7 @@ struct Searcher::State {
   FewLeaves few_leaves;
   LeafBfs leaf_bfs;
   SearchMemory memory;
-  std::vector<LeafSubset> surface_leaves;  // with vertices in the ball, which they have, and others
+  std::vector<LeafSubset> surface_leaves;  // with their vertices in the ball; they have others outside
   VertexSet answer;
   std::optional<VertexBfs> vertex_bfs;  // answers instead of `search` where the graph is unlike a surface
   bool was_outward = false;             // whether the last answer was found by `search_outward`

@@ -102,7 +102,7 @@ TEST(HomeMarks, ReachALargeNodeOverTheSmallOnesBesideIt) {
   std::size_t by_smaller = 0;
   for (const double radius : {60.0, 65.0, 70.0, 75.0, 80.0}) {
     EXPECT_GT(searcher.count(400, radius), 0U);
-    // As before anything was asked.
+    // As before the first call.
     GroupStates states = state.states;
     for (const std::uint32_t group : state.descent.groups()) states[group].home = states[group].explored = 0;
     HomeMarks marks(index);

@@ -47,11 +47,11 @@ TEST(SearchMemory, ComparesTheStepsWithUnitingAndWithTheAnswer) {
 TEST(SearchMemory, LeavesOutALargeStartThatFailedInMostRecentBalls) {
   SearchMemory memory;
   memory.begin_ball();
-  EXPECT_FALSE(memory.is_large_start_vain());
+  EXPECT_FALSE(memory.should_start_small());
   for (int i = 0; i < 20; ++i) memory.record_large_start(false);
-  EXPECT_TRUE(memory.is_large_start_vain());
+  EXPECT_TRUE(memory.should_start_small());
   for (int i = 0; i < 4; ++i) memory.record_large_start(true);
-  EXPECT_FALSE(memory.is_large_start_vain());
+  EXPECT_FALSE(memory.should_start_small());
 }
 
 TEST(SearchMemory, IsIgnoredForOneBallInSixteen) {
