@@ -18,9 +18,7 @@ VertexRange NodeTree::vertices(Node node) const {
   return {static_cast<VertexId>(record.begin[node % kFanOut]), static_cast<VertexId>(record.begin[node % kFanOut + 1])};
 }
 
-FrameSphere NodeTree::sphere(Node node) const {
-  return sphere_of(index_->groups[node / kFanOut], node % kFanOut);
-}
+FrameSphere NodeTree::sphere(Node node) const { return sphere_of(index_->groups[node / kFanOut], node % kFanOut); }
 
 NodeTree::Node NodeTree::largest_from(std::size_t leaf, std::size_t end) const {
   auto node = static_cast<Node>(leaf);

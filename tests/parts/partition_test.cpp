@@ -285,7 +285,8 @@ TEST(PartitionOptionsCheck, RefusesOptionsOutOfRange) {
     expect_refused(code, cause, [&] { make_parts(mesh, scratch.path() / "parts", options); });
   };
   refused(ErrorCode::InvalidOption, "expected either the number of parts or the vertices per part", {.halo = 1});
-  refused(ErrorCode::InvalidOption, "expected either the number of parts or the vertices per part", {.parts = 1, .vertices_per_part = 5, .halo = 1});
+  refused(ErrorCode::InvalidOption, "expected either the number of parts or the vertices per part",
+          {.parts = 1, .vertices_per_part = 5, .halo = 1});
   refused(ErrorCode::InvalidRadius, "halo -1", {.parts = 1, .halo = -1});
   refused(ErrorCode::InvalidRadius, "halo nan", {.parts = 1, .halo = NAN});
   refused(ErrorCode::InvalidRadius, "halo inf", {.parts = 1, .halo = kInfinity});
