@@ -26,9 +26,12 @@ struct SearchLimits {
     return enabled && radius_in_frame < kMeanLeafRadii * index.tree[0].mean_radius;
   }
 
-  /// Whether the answer may well lie in few leaves: the ball is small, or the leaf of the query vertex has no links.
+  /// Whether the answer may well lie in few leaves: the ball is tiny, or the leaf of the query vertex has no links. In
+  /// larger balls this search would take less time when everything is in the cache, and more when nothing is. Chosen.
   [[nodiscard]] bool may_lie_in_few_leaves(double radius_in_frame, LeafId home, const IndexView& index) const {
-    return is_small(radius_in_frame, index) || (enabled && index.links_of(home).empty());
+    constexpr double kMeanLeafRadii = 0.4;
+    const bool is_tiny = radius_in_frame < kMeanLeafRadii * index.tree[0].mean_radius;
+    return enabled && (is_tiny || index.links_of(home).empty());
   }
 
   /// Whether the ball is so small that the breadth-first search is faster on a folded mesh. Chosen.
