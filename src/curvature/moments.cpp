@@ -11,6 +11,7 @@
 
 #include "meshhood/error.h"
 
+#include "base/limits.h"
 #include "base/text.h"
 #include "curvature/directions.h"
 #include "curvature/packet_moments.h"
@@ -96,12 +97,14 @@ void write_row(PrincipalComponents& out, std::size_t row, const RowMoments& m) {
 }  // namespace
 
 PointDistribution distribution_of(const QueryMoments& moments, std::size_t query) {
-  const auto at = [&](std::size_t i, std::size_t j, std::size_t k) { return moments.at[moment_index(i, j, k)][query]; };
-  const double weight = at(0, 0, 0);
-  const Point center{at(1, 0, 0) / weight, at(0, 1, 0) / weight, at(0, 0, 1) / weight};
-  const Symmetric3 covariance{at(2, 0, 0) / weight - center.x * center.x, at(1, 1, 0) / weight - center.x * center.y,
-                              at(1, 0, 1) / weight - center.x * center.z, at(0, 2, 0) / weight - center.y * center.y,
-                              at(0, 1, 1) / weight - center.y * center.z, at(0, 0, 2) / weight - center.z * center.z};
+  const double weight = moments.at[moment_index(0, 0, 0)][query];
+  const auto mean = [&](std::size_t i, std::size_t j, std::size_t k) {
+    return weight == 0 ? kNan : moments.at[moment_index(i, j, k)][query] / weight;
+  };
+  const Point center{mean(1, 0, 0), mean(0, 1, 0), mean(0, 0, 1)};
+  const Symmetric3 covariance{mean(2, 0, 0) - center.x * center.x, mean(1, 1, 0) - center.x * center.y,
+                              mean(1, 0, 1) - center.x * center.z, mean(0, 2, 0) - center.y * center.y,
+                              mean(0, 1, 1) - center.y * center.z, mean(0, 0, 2) - center.z * center.z};
   return {center, eigen(covariance)};
 }
 

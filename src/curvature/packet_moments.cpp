@@ -86,13 +86,16 @@ void PacketMoments::set_axis() {
     return Point{facing_.normals.x[q], facing_.normals.y[q], facing_.normals.z[q]};
   };
   for_each_lane(active_, [&](unsigned q) { sum = sum + normal(q); });
-  facing_.axis = (1 / length(sum)) * sum;
+  facing_.axis = sum;
+  facing_.all = 2;
+  const double size = length(sum);
+  if (!(size > 0)) return;
+  facing_.axis = (1 / size) * sum;
   double least = 1;
   for_each_lane(active_, [&](unsigned q) { least = std::min(least, dot(facing_.axis, normal(q))); });
   constexpr double kMargin = 1e-12;  // of rounding
   // mutant: faces-the-axis-alone
-  facing_.all = least > 0 ? std::sqrt(std::max(0.0, 1 - least * least)) + kMargin : 2;
-  if (!(facing_.all < 2)) facing_.all = 2;
+  if (least > 0) facing_.all = std::sqrt(std::max(0.0, 1 - least * least)) + kMargin;
 }
 
 void PacketMoments::add(std::size_t first, std::size_t size, QueryWord word) {

@@ -5,12 +5,18 @@
 #include <cmath>
 #include <vector>
 
+#include "base/limits.h"
 #include "base/vector.h"
 #include "curvature/directions.h"
 #include "curvature/least_squares.h"
 #include "curvature/symmetric.h"
 
 namespace meshhood {
+namespace {
+
+double ratio(double numerator, double denominator) { return denominator > 0 ? numerator / denominator : kInfinity; }
+
+}  // namespace
 
 TangentFrame frame_of(const Point& normal) {
   // The coordinate axis that is farthest from the normal.
@@ -45,8 +51,8 @@ double smallest_determinant(const FrameMoments& s, std::size_t query, const Mome
   const auto at = [query](const QueryRow& row) { return row[query]; };
   // The relative errors of the elements of the normal equations are about epsilon times `amplification`. Measured,
   // results are then within 1e-9 of the exact ones.
-  const double amplification =
-      std::max(sizes.fourth / std::min({at(s.u4), at(s.u2v2), at(s.v4)}), sizes.second / std::min(at(s.uu), at(s.vv)));
+  const double amplification = std::max(ratio(sizes.fourth, std::min({at(s.u4), at(s.u2v2), at(s.v4)})),
+                                        ratio(sizes.second, std::min(at(s.uu), at(s.vv))));
   return 1e-6 * amplification;  // mutant: ill-conditioned-fit
 }
 
