@@ -56,7 +56,7 @@ bool FewLeaves::find(std::uint32_t slot, const LeafBall& ball, VertexSet& answer
   met_[number_of(leaf_of(slot), ball)].pending = LaneMask{1} << lane_of(slot);
   waiting_ = 1;
   while (waiting_ != 0) {
-    Met& met = met_[std::countr_zero(waiting_)];
+    Met& met = met_[static_cast<std::size_t>(std::countr_zero(waiting_))];
     waiting_ &= waiting_ - 1;
     const LaneMask added = grow(met);
     if (!expand(met.leaf, added, ball)) return false;
