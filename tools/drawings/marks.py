@@ -82,7 +82,7 @@ def explore(start, whole, marked, explored):
 
 
 def spread(whole, surface):
-    """Marks what leads home from the nodes that are asked: marked nodes, nodes explored in vain, and steps."""
+    """Marks what leads home from the nodes in question: marked nodes, nodes that do not lead home, and steps."""
     marked = {node for node in whole if node[0] <= V[0] < node[0] + node[2] and node[1] <= V[1] < node[1] + node[2]}
     explored, steps = set(), []
     asked = [node for leaf in surface if is_in_doubt(leaf) for node in whole if are_linked(leaf, node)]
@@ -109,8 +109,8 @@ def draw_legend(picture, left):
     y = 42
     rows = [
         (MARKED, "whole node, marked"),
-        (SKY, "whole node that was not asked for"),
-        (PEACH, "whole node, explored in vain"),
+        (SKY, "whole node that was not visited"),
+        (PEACH, "whole node that does not lead home"),
         ("#ffffff", "surface leaf"),
     ]
     for color, label in rows:
