@@ -5,8 +5,6 @@ import tempfile
 import time
 from pathlib import Path
 
-import numpy as np
-
 from . import meshes, places, programs, results, timing
 
 MESHES = ("cat0", "cortex", "dragon", "head_skin", "mri_head")
@@ -37,6 +35,7 @@ def measure(name):
 def add_python(file, found):
     """The rows of `all_vertices` from Python, kept in arrays: to be compared with `kept`."""
     import meshhood
+    import numpy as np
 
     index = meshhood.load(file)
     for row in found["rows"]:
