@@ -25,7 +25,10 @@ bool HomeMarks::leads_home(NodeId node, GroupStates& states) {
 bool HomeMarks::explore(NodeId whole, GroupStates& states) {
   visited_.clear();
   bool is_home = visit(whole, states);
-  for (std::size_t i = 0; !is_home && i < visited_.size(); ++i) is_home = visit_linked(Patch{visited_[i]}, states);
+  for (std::size_t i = 0; !is_home && i < visited_.size(); ++i) {
+    const Patch patch = visited_[i];  // a copy, because `visited_` grows
+    is_home = visit_linked(patch, states);
+  }
   if (is_home) {
     for (const Patch& patch : visited_) states[patch.group].home |= patch.nodes;
   }
