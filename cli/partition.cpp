@@ -89,11 +89,9 @@ Json to_json(const std::string& output, const parts::PartitionResult& result) {
 std::string to_text(const std::string& output, const parts::PartitionResult& result) {
   const parts::Plan& plan = result.manifest.plan;
   const Totals totals = totals_of(result.manifest);
-  const double ratio =
-      plan.vertices == 0 ? 1.0 : static_cast<double>(totals.vertices) / static_cast<double>(plan.vertices);
-  return fmt::format("{}: {} vertices in {} part{} ({} kept), with halos {:.2f} times as many, halo {:.6g}, {} bytes\n",
-                     printable_name(output), plan.vertices, plan.parts, plan.parts == 1 ? "" : "s", result.kept, ratio,
-                     plan.halo, totals.bytes);
+  return fmt::format("{}: {} vertices in {} part{} ({} kept), {} with the halos of {:.6g}, {} bytes\n",
+                     printable_name(output), plan.vertices, plan.parts, plan.parts == 1 ? "" : "s", result.kept,
+                     totals.vertices, plan.halo, totals.bytes);
 }
 
 void partition_mesh(const PartitionCommand& options) {
