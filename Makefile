@@ -1,16 +1,17 @@
 # The commands for a fresh Debian machine. Their steps are in tools/; daily work uses the presets.
 #
-#   make build                    installs the packages it needs and builds build/release/meshhood
-#   make demo [MESH=some.ply] compares all methods on a mesh where they differ, or on your own, and draws a picture make
-#   view [MESH=some.ply] an interactive page of the same: build/demo/view.html
-#   make test                     the short tests; about ten minutes
-#   make test-all                 also the long tests, the sanitizers, the fuzzers, the mutants and tools/verify
-# To reproduce docs/benchmarks.md. Both write that page and print how long each part took. They need a quiet machine;
+#   make build                installs the packages it needs and builds build/release/meshhood
+#   make demo [MESH=file]     compares all methods on a mesh where they differ, or on your own, and draws a picture
+#   make view [MESH=file]     shows the same in an interactive page, build/demo/view.html
+#   make test                 runs the short tests; about ten minutes
+#   make test-all             runs also the long tests, the sanitizers, the fuzzers, the mutants and tools/verify
+#
+# These reproduce docs/benchmarks.md. They write that page and print how long each part took. They need a quiet machine;
 # otherwise the page says that it was busy.
 #
-#   make reproduce                the paper's tables and pictures, accuracy, growth; about 20 minutes
-#   make peers                    other libraries on the same queries; about 15 minutes
-#   make benchmarks               both
+#   make reproduce            the paper's tables and pictures, accuracy, growth; about 20 minutes
+#   make peers                other libraries on the same queries; about 15 minutes
+#   make benchmarks           both
 .PHONY: build test test-all demo view reproduce peers benchmarks
 
 # The demo reads these from the environment, so that a name may contain blanks.
