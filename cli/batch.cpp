@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// meshhood batch: the neighborhoods of all vertices, or of a list, as a sparse matrix.
+// meshhood batch: the neighborhoods of all vertices, or of a list, in CSR form.
 #include "meshhood/batch.h"
 
 #include <algorithm>
@@ -23,10 +23,10 @@
 #include "commands.h"
 #include "input.h"
 #include "io/npz_writer.h"
-#include "matrix_file.h"
 #include "methods.h"
 #include "options.h"
 #include "output.h"
+#include "row_file.h"
 #include "shard.h"
 #include "size_limit.h"
 #include "task.h"
@@ -39,7 +39,7 @@ struct BatchCommand {
   std::string file;
   Radius radius;
   std::string vertices;  ///< a file with a list; empty for all
-  bool index_order = false;
+  std::string order;     ///< as typed; empty for the default
   std::string method = "exact";
   unsigned threads = kAllThreads;
   bool count = false;
@@ -50,14 +50,25 @@ struct BatchCommand {
   std::string output;
 };
 
+/// Rows that are streamed come in index order, which is the fastest. Sizes are found as fast in vertex order, where
+/// the number of a row is that of its vertex.
+RowOrder row_order(const BatchCommand& options) {
+  const bool is_exact = options.method == "exact";
+  if (options.order == "index" && !is_exact) raise(ErrorCode::InvalidOption, "--order index: expected --method exact");
+  if (!options.vertices.empty()) return RowOrder::List;
+  if (!options.order.empty()) return value_of(kRowOrders, options.order);
+  return is_exact && !options.count ? RowOrder::Index : RowOrder::Vertex;
+}
+
 /// The approximate size of the file: the members without the zip headers. The ones of a matrix without distances
 /// compress to a thousandth.
 double file_bytes(const BatchCommand& options, const BatchSize& total, std::size_t columns) {
   const auto rows = static_cast<double>(total.rows);
   const auto count = static_cast<double>(total.count);
-  if (options.count) return 8 * rows;
+  const double vertices = has_vertices(row_order(options)) ? 8 * rows : 0;
+  if (options.count) return vertices + 8 * rows;
   const double index_bytes = fits_32_bits(total.count, columns) ? 4 : 8;
-  return index_bytes * (rows + count) + (options.distances ? 8 : 1e-3) * count;
+  return vertices + index_bytes * (rows + count) + (options.distances ? 8 : 1e-3) * count;
 }
 
 /// One for each array of the file whose length is that of the answer, and one to count.
@@ -69,7 +80,13 @@ class Writer {
  public:
   Writer(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options, const SizeLimit& limit,
          Task& task, io::NpzWriter& npz)
-      : method_(method), query_(query), options_(options), limit_(limit), task_(task), npz_(npz) {}
+      : method_(method),
+        query_(query),
+        options_(options),
+        order_(row_order(options)),
+        limit_(limit),
+        task_(task),
+        npz_(npz) {}
 
   BatchSize write() {
     const std::vector<std::uint64_t> sizes = neighborhood_sizes(method_, query_, next_pass());
@@ -78,20 +95,20 @@ class Writer {
     if (options_.count) {
       npz_.add<std::uint64_t>("count", sizes);
     } else {
-      write_matrix(sizes, total);
+      write_rows(sizes, total);
     }
     return total;
   }
 
  private:
-  void write_matrix(std::span<const std::uint64_t> sizes, const BatchSize& total) {
-    begin_matrix(npz_, total.rows, method_.vertex_count());
+  void write_rows(std::span<const std::uint64_t> sizes, const BatchSize& total) {
+    begin_rows(npz_, order_, total.rows, method_.vertex_count());
     if (fits_32_bits(total.count, method_.vertex_count())) {
       write_pattern<std::int32_t>(sizes, total);
     } else {
       write_pattern<std::int64_t>(sizes, total);
     }
-    options_.distances ? write_distances(total) : write_ones(npz_, total.count);
+    options_.distances ? write_distances(total) : end_rows(npz_, order_, total.count);
   }
 
   template <class Integer>
@@ -110,7 +127,7 @@ class Writer {
   }
 
   void write_distances(const BatchSize& total) {
-    npz_.begin<double>("data", total.count);
+    npz_.begin<double>(distances_name(order_), total.count);
     BatchOptions pass = next_pass();
     pass.distances = true;
     for_each_neighborhood(method_, query_, [&](const BatchRow& row) { npz_.append(row.distances); }, pass);
@@ -119,12 +136,14 @@ class Writer {
   BatchOptions next_pass() {
     return {.threads = options_.threads,
             .sorted = true,
+            .in_index_order = order_ == RowOrder::Index,
             .progress = task_.progress(passes_begun_++, number_of_passes(options_))};
   }
 
   const SearchMethod& method_;
   const BatchQuery& query_;
   const BatchCommand& options_;
+  RowOrder order_;
   const SizeLimit& limit_;
   Task& task_;
   io::NpzWriter& npz_;
@@ -143,7 +162,7 @@ std::string describe(const BatchCommand& options, const Shard& shard, double rad
   return Json{{"number", shard.number},
               {"shards", shard.count},
               {"rows", rows},
-              {"listed", !options.vertices.empty() || options.index_order},
+              {"order", name_of(kRowOrders, row_order(options))},
               {"columns", columns},
               {"mesh", to_text(mesh)},
               {"method", options.method},
@@ -184,9 +203,7 @@ std::vector<VertexId> vertices_of(const Shard& shard, const BatchVertices& rows,
   return result;
 }
 
-std::vector<VertexId> all_in_index_order(const BatchCommand& options, Input& input) {
-  if (options.method != "exact") raise(ErrorCode::InvalidOption, "--index-order: expected --method exact");
-  const Index& index = input.exact_index(options.threads);
+std::vector<VertexId> all_in_index_order(const Index& index) {
   std::vector<VertexId> result(index.permutation().begin(), index.permutation().end());
   if (result.empty()) {  // the orders are equal
     result.resize(index.vertex_count());
@@ -197,13 +214,14 @@ std::vector<VertexId> all_in_index_order(const BatchCommand& options, Input& inp
 
 void batch(const BatchCommand& options) {
   check_output(options.output, {options.file, options.vertices});
+  const RowOrder order = row_order(options);
   Input input(options.file);
   const QueryVertices vertices(options.vertices, input.vertex_count());
   BatchQuery query{.vertices = vertices.view(), .radius = resolve(options.radius, input)};
   const SearchMethod method = batch_method(options.method, input, options.threads);
   std::vector<VertexId> in_index_order;
-  if (options.index_order) {
-    in_index_order = all_in_index_order(options, input);
+  if (order == RowOrder::Index) {
+    in_index_order = all_in_index_order(input.exact_index(options.threads));
     query.vertices = in_index_order;
   }
   std::string about;
@@ -216,10 +234,14 @@ void batch(const BatchCommand& options) {
     query.vertices = of_shard;
   }
   const BatchSize total = write(method, query, options, about);
-  print_result(
-      options.json,
-      {{"output", options.output}, {"method", options.method}, {"rows", total.rows}, {"count", total.count}},
-      fmt::format("{}: {} rows, {} vertices in them\n", printable_name(options.output), total.rows, total.count));
+  print_result(options.json,
+               {{"output", options.output},
+                {"method", options.method},
+                {"order", name_of(kRowOrders, order)},
+                {"rows", total.rows},
+                {"count", total.count}},
+               fmt::format("{}: {} rows{}, {} vertices in them\n", printable_name(options.output), total.rows,
+                           order == RowOrder::Index ? " in index order" : "", total.count));
 }
 
 }  // namespace
@@ -227,21 +249,23 @@ void batch(const BatchCommand& options) {
 void add_batch(CLI::App& program) {
   auto options = std::make_shared<BatchCommand>();
   CLI::App* command =
-      program.add_subcommand("batch", "Write the neighborhoods of all vertices as a sparse matrix for SciPy");
+      program.add_subcommand("batch", "Write the neighborhoods of all vertices, or of a list, in CSR form");
   add_file(*command, options->file);
   add_radius(*command, options->radius);
   add_vertices(*command, options->vertices);
-  command
-      ->add_flag("--index-order", options->index_order,
-                 "write the rows in the order of the index, which the array vertices contains; faster "
-                 "for a mesh in random order")
+  add_choice(
+      *command, "--order",
+      "order of all rows; index: the fastest, with the array vertices; vertex: a matrix for scipy.sparse.load_npz "
+      "(default: index; with --count or another method: vertex)",
+      {"index", "vertex"}, options->order)
+      ->type_name("index|vertex")
       ->excludes("--vertices");
   add_method(*command, options->method);
   add_threads(*command, options->threads);
   CLI::Option* count = command->add_flag("--count", options->count, "write only the number of vertices of each row");
   command
       ->add_flag("--distances", options->distances,
-                 "write straight-line distances as the values of the matrix, not ones")
+                 "also write straight-line distances: the array distances, or the values of the matrix")
       ->excludes(count);
   add_max_bytes(*command, options->max_bytes);
   command

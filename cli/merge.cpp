@@ -16,9 +16,9 @@
 #include "commands.h"
 #include "io/npz_reader.h"
 #include "io/npz_writer.h"
-#include "matrix_file.h"
 #include "options.h"
 #include "output.h"
+#include "row_file.h"
 #include "shard.h"
 #include "task.h"
 
@@ -51,7 +51,8 @@ ShardFile open(const std::string& name) {
     if (shard.number == 0 || shard.number > shard.count) refuse(name, "has a number out of range");
     about.erase("number");
     for (const char* const key : {"rows", "columns"}) static_cast<void>(about.at(key).get<std::uint64_t>());
-    for (const char* const key : {"listed", "count", "distances"}) static_cast<void>(about.at(key).get<bool>());
+    for (const char* const key : {"count", "distances"}) static_cast<void>(about.at(key).get<bool>());
+    if (!is_name_of(kRowOrders, about.at("order").get<std::string>())) refuse(name, "has rows in an unknown order");
     return {name, std::move(about), shard};
   } catch (const Json::exception& error) {
     refuse(name, fmt::format("has no valid description of its shard: {}", error.what()));
@@ -100,7 +101,8 @@ class Merger {
 
   std::uint64_t merge() {
     const Json& about = files_[0].about;
-    if (about.at("listed").get<bool>()) copy<std::int64_t>("vertices", rows_);
+    const RowOrder order = value_of(kRowOrders, about.at("order").get<std::string>());
+    if (has_vertices(order)) copy<std::int64_t>("vertices", rows_);
     if (about.at("count").get<bool>()) {
       copy<std::int64_t, std::uint64_t>("count", rows_);
       return rows_;
@@ -108,7 +110,7 @@ class Merger {
     const auto columns = about.at("columns").get<std::uint64_t>();
     const std::vector<std::int64_t> offsets = joined_offsets();
     const auto total = static_cast<std::uint64_t>(offsets.back());
-    begin_matrix(npz_, rows_, columns);
+    begin_rows(npz_, order, rows_, columns);
     if (fits_32_bits(total, columns)) {
       npz_.add<std::int32_t>("indptr", std::vector<std::int32_t>(offsets.begin(), offsets.end()));
       copy<std::int64_t, std::int32_t>("indices", total);
@@ -116,7 +118,7 @@ class Merger {
       npz_.add<std::int64_t>("indptr", offsets);
       copy<std::int64_t>("indices", total);
     }
-    about.at("distances").get<bool>() ? copy<double>("data", total) : write_ones(npz_, total);
+    about.at("distances").get<bool>() ? copy<double>(distances_name(order), total) : end_rows(npz_, order, total);
     return rows_;
   }
 

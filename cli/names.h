@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
@@ -20,6 +21,20 @@ template <class T, std::size_t size>
   std::vector<std::string> result;
   for (const auto& [name, value] : names) result.emplace_back(name);
   return result;
+}
+
+/// The name of a value, which is one of `names`.
+template <class T, std::size_t size>
+[[nodiscard]] std::string_view name_of(const Names<T, size>& names, T value) {
+  for (const auto& [name, known] : names) {
+    if (known == value) return name;
+  }
+  return names.front().first;
+}
+
+template <class T, std::size_t size>
+[[nodiscard]] bool is_name_of(const Names<T, size>& names, std::string_view name) {
+  return std::any_of(names.begin(), names.end(), [&](const auto& known) { return known.first == name; });
 }
 
 /// The value of a name, which is one of `names`.

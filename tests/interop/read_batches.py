@@ -76,10 +76,30 @@ def check_matrix(matrix, rows, size, dtype):
 def check_exact(batches, oracle):
     size = len(oracle.positions)
     rows = [oracle.row(v) for v in range(size)]
-    check_matrix(sparse.load_npz(batches.file()), rows, size, bool)
-    check_matrix(sparse.load_npz(batches.file("--distances")), rows, size, np.float64)
+    check_matrix(sparse.load_npz(batches.file("--order", "vertex")), rows, size, bool)
+    check_matrix(sparse.load_npz(batches.file("--order", "vertex", "--distances")), rows, size, np.float64)
+    check_index_order(batches, rows)
     counts = np.load(batches.file("--count"))
     assert counts.files == ["count"] and np.array_equal(counts["count"], [len(vertices) for vertices, _ in rows]), "counts"
+
+
+def check_index_order(batches, rows):
+    """The default. SciPy would ignore whose row it is, so it must refuse the file."""
+    for options in [], ["--distances"]:
+        file = batches.file(*options)
+        try:
+            sparse.load_npz(file)
+        except ValueError as refusal:
+            assert "does not contain a sparse" in str(refusal), refusal
+        else:
+            raise AssertionError("SciPy took rows in index order for a matrix")
+        arrays = np.load(file)
+        assert arrays.files == ["vertices", "indptr", "indices", *(["distances"] if options else [])], arrays.files
+        assert np.array_equal(np.sort(arrays["vertices"]), np.arange(len(rows))), "vertices"
+        for v, begin, end in zip(arrays["vertices"], arrays["indptr"], arrays["indptr"][1:]):
+            vertices, distances = rows[v]
+            assert np.array_equal(arrays["indices"][begin:end], vertices), f"vertex {v}"
+            assert not options or np.array_equal(arrays["distances"][begin:end], distances), f"distances of vertex {v}"
 
 
 def check_listed(batches, oracle):
@@ -99,7 +119,7 @@ def check_paper(batches, oracle):
 
 
 def check_threads(batches):
-    for options in [], ["--distances"], ["--method", "paper"]:
+    for options in [], ["--distances"], ["--order", "vertex"], ["--method", "paper"]:
         one, three = (batches.file("--threads", n, *options).read_bytes() for n in "13")
         assert one == three, f"the number of threads shows in {options}"
 
