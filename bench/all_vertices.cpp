@@ -2,14 +2,15 @@
 // The neighborhoods of all vertices at one radius: breadth-first search on the reordered mesh, the exact index one
 // query at a time, and the batch, with each instruction set and with two threads, interleaved in one run. Microseconds
 // a row, the median of the rounds: a table, or JSON with the times of each round. With --index, the index of the
-// reordered mesh is saved, so that the same rows can be queried from Python.
+// reordered mesh is saved, for kept_rows.
 //
 //   all_vertices [--json] [--index FILE] MESH [RADIUS IN MEAN EDGES...]
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <memory>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@
 #include "measure/timing.h"
 #include "mesh_argument.h"
 #include "program.h"
+#include "two_processes.h"
 
 namespace meshhood::bench {
 namespace {
@@ -31,14 +33,46 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kRounds = 5;
+constexpr int kThreadRounds = 3;         // of calls that take longer
+constexpr double kThreadSeconds = 0.25;  // of such a call on one thread, if the mesh has enough vertices
 
 /// Consecutive vertices of the reordered mesh, from two fifths of it on.
-std::vector<VertexId> contiguous_rows(std::size_t vertices, std::size_t count) {
+std::vector<VertexId> consecutive_rows(std::size_t vertices, std::size_t count) {
   const std::size_t first = std::min(vertices * 2 / 5, vertices - std::min(count, vertices));
   std::vector<VertexId> rows(std::min(count, vertices));
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = static_cast<VertexId>(first + i);
+  std::iota(rows.begin(), rows.end(), static_cast<VertexId>(first));
   return rows;
 }
+
+/// Rows that stand for all vertices of the reordered mesh: stretches of consecutive vertices, evenly spread over it. A
+/// stretch is several whole groups of leaves, which are searched together.
+class SpreadRows {
+ public:
+  /// `count`: of the rows, roughly. `groups`: in a stretch. `part`: of each stretch, for `fewer`.
+  SpreadRows(const Index& index, std::size_t count, std::size_t groups, double part) {
+    const std::span<const VertexId> starts = index.leaf_starts();
+    const std::size_t leaves = kFanOut * groups;  // of a stretch
+    const std::size_t stretches = std::max<std::size_t>(1, (starts.size() - 1) / leaves);
+    const std::size_t rows = std::max<std::size_t>(1, index.vertex_count() / stretches);
+    const std::size_t taken = std::clamp<std::size_t>(count / rows, 1, stretches);
+    for (std::size_t i = 0; i < taken; ++i) {
+      const std::size_t stretch = i * stretches / taken;
+      const VertexId begin = starts[stretch * leaves];
+      const VertexId end = starts[std::min((stretch + 1) * leaves, starts.size() - 1)];
+      const auto end_of_part = begin + static_cast<VertexId>(part * static_cast<double>(end - begin));
+      for (VertexId v = begin; v < end; ++v) all_.push_back(v);
+      for (VertexId v = begin; v < end_of_part; ++v) fewer_.push_back(v);
+    }
+  }
+
+  [[nodiscard]] const std::vector<VertexId>& all() const { return all_; }
+  /// The first vertices of each stretch, for slow methods.
+  [[nodiscard]] const std::vector<VertexId>& fewer() const { return fewer_; }
+
+ private:
+  std::vector<VertexId> all_;
+  std::vector<VertexId> fewer_;
+};
 
 /// A method at one radius.
 struct Timing {
@@ -54,6 +88,9 @@ struct Timing {
     found = static_cast<double>(ids) / static_cast<double>(rows);
   }
 
+  /// Adds a round whose wall-clock time was measured outside.
+  void add(std::size_t rows, double seconds) { microseconds.push_back(1e6 * seconds / static_cast<double>(rows)); }
+
   [[nodiscard]] double median() const {
     std::vector<double> sorted = microseconds;
     std::sort(sorted.begin(), sorted.end());
@@ -65,20 +102,22 @@ double wall_clock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// The methods in the order of the table. `kept` writes all rows into one array. Of `one_thread` and `two_threads`,
-/// which count, the wall-clock time is measured; `portable` to `avx512` count by one worker of the batch each.
+/// The methods in the order of the table. `one_thread` and `two_threads` count more rows at once, and their wall-clock
+/// time is measured; `two_processes` is that of two processes, each of which counts all of these rows. `portable` to
+/// `avx512` count by one worker of the batch each.
 struct Row {
   double edges;
   double radius;
-  std::vector<VertexId> vertices;  // consecutive
+  std::vector<VertexId> kept;  // consecutive vertices, for kept_rows
+  std::size_t thread_rows = 0;
   Timing bfs{"bfs"};
   Timing single_count{"single_count"};
   Timing single_ids{"single_ids"};
   Timing count{"count"};
   Timing ids{"ids"};
-  Timing kept{"kept"};
   Timing one_thread{"one_thread"};
   Timing two_threads{"two_threads"};
+  Timing two_processes{"two_processes"};
   std::array<Timing, 3> by_isa{Timing{"portable"}, Timing{"avx2"}, Timing{"avx512"}};
 
   void print() const {
@@ -87,6 +126,7 @@ struct Row {
                 bfs.median() / ids.median(), single_count.median() / count.median(),
                 single_ids.median() / ids.median());
     std::printf("%10.2f", one_thread.median() / two_threads.median());
+    if (!two_processes.microseconds.empty()) std::printf(" (%.2f)", 2 * one_thread.median() / two_processes.median());
     const Timing& best = by_isa[static_cast<std::size_t>(best_isa())];
     for (const Timing& isa : by_isa) {
       if (!isa.microseconds.empty()) std::printf("%10.2f", best.median() / isa.median());
@@ -96,15 +136,13 @@ struct Row {
   }
 
   [[nodiscard]] Json json() const {
-    Json result{{"radius_edges", edges},
-                {"radius", radius},
-                {"first_vertex", vertices.front()},
-                {"rows", vertices.size()},
-                {"found", ids.found}};
+    Json result{{"radius_edges", edges}, {"radius", radius},           {"first_vertex", kept.front()},
+                {"rows", kept.size()},   {"thread_rows", thread_rows}, {"found", ids.found}};
     const auto add = [&](const Timing& timing) {
       if (!timing.microseconds.empty()) result[timing.name] = timing.microseconds;
     };
-    for (const Timing* timing : {&bfs, &single_count, &single_ids, &count, &ids, &kept, &one_thread, &two_threads}) {
+    for (const Timing* timing :
+         {&bfs, &single_count, &single_ids, &count, &ids, &one_thread, &two_threads, &two_processes}) {
       add(*timing);
     }
     for (const Timing& timing : by_isa) add(timing);
@@ -124,28 +162,41 @@ class AllVertices {
 
   Row measure(double edges) {
     const double radius = edges * mean_edge_;
-    Row result{.edges = edges, .radius = radius, .vertices = contiguous_rows(vertices(), edges <= 10 ? 20000 : 3000)};
-    const std::vector<VertexId>& rows = result.vertices;
-    // Slow methods take a part of the rows.
-    const std::span<const VertexId> fewer =
-        std::span(rows).first(std::min<std::size_t>(rows.size(), edges <= 10 ? 4000 : 400));
+    const bool is_small = edges <= 10;
+    const SpreadRows spread =
+        is_small ? SpreadRows(mesh_.index, 40000, 4, 0.125) : SpreadRows(mesh_.index, 4000, 2, 0.1);
+    const std::vector<VertexId>& rows = spread.all();
+    const std::vector<VertexId>& fewer = spread.fewer();
+    Row result{.edges = edges, .radius = radius, .kept = consecutive_rows(vertices(), is_small ? 20000 : 3000)};
     for (int round = 0; round < kRounds; ++round) {
       result.bfs.round(fewer.size(), [&] { return ids_one_by_one(reference_, fewer, radius); });
       result.single_count.round(fewer.size(), [&] { return counts_one_by_one(fewer, radius); });
       result.single_ids.round(fewer.size(), [&] { return ids_one_by_one(searcher_, fewer, radius); });
       result.count.round(rows.size(), [&] { return counts_of_batch(rows, radius, 1); });
       result.ids.round(rows.size(), [&] { return ids_of_batch(rows, radius); });
-      result.kept.round(rows.size(), [&] { return kept_of_batch(rows, radius); });
-      result.one_thread.round(rows.size(), [&] { return counts_of_batch(rows, radius, 1); }, wall_clock);
-      result.two_threads.round(rows.size(), [&] { return counts_of_batch(rows, radius, 2); }, wall_clock);
       for (std::size_t isa = 0; isa <= static_cast<std::size_t>(best_isa()); ++isa) {
         result.by_isa[isa].round(rows.size(), [&] { return counts_of_worker(static_cast<Isa>(isa), rows, radius); });
       }
     }
+    measure_threads(result);
     return result;
   }
 
  private:
+  void measure_threads(Row& row) {
+    row.thread_rows = static_cast<std::size_t>(1e6 * kThreadSeconds / row.count.median());
+    const std::vector<VertexId> rows = consecutive_rows(vertices(), row.thread_rows);
+    row.thread_rows = rows.size();
+    const auto count = [&](unsigned threads) { return counts_of_batch(rows, row.radius, threads); };
+    for (int round = 0; round < kThreadRounds; ++round) {
+      row.one_thread.round(rows.size(), [&] { return count(1); }, wall_clock);
+      row.two_threads.round(rows.size(), [&] { return count(2); }, wall_clock);
+      if (const auto processors = two_processors()) {
+        row.two_processes.add(rows.size(), two_processes(*processors, [&] { count(1); }));
+      }
+    }
+  }
+
   template <class S>
   std::uint64_t ids_one_by_one(S& searcher, std::span<const VertexId> rows, double radius) {
     std::uint64_t ids = 0;
@@ -174,31 +225,20 @@ class AllVertices {
   /// One worker, which receives the batch group by group.
   std::uint64_t counts_of_worker(Isa isa, std::span<const VertexId> rows, double radius) {
     JointWorker worker(mesh_.index, isa);
-    const auto group_of = [&](VertexId v) {
-      return IndexAccess::view(mesh_.index).slot[v] / JointWorker::kGroupPositions;
-    };
+    const auto position_of = [&](VertexId v) { return IndexAccess::view(mesh_.index).slot[v]; };
+    const auto group_of = [&](VertexId v) { return position_of(v) / JointWorker::kGroupPositions; };
     std::vector<BatchItem> chunk;
     std::uint64_t ids = 0;
     for (std::size_t row = 0; row < rows.size(); ++row) {
-      chunk.push_back({row, rows[row], radius});
+      chunk.push_back({row, rows[row], position_of(rows[row]), radius});
       if (row + 1 < rows.size() && group_of(rows[row]) == group_of(rows[row + 1])) continue;
-      worker.count(chunk, [&](std::size_t /*row*/, std::size_t size) {
-        ids += size;
+      worker.count(chunk, [&](std::span<const BatchItem> /*rows*/, std::span<const std::uint64_t> sizes) {
+        ids = std::accumulate(sizes.begin(), sizes.end(), ids);
         return true;
       });
       chunk.clear();
     }
     return ids;
-  }
-
-  /// All rows in new memory, as for a caller that keeps them.
-  std::uint64_t kept_of_batch(const std::vector<VertexId>& rows, double radius) {
-    std::unique_ptr<VertexId[]> ids;  // NOLINT(modernize-avoid-c-arrays): a vector would be written twice
-    const auto allocate = [&](std::size_t count) -> BatchMemory {
-      ids = std::make_unique_for_overwrite<VertexId[]>(count);  // NOLINT(modernize-avoid-c-arrays)
-      return {{ids.get(), count}};
-    };
-    return neighborhoods(mesh_.index, {.vertices = rows, .radius = radius}, allocate).back();
   }
 
   std::uint64_t ids_of_batch(const std::vector<VertexId>& rows, double radius) {
@@ -217,8 +257,8 @@ class AllVertices {
 
 void print_table(AllVertices& all, const std::vector<double>& radii) {
   std::printf("microseconds a row; x: times as fast as\n");
-  std::printf("%6s %8s %9s %17s %17s %15s %15s %9s  %s\n", "edges", "vertices", "BFS", "one: count, ids",
-              "batch: count, ids", "x BFS", "x one", "threads", "portable, AVX2, AVX-512 / best");
+  std::printf("%6s %8s %9s %17s %17s %15s %15s %20s  %s\n", "edges", "vertices", "BFS", "one: count, ids",
+              "batch: count, ids", "x BFS", "x one", "threads (processes)", "portable, AVX2, AVX-512 / best");
   for (const double edges : radii) all.measure(edges).print();
 }
 

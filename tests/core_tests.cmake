@@ -14,7 +14,7 @@ foreach(part
     base/adjacency base/frame base/mesh base/distance base/sphere base/reference base/error base/parallel
     base/cut_edges
     aggregate/aggregate
-    batch/batch batch/joint_batch batch/packets
+    batch/batch batch/joint_batch batch/packets batch/position_sort
     exact/cell_components exact/forest exact/halfplane_polygon exact/joint_search exact/kd_order exact/leaf_nodes exact/leaves
     exact/links exact/minimum_region exact/node_groups exact/node_links exact/quality exact/refit exact/root_tree exact/tree exact/check exact/damage exact/file exact/index exact/verify
     exact/search_families exact/search_differential exact/search_outward exact/search_rare exact/search_traps exact/threads

@@ -14,11 +14,10 @@ Batch::Batch(SearchMethod method, const BatchQuery& query, const BatchOptions& o
       options_(options),
       rows_(query, factory_.vertex_count()),
       task_(options.threads, options.progress, passes * rows_.size()),
-      workers_(task_.threads()),
-      items_(task_.threads()) {}
+      threads_(task_.threads()) {}
 
 BatchWorker& Batch::worker(unsigned thread) {
-  std::unique_ptr<BatchWorker>& worker = workers_[thread];
+  std::unique_ptr<BatchWorker>& worker = threads_[thread].worker;
   if (!worker) worker = factory_.make_worker();
   return *worker;
 }
@@ -26,7 +25,7 @@ BatchWorker& Batch::worker(unsigned thread) {
 std::vector<std::size_t> Batch::put_in_index_order() {
   std::vector<std::pair<std::uint32_t, std::size_t>> by_position(rows_.size());
   for (std::size_t row = 0; row < rows_.size(); ++row) by_position[row] = {factory_.position(rows_.vertex(row)), row};
-  if (!std::is_sorted(by_position.begin(), by_position.end())) std::sort(by_position.begin(), by_position.end());
+  sort_by_position(std::span(by_position), [](const auto& row) { return row.first; });
   std::vector<std::size_t> order;
   order.reserve(rows_.size());
   for (const auto& [position, row] : by_position) order.push_back(row);
@@ -55,11 +54,10 @@ std::size_t Batch::whole_units(std::size_t first, std::size_t window) const {
   return window;
 }
 
-void Batch::cut_into_chunks() {
+void Batch::cut_into_chunks(std::span<const std::uint64_t> in_order) {
   constexpr std::size_t kChunk = 32;
   constexpr std::size_t kMaxChunk = 512;  // where many rows share their vertices
-  if (!std::is_sorted(in_order_.begin(), in_order_.end())) std::sort(in_order_.begin(), in_order_.end());
-  const std::size_t count = in_order_.size();
+  const std::size_t count = in_order.size();
   const std::uint64_t together = std::uint64_t{factory_.traits().positions_together} << 32;
   // Where there are few rows, each may take long: then a chunk has one row, and those that belong together with it.
   const std::size_t grain = std::clamp<std::size_t>(count / kChunk, 1, kChunk);
@@ -67,8 +65,9 @@ void Batch::cut_into_chunks() {
   for (std::size_t end = 0; end < count;) {
     const std::size_t most = std::min(end + kMaxChunk, count);
     end = std::min(end + grain, count);
-    const std::uint64_t unit = in_order_[end - 1] / together * together;
-    while (end < most && in_order_[end] - unit < together) ++end;
+    const std::uint64_t unit_end = (in_order[end - 1] / together + 1) * together;
+    const auto rest = in_order.subspan(end, most - end);
+    end += static_cast<std::size_t>(std::lower_bound(rest.begin(), rest.end(), unit_end) - rest.begin());
     chunk_ends_.push_back(end);
   }
 }

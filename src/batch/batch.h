@@ -11,6 +11,8 @@
 #include "meshhood/batch.h"
 
 #include "base/parallel.h"
+#include "batch/position_sort.h"
+#include "batch/raw_values.h"
 #include "batch/rows.h"
 #include "batch/searcher_factory.h"
 
@@ -20,7 +22,7 @@ namespace meshhood {
 class Batch {
  public:
   /// The most rows of one call of `for_each_chunk`.
-  static constexpr std::size_t kMaxRows = std::size_t{1} << 20;
+  static constexpr std::size_t kMaxRows = std::size_t{1} << 22;
 
   /// Shares `method` and borrows `options`. `passes`: the number of passes over all rows.
   /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}.
@@ -50,42 +52,54 @@ class Batch {
   template <class F>
   void for_all_chunks(F&& f);
 
-  /// The worker of a thread, made at its first use.
+  /// The worker of a thread, made by the thread itself at its first use.
   [[nodiscard]] BatchWorker& worker(unsigned thread);
 
  private:
+  /// What a thread uses. Not beside that of another thread, which writes to its own all the time.
+  struct alignas(64) PerThread {
+    std::unique_ptr<BatchWorker> worker;
+    RawValues<BatchItem> chunk;
+  };
+
   /// Whether the row after `row` has a position beyond the next multiple of `positions`.
   [[nodiscard]] bool ends_unit(std::size_t row, std::uint32_t positions) const;
 
-  /// Sorts the rows by position, and cuts them so that rows that belong together are in one chunk.
-  void cut_into_chunks();
+  /// Cuts the rows so that those that belong together are in one chunk.
+  void cut_into_chunks(std::span<const std::uint64_t> in_order);
 
   SearchMethod method_;
   const SearcherFactory& factory_;  // of `method_`
   const BatchOptions& options_;
   Rows rows_;
   TaskContext task_;
-  std::vector<std::unique_ptr<BatchWorker>> workers_;  // by thread, each made by the thread itself
-  std::vector<std::vector<BatchItem>> items_;          // by thread: its chunk
-  std::vector<std::uint64_t> in_order_;                // position, and in the lower half the number `i` of the row
-  std::vector<std::size_t> chunk_ends_;                // in `in_order_`
+  std::vector<PerThread> threads_;
+  RawValues<std::uint64_t> in_order_;    // position, and in the lower half the number `i` of the row
+  std::vector<std::size_t> chunk_ends_;  // in `in_order_`
 };
 
 template <class RowOf, class F>
 void Batch::for_each_chunk(std::size_t count, RowOf&& row_of, F&& f) {
-  in_order_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    in_order_[i] = (std::uint64_t{factory_.position(rows_.vertex(row_of(i)))} << 32) + i;
-  }
-  cut_into_chunks();
-  task_.parallel_for(chunk_ends_.size(), 1, [&](unsigned thread, std::size_t chunk, std::size_t) {
-    std::vector<BatchItem>& items = items_[thread];
-    items.clear();
-    for (std::size_t i = chunk == 0 ? 0 : chunk_ends_[chunk - 1]; i < chunk_ends_[chunk]; ++i) {
-      const std::size_t row = row_of(static_cast<std::uint32_t>(in_order_[i]));
-      items.push_back({row, rows_.vertex(row), rows_.radius(row)});
+  constexpr std::size_t kRowsAtOnce = std::size_t{1} << 16;
+  in_order_.clear();
+  const std::span<std::uint64_t> in_order = in_order_.add(count);
+  task_.parallel_for(count, kRowsAtOnce, [&](unsigned /*thread*/, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      in_order[i] = (std::uint64_t{factory_.position(rows_.vertex(row_of(i)))} << 32) + i;
     }
-    f(thread, std::span<const BatchItem>(items));
+  });
+  sort_by_position(in_order, [](std::uint64_t row) { return static_cast<std::uint32_t>(row >> 32); });
+  cut_into_chunks(in_order);
+  task_.parallel_for(chunk_ends_.size(), 1, [&](unsigned thread, std::size_t number, std::size_t) {
+    const std::size_t begin = number == 0 ? 0 : chunk_ends_[number - 1];
+    threads_[thread].chunk.clear();
+    const std::span<BatchItem> chunk = threads_[thread].chunk.add(chunk_ends_[number] - begin);
+    for (std::size_t i = 0; i < chunk.size(); ++i) {
+      const std::uint64_t next = in_order[begin + i];
+      const std::size_t row = row_of(static_cast<std::uint32_t>(next));
+      chunk[i] = {row, rows_.vertex(row), static_cast<std::uint32_t>(next >> 32), rows_.radius(row)};
+    }
+    f(thread, std::span<const BatchItem>(chunk));
   });
 }
 

@@ -26,7 +26,7 @@ class SizeLimit {
 
   [[nodiscard]] bool allows(double ids) const { return ids <= static_cast<double>(max_ids_); }
 
-  /// Any thread: counts the ids of a row.
+  /// Any thread: counts the ids of some rows.
   void add(std::uint64_t ids) {
     if (total_.fetch_add(ids, std::memory_order_relaxed) + ids > max_ids_) refuse("");
   }
@@ -57,8 +57,8 @@ void check_sample(Batch& batch, const SizeLimit& limit) {
   const auto row_of = [stretch](std::size_t i) { return i * stretch + i * std::size_t{0x9E37'79B1} % stretch; };
   std::vector<double> sizes(kSample);
   batch.for_each_chunk(kSample, row_of, [&](unsigned thread, std::span<const BatchItem> chunk) {
-    batch.worker(thread).count(chunk, [&](std::size_t row, std::size_t size) {
-      sizes[row / stretch] = static_cast<double>(size);
+    batch.worker(thread).count(chunk, [&](std::span<const BatchItem> items, std::span<const std::uint64_t> some) {
+      for (std::size_t i = 0; i < items.size(); ++i) sizes[items[i].row / stretch] = static_cast<double>(some[i]);
       return batch.task().should_continue(thread);
     });
   });
@@ -70,16 +70,14 @@ void check_sample(Batch& batch, const SizeLimit& limit) {
 }
 
 void count_rows(Batch& batch, std::uint64_t* sizes, SizeLimit* limit) {
-  constexpr std::size_t kAtOnce = 32;  // a row may take less time than an update of the shared counter
   batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
-    std::size_t done = 0;
-    batch.worker(thread).count(chunk, [&](std::size_t row, std::size_t size) {
-      sizes[row] = size;
-      if (limit != nullptr) limit->add(size);
-      if (++done % kAtOnce == 0) batch.task().advance(kAtOnce);
+    std::uint64_t ids = 0;
+    batch.worker(thread).count(chunk, [&](std::span<const BatchItem> items, std::span<const std::uint64_t> some) {
+      for (std::size_t i = 0; i < items.size(); ++i) ids += sizes[items[i].row] = some[i];
       return batch.task().should_continue(thread);
     });
-    batch.task().advance(done % kAtOnce);
+    if (limit != nullptr) limit->add(ids);
+    batch.task().advance(chunk.size());
   });
 }
 
@@ -129,8 +127,11 @@ class RowsInPlace final : public RowReceiver {
   }
 
   bool done(std::size_t /*row*/) override {
+    constexpr std::size_t kIdsBetweenLooks = 4096;  // to look at the clock takes a tenth of the time of a small row
     if (batch_.options().sorted) sort_answer(last_.ids, last_.distances);
-    batch_.task().advance(1);
+    ids_since_look_ += last_.ids.size();
+    if (ids_since_look_ < kIdsBetweenLooks) return true;
+    ids_since_look_ = 0;
     return batch_.task().should_continue(thread_);
   }
 
@@ -140,12 +141,14 @@ class RowsInPlace final : public RowReceiver {
   std::span<const std::uint64_t> offsets_;
   BatchMemory memory_;
   BatchMemory last_;
+  std::size_t ids_since_look_ = 0;
 };
 
 void write_rows(Batch& batch, std::span<const std::uint64_t> offsets, const BatchMemory& memory) {
   batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
     RowsInPlace receiver(batch, thread, offsets, memory);
     batch.worker(thread).find(chunk, batch.options().distances, receiver);
+    batch.task().advance(chunk.size());
   });
 }
 

@@ -31,15 +31,11 @@ JointWorker::JointWorker(const Index& index, Isa isa)
 
 void JointWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink) {
   for_each_run(
-      chunk,
-      [&](const Run& run) {
-        const PerLane<std::uint64_t>& counts = joint_->counts();
-        for (std::size_t i = 0; i < run.items.size(); ++i) {
-          if (!sink(run.items[i].row, counts[i])) return false;
-        }
-        return true;
-      },
-      [&](const BatchItem& item) { return sink(item.row, searcher().count(item.vertex, item.radius)); });
+      chunk, [&](const Run& run) { return sink(run.items, std::span(joint_->counts()).first(run.items.size())); },
+      [&](const BatchItem& item) {
+        const std::uint64_t size = searcher().count(item.vertex, item.radius);
+        return sink({&item, 1}, {&size, 1});
+      });
 }
 
 void JointWorker::find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) {
@@ -117,10 +113,10 @@ void JointWorker::split(std::span<const BatchItem> chunk) {
   runs_.clear();
   leaves_.clear();
   while (!chunk.empty()) {
-    const LeafId leaf = leaf_of_item(chunk.front());
+    const LeafId leaf = leaf_of(chunk.front().position);
     const std::size_t most = std::min<std::size_t>(chunk.size(), kPacketCapacity);
     std::size_t size = 1;
-    while (size < most && leaf_of_item(chunk[size]) == leaf) ++size;
+    while (size < most && leaf_of(chunk[size].position) == leaf) ++size;
     runs_.push_back({leaf, chunk.first(size), pays(chunk.first(size))});
     chunk = chunk.subspan(size);
   }
@@ -146,18 +142,16 @@ void JointWorker::begin_group(std::span<const Run> runs) {
 void JointWorker::begin_packet(const Run& run) {
   queries_.clear();
   for (const BatchItem& item : run.items) {
-    queries_.push_back({lane_of(view_.slot[item.vertex]), prepared(item.radius)});
+    queries_.push_back({lane_of(item.position), prepared(item.radius)});
   }
   joint_->run(run.leaf, queries_);
 }
-
-LeafId JointWorker::leaf_of_item(const BatchItem& item) const { return leaf_of(view_.slot[item.vertex]); }
 
 bool JointWorker::pays(std::span<const BatchItem> items) const {
   if (unlike_a_surface_) return false;  // few vertices of a leaf have the same neighbors
   const bool is_large = items.front().radius > kLargeRadius * view_.tree.front().mean_radius / view_.frame.scale;
   // If all vertices of a small leaf are queried, then mostly all vertices of its group are.
-  if (is_large && items.size() == view_.leaves[leaf_of_item(items.front())].size) return true;
+  if (is_large && items.size() == view_.leaves[leaf_of(items.front().position)].size) return true;
   const BreakEven& least = isa_ == Isa::Portable ? kPortable : kVectors;
   return items.size() >= (is_large ? least.large_rows : least.rows);
 }
@@ -204,8 +198,7 @@ void JointWorker::add_by_leaf(std::span<const VertexRange> ranges) {
 }
 
 Point JointWorker::position_of(const BatchItem& item) const {
-  const std::uint32_t slot = view_.slot[item.vertex];
-  return view_.position(leaf_of(slot), lane_of(slot));
+  return view_.position(leaf_of(item.position), lane_of(item.position));
 }
 
 Searcher& JointWorker::searcher() {

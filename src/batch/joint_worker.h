@@ -46,7 +46,6 @@ class JointWorker final : public BatchWorker {
   void split(std::span<const BatchItem> chunk);
   void begin_group(std::span<const Run> runs);
   void begin_packet(const Run& run);
-  [[nodiscard]] LeafId leaf_of_item(const BatchItem& item) const;
   [[nodiscard]] bool pays(std::span<const BatchItem> items) const;
   [[nodiscard]] const JointRadius& prepared(double radius);
   const VertexSet& search_single(const BatchItem& item);

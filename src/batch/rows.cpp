@@ -30,12 +30,22 @@ Rows::Rows(const BatchQuery& query, std::size_t vertex_count)
   } else if (radii_->size() != size_) {
     raise(ErrorCode::InvalidRadius, std::to_string(radii_->size()) + " radii for " + std::to_string(size_) + " rows");
   }
+  if (are_valid(vertex_count)) return;
   for (std::size_t row = 0; row < size_; ++row) {
-    if (vertex(row) < vertex_count && radius(row) >= 0) [[likely]] {
-      continue;
-    }
     check_query(vertex(row), vertex_count, radius(row), "row " + std::to_string(row) + ": ");
   }
+}
+
+// Without branches, so that compilers use vectors.
+bool Rows::are_valid(std::size_t vertex_count) const {
+  bool result = true;
+  for (const VertexId v : vertices_ ? std::span<const VertexId>(*vertices_) : std::span<const VertexId>()) {
+    result &= v < vertex_count;
+  }
+  for (const double radius : radii_ ? std::span<const double>(*radii_) : std::span<const double>()) {
+    result &= radius >= 0;
+  }
+  return result;
 }
 
 void Rows::reorder(std::span<const std::size_t> order) {

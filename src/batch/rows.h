@@ -28,6 +28,8 @@ class Rows {
   void reorder(std::span<const std::size_t> order);
 
  private:
+  [[nodiscard]] bool are_valid(std::size_t vertex_count) const;
+
   std::optional<std::vector<VertexId>> vertices_;
   std::optional<std::vector<double>> radii_;
   std::size_t size_;

@@ -20,11 +20,12 @@ namespace meshhood {
 struct BatchItem {
   std::size_t row;
   VertexId vertex;
+  std::uint32_t position;  // `SearcherFactory::position`
   double radius;
 };
 
-/// Receives the size of a row. Returns false to drop the rest of the chunk.
-using SizeSink = std::function<bool(std::size_t row, std::size_t size)>;
+/// Receives the sizes of some rows of a chunk. Returns false to drop the rest of the chunk.
+using SizeSink = std::function<bool(std::span<const BatchItem> rows, std::span<const std::uint64_t> sizes)>;
 
 /// Receives rows in memory that it provides, so that ids are written once.
 class RowReceiver {
@@ -91,7 +92,8 @@ class SearcherWorker final : public BatchWorker {
   void count(std::span<const BatchItem> chunk, const SizeSink& sink) override {
     begin_(searcher_);
     for (const BatchItem& item : chunk) {
-      if (!sink(item.row, searcher_.count(item.vertex, item.radius))) return;
+      const std::uint64_t size = searcher_.count(item.vertex, item.radius);
+      if (!sink({&item, 1}, {&size, 1})) return;
     }
   }
 

@@ -2,14 +2,13 @@
 // Rows in order and in bounded memory: a window of rows is computed in index order, then passed on in row order.
 #include <algorithm>
 #include <atomic>
-#include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "meshhood/error.h"
 
 #include "batch/batch.h"
+#include "batch/raw_values.h"
 #include "batch/sort_answer.h"
 
 namespace meshhood {
@@ -19,39 +18,10 @@ namespace {
 constexpr std::size_t kFirstWindow = 256;
 constexpr std::size_t kGrowth = 4;
 
-/// A growing array whose memory is not set to zero first.
-template <class T>
-class Values {
- public:
-  void clear() { size_ = 0; }
-  [[nodiscard]] std::size_t size() const { return size_; }
-  [[nodiscard]] std::span<const T> part(std::size_t begin, std::size_t size) const {
-    return {values_.get() + begin, size};
-  }
-
-  /// Adds `count` values, which the caller sets.
-  std::span<T> add(std::size_t count) {
-    const std::size_t needed = size_ + count;
-    if (needed > capacity_) {
-      const std::size_t capacity = std::max(needed, 2 * capacity_);
-      auto larger = std::make_unique_for_overwrite<T[]>(capacity);  // NOLINT(modernize-avoid-c-arrays)
-      std::copy_n(values_.get(), size_, larger.get());
-      values_ = std::move(larger);
-      capacity_ = capacity;
-    }
-    return {values_.get() + std::exchange(size_, needed), count};
-  }
-
- private:
-  std::unique_ptr<T[]> values_;  // NOLINT(modernize-avoid-c-arrays): a vector would write to all of it
-  std::size_t size_ = 0;
-  std::size_t capacity_ = 0;
-};
-
 /// The rows of a window that one thread computed.
 struct Store {
-  Values<VertexId> ids;
-  Values<double> distances;
+  RawValues<VertexId> ids;
+  RawValues<double> distances;
 
   void clear() {
     ids.clear();

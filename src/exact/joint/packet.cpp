@@ -29,6 +29,14 @@ double outer_of(const TreeBounds& bounds) { return std::min(static_cast<double>(
 
 }  // namespace
 
+JointRadius::JointRadius(const Frame& frame, double at)
+    : radius(at),
+      squared(squared_radius(at)),
+      bounds(frame, at),
+      inner_squared(inner_of(bounds) > 0 ? inner_of(bounds) * inner_of(bounds)
+                                         : -std::numeric_limits<double>::infinity()),
+      outer_squared(outer_of(bounds) * outer_of(bounds)) {}
+
 Packet::Packet(const IndexView& index, const JointGroup& group, LeafId leaf, std::span<const JointQuery> queries)
     : index_(&index), leaf_(leaf), size_(queries.size()), ball_({0, 0, 0}, queries.front().radius.bounds) {
   for (std::size_t i = 0; i < size_; ++i) {
@@ -72,11 +80,9 @@ void Packet::set_balls(const JointGroup& group, std::span<const JointQuery> quer
     balls_.z[i] = 2 * points.z[lane];
     const Point q{static_cast<double>(points.x[lane]), static_cast<double>(points.y[lane]),
                   static_cast<double>(points.z[lane])};
-    const double inner = inner_of(queries[i].radius.bounds);
-    const double outer = outer_of(queries[i].radius.bounds);
     // mutant: packet-doubts-inside
-    if (inner > 0) balls_.surely_inside[i] = static_cast<float>(dot(q, q) - inner * inner + error);
-    balls_.maybe_inside[i] = static_cast<float>(dot(q, q) - outer * outer - error);
+    balls_.surely_inside[i] = static_cast<float>(dot(q, q) - queries[i].radius.inner_squared + error);
+    balls_.maybe_inside[i] = static_cast<float>(dot(q, q) - queries[i].radius.outer_squared - error);
   }
 }
 

@@ -16,8 +16,10 @@ struct JointRadius {
   double radius;
   double squared;  // of the predicate
   TreeBounds bounds;
+  double inner_squared;  // of `bounds`; minus infinity if it is no ball
+  double outer_squared;
 
-  JointRadius(const Frame& frame, double at) : radius(at), squared(squared_radius(at)), bounds(frame, at) {}
+  JointRadius(const Frame& frame, double at);
 };
 
 /// A query of a packet: a vertex of its leaf, and a radius.

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace meshhood {
+
+/// Sorts `items` by `position(item)`, a number of 32 bits. Items of equal positions keep their order. A radix sort,
+/// because the rows of a whole mesh are millions, and comparing them takes longer than small neighborhoods. Items that
+/// are sorted cost one look at each, and no memory.
+template <class Item, class Position>
+void sort_by_position(std::span<Item> items, const Position& position) {
+  constexpr unsigned kDigitBits = 11;
+  constexpr std::uint32_t kDigits = 1U << kDigitBits;
+  const auto precedes = [&](const Item& a, const Item& b) { return position(a) < position(b); };
+  if (std::is_sorted(items.begin(), items.end(), precedes)) return;
+  std::uint32_t bits_in_use = 0;
+  for (const Item& item : items) bits_in_use |= position(item);
+  std::vector<Item> memory(items.size());
+  std::span<Item> sorted = items;  // by the digits so far
+  std::span<Item> next = memory;
+  for (unsigned shift = 0; shift < 32 && bits_in_use >> shift != 0; shift += kDigitBits) {
+    const auto digit_of = [&](const Item& item) { return (position(item) >> shift) % kDigits; };
+    std::array<std::size_t, kDigits> places{};
+    for (const Item& item : sorted) ++places[digit_of(item)];
+    std::exclusive_scan(places.begin(), places.end(), places.begin(), std::size_t{0});
+    for (const Item& item : sorted) next[places[digit_of(item)]++] = item;
+    std::swap(sorted, next);
+  }
+  if (sorted.data() != items.data()) std::copy(sorted.begin(), sorted.end(), items.begin());
+}
+
+}  // namespace meshhood

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Rows are sorted by position as the standard library sorts them.
+#include "batch/position_sort.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/random.h"
+
+namespace meshhood::test {
+namespace {
+
+using Row = std::pair<std::uint32_t, std::size_t>;
+
+std::uint32_t position_of(const Row& row) { return row.first; }
+
+/// Rows numbered in order, at random positions below `bound`.
+std::vector<Row> random_rows(Random& random, std::size_t count, std::uint64_t bound) {
+  std::vector<Row> rows;
+  for (std::size_t row = 0; row < count; ++row) {
+    rows.emplace_back(static_cast<std::uint32_t>(random.below(static_cast<std::size_t>(bound))), row);
+  }
+  return rows;
+}
+
+TEST(PositionSort, PositionsAscendAndRowsOfOnePositionKeepTheirOrder) {
+  Random random(31);
+  std::size_t lists = 0;
+  for (unsigned bits = 0; bits <= 32; ++bits) {
+    for (const std::size_t count : {0, 1, 2, 100, 5000}) {
+      std::vector<Row> rows = random_rows(random, count, std::uint64_t{1} << bits);
+      std::vector<Row> expected = rows;
+      std::stable_sort(expected.begin(), expected.end(), [](const Row& a, const Row& b) { return a.first < b.first; });
+      sort_by_position(std::span(rows), position_of);
+      ASSERT_EQ(rows, expected) << bits << " bits, " << count << " rows";
+      ++lists;
+    }
+  }
+  std::printf("%zu lists of rows\n", lists);
+}
+
+TEST(PositionSort, TheLargestPositionsAreSortedToo) {
+  constexpr std::uint32_t kLargest = std::numeric_limits<std::uint32_t>::max();
+  std::vector<Row> rows{{kLargest, 0}, {0, 1}, {kLargest - 1, 2}, {kLargest, 3}, {1U << 31U, 4}};
+  sort_by_position(std::span(rows), position_of);
+  EXPECT_EQ(rows, (std::vector<Row>{{0, 1}, {1U << 31U, 4}, {kLargest - 1, 2}, {kLargest, 0}, {kLargest, 3}}));
+}
+
+}  // namespace
+}  // namespace meshhood::test
