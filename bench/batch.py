@@ -1,18 +1,24 @@
 # SPDX-License-Identifier: MIT
 """All vertices of a mesh in one call: the batch beside breadth-first search and beside one query after the other, with
 one thread and two, with each instruction set, and from Python."""
+import contextlib
 import importlib.util
+import os
+import subprocess
+import sys
 import tempfile
-import time
 from pathlib import Path
 
 from . import meshes, places, programs, results, timing
 
 MESHES = ("cat0", "cortex", "dragon", "head_skin", "mri_head")
 RADII = (2, 3, 5, 10, 20, 65)
-METHODS = ("bfs", "single_count", "single_ids", "count", "ids", "kept", "one_thread", "two_threads", "portable", "avx2",
-           "avx512", "python")
+METHODS = ("bfs", "single_count", "single_ids", "count", "ids", "one_thread", "two_threads", "two_processes", "portable",
+           "avx2", "avx512", "kept", "python")
 ROUNDS = 5
+# C++ and Python get memory alike: from the heap, which keeps what is freed, in pages of 4 kB. Otherwise NumPy gets large
+# pages, and which arrays are new to the process depends on their sizes.
+EQUAL_MEMORY = {"MALLOC_MMAP_MAX_": "0", "MALLOC_TRIM_THRESHOLD_": str(1 << 40), "NUMPY_MADVISE_HUGEPAGE": "0"}
 
 
 def run(names):
@@ -34,22 +40,40 @@ def measure(name):
 
 
 def add_python(file, found):
-    """The rows of `all_vertices` from Python, kept in arrays: to be compared with `kept`."""
+    """Rows kept in one array, by C++ and from Python in turn."""
     if importlib.util.find_spec("meshhood") is None:
         print("  not from Python, because the package is not installed")
         return
-    import meshhood
-    import numpy as np
+    commands = {"kept": [places.PROGRAMS / "kept_rows", file], "python": [sys.executable, "-m", "bench.kept_rows", file]}
+    with contextlib.ExitStack() as stack:
+        timers = {name: stack.enter_context(RowTimer(command)) for name, command in commands.items()}
+        for row in found["rows"]:
+            for timer in timers.values():
+                timer.microseconds(row)  # the first call gets the memory
+            row |= {name: [] for name in timers}
+            for _ in range(ROUNDS):
+                for name, timer in timers.items():
+                    row[name].append(timer.microseconds(row))
 
-    index = meshhood.load(file)
-    for row in found["rows"]:
-        vertices = np.arange(row["first_vertex"], row["first_vertex"] + row["rows"])
-        row["python"] = [microseconds(index, vertices, row["radius"]) for _ in range(ROUNDS)]
 
+class RowTimer:
+    """A process that times calls: see bench/kept_rows.cpp."""
 
-def microseconds(index, vertices, radius):
-    begin = time.thread_time()
-    rows = index.query_ball(vertices, radius, workers=1)
-    took = time.thread_time() - begin
-    del rows
-    return 1e6 * took / len(vertices)
+    def __init__(self, command):
+        self.command = list(map(str, command))
+
+    def __enter__(self):
+        self.process = subprocess.Popen(self.command, cwd=places.ROOT, env=os.environ | EQUAL_MEMORY, text=True,
+                                        stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        return self
+
+    def __exit__(self, *error):
+        self.process.stdin.close()
+        self.process.wait()
+
+    def microseconds(self, row):
+        print(row["first_vertex"], row["rows"], row["radius"], file=self.process.stdin, flush=True)
+        answer = self.process.stdout.readline()
+        if not answer:
+            sys.exit(f"bench: {' '.join(self.command)} failed")
+        return float(answer)

@@ -50,10 +50,19 @@ class Programs(unittest.TestCase):
         self.assertEqual([row["radius_edges"] for row in found["rows"]], [3, 20])
         for row in found["rows"]:
             self.assertGreater(row["found"], 1)
-            self.assertLessEqual({"bfs", "count", "ids", "kept"}, row.keys())
+            self.assertLessEqual({"bfs", "count", "ids", "one_thread", "two_threads"}, row.keys())
             for method in row.keys() & batch.METHODS:
-                self.assertEqual(len(row[method]), 5)
+                self.assertEqual(len(row[method]), 3 if method in ("one_thread", "two_threads", "two_processes") else 5)
                 self.assertTrue(all(time > 0 for time in row[method]))
+
+    def test_kept_rows_times_each_line_of_its_input(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "mesh.mhi"
+            found = programs.run(places.PROGRAMS / "all_vertices", "--json", "--index", file, MESH, 3)
+            with batch.RowTimer([places.PROGRAMS / "kept_rows", file]) as timer:
+                times = [timer.microseconds(row) for row in found["rows"] * 2]
+        self.assertEqual(len(times), 2)
+        self.assertTrue(all(time > 0 for time in times))
 
     def test_race_refuses_unknown_methods(self):
         for method in ("nope", "paper,x=3"):
