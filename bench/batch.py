@@ -57,7 +57,8 @@ def add_python(file, found):
 
 
 class RowTimer:
-    """A process that times calls: see bench/kept_rows.cpp."""
+    """A process that times calls: see bench/kept_rows.cpp. All run on one processor, for processors are not alike while
+    other programs use them."""
 
     def __init__(self, command):
         self.command = list(map(str, command))
@@ -65,6 +66,7 @@ class RowTimer:
     def __enter__(self):
         self.process = subprocess.Popen(self.command, cwd=places.ROOT, env=os.environ | EQUAL_MEMORY, text=True,
                                         stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        os.sched_setaffinity(self.process.pid, {max(os.sched_getaffinity(0))})
         return self
 
     def __exit__(self, *error):
