@@ -70,8 +70,7 @@ class RowTimer:
         return self
 
     def __exit__(self, *error):
-        self.process.stdin.close()
-        self.process.wait()
+        self.process.communicate()
 
     def microseconds(self, row):
         print(row["first_vertex"], row["rows"], row["radius"], file=self.process.stdin, flush=True)
