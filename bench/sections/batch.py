@@ -95,7 +95,7 @@ def summary(data):
 
 
 HEAD_NOTE = """All vertices in one call, one thread of an {processor} (`{command}`): times as fast as the
-fastest breadth-first search we could write, for the sizes and the ids of all neighborhoods. Radius in mean edges.{remark}
+fastest breadth-first search we could write, for the sizes and the ids of all neighborhoods.{remark}
 
 """
 HEAD_RADII = (2, 5, 10, 20, 65)
@@ -103,7 +103,7 @@ HEAD_RADII = (2, 5, 10, 20, 65)
 
 def head_table(data):
     """The table of the README."""
-    remark = "\n**Preliminary: the machine was busy.**" if machine.is_busy(data["machine"]) else ""
+    remark = " **Preliminary figures.**" if machine.is_busy(data["machine"]) else ""
     note = HEAD_NOTE.format(processor=data["machine"]["processor"], command=COMMAND, remark=remark)
     return note + ratio_table(data, HEAD_RADII) + "\n"
 
@@ -111,7 +111,7 @@ def head_table(data):
 def ratio_table(data, radii=()):
     """At `radii`, or at all that were measured."""
     shown = {name: data["meshes"][name] for name in SHOWN if name in data["meshes"]} or data["meshes"]
-    header = ["radius"]
+    header = ["radius in mean edges"]
     for name in shown:
         header += [f"{name}: count", "ids"]
     by_radius = [{row["radius_edges"]: row for row in result["rows"]} for result in shown.values()]
