@@ -8,7 +8,7 @@ import statistics
 import subprocess
 import time
 
-from . import meshes, places, programs, results, timing
+from . import memory, meshes, places, programs, results, timing
 
 MESHES = ("cortex", "cat0", "dragon", "head_skin")
 RADII = (3, 5, 10, 20, 65)
@@ -80,7 +80,7 @@ def measure_radius(name, mesh, index, edges):
 
 
 def grown(size):
-    """A sphere of `size` vertices: µs a vertex, and bytes a vertex of the index with the normals."""
+    """A sphere of `size` vertices: µs a vertex, and bytes a vertex of the index with the normals and of two calls."""
     import meshhood
     import numpy as np
 
@@ -93,11 +93,15 @@ def grown(size):
     V, F = V.astype(float), F.astype(np.int64)
     index = meshhood.MeshIndex(V, F)
     tools = {"ours": ours(index, V, F, GROWTH_RADIUS, {})}
+    values = V[:, 0].copy()
+    peaks = {"mean_peak": memory.peak_of(lambda: index.aggregate(values, GROWTH_RADIUS, unit="edge", workers=1)),
+             "curvature_peak": memory.peak_of(tools["ours"])}
     if size <= LIBIGL_SIZE:
         tools |= {"libigl": peers(V, F, index, GROWTH_RADIUS, 1e9)["libigl"]}
     times = {tool: statistics.median(spent) for tool, spent in in_turns(tools).items()}
     print(f"  sphere of {size:,}", flush=True)
     return {"vertices": len(V), "bytes": index.nbytes / len(V) + NORMAL_BYTES,
+            **{call: peak / len(V) for call, peak in peaks.items()},
             **{tool: 1e6 * spent / len(V) for tool, spent in times.items()}}
 
 

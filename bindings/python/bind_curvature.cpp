@@ -71,7 +71,8 @@ auto corrected_curvatures_of(const CurvatureIndex& surface, const Input& corners
   return std::tuple(owned<double>(std::move(found.area)), owned<double>(std::move(found.mean)),
                     owned<double>(std::move(found.gaussian)), owned<double>(std::move(found.k1)),
                     owned<double>(std::move(found.k2)), owned<double>(std::move(found.d1), {rows, 3}),
-                    owned<double>(std::move(found.d2), {rows, 3}));
+                    owned<double>(std::move(found.d2), {rows, 3}),
+                    owned<double>(std::move(found.measures), {rows, CorrectedCurvatures::kMeasures}));
 }
 
 MomentOptions moment_options(unsigned degree, const std::optional<Radii>& weights, unsigned threads,

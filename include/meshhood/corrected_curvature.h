@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "meshhood/batch.h"
@@ -11,7 +12,7 @@
 /// Curvature from measures instead of a fit. See docs/curvature.md.
 namespace meshhood {
 
-/// One value for each row of the query. All but the area are NaN where the area is 0.
+/// One value for each row of the query. All but the area and the measures are NaN where the area is 0.
 struct CorrectedCurvatures {
   std::vector<double> area;      ///< #rows: of the patch, corrected by the normals
   std::vector<double> mean;      ///< #rows: H, in 1 / unit of the positions, positive where convex, as in `Curvatures`
@@ -20,6 +21,11 @@ struct CorrectedCurvatures {
   std::vector<double> k2;
   std::vector<double> d1;  ///< #rows by 3: their directions in the plane of the vertex normal, as in `Curvatures`
   std::vector<double> d2;
+
+  /// #rows by 12, the sums from which the others follow: the area; twice the integral of H; the integral of K; and the
+  /// anisotropic measure, a matrix of 3 by 3, row by row. CGAL's mu0, mu1, mu2 and muXY.
+  std::vector<double> measures;
+  static constexpr std::size_t kMeasures = 12;
 };
 
 struct CorrectedCurvatureOptions {
@@ -44,7 +50,7 @@ struct CorrectedCurvatureOptions {
 /// faces     those of the mesh that the index was built from.
 /// vertices  as of a batch; radius of all rows.
 /// The result has the same bits for any number of threads and on every processor. Takes the time of `aggregate` with
-/// nine channels.
+/// twelve channels.
 /// Throws Error{InvalidMesh, TooLarge, VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}.
 [[nodiscard]] CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const FacesView& faces,
                                                        const BatchVertices& vertices, double radius,

@@ -17,8 +17,8 @@
 namespace meshhood {
 namespace {
 
-/// Area, mean and Gaussian curvature, and the symmetric part of the anisotropic measure: xx, xy, xz, yy, yz, zz.
-using Measures = std::array<double, 9>;
+/// Area, mean and Gaussian curvature, and the anisotropic measure, row by row.
+using Measures = std::array<double, CorrectedCurvatures::kMeasures>;
 
 /// A corner of a triangle and its normal.
 struct Corner {
@@ -47,9 +47,8 @@ void add_triangle(const Corner& c0, const Corner& c1, const Corner& c2, Measures
   const auto b = components(cross(x02, u));
   const auto p = components(u01);
   const auto q = components(u02);
-  std::size_t at = 3;
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = i; j < 3; ++j) sum[at++] += ((a[i] * q[j] - b[i] * p[j]) + (a[j] * q[i] - b[j] * p[i])) / 4;
+    for (std::size_t j = 0; j < 3; ++j) sum[3 + 3 * i + j] += (a[i] * q[j] - b[i] * p[j]) / 2;
   }
 }
 
@@ -67,7 +66,7 @@ Measures measures_of(std::span<const Corner> face) {
   return sum;
 }
 
-/// The measures that each vertex holds, #V by 9 in the caller's order. Lengths are in the frame, where nothing
+/// The measures that each vertex holds, #V by 12 in the caller's order. Lengths are in the frame, where nothing
 /// overflows.
 std::vector<double> measures_by_vertex(const SurfaceState& surface, const FacesView& faces) {
   const IndexView& index = *surface.index;
@@ -96,16 +95,18 @@ std::vector<double> measures_by_vertex(const SurfaceState& surface, const FacesV
   return held;
 }
 
-/// The principal curvatures from the measures of a neighborhood: the extremes of the anisotropic measure over the
-/// tangent plane, by the area. CGAL excludes the normal by a large eigenvalue; this is the limit of its result for an
-/// infinite one.
+/// The principal curvatures from the measures of a neighborhood: the extremes of the symmetric part of the anisotropic
+/// measure over the tangent plane, by the area. CGAL excludes the normal by a large eigenvalue; this is the limit of
+/// its result for an infinite one.
 PrincipalCurvature curvature_of(std::span<const double> m, const Point& normal) {
   const TangentFrame frame = frame_of(normal);
-  const auto times = [&](const Point& a) {
-    return Point{m[3] * a.x + m[4] * a.y + m[5] * a.z, m[4] * a.x + m[6] * a.y + m[7] * a.z,
-                 m[5] * a.x + m[7] * a.y + m[8] * a.z};
+  const auto along = [&](const Point& a, const Point& b) {
+    const Point m_b{m[3] * b.x + m[4] * b.y + m[5] * b.z, m[6] * b.x + m[7] * b.y + m[8] * b.z,
+                    m[9] * b.x + m[10] * b.y + m[11] * b.z};
+    return dot(a, m_b);
   };
-  const Eigen2 found = eigen(dot(frame.u, times(frame.u)), dot(frame.u, times(frame.v)), dot(frame.v, times(frame.v)));
+  const Eigen2 found =
+      eigen(along(frame.u, frame.u), (along(frame.u, frame.v) + along(frame.v, frame.u)) / 2, along(frame.v, frame.v));
   const auto direction = [&](const std::array<double, 2>& v) {
     return with_sign(unit(v[0] * frame.u + v[1] * frame.v));
   };
@@ -118,7 +119,12 @@ void write_row(CorrectedCurvatures& out, std::size_t row, std::span<const double
   const Point nan{kNan, kNan, kNan};
   const PrincipalCurvature k =
       some && !std::isnan(normal.x) ? curvature_of(m, normal) : PrincipalCurvature{kNan, kNan, nan, nan};
-  out.area[row] = m[0] / scale / scale;
+  double* const measures = &out.measures[m.size() * row];
+  measures[0] = m[0] / scale / scale;
+  measures[1] = m[1] / scale;
+  measures[2] = m[2];
+  for (std::size_t i = 3; i < m.size(); ++i) measures[i] = m[i] / scale;
+  out.area[row] = measures[0];
   out.mean[row] = some ? m[1] / (2 * m[0]) * scale : kNan;
   out.gaussian[row] = some ? m[2] / m[0] * scale * scale : kNan;
   out.k1[row] = k.k1 * scale;
@@ -134,7 +140,7 @@ CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const Fa
                                          const CorrectedCurvatureOptions& options) {
   const SurfaceState& state = CurvatureAccess::state(surface);
   validate(MeshView{state.searched.positions(), faces});
-  constexpr std::size_t kChannels = std::tuple_size_v<Measures>;
+  constexpr std::size_t kChannels = CorrectedCurvatures::kMeasures;
   const std::vector<double> held = measures_by_vertex(state, faces);
   std::vector<VertexId> listed;
   AggregateQuery query{.vertices = {}, .radii = {radius}, .reduce = Reduce::Sum};
@@ -146,8 +152,10 @@ CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const Fa
                                              {.threads = options.threads, .progress = options.progress});
   const std::size_t rows = sums.size() / kChannels;
   CorrectedCurvatures result;
-  for (auto* const numbers : {&result.area, &result.mean, &result.gaussian, &result.k1, &result.k2})
+  result.measures.resize(sums.size());
+  for (auto* const numbers : {&result.area, &result.mean, &result.gaussian, &result.k1, &result.k2}) {
     numbers->resize(rows);
+  }
   result.d1.resize(3 * rows);
   result.d2.resize(3 * rows);
   for (std::size_t row = 0; row < rows; ++row) {

@@ -40,8 +40,8 @@ class CurvatureFitter {
  private:
   void fit_row(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments, std::size_t query);
   [[nodiscard]] TangentFrame fit_frame(const QueryMoments& moments, std::size_t query) const;
-  [[nodiscard]] std::optional<Quadric> solve(const PacketMoments& sums, const QueryMoments& moments,
-                                             std::size_t query) const;
+  void solve(const PacketMoments& sums, const QueryMoments& moments, std::size_t size);
+  [[nodiscard]] std::optional<Quadric> quadric(const PacketMoments& sums, std::size_t query) const;
   void write(std::size_t row, CurvatureState state, const PrincipalCurvature& curvature);
 
   const SurfaceState* surface_;
@@ -54,6 +54,8 @@ class CurvatureFitter {
   QueryVectors v_{};
   QueryVectors n_{};
   FrameMoments in_frame_{};
+  QueryVectors sums_{};  // of the coordinates u, v, n, for jets
+  QueryQuadrics quadrics_{};
 };
 
 void set(QueryVectors& vectors, std::size_t query, const Point& value) {
@@ -71,6 +73,7 @@ void CurvatureFitter::fit(const MomentRows& packet, const PacketMoments& sums, c
     set(n_, q, axes_[q].n);
   }
   sums.kernels().rotate(moments, u_, v_, n_, in_frame_);
+  solve(sums, moments, packet.places.size());
   for (std::size_t q = 0; q < packet.places.size(); ++q) fit_row(packet, sums, moments, q);
 }
 
@@ -80,8 +83,8 @@ void CurvatureFitter::fit_row(const MomentRows& packet, const PacketMoments& sum
   // mutant: fit-without-normal
   if (std::isnan(frames_[query].n.x)) return write(row, CurvatureState::NoNormal, {});
   if (moments.at[0][query] >= kFewestPoints) {
-    if (const std::optional<Quadric> quadric = solve(sums, moments, query)) {
-      PrincipalCurvature result = principal_curvature(*quadric, axes_[query], options_->shape_operator);
+    if (const std::optional<Quadric> fitted = quadric(sums, query)) {
+      PrincipalCurvature result = principal_curvature(*fitted, axes_[query], options_->shape_operator);
       result.k1 *= sums.scale();
       result.k2 *= sums.scale();
       return write(row, CurvatureState::Fitted, result);
@@ -96,10 +99,23 @@ TangentFrame CurvatureFitter::fit_frame(const QueryMoments& moments, std::size_t
   return jet_frame(distribution_of(moments, query).axes, frames_[query].n);
 }
 
-std::optional<Quadric> CurvatureFitter::solve(const PacketMoments& sums, const QueryMoments& moments,
-                                              std::size_t query) const {
-  if (options_->fit == CurvatureFit::Quadric) return fit_moments(in_frame_, query, sums.sizes(query));
-  return fit_jet(moments, in_frame_, axes_[query], query, sums.sizes(query));
+void CurvatureFitter::solve(const PacketMoments& sums, const QueryMoments& moments, std::size_t size) {
+  if (options_->fit == CurvatureFit::Quadric) return sums.kernels().fit_quadrics(in_frame_, quadrics_);
+  const auto sum_of = [&](std::size_t i, std::size_t j, std::size_t k, std::size_t q) {
+    return moments.at[moment_index(i, j, k)][q];
+  };
+  for (std::size_t q = 0; q < size; ++q) {
+    const Point sum{sum_of(1, 0, 0, q), sum_of(0, 1, 0, q), sum_of(0, 0, 1, q)};
+    set(sums_, q, {dot(sum, axes_[q].u), dot(sum, axes_[q].v), dot(sum, axes_[q].n)});
+  }
+  sums.kernels().fit_jets(in_frame_, sums_, moments.at[0], quadrics_);
+}
+
+/// None if the normal equations are too badly conditioned for the errors of the moments.
+std::optional<Quadric> CurvatureFitter::quadric(const PacketMoments& sums, std::size_t query) const {
+  const QueryQuadrics& found = quadrics_;
+  if (!(found.determinant[query] >= smallest_determinant(in_frame_, query, sums.sizes(query)))) return std::nullopt;
+  return Quadric{found.a[query], found.b[query], found.c[query], found.d[query], found.e[query]};
 }
 
 void CurvatureFitter::write(std::size_t row, CurvatureState state, const PrincipalCurvature& curvature) {

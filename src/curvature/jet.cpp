@@ -15,27 +15,6 @@ TangentFrame jet_frame(const Eigen3& axes, const Point& normal) {
   return {u, cross(n, u), n};
 }
 
-std::optional<Quadric> fit_jet(const QueryMoments& moments, const FrameMoments& in_frame, const TangentFrame& frame,
-                               std::size_t query, const MomentSizes& sizes) {
-  const auto at = [query](const QueryRow& row) { return row[query]; };
-  const auto sum_of = [&](std::size_t i, std::size_t j, std::size_t k) {
-    return at(moments.at[moment_index(i, j, k)]);
-  };
-  const Point sum{sum_of(1, 0, 0), sum_of(0, 1, 0), sum_of(0, 0, 1)};
-  const FrameMoments& s = in_frame;
-  const SmallMatrix<6> b{{{at(s.u4)},
-                          {at(s.u3v), at(s.u2v2)},
-                          {at(s.u2v2), at(s.uv3), at(s.v4)},
-                          {at(s.u3), at(s.u2v), at(s.uv2), at(s.uu)},
-                          {at(s.u2v), at(s.uv2), at(s.v3), at(s.uv), at(s.vv)},
-                          {at(s.uu), at(s.uv), at(s.vv), dot(sum, frame.u), dot(sum, frame.v), sum_of(0, 0, 0)}}};
-  const auto jet =
-      solve_normal_equations<6>(b, {at(s.uun), at(s.uvn), at(s.vvn), at(s.un), at(s.vn), dot(sum, frame.n)},
-                                smallest_determinant(s, query, sizes));
-  if (!jet) return std::nullopt;
-  return Quadric{(*jet)[0], (*jet)[1], (*jet)[2], (*jet)[3], (*jet)[4]};
-}
-
 JetFit fit_jet(std::span<const Point> points, const Point& normal) {
   Point sum{0, 0, 0};
   for (const Point& p : points) sum = sum + p;

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
-#include <optional>
 #include <span>
 
 #include "base/distance.h"
 #include "curvature/packet_moments.h"
 #include "curvature/quadric.h"
-#include "simd/moments.h"
 
 /// The jet z = f + d x + e y + a x^2 + b x y + c y^2 over the plane of the principal components of its points. Its
 /// curvatures are those of the quadric without f: the constant moves the surface, but does not bend it.
@@ -16,11 +13,6 @@ namespace meshhood {
 
 /// The axes of the principal components, that of the least variance as `n`, on the side of `normal`.
 [[nodiscard]] TangentFrame jet_frame(const Eigen3& axes, const Point& normal);
-
-/// The fit by the normal equations. `in_frame` are the moments in the frame of the jet. None where `fit_moments`
-/// returns none.
-[[nodiscard]] std::optional<Quadric> fit_jet(const QueryMoments& moments, const FrameMoments& in_frame,
-                                             const TangentFrame& frame, std::size_t query, const MomentSizes& sizes);
 
 /// The fit to `points`, relative to the query vertex, and its frame.
 struct JetFit {

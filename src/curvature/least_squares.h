@@ -6,11 +6,10 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <span>
 #include <vector>
 
-/// Linear least squares with a few unknowns: by the normal equations, or by the rows themselves.
+/// Linear least squares with a few unknowns, by the rows themselves.
 namespace meshhood {
 
 template <std::size_t N>
@@ -22,37 +21,6 @@ using SmallMatrix = std::array<SmallVector<N>, N>;
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
   return sum;
-}
-
-/// Solves b x = right by the decomposition b = L D L^T, where `b` is symmetric and given by its lower triangle. None if
-/// the determinant of `b`, scaled to a diagonal of ones, is less than `smallest_determinant`: the condition of such a
-/// matrix is at most 12 / determinant. The scaling itself is left out, since it changes L, D and x by factors only; so
-/// are the roots of Cholesky's method.
-template <std::size_t N>
-[[nodiscard]] std::optional<SmallVector<N>> solve_normal_equations(SmallMatrix<N> b, SmallVector<N> right,
-                                                                   double smallest_determinant) {
-  SmallMatrix<N> l{};  // while `b` becomes L D
-  SmallVector<N> inverse{};
-  double determinant = 1;
-  for (std::size_t j = 0; j < N; ++j) {
-    const double diagonal = b[j][j];
-    if (!(diagonal > 0)) return std::nullopt;
-    for (std::size_t i = j; i < N; ++i) {
-      for (std::size_t k = 0; k < j; ++k) b[i][j] -= b[i][k] * l[j][k];
-    }
-    determinant *= b[j][j] / diagonal;
-    if (!(determinant >= smallest_determinant)) return std::nullopt;
-    inverse[j] = 1 / b[j][j];
-    for (std::size_t i = j + 1; i < N; ++i) l[i][j] = b[i][j] * inverse[j];
-  }
-  for (std::size_t i = 0; i < N; ++i) {
-    for (std::size_t k = 0; k < i; ++k) right[i] -= l[i][k] * right[k];
-  }
-  for (std::size_t i = N; i-- > 0;) {
-    right[i] *= inverse[i];
-    for (std::size_t k = i + 1; k < N; ++k) right[i] -= l[k][i] * right[k];
-  }
-  return right;
 }
 
 /// Householder's QR decomposition of the first N of the columns; the last is the right-hand side. Leaves R in the first

@@ -54,9 +54,7 @@ void PacketMoments::set_normals(std::span<const std::uint32_t> places) {
   for (std::size_t q = 0; q < size_; ++q) {
     const Point n = source_.filter->normal(places[q]);
     if (std::isnan(n.x)) active_ &= ~(QueryWord{1} << q);
-    facing_.normals.x[q] = n.x;
-    facing_.normals.y[q] = n.y;
-    facing_.normals.z[q] = n.z;
+    facing_.set(q, n);
   }
   set_axis();
 }
@@ -93,9 +91,8 @@ void PacketMoments::set_axis() {
   facing_.axis = (1 / size) * sum;
   double least = 1;
   for_each_lane(active_, [&](unsigned q) { least = std::min(least, dot(facing_.axis, normal(q))); });
-  constexpr double kMargin = 1e-12;  // of rounding
   // mutant: faces-the-axis-alone
-  if (least > 0) facing_.all = std::sqrt(std::max(0.0, 1 - least * least)) + kMargin;
+  if (least > 0) facing_.all = static_cast<float>(std::sqrt(std::max(0.0, 1 - least * least))) + 2 * kFacingMargin;
 }
 
 void PacketMoments::add(std::size_t first, std::size_t size, QueryWord word) {
@@ -118,27 +115,10 @@ void PacketMoments::add_leaves(std::size_t first, std::size_t size, const WordOf
       const std::size_t at = first + begin;
       kernels_->keep_facing({&surface.normal_x[at], &surface.normal_y[at], &surface.normal_z[at]}, facing_, leaf);
     }
-    append(first + begin, leaf);
+    if (waiting_common_.size + leaf.size() > VertexList::kCapacity) add_common();
+    if (waiting_some_.size + leaf.size() > VertexList::kCapacity) add_some();
+    kernels_->append(static_cast<std::uint32_t>(first + begin), leaf, active_, waiting_common_, waiting_some_);
   }
-}
-
-/// Written without branches, which could not be predicted: each vertex goes to the end of both lists, and the lists
-/// that keep it grow.
-void PacketMoments::append(std::size_t first, std::span<const QueryWord> words) {
-  if (waiting_common_.size + words.size() > MomentPoints::kCapacity) add_common();
-  if (waiting_some_.size + words.size() > MomentPoints::kCapacity) add_some();
-  std::size_t common = waiting_common_.size;
-  std::size_t some = waiting_some_.size;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool is_common = words[i] == active_;
-    waiting_common_.places[common] = static_cast<std::uint32_t>(first + i);
-    waiting_some_.places[some] = static_cast<std::uint32_t>(first + i);
-    waiting_some_.words[some] = words[i];
-    common += static_cast<std::size_t>(is_common);
-    some += static_cast<std::size_t>(!is_common) & static_cast<std::size_t>(words[i] != 0);
-  }
-  waiting_common_.size = common;
-  waiting_some_.size = some;
 }
 
 /// Vertices that count for all queries are added once, about the center of the packet.

@@ -65,17 +65,9 @@ class PacketMoments {
   void set_axis();
   template <class WordOf>
   void add_leaves(std::size_t first, std::size_t size, const WordOf& word_of);
-  void append(std::size_t first, std::span<const QueryWord> words);
   void add_common();
   void add_some();
   void set_points(std::span<const std::uint32_t> places);
-
-  /// Vertices that are not added yet. Added together, they fill the vectors of the kernels.
-  struct Waiting {
-    std::size_t size = 0;
-    std::array<std::uint32_t, MomentPoints::kCapacity> places;
-    std::array<QueryWord, MomentPoints::kCapacity> words;
-  };
 
   MomentSource source_;
   const MomentKernels* kernels_;
@@ -87,8 +79,9 @@ class PacketMoments {
   QueryVectors offsets_;  // from the query vertices to the center
   FacingTest facing_;
 
-  Waiting waiting_common_;  // for all queries
-  Waiting waiting_some_;
+  // Vertices that are not added yet. Added together, they fill the vectors of the kernels.
+  VertexList waiting_common_;  // for all queries
+  VertexList waiting_some_;
   MomentPoints points_;
   PartialMoments common_;
   MomentsByWord some_;

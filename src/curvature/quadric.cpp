@@ -36,17 +36,6 @@ TangentFrame frame_towards(const Point& normal, const Point& offset) {
   return {u, unit(cross(normal, u)), normal};
 }
 
-std::optional<Quadric> fit_moments(const FrameMoments& s, std::size_t query, const MomentSizes& sizes) {
-  const auto at = [query](const QueryRow& row) { return row[query]; };
-  const SmallMatrix<5> b{{{at(s.u4)},
-                          {at(s.u3v), at(s.u2v2)},
-                          {at(s.u2v2), at(s.uv3), at(s.v4)},
-                          {at(s.u3), at(s.u2v), at(s.uv2), at(s.uu)},
-                          {at(s.u2v), at(s.uv2), at(s.v3), at(s.uv), at(s.vv)}}};
-  return solve_normal_equations<5>(b, {at(s.uun), at(s.uvn), at(s.vvn), at(s.un), at(s.vn)},
-                                   smallest_determinant(s, query, sizes));
-}
-
 double smallest_determinant(const FrameMoments& s, std::size_t query, const MomentSizes& sizes) {
   const auto at = [query](const QueryRow& row) { return row[query]; };
   // The relative errors of the elements of the normal equations are about epsilon times `amplification`. Measured,

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,12 +33,8 @@ struct TangentFrame {
 /// libigl's frame: `u` points to a neighbor at `offset`, projected into the plane. As above if that has no length.
 [[nodiscard]] TangentFrame frame_towards(const Point& normal, const Point& offset);
 
-/// The least-squares fit by the normal equations. None if they are too badly conditioned for the errors of the moments,
-/// which follow from `sizes`.
-[[nodiscard]] std::optional<Quadric> fit_moments(const FrameMoments& moments, std::size_t query,
-                                                 const MomentSizes& sizes);
-
-/// The smallest accepted determinant of the normal equations of `query`, scaled to a diagonal of ones.
+/// The smallest determinant of the normal equations of `query` (see `MomentKernels::fit_quadrics`) for which the errors
+/// of the moments, which follow from `sizes`, hardly change the solution.
 [[nodiscard]] double smallest_determinant(const FrameMoments& moments, std::size_t query, const MomentSizes& sizes);
 
 /// A least-squares fit by the points themselves.

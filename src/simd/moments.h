@@ -35,6 +35,13 @@ struct alignas(64) QueryVectors {
   QueryRow z;
 };
 
+/// The same in single precision.
+struct alignas(64) RoundedVectors {
+  PerLane<float> x;
+  PerLane<float> y;
+  PerLane<float> z;
+};
+
 /// The moments of the neighborhoods of a packet, by moment, then by query.
 struct alignas(64) QueryMoments {
   std::array<QueryRow, kMomentCount> at;
@@ -87,18 +94,48 @@ struct NormalColumns {
   const double* z;
 };
 
+/// Vertices and their words, with room for a vector beyond the end.
+struct VertexList {
+  static constexpr std::size_t kCapacity = MomentPoints::kCapacity;
+  std::size_t size = 0;
+  std::array<std::uint32_t, kCapacity + 16> places;
+  std::array<QueryWord, kCapacity + 16> words;
+};
+
 /// Which vertices face the queries of a packet: those whose normal makes an angle of less than 90 degrees with that of
 /// the query. The product of the two, in double, each operation rounded, is > 0.
 struct FacingTest {
-  QueryVectors normals;  // of the queries
-  // A vertex faces all queries if the product of its normal and the axis is > `all`, and none if it is < `-all`.
+  void set(std::size_t query, const Point& normal) {
+    normals.x[query] = normal.x;
+    normals.y[query] = normal.y;
+    normals.z[query] = normal.z;
+    rounded.x[query] = static_cast<float>(normal.x);
+    rounded.y[query] = static_cast<float>(normal.y);
+    rounded.z[query] = static_cast<float>(normal.z);
+  }
+
+  QueryVectors normals;  // of the queries: unit vectors, or NaN
+  RoundedVectors rounded;
+  // A vertex faces all queries if the product of its normal and the axis is > `all`, and none if it is <= `-all`, in
+  // single precision.
   Point axis{0, 0, 0};
-  double all = 0;
+  float all = 0;
+};
+
+/// Products of unit vectors in single precision, each of at most six roundings, are off by less than this.
+inline constexpr float kFacingMargin = 0x1p-20F;  // mutant: facing-in-single-precision
+
+/// The fits z = a x^2 + b x y + c y^2 + d x + e y of the queries of a packet.
+struct alignas(64) QueryQuadrics {
+  QueryRow a, b, c, d, e;
+  QueryRow determinant;  // of the normal equations, see `MomentKernels::fit_quadrics`
 };
 
 /// Eight numbers, which the compiler keeps in as many registers as it takes.
 using Eight = double __attribute__((vector_size(64), may_alias));
 inline constexpr std::size_t kEight = 8;
+using Sixteen = float __attribute__((vector_size(64), may_alias));
+inline constexpr std::size_t kSixteen = 16;
 
 struct MomentKernels {
   /// Adds the powers of `size` points, times their weights, to `sums`. Reads points up to the next multiple of eight:
@@ -110,9 +147,14 @@ struct MomentKernels {
   void (*add_powers_by_word)(const MomentPoints& points, std::span<const QueryWord> words, std::size_t queries,
                              MomentsByWord& sums);
 
-  /// Removes from `words[i]` the queries that vertex `i` does not face. A normal of NaN faces none. At most
-  /// `kLeafCapacity` words; the columns begin with the first vertex.
+  /// Removes from `words[i]` the queries that vertex `i` does not face. Normals are unit vectors; one of NaN faces
+  /// none. At most `kLeafCapacity` words; the columns begin with the first vertex.
   void (*keep_facing)(const NormalColumns& normals, const FacingTest& test, std::span<QueryWord> words);
+
+  /// Appends vertex `first + i` with `words[i]` to `common` if the word is `all`, and to `some` if it is neither that
+  /// nor 0. Both lists have room for all.
+  void (*append)(std::uint32_t first, std::span<const QueryWord> words, QueryWord all, VertexList& common,
+                 VertexList& some);
 
   /// The sums of each query.
   void (*collect)(const PartialMoments& common, const MomentsByWord& some, QueryMoments& out);
@@ -123,6 +165,15 @@ struct MomentKernels {
   /// Contracts the moments of degree 2 to 4 with the axes of the frames.
   void (*rotate)(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v, const QueryVectors& n,
                  FrameMoments& out);
+
+  /// Solves the normal equations of the least-squares fits, eight queries at once. `determinant` is the least of their
+  /// leading determinants, scaled to a diagonal of ones: the condition of such a matrix is at most 12 / determinant. It
+  /// is not > 0 if there is no unique solution.
+  void (*fit_quadrics)(const FrameMoments& moments, QueryQuadrics& out);
+
+  /// The same with a constant term, which `out` leaves out. `sums`: of the coordinates u, v, n. `counts`: moments of
+  /// degree 0.
+  void (*fit_jets)(const FrameMoments& moments, const QueryVectors& sums, const QueryRow& counts, QueryQuadrics& out);
 };
 
 /// The kernels for `isa`, which the processor must have.

@@ -11,14 +11,15 @@
 namespace meshhood {
 namespace {
 
-MESHHOOD_MOMENTS inline QueryWord positive_half(__m256d numbers) {
-  return static_cast<QueryWord>(_mm256_movemask_pd(_mm256_cmp_pd(numbers, _mm256_setzero_pd(), _CMP_GT_OQ)));
+MESHHOOD_MOMENTS inline QueryWord greater(__m256 numbers, __m256 limits) {
+  return static_cast<QueryWord>(_mm256_movemask_ps(_mm256_cmp_ps(numbers, limits, _CMP_GT_OQ)));
 }
 
-/// Bit `i` is set if number `i` is > 0.
-MESHHOOD_MOMENTS inline QueryWord positive(const Eight& numbers) {
-  const auto* const halves = reinterpret_cast<const __m256d*>(&numbers);
-  return positive_half(halves[0]) | positive_half(halves[1]) << 4;
+/// Bit `i` is set if number `i` is > `limit`.
+MESHHOOD_MOMENTS inline QueryWord greater(const Sixteen& numbers, float limit) {
+  const auto* const halves = reinterpret_cast<const __m256*>(&numbers);
+  const __m256 limits = _mm256_set1_ps(limit);
+  return greater(halves[0], limits) | greater(halves[1], limits) << 8;
 }
 
 }  // namespace

@@ -13,9 +13,9 @@
 namespace meshhood {
 namespace {
 
-/// Bit `i` is set if number `i` is > 0.
-MESHHOOD_MOMENTS inline QueryWord positive(const Eight& numbers) {
-  return _mm512_cmp_pd_mask(reinterpret_cast<const __m512d&>(numbers), _mm512_setzero_pd(), _CMP_GT_OQ);
+/// Bit `i` is set if number `i` is > `limit`.
+MESHHOOD_MOMENTS inline QueryWord greater(const Sixteen& numbers, float limit) {
+  return _mm512_cmp_ps_mask(reinterpret_cast<const __m512&>(numbers), _mm512_set1_ps(limit), _CMP_GT_OQ);
 }
 
 }  // namespace
@@ -67,9 +67,30 @@ MESHHOOD_MOMENTS inline void permuted_powers(const MomentPoints& points, std::si
   }
 }
 
+MESHHOOD_MOMENTS inline void append_chosen(__mmask16 chosen, __m512i places, __m512i words, VertexList& list) {
+  _mm512_storeu_si512(&list.places[list.size], _mm512_maskz_compress_epi32(chosen, places));
+  _mm512_storeu_si512(&list.words[list.size], _mm512_maskz_compress_epi32(chosen, words));
+  list.size += static_cast<std::size_t>(_mm_popcnt_u32(chosen));
+}
+
+MESHHOOD_MOMENTS void append_by_masks(std::uint32_t first, std::span<const QueryWord> words, QueryWord all,
+                                      VertexList& common, VertexList& some) {
+  const __m512i counting = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  for (std::size_t i = 0; i < words.size(); i += kSixteen) {
+    const auto valid = static_cast<__mmask16>(_bzhi_u32(0xFFFF, static_cast<unsigned>(words.size() - i)));
+    const __m512i word = _mm512_maskz_loadu_epi32(valid, &words[i]);
+    const __m512i place = _mm512_add_epi32(counting, _mm512_set1_epi32(static_cast<int>(first + i)));
+    const __mmask16 is_common = _mm512_mask_cmpeq_epi32_mask(valid, word, _mm512_set1_epi32(static_cast<int>(all)));
+    const __mmask16 is_some = _mm512_test_epi32_mask(word, word) & static_cast<__mmask16>(~is_common);
+    append_chosen(is_common, place, word, common);
+    append_chosen(is_some, place, word, some);
+  }
+}
+
 constexpr MomentKernels kAvx512Kernels = [] {
   MomentKernels kernels = kMomentKernels;
   kernels.add_powers_by_word = add_powers_by_word<permuted_powers>;
+  kernels.append = append_by_masks;
   return kernels;
 }();
 

@@ -6,6 +6,7 @@
 // other, so that the compiler may use vectors of any width without changing a bit of the result.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -153,31 +154,73 @@ MESHHOOD_MOMENTS void add_powers_by_word(const MomentPoints& points, std::span<c
   }
 }
 
-MESHHOOD_MOMENTS inline QueryWord facing(const Point& normal, const QueryVectors& normals) {
-  QueryWord word = 0;
-  for (std::size_t q = 0; q < kPacketCapacity; q += kEight) {
-    const Eight products =
-        (normal.x * eight(normals.x[q]) + normal.y * eight(normals.y[q])) + normal.z * eight(normals.z[q]);
-    word |= positive(products) << q;
+MESHHOOD_MOMENTS inline const Sixteen& sixteen(const float& first) { return reinterpret_cast<const Sixteen&>(first); }
+
+/// The products of a vector and sixteen others.
+MESHHOOD_MOMENTS inline void multiply(float x, float y, float z, const RoundedVectors& by, std::size_t first,
+                                      Sixteen& out) {
+  out = (x * sixteen(by.x[first]) + y * sixteen(by.y[first])) + z * sixteen(by.z[first]);
+}
+
+/// Those of the queries `among` that vertex `i` faces. Single precision decides almost all.
+MESHHOOD_MOMENTS inline QueryWord facing(const NormalColumns& normals, const RoundedVectors& rounded, std::size_t i,
+                                         const FacingTest& test, QueryWord among) {
+  QueryWord surely = 0;
+  QueryWord perhaps = 0;
+  for (std::size_t q = 0; q < kPacketCapacity; q += kSixteen) {
+    Sixteen products;
+    multiply(rounded.x[i], rounded.y[i], rounded.z[i], test.rounded, q, products);
+    surely |= greater(products, kFacingMargin) << q;
+    perhaps |= greater(products, -kFacingMargin) << q;
+  }
+  QueryWord word = among & perhaps;
+  for (QueryWord open = word & ~surely; open != 0; open &= open - 1) {
+    const auto q = static_cast<std::size_t>(std::countr_zero(open));
+    const QueryVectors& to = test.normals;
+    const double product = (normals.x[i] * to.x[q] + normals.y[i] * to.y[q]) + normals.z[i] * to.z[q];
+    if (!(product > 0)) word &= ~(QueryWord{1} << q);
   }
   return word;
 }
 
-/// The vertices that the axis leaves undecided are listed without branches, which could not be predicted.
+/// The axis decides first, for all vertices together, without branches, which could not be predicted.
 MESHHOOD_MOMENTS void keep_facing(const NormalColumns& normals, const FacingTest& test, std::span<QueryWord> words) {
-  const auto& [x, y, z] = normals;
-  std::array<double, kLeafCapacity> products;
+  RoundedVectors rounded{};
+  QueryWord undecided = 0;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    products[i] = (x[i] * test.axis.x + y[i] * test.axis.y) + z[i] * test.axis.z;
+    rounded.x[i] = static_cast<float>(normals.x[i]);
+    rounded.y[i] = static_cast<float>(normals.y[i]);
+    rounded.z[i] = static_cast<float>(normals.z[i]);
+    undecided |= QueryWord{words[i] != 0} << i;
   }
-  std::array<std::uint8_t, kLeafCapacity> undecided;
-  std::size_t count = 0;
+  QueryWord some = 0;
+  const auto [x, y, z] = test.axis;
+  for (std::size_t i = 0; i < kLeafCapacity; i += kSixteen) {
+    Sixteen products;
+    multiply(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), rounded, i, products);
+    some |= greater(products, -test.all) << i;
+    undecided &= ~(greater(products, test.all) << i);
+  }
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] &= 0 - (some >> i & 1U);
+  for (QueryWord left = undecided & some; left != 0; left &= left - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(left));
+    words[i] = facing(normals, rounded, i, test, words[i]);
+  }
+}
+
+/// Written without branches, which could not be predicted: each vertex goes to the end of both lists, and the lists
+/// that keep it grow.
+MESHHOOD_MOMENTS void append(std::uint32_t first, std::span<const QueryWord> words, QueryWord all, VertexList& common,
+                             VertexList& some) {
   for (std::size_t i = 0; i < words.size(); ++i) {
-    words[i] = products[i] < -test.all ? 0 : words[i];
-    undecided[count] = static_cast<std::uint8_t>(i);
-    count += static_cast<std::size_t>(words[i] != 0) & static_cast<std::size_t>(!(products[i] > test.all));
+    const bool is_common = words[i] == all;
+    common.places[common.size] = first + static_cast<std::uint32_t>(i);
+    common.words[common.size] = words[i];
+    some.places[some.size] = first + static_cast<std::uint32_t>(i);
+    some.words[some.size] = words[i];
+    common.size += static_cast<std::size_t>(is_common);
+    some.size += static_cast<std::size_t>(!is_common) & static_cast<std::size_t>(words[i] != 0);
   }
-  for (const std::uint8_t i : std::span(undecided).first(count)) words[i] &= facing({x[i], y[i], z[i]}, test.normals);
 }
 
 MESHHOOD_MOMENTS void collect(const PartialMoments& common, const MomentsByWord& some, QueryMoments& out) {
@@ -337,13 +380,94 @@ MESHHOOD_MOMENTS void rotate(const QueryMoments& moments, const QueryVectors& u,
   rotate_second(moments, u, v, n, out);
 }
 
+// NOLINTBEGIN(modernize-avoid-c-arrays): a template would lose the attributes of `Eight`.
+
+/// Solves b x = right by the decomposition b = L D L^T, where `b` is symmetric and given by its lower triangle, and
+/// writes x to `right`. The scaling to a diagonal of ones is left out, since it changes L, D and x by factors only; so
+/// are the roots of Cholesky's method.
+template <std::size_t N>
+MESHHOOD_MOMENTS inline void solve(Eight (&b)[N][N], Eight (&right)[N], Eight& determinant) {
+  const Eight one = Eight{} + 1;
+  Eight l[N][N];  // while `b` becomes L D
+  Eight inverse[N];
+  Eight product = one;
+  determinant = one;
+#pragma GCC unroll 6
+  for (std::size_t j = 0; j < N; ++j) {
+    const Eight diagonal = b[j][j];
+    for (std::size_t i = j; i < N; ++i) {
+      for (std::size_t k = 0; k < j; ++k) b[i][j] -= b[i][k] * l[j][k];
+    }
+    product *= diagonal > 0 ? b[j][j] / diagonal : -one;
+    determinant = product >= determinant ? determinant : product;  // NaN stays
+    inverse[j] = 1 / b[j][j];
+    for (std::size_t i = j + 1; i < N; ++i) l[i][j] = b[i][j] * inverse[j];
+  }
+#pragma GCC unroll 6
+  for (std::size_t i = 0; i < N; ++i) {
+    for (std::size_t k = 0; k < i; ++k) right[i] -= l[i][k] * right[k];
+  }
+#pragma GCC unroll 6
+  for (std::size_t solved = 0; solved < N; ++solved) {
+    const std::size_t i = N - 1 - solved;
+    right[i] *= inverse[i];
+    for (std::size_t k = i + 1; k < N; ++k) right[i] -= l[k][i] * right[k];
+  }
+}
+
+/// The queries from `q` on.
+template <std::size_t N>
+MESHHOOD_MOMENTS inline void store(const Eight (&x)[N], const Eight& determinant, std::size_t q, QueryQuadrics& out) {
+  eight(out.a[q]) = x[0];
+  eight(out.b[q]) = x[1];
+  eight(out.c[q]) = x[2];
+  eight(out.d[q]) = x[3];
+  eight(out.e[q]) = x[4];
+  eight(out.determinant[q]) = determinant;
+}
+
+MESHHOOD_MOMENTS void fit_quadrics(const FrameMoments& s, QueryQuadrics& out) {
+  for (std::size_t q = 0; q < kPacketCapacity; q += kEight) {
+    Eight b[5][5]{{eight(s.u4[q])},
+                  {eight(s.u3v[q]), eight(s.u2v2[q])},
+                  {eight(s.u2v2[q]), eight(s.uv3[q]), eight(s.v4[q])},
+                  {eight(s.u3[q]), eight(s.u2v[q]), eight(s.uv2[q]), eight(s.uu[q])},
+                  {eight(s.u2v[q]), eight(s.uv2[q]), eight(s.v3[q]), eight(s.uv[q]), eight(s.vv[q])}};
+    Eight right[5]{eight(s.uun[q]), eight(s.uvn[q]), eight(s.vvn[q]), eight(s.un[q]), eight(s.vn[q])};
+    Eight determinant;
+    solve(b, right, determinant);
+    store(right, determinant, q, out);
+  }
+}
+
+MESHHOOD_MOMENTS void fit_jets(const FrameMoments& s, const QueryVectors& sums, const QueryRow& counts,
+                               QueryQuadrics& out) {
+  for (std::size_t q = 0; q < kPacketCapacity; q += kEight) {
+    Eight b[6][6]{
+        {eight(s.u4[q])},
+        {eight(s.u3v[q]), eight(s.u2v2[q])},
+        {eight(s.u2v2[q]), eight(s.uv3[q]), eight(s.v4[q])},
+        {eight(s.u3[q]), eight(s.u2v[q]), eight(s.uv2[q]), eight(s.uu[q])},
+        {eight(s.u2v[q]), eight(s.uv2[q]), eight(s.v3[q]), eight(s.uv[q]), eight(s.vv[q])},
+        {eight(s.uu[q]), eight(s.uv[q]), eight(s.vv[q]), eight(sums.x[q]), eight(sums.y[q]), eight(counts[q])}};
+    Eight right[6]{eight(s.uun[q]), eight(s.uvn[q]), eight(s.vvn[q]), eight(s.un[q]), eight(s.vn[q]), eight(sums.z[q])};
+    Eight determinant;
+    solve(b, right, determinant);
+    store(right, determinant, q, out);
+  }
+}
+// NOLINTEND(modernize-avoid-c-arrays)
+
 constexpr MomentKernels kMomentKernels{
     .add_powers = add_powers,
     .add_powers_by_word = add_powers_by_word<powers_of>,
     .keep_facing = keep_facing,
+    .append = append,
     .collect = collect,
     .shift = shift,
     .rotate = rotate,
+    .fit_quadrics = fit_quadrics,
+    .fit_jets = fit_jets,
 };
 
 }  // namespace

@@ -10,13 +10,13 @@
 namespace meshhood {
 namespace {
 
-/// Bit `i` is set if number `i` is > 0. Copied first: g++ 12 with -fsanitize=undefined compiles `numbers[i] > 0`
-/// wrongly.
-inline QueryWord positive(const Eight& numbers) {
-  std::array<double, kEight> row;
+/// Bit `i` is set if number `i` is > `limit`. Copied first: g++ 12 with -fsanitize=undefined compiles `numbers[i] >
+/// limit` wrongly.
+inline QueryWord greater(const Sixteen& numbers, float limit) {
+  std::array<float, kSixteen> row;
   std::memcpy(row.data(), &numbers, sizeof(row));
   QueryWord word = 0;
-  for (std::size_t i = 0; i < kEight; ++i) word |= QueryWord{row[i] > 0} << i;
+  for (std::size_t i = 0; i < kSixteen; ++i) word |= QueryWord{row[i] > limit} << i;
   return word;
 }
 

@@ -2,6 +2,7 @@
 // Corrected curvature measures, compared with the formulas of spheres and cylinders.
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -70,8 +71,34 @@ TEST(CorrectedCurvature, ScalesWithTheMeshBitForBit) {
     for (std::size_t v = 0; v < mesh.size(); ++v) {
       ASSERT_EQ(std::ldexp(found.k1[v], exponent), expected.k1[v]);
       ASSERT_EQ(std::ldexp(found.mean[v], exponent), expected.mean[v]);
+      const auto measures = [v](const CorrectedCurvatures& of) { return std::span(of.measures).subspan(12 * v, 12); };
+      ASSERT_EQ(std::ldexp(measures(found)[0], -2 * exponent), measures(expected)[0]) << "an area";
+      ASSERT_EQ(measures(found)[2], measures(expected)[2]) << "a solid angle";
+      for (const std::size_t i : {1, 3, 7, 11}) {
+        ASSERT_EQ(std::ldexp(measures(found)[i], -exponent), measures(expected)[i]) << "a length";
+      }
     }
     EXPECT_EQ(found.d2, expected.d2);
+  }
+}
+
+TEST(CorrectedCurvature, FollowsFromItsMeasures) {
+  const TestMesh mesh = bumpy_grid(12).finish(false);
+  const Index index = build(mesh.view());
+  const auto found = corrected_curvatures(CurvatureIndex::build(index, mesh.view()), mesh.view().faces, {}, 3.0);
+  ASSERT_EQ(found.measures.size(), 12 * mesh.size());
+  for (std::size_t v = 0; v < mesh.size(); ++v) {
+    const auto m = std::span(found.measures).subspan(12 * v, 12);
+    EXPECT_EQ(found.area[v], m[0]);
+    EXPECT_NEAR(found.mean[v], m[1] / (2 * m[0]), 1e-14);
+    EXPECT_NEAR(found.gaussian[v], m[2] / m[0], 1e-14);
+    const auto quotient = [&](const std::vector<double>& d) {
+      double sum = 0;
+      for (std::size_t i = 0; i < 9; ++i) sum += d[3 * v + i / 3] * m[3 + i] * d[3 * v + i % 3];
+      return sum / m[0];
+    };
+    EXPECT_NEAR(quotient(found.d1), -found.k1[v], 1e-12);
+    EXPECT_NEAR(quotient(found.d2), -found.k2[v], 1e-12);
   }
 }
 

@@ -92,6 +92,7 @@ def test_corrected_curvature_has_the_measures_of_cgal():
         ids = oracle.neighborhood(V, edges, v, 0.9)
         m0, m1, m2, mxy = (measure[ids].sum(axis=0) for measure in held)
         np.testing.assert_allclose([c.area[v], c.mean[v], c.gaussian[v]], [m0, m1 / (2 * m0), m2 / m0], rtol=1e-10)
+        np.testing.assert_allclose(c.measures[v], [m0, m1, m2, *mxy.ravel()], rtol=1e-9, atol=1e-13)
         tangent = np.linalg.svd(normals[v][None])[2][1:]
         low, high = np.linalg.eigvalsh(tangent @ (mxy + mxy.T) / 2 @ tangent.T)
         np.testing.assert_allclose([c.k1[v], c.k2[v]], [-low / m0, -high / m0], rtol=1e-9)

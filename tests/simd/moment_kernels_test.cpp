@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The kernels of the moments compute the sums that they name, with the same bits for every instruction set.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -203,9 +205,11 @@ struct Normals {
 
 TEST(MomentKernels, FacingComparesTheRoundedProductWithZero) {
   FacingTest test{};
-  test.normals.x = {1, -1, 0, 0, std::nan("")};
-  test.normals.y = {0, 0, 1};
-  test.normals.z = {0, 0, 0, 1e-300};
+  test.set(0, {1, 0, 0});
+  test.set(1, {-1, 0, 0});
+  test.set(2, {0, 1, 0});
+  test.set(3, {0, 0, 1e-300});
+  test.set(4, {std::nan(""), 0, 0});
   test.axis = {1, 0, 0};
   test.all = 2;  // leaves all undecided
   Normals normals;
@@ -219,17 +223,126 @@ TEST(MomentKernels, FacingComparesTheRoundedProductWithZero) {
   }
 }
 
+TEST(MomentKernels, FacingIsThatOfDoublesWhereFloatsCannotDecide) {
+  const double x = std::cos(0.7);
+  const double y = std::sin(0.7);
+  FacingTest test{};
+  test.all = 2;  // leaves all undecided
+  for (std::size_t q = 0; q < kPacketCapacity; ++q) test.set(q, {x, y, 0});
+  Normals normals;
+  std::vector<QueryWord> expected;
+  for (int exponent = -45; exponent < -10; ++exponent) {
+    for (const double product : {std::ldexp(1.0, exponent), -std::ldexp(1.0, exponent)}) {
+      normals.add({product * x - y, product * y + x, 0});
+      expected.push_back(product > 0 ? ~QueryWord{0} : 0);
+    }
+  }
+  for (const Isa isa : available_isas()) {
+    for (std::size_t first = 0; first < expected.size(); first += 5) {
+      std::vector<QueryWord> words(5, ~QueryWord{0});
+      moment_kernels(isa).keep_facing({&normals.x[first], &normals.y[first], &normals.z[first]}, test, words);
+      EXPECT_THAT(words, testing::ElementsAreArray(std::span(expected).subspan(first, 5)));
+    }
+  }
+}
+
 TEST(MomentKernels, TheAxisDecidesOnlyBeyondItsBound) {
   FacingTest test{};
-  test.normals.x.fill(-1);  // so that the products would decide otherwise
+  for (std::size_t q = 0; q < kPacketCapacity; ++q) test.set(q, {-1, 0, 0});  // the products would decide otherwise
   test.axis = {1, 0, 0};
   test.all = 0.5;
   Normals normals;
-  for (const double x : {1.0, 0.5, -0.5, -1.0, std::nan("")}) normals.add({x, 0, 0});
+  for (const double x : {1.0, 0.5, -0.4, -1.0, std::nan("")}) normals.add({x, 0, 0});
   for (const Isa isa : available_isas()) {
     std::vector<QueryWord> words(5, 0b11U);
     moment_kernels(isa).keep_facing(normals.columns(), test, words);
     EXPECT_THAT(words, testing::ElementsAre(0b11U, 0U, 0b11U, 0U, 0U));
+  }
+}
+
+void expect_equal(const VertexList& a, const VertexList& b) {
+  ASSERT_EQ(a.size, b.size);
+  EXPECT_TRUE(std::equal(a.places.begin(), a.places.begin() + static_cast<std::ptrdiff_t>(a.size), b.places.begin()));
+  EXPECT_TRUE(std::equal(a.words.begin(), a.words.begin() + static_cast<std::ptrdiff_t>(a.size), b.words.begin()));
+}
+
+/// Where a fit is not unique, its numbers have no meaning.
+void expect_equal(const QueryQuadrics& a, const QueryQuadrics& b) {
+  for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+    ASSERT_EQ(a.determinant[q] > 0, b.determinant[q] > 0);
+    if (!(a.determinant[q] > 0)) continue;
+    EXPECT_EQ(a.determinant[q], b.determinant[q]);
+    EXPECT_THAT((std::array{a.a[q], a.b[q], a.c[q], a.d[q], a.e[q]}),
+                testing::ElementsAre(b.a[q], b.b[q], b.c[q], b.d[q], b.e[q]));
+  }
+}
+
+TEST(MomentKernels, VerticesGoToTheListOfTheirWord) {
+  for (const Isa isa : available_isas()) {
+    VertexList common{};
+    VertexList some{};
+    for (const std::uint32_t first : {40U, 90U}) {
+      std::vector<QueryWord> words(19, 0);
+      words[0] = words[17] = 0b111;
+      words[3] = 0b100;
+      words[18] = 0b010;
+      moment_kernels(isa).append(first, words, 0b111, common, some);
+    }
+    EXPECT_THAT(std::span(common.places).first(common.size), testing::ElementsAre(40, 57, 90, 107));
+    EXPECT_THAT(std::span(some.places).first(some.size), testing::ElementsAre(43, 58, 93, 108));
+    EXPECT_THAT(std::span(some.words).first(some.size), testing::ElementsAre(0b100, 0b010, 0b100, 0b010));
+  }
+}
+
+TEST(MomentKernels, FitsSolveTheNormalEquations) {
+  Random random(6);
+  FrameMoments s{};
+  QueryVectors sums{};
+  QueryRow counts{};
+  const std::array<double, 6> coefficients{0.5, -0.25, 0.125, 0.75, -1, 2};
+  for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+    for (int i = 0; i < 30; ++i) {
+      const double u = random.uniform(-1, 1);
+      const double v = random.uniform(-1, 1);
+      const auto& [a, b, c, d, e, f] = coefficients;
+      const double n = a * u * u + b * u * v + c * v * v + d * u + e * v + (q % 2 == 0 ? 0 : f);
+      const auto add = [q](QueryRow& row, double term) { row[q] += term; };
+      add(s.uu, u * u), add(s.uv, u * v), add(s.vv, v * v);
+      add(s.u4, u * u * u * u), add(s.u3v, u * u * u * v), add(s.u2v2, u * u * v * v), add(s.uv3, u * v * v * v);
+      add(s.v4, v * v * v * v), add(s.u3, u * u * u), add(s.u2v, u * u * v), add(s.uv2, u * v * v);
+      add(s.v3, v * v * v), add(s.uun, u * u * n), add(s.uvn, u * v * n), add(s.vvn, v * v * n);
+      add(s.un, u * n), add(s.vn, v * n);
+      add(sums.x, u), add(sums.y, v), add(sums.z, n), add(counts, 1);
+    }
+  }
+  for (const Isa isa : available_isas()) {
+    QueryQuadrics quadrics{};
+    QueryQuadrics jets{};
+    moment_kernels(isa).fit_quadrics(s, quadrics);
+    moment_kernels(isa).fit_jets(s, sums, counts, jets);
+    for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+      const auto expect = [&](const QueryQuadrics& fit) {
+        const std::array<double, 5> found{fit.a[q], fit.b[q], fit.c[q], fit.d[q], fit.e[q]};
+        for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(found[i], coefficients[i], 1e-12);
+        EXPECT_GT(fit.determinant[q], 1e-4);
+        EXPECT_LE(fit.determinant[q], 1);
+      };
+      expect(jets);
+      if (q % 2 == 0) expect(quadrics);
+    }
+  }
+}
+
+TEST(MomentKernels, ASingularFitHasNoPositiveDeterminant) {
+  FrameMoments s{};  // of the points (1, 1) and (2, 2) in query 1, of none in the others
+  for (QueryRow* const row : {&s.uu, &s.uv, &s.vv}) (*row)[1] = 5;
+  for (QueryRow* const row : {&s.u3, &s.u2v, &s.uv2, &s.v3}) (*row)[1] = 9;
+  for (QueryRow* const row : {&s.u4, &s.u3v, &s.u2v2, &s.uv3, &s.v4}) (*row)[1] = 17;
+  for (const Isa isa : available_isas()) {
+    QueryQuadrics fits{};
+    moment_kernels(isa).fit_quadrics(s, fits);
+    EXPECT_FALSE(fits.determinant[0] > 0);
+    EXPECT_FALSE(fits.determinant[1] > 0);
   }
 }
 
@@ -241,11 +354,16 @@ TEST(MomentKernels, EveryInstructionSetGivesTheSameBits) {
     const QueryVectors by = random_vectors(random);
     const QueryVectors u = random_vectors(random);
     const QueryVectors v = random_vectors(random);
-    const FacingTest test{.normals = u, .axis = {0.6, 0, 0.8}, .all = 0.5};
+    FacingTest test{};
+    for (std::size_t q = 0; q < kPacketCapacity; ++q) test.set(q, {u.x[q], u.y[q], u.z[q]});
+    test.axis = {0.6, 0, 0.8};
+    test.all = 0.5;
     const std::size_t leaf = std::min<std::size_t>(some.words.size(), kLeafCapacity);
     const NormalColumns normals{some.points.x.data(), some.points.y.data(), some.points.z.data()};
     std::vector<std::vector<QueryWord>> facing;
     std::vector<FrameMoments> results;
+    std::vector<std::array<QueryQuadrics, 2>> fits;
+    std::vector<std::array<VertexList, 2>> lists;
     for (const Isa isa : available_isas()) {
       const MomentKernels& kernels = moment_kernels(isa);
       QueryMoments moments = collected(kernels, common, some);
@@ -253,9 +371,22 @@ TEST(MomentKernels, EveryInstructionSetGivesTheSameBits) {
       kernels.rotate(moments, u, v, by, results.emplace_back());
       facing.emplace_back(some.words).resize(leaf);
       kernels.keep_facing(normals, test, facing.back());
+      auto& [in_common, in_some] = lists.emplace_back();
+      kernels.append(100, facing.back(), 0b11, in_common, in_some);
+      fits.emplace_back();
+      kernels.fit_quadrics(results.back(), fits.back()[0]);
+      kernels.fit_jets(results.back(), by, moments.at[0], fits.back()[1]);
     }
     EXPECT_THAT(facing, testing::Each(facing.front()));
     for (const FrameMoments& result : results) EXPECT_EQ(std::memcmp(&result, results.data(), sizeof(result)), 0);
+    for (const auto& [quadrics, jets] : fits) {
+      expect_equal(quadrics, fits.front()[0]);
+      expect_equal(jets, fits.front()[1]);
+    }
+    for (const auto& [in_common, in_some] : lists) {
+      expect_equal(in_common, lists.front()[0]);
+      expect_equal(in_some, lists.front()[1]);
+    }
   }
 }
 

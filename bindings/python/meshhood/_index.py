@@ -625,7 +625,7 @@ class MeshIndex(Queries):
 
         r : the radius of all rows. F : the faces. normals : (#V, 3), instead of those that follow from the faces.
         The other arguments are as for `curvature`. Returns a `CorrectedCurvature`: area, mean, gaussian, k1, k2, d1,
-        d2.
+        d2, measures.
         """
         rows = None if vertices is None else _convert.vertices(vertices, self._count)
         radius = self._scale(unit) * _convert.radius(r)

@@ -53,11 +53,14 @@ class PrincipalComponents(NamedTuple):
 
 
 class CorrectedCurvature(NamedTuple):
-    """Curvature from measures (see `MeshIndex.corrected_curvature`). All but the area are NaN where the area is 0.
+    """Curvature from measures (see `MeshIndex.corrected_curvature`). All but the area and the measures are NaN where
+    the area is 0.
 
     area, mean, gaussian : (#rows,) area of the patch, H and K.
     k1, k2 : (#rows,) principal curvatures, k1 >= k2. Their mean is not exactly `mean`.
     d1, d2 : (#rows, 3) their directions in the plane of the vertex normal.
+    measures : (#rows, 12) the sums from which the others follow: the area; twice the integral of H; the integral of K;
+        and the anisotropic measure, a matrix of 3 by 3, row by row.
     """
 
     area: Reals
@@ -67,6 +70,7 @@ class CorrectedCurvature(NamedTuple):
     k2: Reals
     d1: Reals
     d2: Reals
+    measures: Reals
 
 
 class Persistence(NamedTuple):
