@@ -27,8 +27,10 @@ namespace meshhood {
 /// index, which may be moved, refitted or destroyed meanwhile: answers are those of the index as it was.
 ///
 /// A graph that is unlike a surface (with a vertex that has very many neighbors, or with random edges) is searched as
-/// by `ReferenceSearcher`. Each searcher then owns 20 bytes per vertex more (36 for double), and all of them share a
-/// copy of the graph, which the index keeps from the first one on.
+/// by `ReferenceSearcher`, and so are small balls of meshes with at most 65,536 vertices, once there were many of them.
+/// Each searcher then owns 20 bytes per vertex more (36 for double). All of them share a copy of the graph, which the
+/// index keeps: about 44 bytes per vertex (56 for double), which `Index::bytes` does not count. The query that makes it
+/// takes O(#V + #E log(valence)).
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius}; arguments are then unchanged.
 class Searcher {

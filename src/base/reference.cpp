@@ -81,15 +81,17 @@ struct ReferenceSearcher::State {
     if (head + 8 < end) prefetch(adjacency.neighbors.data() + adjacency.offsets[queue[head + 8]]);
   }
 
-  /// Leaves the component at the beginning of the queue and returns it.
-  template <class Real>
-  std::span<const VertexId> search(VertexId v, double radius, std::vector<Record<Real>>& all) {
+  /// Leaves the component at the beginning of the queue and returns it; nothing if it is bounded and has more than
+  /// `most` vertices.
+  template <bool kBounded, class Real>
+  std::span<const VertexId> search(VertexId v, double radius, std::size_t most, std::vector<Record<Real>>& all) {
     const std::uint32_t current = next_query();
     const SearchBall ball(position(all[v]), radius);
     all[v].seen = current;
     queue[0] = v;
     std::size_t end = 1;
     for (std::size_t head = 0; head < end; ++head) {
+      if (kBounded && end > most) return {};  // mutant: stopped-search-answers
       fetch_ahead(head, end);
       for (const VertexId w : adjacency[queue[head]]) {
         Record<Real>& record = all[w];
@@ -103,9 +105,10 @@ struct ReferenceSearcher::State {
     return std::span(queue).first(end);
   }
 
-  std::span<const VertexId> search(VertexId v, double radius) {
+  template <bool kBounded = false>
+  std::span<const VertexId> search(VertexId v, double radius, std::size_t most = 0) {
     check_query(v, adjacency.size(), radius);
-    return std::visit([&](auto& all) { return search(v, radius, all); }, records);
+    return std::visit([&](auto& all) { return search<kBounded>(v, radius, most, all); }, records);
   }
 
   /// The distances of `ids` from `v`.
@@ -160,6 +163,16 @@ std::span<const VertexRange> ReferenceSearcher::ranges(VertexId v, double radius
 }
 
 std::size_t ReferenceSearcher::count(VertexId v, double radius) { return state_->search(v, radius).size(); }
+
+std::span<const VertexId> ReferenceAccess::search(ReferenceSearcher& searcher, VertexId v, double radius,
+                                                  std::size_t most) {
+  return searcher.state_->search<true>(v, radius, most);
+}
+
+void ReferenceAccess::measure(const ReferenceSearcher& searcher, VertexId v, std::span<const VertexId> ids,
+                              std::vector<double>& out) {
+  searcher.state_->measure(v, ids, out);
+}
 
 void ReferenceAccess::set_query(ReferenceSearcher& searcher, std::uint32_t queries) {
   searcher.state_->query = queries;

@@ -1,14 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "meshhood/reference.h"
 
 namespace meshhood {
 
-/// Lets tests bring a searcher into rare states.
+/// Access to the search itself for the exact index, and to rare states for tests.
 struct ReferenceAccess {
+  /// The neighborhood in the order of the search, or nothing as soon as it has more than `most` vertices. Valid until
+  /// the next call.
+  [[nodiscard]] static std::span<const VertexId> search(ReferenceSearcher& searcher, VertexId v, double radius,
+                                                        std::size_t most);
+
+  /// Refills `out` with the distances of `ids` from `v`.
+  static void measure(const ReferenceSearcher& searcher, VertexId v, std::span<const VertexId> ids,
+                      std::vector<double>& out);
+
   /// Continues as if there had been `queries` queries.
   static void set_query(ReferenceSearcher& searcher, std::uint32_t queries);
 };

@@ -163,8 +163,8 @@ const JointRadius& JointWorker::prepared(double radius) {
 
 const VertexSet& JointWorker::search_single(const BatchItem& item) {
   SearcherAccess::State& state = SearcherAccess::state(searcher());
-  if (state.vertex_bfs) {
-    add_by_leaf(state.vertex_bfs->ranges(item.vertex, item.radius));
+  if (const auto found = state.vertex_bfs.find(item.vertex, item.radius); !found.empty()) {
+    add_by_leaf(state.vertex_bfs.ranges_of(found));
     return by_leaf_;
   }
   state.search(item.vertex, item.radius);
@@ -202,7 +202,12 @@ Point JointWorker::position_of(const BatchItem& item) const {
 }
 
 Searcher& JointWorker::searcher() {
-  if (!searcher_) searcher_.emplace(index_);
+  if (!searcher_) {
+    searcher_.emplace(index_);
+    VertexBfs& vertex_bfs = SearcherAccess::state(*searcher_).vertex_bfs;
+    // A batch has few rows to answer alone, and a copy of the graph would take longer.
+    if (!vertex_bfs.answers_all()) vertex_bfs.answer_none();
+  }
   return *searcher_;
 }
 

@@ -54,18 +54,17 @@ Adjacency adjacency_of(const IndexView& index, TaskContext& task) {
 
 }  // namespace
 
-GraphData extract_graph(const Index& index, TaskContext& task) {
-  const IndexView& view = IndexAccess::view(index);
-  return {positions_of(view, task), adjacency_of(view, task)};
+GraphData extract_graph(const IndexView& index, TaskContext& task) {
+  return {positions_of(index, task), adjacency_of(index, task)};
 }
 
 GraphData extract_graph(const Index& index) {
   TaskContext task;
-  return extract_graph(index, task);
+  return extract_graph(IndexAccess::view(index), task);
 }
 
 Fingerprint fingerprint(const Index& index, TaskContext& task) {
-  const GraphData graph = extract_graph(index, task);
+  const GraphData graph = extract_graph(IndexAccess::view(index), task);
   return fingerprint(graph.view());
 }
 

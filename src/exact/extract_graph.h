@@ -8,8 +8,10 @@
 
 namespace meshhood {
 
+struct IndexView;
+
 /// As without `task`, but polls `task` for cancellation. Reports no progress. Throws Error{Cancelled}.
-[[nodiscard]] GraphData extract_graph(const Index& index, TaskContext& task);
+[[nodiscard]] GraphData extract_graph(const IndexView& index, TaskContext& task);
 [[nodiscard]] Fingerprint fingerprint(const Index& index, TaskContext& task);
 
 }  // namespace meshhood

@@ -36,7 +36,7 @@ void check_precision(const PositionsView& positions, const IndexView& index) {
 Index with_geometry(const IndexView& index, std::shared_ptr<GeometryData> geometry) {
   auto view = std::make_shared<IndexView>(index);
   set_geometry(*view, std::move(geometry));
-  view->graph = std::make_shared<SharedGraph>();
+  view->graph = std::make_shared<SharedGraph>();  // mutant: graph-of-other-positions
   return IndexAccess::make(std::move(view));
 }
 
@@ -124,7 +124,7 @@ Index refit(Index&& index, const PositionsView& positions, const IndicesView& ch
   if (!stay_in_frame(moves, view->frame)) return refit_all(*view, moves, task);
   auto graph = std::make_shared<SharedGraph>();
   apply_moves(moves, *view, task);
-  view->graph = std::move(graph);
+  view->graph = std::move(graph);  // mutant: graph-before-the-moves
   return std::move(index);
 }
 

@@ -7,7 +7,7 @@
 
 namespace meshhood {
 
-class Index;
+struct IndexView;
 
 /// The graph of an index in the caller's order, made at its first use and kept for all searchers.
 class SharedGraph {
@@ -19,7 +19,7 @@ class SharedGraph {
 
   /// The graph of `index`, which owns this object. Any thread may call it. There is no lock, because a fork could leave
   /// it held: if several threads make the graph at once, one result is kept. O(#V + #E) the first time.
-  [[nodiscard]] const GraphData& of(const Index& index);
+  [[nodiscard]] const GraphData& of(const IndexView& index);
 
  private:
   std::atomic<const GraphData*> graph_{nullptr};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -27,6 +28,7 @@
 #include "meshhood/serialize.h"
 
 #include "batch/sort_answer.h"
+#include "exact/search/searcher_state.h"
 #include "support/fail_each_allocation.h"
 #include "support/families.h"
 #include "support/family_name.h"
@@ -175,6 +177,32 @@ TEST_P(Allocation, FailsInAQuery) {
     for (const VertexRange& range : s.ranges(v, r)) count += range.end - range.begin;
     answers.count = count;
   });
+}
+
+TEST_P(Allocation, FailsInTheCopyOfTheGraphForSmallBalls) {
+  struct Scene {
+    Index index;
+    Searcher searcher;
+    std::size_t count = 0;
+
+    explicit Scene(Index made) : index(std::move(made)), searcher(index) {}
+  };
+  const auto prepare = [&] {
+    auto scene = std::make_unique<Scene>(build(mesh.view()));
+    for (std::size_t i = 0; i < mesh.size() / VertexBfs::kVerticesPerBall; ++i) {
+      static_cast<void>(scene->searcher.count(0, 0));
+    }
+    return scene;
+  };
+  std::vector<VertexId> expected;
+  ReferenceSearcher(mesh.view()).neighborhood(1, 0, expected);
+  shortages.fail_each(
+      prepare, [&](const std::unique_ptr<Scene>& scene) { scene->count = scene->searcher.count(1, 0); },
+      [&](const std::unique_ptr<Scene>& scene, Ending ending) {
+        EXPECT_EQ(scene->count, ending == Ending::Well ? expected.size() : 0);
+        EXPECT_EQ(scene->searcher.count(1, 0), expected.size());
+        EXPECT_FALSE(SearcherAccess::state(scene->searcher).vertex_bfs.find(1, 0).empty());
+      });
 }
 
 TEST_P(Allocation, FailsInARegionSearch) {

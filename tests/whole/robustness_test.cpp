@@ -30,35 +30,35 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-struct Question {
+struct Ball {
   VertexId v;
   double radius;
 };
 
-/// Queries of a mesh with vertices, some of them for the whole component.
-std::vector<Question> draw_questions(const TestMesh& mesh, std::size_t count) {
-  std::vector<Question> questions;
+/// Balls around vertices of the mesh, if it has any; some of them for the whole component.
+std::vector<Ball> draw_balls(const TestMesh& mesh, std::size_t count) {
+  std::vector<Ball> balls;
   Random random(7);
   for (std::size_t i = 0; mesh.size() > 0 && i < count; ++i) {
     const auto v = static_cast<VertexId>(i == 0 ? 0 : random.below(mesh.size()));
     const auto w = static_cast<VertexId>(random.below(mesh.size()));
     const double radius = i % 10 == 0 ? kInfinity : distance(mesh.positions_view(), v, w) * random.uniform();
-    questions.push_back({v, radius});
+    balls.push_back({v, radius});
   }
-  return questions;
+  return balls;
 }
 
 /// Builds the exact index and compares answers with the reference. Returns the first error.
-std::vector<std::string> faults_of_exact(const TestMesh& mesh, const std::vector<Question>& questions) {
+std::vector<std::string> faults_of_exact(const TestMesh& mesh, const std::vector<Ball>& balls) {
   ExactAnswer exact(mesh.view());
   std::vector<std::string> faults = exact.index().check(mesh.view());
-  for (const auto& [v, radius] : questions) exact.query(v, radius);
+  for (const auto& [v, radius] : balls) exact.query(v, radius);
   if (exact.mismatches() > 0) faults.emplace_back("exact answers differ");
   return faults;
 }
 
 /// Builds the paper's index with few and with all levels, and compares answers with the reference.
-std::vector<std::string> faults_of_paper(const TestMesh& mesh, const std::vector<Question>& questions) {
+std::vector<std::string> faults_of_paper(const TestMesh& mesh, const std::vector<Ball>& balls) {
   std::vector<std::string> faults;
   ReferenceSearcher reference(mesh.view());
   for (const int levels : {5, paper::BuildOptions::kAllLevels}) {
@@ -68,20 +68,20 @@ std::vector<std::string> faults_of_paper(const TestMesh& mesh, const std::vector
     PaperBounds bounds(mesh.size());
     std::vector<VertexId> exact;
     std::vector<VertexId> answer;
-    for (const Question& query : questions) {
-      reference.neighborhood(query.v, query.radius, exact);
-      searcher.neighborhood(query.v, query.radius, answer);
-      const auto inside = [&](VertexId u) { return distance(mesh.positions_view(), query.v, u) <= query.radius; };
-      if (!bounds.holds(exact, answer, inside)) faults.push_back("vertex " + std::to_string(query.v));
+    for (const Ball& ball : balls) {
+      reference.neighborhood(ball.v, ball.radius, exact);
+      searcher.neighborhood(ball.v, ball.radius, answer);
+      const auto inside = [&](VertexId u) { return distance(mesh.positions_view(), ball.v, u) <= ball.radius; };
+      if (!bounds.holds(exact, answer, inside)) faults.push_back("vertex " + std::to_string(ball.v));
     }
   }
   return faults;
 }
 
 std::vector<std::string> faults_of(const TestMesh& mesh, std::size_t queries) {
-  const std::vector<Question> questions = draw_questions(mesh, queries);
-  std::vector<std::string> faults = faults_of_exact(mesh, questions);
-  for (const std::string& fault : faults_of_paper(mesh, questions)) faults.push_back(fault);
+  const std::vector<Ball> balls = draw_balls(mesh, queries);
+  std::vector<std::string> faults = faults_of_exact(mesh, balls);
+  for (const std::string& fault : faults_of_paper(mesh, balls)) faults.push_back(fault);
   return faults;
 }
 

@@ -7,15 +7,9 @@
 #include <span>
 
 namespace meshhood {
-namespace {
-
-// Squares of distances underflow in a mesh smaller than the inverse, so regions would be wrong.
-constexpr double kLargestScaleWithRegions = 0x1p480;
-
-}  // namespace
 
 LeafMeasure::LeafMeasure(const IndexView& index)
-    : index_(index), with_regions_(index.frame.scale <= kLargestScaleWithRegions) {}
+    : index_(index), with_regions_(!may_squares_underflow(index.frame)) {}
 
 void LeafMeasure::measure(LeafId leaf, NodeList& out, std::size_t at) {
   const std::size_t begin = index_.leaf_begin[leaf];

@@ -65,11 +65,15 @@ class SearchMemory {
   /// Forgets all earlier queries, so that the order of the next answer does not depend on them.
   void clear() { *this = {}; }
 
-  /// Begins a ball. For one ball in `kRetryInterval`, all functions except `was_alone` return false, because the ball
-  /// may lie in another part of the mesh.
-  void begin_ball() {
-    constexpr std::uint32_t kRetryInterval = 16;  // chosen
-    is_retry_ = ++balls_begun_ % kRetryInterval == 0;
+  /// Begins a ball. For one ball in 16 or more, all functions except `was_alone` return false, because the ball may lie
+  /// in another part of the mesh, or be of another size.
+  void begin_ball(double radius) {
+    constexpr double kOtherSize = 2;  // chosen
+    const bool is_as_before = radius <= kOtherSize * tried_radius_ && tried_radius_ <= kOtherSize * radius;
+    is_retry_ = ++balls_since_retry_ >= (is_as_before ? retry_interval_ : kShortestInterval);
+    if (!is_retry_) return;
+    balls_since_retry_ = 0;
+    tried_radius_ = radius;
   }
 
   /// Whether the mesh was folded: many leaves at the surface of the balls were in doubt.
@@ -113,19 +117,30 @@ class SearchMemory {
   void record(std::size_t in_doubt, std::size_t surface, std::size_t steps) {
     constexpr double kMemory = 8;  // balls; chosen
     balls_ = std::min(balls_ + 1, kMemory);
+    steps_ = steps;
     approach(share_in_doubt_, in_doubt, surface);
     approach(steps_per_surface_leaf_, steps, surface);
   }
 
   /// After an outward search whose answer fills `leaves` leaves.
-  void record_answer(std::size_t leaves, std::size_t surface) { approach(answer_per_surface_leaf_, leaves, surface); }
+  void record_answer(std::size_t leaves, std::size_t surface) {
+    approach(answer_per_surface_leaf_, leaves, surface);
+    // The more steps were in vain, the fewer balls are tried again: together, they take about as long as a quarter of
+    // the breadth-first searches between them.
+    const std::size_t steps_per_leaf = steps_ / std::max<std::size_t>(leaves, 1);
+    retry_interval_ = std::clamp(4 * steps_per_leaf, kShortestInterval, kLongestInterval);
+  }
 
  private:
   void approach(double& share, std::size_t part, std::size_t all) const {
-    share += (static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1)) - share) / balls_;
+    constexpr double kLeast = 1e-6;  // otherwise a share of nothing would decay until it is denormal, which is slow
+    const double now = static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1));
+    share = std::max(share + (now - share) / balls_, kLeast);
   }
 
   static constexpr int kAlways = 256;
+  static constexpr std::size_t kShortestInterval = 16;  // balls; chosen
+  static constexpr std::size_t kLongestInterval = 512;  // chosen
 
   static void remember(int& share, bool is_so) {
     constexpr int kAnswers = 8;  // chosen
@@ -136,10 +151,13 @@ class SearchMemory {
   double share_in_doubt_ = 0;
   double steps_per_surface_leaf_ = 0;
   double answer_per_surface_leaf_ = 0;
-  // Shares of answers, of `kAlways`; doubles would become denormal, and slow.
+  // Shares of answers, of `kAlways`.
   int alone_ = 0;  // that were one vertex
   int large_start_failures_ = 0;
-  std::uint32_t balls_begun_ = 0;
+  std::size_t steps_ = 0;  // of the last search
+  std::size_t retry_interval_ = kShortestInterval;
+  std::size_t balls_since_retry_ = 0;
+  double tried_radius_ = 0;
   bool is_retry_ = false;
 };
 

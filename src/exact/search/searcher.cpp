@@ -48,6 +48,7 @@ Point Searcher::State::search(VertexId v, double radius) {
 
 /// Returns false if the answer has vertices of many leaves, or probably has.
 bool Searcher::State::search_few_leaves(std::uint32_t slot, const Point& center) {
+  if (vertex_bfs.expects_many(bounds.radius)) return false;
   if (!limits.may_lie_in_few_leaves(bounds.radius_in_frame, leaf_of(slot), *index)) return false;
   bool is_alone = memory.was_alone() && few_leaves.is_alone(slot, center, bounds.leaf.squared_radius);
   if (is_alone) {
@@ -62,7 +63,7 @@ bool Searcher::State::search_few_leaves(std::uint32_t slot, const Point& center)
 
 /// Whether recent queries suggest it.
 bool Searcher::State::is_flood_faster(const Query& query) {
-  memory.begin_ball();
+  memory.begin_ball(query.radius);
   return (limits.is_small_if_folded(query, *index) && memory.is_folded()) ||
          (limits.enabled && memory.is_answer_small());
 }
@@ -198,9 +199,7 @@ void Searcher::State::write_answer(std::vector<VertexId>& out) const {
   }
 }
 
-Searcher::Searcher(const Index& index) : state_(std::make_unique<State>(IndexAccess::share(index), best_isa())) {
-  if (is_unlike_a_surface(*state_->index)) state_->vertex_bfs.emplace(index);
-}
+Searcher::Searcher(const Index& index) : state_(std::make_unique<State>(IndexAccess::share(index), best_isa())) {}
 Searcher::Searcher(Searcher&&) noexcept = default;
 Searcher& Searcher::operator=(Searcher&&) noexcept = default;
 Searcher::~Searcher() = default;
@@ -213,31 +212,46 @@ std::span<const VertexId> Searcher::permutation() const {
 }
 
 void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
-  if (state_->vertex_bfs) return state_->vertex_bfs->searcher().neighborhood(v, radius, out);
+  if (const auto found = state_->vertex_bfs.find(v, radius); !found.empty()) {
+    out.assign(found.begin(), found.end());
+    return;
+  }
   state_->search(v, radius);
   state_->write_answer(out);
+  state_->vertex_bfs.record(radius, out.size());
 }
 
 void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
-  if (state_->vertex_bfs) return state_->vertex_bfs->searcher().neighborhood(v, radius, out, distances);
+  if (const auto found = state_->vertex_bfs.find(v, radius); !found.empty()) {
+    distances.reserve(found.size());
+    out.assign(found.begin(), found.end());
+    state_->vertex_bfs.measure(v, found, distances);
+    return;
+  }
   const Point center = state_->search(v, radius);
   // Before `out` changes: if this throws, neither has changed.
   distances.reserve(state_->answer.count());
   state_->write_answer(out);
   distances.resize(out.size());
   write_distances(state_->answer, *state_->index, center, distances.data());
+  state_->vertex_bfs.record(radius, out.size());
 }
 
 std::span<const VertexRange> Searcher::ranges(VertexId v, double radius) {
-  if (state_->vertex_bfs) return state_->vertex_bfs->ranges(v, radius);
+  if (const auto found = state_->vertex_bfs.find(v, radius); !found.empty()) {
+    return state_->vertex_bfs.ranges_of(found);
+  }
   state_->search(v, radius);
+  if (state_->vertex_bfs.learns()) state_->vertex_bfs.record(radius, state_->answer.count());
   return state_->answer.all_as_runs();
 }
 
 std::size_t Searcher::count(VertexId v, double radius) {
-  if (state_->vertex_bfs) return state_->vertex_bfs->searcher().count(v, radius);
+  if (const auto found = state_->vertex_bfs.find(v, radius); !found.empty()) return found.size();
   state_->search(v, radius);
-  return state_->answer.count();
+  const std::size_t result = state_->answer.count();
+  state_->vertex_bfs.record(radius, result);
+  return result;
 }
 
 }  // namespace meshhood

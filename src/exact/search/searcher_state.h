@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -46,9 +45,9 @@ struct Searcher::State {
   SearchMemory memory;
   std::vector<LeafSubset> surface_leaves;  // with their vertices in the ball; they have others outside
   VertexSet answer;
-  std::optional<VertexBfs> vertex_bfs;  // answers instead of `search` where the graph is unlike a surface
-  bool was_outward = false;             // whether the last answer was found by `search_outward`
-  bool was_united = false;              // and whether that has united what it reached
+  VertexBfs vertex_bfs;
+  bool was_outward = false;  // whether the last answer was found by `search_outward`
+  bool was_united = false;   // and whether that has united what it reached
 
   State(std::shared_ptr<const IndexView> view, Isa isa)
       : index(std::move(view)),
@@ -64,9 +63,10 @@ struct Searcher::State {
         reached_components(*index, *kernels),
         few_leaves(*index, *kernels),
         leaf_bfs(*index),
-        answer(*index) {}
+        answer(*index),
+        vertex_bfs(*index) {}
 
-  /// Refills `answer` with the neighborhood, and returns the position of `v`.
+  /// By the searches over leaves: refills `answer` with the neighborhood, and returns the position of `v`.
   Point search(VertexId v, double radius);
 
   /// Refills `out` with the ids of `answer`.
@@ -101,6 +101,7 @@ struct SearcherAccess {
   static Searcher::State& state(Searcher& searcher) { return *searcher.state_; }
   static void set_isa(Searcher& searcher, Isa isa) {
     searcher.state_ = std::make_unique<Searcher::State>(searcher.state_->index, isa);
+    searcher.state_->vertex_bfs.answer_none();
   }
 };
 

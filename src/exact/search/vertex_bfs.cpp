@@ -2,8 +2,10 @@
 #include "exact/search/vertex_bfs.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 
-#include "exact/index_access.h"
+#include "base/limits.h"
 #include "exact/shared_graph.h"
 
 namespace meshhood {
@@ -20,22 +22,63 @@ bool is_unlike_a_surface(const IndexView& index) {
   return links > kMostLinks * static_cast<double>(index.vertex_count()) && cross_edges < kFewestEdges * links;
 }
 
-VertexBfs::VertexBfs(const Index& index)
-    : index_(&IndexAccess::view(index)), searcher_(index_->graph->of(index).view()) {}
-
-std::span<const VertexRange> VertexBfs::ranges(VertexId v, double radius) {
-  searcher_.neighborhood(v, radius, vertices_);
-  for (VertexId& vertex : vertices_) {
-    const std::uint32_t slot = index_->slot[vertex];
-    vertex = static_cast<VertexId>(index_->leaf_begin[leaf_of(slot)] + lane_of(slot));
+VertexBfs::VertexBfs(const IndexView& index) : index_(&index) {
+  constexpr double kMeanLeafRadii = 1.8;  // chosen; such a ball of a plane has about 100 vertices
+  if (index.vertex_count() == 0) return;
+  if (is_unlike_a_surface(index) || may_squares_underflow(index.frame)) {
+    answer_all();
+  } else if (index.vertex_count() <= kSmallMesh) {
+    few_ = kFewVertices;
+    most_ = kMostVertices;
+    largest_radius_ = kMeanLeafRadii * index.tree[0].mean_radius / index.frame.scale;
+    learns_ = true;
+    balls_before_ = index.vertex_count() / kVerticesPerBall;
   }
-  std::sort(vertices_.begin(), vertices_.end());
+}
+
+/// Returns false as long as the copy of the graph would probably take longer than it saves.
+bool VertexBfs::make_searcher() {
+  if (balls_before_ > 0) {  // mutant: copy-made-too-soon
+    --balls_before_;
+    return false;
+  }
+  searcher_.emplace(index_->graph->of(*index_).view());
+  return true;
+}
+
+void VertexBfs::take_for_large(double radius) {
+  largest_radius_ = std::nextafter(radius, -1.0);  // mutant: large-balls-tried-again
+}
+
+void VertexBfs::measure(VertexId v, std::span<const VertexId> ids, std::vector<double>& out) const {
+  ReferenceAccess::measure(*searcher_, v, ids, out);
+}
+
+std::span<const VertexRange> VertexBfs::ranges_of(std::span<const VertexId> ids) {
+  in_index_order_.clear();
+  for (const VertexId id : ids) {
+    const std::uint32_t slot = index_->slot[id];
+    in_index_order_.push_back(static_cast<VertexId>(index_->leaf_begin[leaf_of(slot)] + lane_of(slot)));
+  }
+  std::sort(in_index_order_.begin(), in_index_order_.end());
   ranges_.clear();
-  for (const VertexId vertex : vertices_) {
+  for (const VertexId vertex : in_index_order_) {
     if (ranges_.empty() || ranges_.back().end != vertex) ranges_.push_back({vertex, vertex});  // mutant: run-never-ends
     ranges_.back().end = static_cast<VertexId>(vertex + 1);
   }
   return ranges_;
+}
+
+void VertexBfs::answer_all() {
+  few_ = most_ = kAll;
+  largest_radius_ = kInfinity;
+  learns_ = false;
+  balls_before_ = 0;
+}
+
+void VertexBfs::answer_none() {
+  largest_radius_ = -1;
+  learns_ = false;
 }
 
 }  // namespace meshhood

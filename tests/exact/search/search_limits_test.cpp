@@ -2,6 +2,8 @@
 // The record of recent outward searches decides which search answers the next ball.
 #include "exact/search/search_limits.h"
 
+#include <cfenv>
+
 #include <gtest/gtest.h>
 
 namespace meshhood::test {
@@ -11,17 +13,17 @@ namespace {
 SearchMemory memory_of(std::size_t in_doubt, std::size_t steps, std::size_t answer) {
   SearchMemory memory;
   for (int i = 0; i < 20; ++i) {
-    memory.begin_ball();
+    memory.begin_ball(1);
     memory.record(in_doubt, 100, steps);
     memory.record_answer(answer, 100);
   }
-  memory.begin_ball();
+  memory.begin_ball(1);
   return memory;
 }
 
 TEST(SearchMemory, HasNoPreferenceBeforeTheFirstSearch) {
   SearchMemory memory;
-  memory.begin_ball();
+  memory.begin_ball(1);
   EXPECT_FALSE(memory.is_folded());
   EXPECT_FALSE(memory.is_torn());
   EXPECT_FALSE(memory.is_answer_small());
@@ -46,7 +48,7 @@ TEST(SearchMemory, ComparesTheStepsWithUnitingAndWithTheAnswer) {
 
 TEST(SearchMemory, LeavesOutALargeStartThatFailedInMostRecentBalls) {
   SearchMemory memory;
-  memory.begin_ball();
+  memory.begin_ball(1);
   EXPECT_FALSE(memory.should_start_small());
   for (int i = 0; i < 20; ++i) memory.record_large_start(false);
   EXPECT_TRUE(memory.should_start_small());
@@ -55,18 +57,44 @@ TEST(SearchMemory, LeavesOutALargeStartThatFailedInMostRecentBalls) {
 }
 
 TEST(SearchMemory, IsIgnoredForOneBallInSixteen) {
-  SearchMemory memory = memory_of(60, 200, 30);
+  SearchMemory memory = memory_of(60, 200, 60);
   std::size_t answered_no = 0;
   for (int i = 0; i < 160; ++i) {
-    memory.begin_ball();
+    memory.begin_ball(1);
     EXPECT_EQ(memory.is_folded(), memory.is_torn());
     EXPECT_EQ(memory.is_folded(), memory.is_answer_small());
     answered_no += static_cast<std::size_t>(!memory.is_folded());
   }
   EXPECT_EQ(answered_no, 10U);
   memory.clear();
-  memory.begin_ball();
+  memory.begin_ball(1);
   EXPECT_FALSE(memory.is_answer_small());
+}
+
+TEST(SearchMemory, IsIgnoredTheLessOftenTheMoreStepsWereInVain) {
+  SearchMemory memory = memory_of(60, 2000, 10);  // 200 steps for each leaf of the answer
+  std::size_t answered_no = 0;
+  for (int i = 0; i < 1024; ++i) {
+    memory.begin_ball(1);
+    answered_no += static_cast<std::size_t>(!memory.is_answer_small());
+  }
+  EXPECT_EQ(answered_no, 2U);
+  answered_no = 0;
+  for (int i = 0; i < 32; ++i) {
+    memory.begin_ball(3);
+    answered_no += static_cast<std::size_t>(!memory.is_answer_small());
+  }
+  EXPECT_EQ(answered_no, 1U) << "balls of another size are tried at once";
+}
+
+TEST(SearchMemory, DoesNotDecayToDenormalNumbers) {
+  SearchMemory memory = memory_of(60, 200, 30);
+  std::feclearexcept(FE_ALL_EXCEPT);
+  for (int i = 0; i < 10'000; ++i) {
+    memory.record(0, 100, 0);
+    memory.record_answer(0, 100);
+  }
+  EXPECT_EQ(std::fetestexcept(FE_UNDERFLOW), 0);
 }
 
 TEST(SearchMemory, TellsWhetherMostAnswersWereOneVertex) {
