@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <variant>
 
@@ -81,9 +82,9 @@ struct ReferenceSearcher::State {
     if (head + 8 < end) prefetch(adjacency.neighbors.data() + adjacency.offsets[queue[head + 8]]);
   }
 
-  /// Leaves the component at the beginning of the queue and returns it; nothing if it is bounded and has more than
-  /// `most` vertices.
-  template <bool kBounded, class Real>
+  /// Leaves the component at the beginning of the queue and returns it, or nothing as soon as it has more than `most`
+  /// vertices.
+  template <class Real>
   std::span<const VertexId> search(VertexId v, double radius, std::size_t most, std::vector<Record<Real>>& all) {
     const std::uint32_t current = next_query();
     const SearchBall ball(position(all[v]), radius);
@@ -91,7 +92,7 @@ struct ReferenceSearcher::State {
     queue[0] = v;
     std::size_t end = 1;
     for (std::size_t head = 0; head < end; ++head) {
-      if (kBounded && end > most) return {};  // mutant: stopped-search-answers
+      if (end > most) return {};  // mutant: stopped-search-answers
       fetch_ahead(head, end);
       for (const VertexId w : adjacency[queue[head]]) {
         Record<Real>& record = all[w];
@@ -105,10 +106,10 @@ struct ReferenceSearcher::State {
     return std::span(queue).first(end);
   }
 
-  template <bool kBounded = false>
-  std::span<const VertexId> search(VertexId v, double radius, std::size_t most = 0) {
+  std::span<const VertexId> search(VertexId v, double radius,
+                                   std::size_t most = std::numeric_limits<std::size_t>::max()) {
     check_query(v, adjacency.size(), radius);
-    return std::visit([&](auto& all) { return search<kBounded>(v, radius, most, all); }, records);
+    return std::visit([&](auto& all) { return search(v, radius, most, all); }, records);
   }
 
   /// The distances of `ids` from `v`.
@@ -166,7 +167,7 @@ std::size_t ReferenceSearcher::count(VertexId v, double radius) { return state_-
 
 std::span<const VertexId> ReferenceAccess::search(ReferenceSearcher& searcher, VertexId v, double radius,
                                                   std::size_t most) {
-  return searcher.state_->search<true>(v, radius, most);
+  return searcher.state_->search(v, radius, most);
 }
 
 void ReferenceAccess::measure(const ReferenceSearcher& searcher, VertexId v, std::span<const VertexId> ids,

@@ -8,8 +8,7 @@
 
 namespace meshhood {
 
-LeafMeasure::LeafMeasure(const IndexView& index)
-    : index_(index), with_regions_(!may_squares_underflow(index.frame)) {}
+LeafMeasure::LeafMeasure(const IndexView& index) : index_(index), with_regions_(!may_squares_underflow(index.frame)) {}
 
 void LeafMeasure::measure(LeafId leaf, NodeList& out, std::size_t at) {
   const std::size_t begin = index_.leaf_begin[leaf];
