@@ -26,8 +26,8 @@ def run(names, block_seconds):
     results.save("peers", {"blocks": BLOCKS, "block_seconds": block_seconds, "contests": contests}, watched)
 
 
-def contest(name, order, threads, block_seconds):
-    """One result for each radius. All radii use the same workers."""
+def contest(name, order, threads, block_seconds, peers=tuple(PEERS)):
+    """One result for each radius, of the libraries `peers`. All radii use the same workers."""
     import meshhood
 
     path = mesh_files.prepared(name, order)
@@ -35,7 +35,7 @@ def contest(name, order, threads, block_seconds):
     exact = meshhood.MeshIndex(mesh.positions, mesh.triangles)
     mean_edge = lengths_of(mesh, edges_of(mesh)).mean()
     # One after the other, so that each builds alone.
-    contestants = [Contestant.started(peer, path, threads) for peer in PEERS]
+    contestants = [Contestant.started(peer, path, threads) for peer in peers]
     found = []
     for edges in CONTESTS.get(name, (5, 20)):
         rows = at_radius(contestants, exact, float(edges * mean_edge), block_seconds)
