@@ -9,6 +9,7 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -102,9 +103,12 @@ double wall_clock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// Processor time of all threads.
+double process_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
 /// The methods in the order of the table. `one_thread` and `two_threads` count more rows at once, and their wall-clock
-/// time is measured; `two_processes` is that of two processes, each of which counts all of these rows. `portable` to
-/// `avx512` count by one worker of the batch each.
+/// time is measured, and as `work` their processor time; `two_processes` is that of two processes, each of which counts
+/// all of these rows. `portable` to `avx512` count by one worker of the batch each.
 struct Row {
   double edges;
   double radius;
@@ -118,6 +122,8 @@ struct Row {
   Timing one_thread{"one_thread"};
   Timing two_threads{"two_threads"};
   Timing two_processes{"two_processes"};
+  Timing one_thread_work{"one_thread_work"};
+  Timing two_threads_work{"two_threads_work"};
   std::array<Timing, 3> by_isa{Timing{"portable"}, Timing{"avx2"}, Timing{"avx512"}};
 
   void print() const {
@@ -141,8 +147,8 @@ struct Row {
     const auto add = [&](const Timing& timing) {
       if (!timing.microseconds.empty()) result[timing.name] = timing.microseconds;
     };
-    for (const Timing* timing :
-         {&bfs, &single_count, &single_ids, &count, &ids, &one_thread, &two_threads, &two_processes}) {
+    for (const Timing* timing : {&bfs, &single_count, &single_ids, &count, &ids, &one_thread, &two_threads,
+                                 &two_processes, &one_thread_work, &two_threads_work}) {
       add(*timing);
     }
     for (const Timing& timing : by_isa) add(timing);
@@ -188,9 +194,14 @@ class AllVertices {
     const std::vector<VertexId> rows = consecutive_rows(vertices(), row.thread_rows);
     row.thread_rows = rows.size();
     const auto count = [&](unsigned threads) { return counts_of_batch(rows, row.radius, threads); };
+    const auto measure_count = [&](unsigned threads, Timing& wall, Timing& work) {
+      const double start = process_time();
+      wall.round(rows.size(), [&] { return count(threads); }, wall_clock);
+      work.add(rows.size(), process_time() - start);
+    };
     for (int round = 0; round < kThreadRounds; ++round) {
-      row.one_thread.round(rows.size(), [&] { return count(1); }, wall_clock);
-      row.two_threads.round(rows.size(), [&] { return count(2); }, wall_clock);
+      measure_count(1, row.one_thread, row.one_thread_work);
+      measure_count(2, row.two_threads, row.two_threads_work);
       if (const auto processors = two_processors()) {
         row.two_processes.add(rows.size(), two_processes(*processors, [&] { count(1); }));
       }

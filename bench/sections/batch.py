@@ -20,7 +20,9 @@ OTHERS_NOTE = """
 
 *Two threads*: how many times as fast as one, counts of all vertices or of as many as take 0.25 s, wall clock. *Two
 processes*: how many times as fast two processes on two processors, each with one thread and the same rows, are as one
-of them alone. They share nothing that they write, so this is what the machine allows for two threads. *AVX2* and
+of them alone. They share nothing that they write, so this is what the machine allows for two threads. *Work*: the
+processor time of two threads, as a multiple of that of one; unlike the others it hardly depends on what else the
+machine does. *AVX2* and
 *portable*: the speed of the kernels for these processors as a part of that of the best ones here, counts. *Python*:
 `query_ball`, kept in one array, in µs a row, and its time over that of the same call of C++, `neighborhoods`; called in
 turn, one thread, processor time, with memory from the same allocator with the same settings.
@@ -70,7 +72,7 @@ def compared(reached, aim):
 
 
 def others(data):
-    header = ["mesh", "radius", "two threads", "two processes", "AVX2", "portable", "Python", "Python / C++"]
+    header = ["mesh", "radius", "two threads", "two processes", "work", "AVX2", "portable", "Python", "Python / C++"]
     rows = []
     for name, result in data["meshes"].items():
         for row in result["rows"]:
@@ -79,6 +81,7 @@ def others(data):
             best = next(isa for isa in ("avx512", "avx2", "portable") if isa in row)
             rows.append([name, f"{row['radius_edges']:g}", ratio(row, "one_thread", "two_threads"),
                          ratio(row, "one_thread", "two_processes", times=2),
+                         ratio(row, "two_threads_work", "one_thread_work"),
                          ratio(row, best, "avx2"), ratio(row, best, "portable"), number(row["python"]["median"]),
                          ratio(row, "python", "kept")])
     return OTHERS_NOTE + table(header, rows) if rows else ""
