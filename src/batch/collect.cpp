@@ -46,9 +46,9 @@ class SizeLimit {
 /// Refuses a result that is far too large, by the mean size of a sample. Counting all rows would show it only after
 /// most of the time is spent.
 void check_sample(Batch& batch, const SizeLimit& limit) {
-  constexpr std::size_t kSample = 256;
-  constexpr std::size_t kWorthwhile = 64;  // rows for each row of the sample
-  constexpr double kDeviations = 4;        // so that no result is refused by chance
+  constexpr std::size_t kSample = 64;       // each is searched alone, which takes as long as several rows of a packet
+  constexpr std::size_t kWorthwhile = 256;  // rows for each row of the sample
+  constexpr double kDeviations = 4;         // so that no result is refused by chance
   const auto rows = static_cast<double>(batch.rows().size());
   if (rows < kWorthwhile * kSample || limit.allows(rows * static_cast<double>(batch.vertex_count()))) return;
   // One row from each stretch of the batch. The multiplier scatters them, so that the sample is right for alternating
