@@ -133,7 +133,7 @@ void PacketMoments::add_common() {
 void PacketMoments::add_some() {
   const std::size_t size = waiting_some_.size;
   set_points(std::span(waiting_some_.places).first(size));
-  kernels_->add_powers_by_word(points_, std::span(waiting_some_.words).first(size), size_, some_);
+  kernels_->add_powers_by_word(points_, std::span(waiting_some_.words).first(size), some_);
   waiting_some_.size = 0;
 }
 

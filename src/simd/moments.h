@@ -142,10 +142,8 @@ struct MomentKernels {
   /// they must be finite, with weight 0 beyond the size.
   void (*add_powers)(const MomentPoints& points, std::size_t size, PartialMoments& sums);
 
-  /// Adds the powers of point `i`, times its weight, to the sums of the queries of `words[i]`. The words have no query
-  /// from number `queries` on.
-  void (*add_powers_by_word)(const MomentPoints& points, std::span<const QueryWord> words, std::size_t queries,
-                             MomentsByWord& sums);
+  /// Adds the powers of point `i`, times its weight, to the sums of the queries of `words[i]`.
+  void (*add_powers_by_word)(const MomentPoints& points, std::span<const QueryWord> words, MomentsByWord& sums);
 
   /// Removes from `words[i]` the queries that vertex `i` does not face. Normals are unit vectors; one of NaN faces
   /// none. At most `kLeafCapacity` words; the columns begin with the first vertex.

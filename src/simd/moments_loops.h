@@ -133,23 +133,37 @@ MESHHOOD_MOMENTS inline void powers_of(const MomentPoints& points, std::size_t i
   }
 }
 
+/// Bit `i` is set if part `i` of the word is not 0.
+MESHHOOD_MOMENTS inline std::uint64_t used_parts(QueryWord word) {
+  static_assert(MomentsByWord::kQueries == 4 && MomentsByWord::kParts == 8);
+  word |= word >> 1;
+  word = (word | word >> 2) & 0x11111111U;
+  word = (word | word >> 3) & 0x03030303U;  // two bits of each byte
+  word = (word | word >> 6) & 0x000F000FU;
+  return (word | word >> 12) & 0xFFU;
+}
+
 /// As `MomentKernels::add_powers_by_word`. Finds the powers of eight points before it adds them, because a processor
-/// waits if it reads as a vector what it has just written number by number. Parts that are 0 are added like others: to
-/// skip them takes branches, which cannot be predicted.
+/// waits if it reads as a vector what it has just written number by number. The parts of eight words that are not 0 are
+/// the bits of one number, so that few branches cannot be predicted.
 template <void (*PowersOf)(const MomentPoints&, std::size_t, PaddedMoments&)>
 MESHHOOD_MOMENTS void add_powers_by_word(const MomentPoints& points, std::span<const QueryWord> words,
-                                         std::size_t queries, MomentsByWord& sums) {
-  const std::size_t parts = (queries + MomentsByWord::kQueries - 1) / MomentsByWord::kQueries;
+                                         MomentsByWord& sums) {
   std::array<PaddedMoments, kEight> powers;
   for (std::size_t first = 0; first < words.size(); first += kEight) {
     const std::size_t count = std::min(kEight, words.size() - first);
-    for (std::size_t i = 0; i < count; ++i) PowersOf(points, first + i, powers[i]);
+    std::uint64_t used = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      QueryWord left = words[first + i];
-      for (std::size_t part = 0; part < parts; ++part, left /= MomentsByWord::kValues) {
-        PaddedMoments& sum = sums.at[part][left % MomentsByWord::kValues];
-        for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kEight) eight(sum.at[m]) += eight(powers[i].at[m]);
-      }
+      PowersOf(points, first + i, powers[i]);
+      used |= used_parts(words[first + i]) << (MomentsByWord::kParts * i);
+    }
+    for (; used != 0; used &= used - 1) {
+      const auto bit = static_cast<std::size_t>(std::countr_zero(used));
+      const std::size_t i = bit / MomentsByWord::kParts;
+      const std::size_t part = bit % MomentsByWord::kParts;
+      const QueryWord value = words[first + i] >> (MomentsByWord::kQueries * part) & (MomentsByWord::kValues - 1);
+      PaddedMoments& sum = sums.at[part][value];
+      for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kEight) eight(sum.at[m]) += eight(powers[i].at[m]);
     }
   }
 }

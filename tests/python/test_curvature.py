@@ -106,6 +106,7 @@ def test_the_default_is_not_libigls_operator_where_a_scan_is_folded(tmp_path):
     right = index.curvature(20, F=mesh.faces, unit="edge", vertices=np.arange(0, 40000, 40))
     theirs = index.curvature(20, F=mesh.faces, unit="edge", vertices=np.arange(0, 40000, 40), like="libigl")
     off = abs(right.k1 - theirs.k1) / np.maximum(abs(right.k1), abs(right.k2))
+    print(f"off by {np.median(off):.1%} in the median, by more than {np.quantile(off, 0.99):.0%} at 1 % of the vertices")
     assert 0.01 < np.quantile(off, 0.99) < 1
 
 

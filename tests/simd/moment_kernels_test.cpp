@@ -73,7 +73,7 @@ QueryMoments collected(const MomentKernels& kernels, const Input& common, const 
   const auto by_word = std::make_unique<MomentsByWord>();
   QueryMoments out{};
   kernels.add_powers(common.points, common.words.size(), parts);
-  kernels.add_powers_by_word(some.points, some.words, kPacketCapacity, *by_word);
+  kernels.add_powers_by_word(some.points, some.words, *by_word);
   kernels.collect(parts, *by_word, out);
   return out;
 }
@@ -180,7 +180,7 @@ TEST(MomentKernels, SumsOfFewQueriesAreThoseOfThePowers) {
     for (const Isa isa : available_isas()) {
       const auto by_word = std::make_unique<MomentsByWord>();
       QueryMoments sums{};
-      moment_kernels(isa).add_powers_by_word(some.points, some.words, queries, *by_word);
+      moment_kernels(isa).add_powers_by_word(some.points, some.words, *by_word);
       moment_kernels(isa).collect({}, *by_word, sums);
       for (std::size_t q = 0; q < queries; ++q) {
         EXPECT_NEAR(sums.at[moment_index(1, 2, 1)][q], expected({}, some, q, {1, 2, 1}), 1e-13);
