@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compares eight nested radii in one pass with eight queries, on one thread, in alternating rounds. Microseconds for
-// each vertex, and the ratio.
+// each vertex, and the ratio; beside them eight queries that only count, and the query of the largest radius alone.
 //
 //   nested_radii MESH [LARGEST RADIUS IN MEAN EDGES...]
 #include <algorithm>
@@ -44,7 +44,9 @@ class NestedRadii {
     std::vector<double> radii;
     for (std::size_t i = 1; i <= kRadii; ++i) radii.push_back(edges * mean_edge_ * static_cast<double>(i) / kRadii);
     double one_by_one = std::numeric_limits<double>::infinity();
-    double at_once = std::numeric_limits<double>::infinity();
+    double at_once = one_by_one;
+    double counts_only = one_by_one;
+    double largest = one_by_one;
     std::vector<VertexId> ids;
     std::vector<std::size_t> counts;
     std::size_t found = 0;
@@ -65,9 +67,18 @@ class NestedRadii {
           for (const std::size_t count : counts) found_at_once += count;
         }
       });
+      measure_round(counts_only, [&] {
+        for (const VertexId v : vertices_) {
+          for (const double radius : radii) static_cast<void>(single_.count(v, radius));
+        }
+      });
+      measure_round(largest, [&] {
+        for (const VertexId v : vertices_) single_.neighborhood(v, radii.back(), ids);
+      });
     }
-    std::printf("%6.4g %10.0f %12.2f %12.2f %8.2f%s\n", edges, static_cast<double>(found) / kVertices, one_by_one,
-                at_once, one_by_one / at_once, found == found_at_once ? "" : "  DIFFERENT COUNTS");
+    std::printf("%6.4g %10.0f %12.2f %12.2f %8.2f %12.2f %10.2f%s\n", edges, static_cast<double>(found) / kVertices,
+                one_by_one, at_once, one_by_one / at_once, counts_only, largest,
+                found == found_at_once ? "" : "  DIFFERENT COUNTS");
     std::fflush(stdout);
   }
 
@@ -86,7 +97,8 @@ int run(std::span<char*> arguments) {
   }
   const MeshArgument mesh(arguments[1]);
   NestedRadii nested(mesh.view());
-  std::printf("%6s %10s %12s %12s %8s\n", "edges", "vertices", "8 queries us", "nested us", "ratio");
+  std::printf("%6s %10s %12s %12s %8s %12s %10s\n", "edges", "vertices", "8 queries us", "nested us", "ratio",
+              "8 counts us", "largest us");
   std::vector<double> edges{20, 65};
   if (arguments.size() > 2) edges.clear();
   for (const char* argument : arguments.subspan(2)) edges.push_back(std::stod(argument));

@@ -25,7 +25,7 @@ namespace meshhood {
 ///
 /// O(n log n) for a result of n vertices. Nothing is allocated once the buffers have grown.
 ///
-/// Use one object per thread: it owns scratch memory, about 8 bytes per vertex, and 50 bytes per vertex of its
+/// Use one object per thread: it owns scratch memory, about 8 bytes per leaf, and 150 bytes per vertex of its
 /// largest result. It shares the memory of the index, which may be moved, refitted or destroyed meanwhile: answers are
 /// those of the index as it was. It is a `NeighborhoodSearcher`.
 ///

@@ -4,74 +4,68 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <variant>
-
-#include "base/distance.h"
 
 namespace meshhood {
+namespace {
 
-PathSearch::PathSearch(const IndexView& index)
-    : index_(&index), runs_(index.leaf_count()), lengths_(index.vertex_count()) {}
+// So that a bucket has about ten paths where the answer has 10,000 vertices.
+constexpr double kBucketsPerEdge = 32;
+
+}  // namespace
 
 void PathSearch::run(std::uint32_t slot, double radius, const LaneFilter& walls) {
-  walls_ = &walls;
   unreached_ = std::nextafter(radius, std::numeric_limits<double>::infinity());  // mutant: path-of-the-radius-refused
-  queue_.clear();
-  found_.clear();
-  if (++run_ == 0) {
-    std::fill(runs_.begin(), runs_.end(), 0);
-    run_ = 1;
-  }
-  open(leaf_of(slot));
-  offer({0, slot, index_->leaf_begin[leaf_of(slot)] + lane_of(slot)});
-  std::visit([&](auto xyz) { run(xyz); }, index_->positions);
-}
-
-template <class Real>
-void PathSearch::run(std::span<const Real> xyz) {
-  while (!queue_.empty()) {
-    const Found next = queue_.pop();
-    if (next.length > lengths_[next.vertex]) continue;  // mutant: longer-path-settles-again
-    found_.push_back(next);
-    follow_edges(next, xyz);
-  }
-}
-
-template <class Real>
-void PathSearch::follow_edges(const Found& from, std::span<const Real> xyz) {
-  const LeafId leaf = leaf_of(from.slot);
-  const unsigned lane = lane_of(from.slot);
-  const Point start = point(xyz, from.vertex);
-  const auto follow = [&](LeafId other, std::uint32_t first, unsigned to) {
-    if (lengths_[first + to] <= from.length) return;
-    const double length = std::sqrt(squared_distance(start, point(xyz, first + to)));
-    offer({from.length + length, kLeafCapacity * other + to, first + to});
+  start(slot, walls);
+  const auto is_least = [this](const Path& path) {
+    return path.length == lengths_[path.end];  // mutant: longer-path-settles-again
   };
-  for_each_lane(index_->adjacency[from.vertex], [&](unsigned to) { follow(leaf, from.vertex - lane, to); });
-  for (const Link& link : index_->links_of(leaf)) {
-    if ((link.boundary >> lane & 1U) == 0) continue;
-    open(link.leaf);
-    for (const CrossEdge& edge : index_->cross_edges_of(link)) {
-      if (edge.from == lane) follow(link.leaf, index_->leaf_begin[link.leaf], edge.to);
-    }
+  const auto prefetch = [this](const Path& path) { graph_.prefetch_edges(path.end); };
+  for (Path next; queue_.pop(next, is_least, prefetch);) {
+    found_.push_back({next.length, graph_.vertex(next.end)});
+    follow_edges(next, walls);
   }
 }
 
-/// Initializes the lengths of a leaf. That of a wall is 0, so that no path to it is shorter.
-void PathSearch::open(LeafId leaf) {
-  if (runs_[leaf] == run_) return;
-  runs_[leaf] = run_;
-  const std::size_t first = index_->leaf_begin[leaf];
-  const std::span lengths = std::span(lengths_).subspan(first, index_->leaf_begin[leaf + 1] - first);
-  std::fill(lengths.begin(), lengths.end(), unreached_);
-  for_each_lane(walls_->of(leaf), [&](unsigned lane) { lengths[lane] = 0; });
+void PathSearch::start(std::uint32_t slot, const LaneFilter& walls) {
+  graph_.clear();
+  lengths_.clear();
+  found_.clear();
+  const std::uint32_t first = graph_.local(slot);
+  static_cast<void>(graph_.edges(first));
+  add_met_leaves(walls);
+  queue_.clear(graph_.mean_length() / kBucketsPerEdge);
+  if (lengths_[first] == 0) return;  // a wall
+  lengths_[first] = 0;
+  *queue_.room(1) = {0, first};
+  queue_.push(1, 0);
 }
 
-void PathSearch::offer(const Found& path) {
-  double& least = lengths_[path.vertex];
-  if (!(path.length < least)) return;
-  least = path.length;
-  queue_.push(path);
+void PathSearch::follow_edges(const Path& path, const LaneFilter& walls) {
+  const std::span<const LocalGraph::Edge> edges = graph_.edges(path.end);
+  if (lengths_.size() != kLeafCapacity * graph_.leaf_count()) add_met_leaves(walls);
+  // Whether a path is shorter than those before cannot be predicted, so there is no branch.
+  Path* const shorter = queue_.room(edges.size());
+  std::size_t count = 0;
+  double least = unreached_;
+  for (const LocalGraph::Edge& edge : edges) {
+    const Path next{path.length + edge.length, edge.neighbor};
+    const double before = lengths_[edge.neighbor];
+    lengths_[edge.neighbor] = std::min(before, next.length);
+    shorter[count] = next;
+    count += next.length < before ? 1 : 0;
+    least = std::min(least, next.length);
+  }
+  queue_.push(count, least);
+}
+
+/// Initializes the lengths of leaves. That of a wall is 0, so that no path to it is shorter.
+void PathSearch::add_met_leaves(const LaneFilter& walls) {
+  const std::size_t known = lengths_.size() / kLeafCapacity;
+  lengths_.resize(kLeafCapacity * graph_.leaf_count(), unreached_);
+  if (walls.empty()) return;
+  for (std::size_t leaf = known; leaf < graph_.leaf_count(); ++leaf) {
+    for_each_lane(walls.of(graph_.leaf(leaf)), [&](unsigned lane) { lengths_[kLeafCapacity * leaf + lane] = 0; });
+  }
 }
 
 }  // namespace meshhood

@@ -32,6 +32,19 @@ Point RegionSearcher::State::begin(const Start& start, const Filter& filter) {
   return {p[0], p[1], p[2]};
 }
 
+std::optional<VertexId> RegionSearcher::State::vertex_of(const Start& start) const {
+  if (!start.center()) return start.vertex();
+  if (start.seeds().size() != 1) return std::nullopt;
+  const SpacePoint& p = *start.center();
+  const Point seed = position_of(*index, start.seeds().front());
+  return seed.x == p[0] && seed.y == p[1] && seed.z == p[2] ? std::optional(start.seeds().front()) : std::nullopt;
+}
+
+NestedNeighborhoods& RegionSearcher::State::neighborhoods() {
+  if (!nested_neighborhoods) nested_neighborhoods = std::make_unique<NestedNeighborhoods>(index, isa);
+  return *nested_neighborhoods;
+}
+
 LaneMask RegionSearcher::State::without_ignored(const LeafSubset& subset) const {
   return subset.lanes & ~ignored.of(subset.leaf);  // mutant: ignored-vertices-are-found
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "exact/layout.h"
 #include "exact/query/flood.h"
 #include "exact/query/lane_filter.h"
+#include "exact/query/nested_neighborhoods.h"
 #include "exact/search/vertex_set.h"
 #include "simd/kernels.h"
 
@@ -20,15 +22,17 @@ namespace meshhood {
 /// The scratch memory of a region searcher, and what its queries share.
 struct RegionSearcher::State {
   std::shared_ptr<const IndexView> index;  // shared, so that `refit` leaves it as it is
+  Isa isa;
   const Kernels* kernels;
   Flood flood;
   LaneFilter walls;
   LaneFilter ignored;
   VertexSet answer;
-  std::vector<LaneMask> seen;  // by leaf: what a stroke has found so far
+  std::vector<LaneMask> seen;                                 // by leaf: what a stroke has found so far
+  std::unique_ptr<NestedNeighborhoods> nested_neighborhoods;  // made when first needed
 
-  State(std::shared_ptr<const IndexView> view, Isa isa)
-      : index(std::move(view)), kernels(&meshhood::kernels(isa)), flood(*index, *kernels), answer(*index) {}
+  State(std::shared_ptr<const IndexView> view, Isa chosen)
+      : index(std::move(view)), isa(chosen), kernels(&meshhood::kernels(isa)), flood(*index, *kernels), answer(*index) {}
 
   /// Throws unless the arguments of a query are valid. `where` begins the messages.
   void check(const Start& start, std::string_view where = {}) const;
@@ -36,6 +40,11 @@ struct RegionSearcher::State {
 
   /// Begins a flood from valid arguments, with nothing reached. Returns its center.
   Point begin(const Start& start, const Filter& filter);
+
+  /// The vertex that is both the center and the only seed, if there is one.
+  [[nodiscard]] std::optional<VertexId> vertex_of(const Start& start) const;
+
+  [[nodiscard]] NestedNeighborhoods& neighborhoods();
 
   /// The slot of a vertex, whose id is valid.
   [[nodiscard]] std::uint32_t slot(VertexId v) const { return index->slot[v]; }

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "exact/query/nested_neighborhoods.h"
+
+#include <utility>
+
+#include "exact/search/output.h"
+
+namespace meshhood {
+
+NestedNeighborhoods::NestedNeighborhoods(const std::shared_ptr<const IndexView>& index, Isa isa)
+    : index_(index.get()), search_(index, isa), known_(index->leaf_count()), ring_(*index) {
+  leaf_before_.reserve(index->vertex_count() / kLeafCapacity + 1);
+  LeafId leaf = 0;
+  for (std::size_t first = 0; first < index->vertex_count(); first += kLeafCapacity) {
+    while (index->leaf_begin[leaf + 1] < first) ++leaf;
+    leaf_before_.push_back(leaf);
+  }
+}
+
+/// The leaf that begins with a vertex, which is named by its place in index order.
+LeafId NestedNeighborhoods::leaf_at(VertexId first) const {
+  LeafId leaf = leaf_before_[first / kLeafCapacity];
+  while (index_->leaf_begin[leaf + 1] <= first) ++leaf;
+  return leaf;
+}
+
+void NestedNeighborhoods::run(VertexId v, std::span<const double> radii, std::vector<VertexId>& out,
+                              std::vector<std::size_t>& sizes) {
+  forget();
+  sizes.clear();
+  std::size_t size = 0;
+  for (const double radius : radii) {
+    search_.search(v, radius);
+    find_ring();
+    const std::size_t end = size + ring_.count();
+    out.resize(end + kLeafCapacity);
+    write_ids(ring_, *index_, *search_.kernels, &out[size]);
+    size = end;
+    sizes.push_back(size);
+  }
+  out.resize(size);
+}
+
+/// The vertices of the answer that no ring has yet.
+void NestedNeighborhoods::find_ring() {
+  ring_.clear();
+  for (const VertexRange& run : search_.answer.runs()) add_run(run);
+  for (const LeafSubset& subset : search_.answer.subsets()) add(subset);
+}
+
+/// Adds whole leaves. Those that are known are mostly a run of an answer before, and skipped together.
+void NestedNeighborhoods::add_run(const VertexRange& run) {
+  const LeafId first = leaf_at(run.begin);
+  LeafId leaf = first;
+  while (index_->leaf_begin[leaf] < run.end) {
+    if (known_[leaf].found != kAll) add_whole(leaf);
+    leaf = known_[leaf].next;
+  }
+  known_[first].next = leaf;
+}
+
+void NestedNeighborhoods::add_whole(LeafId leaf) {
+  const VertexRange vertices{index_->leaf_begin[leaf], index_->leaf_begin[leaf + 1]};
+  const LaneMask found = std::exchange(known_[leaf], {kAll, leaf + 1}).found;
+  if (found == 0) {
+    leaves_.push_back(leaf);
+    ring_.add(vertices);
+  } else {
+    ring_.add(LeafSubset{leaf, first_lanes(vertices.end - vertices.begin) & ~found});
+  }
+}
+
+void NestedNeighborhoods::add(const LeafSubset& subset) {
+  Known& known = known_[subset.leaf];
+  const LaneMask added = subset.lanes & ~known.found;  // mutant: nested-rings-overlap
+  if (added == 0) return;
+  if (known.found == 0) leaves_.push_back(subset.leaf);
+  known = {known.found | added, subset.leaf + 1};
+  ring_.add(LeafSubset{subset.leaf, added});
+}
+
+/// At the beginning, so that a run that throws leaves nothing behind.
+void NestedNeighborhoods::forget() {
+  for (const LeafId leaf : leaves_) known_[leaf] = {};  // mutant: rings-of-last-run-kept
+  leaves_.clear();
+}
+
+}  // namespace meshhood

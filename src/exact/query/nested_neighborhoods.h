@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "exact/layout.h"
+#include "exact/search/searcher_state.h"
+#include "exact/search/vertex_set.h"
+
+namespace meshhood {
+
+/// The neighborhoods of one vertex for ascending radii, as rings. `Searcher` finds each as runs and leaf subsets, of
+/// which only those vertices are listed that the one before does not have. This takes less time than a flood, because
+/// the searcher looks mostly at the boundary of a ball.
+class NestedNeighborhoods {
+ public:
+  NestedNeighborhoods(const std::shared_ptr<const IndexView>& index, Isa isa);
+
+  /// Refills `out` with the ids, ring by ring, and `sizes` with their number at the end of each ring.
+  void run(VertexId v, std::span<const double> radii, std::vector<VertexId>& out, std::vector<std::size_t>& sizes);
+
+ private:
+  [[nodiscard]] LeafId leaf_at(VertexId first) const;
+  void find_ring();
+  void add_run(const VertexRange& run);
+  void add_whole(LeafId leaf);
+  void add(const LeafSubset& subset);
+  void forget();
+
+  static constexpr LaneMask kAll = ~LaneMask{0};
+
+  /// What the rings so far have of a leaf.
+  struct Known {
+    LaneMask found = 0;  // kAll if all vertices
+    LeafId next = 0;     // they have all vertices of the leaves after this one and before `next`
+  };
+
+  const IndexView* index_;
+  SearcherAccess::State search_;
+  std::vector<LeafId> leaf_before_;  // by 32 vertices in index order: the last leaf that begins before them
+  std::vector<Known> known_;         // by leaf
+  std::vector<LeafId> leaves_;       // of which something is known
+  VertexSet ring_;
+};
+
+}  // namespace meshhood
