@@ -52,7 +52,7 @@ double farthest(const std::vector<Point2>& points) {
 
 HalfplanePolygon polygon_of(const std::vector<Halfplane>& halfplanes) {
   HalfplanePolygon polygon;
-  for (const Halfplane& halfplane : halfplanes) polygon.add(halfplane);
+  for (const Halfplane& halfplane : halfplanes) polygon.add(halfplane, std::sqrt(2 * halfplane.offset));
   return polygon;
 }
 

@@ -62,7 +62,7 @@ TEST(LeafNodes, HaveTheRegionOfAllEdgesOfTheirVertices) {
     const std::size_t begin = mesh.index.leaf_begin[leaf];
     const std::size_t size = mesh.index.leaf_begin[leaf + 1] - begin;
     const MinimumRegion expected =
-        leaf_minimum_region(mesh.points, begin, size, mesh.edges(leaf), center_of(nodes.bounds[leaf]));
+        leaf_minimum_region(mesh.points, begin, size, {}, mesh.edges(leaf), center_of(nodes.bounds[leaf]));
     const MinimumRegion& region = nodes.regions[leaf];
     ASSERT_EQ(std::isfinite(region.offset), std::isfinite(expected.offset)) << "leaf " << leaf;
     if (!std::isfinite(expected.offset)) continue;

@@ -43,7 +43,7 @@ struct Patch {
     return result;
   }
 
-  [[nodiscard]] MinimumRegion region() const { return leaf_minimum_region(points, first, size, edges, center); }
+  [[nodiscard]] MinimumRegion region() const { return leaf_minimum_region(points, first, size, {}, edges, center); }
 };
 
 bool is_bounded(const MinimumRegion& region) { return std::isfinite(region.offset); }
@@ -332,7 +332,7 @@ TEST(MinimumRegion, IsUnboundedForAVertexOfTheRim) {
 
 TEST(MinimumRegion, IsUnboundedForAnIsolatedVertex) {
   const std::vector<Point> points{{0.1, 0.2, 0.3}};
-  EXPECT_FALSE(is_bounded(leaf_minimum_region(points, 0, 1, {}, points[0])));
+  EXPECT_FALSE(is_bounded(leaf_minimum_region(points, 0, 1, {}, {}, points[0])));
 }
 
 /// For a leaf in the plane z = 0: how far the corners of a vertex's cell lie from it.

@@ -43,11 +43,6 @@ bool HalfplanePolygon::have_corner(const Line& a, const Line& b) {
   return cross(a.halfplane, b.halfplane) > kSmallestCross * std::max(a.length, b.length);
 }
 
-PolygonExtent HalfplanePolygon::extent() {
-  remove_redundant();
-  return rough_extent();
-}
-
 PolygonExtent HalfplanePolygon::rough_extent() const {
   if (size_ < 3) return kUnboundedExtent;  // mutant: two-lines-make-a-polygon
   PolygonExtent squared;
@@ -63,8 +58,10 @@ PolygonExtent HalfplanePolygon::rough_extent() const {
   return {std::sqrt(squared.width), std::sqrt(squared.slope)};
 }
 
-/// Visits the lines in turn until all of them have been kept since the last removal.
-void HalfplanePolygon::remove_redundant() {
+/// Visits the lines in turn until all of them have been kept since the last removal. Returns whether it has removed
+/// any.
+bool HalfplanePolygon::remove_redundant() {
+  const std::size_t before = size_;
   std::size_t kept_in_a_row = 0;
   for (std::size_t i = 0; size_ > 3 && kept_in_a_row < size_;) {
     i = i < size_ ? i : 0;
@@ -77,6 +74,7 @@ void HalfplanePolygon::remove_redundant() {
       ++kept_in_a_row;
     }
   }
+  return size_ < before;
 }
 
 /// Whether, at height 0, the corner of the lines before and after lies in the half plane of line `i`. Both sides of the

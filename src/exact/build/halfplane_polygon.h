@@ -35,10 +35,11 @@ struct PolygonExtent {
 class HalfplanePolygon {
  public:
   /// Keeps the first `kMaxHalfplanes`: without the others the polygon is larger, and its extent still an upper bound.
-  void add(const Halfplane& halfplane) {
+  /// `edge_length` is the root of twice the offset.
+  void add(const Halfplane& halfplane, double edge_length) {
     if (size_ == kMaxHalfplanes) return;
     const auto added = static_cast<std::uint8_t>(size_);
-    lines_[added] = {diamond_angle(halfplane.x, halfplane.y), std::sqrt(2 * halfplane.offset), halfplane};
+    lines_[added] = {diamond_angle(halfplane.x, halfplane.y), edge_length, halfplane};
     std::size_t i = size_++;
     for (; i > 0 && lines_[order_[i - 1]].angle > lines_[added].angle; --i) order_[i] = order_[i - 1];
     order_[i] = added;
@@ -46,7 +47,10 @@ class HalfplanePolygon {
 
   /// An upper bound on the extent, which is infinite where the polygon is unbounded or nearly so. Removes redundant
   /// half planes. O(size^2) in the worst case, mostly O(size).
-  [[nodiscard]] PolygonExtent extent();
+  [[nodiscard]] PolygonExtent extent() { return extent(rough_extent()); }
+
+  /// The same, given the rough extent.
+  [[nodiscard]] PolygonExtent extent(const PolygonExtent& rough) { return remove_redundant() ? rough_extent() : rough; }
 
   /// An upper bound too, from all half planes: faster, and larger where some are redundant. O(size).
   [[nodiscard]] PolygonExtent rough_extent() const;
@@ -64,7 +68,7 @@ class HalfplanePolygon {
   [[nodiscard]] const Line& line(std::size_t i) const { return lines_[order_[i]]; }
   [[nodiscard]] static bool have_corner(const Line& a, const Line& b);
 
-  void remove_redundant();
+  bool remove_redundant();
   [[nodiscard]] bool is_redundant(std::size_t i) const;
   void remove(std::size_t i);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "exact/build/leaf_nodes.h"
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -19,17 +18,17 @@ void LeafMeasure::measure(LeafId leaf, NodeList& out, std::size_t at) {
   out.bounds[at] = enclosing_sphere(points_);
   out.regions[at] = kUnboundedRegion;
   if (!with_regions_) return;
+  own_edges_.clear();
   edges_.clear();
-  gather_edges_within(begin, size);  // mutant: edges-within-leaf-ignored
-  gather_edges_out(leaf);            // mutant: edges-to-other-leaves-ignored
-  out.regions[at] = leaf_minimum_region(points_, 0, size, edges_, center_of(out.bounds[at]));
+  gather_own_edges(begin, size);  // mutant: edges-within-leaf-ignored
+  gather_edges_out(leaf);         // mutant: edges-to-other-leaves-ignored
+  out.regions[at] = leaf_minimum_region(points_, 0, size, own_edges_, edges_, center_of(out.bounds[at]));
 }
 
-void LeafMeasure::gather_edges_within(std::size_t begin, std::size_t size) {
+void LeafMeasure::gather_own_edges(std::size_t begin, std::size_t size) {
   for (std::uint32_t lane = 0; lane < size; ++lane) {
-    for (LaneMask left = index_.adjacency[begin + lane]; left != 0; left &= left - 1) {
-      edges_.push_back({lane, static_cast<std::uint32_t>(std::countr_zero(left))});
-    }
+    const LaneMask later = index_.adjacency[begin + lane] & ~first_lanes(lane + 1);
+    for_each_lane(later, [&](unsigned to) { own_edges_.push_back({lane, to}); });
   }
 }
 

@@ -22,13 +22,14 @@ class LeafMeasure {
   void measure(LeafId leaf, NodeList& out, std::size_t at);
 
  private:
-  void gather_edges_within(std::size_t begin, std::size_t size);
+  void gather_own_edges(std::size_t begin, std::size_t size);
   void gather_edges_out(LeafId leaf);
 
   const IndexView& index_;
   bool with_regions_;
   std::vector<Point> points_;  // the vertices of the leaf, then the other ends of its edges to other leaves
-  std::vector<LeafEdge> edges_;
+  std::vector<LeafEdge> own_edges_;
+  std::vector<LeafEdge> edges_;  // to other leaves
 };
 
 /// The lowest level of the tree: all leaves.

@@ -92,16 +92,28 @@ Halfplane halfplane_of(const Point& e, const Basis& basis) {
   return {x, y, k, (x * x + y * y + k * k) / 2};  // mutant: bisector-too-near
 }
 
+/// That of the same edge from its other end, to the last bit: every rounding is symmetric.
+Halfplane opposite(const Halfplane& halfplane) {
+  return {-halfplane.x, -halfplane.y, -halfplane.tilt, halfplane.offset};  // mutant: opposite-tilts-the-same-way
+}
+
 }  // namespace
 
 MinimumRegion leaf_minimum_region(std::span<const Point> points, std::size_t first, std::size_t size,
-                                  std::span<const LeafEdge> edges, const Point& center) {
+                                  std::span<const LeafEdge> own_edges, std::span<const LeafEdge> edges,
+                                  const Point& center) {
   const std::span<const Point> own = points.subspan(first, size);
   const Basis basis(flattest_direction(own));
   std::array<HalfplanePolygon, kLeafCapacity> polygons;
+  for (const LeafEdge& edge : own_edges) {
+    const Halfplane halfplane = halfplane_of(own[edge.neighbor] - own[edge.lane], basis);
+    const double edge_length = std::sqrt(2 * halfplane.offset);
+    polygons[edge.lane].add(halfplane, edge_length);
+    polygons[edge.neighbor].add(opposite(halfplane), edge_length);
+  }
   for (const LeafEdge& edge : edges) {
-    // mutant: edges-of-next-lane
-    polygons[edge.lane].add(halfplane_of(points[edge.neighbor] - own[edge.lane], basis));
+    const Halfplane halfplane = halfplane_of(points[edge.neighbor] - own[edge.lane], basis);
+    polygons[edge.lane].add(halfplane, std::sqrt(2 * halfplane.offset));  // mutant: edges-of-next-lane
   }
   double width = 0;
   double slope = 0;
@@ -118,7 +130,7 @@ MinimumRegion leaf_minimum_region(std::span<const Point> points, std::size_t fir
     };
     const PolygonExtent rough = polygons[i].rough_extent();
     if (offset(rough) <= width && rough.slope <= slope) continue;
-    const PolygonExtent extent = polygons[i].extent();
+    const PolygonExtent extent = polygons[i].extent(rough);
     width = std::max(width, offset(extent));
     slope = std::max(slope, extent.slope);  // mutant: region-never-opens
   }

@@ -25,20 +25,22 @@ struct MinimumRegion {
 
 inline constexpr MinimumRegion kUnboundedRegion{{0, 0, 0}, std::numeric_limits<double>::infinity()};
 
-/// An edge from a vertex of a leaf to any vertex of the mesh.
+/// An edge from a vertex of a leaf.
 struct LeafEdge {
   std::uint32_t lane;
-  std::uint32_t neighbor;  // in `points` below
+  std::uint32_t neighbor;  // in `points` below; or another lane
 };
 
 /// A region of the vertices `first .. first + size - 1`, 1 to 32 of them.
 ///
-/// points  at least these vertices and their neighbors, in the frame
-/// edges   all edges of these vertices, in any order
-/// center  the center of the leaf's bounding sphere
+/// points     at least these vertices and their neighbors, in the frame
+/// own_edges  the edges between two of these vertices, by their lanes, each once
+/// edges      their other edges, by lane and place in `points`. All edges may be given in this way, in both directions
+/// center     the center of the leaf's bounding sphere
 /// O(edges log(valence)).
 [[nodiscard]] MinimumRegion leaf_minimum_region(std::span<const Point> points, std::size_t first, std::size_t size,
-                                                std::span<const LeafEdge> edges, const Point& center);
+                                                std::span<const LeafEdge> own_edges, std::span<const LeafEdge> edges,
+                                                const Point& center);
 
 /// A region, relative to `center`, that contains the regions of `children`, which are relative to `centers`.
 [[nodiscard]] MinimumRegion enclosing_minimum_region(std::span<const MinimumRegion> children,
