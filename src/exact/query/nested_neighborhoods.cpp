@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "exact/query/nested_neighborhoods.h"
 
-#include <utility>
-
 #include "exact/search/output.h"
 
 namespace meshhood {
 
 NestedNeighborhoods::NestedNeighborhoods(const std::shared_ptr<const IndexView>& index, Isa isa)
-    : index_(index.get()), search_(index, isa), known_(index->leaf_count()), ring_(*index) {
+    : index_(index.get()), search_(index, isa), found_(index->leaf_count()), ring_(*index) {
   leaf_before_.reserve(index->vertex_count() / kLeafCapacity + 1);
   LeafId leaf = 0;
   for (std::size_t first = 0; first < index->vertex_count(); first += kLeafCapacity) {
@@ -44,44 +42,37 @@ void NestedNeighborhoods::run(VertexId v, std::span<const double> radii, std::ve
 /// The vertices of the answer that no ring has yet.
 void NestedNeighborhoods::find_ring() {
   ring_.clear();
-  for (const VertexRange& run : search_.answer.runs()) add_run(run);
-  for (const LeafSubset& subset : search_.answer.subsets()) add(subset);
-}
-
-/// Adds whole leaves. Those that are known are mostly a run of an answer before, and skipped together.
-void NestedNeighborhoods::add_run(const VertexRange& run) {
-  const LeafId first = leaf_at(run.begin);
-  LeafId leaf = first;
-  while (index_->leaf_begin[leaf] < run.end) {
-    if (known_[leaf].found != kAll) add_whole(leaf);
-    leaf = known_[leaf].next;
+  for (const VertexRange& run : search_.answer.runs()) {
+    for (LeafId leaf = leaf_at(run.begin); index_->leaf_begin[leaf] < run.end; ++leaf) {
+      if (found_[leaf] != kAll) add_whole(leaf);
+    }
   }
-  known_[first].next = leaf;
+  for (const LeafSubset& subset : search_.answer.subsets()) add(subset);
 }
 
 void NestedNeighborhoods::add_whole(LeafId leaf) {
   const VertexRange vertices{index_->leaf_begin[leaf], index_->leaf_begin[leaf + 1]};
-  const LaneMask found = std::exchange(known_[leaf], {kAll, leaf + 1}).found;
-  if (found == 0) {
+  if (found_[leaf] == 0) {
     leaves_.push_back(leaf);
     ring_.add(vertices);
   } else {
-    ring_.add(LeafSubset{leaf, first_lanes(vertices.end - vertices.begin) & ~found});
+    ring_.add(LeafSubset{leaf, first_lanes(vertices.end - vertices.begin) & ~found_[leaf]});
   }
+  found_[leaf] = kAll;
 }
 
 void NestedNeighborhoods::add(const LeafSubset& subset) {
-  Known& known = known_[subset.leaf];
-  const LaneMask added = subset.lanes & ~known.found;  // mutant: nested-rings-overlap
+  LaneMask& found = found_[subset.leaf];
+  const LaneMask added = subset.lanes & ~found;  // mutant: nested-rings-overlap
   if (added == 0) return;
-  if (known.found == 0) leaves_.push_back(subset.leaf);
-  known = {known.found | added, subset.leaf + 1};
+  if (found == 0) leaves_.push_back(subset.leaf);
+  found |= added;
   ring_.add(LeafSubset{subset.leaf, added});
 }
 
 /// At the beginning, so that a run that throws leaves nothing behind.
 void NestedNeighborhoods::forget() {
-  for (const LeafId leaf : leaves_) known_[leaf] = {};  // mutant: rings-of-last-run-kept
+  for (const LeafId leaf : leaves_) found_[leaf] = 0;  // mutant: rings-of-last-run-kept
   leaves_.clear();
 }
 

@@ -25,24 +25,17 @@ class NestedNeighborhoods {
  private:
   [[nodiscard]] LeafId leaf_at(VertexId first) const;
   void find_ring();
-  void add_run(const VertexRange& run);
   void add_whole(LeafId leaf);
   void add(const LeafSubset& subset);
   void forget();
 
   static constexpr LaneMask kAll = ~LaneMask{0};
 
-  /// What the rings so far have of a leaf.
-  struct Known {
-    LaneMask found = 0;  // kAll if all vertices
-    LeafId next = 0;     // they have all vertices of the leaves after this one and before `next`
-  };
-
   const IndexView* index_;
   SearcherAccess::State search_;
   std::vector<LeafId> leaf_before_;  // by 32 vertices in index order: the last leaf that begins before them
-  std::vector<Known> known_;         // by leaf
-  std::vector<LeafId> leaves_;       // of which something is known
+  std::vector<LaneMask> found_;      // by leaf: the vertices of the rings so far; kAll for all of its vertices
+  std::vector<LeafId> leaves_;       // that have some
   VertexSet ring_;
 };
 

@@ -32,7 +32,11 @@ struct RegionSearcher::State {
   std::unique_ptr<NestedNeighborhoods> nested_neighborhoods;  // made when first needed
 
   State(std::shared_ptr<const IndexView> view, Isa chosen)
-      : index(std::move(view)), isa(chosen), kernels(&meshhood::kernels(isa)), flood(*index, *kernels), answer(*index) {}
+      : index(std::move(view)),
+        isa(chosen),
+        kernels(&meshhood::kernels(isa)),
+        flood(*index, *kernels),
+        answer(*index) {}
 
   /// Throws unless the arguments of a query are valid. `where` begins the messages.
   void check(const Start& start, std::string_view where = {}) const;
