@@ -13,10 +13,13 @@
 
 #include "meshhood/reference.h"
 
+#include "exact/build/connected_parts.h"
+#include "exact/build/dissolve_parts.h"
 #include "exact/index_access.h"
 #include "exact/node_search.h"
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/random.h"
 
 namespace meshhood::test {
 namespace {
@@ -114,6 +117,63 @@ TEST(Forest, AroundAHubStopsWhereGroupingNoLongerHelps) {
   const Forest forest = make_forest(star);
   EXPECT_EQ(forest.levels.size(), 2U);
   EXPECT_EQ(forest.parents, std::vector<NodeId>(125, kNoNode));
+}
+
+/// Parallel sheets of `side` by `side` leaves, linked with their neighbors in the same sheet. The leaves are moved at
+/// random, across the sheets as far as these are apart.
+NodeGraph sheets_of(std::size_t sheets, std::size_t side) {
+  NodeGraph graph;
+  Random random(sheets);
+  graph.offsets.push_back(0);
+  for (std::size_t leaf = 0; leaf < sheets * side * side; ++leaf) {
+    const std::size_t x = leaf % side;
+    const std::size_t y = leaf / side % side;
+    const double z = static_cast<double>(sheets - 1) * random.uniform();
+    graph.balls.push_back(
+        {{static_cast<double>(x) + random.uniform(), static_cast<double>(y) + random.uniform(), z}, 1});
+    if (y > 0) graph.neighbors.push_back(static_cast<std::uint32_t>(leaf - side));
+    if (x > 0) graph.neighbors.push_back(static_cast<std::uint32_t>(leaf - 1));
+    if (x + 1 < side) graph.neighbors.push_back(static_cast<std::uint32_t>(leaf + 1));
+    if (y + 1 < side) graph.neighbors.push_back(static_cast<std::uint32_t>(leaf + side));
+    graph.offsets.push_back(static_cast<std::uint32_t>(graph.neighbors.size()));
+  }
+  return graph;
+}
+
+/// The connected parts from which `make_forest` makes the groups of the leaves, which are all linked.
+NodeParts parts_of(const NodeGraph& graph) {
+  std::vector<KdPoint> order;
+  for (std::uint32_t leaf = 0; leaf < graph.size(); ++leaf) {
+    const Point& p = graph.balls[leaf].center;
+    order.push_back({{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}, leaf});
+  }
+  kd_order(order, kFanOut);
+  for (std::size_t begin = 0; begin < order.size(); begin += kFanOut) {
+    const auto cell = std::span(order).subspan(begin, std::min<std::size_t>(kFanOut, order.size() - begin));
+    std::sort(cell.begin(), cell.end(), [](const KdPoint& a, const KdPoint& b) { return a.id < b.id; });
+  }
+  return connected_parts(graph, order);
+}
+
+TEST(Forest, DissolvesSmallGroupsWhereManyPlacesWouldStayEmpty) {
+  const NodeGraph graph = sheets_of(2, 40);
+  NodeParts parts = parts_of(graph);
+  const std::size_t before = parts.groups().size();
+  EXPECT_LT(parts.fill(), 0.85);
+  dissolve_small_parts(parts);
+  EXPECT_GT(parts.fill(), 0.85);
+  EXPECT_LT(parts.groups().size(), before);
+  EXPECT_EQ(make_forest(graph).levels[1], parts.groups().size());
+}
+
+TEST(Forest, KeepsSmallGroupsWhereFewPlacesStayEmpty) {
+  const NodeGraph graph = sheets_of(1, 40);
+  NodeParts parts = parts_of(graph);
+  const std::size_t kept = parts.groups().size();
+  EXPECT_GE(parts.fill(), 0.85);
+  EXPECT_EQ(make_forest(graph).levels[1], kept);
+  dissolve_small_parts(parts);
+  EXPECT_LT(parts.groups().size(), kept);
 }
 
 TEST(Forest, OfNoLeafHasNoLevel) {

@@ -173,16 +173,22 @@ TEST(Rare, SheetsThatMeetAtOneSideAreConnectedOnlyInALargeBall) {
   query_everywhere(exact, mesh.size(), {1, 3, 7, 12, 15, 18, 25, 39, 41, 60});
 }
 
-TEST(Rare, BallThroughManySheetsIsSearchedByLeaves) {
-  // Sixty sheets. After the first query, the memory of the searcher prefers the breadth-first search.
-  TestMesh mesh = make_grid(24, 24, false);
-  for (int sheet = 1; sheet < 60; ++sheet) {
-    TestMesh next = make_grid(24, 24, false);
-    for (std::size_t i = 2; i < next.positions.size(); i += 3) next.positions[i] = 0.5 * sheet;
-    append(mesh, next);
+TEST(Rare, BallThroughManyFoldsIsSearchedByLeaves) {
+  // An accordion of sixty walls. After four balls, the memory of a searcher prefers the breadth-first search. A query
+  // searches three balls.
+  constexpr std::uint32_t kSide = 24;
+  TestMesh mesh = make_grid(60 * kSide, kSide, false);
+  for (std::uint32_t v = 0; v < mesh.size(); ++v) {
+    const std::uint32_t row = v / kSide % kSide;
+    const std::uint32_t wall = v / kSide / kSide;
+    mesh.positions[3 * v + 1] = wall % 2 == 0 ? row : kSide - 1 - row;
+    mesh.positions[3 * v + 2] = 0.5 * wall;
   }
+  mesh.finish(true);
   ExactAnswer exact(mesh.view());
-  exact.query(30 * 24 * 24 + 12 * 24 + 12, 11);
+  for (std::size_t i = 0; i < 2 * exact.searchers().size(); ++i) {
+    exact.query(30 * kSide * kSide + kSide / 2 * kSide + kSide / 2, 11);
+  }
   EXPECT_FALSE(last_was_outward(exact));
   query_everywhere(exact, mesh.size(), {0.5, 1, 3, 8, 11, 16, 30, kInfinity});
 }

@@ -95,5 +95,45 @@ TEST(SearchTraps, PiecesThatTouchNodesOfAnotherComponentAreRemoved) {
   std::printf("%zu surface leaves removed\n", removed);
 }
 
+/// A flat strip of `width` by `length` vertices, and another one beside it, joined at one end: like a hairpin.
+TestMesh make_hairpin(std::uint32_t width, std::uint32_t gap, std::uint32_t length) {
+  TestMesh mesh = make_grid(2 * width + gap, length, false);
+  const auto is_there = [&](std::uint32_t v) {
+    const std::uint32_t x = v % (2 * width + gap);
+    return x < width || x >= width + gap || v / (2 * width + gap) >= length - width;
+  };
+  TestMesh hairpin;
+  std::vector<std::uint32_t> ids(mesh.size());
+  for (std::uint32_t v = 0; v < mesh.size(); ++v) {
+    if (is_there(v)) ids[v] = hairpin.add_vertex(mesh.positions[3 * v], mesh.positions[3 * v + 1], 0);
+  }
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    if (!std::all_of(face.begin(), face.end(), is_there)) continue;
+    hairpin.add_face({ids[face[0]], ids[face[1]], ids[face[2]]});
+  }
+  return hairpin.finish(true);
+}
+
+// A small node beside a large one marks it if it leads home and is linked with it. Another node of the group of the
+// large one, across the bend of the hairpin, is no reason: the bend lies at the surface of the ball.
+TEST(SearchTraps, ASmallNodeMarksOnlyTheLargeNodeBesideIt) {
+  const TestMesh mesh = make_hairpin(16, 3, 88);
+  const Oracle oracle(mesh);
+  const Index index = build(mesh.view());
+  Searcher searcher(index);
+  std::size_t with_others = 0;
+  for (std::uint32_t v = 0; v < mesh.size(); v += 20) {
+    for (const double radius : {30.0, 40.0, 50.0, 60.0}) {
+      std::vector<VertexId> ids;
+      searcher.neighborhood(v, radius, ids);
+      ASSERT_EQ(sorted(std::move(ids)), oracle.exact(v, radius)) << "vertex " << v << ", radius " << radius;
+      with_others += static_cast<std::size_t>(!SearcherAccess::state(searcher).other_components.found().empty());
+    }
+  }
+  EXPECT_GT(with_others, 50U);
+  std::printf("%zu queries with other components\n", with_others);
+}
+
 }  // namespace
 }  // namespace meshhood::test

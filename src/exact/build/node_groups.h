@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/distance.h"
-#include "exact/build/kd_order.h"
 
 namespace meshhood {
 
@@ -46,11 +45,11 @@ class NodeGroups {
   std::vector<std::uint32_t> nodes_;
 };
 
-/// Groups of up to eight nodes that lie close together and are connected by links between them. `order` are the nodes
-/// that have links, in a kd order of eight. O(links).
-[[nodiscard]] NodeGroups connected_groups(const NodeGraph& graph, std::span<const KdPoint> order);
+/// The sphere around the mean of the centers of `a` and `b` that holds the spheres of all these nodes.
+[[nodiscard]] NodeBall ball_of(const NodeGraph& graph, std::span<const std::uint32_t> a,
+                               std::span<const std::uint32_t> b = {});
 
-/// Each group becomes a node. Nodes that are in no group have no links.
+/// The level above: each group becomes a node. Nodes that are in no group have no links.
 [[nodiscard]] NodeGraph contract(const NodeGraph& graph, const NodeGroups& groups);
 
 }  // namespace meshhood

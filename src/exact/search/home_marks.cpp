@@ -86,6 +86,7 @@ bool HomeMarks::smaller_leads_home_below(NodeId node, const Patch& patch, GroupS
   bool is_home = false;
   for (const NodeLink& link : index_->node_links_of(index_->records[below])) {
     const NodeId whole = states.whole_node(link.node());
+    // mutant: neighbor-of-any-node-asked
     if (whole == kNoNode || whole / kFanOut != patch.group || (patch.nodes & node_at(whole % kFanOut)) == 0) continue;
     for_each_node(link.mine & state.whole,
                   [&](unsigned i) { is_home = is_home || leads_home(below * kFanOut + i, states); });

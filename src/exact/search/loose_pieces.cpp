@@ -16,11 +16,11 @@ void LoosePieces::find(const Query& query, std::span<const std::uint32_t> groups
   minima_.clear();
   leaf_count_ = 0;
   gather_surface_leaves(surface_leaves, states);
-  surface_count_ = leaves_.size();
+  const std::size_t surface = leaves_.size();
   cut_from(0, query, marks, states);
   // Most whole nodes in doubt are marked now.
   gather_whole(groups, query.tree_ball, marks, states);
-  cut_from(surface_count_, query, marks, states);
+  cut_from(surface, query, marks, states);
   std::sort(minima_.begin(), minima_.end(), [](const LocalMinimum& a, const LocalMinimum& b) {
     return std::tie(a.square, a.leaf, a.lane) < std::tie(b.square, b.leaf, b.lane);  // mutant: farthest-minimum-first
   });

@@ -34,9 +34,8 @@ class LoosePieces {
   void find(const Query& query, std::span<const std::uint32_t> groups, std::span<const LeafSubset> surface_leaves,
             HomeMarks& marks, GroupStates& states);
 
-  /// The number of leaves in doubt that were cut, and of surface leaves among them.
+  /// The number of leaves in doubt that were cut.
   [[nodiscard]] std::size_t leaf_count() const { return leaf_count_; }
-  [[nodiscard]] std::size_t surface_count() const { return surface_count_; }
 
   /// Ascending by distance.
   [[nodiscard]] std::span<const LocalMinimum> minima() const { return minima_; }
@@ -53,7 +52,6 @@ class LoosePieces {
   const IndexView* index_;
   const Kernels* kernels_;
   std::vector<LeafSubset> leaves_;  // in doubt; first the surface leaves
-  std::size_t surface_count_ = 0;
   std::size_t leaf_count_ = 0;
   std::vector<LocalMinimum> minima_;
 };

@@ -34,12 +34,6 @@ struct SearchLimits {
     return enabled && (is_tiny || index.links_of(home).empty());
   }
 
-  /// Whether the ball is so small that the breadth-first search is faster on a folded mesh. Chosen.
-  [[nodiscard]] bool is_small_if_folded(const Query& query, const IndexView& index) const {
-    constexpr double kMeanLeafRadii = 4.4;
-    return enabled && query.radius_in_frame < kMeanLeafRadii * index.tree[0].mean_radius;
-  }
-
   /// The most nodes of a level that may intersect the surface of the ball: more than one sheet of mesh has.
   ///
   /// On a plane, nodes that are squares with a half diagonal of m have an area of 2 m^2. The nodes that intersect have
@@ -59,7 +53,15 @@ struct SearchLimits {
   }
 };
 
-/// Statistics of recent searches, to choose between the outward search and the breadth-first search.
+/// What an outward search did.
+struct SearchRecord {
+  std::size_t surface_leaves;
+  std::size_t answer_leaves;  // as many as the vertices of the answer would fill
+  std::size_t steps;          // of the search for other components: leaves in doubt, and visits of leaves
+};
+
+/// Means over recent searches, to choose between the ways to search. Means of counts, not of their ratios, because what
+/// matters is the time of all searches together.
 class SearchMemory {
  public:
   /// Forgets all earlier queries, so that the order of the next answer does not depend on them.
@@ -76,85 +78,73 @@ class SearchMemory {
     tried_radius_ = radius;
   }
 
-  /// Whether the mesh was folded: many leaves at the surface of the balls were in doubt.
-  [[nodiscard]] bool is_folded() const {
-    // Chosen: the share is 0.1 on the dragon, 0.15 on bodies, and 0.35 to 0.45 on brains.
-    constexpr double kFolded = 0.3;
-    return share_in_doubt_ > kFolded && !is_retry_;
-  }
-
   /// Whether the search for other components took longer than uniting all that was reached would take.
   [[nodiscard]] bool is_torn() const {
     // Chosen: uniting takes about as long as one step for each surface leaf. A little more, because a few expensive
     // balls do not mean that the next is expensive.
-    constexpr double kTorn = 1.3;
-    return steps_per_surface_leaf_ > kTorn && !is_retry_;
+    constexpr double kStepsToUnite = 1.3;
+    return is_experienced() && steps_ > kStepsToUnite * surface_leaves_;
   }
 
-  /// Whether the answers had fewer leaves than the search for other components took steps. The breadth-first search,
-  /// which visits only the leaves of the answer, is then faster.
+  /// Whether the breadth-first search over leaves, which visits only the leaves of the answer, would take less time.
   [[nodiscard]] bool is_answer_small() const {
-    return answer_per_surface_leaf_ < steps_per_surface_leaf_ && !is_retry_;
+    // Chosen: the steps that a leaf of the answer takes there, and those that a surface leaf takes here besides.
+    constexpr double kStepsToVisit = 1.5;
+    constexpr double kStepsToReach = 0.5;
+    return is_experienced() && steps_ + kStepsToReach * surface_leaves_ > kStepsToVisit * answer_leaves_;
   }
 
-  /// Whether most answers in few leaves were the query vertex alone.
-  [[nodiscard]] bool was_alone() const { return alone_ > kAlways / 2; }
-
-  /// After an answer in few leaves.
-  void record_alone(bool is_alone) { remember(alone_, is_alone); }
+  /// After an outward search that has searched for other components.
+  void record(const SearchRecord& search) {
+    ++searches_;
+    approach(surface_leaves_, search.surface_leaves);
+    approach(answer_leaves_, search.answer_leaves);
+    approach(steps_, search.steps);
+    // The more steps were in vain, the fewer balls are tried again: together, they take about as long as a quarter of
+    // the breadth-first searches between them.
+    const std::size_t steps_per_leaf = search.steps / std::max<std::size_t>(search.answer_leaves, 1);
+    retry_interval_ = std::clamp(4 * steps_per_leaf, kShortestInterval, kLongestInterval);
+  }
 
   /// Whether beginning with large nodes was mostly useless: they reached more than a single sheet.
   [[nodiscard]] bool should_start_small() const {
-    constexpr int kMostFailures = kAlways * 7 / 10;  // chosen
+    constexpr double kMostFailures = 0.7;  // chosen
     return large_start_failures_ > kMostFailures && !is_retry_;
   }
 
   /// After an outward search that began with large nodes.
-  void record_large_start(bool is_single_sheet) { remember(large_start_failures_, !is_single_sheet); }
+  void record_large_start(bool is_single_sheet) { approach(large_start_failures_, is_single_sheet ? 0 : 1); }
 
-  /// After an outward search: `in_doubt` of its `surface` leaves were in doubt, and the search for other components
-  /// took `steps`: leaves in doubt, and visits of leaves.
-  void record(std::size_t in_doubt, std::size_t surface, std::size_t steps) {
-    constexpr double kMemory = 8;  // balls; chosen
-    balls_ = std::min(balls_ + 1, kMemory);
-    steps_ = steps;
-    approach(share_in_doubt_, in_doubt, surface);
-    approach(steps_per_surface_leaf_, steps, surface);
-  }
+  /// Whether most answers in few leaves were the query vertex alone.
+  [[nodiscard]] bool was_alone() const { return alone_ > 0.5; }
 
-  /// After an outward search whose answer fills `leaves` leaves.
-  void record_answer(std::size_t leaves, std::size_t surface) {
-    approach(answer_per_surface_leaf_, leaves, surface);
-    // The more steps were in vain, the fewer balls are tried again: together, they take about as long as a quarter of
-    // the breadth-first searches between them.
-    const std::size_t steps_per_leaf = steps_ / std::max<std::size_t>(leaves, 1);
-    retry_interval_ = std::clamp(4 * steps_per_leaf, kShortestInterval, kLongestInterval);
-  }
+  /// After an answer in few leaves.
+  void record_alone(bool is_alone) { approach(alone_, is_alone ? 1 : 0); }
 
  private:
-  void approach(double& share, std::size_t part, std::size_t all) const {
-    constexpr double kLeast = 1e-6;  // otherwise a share of nothing would decay until it is denormal, which is slow
-    const double now = static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1));
-    share = std::max(share + (now - share) / balls_, kLeast);
-  }
-
-  static constexpr int kAlways = 256;
   static constexpr std::size_t kShortestInterval = 16;  // balls; chosen
   static constexpr std::size_t kLongestInterval = 512;  // chosen
 
-  static void remember(int& share, bool is_so) {
-    constexpr int kAnswers = 8;  // chosen
-    share += ((is_so ? kAlways : 0) - share) / kAnswers;
+  /// Whether enough balls have been searched. A single one may be unlike all others.
+  [[nodiscard]] bool is_experienced() const {
+    constexpr std::size_t kFewest = 4;  // chosen
+    return searches_ >= kFewest && !is_retry_;
   }
 
-  double balls_ = 0;
-  double share_in_doubt_ = 0;
-  double steps_per_surface_leaf_ = 0;
-  double answer_per_surface_leaf_ = 0;
-  // Shares of answers, of `kAlways`.
-  int alone_ = 0;  // that were one vertex
-  int large_start_failures_ = 0;
-  std::size_t steps_ = 0;  // of the last search
+  /// Moves a mean towards a value.
+  static void approach(double& mean, std::size_t value) {
+    constexpr double kSearches = 8;  // chosen
+    constexpr double kLeast = 1e-9;  // becomes zero: denormal numbers are slow
+    mean += (static_cast<double>(value) - mean) / kSearches;
+    if (mean < kLeast) mean = 0;
+  }
+
+  std::size_t searches_ = 0;
+  double surface_leaves_ = 0;
+  double answer_leaves_ = 0;
+  double steps_ = 0;
+  double large_start_failures_ = 0;  // their share
+  double alone_ = 0;                 // the share of answers in few leaves that were one vertex
   std::size_t retry_interval_ = kShortestInterval;
   std::size_t balls_since_retry_ = 0;
   double tried_radius_ = 0;

@@ -37,7 +37,7 @@ Point Searcher::State::search(VertexId v, double radius) {
   const Query query(*index, v, bounds);
   const bool is_small = limits.is_small(bounds.radius_in_frame, *index);
   // A leaf that is not connected has no links, so the answer is a part of it.
-  was_outward = !is_small && index->leaves[home].connected && !is_flood_faster(query);
+  was_outward = !is_small && index->leaves[home].connected && !is_answer_small(query);
   if (was_outward) {
     search_outward(query);
   } else {
@@ -61,22 +61,22 @@ bool Searcher::State::search_few_leaves(std::uint32_t slot, const Point& center)
   return true;
 }
 
-/// Whether recent queries suggest it.
-bool Searcher::State::is_flood_faster(const Query& query) {
+/// Whether the answer probably has few leaves, as in recent balls where other components had many.
+bool Searcher::State::is_answer_small(const Query& query) {
   memory.begin_ball(query.radius);
-  return (limits.is_small_if_folded(query, *index) && memory.is_folded()) ||
-         (limits.enabled && memory.is_answer_small());
+  return limits.enabled && memory.is_answer_small();
 }
 
 void Searcher::State::search_outward(const Query& query) {
   reach(query);
   find_surface_leaves(query);
-  was_united = (limits.enabled && memory.is_torn()) || !remove_other_components(query);
+  const bool is_torn = limits.enabled && memory.is_torn();
+  was_united = is_torn || !remove_other_components(query);
   if (was_united) {
     answer.clear();  // mutant: failed-search-leaves-answer
     reached_components.find(query, descent.groups(), surface_leaves, states, answer);
   }
-  memory.record_answer(answer.count() / kLeafCapacity, descent.surface_leaves().size());
+  if (!is_torn) record_search();
 }
 
 /// Adds what was reached to the answer, without the other components. Returns false if uniting all that was reached is
@@ -85,14 +85,17 @@ bool Searcher::State::remove_other_components(const Query& query) {
   mark_home(query);
   add_reached();
   loose.find(query, descent.groups(), surface_leaves, marks, states);
+  const std::size_t most_visited = limits.most_visited(descent.surface_leaves().size());
+  if (!other_components.find(query, loose.minima(), marks, states, most_visited, traversal)) return false;
+  answer.subtract(other_components.found());
+  return true;
+}
+
+void Searcher::State::record_search() {
   const std::size_t surface = descent.surface_leaves().size();
-  const std::size_t most_visited = limits.most_visited(surface);
-  const bool is_done = other_components.find(query, loose.minima(), marks, states, most_visited, traversal);
   std::size_t steps = loose.leaf_count() + other_components.visited();
-  if (!is_done) steps += surface;  // the cost of uniting is added
-  memory.record(loose.surface_count(), surface, steps);
-  if (is_done) answer.subtract(other_components.found());
-  return is_done;
+  if (was_united) steps += surface;  // the cost of uniting is added
+  memory.record({surface, answer.count() / kLeafCapacity, steps});
 }
 
 /// Finds the nodes in the ball that may be connected with the query vertex. Begins with large nodes, which are few.
@@ -100,8 +103,8 @@ bool Searcher::State::remove_other_components(const Query& query) {
 /// that scale.
 void Searcher::State::reach(const Query& query) {
   // How many mean radii of nodes the radius of the ball has at most.
-  constexpr double kSmallNodes = 10;  // the paper's f
-  constexpr double kLargeNodes = 1.5;
+  constexpr double kSmallNodes = 10;   // the paper's f
+  constexpr double kLargeNodes = 2.5;  // chosen: larger ones hide which parts are connected within the ball
   const Home small = home_of(query, kSmallNodes);
   const Home large = home_of(query, kLargeNodes);
   if (large.level > small.level && !memory.should_start_small()) {

@@ -83,9 +83,10 @@ struct Searcher::State {
   };
 
   [[nodiscard]] bool search_few_leaves(std::uint32_t slot, const Point& center);
-  [[nodiscard]] bool is_flood_faster(const Query& query);
+  [[nodiscard]] bool is_answer_small(const Query& query);
   void search_outward(const Query& query);
   bool remove_other_components(const Query& query);
+  void record_search();
   void reach(const Query& query);
   [[nodiscard]] Home home_of(const Query& query, double ratio) const;
   bool reach_from(const Home& home, const Query& query, std::size_t limited_above);

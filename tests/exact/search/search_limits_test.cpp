@@ -9,13 +9,14 @@
 namespace meshhood::test {
 namespace {
 
-/// Outward searches whose balls have a hundred surface leaves.
-SearchMemory memory_of(std::size_t in_doubt, std::size_t steps, std::size_t answer) {
+constexpr std::size_t kSurface = 100;
+
+/// After outward searches with a hundred surface leaves each.
+SearchMemory memory_of(std::size_t answer, std::size_t steps) {
   SearchMemory memory;
   for (int i = 0; i < 20; ++i) {
     memory.begin_ball(1);
-    memory.record(in_doubt, 100, steps);
-    memory.record_answer(answer, 100);
+    memory.record({kSurface, answer, steps});
   }
   memory.begin_ball(1);
   return memory;
@@ -24,26 +25,39 @@ SearchMemory memory_of(std::size_t in_doubt, std::size_t steps, std::size_t answ
 TEST(SearchMemory, HasNoPreferenceBeforeTheFirstSearch) {
   SearchMemory memory;
   memory.begin_ball(1);
-  EXPECT_FALSE(memory.is_folded());
   EXPECT_FALSE(memory.is_torn());
   EXPECT_FALSE(memory.is_answer_small());
 }
 
-TEST(SearchMemory, RecognizesAFoldedMeshByTheLeavesInDoubt) {
-  EXPECT_FALSE(memory_of(20, 20, 500).is_folded());
-  EXPECT_TRUE(memory_of(60, 60, 500).is_folded());
+TEST(SearchMemory, HasNoPreferenceAfterASingleSearch) {
+  SearchMemory memory;
+  memory.begin_ball(1);
+  memory.record({kSurface, 1, 500});
+  EXPECT_FALSE(memory.is_torn());
+  EXPECT_FALSE(memory.is_answer_small());
 }
 
 TEST(SearchMemory, ComparesTheStepsWithUnitingAndWithTheAnswer) {
-  const SearchMemory smooth = memory_of(5, 5, 75);
+  const SearchMemory smooth = memory_of(75, 5);
   EXPECT_FALSE(smooth.is_torn());
   EXPECT_FALSE(smooth.is_answer_small());
-  const SearchMemory small_answer = memory_of(60, 100, 30);
+  const SearchMemory small_answer = memory_of(30, 100);
   EXPECT_FALSE(small_answer.is_torn());
   EXPECT_TRUE(small_answer.is_answer_small());
-  const SearchMemory torn = memory_of(60, 200, 900);
+  const SearchMemory torn = memory_of(900, 200);
   EXPECT_TRUE(torn.is_torn());
   EXPECT_FALSE(torn.is_answer_small());
+}
+
+TEST(SearchMemory, AddsUpAnswersOfAllSizes) {
+  // In most balls, the steps outnumber the leaves of the answer; in all balls together, they do not.
+  SearchMemory memory;
+  for (int i = 0; i < 21; ++i) {
+    memory.begin_ball(1);
+    memory.record({kSurface, i % 4 == 0 ? 1000U : 10U, 50});
+  }
+  memory.begin_ball(1);
+  EXPECT_FALSE(memory.is_answer_small());
 }
 
 TEST(SearchMemory, LeavesOutALargeStartThatFailedInMostRecentBalls) {
@@ -57,13 +71,12 @@ TEST(SearchMemory, LeavesOutALargeStartThatFailedInMostRecentBalls) {
 }
 
 TEST(SearchMemory, IsIgnoredForOneBallInSixteen) {
-  SearchMemory memory = memory_of(60, 200, 60);
+  SearchMemory memory = memory_of(60, 200);
   std::size_t answered_no = 0;
   for (int i = 0; i < 160; ++i) {
     memory.begin_ball(1);
-    EXPECT_EQ(memory.is_folded(), memory.is_torn());
-    EXPECT_EQ(memory.is_folded(), memory.is_answer_small());
-    answered_no += static_cast<std::size_t>(!memory.is_folded());
+    EXPECT_EQ(memory.is_torn(), memory.is_answer_small());
+    answered_no += static_cast<std::size_t>(!memory.is_torn());
   }
   EXPECT_EQ(answered_no, 10U);
   memory.clear();
@@ -72,7 +85,7 @@ TEST(SearchMemory, IsIgnoredForOneBallInSixteen) {
 }
 
 TEST(SearchMemory, IsIgnoredTheLessOftenTheMoreStepsWereInVain) {
-  SearchMemory memory = memory_of(60, 2000, 10);  // 200 steps for each leaf of the answer
+  SearchMemory memory = memory_of(10, 2000);  // 200 steps for each leaf of the answer
   std::size_t answered_no = 0;
   for (int i = 0; i < 1024; ++i) {
     memory.begin_ball(1);
@@ -88,11 +101,10 @@ TEST(SearchMemory, IsIgnoredTheLessOftenTheMoreStepsWereInVain) {
 }
 
 TEST(SearchMemory, DoesNotDecayToDenormalNumbers) {
-  SearchMemory memory = memory_of(60, 200, 30);
+  SearchMemory memory = memory_of(30, 200);
   std::feclearexcept(FE_ALL_EXCEPT);
   for (int i = 0; i < 10'000; ++i) {
-    memory.record(0, 100, 0);
-    memory.record_answer(0, 100);
+    memory.record({kSurface, 0, 0});
   }
   EXPECT_EQ(std::fetestexcept(FE_UNDERFLOW), 0);
 }

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "exact/build/node_groups.h"
+#include "simd/node_group.h"
+
+namespace meshhood {
+
+/// The nodes of one level that have links, divided into connected parts of up to eight, while groups are made of them.
+class NodeParts {
+ public:
+  static constexpr std::uint32_t kNoPart = std::numeric_limits<std::uint32_t>::max();
+
+  explicit NodeParts(const NodeGraph& graph) : graph_(&graph), part_of_(graph.size(), kNoPart) {}
+
+  /// Adds a part of `nodes`, which are in no part yet.
+  void add(std::span<const std::uint32_t> nodes);
+
+  /// Makes `node` the last node of `part`, which has room for it.
+  void move(std::uint32_t node, std::uint32_t part);
+
+  /// The number of parts, with those that have lost all their nodes.
+  [[nodiscard]] std::size_t size() const { return parts_.size(); }
+  [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t part) const { return parts_[part].nodes(); }
+  [[nodiscard]] std::uint32_t part_of(std::uint32_t node) const { return part_of_[node]; }
+
+  /// The part, other than their own, that is linked with one of `nodes`, has room for all of them, and then has the
+  /// smallest sphere; the first of those that tie. `kNoPart` if none has a sphere of at most the radius `limit`.
+  [[nodiscard]] std::uint32_t best_part_for(std::span<const std::uint32_t> nodes, double limit) const;
+
+  /// The mean radius of the parts of eight nodes; infinite if there is none.
+  [[nodiscard]] double mean_full_radius() const;
+
+  /// The share of the places for nodes that are taken.
+  [[nodiscard]] double fill() const;
+
+  /// The parts that have nodes.
+  [[nodiscard]] NodeGroups groups() const;
+
+ private:
+  class Part {
+   public:
+    void add(std::uint32_t node) { nodes_[size_++] = node; }
+    void remove(std::uint32_t node);
+    [[nodiscard]] std::span<const std::uint32_t> nodes() const { return std::span(nodes_).first(size_); }
+
+   private:
+    std::array<std::uint32_t, kFanOut> nodes_{};
+    std::size_t size_ = 0;
+  };
+
+  const NodeGraph* graph_;
+  std::vector<Part> parts_;
+  std::vector<std::uint32_t> part_of_;  // by node
+};
+
+}  // namespace meshhood
