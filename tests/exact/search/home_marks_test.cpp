@@ -125,6 +125,7 @@ TEST(HomeMarks, ReachAllWholeNodesInDoubtOfAFoldedSheet) {
     mesh.positions[i + 1] = 119 - mesh.positions[i + 1];
     mesh.positions[i + 2] = 2;
   }
+  mesh.finish(true);
   const Index index = build(mesh.view());
   Searcher searcher(index);
   const SearcherAccess::State& state = SearcherAccess::state(searcher);
