@@ -235,8 +235,8 @@ class NeighborLists {
     const __m512i lanes = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     Words32 left{_mm512_loadu_si512(adjacency), _mm512_loadu_si512(adjacency + 16)};
     while (_mm512_test_epi32_mask(_mm512_or_si512(left.low, left.high), _mm512_set1_epi32(-1)) != 0) {
-      lists_[size_++] = {take_last(left.low, lanes),
-                         take_last(left.high, _mm512_add_epi32(lanes, _mm512_set1_epi32(16)))};
+      lists_[size_++] = {take_first(left.low, lanes),
+                         take_first(left.high, _mm512_add_epi32(lanes, _mm512_set1_epi32(16)))};
     }
   }
 
@@ -251,12 +251,12 @@ class NeighborLists {
   }
 
  private:
-  /// Removes the last neighbor of each lane, and returns it.
-  MESHHOOD_AVX512 static __m512i take_last(__m512i& neighbors, __m512i lanes) {
+  /// Removes the first neighbor of each lane, and returns it. What is left does not wait for which it was.
+  MESHHOOD_AVX512 static __m512i take_first(__m512i& neighbors, __m512i lanes) {
     const __mmask16 has = _mm512_test_epi32_mask(neighbors, neighbors);
-    const __m512i last = _mm512_mask_sub_epi32(lanes, has, _mm512_set1_epi32(31), _mm512_lzcnt_epi32(neighbors));
-    neighbors = _mm512_andnot_si512(_mm512_sllv_epi32(_mm512_set1_epi32(1), last), neighbors);
-    return last;
+    const __m512i first = _mm512_and_si512(neighbors, _mm512_sub_epi32(_mm512_setzero_si512(), neighbors));
+    neighbors = _mm512_andnot_si512(first, neighbors);
+    return _mm512_mask_sub_epi32(lanes, has, _mm512_set1_epi32(31), _mm512_lzcnt_epi32(first));
   }
 
   Words32 lists_[kLeafCapacity];  // NOLINT(modernize-avoid-c-arrays): std::array drops the alignment
