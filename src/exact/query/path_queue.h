@@ -37,7 +37,7 @@ class PathQueue {
   template <class IsValid, class Prepare>
   bool pop(Path& path, IsValid&& is_valid, Prepare&& prepare) {
     do {
-      if (position(least_pushed_) < static_cast<double>(open_ + 1)) file_pushed();  // mutant: short-path-comes-late
+      if (position(least_pushed_) < static_cast<double>(open_ + 1)) file_pushed();
       if (sorted_.empty() && late_.empty() && !open_next_bucket(is_valid, prepare)) return false;
       path = take_first();
     } while (!is_valid(path));
