@@ -15,7 +15,8 @@ False)` of its wheel, and *ours* computes its numbers (`like="libigl"`, with the
 whole call; *goal* is what × was to reach. *Default* uses the correct shape operator, *jets* fits jets to all vertices
 of a neighborhood. MeshLab's filter is "Scale Dependent Quadric Fitting"; it is left out where it would take too long.
 CGAL's `Monge_via_jet_fitting` is timed on a sample, without a search. libigl has no list of vertices: where *rows* is
-less than the mesh has, all tools got the same piece of it, at whose rim the neighborhoods are smaller.
+less than the mesh has, all tools got the same piece of it, at whose rim the neighborhoods are smaller. A radius is left
+out where libigl would take too long even then.
 
 """
 
