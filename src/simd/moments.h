@@ -123,7 +123,7 @@ struct FacingTest {
 };
 
 /// Products of unit vectors in single precision, each of at most six roundings, are off by less than this.
-inline constexpr float kFacingMargin = 0x1p-20F;  // mutant: facing-in-single-precision
+inline constexpr float kFacingMargin = 0x1p-20F;
 
 /// The fits z = a x^2 + b x y + c y^2 + d x + e y of the queries of a packet.
 struct alignas(64) QueryQuadrics {
