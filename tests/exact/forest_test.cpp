@@ -141,7 +141,7 @@ NodeGraph sheets_of(std::size_t sheets, std::size_t side) {
 }
 
 /// The connected parts from which `make_forest` makes the groups of the leaves, which are all linked.
-NodeParts parts_of(const NodeGraph& graph) {
+NodeParts undissolved_parts_of(const NodeGraph& graph) {
   std::vector<KdPoint> order;
   for (std::uint32_t leaf = 0; leaf < graph.size(); ++leaf) {
     const Point& p = graph.balls[leaf].center;
@@ -157,7 +157,7 @@ NodeParts parts_of(const NodeGraph& graph) {
 
 TEST(Forest, DissolvesSmallGroupsWhereManyPlacesWouldStayEmpty) {
   const NodeGraph graph = sheets_of(2, 40);
-  NodeParts parts = parts_of(graph);
+  NodeParts parts = undissolved_parts_of(graph);
   const std::size_t before = parts.groups().size();
   EXPECT_LT(parts.fill(), 0.85);
   dissolve_small_parts(parts);
@@ -168,7 +168,7 @@ TEST(Forest, DissolvesSmallGroupsWhereManyPlacesWouldStayEmpty) {
 
 TEST(Forest, KeepsSmallGroupsWhereFewPlacesStayEmpty) {
   const NodeGraph graph = sheets_of(1, 40);
-  NodeParts parts = parts_of(graph);
+  NodeParts parts = undissolved_parts_of(graph);
   const std::size_t kept = parts.groups().size();
   EXPECT_GE(parts.fill(), 0.85);
   EXPECT_EQ(make_forest(graph).levels[1], kept);

@@ -25,27 +25,27 @@ std::uint32_t links_from(const Link* links, std::size_t count, LaneMask lanes) {
 
 }  // namespace
 
-bool FewLeaves::is_alone(std::uint32_t slot, const Point& center, double squared_radius) const {
+bool FewLeaves::is_isolated(std::uint32_t slot, const Point& center, double squared_radius) const {
   const LeafId home = leaf_of(slot);
   const std::size_t first = index_->leaf_begin[home];
   return std::visit(
       [&](auto xyz) {
         const auto is_inside = [&](std::size_t vertex) {
-          return squared_distance(point(xyz, vertex), center) <= squared_radius;  // mutant: alone-without-boundary
+          return squared_distance(point(xyz, vertex), center) <= squared_radius;  // mutant: isolated-without-boundary
         };
-        bool is_alone = true;
+        bool is_only = true;
         for_each_lane(index_->adjacency[first + lane_of(slot)], [&](unsigned lane) {
-          is_alone &= !is_inside(first + lane);  // mutant: last-neighbor-counts
+          is_only &= !is_inside(first + lane);  // mutant: last-neighbor-counts
         });
         for (const Link& link : index_->links_of(home)) {
-          if (!is_alone) return false;
+          if (!is_only) return false;
           if ((link.boundary >> lane_of(slot) & 1) == 0) continue;
           for (const CrossEdge& edge : index_->cross_edges_of(link)) {
             if (edge.from != lane_of(slot)) continue;
-            is_alone &= !is_inside(std::size_t{index_->leaf_begin[link.leaf]} + edge.to);  // mutant: alone-in-its-leaf
+            is_only &= !is_inside(std::size_t{index_->leaf_begin[link.leaf]} + edge.to);  // mutant: isolated-in-leaf
           }
         }
-        return is_alone;
+        return is_only;
       },
       index_->positions);
 }

@@ -23,7 +23,7 @@ class FewLeaves {
 
   /// Whether no edge leads from the vertex at `slot`, the center of the ball, to another vertex of the ball. Compares
   /// its neighbors with the ball one by one.
-  [[nodiscard]] bool is_alone(std::uint32_t slot, const Point& center, double squared_radius) const;
+  [[nodiscard]] bool is_isolated(std::uint32_t slot, const Point& center, double squared_radius) const;
 
   /// Adds the neighborhood of the vertex at `slot`, the center of the ball, to `answer`, which is empty. Returns false,
   /// and adds nothing, if the vertices of the answer and their neighbors lie in more than `kMostLeaves` leaves.

@@ -67,8 +67,8 @@ class SearchMemory {
   /// Forgets all earlier queries, so that the order of the next answer does not depend on them.
   void clear() { *this = {}; }
 
-  /// Begins a ball. For one ball in 16 or more, all functions except `was_alone` return false, because the ball may lie
-  /// in another part of the mesh, or be of another size.
+  /// Begins a ball. For one ball in 16 or more, all functions except `expects_one_vertex` return false, because the
+  /// ball may lie in another part of the mesh, or be of another size.
   void begin_ball(double radius) {
     constexpr double kOtherSize = 2;  // chosen
     const bool is_as_before = radius <= kOtherSize * tried_radius_ && tried_radius_ <= kOtherSize * radius;
@@ -79,7 +79,7 @@ class SearchMemory {
   }
 
   /// Whether the search for other components took longer than uniting all that was reached would take.
-  [[nodiscard]] bool is_torn() const {
+  [[nodiscard]] bool should_unite() const {
     // Chosen: uniting takes about as long as one step for each surface leaf. A little more, because a few expensive
     // balls do not mean that the next is expensive.
     constexpr double kStepsToUnite = 1.3;
@@ -116,10 +116,10 @@ class SearchMemory {
   void record_large_start(bool is_single_sheet) { approach(large_start_failures_, is_single_sheet ? 0 : 1); }
 
   /// Whether most answers in few leaves were the query vertex alone.
-  [[nodiscard]] bool was_alone() const { return alone_ > 0.5; }
+  [[nodiscard]] bool expects_one_vertex() const { return one_vertex_share_ > 0.5; }
 
   /// After an answer in few leaves.
-  void record_alone(bool is_alone) { approach(alone_, is_alone ? 1 : 0); }
+  void record_few_leaves(bool is_one_vertex) { approach(one_vertex_share_, is_one_vertex ? 1 : 0); }
 
  private:
   static constexpr std::size_t kShortestInterval = 16;  // balls; chosen
@@ -144,7 +144,7 @@ class SearchMemory {
   double answer_leaves_ = 0;
   double steps_ = 0;
   double large_start_failures_ = 0;  // their share
-  double alone_ = 0;                 // the share of answers in few leaves that were one vertex
+  double one_vertex_share_ = 0;      // the share of answers in few leaves that were one vertex
   std::size_t retry_interval_ = kShortestInterval;
   std::size_t balls_since_retry_ = 0;
   double tried_radius_ = 0;

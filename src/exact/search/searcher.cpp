@@ -28,7 +28,7 @@ Point Searcher::State::search(VertexId v, double radius) {
   if (v >= index->vertex_count() || !(radius >= 0)) check_query(v, index->vertex_count(), radius);
   const std::uint32_t slot = index->slot[v];
   const LeafId home = leaf_of(slot);
-  if (!memory.was_alone()) traversal.prefetch_leaf(index->leaves[home]);
+  if (!memory.expects_one_vertex()) traversal.prefetch_leaf(index->leaves[home]);
   if (radius != bounds.radius) bounds = RadiusBounds(index->frame, radius);
   const Point center = index->position(home, lane_of(slot));
   answer.clear();
@@ -50,14 +50,14 @@ Point Searcher::State::search(VertexId v, double radius) {
 bool Searcher::State::search_few_leaves(std::uint32_t slot, const Point& center) {
   if (vertex_bfs.expects_many(bounds.radius)) return false;
   if (!limits.may_lie_in_few_leaves(bounds.radius_in_frame, leaf_of(slot), *index)) return false;
-  bool is_alone = memory.was_alone() && few_leaves.is_alone(slot, center, bounds.leaf.squared_radius);
-  if (is_alone) {
+  bool is_one_vertex = memory.expects_one_vertex() && few_leaves.is_isolated(slot, center, bounds.leaf.squared_radius);
+  if (is_one_vertex) {
     answer.add(LeafSubset{leaf_of(slot), LaneMask{1} << lane_of(slot)});
   } else {
     if (!few_leaves.find(slot, LeafBall(center, bounds.leaf), answer)) return false;
-    is_alone = answer.is_one_vertex();
+    is_one_vertex = answer.is_one_vertex();
   }
-  memory.record_alone(is_alone);
+  memory.record_few_leaves(is_one_vertex);
   return true;
 }
 
@@ -70,13 +70,13 @@ bool Searcher::State::is_answer_small(const Query& query) {
 void Searcher::State::search_outward(const Query& query) {
   reach(query);
   find_surface_leaves(query);
-  const bool is_torn = limits.enabled && memory.is_torn();
-  was_united = is_torn || !remove_other_components(query);
+  const bool should_unite = limits.enabled && memory.should_unite();
+  was_united = should_unite || !remove_other_components(query);
   if (was_united) {
     answer.clear();  // mutant: failed-search-leaves-answer
     reached_components.find(query, descent.groups(), surface_leaves, states, answer);
   }
-  if (!is_torn) record_search();
+  if (!should_unite) record_search();
 }
 
 /// Adds what was reached to the answer, without the other components. Returns false if uniting all that was reached is

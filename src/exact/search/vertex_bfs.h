@@ -21,9 +21,8 @@ namespace meshhood {
 
 /// Breadth-first search over vertices: the reference search, on a copy of the graph in the caller's order. It answers
 /// - every ball, if the graph is unlike a surface or has no minimum regions;
-/// - small balls, if the mesh is small, so that the copy stays in the cache. A ball is small if it has few vertices.
-/// That
-///   is guessed from its radius, and the guess follows the answers.
+/// - small balls, those of few vertices, if the mesh is small, so that the copy stays in the cache. Whether a ball is
+///   small is guessed from its radius, and the guess follows the answers.
 ///
 /// All searchers of an index share the copy. The first that needs it makes it; for small balls, only once there were so
 /// many that it pays.

@@ -49,15 +49,15 @@ TEST_P(FewLeavesOnFamilies, FindsTheAnswersThatLieInFewLeavesAndNoOthers) {
 }
 
 TEST_P(FewLeavesOnFamilies, TellsWhetherTheAnswerIsOneVertex) {
-  std::size_t alone = 0;
+  std::size_t isolated = 0;
   const std::size_t cases = for_each_search_case(GetParam(), scaled(40, 6), 8, [&](const SearchCase& c) {
-    const bool is_alone = c.neighborhood().size() == 1;
-    ASSERT_EQ(FewLeaves(c.index, c.kernels).is_alone(c.query.slot, c.query.center(), c.query.ball.squared_radius),
-              is_alone)
+    const bool is_isolated = c.neighborhood().size() == 1;
+    ASSERT_EQ(FewLeaves(c.index, c.kernels).is_isolated(c.query.slot, c.query.center(), c.query.ball.squared_radius),
+              is_isolated)
         << c.mesh.name << ": vertex " << c.query.vertex << ", radius " << c.query.radius;
-    alone += static_cast<std::size_t>(is_alone);
+    isolated += static_cast<std::size_t>(is_isolated);
   });
-  std::printf("%zu of %zu answers are one vertex\n", alone, cases);
+  std::printf("%zu of %zu answers are one vertex\n", isolated, cases);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FewLeavesOnFamilies, testing::ValuesIn(families()), family_name);

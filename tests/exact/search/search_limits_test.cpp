@@ -25,7 +25,7 @@ SearchMemory memory_of(std::size_t answer, std::size_t steps) {
 TEST(SearchMemory, HasNoPreferenceBeforeTheFirstSearch) {
   SearchMemory memory;
   memory.begin_ball(1);
-  EXPECT_FALSE(memory.is_torn());
+  EXPECT_FALSE(memory.should_unite());
   EXPECT_FALSE(memory.is_answer_small());
 }
 
@@ -33,20 +33,20 @@ TEST(SearchMemory, HasNoPreferenceAfterASingleSearch) {
   SearchMemory memory;
   memory.begin_ball(1);
   memory.record({kSurface, 1, 500});
-  EXPECT_FALSE(memory.is_torn());
+  EXPECT_FALSE(memory.should_unite());
   EXPECT_FALSE(memory.is_answer_small());
 }
 
 TEST(SearchMemory, ComparesTheStepsWithUnitingAndWithTheAnswer) {
   const SearchMemory smooth = memory_of(75, 5);
-  EXPECT_FALSE(smooth.is_torn());
+  EXPECT_FALSE(smooth.should_unite());
   EXPECT_FALSE(smooth.is_answer_small());
   const SearchMemory small_answer = memory_of(30, 100);
-  EXPECT_FALSE(small_answer.is_torn());
+  EXPECT_FALSE(small_answer.should_unite());
   EXPECT_TRUE(small_answer.is_answer_small());
-  const SearchMemory torn = memory_of(900, 200);
-  EXPECT_TRUE(torn.is_torn());
-  EXPECT_FALSE(torn.is_answer_small());
+  const SearchMemory divided = memory_of(900, 200);
+  EXPECT_TRUE(divided.should_unite());
+  EXPECT_FALSE(divided.is_answer_small());
 }
 
 TEST(SearchMemory, AddsUpAnswersOfAllSizes) {
@@ -75,8 +75,8 @@ TEST(SearchMemory, IsIgnoredForOneBallInSixteen) {
   std::size_t answered_no = 0;
   for (int i = 0; i < 160; ++i) {
     memory.begin_ball(1);
-    EXPECT_EQ(memory.is_torn(), memory.is_answer_small());
-    answered_no += static_cast<std::size_t>(!memory.is_torn());
+    EXPECT_EQ(memory.should_unite(), memory.is_answer_small());
+    answered_no += static_cast<std::size_t>(!memory.should_unite());
   }
   EXPECT_EQ(answered_no, 10U);
   memory.clear();
@@ -111,14 +111,14 @@ TEST(SearchMemory, DoesNotDecayToDenormalNumbers) {
 
 TEST(SearchMemory, TellsWhetherMostAnswersWereOneVertex) {
   SearchMemory memory;
-  EXPECT_FALSE(memory.was_alone());
-  for (int i = 0; i < 20; ++i) memory.record_alone(i % 4 != 0);
-  EXPECT_TRUE(memory.was_alone());
-  for (int i = 0; i < 20; ++i) memory.record_alone(i % 4 == 0);
-  EXPECT_FALSE(memory.was_alone());
-  for (int i = 0; i < 20; ++i) memory.record_alone(true);
+  EXPECT_FALSE(memory.expects_one_vertex());
+  for (int i = 0; i < 20; ++i) memory.record_few_leaves(i % 4 != 0);
+  EXPECT_TRUE(memory.expects_one_vertex());
+  for (int i = 0; i < 20; ++i) memory.record_few_leaves(i % 4 == 0);
+  EXPECT_FALSE(memory.expects_one_vertex());
+  for (int i = 0; i < 20; ++i) memory.record_few_leaves(true);
   memory.clear();
-  EXPECT_FALSE(memory.was_alone());
+  EXPECT_FALSE(memory.expects_one_vertex());
 }
 
 }  // namespace
