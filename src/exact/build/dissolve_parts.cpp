@@ -24,11 +24,11 @@ bool move_all(std::uint32_t part, double limit, NodeParts& parts) {
 
 void dissolve_small_parts(NodeParts& parts) {
   // Chosen. Seven nodes hardly ever all find room; wider parts would slow down queries.
-  constexpr std::size_t kLargest = 6;
+  constexpr std::size_t kMostNodes = 6;
   constexpr double kStretch = 1.5;  // the largest radius of a part that a node moves to, divided by that of a full one
   const double limit = kStretch * parts.mean_full_radius();
   std::vector<std::uint32_t> nodes;
-  for (std::size_t size = 1; size <= kLargest; ++size) {
+  for (std::size_t size = 1; size <= kMostNodes; ++size) {
     for (std::uint32_t part = 0; part < parts.size(); ++part) {
       if (parts[part].size() != size) continue;
       nodes.assign(parts[part].begin(), parts[part].end());

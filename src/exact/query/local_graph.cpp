@@ -74,7 +74,7 @@ void LocalGraph::add_rows(std::uint32_t number) {
   count_edges(leaf, links, ends);
   std::uint32_t begin = 0;
   for (std::uint32_t& end : ends) begin += std::exchange(end, begin);
-  std::copy(ends.begin(), ends.end(), rows_.begin() + std::ptrdiff_t{number} * (kLeafCapacity + 1));
+  std::copy(ends.begin(), ends.end(), &rows_[std::size_t{number} * (kLeafCapacity + 1)]);
   if (edges_.size() < edge_count_ + begin) edges_.resize(edge_count_ + begin);
   Edge* const edges = edges_.data() + edge_count_;
   edge_count_ += begin;

@@ -31,12 +31,13 @@ void NestedNeighborhoods::run(VertexId v, std::span<const double> radii, std::ve
     search_.search(v, radius);
     find_ring();
     const std::size_t end = size + ring_.count();
-    out.resize(end + kLeafCapacity);
-    write_ids(ring_, *index_, *search_.kernels, &out[size]);
+    ids_.resize(end + kLeafCapacity);
+    write_ids(ring_, *index_, *search_.kernels, &ids_[size]);
     size = end;
     sizes.push_back(size);
   }
-  out.resize(size);
+  ids_.resize(size);
+  out.swap(ids_);
 }
 
 /// The vertices of the answer that no ring has yet.

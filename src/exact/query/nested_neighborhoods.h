@@ -19,7 +19,8 @@ class NestedNeighborhoods {
  public:
   NestedNeighborhoods(const std::shared_ptr<const IndexView>& index, Isa isa);
 
-  /// Refills `out` with the ids, ring by ring, and `sizes` with their number at the end of each ring.
+  /// Refills `out` with the ids, ring by ring, and `sizes` with their number at the end of each ring. If it throws,
+  /// `out` is unchanged.
   void run(VertexId v, std::span<const double> radii, std::vector<VertexId>& out, std::vector<std::size_t>& sizes);
 
  private:
@@ -37,6 +38,7 @@ class NestedNeighborhoods {
   std::vector<LaneMask> found_;      // by leaf: the vertices of the rings so far; kAll for all of its vertices
   std::vector<LeafId> leaves_;       // that have some
   VertexSet ring_;
+  std::vector<VertexId> ids_;
 };
 
 }  // namespace meshhood
