@@ -30,15 +30,9 @@ function(meshhood_compile_quickly target)
   endif()
 endfunction()
 
-# The kernels of the processors use the same names, so that each is compiled by itself.
-set(meshhood_kernels "/simd/((joint|aggregate|moments)_)?(portable|avx2|avx512|wasm128)\\.cpp$")
-
 # Compiles several sources at once, in a fraction of the time. Another target must compile them one by one.
 function(meshhood_compile_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
-  get_target_property(sources ${target} SOURCES)
-  list(FILTER sources INCLUDE REGEX ${meshhood_kernels})
-  set_source_files_properties(${sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 # For code that reads untrusted bytes: an error ends the program at once.

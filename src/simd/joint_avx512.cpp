@@ -16,7 +16,7 @@
 
 #include <immintrin.h>
 
-#define MESHHOOD_AVX512 __attribute__((target("avx512f,avx512bw,avx512cd,avx512vl,avx512dq,bmi,bmi2,popcnt")))
+#define MESHHOOD_JOINT __attribute__((target("avx512f,avx512bw,avx512cd,avx512vl,avx512dq,bmi,bmi2,popcnt")))
 
 namespace meshhood {
 namespace {
@@ -27,40 +27,40 @@ struct Words32 {
   __m512i high;
 };
 
-MESHHOOD_AVX512 inline Words32 load(const PerLane<QueryWord>& words) {
+MESHHOOD_JOINT inline Words32 load(const PerLane<QueryWord>& words) {
   return {_mm512_load_si512(words.data()), _mm512_load_si512(words.data() + 16)};
 }
 
-MESHHOOD_AVX512 inline void store(PerLane<QueryWord>& words, const Words32& value) {
+MESHHOOD_JOINT inline void store(PerLane<QueryWord>& words, const Words32& value) {
   _mm512_store_si512(words.data(), value.low);
   _mm512_store_si512(words.data() + 16, value.high);
 }
 
-MESHHOOD_AVX512 inline Words32 operator&(const Words32& a, const Words32& b) {
+MESHHOOD_JOINT inline Words32 operator&(const Words32& a, const Words32& b) {
   return {_mm512_and_si512(a.low, b.low), _mm512_and_si512(a.high, b.high)};
 }
 
-MESHHOOD_AVX512 inline Words32 operator|(const Words32& a, const Words32& b) {
+MESHHOOD_JOINT inline Words32 operator|(const Words32& a, const Words32& b) {
   return {_mm512_or_si512(a.low, b.low), _mm512_or_si512(a.high, b.high)};
 }
 
-MESHHOOD_AVX512 inline LaneMask join(__mmask16 low, __mmask16 high) {
+MESHHOOD_JOINT inline LaneMask join(__mmask16 low, __mmask16 high) {
   return static_cast<LaneMask>(_mm512_kunpackw(high, low));
 }
 
 /// The words of `lanes`; 0 in the others, which are not read.
-MESHHOOD_AVX512 inline Words32 load_lanes(const PerLane<QueryWord>& words, LaneMask lanes) {
+MESHHOOD_JOINT inline Words32 load_lanes(const PerLane<QueryWord>& words, LaneMask lanes) {
   return {_mm512_maskz_loadu_epi32(static_cast<__mmask16>(lanes), words.data()),
           _mm512_maskz_loadu_epi32(static_cast<__mmask16>(lanes >> 16), words.data() + 16)};
 }
 
 /// The bits of `a` that `b` does not have.
-MESHHOOD_AVX512 inline Words32 without(const Words32& a, const Words32& b) {
+MESHHOOD_JOINT inline Words32 without(const Words32& a, const Words32& b) {
   return {_mm512_andnot_si512(b.low, a.low), _mm512_andnot_si512(b.high, a.high)};
 }
 
 /// The bits that the words of all `lanes` have.
-MESHHOOD_AVX512 inline QueryWord common_bits(const Words32& words, LaneMask lanes) {
+MESHHOOD_JOINT inline QueryWord common_bits(const Words32& words, LaneMask lanes) {
   const __m512i ones = _mm512_set1_epi32(-1);
   return static_cast<QueryWord>(_mm512_reduce_and_epi32(
       _mm512_and_si512(_mm512_mask_mov_epi32(ones, static_cast<__mmask16>(lanes), words.low),
@@ -68,7 +68,7 @@ MESHHOOD_AVX512 inline QueryWord common_bits(const Words32& words, LaneMask lane
 }
 
 /// Writes the halves of a word. Joining them first takes the ports that the comparisons need.
-MESHHOOD_AVX512 inline void store_halves(__mmask16 low, __mmask16 high, QueryWord& word) {
+MESHHOOD_JOINT inline void store_halves(__mmask16 low, __mmask16 high, QueryWord& word) {
   using Half [[gnu::may_alias]] = __mmask16;
   auto* halves = reinterpret_cast<Half*>(&word);
   _store_mask16(halves, low);
@@ -76,19 +76,19 @@ MESHHOOD_AVX512 inline void store_halves(__mmask16 low, __mmask16 high, QueryWor
 }
 
 /// The lanes in which the words differ.
-MESHHOOD_AVX512 inline LaneMask differing(const Words32& a, const Words32& b) {
+MESHHOOD_JOINT inline LaneMask differing(const Words32& a, const Words32& b) {
   return join(_mm512_cmpneq_epi32_mask(a.low, b.low), _mm512_cmpneq_epi32_mask(a.high, b.high));
 }
 
 /// `word` in the lanes of `lanes`, 0 in the others.
-MESHHOOD_AVX512 inline Words32 in_lanes(LaneMask lanes, QueryWord word) {
+MESHHOOD_JOINT inline Words32 in_lanes(LaneMask lanes, QueryWord word) {
   const auto value = static_cast<int>(word);
   return {_mm512_maskz_set1_epi32(static_cast<__mmask16>(lanes), value),
           _mm512_maskz_set1_epi32(static_cast<__mmask16>(lanes >> 16), value)};
 }
 
 /// The lanes whose word has one of `bits`.
-MESHHOOD_AVX512 inline LaneMask lanes_with(const QueryWord* reached, __m512i bits) {
+MESHHOOD_JOINT inline LaneMask lanes_with(const QueryWord* reached, __m512i bits) {
   return join(_mm512_test_epi32_mask(_mm512_loadu_si512(reached), bits),
               _mm512_test_epi32_mask(_mm512_loadu_si512(reached + 16), bits));
 }
@@ -119,21 +119,21 @@ struct Interleaved {
   __m512 third;
 };
 
-MESHHOOD_AVX512 inline __m512 load_floats(const float* from, unsigned begin, unsigned count) {
+MESHHOOD_JOINT inline __m512 load_floats(const float* from, unsigned begin, unsigned count) {
   const auto wanted = static_cast<__mmask16>(_bzhi_u32(0xFFFF, count > begin ? count - begin : 0));
   return _mm512_maskz_loadu_ps(wanted, from + begin);
 }
 
 /// One coordinate of the vertices of `lanes`, relative to the center; 0 in the other lanes.
-MESHHOOD_AVX512 inline __m512 coordinate(const Interleaved& xyz, const CoordinateOrder& order, __mmask16 lanes,
-                                         float center, float scale) {
+MESHHOOD_JOINT inline __m512 coordinate(const Interleaved& xyz, const CoordinateOrder& order, __mmask16 lanes,
+                                        float center, float scale) {
   const __m512 two = _mm512_permutex2var_ps(xyz.first, _mm512_load_si512(order.in_first_two.data()), xyz.second);
   const __m512 all = _mm512_permutex2var_ps(two, _mm512_load_si512(order.in_third.data()), xyz.third);
   // mutant: avx512-points-in-every-lane
   return _mm512_maskz_mul_ps(lanes, _mm512_sub_ps(all, _mm512_set1_ps(center)), _mm512_set1_ps(scale));
 }
 
-MESHHOOD_AVX512 void convert_points(const float* xyz, unsigned size, const FloatCenter& center, LeafPoints& points) {
+MESHHOOD_JOINT void convert_points(const float* xyz, unsigned size, const FloatCenter& center, LeafPoints& points) {
   for (unsigned i = 0; i < kLeafCapacity; i += 16) {
     const Interleaved some{load_floats(xyz, 3 * i, 3 * size), load_floats(xyz, 3 * i + 16, 3 * size),
                            load_floats(xyz, 3 * i + 32, 3 * size)};
@@ -158,28 +158,28 @@ struct Balls16 {
   __m512 maybe_inside;
 };
 
-MESHHOOD_AVX512 inline Balls16 load_balls(const PacketBalls& balls, std::size_t i) {
+MESHHOOD_JOINT inline Balls16 load_balls(const PacketBalls& balls, std::size_t i) {
   return {_mm512_load_ps(&balls.x[i]), _mm512_load_ps(&balls.y[i]), _mm512_load_ps(&balls.z[i]),
           _mm512_load_ps(&balls.surely_inside[i]), _mm512_load_ps(&balls.maybe_inside[i])};
 }
 
 /// `2 p.q - p.p` for sixteen queries.
-MESHHOOD_AVX512 inline __m512 heights(const LeafPoints& points, std::size_t lane, const Balls16& balls) {
+MESHHOOD_JOINT inline __m512 heights(const LeafPoints& points, std::size_t lane, const Balls16& balls) {
   const __m512 x = _mm512_mul_ps(_mm512_set1_ps(points.x[lane]), balls.x);
   const __m512 y = _mm512_mul_ps(_mm512_set1_ps(points.y[lane]), balls.y);
   const __m512 z = _mm512_mul_ps(_mm512_set1_ps(points.z[lane]), balls.z);
   return _mm512_sub_ps(_mm512_add_ps(_mm512_add_ps(x, y), z), _mm512_set1_ps(points.square[lane]));
 }
 
-MESHHOOD_AVX512 inline __m512 squares_from_center(const LeafPoints& points, std::size_t i, const PacketBalls& balls) {
+MESHHOOD_JOINT inline __m512 squares_from_center(const LeafPoints& points, std::size_t i, const PacketBalls& balls) {
   const __m512 x = _mm512_sub_ps(_mm512_load_ps(&points.x[i]), _mm512_set1_ps(balls.center_x));
   const __m512 y = _mm512_sub_ps(_mm512_load_ps(&points.y[i]), _mm512_set1_ps(balls.center_y));
   const __m512 z = _mm512_sub_ps(_mm512_load_ps(&points.z[i]), _mm512_set1_ps(balls.center_z));
   return _mm512_add_ps(_mm512_add_ps(_mm512_mul_ps(x, x), _mm512_mul_ps(y, y)), _mm512_mul_ps(z, z));
 }
 
-MESHHOOD_AVX512 BallWords ball_words(const LeafPoints& points, LaneMask lanes, const PacketBalls& balls,
-                                     PerLane<QueryWord>& inside, PerLane<QueryWord>& doubts) {
+MESHHOOD_JOINT BallWords ball_words(const LeafPoints& points, LaneMask lanes, const PacketBalls& balls,
+                                    PerLane<QueryWord>& inside, PerLane<QueryWord>& doubts) {
   const __m512 low = squares_from_center(points, 0, balls);
   const __m512 high = squares_from_center(points, 16, balls);
   const __m512 nearest = _mm512_set1_ps(balls.inside_all);
@@ -210,14 +210,14 @@ MESHHOOD_AVX512 BallWords ball_words(const LeafPoints& points, LaneMask lanes, c
   return {all, differing(in_doubt, {_mm512_setzero_si512(), _mm512_setzero_si512()})};
 }
 
-MESHHOOD_AVX512 void clear_words(LeafWords& words) {
+MESHHOOD_JOINT void clear_words(LeafWords& words) {
   const Words32 none{_mm512_setzero_si512(), _mm512_setzero_si512()};
   store(words.reached, none);
   store(words.pending, none);
 }
 
 /// Moves what is pending to `reached`.
-MESHHOOD_AVX512 inline Words32 take_pending(LeafWords& words, const Words32& inside, QueryWord whole) {
+MESHHOOD_JOINT inline Words32 take_pending(LeafWords& words, const Words32& inside, QueryWord whole) {
   Words32 reached = load(words.reached) | (load(words.pending) & inside);
   const Words32 zero{_mm512_setzero_si512(), _mm512_setzero_si512()};
   store(words.pending, zero);
@@ -231,7 +231,7 @@ MESHHOOD_AVX512 inline Words32 take_pending(LeafWords& words, const Words32& ins
 /// The edges within a leaf as lists with one neighbor of each lane. A lane that has no more names itself.
 class NeighborLists {
  public:
-  MESHHOOD_AVX512 explicit NeighborLists(const LaneMask* adjacency) {
+  MESHHOOD_JOINT explicit NeighborLists(const LaneMask* adjacency) {
     const __m512i lanes = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     Words32 left{_mm512_loadu_si512(adjacency), _mm512_loadu_si512(adjacency + 16)};
     while (_mm512_test_epi32_mask(_mm512_or_si512(left.low, left.high), _mm512_set1_epi32(-1)) != 0) {
@@ -241,7 +241,7 @@ class NeighborLists {
   }
 
   /// The words of all neighbors of each lane, and its own.
-  [[nodiscard]] MESHHOOD_AVX512 Words32 gather(const Words32& words) const {
+  [[nodiscard]] MESHHOOD_JOINT Words32 gather(const Words32& words) const {
     Words32 all = words;
     for (std::size_t i = 0; i < size_; ++i) {
       all = all | Words32{_mm512_permutex2var_epi32(words.low, lists_[i].low, words.high),
@@ -252,7 +252,7 @@ class NeighborLists {
 
  private:
   /// Removes the first neighbor of each lane, and returns it. What is left does not wait for which it was.
-  MESHHOOD_AVX512 static __m512i take_first(__m512i& neighbors, __m512i lanes) {
+  MESHHOOD_JOINT static __m512i take_first(__m512i& neighbors, __m512i lanes) {
     const __mmask16 has = _mm512_test_epi32_mask(neighbors, neighbors);
     const __m512i first = _mm512_and_si512(neighbors, _mm512_sub_epi32(_mm512_setzero_si512(), neighbors));
     neighbors = _mm512_andnot_si512(first, neighbors);
@@ -263,7 +263,7 @@ class NeighborLists {
   std::size_t size_ = 0;
 };
 
-MESHHOOD_AVX512 SpreadWords spread_words(LeafWords& words, const LaneMask* adjacency, QueryWord whole) {
+MESHHOOD_JOINT SpreadWords spread_words(LeafWords& words, const LaneMask* adjacency, QueryWord whole) {
   const Words32 inside = load(words.inside);
   const Words32 before = load(words.reached);
   Words32 reached = take_pending(words, inside, whole);
@@ -285,10 +285,10 @@ MESHHOOD_AVX512 SpreadWords spread_words(LeafWords& words, const LaneMask* adjac
 /// digit, with a number in each of its bits.
 class BitCounters {
  public:
-  MESHHOOD_AVX512 BitCounters() { ones_ = twos_ = fours_ = eights_ = counts_ = _mm512_setzero_si512(); }
+  MESHHOOD_JOINT BitCounters() { ones_ = twos_ = fours_ = eights_ = counts_ = _mm512_setzero_si512(); }
 
   /// Adds the words of eight leaves.
-  MESHHOOD_AVX512 void add(const std::array<const QueryWord*, 8>& leaves) {
+  MESHHOOD_JOINT void add(const std::array<const QueryWord*, 8>& leaves) {
     const __m512i fours0 = add_four(leaves[0], leaves[1]);
     const __m512i fours1 = add_four(leaves[2], leaves[3]);
     const __m512i eights0 = add_digit(fours_, fours0, fours1);
@@ -298,7 +298,7 @@ class BitCounters {
     count(add_digit(eights_, eights0, eights1), 16);
   }
 
-  MESHHOOD_AVX512 void add_to(PerLane<std::uint64_t>& counts) {
+  MESHHOOD_JOINT void add_to(PerLane<std::uint64_t>& counts) {
     count(ones_, 1);
     count(twos_, 2);
     count(fours_, 4);
@@ -307,7 +307,7 @@ class BitCounters {
   }
 
   /// Moves what was counted to `counts`. To be called every `kMostBlocks` calls of `add`.
-  MESHHOOD_AVX512 void flush(PerLane<std::uint64_t>& counts) {
+  MESHHOOD_JOINT void flush(PerLane<std::uint64_t>& counts) {
     alignas(64) std::array<std::uint16_t, kPacketCapacity> small;
     _mm512_store_si512(small.data(), counts_);
     counts_ = _mm512_setzero_si512();
@@ -318,20 +318,20 @@ class BitCounters {
 
  private:
   /// The sum of three bits each stays in the digit, the carry is returned.
-  MESHHOOD_AVX512 static __m512i add_digit(__m512i& digit, __m512i a, __m512i b) {
+  MESHHOOD_JOINT static __m512i add_digit(__m512i& digit, __m512i a, __m512i b) {
     const __m512i old = digit;
     digit = _mm512_ternarylogic_epi32(old, a, b, 0x96);
     return _mm512_ternarylogic_epi32(old, a, b, 0xE8);
   }
 
-  MESHHOOD_AVX512 __m512i add_four(const QueryWord* first, const QueryWord* second) {
+  MESHHOOD_JOINT __m512i add_four(const QueryWord* first, const QueryWord* second) {
     const __m512i a = add_digit(ones_, _mm512_load_si512(first), _mm512_load_si512(first + 16));
     const __m512i b = add_digit(ones_, _mm512_load_si512(second), _mm512_load_si512(second + 16));
     return add_digit(twos_, a, b);
   }
 
   /// Adds `weight` to the counters of all bits that are set, word by word.
-  MESHHOOD_AVX512 void count(__m512i words, std::int16_t weight) {
+  MESHHOOD_JOINT void count(__m512i words, std::int16_t weight) {
     alignas(64) std::array<QueryWord, 16> each;
     _mm512_store_si512(each.data(), words);
     const __m512i weights = _mm512_set1_epi16(weight);
@@ -350,8 +350,8 @@ class BitCounters {
   __m512i counts_;  // 16 bits for each query
 };
 
-MESHHOOD_AVX512 void count_words(const LeafWords* words, std::span<const LeafOfWords> list,
-                                 PerLane<std::uint64_t>& counts) {
+MESHHOOD_JOINT void count_words(const LeafWords* words, std::span<const LeafOfWords> list,
+                                PerLane<std::uint64_t>& counts) {
   alignas(64) static constexpr PerLane<QueryWord> kNone{};
   BitCounters counters;
   std::size_t blocks = 0;
@@ -366,12 +366,12 @@ MESHHOOD_AVX512 void count_words(const LeafWords* words, std::span<const LeafOfW
   counters.add_to(counts);
 }
 
-MESHHOOD_AVX512 LaneMask lanes_of(const QueryWord* reached, unsigned query) {
+MESHHOOD_JOINT LaneMask lanes_of(const QueryWord* reached, unsigned query) {
   return lanes_with(reached, _mm512_set1_epi32(static_cast<int>(1U << query)));
 }
 
 /// Writes the first `count` of sixteen ids, and nothing after them.
-MESHHOOD_AVX512 inline VertexId* write_first(__m512i ids, unsigned count, VertexId* out) {
+MESHHOOD_JOINT inline VertexId* write_first(__m512i ids, unsigned count, VertexId* out) {
   // mutant: avx512-row-beyond-its-end
   _mm512_mask_storeu_epi32(out, static_cast<__mmask16>(_bzhi_u32(0xFFFF, count)), ids);
   return out + count;
@@ -379,20 +379,20 @@ MESHHOOD_AVX512 inline VertexId* write_first(__m512i ids, unsigned count, Vertex
 
 /// Writes those of sixteen ids whose lane is set. Compressed in a register: compressing stores are slow on some
 /// processors.
-MESHHOOD_AVX512 inline VertexId* write16(__m512i ids, LaneMask lanes, VertexId* out) {
+MESHHOOD_JOINT inline VertexId* write16(__m512i ids, LaneMask lanes, VertexId* out) {
   const auto set = static_cast<__mmask16>(lanes);
   return write_first(_mm512_maskz_compress_epi32(set, ids), static_cast<unsigned>(_mm_popcnt_u32(set)), out);
 }
 
 /// The ids of sixteen vertices.
-MESHHOOD_AVX512 inline __m512i load_ids(const VertexId* permutation, std::uint32_t first) {
+MESHHOOD_JOINT inline __m512i load_ids(const VertexId* permutation, std::uint32_t first) {
   if (permutation != nullptr) return _mm512_loadu_si512(permutation + first);
   const __m512i count = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   return _mm512_add_epi32(_mm512_set1_epi32(static_cast<int>(first)), count);
 }
 
-MESHHOOD_AVX512 void write_row(std::span<const RowPiece> pieces, unsigned query, const VertexId* permutation,
-                               std::span<VertexId> out) {
+MESHHOOD_JOINT void write_row(std::span<const RowPiece> pieces, unsigned query, const VertexId* permutation,
+                              std::span<VertexId> out) {
   const __m512i bit = _mm512_set1_epi32(static_cast<int>(1U << query));
   VertexId* next = out.data();
   for (const RowPiece& piece : pieces) {

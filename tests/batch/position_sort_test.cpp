@@ -32,7 +32,7 @@ TEST(PositionSort, PositionsAscendAndRowsOfOnePositionKeepTheirOrder) {
   Random random(31);
   std::size_t lists = 0;
   for (unsigned bits = 0; bits <= 32; ++bits) {
-    for (const std::size_t count : std::array<std::size_t, 5>{0, 1, 2, 100, 5000}) {
+    for (const std::size_t count : {0U, 1U, 2U, 100U, 5000U}) {
       std::vector<Row> rows = random_rows(random, count, std::uint64_t{1} << bits);
       std::vector<Row> expected = rows;
       std::sort(expected.begin(), expected.end());  // ties by the number of the row

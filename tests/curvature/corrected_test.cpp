@@ -74,7 +74,7 @@ TEST(CorrectedCurvature, ScalesWithTheMeshBitForBit) {
       const auto measures = [v](const CorrectedCurvatures& of) { return std::span(of.measures).subspan(12 * v, 12); };
       ASSERT_EQ(std::ldexp(measures(found)[0], -2 * exponent), measures(expected)[0]) << "an area";
       ASSERT_EQ(measures(found)[2], measures(expected)[2]) << "a solid angle";
-      for (const std::size_t i : {1, 3, 7, 11}) {
+      for (const std::size_t i : {1U, 3U, 7U, 11U}) {
         ASSERT_EQ(std::ldexp(measures(found)[i], -exponent), measures(expected)[i]) << "a length";
       }
     }
