@@ -76,6 +76,8 @@ struct Searcher::State {
   void forget() { memory.clear(); }
 
  private:
+  friend class SearchSteps;  // bench/search_steps.cpp times the steps one by one
+
   /// A node over the query vertex.
   struct Home {
     std::size_t level;
