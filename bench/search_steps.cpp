@@ -6,8 +6,10 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <numeric>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "meshhood/meshhood.h"
@@ -23,12 +25,12 @@ class SearchSteps {
  public:
   enum Step { kLeaves, kReach, kSurface, kLoose, kTraversals, kUnite, kOutput, kSteps };
 
+  using Microseconds = std::array<double, kSteps>;
+
   /// Sums over all queries.
-  struct Sums {
-    std::array<double, kSteps> microseconds{};
+  struct Counts {
     double leaf_searches = 0;  // queries that were answered without the outward search
     double united = 0;         // queries that united what they reached
-    double groups = 0;
     double surface_leaves = 0;
     double settled = 0;
     double cut = 0;
@@ -49,7 +51,10 @@ class SearchSteps {
     end(kOutput);
   }
 
-  [[nodiscard]] const Sums& sums() const { return sums_; }
+  [[nodiscard]] const Counts& counts() const { return counts_; }
+
+  /// The times since the last call.
+  [[nodiscard]] Microseconds take_times() { return std::exchange(times_, {}); }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -61,7 +66,7 @@ class SearchSteps {
         !is_found && !is_small && state_.index->leaves[query.leaf()].connected && !state_.is_answer_small(query);
     if (is_outward) return false;
     if (!is_found) state_.leaf_bfs.run(query, is_small, state_.traversal, state_.answer);
-    ++sums_.leaf_searches;
+    ++counts_.leaf_searches;
     end(kLeaves);
     return true;
   }
@@ -93,30 +98,30 @@ class SearchSteps {
         state_.other_components.find(query, state_.loose.minima(), state_.marks, state_.states, most, state_.traversal);
     if (is_found) state_.answer.subtract(state_.other_components.found());
     end(kTraversals);
-    sums_.cut += static_cast<double>(state_.loose.leaf_count());
-    sums_.minima += static_cast<double>(state_.loose.minima().size());
-    sums_.visits += static_cast<double>(state_.other_components.visited());
-    sums_.foreign += static_cast<double>(state_.other_components.found().size());
+    counts_.cut += static_cast<double>(state_.loose.leaf_count());
+    counts_.minima += static_cast<double>(state_.loose.minima().size());
+    counts_.visits += static_cast<double>(state_.other_components.visited());
+    counts_.foreign += static_cast<double>(state_.other_components.found().size());
     return is_found;
   }
 
   void count() {
-    sums_.united += state_.was_united ? 1 : 0;
-    sums_.groups += static_cast<double>(state_.descent.groups().size());
+    counts_.united += state_.was_united ? 1 : 0;
     const auto surface = static_cast<double>(state_.descent.surface_leaves().size());
-    sums_.surface_leaves += surface;
-    sums_.settled += surface - static_cast<double>(state_.surface_leaves.size());
+    counts_.surface_leaves += surface;
+    counts_.settled += surface - static_cast<double>(state_.surface_leaves.size());
   }
 
   void end(Step step) {
     const auto now = Clock::now();
-    sums_.microseconds[step] += std::chrono::duration<double, std::micro>(now - last_).count();
+    times_[step] += std::chrono::duration<double, std::micro>(now - last_).count();
     last_ = now;
   }
 
   Searcher searcher_;
-  Searcher::State& state_;
-  Sums sums_;
+  SearcherAccess::State& state_;
+  Microseconds times_{};
+  Counts counts_;
   Clock::time_point last_;
 };
 
@@ -129,16 +134,61 @@ double microseconds_of(paper::Searcher& searcher, VertexId v, double radius, std
   return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
 }
 
-void print_row(const std::string& mesh, double radius, const SearchSteps::Sums& sums, double paper, double queries) {
-  std::printf("| %s, %g |", mesh.c_str(), radius);
-  double whole = 0;
-  for (const double step : sums.microseconds) whole += step;
-  std::printf(" %.2f | %.3g | %.3g |", paper / whole, paper / queries, whole / queries);
-  for (const double step : sums.microseconds) std::printf(" %.2g |", step / queries);
-  std::printf(" %.0f %% | %.0f %% |", 100 * sums.leaf_searches / queries, 100 * sums.united / queries);
-  for (const double sum :
-       {sums.groups, sums.surface_leaves, sums.settled, sums.cut, sums.minima, sums.visits, sums.foreign}) {
-    std::printf(" %.3g |", sum / queries);
+constexpr std::size_t kBlocks = 20;
+
+/// The times of the blocks of queries at one radius.
+struct Blocks {
+  std::array<std::vector<double>, SearchSteps::kSteps> steps;
+  std::vector<double> whole;
+  std::vector<double> paper;
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Blocks time_blocks(SearchSteps& steps, paper::Searcher& paper, std::size_t vertices, double radius,
+                   std::size_t queries) {
+  Blocks blocks;
+  std::mt19937_64 random(1);
+  std::vector<VertexId> out;
+  for (std::size_t block = 0; block < kBlocks; ++block) {
+    double paper_time = 0;
+    for (std::size_t i = 0; i < queries / kBlocks; ++i) {
+      const auto v = static_cast<VertexId>(random() % vertices);
+      steps.query(v, radius, out);
+      paper_time += microseconds_of(paper, v, radius, out);
+    }
+    const SearchSteps::Microseconds times = steps.take_times();
+    for (std::size_t step = 0; step < times.size(); ++step) blocks.steps[step].push_back(times[step]);
+    blocks.whole.push_back(std::accumulate(times.begin(), times.end(), 0.0));
+    blocks.paper.push_back(paper_time);
+  }
+  return blocks;
+}
+
+void print_header() {
+  std::printf(
+      "| mesh, r | paper | exact | over leaves | reach | surface leaves | marks and loose pieces | traversals |"
+      " uniting | output | queries over leaves | united | leaves at the surface | settled | cut | minima |"
+      " visits | foreign |\n|--|");
+  for (int i = 0; i < 17; ++i) std::printf("--:|");
+  std::printf("\n");
+}
+
+void print_row(const std::string& mesh, double radius, const Blocks& blocks, const SearchSteps::Counts& counts,
+               std::size_t queries) {
+  const auto a_block = static_cast<double>(queries / kBlocks);
+  const auto all = a_block * static_cast<double>(kBlocks);
+  std::printf("| %s, %g | %.3g | %.3g |", mesh.c_str(), radius, median(blocks.paper) / a_block,
+              median(blocks.whole) / a_block);
+  for (const std::vector<double>& step : blocks.steps) std::printf(" %.2g |", median(step) / a_block);
+  std::printf(" %.0f %% | %.0f %% |", 100 * counts.leaf_searches / all, 100 * counts.united / all);
+  for (const double count :
+       {counts.surface_leaves, counts.settled, counts.cut, counts.minima, counts.visits, counts.foreign}) {
+    std::printf(" %.2g |", count / all);
   }
   std::printf("\n");
   std::fflush(stdout);
@@ -151,17 +201,11 @@ void profile(const std::string& name, std::size_t queries, const std::vector<dou
   const Adjacency graph = adjacency(mesh.view());
   const double unit = mean_edge_length({mesh.view().positions, graph.view()});
   paper::Searcher paper(paper_index);
-  std::vector<VertexId> out;
+  print_header();
   for (const double radius : radii) {
     SearchSteps steps(index);
-    std::mt19937_64 random(1);
-    double paper_time = 0;
-    for (std::size_t i = 0; i < queries; ++i) {
-      const auto v = static_cast<VertexId>(random() % index.vertex_count());
-      steps.query(v, radius * unit, out);
-      paper_time += microseconds_of(paper, v, radius * unit, out);
-    }
-    print_row(name.substr(name.rfind('/') + 1), radius, steps.sums(), paper_time, static_cast<double>(queries));
+    const Blocks blocks = time_blocks(steps, paper, index.vertex_count(), radius * unit, queries);
+    print_row(name.substr(name.rfind('/') + 1), radius, blocks, steps.counts(), queries);
   }
 }
 
