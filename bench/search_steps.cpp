@@ -61,7 +61,7 @@ class SearchSteps {
 
   bool search_leaves(const Query& query) {
     const bool is_small = state_.limits.is_small(query.radius_in_frame, *state_.index);
-    const bool is_found = state_.search_few_leaves(query.slot, query.center());
+    const bool is_found = state_.search_few_leaves(query.slot, query.center(), state_.memory.enter(query.leaf()));
     const bool is_outward =
         !is_found && !is_small && state_.index->leaves[query.leaf()].connected && !state_.is_answer_small(query);
     if (is_outward) return false;

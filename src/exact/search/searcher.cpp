@@ -33,7 +33,7 @@ Point Searcher::State::search(VertexId v, double radius) {
   const Point center = index->position(home, lane_of(slot));
   answer.clear();
   was_outward = was_united = false;
-  if (search_few_leaves(slot, center)) return center;
+  if (search_few_leaves(slot, center, memory.enter(home))) return center;
   const Query query(*index, v, bounds);
   const bool is_small = limits.is_small(bounds.radius_in_frame, *index);
   // A leaf that is not connected has no links, so the answer is a part of it.
@@ -47,9 +47,9 @@ Point Searcher::State::search(VertexId v, double radius) {
 }
 
 /// Returns false if the answer has vertices of many leaves, or probably has.
-bool Searcher::State::search_few_leaves(std::uint32_t slot, const Point& center) {
+bool Searcher::State::search_few_leaves(std::uint32_t slot, const Point& center, bool is_near) {
   if (vertex_bfs.expects_many(bounds.radius)) return false;
-  if (!limits.may_lie_in_few_leaves(bounds.radius_in_frame, leaf_of(slot), *index)) return false;
+  if (!limits.may_lie_in_few_leaves(bounds.radius_in_frame, leaf_of(slot), is_near, *index)) return false;
   bool is_one_vertex = memory.expects_one_vertex() && few_leaves.is_isolated(slot, center, bounds.leaf.squared_radius);
   if (is_one_vertex) {
     answer.add(LeafSubset{leaf_of(slot), LaneMask{1} << lane_of(slot)});

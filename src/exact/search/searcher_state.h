@@ -84,7 +84,7 @@ struct Searcher::State {
     NodeId node;
   };
 
-  [[nodiscard]] bool search_few_leaves(std::uint32_t slot, const Point& center);
+  [[nodiscard]] bool search_few_leaves(std::uint32_t slot, const Point& center, bool is_near);
   [[nodiscard]] bool is_answer_small(const Query& query);
   void search_outward(const Query& query);
   bool remove_other_components(const Query& query);

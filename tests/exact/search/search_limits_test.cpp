@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "exact/index_access.h"
+#include "support/search_case.h"
+
 namespace meshhood::test {
 namespace {
 
@@ -20,6 +23,29 @@ SearchMemory memory_of(std::size_t answer, std::size_t steps) {
   }
   memory.begin_ball(1);
   return memory;
+}
+
+TEST(SearchLimits, LooksForLargerAnswersInFewLeavesNearTheQueryBefore) {
+  const Index built = build(bumpy_grid(60).view());
+  const IndexView& index = IndexAccess::view(built);
+  const LeafId home = leaf_of(index.slot[30 * 60 + 30]);
+  ASSERT_FALSE(index.links_of(home).empty());
+  const SearchLimits limits;
+  const double unit = index.tree[0].mean_radius;
+  EXPECT_TRUE(limits.may_lie_in_few_leaves(0.3 * unit, home, false, index));
+  EXPECT_FALSE(limits.may_lie_in_few_leaves(0.5 * unit, home, false, index));
+  EXPECT_TRUE(limits.may_lie_in_few_leaves(1.3 * unit, home, true, index));
+  EXPECT_FALSE(limits.may_lie_in_few_leaves(1.5 * unit, home, true, index));
+}
+
+TEST(SearchMemory, KnowsTheLeafOfTheQueryBefore) {
+  SearchMemory memory;
+  EXPECT_FALSE(memory.enter(0));
+  EXPECT_TRUE(memory.enter(0));
+  EXPECT_FALSE(memory.enter(7));
+  EXPECT_TRUE(memory.enter(7));
+  memory.clear();
+  EXPECT_FALSE(memory.enter(7));
 }
 
 TEST(SearchMemory, HasNoPreferenceBeforeTheFirstSearch) {
