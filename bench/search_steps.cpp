@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How long each step of the exact search takes, beside the whole query of the paper. Prints a row of a Markdown table
 // for each radius: means over random vertices, in µs of wall-clock time. Each query is asked of both indexes in turn,
-// so both find little of its surroundings in the caches. Usage: search_steps MESH QUERIES RADIUS...: radii in mean edge
-// lengths.
+// so both find little of its surroundings in the caches. Usage: search_steps [--warm] MESH QUERIES RADIUS...: radii in
+// mean edge lengths. With --warm, the vertices of a block of queries follow each other in index order.
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -52,6 +52,9 @@ class SearchSteps {
   }
 
   [[nodiscard]] const Counts& counts() const { return counts_; }
+
+  /// The caller's id of a vertex in index order.
+  [[nodiscard]] VertexId id(std::size_t vertex) const { return state_.index->id(vertex); }
 
   /// The times since the last call.
   [[nodiscard]] Microseconds take_times() { return std::exchange(times_, {}); }
@@ -149,15 +152,22 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-Blocks time_blocks(SearchSteps& steps, paper::Searcher& paper, std::size_t vertices, double radius,
-                   std::size_t queries) {
+/// How the query vertices of a block follow each other.
+enum class Order {
+  Cold,  // each at a random place
+  Warm,  // each next to the one before, in index order
+};
+
+Blocks time_blocks(SearchSteps& steps, paper::Searcher& paper, std::size_t vertices, double radius, std::size_t queries,
+                   Order order) {
   Blocks blocks;
   std::mt19937_64 random(1);
   std::vector<VertexId> out;
   for (std::size_t block = 0; block < kBlocks; ++block) {
     double paper_time = 0;
+    const std::size_t first = random() % vertices;
     for (std::size_t i = 0; i < queries / kBlocks; ++i) {
-      const auto v = static_cast<VertexId>(random() % vertices);
+      const VertexId v = steps.id((order == Order::Warm ? first + i : random()) % vertices);
       steps.query(v, radius, out);
       paper_time += microseconds_of(paper, v, radius, out);
     }
@@ -194,7 +204,7 @@ void print_row(const std::string& mesh, double radius, const Blocks& blocks, con
   std::fflush(stdout);
 }
 
-void profile(const std::string& name, std::size_t queries, const std::vector<double>& radii) {
+void profile(const std::string& name, std::size_t queries, const std::vector<double>& radii, Order order) {
   const MeshArgument mesh(name);
   const Index index = build(mesh.view());
   const paper::Index paper_index = paper::build(mesh.view());
@@ -204,7 +214,7 @@ void profile(const std::string& name, std::size_t queries, const std::vector<dou
   print_header();
   for (const double radius : radii) {
     SearchSteps steps(index);
-    const Blocks blocks = time_blocks(steps, paper, index.vertex_count(), radius * unit, queries);
+    const Blocks blocks = time_blocks(steps, paper, index.vertex_count(), radius * unit, queries, order);
     print_row(name.substr(name.rfind('/') + 1), radius, blocks, steps.counts(), queries);
   }
 }
@@ -214,14 +224,17 @@ void profile(const std::string& name, std::size_t queries, const std::vector<dou
 }  // namespace meshhood
 
 int main(int arguments, char** values) {
-  if (arguments < 4) {
-    std::fprintf(stderr, "usage: search_steps MESH QUERIES RADIUS...\n");
+  using meshhood::bench::Order;
+  const bool is_warm = arguments > 1 && std::string(values[1]) == "--warm";
+  const int first = is_warm ? 2 : 1;
+  if (arguments < first + 3) {
+    std::fprintf(stderr, "usage: search_steps [--warm] MESH QUERIES RADIUS...\n");
     return 2;
   }
   return meshhood::bench::exit_status("search_steps", [&] {
     std::vector<double> radii;
-    for (int i = 3; i < arguments; ++i) radii.push_back(std::stod(values[i]));
-    meshhood::bench::profile(values[1], std::stoul(values[2]), radii);
+    for (int i = first + 2; i < arguments; ++i) radii.push_back(std::stod(values[i]));
+    meshhood::bench::profile(values[first], std::stoul(values[first + 1]), radii, is_warm ? Order::Warm : Order::Cold);
     return 0;
   });
 }

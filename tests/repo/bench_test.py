@@ -77,13 +77,16 @@ class Programs(unittest.TestCase):
             self.assertAlmostEqual(sum(shares), 100, delta=0.1)
 
     def test_search_steps_prints_a_row_for_each_radius(self):
-        done = subprocess.run([places.PROGRAMS / "search_steps", MESH, "40", "3", "20"], capture_output=True, text=True)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        header, _, *rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in done.stdout.splitlines()]
-        self.assertEqual([row[0].rpartition(" ")[2] for row in rows], ["3", "20"])
-        for row in rows:
-            self.assertEqual(len(row), len(header))
-            self.assertGreater(sum(float(step) for step in row[3:10]), 0)
+        for options in ([], ["--warm"]):
+            command = [places.PROGRAMS / "search_steps", *options, MESH, "40", "3", "20"]
+            done = subprocess.run(command, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            lines = [line.strip("|").split("|") for line in done.stdout.splitlines()]
+            header, _, *rows = [[cell.strip() for cell in line] for line in lines]
+            self.assertEqual([row[0].rpartition(" ")[2] for row in rows], ["3", "20"])
+            for row in rows:
+                self.assertEqual(len(row), len(header))
+                self.assertGreater(sum(float(step) for step in row[3:10]), 0)
 
 
 class NativePeers(unittest.TestCase):

@@ -17,13 +17,15 @@ void LeafBfs::Queue::start(const LeafTraversal& traversal, std::size_t most_pref
 LeafId LeafBfs::Queue::pop() {
   constexpr std::size_t kLeavesAhead = 12;  // this one included
   const std::size_t soon = std::min({head_ + kLeavesAhead, leaves_.size(), most_prefetched_});
-  for (; prefetched_ < soon; ++prefetched_) traversal_->prefetch_neighbors(leaves_[prefetched_]);
+  for (; prefetched_ < soon; ++prefetched_) {
+    traversal_->prefetch_neighbors(leaves_[prefetched_]);
+    traversal_->prefetch_cross_edges(leaves_[prefetched_]);
+  }
   return leaves_[head_++];
 }
 
 void LeafBfs::run(const Query& query, bool is_small, LeafTraversal& traversal, VertexSet& answer) {
   traversal.start(query);
-  traversal.prefetch_cross_edges(query.leaf());
   queue_.start(traversal, is_small ? 1 : std::numeric_limits<std::size_t>::max());
   const auto never = [](LeafId, LaneMask) { return false; };
   static_cast<void>(traversal.traverse(query.leaf(), query.lane(), queue_, never));

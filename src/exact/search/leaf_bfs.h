@@ -22,7 +22,7 @@ class LeafBfs {
   void run(const Query& query, bool is_small, LeafTraversal& traversal, VertexSet& answer);
 
  private:
-  /// First in, first out. Prefetches the neighbors of the leaves that come next.
+  /// First in, first out. Prefetches the neighbors and the first cross edges of the leaves that come next.
   class Queue {
    public:
     void start(const LeafTraversal& traversal, std::size_t most_prefetched);

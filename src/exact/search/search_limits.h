@@ -32,7 +32,7 @@ struct SearchLimits {
   /// reads is in the cache, as after a query in the same leaf (`is_near`), and more time if not. Chosen.
   [[nodiscard]] bool may_lie_in_few_leaves(double radius_in_frame, LeafId home, bool is_near,
                                            const IndexView& index) const {
-    const double mean_leaf_radii = is_near ? 1.4 : 0.4;
+    const double mean_leaf_radii = is_near ? 2.0 : 0.4;
     const bool is_tiny = radius_in_frame < mean_leaf_radii * index.tree[0].mean_radius;
     return enabled && (is_tiny || index.links_of(home).empty());
   }
