@@ -34,8 +34,8 @@ TEST(SearchLimits, LooksForLargerAnswersInFewLeavesNearTheQueryBefore) {
   const double unit = index.tree[0].mean_radius;
   EXPECT_TRUE(limits.may_lie_in_few_leaves(0.3 * unit, home, false, index));
   EXPECT_FALSE(limits.may_lie_in_few_leaves(0.5 * unit, home, false, index));
-  EXPECT_TRUE(limits.may_lie_in_few_leaves(1.3 * unit, home, true, index));
-  EXPECT_FALSE(limits.may_lie_in_few_leaves(1.5 * unit, home, true, index));
+  EXPECT_TRUE(limits.may_lie_in_few_leaves(1.9 * unit, home, true, index));
+  EXPECT_FALSE(limits.may_lie_in_few_leaves(2.1 * unit, home, true, index));
 }
 
 TEST(SearchMemory, KnowsTheLeafOfTheQueryBefore) {
