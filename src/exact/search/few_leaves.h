@@ -29,6 +29,9 @@ class FewLeaves {
   /// and adds nothing, if the vertices of the answer and their neighbors lie in more than `kMostLeaves` leaves.
   [[nodiscard]] bool find(std::uint32_t slot, const LeafBall& ball, VertexSet& answer);
 
+  /// The number of leaves that the last `find` has met.
+  [[nodiscard]] std::size_t leaf_count() const { return count_; }
+
  private:
   /// A leaf that the search has met.
   struct Met {

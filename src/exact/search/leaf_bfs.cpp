@@ -27,8 +27,12 @@ LeafId LeafBfs::Queue::pop() {
 void LeafBfs::run(const Query& query, bool is_small, LeafTraversal& traversal, VertexSet& answer) {
   traversal.start(query);
   queue_.start(traversal, is_small ? 1 : std::numeric_limits<std::size_t>::max());
-  const auto never = [](LeafId, LaneMask) { return false; };
-  static_cast<void>(traversal.traverse(query.leaf(), query.lane(), queue_, never));
+  visits_ = 0;
+  const auto count = [this](LeafId, LaneMask) {
+    ++visits_;
+    return false;
+  };
+  static_cast<void>(traversal.traverse(query.leaf(), query.lane(), queue_, count));
   for (const LeafId leaf : traversal.reached_leaves()) {
     const Leaf& record = index_->leaves[leaf];
     const LaneMask lanes = traversal.reached(leaf);

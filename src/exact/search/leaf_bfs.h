@@ -21,6 +21,9 @@ class LeafBfs {
   /// is_small  whether the ball reaches hardly beyond the neighbors of the first leaf. Then only those are prefetched.
   void run(const Query& query, bool is_small, LeafTraversal& traversal, VertexSet& answer);
 
+  /// The number of visits of leaves that the last call has taken.
+  [[nodiscard]] std::size_t visits() const { return visits_; }
+
  private:
   /// First in, first out. Prefetches the neighbors and the first cross edges of the leaves that come next.
   class Queue {
@@ -44,6 +47,7 @@ class LeafBfs {
 
   const IndexView* index_;
   Queue queue_;
+  std::size_t visits_ = 0;
 };
 
 }  // namespace meshhood

@@ -12,6 +12,7 @@
 // of what is reached, a breadth-first search over leaves is faster; and where the graph is unlike a surface, one over
 // vertices.
 #include <algorithm>
+#include <cstddef>
 
 #include "meshhood/search.h"
 
@@ -23,33 +24,42 @@
 
 namespace meshhood {
 
-Point Searcher::State::search(VertexId v, double radius) {
+bool Searcher::State::is_found_over_vertices(VertexId v, double radius) {
+  ids = vertex_bfs.find(v, radius);
+  if (ids.empty()) search(v, radius);
+  return !ids.empty();
+}
+
+void Searcher::State::search(VertexId v, double radius) {
   // A call for valid arguments would take a tenth of the shortest queries.
   if (v >= index->vertex_count() || !(radius >= 0)) check_query(v, index->vertex_count(), radius);
   const std::uint32_t slot = index->slot[v];
   const LeafId home = leaf_of(slot);
   if (!memory.expects_one_vertex()) traversal.prefetch_leaf(index->leaves[home]);
   if (radius != bounds.radius) bounds = RadiusBounds(index->frame, radius);
-  const Point center = index->position(home, lane_of(slot));
   answer.clear();
+  ids = {};
   was_outward = was_united = false;
-  if (search_few_leaves(slot, center, memory.enter(home))) return center;
+  if (search_few_leaves(slot, index->position(home, lane_of(slot)), memory.enter(home))) return;
   const Query query(*index, v, bounds);
   const bool is_small = limits.is_small(bounds.radius_in_frame, *index);
   // A leaf that is not connected has no links, so the answer is a part of it.
   was_outward = !is_small && index->leaves[home].connected && !is_answer_small(query);
   if (was_outward) {
     search_outward(query);
+  } else if (!is_small && vertex_bfs.is_by_rows()) {
+    ids = vertex_bfs.find_all(v, radius);
   } else {
     leaf_bfs.run(query, is_small, traversal, answer);
+    leaf_visits = leaf_bfs.visits();
   }
-  return query.center();
 }
 
 /// Returns false if the answer has vertices of many leaves, or probably has.
 bool Searcher::State::search_few_leaves(std::uint32_t slot, const Point& center, bool is_near) {
-  if (vertex_bfs.expects_many(bounds.radius)) return false;
-  if (!limits.may_lie_in_few_leaves(bounds.radius_in_frame, leaf_of(slot), is_near, *index)) return false;
+  const LeafId home = leaf_of(slot);
+  if (!limits.may_lie_in_few_leaves(bounds.radius_in_frame, home, is_near, *index)) return false;
+  if (!index->links_of(home).empty() && vertex_bfs.expects_many(home, bounds.radius)) return false;
   bool is_one_vertex = memory.expects_one_vertex() && few_leaves.is_isolated(slot, center, bounds.leaf.squared_radius);
   if (is_one_vertex) {
     answer.add(LeafSubset{leaf_of(slot), LaneMask{1} << lane_of(slot)});
@@ -57,6 +67,7 @@ bool Searcher::State::search_few_leaves(std::uint32_t slot, const Point& center,
     if (!few_leaves.find(slot, LeafBall(center, bounds.leaf), answer)) return false;
     is_one_vertex = answer.is_one_vertex();
   }
+  leaf_visits = few_leaves.leaf_count();
   memory.record_few_leaves(is_one_vertex);
   return true;
 }
@@ -76,6 +87,7 @@ void Searcher::State::search_outward(const Query& query) {
     answer.clear();  // mutant: failed-search-leaves-answer
     reached_components.find(query, descent.groups(), surface_leaves, states, answer);
   }
+  leaf_visits = descent.surface_leaves().size();
   if (!should_unite) record_search();
 }
 
@@ -91,9 +103,11 @@ bool Searcher::State::remove_other_components(const Query& query) {
   return true;
 }
 
+/// After a search for other components.
 void Searcher::State::record_search() {
   const std::size_t surface = descent.surface_leaves().size();
   std::size_t steps = loose.leaf_count() + other_components.visited();
+  leaf_visits += steps;
   if (was_united) steps += surface;  // the cost of uniting is added
   memory.record({surface, answer.count() / kLeafCapacity, steps});
 }
@@ -215,45 +229,39 @@ std::span<const VertexId> Searcher::permutation() const {
 }
 
 void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
-  if (const auto found = state_->vertex_bfs.find(v, radius); !found.empty()) {
-    out.assign(found.begin(), found.end());
+  if (state_->is_found_over_vertices(v, radius)) {
+    out.assign(state_->ids.begin(), state_->ids.end());
     return;
   }
-  state_->search(v, radius);
   state_->write_answer(out);
-  state_->vertex_bfs.record(radius, out.size());
+  state_->record(v, radius, out.size());
 }
 
 void Searcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
-  if (const auto found = state_->vertex_bfs.find(v, radius); !found.empty()) {
-    distances.reserve(found.size());
-    out.assign(found.begin(), found.end());
-    state_->vertex_bfs.measure(v, found, distances);
+  if (state_->is_found_over_vertices(v, radius)) {
+    distances.reserve(state_->ids.size());
+    out.assign(state_->ids.begin(), state_->ids.end());
+    state_->vertex_bfs.measure(v, out, distances);
     return;
   }
-  const Point center = state_->search(v, radius);
   // Before `out` changes: if this throws, neither has changed.
   distances.reserve(state_->answer.count());
   state_->write_answer(out);
   distances.resize(out.size());
-  write_distances(state_->answer, *state_->index, center, distances.data());
-  state_->vertex_bfs.record(radius, out.size());
+  write_distances(state_->answer, *state_->index, state_->center_of(v), distances.data());
+  state_->record(v, radius, out.size());
 }
 
 std::span<const VertexRange> Searcher::ranges(VertexId v, double radius) {
-  if (const auto found = state_->vertex_bfs.find(v, radius); !found.empty()) {
-    return state_->vertex_bfs.ranges_of(found);
-  }
-  state_->search(v, radius);
-  if (state_->vertex_bfs.learns()) state_->vertex_bfs.record(radius, state_->answer.count());
+  if (state_->is_found_over_vertices(v, radius)) return state_->vertex_bfs.ranges_of(state_->ids);
+  if (state_->vertex_bfs.learns()) state_->record(v, radius, state_->answer.count());
   return state_->answer.all_as_runs();
 }
 
 std::size_t Searcher::count(VertexId v, double radius) {
-  if (const auto found = state_->vertex_bfs.find(v, radius); !found.empty()) return found.size();
-  state_->search(v, radius);
+  if (state_->is_found_over_vertices(v, radius)) return state_->ids.size();
   const std::size_t result = state_->answer.count();
-  state_->vertex_bfs.record(radius, result);
+  state_->record(v, radius, result);
   return result;
 }
 

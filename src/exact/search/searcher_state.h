@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -45,9 +46,11 @@ struct Searcher::State {
   SearchMemory memory;
   std::vector<LeafSubset> surface_leaves;  // with their vertices in the ball; they have others outside
   VertexSet answer;
+  std::span<const VertexId> ids;  // the answer instead, if `vertex_bfs` has found it
   VertexBfs vertex_bfs;
-  bool was_outward = false;  // whether the last answer was found by `search_outward`
-  bool was_united = false;   // and whether that has united what it reached
+  std::size_t leaf_visits = 0;  // that the last search has taken, about
+  bool was_outward = false;     // whether the last answer was found by `search_outward`
+  bool was_united = false;      // and whether that has united what it reached
 
   State(std::shared_ptr<const IndexView> view, Isa isa)
       : index(std::move(view)),
@@ -66,8 +69,20 @@ struct Searcher::State {
         answer(*index),
         vertex_bfs(*index) {}
 
-  /// By the searches over leaves: refills `answer` with the neighborhood, and returns the position of `v`.
-  Point search(VertexId v, double radius);
+  /// Finds the neighborhood. Returns whether it is in `ids`; if not, it is in `answer`.
+  [[nodiscard]] bool is_found_over_vertices(VertexId v, double radius);
+
+  /// By the searches over leaves: refills `answer` with the neighborhood, or `ids` if `vertex_bfs` knows that its copy
+  /// of the graph is numbered by rows.
+  void search(VertexId v, double radius);
+
+  [[nodiscard]] Point center_of(VertexId v) const {
+    const std::uint32_t slot = index->slot[v];
+    return index->position(leaf_of(slot), lane_of(slot));
+  }
+
+  /// Tells the search over vertices how long the last search, which has found `size` vertices, has taken.
+  void record(VertexId v, double radius, std::size_t size) { vertex_bfs.record(v, radius, size, leaf_visits); }
 
   /// Refills `out` with the ids of `answer`.
   void write_answer(std::vector<VertexId>& out) const;

@@ -22,32 +22,76 @@ bool is_unlike_a_surface(const IndexView& index) {
   return links > kMostLinks * static_cast<double>(index.vertex_count()) && cross_edges < kFewestEdges * links;
 }
 
+bool is_numbered_by_rows(const AdjacencyView& graph) {
+  std::size_t repeated = 0;
+  for (VertexId v = 1; v < graph.size(); ++v) {
+    const auto is_next = [](VertexId before, VertexId neighbor) { return neighbor == before + 1; };
+    repeated += static_cast<std::size_t>(std::ranges::equal(graph[v - 1], graph[v], is_next));
+  }
+  return 2 * repeated > graph.size();  // mutant: any-order-is-by-rows
+}
+
 VertexBfs::VertexBfs(const IndexView& index) : index_(&index) {
-  constexpr double kMeanLeafRadii = 1.8;  // chosen; such a ball of a plane has about 100 vertices
   if (index.vertex_count() == 0) return;
   if (is_unlike_a_surface(index) || may_squares_underflow(index.frame)) {
     answer_all();
   } else if (index.vertex_count() <= kSmallMesh) {
-    few_ = kFewVertices;
-    most_ = kMostVertices;
-    largest_radius_ = kMeanLeafRadii * index.tree[0].mean_radius / index.frame.scale;
-    learns_ = true;
+    largest_radius_ = radius_of(kByRows.mean_leaf_radii);
     balls_before_ = index.vertex_count() / kVerticesPerBall;
   }
 }
 
-/// Returns false as long as the copy of the graph would probably take longer than it saves.
-bool VertexBfs::make_searcher() {
+double VertexBfs::radius_of(double mean_leaf_radii) const {
+  return mean_leaf_radii * index_->tree[0].mean_radius / index_->frame.scale;
+}
+
+std::span<const VertexId> VertexBfs::find_all(VertexId v, double radius) {
+  if (!searcher_) searcher_.emplace(index_->graph->of(*index_).view());
+  return ReferenceAccess::search(*searcher_, v, radius, kAll);
+}
+
+std::span<const VertexId> VertexBfs::find_small(VertexId v, double radius) {
+  if (v >= index_->vertex_count()) return {};  // the searches over leaves refuse it
+  if (places_.empty() && !make_places()) return {};
+  Place& place = place_of(v);
+  if (!(radius <= place.largest_radius)) return {};
+  const std::span<const VertexId> found =
+      ReferenceAccess::search(*searcher_, v, radius, kVerticesToTheStop * place.most_vertices);
+  if (!is_small(place, radius, found.size())) {
+    place.largest_radius = std::nextafter(radius, -1.0);  // mutant: large-balls-tried-again
+  }
+  return found;
+}
+
+/// Whether a search over leaves would probably have taken longer to find `size` vertices; 0 stands for too many. Of a
+/// ball with many vertices, that is only known at about the radius of the answer that was found over leaves.
+bool VertexBfs::is_small(const Place& place, double radius, std::size_t size) const {
+  if (size <= speed_.vertices) return size > 0;
+  return size <= place.most_vertices && 2 * radius > place.largest_radius;
+}
+
+/// Makes the copy of the graph. Returns false as long as that would probably take longer than it saves.
+bool VertexBfs::make_places() {
   if (balls_before_ > 0) {  // mutant: copy-made-too-soon
     --balls_before_;
     return false;
   }
-  searcher_.emplace(index_->graph->of(*index_).view());
+  const GraphView graph = index_->graph->of(*index_).view();
+  if (!searcher_) searcher_.emplace(graph);
+  speed_ = is_numbered_by_rows(graph.adjacency) ? kByRows : kInAnyOrder;
+  largest_radius_ = radius_of(speed_.mean_leaf_radii);
+  places_.assign(index_->leaf_count(), {largest_radius_, speed_.vertices});
   return true;
 }
 
-void VertexBfs::take_for_large(double radius) {
-  largest_radius_ = std::nextafter(radius, -1.0);  // mutant: large-balls-tried-again
+void VertexBfs::record(VertexId v, double radius, std::size_t size, std::size_t leaf_visits) {
+  if (places_.empty()) return;
+  Place& place = place_of(v);
+  const std::size_t most = std::min(kFewest + speed_.vertices_per_leaf * leaf_visits, kMostVertices);
+  if (size == 1) return;                                      // found as fast over leaves
+  if (radius <= place.largest_radius || size > most) return;  // mutant: large-answer-taken-for-small
+  place = {radius, std::max(static_cast<std::uint32_t>(most), speed_.vertices)};
+  largest_radius_ = std::max(largest_radius_, radius);
 }
 
 void VertexBfs::measure(VertexId v, std::span<const VertexId> ids, std::vector<double>& out) const {
@@ -69,16 +113,12 @@ std::span<const VertexRange> VertexBfs::ranges_of(std::span<const VertexId> ids)
   return ranges_;
 }
 
-void VertexBfs::answer_all() {
-  few_ = most_ = kAll;
-  largest_radius_ = kInfinity;
-  learns_ = false;
-  balls_before_ = 0;
-}
+void VertexBfs::answer_all() { answers_all_ = true; }
 
 void VertexBfs::answer_none() {
+  answers_all_ = false;
   largest_radius_ = -1;
-  learns_ = false;
+  places_.clear();
 }
 
 }  // namespace meshhood

@@ -192,27 +192,81 @@ TEST(VertexBfs, LeavesAllBallsOfALargeMeshToTheSearchesOverLeaves) {
   ASSERT_GT(mesh.size(), VertexBfs::kSmallMesh);
   const Index index = build(mesh.view());
   VertexBfs bfs(IndexAccess::view(index));
-  bfs.record(1, 1);
+  bfs.record(0, 1, 1, 1);
   for (std::size_t i = 0; i < mesh.size(); ++i) ASSERT_TRUE(bfs.find(0, 0.5).empty());
 }
 
-TEST(VertexBfs, LearnsFromAnswersWhichBallsAreSmall) {
+/// That has made its copy of the graph.
+VertexBfs prepared(const Index& index) {
+  VertexBfs bfs(IndexAccess::view(index));
+  for (std::size_t i = 0; i < index.vertex_count(); ++i) static_cast<void>(bfs.find(0, 0));
+  return bfs;
+}
+
+constexpr VertexId kCenter = 20 * 40 + 20;  // of `bumpy_grid(40)`
+
+TEST(VertexBfs, LearnsFromAnswersOverLeavesWhichBallsAreSmall) {
   const TestMesh mesh = bumpy_grid(40);
   const Index index = build(mesh.view());
-  VertexBfs bfs(IndexAccess::view(index));
-  for (std::size_t i = 0; i < mesh.size(); ++i) static_cast<void>(bfs.find(0, 0));
-  const VertexId center = 20 * 40 + 20;
-  const double radius = 9;  // a quarter of a disk at the corner, a whole one in the center
+  VertexBfs bfs = prepared(index);
+  const double radius = 9;  // a quarter of a disk at the corner
+  constexpr std::size_t kVisits = 10;
+  constexpr std::size_t kMost = VertexBfs::kFewest + kVisits * VertexBfs::kByRows.vertices_per_leaf;
   EXPECT_THAT(bfs.find(0, radius), testing::IsEmpty());
-  bfs.record(radius, VertexBfs::kFewVertices + 1);
+  bfs.record(0, radius, kMost + 1, kVisits);
   EXPECT_THAT(bfs.find(0, radius), testing::IsEmpty());
-  bfs.record(radius, VertexBfs::kFewVertices);
+  bfs.record(0, radius, kMost, kVisits);
   EXPECT_THAT(bfs.find(0, radius), testing::Not(testing::IsEmpty()));
-  EXPECT_THAT(bfs.find(center, radius), testing::Not(testing::IsEmpty())) << "found, although there are many";
-  EXPECT_THAT(bfs.find(0, radius), testing::IsEmpty()) << "not tried again";
-  EXPECT_THAT(bfs.find(0, 0), testing::SizeIs(1)) << "smaller balls are";
-  bfs.record(kInfinity, 1);
-  EXPECT_THAT(bfs.find(center, kInfinity), testing::IsEmpty()) << "not completed";
+  EXPECT_THAT(bfs.find(kCenter, radius), testing::IsEmpty()) << "nothing is known of another leaf";
+}
+
+TEST(VertexBfs, LearnsFromItsOwnAnswersWhichBallsAreLarge) {
+  const TestMesh mesh = bumpy_grid(40);
+  const Index index = build(mesh.view());
+  VertexBfs bfs = prepared(index);
+  bfs.record(kCenter, 9, 2, 1);
+  EXPECT_THAT(bfs.find(kCenter, 9), testing::Not(testing::IsEmpty())) << "found, although there are many";
+  EXPECT_THAT(bfs.find(kCenter, 9), testing::IsEmpty()) << "not tried again";
+  EXPECT_THAT(bfs.find(kCenter, 0), testing::SizeIs(1)) << "smaller balls are";
+  bfs.record(kCenter, kInfinity, 2, 1);
+  EXPECT_THAT(bfs.find(kCenter, kInfinity), testing::IsEmpty()) << "not completed";
+}
+
+TEST(VertexBfs, AsksTheSearchesOverLeavesAgainWhereTheRadiusIsAnother) {
+  const TestMesh mesh = bumpy_grid(40);
+  const Index index = build(mesh.view());
+  VertexBfs bfs = prepared(index);
+  bfs.record(kCenter, 30, mesh.size(), mesh.size());
+  for (int i = 0; i < 3; ++i) EXPECT_THAT(bfs.find(kCenter, 20), testing::Not(testing::IsEmpty()));
+  EXPECT_THAT(bfs.find(kCenter, 14), testing::SizeIs(testing::Gt(VertexBfs::kByRows.vertices)));
+  EXPECT_THAT(bfs.find(kCenter, 14), testing::IsEmpty());
+}
+
+TEST(VertexBfs, TakesFewerBallsForSmallWhereVerticesAreNotNumberedByRows) {
+  const TestMesh grid = bumpy_grid(40);
+  Random random(7);
+  const TestMesh shuffled = renumbered(grid, random.permutation(grid.size()));
+  const Index by_rows = build(grid.view());
+  const Index in_any_order = build(shuffled.view());
+  const auto largest = [](const Index& index) {
+    VertexBfs bfs = prepared(index);
+    double radius = 0;
+    while (!bfs.expects_many(0, radius)) radius += 0.01;
+    return radius;
+  };
+  EXPECT_LT(3 * largest(in_any_order), largest(by_rows));
+}
+
+TEST(VertexBfs, GridsAreNumberedByRowsAndShuffledOnesAreNot) {
+  const TestMesh grid = bumpy_grid(40);
+  Random random(7);
+  const auto is_by_rows = [](const TestMesh& mesh) {
+    const Adjacency graph = adjacency(mesh.view());
+    return is_numbered_by_rows(graph.view());
+  };
+  EXPECT_TRUE(is_by_rows(grid));
+  EXPECT_FALSE(is_by_rows(renumbered(grid, random.permutation(grid.size()))));
+  EXPECT_FALSE(is_by_rows(TestMesh{}));
 }
 
 TEST(VertexBfs, RefusesWhatTheSearchesOverLeavesRefuse) {
