@@ -18,7 +18,7 @@ foreach(part
     exact/cell_components exact/connected_parts exact/dissolve_parts exact/forest exact/halfplane_polygon exact/joint_search exact/kd_order exact/leaf_nodes exact/leaves
     exact/links exact/minimum_region exact/node_groups exact/node_links exact/node_parts exact/quality exact/refit exact/root_tree exact/tree exact/check exact/damage exact/file exact/index exact/verify
     exact/search_families exact/search_differential exact/search_outward exact/search_rare exact/search_traps exact/threads
-    exact/query/edge_search exact/query/nearest exact/query/path_queue exact/query/region exact/query/square_range
+    exact/query/edge_search exact/query/nearest exact/query/path_order exact/query/path_queue exact/query/path_search exact/query/region exact/query/square_range
     exact/search/descent exact/search/leaf_traversal exact/search/group_states exact/search/home_marks exact/search/loose_pieces exact/search/other_components exact/search/reached_components exact/search/output
     exact/search/search_limits exact/search/few_leaves exact/search/vertex_bfs exact/search/vertex_set exact/search/waves
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file

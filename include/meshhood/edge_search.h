@@ -16,18 +16,18 @@ namespace meshhood {
 /// Finds vertices by their path distance along the edges, with an `Index`. The *path distance* of a vertex `w` from `v`
 /// is the least length of a path of edges from `v` to `w`. The length of an edge is the distance of its ends (see
 /// `distance`); the length of a path is the sum of those of its edges, added in double in the order of the path. The
-/// rounded sum never decreases if a summand grows, so the algorithm of Dijkstra (1959) finds the least sum to the last
-/// bit.
+/// rounded sum never decreases if a summand grows, so the search finds the least sum to the last bit, as the algorithm of
+/// Dijkstra (1959) does.
 ///
 /// v       in [0, #V).
 /// radius  >= 0 or infinite, in the unit of the positions; a vertex whose path distance is exactly `radius` is inside.
 /// filter  see `Filter`: paths do not pass walls.
 ///
-/// O(n log n) for a result of n vertices. Nothing is allocated once the buffers have grown.
+/// O(n log n) for a result of n vertices, and O(#V + #E) once: the first search computes the lengths of all edges.
 ///
-/// Use one object per thread: it owns scratch memory, about 8 bytes per leaf, and 150 bytes per vertex of its
-/// largest result. It shares the memory of the index, which may be moved, refitted or destroyed meanwhile: answers are
-/// those of the index as it was. It is a `NeighborhoodSearcher`.
+/// Use one object per thread: it owns these lengths (with six edges at a vertex, 90 bytes per vertex), and scratch
+/// memory for its largest result. It shares the memory of the index, which may be moved, refitted or destroyed
+/// meanwhile: answers are those of the index as it was. It is a `NeighborhoodSearcher`.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}; arguments are then unchanged.
 class EdgeSearcher {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "base/distance.h"
@@ -19,31 +20,29 @@ namespace meshhood {
 struct EdgeSearcher::State {
   std::shared_ptr<const IndexView> index;  // shared, so that `refit` leaves it as it is
   const Kernels* kernels;
-  PathSearch paths;
+  std::optional<PathSearch> paths;  // made by the first search: it needs the lengths of all edges
   RingSearch rings;
   VertexSet answer;                 // of `rings`
   std::vector<VertexRange> ranges;  // of the last call of that name
 
   explicit State(std::shared_ptr<const IndexView> view)
-      : index(std::move(view)),
-        kernels(&meshhood::kernels(best_isa())),
-        paths(*index),
-        rings(*index, *kernels),
-        answer(*index) {}
+      : index(std::move(view)), kernels(&meshhood::kernels(best_isa())), rings(*index, *kernels), answer(*index) {}
 
   /// Finds the vertices, those that are ignored included.
   void search(VertexId v, double radius, const Filter& filter) {
     check_query(v, index->vertex_count(), radius);
     check_filter(filter, index->vertex_count());
-    paths.run(index->slot[v], radius, LaneFilter(*index, filter.walls));
+    if (!paths) paths.emplace(*index);
+    const std::uint32_t slot = index->slot[v];
+    paths->run(index->leaf_begin[leaf_of(slot)] + lane_of(slot), radius, LaneFilter(*index, filter.walls));
   }
 
-  /// Calls `f(found)` for the vertices found that are not ignored.
+  /// Calls `f(path)` for the vertices of `found` that are not ignored.
   template <class F>
-  void for_each_found(const Filter& filter, F&& f) const {
+  void for_each(std::span<const Path> found, const Filter& filter, F&& f) const {
     const LaneFilter ignored(*index, filter.ignored);
-    for (const PathSearch::Found& found : paths.found()) {
-      if (!ignored.has(index->id(found.vertex))) f(found);
+    for (const Path& path : found) {
+      if (!ignored.has(index->id(path.end))) f(path);
     }
   }
 };
@@ -62,30 +61,31 @@ std::span<const VertexId> EdgeSearcher::permutation() const {
 
 void EdgeSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, const Filter& filter) {
   state_->search(v, radius, filter);
-  out.reserve(state_->paths.found().size());
+  const std::span<const Path> found = state_->paths->found_in_order();
+  out.reserve(found.size());
   out.clear();
-  state_->for_each_found(filter,
-                         [&](const PathSearch::Found& found) { out.push_back(state_->index->id(found.vertex)); });
+  state_->for_each(found, filter, [&](const Path& path) { out.push_back(state_->index->id(path.end)); });
 }
 
 void EdgeSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances,
                                 const Filter& filter) {
   state_->search(v, radius, filter);
+  const std::span<const Path> found = state_->paths->found_in_order();
   // Before either changes: if this throws, neither has changed.
-  out.reserve(state_->paths.found().size());
-  distances.reserve(state_->paths.found().size());
+  out.reserve(found.size());
+  distances.reserve(found.size());
   out.clear();
   distances.clear();
-  state_->for_each_found(filter, [&](const PathSearch::Found& found) {
-    out.push_back(state_->index->id(found.vertex));
-    distances.push_back(found.length);
+  state_->for_each(found, filter, [&](const Path& path) {
+    out.push_back(state_->index->id(path.end));
+    distances.push_back(path.length);
   });
 }
 
 std::size_t EdgeSearcher::count(VertexId v, double radius, const Filter& filter) {
   state_->search(v, radius, filter);
   std::size_t count = 0;
-  state_->for_each_found(filter, [&](const PathSearch::Found&) { ++count; });
+  state_->for_each(state_->paths->found(), filter, [&](const Path&) { ++count; });
   return count;
 }
 
@@ -93,8 +93,8 @@ std::span<const VertexRange> EdgeSearcher::ranges(VertexId v, double radius, con
   state_->search(v, radius, filter);
   std::vector<VertexRange>& ranges = state_->ranges;
   std::vector<VertexId> positions;
-  state_->for_each_found(
-      filter, [&](const PathSearch::Found& found) { positions.push_back(static_cast<VertexId>(found.vertex)); });
+  state_->for_each(state_->paths->found(), filter,
+                   [&](const Path& path) { positions.push_back(static_cast<VertexId>(path.end)); });
   std::sort(positions.begin(), positions.end());
   ranges.clear();
   for (const VertexId i : positions) {

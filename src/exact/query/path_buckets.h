@@ -12,7 +12,7 @@ namespace meshhood {
 /// A path of edges.
 struct Path {
   double length;
-  std::uint32_t end;  // a local slot
+  std::uint32_t end;  // a vertex, in index order
 };
 
 /// Lists of paths by number. Their memory is used again at once, so it stays in the cache.
@@ -50,15 +50,17 @@ class PathBuckets {
     }
   }
 
-  /// Removes the paths of a bucket that has some, and calls `f(path)` for each.
+  /// Removes the paths of a bucket, and calls `f(path)` for each.
   template <class F>
   void take(std::size_t bucket, F&& f) {
+    const std::uint64_t bit = std::uint64_t{1} << bucket % 64;
+    if ((occupied_[bucket / 64] & bit) == 0) return;
     std::uint32_t last = first_[bucket];
     for (; entries_[last].next != kNone; last = entries_[last].next) f(entries_[last].path);
     f(entries_[last].path);
     entries_[last].next = free_;
     free_ = first_[bucket];
-    occupied_[bucket / 64] &= ~(std::uint64_t{1} << bucket % 64);
+    occupied_[bucket / 64] &= ~bit;
   }
 
  private:

@@ -2,70 +2,161 @@
 #include "exact/query/path_search.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace meshhood {
 namespace {
 
-// So that a bucket has about ten paths where the answer has 10,000 vertices.
-constexpr double kBucketsPerEdge = 32;
+// So narrow that few paths become shorter in their bucket, and so wide that most buckets have paths.
+constexpr double kBucketsPerEdge = 8;
+
+constexpr double kUnreached = std::numeric_limits<double>::infinity();
+
+// No path is shorter.
+constexpr double kWall = -1;
+
+bool is_longer(const Path& a, const Path& b) { return a.length > b.length; }
 
 }  // namespace
 
-void PathSearch::run(std::uint32_t slot, double radius, const LaneFilter& walls) {
-  unreached_ = std::nextafter(radius, std::numeric_limits<double>::infinity());  // mutant: path-of-the-radius-refused
-  start(slot, walls);
-  const auto is_least = [this](const Path& path) {
-    return path.length == lengths_[path.end];  // mutant: longer-path-settles-again
-  };
-  const auto prefetch = [this](const Path& path) { graph_.prefetch_edges(path.end); };
-  for (Path next; queue_.pop(next, is_least, prefetch);) {
-    found_.push_back({next.length, graph_.vertex(next.end)});
-    follow_edges(next, walls);
-  }
+PathSearch::PathSearch(const IndexView& index)
+    : index_(&index), graph_(make_weighted_graph(index)), lengths_(index.vertex_count(), kUnreached) {}
+
+void PathSearch::run(std::uint32_t start, double radius, const LaneFilter& walls) {
+  forget();
+  if (walls.has(index_->id(start))) return;
+  is_complete_ = false;
+  radius_ = radius;
+  walls_ = &walls;
+  queue_.clear(mean_length_near(start) / kBucketsPerEdge);
+  queue_.push({0, start});
+  lengths_[start] = 0;
+  while (queue_.open()) search_open_bucket();
+  is_complete_ = true;
 }
 
-void PathSearch::start(std::uint32_t slot, const LaneFilter& walls) {
-  graph_.clear();
-  lengths_.clear();
+void PathSearch::forget() {
+  if (is_complete_) {
+    for (const Path& path : found_) lengths_[path.end] = kUnreached;
+    for (const std::uint32_t wall : walls_met_) lengths_[wall] = kUnreached;
+  } else {
+    std::fill(lengths_.begin(), lengths_.end(), kUnreached);
+  }
+  is_complete_ = true;
   found_.clear();
-  const std::uint32_t first = graph_.local(slot);
-  static_cast<void>(graph_.edges(first));
-  add_met_leaves(walls);
-  queue_.clear(graph_.mean_length() / kBucketsPerEdge);
-  if (lengths_[first] == 0) return;  // a wall
-  lengths_[first] = 0;
-  *queue_.room(1) = {0, first};
-  queue_.push(1, 0);
+  walls_met_.clear();
+  shorter_count_ = 0;
+  steps_ = 0;
 }
 
-void PathSearch::follow_edges(const Path& path, const LaneFilter& walls) {
-  const std::span<const LocalGraph::Edge> edges = graph_.edges(path.end);
-  if (lengths_.size() != kLeafCapacity * graph_.leaf_count()) add_met_leaves(walls);
-  // Whether a path is shorter than those before cannot be predicted, so there is no branch.
-  Path* const shorter = queue_.room(edges.size());
+/// The mean of the lengths of some edges near a vertex; 0 if there are none.
+double PathSearch::mean_length_near(std::uint32_t vertex) const {
+  constexpr std::size_t kMost = 128;
+  const std::span<const double> after = std::span(graph_.lengths).subspan(graph_.edges.offsets[vertex]);
+  const std::span<const double> some = after.first(std::min(after.size(), kMost));
+  return some.empty() ? 0 : std::accumulate(some.begin(), some.end(), 0.0) / static_cast<double>(some.size());
+}
+
+void PathSearch::search_open_bucket() {
+  const auto begin = static_cast<std::ptrdiff_t>(found_.size());
+  int rounds = 0;
+  for (; take_round(); ++rounds) {
+    if (rounds < kRounds) {  // mutant: bucket-never-in-order
+      follow_round();
+    } else {
+      follow_in_order();
+    }
+  }
+  if (rounds < 2) return;  // mutant: longer-path-found-too
+  const auto is_longer_than_least = [this](const Path& path) { return !is_least(path); };
+  found_.erase(std::remove_if(found_.begin() + begin, found_.end(), is_longer_than_least), found_.end());
+}
+
+/// Takes the shortest paths to their ends from the open bucket. Returns whether there are any.
+bool PathSearch::take_round() {
   std::size_t count = 0;
-  double least = unreached_;
-  for (const LocalGraph::Edge& edge : edges) {
-    const Path next{path.length + edge.length, edge.neighbor};
-    const double before = lengths_[edge.neighbor];
-    lengths_[edge.neighbor] = std::min(before, next.length);
-    shorter[count] = next;
-    count += next.length < before ? 1 : 0;
-    least = std::min(least, next.length);
-  }
-  queue_.push(count, least);
+  queue_.take([&](const Path& path) {
+    if (round_.size() == count) round_.resize(2 * count + 1);
+    // Whether it is the shortest cannot be predicted, so there is no branch.
+    round_[count] = path;
+    count += is_least(path) ? 1 : 0;
+    prefetch_edges(path.end);
+  });
+  round_count_ = count;
+  return count != 0;
 }
 
-/// Initializes the lengths of leaves. That of a wall is 0, so that no path to it is shorter.
-void PathSearch::add_met_leaves(const LaneFilter& walls) {
-  const std::size_t known = lengths_.size() / kLeafCapacity;
-  lengths_.resize(kLeafCapacity * graph_.leaf_count(), unreached_);
-  if (walls.empty()) return;
-  for (std::size_t leaf = known; leaf < graph_.leaf_count(); ++leaf) {
-    for_each_lane(walls.of(graph_.leaf(leaf)), [&](unsigned lane) { lengths_[kLeafCapacity * leaf + lane] = 0; });
+void PathSearch::prefetch_edges(std::uint32_t vertex) const {
+  const std::size_t begin = graph_.edges.offsets[vertex];
+  fetch_lines(graph_.edges.neighbors.data() + begin, 1);
+  fetch_lines(graph_.lengths.data() + begin, 2);
+}
+
+void PathSearch::follow_round() {
+  for (const Path& path : std::span(round_).first(round_count_)) {
+    if (is_least(path)) follow(path);
   }
+  push_shorter();
+}
+
+/// Follows the rest of the open bucket, the shortest path first: the algorithm of Dijkstra.
+void PathSearch::follow_in_order() {
+  round_.resize(round_count_);
+  std::make_heap(round_.begin(), round_.end(), is_longer);
+  while (!round_.empty()) {
+    std::pop_heap(round_.begin(), round_.end(), is_longer);
+    const Path path = round_.back();
+    round_.pop_back();
+    if (!is_least(path)) continue;
+    follow(path);
+    push_shorter();
+    queue_.take([this](const Path& late) {
+      round_.push_back(late);
+      std::push_heap(round_.begin(), round_.end(), is_longer);
+    });
+  }
+}
+
+void PathSearch::follow(const Path& path) {
+  ++steps_;
+  found_.push_back(path);
+  const std::size_t begin = graph_.edges.offsets[path.end];
+  const std::size_t end = graph_.edges.offsets[path.end + std::size_t{1}];
+  if (shorter_.size() < shorter_count_ + (end - begin)) shorter_.resize(2 * (shorter_count_ + (end - begin)));
+  const VertexId* const neighbors = graph_.edges.neighbors.data();
+  const double* const edges = graph_.lengths.data();
+  double* const lengths = lengths_.data();
+  Path* shorter = shorter_.data() + shorter_count_;
+  // Whether a path is shorter than those before cannot be predicted, so there is no branch.
+  for (std::size_t i = begin; i < end; ++i) {
+    const VertexId neighbor = neighbors[i];
+    const double sum = path.length + edges[i];
+    const double length = sum <= radius_ ? sum : kUnreached;  // mutant: path-of-the-radius-refused
+    const double before = lengths[neighbor];
+    lengths[neighbor] = std::min(before, length);
+    *shorter = {length, neighbor};
+    shorter += length < before ? 1 : 0;
+  }
+  shorter_count_ = static_cast<std::size_t>(shorter - shorter_.data());
+}
+
+void PathSearch::push_shorter() {
+  for (const Path& path : std::span(shorter_).first(shorter_count_)) {
+    prefetch(&graph_.edges.offsets[path.end]);
+    if (walls_->has(index_->id(path.end))) {  // mutant: path-through-a-wall
+      lengths_[path.end] = kWall;
+      walls_met_.push_back(path.end);
+    } else {
+      queue_.push(path);
+    }
+  }
+  shorter_count_ = 0;
+}
+
+std::span<const Path> PathSearch::found_in_order() {
+  if (!found_.empty()) order_.sort(std::span(found_).subspan(1));
+  return found_;
 }
 
 }  // namespace meshhood

@@ -1,44 +1,77 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "exact/layout.h"
 #include "exact/query/lane_filter.h"
-#include "exact/query/local_graph.h"
+#include "exact/query/path_order.h"
 #include "exact/query/path_queue.h"
+#include "exact/weighted_graph.h"
 
 namespace meshhood {
 
-/// The algorithm of Dijkstra on the graph of an index, up to a radius.
+/// The shortest paths along the edges from a vertex, up to a radius, by label correction in buckets (delta-stepping:
+/// Meyer and Sanders 2003).
+///
+/// The paths of a bucket are followed in any order. A vertex whose path becomes shorter in the bucket is followed again
+/// in the next *round*. This finds the same lengths as the algorithm of Dijkstra, to the last bit. When nothing is left
+/// to follow, no edge makes a path shorter. So the length at a vertex is that of a path to it, and at most that of any
+/// other path, by induction over the edges of that path: the rounded sum never decreases if a summand grows.
+///
+/// The lengths of a bucket are final when it is empty, so each vertex is followed in one bucket only. After `kRounds`
+/// rounds the rest of a bucket is followed in order of length, each vertex once. So no lengths of edges, be they zero
+/// or of very different size, cause more than `kRounds + 1` steps for a vertex.
 class PathSearch {
  public:
-  explicit PathSearch(const IndexView& index) : graph_(index) {}
+  static constexpr int kRounds = 4;
 
-  /// A vertex and its path distance.
-  struct Found {
-    double length;
-    std::uint32_t vertex;  // in index order
-  };
+  /// O(#V + #E): computes the lengths of all edges.
+  explicit PathSearch(const IndexView& index);
 
-  /// Finds the vertices whose path distance from the vertex `slot` is at most `radius`, without passing `walls`.
-  void run(std::uint32_t slot, double radius, const LaneFilter& walls);
+  /// Finds the vertices whose path distance from the vertex `start`, in index order, is at most `radius`, without
+  /// passing `walls`.
+  void run(std::uint32_t start, double radius, const LaneFilter& walls);
 
-  /// The vertices found by the last run, ascending by path distance, the first vertex first.
-  [[nodiscard]] std::span<const Found> found() const { return found_; }
+  /// The paths found by the last run, that to the first vertex first, the others in no stated order.
+  [[nodiscard]] std::span<const Path> found() const { return found_; }
+
+  /// The same, ascending by length, then by vertex in index order, after that to the first vertex.
+  [[nodiscard]] std::span<const Path> found_in_order();
+
+  /// How many times the last run followed the edges of a vertex.
+  [[nodiscard]] std::size_t steps() const { return steps_; }
 
  private:
-  void start(std::uint32_t slot, const LaneFilter& walls);
-  void follow_edges(const Path& path, const LaneFilter& walls);
-  void add_met_leaves(const LaneFilter& walls);
+  void forget();
+  [[nodiscard]] double mean_length_near(std::uint32_t vertex) const;
+  void search_open_bucket();
+  [[nodiscard]] bool take_round();
+  void follow_round();
+  void follow_in_order();
+  void follow(const Path& path);
+  void push_shorter();
+  void prefetch_edges(std::uint32_t vertex) const;
+  [[nodiscard]] bool is_least(const Path& path) const { return path.length == lengths_[path.end]; }
 
-  LocalGraph graph_;
-  std::vector<double> lengths_;  // by local slot: the least length so far
-  double unreached_ = 0;         // the length of vertices without a path: the least one beyond the radius
-  PathQueue queue_;              // holds longer paths to the same vertices too
-  std::vector<Found> found_;
+  const IndexView* index_;
+  WeightedGraph graph_;
+  double radius_ = 0;
+  const LaneFilter* walls_ = nullptr;  // of this run
+  std::vector<double> lengths_;        // by vertex: of the shortest path so far
+  std::vector<std::uint32_t> walls_met_;
+  bool is_complete_ = true;  // else the last run threw
+  PathQueue queue_;          // holds longer paths to the same vertices too
+  std::vector<Path> round_;  // the first `round_count_`: the paths of the open bucket that are followed now
+  std::size_t round_count_ = 0;
+  std::vector<Path> shorter_;  // the first `shorter_count_`: found since, not in the queue yet
+  std::size_t shorter_count_ = 0;
+  std::vector<Path> found_;  // in the order of the buckets
+  std::size_t steps_ = 0;
+  PathOrder order_;
 };
 
 }  // namespace meshhood

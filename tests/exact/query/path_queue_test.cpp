@@ -2,6 +2,7 @@
 // The queue of path searches, against a sorted container.
 #include "exact/query/path_queue.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <set>
@@ -14,51 +15,40 @@
 namespace meshhood::test {
 namespace {
 
-/// A queue and the lengths of its paths. Paths are named by the order in which they were pushed.
+/// A queue, and the lengths of its paths.
 class PathQueueTest : public testing::Test {
  protected:
   void clear(double width) {
     queue_.clear(width);
     lengths_.clear();
-    valid_.clear();
   }
 
-  void push(const std::vector<double>& lengths) {
-    Path* room = queue_.room(lengths.size() + 2);  // more room than needed
-    double least = std::numeric_limits<double>::infinity();
-    for (const double length : lengths) {
-      *room++ = {length, static_cast<std::uint32_t>(valid_.size())};
-      lengths_.insert(length);
-      valid_.push_back(true);
-      least = std::min(least, length);
+  void push(double length) {
+    queue_.push({length, 7});
+    lengths_.insert(length);
+  }
+
+  /// Takes a bucket: the shortest paths, ascending, none if the queue is empty.
+  std::vector<double> take() {
+    std::vector<double> taken;
+    const bool has_paths = queue_.open();
+    EXPECT_EQ(has_paths, !lengths_.empty());
+    if (!has_paths) return {};
+    queue_.take([&](const Path& path) { taken.push_back(path.length); });
+    std::sort(taken.begin(), taken.end());
+    EXPECT_FALSE(taken.empty());
+    for (const double length : taken) {
+      EXPECT_EQ(length, *lengths_.begin());
+      lengths_.erase(lengths_.begin());
     }
-    queue_.push(lengths.size(), least);
-  }
-
-  /// Makes a path invalid.
-  void drop(const Path& path) {
-    valid_[path.end] = false;
-    lengths_.erase(lengths_.find(path.length));
-  }
-
-  /// Returns the length of the path taken.
-  double pop() {
-    Path path{};
-    const bool has_path = queue_.pop(path, [&](const Path& p) { return valid_[p.end]; }, [](const Path&) {});
-    EXPECT_EQ(has_path, !lengths_.empty());
-    if (!has_path) return 0;
-    EXPECT_EQ(path.length, *lengths_.begin());
-    EXPECT_TRUE(valid_[path.end]);
-    drop(path);
-    return path.length;
+    return taken;
   }
 
   [[nodiscard]] bool has_paths() const { return !lengths_.empty(); }
 
  private:
   PathQueue queue_;
-  std::multiset<double> lengths_;  // of the valid paths
-  std::vector<bool> valid_;        // by path: neither taken nor dropped
+  std::multiset<double> lengths_;
 };
 
 TEST_F(PathQueueTest, TakesTheShortestWhileNoShorterArePushed) {
@@ -69,35 +59,20 @@ TEST_F(PathQueueTest, TakesTheShortestWhileNoShorterArePushed) {
     // Buckets that hold one path, some, or all; and so narrow that few paths lie in a window.
     const double width = unit * std::vector{0.0, 1e-9, 0.01, 0.3, 5.0}[random.below(5)];
     const bool is_whole = random.below(2) == 0;
-    const std::size_t most = std::vector{3U, 40U}[random.below(2)];
+    const std::size_t most = std::vector{3U, 10U}[random.below(2)];
     clear(width);
-    push({0});
-    for (int step = 0; step < 400 && has_paths(); ++step) {
-      const double last = pop();
-      std::vector<double> lengths;
-      for (std::size_t i = random.below(step < 200 ? most : 2); i > 0; --i) {
-        const double by = is_whole ? static_cast<double>(random.below(3)) : random.uniform(0, 2);
-        lengths.push_back(last + unit * by);
+    push(0);
+    for (int step = 0; step < 100 && has_paths() && !HasFailure(); ++step) {
+      std::vector<double> taken = take();
+      if (taken.size() > 40) taken.resize(40);
+      for (const double length : taken) {
+        for (std::size_t i = random.below(step < 50 ? most : 2); i > 0; --i) {
+          push(length + unit * (is_whole ? static_cast<double>(random.below(3)) : random.uniform(0, 2)));
+        }
       }
-      push(lengths);
     }
-    while (has_paths()) pop();
-    pop();
-  }
-}
-
-TEST_F(PathQueueTest, DropsInvalidPaths) {
-  Random random(2);
-  for (int round = 0; round < 50 && !HasFailure(); ++round) {
-    clear(random.uniform(0, 0.2));
-    std::vector<double> lengths(200);
-    for (double& length : lengths) length = random.uniform(0, 3);
-    push(lengths);
-    for (std::uint32_t path = 0; path < lengths.size(); ++path) {
-      if (random.below(2) == 0) drop({lengths[path], path});
-    }
-    while (has_paths()) pop();
-    pop();
+    while (has_paths() && !HasFailure()) take();
+    take();
   }
 }
 
@@ -105,9 +80,9 @@ TEST_F(PathQueueTest, TakesTheSmallestAndTheLargestLengths) {
   using Limits = std::numeric_limits<double>;
   for (const double width : {0.0, 1.0, 1e300}) {
     clear(width);
-    push({Limits::max(), 1.0, Limits::min(), Limits::denorm_min(), 0.0});
-    while (has_paths()) pop();
-    pop();
+    for (const double length : {Limits::max(), 1.0, Limits::min(), Limits::denorm_min(), 0.0}) push(length);
+    while (has_paths() && !HasFailure()) take();
+    take();
   }
 }
 
