@@ -16,8 +16,8 @@ namespace meshhood {
 /// Finds vertices by their path distance along the edges, with an `Index`. The *path distance* of a vertex `w` from `v`
 /// is the least length of a path of edges from `v` to `w`. The length of an edge is the distance of its ends (see
 /// `distance`); the length of a path is the sum of those of its edges, added in double in the order of the path. The
-/// rounded sum never decreases if a summand grows, so the search finds the least sum to the last bit, as the algorithm of
-/// Dijkstra (1959) does.
+/// rounded sum never decreases if a summand grows, so the search finds the least sum to the last bit, as does the
+/// algorithm of Dijkstra (1959).
 ///
 /// v       in [0, #V).
 /// radius  >= 0 or infinite, in the unit of the positions; a vertex whose path distance is exactly `radius` is inside.
