@@ -23,10 +23,10 @@ namespace meshhood {
 /// radius  >= 0 or infinite, in the unit of the positions; a vertex whose path distance is exactly `radius` is inside.
 /// filter  see `Filter`: paths do not pass walls.
 ///
-/// O(n log n) for a result of n vertices, and O(#V + #E) once: the first search computes the lengths of all edges.
+/// O(n log n) for a result of n vertices. The first search of an index takes O(#V + #E): it computes the lengths of all
+/// edges, which the index keeps for all searchers (80 bytes a vertex with six edges).
 ///
-/// Use one object per thread: it owns these lengths (with six edges at a vertex, 90 bytes per vertex), and scratch
-/// memory for its largest result. It shares the memory of the index, which may be moved, refitted or destroyed
+/// Use one object per thread: it owns 8 bytes a vertex, and scratch memory for its largest result. It shares the memory of the index, which may be moved, refitted or destroyed
 /// meanwhile: answers are those of the index as it was. It is a `NeighborhoodSearcher`.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}; arguments are then unchanged.

@@ -5,11 +5,16 @@
 
 #include "meshhood/adjacency.h"
 
+#include "exact/weighted_graph.h"
+
 namespace meshhood {
 
 struct IndexView;
 
-/// The graph of an index in the caller's order, made at its first use and kept for all searchers.
+/// Graphs of an index, each made at its first use and kept for all searchers.
+///
+/// Any thread may ask for one. There is no lock, because a fork could leave it held: if several threads make a graph at
+/// once, one result is kept. O(#V + #E) the first time. `index` owns this object.
 class SharedGraph {
  public:
   SharedGraph() = default;
@@ -17,12 +22,15 @@ class SharedGraph {
   SharedGraph& operator=(const SharedGraph&) = delete;
   ~SharedGraph();
 
-  /// The graph of `index`, which owns this object. Any thread may call it. There is no lock, because a fork could leave
-  /// it held: if several threads make the graph at once, one result is kept. O(#V + #E) the first time.
+  /// The graph in the caller's order.
   [[nodiscard]] const GraphData& of(const IndexView& index);
+
+  /// The graph in index order, with the lengths of the edges.
+  [[nodiscard]] const WeightedGraph& weighted(const IndexView& index);
 
  private:
   std::atomic<const GraphData*> graph_{nullptr};
+  std::atomic<const WeightedGraph*> weighted_{nullptr};
 };
 
 }  // namespace meshhood

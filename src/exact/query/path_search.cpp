@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "exact/shared_graph.h"
+
 namespace meshhood {
 namespace {
 
@@ -21,7 +23,7 @@ bool is_longer(const Path& a, const Path& b) { return a.length > b.length; }
 }  // namespace
 
 PathSearch::PathSearch(const IndexView& index)
-    : index_(&index), graph_(make_weighted_graph(index)), lengths_(index.vertex_count(), kUnreached) {}
+    : index_(&index), graph_(&index.graph->weighted(index)), lengths_(index.vertex_count(), kUnreached) {}
 
 void PathSearch::run(std::uint32_t start, double radius, const LaneFilter& walls) {
   forget();
@@ -53,7 +55,7 @@ void PathSearch::forget() {
 /// The mean of the lengths of some edges near a vertex; 0 if there are none.
 double PathSearch::mean_length_near(std::uint32_t vertex) const {
   constexpr std::size_t kMost = 128;
-  const std::span<const double> after = std::span(graph_.lengths).subspan(graph_.edges.offsets[vertex]);
+  const std::span<const double> after = std::span(graph_->lengths).subspan(graph_->edges.offsets[vertex]);
   const std::span<const double> some = after.first(std::min(after.size(), kMost));
   return some.empty() ? 0 : std::accumulate(some.begin(), some.end(), 0.0) / static_cast<double>(some.size());
 }
@@ -88,9 +90,9 @@ bool PathSearch::take_round() {
 }
 
 void PathSearch::prefetch_edges(std::uint32_t vertex) const {
-  const std::size_t begin = graph_.edges.offsets[vertex];
-  fetch_lines(graph_.edges.neighbors.data() + begin, 1);
-  fetch_lines(graph_.lengths.data() + begin, 2);
+  const std::size_t begin = graph_->edges.offsets[vertex];
+  fetch_lines(graph_->edges.neighbors.data() + begin, 1);
+  fetch_lines(graph_->lengths.data() + begin, 2);
 }
 
 void PathSearch::follow_round() {
@@ -121,11 +123,11 @@ void PathSearch::follow_in_order() {
 void PathSearch::follow(const Path& path) {
   ++steps_;
   found_.push_back(path);
-  const std::size_t begin = graph_.edges.offsets[path.end];
-  const std::size_t end = graph_.edges.offsets[path.end + std::size_t{1}];
+  const std::size_t begin = graph_->edges.offsets[path.end];
+  const std::size_t end = graph_->edges.offsets[path.end + std::size_t{1}];
   if (shorter_.size() < shorter_count_ + (end - begin)) shorter_.resize(2 * (shorter_count_ + (end - begin)));
-  const VertexId* const neighbors = graph_.edges.neighbors.data();
-  const double* const edges = graph_.lengths.data();
+  const VertexId* const neighbors = graph_->edges.neighbors.data();
+  const double* const edges = graph_->lengths.data();
   double* const lengths = lengths_.data();
   Path* shorter = shorter_.data() + shorter_count_;
   // Whether a path is shorter than those before cannot be predicted, so there is no branch.
@@ -143,7 +145,7 @@ void PathSearch::follow(const Path& path) {
 
 void PathSearch::push_shorter() {
   for (const Path& path : std::span(shorter_).first(shorter_count_)) {
-    prefetch(&graph_.edges.offsets[path.end]);
+    prefetch(&graph_->edges.offsets[path.end]);
     if (walls_->has(index_->id(path.end))) {  // mutant: path-through-a-wall
       lengths_[path.end] = kWall;
       walls_met_.push_back(path.end);

@@ -29,7 +29,7 @@ class PathSearch {
  public:
   static constexpr int kRounds = 4;
 
-  /// O(#V + #E): computes the lengths of all edges.
+  /// O(#V), and for the first search of an index O(#V + #E): its weighted graph is made.
   explicit PathSearch(const IndexView& index);
 
   /// Finds the vertices whose path distance from the vertex `start`, in index order, is at most `radius`, without
@@ -58,7 +58,7 @@ class PathSearch {
   [[nodiscard]] bool is_least(const Path& path) const { return path.length == lengths_[path.end]; }
 
   const IndexView* index_;
-  WeightedGraph graph_;
+  const WeightedGraph* graph_;
   double radius_ = 0;
   const LaneFilter* walls_ = nullptr;  // of this run
   std::vector<double> lengths_;        // by vertex: of the shortest path so far
