@@ -170,7 +170,7 @@ struct MomentKernels {
   void (*fit_quadrics)(const FrameMoments& moments, QueryQuadrics& out);
 
   /// The same with a constant term, which `out` leaves out. `sums`: of the coordinates u, v, n. `counts`: moments of
-  /// degree 0.
+  /// degree 0, aligned like a row of these.
   void (*fit_jets)(const FrameMoments& moments, const QueryVectors& sums, const QueryRow& counts, QueryQuadrics& out);
 };
 

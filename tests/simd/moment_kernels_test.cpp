@@ -298,7 +298,7 @@ TEST(MomentKernels, FitsSolveTheNormalEquations) {
   Random random(6);
   FrameMoments s{};
   QueryVectors sums{};
-  QueryRow counts{};
+  alignas(QueryVectors) QueryRow counts{};
   const std::array<double, 6> coefficients{0.5, -0.25, 0.125, 0.75, -1, 2};
   for (std::size_t q = 0; q < kPacketCapacity; ++q) {
     for (int i = 0; i < 30; ++i) {
