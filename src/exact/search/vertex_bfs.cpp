@@ -9,6 +9,15 @@
 #include "exact/shared_graph.h"
 
 namespace meshhood {
+namespace {
+
+/// Whether no vertex has a neighbor, as in a set of points.
+bool has_no_edges(const IndexView& index) {
+  const auto is_zero = [](LaneMask neighbors) { return neighbors == 0; };
+  return index.links.size() == 1 && std::ranges::all_of(index.adjacency, is_zero);
+}
+
+}  // namespace
 
 bool is_unlike_a_surface(const IndexView& index) {
   // On a surface, a leaf of 30 vertices has six links of eight edges: a link for every five vertices. Chosen: between
@@ -33,7 +42,7 @@ bool is_numbered_by_rows(const AdjacencyView& graph) {
 
 VertexBfs::VertexBfs(const IndexView& index) : index_(&index) {
   if (index.vertex_count() == 0) return;
-  if (is_unlike_a_surface(index) || may_squares_underflow(index.frame)) {
+  if (is_unlike_a_surface(index) || has_no_edges(index) || may_squares_underflow(index.frame)) {
     answer_all();
   } else if (index.vertex_count() <= kSmallMesh) {
     largest_radius_ = radius_of(kByRows.mean_leaf_radii);

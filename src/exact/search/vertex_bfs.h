@@ -27,7 +27,7 @@ namespace meshhood {
 [[nodiscard]] bool is_numbered_by_rows(const AdjacencyView& graph);
 
 /// Breadth-first search over vertices: the reference search, on a copy of the graph in the caller's order. It answers
-/// - every ball, if the graph is unlike a surface or has no minimum regions;
+/// - every ball, if the graph is unlike a surface, has no edges, or has no minimum regions;
 /// - small balls, if the mesh is small, so that the copy stays in the cache. A ball is small if this search takes less
 ///   time than one over leaves. Whether it is, is remembered for each leaf, from answers to queries of its vertices.
 ///

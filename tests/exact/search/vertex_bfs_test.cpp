@@ -165,16 +165,23 @@ TEST(VertexBfs, GraphsOfFewLinksOrOfLinksWithManyEdgesAreNotUnlikeASurface) {
   EXPECT_FALSE(is_odd(make_random_graph(1000, 20'000))) << "many links, of many edges each";
 }
 
-TEST(VertexBfs, AnswersEveryBallWhereTheGraphIsUnlikeASurfaceOrSquaresUnderflow) {
+TEST(VertexBfs, AnswersEveryBallWhereTheGraphIsUnlikeASurfaceOrHasNoEdgesOrSquaresUnderflow) {
   TestMesh vanishing = bumpy_grid(40);
   for (double& x : vanishing.positions) x *= 1e-160;
-  for (const TestMesh& mesh : {make_hubs(2000, 3), vanishing.finish(false)}) {
+  for (const TestMesh& mesh : {make_hubs(2000, 3), make_random_graph(2000, 0), vanishing.finish(false)}) {
     const Index index = build(mesh.view());
     VertexBfs bfs(IndexAccess::view(index));
     EXPECT_TRUE(bfs.answers_all());
     EXPECT_FALSE(bfs.find(0, 0).empty());
     EXPECT_FALSE(bfs.find(0, kInfinity).empty());
   }
+}
+
+TEST(VertexBfs, LeavesAllBallsToTheSearchesOverLeavesWhereOneEdgeIsLeft) {
+  TestMesh mesh = make_random_graph(100'000, 0);
+  mesh.add_face({99'999, 7});
+  const Index index = build(mesh.view());
+  EXPECT_FALSE(VertexBfs(IndexAccess::view(index)).answers_all());
 }
 
 TEST(VertexBfs, AnswersSmallBallsOfASmallMeshOnceThereWereEnough) {
