@@ -77,10 +77,10 @@ TEST_F(PathQueueTest, TakesTheShortestWhileNoShorterArePushed) {
 }
 
 TEST_F(PathQueueTest, TakesTheSmallestAndTheLargestLengths) {
-  using Limits = std::numeric_limits<double>;
+  using Double = std::numeric_limits<double>;
   for (const double width : {0.0, 1.0, 1e300}) {
     clear(width);
-    for (const double length : {Limits::max(), 1.0, Limits::min(), Limits::denorm_min(), 0.0}) push(length);
+    for (const double length : {Double::max(), 1.0, Double::min(), Double::denorm_min(), 0.0}) push(length);
     while (has_paths() && !HasFailure()) take();
     take();
   }
