@@ -97,7 +97,6 @@ void VertexBfs::record(VertexId v, double radius, std::size_t size, std::size_t 
   if (places_.empty()) return;
   Place& place = place_of(v);
   const std::size_t most = std::min(kFewest + speed_.vertices_per_leaf * leaf_visits, kMostVertices);
-  if (size == 1) return;                                      // found as fast over leaves
   if (radius <= place.largest_radius || size > most) return;  // mutant: large-answer-taken-for-small
   place = {radius, std::max(static_cast<std::uint32_t>(most), speed_.vertices)};
   largest_radius_ = std::max(largest_radius_, radius);
