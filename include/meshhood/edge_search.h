@@ -26,8 +26,9 @@ namespace meshhood {
 /// O(n log n) for a result of n vertices. The first search of an index takes O(#V + #E): it computes the lengths of all
 /// edges, which the index keeps for all searchers (80 bytes a vertex with six edges).
 ///
-/// Use one object per thread: it owns 8 bytes a vertex, and scratch memory for its largest result. It shares the memory of the index, which may be moved, refitted or destroyed
-/// meanwhile: answers are those of the index as it was. It is a `NeighborhoodSearcher`.
+/// Use one object per thread: it owns 8 bytes a vertex, and scratch memory for its largest result. It shares the memory
+/// of the index, which may be moved, refitted or destroyed meanwhile: answers are those of the index as it was. It is a
+/// `NeighborhoodSearcher`.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}; arguments are then unchanged.
 class EdgeSearcher {
