@@ -54,10 +54,7 @@ double VertexBfs::radius_of(double mean_leaf_radii) const {
   return mean_leaf_radii * index_->tree[0].mean_radius / index_->frame.scale;
 }
 
-std::span<const VertexId> VertexBfs::find_all(VertexId v, double radius) {
-  if (!searcher_) searcher_.emplace(index_->graph->of(*index_).view());
-  return ReferenceAccess::search(*searcher_, v, radius, kAll);
-}
+void VertexBfs::make_searcher() { searcher_.emplace(index_->graph->of(*index_).view()); }
 
 std::span<const VertexId> VertexBfs::find_small(VertexId v, double radius) {
   if (v >= index_->vertex_count()) return {};  // the searches over leaves refuse it
@@ -85,9 +82,8 @@ bool VertexBfs::make_places() {
     --balls_before_;
     return false;
   }
-  const GraphView graph = index_->graph->of(*index_).view();
-  if (!searcher_) searcher_.emplace(graph);
-  speed_ = is_numbered_by_rows(graph.adjacency) ? kByRows : kInAnyOrder;
+  if (!searcher_) make_searcher();
+  speed_ = is_numbered_by_rows(index_->graph->of(*index_).view().adjacency) ? kByRows : kInAnyOrder;
   largest_radius_ = radius_of(speed_.mean_leaf_radii);
   places_.assign(index_->leaf_count(), {largest_radius_, speed_.vertices});
   return true;

@@ -65,7 +65,10 @@ class VertexBfs {
   }
 
   /// The same for any ball.
-  [[nodiscard]] std::span<const VertexId> find_all(VertexId v, double radius);
+  [[nodiscard]] std::span<const VertexId> find_all(VertexId v, double radius) {
+    if (!searcher_) make_searcher();
+    return ReferenceAccess::search(*searcher_, v, radius, kAll);
+  }
 
   /// Whether there is a copy of the graph, and its vertices are numbered by rows. Then this search is no slower than a
   /// breadth-first search over leaves.
@@ -104,6 +107,7 @@ class VertexBfs {
   [[nodiscard]] std::span<const VertexId> find_small(VertexId v, double radius);
   [[nodiscard]] bool is_small(const Place& place, double radius, std::size_t size) const;
   [[nodiscard]] bool make_places();
+  void make_searcher();
   [[nodiscard]] double radius_of(double mean_leaf_radii) const;
   [[nodiscard]] Place& place_of(VertexId v) { return places_[leaf_of(index_->slot[v])]; }
 
