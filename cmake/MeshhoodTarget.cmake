@@ -9,9 +9,7 @@ function(meshhood_own_target target)
   # g++ takes a source inside a unity build for a header, where a type with a member from this file would be a fault.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
-  endif()
-  # Without its default limits, the garbage collector of g++ would take a tenth of the time to compile a unit build.
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # With its default limit, the garbage collector of g++ takes a tenth of the time to compile a unit build.
     target_compile_options(${target} PRIVATE --param=ggc-min-heapsize=1048576)
   endif()
   # New warnings of newer compilers must not break projects that contain this one.

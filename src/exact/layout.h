@@ -115,7 +115,7 @@ struct IndexView {
   RootTree roots;                          // over the groups that no node covers
   std::shared_ptr<const void> owner;       // a `ConnectivityData`, or the bytes of an index file
   std::shared_ptr<GeometryData> geometry;  // of this view alone; none while all arrays are in a file
-  std::shared_ptr<SharedGraph> graph = std::make_shared<SharedGraph>();  // for searches over vertices
+  std::shared_ptr<SharedGraph> graph = std::make_shared<SharedGraph>();  // over vertices, along edges
 
   [[nodiscard]] std::size_t vertex_count() const { return slot.size(); }
   /// The number of places for leaves. A leaf that does not exist has no vertices.
