@@ -12,12 +12,17 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "meshhood/error.h"
+#include "meshhood/filter.h"
+
 #include "commands.h"
 #include "input.h"
 #include "io/index_io.h"
+#include "io/messages.h"
 #include "options.h"
 #include "output.h"
 #include "task.h"
+#include "vertex_files.h"
 
 namespace meshhood::cli {
 namespace {
@@ -25,6 +30,7 @@ namespace {
 struct BuildCommand {
   std::string mesh;
   std::string index = "exact";
+  std::string cut;
   unsigned threads = kAllThreads;
   bool json = false;
   std::string output;
@@ -72,13 +78,33 @@ std::string to_text(const BuildCommand& options, const Summary& summary) {
                      summary.vertices, summary.clusters, clusters_name(options), summary.bytes, summary.seconds);
 }
 
+template <class Mesh>
+Summary build_and_save(const BuildCommand& options, const Mesh& mesh) {
+  if (options.index == "paper") return build_and_save(options.output, [&] { return build_paper_index(mesh); });
+  return build_and_save(options.output, [&] { return build_exact_index(mesh, options.threads); });
+}
+
+/// The graph of the mesh without the edges that `file` lists.
+Adjacency cut_graph(const MeshView& mesh, const std::string& file) {
+  const Adjacency whole = adjacency(mesh);
+  const std::vector<VertexId> edges = read_vertex_list(file, whole.view().size(), 2);
+  try {
+    return cut_edges(whole.view(), edges);
+  } catch (const Error& error) {
+    raise(error.code(), fmt::format("{}: {}", io::printable_name(file), error.what()));
+  }
+}
+
 void build(const BuildCommand& options) {
-  check_output(options.output, {options.mesh});
+  check_output(options.output, {options.mesh, options.cut});
   const io::Mesh mesh = read_mesh(options.mesh);
-  const Summary summary =
-      options.index == "paper"
-          ? build_and_save(options.output, [&] { return build_paper_index(mesh.view()); })
-          : build_and_save(options.output, [&] { return build_exact_index(mesh.view(), options.threads); });
+  Summary summary{};
+  if (options.cut.empty()) {
+    summary = build_and_save(options, mesh.view());
+  } else {
+    const Adjacency rest = cut_graph(mesh.view(), options.cut);
+    summary = build_and_save(options, GraphView{mesh.view().positions, rest.view()});
+  }
   print_result(options.json, to_json(options, summary), to_text(options, summary));
 }
 
@@ -90,6 +116,8 @@ void add_build(CLI::App& program) {
   add_mesh(*command, options->mesh);
   add_choice(*command, "--index", "exact: for exact answers; paper: the index of the paper", {"exact", "paper"},
              options->index);
+  add_file_option(*command, "--cut", "a list of edges that no search crosses: on each line the two vertices of one",
+                  options->cut);
   add_threads(*command, options->threads);
   add_output(*command, ".mhi", "index file to write", options->output)->required();
   add_json(*command, options->json);

@@ -143,16 +143,18 @@ Channels read_numpy(io::InputBuffer& input, std::size_t vertices) {
 
 }  // namespace
 
-std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vertices) {
+std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vertices, std::size_t columns) {
   return read_file(file, [&](io::InputBuffer& input) {
     io::Text text(input, {.hash_comments = true});
     std::vector<VertexId> list;
     while (text.next_line()) {
-      const std::string_view token = text.token_on_line();
+      std::string_view token = text.token_on_line();
       if (token.empty()) continue;
-      list.push_back(parse_vertex(text, token, vertices));
-      if (const std::string_view second = text.token_on_line(); !second.empty()) {
-        text.fail(ErrorCode::InvalidOption, fmt::format("{}, expected the end of the line", io::quote(second)));
+      for (std::size_t column = 0; column < columns; ++column, token = text.token_on_line()) {
+        list.push_back(parse_vertex(text, token, vertices));
+      }
+      if (!token.empty()) {
+        text.fail(ErrorCode::InvalidOption, fmt::format("{}, expected the end of the line", io::quote(token)));
       }
     }
     return list;

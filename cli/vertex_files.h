@@ -17,8 +17,10 @@
 /// Every reader throws Error{InvalidOption} with the place and what was expected, and Error{IoFailure, TooLarge}.
 namespace meshhood::cli {
 
-/// Reads vertices of a mesh of `vertices`: a text with one vertex per line, in any order, repeats allowed.
-[[nodiscard]] std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vertices);
+/// Reads vertices of a mesh of `vertices`: a text with one vertex per line, or `columns`; in any order, repeats
+/// allowed.
+[[nodiscard]] std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vertices,
+                                                     std::size_t columns = 1);
 
 /// Numbers by vertex, row by row.
 struct Channels {

@@ -61,6 +61,16 @@ auto region(Queries& queries, const SpacePoint& center, const Seeds& seeds, doub
   return std::pair(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(distances)));
 }
 
+auto path_region(Queries& queries, VertexId v, double radius, const Mask& walls, const Mask& ignored) {
+  std::vector<VertexId> ids;
+  std::vector<double> lengths;
+  queries.with_edges([&](EdgeSearcher& searcher) {
+    searcher.neighborhood(v, radius, ids, lengths, filter_of(walls, ignored));
+    return true;
+  });
+  return std::pair(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(lengths)));
+}
+
 /// Seeds that do not exist are -1.
 Output<std::int32_t> stroke(Queries& queries, const Points& centers, const SeedRows& seeds, const Reals& radii,
                             const Mask& walls, const Mask& ignored) {
@@ -150,6 +160,7 @@ void bind_queries(nb::module_& module) {
   const auto ignored = nb::arg("ignored").none();
   nb::class_<Queries>(module, "Queries")
       .def("region", &region, nb::arg(), nb::arg(), nb::arg(), walls, ignored)
+      .def("path_region", &path_region, nb::arg(), nb::arg(), walls, ignored)
       .def("stroke", &stroke, nb::arg(), nb::arg(), nb::arg(), walls, ignored)
       .def("nested", &nested, nb::arg(), nb::arg(), nb::arg(), walls, ignored)
       .def("contains", &contains, nb::arg(), nb::arg(), nb::arg(), nb::arg(), walls, ignored)

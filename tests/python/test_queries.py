@@ -135,6 +135,25 @@ def test_path_distances_are_those_of_scipy_to_the_last_bit(mesh):
         assert (np.diff(lengths) >= 0).all()
 
 
+def test_paths_do_not_pass_walls(mesh):
+    V, _, index, graph = mesh
+    random = np.random.default_rng(4)
+    for v in (3, 60):
+        walls, ignored = random.random(len(V)) < 0.2, random.random(len(V)) < 0.3
+        walls[v] = False
+        free = np.flatnonzero(~walls)
+        matrix = lengths_graph(V, graph)[free][:, free]
+        expected = np.full(len(V), np.inf)
+        expected[free] = dijkstra(matrix, directed=False, indices=np.searchsorted(free, v), limit=5)
+        options = {"metric": "edge", "walls": walls, "ignored": ignored, "return_distance": True}
+        ids, lengths = index.query_region(v, 5, **options)
+        np.testing.assert_array_equal(np.sort(ids), np.flatnonzero(np.isfinite(expected) & ~ignored))
+        np.testing.assert_array_equal(lengths, expected[ids])
+        by_id, lengths = index.query_region(v, 5, sort=True, **options)
+        np.testing.assert_array_equal(by_id, np.sort(ids))
+        np.testing.assert_array_equal(lengths, expected[by_id])
+
+
 def test_batch_along_edges_has_the_rows_of_single_queries(mesh):
     _, _, index, _ = mesh
     rows = [3, 50, 3, 99]
@@ -212,6 +231,8 @@ def test_rims_on_a_scan_are_loops_where_the_mesh_is_closed(tmp_path):
         (lambda i: i.query_region(3, 1, seeds=[3]), r"seeds: expected None"),
         (lambda i: i.query_region([0, 0, 0], 1, seeds=[0, 36]), r"seeds: row 1: vertex 36"),
         (lambda i: i.query_region(0, -1), r"r: radius -1"),
+        (lambda i: i.query_region(0, 1, metric="geodesic"), r"metric: 'geodesic'"),
+        (lambda i: i.query_region([0, 0, 0], 1, metric="edge"), r"start: expected a vertex with metric='edge'"),
         (lambda i: i.query_region(0, 1, walls=np.zeros(36)), r"walls: expected bool, not float64"),
         (lambda i: i.query_region(0, 1, ignored=np.zeros(35, bool)), r"ignored: a bool mask of shape \(35,\)"),
         (lambda i: i.query_stroke([[0, 0, 0]], 1, seeds=[[0], [1]]), r"seeds: expected \(1,\) or \(1, k\)"),

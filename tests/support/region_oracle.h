@@ -61,27 +61,24 @@ class RegionOracle {
     return result;
   }
 
-  /// By vertex; infinite where there is none. The algorithm of Dijkstra, with the largest distance as length of a path.
-  [[nodiscard]] std::vector<double> connecting_radii(const PlainStart& start) const {
-    std::vector<double> radii(graph_.size(), kInfinity);
-    using Entry = std::pair<double, std::uint32_t>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    const auto offer = [&](std::uint32_t v, double radius) {
-      if (start.walls[v] != 0 || radii[v] <= std::max(radius, distance(start, v))) return;
-      radii[v] = std::max(radius, distance(start, v));
-      queue.push({radii[v], v});
-    };
-    for (const std::uint32_t seed : start.seeds) offer(seed, 0);
-    while (!queue.empty()) {
-      const auto [radius, v] = queue.top();
-      queue.pop();
-      if (radius > radii[v]) continue;
-      for (const std::uint32_t w : graph_.neighbors(v)) offer(w, radius);
-    }
+  /// By vertex; infinite where there is none up to `limit`.
+  [[nodiscard]] std::vector<double> connecting_radii(const PlainStart& start, double limit = kInfinity) const {
+    std::vector<double> radii = least(
+        start, limit, [&](std::uint32_t seed) { return distance(start, seed); },
+        [&](double radius, std::uint32_t, std::uint32_t w) { return std::max(radius, distance(start, w)); });
     for (std::size_t v = 0; v < radii.size(); ++v) {
       if (start.ignored[v] != 0) radii[v] = kInfinity;
     }
     return radii;
+  }
+
+  /// The least length of a path of edges from a seed, by vertex, ignored ones included; infinite where there is none up
+  /// to `limit`. `length(v, w)` is that of an edge.
+  template <class Length>
+  [[nodiscard]] std::vector<double> path_lengths(const PlainStart& start, double limit, Length&& length) const {
+    return least(
+        start, limit, [](std::uint32_t) { return 0.0; },
+        [&](double sum, std::uint32_t v, std::uint32_t w) { return sum + length(v, w); });
   }
 
   /// The vertices with finite connecting radius by radius, distance and id.
@@ -96,6 +93,28 @@ class RegionOracle {
   }
 
  private:
+  /// The algorithm of Dijkstra: the least value of a path to each vertex that is at most `limit`. A path has the value
+  /// `first(seed)`, and `extend(value, v, w)` if an edge from `v` to `w` is added to one to `v`.
+  template <class First, class Extend>
+  [[nodiscard]] std::vector<double> least(const PlainStart& start, double limit, First&& first, Extend&& extend) const {
+    std::vector<double> values(graph_.size(), kInfinity);
+    using Entry = std::pair<double, std::uint32_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    const auto offer = [&](std::uint32_t v, double value) {
+      if (start.walls[v] != 0 || !(value <= limit) || values[v] <= value) return;
+      values[v] = value;
+      queue.push({value, v});
+    };
+    for (const std::uint32_t seed : start.seeds) offer(seed, first(seed));
+    while (!queue.empty()) {
+      const auto [value, v] = queue.top();
+      queue.pop();
+      if (value > values[v]) continue;
+      for (const std::uint32_t w : graph_.neighbors(v)) offer(w, extend(value, v, w));
+    }
+    return values;
+  }
+
   const std::vector<double>* positions_;
   Oracle graph_;
 };

@@ -5,25 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "meshhood/error.h"
-
+#include "support/each_shared_mesh.h"
 #include "support/real_mesh.h"
 #include "support/scale.h"
-#include "support/shared_meshes.h"
 
 namespace meshhood::test {
 namespace {
 
 class AllMeshes : public testing::TestWithParam<const char*> {};
-
-/// Files that cannot be read are covered by the tests of the readers.
-std::optional<io::Mesh> readable(const std::string& file) {
-  try {
-    return shared_mesh(file);
-  } catch (const Error&) {
-    return std::nullopt;
-  }
-}
 
 TEST_P(AllMeshes, AreBuiltCheckedAndQueried) {
   MESHHOOD_NEED_SHARED_MESHES();
@@ -33,7 +22,7 @@ TEST_P(AllMeshes, AreBuiltCheckedAndQueried) {
   for (const ManifestRow& row : read_manifest()) {
     if (!row.file.starts_with(GetParam())) continue;
     SCOPED_TRACE(row.file);
-    const std::optional<io::Mesh> mesh = readable(row.file);
+    const std::optional<io::Mesh> mesh = readable_mesh(row.file);
     refused += static_cast<std::size_t>(!mesh);
     if (!mesh) continue;
     ++meshes;
@@ -51,10 +40,7 @@ TEST_P(AllMeshes, AreBuiltCheckedAndQueried) {
 INSTANTIATE_TEST_SUITE_P(Folders, AllMeshes,
                          testing::Values("scan/", "cad/", "nonmanifold/", "components/", "poly/", "boundary/",
                                          "broken/"),
-                         [](const auto& folder) {
-                           const std::string name = folder.param;
-                           return name.substr(0, name.size() - 1);
-                         });
+                         shared_folder_case);
 
 }  // namespace
 }  // namespace meshhood::test

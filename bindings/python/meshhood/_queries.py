@@ -18,6 +18,7 @@ Number = Union[float, "np.floating[Any]", "np.integer[Any]"]
 Seeds = Union[int, "np.integer[Any]", Sequence[int], "NDArray[np.integer[Any]]", None]
 Mask = Optional[NDArray[np.bool_]]
 Unit = Literal["mesh", "edge"]
+Metric = Literal["straight", "edge"]
 
 
 class Queries:
@@ -40,6 +41,7 @@ class Queries:
         ignored: Mask = None,
         return_distance: Literal[False] = False,
         sort: bool = False,
+        metric: Metric = "straight",
         unit: Unit = "mesh",
     ) -> Ids: ...
 
@@ -54,6 +56,7 @@ class Queries:
         ignored: Mask = None,
         return_distance: Literal[True],
         sort: bool = False,
+        metric: Metric = "straight",
         unit: Unit = "mesh",
     ) -> tuple[Ids, Reals]: ...
 
@@ -67,6 +70,7 @@ class Queries:
         ignored: Any = None,
         return_distance: bool = False,
         sort: bool = False,
+        metric: Metric = "straight",
         unit: Unit = "mesh",
     ) -> Any:
         """The region of `start` and the radius `r`: the vertices that are connected to a seed by edges between vertices
@@ -78,13 +82,19 @@ class Queries:
         walls : a bool mask (#V,): vertices that the search does not pass and that belong to no answer, as if they were
             not in the mesh.
         ignored : a bool mask (#V,): vertices that the search passes but that belong to no answer.
+        metric : "edge": the vertices whose shortest path along edges from the vertex `start` is at most `r` long.
         r, return_distance, sort, unit : as for one vertex of `query_ball`, and so is the result.
 
         The cost grows with the size of the region.
         """
         center, first = self._start(start, seeds)
-        masks = self._masks(walls, ignored)
-        indices, distances = self._queries.region(center, first, self._scale(unit) * _convert.radius(r), *masks)
+        radius, masks = self._scale(unit) * _convert.radius(r), self._masks(walls, ignored)
+        if _convert.choice(metric, "metric", ("straight", "edge")) == "edge":
+            if np.ndim(start) != 0:
+                raise ValueError("start: expected a vertex with metric='edge', because a point has no edges")
+            indices, distances = self._queries.path_region(int(first[0]), radius, *masks)
+        else:
+            indices, distances = self._queries.region(center, first, radius, *masks)
         if sort:
             order = np.argsort(indices)
             indices, distances = indices[order], distances[order]

@@ -26,12 +26,12 @@ class NearestSearch {
 
   NearestVertex run() {
     visit_roots(index_->roots.levels.size() - 1, 0);
-    return {best_, std::sqrt(square_)};
+    return {best_, distance_};
   }
 
  private:
   struct Child {
-    double low;  // of the squared distances of its vertices
+    double low;  // of the distances of its vertices
     std::size_t place;
   };
 
@@ -68,11 +68,11 @@ class NearestSearch {
   void visit_nearest_first(std::size_t count, SphereAt&& sphere_at, Visit&& visit) {
     std::array<Child, kFanOut> children{};
     const std::size_t size = std::min<std::size_t>(count, kFanOut);
-    for (std::size_t i = 0; i < size; ++i) children[i] = {squared_distances(sphere_at(i), center_).low, i};
+    for (std::size_t i = 0; i < size; ++i) children[i] = {std::sqrt(squared_distances(sphere_at(i), center_).low), i};
     std::sort(children.begin(), children.begin() + static_cast<std::ptrdiff_t>(size),
               [](const Child& a, const Child& b) { return a.low < b.low; });
     for (const Child& child : std::span(children).first(size)) {
-      if (child.low > square_) return;  // mutant: nearest-looks-at-one-node
+      if (child.low > distance_) return;  // mutant: nearest-looks-at-one-node
       visit(child.place);
     }
   }
@@ -80,18 +80,18 @@ class NearestSearch {
   void visit_leaf(std::size_t leaf) {
     for (std::size_t v = index_->leaf_begin[leaf]; v < index_->leaf_begin[leaf + 1]; ++v) {
       const Point p = std::visit([&](auto xyz) { return point(xyz, v); }, index_->positions);
-      const double square = squared_distance(center_.exact, p);
-      if (square > square_) continue;
+      const double distance = std::sqrt(squared_distance(center_.exact, p));  // different squares may have one root
+      if (distance > distance_) continue;
       const VertexId id = index_->id(v);
-      if (square == square_ && best_ < id) continue;  // mutant: nearest-ignores-ties
-      square_ = square;
+      if (distance == distance_ && best_ < id) continue;  // mutant: nearest-ignores-ties
+      distance_ = distance;
       best_ = id;
     }
   }
 
   const IndexView* index_;
   Center center_;
-  double square_ = std::numeric_limits<double>::infinity();
+  double distance_ = std::numeric_limits<double>::infinity();
   VertexId best_ = std::numeric_limits<VertexId>::max();
 };
 
