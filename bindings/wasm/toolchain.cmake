@@ -1,4 +1,4 @@
-# WebAssembly by Debian's clang 22: the packages clang-22, lld-22, libc++-22-dev-wasm32 and wasi-libc.
+# WebAssembly by Debian's clang 22: the packages of `web` in tools/setup.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR wasm32)
 set(CMAKE_CXX_COMPILER clang++-22)
