@@ -57,6 +57,8 @@ struct ReferenceSearcher::State {
   std::vector<VertexId> queue;
   std::vector<VertexRange> ranges;
   std::uint32_t query = 0;
+  std::size_t visited = 0;  // vertices of the queue whose neighbors have been looked at, where a search has stopped
+  std::size_t found = 0;    // vertices of the queue there
 
   explicit State(const GraphView& graph) : adjacency(graph.adjacency), queue(graph.positions.size() + 1) {
     graph.positions.visit([&](const auto& xyz) { records = make_records(xyz); });
@@ -82,17 +84,28 @@ struct ReferenceSearcher::State {
     if (head + 8 < end) prefetch(adjacency.neighbors.data() + adjacency.offsets[queue[head + 8]]);
   }
 
+  /// Begins a search at `v`. `resume` continues it.
+  template <class Real>
+  void begin(VertexId v, std::vector<Record<Real>>& all) {
+    all[v].seen = next_query();
+    queue[0] = v;
+    visited = 0;
+    found = 1;
+  }
+
   /// Leaves the component at the beginning of the queue and returns it, or nothing as soon as it has more than `most`
   /// vertices.
   template <class Real>
-  std::span<const VertexId> search(VertexId v, double radius, std::size_t most, std::vector<Record<Real>>& all) {
-    const std::uint32_t current = next_query();
-    const SearchBall ball(position(all[v]), radius);
-    all[v].seen = current;
-    queue[0] = v;
-    std::size_t end = 1;
-    for (std::size_t head = 0; head < end; ++head) {
-      if (end > most) return {};  // mutant: stopped-search-answers
+  std::span<const VertexId> resume(double squared_radius, std::size_t most, std::vector<Record<Real>>& all) {
+    const Point center = position(all[queue[0]]);
+    const std::uint32_t current = query;
+    std::size_t end = found;
+    for (std::size_t head = visited; head < end; ++head) {
+      if (end > most) {
+        visited = head;  // mutant: vertex-skipped-at-the-stop
+        found = end;
+        return {};  // mutant: stopped-search-answers
+      }
       fetch_ahead(head, end);
       for (const VertexId w : adjacency[queue[head]]) {
         Record<Real>& record = all[w];
@@ -100,16 +113,24 @@ struct ReferenceSearcher::State {
         record.seen = current;
         // Branch-free: avoids mispredictions.
         queue[end] = w;
-        end += static_cast<std::size_t>(ball.contains(position(record)));
+        end += static_cast<std::size_t>(squared_distance(center, position(record)) <= squared_radius);
       }
     }
     return std::span(queue).first(end);
   }
 
-  std::span<const VertexId> search(VertexId v, double radius,
-                                   std::size_t most = std::numeric_limits<std::size_t>::max()) {
+  std::span<const VertexId> search(VertexId v, double squared_radius, std::size_t most) {
+    return std::visit(
+        [&](auto& all) {
+          begin(v, all);
+          return resume(squared_radius, most, all);
+        },
+        records);
+  }
+
+  std::span<const VertexId> search(VertexId v, double radius) {
     check_query(v, adjacency.size(), radius);
-    return std::visit([&](auto& all) { return search(v, radius, most, all); }, records);
+    return search(v, squared_radius(radius), std::numeric_limits<std::size_t>::max());
   }
 
   /// The distances of `ids` from `v`.
@@ -165,9 +186,15 @@ std::span<const VertexRange> ReferenceSearcher::ranges(VertexId v, double radius
 
 std::size_t ReferenceSearcher::count(VertexId v, double radius) { return state_->search(v, radius).size(); }
 
-std::span<const VertexId> ReferenceAccess::search(ReferenceSearcher& searcher, VertexId v, double radius,
+std::span<const VertexId> ReferenceAccess::search(ReferenceSearcher& searcher, VertexId v, double squared_radius,
                                                   std::size_t most) {
-  return searcher.state_->search(v, radius, most);
+  return searcher.state_->search(v, squared_radius, most);
+}
+
+std::span<const VertexId> ReferenceAccess::resume(ReferenceSearcher& searcher, double squared_radius) {
+  ReferenceSearcher::State& state = *searcher.state_;
+  constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+  return std::visit([&](auto& all) { return state.resume(squared_radius, kAll, all); }, state.records);
 }
 
 void ReferenceAccess::measure(const ReferenceSearcher& searcher, VertexId v, std::span<const VertexId> ids,

@@ -13,9 +13,12 @@ namespace meshhood {
 /// Access to the search itself for the exact index, and to rare states for tests.
 struct ReferenceAccess {
   /// The neighborhood in the order of the search, or nothing as soon as it has more than `most` vertices. Valid until
-  /// the next call.
-  [[nodiscard]] static std::span<const VertexId> search(ReferenceSearcher& searcher, VertexId v, double radius,
+  /// the next call. `squared_radius` is that of the radius by the function of this name. Nothing is checked.
+  [[nodiscard]] static std::span<const VertexId> search(ReferenceSearcher& searcher, VertexId v, double squared_radius,
                                                         std::size_t most);
+
+  /// The whole neighborhood, after `search` has returned nothing for this radius.
+  [[nodiscard]] static std::span<const VertexId> resume(ReferenceSearcher& searcher, double squared_radius);
 
   /// Refills `out` with the distances of `ids` from `v`.
   static void measure(const ReferenceSearcher& searcher, VertexId v, std::span<const VertexId> ids,

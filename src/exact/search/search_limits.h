@@ -106,10 +106,10 @@ class SearchMemory {
     approach(surface_leaves_, search.surface_leaves);
     approach(answer_leaves_, search.answer_leaves);
     approach(steps_, search.steps);
-    // The more steps were in vain, the fewer balls are tried again: together, they take about as long as a quarter of
-    // the breadth-first searches between them.
+    // The more steps were in vain, the fewer balls are tried again: together, they take about as long as a tenth of the
+    // breadth-first searches between them.
     const std::size_t steps_per_leaf = search.steps / std::max<std::size_t>(search.answer_leaves, 1);
-    retry_interval_ = std::clamp(4 * steps_per_leaf, kShortestInterval, kLongestInterval);
+    retry_interval_ = std::clamp(10 * steps_per_leaf, kShortestInterval, kLongestInterval);
   }
 
   /// Whether beginning with large nodes was mostly useless: they reached more than a single sheet.
@@ -128,8 +128,8 @@ class SearchMemory {
   void record_few_leaves(bool is_one_vertex) { approach(one_vertex_share_, is_one_vertex ? 1 : 0); }
 
  private:
-  static constexpr std::size_t kShortestInterval = 16;  // balls; chosen
-  static constexpr std::size_t kLongestInterval = 512;  // chosen
+  static constexpr std::size_t kShortestInterval = 16;   // balls; chosen
+  static constexpr std::size_t kLongestInterval = 2048;  // chosen
 
   /// Whether enough balls have been searched. A single one may be unlike all others.
   [[nodiscard]] bool is_experienced() const {

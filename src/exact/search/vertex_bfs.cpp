@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/distance.h"
 #include "base/limits.h"
 #include "exact/shared_graph.h"
 
@@ -56,13 +57,24 @@ double VertexBfs::radius_of(double mean_leaf_radii) const {
 
 void VertexBfs::make_searcher() { searcher_.emplace(index_->graph->of(*index_).view()); }
 
+std::span<const VertexId> VertexBfs::resume() {
+  has_stopped_ = false;  // mutant: search-resumed-twice
+  return ReferenceAccess::resume(*searcher_, squared_radius_);
+}
+
+/// Checks the arguments of a query, and computes what depends on the radius alone.
+void VertexBfs::prepare(VertexId v, double radius) {
+  check_query(v, index_->vertex_count(), radius);
+  radius_ = radius;
+  squared_radius_ = squared_radius(radius);
+}
+
 std::span<const VertexId> VertexBfs::find_small(VertexId v, double radius) {
   if (v >= index_->vertex_count()) return {};  // the searches over leaves refuse it
   if (places_.empty() && !make_places()) return {};
   Place& place = place_of(v);
   if (!(radius <= place.largest_radius)) return {};
-  const std::span<const VertexId> found =
-      ReferenceAccess::search(*searcher_, v, radius, kVerticesToTheStop * place.most_vertices);
+  const std::span<const VertexId> found = search(v, radius, kVerticesToTheStop * place.most_vertices);
   if (!is_small(place, radius, found.size())) {
     place.largest_radius = std::nextafter(radius, -1.0);  // mutant: large-balls-tried-again
   }

@@ -59,15 +59,15 @@ class VertexBfs {
   /// The neighborhood by the caller's ids, `v` first; valid until the next call. Nothing if a search over leaves should
   /// answer: the ball is probably large, or has turned out to be. Throws Error{VertexOutOfRange, InvalidRadius}.
   [[nodiscard]] std::span<const VertexId> find(VertexId v, double radius) {
-    if (answers_all_) return find_all(v, radius);
+    if (answers_all_) return search(v, radius, kAll);
     if (!(radius <= largest_radius_)) return {};
     return find_small(v, radius);
   }
 
-  /// The same for any ball.
+  /// The same for any ball. Continues the last search if it was for this ball and has stopped.
   [[nodiscard]] std::span<const VertexId> find_all(VertexId v, double radius) {
-    if (!searcher_) make_searcher();
-    return ReferenceAccess::search(*searcher_, v, radius, kAll);
+    const bool has_begun = has_stopped_ && v == center_ && radius == radius_;
+    return has_begun ? resume() : search(v, radius, kAll);
   }
 
   /// Whether there is a copy of the graph, and its vertices are numbered by rows. Then this search is no slower than a
@@ -104,6 +104,18 @@ class VertexBfs {
     std::uint32_t most_vertices;  // of one of about this radius
   };
 
+  /// Stops and returns nothing as soon as there are more than `most`.
+  [[nodiscard]] std::span<const VertexId> search(VertexId v, double radius, std::size_t most) {
+    if (!searcher_) make_searcher();
+    if (v >= index_->vertex_count() || radius != radius_) prepare(v, radius);
+    const std::span<const VertexId> found = ReferenceAccess::search(*searcher_, v, squared_radius_, most);
+    center_ = v;
+    has_stopped_ = found.empty();
+    return found;
+  }
+
+  [[nodiscard]] std::span<const VertexId> resume();
+  void prepare(VertexId v, double radius);
   [[nodiscard]] std::span<const VertexId> find_small(VertexId v, double radius);
   [[nodiscard]] bool is_small(const Place& place, double radius, std::size_t size) const;
   [[nodiscard]] bool make_places();
@@ -118,6 +130,11 @@ class VertexBfs {
   Speed speed_ = kByRows;
   std::vector<Place> places_;  // by leaf; empty before the copy is made
   std::optional<ReferenceSearcher> searcher_;
+  // Of the last search:
+  VertexId center_ = 0;
+  double radius_ = 0;
+  double squared_radius_ = 0;  // kept, because most radii are as the one before
+  bool has_stopped_ = false;
   std::vector<VertexId> in_index_order_;
   std::vector<VertexRange> ranges_;
 };

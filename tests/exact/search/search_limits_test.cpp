@@ -97,7 +97,7 @@ TEST(SearchMemory, LeavesOutALargeStartThatFailedInMostRecentBalls) {
 }
 
 TEST(SearchMemory, IsIgnoredForOneBallInSixteen) {
-  SearchMemory memory = memory_of(60, 200);
+  SearchMemory memory = memory_of(130, 200);
   std::size_t answered_no = 0;
   for (int i = 0; i < 160; ++i) {
     memory.begin_ball(1);
@@ -113,7 +113,7 @@ TEST(SearchMemory, IsIgnoredForOneBallInSixteen) {
 TEST(SearchMemory, IsIgnoredTheLessOftenTheMoreStepsWereInVain) {
   SearchMemory memory = memory_of(10, 2000);  // 200 steps for each leaf of the answer
   std::size_t answered_no = 0;
-  for (int i = 0; i < 1024; ++i) {
+  for (int i = 0; i < 4096; ++i) {
     memory.begin_ball(1);
     answered_no += static_cast<std::size_t>(!memory.is_answer_small());
   }
