@@ -2,6 +2,7 @@
 // Rows are sorted by position as the standard library sorts them.
 #include "batch/position_sort.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <limits>
@@ -42,6 +43,35 @@ TEST(PositionSort, PositionsAscendAndRowsOfOnePositionKeepTheirOrder) {
     }
   }
   std::printf("%zu lists of rows\n", lists);
+}
+
+/// The sort agrees with that of the standard library.
+void expect_sorted(const std::vector<std::uint32_t>& positions) {
+  std::vector<Row> rows;
+  for (const std::uint32_t position : positions) rows.emplace_back(position, rows.size());
+  std::vector<Row> expected = rows;
+  std::sort(expected.begin(), expected.end());
+  sort_by_position(std::span(rows), position_of);
+  ASSERT_EQ(rows, expected);
+}
+
+TEST(PositionSort, ExtremeLists) {
+  constexpr std::uint32_t kLargest = std::numeric_limits<std::uint32_t>::max();
+  for (const std::size_t count : {2U, 2047U, 2048U, 2049U}) {
+    for (unsigned bit = 0; bit < 32; ++bit) {
+      const std::uint32_t digit = 1U << bit;
+      std::vector<std::uint32_t> positions(count, digit);
+      expect_sorted(positions);
+      positions.back() = digit - 1;  // all others are sorted
+      expect_sorted(positions);
+      positions.front() = kLargest;
+      expect_sorted(positions);
+      for (std::size_t i = 0; i < count; ++i) positions[i] = i % 2 == 0 ? kLargest : kLargest - digit;
+      expect_sorted(positions);
+      for (std::size_t i = 0; i < count; ++i) positions[i] = static_cast<std::uint32_t>(kLargest - i * digit);
+      expect_sorted(positions);
+    }
+  }
 }
 
 TEST(PositionSort, TheLargestPositionsAreSortedToo) {

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "exact/build/dissolve_parts.h"
 
+#include <algorithm>
+#include <cstdio>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/divided_nodes.h"
 #include "support/node_line.h"
+#include "support/random.h"
+#include "support/scale.h"
 
 namespace meshhood::test {
 namespace {
@@ -51,6 +56,26 @@ TEST(DissolveParts, MakesNoPartMuchWider) {
   const NodeGraph graph = node_line(21, links);
   const NodeParts parts = dissolved(graph, {nodes_from(0, 7), {8}, nodes_from(14, 20)});
   EXPECT_THAT(parts[1], ElementsAre(8));
+}
+
+TEST(DissolveParts, KeepsPartsConnectedAndNarrowWhateverTheNodes) {
+  Random random(17);
+  std::size_t dissolved = 0;
+  const std::size_t cases = scaled(20'000, 500);
+  for (std::size_t i = 0; i < cases; ++i) {
+    const DividedNodes before = draw_divided_nodes(random);
+    NodeParts after = before.node_parts();
+    dissolve_small_parts(after);
+    ASSERT_EQ(fault_of(before, after), "") << "case " << i;
+    NodeParts again = before.node_parts();
+    dissolve_small_parts(again);
+    for (std::uint32_t part = 0; part < after.size(); ++part) {
+      ASSERT_TRUE(std::ranges::equal(after[part], again[part])) << "case " << i;
+      dissolved += static_cast<std::size_t>(after[part].empty());
+    }
+  }
+  std::printf("%zu parts dissolved in %zu cases\n", dissolved, cases);
+  EXPECT_GT(dissolved, cases / 4);
 }
 
 }  // namespace

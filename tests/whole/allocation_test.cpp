@@ -3,6 +3,7 @@
 // call throws or succeeds without the memory; nothing leaks, and existing objects answer as before.
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -27,12 +28,16 @@
 #include "meshhood/search.h"
 #include "meshhood/serialize.h"
 
+#include "batch/position_sort.h"
 #include "batch/sort_answer.h"
+#include "exact/build/dissolve_parts.h"
 #include "exact/search/searcher_state.h"
+#include "support/divided_nodes.h"
 #include "support/fail_each_allocation.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/index_bytes.h"
+#include "support/random.h"
 #include "support/scale.h"
 
 namespace meshhood::test {
@@ -407,6 +412,38 @@ TEST_P(Allocation, FailsInARefit) {
   shortages.fail_each(
       [&] { return build(mesh.view()); }, [&](Index& own) { own = refit(std::move(own), positions, changed); },
       [&](Index& own, Ending ending) { EXPECT_EQ(saved(own), ending == Ending::Well ? after : before); });
+}
+
+TEST(AllocationInASort, LeavesTheRowsAsTheyWere) {
+  Shortages shortages;
+  Random random(2);
+  const std::vector<std::uint32_t> rows = random.permutation(5000);
+  shortages.fail_each([&] { return rows; },
+                      [](std::vector<std::uint32_t>& sorted) { sort_by_position(std::span(sorted), std::identity()); },
+                      [&](const std::vector<std::uint32_t>& sorted, Ending ending) {
+                        EXPECT_EQ(std::ranges::is_sorted(sorted), ending == Ending::Well);
+                        EXPECT_EQ(sorted == rows, ending == Ending::OutOfMemory);
+                      });
+}
+
+TEST(AllocationInTheDissolvingOfParts, LeavesEachNodeInOnePart) {
+  Shortages shortages;
+  Random random(3);
+  for (int i = 0; i < 20; ++i) {
+    const DividedNodes before = draw_divided_nodes(random);
+    shortages.fail_each([&] { return before.node_parts(); }, dissolve_small_parts,
+                        [&](const NodeParts& after, Ending ending) {
+                          if (ending == Ending::Well) {
+                            EXPECT_EQ(fault_of(before, after), "");
+                          }
+                          std::size_t nodes = 0;
+                          for (std::uint32_t part = 0; part < after.size(); ++part) {
+                            for (const std::uint32_t node : after[part]) EXPECT_EQ(after.part_of(node), part);
+                            nodes += after[part].size();
+                          }
+                          EXPECT_EQ(nodes, before.graph.size());
+                        });
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Allocation, testing::ValuesIn(three_families()), family_name);
