@@ -42,7 +42,7 @@ struct EdgeSearcher::State {
   void for_each(std::span<const Path> found, const Filter& filter, F&& f) const {
     const LaneFilter ignored(*index, filter.ignored);
     for (const Path& path : found) {
-      if (!ignored.has(index->id(path.end))) f(path);
+      if (!ignored.has_at(path.end)) f(path);
     }
   }
 };

@@ -25,6 +25,9 @@ class LaneFilter {
   /// Whether the mask has a vertex, by the caller's id.
   [[nodiscard]] bool has(VertexId id) const { return !empty() && bytes_[id] != 0; }
 
+  /// Whether the mask has a vertex, in index order.
+  [[nodiscard]] bool has_at(std::size_t vertex) const { return !empty() && bytes_[index_->id(vertex)] != 0; }
+
   /// The vertices of a leaf that are in the mask.
   [[nodiscard]] LaneMask of(LeafId leaf) const {
     if (empty()) return 0;

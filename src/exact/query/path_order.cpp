@@ -13,13 +13,11 @@ constexpr double kShortestRange = 0x1p-900;
 
 bool is_before(const Path& a, const Path& b) { return a.length != b.length ? a.length < b.length : a.end < b.end; }
 
-/// By insertion, if there are few.
-void sort_few(std::span<Path> paths) {
-  constexpr std::size_t kFew = 16;
-  if (paths.size() > kFew) {
-    std::sort(paths.begin(), paths.end(), is_before);
-    return;
-  }
+// Intervals with more paths are sorted one by one.
+constexpr std::uint32_t kFew = 16;
+
+/// By insertion: for paths that are nearly in order.
+void sort_by_insertion(std::span<Path> paths) {
   for (std::size_t i = 1; i < paths.size(); ++i) {
     const Path path = paths[i];
     std::size_t k = i;
@@ -30,21 +28,33 @@ void sort_few(std::span<Path> paths) {
 
 }  // namespace
 
-void PathOrder::sort(std::span<Path> paths) {
+std::span<const Path> PathOrder::sorted(const Path& first, std::span<const Path> paths) {
+  sorted_.resize(paths.size() + 1);
+  sorted_.front() = first;
+  const std::span<Path> result = std::span(sorted_).subspan(1);
   double longest = kShortestRange;
   for (const Path& path : paths) longest = std::max(longest, path.length);
   const double scale = static_cast<double>(paths.size()) / longest;
   const auto interval = [&](const Path& path) { return static_cast<std::size_t>(path.length * scale); };
-  unsorted_.assign(paths.begin(), paths.end());
   ends_.assign(paths.size() + 2, 0);  // rounding may lead to the interval after the last
-  for (const Path& path : unsorted_) ++ends_[interval(path)];
+  for (const Path& path : paths) ++ends_[interval(path)];
   std::uint32_t begin = 0;
-  for (std::uint32_t& end : ends_) begin += std::exchange(end, begin);
-  for (const Path& path : unsorted_) paths[ends_[interval(path)]++] = path;
-  for (std::size_t i = 0; i < ends_.size(); ++i) {
-    const std::size_t first = i == 0 ? 0 : ends_[i - 1];
-    sort_few(paths.subspan(first, ends_[i] - first));
+  std::uint32_t most = 0;
+  for (std::uint32_t& end : ends_) {
+    most = std::max(most, end);
+    begin += std::exchange(end, begin);
   }
+  for (const Path& path : paths) result[ends_[interval(path)]++] = path;
+  if (most <= kFew) {
+    sort_by_insertion(result);
+    return sorted_;
+  }
+  for (std::size_t i = 0; i < ends_.size(); ++i) {
+    const std::size_t from = i == 0 ? 0 : ends_[i - 1];
+    std::sort(result.begin() + static_cast<std::ptrdiff_t>(from),
+              result.begin() + static_cast<std::ptrdiff_t>(ends_[i]), is_before);
+  }
+  return sorted_;
 }
 
 }  // namespace meshhood

@@ -14,11 +14,12 @@ namespace meshhood {
 /// n) otherwise.
 class PathOrder {
  public:
-  /// The lengths are finite, and not negative.
-  void sort(std::span<Path> paths);
+  /// The paths in order, after `first`, which stays the first. Their lengths are finite, and not negative. Valid until
+  /// the next call.
+  [[nodiscard]] std::span<const Path> sorted(const Path& first, std::span<const Path> paths);
 
  private:
-  std::vector<Path> unsorted_;
+  std::vector<Path> sorted_;
   std::vector<std::uint32_t> ends_;  // by interval
 };
 

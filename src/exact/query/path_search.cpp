@@ -27,7 +27,7 @@ PathSearch::PathSearch(const IndexView& index)
 
 void PathSearch::run(std::uint32_t start, double radius, const LaneFilter& walls) {
   forget();
-  if (walls.has(index_->id(start))) return;
+  if (walls.has_at(start)) return;
   is_complete_ = false;
   radius_ = radius;
   walls_ = &walls;
@@ -41,13 +41,13 @@ void PathSearch::run(std::uint32_t start, double radius, const LaneFilter& walls
 void PathSearch::forget() {
   if (is_complete_) {
     for (const Path& path : found_) lengths_[path.end] = kUnreached;
-    for (const std::uint32_t wall : walls_met_) lengths_[wall] = kUnreached;
+    for (const std::uint32_t vertex : left_) lengths_[vertex] = kUnreached;
   } else {
     std::fill(lengths_.begin(), lengths_.end(), kUnreached);
   }
   is_complete_ = true;
   found_.clear();
-  walls_met_.clear();
+  left_.clear();
   shorter_count_ = 0;
   steps_ = 0;
 }
@@ -129,12 +129,12 @@ void PathSearch::follow(const Path& path) {
   const VertexId* const neighbors = graph_->edges.neighbors.data();
   const double* const edges = graph_->lengths.data();
   double* const lengths = lengths_.data();
+  const double from = path.length;
   Path* shorter = shorter_.data() + shorter_count_;
   // Whether a path is shorter than those before cannot be predicted, so there is no branch.
   for (std::size_t i = begin; i < end; ++i) {
     const VertexId neighbor = neighbors[i];
-    const double sum = path.length + edges[i];
-    const double length = sum <= radius_ ? sum : kUnreached;  // mutant: path-of-the-radius-refused
+    const double length = from + edges[i];
     const double before = lengths[neighbor];
     lengths[neighbor] = std::min(before, length);
     *shorter = {length, neighbor};
@@ -143,13 +143,16 @@ void PathSearch::follow(const Path& path) {
   shorter_count_ = static_cast<std::size_t>(shorter - shorter_.data());
 }
 
+/// Adds the shorter paths to the queue. Their edges are prefetched: they are followed some buckets later.
 void PathSearch::push_shorter() {
   for (const Path& path : std::span(shorter_).first(shorter_count_)) {
-    prefetch(&graph_->edges.offsets[path.end]);
-    if (walls_->has(index_->id(path.end))) {  // mutant: path-through-a-wall
+    if (!(path.length <= radius_)) {  // mutant: path-of-the-radius-refused
+      left_.push_back(path.end);
+    } else if (walls_->has_at(path.end)) {  // mutant: path-through-a-wall
       lengths_[path.end] = kWall;
-      walls_met_.push_back(path.end);
+      left_.push_back(path.end);
     } else {
+      prefetch_edges(path.end);
       queue_.push(path);
     }
   }
@@ -157,8 +160,8 @@ void PathSearch::push_shorter() {
 }
 
 std::span<const Path> PathSearch::found_in_order() {
-  if (!found_.empty()) order_.sort(std::span(found_).subspan(1));
-  return found_;
+  if (found_.empty()) return {};
+  return order_.sorted(found_.front(), std::span(found_).subspan(1));
 }
 
 }  // namespace meshhood

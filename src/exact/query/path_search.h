@@ -61,11 +61,11 @@ class PathSearch {
   const WeightedGraph* graph_;
   double radius_ = 0;
   const LaneFilter* walls_ = nullptr;  // of this run
-  std::vector<double> lengths_;        // by vertex: of the shortest path so far
-  std::vector<std::uint32_t> walls_met_;
-  bool is_complete_ = true;  // else the last run threw
-  PathQueue queue_;          // holds longer paths to the same vertices too
-  std::vector<Path> round_;  // the first `round_count_`: the paths of the open bucket that are followed now
+  std::vector<double> lengths_;        // by vertex: of the shortest path so far, also beyond the radius
+  std::vector<std::uint32_t> left_;    // vertices with such a length that are not found: beyond the radius, or walls
+  bool is_complete_ = true;            // else the last run threw
+  PathQueue queue_;                    // holds longer paths to the same vertices too
+  std::vector<Path> round_;            // the first `round_count_`: the paths of the open bucket that are followed now
   std::size_t round_count_ = 0;
   std::vector<Path> shorter_;  // the first `shorter_count_`: found since, not in the queue yet
   std::size_t shorter_count_ = 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -23,10 +24,14 @@ void expect_sorted(const std::vector<double>& lengths) {
   std::vector<Path> expected = paths;
   std::sort(expected.begin(), expected.end(),
             [](const Path& a, const Path& b) { return a.length != b.length ? a.length < b.length : a.end < b.end; });
-  PathOrder().sort(paths);
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    ASSERT_EQ(paths[i].length, expected[i].length) << "path " << i;
-    ASSERT_EQ(paths[i].end, expected[i].end) << "path " << i;
+  const Path first{0, 99};
+  PathOrder order;
+  const std::span<const Path> sorted = order.sorted(first, paths);
+  ASSERT_EQ(sorted.size(), paths.size() + 1);
+  EXPECT_EQ(sorted[0].end, first.end);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    ASSERT_EQ(sorted[i + 1].length, expected[i].length) << "path " << i;
+    ASSERT_EQ(sorted[i + 1].end, expected[i].end) << "path " << i;
   }
 }
 
