@@ -15,6 +15,12 @@ constexpr double kBucketsPerEdge = 8;
 
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
+// The vertices of a block, consecutive in index order.
+constexpr std::uint32_t kBlock = 32;
+
+// A search of a smaller radius, in mean lengths of edges, reads little of its blocks.
+constexpr double kSmall = 3;
+
 // No path is shorter.
 constexpr double kWall = -1;
 
@@ -23,7 +29,10 @@ bool is_longer(const Path& a, const Path& b) { return a.length > b.length; }
 }  // namespace
 
 PathSearch::PathSearch(const IndexView& index)
-    : index_(&index), graph_(&index.graph->weighted(index)), lengths_(index.vertex_count(), kUnreached) {}
+    : index_(&index),
+      graph_(&index.graph->weighted(index)),
+      lengths_(index.vertex_count(), kUnreached),
+      is_met_(index.vertex_count() / kBlock + 1) {}
 
 void PathSearch::run(std::uint32_t start, double radius, const LaneFilter& walls) {
   forget();
@@ -31,7 +40,9 @@ void PathSearch::run(std::uint32_t start, double radius, const LaneFilter& walls
   is_complete_ = false;
   radius_ = radius;
   walls_ = &walls;
-  queue_.clear(mean_length_near(start) / kBucketsPerEdge);
+  const double mean_length = mean_length_near(start);
+  queue_.clear(mean_length / kBucketsPerEdge);
+  is_small_ = radius < kSmall * mean_length;
   queue_.push({0, start});
   lengths_[start] = 0;
   while (queue_.open()) search_open_bucket();
@@ -42,12 +53,15 @@ void PathSearch::forget() {
   if (is_complete_) {
     for (const Path& path : found_) lengths_[path.end] = kUnreached;
     for (const std::uint32_t vertex : left_) lengths_[vertex] = kUnreached;
+    for (const std::uint32_t block : met_) is_met_[block] = 0;
   } else {
     std::fill(lengths_.begin(), lengths_.end(), kUnreached);
+    std::fill(is_met_.begin(), is_met_.end(), std::uint8_t{0});
   }
   is_complete_ = true;
   found_.clear();
   left_.clear();
+  met_.clear();
   shorter_count_ = 0;
   steps_ = 0;
 }
@@ -143,7 +157,6 @@ void PathSearch::follow(const Path& path) {
   shorter_count_ = static_cast<std::size_t>(shorter - shorter_.data());
 }
 
-/// Adds the shorter paths to the queue. Their edges are prefetched: they are followed some buckets later.
 void PathSearch::push_shorter() {
   for (const Path& path : std::span(shorter_).first(shorter_count_)) {
     if (!(path.length <= radius_)) {  // mutant: path-of-the-radius-refused
@@ -152,11 +165,34 @@ void PathSearch::push_shorter() {
       lengths_[path.end] = kWall;
       left_.push_back(path.end);
     } else {
-      prefetch_edges(path.end);
+      meet(path.end);
       queue_.push(path);
     }
   }
   shorter_count_ = 0;
+}
+
+/// Fetches what the search will read of a vertex some buckets later: at the first vertex of a block, all that it will
+/// read of the block, because the paths to its other vertices follow soon.
+void PathSearch::meet(std::uint32_t vertex) {
+  if (is_small_) {
+    prefetch_edges(vertex);
+    return;
+  }
+  const std::uint32_t block = vertex / kBlock;
+  if (is_met_[block] != 0) return;
+  is_met_[block] = 1;
+  met_.push_back(block);
+  const std::size_t first = std::size_t{block} * kBlock;
+  const std::size_t last = std::min(first + kBlock, lengths_.size());
+  const std::size_t begin = graph_->edges.offsets[first];
+  const std::size_t end = graph_->edges.offsets[last];
+  fetch_run(graph_->edges.neighbors.data() + begin, graph_->edges.neighbors.data() + end);
+  fetch_run(graph_->lengths.data() + begin, graph_->lengths.data() + end);
+  fetch_run(lengths_.data() + first, lengths_.data() + last);
+  if (!index_->permutation.empty()) {
+    fetch_run(index_->permutation.data() + first, index_->permutation.data() + last);
+  }
 }
 
 std::span<const Path> PathSearch::found_in_order() {

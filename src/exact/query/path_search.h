@@ -54,15 +54,19 @@ class PathSearch {
   void follow_in_order();
   void follow(const Path& path);
   void push_shorter();
+  void meet(std::uint32_t vertex);
   void prefetch_edges(std::uint32_t vertex) const;
   [[nodiscard]] bool is_least(const Path& path) const { return path.length == lengths_[path.end]; }
 
   const IndexView* index_;
   const WeightedGraph* graph_;
   double radius_ = 0;
+  bool is_small_ = false;
   const LaneFilter* walls_ = nullptr;  // of this run
   std::vector<double> lengths_;        // by vertex: of the shortest path so far, also beyond the radius
   std::vector<std::uint32_t> left_;    // vertices with such a length that are not found: beyond the radius, or walls
+  std::vector<std::uint8_t> is_met_;   // by block of consecutive vertices: whether this run has met one of them
+  std::vector<std::uint32_t> met_;     // these blocks
   bool is_complete_ = true;            // else the last run threw
   PathQueue queue_;                    // holds longer paths to the same vertices too
   std::vector<Path> round_;            // the first `round_count_`: the paths of the open bucket that are followed now
