@@ -7,14 +7,16 @@
 
 namespace meshhood::python {
 
-/// Calls `f`. If it throws, the message begins with the name of the argument.
+/// Calls `f`. If it throws, the message begins with the name of the argument. An error of a vertex or a radius becomes
+/// one that the module does not name a second time.
 template <class F>
 auto about(const char* argument, F&& f) {
   try {
     return f();
   } catch (const Error& error) {
     if (error.code() == ErrorCode::Cancelled) throw;
-    raise(error.code(), std::string(argument) + ": " + error.what());
+    const bool is_of_query = error.code() == ErrorCode::VertexOutOfRange || error.code() == ErrorCode::InvalidRadius;
+    raise(is_of_query ? ErrorCode::InvalidOption : error.code(), std::string(argument) + ": " + error.what());
   }
 }
 

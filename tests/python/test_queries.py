@@ -247,6 +247,7 @@ def test_rims_on_a_scan_are_loops_where_the_mesh_is_closed(tmp_path):
         (lambda i: i.query_ball(0, 1, metric="geodesic"), r"metric: 'geodesic'"),
         (lambda i: i.query_ball(0, 1, metric="edge", method="bfs"), r"method: 'bfs', expected 'exact'"),
         (lambda i: meshhood.MeshIndex(*grid(3), cut=[(0, 1), (0, 8)]), r"cut: edge 1: vertices 0 and 8"),
+        (lambda i: meshhood.MeshIndex(*grid(3), cut=[(0, 9)]), r"^cut: edge 0: vertex 9, but the mesh has 9 vertices"),
         (lambda i: meshhood.MeshIndex(*grid(3), cut=[0, 1]), r"cut: expected an array \(n, 2\)"),
         (lambda i: meshhood.RegionMesh(*grid(3)).faces([9]), r"ids: row 0: vertex 9"),
         (lambda i: meshhood.RegionMesh(*grid(3)).faces([0], "some"), r"corners: 'some'"),

@@ -12,6 +12,7 @@
 #include "meshhood/error.h"
 #include "meshhood/start.h"
 
+#include "base/text.h"
 #include "exact/index_access.h"
 #include "exact/node_search.h"
 #include "exact/query/arguments.h"
@@ -112,6 +113,10 @@ SpacePoint point_on_face(const Index& index, std::span<const VertexId> corners, 
   SpacePoint sum{0, 0, 0};
   for (std::size_t i = 0; i < corners.size(); ++i) {
     check_vertex(corners[i], index.vertex_count(), "corner " + std::to_string(i) + ": vertex");
+    if (!std::isfinite(weights[i])) {
+      raise(ErrorCode::InvalidOption,
+            "weights: value " + std::to_string(i) + " is " + to_text(weights[i]) + ", expected a finite number");
+    }
     const Point corner = position_of(IndexAccess::view(index), corners[i]);
     sum = {sum[0] + weights[i] * corner.x, sum[1] + weights[i] * corner.y, sum[2] + weights[i] * corner.z};
   }

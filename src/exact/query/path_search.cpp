@@ -18,6 +18,9 @@ constexpr double kUnreached = std::numeric_limits<double>::infinity();
 // The vertices of a block, consecutive in index order.
 constexpr std::uint32_t kBlock = 32;
 
+// Of more edges of a block, which belong to a vertex with very many neighbors, only the first are fetched.
+constexpr std::size_t kMostEdges = 16 * kBlock;
+
 // A search of a smaller radius, in mean lengths of edges, reads little of its blocks.
 constexpr double kSmall = 3;
 
@@ -186,7 +189,7 @@ void PathSearch::meet(std::uint32_t vertex) {
   const std::size_t first = std::size_t{block} * kBlock;
   const std::size_t last = std::min(first + kBlock, lengths_.size());
   const std::size_t begin = graph_->edges.offsets[first];
-  const std::size_t end = graph_->edges.offsets[last];
+  const std::size_t end = std::min<std::size_t>(graph_->edges.offsets[last], begin + kMostEdges);
   fetch_run(graph_->edges.neighbors.data() + begin, graph_->edges.neighbors.data() + end);
   fetch_run(graph_->lengths.data() + begin, graph_->lengths.data() + end);
   fetch_run(lengths_.data() + first, lengths_.data() + last);

@@ -86,12 +86,15 @@ TEST(PointOnFace, IsTheWeightedSumOfTheCorners) {
   EXPECT_EQ(p, expected);
 }
 
-TEST(PointOnFace, RefusesWeightsThatAreNotOneForEachCorner) {
+TEST(PointOnFace, RefusesWeightsThatAreNotOneFiniteNumberForEachCorner) {
   const TestMesh mesh = make_grid(3, 3, false);
   const Index index = build(mesh.view());
   const std::array<VertexId, 3> corners{0, 1, 99};
   expect_refused(ErrorCode::InvalidOption, "weights: 2 values",
                  [&] { static_cast<void>(point_on_face(index, corners, std::array{0.5, 0.5})); });
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  expect_refused(ErrorCode::InvalidOption, "weights: value 1 is nan",
+                 [&] { static_cast<void>(point_on_face(index, corners, std::array{0.5, nan, 0.5})); });
   expect_refused(ErrorCode::VertexOutOfRange, "corner 2: vertex 99",
                  [&] { static_cast<void>(point_on_face(index, corners, std::array{0.5, 0.25, 0.25})); });
 }
