@@ -66,7 +66,7 @@ class SearchSteps {
     const bool is_small = state_.limits.is_small(query.radius_in_frame, *state_.index);
     const bool is_found = state_.search_few_leaves(query.slot, query.center(), state_.memory.enter(query.leaf()));
     const bool is_outward =
-        !is_found && !is_small && state_.index->leaves[query.leaf()].connected && !state_.is_answer_small(query);
+        !is_found && !is_small && state_.index->leaves[query.leaf()].connected && !state_.is_answer_small();
     if (is_outward) return false;
     if (!is_found) state_.leaf_bfs.run(query, is_small, state_.traversal, state_.answer);
     ++counts_.leaf_searches;

@@ -25,6 +25,8 @@ struct alignas(4 * sizeof(Real)) Record {
 
 namespace {
 
+constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+
 template <class Real>
 std::vector<Record<Real>> make_records(const StridedPositions<Real>& xyz) {
   std::vector<Record<Real>> records(xyz.size());
@@ -119,7 +121,7 @@ struct ReferenceSearcher::State {
     return std::span(queue).first(end);
   }
 
-  std::span<const VertexId> search(VertexId v, double squared_radius, std::size_t most) {
+  std::span<const VertexId> search(VertexId v, double squared_radius, std::size_t most = kAll) {
     return std::visit(
         [&](auto& all) {
           begin(v, all);
@@ -128,9 +130,9 @@ struct ReferenceSearcher::State {
         records);
   }
 
-  std::span<const VertexId> search(VertexId v, double radius) {
+  std::span<const VertexId> neighborhood(VertexId v, double radius) {
     check_query(v, adjacency.size(), radius);
-    return search(v, squared_radius(radius), std::numeric_limits<std::size_t>::max());
+    return search(v, squared_radius(radius));
   }
 
   /// The distances of `ids` from `v`.
@@ -164,13 +166,13 @@ ReferenceSearcher::~ReferenceSearcher() = default;
 std::size_t ReferenceSearcher::vertex_count() const { return state_->adjacency.size(); }
 
 void ReferenceSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
-  const std::span<const VertexId> found = state_->search(v, radius);
+  const std::span<const VertexId> found = state_->neighborhood(v, radius);
   out.assign(found.begin(), found.end());
 }
 
 void ReferenceSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out,
                                      std::vector<double>& distances) {
-  const std::span<const VertexId> found = state_->search(v, radius);
+  const std::span<const VertexId> found = state_->neighborhood(v, radius);
   // Reserved first: if memory runs out, neither has changed.
   distances.reserve(found.size());
   out.assign(found.begin(), found.end());
@@ -178,22 +180,25 @@ void ReferenceSearcher::neighborhood(VertexId v, double radius, std::vector<Vert
 }
 
 std::span<const VertexRange> ReferenceSearcher::ranges(VertexId v, double radius) {
-  const std::span<const VertexId> found = state_->search(v, radius);
+  const std::span<const VertexId> found = state_->neighborhood(v, radius);
   state_->ranges.clear();
   for (const VertexId w : found) append(state_->ranges, w);
   return state_->ranges;
 }
 
-std::size_t ReferenceSearcher::count(VertexId v, double radius) { return state_->search(v, radius).size(); }
+std::size_t ReferenceSearcher::count(VertexId v, double radius) { return state_->neighborhood(v, radius).size(); }
 
-std::span<const VertexId> ReferenceAccess::search(ReferenceSearcher& searcher, VertexId v, double squared_radius,
-                                                  std::size_t most) {
+std::span<const VertexId> ReferenceAccess::search(ReferenceSearcher& searcher, VertexId v, double squared_radius) {
+  return searcher.state_->search(v, squared_radius);
+}
+
+std::span<const VertexId> ReferenceAccess::search_few(ReferenceSearcher& searcher, VertexId v, double squared_radius,
+                                                      std::size_t most) {
   return searcher.state_->search(v, squared_radius, most);
 }
 
 std::span<const VertexId> ReferenceAccess::resume(ReferenceSearcher& searcher, double squared_radius) {
   ReferenceSearcher::State& state = *searcher.state_;
-  constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
   return std::visit([&](auto& all) { return state.resume(squared_radius, kAll, all); }, state.records);
 }
 

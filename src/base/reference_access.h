@@ -12,12 +12,15 @@ namespace meshhood {
 
 /// Access to the search itself for the exact index, and to rare states for tests.
 struct ReferenceAccess {
-  /// The neighborhood in the order of the search, or nothing as soon as it has more than `most` vertices. Valid until
-  /// the next call. `squared_radius` is that of the radius by the function of this name. Nothing is checked.
-  [[nodiscard]] static std::span<const VertexId> search(ReferenceSearcher& searcher, VertexId v, double squared_radius,
-                                                        std::size_t most);
+  /// The neighborhood in the order of the search, valid until the next call. `squared_radius` is that of the radius by
+  /// the function of this name. Nothing is checked.
+  [[nodiscard]] static std::span<const VertexId> search(ReferenceSearcher& searcher, VertexId v, double squared_radius);
 
-  /// The whole neighborhood, after `search` has returned nothing for this radius.
+  /// The same, or nothing as soon as there are more than `most` vertices.
+  [[nodiscard]] static std::span<const VertexId> search_few(ReferenceSearcher& searcher, VertexId v,
+                                                            double squared_radius, std::size_t most);
+
+  /// The whole neighborhood, after `search_few` has returned nothing for this radius.
   [[nodiscard]] static std::span<const VertexId> resume(ReferenceSearcher& searcher, double squared_radius);
 
   /// Refills `out` with the distances of `ids` from `v`.

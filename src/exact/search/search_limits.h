@@ -94,10 +94,7 @@ class SearchMemory {
 
   /// Whether the breadth-first search over leaves, which visits only the leaves of the answer, would take less time.
   [[nodiscard]] bool is_answer_small() const {
-    // Chosen: the steps that a leaf of the answer takes there, and those that a surface leaf takes here besides.
-    constexpr double kStepsToVisit = 1.5;
-    constexpr double kStepsToReach = 0.5;
-    return is_experienced() && steps_ + kStepsToReach * surface_leaves_ > kStepsToVisit * answer_leaves_;
+    return is_experienced() && visits_would_take_less(steps_, surface_leaves_, answer_leaves_);
   }
 
   /// After an outward search that has searched for other components.
@@ -106,10 +103,7 @@ class SearchMemory {
     approach(surface_leaves_, search.surface_leaves);
     approach(answer_leaves_, search.answer_leaves);
     approach(steps_, search.steps);
-    // The more steps were in vain, the fewer balls are tried again: together, they take about as long as a tenth of the
-    // breadth-first searches between them.
-    const std::size_t steps_per_leaf = search.steps / std::max<std::size_t>(search.answer_leaves, 1);
-    retry_interval_ = std::clamp(10 * steps_per_leaf, kShortestInterval, kLongestInterval);
+    retry_interval_ = interval_after(search);
   }
 
   /// Whether beginning with large nodes was mostly useless: they reached more than a single sheet.
@@ -128,13 +122,33 @@ class SearchMemory {
   void record_few_leaves(bool is_one_vertex) { approach(one_vertex_share_, is_one_vertex ? 1 : 0); }
 
  private:
-  static constexpr std::size_t kShortestInterval = 16;   // balls; chosen
-  static constexpr std::size_t kLongestInterval = 2048;  // chosen
+  // Balls from one that is tried again to the next; chosen.
+  static constexpr std::size_t kShortestInterval = 16;  // if balls may have changed
+  static constexpr std::size_t kShortInterval = 64;
+  static constexpr std::size_t kLongestInterval = 2048;
 
   /// Whether enough balls have been searched. A single one may be unlike all others.
   [[nodiscard]] bool is_experienced() const {
     constexpr std::size_t kFewest = 4;  // chosen
     return searches_ >= kFewest && !is_retry_;
+  }
+
+  /// For the numbers of one search, or for their means.
+  template <class Number>
+  [[nodiscard]] static bool visits_would_take_less(Number steps, Number surface_leaves, Number answer_leaves) {
+    // Chosen: the steps that a leaf of the answer takes there, and those that a surface leaf takes here besides.
+    constexpr double kStepsToVisit = 1.5;
+    constexpr double kStepsToReach = 0.5;
+    return static_cast<double>(steps) + kStepsToReach * static_cast<double>(surface_leaves) >
+           kStepsToVisit * static_cast<double>(answer_leaves);
+  }
+
+  /// The more steps were in vain, the fewer balls are tried again: together, they take about as long as a tenth of the
+  /// breadth-first searches between them. If the search was the right one, balls may have changed.
+  [[nodiscard]] static std::size_t interval_after(const SearchRecord& search) {
+    if (!visits_would_take_less(search.steps, search.surface_leaves, search.answer_leaves)) return kShortestInterval;
+    const std::size_t steps_per_leaf = search.steps / std::max<std::size_t>(search.answer_leaves, 1);
+    return std::clamp(10 * steps_per_leaf, kShortInterval, kLongestInterval);
   }
 
   /// Moves a mean towards a value.

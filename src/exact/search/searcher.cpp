@@ -33,21 +33,26 @@ bool Searcher::State::is_found_over_vertices(VertexId v, double radius) {
 void Searcher::State::search(VertexId v, double radius) {
   // A call for valid arguments would take a tenth of the shortest queries.
   if (v >= index->vertex_count() || !(radius >= 0)) check_query(v, index->vertex_count(), radius);
-  const std::uint32_t slot = index->slot[v];
-  const LeafId home = leaf_of(slot);
-  if (!memory.expects_one_vertex()) traversal.prefetch_leaf(index->leaves[home]);
   if (radius != bounds.radius) bounds = RadiusBounds(index->frame, radius);
   answer.clear();
   ids = {};
   was_outward = was_united = false;
+  const bool is_small = limits.is_small(bounds.radius_in_frame, *index);
+  const bool is_by_rows = !is_small && vertex_bfs.is_by_rows();
+  if (is_by_rows && is_answer_small()) {
+    ids = vertex_bfs.find_all(v, radius);
+    return;
+  }
+  const std::uint32_t slot = index->slot[v];
+  const LeafId home = leaf_of(slot);
+  if (!memory.expects_one_vertex()) traversal.prefetch_leaf(index->leaves[home]);
   if (search_few_leaves(slot, index->position(home, lane_of(slot)), memory.enter(home))) return;
   const Query query(*index, v, bounds);
-  const bool is_small = limits.is_small(bounds.radius_in_frame, *index);
   // A leaf that is not connected has no links, so the answer is a part of it.
-  was_outward = !is_small && index->leaves[home].connected && !is_answer_small(query);
+  was_outward = !is_small && index->leaves[home].connected && (is_by_rows || !is_answer_small());
   if (was_outward) {
     search_outward(query);
-  } else if (!is_small && vertex_bfs.is_by_rows()) {
+  } else if (is_by_rows) {
     ids = vertex_bfs.find_all(v, radius);
   } else {
     leaf_bfs.run(query, is_small, traversal, answer);
@@ -73,8 +78,8 @@ bool Searcher::State::search_few_leaves(std::uint32_t slot, const Point& center,
 }
 
 /// Whether the answer probably has few leaves, as in recent balls where other components had many.
-bool Searcher::State::is_answer_small(const Query& query) {
-  memory.begin_ball(query.radius);
+bool Searcher::State::is_answer_small() {
+  memory.begin_ball(bounds.radius);
   return limits.enabled && memory.is_answer_small();
 }
 

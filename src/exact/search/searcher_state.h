@@ -100,7 +100,7 @@ struct Searcher::State {
   };
 
   [[nodiscard]] bool search_few_leaves(std::uint32_t slot, const Point& center, bool is_near);
-  [[nodiscard]] bool is_answer_small(const Query& query);
+  [[nodiscard]] bool is_answer_small();
   void search_outward(const Query& query);
   bool remove_other_components(const Query& query);
   void record_search();

@@ -62,8 +62,8 @@ std::span<const VertexId> VertexBfs::resume() {
   return ReferenceAccess::resume(*searcher_, squared_radius_);
 }
 
-/// Checks the arguments of a query, and computes what depends on the radius alone.
-void VertexBfs::prepare(VertexId v, double radius) {
+/// Checks the arguments of a query, and keeps what depends on the radius alone.
+void VertexBfs::keep(VertexId v, double radius) {
   check_query(v, index_->vertex_count(), radius);
   radius_ = radius;
   squared_radius_ = squared_radius(radius);
@@ -74,7 +74,11 @@ std::span<const VertexId> VertexBfs::find_small(VertexId v, double radius) {
   if (places_.empty() && !make_places()) return {};
   Place& place = place_of(v);
   if (!(radius <= place.largest_radius)) return {};
-  const std::span<const VertexId> found = search(v, radius, kVerticesToTheStop * place.most_vertices);
+  prepare(v, radius);
+  const std::span<const VertexId> found =
+      ReferenceAccess::search_few(*searcher_, v, squared_radius_, kVerticesToTheStop * place.most_vertices);
+  center_ = v;
+  has_stopped_ = found.empty();
   if (!is_small(place, radius, found.size())) {
     place.largest_radius = std::nextafter(radius, -1.0);  // mutant: large-balls-tried-again
   }

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -59,7 +58,7 @@ class VertexBfs {
   /// The neighborhood by the caller's ids, `v` first; valid until the next call. Nothing if a search over leaves should
   /// answer: the ball is probably large, or has turned out to be. Throws Error{VertexOutOfRange, InvalidRadius}.
   [[nodiscard]] std::span<const VertexId> find(VertexId v, double radius) {
-    if (answers_all_) return search(v, radius, kAll);
+    if (answers_all_) return search(v, radius);
     if (!(radius <= largest_radius_)) return {};
     return find_small(v, radius);
   }
@@ -67,7 +66,7 @@ class VertexBfs {
   /// The same for any ball. Continues the last search if it was for this ball and has stopped.
   [[nodiscard]] std::span<const VertexId> find_all(VertexId v, double radius) {
     const bool has_begun = has_stopped_ && v == center_ && radius == radius_;
-    return has_begun ? resume() : search(v, radius, kAll);
+    return has_begun ? resume() : search(v, radius);
   }
 
   /// Whether there is a copy of the graph, and its vertices are numbered by rows. Then this search is no slower than a
@@ -96,26 +95,25 @@ class VertexBfs {
   void answer_none();
 
  private:
-  static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
-
   /// What is known of the balls around the vertices of a leaf.
   struct Place {
     double largest_radius;        // of the small ones
     std::uint32_t most_vertices;  // of one of about this radius
   };
 
-  /// Stops and returns nothing as soon as there are more than `most`.
-  [[nodiscard]] std::span<const VertexId> search(VertexId v, double radius, std::size_t most) {
-    if (!searcher_) make_searcher();
-    if (v >= index_->vertex_count() || radius != radius_) prepare(v, radius);
-    const std::span<const VertexId> found = ReferenceAccess::search(*searcher_, v, squared_radius_, most);
-    center_ = v;
-    has_stopped_ = found.empty();
-    return found;
+  [[nodiscard]] std::span<const VertexId> search(VertexId v, double radius) {
+    prepare(v, radius);
+    return ReferenceAccess::search(*searcher_, v, squared_radius_);
   }
 
   [[nodiscard]] std::span<const VertexId> resume();
-  void prepare(VertexId v, double radius);
+  void prepare(VertexId v, double radius) {
+    if (!searcher_) make_searcher();
+    if (v >= index_->vertex_count() || radius != radius_) keep(v, radius);
+    has_stopped_ = false;
+  }
+
+  void keep(VertexId v, double radius);
   [[nodiscard]] std::span<const VertexId> find_small(VertexId v, double radius);
   [[nodiscard]] bool is_small(const Place& place, double radius, std::size_t size) const;
   [[nodiscard]] bool make_places();

@@ -96,10 +96,10 @@ TEST(SearchMemory, LeavesOutALargeStartThatFailedInMostRecentBalls) {
   EXPECT_FALSE(memory.should_start_small());
 }
 
-TEST(SearchMemory, IsIgnoredForOneBallInSixteen) {
+TEST(SearchMemory, IsIgnoredForOneBallInSixtyFour) {
   SearchMemory memory = memory_of(130, 200);
   std::size_t answered_no = 0;
-  for (int i = 0; i < 160; ++i) {
+  for (int i = 0; i < 640; ++i) {
     memory.begin_ball(1);
     EXPECT_EQ(memory.should_unite(), memory.is_answer_small());
     answered_no += static_cast<std::size_t>(!memory.should_unite());
@@ -108,6 +108,19 @@ TEST(SearchMemory, IsIgnoredForOneBallInSixteen) {
   memory.clear();
   memory.begin_ball(1);
   EXPECT_FALSE(memory.is_answer_small());
+}
+
+TEST(SearchMemory, IsIgnoredForOneBallInSixteenOnceASearchWasTheRightOne) {
+  SearchMemory memory = memory_of(130, 200);
+  memory.begin_ball(1);
+  memory.record({kSurface, 150, 60});
+  ASSERT_TRUE(memory.is_answer_small()) << "on average";
+  std::size_t answered_no = 0;
+  for (int i = 0; i < 160; ++i) {
+    memory.begin_ball(1);
+    answered_no += static_cast<std::size_t>(!memory.is_answer_small());
+  }
+  EXPECT_EQ(answered_no, 10U);
 }
 
 TEST(SearchMemory, IsIgnoredTheLessOftenTheMoreStepsWereInVain) {
