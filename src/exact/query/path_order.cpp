@@ -14,7 +14,7 @@ constexpr double kShortestRange = 0x1p-900;
 bool is_before(const Path& a, const Path& b) { return a.length != b.length ? a.length < b.length : a.end < b.end; }
 
 // Intervals with more paths are sorted one by one.
-constexpr std::uint32_t kFew = 16;
+constexpr std::uint32_t kFewPaths = 16;
 
 /// By insertion: for paths that are nearly in order.
 void sort_by_insertion(std::span<Path> paths) {
@@ -45,7 +45,7 @@ std::span<const Path> PathOrder::sorted(const Path& first, std::span<const Path>
     begin += std::exchange(end, begin);
   }
   for (const Path& path : paths) result[ends_[interval(path)]++] = path;
-  if (most <= kFew) {
+  if (most <= kFewPaths) {
     sort_by_insertion(result);
     return sorted_;
   }
