@@ -174,6 +174,9 @@ SEEDS["parts"] = {
 # Changes of files: which, how, where and with what.
 SEEDS["parts"] |= {f"changes_{i}": bytes([3]) + DRAW.randbytes(5 * (1 + i % 6)) for i in range(24)}
 
+# Positions that are sorted, or draws of nodes, links and parts.
+SEEDS["rearrange"] = {f"random_{i}": bytes([i % 8]) + DRAW.randbytes(20 + 16 * i) for i in range(40)}
+
 for target, seeds in SEEDS.items():
     corpus.write(target, corpus.read(target) | seeds)
     print(f"{target}: {len(seeds)} seeds")

@@ -208,9 +208,9 @@ void Searcher::State::add_reached() {
 }
 
 void Searcher::State::write_answer(std::vector<VertexId>& out) const {
-  constexpr std::size_t kFew = 8;  // chosen; for more, kernels are faster
+  constexpr std::size_t kFewIds = 8;  // chosen; for more, kernels are faster
   const std::size_t size = answer.count();
-  if (size <= kFew) {
+  if (size <= kFewIds) {
     out.resize(size);
     VertexId* id = out.data();
     answer.for_each([&](std::size_t vertex) { *id++ = index->id(vertex); });
