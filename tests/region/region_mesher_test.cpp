@@ -77,7 +77,7 @@ struct FoundRegion {
 
 void expect_faces_of_vertices(const FoundRegion& region) {
   const auto& [mesh, mesher, start, radius, ids] = region;
-  const auto is_in = [&ids = ids](VertexId v) { return std::binary_search(ids.begin(), ids.end(), v); };
+  const auto is_in = [&all_ids = ids](VertexId v) { return std::binary_search(all_ids.begin(), all_ids.end(), v); };
   std::vector<std::size_t> all;
   std::vector<std::size_t> any;
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {

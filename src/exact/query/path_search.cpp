@@ -19,7 +19,7 @@ constexpr double kUnreached = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kBlock = 32;
 
 // Of more edges of a block, which belong to a vertex with very many neighbors, only the first are fetched.
-constexpr std::size_t kMostEdges = 16 * kBlock;
+constexpr std::size_t kMostEdges = std::size_t{16} * kBlock;
 
 // A search of a smaller radius, in mean lengths of edges, reads little of its blocks.
 constexpr double kSmall = 3;
