@@ -170,7 +170,7 @@ measure::Plan plan_of(const BenchCommand& options) {
   measure::Plan plan = options.plan;
   if (plan.queries == 0) raise(ErrorCode::InvalidOption, "--queries 0, expected at least 1");
   plan.order = options.order == "warm" ? measure::Order::Warm : measure::Order::Cold;
-  for (const std::string& radius : CLI::detail::split(options.radii, ',')) {
+  for (const std::string& radius : split_list(options.radii)) {
     plan.radii.push_back(parse_radius("--radii", radius));
   }
   return plan;

@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -156,12 +157,16 @@ CLI::Option* add_radius(CLI::App& command, Radius& radius) {
 }
 
 CLI::Option* add_radii(CLI::App& command, Radii& radii) {
+  const auto store = [&radii](const std::vector<std::string>& lists) {
+    for (const std::string& list : lists) {
+      for (std::string& value : split_list(list)) radii.values.push_back(std::move(value));
+    }
+  };
   CLI::Option* const option =
       command
-          .add_option(
-              "-r,--radius", radii.values,
+          .add_option_function<std::vector<std::string>>(
+              "-r,--radius", store,
               "radius of the ball, or several, separated by commas; a vertex at exactly this distance is inside")
-          ->delimiter(',')
           ->allow_extra_args(false)
           ->type_name("NUMBER")
           ->required();
@@ -173,6 +178,18 @@ void add_unit(CLI::App& command, const std::string& length, std::string& unit) {
   add_choice(command, "--unit",
              fmt::format("unit of the {}; mesh: that of the positions; edge: the mean edge length of the mesh", length),
              {"mesh", "edge"}, unit);
+}
+
+std::vector<std::string> split_list(std::string_view text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == ',') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
 }
 
 double parse_radius(std::string_view name, const std::string& text) {

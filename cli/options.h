@@ -81,11 +81,15 @@ struct Radii {
 /// --radius and --unit. Returns the former, which is required unless made optional.
 CLI::Option* add_radius(CLI::App& command, Radius& radius);
 
-/// The same for one radius or several, separated by commas.
+/// The same for one radius or several, separated by commas or given one by one.
 CLI::Option* add_radii(CLI::App& command, Radii& radii);
 
 /// --unit. `length` is what has the unit: "radius".
 void add_unit(CLI::App& command, const std::string& length, std::string& unit);
+
+/// The parts of `text` between its commas. Unlike CLI11, keeps empty parts, which are then refused: a shell makes them
+/// of an unset variable.
+[[nodiscard]] std::vector<std::string> split_list(std::string_view text);
 
 /// In the unit of the positions. Throws Error{InvalidRadius, InvalidOption}.
 [[nodiscard]] double resolve(const Radius& radius, Input& input);

@@ -34,9 +34,8 @@ using measure::Method;
 struct QueryCommand {
   std::string file;
   std::vector<std::uint64_t> vertices;
-  Radius radius;
-  bool has_radius = false;
-  std::optional<std::uint64_t> rings;  ///< instead of the radius
+  Radii radii;
+  std::optional<std::uint64_t> rings;  ///< instead of the radii
   StartOptions start;
   std::string method = "exact";
   std::optional<std::string> factor;
@@ -47,11 +46,11 @@ struct QueryCommand {
 };
 
 struct Answer {
-  std::optional<VertexId> vertex;  ///< none for --point
-  std::size_t count = 0;
-  std::vector<VertexId> vertices;  ///< ascending; empty if they are neither printed nor painted
-  std::vector<double> distances;   ///< of `vertices`, if requested
-  double seconds = 0;              ///< 0 if it was not measured
+  std::optional<VertexId> vertex;   ///< none for --point
+  std::vector<std::size_t> counts;  ///< for each radius; one for --rings
+  std::vector<VertexId> vertices;   ///< as in `StartAnswer`; empty if they are neither printed nor painted
+  std::vector<double> distances;    ///< of `vertices`, if requested
+  double seconds = 0;               ///< 0 if it was not measured
 };
 
 Method method_of(const QueryCommand& options, Input& input) {
@@ -62,14 +61,14 @@ Method method_of(const QueryCommand& options, Input& input) {
 
 /// The answer of `method`, with the median time of several runs.
 Answer timed_answer(const QueryCommand& options, const Method& method, VertexId v, double radius) {
-  Answer answer{.vertex = v, .vertices = {}, .distances = {}};
+  Answer answer{.vertex = v, .counts = {0}, .vertices = {}, .distances = {}};
   if (options.count && options.output.empty()) {
-    answer.seconds = measure::median_seconds([&] { answer.count = method.count(v, radius); });
+    answer.seconds = measure::median_seconds([&] { answer.counts.front() = method.count(v, radius); });
     return answer;
   }
   answer.seconds = measure::median_seconds([&] { method.neighborhood(v, radius, answer.vertices); });
   std::sort(answer.vertices.begin(), answer.vertices.end());
-  answer.count = answer.vertices.size();
+  answer.counts.front() = answer.vertices.size();
   return answer;
 }
 
@@ -77,14 +76,14 @@ Answer timed_answer(const QueryCommand& options, const Method& method, VertexId 
 void note_whole_component(const Method& method, double radius, const Answer& answer) {
   if (std::isinf(radius)) return;
   const std::size_t size = method.count(*answer.vertex, std::numeric_limits<double>::infinity());
-  if (answer.count != size) return;
+  if (answer.counts.front() != size) return;
   print_error("note: ",
               fmt::format("the neighborhood of vertex {} is its whole component ({} {}): a larger radius finds "
                           "no more",
                           *answer.vertex, size, size == 1 ? "vertex" : "vertices"));
 }
 
-Json to_json(const QueryCommand& options, double radius, const Answer& answer) {
+Json to_json(const QueryCommand& options, std::span<const double> radii, const Answer& answer) {
   Json document;
   if (answer.vertex) {
     document["vertex"] = *answer.vertex;
@@ -93,39 +92,55 @@ Json to_json(const QueryCommand& options, double radius, const Answer& answer) {
   }
   if (options.rings) {
     document["rings"] = *options.rings;
+  } else if (radii.size() == 1) {
+    document["radius"] = radii.front();
   } else {
-    document["radius"] = radius;
+    document["radii"] = radii;
   }
   document["method"] = options.method;
   if (options.start.is_along_edges()) document["metric"] = options.start.metric;
-  document["count"] = answer.count;
+  if (answer.counts.size() == 1) {
+    document["count"] = answer.counts.front();
+  } else {
+    document["counts"] = answer.counts;
+  }
   if (!options.count) document["vertices"] = answer.vertices;
   if (options.distances) document["distances"] = answer.distances;
   if (answer.seconds > 0) document["seconds"] = answer.seconds;
   return document;
 }
 
-/// With several answers, each line begins with the query vertex.
-std::string to_text(const QueryCommand& options, const Answer& answer, bool is_single) {
+/// With several answers, each line begins with the query vertex. With several radii, the radius comes before a count,
+/// and after a vertex.
+std::string to_text(const QueryCommand& options, std::span<const double> radii, const Answer& answer, bool is_single) {
   const std::string prefix = is_single ? "" : fmt::format("{} ", *answer.vertex);
-  if (options.count) return fmt::format("{}{}\n", prefix, answer.count);
+  const bool is_nested = radii.size() > 1;
   std::string text;
+  if (options.count) {
+    for (std::size_t i = 0; i < answer.counts.size(); ++i) {
+      text += prefix + (is_nested ? fmt::format("{} ", radii[i]) : "") + fmt::format("{}\n", answer.counts[i]);
+    }
+    return text;
+  }
+  std::size_t ring = 0;
   for (std::size_t i = 0; i < answer.vertices.size(); ++i) {
+    while (i == answer.counts[ring]) ++ring;
     text += prefix + std::to_string(answer.vertices[i]);
     if (options.distances) text += fmt::format(" {}", answer.distances[i]);
+    if (is_nested) text += fmt::format(" {}", radii[ring]);
     text += '\n';
   }
   return text;
 }
 
-void print(const QueryCommand& options, double radius, const std::vector<Answer>& answers) {
+void print(const QueryCommand& options, std::span<const double> radii, const std::vector<Answer>& answers) {
   if (!options.json) {
-    for (const Answer& answer : answers) print_text(to_text(options, answer, answers.size() == 1));
+    for (const Answer& answer : answers) print_text(to_text(options, radii, answer, answers.size() == 1));
   } else if (answers.size() == 1) {
-    print_json(to_json(options, radius, answers.front()));
+    print_json(to_json(options, radii, answers.front()));
   } else {
     Json documents = Json::array();
-    for (const Answer& answer : answers) documents.push_back(to_json(options, radius, answer));
+    for (const Answer& answer : answers) documents.push_back(to_json(options, radii, answer));
     print_json(documents);
   }
 }
@@ -156,30 +171,45 @@ std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<con
   return answers;
 }
 
-/// The answers that the methods do not give: from a point, with a filter, along edges, by rings.
-std::vector<Answer> answers_of_starts(const QueryCommand& options, std::span<const QueryStart> starts, double radius,
-                                      Input& input) {
+/// The answers that the methods do not give: from a point, with a filter, along edges, by rings, for several radii.
+std::vector<Answer> answers_of_starts(const QueryCommand& options, std::span<const QueryStart> starts,
+                                      std::span<const double> radii, Input& input) {
   input.need_edges("this query");
   std::vector<Answer> answers;
   for (const QueryStart& start : starts) {
     StartAnswer found = options.rings ? rings_of(options.start, *start.vertex(), *options.rings, input)
-                                      : region_of(options.start, start, radius, input);
-    const std::size_t count = found.vertices.size();
+                                      : regions_of(options.start, start, radii, input);
     if (!options.distances) found.distances.clear();
-    answers.push_back({start.vertex(), count, std::move(found.vertices), std::move(found.distances)});
+    answers.push_back({start.vertex(), std::move(found.counts), std::move(found.vertices), std::move(found.distances)});
   }
   return answers;
+}
+
+/// In the unit of the positions; none for --rings.
+std::vector<double> ascending_radii(const QueryCommand& options, Input& input) {
+  std::vector<double> radii = resolve(options.radii, input);
+  for (std::size_t i = 1; i < radii.size(); ++i) {
+    if (radii[i - 1] < radii[i]) continue;
+    const std::vector<std::string>& typed = options.radii.values;
+    raise(ErrorCode::InvalidRadius, fmt::format("radius {}, expected more than {} before it", typed[i], typed[i - 1]));
+  }
+  return radii;
 }
 
 void check_options(const QueryCommand& options) {
   if (options.factor && options.method != "paper") {
     raise(ErrorCode::InvalidOption, "--factor requires --method paper");
   }
-  if (options.has_radius == options.rings.has_value()) {
+  const std::size_t radii = options.radii.values.size();
+  if ((radii > 0) == options.rings.has_value()) {
     raise(ErrorCode::InvalidOption, "expected either --radius or --rings");
   }
   if (options.rings && (!options.start.point.empty() || options.start.is_along_edges() || options.method != "exact")) {
     raise(ErrorCode::InvalidOption, "--rings: expected --vertex, and neither --metric nor --method");
+  }
+  if (radii > 1 && options.method != "exact") {
+    raise(ErrorCode::InvalidOption,
+          fmt::format("--radius: {} radii, expected one with --method {}", radii, options.method));
   }
   check_start_options(options.start, options.method, !options.vertices.empty());
 }
@@ -189,12 +219,12 @@ void query(const QueryCommand& options) {
   check_output(options.output, {options.file});
   Input input(options.file);
   const std::vector<QueryStart> starts = starts_of(options.start, options.vertices, input);
-  const double radius = options.rings ? 0 : resolve(options.radius, input);
-  const std::vector<Answer> answers = options.start.is_plain() && !options.rings
-                                          ? answers_of_method(options, starts, radius, input)
-                                          : answers_of_starts(options, starts, radius, input);
+  const std::vector<double> radii = ascending_radii(options, input);
+  const std::vector<Answer> answers = options.start.is_plain() && radii.size() == 1
+                                          ? answers_of_method(options, starts, radii.front(), input)
+                                          : answers_of_starts(options, starts, radii, input);
   if (!options.output.empty()) paint(options, input, answers);
-  print(options, radius, answers);
+  print(options, radii, answers);
 }
 
 }  // namespace
@@ -207,7 +237,12 @@ void add_query(CLI::App& program) {
               "query vertex, by its number in the file from 0; several: -v 3,7 or -v 3 -v 7, then each line of the "
               "answer begins with the query vertex",
               options->vertices);
-  CLI::Option* radius = add_radius(*command, options->radius)->required(false);
+  add_radii(*command, options->radii)
+      ->required(false)
+      ->description(
+          "radius of the ball; a vertex at exactly this distance is inside; several, ascending: -r 1,2 or -r 1 -r 2, "
+          "then each vertex is printed once, with the smallest radius whose neighborhood has it, and --count prints a "
+          "line for each radius");
   command
       ->add_option("--rings", options->rings,
                    "instead of the radius: find the vertices at most this number of edges away from the query vertex")
@@ -228,10 +263,7 @@ void add_query(CLI::App& program) {
       ->excludes(count);
   add_output(*command, ".ply", "also write the mesh with the neighborhood in color", options->output);
   add_json(*command, options->json);
-  command->callback([options, radius] {
-    options->has_radius = !radius->empty();
-    query(*options);
-  });
+  command->callback([options] { query(*options); });
 }
 
 }  // namespace meshhood::cli

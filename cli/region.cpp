@@ -102,7 +102,7 @@ void region(const RegionCommand& options) {
   input.need_faces("region");
   const QueryStart start = start_of(options.start, options.vertices, input);
   const double radius = resolve(options.radius, input);
-  const std::vector<VertexId> ids = region_of(options.start, start, radius, input).vertices;
+  const std::vector<VertexId> ids = regions_of(options.start, start, std::span(&radius, 1), input).vertices;
   RegionMesher mesher(input.surface());
   const Submesh part = mesher.submesh(ids, options.faces == "all" ? Corners::All : Corners::Any);
   const Rim rim = mesher.rim(ids, center_of(start.view(), *input.mesh()), radius);

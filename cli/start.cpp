@@ -40,15 +40,23 @@ SpacePoint parse_point(const std::vector<std::string>& texts) {
   return p;
 }
 
-StartAnswer sorted_answer(const std::vector<VertexId>& ids, const std::vector<double>& distances) {
+/// `ids` come ring by ring, in any order within a ring.
+StartAnswer sorted_answer(const std::vector<VertexId>& ids, const std::vector<double>& distances,
+                          std::vector<std::size_t> counts) {
   std::vector<std::size_t> order(ids.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
+  auto ring = order.begin();
+  for (const std::size_t count : counts) {
+    const auto end = order.begin() + static_cast<std::ptrdiff_t>(count);
+    std::sort(ring, end, [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
+    ring = end;
+  }
   StartAnswer answer;
   for (const std::size_t i : order) {
     answer.vertices.push_back(ids[i]);
     answer.distances.push_back(distances[i]);
   }
+  answer.counts = std::move(counts);
   return answer;
 }
 
@@ -104,16 +112,27 @@ QueryStart start_of(const StartOptions& options, std::span<const std::uint64_t> 
   return starts_of(options, vertices, input).front();
 }
 
-StartAnswer region_of(const StartOptions& options, const QueryStart& start, double radius, Input& input) {
+StartAnswer regions_of(const StartOptions& options, const QueryStart& start, std::span<const double> radii,
+                       Input& input) {
   const FilterMasks masks(options, input.vertex_count());
   std::vector<VertexId> ids;
   std::vector<double> distances;
+  std::vector<std::size_t> counts;
   if (options.is_along_edges()) {
-    EdgeSearcher(input.exact_index()).neighborhood(*start.vertex(), radius, ids, distances, masks.filter());
+    EdgeSearcher(input.exact_index()).neighborhood(*start.vertex(), radii.back(), ids, distances, masks.filter());
+    for (const double radius : radii) {  // the distances ascend
+      const auto end = std::upper_bound(distances.begin(), distances.end(), radius);
+      counts.push_back(static_cast<std::size_t>(end - distances.begin()));
+    }
   } else {
-    RegionSearcher(input.exact_index()).region(start.view(), radius, ids, distances, masks.filter());
+    RegionSearcher searcher(input.exact_index());
+    searcher.region(start.view(), radii.back(), ids, distances, masks.filter());
+    std::vector<double> distance_of(input.vertex_count());  // `nested` returns no distances
+    for (std::size_t i = 0; i < ids.size(); ++i) distance_of[ids[i]] = distances[i];
+    searcher.nested(start.view(), radii, ids, counts, masks.filter());
+    for (std::size_t i = 0; i < ids.size(); ++i) distances[i] = distance_of[ids[i]];
   }
-  return sorted_answer(ids, distances);
+  return sorted_answer(ids, distances, std::move(counts));
 }
 
 StartAnswer rings_of(const StartOptions& options, VertexId v, std::size_t k, Input& input) {
@@ -123,7 +142,7 @@ StartAnswer rings_of(const StartOptions& options, VertexId v, std::size_t k, Inp
   EdgeSearcher(input.exact_index()).rings(v, k, ids, counts, masks.filter());
   std::vector<double> rings;
   for (std::size_t ring = 0; ring < counts.size(); ++ring) rings.resize(counts[ring], static_cast<double>(ring));
-  return sorted_answer(ids, rings);
+  return sorted_answer(ids, rings, {ids.size()});
 }
 
 }  // namespace meshhood::cli

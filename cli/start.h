@@ -78,16 +78,19 @@ class QueryStart {
 /// The start of a command that takes one. Throws Error{InvalidOption} if there are several vertices.
 [[nodiscard]] QueryStart start_of(const StartOptions& options, std::span<const std::uint64_t> vertices, Input& input);
 
-/// The answer to one query, ascending by vertex.
+/// The answer to one query, ring by ring. With one radius there is one ring.
 struct StartAnswer {
-  std::vector<VertexId> vertices;
-  std::vector<double> distances;
+  std::vector<VertexId> vertices;   ///< ascending within each ring
+  std::vector<double> distances;    ///< of `vertices`
+  std::vector<std::size_t> counts;  ///< the first `counts[i]` vertices are within radius `i`
 };
 
-/// The region of a start; with --metric edge the vertices whose path distance is at most the radius.
-[[nodiscard]] StartAnswer region_of(const StartOptions& options, const QueryStart& start, double radius, Input& input);
+/// The regions of a start for ascending `radii`, at least one, as the rings of `RegionSearcher::nested`; with --metric
+/// edge the vertices whose path distance is at most each radius.
+[[nodiscard]] StartAnswer regions_of(const StartOptions& options, const QueryStart& start,
+                                     std::span<const double> radii, Input& input);
 
-/// The vertices that at most `k` edges separate from vertex `v`, with the number of these edges.
+/// The vertices that at most `k` edges separate from vertex `v`, all as one ring, with the number of these edges.
 [[nodiscard]] StartAnswer rings_of(const StartOptions& options, VertexId v, std::size_t k, Input& input);
 
 }  // namespace meshhood::cli
