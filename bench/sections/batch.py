@@ -98,7 +98,7 @@ def summary(data):
 
 
 HEAD_NOTE = """All vertices in one call, one thread of an {processor} (`{command}`): times as fast as the
-fastest breadth-first search we could write, for the sizes and the ids of all neighborhoods.{remark}
+reference breadth-first search, which is written for speed, for the sizes and the ids of all neighborhoods.{remark}
 
 """
 HEAD_RADII = (2, 5, 10, 20, 65)

@@ -59,8 +59,6 @@ struct ReferenceSearcher::State {
   std::vector<VertexId> queue;
   std::vector<VertexRange> ranges;
   std::uint32_t query = 0;
-  std::size_t visited = 0;  // vertices of the queue whose neighbors have been looked at, where a search has stopped
-  std::size_t found = 0;    // vertices of the queue there
 
   explicit State(const GraphView& graph) : adjacency(graph.adjacency), queue(graph.positions.size() + 1) {
     graph.positions.visit([&](const auto& xyz) { records = make_records(xyz); });
@@ -86,28 +84,18 @@ struct ReferenceSearcher::State {
     if (head + 8 < end) prefetch(adjacency.neighbors.data() + adjacency.offsets[queue[head + 8]]);
   }
 
-  /// Begins a search at `v`. `resume` continues it.
-  template <class Real>
-  void begin(VertexId v, std::vector<Record<Real>>& all) {
-    all[v].seen = next_query();
-    queue[0] = v;
-    visited = 0;
-    found = 1;
-  }
-
   /// Leaves the component at the beginning of the queue and returns it, or nothing as soon as it has more than `most`
   /// vertices.
   template <class Real>
-  std::span<const VertexId> resume(double squared_radius, std::size_t most, std::vector<Record<Real>>& all) {
-    const Point center = position(all[queue[0]]);
-    const std::uint32_t current = query;
-    std::size_t end = found;
-    for (std::size_t head = visited; head < end; ++head) {
-      if (end > most) {
-        visited = head;  // mutant: vertex-skipped-at-the-stop
-        found = end;
-        return {};  // mutant: stopped-search-answers
-      }
+  std::span<const VertexId> search(VertexId v, double squared_radius, std::size_t most,
+                                   std::vector<Record<Real>>& all) {
+    const Point center = position(all[v]);
+    const std::uint32_t current = next_query();
+    all[v].seen = current;
+    queue[0] = v;
+    std::size_t end = 1;
+    for (std::size_t head = 0; head < end; ++head) {
+      if (end > most) return {};  // mutant: stopped-search-answers
       fetch_ahead(head, end);
       for (const VertexId w : adjacency[queue[head]]) {
         Record<Real>& record = all[w];
@@ -122,12 +110,7 @@ struct ReferenceSearcher::State {
   }
 
   std::span<const VertexId> search(VertexId v, double squared_radius, std::size_t most = kAll) {
-    return std::visit(
-        [&](auto& all) {
-          begin(v, all);
-          return resume(squared_radius, most, all);
-        },
-        records);
+    return std::visit([&](auto& all) { return search(v, squared_radius, most, all); }, records);
   }
 
   std::span<const VertexId> neighborhood(VertexId v, double radius) {
@@ -195,11 +178,6 @@ std::span<const VertexId> ReferenceAccess::search(ReferenceSearcher& searcher, V
 std::span<const VertexId> ReferenceAccess::search_few(ReferenceSearcher& searcher, VertexId v, double squared_radius,
                                                       std::size_t most) {
   return searcher.state_->search(v, squared_radius, most);
-}
-
-std::span<const VertexId> ReferenceAccess::resume(ReferenceSearcher& searcher, double squared_radius) {
-  ReferenceSearcher::State& state = *searcher.state_;
-  return std::visit([&](auto& all) { return state.resume(squared_radius, kAll, all); }, state.records);
 }
 
 void ReferenceAccess::measure(const ReferenceSearcher& searcher, VertexId v, std::span<const VertexId> ids,

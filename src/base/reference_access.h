@@ -20,9 +20,6 @@ struct ReferenceAccess {
   [[nodiscard]] static std::span<const VertexId> search_few(ReferenceSearcher& searcher, VertexId v,
                                                             double squared_radius, std::size_t most);
 
-  /// The whole neighborhood, after `search_few` has returned nothing for this radius.
-  [[nodiscard]] static std::span<const VertexId> resume(ReferenceSearcher& searcher, double squared_radius);
-
   /// Refills `out` with the distances of `ids` from `v`.
   static void measure(const ReferenceSearcher& searcher, VertexId v, std::span<const VertexId> ids,
                       std::vector<double>& out);

@@ -57,11 +57,6 @@ double VertexBfs::radius_of(double mean_leaf_radii) const {
 
 void VertexBfs::make_searcher() { searcher_.emplace(index_->graph->of(*index_).view()); }
 
-std::span<const VertexId> VertexBfs::resume() {
-  has_stopped_ = false;  // mutant: search-resumed-twice
-  return ReferenceAccess::resume(*searcher_, squared_radius_);
-}
-
 /// Checks the arguments of a query, and keeps what depends on the radius alone.
 void VertexBfs::keep(VertexId v, double radius) {
   check_query(v, index_->vertex_count(), radius);
@@ -77,8 +72,6 @@ std::span<const VertexId> VertexBfs::find_small(VertexId v, double radius) {
   prepare(v, radius);
   const std::span<const VertexId> found =
       ReferenceAccess::search_few(*searcher_, v, squared_radius_, kVerticesToTheStop * place.most_vertices);
-  center_ = v;
-  has_stopped_ = found.empty();
   if (!is_small(place, radius, found.size())) {
     place.largest_radius = std::nextafter(radius, -1.0);  // mutant: large-balls-tried-again
   }

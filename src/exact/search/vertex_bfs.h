@@ -58,15 +58,15 @@ class VertexBfs {
   /// The neighborhood by the caller's ids, `v` first; valid until the next call. Nothing if a search over leaves should
   /// answer: the ball is probably large, or has turned out to be. Throws Error{VertexOutOfRange, InvalidRadius}.
   [[nodiscard]] std::span<const VertexId> find(VertexId v, double radius) {
-    if (answers_all_) return search(v, radius);
+    if (answers_all_) return find_all(v, radius);
     if (!(radius <= largest_radius_)) return {};
     return find_small(v, radius);
   }
 
-  /// The same for any ball. Continues the last search if it was for this ball and has stopped.
+  /// The same for any ball.
   [[nodiscard]] std::span<const VertexId> find_all(VertexId v, double radius) {
-    const bool has_begun = has_stopped_ && v == center_ && radius == radius_;
-    return has_begun ? resume() : search(v, radius);
+    prepare(v, radius);
+    return ReferenceAccess::search(*searcher_, v, squared_radius_);
   }
 
   /// Whether there is a copy of the graph, and its vertices are numbered by rows. Then this search is no slower than a
@@ -101,16 +101,9 @@ class VertexBfs {
     std::uint32_t most_vertices;  // of one of about this radius
   };
 
-  [[nodiscard]] std::span<const VertexId> search(VertexId v, double radius) {
-    prepare(v, radius);
-    return ReferenceAccess::search(*searcher_, v, squared_radius_);
-  }
-
-  [[nodiscard]] std::span<const VertexId> resume();
   void prepare(VertexId v, double radius) {
     if (!searcher_) make_searcher();
     if (v >= index_->vertex_count() || radius != radius_) keep(v, radius);
-    has_stopped_ = false;
   }
 
   void keep(VertexId v, double radius);
@@ -128,11 +121,9 @@ class VertexBfs {
   Speed speed_ = kByRows;
   std::vector<Place> places_;  // by leaf; empty before the copy is made
   std::optional<ReferenceSearcher> searcher_;
-  // Of the last search:
-  VertexId center_ = 0;
+  // Kept from one search to the next, because most have the radius of the one before.
   double radius_ = 0;
-  double squared_radius_ = 0;  // kept, because most radii are as the one before
-  bool has_stopped_ = false;
+  double squared_radius_ = 0;
   std::vector<VertexId> in_index_order_;
   std::vector<VertexRange> ranges_;
 };

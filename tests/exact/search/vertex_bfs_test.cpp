@@ -239,29 +239,6 @@ TEST(VertexBfs, LearnsFromItsOwnAnswersWhichBallsAreLarge) {
   EXPECT_THAT(bfs.find(kCenter, kInfinity), testing::IsEmpty()) << "not completed";
 }
 
-TEST(VertexBfs, ContinuesASearchThatHasStopped) {
-  constexpr std::uint32_t kVertices = 3000;
-  TestMesh path;
-  for (std::uint32_t i = 0; i < kVertices; ++i) {
-    path.add_vertex(i, 0, 0);
-    if (i > 0) path.add_face({i - 1, i});
-  }
-  const Index index = build(path.finish(true).view());
-  VertexBfs bfs = prepared(index);
-  for (int i = 0; i < 2; ++i) {
-    bfs.record(7, kInfinity, 2, 1);
-    EXPECT_THAT(bfs.find(7, kInfinity), testing::IsEmpty());
-    EXPECT_THAT(bfs.find_all(7, kInfinity), testing::SizeIs(kVertices));
-    EXPECT_THAT(bfs.find_all(7, kInfinity), testing::SizeIs(kVertices)) << "begun again";
-  }
-  bfs.record(7, kInfinity, 2, 1);
-  EXPECT_THAT(bfs.find(7, kInfinity), testing::IsEmpty());
-  EXPECT_THAT(bfs.find_all(9, kInfinity), testing::SizeIs(kVertices)) << "of another vertex";
-  bfs.record(7, kInfinity, 2, 1);
-  EXPECT_THAT(bfs.find(7, kInfinity), testing::IsEmpty());
-  EXPECT_THAT(bfs.find_all(7, 2), testing::ElementsAre(7, 6, 8, 5, 9)) << "of another radius";
-}
-
 TEST(VertexBfs, AsksTheSearchesOverLeavesAgainWhereTheRadiusIsAnother) {
   const TestMesh mesh = bumpy_grid(40);
   const Index index = build(mesh.view());
