@@ -1,7 +1,11 @@
 # The options of every target of this project. Users of the library inherit none of them.
 function(meshhood_own_target target)
   # The same distance predicate on every path: no fused multiply-add, whatever the default of the compiler.
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -ffp-contract=off)
+  target_compile_options(${target} PRIVATE -ffp-contract=off)
+  # Not in the build of a user: a new warning of a newer compiler must not stop it, and to look for them takes time.
+  if(MESHHOOD_WARNINGS)
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
+  endif()
   # g++ 12 warns of overlapping copies in every "..." + std::string (GCC bug 105651).
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict)
@@ -12,9 +16,7 @@ function(meshhood_own_target target)
     # With its default limit, the garbage collector of g++ takes a tenth of the time to compile a unit build.
     target_compile_options(${target} PRIVATE --param=ggc-min-heapsize=1048576)
   endif()
-  # New warnings of newer compilers must not break projects that contain this one.
-  set_target_properties(${target} PROPERTIES
-    CXX_EXTENSIONS OFF COMPILE_WARNING_AS_ERROR ${meshhood_IS_TOP_LEVEL})
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF COMPILE_WARNING_AS_ERROR ${MESHHOOD_WARNINGS})
 endfunction()
 
 # For large programs that spend little time in their own code: optimizing them takes longer than it saves. -Og compiles
