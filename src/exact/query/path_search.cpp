@@ -16,10 +16,10 @@ constexpr double kBucketsPerEdge = 8;
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
 // The vertices of a block, consecutive in index order.
-constexpr std::uint32_t kBlock = 32;
+constexpr std::uint32_t kVerticesOfBlock = 32;
 
 // Of more edges of a block, which belong to a vertex with very many neighbors, only the first are fetched.
-constexpr std::size_t kMostEdges = std::size_t{16} * kBlock;
+constexpr std::size_t kMostEdges = std::size_t{16} * kVerticesOfBlock;
 
 // A search of a smaller radius, in mean lengths of edges, reads little of its blocks.
 constexpr double kSmall = 3;
@@ -35,7 +35,7 @@ PathSearch::PathSearch(const IndexView& index)
     : index_(&index),
       graph_(&index.graph->weighted(index)),
       lengths_(index.vertex_count(), kUnreached),
-      is_met_(index.vertex_count() / kBlock + 1) {}
+      is_met_(index.vertex_count() / kVerticesOfBlock + 1) {}
 
 void PathSearch::run(std::uint32_t start, double radius, const LaneFilter& walls) {
   forget();
@@ -182,12 +182,12 @@ void PathSearch::meet(std::uint32_t vertex) {
     prefetch_edges(vertex);
     return;
   }
-  const std::uint32_t block = vertex / kBlock;
+  const std::uint32_t block = vertex / kVerticesOfBlock;
   if (is_met_[block] != 0) return;
   is_met_[block] = 1;
   met_.push_back(block);
-  const std::size_t first = std::size_t{block} * kBlock;
-  const std::size_t last = std::min(first + kBlock, lengths_.size());
+  const std::size_t first = std::size_t{block} * kVerticesOfBlock;
+  const std::size_t last = std::min(first + kVerticesOfBlock, lengths_.size());
   const std::size_t begin = graph_->edges.offsets[first];
   const std::size_t end = std::min<std::size_t>(graph_->edges.offsets[last], begin + kMostEdges);
   fetch_run(graph_->edges.neighbors.data() + begin, graph_->edges.neighbors.data() + end);
