@@ -25,7 +25,7 @@ struct alignas(4 * sizeof(Real)) Record {
 
 namespace {
 
-constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 
 template <class Real>
 std::vector<Record<Real>> make_records(const StridedPositions<Real>& xyz) {
@@ -109,7 +109,7 @@ struct ReferenceSearcher::State {
     return std::span(queue).first(end);
   }
 
-  std::span<const VertexId> search(VertexId v, double squared_radius, std::size_t most = kAll) {
+  std::span<const VertexId> search(VertexId v, double squared_radius, std::size_t most = kNoLimit) {
     return std::visit([&](auto& all) { return search(v, squared_radius, most, all); }, records);
   }
 
