@@ -10,7 +10,11 @@
 
 namespace meshhood {
 
-[[nodiscard]] inline Point unit(const Point& a) { return (1 / length(a)) * a; }
+/// A vector of length 0, which has no direction, stays as it is.
+[[nodiscard]] inline Point unit(const Point& a) {
+  const double size = length(a);
+  return size == 0 ? a : (1 / size) * a;
+}
 
 /// The vector, or its negative: the one whose component of largest magnitude is positive.
 [[nodiscard]] inline Point with_sign(const Point& a) {
