@@ -2,7 +2,10 @@
 // Steps that rearrange: small parts of nodes are dissolved in a build, and rows of a batch are sorted by position. The
 // first byte of an input chooses. From the others, the nodes are drawn, or they are the positions.
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 

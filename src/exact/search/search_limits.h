@@ -124,7 +124,7 @@ class SearchMemory {
  private:
   // Balls from one that is tried again to the next; chosen.
   static constexpr std::size_t kShortestInterval = 16;  // if balls may have changed
-  static constexpr std::size_t kShortInterval = 64;
+  static constexpr std::size_t kShortInterval = 64;     // otherwise, at least
   static constexpr std::size_t kLongestInterval = 2048;
 
   /// Whether enough balls have been searched. A single one may be unlike all others.

@@ -39,7 +39,7 @@ void Searcher::State::search(VertexId v, double radius) {
   was_outward = was_united = false;
   const bool is_small = limits.is_small(bounds.radius_in_frame, *index);
   const bool is_by_rows = !is_small && vertex_bfs.is_by_rows();
-  if (is_by_rows && is_answer_small()) {
+  if (is_by_rows && is_answer_small()) {  // before the leaf is read, which this search does not need
     ids = vertex_bfs.find_all(v, radius);
     return;
   }
