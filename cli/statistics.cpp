@@ -16,14 +16,14 @@ namespace {
 
 std::map<std::size_t, std::size_t> polygon_degrees(const FacesView& faces) {
   std::map<std::size_t, std::size_t> degrees;
-  faces.for_each([&](std::size_t, auto corners) { ++degrees[corners.size()]; });
+  faces.for_each([&](std::size_t, std::span<const VertexId> corners) { ++degrees[corners.size()]; });
   return degrees;
 }
 
 std::size_t repeated_corners(const FacesView& faces) {
   std::size_t repeated = 0;
   std::vector<VertexId> sorted;
-  faces.for_each([&](std::size_t, auto corners) {
+  faces.for_each([&](std::size_t, std::span<const VertexId> corners) {
     sorted.assign(corners.begin(), corners.end());
     std::sort(sorted.begin(), sorted.end());
     repeated += static_cast<std::size_t>(sorted.end() - std::unique(sorted.begin(), sorted.end()));
@@ -35,10 +35,10 @@ std::size_t repeated_corners(const FacesView& faces) {
 std::vector<std::pair<VertexId, VertexId>> sides(const FacesView& faces) {
   std::vector<std::pair<VertexId, VertexId>> all;
   all.reserve(faces.corners().size());
-  faces.for_each([&](std::size_t, auto corners) {
+  faces.for_each([&](std::size_t, std::span<const VertexId> corners) {
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      const auto a = static_cast<VertexId>(corners[i]);
-      const auto b = static_cast<VertexId>(corners[i + 1 < corners.size() ? i + 1 : 0]);
+      const VertexId a = corners[i];
+      const VertexId b = corners[i + 1 < corners.size() ? i + 1 : 0];
       if (a != b) all.emplace_back(std::min(a, b), std::max(a, b));
     }
   });
@@ -60,8 +60,8 @@ void count_edges(const FacesView& faces, Statistics& result) {
 /// For each vertex: whether it is in no face. `count_components` then also marks visited vertices.
 std::vector<char> mark_isolated(const MeshView& mesh) {
   std::vector<char> done(mesh.positions.size(), 1);
-  mesh.faces.for_each([&](std::size_t, auto corners) {
-    for (const auto v : corners) done[static_cast<std::size_t>(v)] = 0;
+  mesh.faces.for_each([&](std::size_t, std::span<const VertexId> corners) {
+    for (const VertexId v : corners) done[v] = 0;
   });
   return done;
 }

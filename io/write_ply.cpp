@@ -55,7 +55,7 @@ void check(const PlyOptions& options, std::size_t vertices) {
 
 std::size_t largest_face(const FacesView& faces) {
   std::size_t largest = 0;
-  faces.for_each([&largest](std::size_t, auto corners) { largest = std::max(largest, corners.size()); });
+  faces.for_each([&largest](std::size_t, std::span<const VertexId> corners) { largest = std::max(largest, corners.size()); });
   return largest;
 }
 
@@ -120,7 +120,7 @@ class PlyWriter {
     has_long_faces_ = largest_face(mesh_.faces) > std::numeric_limits<std::uint8_t>::max();
     file_.write(header());
     mesh_.positions.visit([this](const auto& xyz) { write_vertices(xyz); });
-    mesh_.faces.for_each([this](std::size_t, auto corners) { write_face(corners); });
+    mesh_.faces.for_each([this](std::size_t, std::span<const VertexId> corners) { write_face(corners); });
   }
 
  private:
@@ -157,14 +157,13 @@ class PlyWriter {
     }
   }
 
-  template <class Index>
-  void write_face(std::span<const Index> corners) {
+  void write_face(std::span<const VertexId> corners) {
     if (has_long_faces_) {
       rows_.value(static_cast<std::uint32_t>(corners.size()));
     } else {
       rows_.value(static_cast<std::uint8_t>(corners.size()));
     }
-    for (const auto corner : corners) rows_.value(static_cast<std::uint32_t>(corner));
+    for (const VertexId corner : corners) rows_.value(static_cast<std::uint32_t>(corner));
     rows_.end();
   }
 

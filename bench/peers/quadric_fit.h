@@ -20,7 +20,7 @@ class QuadricFit {
  public:
   explicit QuadricFit(const MeshView& mesh)
       : points_(points_of(mesh)), normals_(points_.size(), Eigen::Vector3d::Zero()) {
-    mesh.faces.for_each([this](std::size_t /*face*/, auto corners) { add_normal(corners); });
+    mesh.faces.for_each([this](std::size_t /*face*/, std::span<const VertexId> corners) { add_normal(corners); });
     for (Eigen::Vector3d& normal : normals_) normal.normalize();
   }
 
@@ -49,12 +49,10 @@ class QuadricFit {
   }
 
   /// Longer, the larger the triangle.
-  template <class Corners>
-  void add_normal(Corners corners) {
-    const auto vertex = [&](std::size_t i) { return static_cast<std::size_t>(corners[i]); };
-    const Eigen::Vector3d& origin = points_[vertex(0)];
-    const Eigen::Vector3d normal = (points_[vertex(1)] - origin).cross(points_[vertex(2)] - origin);
-    for (std::size_t i = 0; i < 3; ++i) normals_[vertex(i)] += normal;
+  void add_normal(std::span<const VertexId> corners) {
+    const Eigen::Vector3d& origin = points_[corners[0]];
+    const Eigen::Vector3d normal = (points_[corners[1]] - origin).cross(points_[corners[2]] - origin);
+    for (const VertexId corner : corners.first(3)) normals_[corner] += normal;
   }
 
   /// Two directions along the surface, and the mean normal.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -11,6 +10,7 @@
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/progress.h"
+#include "meshhood/query_word.h"
 #include "meshhood/searcher.h"
 
 /// The neighborhoods of many vertices without a list of ids for each, for sums and other properties of neighborhoods.
@@ -19,18 +19,6 @@
 /// are found together (docs/joint.md). They have most of their vertices in common. The answer of a packet names each
 /// vertex once, with the set of rows that have it, so that a sum reads each value once for up to 32 rows.
 namespace meshhood {
-
-/// A set of rows of a packet: bit `i` stands for row `i` of the packet.
-using QueryWord = std::uint32_t;
-
-/// The most rows of a packet.
-inline constexpr std::size_t kPacketCapacity = 32;
-
-/// Calls `f(i)` for each row of the set, in ascending order.
-template <class F>
-constexpr void for_each_query(QueryWord queries, F&& f) {
-  for (; queries != 0; queries &= queries - 1) f(static_cast<std::size_t>(std::countr_zero(queries)));
-}
 
 /// Consecutive whole leaves (see `Index::leaf_starts`), and their vertices in index order.
 struct LeafRun {

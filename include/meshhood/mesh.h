@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <ranges>
-#include <span>
+#include <span>  // also declares std::ranges::borrowed_range; <ranges> would double the time to include this header
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "meshhood/vertex_id.h"
 
@@ -141,6 +141,11 @@ class IndicesView {
     return visit([](auto indices) { return indices.size(); });
   }
 
+  /// Index `i` as unsigned: a negative one becomes larger than any number of vertices.
+  [[nodiscard]] std::uint64_t operator[](std::size_t i) const {
+    return visit([i](auto indices) { return static_cast<std::uint64_t>(indices[i]); });
+  }
+
  private:
   std::variant<std::span<const std::uint32_t>, std::span<const std::int32_t>, std::span<const std::uint64_t>,
                std::span<const std::int64_t>>
@@ -215,38 +220,25 @@ class FacesView {
   [[nodiscard]] std::size_t face_stride() const { return face_stride_; }      ///< of triangles, in elements
   [[nodiscard]] std::size_t corner_stride() const { return corner_stride_; }  ///< of triangles, in elements
 
-  /// Calls `f(face, corners)` for every face in order; `corners` is a span of the caller's index type, valid during the
-  /// call. The view must have passed `validate`.
+  /// Calls `f(face, corners)` for every face in order; `corners` is a `std::span<const VertexId>` of #corners of the
+  /// face, valid during the call. The view must have passed `validate`. Corners that are given as triangles of 32 bits,
+  /// row by row, are not copied.
   template <class F>
   void for_each(F&& f) const {
-    corners_.visit([&](auto corners) {
-      if (!are_triangles()) return for_each_polygon(corners, f);
-      if (corner_stride_ != 1) return for_each_strided(corners, f);
-      for (std::size_t face = 0; face < count_; ++face) f(face, corners.subspan(face_stride_ * face, 3));
-    });
+    if (const VertexId* const corners = packed_triangles()) {
+      for (std::size_t face = 0; face < count_; ++face) f(face, std::span<const VertexId>(corners + 3 * face, 3));
+      return;
+    }
+    std::vector<VertexId> copy;
+    for (std::size_t face = 0; face < count_; ++face) f(face, corners_of(face, copy));
   }
 
  private:
-  template <class Index, class F>
-  void for_each_polygon(std::span<const Index> corners, F& f) const {
-    offsets_.visit([&](auto offsets) {
-      for (std::size_t face = 0; face < count_; ++face) {
-        const auto begin = static_cast<std::size_t>(offsets[face]);
-        const auto end = static_cast<std::size_t>(offsets[face + 1]);
-        f(face, corners.subspan(begin, end - begin));
-      }
-    });
-  }
+  /// The corners, if they are triangles row by row in the type of the vertices, signed or not. Otherwise null.
+  [[nodiscard]] const VertexId* packed_triangles() const;
 
-  template <class Index, class F>
-  void for_each_strided(std::span<const Index> corners, F& f) const {
-    for (std::size_t face = 0; face < count_; ++face) {
-      const std::size_t first = face * face_stride_;
-      const std::array<Index, 3> triangle{corners[first], corners[first + corner_stride_],
-                                          corners[first + 2 * corner_stride_]};
-      f(face, std::span<const Index>(triangle));
-    }
-  }
+  /// The corners of a face: as given where that is possible, otherwise converted into `copy`.
+  [[nodiscard]] std::span<const VertexId> corners_of(std::size_t face, std::vector<VertexId>& copy) const;
 
   IndicesView offsets_;
   IndicesView corners_;

@@ -18,13 +18,12 @@ namespace {
 /// polygons share is repeated.
 template <class F>
 void for_each_side(const FacesView& faces, F&& f) {
-  faces.for_each([&](std::size_t, auto corners) {
+  faces.for_each([&](std::size_t, std::span<const VertexId> corners) {
     if (corners.empty()) return;
-    auto previous = static_cast<VertexId>(corners.back());
-    for (const auto corner : corners) {
-      const auto current = static_cast<VertexId>(corner);
-      if (current != previous) f(previous, current);
-      previous = current;
+    VertexId previous = corners.back();
+    for (const VertexId corner : corners) {
+      if (corner != previous) f(previous, corner);
+      previous = corner;
     }
   });
 }

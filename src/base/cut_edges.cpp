@@ -2,20 +2,20 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "meshhood/error.h"
 #include "meshhood/filter.h"
 
+#include "base/text.h"
+
 namespace meshhood {
 namespace {
 
-/// One end of row `row`, in [0, #V).
-template <class Index>
-VertexId checked_end(Index end, std::size_t row, std::size_t vertices) {
-  if (std::cmp_greater_equal(end, 0) && std::cmp_less(end, vertices)) return static_cast<VertexId>(end);
-  raise(ErrorCode::VertexOutOfRange, "edge " + std::to_string(row) + ": vertex " + std::to_string(end) +
+/// The vertex `edges[i]`, in [0, #V).
+VertexId checked_end(const IndicesView& edges, std::size_t i, std::size_t vertices) {
+  if (edges[i] < vertices) return static_cast<VertexId>(edges[i]);
+  raise(ErrorCode::VertexOutOfRange, "edge " + std::to_string(i / 2) + ": vertex " + to_text(edges, i) +
                                          ", but the mesh has " + std::to_string(vertices) + " vertices");
 }
 
@@ -30,15 +30,13 @@ bool mark(const AdjacencyView& graph, VertexId v, VertexId w, std::vector<bool>&
 
 std::vector<bool> marked(const AdjacencyView& graph, const IndicesView& edges) {
   std::vector<bool> is_cut(graph.neighbors.size());
-  edges.visit([&](auto ends) {
-    for (std::size_t row = 0; row < ends.size() / 2; ++row) {
-      const VertexId v = checked_end(ends[2 * row], row, graph.size());
-      const VertexId w = checked_end(ends[2 * row + 1], row, graph.size());
-      if (mark(graph, v, w, is_cut) && mark(graph, w, v, is_cut)) continue;  // mutant: cut-goes-one-way
-      raise(ErrorCode::InvalidOption, "edge " + std::to_string(row) + ": vertices " + std::to_string(v) + " and " +
-                                          std::to_string(w) + " are not joined by an edge");
-    }
-  });
+  for (std::size_t row = 0; row < edges.size() / 2; ++row) {
+    const VertexId v = checked_end(edges, 2 * row, graph.size());
+    const VertexId w = checked_end(edges, 2 * row + 1, graph.size());
+    if (mark(graph, v, w, is_cut) && mark(graph, w, v, is_cut)) continue;  // mutant: cut-goes-one-way
+    raise(ErrorCode::InvalidOption, "edge " + std::to_string(row) + ": vertices " + std::to_string(v) + " and " +
+                                        std::to_string(w) + " are not joined by an edge");
+  }
   return is_cut;
 }
 

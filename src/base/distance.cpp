@@ -44,7 +44,7 @@ void check_query(VertexId v, std::size_t vertices, double radius, std::string_vi
 double distance(const PositionsView& positions, VertexId v, VertexId w) {
   check_query(v, positions.size(), 0);
   check_query(w, positions.size(), 0);
-  return positions.visit([&](const auto& xyz) { return std::sqrt(squared_distance(point(xyz, v), point(xyz, w))); });
+  return std::sqrt(squared_distance(point(positions, v), point(positions, w)));
 }
 
 }  // namespace meshhood

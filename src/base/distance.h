@@ -29,6 +29,11 @@ template <class Real>
   return {static_cast<double>(xyz(v, 0)), static_cast<double>(xyz(v, 1)), static_cast<double>(xyz(v, 2))};
 }
 
+/// The same of positions whose type is not known yet. For loops, `visit` them once.
+[[nodiscard]] inline Point point(const PositionsView& positions, std::size_t v) {
+  return positions.visit([v](const auto& xyz) { return point(xyz, v); });
+}
+
 /// Vertex `v` of `xyz`, #V by 3.
 template <class Real>
 [[nodiscard]] Point point(std::span<const Real> xyz, std::size_t v) {

@@ -57,21 +57,64 @@ void validate_triangles(const FacesView& faces) {
   }
 }
 
+template <class Index>
+[[noreturn]] void raise_corner(std::size_t face, std::size_t i, Index vertex, std::size_t vertices) {
+  raise(ErrorCode::InvalidMesh, "face " + std::to_string(face) + ": corner " + std::to_string(i) + " is vertex " +
+                                    std::to_string(vertex) + ", but the mesh has " + std::to_string(vertices) +
+                                    " vertices");
+}
+
+/// Corner `i` of a face is `corners[first + i * stride]`, for `count` corners.
+struct CornerPlaces {
+  std::size_t first;
+  std::size_t count;
+  std::size_t stride;
+};
+
+CornerPlaces places_of(const FacesView& faces, std::size_t face) {
+  if (faces.are_triangles()) return {face * faces.face_stride(), 3, faces.corner_stride()};
+  const auto begin = static_cast<std::size_t>(faces.offsets()[face]);
+  const auto end = static_cast<std::size_t>(faces.offsets()[face + 1]);
+  return {begin, end - begin, 1};
+}
+
 /// A negative corner is huge when read as unsigned, so that one comparison detects both faults.
 void validate_corners(const FacesView& faces, std::size_t vertices) {
-  faces.for_each([&](std::size_t face, auto corners) {
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      if (static_cast<std::uint64_t>(corners[i]) < vertices) [[likely]] {
-        continue;
+  faces.corners().visit([&](auto corners) {
+    for (std::size_t face = 0; face < faces.size(); ++face) {
+      const auto [first, count, stride] = places_of(faces, face);
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto vertex = corners[first + i * stride];
+        if (static_cast<std::uint64_t>(vertex) >= vertices) raise_corner(face, i, vertex, vertices);
       }
-      raise(ErrorCode::InvalidMesh, "face " + std::to_string(face) + ": corner " + std::to_string(i) + " is vertex " +
-                                        std::to_string(corners[i]) + ", but the mesh has " + std::to_string(vertices) +
-                                        " vertices");
     }
   });
 }
 
+/// The memory of indices whose type has the size of `VertexId`; otherwise null. Valid indices are not negative, and a
+/// signed type may be read as the unsigned one of its size.
+const VertexId* as_ids(const IndicesView& indices) {
+  return indices.visit([]<class Index>(std::span<const Index> all) -> const VertexId* {
+    if constexpr (sizeof(Index) != sizeof(VertexId)) return nullptr;
+    return reinterpret_cast<const VertexId*>(all.data());
+  });
+}
+
 }  // namespace
+
+const VertexId* FacesView::packed_triangles() const {
+  return are_triangles() && face_stride_ == 3 && corner_stride_ == 1 ? as_ids(corners_) : nullptr;
+}
+
+std::span<const VertexId> FacesView::corners_of(std::size_t face, std::vector<VertexId>& copy) const {
+  const auto [first, count, stride] = places_of(*this, face);
+  if (const VertexId* const ids = as_ids(corners_); ids != nullptr && stride == 1) return {ids + first, count};
+  copy.resize(count);
+  corners_.visit([&](auto corners) {
+    for (std::size_t i = 0; i < count; ++i) copy[i] = static_cast<VertexId>(corners[first + i * stride]);
+  });
+  return copy;
+}
 
 void validate(const PositionsView& positions) {
   const std::size_t scalars = positions.scalar_count();

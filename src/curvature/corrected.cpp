@@ -72,12 +72,12 @@ std::vector<double> measures_by_vertex(const SurfaceState& surface, const FacesV
   const IndexView& index = *surface.index;
   std::vector<double> held(std::tuple_size_v<Measures> * index.vertex_count());
   std::vector<Corner> face;
-  faces.for_each([&](std::size_t, auto corners) {
+  faces.for_each([&](std::size_t, std::span<const VertexId> corners) {
     if (corners.size() < 3) return;
     face.clear();
-    const auto first = place_of(index, static_cast<VertexId>(corners[0]));
-    for (const auto corner : corners) {
-      const std::uint32_t place = place_of(index, static_cast<VertexId>(corner));
+    const std::uint32_t first = place_of(index, corners[0]);
+    for (const VertexId corner : corners) {
+      const std::uint32_t place = place_of(index, corner);
       const Point x = index.frame.scale * (surface.position(place) - surface.position(first));
       face.push_back({x, surface.normal(place)});
     }
@@ -86,8 +86,8 @@ std::vector<double> measures_by_vertex(const SurfaceState& surface, const FacesV
       if (std::isnan(measure)) return;
     }
     const double share = 1 / static_cast<double>(corners.size());
-    for (const auto corner : corners) {
-      double* const to = &held[measures.size() * static_cast<std::size_t>(corner)];
+    for (const VertexId corner : corners) {
+      double* const to = &held[measures.size() * corner];
       for (std::size_t i = 0; i < measures.size(); ++i)
         to[i] += share * measures[i];  // mutant: measures-of-the-last-face
     }

@@ -38,10 +38,9 @@ void check_positions(const IndexView& index, const MeshView& mesh) {
 }
 
 /// The vector area of a polygon, in the frame, where products do not overflow.
-template <class Corners>
-Point vector_area(const SurfaceState& state, const Corners& corners) {
+Point vector_area(const SurfaceState& state, std::span<const VertexId> corners) {
   return 0.5 * doubled_vector_area(corners.size(), [&](std::size_t i) {
-           const std::uint32_t place = place_of(*state.index, static_cast<VertexId>(corners[i]));
+           const std::uint32_t place = place_of(*state.index, corners[i]);
            return state.index->frame.scale * state.position(place);
          });
 }
@@ -60,10 +59,10 @@ void set_normals(SurfaceState& state, std::span<const Point> normals) {
 void add_faces(SurfaceState& state, const FacesView& faces) {
   const IndexView& index = *state.index;
   std::vector<Point> normals(index.vertex_count(), {0, 0, 0});
-  faces.for_each([&](std::size_t, auto corners) {
+  faces.for_each([&](std::size_t, std::span<const VertexId> corners) {
     const Point area = vector_area(state, corners);
-    for (const auto corner : corners) {
-      const std::size_t place = place_of(index, static_cast<VertexId>(corner));
+    for (const VertexId corner : corners) {
+      const std::size_t place = place_of(index, corner);
       normals[place] = normals[place] + area;
     }
   });
@@ -146,11 +145,10 @@ double libigl_radius(const MeshView& mesh, double edges) {
   double sum = 0;
   std::size_t sides = 0;
   mesh.positions.visit([&](const auto& xyz) {
-    mesh.faces.for_each([&](std::size_t, auto corners) {
+    mesh.faces.for_each([&](std::size_t, std::span<const VertexId> corners) {
       for (std::size_t i = 0; i < corners.size(); ++i) {
-        const auto from = static_cast<std::size_t>(corners[i]);
-        const auto to = static_cast<std::size_t>(corners[(i + 1) % corners.size()]);
-        sum += std::sqrt(squared_distance(point(xyz, from), point(xyz, to)));
+        const VertexId next = corners[(i + 1) % corners.size()];
+        sum += std::sqrt(squared_distance(point(xyz, corners[i]), point(xyz, next)));
         ++sides;
       }
     });

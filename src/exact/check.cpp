@@ -97,7 +97,7 @@ class Check {
   void check_positions() {
     for (std::size_t v = 0; v < index_.vertex_count(); ++v) {
       const Point mine = position(v);
-      const Point given = graph_.positions.visit([&](const auto& xyz) { return point(xyz, v); });
+      const Point given = point(graph_.positions, v);
       faults_.expect(mine.x == given.x && mine.y == given.y && mine.z == given.z,
                      [&] { return "vertex " + std::to_string(v) + ": its position differs from the mesh"; });
     }

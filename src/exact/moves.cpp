@@ -9,6 +9,7 @@
 
 #include "meshhood/error.h"
 
+#include "base/text.h"
 #include "base/valid_position.h"
 #include "exact/arrays.h"
 #include "exact/build/leaf_nodes.h"
@@ -90,21 +91,17 @@ NodeList measure(std::span<const LeafId> leaves, const IndexView& index, TaskCon
 std::vector<Move> read_moves(const IndexView& index, const PositionsView& positions, const IndicesView& changed) {
   std::vector<Move> moves;
   moves.reserve(changed.size());
-  changed.visit([&](auto ids) {
-    for (std::size_t row = 0; row < ids.size(); ++row) {
-      const auto v = ids[row];
-      // A negative id is huge when read as unsigned.
-      if (static_cast<std::uint64_t>(v) >= index.vertex_count()) {
-        raise(ErrorCode::VertexOutOfRange, "changed: row " + std::to_string(row) + ": vertex " + std::to_string(v) +
-                                               ", but the mesh has " + std::to_string(index.vertex_count()) +
-                                               " vertices");
-      }
-      const auto vertex = static_cast<std::size_t>(v);
-      const Point to = positions.visit([&](const auto& xyz) { return point(xyz, vertex); });
-      check_position(vertex, to);
-      moves.push_back({index.slot[vertex], to});
+  for (std::size_t row = 0; row < changed.size(); ++row) {
+    if (changed[row] >= index.vertex_count()) {
+      raise(ErrorCode::VertexOutOfRange, "changed: row " + std::to_string(row) + ": vertex " + to_text(changed, row) +
+                                             ", but the mesh has " + std::to_string(index.vertex_count()) +
+                                             " vertices");
     }
-  });
+    const auto v = static_cast<std::size_t>(changed[row]);
+    const Point to = point(positions, v);
+    check_position(v, to);
+    moves.push_back({index.slot[v], to});
+  }
   std::sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) { return a.slot < b.slot; });
   const auto is_same = [](const Move& a, const Move& b) { return a.slot == b.slot; };
   moves.erase(std::unique(moves.begin(), moves.end(), is_same), moves.end());

@@ -38,16 +38,16 @@ std::vector<VertexId> inverse(std::span<const VertexId> permutation) {
 /// The new number of each face. Faces are sorted by their first vertex in the new order, those without corners last,
 /// and keep their order otherwise.
 std::vector<std::uint32_t> number_faces(const FacesView& faces, std::span<const VertexId> new_id) {
-  const auto first_vertex = [&](auto corners) {
+  const auto first_vertex = [&](std::span<const VertexId> corners) {
     std::size_t first = new_id.size();
-    for (const auto corner : corners) first = std::min<std::size_t>(first, new_id[static_cast<std::size_t>(corner)]);
+    for (const VertexId corner : corners) first = std::min<std::size_t>(first, new_id[corner]);
     return first;
   };
   std::vector<std::uint32_t> next(new_id.size() + 2, 0);
-  faces.for_each([&](std::size_t, auto corners) { ++next[first_vertex(corners) + 1]; });
+  faces.for_each([&](std::size_t, std::span<const VertexId> corners) { ++next[first_vertex(corners) + 1]; });
   std::partial_sum(next.begin(), next.end(), next.begin());
   std::vector<std::uint32_t> number(faces.size());
-  faces.for_each([&](std::size_t face, auto corners) { number[face] = next[first_vertex(corners)]++; });
+  faces.for_each([&](std::size_t face, std::span<const VertexId> corners) { number[face] = next[first_vertex(corners)]++; });
   return number;
 }
 
@@ -55,15 +55,15 @@ void add_faces(const FacesView& faces, std::span<const VertexId> new_id, Reorder
   const std::vector<std::uint32_t> number = number_faces(faces, new_id);
   out.face_permutation.resize(faces.size());
   out.face_offsets.resize(faces.size() + 1);
-  faces.for_each([&](std::size_t face, auto corners) {
+  faces.for_each([&](std::size_t face, std::span<const VertexId> corners) {
     out.face_permutation[number[face]] = static_cast<std::uint32_t>(face);
     out.face_offsets[number[face] + std::size_t{1}] = static_cast<std::uint32_t>(corners.size());
   });
   std::partial_sum(out.face_offsets.begin(), out.face_offsets.end(), out.face_offsets.begin());
   out.corners.resize(out.face_offsets.back());
-  faces.for_each([&](std::size_t face, auto corners) {
+  faces.for_each([&](std::size_t face, std::span<const VertexId> corners) {
     std::transform(corners.begin(), corners.end(), out.corners.begin() + out.face_offsets[number[face]],
-                   [&](auto corner) { return new_id[static_cast<std::size_t>(corner)]; });
+                   [&](VertexId corner) { return new_id[corner]; });
   });
   if (faces.are_triangles()) out.face_offsets = {};
 }

@@ -74,11 +74,9 @@ class Check {
   }
 
   [[nodiscard]] bool same_position(std::size_t i, VertexId v) const {
-    return graph_.positions.visit([&](const auto& xyz) {
-      const Point kept = point<Real>(hierarchy_.positions, i);
-      const Point given = point(xyz, v);
-      return kept.x == given.x && kept.y == given.y && kept.z == given.z;
-    });
+    const Point kept = point<Real>(hierarchy_.positions, i);
+    const Point given = point(graph_.positions, v);
+    return kept.x == given.x && kept.y == given.y && kept.z == given.z;
   }
 
   /// I1: the ranges of the clusters are consecutive and not empty, from the first vertex to the last.

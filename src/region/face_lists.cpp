@@ -10,11 +10,9 @@ FaceLists::FaceLists(const MeshView& mesh) {
   corners_.reserve(mesh.faces.corner_count());
   corner_begin_.push_back(0);
   face_begin_.assign(mesh.positions.size() + 1, 0);
-  mesh.faces.for_each([&](std::size_t, auto corners) {
-    for (const auto corner : corners) {
-      corners_.push_back(static_cast<VertexId>(corner));
-      ++face_begin_[corners_.back()];
-    }
+  mesh.faces.for_each([&](std::size_t, std::span<const VertexId> corners) {
+    corners_.insert(corners_.end(), corners.begin(), corners.end());
+    for (const VertexId corner : corners) ++face_begin_[corner];
     corner_begin_.push_back(corners_.size());
   });
   // Each number stands at the end of its list and moves to the beginning as the list fills, from the last face on.

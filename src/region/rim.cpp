@@ -80,7 +80,7 @@ Rim RegionMesher::rim(std::span<const VertexId> ids, const SpacePoint& center, d
   const Point middle{center[0], center[1], center[2]};
   std::vector<SpacePoint> points;
   for (const auto& [inner, outer] : exits) {
-    const auto at = [&](VertexId v) { return state_->positions.visit([&](const auto& xyz) { return point(xyz, v); }); };
+    const auto at = [&](VertexId v) { return point(state_->positions, v); };
     if (!(squared_distance(at(inner), middle) <= squared_radius(radius))) {
       raise(ErrorCode::InvalidOption, "ids: vertex " + std::to_string(inner) + " is not within the radius " +
                                           to_text(radius) + " of the center, expected a region of this ball");

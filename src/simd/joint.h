@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "meshhood/joint.h"
 #include "meshhood/mesh.h"
+#include "meshhood/query_word.h"
 
 #include "simd/kernels.h"
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#if defined(__wasm_simd128__)
 #include "simd/wasm128.h"
+#endif
 
 #if defined(MESHHOOD_HAS_WASM128)
 #include <wasm_simd128.h>

@@ -36,7 +36,7 @@ TEST(Views, HaveTheRightSizes) {
 /// All faces in order, each as a list of corners.
 std::vector<std::vector<std::size_t>> listed(const FacesView& faces) {
   std::vector<std::vector<std::size_t>> result;
-  faces.for_each([&](std::size_t face, auto corners) {
+  faces.for_each([&](std::size_t face, std::span<const VertexId> corners) {
     EXPECT_EQ(face, result.size());
     result.emplace_back(corners.begin(), corners.end());
   });
@@ -49,6 +49,38 @@ TEST(Views, ReturnTheirFacesInOrder) {
   EXPECT_THAT(listed(FacesView::triangles(corners)), ElementsAre(ElementsAre(0, 1, 2), ElementsAre(2, 1, 0)));
   EXPECT_THAT(listed(FacesView::polygons(offsets, corners)),
               ElementsAre(ElementsAre(0, 1), ElementsAre(), ElementsAre(2, 2, 1, 0)));
+}
+
+template <class Index>
+class IndexTypes : public testing::Test {};
+
+using AllIndexTypes = testing::Types<std::uint32_t, std::int32_t, std::uint64_t, std::int64_t>;
+TYPED_TEST_SUITE(IndexTypes, AllIndexTypes);
+
+TYPED_TEST(IndexTypes, GiveTheSameTrianglesInEveryLayout) {
+  const std::vector<TypeParam> rows{0, 1, 2, 2, 1, 0};
+  const std::vector<TypeParam> columns{0, 2, 1, 1, 2, 0};
+  const std::vector<TypeParam> records{0, 1, 2, 9, 2, 1, 0, 9};
+  const auto expected = ElementsAre(ElementsAre(0, 1, 2), ElementsAre(2, 1, 0));
+  EXPECT_THAT(listed(FacesView::triangles(rows)), expected);
+  EXPECT_THAT(listed(FacesView::column_major_triangles(columns)), expected);
+  EXPECT_THAT(listed(FacesView::strided_triangles(records, 2, 4, 1)), expected);
+}
+
+TYPED_TEST(IndexTypes, GiveTheSamePolygons) {
+  const std::vector<TypeParam> corners{0, 1, 2, 1, 0};
+  const std::vector<TypeParam> ends{0, 2, 2, 5};
+  const std::vector<std::uint32_t> other_ends{0, 2, 2, 5};
+  const auto expected = ElementsAre(ElementsAre(0, 1), ElementsAre(), ElementsAre(2, 1, 0));
+  EXPECT_THAT(listed(FacesView::polygons(ends, corners)), expected);
+  EXPECT_THAT(listed(FacesView::polygons(other_ends, corners)), expected);
+}
+
+TYPED_TEST(IndexTypes, ReadAsUnsignedNumbersOf64Bits) {
+  const std::vector<TypeParam> indices{7, static_cast<TypeParam>(-1)};
+  const IndicesView view(indices);
+  EXPECT_EQ(view[0], 7U);
+  EXPECT_GT(view[1], kMaxVertices);
 }
 
 TEST(Validate, RefusesNonFiniteCoordinatesAndNamesTheVertex) {

@@ -44,15 +44,15 @@ void expect_same_faces(const ReorderedMesh& reordered, const TestMesh& mesh) {
   std::vector<bool> seen(mesh.face_count());
   ASSERT_EQ(reordered.view().faces.size(), mesh.face_count());
   std::uint32_t first = 0;
-  reordered.view().faces.for_each([&](std::size_t face, auto corners) {
+  reordered.view().faces.for_each([&](std::size_t face, std::span<const VertexId> corners) {
     const std::uint32_t old = reordered.face_permutation[face];
     EXPECT_FALSE(seen[old]);
     seen[old] = true;
     std::vector<std::uint32_t> given;
-    for (const auto corner : corners) given.push_back(reordered.permutation[static_cast<std::size_t>(corner)]);
+    for (const VertexId corner : corners) given.push_back(reordered.permutation[corner]);
     EXPECT_THAT(given, testing::ElementsAreArray(mesh.face(old)));
     if (corners.empty()) return;
-    const auto least = static_cast<std::uint32_t>(*std::min_element(corners.begin(), corners.end()));
+    const VertexId least = *std::min_element(corners.begin(), corners.end());
     EXPECT_GE(least, first);
     first = least;
   });

@@ -39,7 +39,7 @@ const std::map<std::string, Expectation>& rulings() {
 // "3: 32, 4: 468"; "3" if all faces are triangles, "-" if there are none.
 std::string sides_of(const io::Mesh& mesh) {
   std::map<std::size_t, std::size_t> count;
-  mesh.view().faces.for_each([&count](std::size_t, auto corners) { ++count[corners.size()]; });
+  mesh.view().faces.for_each([&count](std::size_t, std::span<const VertexId> corners) { ++count[corners.size()]; });
   if (count.empty()) return "-";
   if (count.size() == 1 && count.contains(3)) return "3";
   std::string text;

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "meshhood/joint.h"
+
 #include "exact/layout.h"
 #include "simd/joint.h"
 #include "simd/kernels.h"
