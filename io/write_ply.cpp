@@ -4,7 +4,6 @@
 #include <bit>
 #include <cstring>
 #include <filesystem>
-#include <iterator>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -55,7 +54,8 @@ void check(const PlyOptions& options, std::size_t vertices) {
 
 std::size_t largest_face(const FacesView& faces) {
   std::size_t largest = 0;
-  faces.for_each([&largest](std::size_t, std::span<const VertexId> corners) { largest = std::max(largest, corners.size()); });
+  faces.for_each(
+      [&largest](std::size_t, std::span<const VertexId> corners) { largest = std::max(largest, corners.size()); });
   return largest;
 }
 
@@ -87,8 +87,9 @@ class Rows {
   template <class T>
   void value(T value) {
     if (ascii_) {
-      // The shortest text that parses to the same number.
-      fmt::format_to(std::back_inserter(row_), "{}{}", row_.empty() ? "" : " ", value);
+      // The shortest text that parses to the same number. fmt::format_to would compile all of {fmt} anew.
+      if (!row_.empty()) row_ += ' ';
+      row_ += fmt::format("{}", value);
     } else {
       std::array<char, sizeof(T)> bytes;
       std::memcpy(bytes.data(), &value, sizeof(T));
