@@ -70,8 +70,10 @@ class WritePly : public ::testing::Test {
       EXPECT_TRUE(same_bits(std::get<std::vector<Real>>(mesh.positions), xyz));
       std::vector<std::vector<std::uint64_t>> expected;
       std::vector<std::vector<std::uint64_t>> found;
-      faces.for_each([&](std::size_t, std::span<const VertexId> face) { expected.emplace_back(face.begin(), face.end()); });
-      mesh.view().faces.for_each([&](std::size_t, std::span<const VertexId> face) { found.emplace_back(face.begin(), face.end()); });
+      faces.for_each(
+          [&](std::size_t, std::span<const VertexId> face) { expected.emplace_back(face.begin(), face.end()); });
+      mesh.view().faces.for_each(
+          [&](std::size_t, std::span<const VertexId> face) { found.emplace_back(face.begin(), face.end()); });
       EXPECT_EQ(found, expected);
     }
   }
