@@ -47,7 +47,8 @@ std::vector<std::uint32_t> number_faces(const FacesView& faces, std::span<const 
   faces.for_each([&](std::size_t, std::span<const VertexId> corners) { ++next[first_vertex(corners) + 1]; });
   std::partial_sum(next.begin(), next.end(), next.begin());
   std::vector<std::uint32_t> number(faces.size());
-  faces.for_each([&](std::size_t face, std::span<const VertexId> corners) { number[face] = next[first_vertex(corners)]++; });
+  faces.for_each(
+      [&](std::size_t face, std::span<const VertexId> corners) { number[face] = next[first_vertex(corners)]++; });
   return number;
 }
 

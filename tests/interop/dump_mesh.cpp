@@ -32,7 +32,8 @@ void dump(const std::string& name, const std::filesystem::path& folder) {
   if (!bytes) throw std::runtime_error("no shared mesh " + name);
   const auto mesh = io::read_mesh(*bytes, test::plain_name(name), {.precision = io::Precision::Float});
   std::vector<std::uint64_t> sides;
-  mesh.view().faces.for_each([&sides](std::size_t, std::span<const VertexId> corners) { sides.push_back(corners.size()); });
+  mesh.view().faces.for_each(
+      [&sides](std::size_t, std::span<const VertexId> corners) { sides.push_back(corners.size()); });
   write<std::byte>(folder / "plain", *bytes);
   write<float>(folder / "positions", std::get<std::vector<float>>(mesh.positions));
   write<std::uint64_t>(folder / "sides", sides);

@@ -25,7 +25,8 @@ struct Faces {
 Faces faces_of(const io::Mesh& mesh) {
   Faces faces;
   faces.corners = mesh.corners;
-  mesh.view().faces.for_each([&faces](std::size_t, std::span<const VertexId> corners) { faces.sizes.push_back(corners.size()); });
+  mesh.view().faces.for_each(
+      [&faces](std::size_t, std::span<const VertexId> corners) { faces.sizes.push_back(corners.size()); });
   return faces;
 }
 
