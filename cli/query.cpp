@@ -72,11 +72,12 @@ Answer timed_answer(const QueryCommand& options, const Method& method, VertexId 
   return answer;
 }
 
-/// Such an answer is a sign of a radius in the wrong unit, or of a mesh of unconnected triangles.
+/// An answer of all vertices of a component is a sign of a radius in the wrong unit, or of a mesh of unconnected
+/// triangles. Of several radii, `radius` is the largest.
 void note_whole_component(const Method& method, double radius, const Answer& answer) {
   if (std::isinf(radius)) return;
   const std::size_t size = method.count(*answer.vertex, std::numeric_limits<double>::infinity());
-  if (answer.counts.front() != size) return;
+  if (answer.counts.back() != size) return;
   print_error("note: ",
               fmt::format("the neighborhood of vertex {} is its whole component ({} {}): a larger radius finds "
                           "no more",
@@ -181,6 +182,9 @@ std::vector<Answer> answers_of_starts(const QueryCommand& options, std::span<con
                                       : regions_of(options.start, start, radii, input);
     if (!options.distances) found.distances.clear();
     answers.push_back({start.vertex(), std::move(found.counts), std::move(found.vertices), std::move(found.distances)});
+    if (options.start.is_plain() && !options.rings) {
+      note_whole_component(method_of(options, input), radii.back(), answers.back());
+    }
   }
   return answers;
 }

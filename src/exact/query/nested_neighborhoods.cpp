@@ -28,7 +28,7 @@ void NestedNeighborhoods::run(VertexId v, std::span<const double> radii, std::ve
   sizes.clear();
   std::size_t size = 0;
   for (const double radius : radii) {
-    search_.search(v, radius);
+    search_.search(v, radius);  // never into `ids`: the graph is copied only for searches that are recorded
     find_ring();
     const std::size_t end = size + ring_.count();
     ids_.resize(end + kLeafCapacity);
