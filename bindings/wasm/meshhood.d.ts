@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 
 /**
- * meshhood: the connected component of a mesh inside a ball around a vertex. Exact, by an index.
+ * meshhood: neighborhoods on polygonal meshes, exact and indexed.
  *
- * The neighborhood of vertex v with radius r is the connected component, containing v, of the part of the mesh inside
- * the ball of radius r around v.
+ * The neighborhood of vertex v with radius r is the part of the mesh inside the ball of radius r around v that is
+ * connected to v within the ball.
  *
  *     import { MeshIndex, initialize, readMesh } from 'meshhood';
  *

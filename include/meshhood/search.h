@@ -12,22 +12,22 @@
 
 namespace meshhood {
 
-/// Finds exact neighborhoods by an `Index`: the connected component, containing `v`, of the part of the mesh inside the
-/// ball of `radius` around `v`. More precisely, it is a component of the graph induced by the vertices in the ball. The
-/// result is the same set as that of `ReferenceSearcher`, on every processor.
+/// Finds exact neighborhoods by an `Index`: the part of the mesh inside the ball of `radius` around `v` that is
+/// connected to `v` within the ball. More precisely, a neighborhood is the component with `v` of the graph induced by
+/// the vertices in the ball. The result is the same set as that of `ReferenceSearcher`, on every processor.
 ///
 /// v       in [0, #V).
 /// radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` is inside.
 ///
-/// The cost grows with the number of leaves at the boundary of the ball, not with the size of the result or the mesh;
-/// on folded surfaces it grows with the number of leaves of the result. Nothing is allocated once the buffers have
-/// grown.
+/// The cost grows with the number of leaves that the surface of the ball intersects, not with the size of the result or
+/// the mesh; on folded surfaces it grows with the number of leaves of the result. Nothing is allocated once the buffers
+/// have grown.
 ///
 /// Use one object per thread: it owns scratch memory, about 22 bytes per leaf. It shares the memory of the
 /// index, which may be moved, refitted or destroyed meanwhile: answers are those of the index as it was.
 ///
 /// A graph that is unlike a surface (with a vertex that has very many neighbors, or with random edges) is searched as
-/// by `ReferenceSearcher`, and so are small balls of meshes with at most 65,536 vertices, once there were many of them.
+/// by `ReferenceSearcher`. So are small balls of a mesh with at most 65,536 vertices, after many queries of such balls.
 /// Each searcher then owns 20 bytes per vertex more (36 for double). All of them share a copy of the graph, which the
 /// index keeps: about 44 bytes per vertex (56 for double), which `Index::bytes` does not count. The query that makes it
 /// takes O(#V + #E log(valence)).

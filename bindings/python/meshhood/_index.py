@@ -53,8 +53,8 @@ class Quality(NamedTuple):
 
 
 class MeshIndex(Queries):
-    """An index of a mesh that finds the neighborhood of a vertex v with a radius r: the connected component, containing
-    v, of the part of the mesh inside the ball of radius r around v.
+    """An index of a mesh that finds the neighborhood of a vertex v with a radius r: the part of the mesh inside the ball
+    of radius r around v that is connected to v within the ball.
 
     V : (#V, 3) float32 or float64, the positions, in any unit. Or a mesh without F: of
         trimesh, PyVista, VTK (vtkPolyData), vedo, meshio, Open3D, or a GIFTI surface of nibabel.
@@ -263,8 +263,8 @@ class MeshIndex(Queries):
                  "ball", every vertex within `r` in space, connected or not.
             "paper" builds an index of its own at the first use.
         metric : "straight", the neighborhood in the ball of radius `r`; "edge", the vertices whose shortest path along
-            edges is at most `r` long. Distances are then those lengths, and the vertices of one neighborhood ascend by
-            them. It needs method "exact".
+            edges is at most `r` long. Distances are then the lengths of these paths, and the vertices of one
+            neighborhood are sorted by them. "edge" needs method "exact".
         unit : of `r`: "mesh" is that of V, "edge" is `mean_edge_length`.
         max_bytes : refuse a larger result of many vertices; by default, one larger than the memory of the machine. A
             sample of the rows usually shows this within a second.
@@ -355,8 +355,8 @@ class MeshIndex(Queries):
         """All neighborhoods as a scipy.sparse.csr_array (#V, #V): row v holds the neighborhood of v, itself included.
 
         r : one radius, or one per vertex (the matrix is then not symmetric).
-        mode : "connectivity", 1.0 for each neighbor, or "distance", the straight-line distances, zeros stored. Both
-            float64, as those of scikit-learn.
+        mode : "connectivity", 1.0 for each vertex of the neighborhood; or "distance", the straight-line distances, with
+            zeros stored. Both are float64, as in scikit-learn.
         Needs SciPy. See `query_ball` for the other arguments.
         """
         from scipy.sparse import csr_array
@@ -503,8 +503,8 @@ class MeshIndex(Queries):
     ) -> Reals:
         """The values smoothed by a biweight that is close to a Gaussian of this full width at half maximum.
 
-        fwhm : > 0, a straight-line distance in `unit`. Values beyond 1.06 fwhm, or not connected within it, have no
-            influence: nothing is smoothed across a gap.
+        fwhm : > 0, a straight-line distance in `unit`. Vertices farther away than 1.06 fwhm, or not connected within
+            that distance, have no influence: nothing is smoothed across a gap.
         weights : None counts each vertex once; "area" weighs it by its area, which needs F, and makes the result
             independent of how densely the surface is sampled.
         See `aggregate`, which this calls with reduce="mean" and kernel="biweight". Returns float64 of the shape of
@@ -537,8 +537,8 @@ class MeshIndex(Queries):
 
         V : (#V, 3), or a mesh as for the class. Its faces are not read.
         changed : the vertices that have moved, as `v` of `query_ball`; None for all. Rows of V of other vertices are
-            not read, and the time depends on the number of those that have moved, besides a copy of the positions.
-            V may then not be float64 if the index has float32.
+            not read. The time is that of a copy of the positions, plus a part that grows with the number of vertices
+            that have moved. With `changed`, V must not be float64 if the index has float32.
         workers, progress : as for the class.
 
         Returns a new index, with the attributes of a subclass. This one stays as it is, and threads may search it
@@ -561,8 +561,8 @@ class MeshIndex(Queries):
         """How well the leaves of the index, its smallest parts, fit the positions after `refit`.
 
         Returns `Quality(mean_radius, rebuilt_radius, gain)`: the mean radius of the leaves at some places of the mesh,
-        what it would be in a new index, and their ratio. A query at a place takes time about in proportion
-        to that radius. After a build, `gain` is about 1; at 1.5 and above a new index pays off if many queries follow.
+        what it would be in a new index, and their ratio. The time of a query is about proportional to the radius of the
+        leaves around it. After a build, `gain` is about 1; at 1.5 and above a new index pays off if many queries follow.
         Takes some milliseconds for any mesh.
         """
         return Quality(*self._exact.quality())
@@ -592,8 +592,8 @@ class MeshIndex(Queries):
             quadric is tilted against the normal, and its neighborhoods have the vertices nearer than `r`.
         fit : "quadric", through the vertex and over its tangent plane, or "jet", over the plane of the principal
             components of the neighborhood: with filter=False CGAL's Monge_via_jet_fitting of degrees 2 and 2.
-        filter : fit only vertices whose normal makes less than 90 degrees with that of the query vertex, if there are
-            at least six.
+        filter : fit only vertices whose normal makes an angle of less than 90 degrees with that of the query vertex, if
+            there are at least six.
         unit, workers, progress : as for `query_ball`. The result does not depend on `workers`.
 
         Returns a `Curvature`: k1, k2, d1, d2, state, and as properties mean, gaussian, shape_index, curvedness, ok.
@@ -699,10 +699,10 @@ class MeshIndex(Queries):
     def save(self, path: Union[str, os.PathLike[str]], *, progress: Progress = None) -> None:
         """Writes the index to a file for `load`. The same mesh gives the same bytes on every machine.
 
-        progress : as for the class; the parts are bytes, each of which is processed twice.
+        progress : as for the class, in bytes; each byte is counted twice, for its checksum and for writing it.
 
         The file holds the positions and the graph of the mesh, but not its faces. It appears whole or not at all: it is
-        written beside the target under another name, synchronized to disk and renamed. Raises OSError, with errno and
+        written to the same folder under another name, synchronized to disk and renamed. Raises OSError, with errno and
         filename, and KeyboardInterrupt on Ctrl-C; an old file of that name is then unchanged.
         """
         path = _convert.path(path)
