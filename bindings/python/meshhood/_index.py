@@ -53,8 +53,8 @@ class Quality(NamedTuple):
 
 
 class MeshIndex(Queries):
-    """An index of a mesh that finds the neighborhood of a vertex v with a radius r: the part of the mesh inside the ball
-    of radius r around v that is connected to v within the ball.
+    """An index of a mesh that finds the neighborhood of a vertex v with a radius r: the part of the mesh inside the
+    ball of radius r around v that is connected to v within the ball.
 
     V : (#V, 3) float32 or float64, the positions, in any unit. Or a mesh without F: of
         trimesh, PyVista, VTK (vtkPolyData), vedo, meshio, Open3D, or a GIFTI surface of nibabel.
@@ -562,8 +562,8 @@ class MeshIndex(Queries):
 
         Returns `Quality(mean_radius, rebuilt_radius, gain)`: the mean radius of the leaves at some places of the mesh,
         what it would be in a new index, and their ratio. The time of a query is about proportional to the radius of the
-        leaves around it. After a build, `gain` is about 1; at 1.5 and above a new index pays off if many queries follow.
-        Takes some milliseconds for any mesh.
+        leaves around it. After a build, `gain` is about 1; at 1.5 and above a new index pays off if many queries
+        follow. Takes some milliseconds for any mesh.
         """
         return Quality(*self._exact.quality())
 
