@@ -137,13 +137,17 @@ void add_aggregate(CLI::App& program) {
                   options->values)
       ->required();
   add_radii(*command, options->radii);
-  add_choice(*command, "--reduce", "what to compute", names_of(kReductions), options->reduce);
-  add_choice(*command, "--kernel", "how the weight falls with the distance, for sum and mean", names_of(kKernels),
-             options->kernel);
+  add_choice(*command, "--reduce", "what to compute: mean, sum, min, max, var, std or count", names_of(kReductions),
+             options->reduce);
+  add_choice(*command, "--kernel",
+             "how the weight falls with the distance, for sum and mean: box (not at all), epanechnikov or biweight",
+             names_of(kKernels), options->kernel);
   add_file_option(*command, "--weights",
                   "weights of the vertices: area, or a file like that of --values (default: 1 each)", options->weights)
       ->type_name("area|FILE");
-  add_choice(*command, "--nan", "what NaN means; omit: a missing value", names_of(kMissing), options->missing);
+  add_choice(*command, "--nan",
+             "propagate: a neighborhood with a NaN gives NaN; omit: NaN is a missing value, left out",
+             names_of(kMissing), options->missing);
   add_choice(*command, "--nesting",
              "with several radii; own: a neighborhood for each; patch: the neighborhood of the largest, cut by each",
              names_of(kNestings), options->nesting);

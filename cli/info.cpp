@@ -143,9 +143,9 @@ void info(const InfoCommand& options) {
 void add_info(CLI::App& program) {
   auto options = std::make_shared<InfoCommand>();
   CLI::App* command = program.add_subcommand(
-      "info", "Print the size, components, boundary and defects of a mesh, or the parts of an index");
+      "info", "Print the size, components, boundary and defects of a mesh, or the size and levels of an index");
   add_file(*command, options->file);
-  command->add_flag("--index", options->index, "for a mesh: also build both indexes and print their parts");
+  command->add_flag("--index", options->index, "for a mesh: also build both indexes and print their sizes and levels");
   add_json(*command, options->json);
   command->callback([options] { info(*options); });
 }

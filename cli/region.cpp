@@ -128,12 +128,12 @@ void add_region(CLI::App& program) {
   add_numbers(*command, "-v,--vertex", "query vertex, by its number in the file from 0", options->vertices);
   add_radius(*command, options->radius);
   add_start(*command, options->start);
-  add_choice(*command, "--faces", "the faces with all their corners in the neighborhood, or with any", {"all", "any"},
-             options->faces);
+  add_choice(*command, "--faces", "all: the faces with all corners in the neighborhood; any: with at least one corner",
+             {"all", "any"}, options->faces);
   add_output(*command, ".ply", "mesh file to write", options->output)->required();
   add_file_option(*command, "--arrays",
-                  "also write the numbers of its vertices and faces in MESH, and the rim: the lines where the surface "
-                  "leaves the ball (.npz)",
+                  "also write the number in MESH of each vertex and face of the output, and the rim: the lines where "
+                  "the surface leaves the ball (.npz)",
                   options->arrays);
   add_json(*command, options->json);
   command->callback([options] { region(*options); });

@@ -337,7 +337,7 @@ export class MeshIndex {
     options: RegionOptions & { unit?: Unit; sort?: boolean; distances: true },
   ): { ids: Uint32Array; distances: Float64Array };
 
-  /** The regions of strictly ascending radii in one pass. A near vertex may belong to a late ring. */
+  /** The regions of strictly ascending radii, each vertex once. A near vertex may belong to a late ring. */
   queryNested(
     start: Start,
     radii: Float64Array | Float32Array,

@@ -27,7 +27,7 @@ enum class Reduce : std::uint8_t {
   Minimum,            ///< ignores the weights
   Maximum,            ///< ignores the weights
   Variance,           ///< of the population: sum of w (x - mean)^2 / sum of w; see `AggregateQuery::ddof`
-  StandardDeviation,  ///< its root
+  StandardDeviation,  ///< the square root of the variance
   Count,              ///< the number of values; ignores the weights
 };
 
@@ -76,8 +76,8 @@ struct AggregateQuery {
   MissingValues missing = MissingValues::Propagate;
   Nesting nesting = Nesting::Own;
 
-  /// The variance divides by the number of values minus this: 0, or 1 if there are no weights. A single value has then
-  /// the variance NaN.
+  /// The variance divides by the number of values minus `ddof`: 0, or 1 if there are no weights. With 1, the variance
+  /// of a single value is NaN.
   unsigned ddof = 0;
 };
 
@@ -120,7 +120,7 @@ struct AggregateOptions {
 void aggregate(const Index& index, const SignalView& signal, const AggregateQuery& query, std::span<double> result,
                const AggregateOptions& options = {});
 
-/// Returns the result.
+/// The same; returns the result.
 [[nodiscard]] std::vector<double> aggregate(const Index& index, const SignalView& signal, const AggregateQuery& query,
                                             const AggregateOptions& options = {});
 

@@ -119,7 +119,7 @@ struct BatchOptions {
   unsigned threads = 1;
 
   bool distances = false;  ///< also compute the distance of each vertex (see `distance`); ignored when only counting
-  bool sorted = false;     ///< ids of a row ascend; otherwise their order is reproducible, with an index its own
+  bool sorted = false;     ///< ids of a row ascend; otherwise they have an order of the method, which is reproducible
 
   /// `for_each_neighborhood` passes the rows in index order (see `Index::permutation`) instead of ascending. Near rows
   /// are then computed together whatever the order of the query, which is up to ten times as fast where the vertices of

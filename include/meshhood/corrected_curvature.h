@@ -14,7 +14,7 @@ namespace meshhood {
 
 /// One value for each row of the query. All but the area and the measures are NaN where the area is 0.
 struct CorrectedCurvatures {
-  std::vector<double> area;      ///< #rows: of the patch, corrected by the normals
+  std::vector<double> area;      ///< #rows: of the neighborhood, corrected by the normals
   std::vector<double> mean;      ///< #rows: H, in 1 / unit of the positions, positive where convex, as in `Curvatures`
   std::vector<double> gaussian;  ///< #rows: K
   std::vector<double> k1;        ///< #rows: the principal curvatures, k1 >= k2. Their mean is not exactly `mean`

@@ -157,7 +157,7 @@ struct Curvatures {
 /// valley, -1 in a bowl. NaN where both are 0, where it is not defined.
 [[nodiscard]] double shape_index(double k1, double k2);
 
-/// Koenderink's curvedness, the root of (k1^2 + k2^2) / 2.
+/// Koenderink's curvedness, the square root of (k1^2 + k2^2) / 2.
 [[nodiscard]] double curvedness(double k1, double k2);
 
 }  // namespace meshhood

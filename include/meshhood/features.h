@@ -68,8 +68,8 @@ struct FeatureOptions {
 /// Over how many scales a feature lasts, one entry for each row.
 struct Persistence {
   /// #rows: the length of the longest run of consecutive radii at which the feature is at least as strong as the
-  /// threshold and keeps its sign; times -1 if that is negative. If several runs have this length, the one with the
-  /// smallest radii counts.
+  /// threshold and keeps its sign; times -1 if the feature is negative there. If several runs have this length, the one
+  /// with the smallest radii counts.
   std::vector<std::int32_t> scales;
   std::vector<double> strength;  ///< #rows: the feature of largest magnitude in this run; 0 if there is none
   std::vector<double> radius;    ///< #rows: the radius at which it has this strength; 0 if there is none

@@ -44,7 +44,7 @@ class Index {
   /// Memory of all arrays. O(1).
   [[nodiscard]] IndexBytes bytes() const;
 
-  /// The leaves, and the levels of the tree above them up to a single node.
+  /// The leaves, and the levels of nodes above them.
   [[nodiscard]] std::vector<LevelSummary> levels() const;
 
   /// The positions in index order, #V by 3. Valid as long as the index.

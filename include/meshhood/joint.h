@@ -54,7 +54,7 @@ struct PartialLeaf {
 /// The neighborhoods of the rows of a packet. `cores`, `whole` and `partial` name each vertex at most once. Their order
 /// depends on the query alone, not on threads or the processor. Valid during the call of the visitor.
 struct PacketAnswer {
-  std::span<const std::size_t> rows;   ///< their numbers in the query; 1 to 32
+  std::span<const std::size_t> rows;   ///< the rows of the packet, by their numbers in the query; 1 to 32
   std::span<const VertexId> vertices;  ///< the query vertex of each row, an id of the caller
   std::span<const double> radii;       ///< of each row
   QueryWord queries = 0;               ///< all rows
@@ -91,9 +91,9 @@ struct PacketOptions {
 /// Packets depend on the query alone, so floating-point sums have the same bits for any number of threads.
 ///
 /// A leaf with few rows is searched row by row: packets then have one row and no cores. If a vertex is queried more
-/// than once, its rows may be in different packets. Time is that of `neighborhood_sizes`. Memory: a copy of the query,
-/// 12 bytes a row (of at most 2^20 at a time), and for each thread a searcher, 4 bytes for each leaf of the mesh and 1
-/// kB for each leaf at the boundary of the largest ball.
+/// than once, its rows may be in different packets. Time is that of `neighborhood_sizes`. Memory: a copy of the query;
+/// 8 bytes a row, of at most 2^22 rows at a time, and 16 where these are not in index order; and for each thread a
+/// searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry of a group (docs/joint.md).
 ///
 /// All arguments are checked before the first packet is computed. An exception from a visitor, the factory or
 /// `options.progress` ends the call; it is passed on once all threads have stopped.

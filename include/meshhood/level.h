@@ -10,7 +10,7 @@ struct IndexBytes {
   std::size_t positions = 0;    ///< coordinates of the vertices
   std::size_t permutation = 0;  ///< from the caller's numbering to that of the index, and back
   std::size_t graph = 0;        ///< edges of the mesh; in the paper's index, siblings
-  std::size_t tree = 0;         ///< leaves or clusters, bounding spheres, regions of local minima
+  std::size_t tree = 0;         ///< leaves or clusters, bounding spheres, minimum regions, links between nodes
 
   [[nodiscard]] std::size_t total() const { return positions + permutation + graph + tree; }
 };
@@ -22,7 +22,7 @@ struct LevelSummary {
   std::size_t clusters;  ///< the number of clusters
   double mean_vertices;  ///< the mean number of vertices of a cluster
   double mean_radius;    ///< of the bounding spheres, in the unit of the positions: `ar` of the paper's sec. 3.3
-  double mean_siblings;  ///< of a cluster; 0 above the leaves of the exact index, which stores none there
+  double mean_siblings;  ///< of a cluster; for a leaf, its links. 0 above the leaves of the exact index: not counted
   std::size_t bytes;     ///< memory of the arrays of the level
 };
 

@@ -55,7 +55,7 @@ struct MomentOptions {
                                           const MomentOptions& options = {});
 
 /// How the vertices of each neighborhood are distributed, one entry for each row of the query. With areas as weights,
-/// these are integral invariants: the area, the barycenter and the covariance of the patch of surface inside the ball.
+/// these are integral invariants: the area, the barycenter and the covariance of the surface in the neighborhood.
 struct PrincipalComponents {
   std::vector<double> weight;     ///< #rows: the sum of the weights
   std::vector<double> center;     ///< #rows by 3: the weighted mean of the positions, relative to the query vertex

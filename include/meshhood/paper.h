@@ -18,7 +18,7 @@
 /// `docs/paper.md` lists the deviations from the paper, with reasons.
 namespace meshhood::paper {
 
-/// A cluster, by its index on its level.
+/// A cluster, by its number on its level.
 using ClusterId = VertexId;
 
 /// How the hierarchy is built (3.2, 4.1). There is no option for threads: each step visits the clusters one after the

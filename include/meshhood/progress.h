@@ -10,7 +10,7 @@ namespace meshhood {
 /// Error{Cancelled} and leaves its arguments unchanged.
 ///
 /// It is called on the calling thread only, with 0 at the beginning and `total` at the end. `done` never decreases and
-/// `total` is constant. An exception it throws ends the call and is passed on.
+/// `total` is constant. An exception from it ends the call and is passed on.
 using Progress = std::function<bool(std::size_t done, std::size_t total)>;
 
 /// The largest number of threads that a call accepts.

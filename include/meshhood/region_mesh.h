@@ -13,7 +13,7 @@
 
 namespace meshhood {
 
-/// Which faces belong to a set of vertices: those with all corners in it, or with any.
+/// Which faces belong to a set of vertices: those with all corners in the set, or with at least one.
 enum class Corners : std::uint8_t { All, Any };
 
 /// Some faces of a mesh, as a mesh of their own.
@@ -56,7 +56,7 @@ class RegionMesher {
   [[nodiscard]] std::size_t vertex_count() const;
   [[nodiscard]] std::size_t face_count() const;
 
-  /// The faces whose corners lie in `ids`, all or any, ascending. A face without corners belongs to none.
+  /// The faces with all corners in `ids`, or with at least one; ascending. A face without corners is never one.
   [[nodiscard]] std::vector<std::size_t> faces(std::span<const VertexId> ids, Corners corners = Corners::All);
 
   /// These faces as a mesh. Its positions are those of `vertices`.

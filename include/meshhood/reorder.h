@@ -14,7 +14,7 @@ namespace meshhood {
 struct ReorderedMesh {
   Index index;
   std::vector<VertexId> permutation;            ///< by new vertex: its id in the given mesh. #V
-  std::vector<std::uint32_t> face_permutation;  ///< by new face: its index in the given mesh. #F
+  std::vector<std::uint32_t> face_permutation;  ///< by new face: its number in the given mesh. #F
   std::vector<std::uint32_t> face_offsets;      ///< #F + 1 (see `FacesView`); empty if triangles were given
   std::vector<std::uint32_t> corners;           ///< of each face in the order given, as new ids
 

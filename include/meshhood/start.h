@@ -24,7 +24,7 @@ class Start {
   /// seeds   in [0, #V), in any order; repeats are allowed. A seed outside a ball does not count for that ball.
   Start(const SpacePoint& center, std::span<const VertexId> seeds) : center_(center), seeds_(seeds) {}
 
-  /// The one vertex, if there is no center.
+  /// The vertex, if the start is a vertex; then `center` is empty.
   [[nodiscard]] VertexId vertex() const { return vertex_; }
   [[nodiscard]] const std::optional<SpacePoint>& center() const { return center_; }
   [[nodiscard]] std::span<const VertexId> seeds() const { return seeds_; }

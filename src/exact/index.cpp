@@ -48,7 +48,7 @@ std::vector<LevelSummary> Index::levels() const {
                       .bytes = level.groups * (sizeof(Group) + sizeof(GroupRecord))});
   }
   if (result.empty()) return result;
-  // Only leaves have links. The last link is an end marker.
+  // Links between nodes above the leaves are not counted. The last link is an end marker.
   LevelSummary& leaves = result.front();
   leaves.mean_siblings = static_cast<double>(view_->links.size() - 1) / static_cast<double>(leaves.clusters);
   leaves.bytes += bytes_of(view_->leaves) + bytes_of(view_->leaf_begin);

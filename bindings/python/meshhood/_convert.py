@@ -249,5 +249,5 @@ def _has_only_dlpack(values):
 
 
 def _holds_bool(values):
-    """NumPy takes True beside numbers for 1."""
+    """Whether `values` has bools, which NumPy would convert to 1 and 0 among numbers."""
     return any(isinstance(value, (bool, np.bool_)) for value in values)

@@ -60,7 +60,7 @@ class Curvature(NamedTuple):
 
     @property
     def curvedness(self) -> NDArray[np.float64]:
-        """Koenderink's curvedness, the root of (k1^2 + k2^2) / 2."""
+        """Koenderink's curvedness, the square root of (k1^2 + k2^2) / 2."""
         return np.hypot(self.k1, self.k2) / np.sqrt(2)
 
 
@@ -126,8 +126,8 @@ def principal_curvature(
 
     V : (#V, 3); F : (#F, 3).
     radius : of the neighborhood, in mean lengths of the sides of all faces; an integer of at least 2.
-    useKring : must be False: the neighborhood is the part of the mesh in a ball, not a ring of edges. In libigl the
-        default is True.
+    useKring : must be False: the neighborhood is that of a ball, not the vertices within a number of edges. In libigl
+        the default is True.
     workers : number of threads, -1 for one per processor.
 
     Differences from libigl: the list includes vertices without a normal; directions have the sign that makes the

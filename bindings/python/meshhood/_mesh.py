@@ -170,7 +170,7 @@ def _list_entries(graph, vertex_count):
 
 
 def _diagonal_entries(graph, vertex_count):
-    """The entries of a DIA matrix, which stores whole diagonals, that are not zero."""
+    """The nonzero entries of a DIA matrix, which stores whole diagonals."""
     offsets, data = np.array(graph.offsets), np.array(graph.data)
     if offsets.ndim != 1 or data.ndim != 2 or len(data) != len(offsets):
         raise ValueError(f"F: offsets of shape {offsets.shape} and data of shape {data.shape}, expected a row for each")

@@ -65,8 +65,9 @@ class Methods(dict):
         return self[method]
 
     def _making(self):
-        """The lock of this process: a fork copies a lock as it is, perhaps held by a thread that the child does not
-        have. Reentrant, because a signal handler may need a method while its thread makes another."""
+        """The lock of this process. Each process has its own, because a fork may copy a lock that is held by a thread
+        which the child does not have. Reentrant, because a signal handler may need a method while its thread makes
+        another."""
         return self._locks.setdefault(os.getpid(), threading.RLock())
 
     def _make(self, method):

@@ -22,7 +22,7 @@ _KINDS = (
 
 class PrincipalComponents(NamedTuple):
     """How the vertices of each neighborhood are distributed. With areas as weights, `weight`, `center` and `variances`
-    are integral invariants of the patch of surface: its area, barycenter and covariance.
+    are integral invariants of the surface in the neighborhood: its area, barycenter and covariance.
 
     weight : (#rows,) the sum of the weights.
     center : (#rows, 3) the weighted mean of the positions, relative to the query vertex.
@@ -56,7 +56,7 @@ class CorrectedCurvature(NamedTuple):
     """Curvature from measures (see `MeshIndex.corrected_curvature`). All but the area and the measures are NaN where
     the area is 0.
 
-    area, mean, gaussian : (#rows,) area of the patch, H and K.
+    area, mean, gaussian : (#rows,) area of the neighborhood, corrected by the normals; H and K.
     k1, k2 : (#rows,) principal curvatures, k1 >= k2. Their mean is not exactly `mean`.
     d1, d2 : (#rows, 3) their directions in the plane of the vertex normal.
     measures : (#rows, 12) the sums from which the others follow: the area; twice the integral of H; the integral of K;
@@ -76,7 +76,8 @@ class CorrectedCurvature(NamedTuple):
 class Persistence(NamedTuple):
     """Over how many scales a feature lasts (see `persistence`).
 
-    scales : (#rows,) int32, negative if the feature is.
+    scales : (#rows,) int32, the length of the longest run of radii at which the feature is strong and keeps its sign;
+        times -1 if the feature is negative there; 0 if there is none.
     strength : (#rows,) the feature of largest magnitude in this run; 0 if there is none.
     radius : (#rows,) the radius at which it has this strength; 0 if there is none.
     """
@@ -103,8 +104,8 @@ def _count(count: Any) -> int:
 
 def persistence(values: Any, radii: Any, threshold: float) -> Persistence:
     """Over how many scales a feature lasts: the length of the longest run of consecutive radii at which it is at least
-    as strong as `threshold` and keeps its sign; negative if the feature is. If several runs have this length, the one
-    with the smallest radii counts.
+    as strong as `threshold` and keeps its sign; times -1 if the feature is negative there. If several runs have this
+    length, the one with the smallest radii counts.
 
     values : (#radii, #rows), one kind of feature. A NaN ends a run.
     radii : (#radii,), ascending.

@@ -72,7 +72,8 @@ class OpenPart:
 
 @functools.lru_cache(maxsize=_OPEN_PARTS)
 def _opened(folder: str, number: int, content_hash: str) -> OpenPart:
-    """Verified once in each process, then shared by its threads; the pages of the index by all processes."""
+    """A part is verified once in each process and then shared by its threads. All processes share the pages of its
+    index."""
     return OpenPart(Path(_core.verified_part(folder, number, content_hash)), number)
 
 

@@ -137,13 +137,14 @@ class Queries:
         ignored: Mask = None,
         unit: Unit = "mesh",
     ) -> tuple[Counts, Ids]:
-        """The regions of several radii in one pass: `counts, indices`. The region of radii[i] is indices[:counts[i]].
+        """The regions of several radii, each vertex once: `counts, indices`. The region of radii[i] is
+        indices[:counts[i]].
 
         radii : strictly ascending.
 
-        So indices[counts[i - 1]:counts[i]] is ring i: the vertices that only the ball of radii[i] connects with the
-        start. A near vertex may belong to a late ring. Sums over the regions are sums over the rings:
-        `np.add.reduceat`, then `np.cumsum`.
+        So indices[counts[i - 1]:counts[i]] is ring i: the vertices of the region of radii[i] that are not in that of
+        radii[i - 1]. A near vertex belongs to a late ring if only a wider ball connects it. The sum over a region is
+        the sum over its rings: `np.add.reduceat`, then `np.cumsum`.
         """
         center, first = self._start(start, seeds)
         values = _convert.ascending(radii, "radii") * self._scale(unit)

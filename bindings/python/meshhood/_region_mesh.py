@@ -52,7 +52,7 @@ class RegionMesh:
         return f"<meshhood.RegionMesh: {len(self._positions)} vertices, {self._mesher.face_count} faces>"
 
     def faces(self, ids: ArrayLike, corners: Corners = "all") -> NDArray[np.int64]:
-        """The faces with all corners in `ids`, or with any; ascending."""
+        """The faces with all corners in `ids`, or with at least one; ascending."""
         return self._mesher.faces(self._ids(ids), self._all(corners))
 
     def submesh(self, ids: ArrayLike, corners: Corners = "all") -> Submesh:
@@ -67,9 +67,9 @@ class RegionMesh:
         ids : the region of `start` and `r` (see `MeshIndex.query_region`).
         start : the center of the ball, a vertex or a point in space (3 numbers).
 
-        On a manifold mesh without border all polylines are closed. They end at the border, and where three or more of
-        them meet. If the faces are consistently oriented, the region lies to the left. Where an edge ends inside the
-        ball at a wall, the rim passes through the wall.
+        On a manifold mesh without border all polylines are closed. The others end at the border of the mesh, or where
+        three or more of them meet. If the faces are consistently oriented, the region lies to the left. If an edge
+        leads from the region to a wall inside the ball, the point on this edge is the wall.
         """
         if np.ndim(start) == 0:
             center = self._positions[_convert.vertex(start, len(self._positions), "start")].astype(np.float64)

@@ -62,7 +62,8 @@ def view(
     height: int = 600,
 ) -> Page:
     """Makes an interactive page of the mesh, to choose a vertex and a radius and to compare the answers of all methods:
-    the exact neighborhood in green, extra vertices of the search of the paper in yellow, those of the ball in blue.
+    the exact neighborhood in green, extra vertices of the search of the paper in yellow, further vertices of the ball
+    in blue.
 
         meshhood.view(V, F, v=42, r=10, unit="edge")             # displayed by a notebook
         meshhood.view(V, F, values=sizes).save("sizes.html")
@@ -72,7 +73,7 @@ def view(
     ids : vertices to show instead of the answers, until another query is made: a sequence or a bool mask (#V,).
     values : (#V,) a number for each vertex, shown as colors. Values that are not finite get no color.
     name : the name of the mesh on the page.
-    height : of the frame in a notebook, in pixels.
+    height : the height of the page in a notebook, in pixels.
 
     The page holds the positions and faces, about 50 bytes for each vertex of a closed triangle mesh, and builds its own
     index in the browser. Raises ValueError or TypeError, naming the argument, and FileNotFoundError if the page was not

@@ -4,8 +4,8 @@
     parts = meshhood.partition("scan.ply", "scan.parts", parts=32, halo=65, unit="edge")
     counts = parts.counts(5, unit="edge").compute()
 
-A part is one task. Without a scheduler, tasks run on the threads of this machine; with a `dask.distributed.Client`, on
-its workers, which must see the folder under the same path. Retries and the dashboard are those of Dask.
+A part is one task. Without a `dask.distributed.Client`, tasks run on the threads of this machine; with one, on its
+workers, which must see the folder under the same path. Retries and the dashboard are those of Dask.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ Folder = Union[str, "os.PathLike[str]"]
 
 
 class Parts:
-    """The parts of a mesh, which `meshhood.partition` has written. Made by `open_parts`.
+    """The parts of a mesh, written by `meshhood.partition` and opened by `open_parts`.
 
     Every method takes a radius `r` up to `halo`, in `unit`: "mesh" is the unit of the positions, "edge" is
     `mean_edge_length`. A larger radius is an error, which names the halo that it needs. Results are those of one index of the
