@@ -116,7 +116,7 @@ struct CurvatureOptions {
 [[nodiscard]] CurvatureOptions like_libigl();
 
 /// The radius of libigl's neighborhoods: `edges` times the mean length of the sides of all faces. A side of two faces
-/// counts twice, so that this differs from `mean_edge_length` where the mesh has a boundary. 0 if there are no sides.
+/// counts twice, so that this differs from `mean_edge_length` where the mesh has a border. 0 if there are no sides.
 /// Throws Error{InvalidMesh, TooLarge}.
 [[nodiscard]] double libigl_radius(const MeshView& mesh, double edges);
 

@@ -273,8 +273,8 @@ class MeshIndex(Queries):
         Returns for one vertex `indices` (int32) or `indices, distances`; for many vertices `indptr, indices` or
         `indptr, indices, distances`: row i is indices[indptr[i]:indptr[i + 1]] (indptr int64). The arrays are new.
 
-        The cost of "exact" grows with the boundary of each neighborhood rather than its size. All rows are in memory at
-        once; see `iter_neighborhoods`.
+        The cost of "exact" grows with the part of the mesh at the surface of each ball rather than with the size of the
+        neighborhood. All rows are in memory at once; to avoid that, use `iter_neighborhoods`.
         """
         searched, scale = self._method(method, metric), self._scale(unit)
         if v is not None and _convert.is_single(v):
