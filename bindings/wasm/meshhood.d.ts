@@ -192,7 +192,7 @@ export class Curvature {
    * both curvatures are 0.
    */
   readonly shapeIndex: Float64Array;
-  /** Koenderink's curvedness, the root of (k1^2 + k2^2) / 2. */
+  /** Koenderink's curvedness, the square root of (k1^2 + k2^2) / 2. */
   readonly curvedness: Float64Array;
 }
 
@@ -213,7 +213,7 @@ export interface CurvatureOptions {
   like?: 'libigl' | null;
   /** `quadric`: through the vertex and over its tangent plane. `jet`: as CGAL's `Monge_via_jet_fitting`. */
   fit?: 'quadric' | 'jet';
-  /** Fit only vertices whose normal makes less than 90 degrees with that of the query vertex, if six remain. */
+  /** Fit only vertices whose normal makes less than 90 degrees with that of the query vertex, if at least six remain. */
   filter?: boolean;
   unit?: Unit;
 }
@@ -441,7 +441,7 @@ export class RegionMesh {
 
   readonly memoryBytes: number;
 
-  /** The faces with all corners in `ids`, or with any; ascending. */
+  /** The faces with all corners in `ids`, or with at least one; ascending. */
   faces(ids: Uint32Array, corners?: 'all' | 'any'): Uint32Array;
 
   /** These faces as a mesh. */
