@@ -213,7 +213,7 @@ export interface CurvatureOptions {
   like?: 'libigl' | null;
   /** `quadric`: through the vertex and over its tangent plane. `jet`: as CGAL's `Monge_via_jet_fitting`. */
   fit?: 'quadric' | 'jet';
-  /** Fit only vertices whose normal makes less than 90 degrees with that of the query vertex, if at least six remain. */
+  /** Fit only vertices whose normal is less than 90 degrees from that of the query vertex, if at least six remain. */
   filter?: boolean;
   unit?: Unit;
 }
