@@ -98,7 +98,7 @@ def head_table(data):
     radii = ", ".join(f"{radius:g}" for radius in SHOWN_RADII)
     least, most = (found[0] for found in least_and_most(meshes))
     return (f"One query at a time, cold (`{COMMAND}`), at {radii} edges: " + "\nand ".join(said)
-            + f"; over all meshes and radii {least:.1f} to {most:.1f}.\n")
+            + f"; over all meshes and radii, cold and warm, {least:.1f} to {most:.1f}.\n")
 
 
 def timed_cells(row):
