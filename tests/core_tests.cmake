@@ -22,6 +22,7 @@ foreach(part
     exact/search/descent exact/search/leaf_traversal exact/search/group_states exact/search/home_marks exact/search/loose_pieces exact/search/other_components exact/search/reached_components exact/search/output
     exact/search/search_limits exact/search/few_leaves exact/search/vertex_bfs exact/search/vertex_set exact/search/waves
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
+    region/region_mesher
     curvature/corrected curvature/curvatures curvature/features curvature/moments curvature/quadric
     simd/aggregate_kernels simd/joint_kernels simd/kernels simd/moment_kernels
     whole/arguments whole/robustness whole/differential whole/metamorphic)
@@ -39,7 +40,7 @@ meshhood_test(whole/allocation ALONE meshhood_families)
 target_sources(whole_allocation_test PRIVATE support/failing_allocations.cpp)
 
 meshhood_test(paper/meshes meshhood_test_support)
-meshhood_test(region/region_mesher meshhood_test_support meshhood_families)
+meshhood_test(region/region_meshes meshhood_test_support)
 meshhood_test(whole/all_meshes meshhood_test_support)
 
 # The sources of the core, to be compiled in other ways than the library is.
