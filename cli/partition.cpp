@@ -122,7 +122,7 @@ void add_partition(CLI::App& program) {
       ->required();
   add_unit(*command, "halo", options->unit);
   command->add_option("--memory", options->memory, "most bytes of memory, for example 500MB or 4GiB (default: 1GiB)")
-      ->transform(CLI::AsSizeValue(false))
+      ->transform(CLI::AsSizeValue(true))
       ->type_name("SIZE")
       ->default_val("1GiB");
   add_threads(*command, options->threads);
