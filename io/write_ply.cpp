@@ -2,12 +2,16 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -87,7 +91,7 @@ class Rows {
   template <class T>
   void value(T value) {
     if (ascii_) {
-      // The shortest text that parses to the same number. fmt::format_to would compile all of {fmt} anew.
+      // The shortest text that parses to the same number. The library of {fmt} 9 has no code for format_to.
       if (!row_.empty()) row_ += ' ';
       row_ += fmt::format("{}", value);
     } else {

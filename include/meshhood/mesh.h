@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>  // also declares std::ranges::borrowed_range; <ranges> would double the time to include this header
+#include <span>  // also for std::ranges::borrowed_range, which its constructors require; <ranges> takes twice the time
 #include <utility>
 #include <variant>
 #include <vector>
@@ -221,24 +221,28 @@ class FacesView {
   [[nodiscard]] std::size_t corner_stride() const { return corner_stride_; }  ///< of triangles, in elements
 
   /// Calls `f(face, corners)` for every face in order; `corners` is a `std::span<const VertexId>` of #corners of the
-  /// face, valid during the call. The view must have passed `validate`. Corners that are given as triangles of 32 bits,
-  /// row by row, are not copied.
+  /// face, valid during the call. The view must have passed `validate`. Corners of 32 bits are not copied, except those
+  /// of strided triangles.
   template <class F>
   void for_each(F&& f) const {
-    if (const VertexId* const corners = packed_triangles()) {
-      for (std::size_t face = 0; face < count_; ++face) f(face, std::span<const VertexId>(corners + 3 * face, 3));
+    std::vector<VertexId> copy;
+    if (!are_triangles()) {
+      for (std::size_t face = 0; face < count_; ++face) f(face, polygon(face, copy));
       return;
     }
-    std::vector<VertexId> copy;
-    for (std::size_t face = 0; face < count_; ++face) f(face, corners_of(face, copy));
+    for (std::size_t face = 0; face < count_;) {
+      const std::span<const VertexId> corners = triangles_from(face, copy);
+      for (std::size_t i = 0; i < corners.size(); i += 3) f(face++, corners.subspan(i, 3));
+    }
   }
 
  private:
-  /// The corners, if they are triangles row by row in the type of the vertices, signed or not. Otherwise null.
-  [[nodiscard]] const VertexId* packed_triangles() const;
+  /// The corners of one or more triangles from `face` on, #triangles by 3: as given where that is possible, otherwise
+  /// converted into `copy`, some hundred triangles at a time.
+  [[nodiscard]] std::span<const VertexId> triangles_from(std::size_t face, std::vector<VertexId>& copy) const;
 
-  /// The corners of a face: as given where that is possible, otherwise converted into `copy`.
-  [[nodiscard]] std::span<const VertexId> corners_of(std::size_t face, std::vector<VertexId>& copy) const;
+  /// The corners of a polygon: as given where that is possible, otherwise converted into `copy`.
+  [[nodiscard]] std::span<const VertexId> polygon(std::size_t face, std::vector<VertexId>& copy) const;
 
   IndicesView offsets_;
   IndicesView corners_;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <cstddef>
 #include <span>
+#include <vector>
 
 #include "meshhood/aggregate.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace {
 
 /// The vertex `edges[i]`, in [0, #V).
 VertexId checked_end(const IndicesView& edges, std::size_t i, std::size_t vertices) {
-  if (edges[i] < vertices) return static_cast<VertexId>(edges[i]);
+  const std::uint64_t end = edges[i];
+  if (end < vertices) return static_cast<VertexId>(end);
   raise(ErrorCode::VertexOutOfRange, "edge " + std::to_string(i / 2) + ": vertex " + to_text(edges, i) +
                                          ", but the mesh has " + std::to_string(vertices) + " vertices");
 }

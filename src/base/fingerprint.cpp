@@ -3,6 +3,7 @@
 
 #include <array>
 #include <span>
+#include <string_view>
 
 #include "base/checksum.h"
 #include "base/packed_positions.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "meshhood/mesh.h"
 
+#include <algorithm>
 #include <string>
 
 #include "meshhood/error.h"
@@ -94,24 +95,39 @@ void validate_corners(const FacesView& faces, std::size_t vertices) {
 /// The memory of indices whose type has the size of `VertexId`; otherwise null. Valid indices are not negative, and a
 /// signed type may be read as the unsigned one of its size.
 const VertexId* as_ids(const IndicesView& indices) {
-  return indices.visit([]<class Index>(std::span<const Index> all) -> const VertexId* {
-    if constexpr (sizeof(Index) != sizeof(VertexId)) return nullptr;
-    return reinterpret_cast<const VertexId*>(all.data());
+  return indices.visit([]<class Index>(std::span<const Index> all) {
+    // mutant: wide-corners-not-converted
+    return sizeof(Index) == sizeof(VertexId) ? reinterpret_cast<const VertexId*>(all.data()) : nullptr;
   });
 }
 
 }  // namespace
 
-const VertexId* FacesView::packed_triangles() const {
-  return are_triangles() && face_stride_ == 3 && corner_stride_ == 1 ? as_ids(corners_) : nullptr;
+std::span<const VertexId> FacesView::triangles_from(std::size_t face, std::vector<VertexId>& copy) const {
+  // mutant: records-read-as-rows, distant-corners-read-as-rows
+  if (const VertexId* const ids = as_ids(corners_); ids && face_stride_ == 3 && corner_stride_ == 1) {
+    return {ids + 3 * face, 3 * (count_ - face)};
+  }
+  // A call for each triangle would take longer than to convert it.
+  constexpr std::size_t kMost = 256;
+  const std::size_t count = std::min(count_ - face, kMost);
+  copy.resize(3 * count);
+  corners_.visit([&](auto corners) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t first = (face + i) * face_stride_;  // mutant: first-triangles-again
+      for (std::size_t j = 0; j < 3; ++j) copy[3 * i + j] = static_cast<VertexId>(corners[first + j * corner_stride_]);
+    }
+  });
+  return copy;
 }
 
-std::span<const VertexId> FacesView::corners_of(std::size_t face, std::vector<VertexId>& copy) const {
+std::span<const VertexId> FacesView::polygon(std::size_t face, std::vector<VertexId>& copy) const {
   const auto [first, count, stride] = places_of(*this, face);
-  if (const VertexId* const ids = as_ids(corners_); ids != nullptr && stride == 1) return {ids + first, count};
+  if (const VertexId* const ids = as_ids(corners_)) return {ids + first, count};  // mutant: first-polygon-again
   copy.resize(count);
   corners_.visit([&](auto corners) {
-    for (std::size_t i = 0; i < count; ++i) copy[i] = static_cast<VertexId>(corners[first + i * stride]);
+    // mutant: first-polygon-converted-again
+    for (std::size_t i = 0; i < count; ++i) copy[i] = static_cast<VertexId>(corners[first + i]);
   });
   return copy;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -92,15 +93,16 @@ std::vector<Move> read_moves(const IndexView& index, const PositionsView& positi
   std::vector<Move> moves;
   moves.reserve(changed.size());
   for (std::size_t row = 0; row < changed.size(); ++row) {
-    if (changed[row] >= index.vertex_count()) {
+    const std::uint64_t v = changed[row];
+    if (v >= index.vertex_count()) {
       raise(ErrorCode::VertexOutOfRange, "changed: row " + std::to_string(row) + ": vertex " + to_text(changed, row) +
                                              ", but the mesh has " + std::to_string(index.vertex_count()) +
                                              " vertices");
     }
-    const auto v = static_cast<std::size_t>(changed[row]);
-    const Point to = point(positions, v);
-    check_position(v, to);
-    moves.push_back({index.slot[v], to});
+    const auto vertex = static_cast<std::size_t>(v);
+    const Point to = point(positions, vertex);
+    check_position(vertex, to);
+    moves.push_back({index.slot[vertex], to});
   }
   std::sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) { return a.slot < b.slot; });
   const auto is_same = [](const Move& a, const Move& b) { return a.slot == b.slot; };

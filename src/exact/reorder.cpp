@@ -2,10 +2,14 @@
 #include "meshhood/reorder.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "meshhood/error.h"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+
 #include "paper/draft.h"
 #include "paper/hierarchy.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#if defined(__wasm_simd128__)
+#if defined(__wasm_simd128__)  // elsewhere an empty unit, without headers too
 #include "simd/wasm128.h"
 #endif
 

@@ -2,6 +2,7 @@
 // Edges cut by a list: the graph is that of the mesh without them, and searches do not cross them.
 #include <array>
 #include <cstdint>
+#include <cstdio>
 #include <set>
 #include <utility>
 #include <vector>

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -15,6 +18,7 @@ namespace meshhood::test {
 namespace {
 
 using testing::ElementsAre;
+using testing::IsEmpty;
 
 const std::vector<float> kThreePoints{0, 0, 0, 1, 0, 0, 0, 1, 0};
 
@@ -65,6 +69,24 @@ TYPED_TEST(IndexTypes, GiveTheSameTrianglesInEveryLayout) {
   EXPECT_THAT(listed(FacesView::triangles(rows)), expected);
   EXPECT_THAT(listed(FacesView::column_major_triangles(columns)), expected);
   EXPECT_THAT(listed(FacesView::strided_triangles(records, 2, 4, 1)), expected);
+  const std::vector<TypeParam> interlaced{0, 9, 1, 2, 2, 1, 9, 0};
+  EXPECT_THAT(listed(FacesView::strided_triangles(interlaced, 2, 3, 2)), expected);
+}
+
+TYPED_TEST(IndexTypes, GiveManyTrianglesInEveryLayout) {
+  constexpr std::size_t kFaces = 1000;
+  std::vector<std::vector<std::size_t>> expected;
+  std::vector<TypeParam> rows;
+  std::vector<TypeParam> columns(3 * kFaces);
+  for (std::size_t face = 0; face < kFaces; ++face) {
+    expected.push_back({2 * face, face + 1, face});
+    for (std::size_t i = 0; i < 3; ++i) {
+      rows.push_back(static_cast<TypeParam>(expected[face][i]));
+      columns[i * kFaces + face] = rows.back();
+    }
+  }
+  EXPECT_EQ(listed(FacesView::triangles(rows)), expected);
+  EXPECT_EQ(listed(FacesView::column_major_triangles(columns)), expected);
 }
 
 TYPED_TEST(IndexTypes, GiveTheSamePolygons) {
@@ -74,6 +96,28 @@ TYPED_TEST(IndexTypes, GiveTheSamePolygons) {
   const auto expected = ElementsAre(ElementsAre(0, 1), ElementsAre(), ElementsAre(2, 1, 0));
   EXPECT_THAT(listed(FacesView::polygons(ends, corners)), expected);
   EXPECT_THAT(listed(FacesView::polygons(other_ends, corners)), expected);
+}
+
+TYPED_TEST(IndexTypes, GiveNoFacesIfThereAreNone) {
+  const std::vector<TypeParam> none;
+  const std::vector<TypeParam> zero{0};
+  const std::vector<TypeParam> zeros{0, 0, 0};
+  EXPECT_THAT(listed(FacesView::triangles(none)), IsEmpty());
+  EXPECT_THAT(listed(FacesView::column_major_triangles(none)), IsEmpty());
+  EXPECT_THAT(listed(FacesView::polygons(none, none)), IsEmpty());
+  EXPECT_THAT(listed(FacesView::polygons(zero, none)), IsEmpty());
+  EXPECT_THAT(listed(FacesView::polygons(zeros, none)), ElementsAre(IsEmpty(), IsEmpty()));
+}
+
+TYPED_TEST(IndexTypes, OfTheSizeOfAVertexAreNotCopied) {
+  const std::vector<TypeParam> corners{0, 1, 2, 2, 1, 0};
+  const std::vector<std::uint32_t> offsets{0, 3, 6};
+  for (const FacesView& faces : {FacesView::triangles(corners), FacesView::polygons(offsets, corners)}) {
+    faces.for_each([&](std::size_t face, std::span<const VertexId> seen) {
+      const void* const given = &corners[3 * face];
+      EXPECT_EQ(seen.data() == given, sizeof(TypeParam) == sizeof(VertexId));
+    });
+  }
 }
 
 TYPED_TEST(IndexTypes, ReadAsUnsignedNumbersOf64Bits) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Corrected curvature measures, compared with the formulas of spheres and cylinders.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <span>

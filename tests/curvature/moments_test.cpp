@@ -3,6 +3,7 @@
 #include "meshhood/moments.h"
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <string>
 #include <vector>

@@ -31,7 +31,7 @@ struct Cells {
     const Frame frame = make_frame(mesh.positions_view());
     std::vector<KdPoint> result;
     for (std::uint32_t v = 0; v < mesh.size(); ++v) {
-      const FramePoint p = frame.round(mesh.positions_view().visit([&](auto xyz) { return point(xyz, v); }));
+      const FramePoint p = frame.round(point(mesh.positions_view(), v));
       result.push_back({{p.x, p.y, p.z}, v});
     }
     return result;

@@ -19,7 +19,7 @@ namespace {
 struct Divided {
   explicit Divided(const TestMesh& mesh) : graph(adjacency(mesh.view())), built(build(mesh.view())) {
     for (std::size_t i = 0; i < index.vertex_count(); ++i) {
-      const Point p = mesh.positions_view().visit([&](auto xyz) { return point(xyz, index.id(i)); });
+      const Point p = point(mesh.positions_view(), index.id(i));
       points.push_back(index.frame.to_frame(p));
     }
   }

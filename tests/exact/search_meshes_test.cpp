@@ -2,6 +2,7 @@
 // Exact answers on real meshes and on sheets that lie close together. The long run is tools/verify.
 #include <algorithm>
 #include <cstdio>
+#include <initializer_list>
 #include <string>
 
 #include <gmock/gmock.h>

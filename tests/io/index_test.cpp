@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Index files: atomic replacement, mapping, detection, truncation. Rows F3, F7 and F9 of the catalogue.
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "support/shared_meshes.h"
 
+#include <cstddef>
 #include <cstdio>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <variant>
 

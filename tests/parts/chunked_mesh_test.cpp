@@ -2,6 +2,7 @@
 // A mesh in chunks is the mesh that `io::read_mesh` reads, and has the same faults.
 #include "parts/chunked_mesh.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <limits>
 #include <string>
