@@ -329,6 +329,25 @@ TEST_F(Aggregate, OfManyChannelsEqualsThatOfEachChannel) {
   }
 }
 
+/// A cluster far from the rest, so small that its bounding sphere, whose center is rounded, is much larger than it.
+TEST(AggregateOfATinyCluster, EqualsTheDefinition) {
+  TestMesh mesh = make_grid(5, 5, false);
+  const auto first = static_cast<VertexId>(mesh.size());
+  const double step = 0x1p-30;
+  for (VertexId v = 0; v < 25; ++v) {
+    const double x = step * (v % 5);
+    const double y = step * (v / 5);
+    mesh.add_vertex(1000.1 + x, 700.3 + y, 300.7);
+  }
+  for (VertexId v = 1; v < 25; ++v) mesh.add_face({first + v - 1, first + v});
+  AggregateCase scene(mesh.finish(false));
+  Random random(7);
+  const TestSignal signal = make_signal(mesh.size(), false, random);
+  for (const SmoothingKernel kernel : {SmoothingKernel::Epanechnikov, SmoothingKernel::Biweight}) {
+    scene.compare(signal.view(false), {.radii = {7 * step}, .reduce = Reduce::Mean, .kernel = kernel});
+  }
+}
+
 TEST_F(Aggregate, OfAPatchWithOneRadiusIsThatOfTheNeighborhood) {
   for (const Reduce reduce : {Reduce::Minimum, Reduce::Maximum, Reduce::Count}) {
     AggregateQuery query{.radii = {7}, .reduce = reduce};

@@ -173,7 +173,14 @@ TEST(IndexVerify, RejectsWrongLinks) {
     const auto links = f.section<Link>("links");
     std::swap(links[0].leaf, links[1].leaf);
   });
-  expect_refused_after("the boundary does not match", [](Forgery& f) { f.section<Link>("links")[0].boundary ^= 1; });
+  expect_refused_after("the boundary does not match", [](Forgery& f) {
+    LaneMask& boundary = f.section<Link>("links")[0].boundary;
+    boundary &= boundary - 1;
+  });
+  expect_refused_after("the boundary does not match", [](Forgery& f) {
+    LaneMask& boundary = f.section<Link>("links")[0].boundary;
+    boundary |= boundary + 1;
+  });
   expect_refused_after("cross edges ", [](Forgery& f) { f.section<Link>("links")[1].first_cross_edge = 4000000000U; });
   expect_refused_after("cross edges ", [](Forgery& f) {
     const auto links = f.section<Link>("links");

@@ -217,6 +217,18 @@ TEST(Region, KeepsAVertexThatOnlyAWiderBallConnectsForALaterRing) {
   EXPECT_LT(static_cast<std::size_t>(place), ids.size());
 }
 
+TEST(Region, HasItsOwnRingsAfterThoseOfAnotherVertex) {
+  const TestMesh mesh = make_grid(20, 20, true);
+  const Index index = build(mesh.view());
+  RegionSearcher searcher(index);
+  std::vector<VertexId> ids;
+  std::vector<std::size_t> counts;
+  for (const VertexId v : {210U, 211U, 210U}) {
+    searcher.nested(v, std::array{2.0, 5.0}, ids, counts);
+    EXPECT_THAT(counts, testing::ElementsAre(searcher.count(v, 2), searcher.count(v, 5)));
+  }
+}
+
 TEST(Region, EndsAtWallsAndPassesIgnoredVertices) {
   const TestMesh mesh = make_grid(9, 3, true);
   const Index index = build(mesh.view());
