@@ -80,7 +80,6 @@ class KernelSumReducer final : public PacketReducer {
   /// larger. Then offsets from the center are longer than the radius, and their sums would cancel.
   [[nodiscard]] bool has_moments_for(NodeTree::Node node) const {
     return radius_in_frame_ >= kLeastRadius &&
-           // mutant: moments-of-wide-leaf
            static_cast<double>(reduction_->tree().sphere(node).radius) <= radius_in_frame_;
   }
 
