@@ -3,8 +3,8 @@
 
 /// meshhood: neighborhoods on polygonal meshes, exact and indexed.
 ///
-/// The neighborhood of vertex `v` with radius `r` is the part of the mesh inside the ball of radius `r` around `v` that
-/// is connected to `v` within the ball.
+/// The neighborhood of vertex `v` with radius `r` is the connected component, with `v`, of the part of the mesh inside
+/// the ball of radius `r` around `v`.
 ///
 ///     #include <meshhood/meshhood.h>
 ///

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """meshhood: neighborhoods on polygonal meshes, exact and indexed.
 
-The neighborhood of vertex v with radius r is the part of the mesh inside the ball of radius r around v that is
-connected to v within the ball.
+The neighborhood of vertex v with radius r is the connected component, with v, of the part of the mesh inside the ball
+of radius r around v.
 
     V, F = meshhood.read_mesh("hand.ply")
     index = meshhood.MeshIndex(V, F)
