@@ -61,6 +61,7 @@ struct FeaturesCommand {
 
 std::vector<Feature> kinds_of(const FeaturesCommand& options) {
   std::vector<Feature> kinds;
+  kinds.reserve(options.kinds.size());
   for (const std::string& name : options.kinds) kinds.push_back(value_of(kKinds, name));
   return kinds;
 }
@@ -166,6 +167,7 @@ void write_ply(const FeaturesCommand& options, const FeaturesFound& found, const
     add(options.kinds[kind] + "_radius", [&](std::size_t row) { return lasting.radius[row]; });
   }
   std::vector<io::VertexProperty> properties;
+  properties.reserve(columns.size());
   for (std::size_t i = 0; i < columns.size(); ++i) properties.push_back({names[i], columns[i]});
   std::vector<std::uint8_t> colors;
   for (std::size_t row = 0; row < rows; ++row) {
@@ -178,6 +180,7 @@ void write_ply(const FeaturesCommand& options, const FeaturesFound& found, const
 
 void print(const FeaturesCommand& options, const FeaturesFound& found) {
   std::vector<std::size_t> lasting;
+  lasting.reserve(found.lasting.size());
   for (const Persistence& one : found.lasting) {
     lasting.push_back(static_cast<std::size_t>(
         std::count_if(one.scales.begin(), one.scales.end(), [](std::int32_t scales) { return scales != 0; })));

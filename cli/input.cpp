@@ -86,7 +86,7 @@ void Input::need_faces(const std::string& purpose) const {
 PositionsView Input::positions() {
   if (mesh_) return mesh_->view().positions;
   if (exact_) return graph().positions;
-  if (!positions_) positions_ = positions_of(*paper_);  // NOLINT(bugprone-unchecked-optional-access): one is set
+  if (!positions_) positions_ = positions_of(*paper_);
   return std::visit([](const auto& xyz) { return PositionsView(xyz); }, *positions_);
 }
 

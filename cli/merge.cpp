@@ -71,6 +71,7 @@ std::string difference(const Json& about, const Json& first) {
 /// In order; each shard of the batch once.
 std::vector<ShardFile> open_all(const std::vector<std::string>& names) {
   std::vector<ShardFile> files;
+  files.reserve(names.size());
   for (const std::string& name : names) files.push_back(open(name));
   for (const ShardFile& file : files) {
     if (file.about == files[0].about) continue;

@@ -12,34 +12,34 @@
 namespace meshhood::cli {
 
 /// The values of an enumeration and their names on the command line.
-template <class T, std::size_t size>
-using Names = std::array<std::pair<std::string_view, T>, size>;
+template <class T, std::size_t Size>
+using Names = std::array<std::pair<std::string_view, T>, Size>;
 
 /// The names, in their order.
-template <class T, std::size_t size>
-[[nodiscard]] std::vector<std::string> names_of(const Names<T, size>& names) {
+template <class T, std::size_t Size>
+[[nodiscard]] std::vector<std::string> names_of(const Names<T, Size>& names) {
   std::vector<std::string> result;
   for (const auto& [name, value] : names) result.emplace_back(name);
   return result;
 }
 
 /// The name of a value, which is one of `names`.
-template <class T, std::size_t size>
-[[nodiscard]] std::string_view name_of(const Names<T, size>& names, T value) {
+template <class T, std::size_t Size>
+[[nodiscard]] std::string_view name_of(const Names<T, Size>& names, T value) {
   for (const auto& [name, known] : names) {
     if (known == value) return name;
   }
   return names.front().first;
 }
 
-template <class T, std::size_t size>
-[[nodiscard]] bool is_name_of(const Names<T, size>& names, std::string_view name) {
+template <class T, std::size_t Size>
+[[nodiscard]] bool is_name_of(const Names<T, Size>& names, std::string_view name) {
   return std::any_of(names.begin(), names.end(), [&](const auto& known) { return known.first == name; });
 }
 
 /// The value of a name, which is one of `names`.
-template <class T, std::size_t size>
-[[nodiscard]] T value_of(const Names<T, size>& names, std::string_view name) {
+template <class T, std::size_t Size>
+[[nodiscard]] T value_of(const Names<T, Size>& names, std::string_view name) {
   for (const auto& [known, value] : names) {
     if (known == name) return value;
   }

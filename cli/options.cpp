@@ -210,6 +210,7 @@ double resolve(const Radius& radius, Input& input) {
 
 std::vector<double> resolve(const Radii& radii, Input& input) {
   std::vector<double> result;
+  result.reserve(radii.values.size());
   for (const std::string& value : radii.values) result.push_back(resolve(Radius{value, radii.unit}, input));
   return result;
 }

@@ -128,7 +128,7 @@ void write_page(const fs::path& output, const fs::path& mesh, const PageSettings
   file.write(std::string_view(text).substr(0, place));
   file.write(
       fmt::format("<script type=\"application/json\" id=\"meshhood-settings\">{}</script>\n", to_script(settings)));
-  file.write("<script type=\"text/plain\" id=\"meshhood-mesh\">");
+  file.write(R"(<script type="text/plain" id="meshhood-mesh">)");
   write_base64(file, mesh, task);
   file.write("</script>\n");
   file.write(std::string_view(text).substr(place + kPlace.size()));

@@ -65,11 +65,11 @@ SpacePoint center_of(const Start& start, const io::Mesh& mesh) {
       mesh.positions);
 }
 
-template <class T, class Value, std::size_t n>
-void add_rows(io::NpzWriter& npz, const std::string& name, const std::vector<std::array<Value, n>>& rows) {
-  npz.begin<T>(name, std::array<std::uint64_t, 2>{rows.size(), n});
+template <class T, class Value, std::size_t N>
+void add_rows(io::NpzWriter& npz, const std::string& name, const std::vector<std::array<Value, N>>& rows) {
+  npz.begin<T>(name, std::array<std::uint64_t, 2>{rows.size(), N});
   for (const auto& row : rows) {
-    std::array<T, n> values;
+    std::array<T, N> values;
     std::copy(row.begin(), row.end(), values.begin());
     npz.append(std::span<const T>(values));
   }

@@ -24,7 +24,7 @@
 #include "page.h"
 #include "vertex_files.h"
 
-extern char** environ;
+extern char** environ;  // NOLINT(readability-redundant-declaration): not every system declares it
 
 namespace meshhood::cli {
 namespace {

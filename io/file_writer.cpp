@@ -146,7 +146,7 @@ void FileWriter::seek(std::uint64_t position) {
 void FileWriter::commit(const std::function<void()>& before_rename) {
   flush();
   if (temporary_.empty()) {
-    before_rename();
+    if (before_rename) before_rename();
     if (!file_.close()) fail("close");
     return;
   }
@@ -154,7 +154,7 @@ void FileWriter::commit(const std::function<void()>& before_rename) {
   const Descriptor directory = open_directory();
   if (uninterrupted([this] { return ::fsync(file_.number()); }) != 0) fail("sync");
   if (!file_.close()) fail("close");
-  before_rename();
+  if (before_rename) before_rename();
   if (uninterrupted([this] { return ::rename(temporary_.c_str(), target_.c_str()); }) != 0) fail("rename");
   temporary_.clear();
   sync(directory);

@@ -39,7 +39,7 @@ class FileWriter {
 
   /// Syncs the file and renames it to the target. Call it once, last. `before_rename` is called when the data is on the
   /// disk; if it throws, the target is unchanged.
-  void commit(const std::function<void()>& before_rename = [] {});
+  void commit(const std::function<void()>& before_rename = {});
 
  private:
   void open_in_place();

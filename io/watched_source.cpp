@@ -2,6 +2,7 @@
 #include "io/watched_source.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "io/messages.h"
 
@@ -12,8 +13,8 @@ constexpr std::size_t kMostAtOnce = std::size_t{4} << 20;
 
 }  // namespace
 
-WatchedSource::WatchedSource(ByteSource& source, const Progress& progress, const std::string& name)
-    : source_(source), progress_(progress), file_(name) {}
+WatchedSource::WatchedSource(ByteSource& source, const Progress& progress, std::string name)
+    : source_(source), progress_(progress), file_(std::move(name)) {}
 
 std::size_t WatchedSource::read(std::span<char> out) {
   report();

@@ -17,7 +17,7 @@ namespace meshhood::io {
 class WatchedSource final : public ByteSource {
  public:
   /// `source` and `progress` are borrowed. `name` is the file in messages.
-  WatchedSource(ByteSource& source, const Progress& progress, const std::string& name);
+  WatchedSource(ByteSource& source, const Progress& progress, std::string name);
 
   [[nodiscard]] std::optional<std::uint64_t> size() const override { return source_.size(); }
 

@@ -34,8 +34,9 @@ std::string hex(std::uint64_t number) { return fmt::format("{:016x}", number); }
 
 std::uint64_t number_of(std::string_view hex_digits) {
   std::uint64_t number = 0;
-  const char* const end = hex_digits.data() + hex_digits.size();
-  const auto [rest, error] = std::from_chars(hex_digits.data(), end, number, 16);
+  const char* const begin = hex_digits.data();
+  const char* const end = begin + hex_digits.size();
+  const auto [rest, error] = std::from_chars(begin, end, number, 16);
   if (hex_digits.size() != 16 || error != std::errc() || rest != end) {
     raise(ErrorCode::MalformedIndex, fmt::format("{}, expected 16 hexadecimal digits", io::quote(hex_digits)));
   }

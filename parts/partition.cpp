@@ -73,8 +73,12 @@ void check_number_of_parts(std::uint64_t parts, std::uint64_t sample_bytes) {
 /// One run of `partition`.
 class Run {
  public:
-  Run(ChunkedMesh& mesh, const fs::path& folder, const PartitionOptions& options)
-      : mesh_(mesh), folder_(folder), options_(options), budget_(options.memory), stages_(options.progress) {}
+  Run(ChunkedMesh& mesh, fs::path folder, const PartitionOptions& options)
+      : mesh_(mesh),
+        folder_(std::move(folder)),
+        options_(options),
+        budget_(options.memory),
+        stages_(options.progress) {}
 
   PartitionResult run() {
     const FolderLock lock(folder_);

@@ -37,7 +37,7 @@ struct Adjacency {
 
   /// Borrows from this object. A view of a temporary does not compile.
   [[nodiscard]] AdjacencyView view() const& { return {offsets, neighbors}; }
-  AdjacencyView view() const&& = delete;
+  [[nodiscard]] AdjacencyView view() const&& = delete;
 };
 
 /// Vertices with positions and a graph given directly, for data without polygons. Borrowed like a `MeshView`.
@@ -58,7 +58,7 @@ struct GraphData {
   [[nodiscard]] GraphView view() const& {
     return {std::visit([](const auto& xyz) { return PositionsView(xyz); }, positions), adjacency.view()};
   }
-  GraphView view() const&& = delete;
+  [[nodiscard]] GraphView view() const&& = delete;
 };
 
 /// The graph of a mesh (see `FacesView`). O(#V + #corners log(valence)). One thread.

@@ -20,7 +20,7 @@ struct ReorderedMesh {
 
   /// The mesh. Borrows from this object; a view of a temporary does not compile.
   [[nodiscard]] MeshView view() const&;
-  MeshView view() const&& = delete;
+  [[nodiscard]] MeshView view() const&& = delete;
 };
 
 /// Builds the index of `mesh` and renumbers the mesh: vertices in index order, faces by their first vertex in it. The

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -282,7 +283,7 @@ double smoothing_radius(double fwhm) {
   // Of all Gaussians in the plane, that of the standard deviation 0.4 r differs least from the biweight, by 10 % of its
   // L2 norm.
   constexpr double kDeviationOfBiweight = 0.4;
-  const double deviations_of_fwhm = 2 * std::sqrt(2 * std::log(2.0));
+  const double deviations_of_fwhm = 2 * std::sqrt(2 * std::numbers::ln2);
   return fwhm / deviations_of_fwhm / kDeviationOfBiweight;
 }
 

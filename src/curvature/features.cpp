@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "meshhood/error.h"
@@ -63,11 +64,11 @@ double patch_feature(Feature kind, const PrincipalComponents& patch, std::size_t
 class FeatureExtraction {
  public:
   FeatureExtraction(const CurvatureIndex& surface, const BatchVertices& vertices, std::span<const double> radii,
-                    const FeatureOptions& options)
+                    FeatureOptions options)
       : surface_(surface),
         state_(CurvatureAccess::state(surface)),
         radii_(radii.begin(), radii.end()),
-        options_(options) {
+        options_(std::move(options)) {
     check();
     rows_ = surface.vertex_count();
     if (!vertices.list()) return;

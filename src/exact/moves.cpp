@@ -57,7 +57,7 @@ class Backup {
   Backup(const Backup&) = delete;
   Backup& operator=(const Backup&) = delete;
 
-  ~Backup() {
+  ~Backup() {  // NOLINT(bugprone-exception-escape): std::visit throws only for a variant without a value
     if (kept_) return;
     write_moves(positions_, index_, geometry_.positions);  // mutant: failed-move-keeps-positions
     for (const auto& [leaf, bounds] : bounds_) geometry_.leaves[leaf].bounds = bounds;

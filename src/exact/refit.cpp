@@ -117,7 +117,7 @@ Index refit(const Index& index, const PositionsView& positions, const IndicesVie
 }
 
 Index refit(Index&& index, const PositionsView& positions, const IndicesView& changed, const BuildOptions& options) {
-  std::shared_ptr<IndexView>& view = IndexAccess::storage(index);
+  const std::shared_ptr<IndexView>& view = IndexAccess::storage(index);
   if (!view->geometry || !is_only_owner(view)) return refit(std::as_const(index), positions, changed, options);
   TaskContext task(options.threads, options.progress, kGeometrySteps);
   const std::vector<Move> moves = checked_moves(*view, positions, changed);

@@ -51,6 +51,8 @@ MESHHOOD_TARGET inline void add_exactly(RowSums& sums, std::size_t block, const 
   }
 }
 
+// NOLINTBEGIN(modernize-avoid-c-arrays): a template would lose the attributes of `Doubles`.
+
 MESHHOOD_TARGET void add_values(std::span<const double> values, const QueryWord* words, RowSums& sums) {
   for (std::size_t block = 0; block < kPacketCapacity; block += kBlock) {
     Doubles sum[kParts]{};
@@ -181,6 +183,8 @@ MESHHOOD_TARGET void add_moments(const Moments& moments, const Offsets& offsets,
     add_exactly(sums, block, sum);
   }
 }
+
+// NOLINTEND(modernize-avoid-c-arrays)
 
 constexpr AggregateKernels kAggregateKernels{add_values,  lower_minima, sum_deviations, set_offsets,
                                              set_weights, add_weighted, add_moments};

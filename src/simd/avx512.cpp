@@ -159,9 +159,9 @@ MESHHOOD_AVX512 VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId
 
 const Kernels& avx512_kernels() {
   // A group has eight floats a row, the width of an AVX2 register.
-  static const Kernels kAll{within_float, within_exact<double>,    nearest, nearest_of<double>, cross_edges,
-                            reachable,    avx2_kernels().classify, compress};
-  return kAll;
+  static const Kernels all{within_float, within_exact<double>,    nearest, nearest_of<double>, cross_edges,
+                           reachable,    avx2_kernels().classify, compress};
+  return all;
 }
 
 }  // namespace meshhood

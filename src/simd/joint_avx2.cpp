@@ -178,7 +178,7 @@ MESHHOOD_JOINT SpreadWords spread_words(LeafWords& words, const LaneMask* adjace
 class BitCounters {
  public:
   MESHHOOD_JOINT void add(const PerLane<QueryWord>& words) {
-    add_pair(load8(&words[0]), load8(&words[8]));
+    add_pair(load8(words.data()), load8(&words[8]));
     add_pair(load8(&words[16]), load8(&words[24]));
   }
 

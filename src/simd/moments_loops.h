@@ -69,7 +69,7 @@ constexpr std::array<Factors, 10> kSmallPowers{
 
 /// The moments, as products of two of these: the first two of the factors x..., y..., z... in this order, and the rest.
 constexpr std::array<Factors, PaddedMoments::kPadded> kFactors = [] {
-  constexpr auto small = [](std::array<std::size_t, 3> n) {
+  const auto small = [](std::array<std::size_t, 3> n) {
     constexpr std::array<std::size_t, 3> kFirstOfAxis{4, 7, 9};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (n[axis] == 2) return kFirstOfAxis[axis];

@@ -113,7 +113,7 @@ class Numbering {
     record.nodes = static_cast<std::uint32_t>(members.size());
     record.first_child = next_child_;
     for (std::size_t i = 0; i < members.size(); ++i) {
-      const auto node = static_cast<NodeId>(group * kFanOut + i);
+      const auto node = static_cast<NodeId>(std::size_t{group} * kFanOut + i);
       if (level == 0) {
         forest_.leaves[node] = members[i];
       } else {

@@ -23,11 +23,11 @@ std::size_t widest_axis(std::span<const KdPoint> points) {
   return static_cast<std::size_t>(std::max_element(width.begin(), width.end()) - width.begin());
 }
 
-template <std::size_t axis>
+template <std::size_t Axis>
 void cut_at(std::span<KdPoint> points, std::size_t middle) {
   nth_element(points, middle, [](const KdPoint& a, const KdPoint& b) {
     // mutant: ties-in-given-order
-    return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.id < b.id;
+    return a.at[Axis] != b.at[Axis] ? a.at[Axis] < b.at[Axis] : a.id < b.id;
   });
 }
 

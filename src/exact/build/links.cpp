@@ -17,7 +17,7 @@ Exit make_exit(unsigned lane, std::uint32_t slot) {
   return (leaf * kLeafCapacity + lane) * kLeafCapacity + lane_of(slot);
 }
 
-LeafId target_leaf(Exit exit) { return static_cast<LeafId>(exit / (kLeafCapacity * kLeafCapacity)); }
+LeafId target_leaf(Exit exit) { return static_cast<LeafId>(exit / (Exit{kLeafCapacity} * kLeafCapacity)); }
 
 CrossEdge cross_edge_of(Exit exit) {
   return {static_cast<std::uint8_t>(exit / kLeafCapacity % kLeafCapacity),

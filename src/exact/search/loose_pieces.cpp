@@ -2,6 +2,7 @@
 #include "exact/search/loose_pieces.h"
 
 #include <algorithm>
+#include <ranges>
 #include <tuple>
 
 #include "base/distance.h"
@@ -36,8 +37,7 @@ void LoosePieces::gather_surface_leaves(std::span<const LeafSubset> surface_leav
 /// large ones.
 void LoosePieces::gather_whole(std::span<const std::uint32_t> groups, const TreeBall& ball, HomeMarks& marks,
                                GroupStates& states) {
-  for (auto at = groups.rbegin(); at != groups.rend(); ++at) {
-    const std::uint32_t group = *at;
+  for (const std::uint32_t group : std::views::reverse(groups)) {
     const GroupState& state = states[group];
     for_each_node(state.whole & state.in_doubt & static_cast<NodeSet>(~state.home), [&](unsigned i) {
       const NodeId node = group * kFanOut + i;
