@@ -2,7 +2,6 @@
 #include "exact/search/loose_pieces.h"
 
 #include <algorithm>
-#include <ranges>
 #include <tuple>
 
 #include "base/distance.h"
@@ -37,7 +36,8 @@ void LoosePieces::gather_surface_leaves(std::span<const LeafSubset> surface_leav
 /// large ones.
 void LoosePieces::gather_whole(std::span<const std::uint32_t> groups, const TreeBall& ball, HomeMarks& marks,
                                GroupStates& states) {
-  for (const std::uint32_t group : std::views::reverse(groups)) {
+  for (std::size_t place = groups.size(); place-- > 0;) {
+    const std::uint32_t group = groups[place];
     const GroupState& state = states[group];
     for_each_node(state.whole & state.in_doubt & static_cast<NodeSet>(~state.home), [&](unsigned i) {
       const NodeId node = group * kFanOut + i;
