@@ -28,8 +28,8 @@ namespace meshhood::cli {
 namespace {
 
 constexpr const char* kDescription =
-    "Neighborhoods on polygonal meshes: the part of the mesh inside a ball around a vertex that is connected to the\n"
-    "vertex within the ball. Exact, with an index.";
+    "Neighborhoods on polygonal meshes: the connected component of the mesh inside a ball around a vertex,\n"
+    "exact and indexed.";
 
 /// Part of the interface of the program.
 enum class ExitCode {

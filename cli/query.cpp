@@ -182,9 +182,10 @@ std::vector<Answer> answers_of_starts(const QueryCommand& options, std::span<con
                                       : regions_of(options.start, start, radii, input);
     if (!options.distances) found.distances.clear();
     answers.push_back({start.vertex(), std::move(found.counts), std::move(found.vertices), std::move(found.distances)});
-    if (options.start.is_plain() && !options.rings) {
-      note_whole_component(method_of(options, input), radii.back(), answers.back());
-    }
+  }
+  if (options.start.is_plain() && !options.rings) {
+    const Method method = method_of(options, input);
+    for (const Answer& answer : answers) note_whole_component(method, radii.back(), answer);
   }
   return answers;
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 
 /**
- * meshhood: neighborhoods on polygonal meshes, exact and indexed.
+ * meshhood: the connected component of a mesh inside a ball around a vertex, exact and indexed.
  *
- * The neighborhood of vertex v with radius r is the part of the mesh inside the ball of radius r around v that is
- * connected to v within the ball.
+ * The neighborhood of vertex v with radius r: of the part of the mesh inside the ball of radius r around v, the
+ * connected component that contains v.
  *
  *     import { MeshIndex, initialize, readMesh } from 'meshhood';
  *

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""meshhood: neighborhoods on polygonal meshes, exact and indexed.
+"""meshhood: the connected component of a mesh inside a ball around a vertex, exact and indexed.
 
-The neighborhood of vertex v with radius r is the connected component, with v, of the part of the mesh inside the ball
-of radius r around v.
+The neighborhood of vertex v with radius r: of the part of the mesh inside the ball of radius r around v, the connected
+component that contains v.
 
     V, F = meshhood.read_mesh("hand.ply")
     index = meshhood.MeshIndex(V, F)
