@@ -91,7 +91,8 @@ class Rows {
   template <class T>
   void value(T value) {
     if (ascii_) {
-      // The shortest text that parses to the same number. Not by fmt::format_to, which {fmt} 9 would compile here again.
+      // The shortest text that parses to the same number. Not by fmt::format_to, which {fmt} 9 would compile here
+      // again.
       if (!row_.empty()) row_ += ' ';
       row_ += fmt::format("{}", value);
     } else {

@@ -3,8 +3,8 @@
 
 /// meshhood: the connected component of a mesh inside a ball around a vertex, exact and indexed.
 ///
-/// The neighborhood of vertex `v` with radius `r`: of the part of the mesh inside the ball of radius `r` around `v`, the
-/// connected component that contains `v`.
+/// The neighborhood of vertex `v` with radius `r`: of the part of the mesh inside the ball of radius `r` around `v`,
+/// the connected component that contains `v`.
 ///
 ///     #include <meshhood/meshhood.h>
 ///
