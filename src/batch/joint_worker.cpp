@@ -26,7 +26,6 @@ JointWorker::JointWorker(const Index& index, Isa isa)
       isa_(isa),
       radius_(view_.frame, 0),
       unlike_a_surface_(is_unlike_a_surface(view_)),
-      by_leaf_(view_),
       writer_(view_, isa) {}
 
 void JointWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink) {
@@ -87,8 +86,6 @@ void JointWorker::visit(std::span<const BatchItem> chunk, const std::function<bo
 /// them returns false.
 template <class Together, class Single>
 void JointWorker::for_each_run(std::span<const BatchItem> chunk, Together&& together, Single&& single) {
-  // The order of an answer depends on the earlier queries of the searcher.
-  if (searcher_) SearcherAccess::state(*searcher_).forget();
   split(chunk);
   const auto group_of = [](const Run& run) { return run.leaf / kFanOut; };
   for (std::size_t i = 0; i < runs_.size(); ++i) {
@@ -163,38 +160,8 @@ const JointRadius& JointWorker::prepared(double radius) {
 
 const VertexSet& JointWorker::search_single(const BatchItem& item) {
   SearcherAccess::State& state = SearcherAccess::state(searcher());
-  if (const auto found = state.vertex_bfs.find(item.vertex, item.radius); !found.empty()) {
-    add_by_leaf(state.vertex_bfs.ranges_of(found));
-    return by_leaf_;
-  }
   state.search(item.vertex, item.radius);
   return state.answer;
-}
-
-/// Cuts ranges, which ascend, into whole leaves and parts of leaves.
-void JointWorker::add_by_leaf(std::span<const VertexRange> ranges) {
-  by_leaf_.clear();
-  LeafSubset part{0, 0};
-  const auto end_part = [&] {
-    if (part.lanes != 0) by_leaf_.add(part);
-    part.lanes = 0;
-  };
-  for (const VertexRange& range : ranges) {
-    for (VertexId begin = range.begin; begin < range.end;) {
-      const LeafId leaf = leaf_of(view_.slot[view_.id(begin)]);
-      const VertexRange whole{view_.leaf_begin[leaf], view_.leaf_begin[leaf + 1]};
-      const VertexId end = std::min(range.end, whole.end);
-      if (part.leaf != leaf) end_part();
-      if (VertexRange{begin, end} == whole) {
-        by_leaf_.add(whole);
-      } else {
-        const auto lanes = first_lanes(static_cast<unsigned>(end - begin)) << (begin - whole.begin);
-        part = {leaf, part.lanes | lanes};
-      }
-      begin = end;
-    }
-  }
-  end_part();
 }
 
 Point JointWorker::position_of(const BatchItem& item) const {
@@ -202,12 +169,7 @@ Point JointWorker::position_of(const BatchItem& item) const {
 }
 
 Searcher& JointWorker::searcher() {
-  if (!searcher_) {
-    searcher_.emplace(index_);
-    VertexBfs& vertex_bfs = SearcherAccess::state(*searcher_).vertex_bfs;
-    // A batch has few rows to answer alone, and a copy of the graph would take longer.
-    if (!vertex_bfs.answers_all()) vertex_bfs.answer_none();
-  }
+  if (!searcher_) searcher_.emplace(index_);
   return *searcher_;
 }
 

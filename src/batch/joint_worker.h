@@ -49,7 +49,6 @@ class JointWorker final : public BatchWorker {
   [[nodiscard]] bool pays(std::span<const BatchItem> items) const;
   [[nodiscard]] const JointRadius& prepared(double radius);
   const VertexSet& search_single(const BatchItem& item);
-  void add_by_leaf(std::span<const VertexRange> ranges);
   [[nodiscard]] Point position_of(const BatchItem& item) const;
   Searcher& searcher();
 
@@ -63,7 +62,6 @@ class JointWorker final : public BatchWorker {
   std::vector<LeafId> leaves_;
   std::vector<JointQuery> queries_;
   bool unlike_a_surface_;
-  VertexSet by_leaf_;
   RowWriter writer_;
   PacketRows rows_;
   SinglePacket single_packet_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "batch/single_packet.h"
 
+#include <algorithm>
+
 namespace meshhood {
 
 void PacketRows::assign(std::span<const BatchItem> items) {
@@ -19,14 +21,16 @@ const PacketAnswer& SinglePacket::describe(const IndexView& index, const VertexS
   const auto leaf_of_vertex = [&](VertexId vertex) { return leaf_of(index.slot[index.id(vertex)]); };
   whole_.clear();
   partial_.clear();
-  words_.resize(found.subsets().size());
-  for (const VertexRange& run : found.runs()) {
-    whole_.push_back({{leaf_of_vertex(run.begin), leaf_of_vertex(run.end - 1) + 1, run}, kQuery});
-  }
-  for (std::size_t i = 0; i < words_.size(); ++i) {
-    const auto [leaf, lanes] = found.subsets()[i];
-    for (unsigned lane = 0; lane < kLeafCapacity; ++lane) words_[i][lane] = lanes >> lane & kQuery;
-    partial_.push_back({leaf, {index.leaf_begin[leaf], index.leaf_begin[leaf + 1]}, words_[i]});
+  const auto is_subset = [](const VertexSet::Part& part) { return !part.is_run(); };
+  words_.resize(static_cast<std::size_t>(std::ranges::count_if(found.parts(), is_subset)));
+  for (const auto& [begin, end, lanes] : found.parts()) {
+    if (lanes == 0) {
+      whole_.push_back({{leaf_of_vertex(begin), leaf_of_vertex(end - 1) + 1, {begin, end}}, kQuery});
+    } else {
+      PerLane<QueryWord>& words = words_[partial_.size()];
+      for (unsigned lane = 0; lane < kLeafCapacity; ++lane) words[lane] = lanes >> lane & kQuery;
+      partial_.push_back({leaf_of_vertex(begin), {begin, end}, words});
+    }
   }
   answer_.queries = kQuery;
   answer_.whole = whole_;

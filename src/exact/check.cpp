@@ -21,9 +21,6 @@ namespace {
 
 constexpr std::size_t kMaxFaults = 16;
 
-// The number of vertices from which the minimum regions are tested.
-constexpr std::size_t kViewpoints = 24;
-
 /// Collects the faults found, up to a limit.
 class Faults {
  public:
@@ -58,7 +55,6 @@ class Check {
     check_connected();
     check_forest();
     check_spheres();
-    check_regions();
     return faults_.take();
   }
 
@@ -194,36 +190,6 @@ class Check {
 
   static bool encloses(const FrameSphere& sphere, const Point& p) {
     return std::sqrt(squared_distance(center_of(sphere), p)) <= static_cast<double>(sphere.radius);
-  }
-
-  void check_regions() {
-    const std::size_t vertices = index_.vertex_count();
-    const std::size_t step = std::max<std::size_t>(1, vertices / kViewpoints);
-    for (std::size_t v = 0; v < vertices; v += step) check_regions_from(v);
-  }
-
-  /// Every local minimum of the distance from `v` must lie in nodes whose minimum regions contain `v`.
-  void check_regions_from(std::size_t v) {
-    const TreeBall ball(index_.frame, position(v), 0);
-    for (std::size_t w = 0; w < index_.vertex_count(); ++w) {
-      if (w == v || !is_minimum(w, position(v))) continue;
-      for (NodeId node = leaf_of(index_.slot[w]); node != kNoNode; node = index_.parents[node / kFanOut]) {
-        const std::uint32_t group = node / kFanOut;
-        GroupContainment found{};
-        portable_kernels().classify(index_.groups.data(), std::span(&group, 1), ball, &found);
-        faults_.expect((found.may_have_minimum >> node % kFanOut & 1U) != 0, [&] {
-          return node_name(node) + ": vertex " + std::to_string(v) +
-                 " lies outside the minimum region, but sees vertex " + std::to_string(w) + " as a local minimum";
-        });
-      }
-    }
-  }
-
-  [[nodiscard]] bool is_minimum(std::size_t w, const Point& from) const {
-    const double square = squared_distance(position(w), from);
-    const auto row = graph_.adjacency[w];
-    return std::none_of(row.begin(), row.end(),
-                        [&](VertexId u) { return squared_distance(position(u), from) < square; });
   }
 
   const IndexView& index_;

@@ -22,7 +22,7 @@ namespace {
 
 // No padding bytes: every byte in the file has a defined value.
 static_assert(sizeof(Frame) == 32 && sizeof(Leaf) == 28 && sizeof(Link) == 12 && sizeof(CrossEdge) == 2 &&
-              sizeof(Group) == 256 && sizeof(GroupRecord) == 64 && sizeof(NodeLink) == 5);
+              sizeof(Group) == 128 && sizeof(GroupRecord) == 64 && sizeof(NodeLink) == 5);
 
 template <class T>
 void take(file::SectionReader& file, const char* section, std::span<const T>& array) {

@@ -91,6 +91,12 @@ struct TreeLevel {
   double mean_radius = 0;  // of the bounding spheres, in the frame
 };
 
+/// The groups of leaves below a node.
+struct LeafGroupRange {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+};
+
 /// Leaves first.
 using Tree = std::vector<TreeLevel>;
 
@@ -113,13 +119,20 @@ struct IndexView {
   std::span<const double> mean_radii;      // by level
   Tree tree;                               // the levels, made from `levels`, `records` and `mean_radii`
   RootTree roots;                          // over the groups that no node covers
-  std::shared_ptr<const void> owner;       // a `ConnectivityData`, or the bytes of an index file
-  std::shared_ptr<GeometryData> geometry;  // of this view alone; none while all arrays are in a file
+  std::vector<LeafGroupRange> leaf_groups;  // by node above the leaves, the first of which follows on the last leaf
+  std::shared_ptr<const void> owner;        // a `ConnectivityData`, or the bytes of an index file
+  std::shared_ptr<GeometryData> geometry;   // of this view alone; none while all arrays are in a file
   std::shared_ptr<SharedGraph> graph = std::make_shared<SharedGraph>();  // over vertices, along edges
 
   [[nodiscard]] std::size_t vertex_count() const { return slot.size(); }
   /// The number of places for leaves. A leaf that does not exist has no vertices.
   [[nodiscard]] std::size_t leaf_count() const { return leaf_begin.size() - 1; }
+
+  /// Whether the nodes of a group are leaves.
+  [[nodiscard]] bool is_of_leaves(std::size_t group) const { return group * kFanOut < leaf_count(); }
+
+  /// The groups of leaves below a node that is not a leaf.
+  [[nodiscard]] const LeafGroupRange& leaf_groups_of(NodeId node) const { return leaf_groups[node - leaf_count()]; }
 
   /// The caller's id of a vertex in index order.
   [[nodiscard]] VertexId id(std::size_t vertex) const {
@@ -189,7 +202,7 @@ void for_each_array(F&& f, Indexes&... indexes) {
 [[nodiscard]] Tree make_levels(std::span<const std::uint32_t> levels, std::span<const GroupRecord> records,
                                std::span<const double> mean_radii);
 
-/// Sets `tree` and `roots`, which follow from the arrays.
+/// Sets `tree`, `roots` and `leaf_groups`, which follow from the arrays. Takes arrays that are not verified yet.
 void derive(IndexView& index);
 
 }  // namespace meshhood

@@ -13,7 +13,7 @@
 #include "base/text.h"
 #include "base/valid_position.h"
 #include "exact/arrays.h"
-#include "exact/build/leaf_nodes.h"
+#include "exact/build/leaf_spheres.h"
 #include "exact/build/tree.h"
 
 namespace meshhood {
@@ -25,21 +25,12 @@ std::size_t vertex_at(const IndexView& index, std::uint32_t slot) {
 
 Point position_at(const IndexView& index, std::uint32_t slot) { return index.position(leaf_of(slot), lane_of(slot)); }
 
-/// The leaves whose nodes change, ascending: those of the vertices, and those with an edge to one of the vertices,
-/// whose minimum regions depend on it.
-std::vector<LeafId> leaves_to_measure(std::span<const Move> moves, const IndexView& index) {
+/// The leaves of the vertices, ascending, as the moves do.
+std::vector<LeafId> leaves_to_measure(std::span<const Move> moves) {
   std::vector<LeafId> leaves;
-  for (std::size_t i = 0; i < moves.size();) {
-    const LeafId leaf = leaf_of(moves[i].slot);
-    LaneMask moved = 0;
-    for (; i < moves.size() && leaf_of(moves[i].slot) == leaf; ++i) moved |= LaneMask{1} << lane_of(moves[i].slot);
-    leaves.push_back(leaf);
-    for (const Link& link : index.links_of(leaf)) {
-      if ((link.boundary & moved) != 0) leaves.push_back(link.leaf);  // mutant: leaves-next-to-moved-not-measured
-    }
+  for (const Move& move : moves) {
+    if (leaves.empty() || leaves.back() != leaf_of(move.slot)) leaves.push_back(leaf_of(move.slot));
   }
-  std::sort(leaves.begin(), leaves.end());
-  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
   return leaves;
 }
 
@@ -76,16 +67,6 @@ class Backup {
   std::vector<double> mean_radii_;
   bool kept_ = false;
 };
-
-NodeList measure(std::span<const LeafId> leaves, const IndexView& index, TaskContext& task) {
-  constexpr std::size_t kGrain = 64;
-  NodeList nodes(leaves.size());
-  task.parallel_for(leaves.size(), kGrain, [&](unsigned, std::size_t begin, std::size_t end) {
-    LeafMeasure measure(index);
-    for (std::size_t i = begin; i < end; ++i) measure.measure(leaves[i], nodes, i);
-  });
-  return nodes;
-}
 
 }  // namespace
 
@@ -130,12 +111,12 @@ void write_moves(std::span<const Move> moves, const IndexView& index, PositionsD
 
 void apply_moves(std::span<const Move> moves, IndexView& index, TaskContext& task) {
   GeometryData& geometry = *index.geometry;
-  const std::vector<LeafId> leaves = leaves_to_measure(moves, index);
+  const std::vector<LeafId> leaves = leaves_to_measure(moves);
   Backup backup(moves, leaves, index);
   write_moves(moves, index, geometry.positions);
-  NodeList nodes = measure(leaves, index, task);
-  for (std::size_t i = 0; i < leaves.size(); ++i) geometry.leaves[leaves[i]].bounds = nodes.bounds[i];
-  update_tree(leaves, std::move(nodes), index, geometry.groups, geometry.mean_radii);
+  Spheres spheres = measure_leaves(leaves, index, task);
+  for (std::size_t i = 0; i < leaves.size(); ++i) geometry.leaves[leaves[i]].bounds = spheres[i];
+  update_tree(leaves, std::move(spheres), index, geometry.groups, geometry.mean_radii);
   task.finish();
   backup.keep();
   for (std::size_t level = 0; level < index.tree.size(); ++level) {

@@ -49,12 +49,10 @@ class TreeCheck {
       if (!is_absent(g, i)) file_.refuse(&g, name(group * kFanOut + i) + ": expected an absent node");
       return;
     }
-    // The offset may be infinite, which means an unbounded region; the comparison rejects NaN.
-    const bool is_finite = std::isfinite(g.x[i]) && std::isfinite(g.y[i]) && std::isfinite(g.z[i]) &&
-                           std::isfinite(g.radius[i]) && std::isfinite(g.slope_x[i]) && std::isfinite(g.slope_y[i]) &&
-                           std::isfinite(g.slope_z[i]);
-    if (is_finite && g.radius[i] > 0 && g.offset[i] > 0) return;  // mutant: empty-sphere-accepted
-    file_.refuse(&g, name(group * kFanOut + i) + ": the bounding sphere or minimum region is not valid");
+    const bool is_finite =
+        std::isfinite(g.x[i]) && std::isfinite(g.y[i]) && std::isfinite(g.z[i]) && std::isfinite(g.radius[i]);
+    if (is_finite && g.radius[i] > 0) return;  // mutant: empty-sphere-accepted
+    file_.refuse(&g, name(group * kFanOut + i) + ": the bounding sphere is not valid");
   }
 
   void check_same_sphere(std::size_t leaf) const {

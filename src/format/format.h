@@ -19,8 +19,9 @@ inline constexpr std::array<std::uint8_t, 8> kMagic{0x8B, 'M', 'H', 'I', '\r', '
 inline constexpr std::uint32_t kByteOrderMark = 0x01020304;
 inline constexpr std::uint32_t kOtherByteOrder = 0x04030201;
 
-/// The format of files of this kind. Exact indexes of format 1 had a tree without links.
-[[nodiscard]] constexpr std::uint32_t format_of(IndexKind kind) { return kind == IndexKind::Paper ? 1 : 2; }
+/// The format of files of this kind. Exact indexes of format 1 had a tree without
+/// links; those of format 2 had regions for each node that the search no longer uses.
+[[nodiscard]] constexpr std::uint32_t format_of(IndexKind kind) { return kind == IndexKind::Paper ? 1 : 3; }
 
 struct Header {
   std::array<std::uint8_t, 8> magic = kMagic;

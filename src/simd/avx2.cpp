@@ -173,15 +173,7 @@ MESHHOOD_AVX2 inline GroupContainment classify_group(const Group& group, const T
   const __m256 near = _mm256_max_ps(_mm256_sub_ps(_mm256_set1_ps(ball.inner), radius), _mm256_setzero_ps());
   const unsigned outside = bits(_mm256_cmp_ps(square, _mm256_mul_ps(far, far), _CMP_GT_OQ));
   const unsigned inside = bits(_mm256_cmp_ps(square, _mm256_mul_ps(near, near), _CMP_LT_OQ));
-  const __m256 height = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x, _mm256_load_ps(group.slope_x.data())),
-                                                    _mm256_mul_ps(y, _mm256_load_ps(group.slope_y.data()))),
-                                      _mm256_mul_ps(z, _mm256_load_ps(group.slope_z.data())));
-  const __m256 extent =
-      _mm256_add_ps(_mm256_load_ps(group.offset.data()), _mm256_andnot_ps(_mm256_set1_ps(-0.0F), height));
-  const unsigned beyond_region = bits(
-      _mm256_cmp_ps(_mm256_mul_ps(square, _mm256_set1_ps(kRegionMargin)), _mm256_mul_ps(extent, extent), _CMP_GT_OQ));
-  return {static_cast<std::uint8_t>(inside), static_cast<std::uint8_t>(~(outside | inside)),
-          static_cast<std::uint8_t>(~beyond_region)};
+  return {static_cast<std::uint8_t>(inside), static_cast<std::uint8_t>(~(outside | inside))};
 }
 
 MESHHOOD_AVX2 void classify(const Group* groups, std::span<const std::uint32_t> list, const TreeBall& ball,

@@ -18,6 +18,13 @@ using LaneMask = std::uint32_t;
 /// The first `n` lanes; `n` <= 32.
 [[nodiscard]] constexpr LaneMask first_lanes(unsigned n) { return n == 0 ? 0 : ~LaneMask{0} >> (kLeafCapacity - n); }
 
+/// std::popcount, which is a call of a library function when compiling for the oldest processors.
+[[nodiscard]] inline std::size_t count_of(LaneMask lanes) {
+  lanes -= lanes >> 1 & 0x55555555U;
+  lanes = (lanes & 0x33333333U) + (lanes >> 2 & 0x33333333U);
+  return ((lanes + (lanes >> 4)) & 0x0F0F0F0FU) * 0x01010101U >> 24;
+}
+
 /// Calls `f(lane)` for every lane of the set, in ascending order.
 template <class F>
 void for_each_lane(LaneMask lanes, F&& f) {

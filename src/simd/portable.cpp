@@ -34,7 +34,7 @@ LaneMask reachable(const LaneMask* adjacency, LaneMask among, LaneMask from) {
 }
 
 GroupContainment classify_group(const Group& group, const TreeBall& ball) {
-  GroupContainment result{0, 0, 0};
+  GroupContainment result{0, 0};
   for (unsigned i = 0; i < kFanOut; ++i) {
     const float x = ball.x - group.x[i];
     const float y = ball.y - group.y[i];
@@ -44,13 +44,8 @@ GroupContainment classify_group(const Group& group, const TreeBall& ball) {
     const float near = ball.inner - group.radius[i];
     const bool outside = square > far * far;               // mutant: outside-of-inner-ball
     const bool inside = near > 0 && square < near * near;  // mutant: inside-of-outer-ball
-    const float height = (x * group.slope_x[i] + y * group.slope_y[i]) + z * group.slope_z[i];
-    const float extent = group.offset[i] + (height < 0 ? -height : height);
-    const bool beyond_region = square * kRegionMargin > extent * extent;
     result.inside = static_cast<std::uint8_t>(result.inside | unsigned{inside} << i);
     result.intersecting = static_cast<std::uint8_t>(result.intersecting | unsigned{!outside && !inside} << i);
-    // mutant: no-candidate-nodes
-    result.may_have_minimum = static_cast<std::uint8_t>(result.may_have_minimum | unsigned{!beyond_region} << i);
   }
   return result;
 }

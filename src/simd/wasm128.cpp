@@ -46,22 +46,15 @@ GroupContainment classify_half(const Group& group, const TreeBall& ball, unsigne
   const v128_t outside = wasm_f32x4_gt(square, wasm_f32x4_mul(far, far));
   const v128_t inside =
       wasm_v128_and(wasm_f32x4_gt(near, wasm_f32x4_splat(0)), wasm_f32x4_lt(square, wasm_f32x4_mul(near, near)));
-  const v128_t height =
-      wasm_f32x4_add(wasm_f32x4_add(wasm_f32x4_mul(x, load(group.slope_x)), wasm_f32x4_mul(y, load(group.slope_y))),
-                     wasm_f32x4_mul(z, load(group.slope_z)));
-  const v128_t extent = wasm_f32x4_add(load(group.offset), wasm_f32x4_abs(height));
-  const v128_t beyond_region =
-      wasm_f32x4_gt(wasm_f32x4_mul(square, wasm_f32x4_splat(kRegionMargin)), wasm_f32x4_mul(extent, extent));
   const auto bits = [](v128_t mask) { return static_cast<std::uint8_t>(wasm_i32x4_bitmask(mask)); };
-  return {bits(inside), bits(wasm_v128_not(wasm_v128_or(outside, inside))), bits(wasm_v128_not(beyond_region))};
+  return {bits(inside), bits(wasm_v128_not(wasm_v128_or(outside, inside)))};
 }
 
 GroupContainment classify_group(const Group& group, const TreeBall& ball) {
   const GroupContainment low = classify_half(group, ball, 0);
   const GroupContainment high = classify_half(group, ball, kFanOut / 2);
   const auto join = [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(a | b << kFanOut / 2); };
-  return {join(low.inside, high.inside), join(low.intersecting, high.intersecting),
-          join(low.may_have_minimum, high.may_have_minimum)};
+  return {join(low.inside, high.inside), join(low.intersecting, high.intersecting)};
 }
 
 void classify(const Group* groups, std::span<const std::uint32_t> list, const TreeBall& ball, GroupContainment* out) {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "exact/build/leaf_nodes.h"
+#include "exact/build/leaf_spheres.h"
 #include "exact/build/tree.h"
 
 namespace meshhood {
@@ -39,8 +39,8 @@ void measure_geometry(const IndexView& connectivity, GeometryData& geometry, Tas
   index.frame = geometry.frame;
   index.positions = view_of(geometry.positions);
   index.leaves = geometry.leaves;
-  NodeList leaves = make_leaf_nodes(index, task);
-  for (std::size_t leaf = 0; leaf < leaves.bounds.size(); ++leaf) geometry.leaves[leaf].bounds = leaves.bounds[leaf];
+  Spheres leaves = measure_leaves(index, task);
+  for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) geometry.leaves[leaf].bounds = leaves[leaf];
   task.advance(1);
   TreeArrays tree = make_tree(std::move(leaves), index, task);
   geometry.groups = std::move(tree.groups);

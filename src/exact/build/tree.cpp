@@ -17,7 +17,6 @@ namespace {
 // the frame, and the comparison of a distance with a radius by about 2^-22 of the radius.
 constexpr double kRelativeRoom = 0x1p-20;
 constexpr double kAbsoluteRoom = 0x1p-22;
-constexpr double kRegionRoom = 0x1p-20;
 
 // Farther than any vertex; its square is still a float.
 constexpr float kFarAway = 1e18F;
@@ -39,31 +38,20 @@ Point smallest_sphere_center(std::span<const Point> points) {
   return center_of(sphere);
 }
 
-void set_node(Group& group, std::size_t i, const FrameSphere& bounds, const MinimumRegion& region) {
-  group.x[i] = bounds.x;
-  group.y[i] = bounds.y;
-  group.z[i] = bounds.z;
-  group.radius[i] = bounds.radius;
-  group.slope_x[i] = static_cast<float>(region.slope_axis.x);
-  group.slope_y[i] = static_cast<float>(region.slope_axis.y);
-  group.slope_z[i] = static_cast<float>(region.slope_axis.z);
-  group.offset[i] = next_above(region.offset + kRegionRoom);  // mutant: region-too-narrow
+void set_node(Group& group, std::size_t i, const FrameSphere& sphere) {
+  group.x[i] = sphere.x;
+  group.y[i] = sphere.y;
+  group.z[i] = sphere.z;
+  group.radius[i] = sphere.radius;
 }
 
-void set_absent(Group& group, std::size_t i) {
-  set_node(group, i, {kFarAway, kFarAway, kFarAway, 0}, MinimumRegion{{0, 0, 0}, 0});
-}
+void set_absent(Group& group, std::size_t i) { set_node(group, i, {kFarAway, kFarAway, kFarAway, 0}); }
 
 /// The nodes of a group.
-NodeList nodes_of(const Group& group, std::size_t count) {
-  NodeList nodes(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    nodes.bounds[i] = sphere_of(group, i);
-    nodes.regions[i] = {{static_cast<double>(group.slope_x[i]), static_cast<double>(group.slope_y[i]),
-                         static_cast<double>(group.slope_z[i])},
-                        static_cast<double>(group.offset[i])};
-  }
-  return nodes;
+Spheres spheres_of(const Group& group, std::size_t count) {
+  Spheres result;
+  for (std::size_t i = 0; i < count; ++i) result.push_back(sphere_of(group, i));
+  return result;
 }
 
 /// A sphere of radius 0.
@@ -96,9 +84,7 @@ class GrowingTree {
 
   [[nodiscard]] const Group& group(std::size_t group) const { return groups_[group]; }
 
-  void set(NodeId node, const FrameSphere& bounds, const MinimumRegion& region) const {
-    set_node(groups_[node / kFanOut], node % kFanOut, bounds, region);
-  }
+  void set(NodeId node, const FrameSphere& sphere) const { set_node(groups_[node / kFanOut], node % kFanOut, sphere); }
 
   /// After the nodes of the level are set.
   void finish(std::size_t level) const {
@@ -110,18 +96,15 @@ class GrowingTree {
     mean_radii_[level] = mean_radius(groups_.subspan(first, count), index_.records.subspan(first, count));
   }
 
-  /// Sets `out[at]` to `node` above the nodes of one group, whose bounds are given.
-  void measure_parent(NodeId node, std::span<const FrameSphere> spheres, std::span<const MinimumRegion> regions,
-                      NodeList& out, std::size_t at) const {
+  /// The sphere of `node` above the nodes of one group, whose spheres are given.
+  [[nodiscard]] FrameSphere measure_parent(NodeId node, std::span<const FrameSphere> spheres) const {
     std::vector<Point> centers;
     for (const FrameSphere& sphere : spheres) centers.push_back(center_of(sphere));
-    FrameSphere bounds = rounded(smallest_sphere_center(centers));
-    const Point center = center_of(bounds);
+    FrameSphere result = rounded(smallest_sphere_center(centers));
     double farthest = 0;
-    find_farthest(node, center, farthest);
-    set_radius(bounds, farthest);
-    out.bounds[at] = bounds;
-    out.regions[at] = enclosing_minimum_region(regions, centers, center);
+    find_farthest(node, center_of(result), farthest);
+    set_radius(result, farthest);
+    return result;
   }
 
  private:
@@ -156,19 +139,18 @@ class GrowingTree {
   std::span<double> mean_radii_;
 };
 
-/// All nodes of a level, by place, from those of the level below.
-NodeList make_parents(const GrowingTree& tree, std::size_t level, const NodeList& below, TaskContext& task) {
+/// The spheres of all nodes of a level, by place, from those of the level below.
+Spheres make_parents(const GrowingTree& tree, std::size_t level, std::span<const FrameSphere> below,
+                     TaskContext& task) {
   const std::size_t first = tree.first_group(level);
   const std::size_t first_below = tree.first_group(level - 1);
-  NodeList parents((tree.end_group(level) - first) * kFanOut);
+  Spheres parents((tree.end_group(level) - first) * kFanOut);
   task.parallel_for(tree.end_group(level) - first, 1, [&](unsigned, std::size_t group, std::size_t) {
     for (std::size_t i = 0; i < tree.node_count(first + group); ++i) {
       const auto node = static_cast<NodeId>((first + group) * kFanOut + i);
       const std::size_t child = tree.child_group(node);
-      const std::size_t begin = (child - first_below) * kFanOut;
       const std::size_t count = tree.node_count(child);  // mutant: parent-without-last-child
-      tree.measure_parent(node, std::span(below.bounds).subspan(begin, count),
-                          std::span(below.regions).subspan(begin, count), parents, group * kFanOut + i);
+      parents[group * kFanOut + i] = tree.measure_parent(node, below.subspan((child - first_below) * kFanOut, count));
     }
   });
   return parents;
@@ -229,7 +211,7 @@ void set_vertices(std::span<const VertexId> leaf_begin, std::span<const std::uin
   }
 }
 
-TreeArrays make_tree(NodeList nodes, const IndexView& index, TaskContext& task) {
+TreeArrays make_tree(Spheres nodes, const IndexView& index, TaskContext& task) {
   TreeArrays arrays{std::vector<Group>(index.records.size()), std::vector<double>(index.levels.size() - 1)};
   const GrowingTree tree(index, arrays.groups, arrays.mean_radii);
   for (std::size_t level = 0; level < tree.level_count(); ++level) {
@@ -238,7 +220,7 @@ TreeArrays make_tree(NodeList nodes, const IndexView& index, TaskContext& task) 
     for (std::size_t group = first; group < tree.end_group(level); ++group) {
       for (std::size_t i = 0; i < tree.node_count(group); ++i) {
         const std::size_t at = (group - first) * kFanOut + i;
-        tree.set(static_cast<NodeId>(group * kFanOut + i), nodes.bounds[at], nodes.regions[at]);
+        tree.set(static_cast<NodeId>(group * kFanOut + i), nodes[at]);
       }
     }
     tree.finish(level);
@@ -246,21 +228,20 @@ TreeArrays make_tree(NodeList nodes, const IndexView& index, TaskContext& task) 
   return arrays;
 }
 
-void update_tree(std::span<const LeafId> leaves, NodeList bounds, const IndexView& index, std::span<Group> groups,
+void update_tree(std::span<const LeafId> leaves, Spheres spheres, const IndexView& index, std::span<Group> groups,
                  std::span<double> mean_radii) {
   const GrowingTree tree(index, groups, mean_radii);
   std::vector<NodeId> nodes(leaves.begin(), leaves.end());
   for (std::size_t level = 0; level < tree.level_count(); ++level) {
     if (level > 0) {
       climb(nodes, index.parents);
-      bounds = NodeList(nodes.size());
-      for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const std::size_t child = tree.child_group(nodes[i]);
-        const NodeList children = nodes_of(tree.group(child), tree.node_count(child));
-        tree.measure_parent(nodes[i], children.bounds, children.regions, bounds, i);
+      spheres.clear();
+      for (const NodeId node : nodes) {
+        const std::size_t child = tree.child_group(node);
+        spheres.push_back(tree.measure_parent(node, spheres_of(tree.group(child), tree.node_count(child))));
       }
     }
-    for (std::size_t i = 0; i < nodes.size(); ++i) tree.set(nodes[i], bounds.bounds[i], bounds.regions[i]);
+    for (std::size_t i = 0; i < nodes.size(); ++i) tree.set(nodes[i], spheres[i]);
     tree.finish(level);
   }
 }

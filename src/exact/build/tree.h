@@ -6,18 +6,12 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "exact/build/minimum_region.h"
 #include "exact/layout.h"
 
 namespace meshhood {
 
-/// The bounds of some nodes of one level.
-struct NodeList {
-  explicit NodeList(std::size_t nodes) : bounds(nodes), regions(nodes) {}
-
-  std::vector<FrameSphere> bounds;
-  std::vector<MinimumRegion> regions;
-};
+/// The bounding spheres of some nodes of one level.
+using Spheres = std::vector<FrameSphere>;
 
 /// The groups of all levels, leaves first, and the mean radius of the bounding spheres on each level.
 struct TreeArrays {
@@ -39,18 +33,17 @@ void set_vertices(std::span<const VertexId> leaf_begin, std::span<const std::uin
 
 /// The tree over the leaves. O(#V), hardly more than #V / 4 distances.
 ///
-/// leaves  the bounds of all leaves
+/// leaves  the spheres of all leaves
 /// index   the frame, the positions, `leaf_begin`, `levels`, `records` and `parents`
-[[nodiscard]] TreeArrays make_tree(NodeList leaves, const IndexView& index, TaskContext& task);
+[[nodiscard]] TreeArrays make_tree(Spheres leaves, const IndexView& index, TaskContext& task);
 
-/// Replaces the bounds of some leaves in a tree, and computes again those of the nodes above them. Bounding spheres
-/// become what `make_tree` would compute. Minimum regions of nodes above the leaves may become a little wider, because
-/// they are computed from rounded ones. O(leaves log #V), and a sum over the radii of all nodes.
+/// Replaces the spheres of some leaves in a tree, and computes again those of the nodes above them: they become what
+/// `make_tree` would compute. O(leaves log #V), and a sum over the radii of all nodes.
 ///
-/// leaves  ascending
-/// bounds  of these leaves
-/// index   as for `make_tree`
-void update_tree(std::span<const LeafId> leaves, NodeList bounds, const IndexView& index, std::span<Group> groups,
+/// leaves   ascending
+/// spheres  of these leaves
+/// index    as for `make_tree`
+void update_tree(std::span<const LeafId> leaves, Spheres spheres, const IndexView& index, std::span<Group> groups,
                  std::span<double> mean_radii);
 
 /// The groups that `update_tree` changes, as their places in the array of all groups.

@@ -111,19 +111,21 @@ void EdgeSearcher::rings(VertexId v, std::size_t k, std::vector<VertexId>& out, 
   check_filter(filter, vertex_count());
   const LaneFilter walls(*state.index, filter.walls);
   const LaneFilter ignored(*state.index, filter.ignored);
-  state.answer.clear();
+  std::vector<VertexId> ids;
   std::vector<std::size_t> sizes;
+  std::vector<LeafSubset> found;
   for (state.rings.start(state.index->slot[v], walls); !state.rings.ring().empty(); state.rings.advance()) {
+    found.clear();
     for (const LeafSubset& subset : state.rings.ring()) {
-      state.answer.add(LeafSubset{subset.leaf, subset.lanes & ~ignored.of(subset.leaf)});
+      const LaneMask lanes = subset.lanes & ~ignored.of(subset.leaf);
+      if (lanes != 0) found.push_back({subset.leaf, lanes});
     }
-    sizes.push_back(state.answer.count());
+    state.answer.assign(found);
+    append_ids(state.answer, *state.index, *state.kernels, ids);
+    sizes.push_back(ids.size());
     if (sizes.size() > k) break;
   }
-  const std::size_t size = state.answer.count();
-  out.resize(size + kLeafCapacity);
-  write_ids(state.answer, *state.index, *state.kernels, out.data());
-  out.resize(size);
+  out = std::move(ids);
   counts = std::move(sizes);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The regions of one start for several radii: the neighborhoods of a vertex, or else one flood that grows from each
 // radius to the next.
-#include <bit>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "base/distance.h"
 #include "base/text.h"
 #include "exact/query/region_state.h"
+#include "exact/search/output.h"
 
 namespace meshhood {
 namespace {
@@ -35,24 +35,30 @@ void RegionSearcher::nested(const Start& start, std::span<const double> radii, s
   state.check(filter);
   std::vector<std::size_t> sizes;
   sizes.reserve(radii.size());
-  if (const std::optional<VertexId> v = state.vertex_of(start);
-      v && filter.walls.bytes().empty() && filter.ignored.bytes().empty()) {
-    state.neighborhoods().run(*v, radii, out, sizes);
-    counts = std::move(sizes);
-    return;
+  std::vector<VertexId> ids;
+  const auto append = [&](const VertexSet& ring) {
+    append_ids(ring, *state.index, *state.kernels, ids);
+    sizes.push_back(ids.size());
+  };
+  if (State::is_neighborhood(start, filter)) {
+    SearcherAccess::State& searcher = state.searcher();
+    VertexSet before(*state.index);
+    for (const double radius : radii) {
+      searcher.search(start.vertex(), radius);
+      state.answer.assign_difference(searcher.answer, before);
+      append(state.answer);
+      std::swap(before, searcher.answer);
+    }
+  } else {
+    state.begin(start, filter);
+    for (const double radius : radii) {
+      const std::size_t before = state.flood.reached().size();
+      state.flood.grow(radius);
+      state.collect_found(before);
+      append(state.answer);
+    }
   }
-  state.begin(start, filter);
-  std::size_t size = 0;
-  for (const double radius : radii) {
-    const std::size_t before = state.flood.reached().size();
-    state.flood.grow(radius);
-    state.for_each_found(before, [&](const LeafSubset& subset) {
-      state.answer.add(subset);
-      size += static_cast<std::size_t>(std::popcount(subset.lanes));
-    });
-    sizes.push_back(size);
-  }
-  state.write_ids_to(out);
+  out = std::move(ids);
   counts = std::move(sizes);
 }
 

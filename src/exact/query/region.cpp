@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The region of one start and one radius: a flood that grows once.
+// The region of one start and one radius: the neighborhood of a vertex, or else a flood that grows once.
 #include "meshhood/region.h"
+
+#include <utility>
 
 #include "base/distance.h"
 #include "exact/index_access.h"
@@ -19,7 +21,6 @@ void RegionSearcher::State::check(const Filter& filter) const { check_filter(fil
 Point RegionSearcher::State::begin(const Start& start, const Filter& filter) {
   walls = LaneFilter(*index, filter.walls);
   ignored = LaneFilter(*index, filter.ignored);
-  answer.clear();
   if (!start.center()) {
     const Point center = position_of(*index, start.vertex());
     flood.start(center, walls);
@@ -32,41 +33,37 @@ Point RegionSearcher::State::begin(const Start& start, const Filter& filter) {
   return {p[0], p[1], p[2]};
 }
 
-std::optional<VertexId> RegionSearcher::State::vertex_of(const Start& start) const {
-  if (!start.center()) return start.vertex();
-  if (start.seeds().size() != 1) return std::nullopt;
-  const SpacePoint& p = *start.center();
-  const Point seed = position_of(*index, start.seeds().front());
-  return seed.x == p[0] && seed.y == p[1] && seed.z == p[2] ? std::optional(start.seeds().front()) : std::nullopt;
+bool RegionSearcher::State::is_neighborhood(const Start& start, const Filter& filter) {
+  return !start.center() && filter.walls.bytes().empty() && filter.ignored.bytes().empty();
 }
 
-NestedNeighborhoods& RegionSearcher::State::neighborhoods() {
-  if (!nested_neighborhoods) nested_neighborhoods = std::make_unique<NestedNeighborhoods>(index, isa);
-  return *nested_neighborhoods;
+SearcherAccess::State& RegionSearcher::State::searcher() {
+  if (!neighborhoods) neighborhoods = std::make_unique<SearcherAccess::State>(index, isa);
+  return *neighborhoods;
 }
 
 LaneMask RegionSearcher::State::without_ignored(const LeafSubset& subset) const {
   return subset.lanes & ~ignored.of(subset.leaf);  // mutant: ignored-vertices-are-found
 }
 
-void RegionSearcher::State::add_found() {
-  for_each_found(0, [&](const LeafSubset& subset) { answer.add(subset); });
-}
-
-void RegionSearcher::State::write_ids_to(std::vector<VertexId>& out) const {
-  const std::size_t size = answer.count();
-  out.resize(size + kLeafCapacity);
-  write_ids(answer, *index, *kernels, out.data());
-  out.resize(size);
+void RegionSearcher::State::collect_found(std::size_t skip) {
+  found.clear();
+  for_each_found(skip, [&](const LeafSubset& subset) { found.push_back(subset); });
+  answer.assign(found);
 }
 
 Point RegionSearcher::State::search(const Start& start, double radius, const Filter& filter) {
   check(start);
   check_radius(radius);
   check(filter);
+  if (is_neighborhood(start, filter)) {
+    searcher().search(start.vertex(), radius);
+    std::swap(answer, searcher().answer);
+    return position_of(*index, start.vertex());
+  }
   const Point center = begin(start, filter);
   flood.grow(radius);
-  add_found();
+  collect_found();
   return center;
 }
 
@@ -78,7 +75,7 @@ RegionSearcher::~RegionSearcher() = default;
 
 void RegionSearcher::region(const Start& start, double radius, std::vector<VertexId>& out, const Filter& filter) {
   state_->search(start, radius, filter);
-  state_->write_ids_to(out);
+  replace_ids(state_->answer, *state_->index, *state_->kernels, out);
 }
 
 void RegionSearcher::region(const Start& start, double radius, std::vector<VertexId>& out,
@@ -86,7 +83,7 @@ void RegionSearcher::region(const Start& start, double radius, std::vector<Verte
   const Point center = state_->search(start, radius, filter);
   // Before `out` changes: if this throws, neither has changed.
   distances.reserve(state_->answer.count());
-  state_->write_ids_to(out);
+  replace_ids(state_->answer, *state_->index, *state_->kernels, out);
   distances.resize(out.size());
   write_distances(state_->answer, *state_->index, center, distances.data());
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -13,7 +12,7 @@
 #include "exact/layout.h"
 #include "exact/query/flood.h"
 #include "exact/query/lane_filter.h"
-#include "exact/query/nested_neighborhoods.h"
+#include "exact/search/searcher_state.h"
 #include "exact/search/vertex_set.h"
 #include "simd/kernels.h"
 
@@ -27,9 +26,9 @@ struct RegionSearcher::State {
   Flood flood;
   LaneFilter walls;
   LaneFilter ignored;
+  std::vector<LeafSubset> found;  // scratch
   VertexSet answer;
-  std::vector<LaneMask> seen;                                 // by leaf: what a stroke has found so far
-  std::unique_ptr<NestedNeighborhoods> nested_neighborhoods;  // made when first needed
+  std::unique_ptr<SearcherAccess::State> neighborhoods;
 
   State(std::shared_ptr<const IndexView> view, Isa chosen)
       : index(std::move(view)),
@@ -45,10 +44,11 @@ struct RegionSearcher::State {
   /// Begins a flood from valid arguments, with nothing reached. Returns its center.
   Point begin(const Start& start, const Filter& filter);
 
-  /// The vertex that is both the center and the only seed, if there is one.
-  [[nodiscard]] std::optional<VertexId> vertex_of(const Start& start) const;
+  /// Whether the region of a valid start is the neighborhood of its vertex.
+  [[nodiscard]] static bool is_neighborhood(const Start& start, const Filter& filter);
 
-  [[nodiscard]] NestedNeighborhoods& neighborhoods();
+  /// The searcher of neighborhoods, made when first needed.
+  [[nodiscard]] SearcherAccess::State& searcher();
 
   /// The slot of a vertex, whose id is valid.
   [[nodiscard]] std::uint32_t slot(VertexId v) const { return index->slot[v]; }
@@ -65,9 +65,8 @@ struct RegionSearcher::State {
     }
   }
 
-  /// Adds what was found to `answer`, and writes the ids of `answer`.
-  void add_found();
-  void write_ids_to(std::vector<VertexId>& out) const;
+  /// Refills `answer` with what was found, except in the first `skip` steps of the flood.
+  void collect_found(std::size_t skip = 0);
 
   /// Refills `answer` with the region, and returns its center.
   Point search(const Start& start, double radius, const Filter& filter);

@@ -5,6 +5,7 @@
 
 #include "base/distance.h"
 #include "exact/query/region_state.h"
+#include "exact/search/output.h"
 
 namespace meshhood {
 
@@ -16,20 +17,15 @@ void RegionSearcher::stroke(std::span<const Dab> dabs, std::vector<VertexId>& ou
     check_radius(dabs[i].radius, where);
   }
   state.check(filter);
-  VertexSet all(*state.index);
-  std::vector<LaneMask>& seen = state.seen;
-  seen.assign(state.index->leaf_count(), 0);
+  std::vector<LeafSubset>& found = state.found;
+  found.clear();
   for (const Dab& dab : dabs) {
     state.begin(dab.start, filter);
     state.flood.grow(dab.radius);
-    state.for_each_found(0, [&](const LeafSubset& subset) {
-      const LaneMask lanes = subset.lanes & ~seen[subset.leaf];  // mutant: stroke-lists-vertices-twice
-      seen[subset.leaf] |= subset.lanes;
-      if (lanes != 0) all.add(LeafSubset{subset.leaf, lanes});
-    });
+    state.for_each_found(0, [&](const LeafSubset& subset) { found.push_back(subset); });
   }
-  state.answer = std::move(all);
-  state.write_ids_to(out);
+  state.answer.assign(found);
+  replace_ids(state.answer, *state.index, *state.kernels, out);
 }
 
 }  // namespace meshhood

@@ -1,11 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "exact/search/descent.h"
 
-#include <bit>
+#include <algorithm>
 
 #include "base/prefetch.h"
 
 namespace meshhood {
+namespace {
+
+/// The most nodes of a level that may intersect the surface of the ball: more than one sheet of mesh has.
+///
+/// On a plane, nodes that are squares with a half diagonal of m have an area of 2 m^2. The nodes that intersect have
+/// their centers within m of a circle of radius r, so there are about 4 pi r m / 2 m^2 = 6.3 r / m of them; on a
+/// smooth scan, 5.6 were measured. 14 is chosen: a little more than two such sheets. So is 12, for balls no larger
+/// than a node: a group and a half.
+std::size_t most_intersecting(double radius_in_frame, double mean_radius) {
+  return 12 + static_cast<std::size_t>(std::min(14 * radius_in_frame / mean_radius, 1e9));
+}
+
+}  // namespace
 
 void NodeQueue::make_room(std::size_t groups) {
   const std::size_t needed = size_ + (groups + 1) * kFanOut;
@@ -16,18 +29,19 @@ void NodeQueue::append(std::uint32_t group, NodeSet set) {
   // Writes eight nodes, and counts those in the set: faster than branching for each.
   std::uint32_t* out = nodes_.data() + size_;
   for (std::size_t i = 0; i < kFanOut; ++i) out[i] = group * kFanOut + kBitPositions[set][i];
-  size_ += static_cast<std::size_t>(std::popcount(set));
+  size_ += count_of(set);
 }
 
 bool Descent::run(std::size_t level, std::span<const std::uint32_t> groups, const Query& query,
-                  const SearchLimits& limits, std::size_t limited_above, GroupStates& states) {
+                  std::size_t limited_above, GroupStates& states) {
   groups_.assign(groups.begin(), groups.end());
+  std::sort(groups_.begin(), groups_.end());
   intersecting_.clear();
   intersecting_.make_room(groups.size());
   for (const std::uint32_t group : groups_) intersecting_.append(group, states[group].intersecting);
   for (;; --level) {
     if (level > limited_above &&
-        intersecting_.size() > limits.most_intersecting(query.radius_in_frame, index_->tree[level].mean_radius))
+        intersecting_.size() > most_intersecting(query.radius_in_frame, index_->tree[level].mean_radius))
       return false;
     if (level == 0) return true;
     const std::size_t first = groups_.size();
@@ -55,10 +69,9 @@ void Descent::place(std::size_t first, const TreeBall& ball, GroupStates& states
   intersecting_.make_room(below.size());
   for (std::size_t i = 0; i < below.size(); ++i) {
     const NodeSet exist = first_nodes(index_->records[below[i]].nodes);
-    GroupState& state = states.make(below[i]);
+    GroupState& state = states.set(below[i], {});
     state.whole = containments_[i].inside & exist;
     state.intersecting = containments_[i].intersecting & exist;
-    state.in_doubt = containments_[i].may_have_minimum;
     intersecting_.append(below[i], state.intersecting);
   }
 }

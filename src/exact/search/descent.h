@@ -9,7 +9,6 @@
 #include "exact/layout.h"
 #include "exact/search/group_states.h"
 #include "exact/search/query.h"
-#include "exact/search/search_limits.h"
 #include "simd/kernels.h"
 
 namespace meshhood {
@@ -39,11 +38,11 @@ class Descent {
   Descent(const IndexView& index, const Kernels& kernels) : index_(&index), kernels_(&kernels) {}
 
   /// Begins with `groups` of `level`, whose states are known. Makes the states of the groups below that it visits.
-  /// Returns false as soon as more nodes intersect, on a level above `limited_above`, than `limits` allow.
+  /// Returns false as soon as more nodes intersect, on a level above `limited_above`, than a single sheet has.
   [[nodiscard]] bool run(std::size_t level, std::span<const std::uint32_t> groups, const Query& query,
-                         const SearchLimits& limits, std::size_t limited_above, GroupStates& states);
+                         std::size_t limited_above, GroupStates& states);
 
-  /// All groups of known state, with those it began with, level by level downwards.
+  /// All groups of known state, level by level downwards from those it began with; those of a level ascend.
   [[nodiscard]] std::span<const std::uint32_t> groups() const { return groups_; }
 
   /// The leaves that intersect the surface of the ball.

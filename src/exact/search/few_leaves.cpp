@@ -61,8 +61,10 @@ bool FewLeaves::find(std::uint32_t slot, const LeafBall& ball, VertexSet& answer
     const LaneMask added = grow(met);
     if (!expand(met.leaf, added, ball)) return false;
   }
-  for (const Met& met : std::span(met_).first(count_)) {
-    if (met.reached != 0) answer.add(LeafSubset{met.leaf, met.reached});
+  const std::span<Met> met = std::span(met_).first(count_);
+  std::sort(met.begin(), met.end(), [](const Met& a, const Met& b) { return a.leaf < b.leaf; });
+  for (const Met& one : met) {
+    if (one.reached != 0) answer.add_lanes({one.leaf, one.reached});
   }
   return true;
 }

@@ -5,104 +5,84 @@
 
 namespace meshhood {
 
-void HomeMarks::mark(NodeId node, GroupStates& states) const {
-  const NodeId whole = states.whole_node(node);
-  if (whole == kNoNode) return;
-  const Patch patch = patch_of(whole, states);
-  states[patch.group].home |= patch.nodes;
-}
-
-bool HomeMarks::leads_home(NodeId node, GroupStates& states) {
-  const NodeId whole = states.whole_node(node);
-  if (whole == kNoNode) return false;
-  const GroupState& state = states[whole / kFanOut];
-  const NodeSet bit = node_at(whole % kFanOut);
-  if ((state.home & bit) != 0) return true;
-  return (state.explored & bit) == 0 && explore(whole, states);
-}
-
-/// Breadth-first search from a whole node to a marked one.
-bool HomeMarks::explore(NodeId whole, GroupStates& states) {
-  visited_.clear();
-  bool is_home = visit(whole, states);
-  for (std::size_t i = 0; !is_home && i < visited_.size(); ++i) {
-    const Patch patch = visited_[i];  // a copy, because `visited_` grows
-    is_home = visit_linked(patch, states);
+void HomeMarks::spread(const Query& query, Reach& reach) {
+  states_ = &reach.states();
+  leaves_.clear();
+  begin(query, reach);
+  for (const std::uint32_t group : reach.top_groups()) mark_nodes(group);
+  for (const std::uint32_t group : reach.lower_groups()) mark_nodes(group);
+  // A group sees the marks of those before it only. Chosen: a third pass would find few more.
+  keep_open(reach.groups());
+  for (int pass = 0; pass < 2; ++pass) {
+    for (const std::uint32_t group : open_groups_) mark_nodes(group);
+    keep_open(open_groups_);
   }
-  if (is_home) {
-    for (const Patch& patch : visited_) states[patch.group].home |= patch.nodes;
+  const std::span<const LeafSubset> leaves = reach.surface_leaves();
+  lanes_.resize(leaves.size() + 1);
+  open_places_.clear();
+  for (std::size_t place = 0; place < leaves.size(); ++place) mark_leaf(query, leaves[place], place);
+}
+
+/// Marks the whole nodes at the query vertex.
+void HomeMarks::begin(const Query& query, const Reach& reach) {
+  const auto mark = [&](LeafId leaf) {
+    const NodeId whole = states_->whole_node(leaf);
+    if (whole != kNoNode) (*states_)[whole / kFanOut].home |= node_at(whole % kFanOut);
+  };
+  mark(query.leaf());
+  const std::size_t place = reach.place_of(query.leaf());
+  if (place == Reach::kNoPlace) return;
+  const LaneMask* adjacency = &index_->adjacency[index_->leaves[query.leaf()].first];
+  const LaneMask piece = kernels_->reachable(adjacency, reach.surface_leaves()[place].lanes, query.lane());
+  for (const Link& link : index_->links_of(query.leaf())) {
+    if ((link.boundary & piece) != 0) mark(link.leaf);  // mutant: mark-of-another-piece
   }
-  return is_home;
 }
 
-/// Visits the patch of a whole node. Returns whether a node of it is marked.
-bool HomeMarks::visit(NodeId whole, GroupStates& states) {
-  const Patch patch = patch_of(whole, states);
-  GroupState& state = states[patch.group];
-  state.explored |= patch.nodes;
-  visited_.push_back(patch);
-  return (patch.nodes & state.home) != 0;
-}
-
-/// Visits what the patch is linked with. Returns true as soon as a node of it is marked.
-bool HomeMarks::visit_linked(const Patch& patch, GroupStates& states) {
-  for (const NodeLink& link : index_->node_links_of(index_->records[patch.group])) {
-    if ((link.mine & patch.nodes) == 0) continue;  // mutant: link-of-another-node-followed
-    const NodeId other = states.whole_node(link.node());
-    if (other == kNoNode) continue;
-    const GroupState& state = states[other / kFanOut];
-    const NodeSet bit = node_at(other % kFanOut);
-    if ((state.home & bit) != 0) return true;
-    // The nodes explored without success do not lead to a mark.
-    if ((state.explored & bit) == 0 && visit(other, states)) return true;
+/// Spreads the marks to the whole nodes of a group, from its own and from those that its links lead to: nodes of the
+/// same level, or larger ones that cover them.
+void HomeMarks::mark_nodes(std::uint32_t group) {
+  GroupState& state = (*states_)[group];
+  if (state.whole == 0) return;
+  const GroupRecord& record = index_->records[group];
+  unsigned linked = state.home;
+  if (index_->is_of_leaves(group)) {
+    for (const NodeLink& link : index_->node_links_of(record)) linked |= link.mine & (0U - leaves_.has(link.node()));
+  } else {
+    for (const NodeLink& link : index_->node_links_of(record)) linked |= link.mine & (0U - covers(link.node()));
   }
-  return false;
+  state.home = reachable_nodes(record.linked, static_cast<NodeSet>(linked & state.whole), state.whole);
+  leaves_.add(group, state.home);
 }
 
-bool HomeMarks::smaller_leads_home(NodeId whole, GroupStates& states) {
-  const Patch patch = patch_of(whole, states);
-  const GroupRecord& record = index_->records[patch.group];
-  NodeSet beside = 0;
-  for_each_node(patch.nodes, [&](unsigned i) { beside |= record.linked[i]; });
-  bool is_home = false;
-  for_each_node(beside, [&](unsigned i) {
-    is_home = is_home || smaller_leads_home_below(patch.group * kFanOut + i, patch, states);
-  });
-  for (const NodeLink& link : index_->node_links_of(record)) {
-    if (is_home) break;
-    is_home = (link.mine & patch.nodes) != 0 && smaller_leads_home_below(link.node(), patch, states);
+/// Whether a node above the leaves, or a larger one that covers it, has a mark: 1 or 0.
+unsigned HomeMarks::covers(NodeId node) const {
+  // A node of a known group may have marks below it that are not its own.
+  if (states_->is_known(node / kFanOut)) return (*states_)[node / kFanOut].home >> node % kFanOut & 1U;
+  return leaves_.has_below(node);
+}
+
+/// Keeps those of `groups` that have whole nodes without a mark.
+void HomeMarks::keep_open(std::span<const std::uint32_t> groups) {
+  if (open_groups_.size() < groups.size()) open_groups_.resize(groups.size());
+  std::size_t kept = 0;
+  for (const std::uint32_t group : groups) {
+    open_groups_[kept] = group;
+    kept += static_cast<std::size_t>((*states_)[group].whole != (*states_)[group].home);
   }
-  if (is_home) states[patch.group].home |= patch.nodes;
-  return is_home;
+  open_groups_.resize(kept);
 }
 
-/// Whether a whole node below `node` is linked with the patch and leads home.
-bool HomeMarks::smaller_leads_home_below(NodeId node, const Patch& patch, GroupStates& states) {
-  const std::uint32_t group = node / kFanOut;
-  if (node < index_->leaf_count() || !states.is_known(group)) return false;
-  if ((states[group].intersecting & node_at(node % kFanOut)) == 0) return false;
-  const std::uint32_t below = index_->records[group].first_child + node % kFanOut;
-  const GroupState& state = states[below];
-  bool is_home = false;
-  for (const NodeLink& link : index_->node_links_of(index_->records[below])) {
-    const NodeId whole = states.whole_node(link.node());
-    // mutant: neighbor-of-any-node-asked
-    if (whole == kNoNode || whole / kFanOut != patch.group || (patch.nodes & node_at(whole % kFanOut)) == 0) continue;
-    for_each_node(link.mine & state.whole,
-                  [&](unsigned i) { is_home = is_home || leads_home(below * kFanOut + i, states); });
-    for_each_node(link.mine & state.intersecting, [&](unsigned i) {
-      is_home = is_home || smaller_leads_home_below(below * kFanOut + i, patch, states);
-    });
-    if (is_home) break;
+/// Marks the vertices of a surface leaf that are connected with a marked node within the leaf.
+void HomeMarks::mark_leaf(const Query& query, const LeafSubset& leaf, std::size_t place) {
+  LaneMask linked = leaf.leaf == query.leaf() ? query.lane() : 0;
+  for (const Link& link : index_->links_of(leaf.leaf)) linked |= link.boundary & (0U - leaves_.has(link.leaf));
+  linked &= leaf.lanes;
+  if (linked != 0 && linked != leaf.lanes) {
+    linked = kernels_->reachable(&index_->adjacency[index_->leaves[leaf.leaf].first], leaf.lanes, linked);
   }
-  return is_home;
-}
-
-/// The patch of a whole node.
-HomeMarks::Patch HomeMarks::patch_of(NodeId whole, const GroupStates& states) const {
-  const std::uint32_t group = whole / kFanOut;
-  // mutant: home-mark-skips-the-outside
-  return {group, reachable_nodes(index_->records[group].linked, node_at(whole % kFanOut), states[group].whole)};
+  lanes_[place] = linked;
+  if (linked != leaf.lanes) open_places_.push_back(place);
 }
 
 }  // namespace meshhood

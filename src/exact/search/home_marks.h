@@ -1,48 +1,57 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "exact/layout.h"
-#include "exact/search/group_states.h"
+#include "exact/search/leaf_bits.h"
+#include "exact/search/query.h"
+#include "exact/search/reach.h"
+#include "simd/kernels.h"
 
 namespace meshhood {
 
-/// Marks whole nodes that are surely connected with the query vertex, as far as a caller requests it. Whole nodes are
-/// connected and in the ball, so each link between two of them is an edge of the answer. A link leads to a node of its
-/// own level, or to the whole node that covers it; so a large node has no links to the small ones beside it. Marks that
-/// are missed cost time in the steps that follow.
+/// Marks what is known to be connected with the query vertex within the ball: whole nodes, in `GroupState::home`, and
+/// vertices of surface leaves. The marks spread over the links in a few passes. They are never wrong, but may be
+/// incomplete: what has no mark then is *open*.
 class HomeMarks {
  public:
-  explicit HomeMarks(const IndexView& index) : index_(&index) {}
+  HomeMarks(const IndexView& index, const Kernels& kernels) : index_(&index), kernels_(&kernels), leaves_(index) {}
 
-  /// Marks `node` if it is whole, or the whole node that covers it.
-  void mark(NodeId node, GroupStates& states) const;
+  void spread(const Query& query, Reach& reach);
 
-  /// Whether `node`, or the node that covers it, is whole and marked, or links between whole nodes lead from it to a
-  /// marked one. Then all nodes on the way are marked, too. Looks at the links of each node once in a query.
-  [[nodiscard]] bool leads_home(NodeId node, GroupStates& states);
+  /// Marks some whole nodes of a group, or lanes of a surface leaf, that `spread` has left open.
+  void add_nodes(std::uint32_t group, NodeSet nodes) { (*states_)[group].home |= nodes; }
+  void add_lanes(std::size_t place, LaneMask lanes) { lanes_[place] |= lanes; }
 
-  /// Whether a smaller whole node beside the whole node `whole` leads home. Then `whole` is marked. Looks for such
-  /// nodes below the nodes that intersect the surface of the ball, so it takes longer than `leads_home`.
-  [[nodiscard]] bool smaller_leads_home(NodeId whole, GroupStates& states);
+  /// The marked lanes of a surface leaf, by its place. `lanes(surface_leaves().size())` may be read, too.
+  [[nodiscard]] LaneMask lanes(std::size_t place) const { return lanes_[place]; }
+
+  /// Whether a whole node that `spread` has marked is, or covers, the leaf: 1 or 0.
+  [[nodiscard]] unsigned has(LeafId leaf) const { return leaves_.has(leaf); }
+
+  /// The groups with open nodes, in the order of `Reach::groups`; the places of surface leaves with open lanes,
+  /// ascending.
+  [[nodiscard]] std::span<const std::uint32_t> open_groups() const { return open_groups_; }
+  [[nodiscard]] std::span<const std::size_t> open_places() const { return open_places_; }
 
  private:
-  /// Whole nodes of a group that are connected there.
-  struct Patch {
-    std::uint32_t group;
-    NodeSet nodes;
-  };
-
-  [[nodiscard]] bool explore(NodeId whole, GroupStates& states);
-  [[nodiscard]] bool visit(NodeId whole, GroupStates& states);
-  [[nodiscard]] bool visit_linked(const Patch& patch, GroupStates& states);
-  [[nodiscard]] bool smaller_leads_home_below(NodeId node, const Patch& patch, GroupStates& states);
-  [[nodiscard]] Patch patch_of(NodeId whole, const GroupStates& states) const;
+  void begin(const Query& query, const Reach& reach);
+  void mark_nodes(std::uint32_t group);
+  [[nodiscard]] unsigned covers(NodeId node) const;
+  void keep_open(std::span<const std::uint32_t> groups);
+  void mark_leaf(const Query& query, const LeafSubset& leaf, std::size_t place);
 
   const IndexView* index_;
-  std::vector<Patch> visited_;  // by the present exploration
+  const Kernels* kernels_;
+  GroupStates* states_ = nullptr;
+  LeafBits leaves_;              // below marked nodes
+  std::vector<LaneMask> lanes_;  // by place of a surface leaf, and one more
+  std::vector<std::uint32_t> open_groups_;
+  std::vector<std::size_t> open_places_;
 };
 
 }  // namespace meshhood

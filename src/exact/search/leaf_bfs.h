@@ -4,50 +4,52 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/epoch_array.h"
+#include "base/number_set.h"
 #include "exact/layout.h"
-#include "exact/search/leaf_traversal.h"
+#include "exact/search/query.h"
 #include "exact/search/vertex_set.h"
+#include "simd/kernels.h"
 
 namespace meshhood {
 
-/// Breadth-first search over leaves. Visits the leaves of the answer and their neighbors, so its cost does not depend
-/// on what else lies in the ball.
+/// Breadth-first search over leaves: a set of vertices of a leaf is one word. It visits the leaves of the answer and
+/// looks at their neighbors, so its cost does not depend on what else lies in the ball.
 class LeafBfs {
  public:
-  explicit LeafBfs(const IndexView& index) : index_(&index) {}
+  LeafBfs(const IndexView& index, const Kernels& kernels)
+      : index_(&index), kernels_(&kernels), states_(index.leaf_count()), reached_(index.leaf_count()) {}
 
   /// Adds the neighborhood of the query to `answer`, which is empty.
-  ///
-  /// is_small  whether the ball reaches hardly beyond the neighbors of the first leaf. Then only those are prefetched.
-  void run(const Query& query, bool is_small, LeafTraversal& traversal, VertexSet& answer);
+  void run(const Query& query, VertexSet& answer);
 
-  /// The number of visits of leaves that the last call has taken.
-  [[nodiscard]] std::size_t visits() const { return visits_; }
+  /// Prefetches what a visit of the leaf reads, and then the output; without positions and edges if the leaf is known
+  /// to be inside.
+  void prefetch_leaf(const Leaf& leaf, bool is_intersecting) const;
 
  private:
-  /// First in, first out. Prefetches the neighbors and the first cross edges of the leaves that come next.
-  class Queue {
-   public:
-    void start(const LeafTraversal& traversal, std::size_t most_prefetched);
-    void push(LeafId leaf) { leaves_.push_back(leaf); }
-    [[nodiscard]] LeafId pop();
-    [[nodiscard]] bool empty() const { return head_ == leaves_.size(); }
-    template <class F>
-    void clear(F&& f) {
-      for (; !empty(); ++head_) f(leaves_[head_]);
-    }
-
-   private:
-    const LeafTraversal* traversal_ = nullptr;
-    std::vector<LeafId> leaves_;
-    std::size_t head_ = 0;
-    std::size_t prefetched_ = 0;
-    std::size_t most_prefetched_ = 0;
+  /// What is known of a leaf in one query.
+  struct State {
+    LaneMask open = 0;  // not reached, and perhaps in the ball; from the first visit on, surely
+    LaneMask reached = 0;
+    LaneMask pending = 0;   // to be reached by the next visit, if open; not empty while the leaf is in the queue
+    bool is_whole = false;  // all vertices are in the ball, and the leaf is connected
+    bool is_visited = false;
   };
 
+  State& state_of(LeafId leaf);
+  LaneMask visit(LeafId leaf);
+  void expand(LeafId leaf, LaneMask added);
+  void prefetch_ahead();
+
   const IndexView* index_;
-  Queue queue_;
-  std::size_t visits_ = 0;
+  const Kernels* kernels_;
+  const Query* query_ = nullptr;
+  EpochArray<State> states_;  // by leaf
+  std::vector<LeafId> queue_;
+  std::size_t head_ = 0;
+  std::size_t prefetched_ = 0;
+  NumberSet reached_;  // leaves
 };
 
 }  // namespace meshhood

@@ -11,7 +11,7 @@
 namespace meshhood {
 namespace {
 
-constexpr std::size_t kRunsAhead = 4;  // or subsets
+constexpr std::size_t kPartsAhead = 4;
 constexpr std::size_t kIdsPerLine = kCacheLine / sizeof(VertexId);
 
 void prefetch_ids(const VertexId* first, std::size_t count) {
@@ -19,49 +19,52 @@ void prefetch_ids(const VertexId* first, std::size_t count) {
   for (std::size_t i = 0; i < std::min(count, 4 * kIdsPerLine); i += kIdsPerLine) prefetch(first + i);
 }
 
-VertexId* write_runs(std::span<const VertexRange> runs, const VertexId* permutation, VertexId* out) {
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (i + kRunsAhead < runs.size()) {
-      const VertexRange next = runs[i + kRunsAhead];
-      prefetch_ids(permutation + next.begin, std::size_t{next.end} - next.begin);
-    }
-    out = std::copy(permutation + runs[i].begin, permutation + runs[i].end, out);
-  }
-  return out;
-}
-
-void write_subsets(std::span<const LeafSubset> subsets, const IndexView& index, const Kernels& kernels, VertexId* out) {
-  const VertexId* permutation = index.permutation.data();
-  for (std::size_t i = 0; i < subsets.size(); ++i) {
-    if (i + kRunsAhead < subsets.size()) {
-      prefetch_ids(permutation + index.leaf_begin[subsets[i + kRunsAhead].leaf], kLeafCapacity);
-    }
-    out = kernels.compress(permutation + index.leaf_begin[subsets[i].leaf], subsets[i].lanes, out);
-  }
-}
-
-/// For an index whose order is the caller's.
-void write_index_order(const VertexSet& set, const IndexView& index, const Kernels& kernels, VertexId* out) {
-  for (const VertexRange& run : set.runs()) {
-    std::iota(out, out + (run.end - run.begin), run.begin);
-    out += run.end - run.begin;
-  }
-  std::array<VertexId, kLeafCapacity> leaf{};
-  for (const LeafSubset& subset : set.subsets()) {
-    std::iota(leaf.begin(), leaf.end(), index.leaf_begin[subset.leaf]);
-    out = kernels.compress(leaf.data(), subset.lanes, out);
-  }
-}
-
 }  // namespace
 
 void write_ids(const VertexSet& set, const IndexView& index, const Kernels& kernels, VertexId* out) {
-  if (index.permutation.empty()) {
-    write_index_order(set, index, kernels, out);
-  } else {
-    out = write_runs(set.runs(), index.permutation.data(), out);
-    write_subsets(set.subsets(), index, kernels, out);
+  const std::span<const VertexSet::Part> parts = set.parts();
+  const VertexId* permutation = index.permutation.empty() ? nullptr : index.permutation.data();
+  std::array<VertexId, kLeafCapacity> leaf{};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto [begin, end, lanes] = parts[i];
+    if (permutation != nullptr && i + kPartsAhead < parts.size()) {
+      const VertexSet::Part& next = parts[i + kPartsAhead];
+      prefetch_ids(permutation + next.begin, std::size_t{next.end} - next.begin);
+    }
+    if (parts[i].is_run()) {
+      if (permutation != nullptr) {
+        out = std::copy(permutation + begin, permutation + end, out);
+      } else {
+        std::iota(out, out + (end - begin), begin);
+        out += end - begin;
+      }
+    } else {
+      if (permutation == nullptr) std::iota(leaf.begin(), leaf.end(), begin);
+      out = kernels.compress(permutation != nullptr ? permutation + begin : leaf.data(), lanes, out);
+    }
   }
+}
+
+void replace_ids(const VertexSet& set, const IndexView& index, const Kernels& kernels, std::vector<VertexId>& out) {
+  constexpr std::size_t kFewIds = 8;  // chosen; for more, kernels are faster
+  const std::size_t size = set.count();
+  if (size <= kFewIds) {
+    out.resize(size);
+    VertexId* id = out.data();
+    set.for_each([&](std::size_t vertex) { *id++ = index.id(vertex); });
+  } else {
+    out.resize(size + kLeafCapacity);
+    write_ids(set, index, kernels, out.data());
+    out.resize(size);
+  }
+}
+
+void append_ids(const VertexSet& set, const IndexView& index, const Kernels& kernels, std::vector<VertexId>& out) {
+  const std::size_t before = out.size();
+  const std::size_t end = before + set.count();
+  out.resize(end + kLeafCapacity);
+  write_ids(set, index, kernels, out.data() + before);
+  out.resize(end);
 }
 
 void write_distances(const VertexSet& set, const IndexView& index, const Point& center, double* out) {

@@ -4,56 +4,62 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <utility>
 
 namespace meshhood {
-void VertexSet::subtract(std::span<const LeafSubset> others) {
-  if (others.empty()) return;
-  for (LeafSubset& subset : subsets_) {
-    const std::size_t i = find_from(others, index_->leaf_begin[subset.leaf]);
-    if (i < others.size() && others[i].leaf == subset.leaf) subset.lanes &= ~others[i].lanes;
+
+void VertexSet::assign(std::span<const LeafSubset> subsets) {
+  clear();
+  sorted_.assign(subsets.begin(), subsets.end());
+  std::sort(sorted_.begin(), sorted_.end(), [](const LeafSubset& a, const LeafSubset& b) { return a.leaf < b.leaf; });
+  for (std::size_t i = 0; i < sorted_.size();) {
+    LeafSubset all = sorted_[i];
+    while (++i < sorted_.size() && sorted_[i].leaf == all.leaf) all.lanes |= sorted_[i].lanes;
+    add_lanes(all);
   }
-  std::erase_if(subsets_, [](const LeafSubset& subset) { return subset.lanes == 0; });
-  std::swap(runs_, whole_runs_);
-  runs_.clear();
-  for (const VertexRange& run : whole_runs_) add_rest(run, others.subspan(find_from(others, run.begin)));
 }
 
-/// Adds the vertices of `run` that are not in `others`, of which the first does not begin before the run.
-void VertexSet::add_rest(const VertexRange& run, std::span<const LeafSubset> others) {
-  VertexId begin = run.begin;
-  for (const LeafSubset& other : others) {
-    const VertexId first = index_->leaf_begin[other.leaf];
-    if (first >= run.end) break;
-    const VertexId end = index_->leaf_begin[other.leaf + 1];
-    if (begin < first) runs_.push_back({begin, first});
-    const LaneMask rest = first_lanes(end - first) & ~other.lanes;
-    if (rest != 0) subsets_.push_back({other.leaf, rest});  // mutant: rest-of-cut-leaf-dropped
-    begin = end;
+void VertexSet::assign_difference(const VertexSet& all, const VertexSet& part) {
+  clear();
+  auto taken = part.parts().begin();
+  for (Part rest : all.parts()) {
+    const auto is_taken = [&] { return taken != part.parts().end() && taken->begin < rest.end; };
+    if (rest.is_run()) {
+      for (; is_taken(); ++taken) {
+        if (rest.begin < taken->begin) add(VertexRange{rest.begin, taken->begin});
+        const LaneMask left = first_lanes(taken->end - taken->begin) & ~taken->lanes;
+        if (!taken->is_run()) add(Part{taken->begin, taken->end, left});  // mutant: rest-of-cut-leaf-dropped
+        rest.begin = taken->end;
+      }
+      if (rest.begin < rest.end) add(VertexRange{rest.begin, rest.end});
+    } else {
+      for (; is_taken(); ++taken) rest.lanes &= ~taken->lanes;
+      if (rest.lanes != 0) add(rest);
+    }
   }
-  if (begin < run.end) runs_.push_back({begin, run.end});
 }
 
-/// The first of `subsets` whose leaf does not begin before `vertex`.
-std::size_t VertexSet::find_from(std::span<const LeafSubset> subsets, VertexId vertex) const {
-  const auto found = std::partition_point(subsets.begin(), subsets.end(), [&](const LeafSubset& subset) {
-    return index_->leaf_begin[subset.leaf] < vertex;
-  });
-  return static_cast<std::size_t>(found - subsets.begin());
-}
-
-std::span<const VertexRange> VertexSet::all_as_runs() {
-  for (const LeafSubset& subset : subsets_) {
-    const VertexId first = index_->leaf_begin[subset.leaf];
-    for (std::uint64_t left = subset.lanes; left != 0;) {
+std::span<const VertexRange> VertexSet::ranges() {
+  ranges_.clear();
+  const auto append = [&](VertexId begin, VertexId end) {
+    if (!ranges_.empty() && ranges_.back().end == begin) {  // mutant: ranges-that-touch-stay-apart
+      ranges_.back().end = end;
+    } else {
+      ranges_.push_back({begin, end});
+    }
+  };
+  for (const Part& part : parts()) {
+    if (part.is_run()) {
+      append(part.begin, part.end);
+      continue;
+    }
+    for (std::uint64_t left = part.lanes; left != 0;) {
       const auto begin = static_cast<unsigned>(std::countr_zero(left));
       const auto end = begin + static_cast<unsigned>(std::countr_one(left >> begin));
-      runs_.push_back({static_cast<VertexId>(first + begin), static_cast<VertexId>(first + end)});
+      append(static_cast<VertexId>(part.begin + begin), static_cast<VertexId>(part.begin + end));
       left = left >> end << end;
     }
   }
-  subsets_.clear();
-  return runs_;
+  return ranges_;
 }
 
 }  // namespace meshhood

@@ -17,79 +17,103 @@ struct LeafSubset {
   LaneMask lanes;
 };
 
-/// std::popcount, which is a call of a library function when compiling for the oldest processors.
-[[nodiscard]] inline std::size_t count_of(LaneMask lanes) {
-  lanes -= lanes >> 1 & 0x55555555U;
-  lanes = (lanes & 0x33333333U) + (lanes >> 2 & 0x33333333U);
-  return ((lanes + (lanes >> 4)) & 0x0F0F0F0FU) * 0x01010101U >> 24;
-}
-
 /// The vertices of the node at a place of a group.
 [[nodiscard]] inline VertexRange run_of(const GroupRecord& group, unsigned place) {
   return {static_cast<VertexId>(group.begin[place]), static_cast<VertexId>(group.begin[place + 1])};
 }
 
-/// A set of vertices: runs of whole leaves in index order, and subsets of leaves. No vertex is added twice.
+/// A set of vertices in index order: runs of whole leaves, and subsets of leaves, in one list.
 class VertexSet {
  public:
+  /// A run of whole leaves, or those of the vertices of a leaf that `lanes` names.
+  struct Part {
+    VertexId begin;
+    VertexId end;
+    LaneMask lanes;  // 0 for a run
+
+    [[nodiscard]] bool is_run() const { return lanes == 0; }
+  };
+
   explicit VertexSet(const IndexView& index) : index_(&index) {}
 
-  void clear() {
-    runs_.clear();
-    subsets_.clear();
-  }
+  void clear() { size_ = 0; }
 
-  /// Adds a run of whole leaves. One that follows the last becomes a part of it.
+  /// Adds a run of whole leaves, or a subset that is not empty, behind all that were added before. A run that follows
+  /// on a run becomes a part of it.
   void add(const VertexRange& run) {
-    if (!runs_.empty() && runs_.back().end == run.begin) {
-      runs_.back().end = run.end;
-    } else {
-      runs_.push_back(run);
-    }
+    make_room(1);
+    add_if(true, run, 0);
   }
-  void add(const LeafSubset& subset) { subsets_.push_back(subset); }
-
-  /// Removes the vertices of `others`, which ascend by leaf and name each leaf once. O(size of this * log size of
-  /// others).
-  void subtract(std::span<const LeafSubset> others);
-
-  [[nodiscard]] bool is_one_vertex() const {
-    return runs_.empty() && subsets_.size() == 1 && (subsets_[0].lanes & (subsets_[0].lanes - 1)) == 0;
+  void add(const LeafSubset& subset) {
+    make_room(1);
+    add_if(true, vertices_of(subset.leaf), subset.lanes);
   }
+
+  /// The same for a subset that may be all of the leaf.
+  void add_lanes(const LeafSubset& subset) {
+    const VertexRange all = vertices_of(subset.leaf);
+    make_room(1);
+    add_if(true, all, subset.lanes == first_lanes(static_cast<unsigned>(all.size())) ? 0 : subset.lanes);
+  }
+
+  /// Prepares for that many calls of `add_if`.
+  void make_room(std::size_t parts) {
+    if (parts_.size() < size_ + parts + 1) parts_.resize(2 * (size_ + parts + 1));
+  }
+
+  /// Adds the vertices of a run, or the lanes of a leaf, if `condition` holds. Without branches.
+  void add_if(bool condition, const VertexRange& vertices, LaneMask lanes) {
+    Part* next = parts_.data() + size_;
+    const bool follows =
+        condition && size_ != 0 && (next - 1)->is_run() && lanes == 0 && (next - 1)->end == vertices.begin;
+    Part& part = *(next - static_cast<std::ptrdiff_t>(follows));
+    part = {follows ? part.begin : vertices.begin, vertices.end, lanes};
+    size_ += static_cast<std::size_t>(condition && !follows);
+  }
+
+  /// Refills the set with the union of `subsets`, in any order, each vertex once.
+  void assign(std::span<const LeafSubset> subsets);
+
+  /// Refills the set with the vertices of `all` that `part`, a subset of it, does not have.
+  void assign_difference(const VertexSet& all, const VertexSet& part);
 
   [[nodiscard]] std::size_t count() const {
     std::size_t result = 0;
-    for (const VertexRange& run : runs_) result += std::size_t{run.end} - run.begin;
-    for (const LeafSubset& subset : subsets_) result += count_of(subset.lanes);
+    for (const Part& part : parts()) {
+      result += part.is_run() ? std::size_t{part.end} - part.begin : count_of(part.lanes);
+    }
     return result;
   }
-  [[nodiscard]] std::span<const VertexRange> runs() const { return runs_; }
-  [[nodiscard]] std::span<const LeafSubset> subsets() const { return subsets_; }
+  [[nodiscard]] std::span<const Part> parts() const { return {parts_.data(), size_}; }
 
-  /// Calls `f(vertex)` for every vertex, by its number in index order: first those of the runs, then those of the
-  /// subsets.
+  /// Calls `f(vertex)` for every vertex, by its number in index order, ascending.
   template <class F>
   void for_each(F&& f) const {
-    for (const VertexRange& run : runs_) {
-      for (std::size_t vertex = run.begin; vertex < run.end; ++vertex) f(vertex);
-    }
-    for (const LeafSubset& subset : subsets_) {
-      const std::size_t first = index_->leaf_begin[subset.leaf];
-      for_each_lane(subset.lanes, [&](unsigned lane) { f(first + lane); });
+    for (const Part& part : parts()) {
+      if (part.is_run()) {
+        for (std::size_t vertex = part.begin; vertex < part.end; ++vertex) f(vertex);
+      } else {
+        for_each_lane(part.lanes, [&](unsigned lane) { f(std::size_t{part.begin} + lane); });
+      }
     }
   }
 
-  /// Turns the subsets into runs. Nothing can be subtracted from the set afterwards.
-  [[nodiscard]] std::span<const VertexRange> all_as_runs();
+  /// The set as ranges, ascending, as few as possible. Valid until the set changes.
+  [[nodiscard]] std::span<const VertexRange> ranges();
 
  private:
-  void add_rest(const VertexRange& run, std::span<const LeafSubset> others);
-  [[nodiscard]] std::size_t find_from(std::span<const LeafSubset> subsets, VertexId vertex) const;
-
+  void add(const Part& part) {
+    make_room(1);
+    parts_[size_++] = part;
+  }
+  [[nodiscard]] VertexRange vertices_of(LeafId leaf) const {
+    return {index_->leaf_begin[leaf], index_->leaf_begin[leaf + 1]};
+  }
   const IndexView* index_;
-  std::vector<VertexRange> runs_;
-  std::vector<LeafSubset> subsets_;
-  std::vector<VertexRange> whole_runs_;  // scratch of `subtract`
+  std::vector<Part> parts_;
+  std::size_t size_ = 0;
+  std::vector<LeafSubset> sorted_;  // scratch of `assign`
+  std::vector<VertexRange> ranges_;
 };
 
 }  // namespace meshhood

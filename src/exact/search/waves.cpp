@@ -31,7 +31,7 @@ void Waves::meet(NodeId node, GroupStates& states) {
   const std::uint32_t group = node / kFanOut;
   const auto bit = static_cast<NodeSet>(1U << node % kFanOut);
   if (!states.is_known(group)) {
-    states.make(group).pending = bit;
+    states.set(group, {}).pending = bit;
     groups_.push_back(group);
     next_wave_.push_back(group);
     fetch_lines(&index_->groups[group], sizeof(Group) / kCacheLine);
@@ -54,7 +54,6 @@ void Waves::place(std::size_t first_new, const TreeBall& ball, GroupStates& stat
     const NodeSet exist = first_nodes(index_->records[met[i]].nodes);
     state.whole = containments_[i].inside & exist;
     state.intersecting = containments_[i].intersecting & exist;
-    state.in_doubt = containments_[i].may_have_minimum;
     fetch_lines(index_->node_links.data() + index_->records[met[i]].first_link, 2);
   }
 }

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace meshhood {
+
+/// An array of states that are valid for one search only. `forget` makes all of them unknown at once, in constant time.
+template <class State>
+class EpochArray {
+ public:
+  explicit EpochArray(std::size_t size) : slots_(size) {}
+
+  /// Begins a new search: nothing is known.
+  void forget() {
+    if (epoch_ == std::numeric_limits<std::uint32_t>::max()) {  // mutant: epoch-never-wraps
+      std::fill(slots_.begin(), slots_.end(), Slot{});
+      epoch_ = 0;
+    }
+    ++epoch_;
+  }
+
+  [[nodiscard]] std::size_t size() const { return slots_.size(); }
+  [[nodiscard]] bool is_known(std::size_t i) const { return slots_[i].epoch == epoch_; }
+
+  /// A state that is known.
+  [[nodiscard]] State& operator[](std::size_t i) { return slots_[i].state; }
+  [[nodiscard]] const State& operator[](std::size_t i) const { return slots_[i].state; }
+
+  /// Makes a state known.
+  State& set(std::size_t i, const State& state) {
+    slots_[i] = {epoch_, state};
+    return slots_[i].state;
+  }
+
+  /// Where a state is, to be prefetched.
+  [[nodiscard]] const void* address(std::size_t i) const { return &slots_[i]; }
+
+  /// For tests: continues as if `forget` had been called so many times.
+  void set_epoch(std::uint32_t epoch) { epoch_ = epoch; }
+
+ private:
+  struct Slot {
+    std::uint32_t epoch = 0;  // the state is known if this is the current one
+    State state{};
+  };
+
+  std::vector<Slot> slots_;
+  std::uint32_t epoch_ = 0;
+};
+
+}  // namespace meshhood
