@@ -20,7 +20,7 @@ foreach(part
     exact/search_families exact/search_differential exact/search_outward exact/search_rare exact/search_traps exact/threads
     exact/query/edge_search exact/query/nearest exact/query/path_order exact/query/path_queue exact/query/path_search exact/query/region exact/query/square_range
     exact/search/descent exact/search/leaf_traversal exact/search/group_states exact/search/home_marks exact/search/loose_pieces exact/search/other_components exact/search/reached_components exact/search/output
-    exact/search/search_limits exact/search/few_leaves exact/search/vertex_bfs exact/search/vertex_set exact/search/waves
+    exact/search/search_limits exact/search/vertex_bfs exact/search/vertex_set exact/search/waves
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
     region/region_mesher
     curvature/corrected curvature/curvatures curvature/features curvature/moments curvature/quadric

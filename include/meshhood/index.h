@@ -25,6 +25,7 @@ struct BuildOptions {
   Progress progress = {};
 };
 
+class KeptGraph;
 struct IndexView;
 
 /// The index of exact neighborhoods: the mesh in an order in which near vertices are close in memory, cut into
@@ -72,7 +73,8 @@ class Index {
   friend struct IndexAccess;
 
   explicit Index(std::shared_ptr<IndexView> view);
-  std::shared_ptr<IndexView> view_;  // searchers share it
+  std::shared_ptr<IndexView> view_;   // searchers share it
+  std::shared_ptr<KeptGraph> graph_;  // and this
 };
 
 /// Builds the index. The same mesh gives the same index for any number of threads.

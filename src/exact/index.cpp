@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "exact/kept_graph.h"
 #include "exact/layout.h"
 
 namespace meshhood {
@@ -19,7 +20,7 @@ std::size_t bytes_of(const PositionsInOrder& positions) {
 
 }  // namespace
 
-Index::Index(std::shared_ptr<IndexView> view) : view_(std::move(view)) {}
+Index::Index(std::shared_ptr<IndexView> view) : view_(std::move(view)), graph_(std::make_shared<KeptGraph>()) {}
 Index::Index(Index&&) noexcept = default;
 Index& Index::operator=(Index&&) noexcept = default;
 Index::~Index() = default;

@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "exact/arrays.h"
+#include "exact/kept_graph.h"
 #include "exact/layout.h"
 
 namespace meshhood {
@@ -23,8 +24,12 @@ struct IndexAccess {
   /// Keeps the view alive and unchanged, for searchers.
   [[nodiscard]] static std::shared_ptr<const IndexView> share(const Index& index) { return index.view_; }
 
-  /// The view itself, for `refit`.
+  /// The graph vertex by vertex, for the same.
+  [[nodiscard]] static std::shared_ptr<KeptGraph> share_graph(const Index& index) { return index.graph_; }
+
+  /// The view itself, for `refit`, and the graph that belongs to its positions.
   [[nodiscard]] static std::shared_ptr<IndexView>& storage(Index& index) { return index.view_; }
+  [[nodiscard]] static std::shared_ptr<KeptGraph>& graph(Index& index) { return index.graph_; }
 
   /// The number of steps of a build, for progress: graph, leaves, links, positions, spheres and regions, tree.
   static constexpr std::size_t kBuildSteps = 6;

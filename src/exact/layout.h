@@ -16,7 +16,6 @@
 #include "base/frame.h"
 #include "base/prefetch.h"
 #include "exact/root_tree.h"
-#include "exact/shared_graph.h"
 #include "simd/leaf.h"
 #include "simd/node_group.h"
 
@@ -122,7 +121,6 @@ struct IndexView {
   std::vector<LeafGroupRange> leaf_groups;  // by node above the leaves, the first of which follows on the last leaf
   std::shared_ptr<const void> owner;        // a `ConnectivityData`, or the bytes of an index file
   std::shared_ptr<GeometryData> geometry;   // of this view alone; none while all arrays are in a file
-  std::shared_ptr<SharedGraph> graph = std::make_shared<SharedGraph>();  // over vertices, along edges
 
   [[nodiscard]] std::size_t vertex_count() const { return slot.size(); }
   /// The number of places for leaves. A leaf that does not exist has no vertices.

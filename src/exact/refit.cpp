@@ -12,8 +12,8 @@
 #include "exact/arrays.h"
 #include "exact/build/geometry.h"
 #include "exact/index_access.h"
+#include "exact/kept_graph.h"
 #include "exact/moves.h"
-#include "exact/shared_graph.h"
 
 namespace meshhood {
 namespace {
@@ -36,7 +36,6 @@ void check_precision(const PositionsView& positions, const IndexView& index) {
 Index with_geometry(const IndexView& index, std::shared_ptr<GeometryData> geometry) {
   auto view = std::make_shared<IndexView>(index);
   set_geometry(*view, std::move(geometry));
-  view->graph = std::make_shared<SharedGraph>();  // mutant: graph-of-other-positions
   return IndexAccess::make(std::move(view));
 }
 
@@ -122,9 +121,9 @@ Index refit(Index&& index, const PositionsView& positions, const IndicesView& ch
   TaskContext task(options.threads, options.progress, kGeometrySteps);
   const std::vector<Move> moves = checked_moves(*view, positions, changed);
   if (!stay_in_frame(moves, view->frame)) return refit_all(*view, moves, task);
-  auto graph = std::make_shared<SharedGraph>();
+  auto graph = std::make_shared<KeptGraph>();
   apply_moves(moves, *view, task);
-  view->graph = std::move(graph);  // mutant: graph-before-the-moves
+  IndexAccess::graph(index) = std::move(graph);  // mutant: graph-before-the-moves
   return std::move(index);
 }
 

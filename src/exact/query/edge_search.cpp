@@ -19,20 +19,25 @@ namespace meshhood {
 /// The scratch memory of an edge searcher.
 struct EdgeSearcher::State {
   std::shared_ptr<const IndexView> index;  // shared, so that `refit` leaves it as it is
+  std::shared_ptr<KeptGraph> graph;
   const Kernels* kernels;
   std::optional<PathSearch> paths;  // made by the first search: it needs the lengths of all edges
   RingSearch rings;
   VertexSet answer;                 // of `rings`
   std::vector<VertexRange> ranges;  // of the last call of that name
 
-  explicit State(std::shared_ptr<const IndexView> view)
-      : index(std::move(view)), kernels(&meshhood::kernels(best_isa())), rings(*index, *kernels), answer(*index) {}
+  explicit State(const Index& owner)
+      : index(IndexAccess::share(owner)),
+        graph(IndexAccess::share_graph(owner)),
+        kernels(&meshhood::kernels(best_isa())),
+        rings(*index, *kernels),
+        answer(*index) {}
 
   /// Finds the vertices, those that are ignored included.
   void search(VertexId v, double radius, const Filter& filter) {
     check_query(v, index->vertex_count(), radius);
     check_filter(filter, index->vertex_count());
-    if (!paths) paths.emplace(*index);
+    if (!paths) paths.emplace(*index, *graph);
     const std::uint32_t slot = index->slot[v];
     paths->run(index->leaf_begin[leaf_of(slot)] + lane_of(slot), radius, LaneFilter(*index, filter.walls));
   }
@@ -47,7 +52,7 @@ struct EdgeSearcher::State {
   }
 };
 
-EdgeSearcher::EdgeSearcher(const Index& index) : state_(std::make_unique<State>(IndexAccess::share(index))) {}
+EdgeSearcher::EdgeSearcher(const Index& index) : state_(std::make_unique<State>(index)) {}
 EdgeSearcher::EdgeSearcher(EdgeSearcher&&) noexcept = default;
 EdgeSearcher& EdgeSearcher::operator=(EdgeSearcher&&) noexcept = default;
 EdgeSearcher::~EdgeSearcher() = default;

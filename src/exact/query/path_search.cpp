@@ -6,8 +6,6 @@
 #include <numeric>
 #include <type_traits>
 
-#include "exact/shared_graph.h"
-
 namespace meshhood {
 namespace {
 
@@ -32,9 +30,9 @@ bool is_longer(const Path& a, const Path& b) { return a.length > b.length; }
 
 }  // namespace
 
-PathSearch::PathSearch(const IndexView& index)
+PathSearch::PathSearch(const IndexView& index, KeptGraph& graph)
     : index_(&index),
-      graph_(&index.graph->weighted(index)),
+      graph_(&graph.of(index)),
       lengths_(index.vertex_count(), kUnreached),
       is_met_(index.vertex_count() / kVerticesOfBlock + 1) {}
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "exact/kept_graph.h"
 #include "exact/layout.h"
 #include "exact/query/lane_filter.h"
 #include "exact/query/path_order.h"
@@ -30,7 +31,7 @@ class PathSearch {
   static constexpr int kRounds = 4;
 
   /// O(#V), and for the first search of an index O(#V + #E): its weighted graph is made.
-  explicit PathSearch(const IndexView& index);
+  PathSearch(const IndexView& index, KeptGraph& graph);
 
   /// Finds the vertices whose path distance from the vertex `start`, in index order, is at most `radius`, without
   /// passing `walls`.

@@ -38,7 +38,7 @@ bool RegionSearcher::State::is_neighborhood(const Start& start, const Filter& fi
 }
 
 SearcherAccess::State& RegionSearcher::State::searcher() {
-  if (!neighborhoods) neighborhoods = std::make_unique<SearcherAccess::State>(index, isa);
+  if (!neighborhoods) neighborhoods = std::make_unique<SearcherAccess::State>(index, graph, isa);
   return *neighborhoods;
 }
 
@@ -68,7 +68,7 @@ Point RegionSearcher::State::search(const Start& start, double radius, const Fil
 }
 
 RegionSearcher::RegionSearcher(const Index& index)
-    : state_(std::make_unique<State>(IndexAccess::share(index), best_isa())) {}
+    : state_(std::make_unique<State>(IndexAccess::share(index), IndexAccess::share_graph(index), best_isa())) {}
 RegionSearcher::RegionSearcher(RegionSearcher&&) noexcept = default;
 RegionSearcher& RegionSearcher::operator=(RegionSearcher&&) noexcept = default;
 RegionSearcher::~RegionSearcher() = default;

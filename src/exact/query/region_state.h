@@ -21,6 +21,7 @@ namespace meshhood {
 /// The scratch memory of a region searcher, and what its queries share.
 struct RegionSearcher::State {
   std::shared_ptr<const IndexView> index;  // shared, so that `refit` leaves it as it is
+  std::shared_ptr<KeptGraph> graph;        // of odd graphs
   Isa isa;
   const Kernels* kernels;
   Flood flood;
@@ -30,8 +31,9 @@ struct RegionSearcher::State {
   VertexSet answer;
   std::unique_ptr<SearcherAccess::State> neighborhoods;
 
-  State(std::shared_ptr<const IndexView> view, Isa chosen)
+  State(std::shared_ptr<const IndexView> view, std::shared_ptr<KeptGraph> kept, Isa chosen)
       : index(std::move(view)),
+        graph(std::move(kept)),
         isa(chosen),
         kernels(&meshhood::kernels(isa)),
         flood(*index, *kernels),
@@ -76,7 +78,7 @@ struct RegionSearcher::State {
 struct RegionAccess {
   static Flood& flood(RegionSearcher& searcher) { return searcher.state_->flood; }
   static void set_isa(RegionSearcher& searcher, Isa isa) {
-    searcher.state_ = std::make_unique<RegionSearcher::State>(searcher.state_->index, isa);
+    searcher.state_ = std::make_unique<RegionSearcher::State>(searcher.state_->index, searcher.state_->graph, isa);
   }
 };
 

@@ -7,11 +7,13 @@
 // breadth-first searches.
 #include <algorithm>
 #include <cstddef>
+#include <variant>
 
 #include "meshhood/search.h"
 
 #include "base/distance.h"
 #include "exact/index_access.h"
+#include "exact/neighbors.h"
 #include "exact/search/output.h"
 #include "exact/search/searcher_state.h"
 
@@ -30,8 +32,9 @@ void Searcher::State::search(VertexId v, double radius) {
   const std::uint32_t slot = index->slot[v];
   const Leaf& home = index->leaves[leaf_of(slot)];
   leaf_bfs.prefetch_leaf(home, true);
-  if ((is_tiny() || index->links_of(leaf_of(slot)).empty()) && search_few_leaves(slot)) {
-    way = Way::FewLeaves;
+  if (is_tiny() && is_alone(slot)) {
+    way = Way::Alone;
+    answer.add_lanes({leaf_of(slot), LaneMask{1} << lane_of(slot)});
     return;
   }
   const Query query(*index, v, bounds);
@@ -46,7 +49,7 @@ void Searcher::State::search(VertexId v, double radius) {
   component.find(query, reach, answer);
 }
 
-/// Whether the answer may well lie in few leaves.
+/// Whether the answer may well be the query vertex alone.
 bool Searcher::State::is_tiny() const {
   constexpr double kMeanLeafRadii = 0.4;  // chosen
   return bounds.radius_in_frame < kMeanLeafRadii * index->tree[0].mean_radius;
@@ -60,17 +63,22 @@ bool Searcher::State::is_small(const Leaf& home) const {
   return bounds.radius_in_frame < kLeafRadii * radius;
 }
 
-/// Returns false if the answer has vertices of many leaves.
-bool Searcher::State::search_few_leaves(std::uint32_t slot) {
+/// Whether no neighbor of the vertex at a slot, the center of the ball, is in the ball.
+bool Searcher::State::is_alone(std::uint32_t slot) const {
   const Point center = index->position(leaf_of(slot), lane_of(slot));
-  if (few_leaves.is_isolated(slot, center, bounds.leaf.squared_radius)) {
-    answer.add_lanes(LeafSubset{leaf_of(slot), LaneMask{1} << lane_of(slot)});
-    return true;
-  }
-  return few_leaves.find(slot, LeafBall(center, bounds.leaf), answer);
+  return std::visit(
+      [&](auto xyz) {
+        bool result = true;
+        for_each_neighbor(*index, leaf_of(slot), lane_of(slot), [&](std::size_t other) {
+          result &= !(squared_distance(point(xyz, other), center) <= bounds.leaf.squared_radius);
+        });
+        return result;
+      },
+      index->positions);
 }
 
-Searcher::Searcher(const Index& index) : state_(std::make_unique<State>(IndexAccess::share(index), best_isa())) {}
+Searcher::Searcher(const Index& index)
+    : state_(std::make_unique<State>(IndexAccess::share(index), IndexAccess::share_graph(index), best_isa())) {}
 Searcher::Searcher(Searcher&&) noexcept = default;
 Searcher& Searcher::operator=(Searcher&&) noexcept = default;
 Searcher::~Searcher() = default;

@@ -9,7 +9,6 @@
 
 #include "exact/layout.h"
 #include "exact/search/component.h"
-#include "exact/search/few_leaves.h"
 #include "exact/search/leaf_bfs.h"
 #include "exact/search/query.h"
 #include "exact/search/reach.h"
@@ -22,23 +21,23 @@ namespace meshhood {
 /// The scratch memory of a searcher, and the outline of a query.
 struct Searcher::State {
   std::shared_ptr<const IndexView> index;  // shared, so that `refit` leaves it as it is
+  std::shared_ptr<KeptGraph> graph;        // of odd graphs
   const Kernels* kernels;
   RadiusBounds bounds;
   bool is_odd;
   VertexBfs vertex_bfs;
-  FewLeaves few_leaves;
   LeafBfs leaf_bfs;
   Reach reach;
   Component component;
   VertexSet answer;
 
-  State(std::shared_ptr<const IndexView> view, Isa isa)
+  State(std::shared_ptr<const IndexView> view, std::shared_ptr<KeptGraph> kept, Isa isa)
       : index(std::move(view)),
+        graph(std::move(kept)),
         kernels(&meshhood::kernels(isa)),
         bounds(index->frame, 0),
         is_odd(meshhood::is_odd(*index)),
-        vertex_bfs(*index),
-        few_leaves(*index, *kernels),
+        vertex_bfs(*index, *graph),
         leaf_bfs(*index, *kernels),
         reach(*index, *kernels),
         component(*index, *kernels),
@@ -48,7 +47,7 @@ struct Searcher::State {
   void search(VertexId v, double radius);
 
   /// The way that answers a query. It depends on index, vertex and radius alone.
-  enum class Way { VertexBfs, FewLeaves, LeafBfs, Component };
+  enum class Way { VertexBfs, Alone, LeafBfs, Component };
   Way way = Way::VertexBfs;  // of the last query, for tests and benchmarks
 
   [[nodiscard]] Point center_of(VertexId v) const {
@@ -59,7 +58,7 @@ struct Searcher::State {
  private:
   friend class SearchSteps;  // bench/search_steps.cpp times the steps one by one
 
-  [[nodiscard]] bool search_few_leaves(std::uint32_t slot);
+  [[nodiscard]] bool is_alone(std::uint32_t slot) const;
   [[nodiscard]] bool is_tiny() const;
   [[nodiscard]] bool is_small(const Leaf& home) const;
 };
@@ -69,7 +68,7 @@ struct SearcherAccess {
   using State = Searcher::State;
   static Searcher::State& state(Searcher& searcher) { return *searcher.state_; }
   static void set_isa(Searcher& searcher, Isa isa) {
-    searcher.state_ = std::make_unique<Searcher::State>(searcher.state_->index, isa);
+    searcher.state_ = std::make_unique<Searcher::State>(searcher.state_->index, searcher.state_->graph, isa);
   }
 };
 

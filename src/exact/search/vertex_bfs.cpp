@@ -5,7 +5,6 @@
 
 #include "base/limits.h"
 #include "base/reference_access.h"
-#include "exact/shared_graph.h"
 
 namespace meshhood {
 namespace {
@@ -39,7 +38,7 @@ void VertexBfs::make_searcher() {
   const PositionsView positions =
       std::visit([&](auto xyz) { return PositionsView(xyz.first(3 * index_->vertex_count())); }, index_->positions);
   found_.emplace(index_->vertex_count());
-  searcher_.emplace(GraphView{positions, index_->graph->weighted(*index_).edges.view()});
+  searcher_.emplace(GraphView{positions, graph_->of(*index_).edges.view()});
 }
 
 void VertexBfs::run(VertexId v, double squared_radius, VertexSet& answer) {

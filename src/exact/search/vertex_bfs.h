@@ -7,6 +7,7 @@
 #include "meshhood/reference.h"
 
 #include "base/number_set.h"
+#include "exact/kept_graph.h"
 #include "exact/layout.h"
 #include "exact/search/vertex_set.h"
 
@@ -24,7 +25,7 @@ namespace meshhood {
 /// searchers of an index share the copy, which the first query makes.
 class VertexBfs {
  public:
-  explicit VertexBfs(const IndexView& index) : index_(&index) {}
+  VertexBfs(const IndexView& index, KeptGraph& graph) : index_(&index), graph_(&graph) {}
 
   /// Adds the neighborhood of `v` to `answer`, which is empty. `squared_radius` is that of the predicate.
   void run(VertexId v, double squared_radius, VertexSet& answer);
@@ -33,6 +34,7 @@ class VertexBfs {
   void make_searcher();
 
   const IndexView* index_;
+  KeptGraph* graph_;
   std::optional<ReferenceSearcher> searcher_;
   std::optional<NumberSet> found_;  // in index order
 };
