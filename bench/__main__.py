@@ -4,6 +4,7 @@ pages and plots are made from them.
 
     python3 -m bench tables      the paper's Table 1 and Table 2, the phases of its query, the times for all vertices
     python3 -m bench exact       the exact index beside the best breadth-first search, cold and warm
+    python3 -m bench before      the exact index beside that of another commit, in one process: --commit
     python3 -m bench batch       all vertices of a mesh in one call, beside breadth-first search
     python3 -m bench curvature   principal curvatures of all vertices, beside libigl, MeshLab and CGAL
     python3 -m bench growth      the same as the mesh grows to 10 million vertices
@@ -32,6 +33,12 @@ def exact(options):
     from . import exact_index
 
     exact_index.run(options.meshes, options.queries or 300)
+
+
+def before(options):
+    from . import exact_index
+
+    exact_index.compare(options.commit, options.meshes, options.queries or 600)
 
 
 def batch(options):
@@ -82,7 +89,7 @@ def report(_):
     writing.write()
 
 
-PARTS = {part.__name__: part for part in (tables, exact, batch, curvature, growth, pictures, accuracy, scaling, peers,
+PARTS = {part.__name__: part for part in (tables, exact, before, batch, curvature, growth, pictures, accuracy, scaling, peers,
                                        report)}
 
 
@@ -92,6 +99,7 @@ def main():
     parser.add_argument("parts", nargs="+", choices=PARTS, metavar="PART", help=", ".join(PARTS))
     parser.add_argument("--meshes", nargs="+", choices=meshes.MESHES, metavar="NAME", help=", ".join(meshes.MESHES))
     parser.add_argument("--queries", type=int, help="a mesh and radius")
+    parser.add_argument("--commit", default="HEAD~1", help="the commit to compare with, for `before`")
     parser.add_argument("--largest", type=int, default=10_000_000,
                         help="vertices of the largest mesh of `scaling` and `growth`")
     parser.add_argument("--block-seconds", type=float, default=0.3, help="approximate time of a library and block")

@@ -7,6 +7,12 @@
 
 #include "measure/timing.h"
 
+#if defined(MESHHOOD_BEFORE)
+#include <type_traits>
+
+#include "before/before.h"
+#endif
+
 namespace meshhood::bench {
 namespace {
 
@@ -56,6 +62,7 @@ measure::Method Contestants::method(const std::string& name) {
   if (name == "count") return count_method();
   if (name == "ranges") return ranges_method();
   if (name.starts_with("paper")) return paper(name);
+  if (name.starts_with("before")) return before_method(name);
   raise(ErrorCode::InvalidOption, name + ": unknown method");
 }
 
@@ -78,6 +85,39 @@ measure::Method Contestants::ids_method() {
   measure::Method method = measure::exact_method(another_exact());
   method.name = "ids";
   return method;
+}
+
+measure::Method Contestants::before_method(const std::string& name) {
+#if defined(MESHHOOD_BEFORE)
+  std::vector<float> floats;
+  std::vector<double> doubles;
+  mesh_.positions.visit([&]<class Real>(const StridedPositions<Real>& xyz) {
+    for (std::size_t v = 0; v < xyz.size(); ++v) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if constexpr (std::is_same_v<Real, float>) {
+          floats.push_back(xyz(v, axis));
+        } else {
+          doubles.push_back(xyz(v, axis));
+        }
+      }
+    }
+  });
+  const std::vector<std::uint32_t> offsets(adjacency_.offsets.begin(), adjacency_.offsets.end());
+  const std::shared_ptr<before::Engine> engine = before::build({floats, doubles, offsets, adjacency_.neighbors});
+  if (name == "before-count") {
+    return {.name = name,
+            .neighborhood = [engine](VertexId v, double radius,
+                                     std::vector<VertexId>&) { static_cast<void>(engine->count(v, radius)); },
+            .count = {},
+            .lists_vertices = false};
+  }
+  return {.name = name,
+          .neighborhood = [engine](VertexId v, double radius,
+                                   std::vector<VertexId>& out) { engine->neighborhood(v, radius, out); },
+          .count = {}};
+#else
+  raise(ErrorCode::InvalidOption, name + ": there is no other commit; see bench/before/build");
+#endif
 }
 
 measure::Method Contestants::bfs_reordered() {

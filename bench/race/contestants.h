@@ -27,6 +27,7 @@ struct Build {
 /// bfs-reordered        the same with the vertices in index order
 /// ball                 a scan of all vertices
 /// ids, count, ranges   the exact index, with this kind of answer
+/// before, before-count   the exact index of another commit, if there is one (bench/before/build)
 /// paper[,f=10][,levels=5][,discard=2]   the index of the paper
 class Contestants {
  public:
@@ -49,6 +50,7 @@ class Contestants {
   template <class Query>
   [[nodiscard]] measure::Method unlisted(const std::string& name, Query query);
   [[nodiscard]] measure::Method bfs_reordered();
+  [[nodiscard]] measure::Method before_method(const std::string& name);
   [[nodiscard]] measure::Method ids_method();
   [[nodiscard]] measure::Method count_method();
   [[nodiscard]] measure::Method ranges_method();
