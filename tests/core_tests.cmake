@@ -12,7 +12,7 @@ target_compile_options(meshhood_families PRIVATE $<$<CONFIG:Release>:-O1>)
 
 foreach(part
     base/adjacency base/frame base/mesh base/distance base/sphere base/reference base/error base/parallel
-    base/cut_edges
+    base/cut_edges base/packed_positions
     aggregate/aggregate
     batch/batch batch/joint_batch batch/packets batch/position_sort
     exact/cell_components exact/connected_parts exact/dissolve_parts exact/forest exact/halfplane_polygon exact/joint_search exact/kd_order exact/leaf_nodes exact/leaves

@@ -34,4 +34,16 @@ class PackedPositions {
   std::span<const Real> view_;
 };
 
+/// The positions of `vertices`, #vertices by 3, from `xyz`, #V by 3. A place in `xyz` may need more bits than an id.
+template <class Real>
+[[nodiscard]] std::vector<Real> rows_of(std::span<const Real> xyz, std::span<const VertexId> vertices) {
+  std::vector<Real> rows;
+  rows.reserve(3 * vertices.size());
+  for (const VertexId v : vertices) {
+    const auto row = xyz.subspan(3 * std::size_t{v}, 3);
+    rows.insert(rows.end(), row.begin(), row.end());
+  }
+  return rows;
+}
+
 }  // namespace meshhood

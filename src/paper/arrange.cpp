@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/packed_positions.h"
 #include "paper/child_lists.h"
 #include "paper/derive.h"
 
@@ -87,14 +88,6 @@ Level<Real> fill_level(std::size_t number, std::vector<ClusterId> members, Adjac
   return level;
 }
 
-template <class Real>
-std::vector<Real> permute(std::span<const Real> xyz, const std::vector<VertexId>& vertices) {
-  std::vector<Real> result;
-  result.reserve(xyz.size());
-  for (const VertexId v : vertices) result.insert(result.end(), {xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]});
-  return result;
-}
-
 }  // namespace
 
 template <class Real>
@@ -109,7 +102,7 @@ Hierarchy<Real> arrange(std::span<const Real> xyz, const std::vector<std::vector
     result.levels.push_back(fill_level<Real>(l, members, renumber(siblings[l], levels[l]), is_lowest));
   }
   result.vertices = std::move(levels.front().old_id);
-  result.positions = permute(xyz, result.vertices);
+  result.positions = rows_of(xyz, std::span<const VertexId>(result.vertices));
   derive(result);
   return result;
 }
