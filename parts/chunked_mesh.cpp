@@ -10,6 +10,7 @@
 #include "meshhood/error.h"
 
 #include "base/text.h"
+#include "base/vertex_range.h"
 #include "io/messages.h"
 
 namespace meshhood::parts {
@@ -64,8 +65,8 @@ void ChunkedMesh::check_face(std::span<const std::uint64_t> corners) const {
     if (corners[i] < vertices_) [[likely]] {  // mutant: corner-one-too-large
       continue;
     }
-    raise(ErrorCode::InvalidMesh, fmt::format("{}: face {}: corner {} is vertex {}, but the mesh has {} vertices",
-                                              name_, next_face_, i, index_text(corners[i]), vertices_));
+    raise_no_such_vertex(ErrorCode::InvalidMesh, fmt::format("{}: face {}: corner {} is vertex ", name_, next_face_, i),
+                         index_text(corners[i]), vertices_);
   }
 }
 

@@ -184,7 +184,8 @@ class FacesView {
     return strided_triangles(corners, corners.size() / 3, 1, corners.size() / 3);
   }
 
-  /// Corner `i` of triangle `f` is `corners[f * face_stride + i * corner_stride]`, for `count` triangles.
+  /// Corner `i` of triangle `f` is `corners[f * face_stride + i * corner_stride]`, for `count` triangles. The face
+  /// stride is at least 1 if there are several.
   [[nodiscard]] static FacesView strided_triangles(IndicesView corners, std::size_t count, std::size_t face_stride,
                                                    std::size_t corner_stride) {
     FacesView faces;

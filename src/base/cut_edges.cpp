@@ -9,6 +9,7 @@
 #include "meshhood/filter.h"
 
 #include "base/text.h"
+#include "base/vertex_range.h"
 
 namespace meshhood {
 namespace {
@@ -17,8 +18,8 @@ namespace {
 VertexId checked_end(const IndicesView& edges, std::size_t i, std::size_t vertices) {
   const std::uint64_t end = edges[i];
   if (end < vertices) return static_cast<VertexId>(end);
-  raise(ErrorCode::VertexOutOfRange, "edge " + std::to_string(i / 2) + ": vertex " + to_text(edges, i) +
-                                         ", but the mesh has " + std::to_string(vertices) + " vertices");
+  raise_no_such_vertex(ErrorCode::VertexOutOfRange, "edge " + std::to_string(i / 2) + ": vertex ", to_text(edges, i),
+                       vertices);
 }
 
 /// Marks `w` in the row of `v`. Returns whether it is there.

@@ -8,6 +8,7 @@
 
 #include "base/limits.h"
 #include "base/text.h"
+#include "base/vertex_range.h"
 
 namespace meshhood {
 
@@ -35,8 +36,7 @@ void check_radius(double radius, std::string_view where) {
 
 void check_query(VertexId v, std::size_t vertices, double radius, std::string_view where) {
   if (v >= vertices) {
-    raise(ErrorCode::VertexOutOfRange, std::string(where) + "vertex " + std::to_string(v) + ", but the mesh has " +
-                                           std::to_string(vertices) + " vertices");
+    raise_no_such_vertex(ErrorCode::VertexOutOfRange, std::string(where) + "vertex ", std::to_string(v), vertices);
   }
   check_radius(radius, where);
 }

@@ -8,6 +8,7 @@
 
 #include "base/distance.h"
 #include "base/valid_position.h"
+#include "base/vertex_range.h"
 
 namespace meshhood {
 namespace {
@@ -42,14 +43,26 @@ void validate_offsets(std::span<const Index> offsets, std::size_t corners) {
   }
 }
 
+/// Whether the last corner of the last triangle, `(#F - 1) * face_stride + 2 * corner_stride`, is one of `corners`.
+/// Divides, because that number may have more than 64 bits.
+bool fit_into(std::size_t corners, const FacesView& faces) {
+  if (faces.size() == 0) return true;
+  if (corners == 0 || faces.corner_stride() > (corners - 1) / 2) return false;
+  const std::size_t room = corners - 1 - 2 * faces.corner_stride();
+  return faces.size() == 1 || faces.face_stride() <= room / (faces.size() - 1);
+}
+
 void validate_triangles(const FacesView& faces) {
   const std::size_t corners = faces.corners().size();
-  const std::size_t needed =
-      faces.size() == 0 ? 0 : (faces.size() - 1) * faces.face_stride() + 2 * faces.corner_stride() + 1;
-  if (corners < needed) {
-    raise(ErrorCode::InvalidMesh, std::to_string(corners) + " corner indices, but " + std::to_string(faces.size()) +
-                                      " triangles with strides " + std::to_string(faces.face_stride()) + " and " +
-                                      std::to_string(faces.corner_stride()) + " need " + std::to_string(needed));
+  // Without a stride, all faces would be the same one, in any number.
+  if (faces.size() > 1 && faces.face_stride() == 0) {
+    raise(ErrorCode::InvalidMesh,
+          std::to_string(faces.size()) + " triangles with a face stride of 0, expected 1 or more");
+  }
+  if (!fit_into(corners, faces)) {
+    raise(ErrorCode::InvalidMesh,
+          std::to_string(faces.size()) + " triangles with strides " + std::to_string(faces.face_stride()) + " and " +
+              std::to_string(faces.corner_stride()) + " exceed the " + std::to_string(corners) + " corner indices");
   }
   const bool is_by_rows = faces.face_stride() == 3 && faces.corner_stride() == 1;
   const bool is_by_columns = faces.face_stride() == 1 && faces.corner_stride() == faces.size();
@@ -60,9 +73,9 @@ void validate_triangles(const FacesView& faces) {
 
 template <class Index>
 [[noreturn]] void raise_corner(std::size_t face, std::size_t i, Index vertex, std::size_t vertices) {
-  raise(ErrorCode::InvalidMesh, "face " + std::to_string(face) + ": corner " + std::to_string(i) + " is vertex " +
-                                    std::to_string(vertex) + ", but the mesh has " + std::to_string(vertices) +
-                                    " vertices");
+  raise_no_such_vertex(ErrorCode::InvalidMesh,
+                       "face " + std::to_string(face) + ": corner " + std::to_string(i) + " is vertex ",
+                       std::to_string(vertex), vertices);
 }
 
 /// Corner `i` of a face is `corners[first + i * stride]`, for `count` corners.

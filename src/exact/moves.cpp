@@ -12,6 +12,7 @@
 
 #include "base/text.h"
 #include "base/valid_position.h"
+#include "base/vertex_range.h"
 #include "exact/arrays.h"
 #include "exact/build/leaf_spheres.h"
 #include "exact/build/tree.h"
@@ -76,9 +77,8 @@ std::vector<Move> read_moves(const IndexView& index, const PositionsView& positi
   for (std::size_t row = 0; row < changed.size(); ++row) {
     const std::uint64_t v = changed[row];
     if (v >= index.vertex_count()) {
-      raise(ErrorCode::VertexOutOfRange, "changed: row " + std::to_string(row) + ": vertex " + to_text(changed, row) +
-                                             ", but the mesh has " + std::to_string(index.vertex_count()) +
-                                             " vertices");
+      raise_no_such_vertex(ErrorCode::VertexOutOfRange, "changed: row " + std::to_string(row) + ": vertex ",
+                           to_text(changed, row), index.vertex_count());
     }
     const auto vertex = static_cast<std::size_t>(v);
     const Point to = point(positions, vertex);

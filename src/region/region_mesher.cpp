@@ -5,6 +5,7 @@
 #include "meshhood/error.h"
 #include "meshhood/region_mesh.h"
 
+#include "base/vertex_range.h"
 #include "region/face_lists.h"
 #include "region/mesher_state.h"
 
@@ -13,8 +14,8 @@ namespace meshhood {
 void RegionMesher::State::mark(std::span<const VertexId> ids) {
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (ids[i] < marks.size()) continue;
-    raise(ErrorCode::VertexOutOfRange, "ids: position " + std::to_string(i) + ": vertex " + std::to_string(ids[i]) +
-                                           ", but the mesh has " + std::to_string(marks.size()) + " vertices");
+    raise_no_such_vertex(ErrorCode::VertexOutOfRange, "ids: position " + std::to_string(i) + ": vertex ",
+                         std::to_string(ids[i]), marks.size());
   }
   if (++round == 0) {
     std::fill(marks.begin(), marks.end(), 0);

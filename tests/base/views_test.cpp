@@ -170,10 +170,28 @@ TEST_F(Views, RefuseArraysThatAreTooShort) {
   const std::vector<std::int32_t> four(4);
   expect_refused(ErrorCode::InvalidMesh, "4 corner",
                  [&] { validate(MeshView{plain.positions, FacesView::column_major_triangles(four)}); });
-  expect_refused(ErrorCode::InvalidMesh, "4 corner indices, but 2 triangles with strides 3 and 1 need 6",
+  expect_refused(ErrorCode::InvalidMesh, "2 triangles with strides 3 and 1 exceed the 4 corner indices",
                  [&] { validate(MeshView{plain.positions, FacesView::strided_triangles(four, 2, 3, 1)}); });
-  expect_refused(ErrorCode::InvalidMesh, "4 corner indices, but 9 triangles with strides 0 and 2 need 5",
-                 [&] { validate(MeshView{plain.positions, FacesView::strided_triangles(four, 9, 0, 2)}); });
+  expect_refused(ErrorCode::InvalidMesh, "1 triangles with strides 0 and 2 exceed the 4 corner indices",
+                 [&] { validate(MeshView{plain.positions, FacesView::strided_triangles(four, 1, 0, 2)}); });
+}
+
+TEST_F(Views, RefuseStridesWhoseProductsOverflow) {
+  constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max();
+  const std::vector<std::int32_t> three(3);
+  for (const auto& [count, face_stride, corner_stride] : {std::array{std::size_t{2}, kMost - 1, std::size_t{1}},
+                                                          {std::size_t{1}, std::size_t{3}, kMost / 2 + 1},
+                                                          {kMost / 2 + 2, std::size_t{2}, std::size_t{1}},
+                                                          {kMost, kMost, kMost},
+                                                          {kMost, std::size_t{1}, kMost}}) {
+    expect_refused(ErrorCode::InvalidMesh, "exceed the 3 corner indices", [&] {
+      validate(MeshView{plain.positions, FacesView::strided_triangles(three, count, face_stride, corner_stride)});
+    });
+  }
+  expect_refused(ErrorCode::InvalidMesh, "1099511627776 triangles with a face stride of 0, expected 1 or more", [&] {
+    validate(MeshView{plain.positions, FacesView::strided_triangles(three, std::size_t{1} << 40, 0, 1)});
+  });
+  EXPECT_NO_THROW(validate(MeshView{plain.positions, FacesView::strided_triangles(three, 1, kMost, 1)}));
 }
 
 TEST_F(Views, AcceptAnIntegerRadius) {

@@ -7,6 +7,7 @@
 #include "meshhood/error.h"
 
 #include "base/text.h"
+#include "base/vertex_range.h"
 
 namespace meshhood {
 namespace {
@@ -30,8 +31,7 @@ void check_point(const SpacePoint& p, std::string_view where) {
 
 void check_vertex(VertexId v, std::size_t vertices, std::string_view name) {
   if (v < vertices) return;
-  raise(ErrorCode::VertexOutOfRange,
-        std::string(name) + " " + std::to_string(v) + ", but the mesh has " + std::to_string(vertices) + " vertices");
+  raise_no_such_vertex(ErrorCode::VertexOutOfRange, std::string(name) + " ", std::to_string(v), vertices);
 }
 
 void check_start(const Start& start, std::size_t vertices, std::string_view where) {
