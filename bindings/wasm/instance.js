@@ -8,6 +8,9 @@ const CODES = [
   'MalformedIndex', 'IoFailure', 'TooLarge', 'Cancelled',
 ];
 
+/** What an instance can hold is less than the 4 GiB that it can address. */
+const MOST_BYTES = 2 ** 32 - 2 ** 16;
+
 /** Errors of the arguments of a call, after which the instance is unchanged. */
 const ARGUMENT_ERRORS = new Set(['VertexOutOfRange', 'InvalidRadius', 'InvalidOption', 'InvalidMesh']);
 
@@ -174,6 +177,9 @@ export class Instance {
     const bytes = ArrayBuffer.isView(array)
       ? new Uint8Array(array.buffer, array.byteOffset, array.byteLength)
       : new Uint8Array(array);
+    if (bytes.byteLength > MOST_BYTES) {
+      throw new MeshhoodError('TooLarge', `${bytes.byteLength} bytes, but WebAssembly addresses 4 GiB`);
+    }
     const address = this.call('allocate', bytes.byteLength) >>> 0;
     new Uint8Array(this.#exports.memory.buffer, address, bytes.byteLength).set(bytes);
     return address;

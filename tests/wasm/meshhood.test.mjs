@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 
 import { ball, distance, grid, neighborhood, neighbors, plates, polygons, random, roll, toPly } from './meshes.mjs';
-import { build, library, meshhood, read as readFile, scaled, write } from './setup.mjs';
+import { build, library, meshhood, read as readFile, scaled, wordsOfCommandLine, write } from './setup.mjs';
 
 const { MeshIndex, MeshhoodError, initialize, readMesh } = library;
 
@@ -140,17 +140,6 @@ test('polygons, precision and warnings of a file', () => {
   assert.match(readMesh(more, 'p.ply').warnings[0], /^line \d+: data after the last element$/);
   assert.throws(() => readMesh(more, 'p.ply', { strict: true }), { code: 'MalformedFile' });
 });
-
-/** The message of the command line about a file, without the name of the program. */
-function wordsOfCommandLine(name, content) {
-  write(name, content);
-  try {
-    meshhood('info', name);
-  } catch (error) {
-    return error.stderr.replace(/^meshhood: /, '').trimEnd();
-  }
-  throw new Error(`${name} was accepted`);
-}
 
 const broken = {
   'empty.ply': '',

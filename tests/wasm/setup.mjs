@@ -20,6 +20,17 @@ export const meshhood = (...options) =>
 export const write = (name, content) => writeFileSync(join(folder, name), content);
 export const read = (name) => readFileSync(join(folder, name));
 
+/** The message of the command line about a file, without the name of the program. */
+export function wordsOfCommandLine(name, content) {
+  write(name, content);
+  try {
+    meshhood('info', name);
+  } catch (error) {
+    return error.stderr.replace(/^meshhood: /, '').trimEnd();
+  }
+  throw new Error(`${name} was accepted`);
+}
+
 export const readArrays = (name) => arraysOf(read(name));
 
 export const build = (mesh, options) =>

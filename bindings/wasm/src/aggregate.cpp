@@ -19,7 +19,7 @@ extern "C" {
                                                    const VertexId* vertices, std::size_t vertex_count,
                                                    const double* radii, std::size_t radius_count, Reduce reduce,
                                                    SmoothingKernel kernel, MissingValues missing, Nesting nesting,
-                                                   unsigned ddof) {
+                                                   double ddof) {
   const SignalView signal{.values = {values, value_count}, .channels = channels, .weights = {weights, weight_count}};
   answer.reals = meshhood::aggregate(workspace.index(), signal,
                                      {.vertices = view_vertices(vertices, vertex_count),
@@ -28,7 +28,7 @@ extern "C" {
                                       .kernel = kernel,
                                       .missing = missing,
                                       .nesting = nesting,
-                                      .ddof = ddof});
+                                      .ddof = to_size(ddof)});
 }
 
 [[clang::export_name("smoothing_radius")]] double smoothing_radius(double fwhm) {

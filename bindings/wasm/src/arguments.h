@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "meshhood/batch.h"
@@ -38,6 +39,12 @@ inline BatchVertices view_vertices(const VertexId* vertices, std::size_t count) 
   if (vertices == nullptr) return {};
   const std::span list(vertices, count);
   return list;
+}
+
+/// `number` is a whole number >= 0, as JavaScript has checked. Those of more than 32 bits become the largest.
+inline std::size_t to_size(double number) {
+  constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
+  return number < kMost ? static_cast<std::size_t>(number) : kMost;
 }
 
 /// `v` is a whole number, as JavaScript has checked. Throws Error{VertexOutOfRange}.

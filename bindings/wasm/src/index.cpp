@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The index: making, saving and loading it, and its properties.
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -12,6 +13,8 @@
 
 #include "answer.h"
 #include "arguments.h"
+#include "base/text.h"
+#include "base/vertex_range.h"
 #include "host.h"
 #include "workspace.h"
 
@@ -25,8 +28,8 @@ std::vector<std::byte> saved;
 VertexId to_vertex(double v) {
   const std::size_t vertices = workspace.index().vertex_count();
   if (v >= 0 && v < static_cast<double>(vertices)) return static_cast<VertexId>(v);
-  raise(ErrorCode::VertexOutOfRange, "vertex " + std::to_string(static_cast<std::int64_t>(v)) + ", but the mesh has " +
-                                         std::to_string(vertices) + " vertices");
+  const std::string text = std::abs(v) < 0x1p63 ? std::to_string(static_cast<std::int64_t>(v)) : to_text(v);
+  raise_no_such_vertex(ErrorCode::VertexOutOfRange, "vertex ", text, vertices);
 }
 
 extern "C" {

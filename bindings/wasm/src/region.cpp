@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Regions: searches from any point, with masks. `start_at_...` and `restrict_search` come first, and borrow their
 // arrays for the calls that follow.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -61,9 +61,7 @@ extern "C" {
 
 /// Of the vertex `v`; not of the start.
 [[clang::export_name("rings")]] void rings(double v, double k) {
-  constexpr auto kMost = static_cast<double>(std::numeric_limits<std::size_t>::max());
-  const std::size_t most = k < kMost ? static_cast<std::size_t>(k) : std::numeric_limits<std::size_t>::max();
-  workspace.edges().rings(to_vertex(v), most, answer.ids, region_sizes, restriction);
+  workspace.edges().rings(to_vertex(v), to_size(k), answer.ids, region_sizes, restriction);
   answer_sizes();
 }
 
@@ -76,9 +74,8 @@ extern "C" {
 }
 
 [[clang::export_name("nearest_connected")]] void nearest_connected(double k) {
-  const auto vertices = static_cast<double>(workspace.index().vertex_count());
-  workspace.regions().nearest_connected(origin, static_cast<std::size_t>(k < vertices ? k : vertices), answer.ids,
-                                        answer.reals, restriction);
+  const std::size_t most = std::min(to_size(k), workspace.index().vertex_count());
+  workspace.regions().nearest_connected(origin, most, answer.ids, answer.reals, restriction);
 }
 
 /// Returns the vertex; the first real of the answer is its distance.

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Files and arguments made to mislead the package. Its sizes have 32 bits, where those of the command line have 64: a
+// count that is small modulo 2^32 is the one that a size of 32 bits would let through.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+import { plates } from './meshes.mjs';
+import { build, library, wordsOfCommandLine } from './setup.mjs';
+
+const { MeshIndex, MeshhoodError, initialize, readMesh } = library;
+await initialize();
+
+const TURN = 2 ** 32;
+const lines = (...all) => Buffer.from(`${all.join('\n')}\n`, 'latin1');
+const floats = (...values) => Buffer.from(Float32Array.from(values).buffer);
+const words = (...values) => Buffer.from(Uint32Array.from(values).buffer);
+
+const XYZ = ['property float x', 'property float y', 'property float z'];
+const LIST = 'property list uint uint vertex_indices';
+const BINARY = ['ply', 'format binary_little_endian 1.0'];
+const TEXT = ['ply', 'format ascii 1.0'];
+const THREE = floats(0, 0, 0, 1, 0, 0, 0, 1, 0);
+const ROWS = ['0 0 0', '1 0 0', '0 1 0'];
+
+function binaryStl(count, facets) {
+  const bytes = Buffer.alloc(84 + 50 * facets);
+  bytes.writeUInt32LE(count, 80);
+  return bytes;
+}
+
+const WRAPPING = Math.ceil(TURN / 50); // so many facets take 4 bytes modulo 2^32
+
+const refused = {
+  'vertices.ply': Buffer.concat([lines(...BINARY, `element vertex ${TURN + 3}`, ...XYZ, 'end_header'), THREE]),
+  'text_vertices.ply': lines(...TEXT, `element vertex ${TURN + 3}`, ...XYZ, 'end_header', ...ROWS),
+  'most_vertices.ply': lines(...TEXT, 'element vertex 18446744073709551615', ...XYZ, 'end_header', ...ROWS),
+  'digits.ply': lines(...TEXT, `element vertex ${'9'.repeat(4000)}`, ...XYZ, 'end_header', ...ROWS),
+  'faces.ply': Buffer.concat([
+    lines(...BINARY, 'element vertex 3', ...XYZ, `element face ${TURN + 1}`, LIST, 'end_header'), THREE, words(3, 0, 1, 2)]),
+  'list.ply': Buffer.concat([
+    lines(...BINARY, 'element vertex 3', ...XYZ, 'element face 1', LIST, 'end_header'), THREE, words(TURN - 1, 0, 1, 2)]),
+  'list_of_doubles.ply': Buffer.concat([
+    lines(...BINARY, 'element vertex 3', ...XYZ, 'element other 1', 'property list uint double a', 'end_header'),
+    THREE, words(TURN / 8 + 1, 0, 0)]),
+  'other.ply': Buffer.concat([
+    lines(...BINARY, `element other ${TURN + 1}`, 'property uchar a', 'element vertex 3', ...XYZ, 'end_header'),
+    Buffer.of(0), THREE]),
+  'corner.ply': lines(...TEXT, 'element vertex 3', ...XYZ, 'element face 1', LIST, 'end_header', ...ROWS, `3 0 1 ${TURN + 2}`),
+  'vertices.off': lines('OFF', `${TURN + 3} 1 0`, ...ROWS, '3 0 1 2'),
+  'faces.off': lines('OFF', `3 ${TURN + 1} 0`, ...ROWS, '3 0 1 2'),
+  'sides.off': lines('OFF', '3 1 0', ...ROWS, `${TURN + 3} 0 1 2`),
+  'corner.off': lines('OFF', '3 1 0', ...ROWS, `3 0 1 ${TURN + 2}`),
+  'corner.obj': lines('v 0 0 0', 'v 1 0 0', 'v 0 1 0', `f 1 2 ${TURN + 3}`),
+  'back.obj': lines('v 0 0 0', 'v 1 0 0', 'v 0 1 0', `f 1 2 -${TURN + 1}`),
+  'facets.stl': binaryStl(WRAPPING, 0),
+  'one_facet.stl': binaryStl(WRAPPING + 1, 1),
+  'infinite.obj': lines('v 0 0 1e999'),
+  'huge.ply': lines(...TEXT, 'element vertex 1', ...XYZ.map((x) => x.replace('float', 'double')), 'end_header', '1e151 0 0'),
+  'nan.off': lines('OFF', '1 0 0', '0 nan 0'),
+  'markup.ply': lines(...TEXT, '<script>alert(1)</script>'),
+  'escape.ply': lines(...TEXT, 'element \x1b[2J\x07 \x00'),
+  '<img src=x onerror=alert(1)>.obj': lines('v 0'),
+  'control \x01\x1b[2J\x7f\x85\n.obj': lines('v 0'),
+  '"\'&`.off': lines('OFF', 'x'),
+};
+
+for (const [name, content] of Object.entries(refused)) {
+  test(`${JSON.stringify(name)} is refused in the words of the command line`, () => {
+    // Without exceptions, the reader of STL cannot add to its error why the file is not a binary one.
+    const message = wordsOfCommandLine(name, content).replace(/; and it is not a binary STL.*/, '');
+    assert.throws(() => readMesh(content, name), { name: 'MeshhoodError', message });
+  });
+}
+
+test('a count of elements without properties costs nothing', () => {
+  const file = Buffer.concat([
+    lines(...BINARY, 'element other 18446744073709551615', 'element vertex 3', ...XYZ, 'end_header'), THREE]);
+  assert.equal(readMesh(file, 'other.ply').positions.length, 9);
+});
+
+test('comments may say anything', () => {
+  for (const comment of ['end_header', 'this is not the end_header', 'element vertex 9', '<script>', `\x1b${'x'.repeat(60_000)}`]) {
+    const file = lines(...TEXT, `comment ${comment}`, 'element vertex 3', ...XYZ, 'end_header', ...ROWS);
+    assert.deepEqual([...readMesh(file, 'comment.ply').positions], [0, 0, 0, 1, 0, 0, 0, 1, 0]);
+  }
+});
+
+test('a long name is part of the message, and of no more than one', () => {
+  const name = `${'n'.repeat(1_000_000)}.obj`;
+  assert.throws(() => readMesh(lines('v 0'), name), { message: `${name}:1:4: vertex 1 has no y, expected x y z` });
+});
+
+test('an array of more bytes than the module can address is refused as too large', () => {
+  for (const size of [TURN, TURN - 1, TURN - 63, TURN - 64, TURN - 65]) {
+    const bytes = new Uint8Array(size); // pages of zeros, which take no memory
+    assert.throws(() => readMesh(bytes, 'large.stl'), { name: 'MeshhoodError', code: 'TooLarge' }, `${size}`);
+    assert.throws(() => MeshIndex.load(bytes), { name: 'MeshhoodError', code: 'TooLarge' }, `${size}`);
+  }
+});
+
+test('numbers beyond 32 bits are not taken modulo 2^32', () => {
+  const mesh = plates(6);
+  const index = build(mesh);
+  const heights = mesh.positions.filter((_, i) => i % 3 === 2);
+  const variances = (ddof) => index.aggregate(heights, 2, { reduce: 'var', ddof });
+  for (const ddof of [TURN, TURN + 1, 2 ** 53, 1e300]) {
+    assert.throws(() => variances(ddof), { code: 'InvalidOption', message: /^ddof is \d+, expected 0 or 1$/ });
+  }
+  assert.deepEqual(index.queryRings(0, TURN + 1), index.queryRings(0, index.vertexCount));
+  assert.deepEqual(index.nearestConnected(0, TURN + 1), index.nearestConnected(0, index.vertexCount));
+  for (const v of [TURN, TURN + 1, 2 ** 53, 1e300, -TURN]) {
+    for (const ask of [() => index.queryBall(v, 1), () => index.queryRings(v, 1), () => index.queryRegion(v, 1),
+      () => index.contains(0, v, 1), () => index.connectingRadius(v, 0)]) {
+      assert.throws(ask, { code: 'VertexOutOfRange', message: /, but the mesh has 72 vertices$/ });
+    }
+  }
+  assert.throws(() => index.queryBall(1e300, 1), { message: 'vertex 1e+300, but the mesh has 72 vertices' });
+});
+
+test('numbers that are not finite, denormal or huge give a right answer or an error', () => {
+  const index = build(plates(6));
+  const all = index.queryBall(0, Infinity, { sort: true });
+  assert.equal(all.length, index.vertexCount);
+  assert.deepEqual(index.queryBall(0, 1.7e308, { sort: true }), all);
+  assert.deepEqual(index.queryBall(0, 5e-324), Uint32Array.of(0));
+  assert.deepEqual(index.queryBall(0, -0), Uint32Array.of(0));
+  for (const x of [NaN, Infinity, -Infinity, 1e151]) {
+    assert.throws(() => index.nearest([x, 0, 0]), MeshhoodError);
+    assert.throws(() => index.queryRegion([0, 0, x], 1), MeshhoodError);
+    assert.throws(() => index.refit(Float64Array.of(x)), MeshhoodError);
+  }
+  for (const r of [NaN, -1, -Infinity]) {
+    assert.throws(() => index.queryNested(0, Float64Array.of(r)), { code: 'InvalidRadius' });
+    assert.throws(() => index.aggregate(new Float64Array(72), r), { code: 'InvalidRadius' });
+    assert.throws(() => index.curvature(r, { normals: new Float64Array(216) }), MeshhoodError);
+  }
+  assert.deepEqual(index.queryBall(0, Infinity, { sort: true }), all);
+});
+
+test('the mesh without vertices answers nothing, and refuses the rest', () => {
+  const index = new MeshIndex(new Float32Array(), new Uint32Array());
+  assert.equal(index.vertexCount, 0);
+  assert.deepEqual(index.queryBallCount(null, 1), new Uint32Array());
+  assert.deepEqual(index.aggregate(new Float64Array(), 1), new Float64Array());
+  assert.throws(() => index.aggregate(new Float64Array(5), 1), { code: 'InvalidOption' });
+  assert.throws(() => index.queryBall(0, 1), { code: 'VertexOutOfRange' });
+  assert.throws(() => index.nearest([0, 0, 0]), { code: 'VertexOutOfRange' });
+  assert.equal(index.queryBallCount(null, 1).length, 0);
+});
