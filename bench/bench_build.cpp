@@ -21,19 +21,19 @@ void count_vertices(benchmark::State& state) { state.SetItemsProcessed(state.ite
 
 void bm_adjacency(benchmark::State& state, const std::string& kind) {
   const shapes::Shape mesh = shape(kind, state);
-  for (auto _ : state) benchmark::DoNotOptimize(adjacency(mesh.view()));
+  for ([[maybe_unused]] const auto _ : state) benchmark::DoNotOptimize(adjacency(mesh.view()));
   count_vertices(state);
 }
 
 void bm_exact(benchmark::State& state, const std::string& kind) {
   const shapes::Shape mesh = shape(kind, state);
-  for (auto _ : state) benchmark::DoNotOptimize(build(mesh.view()));
+  for ([[maybe_unused]] const auto _ : state) benchmark::DoNotOptimize(build(mesh.view()));
   count_vertices(state);
 }
 
 void bm_paper(benchmark::State& state, const std::string& kind) {
   const shapes::Shape mesh = shape(kind, state);
-  for (auto _ : state) benchmark::DoNotOptimize(paper::build(mesh.view()));
+  for ([[maybe_unused]] const auto _ : state) benchmark::DoNotOptimize(paper::build(mesh.view()));
   count_vertices(state);
 }
 

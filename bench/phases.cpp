@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "mesh_argument.h"
-#include "paper/query.cpp"
+#include "paper/query.cpp"  // NOLINT(bugprone-suspicious-include): its phases are timed
 #include "program.h"
 
 namespace meshhood::paper {
@@ -62,7 +62,7 @@ class Shares {
 
   void print(double radius, bool last) const {
     const auto mean = [&](std::size_t i) { return sum_[i] / static_cast<double>(queries_); };
-    std::printf("{\"radius_edges\": %g, \"climb_up\": %.2f, \"breadth_first\": %.2f, \"range_search\": %.2f}%s", radius,
+    std::printf(R"({"radius_edges": %g, "climb_up": %.2f, "breadth_first": %.2f, "range_search": %.2f}%s)", radius,
                 mean(0), mean(1), mean(2), last ? "" : ", ");
   }
 

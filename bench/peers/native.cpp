@@ -117,12 +117,13 @@ void answer_all(const Search& search, const std::vector<VertexId>& queries, doub
   constexpr std::size_t kChunk = 16;
   std::atomic<std::size_t> next{0};
   const auto work = [&](unsigned thread) {
-    for (std::size_t begin; (begin = next.fetch_add(kChunk)) < queries.size();) {
+    for (std::size_t begin = next.fetch_add(kChunk); begin < queries.size(); begin = next.fetch_add(kChunk)) {
       const std::size_t end = std::min(begin + kChunk, queries.size());
       for (std::size_t i = begin; i < end; ++i) search(thread, queries[i], radius, answers[i]);
     }
   };
   std::vector<std::jthread> helpers;
+  helpers.reserve(threads);
   for (unsigned thread = 1; thread < threads; ++thread) helpers.emplace_back(work, thread);
   work(0);
 }
@@ -140,7 +141,7 @@ void serve(const Search& search, unsigned threads) {
     answer_all(search, queries, radius, threads, answers);
     const double seconds = seconds_since(begin);
     if (!to.empty()) write_answers(to, answers);
-    std::cout << seconds << std::endl;
+    std::cout << seconds << '\n' << std::flush;
   }
 }
 
@@ -150,11 +151,13 @@ void serve(const Search& search, unsigned threads) {
 int main(int arguments, char** values) {
   using namespace meshhood::bench;
   if (arguments != 4) return 2;
-  const MeshArgument mesh(values[2]);
-  const auto threads = static_cast<unsigned>(std::stoul(values[3]));
-  const auto begin = Clock::now();
-  const Search search = make(values[1], mesh.view(), threads);
-  std::cout << seconds_since(begin) << std::endl;
-  serve(search, threads);
-  return 0;
+  return exit_status("native", [&] {
+    const MeshArgument mesh(values[2]);
+    const auto threads = static_cast<unsigned>(std::stoul(values[3]));
+    const auto begin = Clock::now();
+    const Search search = make(values[1], mesh.view(), threads);
+    std::cout << seconds_since(begin) << '\n' << std::flush;
+    serve(search, threads);
+    return 0;
+  });
 }

@@ -43,6 +43,7 @@ class QuadricFit {
   static std::vector<Eigen::Vector3d> points_of(const MeshView& mesh) {
     return mesh.positions.visit([](const auto& xyz) {
       std::vector<Eigen::Vector3d> points;
+      points.reserve(xyz.size());
       for (std::size_t v = 0; v < xyz.size(); ++v) points.emplace_back(xyz(v, 0), xyz(v, 1), xyz(v, 2));
       return points;
     });

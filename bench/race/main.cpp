@@ -43,6 +43,7 @@ Json to_json(const measure::Measurement& m, const measure::Method& method) {
 Json race(const MeshView& mesh, Options& options) {
   Contestants contestants(mesh);
   std::vector<measure::Method> methods;
+  methods.reserve(options.methods.size());
   for (const std::string& name : options.methods) methods.push_back(contestants.method(name));
   const double unit = mean_edge_length(contestants.graph());
   Json rows = Json::array();
