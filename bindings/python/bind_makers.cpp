@@ -59,7 +59,7 @@ std::shared_ptr<GraphData> make_graph(const ExactMethod& method) {
 
 /// Not a copy: the array is read-only and keeps the graph alive.
 nb::object positions(const nb::object& self) {
-  const GraphData& graph = nb::cast<const GraphData&>(self);
+  const auto& graph = nb::cast<const GraphData&>(self);
   return std::visit(
       [&](const auto& xyz) {
         using Real = typename std::decay_t<decltype(xyz)>::value_type;

@@ -22,7 +22,7 @@ struct MeshData {
     return {std::visit([](const auto& xyz) { return PositionsView(xyz); }, positions),
             FacesView::polygons(offsets, corners)};
   }
-  MeshView view() const&& = delete;
+  [[nodiscard]] MeshView view() const&& = delete;
 };
 
 }  // namespace meshhood
