@@ -2,8 +2,10 @@
 // meshhood view: a page that shows the mesh and its neighborhoods.
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -55,15 +57,36 @@ void open_in_browser(const std::string& page) {
   print_error("warning: ", fmt::format("{} could not open {}", program, printable_name(page)));
 }
 
+/// A page stores float. Values that are not finite get no color; others must not become infinite.
+std::vector<float> as_floats(const std::vector<double>& values) {
+  constexpr double kMost = std::numeric_limits<float>::max();
+  std::vector<float> result;
+  result.reserve(values.size());
+  for (const double value : values) {
+    if (std::isfinite(value) && std::abs(value) > kMost) {
+      raise(ErrorCode::InvalidOption, fmt::format("values: vertex {}: {}, but a page holds numbers of at most {:.3g}",
+                                                  result.size(), value, kMost));
+    }
+    result.push_back(static_cast<float>(value));
+  }
+  return result;
+}
+
 PageSettings settings_of(const ViewCommand& options, Input& input) {
   PageSettings settings;
   settings.name = std::filesystem::path(options.file).filename().string();
   if (options.vertex) settings.vertex = resolve_vertex(*options.vertex, input);
-  if (!options.radius.value.empty()) settings.radius = resolve(options.radius, input);
+  if (!options.radius.value.empty()) {
+    settings.radius = resolve(options.radius, input);
+    // JSON has no infinity.
+    if (!std::isfinite(*settings.radius)) {
+      raise(ErrorCode::InvalidRadius, fmt::format("radius {}, expected a finite number for a page", *settings.radius));
+    }
+  }
   if (!options.answer.empty()) settings.answer = read_vertex_list(options.answer, input.vertex_count());
   if (!options.values.empty()) {
     const std::vector<double> values = read_channel(options.values, input.vertex_count(), "values");
-    settings.values.assign(values.begin(), values.end());
+    settings.values = as_floats(values);
     settings.values_name = std::filesystem::path(options.values).stem().string();
   }
   return settings;

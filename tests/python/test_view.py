@@ -75,6 +75,7 @@ def test_a_notebook_gets_a_frame_and_a_file_the_page(tmp_path):
         ({"r": 1, "unit": "foot"}, "unit: "),
         ({"ids": [-1]}, "ids: row 0: vertex -1"),
         ({"values": [1.0, 2.0]}, "values: an array of shape"),
+        ({"values": np.full(len(meshes.two_plates(5)[0]), -1e300)}, "values: vertex 0: -1e\\+300, but a page holds numbers of at most 3.4e\\+38"),
     ],
 )
 def test_wrong_arguments_are_named(options, message):

@@ -170,7 +170,7 @@ class Page {
     this.#painting = new Painting(opened.vertices);
     this.#view.setMesh(opened.surface, opened.tree, this.#painting.bytes);
     const meanEdge = opened.meanEdge;
-    const mostEdges = meanEdge > 0 ? (2 * opened.surface.extent) / meanEdge : 1;
+    const mostEdges = meanEdge > 0 ? (2 * opened.surface.extent * opened.surface.unit) / meanEdge : 1;
     this.#panel.setMesh(
       example?.title ?? opened.name, facts(opened), opened.vertices, opened.faces, meanEdge, mostEdges);
     this.#scalars = new Map(opened.scalars.map(({ name, values }) => [`ply:${name}`, { title: name, values }]));

@@ -29,13 +29,15 @@ export type Request =
   | { kind: 'cancel' }
   | { kind: 'save-index' };
 
-/** A mesh for drawing. Positions are relative to `center`, so that float represents them well. */
+/** A mesh for drawing: in float, relative to `center` and divided by `unit`, so that float represents it well. */
 export interface Surface {
   positions: Float32Array;
   normals: Float32Array;
   triangles: Uint32Array;
   center: [number, number, number];
-  /** Half the diagonal of the bounding box. */
+  /** A power of two, in the unit of the mesh, so that meshes of any size are drawn with the same extent. */
+  unit: number;
+  /** Half the diagonal of the bounding box, in `unit`: in [1, 2). */
   extent: number;
 }
 

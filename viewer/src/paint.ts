@@ -105,7 +105,7 @@ function colorsOf(scalar: Scalar, [low, high]: Range): (v: number) => Rgb {
   return (v) => {
     const value = scalar.values[v];
     if (!Number.isFinite(value)) return MISSING;
-    const t = high > low ? (value - low) / (high - low) : 0;
+    const t = high > low ? (value / 2 - low / 2) / (high / 2 - low / 2) : 0; // halves, whose differences are finite
     return table[Math.round(255 * Math.min(1, Math.max(0, t)))];
   };
 }

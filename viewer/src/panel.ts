@@ -157,6 +157,7 @@ export class Panel {
 
   setMesh(name: string, facts: string, vertices: number, faces: number, meanEdge: number, mostEdges: number): void {
     find('name').textContent = name;
+    find('name').title = name;
     find('facts').textContent = facts;
     this.#meanEdge = meanEdge;
     this.#mostEdges = Math.max(mostEdges, 2 * LEAST_EDGES);

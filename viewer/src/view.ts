@@ -196,18 +196,25 @@ export class View {
     if (this.#edges !== null) this.#edges.visible = visible;
   }
 
+  /** The radius is in the unit of the mesh. */
   setQuery(vertex: number, radius: number): void {
     this.#vertex = vertex;
     const at = this.position(vertex);
     this.#marker.position.copy(at);
     this.#ball.position.copy(at);
-    this.#ball.scale.setScalar(Math.max(Math.min(radius, 1e3 * this.extent), 1e-9 * this.extent));
+    this.#ball.scale.setScalar(Math.max(Math.min(radius / this.unit, 1e3 * this.extent), 1e-9 * this.extent));
     this.#marker.visible = true;
     this.setLook(this.#look);
   }
 
+  /** In the coordinates of the scene. */
   get extent(): number {
     return this.#surface?.extent ?? 1;
+  }
+
+  /** Of the coordinates of the scene, in the unit of the mesh. */
+  get unit(): number {
+    return this.#surface?.unit ?? 1;
   }
 
   /** In the coordinates of the scene. */
@@ -254,11 +261,14 @@ export class View {
     this.#lookFrom(new THREE.Vector3(0.55, 0.4, 1), new THREE.Vector3(), this.extent);
   }
 
-  /** Looks at the query from a direction; by default along the normal of its vertex, a little from the side. */
+  /**
+   * Looks at the query from a direction; by default along the normal of its vertex, a little from the side. The radius
+   * is in the unit of the mesh.
+   */
   showQuery(radius: number, from?: readonly [number, number, number]): void {
     if (this.#vertex < 0) return;
     const direction = from === undefined ? this.#outwards() : new THREE.Vector3(...from);
-    const reach = Math.min(Math.max(1.5 * radius, 0.05 * this.extent), this.extent);
+    const reach = Math.min(Math.max((1.5 * radius) / this.unit, 0.05 * this.extent), this.extent);
     this.#lookFrom(direction, this.position(this.#vertex), reach);
   }
 
@@ -285,15 +295,17 @@ export class View {
     this.draw();
   }
 
-  /** Position and target, for the link to this state. */
+  /** Position and target in the unit of the mesh, for the link to this state. */
   get cameraState(): number[] {
-    return [...this.camera.position.toArray(), ...this.controls.target.toArray()].map((x) => Number(x.toPrecision(6)));
+    const numbers = [...this.camera.position.toArray(), ...this.controls.target.toArray()];
+    return numbers.map((x) => Number((this.unit * x).toPrecision(6)));
   }
 
   set cameraState(numbers: number[]) {
     this.showAll();
-    this.camera.position.fromArray(numbers, 0);
-    this.controls.target.fromArray(numbers, 3);
+    const inScene = numbers.map((x) => x / this.unit);
+    this.camera.position.fromArray(inScene, 0);
+    this.controls.target.fromArray(inScene, 3);
     this.camera.far = this.camera.position.length() + 4 * this.extent;
     this.camera.updateProjectionMatrix();
     this.controls.update();

@@ -23,6 +23,7 @@ interface Arrays {
 let index: MeshIndex | null = null;
 let faces: Faces | null = null;
 let curvature: { radius: number; values: Curvature } | null = null; // the last one
+let latestOpening = 0;
 let latestQuery = 0;
 let latestComputation = 0;
 
@@ -51,16 +52,16 @@ async function timed<T>(work: () => T | Promise<T>): Promise<{ result: T; second
 
 const INDEX_MARK = [0x8b, 0x4d, 0x48, 0x49]; // "\x8bMHI", the first bytes of an index file
 
-async function read(source: Source): Promise<Arrays | MeshIndex> {
-  if (source.kind === 'example') {
-    const example = findExample(source.name) ?? EXAMPLES[0];
-    return { ...example.make(source.vertices ?? example.vertices), offsets: null, warnings: [], scalars: [] };
-  }
-  const bytes = new Uint8Array(await source.content.arrayBuffer());
+function makeExample(name: string, vertices?: number): Arrays {
+  const example = findExample(name) ?? EXAMPLES[0];
+  return { ...example.make(vertices ?? example.vertices), offsets: null, warnings: [], scalars: [] };
+}
+
+function read(bytes: Uint8Array<ArrayBuffer>, name: string): Arrays | MeshIndex {
   if (INDEX_MARK.every((byte, i) => bytes[i] === byte)) {
     return MeshIndex.load(bytes, { progress: reportProgress('Verifying the index') });
   }
-  const mesh = readMesh(bytes, source.name, { progress: reportProgress('Reading') });
+  const mesh = readMesh(bytes, name, { progress: reportProgress('Reading') });
   return { ...mesh, scalars: mesh.format === 'ply' ? readPlyScalars(bytes) : [] };
 }
 
@@ -80,10 +81,16 @@ function makeTree(positions: Float32Array, triangles: Uint32Array): unknown {
   return MeshBVH.serialize(tree, { cloneBuffers: false });
 }
 
+/** Opens the mesh, unless another one has been requested meanwhile. */
 async function open(source: Source): Promise<void> {
+  const opening = ++latestOpening;
   await initialize();
   reply({ kind: 'progress', stage: 'Reading', fraction: null });
-  const reading = await timed(() => read(source));
+  const bytes = source.kind === 'file' ? new Uint8Array(await source.content.arrayBuffer()) : null;
+  if (opening !== latestOpening) return;
+  const reading = await timed(() => {
+    return source.kind === 'file' ? read(bytes!, source.name) : makeExample(source.name, source.vertices);
+  });
   const building = await timed(() => build(reading.result));
   const arrays = reading.result;
   const opened = building.result;

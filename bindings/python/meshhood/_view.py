@@ -133,6 +133,11 @@ def _encode(values: Any, count: int) -> str:
         raise TypeError(f"values: expected numbers, not {array.dtype}")
     if array.shape != (count,):
         raise ValueError(f"values: an array of shape {array.shape}, expected ({count},)")
+    most = np.finfo(np.float32).max
+    beyond = np.flatnonzero(np.isfinite(array) & (np.abs(array.astype(np.float64)) > most))
+    if beyond.size:
+        v = beyond[0]
+        raise ValueError(f"values: vertex {v}: {array[v]}, but a page holds numbers of at most {most:.3g}")
     return base64.b64encode(array.astype("<f4").tobytes()).decode("ascii")
 
 
