@@ -47,9 +47,9 @@ void validate_offsets(std::span<const Index> offsets, std::size_t corners) {
 /// Divides, because that number may have more than 64 bits.
 bool fit_into(std::size_t corners, const FacesView& faces) {
   if (faces.size() == 0) return true;
-  if (corners == 0 || faces.corner_stride() > (corners - 1) / 2) return false;
+  if (corners == 0 || faces.corner_stride() > (corners - 1) / 2) return false;  // mutant: corner-stride-overflows
   const std::size_t room = corners - 1 - 2 * faces.corner_stride();
-  return faces.size() == 1 || faces.face_stride() <= room / (faces.size() - 1);
+  return faces.size() == 1 || faces.face_stride() <= room / (faces.size() - 1);  // mutant: face-stride-overflows
 }
 
 void validate_triangles(const FacesView& faces) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "meshhood/mesh.h"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -140,6 +142,22 @@ TEST(Validate, RefusesNonFiniteCoordinatesAndNamesTheVertex) {
       expect_refused(ErrorCode::InvalidMesh, cause, [&] { validate(MeshView{narrow, {}}); });
     }
   }
+}
+
+TEST(Validate, RefusesStridesWhoseProductsOverflow) {
+  constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max();
+  const std::vector<std::int32_t> three(3);
+  for (const auto& [count, face_stride, corner_stride] : {std::array{std::size_t{2}, kMost - 1, std::size_t{1}},
+                                                          {std::size_t{1}, std::size_t{3}, kMost / 2 + 1},
+                                                          {kMost / 2 + 2, std::size_t{2}, std::size_t{1}},
+                                                          {kMost, kMost, kMost},
+                                                          {kMost, std::size_t{1}, kMost}}) {
+    expect_mesh_refused("exceed the 3 corner indices",
+                        FacesView::strided_triangles(three, count, face_stride, corner_stride));
+  }
+  expect_mesh_refused("1099511627776 triangles with a face stride of 0, expected 1 or more",
+                      FacesView::strided_triangles(three, std::size_t{1} << 40, 0, 1));
+  EXPECT_NO_THROW(validate(MeshView{kThreePoints, FacesView::strided_triangles(three, 1, kMost, 1)}));
 }
 
 TEST(Validate, RefusesDoublesWhoseSquareOverflows) {

@@ -176,24 +176,6 @@ TEST_F(Views, RefuseArraysThatAreTooShort) {
                  [&] { validate(MeshView{plain.positions, FacesView::strided_triangles(four, 1, 0, 2)}); });
 }
 
-TEST_F(Views, RefuseStridesWhoseProductsOverflow) {
-  constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max();
-  const std::vector<std::int32_t> three(3);
-  for (const auto& [count, face_stride, corner_stride] : {std::array{std::size_t{2}, kMost - 1, std::size_t{1}},
-                                                          {std::size_t{1}, std::size_t{3}, kMost / 2 + 1},
-                                                          {kMost / 2 + 2, std::size_t{2}, std::size_t{1}},
-                                                          {kMost, kMost, kMost},
-                                                          {kMost, std::size_t{1}, kMost}}) {
-    expect_refused(ErrorCode::InvalidMesh, "exceed the 3 corner indices", [&] {
-      validate(MeshView{plain.positions, FacesView::strided_triangles(three, count, face_stride, corner_stride)});
-    });
-  }
-  expect_refused(ErrorCode::InvalidMesh, "1099511627776 triangles with a face stride of 0, expected 1 or more", [&] {
-    validate(MeshView{plain.positions, FacesView::strided_triangles(three, std::size_t{1} << 40, 0, 1)});
-  });
-  EXPECT_NO_THROW(validate(MeshView{plain.positions, FacesView::strided_triangles(three, 1, kMost, 1)}));
-}
-
 TEST_F(Views, AcceptAnIntegerRadius) {
   EXPECT_EQ(neighborhoods(index, {.radius = 2}).ids, neighborhoods(index, {.radius = 2.0}).ids);
   EXPECT_EQ(neighborhoods(index, {.radius = 2}).ids, neighborhoods(index, {.radius = 2.0F}).ids);

@@ -75,8 +75,8 @@ TEST(Jet, HasTheCurvaturesOfCgal) {
       EXPECT_NEAR(ours.k1[v], k1, 1e-10 * size) << "vertex " << v << ", radius " << radius;
       EXPECT_NEAR(ours.k2[v], k2, 1e-10 * size);
       if (k1 - k2 > 0.01 * size) {
-        EXPECT_NEAR(along(theirs.minimal_principal_direction(), &ours.d1[3 * v]), 1, 1e-9);
-        EXPECT_NEAR(along(theirs.maximal_principal_direction(), &ours.d2[3 * v]), 1, 1e-9);
+        EXPECT_NEAR(along(theirs.minimal_principal_direction(), &ours.d1[3 * std::size_t{v}]), 1, 1e-9);
+        EXPECT_NEAR(along(theirs.maximal_principal_direction(), &ours.d2[3 * std::size_t{v}]), 1, 1e-9);
       }
       ++rows;
     }

@@ -418,7 +418,7 @@ TEST(AllocationInASort, LeavesTheRowsAsTheyWere) {
   Shortages shortages;
   Random random(2);
   const std::vector<std::uint32_t> rows = random.permutation(5000);
-  shortages.fail_each([&] { return rows; },
+  shortages.fail_each([&] { return std::vector(rows); },
                       [](std::vector<std::uint32_t>& sorted) { sort_by_position(std::span(sorted), std::identity()); },
                       [&](const std::vector<std::uint32_t>& sorted, Ending ending) {
                         EXPECT_EQ(std::ranges::is_sorted(sorted), ending == Ending::Well);
