@@ -32,7 +32,7 @@ template <class Kernel>
 [[nodiscard]] auto copy_positions(const OpenMesh::PolyMeshT<Kernel>& mesh) {
   using Scalar = typename OpenMesh::PolyMeshT<Kernel>::Scalar;
   using Real = std::conditional_t<std::is_same_v<Scalar, float>, float, double>;
-  const auto is_deleted = [&](auto v) { return mesh.status(v).deleted(); };
+  const auto is_deleted = [&](OpenMesh::VertexHandle v) { return mesh.status(v).deleted(); };
   if (mesh.has_vertex_status() && std::any_of(mesh.vertices_begin(), mesh.vertices_end(), is_deleted)) {
     raise(ErrorCode::InvalidMesh, "the mesh of OpenMesh has deleted vertices: call garbage_collection() first");
   }

@@ -21,6 +21,7 @@ Mesh make() {
   }
   for (const auto& face : adapter_faces()) {
     std::vector<OpenMesh::VertexHandle> corners;
+    corners.reserve(face.size());
     for (const std::uint32_t v : face) corners.emplace_back(static_cast<int>(v));
     mesh.add_face(corners);
   }
@@ -41,7 +42,7 @@ TEST(OpenMeshMesh, IsCopiedWithItsIdsInItsPrecision) {
 
 TEST(OpenMeshMesh, OfTrianglesIsCopied) {
   OpenMesh::TriMesh_ArrayKernelT<> mesh;
-  for (float x : {0.F, 1.F, 2.F}) mesh.add_vertex({x, x * x, 0});
+  for (const float x : {0.F, 1.F, 2.F}) mesh.add_vertex({x, x * x, 0});
   mesh.add_face(OpenMesh::VertexHandle(2), OpenMesh::VertexHandle(0), OpenMesh::VertexHandle(1));
   const MeshData copy = copy_mesh(mesh);
   EXPECT_THAT(copy.corners, testing::UnorderedElementsAre(0, 1, 2));
@@ -62,7 +63,7 @@ TEST(OpenMeshMesh, WithDeletedVerticesIsRefusedUntilItsGarbageIsCollected) {
   mesh.request_vertex_status();
   mesh.request_edge_status();
   mesh.request_face_status();
-  const auto extra = mesh.add_vertex({1, 2, 3});
+  const OpenMesh::VertexHandle extra(mesh.add_vertex({1, 2, 3}).idx());
   expect_adapter_mesh([&] {
     mesh.delete_vertex(extra);
     expect_refused(ErrorCode::InvalidMesh, "has deleted vertices: call garbage_collection() first",

@@ -22,8 +22,6 @@
 namespace meshhood::test {
 namespace {
 
-using testing::ElementsAre;
-
 template <class T>
 concept MakesTriangles = requires(T&& corners) { FacesView::triangles(std::forward<T>(corners)); };
 template <class T>
@@ -33,7 +31,7 @@ concept HasView = requires(T&& owner) { std::forward<T>(owner).view(); };
 static_assert(std::constructible_from<PositionsView, std::vector<float>&>);
 static_assert(std::constructible_from<PositionsView, const std::vector<double>&>);
 static_assert(std::constructible_from<PositionsView, const std::array<float, 9>&>);
-static_assert(std::constructible_from<PositionsView, const float (&)[9]>);
+static_assert(std::constructible_from<PositionsView, const float (&)[9]>);  // NOLINT(modernize-avoid-c-arrays)
 static_assert(std::constructible_from<PositionsView, std::span<const float>>);
 static_assert(std::constructible_from<PositionsView, std::span<double>>);
 static_assert(std::constructible_from<PositionsView, const std::vector<std::array<float, 3>>&>);
@@ -88,8 +86,9 @@ class Views : public testing::Test {
   std::vector<double> xyz = [] {
     std::vector<double> result;
     for (std::size_t v = 0; v < kWidth * kWidth; ++v) {
-      const auto x = static_cast<double>(v % kWidth);
-      const auto y = static_cast<double>(v / kWidth);
+      const std::size_t row = v / kWidth;
+      const auto x = static_cast<double>(v - row * kWidth);
+      const auto y = static_cast<double>(row);
       result.insert(result.end(), {x, y, 0.1 * x * y});
     }
     return result;
