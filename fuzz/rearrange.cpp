@@ -40,7 +40,7 @@ void dissolve(Bytes& bytes) {
 
 void sort_rows(Bytes& bytes) {
   using Row = std::pair<std::uint32_t, std::size_t>;
-  const std::uint32_t mask = bytes.take<std::uint32_t>();
+  const auto mask = bytes.take<std::uint32_t>();
   std::vector<Row> rows;
   while (!bytes.empty()) rows.emplace_back(bytes.take<std::uint32_t>() & mask, rows.size());
   std::vector<Row> expected = rows;

@@ -206,7 +206,8 @@ class AggregateCase {
   [[nodiscard]] long double exact_distance(VertexId v, VertexId w) const {
     long double square = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const long double step = static_cast<long double>(mesh_.positions[3 * v + axis]) - mesh_.positions[3 * w + axis];
+      const long double step = static_cast<long double>(mesh_.positions[3 * std::size_t{v} + axis]) -
+                               mesh_.positions[3 * std::size_t{w} + axis];
       square += step * step;
     }
     return std::sqrt(square);

@@ -23,6 +23,7 @@ std::uint32_t position_of(const Row& row) { return row.first; }
 /// Rows numbered in order, at random positions below `bound`.
 std::vector<Row> random_rows(Random& random, std::size_t count, std::uint64_t bound) {
   std::vector<Row> rows;
+  rows.reserve(count);
   for (std::size_t row = 0; row < count; ++row) {
     rows.emplace_back(static_cast<std::uint32_t>(random.below(static_cast<std::size_t>(bound))), row);
   }
@@ -48,6 +49,7 @@ TEST(PositionSort, PositionsAscendAndRowsOfOnePositionKeepTheirOrder) {
 /// The sort agrees with that of the standard library.
 void expect_sorted(const std::vector<std::uint32_t>& positions) {
   std::vector<Row> rows;
+  rows.reserve(positions.size());
   for (const std::uint32_t position : positions) rows.emplace_back(position, rows.size());
   std::vector<Row> expected = rows;
   std::sort(expected.begin(), expected.end());

@@ -99,7 +99,7 @@ class Forgery {
 
   /// Makes a section empty and moves the later ones forward.
   void remove_content(std::string_view name) {
-    file::Section& removed = entry(name);
+    const file::Section& removed = entry(name);
     const std::uint64_t bytes = file::aligned(removed.bytes);
     const auto begin = bytes_.begin() + static_cast<std::ptrdiff_t>(removed.begin);
     bytes_.erase(begin, begin + static_cast<std::ptrdiff_t>(bytes));

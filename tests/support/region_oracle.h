@@ -104,7 +104,7 @@ class RegionOracle {
     const auto offer = [&](std::uint32_t v, double value) {
       if (start.walls[v] != 0 || !(value <= limit) || values[v] <= value) return;
       values[v] = value;
-      queue.push({value, v});
+      queue.emplace(value, v);
     };
     for (const std::uint32_t seed : start.seeds) offer(seed, first(seed));
     while (!queue.empty()) {
