@@ -46,10 +46,14 @@ struct MomentOptions {
 /// the query vertex and w the weights. #rows by `moment_count(degree)`, in the order of `moment_column`.
 ///
 /// Sums are computed about a point near the query vertex, in a unit in which the size of the neighborhood is about 1,
-/// and then shifted to the query vertex. They are accurate to 1e-14 of the sum of w |p|^(i + j + k), wherever the mesh
-/// lies. A power of a coordinate outside the range of doubles becomes 0 or infinite.
+/// and then shifted to the query vertex. Where too many digits would be lost by that, as in a small detail beside large
+/// faces, the vertices are summed again about the query vertex. Results are accurate to 1e-13 of the sum of
+/// w |p|^(i + j + k), where p is the position relative to the query vertex, on every mesh; a weight 2^-1300 of the
+/// largest, or less, may be lost. A power of a coordinate outside the range of doubles becomes 0 or infinite.
 ///
-/// The result has the same bits for any number of threads and on every processor. Takes the time of `curvatures`.
+/// The result has the same bits for any number of threads and on every processor. It depends on the mesh, the index and
+/// the rows of the call: with other rows, a row may differ within the bound. Takes the time of `curvatures`; a row that
+/// is summed again takes that of one more query.
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming row or vertex.
 [[nodiscard]] std::vector<double> moments(const Index& index, const BatchQuery& query,
                                           const MomentOptions& options = {});

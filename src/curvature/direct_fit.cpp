@@ -6,19 +6,11 @@
 
 #include "base/vector.h"
 #include "curvature/jet.h"
+#include "curvature/places.h"
+#include "curvature/unit.h"
 #include "exact/neighbors.h"
 
 namespace meshhood {
-
-/// Ascending, so that sums do not depend on the earlier queries of the searcher.
-void DirectFit::find(std::uint32_t place, double radius) {
-  if (!searcher_) searcher_.emplace(surface_->searched);
-  found_.clear();
-  for (const VertexRange& range : searcher_->ranges(surface_->index->id(place), radius)) {
-    for (VertexId i = range.begin; i < range.end; ++i) found_.push_back(i);
-  }
-  std::sort(found_.begin(), found_.end());
-}
 
 /// Adds the vertices nearest to the query vertex among those that are linked to the set, one by one; of several the one
 /// with the lowest id.
@@ -66,7 +58,8 @@ double DirectFit::set_points(std::uint32_t place) {
 }
 
 DirectFit::Result DirectFit::fit(std::uint32_t place, double radius, const TangentFrame& frame) {
-  find(place, radius);
+  if (!searcher_) searcher_.emplace(surface_->searched);
+  find_places(*searcher_, *surface_->index, place, radius, found_);
   extend(place);
   if (found_.size() < kFewestPoints) return {CurvatureState::TooFew, {}};
   if (options_->filter) filter(frame.n);
@@ -89,9 +82,8 @@ DirectFit::Result DirectFit::fit(std::uint32_t place, double radius, const Tange
 /// on the unit. libigl fits in the unit of the mesh; where squares and coordinates differ too much there, it drops
 /// terms.
 double DirectFit::scale_for(double extent) const {
-  const double to_frame = surface_->index->frame.scale;
-  if (!(extent > 0)) return to_frame;
-  const double scale = std::ldexp(to_frame, -std::ilogb(extent) - 1);
+  const double scale = unit_factor(extent, surface_->index->frame);
+  if (!(extent > 0)) return scale;
   const bool moderate = scale > 0x1p-20 && scale < 0x1p20;
   return options_->shape_operator == ShapeOperator::Libigl && moderate ? 1 : scale;
 }

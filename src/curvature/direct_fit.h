@@ -27,7 +27,6 @@ class DirectFit {
   Result fit(std::uint32_t place, double radius, const TangentFrame& frame);
 
  private:
-  void find(std::uint32_t place, double radius);
   void extend(std::uint32_t place);
   void filter(const Point& normal);
   [[nodiscard]] double set_points(std::uint32_t place);

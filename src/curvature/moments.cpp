@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 
 #include "base/limits.h"
 #include "base/text.h"
+#include "curvature/direct_moments.h"
 #include "curvature/directions.h"
 #include "curvature/packet_moments.h"
 #include "curvature/symmetric.h"
@@ -22,7 +24,8 @@
 namespace meshhood {
 namespace {
 
-/// Weights in index order, times a power of two that makes the largest about 1.
+/// Weights in index order, times a power of two that brings the largest to where no sum overflows and weights 2^1300
+/// times smaller are sums without loss.
 struct MomentWeights {
   std::vector<double> values;
   int exponent = 0;
@@ -31,7 +34,7 @@ struct MomentWeights {
     if (given.empty()) return;
     check(index, given);
     const double largest = *std::max_element(given.begin(), given.end());
-    if (largest > 0) exponent = -std::ilogb(largest);
+    if (largest > 0) exponent = 500 - std::ilogb(largest);
     values.reserve(given.size());
     for (std::size_t i = 0; i < given.size(); ++i) values.push_back(std::ldexp(given[index.id(i)], exponent));
   }
@@ -73,14 +76,20 @@ void for_each_row(const Index& index, const BatchQuery& query, const MomentOptio
                   const std::function<void(std::size_t row, const RowMoments&)>& take) {
   const IndexView& view = IndexAccess::view(index);
   const MomentWeights weights(view, options.weights);
-  visit_moments(index, query, false, {.index = &view, .weights = weights.values},
-                {.threads = options.threads, .progress = options.progress}, [&] {
-                  return [&](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
-                    for (std::size_t q = 0; q < packet.rows.size(); ++q) {
-                      take(packet.rows[q], {moments, q, sums.scale(), weights.exponent});
-                    }
-                  };
-                });
+  const MomentSource source{.index = &view, .weights = weights.values};
+  visit_moments(index, query, false, source, {.threads = options.threads, .progress = options.progress}, [&] {
+    const auto direct = std::make_shared<DirectMoments>(index, source);
+    return [&, direct](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
+      for (std::size_t q = 0; q < packet.rows.size(); ++q) {
+        if (sums.is_accurate(q)) {
+          take(packet.rows[q], {moments, q, sums.scale(), weights.exponent});
+        } else {
+          direct->sum(packet.places[q], packet.radii[q]);
+          take(packet.rows[q], {direct->moments(), 0, direct->scale(), weights.exponent + direct->weight_exponent()});
+        }
+      }
+    };
+  });
 }
 
 void write_row(PrincipalComponents& out, std::size_t row, const RowMoments& m) {

@@ -59,7 +59,13 @@ class PacketMoments {
   /// whichever are larger. The errors of the moments of these degrees are of the order of epsilon times them.
   [[nodiscard]] const MomentSizes& sizes(std::size_t query) const { return sizes_[query]; }
 
+  /// Whether the moments are accurate to 1e-13 of the sum of w |p|^(i + j + k). They are not where the query vertices
+  /// lie much farther apart than the vertices of the neighborhood, as in a leaf with vertices of large and small faces.
+  [[nodiscard]] bool is_accurate(std::size_t query) const { return is_accurate_[query]; }
+
  private:
+  friend struct ScratchAccess;  // defined by tests
+
   void set_center(double reach);
   void set_normals(std::span<const std::uint32_t> places);
   void set_axis();
@@ -68,6 +74,7 @@ class PacketMoments {
   void add_common();
   void add_some();
   void set_points(std::span<const std::uint32_t> places);
+  [[nodiscard]] bool is_accurate(std::size_t query, const MomentSizes& before, const MomentSizes& after) const;
 
   MomentSource source_;
   const MomentKernels* kernels_;
@@ -87,6 +94,7 @@ class PacketMoments {
   MomentsByWord some_;
   QueryMoments moments_;
   PerLane<MomentSizes> sizes_{};
+  PerLane<bool> is_accurate_{};
 };
 
 }  // namespace meshhood

@@ -66,6 +66,11 @@ struct MomentsByWord {
 struct alignas(64) PartialMoments {
   static constexpr std::size_t kParts = 8;
   std::array<std::array<double, kParts>, kMomentCount> at;
+
+  [[nodiscard]] double total(std::size_t m) const {
+    const auto& part = at[m];
+    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+  }
 };
 
 /// Vertices relative to the center of a packet, in a unit in which they are about 1.
@@ -75,6 +80,13 @@ struct alignas(64) MomentPoints {
   std::array<double, kCapacity> y;
   std::array<double, kCapacity> z;
   std::array<double, kCapacity> weight;
+
+  void set(std::size_t i, const Point& p, double its_weight) {
+    x[i] = p.x;
+    y[i] = p.y;
+    z[i] = p.z;
+    weight[i] = its_weight;
+  }
 };
 
 /// The moments of a neighborhood about its query vertex, in the frame (u, v, n) of its tangent plane. A fit of a

@@ -240,10 +240,7 @@ MESHHOOD_MOMENTS void append(std::uint32_t first, std::span<const QueryWord> wor
 MESHHOOD_MOMENTS void collect(const PartialMoments& common, const MomentsByWord& some, QueryMoments& out) {
   constexpr std::size_t kQueries = MomentsByWord::kQueries;
   PaddedMoments all{};
-  for (std::size_t m = 0; m < kMomentCount; ++m) {
-    const auto& part = common.at[m];
-    all.at[m] = ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
-  }
+  for (std::size_t m = 0; m < kMomentCount; ++m) all.at[m] = common.total(m);
   for (std::size_t q = 0; q < kPacketCapacity; ++q) {
     PaddedMoments sum = all;
     for (std::size_t value = 0; value < MomentsByWord::kValues; ++value) {

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "curvature/direct_moments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "base/vector.h"
+#include "curvature/places.h"
+#include "curvature/unit.h"
+#include "simd/kernels.h"
+
+namespace meshhood {
+
+Point DirectMoments::offset(std::uint32_t i, const Point& center) const {
+  return std::visit([&](auto xyz) { return point(xyz, i); }, source_.index->positions) - center;
+}
+
+/// Powers of two that bring the longest offset and the largest weight of the neighborhood to about 1.
+void DirectMoments::set_units(const Point& center) {
+  double extent = 0;
+  double weight = 0;
+  for (const std::uint32_t i : found_) {
+    const Point p = source_.index->frame.scale * offset(i, center);
+    extent = std::max({extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    if (!source_.weights.empty()) weight = std::max(weight, source_.weights[i]);
+  }
+  scale_ = unit_factor(extent, source_.index->frame);
+  weight_exponent_ = weight > 0 ? -std::ilogb(weight) : 0;
+}
+
+void DirectMoments::sum(std::uint32_t place, double radius) {
+  if (!searcher_) searcher_.emplace(*searched_);
+  find_places(*searcher_, *source_.index, place, radius, found_);
+  const Point center = offset(place, {0, 0, 0});
+  set_units(center);
+  PartialMoments sums{};
+  for (std::size_t begin = 0; begin < found_.size(); begin += MomentPoints::kCapacity) {
+    const std::size_t size = std::min(found_.size() - begin, MomentPoints::kCapacity);
+    points_ = {};
+    for (std::size_t k = 0; k < size; ++k) {
+      const std::uint32_t i = found_[begin + k];
+      points_.set(k, scale_ * offset(i, center),
+                  source_.weights.empty() ? 1 : std::ldexp(source_.weights[i], weight_exponent_));
+    }
+    moment_kernels(best_isa()).add_powers(points_, size, sums);
+  }
+  for (std::size_t m = 0; m < kMomentCount; ++m) moments_.at[m][0] = sums.total(m);
+}
+
+}  // namespace meshhood
