@@ -25,7 +25,7 @@ foreach(part
     region/region_mesher
     curvature/corrected curvature/curvatures curvature/features curvature/moments curvature/packet_moments curvature/quadric
     simd/aggregate_kernels simd/joint_kernels simd/kernels simd/moment_kernels
-    whole/arguments whole/robustness whole/differential whole/metamorphic)
+    whole/arguments whole/robustness whole/same_bits whole/differential whole/metamorphic)
   meshhood_test(${part} meshhood_families)
 endforeach()
 add_subdirectory(golden)

@@ -14,6 +14,7 @@
 #include "meshhood/joint.h"
 
 #include "aggregate/kernel_sums.h"
+#include "aggregate/maximal_nodes.h"
 #include "aggregate/minima.h"
 #include "aggregate/node_tree.h"
 #include "aggregate/patch.h"
@@ -175,8 +176,9 @@ class Aggregation {
         index_, {query_.vertices, query_.radii[radius]},
         [&](unsigned /*thread*/) -> PacketVisitor {
           const std::shared_ptr<PacketReducer> reducer = reduction.make_reducer(query_.radii[radius]);
-          return [this, reducer, to = destination(radius, first, count)](const PacketAnswer& packet) {
-            reduce_packet(tree_, packet, *reducer);
+          const auto nodes = std::make_shared<MaximalNodes>(tree_);
+          return [nodes, reducer, to = destination(radius, first, count)](const PacketAnswer& packet) {
+            nodes->reduce(packet, *reducer);
             to.write(packet, *reducer);
           };
         },
@@ -197,9 +199,10 @@ class Aggregation {
             cuts->push_back({PatchCutter(view_, tree_, query_.radii[i]), reduction.make_reducer(query_.radii[i]),
                              destination(i, first, count)});
           }
-          return [cuts](const PacketAnswer& packet) {
+          const auto nodes = std::make_shared<MaximalNodes>(tree_);
+          return [nodes, cuts](const PacketAnswer& packet) {
             for (Cut& cut : *cuts) {
-              cut.cutter.reduce(packet, *cut.reducer);
+              nodes->reduce(cut.cutter.cut(packet), *cut.reducer);
               cut.to.write(packet, *cut.reducer);
             }
           };

@@ -42,13 +42,9 @@ class KernelSumReducer final : public PacketReducer {
     }
   }
 
-  void add_node(NodeTree::Node node, QueryWord queries) override {
-    if (!has_moments_for(node)) return add_vertices(node, queries);
-    reduction_->kernels().set_offsets(reduction_->tree().center(node), centers_, offsets_);
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-      const Moments moments = rescaled(reduction_->moments(i, node), from_frame_);
-      reduction_->kernels().add_moments(moments, offsets_, centers_.inverse_square, reduction_->squared(), queries,
-                                        sums_[i]);
+  void add_nodes(const NodeTree::Children& nodes, const QueryWord* queries) override {
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (queries[k] != 0) add_node(nodes.begin + static_cast<NodeTree::Node>(k), queries[k]);
     }
   }
 
@@ -76,6 +72,16 @@ class KernelSumReducer final : public PacketReducer {
   }
 
  private:
+  void add_node(NodeTree::Node node, QueryWord queries) {
+    if (!has_moments_for(node)) return add_vertices(node, queries);
+    reduction_->kernels().set_offsets(reduction_->tree().center(node), centers_, offsets_);
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+      const Moments moments = rescaled(reduction_->moments(i, node), from_frame_);
+      reduction_->kernels().add_moments(moments, offsets_, centers_.inverse_square, reduction_->squared(), queries,
+                                        sums_[i]);
+    }
+  }
+
   /// The vertices of a node that is added lie in the ball, but its sphere, whose center is rounded to floats, may be
   /// larger. Then offsets from the center are longer than the radius, and their sums would cancel.
   [[nodiscard]] bool has_moments_for(NodeTree::Node node) const {

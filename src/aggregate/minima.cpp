@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "aggregate/pending_nodes.h"
 #include "base/limits.h"
 
 namespace meshhood {
@@ -25,11 +24,12 @@ class MinimumReducer final : public PacketReducer {
       rows.with_nan = 0;
       rows.with_number = 0;
     }
-    nodes_.clear();
   }
 
-  void add_node(NodeTree::Node node, QueryWord queries) override {
-    if (nodes_.add(node, queries)) add_pending();
+  void add_nodes(const NodeTree::Children& nodes, const QueryWord* queries) override {
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      lower(i, std::span(reduction_->channels()[i].node_minima).subspan(nodes.begin, nodes.size()), queries);
+    }
   }
 
   void add_leaf(const VertexRange& vertices, const QueryWord* queries) override {
@@ -40,7 +40,6 @@ class MinimumReducer final : public PacketReducer {
   }
 
   void write(std::size_t row, std::span<double> channels) override {
-    add_pending();
     for (std::size_t i = 0; i < channels.size(); ++i) {
       const Rows& rows = rows_[i];
       const bool is_nan = reduction_->propagates()
@@ -74,16 +73,8 @@ class MinimumReducer final : public PacketReducer {
     reduction_->kernels().lower_minima(values, queries, rows.minima);
   }
 
-  void add_pending() {
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      lower(i, nodes_.values(reduction_->channels()[i].node_minima), nodes_.words());
-    }
-    nodes_.clear();
-  }
-
   const MinimumReduction* reduction_;
   std::vector<Rows> rows_;  // by channel
-  PendingNodes nodes_;
 };
 
 }  // namespace

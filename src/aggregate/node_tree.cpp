@@ -18,6 +18,12 @@ VertexRange NodeTree::vertices(Node node) const {
   return {static_cast<VertexId>(record.begin[node % kFanOut]), static_cast<VertexId>(record.begin[node % kFanOut + 1])};
 }
 
+LeafRun NodeTree::run(Node node) const {
+  Node first = node;
+  while (!is_leaf(first)) first = children(first).begin;
+  return {first, static_cast<std::uint32_t>(end_leaf(node)), vertices(node)};
+}
+
 FrameSphere NodeTree::sphere(Node node) const { return sphere_of(index_->groups[node / kFanOut], node % kFanOut); }
 
 NodeTree::Node NodeTree::largest_from(std::size_t leaf, std::size_t end) const {

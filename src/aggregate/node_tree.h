@@ -28,11 +28,26 @@ class NodeTree {
   struct Children {
     Node begin;
     Node end;
+
+    [[nodiscard]] std::size_t size() const { return end - begin; }
   };
   [[nodiscard]] Children children(Node node) const;
 
+  /// The nodes of one parent are a *family*, and so are up to eight neighboring nodes without a parent. Families are
+  /// numbered in the order of their nodes.
+  [[nodiscard]] std::size_t families() const { return index_->records.size(); }
+  [[nodiscard]] static std::uint32_t family(Node node) { return node / kFanOut; }
+  [[nodiscard]] Children members(std::uint32_t family) const {
+    return {family * kFanOut, family * kFanOut + index_->records[family].nodes};
+  }
+  /// The parent of its nodes, or `kNoNode`.
+  [[nodiscard]] Node parent(std::uint32_t family) const { return index_->parents[family]; }
+
   /// The vertices of a node, in index order.
   [[nodiscard]] VertexRange vertices(Node node) const;
+
+  /// Its leaves.
+  [[nodiscard]] LeafRun run(Node node) const;
 
   /// The bounding sphere, in the frame.
   [[nodiscard]] FrameSphere sphere(Node node) const;

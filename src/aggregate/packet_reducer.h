@@ -23,8 +23,8 @@ class PacketReducer {
   /// Begins with the rows of another packet.
   virtual void begin(const PacketAnswer& packet) = 0;
 
-  /// Adds all vertices of a node to the rows of `queries`.
-  virtual void add_node(NodeTree::Node node, QueryWord queries) = 0;
+  /// Adds all vertices of each of up to eight nodes, which are neighbors, to the rows of its word.
+  virtual void add_nodes(const NodeTree::Children& nodes, const QueryWord* queries) = 0;
 
   /// Adds each vertex of a leaf to the rows of its word.
   virtual void add_leaf(const VertexRange& vertices, const QueryWord* queries) = 0;

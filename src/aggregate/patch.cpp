@@ -8,18 +8,6 @@
 
 namespace meshhood {
 
-void reduce_packet(const NodeTree& tree, const PacketAnswer& packet, PacketReducer& reducer) {
-  reducer.begin(packet);
-  const auto add = [&](const LeafRun& run, QueryWord queries) {
-    tree.for_each_node(run, [&](NodeTree::Node node) { reducer.add_node(node, queries); });
-  };
-  for (const CoreLeaves& core : packet.cores) {
-    for (const LeafRun& run : core.runs) add(run, core.queries);
-  }
-  for (const WholeLeaves& whole : packet.whole) add(whole.run, whole.queries);
-  for (const PartialLeaf& leaf : packet.partial) reducer.add_leaf(leaf.vertices, leaf.queries.data());
-}
-
 PatchCutter::PatchCutter(const IndexView& index, const NodeTree& tree, double radius)
     : index_(&index),
       tree_(&tree),
@@ -28,6 +16,10 @@ PatchCutter::PatchCutter(const IndexView& index, const NodeTree& tree, double ra
       ball_({0, 0, 0}, bounds_) {}
 
 void PatchCutter::begin(const PacketAnswer& packet) {
+  whole_.clear();
+  partial_.clear();
+  leaves_.clear();
+  words_.clear();
   const std::uint32_t first = index_->slot[packet.vertices.front()];
   const FrameSphere& leaf = index_->leaves[leaf_of(first)].bounds;
   const auto radius = static_cast<double>(leaf.radius);
@@ -41,40 +33,53 @@ void PatchCutter::begin(const PacketAnswer& packet) {
   }
 }
 
-void PatchCutter::reduce(const PacketAnswer& packet, PacketReducer& reducer) {
+const PacketAnswer& PatchCutter::cut(const PacketAnswer& packet) {
   begin(packet);
-  reducer.begin(packet);
-  const auto cut = [&](const LeafRun& run, QueryWord queries) {
-    tree_->for_each_node(run, [&](NodeTree::Node node) { cut_node(node, queries, reducer); });
-  };
   for (const CoreLeaves& core : packet.cores) {
-    for (const LeafRun& run : core.runs) cut(run, core.queries);
+    for (const LeafRun& run : core.runs) cut_run(run, core.queries);
   }
-  for (const WholeLeaves& whole : packet.whole) cut(whole.run, whole.queries);
-  for (const PartialLeaf& leaf : packet.partial) cut_leaf(leaf.vertices, leaf.queries.data(), reducer);
+  for (const WholeLeaves& whole : packet.whole) cut_run(whole.run, whole.queries);
+  for (const PartialLeaf& leaf : packet.partial) cut_leaf(leaf.leaf, leaf.queries.data());
+  for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    partial_.push_back({leaves_[i], tree_->vertices(leaves_[i]), words_[i]});
+  }
+  rest_ = packet;
+  rest_.cores = {};
+  rest_.whole = whole_;
+  rest_.partial = partial_;
+  return rest_;
 }
 
-void PatchCutter::cut_node(NodeTree::Node node, QueryWord queries, PacketReducer& reducer) {
+void PatchCutter::cut_run(const LeafRun& run, QueryWord queries) {
+  tree_->for_each_node(run, [&](NodeTree::Node node) { cut_node(node, queries); });
+}
+
+void PatchCutter::cut_node(NodeTree::Node node, QueryWord queries) {
   const Containment containment = classify(tree_->sphere(node), ball_);
   if (containment == Containment::Outside) return;
-  if (containment == Containment::Inside) return reducer.add_node(node, queries);
-  if (tree_->is_leaf(node)) {
+  if (containment == Containment::Inside) {
+    whole_.push_back({tree_->run(node), queries});
+  } else if (tree_->is_leaf(node)) {
     PerLane<QueryWord> words;
     words.fill(queries);
-    return cut_leaf(tree_->vertices(node), words.data(), reducer);
+    cut_leaf(node, words.data());
+  } else {
+    const auto [begin, end] = tree_->children(node);
+    for (NodeTree::Node child = begin; child < end; ++child) cut_node(child, queries);
   }
-  const auto [begin, end] = tree_->children(node);
-  for (NodeTree::Node child = begin; child < end; ++child) cut_node(child, queries, reducer);
 }
 
-void PatchCutter::cut_leaf(const VertexRange& vertices, const QueryWord* queries, PacketReducer& reducer) {
-  PerLane<QueryWord> words;
+void PatchCutter::cut_leaf(NodeTree::Node leaf, const QueryWord* queries) {
+  const VertexRange vertices = tree_->vertices(leaf);
+  PerLane<QueryWord> words{};
   QueryWord any = 0;
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     words[k] = inside(vertices.begin + k, queries[k]);
     any |= words[k];
   }
-  if (any != 0) reducer.add_leaf(vertices, words.data());
+  if (any == 0) return;
+  leaves_.push_back(leaf);
+  words_.push_back(words);
 }
 
 /// The queries whose ball holds a vertex: the predicate.

@@ -3,30 +3,30 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "meshhood/joint.h"
 
 #include "aggregate/node_tree.h"
-#include "aggregate/packet_reducer.h"
 #include "simd/ball.h"
+#include "simd/joint.h"
 
 namespace meshhood {
-
-/// Passes the neighborhoods of a packet to a reducer.
-void reduce_packet(const NodeTree& tree, const PacketAnswer& packet, PacketReducer& reducer);
 
 /// Cuts the neighborhoods of a packet by smaller balls around their vertices: `Nesting::Patch`.
 class PatchCutter {
  public:
   PatchCutter(const IndexView& index, const NodeTree& tree, double radius);
 
-  /// Passes what is left to a reducer. The radii of the packet are at least that of the cutter.
-  void reduce(const PacketAnswer& packet, PacketReducer& reducer);
+  /// Returns what is left, as a packet without cores. The radii of `packet` are at least that of the cutter. Valid
+  /// until the next call.
+  const PacketAnswer& cut(const PacketAnswer& packet);
 
  private:
   void begin(const PacketAnswer& packet);
-  void cut_node(NodeTree::Node node, QueryWord queries, PacketReducer& reducer);
-  void cut_leaf(const VertexRange& vertices, const QueryWord* queries, PacketReducer& reducer);
+  void cut_run(const LeafRun& run, QueryWord queries);
+  void cut_node(NodeTree::Node node, QueryWord queries);
+  void cut_leaf(NodeTree::Node leaf, const QueryWord* queries);
   [[nodiscard]] QueryWord inside(std::size_t vertex, QueryWord queries) const;
 
   const IndexView* index_;
@@ -35,6 +35,11 @@ class PatchCutter {
   double squared_radius_;
   TreeBall ball_;  // around the leaf of the packet: `outer` around all balls, `inner` within each
   std::array<Point, kPacketCapacity> centers_{};
+  std::vector<WholeLeaves> whole_;
+  std::vector<NodeTree::Node> leaves_;  // that are cut, and their words
+  std::vector<PerLane<QueryWord>> words_;
+  std::vector<PartialLeaf> partial_;  // the same, once no more words are added
+  PacketAnswer rest_;
 };
 
 }  // namespace meshhood

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "aggregate/compensated.h"
-#include "aggregate/pending_nodes.h"
 
 namespace meshhood {
 namespace {
@@ -39,11 +38,13 @@ class SumReducer final : public PacketReducer {
 
   void begin(const PacketAnswer& /*packet*/) override {
     for (RowSums& sums : sums_) sums = {};
-    nodes_.clear();
   }
 
-  void add_node(NodeTree::Node node, QueryWord queries) override {
-    if (nodes_.add(node, queries)) add_pending();
+  void add_nodes(const NodeTree::Children& nodes, const QueryWord* queries) override {
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+      const auto values = std::span(reduction_->node_sums(i)).subspan(nodes.begin, nodes.size());
+      reduction_->kernels().add_values(values, queries, sums_[i]);
+    }
   }
 
   void add_leaf(const VertexRange& vertices, const QueryWord* queries) override {
@@ -54,7 +55,6 @@ class SumReducer final : public PacketReducer {
   }
 
   void write(std::size_t row, std::span<double> channels) override {
-    add_pending();
     for (std::size_t i = 0; i < sums_.size(); ++i) {
       totals_[i] = CompensatedSum{sums_[i].high[row], sums_[i].low[row]}.value();
     }
@@ -62,17 +62,9 @@ class SumReducer final : public PacketReducer {
   }
 
  private:
-  void add_pending() {
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-      reduction_->kernels().add_values(nodes_.values(reduction_->node_sums(i)), nodes_.words(), sums_[i]);
-    }
-    nodes_.clear();
-  }
-
   const SumReduction* reduction_;
   std::vector<RowSums> sums_;  // by column
   std::vector<double> totals_;
-  PendingNodes nodes_;
 };
 
 }  // namespace

@@ -31,23 +31,24 @@ Spread spread_of(std::span<const double> values, const double* weighted, const d
 class VarianceReducer final : public PacketReducer {
  public:
   explicit VarianceReducer(const VarianceReduction& reduction)
-      : reduction_(&reduction), common_(reduction.channels().size()), rows_(common_.size()) {}
+      : reduction_(&reduction), rows_(reduction.channels().size()) {}
 
-  void begin(const PacketAnswer& packet) override {
-    queries_ = packet.queries;
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      common_[i] = {};
-      rows_[i].fill({});
-    }
+  void begin(const PacketAnswer& /*packet*/) override {
+    for (RowSpreads& rows : rows_) rows = {};
   }
 
-  void add_node(NodeTree::Node node, QueryWord queries) override {
+  void add_nodes(const NodeTree::Children& nodes, const QueryWord* queries) override {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const Spread& spread = reduction_->channels()[i].nodes[node];
-      if (queries == queries_) {
-        common_[i].merge(spread);
-      } else {
-        for_each_query(queries, [&](std::size_t row) { rows_[i][row].merge(spread); });
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        if (queries[k] == 0) continue;
+        const Spread& spread = reduction_->channels()[i].nodes[nodes.begin + k];
+        for (std::size_t row = 0; row < kPacketCapacity; ++row) {
+          added_.weight[row] = (queries[k] >> row & 1U) != 0 ? spread.weight : 0;
+        }
+        added_.mean.fill(spread.mean);
+        added_.low.fill(spread.low);
+        added_.squares.fill(spread.squares);
+        reduction_->kernels().merge_spreads(added_, rows_[i]);
       }
     }
   }
@@ -58,15 +59,14 @@ class VarianceReducer final : public PacketReducer {
 
   void write(std::size_t row, std::span<double> channels) override {
     for (std::size_t i = 0; i < channels.size(); ++i) {
-      Spread spread = common_[i];
-      spread.merge(rows_[i][row]);
+      const Spread spread{rows_[i].weight[row], rows_[i].mean[row], rows_[i].low[row], rows_[i].squares[row]};
       channels[i] = reduction_->result(reduction_->channels()[i], spread);
     }
   }
 
  private:
   void add_leaf(const VarianceReduction::Channel& channel, const VertexRange& vertices, const QueryWord* queries,
-                PerLane<Spread>& rows) {
+                RowSpreads& rows) {
     const AggregateKernels& kernels = reduction_->kernels();
     const Column& weights = reduction_->weights(channel);
     const auto part_of = [&](const Column& column) {
@@ -84,15 +84,19 @@ class VarianceReducer final : public PacketReducer {
     PerLane<double> deviations;
     PerLane<double> squares;
     kernels.sum_deviations(part_of(channel.values), &weights[vertices.begin], queries, means, deviations, squares);
-    for_each_query(queries_, [&](std::size_t row) {
-      rows[row].merge(Spread::of(weight_sums_.high[row], means[row], deviations[row], squares[row]));
-    });
+    for (std::size_t row = 0; row < kPacketCapacity; ++row) {
+      const Spread spread = Spread::of(weight_sums_.high[row], means[row], deviations[row], squares[row]);
+      added_.weight[row] = spread.weight;
+      added_.mean[row] = spread.mean;
+      added_.low[row] = spread.low;
+      added_.squares[row] = spread.squares;
+    }
+    kernels.merge_spreads(added_, rows);
   }
 
   const VarianceReduction* reduction_;
-  QueryWord queries_ = 0;
-  std::vector<Spread> common_;         // by channel: of nodes that all rows have
-  std::vector<PerLane<Spread>> rows_;  // by channel: of the rest
+  std::vector<RowSpreads> rows_;  // by channel
+  RowSpreads added_{};
   RowSums weight_sums_{};
   RowSums value_sums_{};
 };

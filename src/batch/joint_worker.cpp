@@ -9,14 +9,12 @@
 namespace meshhood {
 namespace {
 
-/// A packet costs about as much as this many rows of a leaf that are answered one by one (docs/joint.md).
-struct BreakEven {
-  std::size_t rows;
-  std::size_t large_rows;  // where the radius is large
-};
-constexpr BreakEven kVectors{8, 12};
-constexpr BreakEven kPortable{14, 18};
-constexpr double kLargeRadius = 5;  // in mean leaf radii
+// A packet costs about as much as this many rows of a leaf that are answered one by one with vectors (docs/joint.md).
+// With the portable kernels, it costs as much as more rows; but which rows are answered together must not depend on the
+// processor, because sums over packets do.
+constexpr std::size_t kBreakEven = 8;
+constexpr std::size_t kBreakEvenOfLarge = 12;  // where the radius is large
+constexpr double kLargeRadius = 5;             // in mean leaf radii
 
 }  // namespace
 
@@ -149,8 +147,7 @@ bool JointWorker::pays(std::span<const BatchItem> items) const {
   const bool is_large = items.front().radius > kLargeRadius * view_.tree.front().mean_radius / view_.frame.scale;
   // If all vertices of a small leaf are queried, then mostly all vertices of its group are.
   if (is_large && items.size() == view_.leaves[leaf_of(items.front().position)].size) return true;
-  const BreakEven& least = isa_ == Isa::Portable ? kPortable : kVectors;
-  return items.size() >= (is_large ? least.large_rows : least.rows);
+  return items.size() >= (is_large ? kBreakEvenOfLarge : kBreakEven);
 }
 
 const JointRadius& JointWorker::prepared(double radius) {

@@ -20,6 +20,14 @@ struct alignas(64) RowSums {
   PerLane<double> low;
 };
 
+/// A spread for each row: see `Spread` in aggregate/variances.h.
+struct alignas(64) RowSpreads {
+  PerLane<double> weight;
+  PerLane<double> mean;
+  PerLane<double> low;
+  PerLane<double> squares;
+};
+
 /// The query vertices of a packet, and the unit in which distances from them are computed.
 struct alignas(64) PacketCenters {
   PerLane<double> x;
@@ -64,6 +72,9 @@ struct AggregateKernels {
   /// whose word has it, by the mean of the row.
   void (*sum_deviations)(std::span<const double> values, const double* weights, const QueryWord* words,
                          const PerLane<double>& means, PerLane<double>& deviations, PerLane<double>& squares);
+
+  /// Merges a spread into that of each row, as `Spread::merge` does; one of weight 0 changes nothing.
+  void (*merge_spreads)(const RowSpreads& added, RowSpreads& spreads);
 
   /// Sets the offsets of `point` from the query vertices.
   void (*set_offsets)(const Point& point, const PacketCenters& centers, Offsets& offsets);

@@ -103,6 +103,44 @@ MESHHOOD_TARGET void sum_deviations(std::span<const double> values, const double
   }
 }
 
+MESHHOOD_TARGET void merge_spreads(const RowSpreads& added, RowSpreads& spreads) {
+  for (std::size_t first = 0; first < kPacketCapacity; first += kWidth) {
+    Doubles weight;
+    Doubles mean;
+    Doubles low;
+    Doubles squares;
+    MESHHOOD_LOAD(weight, spreads.weight[first]);
+    MESHHOOD_LOAD(mean, spreads.mean[first]);
+    MESHHOOD_LOAD(low, spreads.low[first]);
+    MESHHOOD_LOAD(squares, spreads.squares[first]);
+    Doubles added_weight;
+    Doubles added_mean;
+    Doubles added_low;
+    Doubles added_squares;
+    MESHHOOD_LOAD(added_weight, added.weight[first]);
+    MESHHOOD_LOAD(added_mean, added.mean[first]);
+    MESHHOOD_LOAD(added_low, added.low[first]);
+    MESHHOOD_LOAD(added_squares, added.squares[first]);
+    const Doubles sum = weight + added_weight;
+    const Doubles step = (added_mean - mean) + (added_low - low);
+    const Doubles share = added_weight / sum;
+    const Doubles move = step * share;
+    const Doubles moved = mean + move;
+    const Doubles rounded = moved - mean;
+    const Doubles rest = low + ((mean - (moved - rounded)) + (move - rounded));
+    const Doubles merged = squares + (added_squares + ((step * step) * weight) * share);
+    const Bits is_first = weight == 0.0;  // then the difference of means would round
+    const Bits changes = added_weight != 0.0;
+    mean = changes ? (is_first ? added_mean : moved) : mean;
+    low = changes ? (is_first ? added_low : rest) : low;
+    squares = changes ? (is_first ? added_squares : merged) : squares;
+    MESHHOOD_STORE(spreads.weight[first], sum);
+    MESHHOOD_STORE(spreads.mean[first], mean);
+    MESHHOOD_STORE(spreads.low[first], low);
+    MESHHOOD_STORE(spreads.squares[first], squares);
+  }
+}
+
 MESHHOOD_TARGET void set_offsets(const Point& point, const PacketCenters& centers, Offsets& offsets) {
   for (std::size_t first = 0; first < kPacketCapacity; first += kWidth) {
     Doubles x;
@@ -186,8 +224,8 @@ MESHHOOD_TARGET void add_moments(const Moments& moments, const Offsets& offsets,
 
 // NOLINTEND(modernize-avoid-c-arrays)
 
-constexpr AggregateKernels kAggregateKernels{add_values,  lower_minima, sum_deviations, set_offsets,
-                                             set_weights, add_weighted, add_moments};
+constexpr AggregateKernels kAggregateKernels{add_values,  lower_minima, sum_deviations, merge_spreads,
+                                             set_offsets, set_weights,  add_weighted,   add_moments};
 
 }  // namespace
 }  // namespace meshhood

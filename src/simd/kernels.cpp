@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "simd/kernels.h"
 
+#include <algorithm>
+
 #include "simd/wasm128.h"
 
 namespace meshhood {
+namespace {
 
-Isa best_isa() {
+Isa most_isa = Isa::Avx512;
+
+Isa isa_of_processor() {
 #if defined(MESHHOOD_HAS_X86)
   if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&
       __builtin_cpu_supports("avx512cd") != 0 && __builtin_cpu_supports("avx512vl") != 0 &&
@@ -16,6 +21,12 @@ Isa best_isa() {
 #endif
   return Isa::Portable;
 }
+
+}  // namespace
+
+Isa best_isa() { return std::min(isa_of_processor(), most_isa); }
+
+void limit_isa(Isa most) { most_isa = most; }
 
 const Kernels& kernels(Isa isa) {
 #if defined(MESHHOOD_HAS_X86)

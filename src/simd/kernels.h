@@ -20,8 +20,11 @@ namespace meshhood {
 
 enum class Isa : std::uint8_t { Portable, Avx2, Avx512 };
 
-/// The best instruction set of this processor.
+/// The best instruction set of this processor, at most that of `limit_isa`.
 [[nodiscard]] Isa best_isa();
+
+/// For tests. Not while another thread uses the library.
+void limit_isa(Isa most);
 
 struct Nearest {
   double square;  // of the distance, by the predicate

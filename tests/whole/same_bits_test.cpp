@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// Whole calls whose results are sums have the same bits with every kernel and any number of threads; those of
+// aggregates and corrected curvature do not depend on the other rows of the call, either.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "meshhood/meshhood.h"
+
+#include "simd/kernels.h"
+#include "support/exact_answer.h"
+#include "support/families.h"
+#include "support/oracle.h"
+#include "support/random.h"
+
+namespace meshhood::test {
+namespace {
+
+constexpr std::array kReductions{Reduce::Sum,     Reduce::Mean,     Reduce::Minimum,
+                                 Reduce::Maximum, Reduce::Variance, Reduce::StandardDeviation,
+                                 Reduce::Count};
+constexpr std::array kKernels{SmoothingKernel::Box, SmoothingKernel::Epanechnikov, SmoothingKernel::Biweight};
+
+using Bits = std::vector<std::uint64_t>;
+
+void append(Bits& bits, const std::vector<double>& numbers) {
+  for (const double number : numbers) bits.push_back(std::bit_cast<std::uint64_t>(number));
+}
+
+/// Limits the kernels while it lives.
+class LimitedIsa {
+ public:
+  explicit LimitedIsa(Isa isa) { limit_isa(isa); }
+  LimitedIsa(const LimitedIsa&) = delete;
+  LimitedIsa& operator=(const LimitedIsa&) = delete;
+  ~LimitedIsa() { limit_isa(Isa::Avx512); }
+};
+
+/// A mesh with everything that a call may need.
+struct Scene {
+  TestMesh mesh;
+  Index index;
+  CurvatureIndex surface;
+  std::vector<double> areas;
+  std::vector<double> signal;
+  double edge;
+
+  explicit Scene(TestMesh given)
+      : mesh(std::move(given)),
+        index(build(mesh.view())),
+        surface(CurvatureIndex::build(index, mesh.view())),
+        areas(vertex_areas(mesh.view())),
+        edge(Oracle(mesh).mean_edge()) {
+    Random random(3);
+    for (std::size_t v = 0; v < mesh.size(); ++v) signal.push_back(random.uniform(-1, 1) * random.uniform(0, 1e6));
+  }
+
+  /// In each leaf `least` to `most` of its vertices, in no order.
+  [[nodiscard]] std::vector<VertexId> rows(std::size_t least, std::size_t most) const {
+    Random random(least);
+    std::vector<VertexId> chosen;
+    const auto starts = index.leaf_starts();
+    for (std::size_t leaf = 0; leaf + 1 < starts.size(); ++leaf) {
+      std::vector<VertexId> of_leaf;
+      for (VertexId i = starts[leaf]; i < starts[leaf + 1]; ++i) {
+        of_leaf.push_back(index.permutation().empty() ? i : index.permutation()[i]);
+      }
+      for (std::size_t i = of_leaf.size(); i > 1; --i) std::swap(of_leaf[i - 1], of_leaf[random.below(i)]);
+      of_leaf.resize(std::min<std::size_t>(of_leaf.size(), least + random.below(most - least + 1)));
+      chosen.insert(chosen.end(), of_leaf.begin(), of_leaf.end());
+    }
+    std::reverse(chosen.begin(), chosen.end());
+    return chosen;
+  }
+};
+
+std::vector<Scene> scenes() {
+  std::vector<Scene> all;
+  all.emplace_back(bumpy_grid(40).finish(true));
+  all.emplace_back(bumpy_grid(40).finish(false));
+  for (const Family& family : surface_families()) all.emplace_back(make_mesh(family, 2, 700));
+  return all;
+}
+
+/// A call whose result is sums, as a function of its rows.
+struct Call {
+  std::string name;
+  std::function<std::vector<double>(const std::vector<VertexId>& rows, unsigned threads)> result;
+  std::size_t columns;
+  bool by_row;  // each row depends on its vertex alone
+};
+
+std::vector<Call> aggregates(const Scene& scene, double radius) {
+  std::vector<Call> calls;
+  for (const Reduce reduce : kReductions) {
+    for (const SmoothingKernel kernel : kKernels) {
+      if (kernel != SmoothingKernel::Box && reduce != Reduce::Sum && reduce != Reduce::Mean) continue;
+      for (const Nesting nesting : {Nesting::Own, Nesting::Patch}) {
+        calls.push_back({"reduction " + std::to_string(static_cast<int>(reduce)) + ", kernel " +
+                             std::to_string(static_cast<int>(kernel)) + ", nesting " +
+                             std::to_string(static_cast<int>(nesting)),
+                         [&scene, radius, reduce, kernel, nesting](const auto& rows, unsigned threads) {
+                           AggregateQuery query{.vertices = rows, .radii = {radius, radius / 2}};
+                           query.reduce = reduce;
+                           query.kernel = kernel;
+                           query.nesting = nesting;
+                           const std::vector<double> both =
+                               aggregate(scene.index, {scene.signal, 1, scene.areas}, query, {.threads = threads});
+                           std::vector<double> by_row;
+                           for (std::size_t i = 0; i < rows.size(); ++i) {
+                             by_row.push_back(both[i]);
+                             by_row.push_back(both[rows.size() + i]);
+                           }
+                           return by_row;
+                         },
+                         2, true});
+      }
+    }
+  }
+  return calls;
+}
+
+std::vector<Call> curvature_calls(const Scene& scene, double radius) {
+  std::vector<Call> calls;
+  calls.push_back({"corrected curvature",
+                   [&scene, radius](const auto& rows, unsigned threads) {
+                     return corrected_curvatures(scene.surface, scene.mesh.view().faces, rows, radius,
+                                                 {.threads = threads})
+                         .measures;
+                   },
+                   CorrectedCurvatures::kMeasures, true});
+  calls.push_back({"moments",
+                   [&scene, radius](const auto& rows, unsigned threads) {
+                     return moments(scene.index, {.vertices = rows, .radius = radius},
+                                    {.degree = 4, .weights = scene.areas, .threads = threads});
+                   },
+                   35, false});
+  calls.push_back({"features",
+                   [&scene, radius](const auto& rows, unsigned threads) {
+                     const std::array radii{radius};
+                     return features(scene.surface, rows, radii,
+                                     {.kinds = {Feature::Crease, Feature::Height, Feature::Variation, Feature::Area},
+                                      .areas = scene.areas,
+                                      .threads = threads});
+                   },
+                   4, false});
+  for (const CurvatureFit fit : {CurvatureFit::Quadric, CurvatureFit::Jet}) {
+    calls.push_back({"curvature of fit " + std::to_string(static_cast<int>(fit)),
+                     [&scene, radius, fit](const auto& rows, unsigned threads) {
+                       CurvatureOptions options;
+                       options.fit = fit;
+                       options.threads = threads;
+                       const Curvatures found =
+                           curvatures(scene.surface, {.vertices = rows, .radius = radius}, options);
+                       std::vector<double> numbers;
+                       for (std::size_t i = 0; i < rows.size(); ++i) {
+                         numbers.insert(numbers.end(), {found.k1[i], found.k2[i], static_cast<double>(found.state[i])});
+                         for (std::size_t axis = 0; axis < 3; ++axis) numbers.push_back(found.d1[3 * i + axis]);
+                       }
+                       return numbers;
+                     },
+                     6, false});
+  }
+  return calls;
+}
+
+std::vector<Call> all_calls(const Scene& scene, double radius) {
+  std::vector<Call> calls = aggregates(scene, radius);
+  for (Call& call : curvature_calls(scene, radius)) calls.push_back(std::move(call));
+  return calls;
+}
+
+Bits bits_of(const Call& call, const std::vector<VertexId>& rows, unsigned threads) {
+  Bits bits;
+  append(bits, call.result(rows, threads));
+  return bits;
+}
+
+TEST(SameBits, OfWholeCallsWithEveryKernelAndAnyNumberOfThreads) {
+  std::size_t compared = 0;
+  for (const Scene& scene : scenes()) {
+    for (const double edges : {2.0, 12.0}) {
+      const std::vector<VertexId> rows = scene.rows(8, 17);
+      for (const Call& call : all_calls(scene, edges * scene.edge)) {
+        const Bits expected = bits_of(call, rows, 1);
+        for (const Isa isa : available_isas()) {
+          const LimitedIsa limited(isa);
+          ASSERT_EQ(bits_of(call, rows, 1), expected)
+              << call.name << ", " << edges << " edges, kernels " << static_cast<int>(isa);
+        }
+        ASSERT_EQ(bits_of(call, rows, 3), expected) << call.name << ", threads";
+        compared += expected.size();
+      }
+    }
+  }
+  std::printf("%zu numbers\n", compared);
+}
+
+TEST(SameBits, OfARowWhateverTheOtherRows) {
+  std::size_t compared = 0;
+  for (const Scene& scene : scenes()) {
+    for (const double edges : {0.0, 2.0, 12.0}) {
+      const std::vector<VertexId> all = scene.rows(32, 32);
+      for (const Call& call : all_calls(scene, edges * scene.edge)) {
+        if (!call.by_row) continue;
+        const Bits together = bits_of(call, all, 1);
+        for (std::size_t row = 0; row < all.size(); row += 37) {
+          const Bits alone = bits_of(call, {all[row]}, 1);
+          const auto first = together.begin() + static_cast<std::ptrdiff_t>(call.columns * row);
+          ASSERT_TRUE(std::equal(alone.begin(), alone.end(), first))
+              << call.name << ", " << edges << " edges, vertex " << all[row];
+          compared += alone.size();
+        }
+      }
+    }
+  }
+  std::printf("%zu numbers\n", compared);
+}
+
+}  // namespace
+}  // namespace meshhood::test
