@@ -15,17 +15,32 @@ namespace {
 // In smaller balls, relative to the frame, products of four offsets might underflow.
 constexpr double kLeastRadius = 0x1p-200;
 
+// The sum over a node is rounded as if each vertex had the weight 1. That is too much where a vertex near the rim has a
+// value that is much larger than the others. So a node is summed by its parts if it reaches nearer to the rim than this
+// part of the radius, and most of its values are less than the largest by this factor.
+constexpr double kRim = 1.0 / 64;
+constexpr double kUneven = 64;
+
+/// By Dekker's product: the parts of the radius have 24 and 29 bits.
+KernelRadius square_of(double radius) {
+  const double square = radius * radius;
+  const double high = static_cast<double>(static_cast<float>(radius));
+  const double rest = radius - high;
+  const double low = ((high * high - square) + 2 * high * rest) + rest * rest;
+  return {square, low, 1 / square};
+}
+
 class KernelSumReducer final : public PacketReducer {
  public:
   KernelSumReducer(const KernelSumReduction& reduction, double radius)
       : reduction_(&reduction), sums_(reduction.columns().size()), totals_(sums_.size()) {
     const double scale = reduction.index().frame.scale;
     radius_in_frame_ = radius * scale;
-    centers_.unit = scale;
+    centers_.unit = 0;
     if (radius > 0 && std::isfinite(radius)) {
       centers_.unit = std::ldexp(1.0, std::min(-std::ilogb(radius), 1000));
-      const double in_unit = radius * centers_.unit;
-      centers_.inverse_square = 1 / (in_unit * in_unit);
+      radius_ = radius * centers_.unit;
+      square_ = square_of(radius_);
     }
     from_frame_ = centers_.unit / scale;
   }
@@ -54,7 +69,7 @@ class KernelSumReducer final : public PacketReducer {
         [&](auto xyz) {
           for (std::size_t k = 0; k < vertices.size(); ++k) {
             kernels.set_offsets(point(xyz, vertices.begin + k), centers_, offsets_);
-            kernels.set_weights(offsets_, centers_.inverse_square, reduction_->squared(), weights_.of_vertex[k]);
+            kernels.set_weights(offsets_, square_, reduction_->squared(), weights_.of_vertex[k]);
           }
         },
         reduction_->index().positions);
@@ -73,12 +88,34 @@ class KernelSumReducer final : public PacketReducer {
 
  private:
   void add_node(NodeTree::Node node, QueryWord queries) {
-    if (!has_moments_for(node)) return add_vertices(node, queries);
-    reduction_->kernels().set_offsets(reduction_->tree().center(node), centers_, offsets_);
+    QueryWord inner = 0;
+    if (has_moments_for(node)) {
+      reduction_->kernels().set_offsets(reduction_->tree().center(node), centers_, offsets_);
+      inner = queries;
+      if (reduction_->is_uneven(node)) inner &= inside_the_rim(node);
+    }
+    if (inner != 0) add_moments(node, inner);
+    if (inner != queries) add_parts(node, queries & ~inner);
+  }
+
+  /// The queries in whose balls the sphere of a node lies, away from the rim.
+  [[nodiscard]] QueryWord inside_the_rim(NodeTree::Node node) const {
+    const double most =
+        radius_ * (1 - kRim) - static_cast<double>(reduction_->tree().sphere(node).radius) * from_frame_;
+    if (centers_.unit == 0) return ~QueryWord{0};
+    if (!(most > 0)) return 0;
+    QueryWord word = 0;
+    for (std::size_t row = 0; row < kPacketCapacity; ++row) {
+      word |= QueryWord{offsets_.square[row] <= most * most} << row;
+    }
+    return word;
+  }
+
+  /// `offsets_` are those of the center of the node.
+  void add_moments(NodeTree::Node node, QueryWord inner) {
     for (std::size_t i = 0; i < sums_.size(); ++i) {
       const Moments moments = rescaled(reduction_->moments(i, node), from_frame_);
-      reduction_->kernels().add_moments(moments, offsets_, centers_.inverse_square, reduction_->squared(), queries,
-                                        sums_[i]);
+      reduction_->kernels().add_moments(moments, offsets_, square_.inverse, reduction_->squared(), inner, sums_[i]);
     }
   }
 
@@ -89,7 +126,7 @@ class KernelSumReducer final : public PacketReducer {
            static_cast<double>(reduction_->tree().sphere(node).radius) <= radius_in_frame_;
   }
 
-  void add_vertices(NodeTree::Node node, QueryWord queries) {
+  void add_parts(NodeTree::Node node, QueryWord queries) {
     const NodeTree& tree = reduction_->tree();
     if (tree.is_leaf(node)) {
       PerLane<QueryWord> words;
@@ -97,13 +134,15 @@ class KernelSumReducer final : public PacketReducer {
       add_leaf(tree.vertices(node), words.data());
     } else {
       const auto [begin, end] = tree.children(node);
-      for (NodeTree::Node child = begin; child < end; ++child) add_vertices(child, queries);
+      for (NodeTree::Node child = begin; child < end; ++child) add_node(child, queries);
     }
   }
 
   const KernelSumReduction* reduction_;
   double radius_in_frame_;
   double from_frame_;
+  double radius_ = 0;             // in the unit of the centers
+  KernelRadius square_{1, 0, 1};  // likewise; for weights of 1, all offsets are 0
   PacketCenters centers_{};
   Offsets offsets_{};
   RowWeights weights_{};
@@ -116,8 +155,23 @@ class KernelSumReducer final : public PacketReducer {
 KernelSumReduction::KernelSumReduction(const IndexView& index, const NodeTree& tree, const AggregateKernels& kernels,
                                        SumColumns columns, bool squared)
     : index_(&index), tree_(&tree), kernels_(&kernels), columns_(std::move(columns)), squared_(squared) {
-  for (std::size_t i = 0; i < columns_.size(); ++i)
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
     moments_.push_back(moments_by_node(index, tree, columns_.column(i)));
+    mark_uneven(columns_.column(i));
+  }
+}
+
+void KernelSumReduction::mark_uneven(const Column& column) {
+  uneven_.resize(tree_->size());
+  for (NodeTree::Node node = 0; node < tree_->size(); ++node) {
+    const VertexRange vertices = tree_->vertices(node);
+    const auto values = std::span(column).subspan(vertices.begin, vertices.size());
+    double largest = 0;
+    for (const double value : values) largest = std::max(largest, std::abs(value));
+    std::size_t small = 0;
+    for (const double value : values) small += static_cast<std::size_t>(std::abs(value) < largest / kUneven);
+    if (2 * small > values.size()) uneven_[node] = true;  // mutant: node-with-one-huge-value
+  }
 }
 
 std::unique_ptr<PacketReducer> KernelSumReduction::make_reducer(double radius) const {

@@ -28,13 +28,19 @@ class KernelSumReduction final : public Reduction {
   [[nodiscard]] const Moments& moments(std::size_t column, NodeTree::Node node) const { return moments_[column][node]; }
   [[nodiscard]] bool squared() const { return squared_; }
 
+  /// Whether few values of the node are much larger than the others, in one of the columns.
+  [[nodiscard]] bool is_uneven(NodeTree::Node node) const { return uneven_[node]; }
+
  private:
+  void mark_uneven(const Column& column);
+
   const IndexView* index_;
   const NodeTree* tree_;
   const AggregateKernels* kernels_;
   SumColumns columns_;
   bool squared_;
   std::vector<std::vector<Moments>> moments_;  // by column, then by node
+  std::vector<bool> uneven_;                   // by node
 };
 
 }  // namespace meshhood

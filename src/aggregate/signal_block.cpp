@@ -3,30 +3,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meshhood {
 namespace {
 
-// The largest magnitude of a column should lie within these bounds: then 2^32 squares of it, with such weights, do not
-// overflow, and squares of numbers 2^800 times smaller do not underflow.
+// The binary exponent of the largest magnitude of a column: then 2^32 squares of it, with such weights, do not
+// overflow, and squares of numbers 2^750 times smaller do not underflow.
 constexpr int kLargestExponent = 300;
 
-/// The power of two by which a column is multiplied.
+/// The power of two by which a column is multiplied to bring its largest finite magnitude there.
 int exponent_of(const Column& column) {
   double largest = 0;
   for (const double value : column) {
     if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
   }
-  if (largest == 0 || std::abs(std::ilogb(largest)) <= kLargestExponent) return 0;
-  return kLargestExponent - std::ilogb(largest);
+  return largest == 0 ? 0 : kLargestExponent - std::ilogb(largest);
 }
 
-int scale(Column& column) {
-  const int exponent = exponent_of(column);
-  if (exponent != 0) {
-    for (double& value : column) value = std::ldexp(value, exponent);
+void multiply(Column& column, int exponent) {
+  if (exponent == 0) return;
+  for (double& value : column) value = std::ldexp(value, exponent);
+}
+
+/// Makes values that are too large for sums of squares infinite.
+void drop_large(Column& column) {
+  const double bound = std::ldexp(1.0, kLargestExponent + 1);
+  for (double& value : column) {
+    if (std::abs(value) >= bound) value = std::copysign(std::numeric_limits<double>::infinity(), value);
   }
-  return exponent;
 }
 
 /// Every `stride`-th number from `first` on, in index order.
@@ -56,22 +61,39 @@ SignalBlock::SignalBlock(const IndexView& index, const SignalView& signal, std::
                          MissingValues missing, bool scaled)
     : weights_of_(count, 0), exponents_(count, 0), has_weights_(!signal.weights.empty()) {
   weights_.push_back(has_weights_ ? in_index_order(index, signal.weights, 0, 1) : ones(index));
-  if (scaled) weight_exponent_ = scale(weights_.front());
+  if (scaled && has_weights_) {
+    weight_exponent_ = exponent_of(weights_.front());
+    multiply(weights_.front(), weight_exponent_);
+  }
   for (std::size_t channel = 0; channel < count; ++channel) {
     values_.push_back(in_index_order(index, signal.values, first + channel, signal.channels));
     if (has_weights_) clear_unweighted(values_.back(), weights_.front());
     if (missing == MissingValues::Omit) omit_missing(channel);
-    if (scaled) exponents_[channel] = scale(values_.back());
+    if (scaled) scale(channel);
   }
+}
+
+/// Of values that are too large, a second column has all values, scaled down.
+void SignalBlock::scale(std::size_t channel) {
+  const int exponent = exponent_of(values_[channel]);
+  if (exponent >= 0) {
+    exponents_[channel] = exponent;
+    multiply(values_[channel], exponent);
+    return;
+  }
+  large_.push_back({channel, values_[channel], exponent});
+  multiply(large_.back().values, exponent);
+  drop_large(values_[channel]);
 }
 
 void SignalBlock::weight_values() {
   if (!has_weights_) return;
-  for (std::size_t channel = 0; channel < channels(); ++channel) {
-    Column& values = values_[channel];
+  const auto weigh = [&](Column& values, std::size_t channel) {
     const Column& weights = weights_[weights_of_[channel]];
     for (std::size_t i = 0; i < values.size(); ++i) values[i] *= weights[i];
-  }
+  };
+  for (std::size_t channel = 0; channel < channels(); ++channel) weigh(values_[channel], channel);
+  for (LargeValues& large : large_) weigh(large.values, large.channel);
 }
 
 void SignalBlock::omit_missing(std::size_t channel) {

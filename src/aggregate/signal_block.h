@@ -18,7 +18,8 @@ using Column = std::vector<double>;
 class SignalBlock {
  public:
   /// Channels `first .. first + count - 1` of a signal whose size fits the index. With `scaled`, values and weights are
-  /// multiplied by a power of two each, so that the largest lies where neither squares nor sums overflow.
+  /// multiplied by a power of two each, so that the largest lies where neither squares nor sums overflow. Values that
+  /// are so large that this would lose small ones are infinite; `large` has them.
   SignalBlock(const IndexView& index, const SignalView& signal, std::size_t first, std::size_t count,
               MissingValues missing, bool scaled);
 
@@ -31,6 +32,15 @@ class SignalBlock {
   [[nodiscard]] std::vector<Column>& weights() { return weights_; }
   [[nodiscard]] std::size_t weights_of(std::size_t channel) const { return weights_of_[channel]; }
 
+  /// All values of a channel that has large ones, times `two to the exponent`. Small ones may be lost. So a row whose
+  /// result is not finite has large values, and these columns have its result.
+  struct LargeValues {
+    std::size_t channel;
+    Column values;
+    int exponent;
+  };
+  [[nodiscard]] std::vector<LargeValues>& large() { return large_; }
+
   /// Multiplies the values by their weights.
   void weight_values();
 
@@ -40,8 +50,10 @@ class SignalBlock {
 
  private:
   void omit_missing(std::size_t channel);
+  void scale(std::size_t channel);
 
   std::vector<Column> values_;
+  std::vector<LargeValues> large_;
   std::vector<Column> weights_;
   std::vector<std::size_t> weights_of_;
   std::vector<int> exponents_;

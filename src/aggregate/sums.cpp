@@ -75,19 +75,30 @@ SumColumns::SumColumns(SignalBlock block, Reduce reduce) : reduce_(reduce) {
     block.weight_values();
     columns_ = std::move(block.values());
   }
+  const std::size_t first_large = columns_.size();
+  if (reduce != Reduce::Count) {
+    for (SignalBlock::LargeValues& large : block.large()) columns_.push_back(std::move(large.values));
+  }
   const std::size_t first_weights = columns_.size();
   if (reduce != Reduce::Sum) {
     for (Column& weights : block.weights()) columns_.push_back(std::move(weights));
   }
+  const int weight_exponent = reduce == Reduce::Sum ? block.weight_exponent() : 0;
   for (std::size_t i = 0; i < channels; ++i) {
-    const int exponent = block.exponent(i) + (reduce == Reduce::Sum ? block.weight_exponent() : 0);
-    channels_.push_back({i, first_weights + block.weights_of(i), -exponent});
+    const Values values{i, -(block.exponent(i) + weight_exponent)};
+    channels_.push_back({values, values, first_weights + block.weights_of(i)});
+  }
+  for (std::size_t i = 0; i < block.large().size(); ++i) {
+    const auto& large = block.large()[i];
+    channels_[large.channel].large = {first_large + i, -(large.exponent + weight_exponent)};
   }
 }
 
 double SumColumns::result(std::size_t channel, std::span<const double> sums) const {
-  const auto& [values, weights, exponent] = channels_[channel];
+  const std::size_t weights = channels_[channel].weights;
   if (reduce_ == Reduce::Count) return sums[weights];
+  const Values& moderate = channels_[channel].values;
+  const auto& [values, exponent] = std::isfinite(sums[moderate.column]) ? moderate : channels_[channel].large;
   if (reduce_ == Reduce::Sum) return std::ldexp(sums[values], exponent);
   if (sums[weights] == 0) return std::numeric_limits<double>::quiet_NaN();
   return std::ldexp(sums[values] / sums[weights], exponent);

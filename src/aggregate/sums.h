@@ -26,10 +26,14 @@ class SumColumns {
   [[nodiscard]] double result(std::size_t channel, std::span<const double> sums) const;
 
  private:
+  struct Values {
+    std::size_t column;
+    int exponent;  // of two, by which the result is multiplied
+  };
   struct Channel {
-    std::size_t values;   // its column
-    std::size_t weights;  // likewise
-    int exponent;         // of two, by which the result is multiplied
+    Values values;
+    Values large;         // of rows whose result would not be finite: see `SignalBlock::large`
+    std::size_t weights;  // the column
   };
 
   Reduce reduce_;

@@ -59,8 +59,10 @@ class VarianceReducer final : public PacketReducer {
 
   void write(std::size_t row, std::span<double> channels) override {
     for (std::size_t i = 0; i < channels.size(); ++i) {
-      const Spread spread{rows_[i].weight[row], rows_[i].mean[row], rows_[i].low[row], rows_[i].squares[row]};
-      channels[i] = reduction_->result(reduction_->channels()[i], spread);
+      const std::size_t column = std::isfinite(rows_[i].squares[row]) ? i : reduction_->channels()[i].large;
+      const RowSpreads& rows = rows_[column];
+      const Spread spread{rows.weight[row], rows.mean[row], rows.low[row], rows.squares[row]};
+      channels[i] = reduction_->result(reduction_->channels()[column], spread);
     }
   }
 
@@ -107,12 +109,22 @@ VarianceReduction::VarianceReduction(const NodeTree& tree, const AggregateKernel
                                      const VarianceOptions& options)
     : kernels_(&kernels), options_(options) {
   std::vector<Column> values = block.values();
+  std::vector<Column> large;
+  for (const auto& values_of_channel : block.large()) large.push_back(values_of_channel.values);
   block.weight_values();
   weights_ = std::move(block.weights());
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  const auto add = [&](Column plain, Column weighted, std::size_t channel, int exponent) {
     channels_.push_back(
-        {std::move(values[i]), std::move(block.values()[i]), block.weights_of(i), block.exponent(i), {}});
+        {std::move(plain), std::move(weighted), block.weights_of(channel), exponent, channels_.size(), {}});
     channels_.back().nodes = spreads_by_node(tree, channels_.back());
+  };
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    add(std::move(values[i]), std::move(block.values()[i]), i, block.exponent(i));
+  }
+  for (std::size_t i = 0; i < large.size(); ++i) {
+    auto& [channel, weighted, exponent] = block.large()[i];
+    channels_[channel].large = channels_.size();
+    add(std::move(large[i]), std::move(weighted), channel, exponent);
   }
 }
 

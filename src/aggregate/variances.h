@@ -69,6 +69,7 @@ class VarianceReduction final : public Reduction {
     Column weighted;      // values times weights
     std::size_t weights;  // its column
     int exponent;         // of two, by which values were multiplied
+    std::size_t large;    // the channel of rows whose squares are not finite: see `SignalBlock::large`
     std::vector<Spread> nodes;
   };
 

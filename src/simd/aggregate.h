@@ -33,8 +33,14 @@ struct alignas(64) PacketCenters {
   PerLane<double> x;
   PerLane<double> y;
   PerLane<double> z;
-  double unit;            // a power of two; differences of coordinates are multiplied by it
-  double inverse_square;  // of the radius in that unit; 0 if every vertex has the weight 1
+  double unit;  // a power of two; differences of coordinates are multiplied by it. 0: every vertex has the weight 1
+};
+
+/// The square of a radius in the unit of the centers.
+struct KernelRadius {
+  double square;   // rounded
+  double low;      // what is missing
+  double inverse;  // of `square`
 };
 
 /// The position of a point relative to each query vertex of a packet, in its unit.
@@ -80,8 +86,8 @@ struct AggregateKernels {
   void (*set_offsets)(const Point& point, const PacketCenters& centers, Offsets& offsets);
 
   /// Sets the weights of a vertex with these offsets, `1 - d^2/r^2` or, if `squared`, the square of that. None is
-  /// negative.
-  void (*set_weights)(const Offsets& offsets, double inverse_square, bool squared, PerLane<double>& weights);
+  /// negative, and where d^2 is r^2 the weight is 0.
+  void (*set_weights)(const Offsets& offsets, const KernelRadius& radius, bool squared, PerLane<double>& weights);
 
   /// As `add_values`, each value multiplied by its weight for the row.
   void (*add_weighted)(std::span<const double> values, const QueryWord* words, const RowWeights& weights,

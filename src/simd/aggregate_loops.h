@@ -160,12 +160,13 @@ MESHHOOD_TARGET void set_offsets(const Point& point, const PacketCenters& center
   }
 }
 
-MESHHOOD_TARGET void set_weights(const Offsets& offsets, double inverse_square, bool squared,
+// Not 1 - d^2 / r^2, whose rounding would give a vertex at the rim a weight.
+MESHHOOD_TARGET void set_weights(const Offsets& offsets, const KernelRadius& radius, bool squared,
                                  PerLane<double>& weights) {
   for (std::size_t first = 0; first < kPacketCapacity; first += kWidth) {
     Doubles square;
     MESHHOOD_LOAD(square, offsets.square[first]);
-    Doubles weight = 1.0 - square * inverse_square;
+    Doubles weight = ((radius.square - square) + radius.low) * radius.inverse;
     weight = weight > 0.0 ? weight : Doubles{};  // a vertex at the rim may be beyond it by rounding
     if (squared) weight *= weight;
     MESHHOOD_STORE(weights[first], weight);

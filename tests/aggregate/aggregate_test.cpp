@@ -421,6 +421,84 @@ TEST_F(Aggregate, IgnoresAHugeValueOutsideTheNeighborhood) {
   scene.compare({values}, {.radii = {2.2}, .reduce = Reduce::Sum, .kernel = SmoothingKernel::Biweight});
 }
 
+TEST_F(Aggregate, OfSmallValuesDoesNotDependOnHugeOnesElsewhere) {
+  const VertexId far = 1000;
+  std::vector<VertexId> reached;
+  Searcher(scene.index()).neighborhood(far, 4, reached);
+  std::vector<double> weights(scene.size());
+  for (double& weight : weights) weight = random.uniform(0.5, 2);
+  for (const double huge : {1e80, 1e150, 1e300, std::numeric_limits<double>::max(), -1e299}) {
+    std::vector<double> values(scene.size());
+    for (double& value : values) value = random.uniform(-1, 1);
+    const std::vector<double> usual = values;
+    values[far] = huge;
+    for (const double unit : {1e-300, 1.0, 1e300}) {
+      std::vector<double> scaled_weights = weights;
+      for (double& weight : scaled_weights) weight *= unit;
+      scaled_weights[far] = 1;
+      for (const Reduce reduce : kReductions) {
+        const AggregateQuery query{.radii = {4}, .reduce = reduce};
+        const std::vector<double> found = aggregate(scene.index(), {values, 1, scaled_weights}, query);
+        scaled_weights[far] = 0;  // the largest weight of the others decides their scale
+        const std::vector<double> expected = aggregate(scene.index(), {usual, 1, scaled_weights}, query);
+        scaled_weights[far] = 1;
+        for (VertexId v = 0; v < scene.size(); ++v) {
+          if (std::find(reached.begin(), reached.end(), v) != reached.end()) continue;
+          EXPECT_NEAR(found[v], expected[v], 1e-12 * std::abs(expected[v]))
+              << "vertex " << v << ", reduction " << static_cast<int>(reduce) << ", value " << huge << ", unit "
+              << unit;
+          if (HasFailure()) return;
+        }
+      }
+    }
+  }
+}
+
+/// A lattice, whose distances are exact, with a huge value at vertices at exactly the radius.
+TEST(AggregateWithAKernel, GivesAVertexAtExactlyTheRadiusNoWeight) {
+  constexpr VertexId kSide = 60;
+  const TestMesh mesh = make_grid(kSide, kSide, true).finish(false);
+  const Index index = build(mesh.view());
+  Random random(4);
+  Searcher searcher(index);
+  std::vector<VertexId> ids;
+  std::size_t ties = 0;
+  for (const double radius : {5.0, 10.0, 13.0, 25.0}) {
+    for (int round = 0; round < 20; ++round) {
+      std::vector<double> values(mesh.size());
+      for (double& value : values) value = random.uniform(-1, 1);
+      const std::vector<VertexId> rows{static_cast<VertexId>(random.below(mesh.size()))};
+      searcher.neighborhood(rows[0], radius, ids);
+      const auto square = [&](VertexId v) {
+        const long double dx = static_cast<long double>(v % kSide) - rows[0] % kSide;
+        const long double dy = static_cast<long double>(v / kSide) - rows[0] / kSide;
+        return dx * dx + dy * dy;
+      };
+      const long double r2 = radius * radius;
+      for (const VertexId v : ids) {
+        if (square(v) == r2) values[v] = random.below(2) == 0 ? 1e12 : 1e300, ++ties;
+      }
+      for (const bool biweight : {false, true}) {
+        const SmoothingKernel kernel = biweight ? SmoothingKernel::Biweight : SmoothingKernel::Epanechnikov;
+        long double sum = 0;
+        long double size = 0;
+        for (const VertexId v : ids) {
+          long double weight = (r2 - square(v)) / r2;
+          if (biweight) weight *= weight;
+          sum += weight * values[v];
+          size += weight * std::abs(values[v]);
+        }
+        const double found = aggregate(
+            index, {values}, {.vertices = rows, .radii = {radius}, .reduce = Reduce::Sum, .kernel = kernel})[0];
+        EXPECT_NEAR(found, static_cast<double>(sum), 1e-13 * static_cast<double>(size))
+            << "vertex " << rows[0] << ", radius " << radius << ", biweight " << biweight;
+      }
+    }
+  }
+  std::printf("%zu ties\n", ties);
+  EXPECT_GT(ties, 0U);
+}
+
 TEST(AggregateOfIsolatedVertices, IsTheirOwnValue) {
   TestMesh mesh;
   for (int i = 0; i < 50; ++i) mesh.add_vertex(0.01 * i, 0, 0);

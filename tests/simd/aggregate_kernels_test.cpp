@@ -47,7 +47,8 @@ class EveryAggregatePath : public testing::TestWithParam<Isa> {
     fill(centers.y);
     fill(centers.z);
     centers.unit = std::exp2(static_cast<double>(random.below(20)) - 10);
-    centers.inverse_square = random.uniform(0.25, 1);
+    const double square = random.uniform(1, 4);
+    radius = {square, 0x1p-60 * random.uniform(-1, 1), 1 / square};
   }
 
   const AggregateKernels& tried = aggregate_kernels(GetParam());
@@ -57,6 +58,7 @@ class EveryAggregatePath : public testing::TestWithParam<Isa> {
   PerLane<QueryWord> words{};
   RowSums sums{};
   PacketCenters centers{};
+  KernelRadius radius{};
 };
 
 TEST_P(EveryAggregatePath, GivesTheBitsOfThePortableKernel) {
@@ -80,6 +82,17 @@ TEST_P(EveryAggregatePath, GivesTheBitsOfThePortableKernel) {
     tried.sum_deviations(values, weights.data(), words.data(), centers.x, results[0], results[1]);
     plain.sum_deviations(values, weights.data(), words.data(), centers.x, others[0], others[1]);
     ASSERT_EQ(bits_of(results), bits_of(others));
+
+    RowSpreads spreads;
+    RowSpreads added;
+    for (PerLane<double>* const numbers : {&spreads.mean, &spreads.low, &spreads.squares}) fill(*numbers);
+    for (PerLane<double>* const numbers : {&added.mean, &added.low, &added.squares}) fill(*numbers);
+    for (double& weight : spreads.weight) weight = static_cast<double>(random.below(3));
+    for (double& weight : added.weight) weight = static_cast<double>(random.below(3));
+    RowSpreads other_spreads = spreads;
+    tried.merge_spreads(added, spreads);
+    plain.merge_spreads(added, other_spreads);
+    ASSERT_EQ(bits_of(spreads), bits_of(other_spreads));
   }
 }
 
@@ -96,8 +109,8 @@ TEST_P(EveryAggregatePath, GivesTheBitsOfThePortableKernelForWeightsByDistance) 
       tried.set_offsets(point, centers, offsets);
       plain.set_offsets(point, centers, other_offsets);
       ASSERT_EQ(bits_of(offsets), bits_of(other_offsets));
-      tried.set_weights(offsets, centers.inverse_square, squared, weights.of_vertex[k]);
-      plain.set_weights(other_offsets, centers.inverse_square, squared, other_weights.of_vertex[k]);
+      tried.set_weights(offsets, radius, squared, weights.of_vertex[k]);
+      plain.set_weights(other_offsets, radius, squared, other_weights.of_vertex[k]);
     }
     ASSERT_EQ(bits_of(weights), bits_of(other_weights));
     RowSums other = sums;
@@ -108,8 +121,8 @@ TEST_P(EveryAggregatePath, GivesTheBitsOfThePortableKernelForWeightsByDistance) 
     Moments moments{number(), {number(), number(), number()}, number(), {}, {}, number()};
     fill(moments.second);
     fill(moments.third);
-    tried.add_moments(moments, offsets, centers.inverse_square, squared, words[0], sums);
-    plain.add_moments(moments, offsets, centers.inverse_square, squared, words[0], other);
+    tried.add_moments(moments, offsets, radius.inverse, squared, words[0], sums);
+    plain.add_moments(moments, offsets, radius.inverse, squared, words[0], other);
     ASSERT_EQ(bits_of(sums), bits_of(other));
   }
 }
