@@ -104,16 +104,17 @@ struct AggregateOptions {
 /// Aggregates the values over the exact neighborhood (see `Searcher`) of each row, and writes all of `result`, which
 /// has `aggregate_size` numbers.
 ///
-/// Sums are exact to 1e-14 of the sum of the absolute terms (1e-13 with a smoothing kernel), whatever the size of the
-/// neighborhood, and have the same bits for any number of threads and on every processor. They may differ in the last
-/// bits if the same vertex is queried in another list. Minimum, maximum and count are exact. Values are scaled by a
-/// power of two before they are squared or added, so that only a result too large for a double overflows; infinite
-/// values give what IEEE arithmetic gives.
+/// Sums are exact to 1e-14 of the sum of the absolute terms, whatever the size of the neighborhood; with a smoothing
+/// kernel to 1e-13 of the sum of |w x|, where w is the weight of the vertex itself (docs/aggregate.md). Each result
+/// depends on index, values, vertex and radius alone, bit for bit: not on the other rows of the call, earlier calls,
+/// the number of threads or the processor. Minimum, maximum and count are exact. Values are scaled by a power of two
+/// before they are squared or added, so that only a result too large for a double overflows; large values elsewhere
+/// have no effect. Infinite values give what IEEE arithmetic gives.
 ///
 /// Cost: the neighborhoods of one leaf are found together (see joint.h), and vertices that they have in common are read
 /// once for all of them, most of them as precomputed sums. Memory: for up to 16 channels at a time 9 bytes for each
-/// vertex and channel, and as much for the weights; with a kernel 14 bytes instead. The time and memory of
-/// `for_each_packet` are added.
+/// vertex and channel, and as much for the weights; with a kernel 14 bytes instead; twice as much for a channel with
+/// values above 2^300. The time and memory of `for_each_packet` are added.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming row, radius or vertex. The
 /// contents of `result` are then unspecified.

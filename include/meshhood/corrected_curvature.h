@@ -49,8 +49,8 @@ struct CorrectedCurvatureOptions {
 ///
 /// faces     those of the mesh that the index was built from.
 /// vertices  as of a batch; radius of all rows.
-/// The result has the same bits for any number of threads and on every processor. Takes the time of `aggregate` with
-/// twelve channels.
+/// Each row depends on index, faces, vertex and radius alone, bit for bit, as that of `aggregate`. Takes the time of
+/// `aggregate` with twelve channels.
 /// Throws Error{InvalidMesh, TooLarge, VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}.
 [[nodiscard]] CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const FacesView& faces,
                                                        const BatchVertices& vertices, double radius,

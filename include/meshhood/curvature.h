@@ -141,8 +141,9 @@ struct Curvatures {
 /// A neighborhood of fewer than six vertices is extended by the nearest vertex that an edge joins to it, until it has
 /// six.
 /// query    as for a batch: one radius for all rows, or one for each row.
-/// The result has the same bits for any number of threads and on every processor. O(size of the neighborhoods) in the
-/// worst case; where many vertices of a leaf are queried, the common part of their neighborhoods is summed once.
+/// The result has the same bits for any number of threads and on every processor; with other rows in the call, the last
+/// bits of a row may differ. O(size of the neighborhoods) in the worst case; where many vertices of a leaf are queried,
+/// the common part of their neighborhoods is summed once.
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
 [[nodiscard]] Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query,
                                     const CurvatureOptions& options = {});

@@ -18,7 +18,7 @@ namespace meshhood {
 /// of the packet, nor on how the search found it. One object a thread.
 class MaximalNodes {
  public:
-  explicit MaximalNodes(const NodeTree& tree) : tree_(&tree), family_of_(tree.families(), kNone) {}
+  explicit MaximalNodes(const NodeTree& tree) : tree_(&tree), place_of_(tree.group_count(), kNone) {}
 
   /// Passes the neighborhoods of a packet to a reducer, level by level, each in index order.
   void reduce(const PacketAnswer& packet, PacketReducer& reducer);
@@ -26,22 +26,22 @@ class MaximalNodes {
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
 
-  /// The nodes of one parent, of which some row has vertices.
-  struct Family {
+  /// A group of nodes of which some row has vertices.
+  struct GroupRows {
     std::array<QueryWord, kFanOut> queries{};         // by node: the rows that have all of its vertices
     std::array<const PartialLeaf*, kFanOut> parts{};  // of leaves, by node: null if no row has a part of it
   };
 
-  Family& family_with(NodeTree::Node node, std::vector<std::uint32_t>& numbers);
+  GroupRows& group_with(NodeTree::Node node, std::vector<std::uint32_t>& groups);
   void add_run(const LeafRun& run, QueryWord queries);
-  void pass_on(std::uint32_t number, PacketReducer& reducer);
+  void pass_on(std::uint32_t group, PacketReducer& reducer);
   void pass_on_part(const PartialLeaf& leaf, QueryWord& whole, PacketReducer& reducer);
 
   const NodeTree* tree_;
-  std::vector<std::uint32_t> family_of_;  // by number: its place in `families_`, or kNone
-  std::vector<Family> families_;
-  std::vector<std::uint32_t> numbers_;  // of those that the packet names
-  std::vector<std::uint32_t> parents_;  // of those that follow from their children, ascending
+  std::vector<std::uint32_t> place_of_;  // by group: its place in `rows_`, or kNone
+  std::vector<GroupRows> rows_;
+  std::vector<std::uint32_t> named_;    // the groups whose nodes the packet names
+  std::vector<std::uint32_t> parents_;  // those of which a node follows from its children; ascending
 };
 
 }  // namespace meshhood

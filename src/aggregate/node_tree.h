@@ -33,15 +33,14 @@ class NodeTree {
   };
   [[nodiscard]] Children children(Node node) const;
 
-  /// The nodes of one parent are a *family*, and so are up to eight neighboring nodes without a parent. Families are
-  /// numbered in the order of their nodes.
-  [[nodiscard]] std::size_t families() const { return index_->records.size(); }
-  [[nodiscard]] static std::uint32_t family(Node node) { return node / kFanOut; }
-  [[nodiscard]] Children members(std::uint32_t family) const {
-    return {family * kFanOut, family * kFanOut + index_->records[family].nodes};
+  /// The groups of nodes: those of one parent, or neighbors without a parent.
+  [[nodiscard]] std::size_t group_count() const { return index_->records.size(); }
+  [[nodiscard]] static std::uint32_t group(Node node) { return node / kFanOut; }
+  [[nodiscard]] Children members(std::uint32_t group) const {
+    return {group * kFanOut, group * kFanOut + index_->records[group].nodes};
   }
   /// The parent of its nodes, or `kNoNode`.
-  [[nodiscard]] Node parent(std::uint32_t family) const { return index_->parents[family]; }
+  [[nodiscard]] Node parent(std::uint32_t group) const { return index_->parents[group]; }
 
   /// The vertices of a node, in index order.
   [[nodiscard]] VertexRange vertices(Node node) const;
