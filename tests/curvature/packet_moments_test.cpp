@@ -65,7 +65,10 @@ TEST(PacketMoments, DoNotDependOnTheScratchMemory) {
   const CurvatureIndex surface = CurvatureIndex::build(build(mesh.view()), mesh.view());
   const SurfaceState& state = CurvatureAccess::state(surface);
   std::vector<double> radii(mesh.size());
-  for (std::size_t v = 0; v < radii.size(); ++v) radii[v] = std::array{3.0, 0.5, 1e-320, 8.0}[v % 4];
+  // Stretches of one radius, so that many vertices count for all rows of a packet, and stretches of several.
+  for (std::size_t v = 0; v < radii.size(); ++v) {
+    radii[v] = v < radii.size() / 2 ? 8.0 : std::array{3.0, 0.5, 1e-320, 8.0}[v % 4];
+  }
   std::size_t rows = 0;
   for (const bool filtered : {false, true}) {
     const MomentSource source{.index = state.index, .filter = filtered ? &state : nullptr};
