@@ -24,7 +24,7 @@ constexpr double kUneven = 64;
 /// By Dekker's product: the parts of the radius have 24 and 29 bits.
 KernelRadius square_of(double radius) {
   const double square = radius * radius;
-  const double high = static_cast<double>(static_cast<float>(radius));
+  const auto high = static_cast<double>(static_cast<float>(radius));
   const double rest = radius - high;
   const double low = ((high * high - square) + 2 * high * rest) + rest * rest;
   return {square, low, 1 / square};
