@@ -49,8 +49,8 @@ auto many(Method& method, const std::optional<Rows>& vertices, const std::varian
                              .progress = progress_to(progress)};
   nb::object ids;
   nb::object found_distances;
-  const auto allocate = [&](std::size_t count) -> BatchMemory {
-    return with_lock([&]() -> BatchMemory {
+  const auto allocate = [&, state = PyThreadState_Get()](std::size_t count) -> BatchMemory {
+    return with_lock(state, [&]() -> BatchMemory {
       ids = unset(count, "int32");
       found_distances = unset(distances ? count : 0, "float64");
       return {values_of<VertexId>(ids), values_of<double>(found_distances)};

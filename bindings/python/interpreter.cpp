@@ -28,8 +28,8 @@ void sleep_until_exit() noexcept {
 }
 
 Progress progress_to(nb::handle callable) {
-  return [callable](std::size_t done, std::size_t total) {
-    const Locked locked;
+  return [callable, state = PyThreadState_Get()](std::size_t done, std::size_t total) {
+    const Locked locked(state);
     if (!stop_at_shutdown([&] { return call(callable, done, total); })) throw nb::python_error();
     return true;
   };

@@ -11,9 +11,16 @@
 
 #include "meshhood/progress.h"
 
-/// The interpreter lock. Before version 3.14, Python ends a thread that takes the lock while the interpreter shuts
-/// down: pthread_exit unwinds its stack, and the process aborts at the first noexcept function or `catch (...)`.
-/// Therefore such a thread sleeps here until the process ends, as it does in Python 3.14.
+/// The interpreter lock, also while the interpreter shuts down with a daemon thread in a call.
+///
+/// Before version 3.14, Python ends a thread that takes the lock then: pthread_exit unwinds its stack, and the process
+/// aborts at the first noexcept function or `catch (...)`. Therefore such a thread sleeps here until the process ends,
+/// as it does in Python 3.14.
+///
+/// A thread that has released the lock takes it only with the state that it had, by PyEval_RestoreThread. Python keeps
+/// that safe even after the interpreter is freed, since threads return from a sleep or a read in this way: of a state
+/// that may be freed, only the address is compared. PyGILState_Ensure has no such promise before version 3.14: it makes
+/// a new state for a thread whose state is gone, in an interpreter that is gone.
 namespace meshhood::python {
 
 [[noreturn]] void sleep_until_exit() noexcept;
@@ -53,27 +60,28 @@ auto without_lock(F&& f) {
   return std::forward<F>(f)();
 }
 
-/// Takes the lock for its lifetime, on a thread that has released it.
+/// Takes the lock for its lifetime, on a thread that has released it. `state` is what PyThreadState_Get returned on
+/// this thread while it had the lock.
 class Locked {
  public:
-  Locked() : state_(stop_at_shutdown([] { return PyGILState_Ensure(); })) {}
+  explicit Locked(PyThreadState* state) {
+    stop_at_shutdown([state] { PyEval_RestoreThread(state); });
+  }
   Locked(const Locked&) = delete;
   Locked& operator=(const Locked&) = delete;
-  ~Locked() { PyGILState_Release(state_); }
-
- private:
-  PyGILState_STATE state_;
+  ~Locked() { PyEval_SaveThread(); }
 };
 
 /// Calls `f` with the lock.
 template <class F>
-auto with_lock(F&& f) {
-  const Locked locked;
+auto with_lock(PyThreadState* state, F&& f) {
+  const Locked locked(state);
   return stop_at_shutdown(std::forward<F>(f));
 }
 
 /// Handles signals such as Ctrl-C and calls `callable(done, total)`, unless it is None, each time a long call reports
-/// progress. An exception from either ends the call. Called without the lock; `callable` must outlive the result.
+/// progress. An exception from either ends the call. Made with the lock, by the thread that will report, and called
+/// without it; `callable` must outlive the result.
 [[nodiscard]] Progress progress_to(nanobind::handle callable);
 
 }  // namespace meshhood::python

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""The interpreter ends while a daemon thread is in a call: the process ends normally. (Before Python 3.14, the thread is
-unwound when it takes the interpreter lock, which must not meet a noexcept function.)"""
+"""The interpreter ends while daemon threads are in a call: the process ends normally. (Before Python 3.14, a thread is
+unwound when it takes the interpreter lock, which must not meet a noexcept function; and once the interpreter is freed, it
+must not look for it.)"""
 
 import os
 import subprocess
@@ -8,12 +9,16 @@ import sys
 
 import meshes
 import pytest
+from scale import scaled
 
-RUNS = int(os.environ.get("MESHHOOD_SHUTDOWN_RUNS", "5"))
+RUNS = scaled(100, least=4)
+SECONDS = 600
 
+# Each releases the interpreter lock.
 CALLS = {
     "batch": "index.query_ball(None, 4.0)",
     "batch with progress": "index.query_ball(None, 4.0, progress=lambda done, total: sum(range(1000)))",
+    "batch along edges": "index.query_ball(None, 2.0, metric='edge')",
     "counts": "index.query_ball_count(None, 4.0, workers=2)",
     "paper": "index.query_ball(range(50), 2.0, method='paper')",
     "bfs": "index.query_ball(range(50), 2.0, method='bfs')",
@@ -25,44 +30,120 @@ CALLS = {
     "ranges": "index.query_ranges(7, 2.0)",
     "chunks": "list(index.iter_neighborhoods(None, 2.0, chunk=100))",
     "graph": "index.radius_neighbors_graph(1.0)",
+    "region": "index.query_region([1, 2, 3], 4.0)",
+    "region along edges": "index.query_region(7, 4.0, metric='edge')",
+    "stroke": "index.query_stroke(V[:20], 2.0)",
+    "nested": "index.query_nested(7, [1.0, 2.0, 4.0])",
+    "rings": "index.query_rings(7, 5)",
+    "contains": "index.contains(7, 9, 4.0)",
+    "connecting radius": "index.connecting_radius(7, 900)",
+    "nearest connected": "index.nearest_connected(7, 20)",
+    "nearest": "index.nearest(V[:50])",
+    "aggregate": "index.aggregate(values, [2.0, 4.0], 'var', progress=lambda done, total: None)",
+    "smooth": "index.smooth(values, 4.0)",
+    "areas": "meshhood.vertex_areas(V, F)",
+    "curvature": "index.curvature([2.0, 4.0], F=F)",
+    "corrected curvature": "index.corrected_curvature(4.0, F=F)",
+    "principal curvature of libigl": "meshhood.principal_curvature(V, F)",
+    "moments": "index.moments(4.0, degree=4)",
+    "principal components": "index.principal_components(4.0, weights='area', F=F)",
+    "features": "index.features([2.0, 4.0], F=F, kinds=('crease', 'area'))",
+    "persistence": "meshhood.persistence(values.T, range(1, 21), 0.1)",
     "build": "meshhood.MeshIndex(V, F)",
+    "build without edges": "meshhood.MeshIndex(V, F, cut=F[:9, :2])",
+    "refit": "index.refit(V)",
+    "refit of some": "index.refit(V, [7, 8, 9])",
+    "quality": "index.quality()",
     "hierarchy": "meshhood.MeshIndex(V, F).query_ball(0, 1.0, method='paper')",
     "positions": "meshhood.MeshIndex(V, F).positions",
+    "mean edge length": "meshhood.MeshIndex(V, F).mean_edge_length",
     "save": "index.save(folder / 'again.index')",
     "load": "meshhood.load(folder / 'plates.index')",
     "map": "meshhood.load(folder / 'plates.index', mmap=True)",
     "read_mesh": "meshhood.read_mesh(folder / 'mesh.off')",
     "pickle": "pickle.loads(pickle.dumps(index))",
+    "partition": "meshhood.partition(arrays, folder / str(threading.get_ident()), parts=2, halo=0.5, resume=False)",
+    "open parts": "meshhood.open_parts(folder / 'parts')",
+    "open a part": "open_part(folder / 'parts')",
 }
 
+# The processes that end are children of one that has imported everything.
 PROGRAM = """
-import pathlib, pickle, sys, threading, time
+import os, pathlib, pickle, random, sys, threading, time, warnings
 sys.path.insert(0, sys.argv[2])
 import meshes, meshhood
+import numpy as np
 folder = pathlib.Path(sys.argv[1])
 V, F = meshes.two_plates(40)
 index = meshhood.MeshIndex(V, F)
 index.save(folder / "plates.index")
-begun = threading.Event()
+arrays = folder / "V.npy", folder / "F.npy"
+np.save(arrays[0], V), np.save(arrays[1], F)
+meshhood.partition(arrays, folder / "parts", parts=2, halo=0.5)
+values = np.ones((len(V), 20))
+(folder / "mesh.off").write_text("OFF\\n2000 0 0\\n" + "0 1 2\\n" * 2000)
+def open_part(path):
+    meshhood._open_part._opened.cache_clear()
+    meshhood.open_parts(path).open(1)
+call = compile({call!r}, "call", "eval")
 def run():
-    {call}
-    begun.set()
     while True:
-        {call}
-for _ in range(2):
-    threading.Thread(target=run, daemon=True).start()
-begun.wait()
-time.sleep({wait})
+        eval(call)
+def in_child(end):
+    child = os.fork()
+    if child == 0:
+        end()
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+eval(call)
+"""
+
+AT_ANY_MOMENT = """
+def end():
+    for _ in range(2):
+        threading.Thread(target=run, daemon=True).start()
+    time.sleep(random.choice((0, 0.001, 0.003, 0.01, 0.03)))
+    sys.exit(0)
+for number in range({runs}):
+    random.seed(number)
+    code = in_child(end)
+    assert code == 0, f"run {{number}}: exit code {{code}}"
+"""
+
+# The threads of low priority have the only processor once the main thread sleeps, which is after the interpreter was
+# freed. So they take the lock then.
+AFTER_THE_INTERPRETER = """
+import ctypes
+libc = ctypes.CDLL(None)
+def run_idle():
+    os.sched_setscheduler(threading.get_native_id(), os.SCHED_IDLE, os.sched_param(0))
+    run()
+def end():
+    libc.on_exit(libc.sleep, None)  # sleep(exit code)
+    os.sched_setaffinity(0, {{min(os.sched_getaffinity(0))}})
+    for _ in range(4):
+        threading.Thread(target=run_idle, daemon=True).start()
+        time.sleep(0.01)
+    sys.exit(1)
+code = in_child(end)
+assert code == 1, f"exit code {{code}}"
 """
 
 
+def run(program, call, folder, **names):
+    whole = PROGRAM.format(call=CALLS[call]) + program.format(**names)
+    command = [sys.executable, "-W", "ignore", "-c", whole, str(folder), os.path.dirname(meshes.__file__)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=SECONDS)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
 @pytest.mark.parametrize("call", CALLS)
 def test_the_process_ends_normally(call, tmp_path):
-    (tmp_path / "mesh.off").write_text("OFF\n2000 0 0\n" + "0 1 2\n" * 2000)
-    tests = os.path.dirname(meshes.__file__)
-    for run in range(RUNS):
-        program = PROGRAM.format(call=CALLS[call], wait=0.001 * (run % 10))
-        command = [sys.executable, "-c", program, str(tmp_path), tests]
-        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
-        assert (done.returncode, done.stderr) == (0, ""), f"run {run}"
+    run(AT_ANY_MOMENT, call, tmp_path, runs=RUNS)
     print(f"{RUNS} processes ended in the middle of: {call}")
+
+
+@pytest.mark.skipif(not hasattr(os, "SCHED_IDLE"), reason="needs the scheduler of Linux")
+@pytest.mark.parametrize("call", CALLS)
+def test_a_call_may_return_after_the_interpreter_is_freed(call, tmp_path):
+    run(AFTER_THE_INTERPRETER, call, tmp_path)
