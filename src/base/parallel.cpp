@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "base/parallel.h"
 
+#include <cstdlib>
 #include <exception>
 #include <string>
 #include <vector>
@@ -54,16 +55,33 @@ class Failure {
   std::exception_ptr exception_;
 };
 
+/// Lets the C++ runtime allocate what it needs on this thread to handle exceptions. It would do so at the first
+/// exception; if memory has run out by then, glibc ends the process, where the runtime was loaded by the program while
+/// it ran, as Python does. False if memory is that short already.
+bool prepare_exceptions() {
+  constexpr std::size_t kMoreThanEnough = 4096;
+  void* const volatile trial = std::malloc(kMoreThanEnough);  // volatile: or compilers omit it
+  if (trial == nullptr) return false;
+  std::free(trial);
+  static_cast<void>(std::current_exception());
+  return true;
+}
+
 #if defined(__STDCPP_THREADS__)
 /// Threads that are joined at the end of their scope.
 class Helpers {
  public:
-  /// Calls `body(1)`, `body(2)` ... on up to `count` threads; on fewer if the system cannot create them.
+  /// Calls `body(1)`, `body(2)` ... on up to `count` threads; on fewer if the system cannot create them, or if they
+  /// have no memory at their start.
   Helpers(std::size_t count, const std::function<void(unsigned)>& body) {
     Failure ignored;
     static_cast<void>(ignored.guard([&] {
       threads_.reserve(count);
-      for (unsigned thread = 1; thread <= count; ++thread) threads_.emplace_back(body, thread);
+      for (unsigned thread = 1; thread <= count; ++thread) {
+        threads_.emplace_back([body, thread] {
+          if (prepare_exceptions()) body(thread);
+        });
+      }
     }));
   }
   Helpers(const Helpers&) = delete;
@@ -89,6 +107,7 @@ TaskContext::TaskContext(unsigned threads, const Progress& progress, std::size_t
     raise(ErrorCode::InvalidOption,
           "threads is " + std::to_string(threads) + ", expected at most " + std::to_string(kMaxThreads));
   }
+  static_cast<void>(prepare_exceptions());
   report_progress();
 }
 

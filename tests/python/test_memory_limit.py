@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: MIT
+"""Memory runs out, in the calling thread or in a worker: each call that takes workers succeeds or raises MemoryError (or
+an error of a file or an argument that says so), and the process goes on. Each trial is a process of its own with a limit on its address
+space."""
+
+import os
+import subprocess
+import sys
+
+import meshes
+import pytest
+from scale import scaled
+
+TRIALS = scaled(60, least=8)
+SECONDS = 600
+
+CALLS = {
+    "batch": "index.query_ball(None, 2.0, workers=2)",
+    "counts": "index.query_ball_count(None, 3.0, workers=2)",
+    "chunks": "list(index.iter_neighborhoods(None, 1.0, chunk=5000, workers=2))",
+    "paper": "index.query_ball(None, 1.0, method='paper', workers=2)",
+    "bfs": "index.query_ball_count(range(500), 2.0, method='bfs', workers=2)",
+    "along edges": "index.query_ball(None, 1.0, metric='edge', workers=2)",
+    "aggregate": "index.aggregate(values, 3.0, workers=2)",
+    "several radii": "index.aggregate(values, [1.0, 2.0], nesting='patch', workers=2)",
+    "maximum": "index.aggregate(values, 3.0, 'max', workers=2)",
+    "variance": "index.aggregate(values, 3.0, 'var', workers=2)",
+    "smooth": "index.smooth(values, 2.0, workers=2)",
+    "curvature": "index.curvature(2.0, F=F, workers=2)",
+    "corrected curvature": "index.corrected_curvature(2.0, F=F, workers=2)",
+    "principal curvature": "meshhood.principal_curvature(V, F, workers=2)",
+    "moments": "index.moments(2.0, degree=4, workers=2)",
+    "principal components": "index.principal_components(2.0, workers=2)",
+    "features": "index.features([1.0, 2.0], F=F, workers=2)",
+    "build": "meshhood.MeshIndex(V, F, workers=2)",
+    "refit": "index.refit(V, workers=2)",
+    "partition": "meshhood.partition(arrays, folder / str(os.getpid()), parts=2, halo=1.0, workers=2)",
+}
+
+PROGRAM = """
+import errno, os, pathlib, resource, signal, sys, threading
+sys.path.insert(0, sys.argv[2])
+import meshes, meshhood
+import numpy as np
+folder = pathlib.Path(sys.argv[1])
+V, F = meshes.two_plates(120)
+index = meshhood.MeshIndex(V, F)
+values = np.ones((len(V), 20))
+arrays = folder / "V.npy", folder / "F.npy"
+np.save(arrays[0], V), np.save(arrays[1], F)
+DONE, OUT_OF_MEMORY = 0, 3
+call = compile({call!r}, "call", "eval")
+def outcome(kilobytes):
+    # Of the call, with so much memory left.
+    used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+    resource.setrlimit(resource.RLIMIT_AS, (used + 1024 * kilobytes, -1))
+    try:
+        eval(call)
+        return DONE
+    except MemoryError:
+        return OUT_OF_MEMORY
+    except OSError as error:  # where a file is mapped
+        if error.errno == errno.ENOMEM and error.filename:
+            return OUT_OF_MEMORY
+        raise
+    except ValueError as error:
+        if "memory" in str(error) or "bytes" in str(error):
+            return OUT_OF_MEMORY
+        raise
+def outcome_in_thread(kilobytes):
+    thread = threading.Thread(target=lambda: os._exit(outcome(kilobytes)))
+    thread.start()
+    thread.join()
+    return 1
+def in_child(work, kilobytes):
+    child = os.fork()
+    if child == 0:
+        signal.alarm(60)
+        os._exit(work(kilobytes))
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+codes = []
+for trial in range({trials}):
+    kilobytes = round(8 * (65536 / 8) ** (trial / {trials}))
+    for work in (outcome, outcome_in_thread):
+        codes.append(in_child(work, kilobytes))
+        assert codes[-1] in (DONE, OUT_OF_MEMORY), f"{{work.__name__}} with {{kilobytes}} kB: exit code {{codes[-1]}}"
+print(codes.count(DONE), "done,", codes.count(OUT_OF_MEMORY), "out of memory")
+"""
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="needs Linux")
+@pytest.mark.parametrize("call", CALLS)
+def test_memory_runs_out(call, tmp_path):
+    program = PROGRAM.format(call=CALLS[call], trials=TRIALS)
+    command = [sys.executable, "-W", "ignore", "-c", program, str(tmp_path), os.path.dirname(meshes.__file__)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=SECONDS)
+    assert done.returncode == 0, done.stdout + done.stderr
+    print(f"{call}: {done.stdout.strip()}")
