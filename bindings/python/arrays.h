@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -18,6 +19,9 @@ namespace meshhood::python {
 
 /// An array of Python, read in place: C order, in the memory of the processor, of any type.
 using Input = nanobind::ndarray<nanobind::ro, nanobind::c_contig, nanobind::device::cpu>;
+
+/// Bytes of Python, read in place.
+using Bytes = nanobind::ndarray<const std::uint8_t, nanobind::shape<-1>, nanobind::c_contig, nanobind::device::cpu>;
 
 /// An array that is returned to Python.
 template <class T>

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -25,6 +26,7 @@
 #include "bindings.h"
 #include "graph_copy.h"
 #include "interpreter.h"
+#include "io/file_writer.h"
 #include "io/index_io.h"
 #include "io/mesh_io.h"
 #include "methods.h"
@@ -33,8 +35,6 @@ namespace nb = nanobind;
 
 namespace meshhood::python {
 namespace {
-
-using Bytes = nb::ndarray<const std::uint8_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 
 /// Returns positions (#V by 3), corners, offsets (empty if all faces are triangles) and warnings.
 auto read(const std::filesystem::path& path, nb::handle progress) {
@@ -90,6 +90,31 @@ Output<std::uint8_t> to_bytes(const ExactMethod& method) {
   return owned<std::uint8_t>(std::move(bytes));
 }
 
+/// A file that is written, until it is closed.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::filesystem::path& path) : writer_(std::make_unique<io::FileWriter>(path)) {}
+
+  [[nodiscard]] std::uint64_t position() const { return writer().position(); }
+  void seek(std::uint64_t position) { writer().seek(position); }
+  void write(const Bytes& bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    without_lock([&] { writer().write(text); });
+  }
+  void commit() {
+    without_lock([this] { writer().commit(); });
+  }
+  void close() { writer_.reset(); }
+
+ private:
+  [[nodiscard]] io::FileWriter& writer() const {
+    if (!writer_) throw nb::value_error("the file is closed");
+    return *writer_;
+  }
+
+  std::unique_ptr<io::FileWriter> writer_;
+};
+
 std::shared_ptr<ExactMethod> from_bytes(const Bytes& bytes) {
   const auto all = std::as_bytes(std::span(bytes.data(), bytes.size()));
   const LoadOptions options{.progress = progress_to(nb::handle(Py_None))};
@@ -103,6 +128,13 @@ void bind_files(nb::module_& module) {
   module.def("save", &save_file, nb::arg(), nb::arg("path"), nb::arg("progress").none());
   module.def("load", &load_file, nb::arg("path"), nb::arg("mmap"), nb::arg("trusted"), nb::arg("progress").none());
   module.def("to_bytes", &to_bytes);
+  nb::class_<OpenFile>(module, "FileWriter")
+      .def(nb::init<const std::filesystem::path&>())
+      .def_prop_ro("position", &OpenFile::position)
+      .def("seek", &OpenFile::seek)
+      .def("write", &OpenFile::write)
+      .def("commit", &OpenFile::commit)
+      .def("close", &OpenFile::close);
   module.def("from_bytes", &from_bytes);
 }
 

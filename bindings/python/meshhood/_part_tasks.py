@@ -9,10 +9,11 @@ from typing import Any, Optional
 import numpy as np
 from numpy.typing import NDArray
 
+from ._atomic_file import atomic_file
 from ._files import load, read_mesh
 from ._index import MeshIndex
 from ._open_part import OpenPart, PartName
-from ._result_files import SAVERS, atomic_file
+from ._result_files import SAVERS
 
 _ROWS = 4096  # searched at once, so that a part of any size takes little memory
 
@@ -97,6 +98,11 @@ def result_rows(function: PartFunction, part: OpenPart, *, dtype: np.dtype[Any],
 
 def in_mesh_order(ids: list[NDArray[np.int64]], blocks: list[NDArray[Any]], count: int) -> NDArray[Any]:
     """The permutation from the order of the parts."""
+    owners = np.zeros(count, np.uint8)
+    for rows in ids:
+        owners[rows[rows < count]] += 1
+    if sum(map(len, ids)) != count or not np.all(owners == 1):
+        raise ValueError("the parts do not own each vertex of the mesh once")
     result = np.empty((count, *blocks[0].shape[1:]), blocks[0].dtype)
     for rows, block in zip(ids, blocks):
         result[rows] = block

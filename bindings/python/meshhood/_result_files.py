@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The folder of results of a call of `distributed`, and its files: each appears whole or not at all."""
+"""The folder of results of a call of `distributed`, and its files."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+
+from ._atomic_file import atomic_file
 
 try:
     import fcntl
@@ -71,22 +73,6 @@ def _check_same(path: str, described: dict[str, Any]) -> None:
         raise ValueError(f"{path}: the folder has results of another call, which differs in {', '.join(different)}")
 
 
-@contextlib.contextmanager
-def atomic_file(path: str) -> Iterator[Any]:
-    """A file that appears under `path` whole or not at all."""
-    descriptor, temporary = tempfile.mkstemp(dir=os.path.dirname(path), prefix=".", suffix=".tmp")
-    try:
-        with os.fdopen(descriptor, "wb") as target:
-            yield target
-            target.flush()
-            os.fsync(target.fileno())
-        os.replace(temporary, path)
-    except BaseException:
-        with contextlib.suppress(FileNotFoundError):
-            os.unlink(temporary)
-        raise
-
-
 def _save_npz(path: str, arrays: Any) -> None:
     import zipfile
 
@@ -112,6 +98,10 @@ def _save_zarr(path: str, arrays: Any) -> None:
                 array[begin : begin + len(piece)] = piece
                 begin += len(piece)
         os.rename(os.path.join(folder, "zarr"), path)
+    except OSError as error:
+        if error.filename is None:
+            error.filename = path
+        raise
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 

@@ -14,6 +14,7 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _convert
+from ._atomic_file import atomic_file
 from ._index import Number, Unit, Vertex, Vertices
 from ._mesh import mesh_arrays
 
@@ -31,13 +32,15 @@ class Page:
         self._height = height
 
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
-        """Writes the page to a file. Raises OSError."""
-        Path(_convert.path(path)).write_text(self.html, encoding="utf-8")
+        """Writes the page to a file, which appears whole or not at all. Raises OSError, with errno and filename; an old
+        file of that name is then unchanged."""
+        with atomic_file(path) as file:
+            file.write(self.html.encode())
 
     def open(self, path: Union[str, os.PathLike[str]]) -> None:
         """Writes the page to a file and opens it in the browser."""
         self.save(path)
-        webbrowser.open(Path(_convert.path(path)).resolve().as_uri())
+        webbrowser.open(Path(os.fsdecode(path)).resolve().as_uri())
 
     def __repr__(self) -> str:
         return f"<meshhood.Page: {len(self.html)} characters>"
