@@ -177,6 +177,18 @@ PartFile describe_file(const std::filesystem::path& folder, std::string_view nam
   return {std::string(name), mapped.bytes().size(), checksum({mapped.bytes()})};
 }
 
+void verify_file(const std::filesystem::path& file, std::span<const std::byte> content, const PartFile& expected) {
+  if (content.size() != expected.bytes) {
+    refuse(file, fmt::format("has {} bytes, but the manifest says {}", content.size(), expected.bytes));
+  }
+  const std::uint64_t found = checksum({content});
+  if (found != expected.checksum) {  // mutant: file-of-another-content
+    refuse(file, fmt::format("has the checksum {}, but the manifest says {}: it has been changed, or is of another "
+                             "mesh",
+                             hex(found), hex(expected.checksum)));
+  }
+}
+
 void write_part(const std::filesystem::path& part_folder, const Plan& plan, std::size_t number, const Part& part) {
   JsonText json;
   add_plan(json, plan);
@@ -201,15 +213,7 @@ std::optional<Part> read_part(const std::filesystem::path& part_folder, const Pl
 void verify_part(const std::filesystem::path& part_folder, const Part& part) {
   for (const PartFile& expected : part.files) {
     const std::filesystem::path file = part_folder / expected.name;
-    const PartFile found = describe_file(part_folder, expected.name);
-    if (found.bytes != expected.bytes) {
-      refuse(file, fmt::format("has {} bytes, but the manifest says {}", found.bytes, expected.bytes));
-    }
-    if (found.checksum != expected.checksum) {  // mutant: file-of-another-content
-      refuse(file, fmt::format("has the checksum {}, but the manifest says {}: it has been changed, or is of another "
-                               "mesh",
-                               hex(found.checksum), hex(expected.checksum)));
-    }
+    verify_file(file, io::MappedFile(file).bytes(), expected);
   }
 }
 
@@ -224,7 +228,7 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& manifes
 
 Manifest read_manifest(const std::filesystem::path& folder) {
   return read_json(folder / kManifestFile, [](const JsonValues& json) {
-    Manifest manifest{.plan = plan_from(json), .parts = {}};
+    Manifest manifest{.plan = plan_from(json), .parts = {}, .checksum = number_of(json.text("checksum"))};
     const std::size_t parts = json.size("parts");
     for (std::size_t i = 0; i < parts; ++i) manifest.parts.push_back(part_from(json, fmt::format("parts/{}", i)));
     check_counts(manifest);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,6 +51,7 @@ struct Part {
 struct Manifest {
   Plan plan;
   std::vector<Part> parts;
+  std::uint64_t checksum = 0;  ///< of the file that was read, and so of every file that it lists
 };
 
 /// The name of the folder of a part: part-00012.
@@ -73,6 +75,9 @@ void write_part(const std::filesystem::path& part_folder, const Plan& plan, std:
 /// Throws Error{MalformedIndex} if it has been changed or belongs to another plan or number.
 [[nodiscard]] std::optional<Part> read_part(const std::filesystem::path& part_folder, const Plan& plan,
                                             std::size_t number);
+
+/// Throws Error{MalformedIndex}, naming the file, unless its content has the size and checksum.
+void verify_file(const std::filesystem::path& file, std::span<const std::byte> content, const PartFile& expected);
 
 /// Throws Error{MalformedIndex}, naming the file, unless every file of the part has its size and checksum.
 /// Throws Error{IoFailure} if one is missing. O(bytes).

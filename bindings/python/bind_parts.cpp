@@ -1,24 +1,34 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include "meshhood/error.h"
+#include "meshhood/serialize.h"
 
+#include "about.h"
+#include "arrays.h"
 #include "bindings.h"
 #include "interpreter.h"
+#include "io/mapped_file.h"
+#include "methods.h"
 #include "parts/manifest.h"
 #include "parts/partition.h"
 
@@ -62,24 +72,48 @@ nb::dict manifest_of(const Path& folder) {
   nb::dict result;
   result["vertices"] = plan.vertices;
   result["faces"] = plan.faces;
-  result["content_hash"] = to_text(plan.content_hash);
   result["mean_edge_length"] = plan.mean_edge_length;
   result["halo"] = plan.halo;
   result["parts"] = listed;
+  result["checksum"] = manifest.checksum;
   return result;
 }
 
-/// Returns the folder of the part.
-Path verified_part(const Path& folder, std::size_t number, const std::string& content_hash) {
+/// A part as the manifest describes it. Its files are verified as they are used, because another partition may replace
+/// them at any time.
+struct PartFiles {
+  Path folder;
+  parts::Part part;
+
+  [[nodiscard]] const parts::PartFile& file(std::string_view name) const {
+    const auto found =
+        std::find_if(part.files.begin(), part.files.end(), [&](const auto& f) { return f.name == name; });
+    if (found == part.files.end()) throw nb::key_error(std::string(name).c_str());
+    return *found;
+  }
+};
+
+/// `checksum`: of the manifest that was opened.
+PartFiles part_files(const Path& folder, std::size_t number, std::uint64_t checksum) {
+  parts::Manifest manifest = without_lock([&] { return parts::read_manifest(folder); });
+  if (manifest.checksum != checksum || number >= manifest.parts.size()) {
+    meshhood::raise(ErrorCode::MalformedIndex,
+                    folder.string() + ": other parts have replaced those that were opened; open them again");
+  }
+  return {folder / parts::part_name(number), std::move(manifest.parts[number])};
+}
+
+void verify_content(const PartFiles& files, const std::string& name, const Bytes& content) {
+  parts::verify_file(files.folder / name, std::as_bytes(std::span(content.data(), content.size())), files.file(name));
+}
+
+/// The index is mapped. What is verified is the mapping, which stays as it is when the file is replaced.
+std::shared_ptr<ExactMethod> index_of(const PartFiles& files) {
+  const Path path = files.folder / parts::kIndexFile;
   return without_lock([&] {
-    const parts::Manifest manifest = parts::read_manifest(folder);
-    if (to_text(manifest.plan.content_hash) != content_hash || number >= manifest.parts.size()) {
-      meshhood::raise(ErrorCode::MalformedIndex,
-                      folder.string() + ": the parts of another mesh have replaced those that were opened");
-    }
-    Path part = folder / parts::part_name(number);
-    parts::verify_part(part, manifest.parts[number]);
-    return part;
+    const auto mapped = std::make_shared<const io::MappedFile>(path);
+    parts::verify_file(path, mapped->bytes(), files.file(parts::kIndexFile));
+    return about(path.c_str(), [&] { return exact_method(map(mapped->bytes(), mapped)); });
   });
 }
 
@@ -90,7 +124,13 @@ void bind_parts(nb::module_& module) {
              nb::arg("parts"), nb::arg("vertices_per_part"), nb::arg("halo"), nb::arg("halo_in_edges"),
              nb::arg("memory"), nb::arg("threads"), nb::arg("resume"), nb::arg("progress").none());
   module.def("read_manifest", &manifest_of, nb::arg("folder"));
-  module.def("verified_part", &verified_part, nb::arg("folder"), nb::arg("number"), nb::arg("content_hash"));
+  nb::class_<PartFiles>(module, "PartFiles")
+      .def_ro("folder", &PartFiles::folder)
+      .def_prop_ro("vertices", [](const PartFiles& files) { return files.part.vertices; })
+      .def_prop_ro("owned", [](const PartFiles& files) { return files.part.owned; })
+      .def("index", &index_of)
+      .def("verify", &verify_content, nb::arg("name"), nb::arg("content"));
+  module.def("part_files", &part_files, nb::arg("folder"), nb::arg("number"), nb::arg("checksum"));
 }
 
 }  // namespace meshhood::python

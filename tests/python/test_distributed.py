@@ -418,6 +418,97 @@ def test_a_worker_that_is_killed_loses_only_its_part(parts, index, client, tmp_p
     assert not list((tmp_path / "out").glob(".*.tmp"))
 
 
+def partition_again(mesh, folder, parts, halo, how):
+    """Replaces the parts in a folder."""
+    if how == "made anew" and folder.exists():
+        shutil.rmtree(folder)
+    return meshhood.partition(mesh, folder, parts=parts, halo=halo, resume=False)
+
+
+REPLACED = ((4, 3.0), (4, HALO), (2, HALO), (3, 5.0), (4, 3.0))
+
+
+@pytest.mark.parametrize("how", ("made anew", "replaced"))
+@pytest.mark.parametrize("where", ("in this process", "on a cluster"))
+def test_parts_that_replace_others_are_used(mesh, index, tmp_path, how, where, request):
+    """Of the same mesh, with another halo or number of parts, and of another mesh."""
+    if where == "on a cluster":
+        request.getfixturevalue("client")
+    V, F = mesh
+    other = meshhood.MeshIndex(V * np.float32(1.25), F)
+    files = write_ply(tmp_path / "mesh.ply", V, F), write_ply(tmp_path / "other.ply", V * np.float32(1.25), F)
+    values = np.random.default_rng(4).random(len(V))
+    for n, halo in REPLACED:
+        for file, whole in zip(files, (index, other)):
+            parts = partition_again(file, tmp_path / "parts", n, halo, how)
+            np.testing.assert_array_equal(parts.counts(halo).compute(), whole.query_ball_count(None, halo))
+            maxima = parts.aggregate(values, halo, "max").compute()
+            np.testing.assert_array_equal(maxima, whole.aggregate(values, halo, "max"))
+            np.testing.assert_array_equal(parts.map(corners_of, 0, dtype=int).compute(), np.bincount(F.ravel(), minlength=len(V)))
+
+
+@pytest.mark.parametrize("how", ("made anew", "replaced"))
+def test_parts_that_were_replaced_are_right_or_refused(mesh, tmp_path, how):
+    V, F = mesh
+    file = write_ply(tmp_path / "mesh.ply", V, F)
+    old = partition_again(file, tmp_path / "parts", 4, 3.0, how)
+    part = old.open(1)
+    counts = part.index.query_ball_count(part.owned, 3.0)
+    new = partition_again(file, tmp_path / "parts", 3, HALO, how)
+    with pytest.raises(ValueError, match="other parts have replaced those that were opened"):
+        old.open(2)
+    with pytest.raises(ValueError, match="other parts have replaced those that were opened"):
+        old.counts(3.0).compute()
+    np.testing.assert_array_equal(part.index.query_ball_count(part.owned, 3.0), counts)
+    with pytest.raises(ValueError, match="part-00001/face_corners.npy"):
+        part.mesh
+    shutil.rmtree(tmp_path / "parts")
+    with pytest.raises(FileNotFoundError, match="face_corners.npy"):
+        part.mesh
+    with pytest.raises(FileNotFoundError, match="manifest.json"):
+        new.counts(3.0).compute()
+    assert old.open(1) is part
+
+
+def test_a_result_has_every_vertex_or_none():
+    blocks = [np.array([1.0, 2.0]), np.array([3.0])]
+    in_order = distributed.in_mesh_order
+    np.testing.assert_array_equal(in_order([np.array([2, 0]), np.array([1])], blocks, 3), [2, 3, 1])
+    for ids in ([[2, 0], [0]], [[2, 0], [3]], [[2, 0], []], [[2, 0], [1, 1]]):
+        with pytest.raises(ValueError, match="do not own each vertex"):
+            in_order([np.array(rows, np.int64) for rows in ids], blocks, 3)
+
+
+def test_a_part_that_owns_other_vertices_than_the_manifest_says_is_refused(folder):
+    parts = meshhood.open_parts(folder)
+    files = meshhood._core.part_files(parts.folder, 1, parts._checksum)
+
+    class Lying:
+        folder, vertices, owned = files.folder, files.vertices, files.owned + 1
+        index, verify = files.index, files.verify
+
+    with pytest.raises(ValueError, match=f"part-00001: owns {files.owned} of {files.vertices} vertices, but the manifest"):
+        distributed.OpenPart(Lying(), 1)
+
+
+def test_a_part_that_is_emptied_while_it_is_opened_is_refused(folder, tmp_path, monkeypatch):
+    """Between the verification of a file and its use, there is no second read."""
+    for name in ("vertices.npy", "owned.npy", "face_corners.npy", "face_offsets.npy"):
+        forged = copy_of(folder, tmp_path / name)
+        parts = meshhood.open_parts(forged)
+        part_files = meshhood._core.part_files
+
+        def then_empty(*arguments):
+            files = part_files(*arguments)
+            (forged / "part-00001" / name).write_bytes(b"")
+            return files
+
+        monkeypatch.setattr(meshhood._core, "part_files", then_empty)
+        with pytest.raises(ValueError, match=f"part-00001/{name}: has 0 bytes, but the manifest says"):
+            parts.open(1)
+        monkeypatch.undo()
+
+
 def mean_count(index):
     return np.array([index.query_ball_count(None, 2, workers=1).mean()])
 

@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 import functools
-from pathlib import Path
+import io
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from . import _core
-from ._files import Mesh, load
+from ._files import Mesh
 from ._index import MeshIndex
 
 _OPEN_PARTS = 8  # mapped at once in a process
@@ -26,22 +26,24 @@ class PartSize(NamedTuple):
 
 
 class OpenPart:
-    """A part of a mesh. Its index is mapped, its lists of vertices are read. Immutable; any number of threads may use it.
+    """A part of a mesh. Its index is mapped, its lists of vertices are read. Immutable; any number of threads may use it,
+    also after another partition has replaced the files. Only `mesh` then raises ValueError or FileNotFoundError.
 
     Within a part, vertices are numbered from 0 in ascending order of their ids in the mesh.
     """
 
-    def __init__(self, folder: Path, number: int) -> None:
+    def __init__(self, files: Any, number: int) -> None:
         self.number = number
         """The number of the part."""
-        self._folder = folder
-        self.index: MeshIndex = load(folder / "index.mhi", mmap=True)
+        self._files = files
+        self.index: MeshIndex = MeshIndex._holding(files.index())
         """The index of the part, with its halo."""
         self.vertices: NDArray[np.int64] = self._array("vertices", np.int64)
         """(#vertices,) The id in the mesh of each vertex of the part. Ascending."""
         self.owned: NDArray[np.int32] = self._array("owned", np.int32)
         """(#owned,) The vertices that the part owns, numbered as in the part. Ascending."""
         self._check()
+        self._faces()  # so that a damaged part is refused when it is opened
 
     def __repr__(self) -> str:
         return f"<meshhood.distributed.OpenPart {self.number}: {len(self.vertices)} vertices, owns {len(self.owned)}>"
@@ -50,39 +52,52 @@ class OpenPart:
     def mesh(self) -> Mesh:
         """The positions and faces of the part, as `meshhood.MeshIndex` takes them. The faces are complete around every
         vertex within the halo of an owned one."""
-        corners = self._array("face_corners", np.int32)
-        offsets = self._array("face_offsets", np.int64)
+        corners, offsets = self._faces()
         return Mesh(self.index.positions, (offsets, corners) if len(offsets) else corners.reshape(-1, 3))
 
+    def _faces(self) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
+        return self._array("face_corners", np.int32), self._array("face_offsets", np.int64)
+
     def _array(self, name: str, dtype: DTypeLike) -> NDArray[Any]:
-        path = self._folder / f"{name}.npy"
-        array = np.load(path, allow_pickle=False)
+        path = self._files.folder / f"{name}.npy"
+        content = path.read_bytes()  # once: the file may be replaced between two reads
+        self._files.verify(path.name, np.frombuffer(content, np.uint8))
+        try:
+            array = np.load(io.BytesIO(content), allow_pickle=False)
+        except (ValueError, EOFError) as error:
+            raise ValueError(f"{path}: {error}") from None
         if array.ndim != 1 or array.dtype != dtype:
             raise ValueError(f"{path}: an array of {array.dtype}, shape {array.shape}, expected one row of {dtype}")
         array.flags.writeable = False
         return array
 
     def _check(self) -> None:
-        vertices, owned = self.vertices, self.owned
+        vertices, owned, files = self.vertices, self.owned, self._files
         if len(vertices) != len(self.index) or np.any(np.diff(vertices) <= 0) or np.any(vertices[:1] < 0):
-            raise ValueError(f"{self._folder}: vertices.npy does not number the {len(self.index)} vertices of the index")
+            raise ValueError(f"{files.folder}: vertices.npy does not number the {len(self.index)} vertices of the index")
         if np.any(np.diff(owned) <= 0) or np.any(owned[:1] < 0) or np.any(owned[-1:] >= len(vertices)):
-            raise ValueError(f"{self._folder}: owned.npy names vertices that the part does not have")
+            raise ValueError(f"{files.folder}: owned.npy names vertices that the part does not have")
+        if (len(vertices), len(owned)) != (files.vertices, files.owned):
+            raise ValueError(
+                f"{files.folder}: owns {len(owned)} of {len(vertices)} vertices, but the manifest says {files.owned} of "
+                f"{files.vertices}"
+            )
 
 
 @functools.lru_cache(maxsize=_OPEN_PARTS)
-def _opened(folder: str, number: int, content_hash: str) -> OpenPart:
+def _opened(folder: str, number: int, checksum: int) -> OpenPart:
     """A part is verified once in each process and then shared by its threads. All processes share the pages of its
     index."""
-    return OpenPart(Path(_core.verified_part(folder, number, content_hash)), number)
+    return OpenPart(_core.part_files(folder, number, checksum), number)
 
 
 class PartName(NamedTuple):
-    """What identifies a part; sent to the workers."""
+    """What identifies a part; sent to the workers. The checksum is that of the manifest, on which every byte of the part
+    depends: the parts of another partition in the same folder have another."""
 
     folder: str
     number: int
-    content_hash: str
+    checksum: int
 
     def open(self) -> OpenPart:
         return _opened(*self)

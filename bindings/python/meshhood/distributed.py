@@ -83,7 +83,7 @@ class Parts:
         self.halo = manifest["halo"]
         self.mean_edge_length = manifest["mean_edge_length"]
         self.sizes = [PartSize(*size) for size in manifest["parts"]]
-        self._content_hash = manifest["content_hash"]
+        self._checksum = manifest["checksum"]
 
     def __len__(self) -> int:
         """The number of parts."""
@@ -94,7 +94,7 @@ class Parts:
 
     def open(self, number: int) -> OpenPart:
         """Part `number`, verified and mapped. Raises ValueError, naming the file, if a file has been changed or is of
-        another mesh; OSError."""
+        another mesh, and naming the folder if other parts have replaced these; OSError."""
         return self._name(_convert.integer(number, "number", 0, len(self) - 1)).open()
 
     def counts(self, r: float, *, unit: Unit = "mesh", order: Literal["mesh", "parts"] = "mesh") -> da.Array:
@@ -256,7 +256,7 @@ class Parts:
         return radius
 
     def _name(self, number: int) -> PartName:
-        return PartName(self.folder, number, self._content_hash)
+        return PartName(self.folder, number, self._checksum)
 
     def _blocks(self, task: Callable[[OpenPart], Any]) -> list[Any]:
         import dask
@@ -271,7 +271,7 @@ class Parts:
 
     def _write(self, task: Any, to: Folder, extension: str, what: dict[str, Any], progress: Progress) -> list[str]:
         target = os.path.abspath(os.fspath(to))
-        described = {"content_hash": self._content_hash, "halo": self.halo, "parts": len(self), **what}
+        described = {"parts": self._checksum, **what}
         with result_folder(target, described):
             paths = [os.path.join(target, f"part-{number:05}{extension}") for number in range(len(self))]
             left = [number for number, path in enumerate(paths) if not os.path.exists(path)]
