@@ -43,6 +43,131 @@ np.testing.assert_equal(call(progress=write), wanted)
 """)
 
 
+# Arguments of each call that takes a progress function, and values that would be refused or change the result. There are
+# enough channels, radii and rows for several passes.
+ARGUMENTS = """
+V, quads = meshes.grid(50)
+F = meshes.triangles(quads).astype(np.int64)
+V[:, 2] = np.sin(V[:, 0] / 5)
+index, count, draw = meshhood.MeshIndex(V, F), len(V), np.random.default_rng(1)
+arguments = {
+    "V": V, "moved": V + draw.random(V.shape) / 9, "F": F, "cut": F[::9, :2].copy(),
+    "values": draw.random((count, 40)), "weights": draw.random(count), "normals": draw.normal(size=(count, 3)),
+    "vertices": draw.permutation(count), "r": np.array([2.0, 1.0, 3.0]), "radii": draw.random(count) * 3,
+    "changed": draw.permutation(count)[:700],
+}
+hostile = {
+    "V": np.nan, "moved": np.nan, "F": 2**40, "cut": -1, "values": np.inf, "weights": -1.0, "normals": np.nan,
+    "vertices": -1, "r": np.nan, "radii": -1.0, "changed": 2**40,
+}
+def numbers(result):
+    if isinstance(result, meshhood.MeshIndex):
+        return [result.positions, *result.query_ball(None, 2.0)]
+    return result if isinstance(result, tuple) else (result,)
+"""
+
+CALLS = {
+    "query_ball": ("index.query_ball(v, r, progress=p)", {"v": "vertices", "r": "radii"}),
+    "query_ball_count": ("index.query_ball_count(v, r, progress=p)", {"v": "vertices", "r": "radii"}),
+    "along edges": ("index.query_ball(v, r, metric='edge', progress=p)", {"v": "vertices", "r": "radii"}),
+    "aggregate": (
+        "index.aggregate(values, r, weights=weights, vertices=v, progress=p)",
+        {"values": "values", "r": "r", "weights": "weights", "v": "vertices"},
+    ),
+    "variance of patches": (
+        "index.aggregate(values, r, 'var', weights=weights, nesting='patch', progress=p)",
+        {"values": "values", "r": "r", "weights": "weights"},
+    ),
+    "maximum": ("index.aggregate(values, r, 'max', vertices=v, progress=p)", {"values": "values", "r": "r", "v": "vertices"}),
+    "smooth": ("index.smooth(values, 2.0, weights=weights, progress=p)", {"values": "values", "weights": "weights"}),
+    "curvature": ("index.curvature(r, v, F=F, progress=p)", {"r": "r", "v": "vertices", "F": "F"}),
+    "curvature by normals": ("index.curvature(r, normals=N, progress=p)", {"r": "r", "N": "normals"}),
+    "corrected curvature": (
+        "index.corrected_curvature(2.0, v, F=F, normals=N, progress=p)",
+        {"v": "vertices", "F": "F", "N": "normals"},
+    ),
+    "moments": (
+        "index.moments(r, v, weights=weights, progress=p)",
+        {"r": "radii", "v": "vertices", "weights": "weights"},
+    ),
+    "principal components": (
+        "index.principal_components(r, v, weights=weights, progress=p)",
+        {"r": "radii", "v": "vertices", "weights": "weights"},
+    ),
+    "features": (
+        "index.features(r, v, F=F, kinds=('crease', 'area', 'variation'), progress=p)",
+        {"r": "r", "v": "vertices", "F": "F"},
+    ),
+    "build": ("meshhood.MeshIndex(V, F, cut=cut, progress=p)", {"V": "V", "F": "F", "cut": "cut"}),
+    "refit": ("index.refit(moved, progress=p)", {"moved": "moved"}),
+    "refit of some": ("index.refit(moved, changed, progress=p)", {"moved": "moved", "changed": "changed"}),
+}
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_a_progress_function_may_write_to_each_argument_of_each_call(name):
+    call, names = CALLS[name]
+    run(ARGUMENTS + f"""
+names = {names!r}
+def answer(progress=None, **changed):
+    given = {{name: arguments[kind].copy() for name, kind in names.items()}} | changed
+    return numbers(eval({call!r}, globals(), given | {{"p": progress}}))
+wanted = answer()
+for name, kind in names.items():
+    written, reports = arguments[kind].copy(), []
+    def write(done, total):
+        reports.append(done)
+        written[:] = hostile[kind]
+    for got, want in zip(answer(write, **{{name: written}}), wanted):
+        np.testing.assert_array_equal(got, want, err_msg=name)
+    assert reports
+""")
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_the_conversion_of_each_argument_may_write_to_the_others(name):
+    """The result may be that of either values, or an error; the process goes on."""
+    call, names = CALLS[name]
+    run(ARGUMENTS + f"""
+names = {names!r}
+class Array:
+    def __init__(self, values, others):
+        self.values, self.others, self.dtype = values, others, values.dtype
+    def __array__(self, dtype=None, copy=None):
+        for kind, other in self.others:
+            other[:] = hostile[kind]
+        return self.values
+    def __len__(self):
+        return len(self.values)
+for name in names:
+    given = {{name: arguments[kind].copy() for name, kind in names.items()}}
+    others = [(names[other], given[other]) for other in names if other != name]
+    given[name] = Array(given[name], others)
+    try:
+        eval({call!r}, globals(), given | {{"p": None}})
+    except (ValueError, TypeError):
+        pass
+""")
+
+
+@pytest.mark.parametrize("which", ("v", "r"))
+def test_the_allocation_of_a_result_may_write_to_the_arguments(which):
+    run(f"""
+v, r = np.arange(len(index), dtype=np.int32), np.full(len(index), 3.0)
+wanted = index.query_ball(v, r, return_distance=True)
+empty, written = np.empty, []
+def write(*arguments, **options):
+    {which}[:] = -1
+    written.append(1)
+    return empty(*arguments, **options)
+np.empty = write
+got = index.query_ball(v, r, return_distance=True)
+assert written
+for one, other in zip(got, wanted):
+    np.testing.assert_array_equal(one, other)
+""")
+
+
 WRITES = """
 def write():
     for value in itertools.cycle(values):

@@ -106,7 +106,9 @@ def _kernel(kernel):
 
 
 def _numbers(values, name, kinds):
+    """`values` as a new float64 array in C order. A copy, because a `progress` function or another thread may write to
+    `values` after they are checked."""
     array = _convert.as_array(values, name)
     if array.dtype.kind not in kinds:
         raise TypeError(f"{name}: expected numbers, not {array.dtype}")
-    return np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
+    return np.array(array, dtype=np.float64, order="C")

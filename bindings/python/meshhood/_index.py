@@ -548,10 +548,9 @@ class MeshIndex(Queries):
         """
         moved = None if changed is None else _convert.vertices(changed, self._count, "changed")
         positions = moved_positions(V)
-        if moved is None:
-            positions = np.array(positions)  # another thread may write to V once it is checked
         if len(positions) != self._count:
             raise ValueError(f"V: {len(positions)} positions, but the index has {self._count} vertices")
+        positions = _copied(positions, moved)
         with reporter(progress) as report:
             exact = _core.refit(
                 self._exact, positions, changed=moved, threads=_convert.threads(workers), progress=report
@@ -737,6 +736,16 @@ class MeshIndex(Queries):
         rows = None if v is None else _convert.vertices(v, self._count)
         radius = _convert.radii(r, self._count if rows is None else len(rows))
         return rows, scale * radius, _convert.threads(workers)
+
+
+def _copied(positions: Any, rows: Any) -> Any:
+    """A copy, because another thread may write to `positions` once they are checked. With `rows`, only these are set:
+    the system provides no memory for pages that nothing is written to."""
+    if rows is None:
+        return np.array(positions)
+    copy = np.empty_like(positions)
+    copy[rows] = positions[rows]
+    return copy
 
 
 def _query_one(searched: Any, v: int, r: float, return_distance: bool, sort: bool) -> Any:
