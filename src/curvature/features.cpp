@@ -214,8 +214,16 @@ std::vector<double> geometric_radii(double smallest, double largest, std::size_t
   }
   if (count == 1) return {largest};
   std::vector<double> radii;
-  const double ratio = std::log(largest / smallest) / static_cast<double>(count - 1);
-  for (std::size_t i = 0; i + 1 < count; ++i) radii.push_back(smallest * std::exp(ratio * static_cast<double>(i)));
+  // Exponents apart, because the quotient of the radii may overflow, and products with a denormal number lose digits.
+  int low = 0;
+  int high = 0;
+  const double first = std::frexp(smallest, &low);
+  const double octaves = std::log2(std::frexp(largest, &high) / first) + (high - low);
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    const double octave = octaves * static_cast<double>(i) / static_cast<double>(count - 1);
+    const double whole = std::floor(octave);
+    radii.push_back(std::ldexp(first * std::exp2(octave - whole), low + static_cast<int>(whole)));
+  }
   radii.push_back(largest);
   return radii;
 }

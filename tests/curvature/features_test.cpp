@@ -120,6 +120,26 @@ TEST(Features, RadiiAreSpacedAsTheNameSays) {
   EXPECT_THAT(geometric_radii(1, 16, 1), testing::ElementsAre(16));
 }
 
+TEST(Features, RadiiFromTheLeastNumberToTheLargest) {
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+  constexpr double kMost = std::numeric_limits<double>::max();
+  for (const std::size_t count : {2U, 3U, 4U, 1000U}) {
+    const std::vector<double> radii = geometric_radii(kLeast, kMost, count);
+    EXPECT_EQ(radii.front(), kLeast);
+    EXPECT_EQ(radii.back(), kMost);
+    const double octaves = (std::log2(kMost) - std::log2(kLeast)) / static_cast<double>(count - 1);
+    for (std::size_t i = 1; i < count; ++i) {
+      EXPECT_LT(radii[i - 1], radii[i]);
+      if (radii[i - 1] < std::numeric_limits<double>::min()) continue;  // of few digits
+      EXPECT_NEAR(std::log2(radii[i]) - std::log2(radii[i - 1]), octaves, 1e-11);
+    }
+  }
+  const std::vector<double> one = geometric_radii(0.3, 7, 9);
+  const std::vector<double> small = geometric_radii(std::ldexp(0.3, -900), std::ldexp(7, -900), 9);
+  for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(std::ldexp(one[i], -900), small[i]) << "the unit is a power of two";
+  EXPECT_THAT(geometric_radii(5, 5, 3), testing::ElementsAre(5, 5, 5));
+}
+
 TEST(Features, PersistIsTheLongestRunOfOneSign) {
   const std::vector<double> radii{1, 2, 4, 8, 16};
   const auto of = [&](const std::vector<double>& values) { return persistence(values, radii, 0.5); };

@@ -107,6 +107,12 @@ def test_corrected_curvature_is_near_that_of_the_formula():
     np.testing.assert_allclose((c.d1 * c.d2).sum(axis=1), 0, atol=1e-12)
 
 
+def test_radii_may_have_any_ratio():
+    radii = meshhood.geometric_radii(5e-324, 1.79e308, 4)
+    assert radii[0] == 5e-324 and radii[-1] == 1.79e308
+    assert np.all(np.diff(radii) > 0) and np.all(np.isfinite(radii))
+
+
 def test_features_are_curvatures_times_the_radius_and_persist():
     V, F = ellipsoid(3)
     index = meshhood.MeshIndex(V, F)

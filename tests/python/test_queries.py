@@ -71,6 +71,8 @@ def test_seeds_are_by_default_the_nearest_vertex(mesh):
     vertex, distance = index.nearest(p)
     assert vertex == np.argmin(distances(V, p)) and distance == distances(V, p).min()
     np.testing.assert_array_equal(index.query_region(p, 3, sort=True), region(V, graph, p, [vertex], 3))
+    for none in ([], np.empty((0, 3))):
+        assert [len(found) for found in index.nearest(none)] == [0, 0]
     vertices, _ = index.nearest(V[:50])
     np.testing.assert_array_equal(vertices, np.arange(50))
 
@@ -244,6 +246,9 @@ def test_rims_on_a_scan_are_loops_where_the_mesh_is_closed(tmp_path):
         (lambda i: i.nearest_connected(0, -1), r"k: -1"),
         (lambda i: i.query_rings(36, 1), r"v: vertex 36"),
         (lambda i: i.nearest([1, 2]), r"points: expected 3 numbers"),
+        (lambda i: meshhood.RegionMesh(*grid(3)).rim([8], [], 1), r"start: expected a vertex or 3 numbers, not .* \(0,\)"),
+        (lambda i: meshhood.RegionMesh(*grid(3)).rim([8], np.zeros((4, 3)), 1), r"start: expected a vertex or 3 .* \(4, 3\)"),
+        (lambda i: i.query_region(np.zeros((1, 3)), 1), r"start: expected a vertex or 3 numbers, not .* \(1, 3\)"),
         (lambda i: i.query_ball(0, 1, metric="geodesic"), r"metric: 'geodesic'"),
         (lambda i: i.query_ball(0, 1, metric="edge", method="bfs"), r"method: 'bfs', expected 'exact'"),
         (lambda i: meshhood.MeshIndex(*grid(3), cut=[(0, 1), (0, 8)]), r"cut: edge 1: vertices 0 and 8"),

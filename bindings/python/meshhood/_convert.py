@@ -113,6 +113,14 @@ def points(values, name):
     return array
 
 
+def point(value, name):
+    """`value`, 3 numbers, as a new float64 array (1, 3), where a vertex would do too."""
+    array = points(value, name)
+    if len(array) != 1 or np.ndim(value) != 1:
+        raise ValueError(f"{name}: expected a vertex or 3 numbers, not an array of shape {np.shape(value)}")
+    return array
+
+
 def seed_rows(values, rows, count):
     """`values`, (rows,) or (rows, k), as a new int32 array (rows, k), each value in [0, count)."""
     array = np.array(as_array(values, "seeds"))

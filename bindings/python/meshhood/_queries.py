@@ -194,13 +194,14 @@ class Queries:
         return indices, radii
 
     def nearest(self, points: ArrayLike) -> Any:
-        """The vertex nearest to a point, and its distance: `vertex, distance`. For points (n, 3), two arrays. Of
+        """The vertex nearest to a point, and its distance: `vertex, distance`. For points (n, 3) or [], two arrays. Of
         several vertices at the same distance, the one with the smallest id."""
         rows = _convert.points(points, "points")
         if self._count == 0:
             raise ValueError("points: the mesh has no vertices")
         vertices, distances = self._queries.nearest(rows)
-        return (vertices, distances) if np.ndim(points) == 2 else (int(vertices[0]), float(distances[0]))
+        is_one = np.ndim(points) == 1 and len(rows) == 1
+        return (int(vertices[0]), float(distances[0])) if is_one else (vertices, distances)
 
     def _start(self, start: Any, seeds: Any) -> tuple[tuple[float, float, float], Ids]:
         """The center and the seeds."""
@@ -209,9 +210,7 @@ class Queries:
                 raise ValueError("seeds: expected None, because the start is a vertex")
             v = _convert.vertex(start, self._count, "start")
             return self._queries.position(v), np.array([v], np.int32)
-        point = _convert.points(start, "start")
-        if len(point) != 1 or np.ndim(start) != 1:
-            raise ValueError(f"start: expected a vertex or 3 numbers, not an array of shape {np.shape(start)}")
+        point = _convert.point(start, "start")
         if seeds is None:
             first = self._queries.nearest(point)[0] if self._count else np.empty(0, np.int32)
         else:

@@ -74,7 +74,7 @@ class RegionMesh:
         if np.ndim(start) == 0:
             center = self._positions[_convert.vertex(start, len(self._positions), "start")].astype(np.float64)
         else:
-            center = _convert.points(start, "start")[0]
+            center = _convert.point(start, "start")[0]
         x, y, z = (float(value) for value in center)
         points, edges, offsets, closed = self._mesher.rim(self._ids(ids), (x, y, z), _convert.radius(r))
         parts = [slice(begin, end) for begin, end in zip(offsets[:-1], offsets[1:])]
