@@ -196,6 +196,18 @@ TEST_F(Folder, HasItsDamagedPartsWrittenAgain) {
   EXPECT_GE(damaged, 4U * 4 * 3);
 }
 
+TEST_F(Folder, OfOtherPartsHasAManifestOfAnotherChecksum) {
+  run(folder);
+  const std::uint64_t checksum = parts::read_manifest(folder).checksum;
+  run(folder);
+  EXPECT_EQ(parts::read_manifest(folder).checksum, checksum) << "of the same parts";
+  PartitionOptions wider = kOptions;
+  wider.halo *= 2;
+  wider.resume = false;
+  run(folder, wider);
+  EXPECT_NE(parts::read_manifest(folder).checksum, checksum);
+}
+
 TEST_F(Folder, IsRefusedIfItsManifestHasBeenChanged) {
   run(folder);
   const fs::path file = folder / parts::kManifestFile;
