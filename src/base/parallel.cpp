@@ -59,11 +59,13 @@ class Failure {
 /// exception; if memory has run out by then, glibc ends the process, where the runtime was loaded by the program while
 /// it ran, as Python does. False if memory is that short already.
 bool prepare_exceptions() {
+#if defined(__cpp_exceptions)
   constexpr std::size_t kMoreThanEnough = 4096;
   void* const volatile trial = std::malloc(kMoreThanEnough);  // volatile: or compilers omit it
   if (trial == nullptr) return false;
   std::free(trial);
   static_cast<void>(std::current_exception());
+#endif
   return true;
 }
 
