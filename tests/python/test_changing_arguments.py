@@ -78,7 +78,10 @@ CALLS = {
         "index.aggregate(values, r, 'var', weights=weights, nesting='patch', progress=p)",
         {"values": "values", "r": "r", "weights": "weights"},
     ),
-    "maximum": ("index.aggregate(values, r, 'max', vertices=v, progress=p)", {"values": "values", "r": "r", "v": "vertices"}),
+    "maximum": (
+        "index.aggregate(values, r, 'max', vertices=v, progress=p)",
+        {"values": "values", "r": "r", "v": "vertices"},
+    ),
     "smooth": ("index.smooth(values, 2.0, weights=weights, progress=p)", {"values": "values", "weights": "weights"}),
     "curvature": ("index.curvature(r, v, F=F, progress=p)", {"r": "r", "v": "vertices", "F": "F"}),
     "curvature by normals": ("index.curvature(r, normals=N, progress=p)", {"r": "r", "N": "normals"}),

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Memory runs out, in the calling thread or in a worker: each call that takes workers succeeds or raises MemoryError (or
-an error of a file or an argument that says so), and the process goes on. Each trial is a process of its own with a limit on its address
-space."""
+an error of a file or an argument that says so), and the process goes on. Each trial is a process of its own with a limit
+on its address space."""
 
 import os
 import subprocess

@@ -247,7 +247,7 @@ def test_rims_on_a_scan_are_loops_where_the_mesh_is_closed(tmp_path):
         (lambda i: i.query_rings(36, 1), r"v: vertex 36"),
         (lambda i: i.nearest([1, 2]), r"points: expected 3 numbers"),
         (lambda i: meshhood.RegionMesh(*grid(3)).rim([8], [], 1), r"start: expected a vertex or 3 numbers, not .* \(0,\)"),
-        (lambda i: meshhood.RegionMesh(*grid(3)).rim([8], np.zeros((4, 3)), 1), r"start: expected a vertex or 3 .* \(4, 3\)"),
+        (lambda i: meshhood.RegionMesh(*grid(3)).rim([8], np.zeros((4, 3)), 1), r"start: expected a vertex .* \(4, 3\)"),
         (lambda i: i.query_region(np.zeros((1, 3)), 1), r"start: expected a vertex or 3 numbers, not .* \(1, 3\)"),
         (lambda i: i.query_ball(0, 1, metric="geodesic"), r"metric: 'geodesic'"),
         (lambda i: i.query_ball(0, 1, metric="edge", method="bfs"), r"method: 'bfs', expected 'exact'"),

@@ -449,7 +449,7 @@ class MeshIndex(Queries):
     ) -> Any:
         """A sum, a mean or another aggregate of values over the exact neighborhood of each vertex.
 
-        values : (#V,) or (#V, ...), numbers or bools; each channel by itself. Converted to float64.
+        values : (#V,) or (#V, ...), numbers or bools; each channel by itself. Copied as float64.
         r : the radius, >= 0 or inf, or several. A vertex at exactly `r` is inside.
         reduce : "sum", "mean", "min", "max", "var", "std" or "count".
         weights : (#V,) finite and >= 0, for sum, mean, var and std; "area" for `vertex_areas`, which needs F. A vertex
