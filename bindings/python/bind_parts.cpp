@@ -93,6 +93,12 @@ struct PartFiles {
   }
 };
 
+/// As str. A path would be made by Python code, which must not run below functions that are noexcept.
+nb::object folder_of(const PartFiles& files) {
+  const std::string& name = files.folder.native();
+  return nb::steal(PyUnicode_DecodeFSDefaultAndSize(name.data(), static_cast<Py_ssize_t>(name.size())));
+}
+
 /// `checksum`: of the manifest that was opened.
 PartFiles part_files(const Path& folder, std::size_t number, std::uint64_t checksum) {
   parts::Manifest manifest = without_lock([&] { return parts::read_manifest(folder); });
@@ -125,7 +131,7 @@ void bind_parts(nb::module_& module) {
              nb::arg("memory"), nb::arg("threads"), nb::arg("resume"), nb::arg("progress").none());
   module.def("read_manifest", &manifest_of, nb::arg("folder"));
   nb::class_<PartFiles>(module, "PartFiles")
-      .def_ro("folder", &PartFiles::folder)
+      .def_prop_ro("folder", &folder_of)
       .def_prop_ro("vertices", [](const PartFiles& files) { return files.part.vertices; })
       .def_prop_ro("owned", [](const PartFiles& files) { return files.part.owned; })
       .def("index", &index_of)

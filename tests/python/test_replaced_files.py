@@ -41,7 +41,7 @@ def write_parts(arrays, folder, begun, stop):
     while not stop.is_set():
         for files in arrays:
             meshhood.partition(files, folder, parts=3, halo=HALO, resume=False, workers=1)
-            stop.wait(random.random() / 20)  # seconds in which it can be read
+            stop.wait(random.random() / 3)  # seconds in which it can be read
         begun.set()
 
 
@@ -101,12 +101,12 @@ def test_parts_that_are_replaced_all_the_time(tmp_path, writer):
         found = np.full(parts.n_vertices, -1)
         for number in range(len(parts)):
             part = parts.open(number)
-            time.sleep(random.random() / 50)
+            time.sleep(random.random() / 100)
             assert part.mesh.faces.max() < len(part.vertices)
             found[part.vertices[part.owned]] = part.index.query_ball_count(part.owned, HALO, workers=1)
         return found
 
-    while sum(outcomes.values()) < PART_READS or not outcomes["answered"]:
+    while sum(outcomes.values()) < PART_READS or outcomes["answered"] < PART_READS // 4:
         try:
             parts = meshhood.open_parts(folder)
             np.testing.assert_array_equal(counts(parts), COUNTS[parts.n_vertices])
@@ -117,6 +117,7 @@ def test_parts_that_are_replaced_all_the_time(tmp_path, writer):
         except FileNotFoundError as error:
             assert str(folder) in str(error.filename), repr(error)
             outcomes["missing"] += 1
+            time.sleep(0.01)
     print(f"parts while they are replaced: {outcomes}")
 
 

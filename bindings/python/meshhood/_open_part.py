@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import functools
 import io
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -59,7 +60,7 @@ class OpenPart:
         return self._array("face_corners", np.int32), self._array("face_offsets", np.int64)
 
     def _array(self, name: str, dtype: DTypeLike) -> NDArray[Any]:
-        path = self._files.folder / f"{name}.npy"
+        path = Path(self._files.folder, f"{name}.npy")
         content = path.read_bytes()  # once: the file may be replaced between two reads
         self._files.verify(path.name, np.frombuffer(content, np.uint8))
         try:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import json
 import os
 import shutil
@@ -99,9 +100,11 @@ def _save_zarr(path: str, arrays: Any) -> None:
                 begin += len(piece)
         os.rename(os.path.join(folder, "zarr"), path)
     except OSError as error:
-        if error.filename is None:
-            error.filename = path
-        raise
+        # A task of a call that failed may still have been running, and have written the same.
+        if error.errno not in (errno.EEXIST, errno.ENOTEMPTY) or not os.path.isdir(path):
+            if error.filename is None:
+                error.filename = path
+            raise
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 
