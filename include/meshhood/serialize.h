@@ -14,7 +14,7 @@
 
 /// An index as bytes. For files see `meshhood/io/index_io.h`.
 ///
-/// The bytes are the same on every machine, for any compiler and number of threads. docs/design.md describes the
+/// The bytes are the same on every machine, for any compiler and number of threads. docs/index_file.md describes the
 /// format, which has a version number of its own. Every byte is covered by a checksum or must be zero, so that every
 /// change is detected.
 namespace meshhood {
