@@ -40,7 +40,7 @@ SpacePoint parse_point(const std::vector<std::string>& texts) {
   return p;
 }
 
-/// `ids` come ring by ring, in any order within a ring.
+/// `ids` come ring by ring. Sorts those of each ring.
 StartAnswer sorted_answer(const std::vector<VertexId>& ids, const std::vector<double>& distances,
                           std::vector<std::size_t> counts) {
   std::vector<std::size_t> order(ids.size());

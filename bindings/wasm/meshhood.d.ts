@@ -100,7 +100,10 @@ export interface QueryOptions {
 }
 
 export interface AnswerOptions extends QueryOptions {
-  /** Ids of a neighborhood ascend; otherwise their order is unspecified but reproducible. */
+  /**
+   * The ids of a neighborhood ascend. Otherwise those of `exact` are in index order: ascending places of `permutation`;
+   * those of another method have an order of its own, which is always the same.
+   */
   sort?: boolean;
 }
 
@@ -271,8 +274,8 @@ export class MeshIndex {
   readonly positions: Float32Array | Float64Array;
 
   /**
-   * The vertices in index order: vertices that are near each other in the mesh are near each other here. Batches of
-   * vertices in this order are faster. A copy.
+   * The vertices in index order: vertices that are near each other in the mesh are near each other here. Exact
+   * answers list them in this order, and batches of vertices in this order are faster. A copy.
    */
   readonly permutation: Uint32Array;
 
@@ -295,6 +298,9 @@ export class MeshIndex {
   /**
    * The vertices of the neighborhood of v, itself included. A vertex at exactly r is inside. With `distances`, also
    * their straight-line distances from v.
+   *
+   * An exact answer depends on the index, the vertex and the radius alone. Its ids are in index order: ascending places
+   * of `permutation`.
    *
    * @param v the vertex; or many as an array, null for all
    * @param r the radius, >= 0 or Infinity; for many vertices optionally one per vertex
@@ -324,6 +330,9 @@ export class MeshIndex {
    * The region of a start and the radius r: the vertices that are connected to a seed by edges between vertices within
    * r of the start. For a vertex as start, without masks, it is the neighborhood that `queryBall` returns.
    *
+   * An answer depends on the index, the start, the radius and the masks alone. Its ids are in index order, unless `sort`
+   * makes them ascend.
+   *
    * @throws MeshhoodError VertexOutOfRange, InvalidRadius, InvalidOption, as the calls below
    */
   queryRegion(
@@ -337,14 +346,20 @@ export class MeshIndex {
     options: RegionOptions & { unit?: Unit; sort?: boolean; distances: true },
   ): { ids: Uint32Array; distances: Float64Array };
 
-  /** The regions of strictly ascending radii, each vertex once. A near vertex may belong to a late ring. */
+  /**
+   * The regions of strictly ascending radii, each vertex once, each ring in index order. A near vertex may belong to a
+   * late ring.
+   */
   queryNested(
     start: Start,
     radii: Float64Array | Float32Array,
     options?: RegionOptions & { unit?: Unit },
   ): Rings;
 
-  /** The vertices that at most k edges separate from v: part i has those that are at most i edges away. */
+  /**
+   * The vertices that at most k edges separate from v: part i has those that are at most i edges away. Each ring is in
+   * index order.
+   */
   queryRings(v: number, k: number, options?: Masks): Rings;
 
   /** Whether the region of a start and the radius r has vertex w. */

@@ -111,7 +111,9 @@ struct BatchQuery {
   BatchRadius radius = {};
 };
 
-/// How a batch runs. The result, including the order of its ids, does not depend on `threads`.
+/// How a batch runs. A row depends on the index, its vertex and its radius alone, not on the other rows or on
+/// `threads`. With an `Index`, its ids are in index order: ascending places of the permutation of the index. Rows of
+/// other methods have the order of their searcher.
 struct BatchOptions {
   static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
 
@@ -119,7 +121,7 @@ struct BatchOptions {
   unsigned threads = 1;
 
   bool distances = false;  ///< also compute the distance of each vertex (see `distance`); ignored when only counting
-  bool sorted = false;     ///< ids of a row ascend; otherwise they have an order of the method, which is reproducible
+  bool sorted = false;     ///< ids of a row ascend, whatever the method
 
   /// `for_each_neighborhood` passes the rows in index order (see `Index::permutation`) instead of ascending. Near rows
   /// are then computed together whatever the order of the query, which is up to ten times as fast where the vertices of

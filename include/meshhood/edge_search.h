@@ -23,6 +23,9 @@ namespace meshhood {
 /// radius  >= 0 or infinite, in the unit of the positions; a vertex whose path distance is exactly `radius` is inside.
 /// filter  see `Filter`: paths do not pass walls.
 ///
+/// An answer depends on the index, the vertex, the radius and the filter alone. Its ids ascend by path distance, those
+/// of equal distance by their places in index order.
+///
 /// O(n log n) for a result of n vertices. The first search of an index takes O(#V + #E): it computes the lengths of all
 /// edges, which the index keeps for all searchers (80 bytes a vertex with six edges).
 ///
@@ -56,13 +59,14 @@ class EdgeSearcher {
   /// The number of these vertices.
   [[nodiscard]] std::size_t count(VertexId v, double radius, const Filter& filter = {});
 
-  /// The same vertices as ranges in index order. In no stated order, disjoint, none empty; valid until the next call.
+  /// The same vertices as ranges of the index order. Ascending, with gaps between them, none empty; valid until the
+  /// next call.
   [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius, const Filter& filter = {});
 
   /// The vertices that at most `k` edges separate from `v`, ring by ring: ring `i` has those whose shortest path has
   /// exactly `i` edges.
   ///
-  /// out     replaced: the ids, in no stated order within a ring.
+  /// out     replaced: the ids, each ring in index order.
   /// counts  replaced: the first `counts[i]` ids are at most `i` edges away. It ends with the last ring that is not
   ///         empty, or with ring `k`; it is empty if `v` is a wall.
   /// O(n) for a result of n vertices.

@@ -51,7 +51,8 @@ class Index {
   /// The positions in index order, #V by 3. Valid as long as the index.
   [[nodiscard]] PositionsView positions() const;
 
-  /// The caller's id of each vertex in index order, #V. Empty if the two orders are the same (see `reorder`). Valid as
+  /// The caller's id of each vertex in index order, #V: the order in which the index stores the vertices, and in which
+  /// answers list them. Empty if the two orders are the same (see `reorder`). Valid as
   /// long as the index.
   [[nodiscard]] std::span<const VertexId> permutation() const;
 
@@ -62,8 +63,8 @@ class Index {
   /// most sixteen. An empty result means:
   ///  - the leaves contain each vertex once, and the numberings agree;
   ///  - positions and edges are those of the mesh, and leaves marked connected are connected;
-  ///  - each sphere encloses its vertices;
-  ///  - from sampled query points outside its minimum region, no vertex of a leaf or node is a local minimum.
+  ///  - the links between nodes are those of the mesh, and every node above the leaves is connected by them;
+  ///  - each sphere encloses its vertices.
   ///
   /// Throws Error{InvalidMesh, TooLarge} if `mesh` is invalid. O((#V + #E) log #V).
   [[nodiscard]] std::vector<std::string> check(const MeshView& mesh) const;

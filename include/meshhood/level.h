@@ -10,7 +10,7 @@ struct IndexBytes {
   std::size_t positions = 0;    ///< coordinates of the vertices
   std::size_t permutation = 0;  ///< from the caller's numbering to that of the index, and back
   std::size_t graph = 0;        ///< edges of the mesh; in the paper's index, siblings
-  std::size_t tree = 0;         ///< leaves or clusters, bounding spheres, minimum regions, links between nodes
+  std::size_t tree = 0;         ///< leaves or clusters, bounding spheres, links between nodes
 
   [[nodiscard]] std::size_t total() const { return positions + permutation + graph + tree; }
 };

@@ -144,13 +144,15 @@ class Searcher {
   /// The permutation of the index.
   [[nodiscard]] std::span<const VertexId> permutation() const;
 
-  /// out     replaced, its capacity reused: ids in no stated order, without duplicates, `v` included.
+  /// out     replaced, its capacity reused: ids without duplicates, `v` included, in an order that depends on the
+  /// index,
+  ///         the options, the vertex and the radius alone.
   void neighborhood(VertexId v, double radius, std::vector<VertexId>& out);
 
   /// Also returns the distance of each vertex from `v` (see `distance`), in the order of the ids.
   void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
 
-  /// The neighborhood as ranges in index order, without copying ids. In no stated order, disjoint, none empty; valid
+  /// The neighborhood as ranges of the index order, without copying ids. In the same order, disjoint, none empty; valid
   /// until the next call. See `visit` and `reduce` in searcher.h.
   [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius);
 

@@ -14,8 +14,8 @@
 ///     index = meshhood::refit(std::move(index), positions, changed);  // only these have
 ///
 /// The order of the vertices, the leaves and the edges stay as they are and are shared with the index that was given.
-/// Positions, bounding spheres and minimum regions are computed again from the leaves up. Answers are exact, whatever
-/// the positions. Queries take longer once vertices of a leaf have moved far apart; `quality` measures this.
+/// Positions and bounding spheres are computed again from the leaves up. Answers are exact, whatever the positions.
+/// Queries take longer once vertices of a leaf have moved far apart; `quality` measures this.
 namespace meshhood {
 
 /// The index of the mesh after its vertices have moved.

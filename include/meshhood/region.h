@@ -26,12 +26,16 @@ struct Dab {
 ///
 /// radius  >= 0 or infinite, in the unit of the positions; a vertex at exactly `radius` is inside.
 /// filter  see `Filter`.
-/// The result is the same set on every processor. The cost grows with the number of leaves of the result. Nothing is
-/// allocated once the buffers have grown.
+///
+/// An answer depends on the index, the start, the radius and the filter alone. Its ids are in index order: ascending
+/// places of the permutation of the index. If the mesh was renumbered by `reorder`, they ascend.
+///
+/// The cost grows with the number of leaves of the result; for a vertex without a filter, `region`, `count` and
+/// `nested` cost as much as queries of a `Searcher`. Nothing is allocated once the buffers have grown.
 ///
 /// Use one object per thread: it owns scratch memory, about 64 bytes per leaf, and that of a `Searcher` after the first
-/// call of `nested` for a vertex. It shares the memory of the index, which may be moved, refitted or destroyed
-/// meanwhile: answers are those of the index as it was.
+/// such query for a vertex without a filter. It shares the memory of the index, which may be moved, refitted or
+/// destroyed meanwhile: answers are those of the index as it was.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption}, naming the seed, the coordinate or the mask; arguments
 /// are then unchanged.
@@ -43,7 +47,7 @@ class RegionSearcher {
   RegionSearcher& operator=(RegionSearcher&&) noexcept;
   ~RegionSearcher();
 
-  /// out     replaced, its capacity reused: ids in no stated order, without duplicates.
+  /// out     replaced, its capacity reused: ids in index order, without duplicates.
   void region(const Start& start, double radius, std::vector<VertexId>& out, const Filter& filter = {});
 
   /// Also returns the distance of each vertex from the center, in the order of the ids. See `distance`.
@@ -55,7 +59,7 @@ class RegionSearcher {
 
   /// The union of the regions of `dabs`, such as those of a brush stroke.
   ///
-  /// out     replaced: ids in no stated order, without duplicates.
+  /// out     replaced: ids in index order, without duplicates.
   /// An error names the dab. The cost is that of the single regions together.
   void stroke(std::span<const Dab> dabs, std::vector<VertexId>& out, const Filter& filter = {});
 
@@ -65,7 +69,7 @@ class RegionSearcher {
   /// radii   strictly ascending.
   /// out     replaced: the region of the largest radius, ring by ring. Ring `i` has the vertices of the region of
   ///         `radii[i]` that the region of `radii[i - 1]` does not have. A near vertex may belong to a late ring if
-  ///         only the wider ball connects it. No stated order within a ring.
+  ///         only the wider ball connects it. Each ring is in index order.
   /// counts  replaced, one for each radius: the region of `radii[i]` is the first `counts[i]` ids of `out`.
   void nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& out,
               std::vector<std::size_t>& counts, const Filter& filter = {});

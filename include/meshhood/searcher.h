@@ -34,6 +34,9 @@ struct VertexRange {
 /// - `ranges` returns the neighborhood as disjoint, nonempty ranges of the searcher's order. They are valid until the
 ///   next call.
 /// - `permutation()` gives the caller's id of each vertex in that order; it is empty if the two orders are the same.
+/// - An answer, with the order of its ids and ranges, depends on the searcher's index or mesh, the vertex and the
+/// radius
+///   alone: not on earlier queries, threads or the processor.
 ///
 /// A searcher owns scratch memory: use one object per thread.
 template <class S>
@@ -47,8 +50,9 @@ concept NeighborhoodSearcher = requires(S& searcher, const S& constant, VertexId
   { searcher.ranges(v, radius) } -> std::same_as<std::span<const VertexRange>>;
 };
 
-/// Calls `on_run(VertexRange)` for each range of the neighborhood, in no stated order. No id is copied. If `on_run`
-/// returns bool, false stops the visit. Returns whether every range was visited.
+/// Calls `on_run(VertexRange)` for each range of the neighborhood, in the order of `ranges`: with a `Searcher`
+/// ascending. No id is copied. If `on_run` returns bool, false stops the visit. Returns whether every range was
+/// visited.
 ///
 /// The whole neighborhood is found before the first call: an early stop saves the work of `on_run`, not the search.
 /// `on_run` must not use `searcher`.
@@ -67,8 +71,8 @@ bool visit(S& searcher, VertexId v, double radius, F&& on_run) {
 }
 
 /// Folds the neighborhood: starts with `init` and replaces it by `f(value, VertexRange)` for each range, as `visit`
-/// gives them. The same query gives the ranges in the same order on every machine, but floating-point sums may depend
-/// on the queries before it. Throws as `visit`.
+/// gives them. The same query gives the same ranges in the same order, so a floating-point sum has the same bits.
+/// Throws as `visit`.
 template <NeighborhoodSearcher S, class T, class F>
 [[nodiscard]] T reduce(S& searcher, VertexId v, double radius, T init, F&& f) {
   visit(searcher, v, radius, [&](VertexRange run) { init = std::invoke(f, std::move(init), run); });

@@ -51,8 +51,7 @@ struct Frame {
   return std::abs(q.x) <= 1 && std::abs(q.y) <= 1 && std::abs(q.z) <= 1;
 }
 
-/// Whether squares of distances in the mesh of the frame may underflow. It has no minimum regions then: they would be
-/// wrong.
+/// Whether squares of distances in the mesh of the frame may underflow.
 [[nodiscard]] inline bool may_squares_underflow(const Frame& frame) { return frame.scale > 0x1p480; }
 
 /// The frame centered at the bounding box of the positions, which must be valid.

@@ -11,8 +11,7 @@
 namespace meshhood::file {
 
 /// Verifies that the arrays of an exact index are consistent, so that every query ends and reads within the arrays,
-/// whatever the file contains. Does not verify the minimum regions against the mesh: forged regions give wrong answers,
-/// never unsafe ones.
+/// whatever the file contains.
 ///
 /// index   a view of the arrays in `file`, whose sizes are verified already
 /// Throws Error{MalformedIndex, Cancelled}. One pass over each array; advances `task` by `kVerifyParts`.

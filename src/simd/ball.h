@@ -43,7 +43,7 @@ struct TreeBounds {
   TreeBounds(const Frame& frame, double radius);
 };
 
-/// A search ball in the frame, to be compared with bounding spheres and minimum regions.
+/// A search ball in the frame, to be compared with bounding spheres.
 struct TreeBall : TreeBounds {
   float x;
   float y;

@@ -75,6 +75,9 @@ class MeshIndex(Queries):
 
     Warns if faces with coinciding corners are not connected (an unwelded mesh).
 
+    An exact answer depends on the index, the vertex and the radius alone. Its ids are in index order: ascending places
+    of `permutation`.
+
     Immutable. Any number of threads may use it at the same time; the interpreter lock is released during calls. An
     index can be saved, pickled (the same bytes), and used in a forked process. Every method raises ValueError or
     TypeError, naming the argument and the element, and KeyboardInterrupt on Ctrl-C.
@@ -169,7 +172,8 @@ class MeshIndex(Queries):
 
     @property
     def permutation(self) -> Ids:
-        """The vertices in index order: (#V,) int32, read-only, not copied. It keeps the index alive."""
+        """The vertices in index order: (#V,) int32, read-only, not copied. It keeps the index alive. Vertices that are
+        near each other in the mesh are near each other here, and exact answers list them in this order."""
         return self._exact.permutation
 
     @overload
@@ -255,7 +259,8 @@ class MeshIndex(Queries):
         v : a vertex, a sequence of vertices, a bool mask (#V,), or None for all.
         r : the radius, >= 0 or inf; for many vertices optionally one per vertex. A vertex at exactly `r` is inside.
         return_distance : also return the straight-line distance of each vertex from its `v` (float64).
-        sort : vertices of a neighborhood ascend; otherwise their order is unspecified but reproducible.
+        sort : the ids of a neighborhood ascend. Otherwise those of "exact" are in index order: ascending places of
+            `permutation`; those of another method have an order of its own, which is always the same.
         method : "exact", the exact neighborhood, by the index;
                  "paper", the approximate neighborhood of the paper, a superset of "exact" and a subset of "ball", or
                  `Paper` with other parameters;
@@ -335,7 +340,7 @@ class MeshIndex(Queries):
 
     def query_ranges(self, v: Vertex, r: Number, *, unit: Unit = "mesh") -> Ids:
         """The exact neighborhood of one vertex as ranges in index order: (#ranges, 2) int32. The vertices are
-        permutation[begin:end] for each row `begin, end`. The ranges are disjoint, in unspecified order. No ids are
+        permutation[begin:end] for each row `begin, end`. The ranges ascend, with gaps between them. No ids are
         copied."""
         scale = self._scale(unit)
         return self._exact.ranges(_convert.vertex(v, self._count), scale * _convert.radius(r))

@@ -85,6 +85,9 @@ class Queries:
         metric : "edge": the vertices whose shortest path along edges from the vertex `start` is at most `r` long.
         r, return_distance, sort, unit : as for one vertex of `query_ball`, and so is the result.
 
+        An answer depends on the index, the start, the radius and the masks alone. Its ids are in index order: ascending
+        places of `permutation`; with "edge" they are sorted by path length.
+
         The cost grows with the size of the region.
         """
         center, first = self._start(start, seeds)
@@ -111,7 +114,8 @@ class Queries:
         sort: bool = False,
         unit: Unit = "mesh",
     ) -> Ids:
-        """The union of the regions of many points, such as those of a brush stroke; each vertex once.
+        """The union of the regions of many points, such as those of a brush stroke; each vertex once, in index order,
+        or ascending with `sort`.
 
         points : (n, 3).
         r : one radius, or one for each point.
@@ -143,8 +147,8 @@ class Queries:
         radii : strictly ascending.
 
         So indices[counts[i - 1]:counts[i]] is ring i: the vertices of the region of radii[i] that are not in that of
-        radii[i - 1]. A near vertex belongs to a late ring if only a wider ball connects it. The sum over a region is
-        the sum over its rings: `np.add.reduceat`, then `np.cumsum`.
+        radii[i - 1]. A near vertex belongs to a late ring if only a wider ball connects it. Each ring is in index
+        order. The sum over a region is the sum over its rings: `np.add.reduceat`, then `np.cumsum`.
         """
         center, first = self._start(start, seeds)
         values = _convert.ascending(radii, "radii") * self._scale(unit)
@@ -153,7 +157,8 @@ class Queries:
 
     def query_rings(self, v: Any, k: Any, *, walls: Mask = None, ignored: Mask = None) -> tuple[Counts, Ids]:
         """The vertices that at most `k` edges separate from vertex `v`: `counts, indices`. The first counts[i] of the
-        indices are at most i edges away; `counts` ends with the last ring that is not empty, or with ring k."""
+        indices are at most i edges away; `counts` ends with the last ring that is not empty, or with ring k.
+        Each ring is in index order."""
         v = _convert.vertex(v, self._count)
         counts, indices = self._queries.rings(v, _convert.integer(k, "k", 0, 2**63 - 1), *self._masks(walls, ignored))
         return counts, indices

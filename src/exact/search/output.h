@@ -9,8 +9,8 @@
 
 namespace meshhood {
 
-/// Writes the caller's ids of `set`, in index order. `out` has room for `set.count()` ids, and
-/// for `kLeafCapacity` more, whose content is unspecified afterwards.
+/// Writes the caller's ids of `set`, in index order. `out` has room for `set.count()` ids, and for `kLeafCapacity`
+/// more, whose content is unspecified afterwards.
 void write_ids(const VertexSet& set, const IndexView& index, const Kernels& kernels, VertexId* out);
 
 /// Refills `out` with them.
