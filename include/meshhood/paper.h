@@ -144,9 +144,8 @@ class Searcher {
   /// The permutation of the index.
   [[nodiscard]] std::span<const VertexId> permutation() const;
 
-  /// out     replaced, its capacity reused: ids without duplicates, `v` included, in an order that depends on the
-  /// index,
-  ///         the options, the vertex and the radius alone.
+  /// out     replaced, its capacity reused: ids without duplicates, `v` included. Their order depends on the
+  ///         index, the options, the vertex and the radius alone.
   void neighborhood(VertexId v, double radius, std::vector<VertexId>& out);
 
   /// Also returns the distance of each vertex from `v` (see `distance`), in the order of the ids.

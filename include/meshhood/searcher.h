@@ -34,9 +34,9 @@ struct VertexRange {
 /// - `ranges` returns the neighborhood as disjoint, nonempty ranges of the searcher's order. They are valid until the
 ///   next call.
 /// - `permutation()` gives the caller's id of each vertex in that order; it is empty if the two orders are the same.
-/// - An answer, with the order of its ids and ranges, depends on the searcher's index or mesh, the vertex and the
-/// radius
-///   alone: not on earlier queries, threads or the processor.
+/// - An answer, with the order of its ids and ranges, depends on the index or mesh, the vertex and the radius alone,
+/// not
+///   on earlier queries, threads or the processor.
 ///
 /// A searcher owns scratch memory: use one object per thread.
 template <class S>
@@ -51,8 +51,7 @@ concept NeighborhoodSearcher = requires(S& searcher, const S& constant, VertexId
 };
 
 /// Calls `on_run(VertexRange)` for each range of the neighborhood, in the order of `ranges`: with a `Searcher`
-/// ascending. No id is copied. If `on_run` returns bool, false stops the visit. Returns whether every range was
-/// visited.
+/// ascending. No id is copied. If `on_run` returns bool, false stops the visit. Returns whether it visited every range.
 ///
 /// The whole neighborhood is found before the first call: an early stop saves the work of `on_run`, not the search.
 /// `on_run` must not use `searcher`.
