@@ -34,9 +34,8 @@ struct VertexRange {
 /// - `ranges` returns the neighborhood as disjoint, nonempty ranges of the searcher's order. They are valid until the
 ///   next call.
 /// - `permutation()` gives the caller's id of each vertex in that order; it is empty if the two orders are the same.
-/// - An answer, with the order of its ids and ranges, depends on the index or mesh, the vertex and the radius alone,
-/// not
-///   on earlier queries, threads or the processor.
+/// - An answer depends on the index or mesh, the vertex and the radius alone, and so does the order of its ids and
+///   ranges. Earlier queries, threads and the processor have no effect.
 ///
 /// A searcher owns scratch memory: use one object per thread.
 template <class S>

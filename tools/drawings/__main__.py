@@ -5,8 +5,6 @@ from pathlib import Path
 
 import leaves
 import marks
-import minimum_region
-import other_components
 import tree
 import waves
 import words
@@ -17,8 +15,6 @@ DRAWINGS = {
     "waves": waves,
     "tree": tree,
     "marks": marks,
-    "minimum_region": minimum_region,
-    "other_components": other_components,
     "words": words,
 }
 

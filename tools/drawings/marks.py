@@ -1,17 +1,20 @@
-"""A sheet with a slit and a ball, from above: what src/exact/search/home_marks.cpp and loose_pieces.cpp look at."""
+"""A sheet with slits and a ball, from above: what src/exact/search marks, unites and leaves out."""
 
 import math
 
-from svg import GREY, INK, ORANGE, PEACH, RED, SKY, Picture
+from svg import GREEN, GREY, INK, ORANGE, PEACH, RED, SKY, Picture
 
 UNIT = 28
 LEFT, TOP = 30, 20
 V = (7.7, 8.4)
 RADIUS = 6.4
-SLIT = 12  # x of the slit; it ends outside the ball
+WALL = [(12, 0), (12, 16)]  # the long slit, which passes through the ball
+POCKET = [(8, 4), (8, 8), (12, 8)]  # a bent slit, which leaves one way into the square above it
 MARKED = "#5aa0dc"
+JOINED = "#8fd0a8"
 LARGEST = 4  # nodes are squares with sides of 1 (leaves), 2 and 4
 SIZE = 16
+PASSES = 3  # as in HomeMarks::spread
 
 
 def place(x, y):
@@ -21,6 +24,17 @@ def place(x, y):
 def box(node):
     x, y, side = node
     return *place(x, y), *place(x + side, y + side)
+
+
+def steps(line):
+    """The sides of unit squares along a slit, each by its ends."""
+    for (ax, ay), (bx, by) in zip(line, line[1:]):
+        count = abs(bx - ax) + abs(by - ay)
+        ends = [(ax + (bx - ax) * i // count, ay + (by - ay) * i // count) for i in range(count + 1)]
+        yield from (tuple(sorted(pair)) for pair in zip(ends, ends[1:]))
+
+
+SLITS = {*steps(WALL), *steps(POCKET)}
 
 
 def distances(node):
@@ -47,58 +61,49 @@ def refine(node, whole, surface):
             refine((*child, half), whole, surface)
 
 
-def are_linked(a, b):
-    """Whether two nodes have a common side, which is not a part of the slit."""
+def common_sides(a, b):
+    """The sides of unit squares that two nodes share."""
     (ax, ay, an), (bx, by, bn) = a, b
-    beside = ax + an == bx or bx + bn == ax
-    above = ay + an == by or by + bn == ay
-    overlap_x = ax < bx + bn and bx < ax + an
-    overlap_y = ay < by + bn and by < ay + an
-    if beside and overlap_y:
-        return max(ax, bx) != SLIT
-    return above and overlap_x
+    if ax + an == bx or bx + bn == ax:
+        x = max(ax, bx)
+        return [((x, y), (x, y + 1)) for y in range(max(ay, by), min(ay + an, by + bn))]
+    if ay + an == by or by + bn == ay:
+        y = max(ay, by)
+        return [((x, y), (x + 1, y)) for x in range(max(ax, bx), min(ax + an, bx + bn))]
+    return []
 
 
-def is_in_doubt(node):
-    """Whether the node has vertices at the slit, which are not surrounded by neighbors."""
-    return node[0] == SLIT or node[0] + node[2] == SLIT
+def are_linked(a, b):
+    """Whether two nodes share a side inside the ball that is not cut."""
+    for side in common_sides(a, b):
+        (ax, ay), (bx, by) = side
+        nearest = math.hypot(max(ax - V[0], 0, V[0] - bx), max(ay - V[1], 0, V[1] - by))
+        if side not in SLITS and nearest <= RADIUS:
+            return True
+    return False
 
 
-def sees(node, whole):
-    """The whole nodes that the links of a node lead to: of its own size, or larger."""
-    return [other for other in whole if other[2] >= node[2] and are_linked(node, other)]
-
-
-def explore(start, whole, marked, explored):
-    """As HomeMarks::explore: the nodes visited, and whether a marked one was met."""
-    visited = [start]
-    for node in visited:
-        for other in sees(node, whole):
-            if other in marked:
-                return visited, True
-            if other not in visited and other not in explored:
-                visited.append(other)
-    return visited, False
-
-
-def spread(whole, surface):
-    """Marks what leads home from the nodes in question: marked nodes, nodes that do not lead home, and steps."""
+def spread_marks(whole, surface):
+    """As HomeMarks: a mark passes to whole nodes from others of their size or larger; then to surface leaves."""
     marked = {node for node in whole if node[0] <= V[0] < node[0] + node[2] and node[1] <= V[1] < node[1] + node[2]}
-    explored, steps = set(), []
-    asked = [node for leaf in surface if is_in_doubt(leaf) for node in whole if are_linked(leaf, node)]
-    asked += sorted((node for node in whole if is_in_doubt(node)), key=lambda node: node[2])
-    for start in asked:
-        if start in marked or start in explored:
-            continue
-        visited, is_home = explore(start, whole, marked, explored)
-        if not is_home:
-            explored.update(visited)
-            continue
-        for node in visited:
-            marked.add(node)
-        for node in reversed(visited):
-            steps += [(node, other) for other in sees(node, whole) if other in marked and (other, node) not in steps][:1]
-    return marked, explored, steps
+    for _ in range(PASSES):
+        for node in sorted(whole, key=lambda n: -n[2]):
+            if any(other[2] >= node[2] and are_linked(node, other) for other in marked):
+                marked.add(node)
+    return marked | {leaf for leaf in surface if any(are_linked(leaf, node) for node in marked)}
+
+
+def unite(elements, marked):
+    """As OpenElements: the open elements that links of any kind join with marked ones, and these links."""
+    joined, links = set(), []
+    queue = sorted(marked)
+    for node in queue:
+        for other in elements:
+            if other not in marked and other not in joined and are_linked(node, other):
+                joined.add(other)
+                links.append((node, other))
+                queue.append(other)
+    return joined, links
 
 
 def center(node):
@@ -109,54 +114,63 @@ def draw_legend(picture, left):
     y = 42
     rows = [
         (MARKED, "whole node, marked"),
-        (SKY, "whole node that was not visited"),
-        (PEACH, "whole node that does not lead home"),
-        ("#ffffff", "surface leaf"),
+        (SKY, "surface leaf, marked"),
+        (JOINED, "open, and united with marked elements"),
+        (PEACH, "open, and not united: not in the answer"),
     ]
     for color, label in rows:
         picture.boxes([(left, y - 14, left + 18, y + 4)], fill=color, stroke=INK)
         picture.text(left + 30, y, label)
         y += 28
-    picture.boxes([(left, y - 14, left + 18, y + 4)], fill="none", stroke=ORANGE, stroke_width=3)
-    picture.text(left + 30, y, "in doubt: at the slit, a vertex may have", "no nearer neighbor")
-    y += 62
     picture.text(
         left,
-        y,
-        "Arrows: a node in doubt, or a whole node",
-        "beside a leaf in doubt, leads home over",
-        "links to a marked node.",
+        y + 20,
+        "Marks pass over links from v to nodes of",
+        "the same size or smaller. The large node",
+        "in the pocket has links to small nodes",
+        "only, so it is open.",
     )
     picture.text(
         left,
-        y + 76,
-        "Loose: right of the slit, no piece in doubt",
-        "touches a marked node. The circle is the",
-        "one vertex without a nearer neighbor.",
-        "From there a traversal finds the other",
-        "component, and removes it.",
+        y + 114,
+        "Union-find looks at every link of an open",
+        "element (arrows), and completes the marks.",
+        fill=GREEN,
+    )
+    picture.text(
+        left,
+        y + 172,
+        "No link joins what lies behind the long",
+        "slit with a marked element: it is another",
+        "component of the ball.",
         fill=RED,
     )
 
 
 def draw():
-    picture = Picture(850, 490, "Marks and loose pieces")
+    picture = Picture(850, 490, "Home marks and open elements")
     whole, surface = [], []
     for x in range(0, SIZE, LARGEST):
         for y in range(0, SIZE, LARGEST):
             refine((x, y, LARGEST), whole, surface)
-    marked, explored, steps = spread(whole, surface)
-    picture.boxes([box(leaf) for leaf in surface], fill="#ffffff", stroke=GREY)
-    for nodes, color in ((whole, SKY), (sorted(marked), MARKED), (sorted(explored), PEACH)):
+    marked = spread_marks(whole, surface)
+    elements = whole + surface
+    joined, links = unite(elements, marked)
+    others = [node for node in elements if node not in marked and node not in joined]
+    colors = [
+        ([node for node in whole if node in marked], MARKED),
+        ([leaf for leaf in surface if leaf in marked], SKY),
+        (sorted(joined), JOINED),
+        (others, PEACH),
+    ]
+    for nodes, color in colors:
         picture.boxes([box(node) for node in nodes], fill=color, stroke="#ffffff", stroke_width=1.5)
     picture.dots([place(*V)], UNIT * RADIUS, fill="none", stroke=ORANGE, stroke_width=2.5)
-    inner = [(a + 3, b + 3, c - 3, d - 3) for a, b, c, d in (box(n) for n in whole + surface if is_in_doubt(n))]
-    picture.boxes(inner, fill="none", stroke=ORANGE, stroke_width=2.5)
-    for node, other in steps:
+    for node, other in links:
         picture.arrow(center(node), center(other), stroke_width=1.6)
-    picture.segments([(place(SLIT, 1.2), place(SLIT, SIZE - 0.6))], stroke=INK, stroke_width=4)
-    picture.text(place(SLIT, 0)[0] - 12, TOP + 22, "slit")
-    picture.dots([place(SLIT + 0.12, V[1])], 7, fill="none", stroke=RED, stroke_width=2.5)
+    for line in (WALL, POCKET):
+        picture.polyline([place(*p) for p in line], stroke=INK, stroke_width=4)
+    picture.text(*place(12.3, 0.8), "slit", fill=GREY)
     picture.dots([place(*V)], 6, fill=INK)
     picture.text(place(*V)[0] - 18, place(*V)[1] - 8, "v", font_size=18, font_style="italic")
     draw_legend(picture, 500)
