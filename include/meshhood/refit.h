@@ -30,7 +30,7 @@ namespace meshhood {
 /// alive.
 ///
 /// Throws Error{InvalidMesh, InvalidOption, Cancelled}: InvalidMesh if there are not #V positions, or if `validate`
-/// rejects one, naming the vertex. O(#V + #E log(valence)), about a third of `build`.
+/// rejects one, naming the vertex. O(#V), at most a third of the time of `build`.
 [[nodiscard]] Index refit(const Index& index, const PositionsView& positions, const BuildOptions& options = {});
 
 /// The same if only the vertices `changed` have moved. Positions of others are not read.
@@ -46,7 +46,7 @@ namespace meshhood {
 /// If a vertex leaves the cube in which the tree is stored, all bounds are computed again, as above.
 ///
 /// Throws also Error{VertexOutOfRange}, naming the row of `changed`. Besides the copy: O(changed log #V), for the
-/// leaves of these vertices and those next to them, and the nodes above; and a sum over all leaves.
+/// leaves of these vertices and the nodes above; and a sum over all leaves.
 [[nodiscard]] Index refit(const Index& index, const PositionsView& positions, const IndicesView& changed,
                           const BuildOptions& options = {});
 [[nodiscard]] Index refit(Index&& index, const PositionsView& positions, const IndicesView& changed,

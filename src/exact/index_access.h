@@ -31,7 +31,7 @@ struct IndexAccess {
   [[nodiscard]] static std::shared_ptr<IndexView>& storage(Index& index) { return index.view_; }
   [[nodiscard]] static std::shared_ptr<KeptGraph>& graph(Index& index) { return index.graph_; }
 
-  /// The number of steps of a build, for progress: graph, leaves, links, positions, spheres and regions, tree.
+  /// The number of steps of a build, for progress: graph, leaves, links, positions, spheres of leaves, tree.
   static constexpr std::size_t kBuildSteps = 6;
 
   /// The steps after the graph, which must be valid. The caller reports the last step.

@@ -17,7 +17,7 @@ inline constexpr std::size_t kGeometrySteps = 3;
 /// positions     valid, in the caller's order
 /// connectivity  a view of all that does not depend on the positions
 /// geometry      has the frame, and the leaves without their bounds; the rest is filled
-/// O(#V + #E log(valence)).
+/// O(#V).
 void make_geometry(const PositionsView& positions, const IndexView& connectivity, GeometryData& geometry,
                    TaskContext& task);
 
