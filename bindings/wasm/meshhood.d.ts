@@ -330,8 +330,8 @@ export class MeshIndex {
    * The region of a start and the radius r: the vertices that are connected to a seed by edges between vertices within
    * r of the start. For a vertex as start, without masks, it is the neighborhood that `queryBall` returns.
    *
-   * An answer depends on the index, the start, the radius and the masks alone. Its ids are in index order, unless `sort`
-   * makes them ascend.
+   * An answer depends on the index, the start, the radius and the masks alone. Its ids are in index order, or ascend if
+   * `sort` is set.
    *
    * @throws MeshhoodError VertexOutOfRange, InvalidRadius, InvalidOption, as the calls below
    */

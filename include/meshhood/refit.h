@@ -30,7 +30,7 @@ namespace meshhood {
 /// alive.
 ///
 /// Throws Error{InvalidMesh, InvalidOption, Cancelled}: InvalidMesh if there are not #V positions, or if `validate`
-/// rejects one, naming the vertex. O(#V), at most a third of the time of `build`.
+/// rejects one, naming the vertex. O(#V), a fraction of the time of `build`.
 [[nodiscard]] Index refit(const Index& index, const PositionsView& positions, const BuildOptions& options = {});
 
 /// The same if only the vertices `changed` have moved. Positions of others are not read.
