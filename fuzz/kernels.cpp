@@ -111,14 +111,10 @@ void compare_edges(Bytes bytes, const Kernels& tried) {
 
 Group take_group(Bytes& bytes) {
   Group group{};
-  for (Group::Row* row : {&group.x, &group.y, &group.z, &group.slope_x, &group.slope_y, &group.slope_z}) {
+  for (Group::Row* row : {&group.x, &group.y, &group.z}) {
     for (float& value : *row) value = take_real<float>(bytes, kLargestInFrame);
   }
   for (float& radius : group.radius) radius = std::abs(take_real<float>(bytes, kLargestInFrame));
-  for (float& offset : group.offset) {
-    offset = std::abs(bytes.take<float>());
-    if (std::isnan(offset)) offset = std::numeric_limits<float>::infinity();
-  }
   return group;
 }
 
@@ -134,8 +130,7 @@ void compare_groups(Bytes bytes, const Kernels& tried) {
   tried.classify(groups.data(), list, ball, found.data());
   portable_kernels().classify(groups.data(), list, ball, expected.data());
   for (std::size_t i = 0; i < list.size(); ++i) {
-    if (found[i].inside != expected[i].inside || found[i].intersecting != expected[i].intersecting ||
-        found[i].may_have_minimum != expected[i].may_have_minimum) {
+    if (found[i].inside != expected[i].inside || found[i].intersecting != expected[i].intersecting) {
       fail("classify differs");
     }
   }

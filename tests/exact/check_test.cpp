@@ -83,14 +83,5 @@ TEST(IndexCheck, FindsASphereTooSmall) {
   }
 }
 
-TEST(IndexCheck, FindsAMinimumRegionTooNarrow) {
-  expect_found("outside the minimum region", [](IndexData& i) {
-    for (Group& group : i.groups) {
-      group.offset.fill(0);
-      for (Group::Row* row : {&group.slope_x, &group.slope_y, &group.slope_z}) row->fill(0);
-    }
-  });
-}
-
 }  // namespace
 }  // namespace meshhood::test

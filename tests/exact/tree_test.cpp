@@ -21,19 +21,14 @@ Point random_point(Random& random, double size) {
   return {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
 }
 
-Point unit(const Point& p) { return 1 / length(p) * p; }
-
-/// Leaves of three random vertices each, with random regions around a common normal.
+/// Leaves of three random vertices each.
 struct RandomLeaves {
-  RandomLeaves(Random& random, std::size_t leaves) : nodes(leaves), leaf_begin(leaves + 1) {
-    const Point normal = unit(random_point(random, 1));
+  RandomLeaves(Random& random, std::size_t leaves) : spheres(leaves), leaf_begin(leaves + 1) {
     for (std::size_t leaf = 0; leaf < leaves; ++leaf) {
       leaf_begin[leaf] = static_cast<VertexId>(points.size());
       const Point at = random_point(random, 0.9);
       for (int i = 0; i < 3; ++i) points.push_back(at + random_point(random, 0.05));
-      nodes.bounds[leaf] = enclosing_sphere(std::span(points).last(3));
-      const Point axis = unit(normal + 0.1 * random_point(random, 1));
-      nodes.regions[leaf] = {random.uniform(1, 1.1) * axis, random.uniform(0.01, 0.2)};
+      spheres[leaf] = enclosing_sphere(std::span(points).last(3));
     }
     leaf_begin[leaves] = static_cast<VertexId>(points.size());
     group_leaves(leaves);
@@ -59,15 +54,14 @@ struct RandomLeaves {
     }
     const std::size_t places = leaves == 0 ? 0 : levels[1] * kFanOut;
     leaf_begin.resize(places + 1, leaf_begin.back());
-    nodes.bounds.resize(places);
-    nodes.regions.resize(places);
+    spheres.resize(places);
     set_vertices(leaf_begin, levels, records);
   }
 
   [[nodiscard]] TreeArrays tree(unsigned threads = 1) const {
     const Progress silent;
     TaskContext task(threads, silent, 0);
-    return make_tree(nodes, view(), task);
+    return make_tree(spheres, view(), task);
   }
 
   [[nodiscard]] IndexView view() const {
@@ -80,7 +74,7 @@ struct RandomLeaves {
     return index;
   }
 
-  NodeList nodes;
+  Spheres spheres;
   std::vector<VertexId> leaf_begin;
   std::vector<Point> points;
   std::vector<std::uint32_t> levels;
@@ -90,16 +84,6 @@ struct RandomLeaves {
 
 Point center(const Group& group, std::size_t i) {
   return {static_cast<double>(group.x[i]), static_cast<double>(group.y[i]), static_cast<double>(group.z[i])};
-}
-
-MinimumRegion region(const Group& group, std::size_t i) {
-  return {{static_cast<double>(group.slope_x[i]), static_cast<double>(group.slope_y[i]),
-           static_cast<double>(group.slope_z[i])},
-          static_cast<double>(group.offset[i])};
-}
-
-bool region_contains(const MinimumRegion& region, const Point& x) {
-  return length(x) <= region.offset + std::abs(dot(x, region.slope_axis));
 }
 
 /// Calls `f(level, group, i)` for the node above a leaf on every level, the leaf itself first.
@@ -169,27 +153,17 @@ TEST(Tree, AfterAnUpdateOfSomeLeavesIsTheTreeOfAllLeaves) {
         leaves.points[v] = 0.9 * leaves.points[v] + random_point(random, 0.05);
       }
       const auto own = std::span(leaves.points).subspan(leaves.leaf_begin[leaf], 3);
-      leaves.nodes.bounds[leaf] = enclosing_sphere(own);
-      leaves.nodes.regions[leaf].offset *= 1.5;
+      leaves.spheres[leaf] = enclosing_sphere(own);
     }
-    NodeList bounds(moved.size());
-    for (std::size_t i = 0; i < moved.size(); ++i) {
-      bounds.bounds[i] = leaves.nodes.bounds[moved[i]];
-      bounds.regions[i] = leaves.nodes.regions[moved[i]];
-    }
-    update_tree(moved, bounds, leaves.view(), updated.groups, updated.mean_radii);
+    Spheres spheres;
+    for (const LeafId leaf : moved) spheres.push_back(leaves.spheres[leaf]);
+    update_tree(moved, spheres, leaves.view(), updated.groups, updated.mean_radii);
 
     const TreeArrays expected = leaves.tree();
     EXPECT_EQ(updated.mean_radii, expected.mean_radii);
     for (std::size_t i = 0; i < expected.groups.size(); ++i) {
       EXPECT_EQ(updated.groups[i].x, expected.groups[i].x);
       EXPECT_EQ(updated.groups[i].radius, expected.groups[i].radius);
-      for (std::size_t lane = 0; lane < kFanOut; ++lane) {
-        const float offset = expected.groups[i].offset[lane];
-        if (!std::isfinite(offset)) continue;
-        EXPECT_GE(updated.groups[i].offset[lane], offset);
-        EXPECT_LE(updated.groups[i].offset[lane], offset * 1.001F + 1e-4F);
-      }
     }
   }
 }
@@ -199,29 +173,6 @@ TEST(Tree, GroupsAboveSomeLeavesAreThoseThatAnUpdateChanges) {
   const RandomLeaves leaves(random, 600);
   const std::vector<LeafId> moved{3, 5, 8, 599};
   EXPECT_THAT(groups_above(moved, leaves.view()), testing::ElementsAre(0, 1, 74, 75, 84, 85, 86, 87));
-}
-
-TEST(Tree, RegionsContainThoseOfTheLeavesBelow) {
-  Random random(2);
-  std::size_t tests = 0;
-  for (const std::size_t size : kSizes) {
-    const RandomLeaves leaves(random, size);
-    const TreeArrays arrays = leaves.tree();
-    for (std::size_t n = 0; n < 30 * size; ++n) {
-      const std::size_t leaf = n % size;
-      const MinimumRegion& own = leaves.nodes.regions[leaf];
-      // The surface of the leaf's region, as far away as two vertices can be.
-      const Point direction = unit(random_point(random, 1));
-      const double rest = 1 - std::abs(dot(direction, own.slope_axis));
-      const double far = rest > 0 ? std::min(own.offset / rest, 3.5) : 3.5;
-      const Point at = center_of(leaves.nodes.bounds[leaf]) + far * direction;
-      for_each_node_above(leaves, arrays, leaf, [&](std::size_t level, const Group& group, std::size_t i) {
-        ASSERT_TRUE(region_contains(region(group, i), at - center(group, i))) << "level " << level;
-        ++tests;
-      });
-    }
-  }
-  std::printf("%zu points of regions\n", tests);
 }
 
 TEST(Tree, NodesThatDoNotExistAreAbsentAndNoOthers) {
@@ -284,7 +235,6 @@ TEST(Tree, IsTheSameForAnyNumberOfThreads) {
   ASSERT_EQ(tree.groups.size(), expected.groups.size());
   for (std::size_t i = 0; i < tree.groups.size(); ++i) {
     EXPECT_EQ(tree.groups[i].radius, expected.groups[i].radius);
-    EXPECT_EQ(tree.groups[i].offset, expected.groups[i].offset);
   }
 }
 

@@ -39,10 +39,10 @@ void expect_refused_after(const char* cause, const Change& change) {
 }
 
 TEST(IndexVerify, RejectsOtherFormatsAndStatesTheirNumbers) {
-  expect_refused_after("header, byte 12: format 3, but this version reads format 2",
-                       [](Forgery& f) { f.header().format = 3; });
-  expect_refused_after("format 0, but this version reads format 2", [](Forgery& f) { f.header().format = 0; });
-  expect_refused_after("format 1, but this version reads format 2: build the index again",
+  expect_refused_after("header, byte 12: format 4, but this version reads format 3",
+                       [](Forgery& f) { f.header().format = 4; });
+  expect_refused_after("format 0, but this version reads format 3", [](Forgery& f) { f.header().format = 0; });
+  expect_refused_after("format 1, but this version reads format 3: build the index again",
                        [](Forgery& f) { f.header().format = 1; });
 }
 
@@ -318,14 +318,12 @@ TEST(IndexVerify, RejectsALinkFromAGroupWithAParentToOneWithout) {
 
 TEST(IndexVerify, RejectsAWrongTree) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  const char* const none = "the bounding sphere or minimum region is not valid";
-  for (const float value : {kNan, -1.0F, -std::numeric_limits<float>::infinity()}) {
+  const char* const none = "the bounding sphere is not valid";
+  for (const float value : {kNan, -1.0F, 0.0F, std::numeric_limits<float>::infinity()}) {
     expect_refused_after(none, [&](Forgery& f) { f.section<Group>("groups")[0].radius[1] = value; });
-    expect_refused_after(none, [&](Forgery& f) { f.section<Group>("groups").back().offset[0] = value; });
   }
-  expect_refused_after(none, [](Forgery& f) { f.section<Group>("groups")[0].slope_y[1] = kNan; });
   expect_refused_after(none, [](Forgery& f) { f.section<Group>("groups")[0].z[1] = kNan; });
-  expect_refused_after("expected an absent node", [](Forgery& f) { f.section<Group>("groups").back().slope_x[7] = 1; });
+  expect_refused_after("expected an absent node", [](Forgery& f) { f.section<Group>("groups").back().radius[7] = 1; });
   expect_refused_after("the mean radius is wrong", [](Forgery& f) { f.section<double>("mean_radii")[0] = 1; });
   expect_refused_after("the bounding sphere differs from that in the tree",
                        [](Forgery& f) { f.section<Leaf>("leaves")[2].bounds.x += 0.5F; });

@@ -146,14 +146,10 @@ TEST_P(EveryIsa, ClassifyComparesAllEightNodes) {
   std::size_t seen = 0;
   for (std::size_t round = 0; round < 300; ++round) {
     for (Group& group : groups) {
-      for (Group::Row* row : {&group.x, &group.y, &group.z, &group.radius, &group.slope_x, &group.slope_y,
-                              &group.slope_z, &group.offset}) {
+      for (Group::Row* row : {&group.x, &group.y, &group.z, &group.radius}) {
         for (float& value : *row) value = static_cast<float>(random.uniform(-1, 1));
       }
       for (float& radius : group.radius) radius = std::abs(radius) / 4;
-      for (float& offset : group.offset) {
-        offset = random.below(20) == 0 ? std::numeric_limits<float>::infinity() : std::abs(offset);
-      }
     }
     const Point center{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
     const double radius = round == 0 ? std::numeric_limits<double>::infinity() : random.uniform(0, 2);
@@ -163,7 +159,6 @@ TEST_P(EveryIsa, ClassifyComparesAllEightNodes) {
     for (std::size_t i = 0; i < groups.size(); ++i) {
       ASSERT_EQ(found[i].inside, expected[i].inside);
       ASSERT_EQ(found[i].intersecting, expected[i].intersecting);
-      ASSERT_EQ(found[i].may_have_minimum, expected[i].may_have_minimum);
       ASSERT_EQ(found[i].inside & found[i].intersecting, 0);
       seen += static_cast<std::size_t>(std::popcount(found[i].inside));
     }

@@ -16,8 +16,8 @@ void Reach::run(const Query& query) {
   constexpr double kLargeNodes = 2.5;  // chosen: larger ones hide which parts are connected within the ball
   const Home small = home_of(query, kSmallNodes);
   const Home large = home_of(query, kLargeNodes);
-  is_folded_ = large.level > small.level && !reach_from(large, query, small.level);
-  if (is_folded_ || large.level == small.level) static_cast<void>(reach_from(small, query, small.level));
+  const bool is_reached = large.level > small.level && reach_from(large, query, small.level);
+  if (!is_reached) static_cast<void>(reach_from(small, query, small.level));
   find_surface_leaves(query);
 }
 

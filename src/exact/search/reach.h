@@ -49,10 +49,9 @@ class Reach {
   [[nodiscard]] std::size_t place_of(LeafId leaf) const;
   static constexpr std::size_t kNoPlace = ~std::size_t{0};
 
-  /// Whether what was reached has more than a single sheet, see `run`.
-  [[nodiscard]] bool is_folded() const { return is_folded_; }
-
  private:
+  friend struct ReachAccess;  // for tests, which begin on every level
+
   /// A node over the query vertex.
   struct Home {
     std::size_t level;
@@ -71,7 +70,6 @@ class Reach {
   Descent descent_;
   std::vector<LeafSubset> surface_leaves_;
   std::vector<std::uint32_t> first_surface_leaf_;  // by group of leaves, if it has one
-  bool is_folded_ = false;
 };
 
 }  // namespace meshhood

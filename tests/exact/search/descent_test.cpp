@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The descent against brute force: whole nodes, leaves that intersect the surface, and nodes in doubt.
+// The descent against brute force: whole nodes, and leaves that intersect the surface.
 #include "exact/search/descent.h"
 
 #include <algorithm>
@@ -15,17 +15,16 @@
 namespace meshhood::test {
 namespace {
 
-constexpr SearchLimits kNoLimits{.enabled = false};
-
 /// A descent from the outward search on a level.
 struct Descended {
   Descended(const IndexView& index, const Kernels& kernels)
       : waves(index, kernels), states(index), descent(index, kernels) {}
 
-  [[nodiscard]] bool run(const IndexView& index, const Query& query, std::size_t level, const SearchLimits& limits) {
+  /// Gives up above `limited_above`, see `Descent::run`; never, if that is `level`.
+  [[nodiscard]] bool run(const IndexView& index, const Query& query, std::size_t level, std::size_t limited_above) {
     states.start(end_of_level(index, level));
     waves.run(nodes_above(index, query.leaf())[level], query.tree_ball, states);
-    return descent.run(level, waves.groups(), query, limits, 0, states);
+    return descent.run(level, waves.groups(), query, limited_above, states);
   }
 
   Waves waves;
@@ -42,7 +41,7 @@ TEST_P(DescentOnFamilies, WholeNodesAreInTheBallAndTheSurfaceHoldsTheRestOfWhatI
     Descended d(c.index, c.kernels);
     const std::size_t levels = nodes_above(c.index, c.query.leaf()).size();
     for (std::size_t level = 0; level < levels; ++level) {
-      ASSERT_TRUE(d.run(c.index, c.query, level, kNoLimits));
+      ASSERT_TRUE(d.run(c.index, c.query, level, level));
       Ids whole;
       for (const std::uint32_t group : d.descent.groups()) {
         append_vertices(c.index, group, d.states[group].whole, whole);
@@ -62,48 +61,7 @@ TEST_P(DescentOnFamilies, WholeNodesAreInTheBallAndTheSurfaceHoldsTheRestOfWhatI
   std::printf("%zu queries, %zu vertices in whole nodes\n", cases, inside_vertices);
 }
 
-TEST_P(DescentOnFamilies, EveryLocalMinimumThatIsReachedLiesInANodeInDoubt) {
-  std::size_t minima = 0;
-  for_each_search_case(GetParam(), scaled(30, 4), 4, [&](const SearchCase& c) {
-    if (!c.index.leaves[c.query.leaf()].connected) return;
-    Descended d(c.index, c.kernels);
-    ASSERT_TRUE(d.run(c.index, c.query, 0, kNoLimits));
-    for (const std::uint32_t group : d.descent.groups()) {
-      const GroupState& state = d.states[group];
-      Ids ids;
-      append_vertices(c.index, group, (state.whole | state.intersecting) & static_cast<NodeSet>(~state.in_doubt), ids);
-      for (const std::uint32_t w : in_ball(c, ids)) {
-        const auto& neighbors = c.oracle.neighbors(w);
-        const bool is_minimum = std::none_of(neighbors.begin(), neighbors.end(), [&](std::uint32_t u) {
-          return squared_distance_of(c, u) < squared_distance_of(c, w);
-        });
-        ASSERT_FALSE(is_minimum) << c.mesh.name << ": vertex " << w << " seen from " << c.query.vertex;
-        ++minima;
-      }
-    }
-  });
-  std::printf("%zu vertices outside of nodes in doubt\n", minima);
-}
-
 INSTANTIATE_TEST_SUITE_P(Families, DescentOnFamilies, testing::ValuesIn(families()), family_name);
-
-TEST(Descent, HasFewNodesInDoubtOnASmoothSurface) {
-  const TestMesh mesh = make_grid(120, 120, false);
-  const Index built = build(mesh.view());
-  const IndexView& index = IndexAccess::view(built);
-  const Query query(index, 60 * 120 + 60, RadiusBounds(index.frame, 40));
-  Descended d(index, portable_kernels());
-  ASSERT_TRUE(d.run(index, query, 1, SearchLimits{}));
-  std::size_t whole = 0;
-  std::size_t in_doubt = 0;
-  for (const std::uint32_t group : d.descent.groups()) {
-    whole += static_cast<std::size_t>(std::popcount(d.states[group].whole));
-    const unsigned known = d.states[group].whole | d.states[group].intersecting;
-    in_doubt += static_cast<std::size_t>(std::popcount(d.states[group].in_doubt & known));
-  }
-  EXPECT_GT(whole, 20U);
-  EXPECT_LT(in_doubt, 40U);
-}
 
 TEST(Descent, ManySheetsExceedTheLimitOfIntersectingNodes) {
   TestMesh mesh = make_grid(24, 24, false);
@@ -120,8 +78,10 @@ TEST(Descent, ManySheetsExceedTheLimitOfIntersectingNodes) {
   const Query query(index, 30 * 24 * 24 + 12 * 24 + 12, RadiusBounds(index.frame, 20));
   Descended d(index, portable_kernels());
   const std::size_t top = nodes_above(index, query.leaf()).size() - 1;
-  EXPECT_FALSE(d.run(index, query, top, SearchLimits{}));
-  EXPECT_TRUE(d.run(index, query, top, kNoLimits));
+  EXPECT_FALSE(d.run(index, query, top, 0));
+  EXPECT_TRUE(d.run(index, query, top, top));
+  const Query smaller(index, query.vertex, RadiusBounds(index.frame, 0.4));
+  EXPECT_TRUE(d.run(index, smaller, top, 0)) << "a ball that meets one sheet";
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "exact/search/group_states.h"
 
-#include <limits>
-
 #include <gtest/gtest.h>
 
 #include "exact/index_access.h"
@@ -16,20 +14,9 @@ TEST(GroupStates, OfAnEarlierQueryAreNotKnown) {
   const IndexView& index = IndexAccess::view(built);
   GroupStates states(index);
   states.start(index.records.size());
-  states.make(3).whole = 5;
+  states.set(3, {.whole = 5});
   EXPECT_TRUE(states.is_known(3));
   EXPECT_FALSE(states.is_known(4));
-  states.start(index.records.size());
-  EXPECT_FALSE(states.is_known(3));
-}
-
-TEST(GroupStates, AreClearedWhenTheQueryNumbersRunOut) {
-  const Index built = build(make_grid(40, 40, false).view());
-  const IndexView& index = IndexAccess::view(built);
-  GroupStates states(index);
-  states.start(index.records.size());
-  states.make(3).whole = 5;
-  states.set_query_number(std::numeric_limits<std::uint32_t>::max());
   states.start(index.records.size());
   EXPECT_FALSE(states.is_known(3));
 }
@@ -44,17 +31,14 @@ TEST(GroupStates, FindTheWholeNodeThatCoversANode) {
   GroupStates states(index);
   states.start(index.tree[2].first_group + index.tree[2].groups);
   EXPECT_EQ(states.whole_node(leaf), kNoNode);
-  states.make(top / kFanOut).whole = static_cast<NodeSet>(1U << top % kFanOut);
+  states.set(top / kFanOut, {.whole = static_cast<NodeSet>(1U << top % kFanOut)});
   EXPECT_EQ(states.whole_node(leaf), top);
-  EXPECT_FALSE(states.is_home(leaf));
-  states[top / kFanOut].home = static_cast<NodeSet>(1U << top % kFanOut);
-  EXPECT_TRUE(states.is_home(leaf));
   // A known group below says that the node above was refined.
-  states.make(leaf / kFanOut).intersecting = 0xFF;
+  states.set(leaf / kFanOut, {.intersecting = 0xFF});
   EXPECT_EQ(states.whole_node(leaf), kNoNode);
   // Levels above the outward search do not count.
   states.start(index.tree[1].first_group + index.tree[1].groups);
-  states.make(top / kFanOut).whole = 0xFF;
+  states.set(top / kFanOut, {.whole = 0xFF});
   EXPECT_EQ(states.whole_node(leaf), kNoNode);
 }
 

@@ -23,7 +23,7 @@ VertexSet draw_set(const IndexView& index, Random& random) {
     const LaneMask all = first_lanes(index.leaves[leaf].size);
     switch (random.below(4)) {
       case 0: set.add(VertexRange{index.leaf_begin[leaf], index.leaf_begin[leaf + 1]}); break;
-      case 1: set.add(LeafSubset{leaf, all}); break;
+      case 1: set.add_lanes(LeafSubset{leaf, all}); break;
       case 2: set.add(LeafSubset{leaf, (static_cast<LaneMask>(random.bits()) & all) | 1U}); break;
       default: break;
     }
@@ -35,6 +35,14 @@ void expect_output(const IndexView& index, const VertexSet& set, const Kernels& 
   std::vector<VertexId> expected;
   set.for_each([&](std::size_t v) { expected.push_back(index.id(v)); });
   ASSERT_EQ(set.count(), expected.size());
+
+  std::vector<VertexId> replaced{kUntouched};
+  replace_ids(set, index, kernels, replaced);
+  EXPECT_EQ(replaced, expected);
+  std::vector<VertexId> appended{kUntouched};
+  append_ids(set, index, kernels, appended);
+  EXPECT_EQ(appended.front(), kUntouched);
+  EXPECT_EQ(std::vector<VertexId>(appended.begin() + 1, appended.end()), expected);
 
   std::vector<VertexId> ids(set.count() + kLeafCapacity + 1, kUntouched);
   write_ids(set, index, kernels, ids.data());
@@ -79,6 +87,16 @@ TEST_P(Output, IdsOfAReorderedMeshAreTheIndexOrder) {
   const IndexView& view = IndexAccess::view(reordered.index);
   ASSERT_TRUE(view.permutation.empty());
   for (std::size_t round = 0; round < scaled(200, 20); ++round) expect_output(view, draw_set(view, random), tried);
+}
+
+TEST_P(Output, OfFewVerticesIsTheirIds) {
+  const Index index = build(renumbered(bumpy_grid(20), random.permutation(400)).view());
+  const IndexView& view = IndexAccess::view(index);
+  for (std::size_t vertices = 1; vertices <= 12; ++vertices) {
+    VertexSet set(view);
+    set.add(LeafSubset{2, first_lanes(static_cast<unsigned>(vertices)) << 1U});
+    expect_output(view, set, tried);
+  }
 }
 
 TEST_P(Output, OfAnEmptySetNothingIsWritten) {

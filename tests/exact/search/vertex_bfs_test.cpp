@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which balls a searcher answers by breadth-first search over vertices, and its answers there.
+// Which indexes are searched over vertices, and the answers there.
 #include "exact/search/vertex_bfs.h"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ TestMesh make_random_graph(std::size_t vertices, std::size_t edges) {
   return mesh;
 }
 
-bool is_odd(const TestMesh& mesh) {
+bool is_unlike(const TestMesh& mesh) {
   const Index index = build(mesh.view());
   return is_unlike_a_surface(IndexAccess::view(index));
 }
@@ -72,31 +72,30 @@ void expect_answers(Searcher& searcher, const Oracle& oracle, VertexId v, double
 
 class VertexBfsOnFamilies : public testing::TestWithParam<Family> {};
 
-TEST_P(VertexBfsOnFamilies, FindsTheNeighborhoodAndItsRanges) {
+TEST_P(VertexBfsOnFamilies, FindsTheNeighborhoodInIndexOrder) {
   std::size_t queries = 0;
   for (std::uint64_t seed = 0; seed < scaled(10, 2); ++seed) {
     const TestMesh mesh = make_mesh(GetParam(), seed, 300);
     if (mesh.size() == 0) continue;
     const Oracle oracle(mesh);
     const Index index = build(mesh.view());
-    VertexBfs bfs(IndexAccess::view(index));
-    bfs.answer_all();
+    const IndexView& view = IndexAccess::view(index);
+    VertexBfs bfs(view);
+    VertexSet answer(view);
     Random random(seed);
     for (int i = 0; i < 5; ++i) {
       const auto v = static_cast<VertexId>(random.below(mesh.size()));
       for (const double radius : draw_radii(random, oracle, v)) {
-        const std::span<const VertexId> found = bfs.find(v, radius);
-        ASSERT_EQ(sorted(Ids(found.begin(), found.end())), oracle.exact(v, radius))
-            << mesh.name << ": vertex " << v << ", radius " << radius;
-        Ids in_ranges;
-        std::size_t end = 0;
-        for (const VertexRange& range : bfs.ranges_of(found)) {
-          ASSERT_TRUE(in_ranges.empty() || range.begin > end) << "ranges ascend and do not touch";
-          ASSERT_LT(range.begin, range.end);
-          end = range.end;
-          for (std::size_t at = range.begin; at < end; ++at) in_ranges.push_back(index.permutation()[at]);
-        }
-        ASSERT_EQ(sorted(in_ranges), oracle.exact(v, radius));
+        answer.clear();
+        bfs.run(v, squared_radius(radius), answer);
+        Ids found;
+        std::size_t next = 0;
+        answer.for_each([&](std::size_t w) {
+          ASSERT_GE(w, next) << "not in index order";
+          next = w + 1;
+          found.push_back(view.id(w));
+        });
+        ASSERT_EQ(sorted(found), oracle.exact(v, radius)) << mesh.name << ": vertex " << v << ", radius " << radius;
         ++queries;
       }
     }
@@ -104,37 +103,29 @@ TEST_P(VertexBfsOnFamilies, FindsTheNeighborhoodAndItsRanges) {
   std::printf("%zu queries\n", queries);
 }
 
-/// Every kind of answer of one searcher in turn, so that the searches over vertices and over leaves mix.
-TEST_P(VertexBfsOnFamilies, AnswersOfASearcherOfASmallMeshAreThoseOfTheOracle) {
-  std::size_t over_vertices = 0;
-  std::size_t over_leaves = 0;
+/// Every kind of answer of one searcher in turn, so that searches of all ways mix.
+TEST_P(VertexBfsOnFamilies, AnswersOfASearcherAreThoseOfTheOracle) {
   for (std::uint64_t seed = 0; seed < scaled(8, 2); ++seed) {
     const TestMesh mesh = make_mesh(GetParam(), seed, 1000);
     if (mesh.size() == 0) continue;
     const Oracle oracle(mesh);
     const Index index = build(mesh.view());
     Searcher searcher(index);
-    VertexBfs& bfs = SearcherAccess::state(searcher).vertex_bfs;
     Random random(seed);
     for (std::size_t i = 0; i < 30; ++i) {
       const auto v = static_cast<VertexId>(random.below(mesh.size()));
-      for (const double radius : draw_radii(random, oracle, v)) {
-        expect_answers(searcher, oracle, v, radius);
-        const bool is_found = !bfs.find(v, radius).empty();
-        ++(is_found ? over_vertices : over_leaves);
-      }
+      for (const double radius : draw_radii(random, oracle, v)) expect_answers(searcher, oracle, v, radius);
+      ASSERT_FALSE(testing::Test::HasFailure()) << mesh.name;
     }
   }
-  std::printf("%zu queries over vertices, %zu over leaves\n", over_vertices, over_leaves);
-  EXPECT_EQ(over_vertices > 0, GetParam().name != "nothing");
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, VertexBfsOnFamilies, testing::ValuesIn(families()), family_name);
 
 TEST(VertexBfs, HubsAndRandomGraphsAreUnlikeASurface) {
-  for (const std::size_t hubs : {1U, 20U, 60U}) EXPECT_TRUE(is_odd(make_hubs(6000, hubs))) << hubs << " hubs";
+  for (const std::size_t hubs : {1U, 20U, 60U}) EXPECT_TRUE(is_unlike(make_hubs(6000, hubs))) << hubs << " hubs";
   for (const std::size_t degree : {2U, 6U, 20U}) {
-    EXPECT_TRUE(is_odd(make_random_graph(20'000, 10'000 * degree))) << "degree " << degree;
+    EXPECT_TRUE(is_unlike(make_random_graph(20'000, 10'000 * degree))) << "degree " << degree;
   }
 }
 
@@ -142,17 +133,17 @@ TEST(VertexBfs, ACombIsUnlikeASurface) {
   const std::vector<Family> all = families();
   const auto far_away = std::find_if(all.begin(), all.end(), [](const Family& f) { return f.name == "far away"; });
   ASSERT_NE(far_away, all.end());
-  EXPECT_TRUE(is_odd(make_mesh(*far_away, 1, 20'000))) << "a link of one edge for every four vertices";
+  EXPECT_TRUE(is_unlike(make_mesh(*far_away, 1, 20'000))) << "a link of one edge for every four vertices";
 }
 
 TEST(VertexBfs, SurfacesAndGraphsWithoutEdgesAreNotUnlikeASurface) {
   for (const Family& family : surface_families()) {
     for (const std::size_t vertices : {60U, 200U, 3000U}) {
-      EXPECT_FALSE(is_odd(make_mesh(family, 2, vertices))) << family.name << ", " << vertices << " vertices";
+      EXPECT_FALSE(is_unlike(make_mesh(family, 2, vertices))) << family.name << ", " << vertices << " vertices";
     }
   }
-  EXPECT_FALSE(is_odd(make_hubs(3000, 3000))) << "no edges";
-  EXPECT_FALSE(is_odd(TestMesh{}));
+  EXPECT_FALSE(is_unlike(make_hubs(3000, 3000))) << "no edges";
+  EXPECT_FALSE(is_unlike(TestMesh{}));
 }
 
 TEST(VertexBfs, GraphsOfFewLinksOrOfLinksWithManyEdgesAreNotUnlikeASurface) {
@@ -161,161 +152,44 @@ TEST(VertexBfs, GraphsOfFewLinksOrOfLinksWithManyEdgesAreNotUnlikeASurface) {
     path.add_vertex(i, 0, 0);
     if (i > 0) path.add_face({i - 1, i});
   }
-  EXPECT_FALSE(is_odd(path.finish(true))) << "links of one edge, but few";
-  EXPECT_FALSE(is_odd(make_random_graph(1000, 20'000))) << "many links, of many edges each";
+  EXPECT_FALSE(is_unlike(path.finish(true))) << "links of one edge, but few";
+  EXPECT_FALSE(is_unlike(make_random_graph(1000, 20'000))) << "many links, of many edges each";
 }
 
-TEST(VertexBfs, AnswersEveryBallWhereTheGraphIsUnlikeASurfaceOrHasNoEdgesOrSquaresUnderflow) {
+TEST(VertexBfs, AnswersEveryQueryWhereTheGraphIsUnlikeASurfaceOrHasNoEdgesOrSquaresUnderflow) {
   TestMesh vanishing = bumpy_grid(40);
   for (double& x : vanishing.positions) x *= 1e-160;
   for (const TestMesh& mesh : {make_hubs(2000, 3), make_random_graph(2000, 0), vanishing.finish(false)}) {
     const Index index = build(mesh.view());
-    VertexBfs bfs(IndexAccess::view(index));
-    EXPECT_TRUE(bfs.answers_all());
-    EXPECT_FALSE(bfs.find(0, 0).empty());
-    EXPECT_FALSE(bfs.find(0, kInfinity).empty());
+    EXPECT_TRUE(is_odd(IndexAccess::view(index)));
+    Searcher searcher(index);
+    for (const double radius : {0.0, 1e-161, 0.1, kInfinity}) {
+      EXPECT_GE(searcher.count(0, radius), 1U);
+      EXPECT_EQ(SearcherAccess::state(searcher).way, SearcherAccess::State::Way::VertexBfs);
+    }
   }
 }
 
-TEST(VertexBfs, LeavesAllBallsToTheSearchesOverLeavesWhereOneEdgeIsLeft) {
+TEST(VertexBfs, LeavesGraphsOfOneEdgeAndSurfacesToTheSearchesOverLeaves) {
   TestMesh mesh = make_random_graph(100'000, 0);
   mesh.add_face({99'999, 7});
   const Index index = build(mesh.view());
-  EXPECT_FALSE(VertexBfs(IndexAccess::view(index)).answers_all());
-}
-
-TEST(VertexBfs, AnswersSmallBallsOfASmallMeshOnceThereWereEnough) {
-  const TestMesh mesh = bumpy_grid(40);
-  const Index index = build(mesh.view());
-  VertexBfs bfs(IndexAccess::view(index));
-  EXPECT_FALSE(bfs.answers_all());
-  for (std::size_t i = 0; i < mesh.size() / VertexBfs::kVerticesPerBall; ++i) EXPECT_TRUE(bfs.find(0, 1).empty());
-  EXPECT_FALSE(bfs.find(0, 1).empty());
-  EXPECT_TRUE(bfs.find(0, 30).empty());
-}
-
-TEST(VertexBfs, LeavesAllBallsOfALargeMeshToTheSearchesOverLeaves) {
-  const TestMesh mesh = make_grid(257, 256, false);
-  ASSERT_GT(mesh.size(), VertexBfs::kSmallMesh);
-  const Index index = build(mesh.view());
-  VertexBfs bfs(IndexAccess::view(index));
-  bfs.record(0, 1, 1, 1);
-  for (std::size_t i = 0; i < mesh.size(); ++i) ASSERT_TRUE(bfs.find(0, 0.5).empty());
-}
-
-/// That has made its copy of the graph.
-VertexBfs prepared(const Index& index) {
-  VertexBfs bfs(IndexAccess::view(index));
-  for (std::size_t i = 0; i < index.vertex_count(); ++i) static_cast<void>(bfs.find(0, 0));
-  return bfs;
-}
-
-constexpr VertexId kCenter = 20 * 40 + 20;  // of `bumpy_grid(40)`
-
-TEST(VertexBfs, LearnsFromAnswersOverLeavesWhichBallsAreSmall) {
-  const TestMesh mesh = bumpy_grid(40);
-  const Index index = build(mesh.view());
-  VertexBfs bfs = prepared(index);
-  const double radius = 9;  // a quarter of a disk at the corner
-  constexpr std::size_t kVisits = 10;
-  constexpr std::size_t kMost = VertexBfs::kFewest + kVisits * VertexBfs::kByRows.vertices_per_leaf;
-  EXPECT_THAT(bfs.find(0, radius), testing::IsEmpty());
-  bfs.record(0, radius, kMost + 1, kVisits);
-  EXPECT_THAT(bfs.find(0, radius), testing::IsEmpty());
-  bfs.record(0, radius, kMost, kVisits);
-  EXPECT_THAT(bfs.find(0, radius), testing::Not(testing::IsEmpty()));
-  EXPECT_THAT(bfs.find(kCenter, radius), testing::IsEmpty()) << "nothing is known of another leaf";
-}
-
-TEST(VertexBfs, LearnsFromItsOwnAnswersWhichBallsAreLarge) {
-  const TestMesh mesh = bumpy_grid(40);
-  const Index index = build(mesh.view());
-  VertexBfs bfs = prepared(index);
-  bfs.record(kCenter, 9, 2, 1);
-  EXPECT_THAT(bfs.find(kCenter, 9), testing::Not(testing::IsEmpty())) << "found, although there are many";
-  EXPECT_THAT(bfs.find(kCenter, 9), testing::IsEmpty()) << "not tried again";
-  EXPECT_THAT(bfs.find(kCenter, 0), testing::SizeIs(1)) << "smaller balls are";
-  bfs.record(kCenter, kInfinity, 2, 1);
-  EXPECT_THAT(bfs.find(kCenter, kInfinity), testing::IsEmpty()) << "not completed";
-}
-
-TEST(VertexBfs, AsksTheSearchesOverLeavesAgainWhereTheRadiusIsAnother) {
-  const TestMesh mesh = bumpy_grid(40);
-  const Index index = build(mesh.view());
-  VertexBfs bfs = prepared(index);
-  bfs.record(kCenter, 30, mesh.size(), mesh.size());
-  for (int i = 0; i < 3; ++i) EXPECT_THAT(bfs.find(kCenter, 20), testing::Not(testing::IsEmpty()));
-  EXPECT_THAT(bfs.find(kCenter, 14), testing::SizeIs(testing::Gt(VertexBfs::kByRows.vertices)));
-  EXPECT_THAT(bfs.find(kCenter, 14), testing::IsEmpty());
-}
-
-TEST(VertexBfs, TakesFewerBallsForSmallWhereVerticesAreNotNumberedByRows) {
-  const TestMesh grid = bumpy_grid(40);
-  Random random(7);
-  const TestMesh shuffled = renumbered(grid, random.permutation(grid.size()));
-  const Index by_rows = build(grid.view());
-  const Index in_any_order = build(shuffled.view());
-  const auto largest = [](const Index& index) {
-    VertexBfs bfs = prepared(index);
-    double radius = 0;
-    while (!bfs.expects_many(0, radius)) radius += 0.01;
-    return radius;
-  };
-  EXPECT_LT(3 * largest(in_any_order), largest(by_rows));
-}
-
-TEST(VertexBfs, GridsAreNumberedByRowsAndShuffledOnesAreNot) {
-  const TestMesh grid = bumpy_grid(40);
-  Random random(7);
-  const auto is_by_rows = [](const TestMesh& mesh) {
-    const Adjacency graph = adjacency(mesh.view());
-    return is_numbered_by_rows(graph.view());
-  };
-  EXPECT_TRUE(is_by_rows(grid));
-  EXPECT_FALSE(is_by_rows(renumbered(grid, random.permutation(grid.size()))));
-  EXPECT_FALSE(is_by_rows(TestMesh{}));
+  EXPECT_FALSE(is_odd(IndexAccess::view(index)));
+  const Index grid = build(bumpy_grid(40).view());
+  EXPECT_FALSE(is_odd(IndexAccess::view(grid)));
+  const Index none = build(TestMesh{}.view());
+  EXPECT_FALSE(is_odd(IndexAccess::view(none)));
 }
 
 TEST(VertexBfs, RefusesWhatTheSearchesOverLeavesRefuse) {
-  const TestMesh mesh = bumpy_grid(10);
-  const Index index = build(mesh.view());
+  const Index index = build(make_hubs(100, 2).view());
   Searcher searcher(index);
-  for (VertexId v = 0; v < mesh.size(); ++v) static_cast<void>(searcher.count(v, 0.5));
   const auto count = [&](VertexId v, double radius) {
     return [&, v, radius] { static_cast<void>(searcher.count(v, radius)); };
   };
   expect_refused(ErrorCode::VertexOutOfRange, "vertex 100, but the mesh has 100 vertices", count(100, 0.5));
   expect_refused(ErrorCode::InvalidRadius, "radius -0.5, expected a number >= 0", count(0, -0.5));
   expect_refused(ErrorCode::InvalidRadius, "radius nan, expected a number >= 0", count(0, std::nan("")));
-}
-
-void expect_small_balls(const Index& index, const TestMesh& mesh) {
-  const Oracle oracle(mesh);
-  Searcher searcher(index);
-  for (VertexId v = 0; v < mesh.size(); ++v) expect_answers(searcher, oracle, v, 2.1);
-  EXPECT_FALSE(SearcherAccess::state(searcher).vertex_bfs.find(0, 2.1).empty());
-}
-
-TEST(VertexBfs, FollowsTheVerticesAfterARefit) {
-  const TestMesh before = bumpy_grid(12);
-  TestMesh after = before;
-  for (double& x : after.positions) x = 1.2 * std::round(x);
-  after.finish(before.single_precision);
-  std::vector<VertexId> all(before.size());
-  std::iota(all.begin(), all.end(), 0U);
-  Index index = build(before.view());
-  expect_small_balls(index, before);
-  expect_small_balls(refit(index, after.positions_view()), after);
-  index = refit(std::move(index), after.positions_view(), all);
-  expect_small_balls(index, after);
-}
-
-TEST(VertexBfs, AnswersOfALoadedAndOfAMappedIndexAreThoseOfTheOracle) {
-  const TestMesh mesh = bumpy_grid(12);
-  const std::vector<std::byte> bytes = saved(build(mesh.view()));
-  Mappable place(bytes);
-  expect_small_balls(load(bytes), mesh);
-  expect_small_balls(map(place.bytes(), nullptr), mesh);
 }
 
 void compare_answers(const TestMesh& mesh, const Index& index) {
@@ -344,6 +218,28 @@ TEST(VertexBfs, AnswersOfAReorderedIndexAreInItsOwnOrder) {
   std::vector<std::uint32_t> place(mesh.size());
   for (std::size_t i = 0; i < place.size(); ++i) place[reordered.permutation[i]] = static_cast<std::uint32_t>(i);
   compare_answers(renumbered(mesh, place), reordered.index);
+}
+
+TEST(VertexBfs, FollowsTheVerticesAfterARefit) {
+  const TestMesh before = make_hubs(1500, 2);
+  TestMesh after = before;
+  for (double& x : after.positions) x = std::round(3 * x) / 3;
+  after.finish(before.single_precision);
+  std::vector<VertexId> all(before.size());
+  std::iota(all.begin(), all.end(), 0U);
+  Index index = build(before.view());
+  compare_answers(before, index);
+  compare_answers(after, refit(index, after.positions_view()));
+  index = refit(std::move(index), after.positions_view(), all);
+  compare_answers(after, index);
+}
+
+TEST(VertexBfs, AnswersOfALoadedAndOfAMappedIndexAreThoseOfTheOracle) {
+  const TestMesh mesh = make_hubs(1500, 2);
+  const std::vector<std::byte> bytes = saved(build(mesh.view()));
+  Mappable place(bytes);
+  compare_answers(mesh, load(bytes));
+  compare_answers(mesh, map(place.bytes(), nullptr));
 }
 
 TEST(VertexBfs, SearchersOfSeveralThreadsShareOneGraph) {

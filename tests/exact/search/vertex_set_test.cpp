@@ -48,20 +48,12 @@ class VertexSetTest : public testing::Test {
         if (run.begin < run.end) set.add(run);  // not of leaves without vertices
         for (std::size_t v = run.begin; v < run.end; ++v) expected.insert(v);
       } else if (const LeafSubset subset{leaf, draw_lanes(leaf)}; subset.lanes != 0) {
-        set.add(subset);
+        set.add_lanes(subset);
         expected.merge(vertices_of(index, subset));
       }
       leaf = end + static_cast<LeafId>(random.below(3));
     }
     return expected;
-  }
-
-  std::vector<LeafSubset> draw_subsets() {
-    std::vector<LeafSubset> subsets;
-    for (LeafId leaf = 0; leaf < index.leaf_count(); ++leaf) {
-      if (random.below(3) == 0) subsets.push_back({leaf, draw_lanes(leaf)});
-    }
-    return subsets;
   }
 
   TestMesh mesh = make_grid(23, 29, false);
@@ -80,45 +72,114 @@ TEST_F(VertexSetTest, HoldsTheAddedVertices) {
   }
 }
 
-TEST_F(VertexSetTest, SubtractRemovesTheVerticesOfTheSubsets) {
-  VertexSet set(index);
-  for (std::size_t round = 0; round < scaled(2000, 100); ++round) {
-    set.clear();
-    Vertices expected = fill(set);
-    const std::vector<LeafSubset> others = draw_subsets();
-    for (const LeafSubset& other : others) {
-      for (const std::size_t v : vertices_of(index, other)) expected.erase(v);
-    }
-    set.subtract(others);
-    ASSERT_EQ(vertices_of(set), expected);
-    ASSERT_EQ(set.count(), expected.size());
-  }
-}
-
-TEST_F(VertexSetTest, SubtractingNothingOrEverything) {
-  VertexSet set(index);
-  const Vertices expected = fill(set);
-  set.subtract({});
-  EXPECT_EQ(vertices_of(set), expected);
-  std::vector<LeafSubset> all;
-  for (LeafId leaf = 0; leaf < index.leaf_count(); ++leaf) all.push_back({leaf, all_lanes(leaf)});
-  set.subtract(all);
-  EXPECT_EQ(set.count(), 0U);
-  EXPECT_THAT(set.runs(), testing::IsEmpty());
-  EXPECT_THAT(set.subsets(), testing::IsEmpty());
-}
-
-TEST_F(VertexSetTest, AllAsRunsAreTheSameVerticesInRunsThatAreNotEmpty) {
+TEST_F(VertexSetTest, ListsThemInIndexOrderInRunsThatDoNotTouch) {
   VertexSet set(index);
   for (std::size_t round = 0; round < scaled(2000, 100); ++round) {
     set.clear();
     const Vertices expected = fill(set);
-    Vertices found;
-    for (const VertexRange& run : set.all_as_runs()) {
-      ASSERT_LT(run.begin, run.end);
-      for (std::size_t v = run.begin; v < run.end; ++v) ASSERT_TRUE(found.insert(v).second);
+    std::vector<std::size_t> listed;
+    set.for_each([&](std::size_t v) { listed.push_back(v); });
+    ASSERT_THAT(listed, testing::ElementsAreArray(expected));
+    for (std::size_t i = 1; i < set.parts().size(); ++i) {
+      const VertexSet::Part& before = set.parts()[i - 1];
+      const VertexSet::Part& part = set.parts()[i];
+      ASSERT_LE(before.end, part.begin);
+      ASSERT_FALSE(before.is_run() && part.is_run() && before.end == part.begin);
     }
-    ASSERT_EQ(found, expected);
+  }
+}
+
+TEST_F(VertexSetTest, AddLanesMakesARunOfAWholeLeaf) {
+  VertexSet set(index);
+  set.add_lanes({1, all_lanes(1)});
+  set.add_lanes({2, all_lanes(2)});
+  set.add_lanes({3, 5});
+  ASSERT_EQ(set.parts().size(), 2U);
+  EXPECT_EQ(set.parts()[0].begin, index.leaf_begin[1]);
+  EXPECT_EQ(set.parts()[0].end, index.leaf_begin[3]);
+  EXPECT_TRUE(set.parts()[0].is_run());
+  EXPECT_EQ(set.parts()[1].lanes, 5U);
+}
+
+TEST_F(VertexSetTest, AddsUnderAConditionOnly) {
+  VertexSet set(index);
+  set.make_room(4);
+  set.add_if(true, {0, 10}, 0);
+  set.add_if(false, {10, 20}, 0);
+  set.add_if(true, {20, 30}, 3);
+  set.add_if(false, {30, 40}, 1);
+  EXPECT_EQ(set.count(), 12U);
+  set.add_if(true, {30, 40}, 0);
+  EXPECT_EQ(set.parts().size(), 3U) << "a run does not become a part of a subset";
+}
+
+TEST_F(VertexSetTest, AssignTakesSubsetsInAnyOrderAndLeavesSeveralTimes) {
+  VertexSet set(index);
+  std::size_t several = 0;
+  for (std::size_t round = 0; round < scaled(2000, 100); ++round) {
+    Vertices expected;
+    std::vector<LeafSubset> subsets;
+    for (std::size_t i = random.below(30); i > 0; --i) {
+      const auto leaf = static_cast<LeafId>(random.below(index.leaf_count()));
+      const LeafSubset subset{leaf, draw_lanes(leaf)};
+      if (subset.lanes == 0) continue;
+      const std::size_t before = expected.size();
+      expected.merge(vertices_of(index, subset));
+      several += static_cast<std::size_t>(expected.size() < before + count_of(subset.lanes));
+      subsets.push_back(subset);
+    }
+    set.assign(subsets);
+    std::vector<std::size_t> listed;
+    set.for_each([&](std::size_t v) { listed.push_back(v); });
+    ASSERT_THAT(listed, testing::ElementsAreArray(expected));
+    ASSERT_EQ(set.count(), expected.size());
+  }
+  EXPECT_GT(several, 0U) << "subsets that overlap";
+}
+
+TEST_F(VertexSetTest, DifferenceHasTheVerticesThatThePartDoesNotHave) {
+  VertexSet all(index);
+  VertexSet part(index);
+  VertexSet rest(index);
+  for (std::size_t round = 0; round < scaled(4000, 200); ++round) {
+    all.clear();
+    Vertices expected = fill(all);
+    // Leaf by leaf, so that runs are cut within and at their ends.
+    std::vector<LeafSubset> subsets;
+    const std::size_t rarity = 1 + random.below(4);
+    for (LeafId leaf = 0; leaf < index.leaf_count(); ++leaf) {
+      LaneMask lanes = random.below(rarity) == 0 ? draw_lanes(leaf) : 0;
+      for_each_lane(lanes, [&](unsigned lane) {
+        if (expected.erase(index.leaf_begin[leaf] + lane) == 0) lanes &= ~(LaneMask{1} << lane);
+      });
+      if (lanes != 0) subsets.push_back({leaf, lanes});
+    }
+    part.assign(subsets);
+    rest.assign_difference(all, part);
+    std::vector<std::size_t> listed;
+    rest.for_each([&](std::size_t v) { listed.push_back(v); });
+    ASSERT_THAT(listed, testing::ElementsAreArray(expected));
+    ASSERT_EQ(rest.count(), expected.size());
+  }
+  rest.assign_difference(all, all);
+  EXPECT_EQ(rest.count(), 0U);
+  EXPECT_THAT(rest.parts(), testing::IsEmpty());
+}
+
+TEST_F(VertexSetTest, RangesAreTheSameVerticesInAsFewAsPossible) {
+  VertexSet set(index);
+  for (std::size_t round = 0; round < scaled(2000, 100); ++round) {
+    set.clear();
+    const Vertices expected = fill(set);
+    std::vector<std::size_t> listed;
+    std::size_t end = 0;
+    for (const VertexRange& range : set.ranges()) {
+      ASSERT_LT(range.begin, range.end);
+      ASSERT_TRUE(listed.empty() || range.begin > end) << "two ranges that touch";
+      end = range.end;
+      for (std::size_t v = range.begin; v < range.end; ++v) listed.push_back(v);
+    }
+    ASSERT_THAT(listed, testing::ElementsAreArray(expected));
   }
 }
 

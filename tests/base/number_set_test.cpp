@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Sets of numbers against std::set.
+#include "base/number_set.h"
+
+#include <set>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/random.h"
+
+namespace meshhood::test {
+namespace {
+
+std::vector<std::size_t> taken(NumberSet& set) {
+  std::vector<std::size_t> numbers;
+  set.take_all([&](std::size_t number) { numbers.push_back(number); });
+  return numbers;
+}
+
+TEST(NumberSet, ListsItsNumbersOnceAscendingAndIsEmptyThen) {
+  Random random(2);
+  for (const std::size_t bound : {1U, 63U, 64U, 65U, 4095U, 4096U, 4097U, 8192U, 300'000U}) {
+    NumberSet set(bound);
+    for (int round = 0; round < 20; ++round) {
+      std::set<std::size_t> expected{bound - 1};
+      set.insert(bound - 1);
+      for (int i = 0; i < 60; ++i) {
+        const std::size_t number = random.below(bound);
+        set.insert(number);
+        expected.insert(number);
+      }
+      ASSERT_THAT(taken(set), testing::ElementsAreArray(expected)) << bound;
+      ASSERT_THAT(taken(set), testing::IsEmpty()) << bound;
+    }
+  }
+}
+
+TEST(NumberSet, HasEveryNumberBelowItsBound) {
+  constexpr std::size_t kBound = 2 * 4096 + 130;
+  NumberSet set(kBound);
+  std::vector<std::size_t> all;
+  for (std::size_t number = 0; number < kBound; ++number) all.push_back(number);
+  for (auto number = all.rbegin(); number != all.rend(); ++number) set.insert(*number);
+  EXPECT_EQ(taken(set), all);
+}
+
+TEST(NumberSet, IsEmptyOnceCleared) {
+  NumberSet set(10'000);
+  for (const std::size_t number : {0U, 63U, 64U, 4096U, 9999U}) set.insert(number);
+  set.clear();
+  EXPECT_THAT(taken(set), testing::IsEmpty());
+  set.insert(5000);
+  EXPECT_THAT(taken(set), testing::ElementsAre(5000));
+}
+
+}  // namespace
+}  // namespace meshhood::test

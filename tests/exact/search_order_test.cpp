@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+// An answer depends on index, vertex and radius alone, bit for bit: the ids in index order, their distances, ranges and
+// count. The same queries are asked in many orders, after long histories, by several threads, one by one and in
+// batches.
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <thread>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/batch.h"
+#include "meshhood/region.h"
+#include "meshhood/reorder.h"
+#include "meshhood/serialize.h"
+
+#include "support/draw.h"
+#include "support/exact_answer.h"
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/folded_sheet.h"
+#include "support/index_bytes.h"
+#include "support/oracle.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+struct Asked {
+  VertexId v;
+  double radius;
+};
+
+struct Answer {
+  std::vector<VertexId> ids;
+  std::vector<double> distances;
+
+  friend bool operator==(const Answer&, const Answer&) = default;
+};
+
+Answer ask(Searcher& searcher, const Asked& asked) {
+  Answer answer;
+  searcher.neighborhood(asked.v, asked.radius, answer.ids, answer.distances);
+  return answer;
+}
+
+/// The places of the caller's vertices in index order.
+std::vector<std::size_t> places_of(const Index& index) {
+  std::vector<std::size_t> places(index.vertex_count());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    places[index.permutation().empty() ? i : index.permutation()[i]] = i;
+  }
+  return places;
+}
+
+/// What the oracle finds, in index order.
+Answer expected_answer(const Oracle& oracle, const std::vector<std::size_t>& places, const Asked& asked) {
+  Answer answer;
+  answer.ids = oracle.exact(asked.v, asked.radius);
+  std::ranges::sort(answer.ids, {}, [&](VertexId w) { return places[w]; });
+  for (const VertexId w : answer.ids) answer.distances.push_back(oracle.distance(asked.v, w));
+  return answer;
+}
+
+/// Queries of a mesh with their answers.
+struct Questions {
+  std::vector<Asked> asked;
+  std::vector<Answer> answers;
+
+  Questions(const TestMesh& mesh, const Index& index, std::uint64_t seed, std::size_t vertices) {
+    const Oracle oracle(mesh);
+    const std::vector<std::size_t> places = places_of(index);
+    Random random(seed);
+    for (std::size_t i = 0; i < vertices; ++i) {
+      const auto v = static_cast<VertexId>(random.below(mesh.size()));
+      for (const double radius : draw_radii(random, oracle, v)) asked.push_back({v, radius});
+    }
+    for (const Asked& one : asked) answers.push_back(expected_answer(oracle, places, one));
+  }
+
+  /// Compares all kinds of answer of a searcher to the query `i`.
+  void expect(Searcher& searcher, const Index& index, std::size_t i) const {
+    ASSERT_EQ(ask(searcher, asked[i]), answers[i]) << "vertex " << asked[i].v << ", radius " << asked[i].radius;
+    std::vector<VertexId> ids;
+    searcher.neighborhood(asked[i].v, asked[i].radius, ids);
+    ASSERT_EQ(ids, answers[i].ids);
+    ASSERT_EQ(searcher.count(asked[i].v, asked[i].radius), ids.size());
+    ids.clear();
+    for (const VertexRange& range : searcher.ranges(asked[i].v, asked[i].radius)) {
+      for (std::size_t at = range.begin; at < range.end; ++at) {
+        ids.push_back(index.permutation().empty() ? static_cast<VertexId>(at) : index.permutation()[at]);
+      }
+    }
+    ASSERT_EQ(ids, answers[i].ids) << "ranges are not in index order";
+  }
+};
+
+/// The numbers of all queries in several orders.
+std::vector<std::vector<std::uint32_t>> orders_of(std::size_t queries, Random& random) {
+  std::vector<std::vector<std::uint32_t>> orders(1);
+  for (std::uint32_t i = 0; i < queries; ++i) orders[0].push_back(i);
+  orders.push_back({orders[0].rbegin(), orders[0].rend()});
+  for (int i = 0; i < 2; ++i) orders.push_back(random.permutation(queries));
+  return orders;
+}
+
+/// Larger than those of families, so that queries are answered in every way.
+TestMesh folded() { return make_folded_sheet(60, 0.5); }
+
+class OneOrder : public testing::TestWithParam<Family> {
+ protected:
+  /// Calls `f(mesh, index, questions)` for some meshes of the family.
+  template <class F>
+  void for_each_mesh(F&& f) {
+    for (std::uint64_t seed = 0; seed < scaled(6, 2); ++seed) {
+      const TestMesh mesh = make_mesh(GetParam(), seed, seed == 0 ? 1500 : 300);
+      if (mesh.size() == 0) continue;
+      const Index index = build(mesh.view());
+      f(mesh, index, Questions(mesh, index, seed, scaled(6, 2)));
+      if (HasFatalFailure()) return;
+    }
+  }
+};
+
+TEST_P(OneOrder, OfFreshAndUsedSearchersWhateverWasAskedBefore) {
+  std::size_t compared = 0;
+  for_each_mesh([&](const TestMesh& mesh, const Index& index, const Questions& questions) {
+    Random random(8);
+    std::vector<Searcher> used = searchers_of(index);
+    std::vector<VertexId> ids;
+    for (Searcher& searcher : used) {
+      for (std::size_t i = 0; i < scaled(300, 30); ++i) {
+        searcher.neighborhood(static_cast<VertexId>(random.below(mesh.size())),
+                              questions.asked[0].radius + random.uniform(0, 5), ids);
+      }
+      for (const auto& order : orders_of(questions.asked.size(), random)) {
+        for (const std::uint32_t i : order) questions.expect(searcher, index, i);
+        compared += order.size();
+      }
+    }
+    for (std::size_t i = 0; i < questions.asked.size(); ++i) {
+      Searcher fresh(index);
+      ASSERT_EQ(ask(fresh, questions.asked[i]), questions.answers[i]);
+    }
+  });
+  std::printf("%zu answers\n", compared);
+}
+
+TEST_P(OneOrder, OfBatchesStreamsAndRegions) {
+  for_each_mesh([&](const TestMesh&, const Index& index, const Questions& questions) {
+    std::vector<VertexId> vertices;
+    std::vector<double> radii;
+    for (const Asked& asked : questions.asked) {
+      vertices.push_back(asked.v);
+      radii.push_back(asked.radius);
+    }
+    const BatchQuery query{.vertices = vertices, .radius = radii};
+    for (const unsigned threads : {1U, 3U}) {
+      const Neighborhoods all = neighborhoods(index, query, {.threads = threads, .distances = true});
+      for (const bool in_index_order : {false, true}) {
+        std::size_t rows = 0;
+        for_each_neighborhood(
+            index, query,
+            [&](const BatchRow& row) {
+              ASSERT_THAT(row.ids, testing::ElementsAreArray(questions.answers[row.row].ids)) << "row " << row.row;
+              ASSERT_THAT(row.distances, testing::ElementsAreArray(questions.answers[row.row].distances));
+              ++rows;
+            },
+            {.threads = threads, .distances = true, .in_index_order = in_index_order, .buffer_bytes = 1000});
+        ASSERT_EQ(rows, questions.asked.size());
+      }
+      for (std::size_t i = 0; i < questions.asked.size(); ++i) {
+        const Answer found{{all.ids.begin() + static_cast<std::ptrdiff_t>(all.offsets[i]),
+                            all.ids.begin() + static_cast<std::ptrdiff_t>(all.offsets[i + 1])},
+                           {all.distances.begin() + static_cast<std::ptrdiff_t>(all.offsets[i]),
+                            all.distances.begin() + static_cast<std::ptrdiff_t>(all.offsets[i + 1])}};
+        ASSERT_EQ(found, questions.answers[i]) << "row " << i;
+      }
+    }
+    RegionSearcher regions(index);
+    const std::vector<std::uint8_t> none(index.vertex_count());
+    for (std::size_t i = 0; i < questions.asked.size(); ++i) {
+      const auto& [v, radius] = questions.asked[i];
+      Answer found;
+      regions.region(v, radius, found.ids, found.distances);
+      ASSERT_EQ(found, questions.answers[i]) << "region " << i;
+      // A filter that excludes nothing, by the other search.
+      regions.region(v, radius, found.ids, found.distances, {.walls = none});
+      ASSERT_EQ(found, questions.answers[i]) << "filtered region " << i;
+      const Dab dab{v, radius};
+      regions.stroke(std::span(&dab, 1), found.ids);
+      ASSERT_EQ(found.ids, questions.answers[i].ids) << "stroke " << i;
+    }
+  });
+}
+
+TEST_P(OneOrder, OfNestedRadiiRingByRing) {
+  std::size_t rings = 0;
+  for_each_mesh([&](const TestMesh& mesh, const Index& index, const Questions& questions) {
+    const std::vector<std::size_t> places = places_of(index);
+    const Oracle oracle(mesh);
+    RegionSearcher regions(index);
+    const std::vector<std::uint8_t> none(index.vertex_count());
+    std::vector<VertexId> ids;
+    std::vector<std::size_t> counts;
+    for (std::size_t i = 0; i < questions.asked.size(); i += 7) {
+      const VertexId v = questions.asked[i].v;
+      std::vector<double> radii;
+      for (const Asked& asked : questions.asked) radii.push_back(asked.radius);
+      std::ranges::sort(radii);
+      radii.erase(std::ranges::unique(radii).begin(), radii.end());
+      for (const bool is_filtered : {false, true}) {
+        regions.nested(v, radii, ids, counts, is_filtered ? Filter{.walls = none} : Filter{});
+        ASSERT_EQ(counts.size(), radii.size());
+        std::vector<VertexId> before;
+        for (std::size_t k = 0; k < radii.size(); ++k, ++rings) {
+          const std::vector<VertexId> all = oracle.exact(v, radii[k]);
+          std::vector<VertexId> ring;
+          std::ranges::set_difference(all, before, std::back_inserter(ring));
+          std::ranges::sort(ring, {}, [&](VertexId w) { return places[w]; });
+          const auto begin = ids.begin() + static_cast<std::ptrdiff_t>(k == 0 ? 0 : counts[k - 1]);
+          ASSERT_EQ(std::vector<VertexId>(begin, ids.begin() + static_cast<std::ptrdiff_t>(counts[k])), ring)
+              << mesh.name << ": vertex " << v << ", radius " << radii[k];
+          before = all;
+        }
+      }
+    }
+  });
+  std::printf("%zu rings\n", rings);
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, OneOrder, testing::ValuesIn(families()), family_name);
+
+TEST(SearchOrder, IsThatOfTheIndexInEveryWayToAnswer) {
+  const TestMesh mesh = folded();
+  const Index index = build(mesh.view());
+  const Questions questions(mesh, index, 3, scaled(40, 10));
+  std::vector<std::size_t> ways(4);
+  for (Searcher& searcher : searchers_of(index)) {
+    for (std::size_t i = 0; i < questions.asked.size(); ++i) {
+      questions.expect(searcher, index, i);
+      ++ways[static_cast<std::size_t>(SearcherAccess::state(searcher).way)];
+    }
+  }
+  using Way = SearcherAccess::State::Way;
+  for (const Way way : {Way::FewLeaves, Way::LeafBfs, Way::Component}) {
+    EXPECT_GT(ways[static_cast<std::size_t>(way)], 0U);
+  }
+}
+
+TEST(SearchOrder, IsTheSameInEveryThread) {
+  const TestMesh mesh = folded();
+  const Index index = build(mesh.view());
+  const Questions questions(mesh, index, 4, scaled(30, 8));
+  std::vector<std::size_t> wrong(4);
+  std::vector<std::thread> threads;
+  for (std::size_t t = 0; t < wrong.size(); ++t) {
+    threads.emplace_back([&, t] {
+      Random random(t);
+      Searcher searcher(index);
+      for (const auto& order : orders_of(questions.asked.size(), random)) {
+        for (const std::uint32_t i : order) {
+          wrong[t] += static_cast<std::size_t>(ask(searcher, questions.asked[i]) != questions.answers[i]);
+        }
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_THAT(wrong, testing::Each(0U));
+}
+
+TEST(SearchOrder, IsTheSameAfterSavingAndLoading) {
+  const TestMesh mesh = folded();
+  const Index index = build(mesh.view());
+  const Questions questions(mesh, index, 5, scaled(30, 8));
+  const Index loaded = load(saved(index));
+  Searcher searcher(loaded);
+  for (std::size_t i = 0; i < questions.asked.size(); ++i) questions.expect(searcher, loaded, i);
+}
+
+TEST(SearchOrder, OfAReorderedMeshIsAscending) {
+  const TestMesh mesh = folded();
+  const ReorderedMesh reordered = reorder(mesh.view());
+  Searcher searcher(reordered.index);
+  RegionSearcher regions(reordered.index);
+  Random random(6);
+  std::vector<VertexId> ids;
+  for (std::size_t i = 0; i < scaled(500, 50); ++i) {
+    const auto v = static_cast<VertexId>(random.below(mesh.size()));
+    const double radius = random.uniform(0, 60);
+    searcher.neighborhood(v, radius, ids);
+    ASSERT_TRUE(std::ranges::is_sorted(ids));
+    regions.region(v, radius, ids);
+    ASSERT_TRUE(std::ranges::is_sorted(ids));
+  }
+}
+
+}  // namespace
+}  // namespace meshhood::test

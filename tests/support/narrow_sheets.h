@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "support/families.h"
+
+/// Flat sheets whose parts are joined by a narrow way, or far from the query vertex.
+namespace meshhood::test {
+
+/// The part of a grid of `rows` by `columns` vertices where `is_there(x, y)`.
+template <class IsThere>
+TestMesh cut_grid(std::uint32_t columns, std::uint32_t rows, IsThere&& is_there) {
+  const TestMesh grid = make_grid(columns, rows, false);
+  const auto is_kept = [&](std::uint32_t v) { return is_there(v % columns, v / columns); };
+  TestMesh mesh;
+  std::vector<std::uint32_t> ids(grid.size());
+  for (std::uint32_t v = 0; v < grid.size(); ++v) {
+    if (is_kept(v))
+      ids[v] = mesh.add_vertex(grid.positions[3 * std::size_t{v}], grid.positions[3 * std::size_t{v} + 1], 0);
+  }
+  for (std::size_t f = 0; f < grid.face_count(); ++f) {
+    const auto face = grid.face(f);
+    if (std::all_of(face.begin(), face.end(), is_kept)) mesh.add_face({ids[face[0]], ids[face[1]], ids[face[2]]});
+  }
+  return mesh.finish(true);
+}
+
+/// A strip of `width` by `length` vertices, and another one beside it, joined at one end: like a hairpin.
+inline TestMesh make_hairpin(std::uint32_t width, std::uint32_t gap, std::uint32_t length) {
+  return cut_grid(2 * width + gap, length, [=](std::uint32_t x, std::uint32_t y) {
+    return x < width || x >= width + gap || y >= length - width;
+  });
+}
+
+/// Two square pads, joined by a narrow bridge, from whose middle a long tail leads away.
+inline TestMesh make_bridged_pads() {
+  return cut_grid(91, 261, [](std::uint32_t x, std::uint32_t y) {
+    const bool in_pad = y <= 40 && (x <= 40 || x >= 50);
+    const bool in_bridge = y >= 20 && y <= 22;
+    const bool in_tail = x >= 44 && x <= 46 && y >= 22;
+    return in_pad || (in_bridge && y <= 22) || in_tail;
+  });
+}
+
+}  // namespace meshhood::test
