@@ -29,9 +29,11 @@ std::vector<double> lengths_of(const Adjacency& edges, std::span<const Real> xyz
 }  // namespace
 
 WeightedGraph make_weighted_graph(const IndexView& index) {
+  // Each edge is gathered at its end: edges are visited leaf by leaf, ascending, so that rows ascend.
   Adjacency edges = gather_rows(index.vertex_count(), [&](auto&& f) {
+    // mutant: rows-of-a-graph-do-not-ascend
     for_each_edge(index,
-                  [&](std::size_t from, std::size_t to) { f(static_cast<VertexId>(from), static_cast<VertexId>(to)); });
+                  [&](std::size_t from, std::size_t to) { f(static_cast<VertexId>(to), static_cast<VertexId>(from)); });
   });
   std::vector<double> lengths = std::visit([&](auto xyz) { return lengths_of(edges, xyz); }, index.positions);
   return {std::move(edges), std::move(lengths)};

@@ -25,13 +25,18 @@ struct ReachAccess {
 };
 
 struct HomeMarksAccess {
-  /// Marks only what `HomeMarks::spread` begins with, so that all else is open.
+  /// Marks only what `HomeMarks::spread` begins with, and what is linked with that in its group, so that all else is
+  /// open.
   static void begin(HomeMarks& marks, const Query& query, Reach& reach) {
     marks.states_ = &reach.states();
     marks.leaves_.clear();
     for (const std::uint32_t group : reach.groups()) reach.states()[group].home = 0;
     marks.begin(query, reach);
-    for (const std::uint32_t group : reach.groups()) marks.leaves_.add(group, reach.states()[group].home);
+    for (const std::uint32_t group : reach.groups()) {
+      GroupState& state = reach.states()[group];
+      state.home = reachable_nodes(marks.index_->records[group].linked, state.home, state.whole);
+      marks.leaves_.add(group, state.home);
+    }
     marks.keep_open(reach.groups());
     const std::span<const LeafSubset> leaves = reach.surface_leaves();
     marks.lanes_.assign(leaves.size() + 1, 0);

@@ -80,8 +80,12 @@ TEST(Descent, ManySheetsExceedTheLimitOfIntersectingNodes) {
   const std::size_t top = nodes_above(index, query.leaf()).size() - 1;
   EXPECT_FALSE(d.run(index, query, top, 0));
   EXPECT_TRUE(d.run(index, query, top, top));
-  const Query smaller(index, query.vertex, RadiusBounds(index.frame, 0.4));
-  EXPECT_TRUE(d.run(index, smaller, top, 0)) << "a ball that meets one sheet";
+  const TestMesh sheet = make_grid(120, 120, false);
+  const Index single = build(sheet.view());
+  const IndexView& one = IndexAccess::view(single);
+  const Query on_one(one, 60 * 120 + 60, RadiusBounds(one.frame, 20));
+  Descended one_sheet(one, portable_kernels());
+  EXPECT_TRUE(one_sheet.run(one, on_one, 1, 0));
 }
 
 }  // namespace

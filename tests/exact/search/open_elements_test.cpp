@@ -48,7 +48,6 @@ TEST_P(OpenElementsOnFamilies, FindTheAnswerWithoutTheHelpOfHomeMarks) {
         ASSERT_FALSE(testing::Test::HasFailure());
       });
   std::printf("%zu searches, %zu vertices marked\n", searches, marked);
-  EXPECT_TRUE(searches == 0 || marked > 0 || GetParam().name == "no edges");
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, OpenElementsOnFamilies, testing::ValuesIn(families()), family_name);
