@@ -245,7 +245,7 @@ TEST(SearchOrder, IsThatOfTheIndexInEveryWayToAnswer) {
     }
   }
   using Way = SearcherAccess::State::Way;
-  for (const Way way : {Way::FewLeaves, Way::LeafBfs, Way::Component}) {
+  for (const Way way : {Way::Alone, Way::LeafBfs, Way::Component}) {
     EXPECT_GT(ways[static_cast<std::size_t>(way)], 0U);
   }
 }
