@@ -14,10 +14,10 @@
 
 namespace meshhood {
 
-/// Completes the home marks by union-find. An *element* is a whole node without a mark, or a *piece*: vertices of a
-/// surface leaf in the ball that have no mark and are connected within the leaf. All that is marked is one element,
-/// too. Two elements are united if an edge of the mesh joins them. What is then united with the marked element is
-/// marked.
+/// Completes the home marks by union-find over the open elements: whole nodes without a mark, and pieces without one,
+/// which are vertices of a surface leaf in the ball that are connected within the leaf. All that is marked is one more
+/// element. Two elements are united if an edge of the mesh joins them. What is then united with the marked element is
+/// marked. docs/design.md says why no link is missed.
 ///
 /// A link between nodes is listed at both if they are of one level; and a node sees a larger one that covers the other
 /// end of its link. It does not see smaller ones, so these are visited instead (`unite_beside`).
