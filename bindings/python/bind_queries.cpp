@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -44,13 +43,19 @@ std::span<const VertexId> ids_of(const std::int32_t* first, std::size_t count) {
   return {reinterpret_cast<const VertexId*>(first), count};
 }
 
-Start start_of(const SpacePoint& center, const Seeds& seeds) { return {center, ids_of(seeds.data(), seeds.size())}; }
+/// The center of a point, or none: then the start is the vertex `seeds[0]`.
+using Center = std::optional<SpacePoint>;
+
+Start start_of(const Center& center, const Seeds& seeds) {
+  const std::span<const VertexId> ids = ids_of(seeds.data(), seeds.size());
+  return center ? Start(*center, ids) : Start(ids.front());
+}
 
 SpacePoint point_of(const Points& points, std::size_t i) {
   return {points.data()[3 * i], points.data()[3 * i + 1], points.data()[3 * i + 2]};
 }
 
-auto region(Queries& queries, const SpacePoint& center, const Seeds& seeds, double radius, const Mask& walls,
+auto region(Queries& queries, const Center& center, const Seeds& seeds, double radius, const Mask& walls,
             const Mask& ignored) {
   std::vector<VertexId> ids;
   std::vector<double> distances;
@@ -89,7 +94,7 @@ Output<std::int32_t> stroke(Queries& queries, const Points& centers, const SeedR
   return owned<std::int32_t>(std::move(ids));
 }
 
-auto nested(Queries& queries, const SpacePoint& center, const Seeds& seeds, const Reals& radii, const Mask& walls,
+auto nested(Queries& queries, const Center& center, const Seeds& seeds, const Reals& radii, const Mask& walls,
             const Mask& ignored) {
   std::vector<VertexId> ids;
   std::vector<std::size_t> counts;
@@ -101,21 +106,21 @@ auto nested(Queries& queries, const SpacePoint& center, const Seeds& seeds, cons
   return std::pair(owned<std::int64_t>(std::move(counts)), owned<std::int32_t>(std::move(ids)));
 }
 
-bool contains(Queries& queries, const SpacePoint& center, const Seeds& seeds, VertexId w, double radius,
-              const Mask& walls, const Mask& ignored) {
+bool contains(Queries& queries, const Center& center, const Seeds& seeds, VertexId w, double radius, const Mask& walls,
+              const Mask& ignored) {
   return queries.with_regions([&](RegionSearcher& searcher) {
     return searcher.contains(start_of(center, seeds), w, radius, filter_of(walls, ignored));
   });
 }
 
-double connecting_radius(Queries& queries, const SpacePoint& center, const Seeds& seeds, VertexId w, const Mask& walls,
+double connecting_radius(Queries& queries, const Center& center, const Seeds& seeds, VertexId w, const Mask& walls,
                          const Mask& ignored) {
   return queries.with_regions([&](RegionSearcher& searcher) {
     return searcher.connecting_radius(start_of(center, seeds), w, filter_of(walls, ignored));
   });
 }
 
-auto nearest_connected(Queries& queries, const SpacePoint& center, const Seeds& seeds, std::size_t k, const Mask& walls,
+auto nearest_connected(Queries& queries, const Center& center, const Seeds& seeds, std::size_t k, const Mask& walls,
                        const Mask& ignored) {
   std::vector<VertexId> ids;
   std::vector<double> radii;
@@ -149,26 +154,22 @@ auto nearest_vertices(Queries& queries, const Points& points) {
   return std::pair(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(distances)));
 }
 
-SpacePoint position(const Queries& queries, VertexId v) {
-  return point_on_face(queries.index(), std::array{v}, std::array{1.0});
-}
-
 }  // namespace
 
 void bind_queries(nb::module_& module) {
   const auto walls = nb::arg("walls").none();
   const auto ignored = nb::arg("ignored").none();
+  const auto center = nb::arg("center").none();
   nb::class_<Queries>(module, "Queries")
-      .def("region", &region, nb::arg(), nb::arg(), nb::arg(), walls, ignored)
+      .def("region", &region, center, nb::arg(), nb::arg(), walls, ignored)
       .def("path_region", &path_region, nb::arg(), nb::arg(), walls, ignored)
       .def("stroke", &stroke, nb::arg(), nb::arg(), nb::arg(), walls, ignored)
-      .def("nested", &nested, nb::arg(), nb::arg(), nb::arg(), walls, ignored)
-      .def("contains", &contains, nb::arg(), nb::arg(), nb::arg(), nb::arg(), walls, ignored)
-      .def("connecting_radius", &connecting_radius, nb::arg(), nb::arg(), nb::arg(), walls, ignored)
-      .def("nearest_connected", &nearest_connected, nb::arg(), nb::arg(), nb::arg(), walls, ignored)
+      .def("nested", &nested, center, nb::arg(), nb::arg(), walls, ignored)
+      .def("contains", &contains, center, nb::arg(), nb::arg(), nb::arg(), walls, ignored)
+      .def("connecting_radius", &connecting_radius, center, nb::arg(), nb::arg(), walls, ignored)
+      .def("nearest_connected", &nearest_connected, center, nb::arg(), nb::arg(), walls, ignored)
       .def("rings", &rings, nb::arg(), nb::arg(), walls, ignored)
-      .def("nearest", &nearest_vertices, nb::arg())
-      .def("position", &position, nb::arg());
+      .def("nearest", &nearest_vertices, nb::arg());
   module.def("queries", [](std::shared_ptr<ExactMethod> exact) { return std::make_shared<Queries>(std::move(exact)); });
 }
 

@@ -23,6 +23,7 @@ class LinkCheck {
   void run() {
     check_ends();
     for (std::size_t leaf = 0; leaf < index_.leaf_count(); ++leaf) check_leaf(leaf);
+    check_connected();
     check_count();
     check_back();
     verify_padding(index_.cross_edges.subspan(cross_edges_), file_);
@@ -89,6 +90,14 @@ class LinkCheck {
     }
     if (boundary != link.boundary) {  // mutant: boundary-not-compared
       file_.refuse(&link.boundary, name(leaf, link) + ": the boundary does not match the cross edges");
+    }
+  }
+
+  /// The search takes a node whose links it follows as a connected whole.
+  void check_connected() const {
+    for (std::size_t leaf = 0; leaf < index_.leaf_count(); ++leaf) {
+      if (index_.leaves[leaf].connected || begin(leaf) == end(leaf)) continue;  // mutant: loose-leaf-may-have-links
+      file_.refuse(&index_.leaves[leaf], "leaf " + std::to_string(leaf) + ": it has links, but is not connected");
     }
   }
 

@@ -109,22 +109,6 @@ MESHHOOD_AVX2 inline float least_of(__m256 values) {
   return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
 }
 
-/// The values, of eight, that are at most `most`, as bits.
-MESHHOOD_AVX2 inline LaneMask at_most8(__m256 values, __m256 most) {
-  return bits(_mm256_cmp_ps(values, most, _CMP_LE_OQ));
-}
-
-MESHHOOD_AVX2 Nearest nearest(const float* xyz, LaneMask lanes, const LeafBall& ball) {
-  const __m256 a = some_squares8(xyz, lanes, ball);
-  const __m256 b = some_squares8(xyz + 24, lanes >> 8, ball);
-  const __m256 c = some_squares8(xyz + 48, lanes >> 16, ball);
-  const __m256 d = some_squares8(xyz + 72, lanes >> 24, ball);
-  const float least = least_of(_mm256_min_ps(_mm256_min_ps(a, b), _mm256_min_ps(c, d)));
-  const __m256 most = _mm256_set1_ps(nearest_at_most(least));
-  const LaneMask near = at_most8(a, most) | at_most8(b, most) << 8 | at_most8(c, most) << 16 | at_most8(d, most) << 24;
-  return nearest_of(xyz, near & lanes, ball);
-}
-
 MESHHOOD_AVX2 LaneMask cross_edges(std::span<const CrossEdge> edges, LaneMask from) {
   const __m256i one = _mm256_set1_epi32(1);
   const __m256i source = _mm256_set1_epi32(static_cast<int>(from));
@@ -203,8 +187,7 @@ MESHHOOD_AVX2 VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId* 
 }  // namespace
 
 const Kernels& avx2_kernels() {
-  static constexpr Kernels kAll{
-      within_float, within_exact<double>, nearest, nearest_of<double>, cross_edges, reachable, classify, compress};
+  static constexpr Kernels kAll{within_float, within_exact<double>, cross_edges, reachable, classify, compress};
   return kAll;
 }
 

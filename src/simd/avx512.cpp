@@ -108,16 +108,6 @@ MESHHOOD_AVX512 LaneMask within_float(const float* xyz, std::size_t size, const 
   return inside & all;
 }
 
-MESHHOOD_AVX512 Nearest nearest(const float* xyz, LaneMask lanes, const LeafBall& ball) {
-  const __m512 far = _mm512_set1_ps(std::numeric_limits<float>::infinity());
-  const __m512 low = _mm512_mask_mov_ps(far, static_cast<__mmask16>(lanes), square16(xyz, ball));
-  const __m512 high = _mm512_mask_mov_ps(far, static_cast<__mmask16>(lanes >> 16), square16(xyz + 48, ball));
-  const __m512 most = _mm512_set1_ps(nearest_at_most(_mm512_reduce_min_ps(_mm512_min_ps(low, high))));
-  const LaneMask near = _mm512_cmp_ps_mask(low, most, _CMP_LE_OQ) | LaneMask{_mm512_cmp_ps_mask(high, most, _CMP_LE_OQ)}
-                                                                        << 16;
-  return nearest_of(xyz, near & lanes, ball);
-}
-
 MESHHOOD_AVX512 LaneMask cross_edges(std::span<const CrossEdge> edges, LaneMask from) {
   const __m512i one = _mm512_set1_epi32(1);
   const __m512i source = _mm512_set1_epi32(static_cast<int>(from));
@@ -159,7 +149,7 @@ MESHHOOD_AVX512 VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId
 
 const Kernels& avx512_kernels() {
   // A group has eight floats a row, the width of an AVX2 register.
-  static const Kernels all{within_float, within_exact<double>,    nearest, nearest_of<double>, cross_edges,
+  static const Kernels all{within_float, within_exact<double>,    cross_edges,
                            reachable,    avx2_kernels().classify, compress};
   return all;
 }

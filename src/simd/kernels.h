@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <variant>
 
@@ -26,20 +24,10 @@ enum class Isa : std::uint8_t { Portable, Avx2, Avx512 };
 /// For tests. Not while another thread uses the library.
 void limit_isa(Isa most);
 
-struct Nearest {
-  double square;  // of the distance, by the predicate
-  unsigned lane;
-};
-
 struct Kernels {
   /// The lanes, of the first `size` vertices of `xyz`, #V by 3, that are in the ball; `size` <= 32. Reads 32 vertices.
   LaneMask (*within_float)(const float* xyz, std::size_t size, const LeafBall& ball);
   LaneMask (*within_double)(const double* xyz, std::size_t size, const LeafBall& ball);
-
-  /// The vertex among `lanes` of `xyz` that is nearest to the center; the first of several. `lanes` is not empty. Reads
-  /// 32 vertices.
-  Nearest (*nearest_float)(const float* xyz, LaneMask lanes, const LeafBall& ball);
-  Nearest (*nearest_double)(const double* xyz, LaneMask lanes, const LeafBall& ball);
 
   /// The ends `to` of those of `edges` that begin in `from`. Reads up to 31 edges more.
   LaneMask (*cross_edges)(std::span<const CrossEdge> edges, LaneMask from);
@@ -62,40 +50,13 @@ struct Kernels {
   [[nodiscard]] LaneMask within(const double* xyz, std::size_t size, const LeafBall& ball) const {
     return within_double(xyz, size, ball);
   }
-  [[nodiscard]] Nearest nearest(const float* xyz, LaneMask lanes, const LeafBall& ball) const {
-    return nearest_float(xyz, lanes, ball);
-  }
-  [[nodiscard]] Nearest nearest(const double* xyz, LaneMask lanes, const LeafBall& ball) const {
-    return nearest_double(xyz, lanes, ball);
-  }
 
   // The same for the vertices from `first` on.
   [[nodiscard]] LaneMask within(const PositionsInOrder& positions, std::size_t first, std::size_t size,
                                 const LeafBall& ball) const {
     return std::visit([&](const auto& xyz) { return within(xyz.data() + 3 * first, size, ball); }, positions);
   }
-  [[nodiscard]] Nearest nearest(const PositionsInOrder& positions, std::size_t first, LaneMask lanes,
-                                const LeafBall& ball) const {
-    return std::visit([&](const auto& xyz) { return nearest(xyz.data() + 3 * first, lanes, ball); }, positions);
-  }
 };
-
-/// `Kernels::nearest`, one vertex at a time.
-template <class Real>
-[[nodiscard]] inline Nearest nearest_of(const Real* xyz, LaneMask lanes, const LeafBall& ball) {
-  const std::span<const Real> vertices(xyz, 3 * kLeafCapacity);
-  Nearest result{std::numeric_limits<double>::infinity(), 0};
-  for (; lanes != 0; lanes &= lanes - 1) {
-    const auto lane = static_cast<unsigned>(std::countr_zero(lanes));
-    const double square = squared_distance(point(vertices, lane), ball.center);
-    if (square < result.square) result = {square, lane};
-  }
-  return result;
-}
-
-/// `least` is the smallest squared distance in single precision. A vertex with a larger one than this result is not the
-/// nearest.
-[[nodiscard]] inline float nearest_at_most(float least) { return least * (1 + 0x1p-19F) + 0x1p-138F; }
 
 /// The kernels for `isa`, which the processor must have.
 [[nodiscard]] const Kernels& kernels(Isa isa);

@@ -62,8 +62,7 @@ VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId* out) {
 }  // namespace
 
 const Kernels& portable_kernels() {
-  static constexpr Kernels kAll{within<float>, within<double>, nearest_of<float>, nearest_of<double>,
-                                cross_edges,   reachable,      classify,          compress};
+  static constexpr Kernels kAll{within<float>, within<double>, cross_edges, reachable, classify, compress};
   return kAll;
 }
 

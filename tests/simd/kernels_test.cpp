@@ -77,32 +77,6 @@ void expect_within_is_the_predicate(const Kernels& tried, Random& random) {
 TEST_P(EveryIsa, WithinIsThePredicateOnFloats) { expect_within_is_the_predicate<float>(tried, random); }
 TEST_P(EveryIsa, WithinIsThePredicateOnDoubles) { expect_within_is_the_predicate<double>(tried, random); }
 
-/// Includes vertices whose distances are equal in single precision, and ties.
-template <class Real>
-void expect_nearest_is_by_the_predicate(const Kernels& tried, Random& random) {
-  for (std::size_t round = 0; round < scaled(4000, 100); ++round) {
-    const double extent = std::ldexp(1.0, static_cast<int>(random.below(120)) - 60);
-    auto xyz = random_leaf<Real>(random, kLeafCapacity, extent);
-    const LeafBall ball({rounded<Real>(random.uniform(-extent, extent)), 0, 0}, LeafBounds(extent));
-    for (std::size_t i = 0; i < xyz.size(); i += 3) {
-      if (random.below(3) == 0) std::copy_n(xyz.begin(), 3, xyz.begin() + static_cast<std::ptrdiff_t>(i));
-      if (random.below(3) == 0) xyz[i] = std::nextafter(xyz[0], static_cast<Real>(extent));
-    }
-    const LaneMask lanes = static_cast<LaneMask>(random.bits()) | LaneMask{1} << random.below(kLeafCapacity);
-    const Nearest found = tried.nearest(xyz.data(), lanes, ball);
-    Nearest expected{std::numeric_limits<double>::infinity(), 0};
-    for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
-      const double square = squared_distance(point(std::span<const Real>(xyz), lane), ball.center);
-      if ((lanes >> lane & 1U) != 0 && square < expected.square) expected = {square, lane};
-    }
-    ASSERT_EQ(found.lane, expected.lane);
-    ASSERT_EQ(found.square, expected.square);
-  }
-}
-
-TEST_P(EveryIsa, NearestUsesThePredicateOnFloats) { expect_nearest_is_by_the_predicate<float>(tried, random); }
-TEST_P(EveryIsa, NearestUsesThePredicateOnDoubles) { expect_nearest_is_by_the_predicate<double>(tried, random); }
-
 TEST_P(EveryIsa, CrossEdgesReturnsTheOtherEndsOfTheEdges) {
   for (std::size_t round = 0; round < 4000; ++round) {
     std::vector<CrossEdge> cross_edges(random.below(70) + kLeafCapacity);

@@ -208,13 +208,13 @@ class Queries:
         is_one = np.ndim(points) == 1 and len(rows) == 1
         return (int(vertices[0]), float(distances[0])) if is_one else (vertices, distances)
 
-    def _start(self, start: Any, seeds: Any) -> tuple[tuple[float, float, float], Ids]:
-        """The center and the seeds."""
+    def _start(self, start: Any, seeds: Any) -> tuple[tuple[float, float, float] | None, Ids]:
+        """The center and the seeds; for a vertex, None and the vertex."""
         if np.ndim(start) == 0:
             if seeds is not None:
                 raise ValueError("seeds: expected None, because the start is a vertex")
             v = _convert.vertex(start, self._count, "start")
-            return self._queries.position(v), np.array([v], np.int32)
+            return None, np.array([v], np.int32)
         point = _convert.point(start, "start")
         if seeds is None:
             first = self._queries.nearest(point)[0] if self._count else np.empty(0, np.int32)

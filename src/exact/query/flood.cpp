@@ -169,8 +169,15 @@ LaneMask Flood::border(const State& state, const Leaf& leaf) const {
 }
 
 double Flood::nearest_square(const Leaf& leaf, LaneMask lanes) const {
-  return std::visit([&](auto xyz) { return nearest_of(&xyz[3 * std::size_t{leaf.first}], lanes, ball_).square; },
-                    index_->positions);
+  return std::visit(
+      [&](auto xyz) {
+        double least = std::numeric_limits<double>::infinity();
+        for_each_lane(lanes, [&](unsigned lane) {
+          least = std::min(least, squared_distance(point(xyz, std::size_t{leaf.first} + lane), ball_.center));
+        });
+        return least;
+      },
+      index_->positions);
 }
 
 double Flood::next_radius() {
