@@ -95,20 +95,6 @@ MESHHOOD_AVX2 LaneMask within_float(const float* xyz, std::size_t size, const Le
 
 MESHHOOD_AVX2 inline unsigned bits(__m256 mask) { return static_cast<unsigned>(_mm256_movemask_ps(mask)); }
 
-/// Eight squared distances in single precision; infinity for vertices that are not in `lanes`.
-MESHHOOD_AVX2 inline __m256 some_squares8(const float* xyz, LaneMask lanes, const LeafBall& ball) {
-  const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
-  const __m256i is_set = _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(static_cast<int>(lanes)), bit), bit);
-  const __m256 far = _mm256_set1_ps(std::numeric_limits<float>::infinity());
-  return _mm256_blendv_ps(far, square8(xyz, ball), _mm256_castsi256_ps(is_set));
-}
-
-MESHHOOD_AVX2 inline float least_of(__m256 values) {
-  const __m128 four = _mm_min_ps(_mm256_castps256_ps128(values), _mm256_extractf128_ps(values, 1));
-  const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
-  return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
-}
-
 MESHHOOD_AVX2 LaneMask cross_edges(std::span<const CrossEdge> edges, LaneMask from) {
   const __m256i one = _mm256_set1_epi32(1);
   const __m256i source = _mm256_set1_epi32(static_cast<int>(from));
