@@ -15,8 +15,8 @@ class NumberSet {
   explicit NumberSet(std::size_t bound) : words_(bound / 64 + 1), summary_(bound / 4096 + 1) {}
 
   void insert(std::size_t number) {
-    words_[number / 64] |= bit(number);
-    summary_[number / 4096] |= bit(number / 64);
+    words_[number / 64] |= bit(number);           // mutant: one-number-a-word
+    summary_[number / 4096] |= bit(number / 64);  // mutant: summary-of-other-words
   }
 
   /// O(bound / 4096 + numbers).

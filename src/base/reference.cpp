@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <variant>
 
@@ -24,8 +23,6 @@ struct alignas(4 * sizeof(Real)) Record {
 };
 
 namespace {
-
-constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 
 template <class Real>
 std::vector<Record<Real>> make_records(const StridedPositions<Real>& xyz) {
@@ -84,18 +81,15 @@ struct ReferenceSearcher::State {
     if (head + 8 < end) prefetch(adjacency.neighbors.data() + adjacency.offsets[queue[head + 8]]);
   }
 
-  /// Leaves the component at the beginning of the queue and returns it, or nothing as soon as it has more than `most`
-  /// vertices.
+  /// Leaves the component at the beginning of the queue and returns it.
   template <class Real>
-  std::span<const VertexId> search(VertexId v, double squared_radius, std::size_t most,
-                                   std::vector<Record<Real>>& all) {
+  std::span<const VertexId> search(VertexId v, double squared_radius, std::vector<Record<Real>>& all) {
     const Point center = position(all[v]);
     const std::uint32_t current = next_query();
     all[v].seen = current;
     queue[0] = v;
     std::size_t end = 1;
     for (std::size_t head = 0; head < end; ++head) {
-      if (end > most) return {};  // mutant: stopped-search-answers
       fetch_ahead(head, end);
       for (const VertexId w : adjacency[queue[head]]) {
         Record<Real>& record = all[w];
@@ -109,8 +103,8 @@ struct ReferenceSearcher::State {
     return std::span(queue).first(end);
   }
 
-  std::span<const VertexId> search(VertexId v, double squared_radius, std::size_t most = kNoLimit) {
-    return std::visit([&](auto& all) { return search(v, squared_radius, most, all); }, records);
+  std::span<const VertexId> search(VertexId v, double squared_radius) {
+    return std::visit([&](auto& all) { return search(v, squared_radius, all); }, records);
   }
 
   std::span<const VertexId> neighborhood(VertexId v, double radius) {
@@ -173,11 +167,6 @@ std::size_t ReferenceSearcher::count(VertexId v, double radius) { return state_-
 
 std::span<const VertexId> ReferenceAccess::search(ReferenceSearcher& searcher, VertexId v, double squared_radius) {
   return searcher.state_->search(v, squared_radius);
-}
-
-std::span<const VertexId> ReferenceAccess::search_few(ReferenceSearcher& searcher, VertexId v, double squared_radius,
-                                                      std::size_t most) {
-  return searcher.state_->search(v, squared_radius, most);
 }
 
 void ReferenceAccess::measure(const ReferenceSearcher& searcher, VertexId v, std::span<const VertexId> ids,

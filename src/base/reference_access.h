@@ -16,10 +16,6 @@ struct ReferenceAccess {
   /// the function of this name. Nothing is checked.
   [[nodiscard]] static std::span<const VertexId> search(ReferenceSearcher& searcher, VertexId v, double squared_radius);
 
-  /// The same, or nothing as soon as there are more than `most` vertices.
-  [[nodiscard]] static std::span<const VertexId> search_few(ReferenceSearcher& searcher, VertexId v,
-                                                            double squared_radius, std::size_t most);
-
   /// Refills `out` with the distances of `ids` from `v`.
   static void measure(const ReferenceSearcher& searcher, VertexId v, std::span<const VertexId> ids,
                       std::vector<double>& out);

@@ -31,8 +31,8 @@ std::vector<double> lengths_of(const Adjacency& edges, std::span<const Real> xyz
 WeightedGraph make_weighted_graph(const IndexView& index) {
   // Each edge is gathered at its end: edges are visited leaf by leaf, ascending, so that rows ascend.
   Adjacency edges = gather_rows(index.vertex_count(), [&](auto&& f) {
-    // mutant: rows-of-a-graph-do-not-ascend
     for_each_edge(index,
+                  // mutant: rows-of-a-graph-do-not-ascend
                   [&](std::size_t from, std::size_t to) { f(static_cast<VertexId>(to), static_cast<VertexId>(from)); });
   });
   std::vector<double> lengths = std::visit([&](auto xyz) { return lengths_of(edges, xyz); }, index.positions);

@@ -76,18 +76,6 @@ class Programs(unittest.TestCase):
             self.assertTrue(all(share > 0 for share in shares))
             self.assertAlmostEqual(sum(shares), 100, delta=0.1)
 
-    def test_search_steps_prints_a_row_for_each_radius(self):
-        for options in ([], ["--warm"]):
-            command = [places.PROGRAMS / "search_steps", *options, MESH, "40", "3", "20"]
-            done = subprocess.run(command, capture_output=True, text=True)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            lines = [line.strip("|").split("|") for line in done.stdout.splitlines()]
-            header, _, *rows = [[cell.strip() for cell in line] for line in lines]
-            self.assertEqual([row[0].rpartition(" ")[2] for row in rows], ["3", "20"])
-            for row in rows:
-                self.assertEqual(len(row), len(header))
-                self.assertGreater(sum(float(step) for step in row[3:10]), 0)
-
 
 class NativePeers(unittest.TestCase):
     PROGRAM = "native_peers"

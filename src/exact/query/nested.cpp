@@ -47,12 +47,12 @@ void RegionSearcher::nested(const Start& start, std::span<const double> radii, s
       searcher.search(start.vertex(), radius);
       state.answer.assign_difference(searcher.answer, before);
       append(state.answer);
-      std::swap(before, searcher.answer);
+      std::swap(before, searcher.answer);  // mutant: nested-rings-overlap
     }
   } else {
     state.begin(start, filter);
     for (const double radius : radii) {
-      const std::size_t before = state.flood.reached().size();
+      const std::size_t before = state.flood.reached().size();  // mutant: rings-of-a-flood-overlap
       state.flood.grow(radius);
       state.collect_found(before);
       append(state.answer);

@@ -36,7 +36,7 @@ LaneMask LeafBfs::visit(LeafId leaf) {
   if (from == 0) return 0;
   const LaneMask added =
       state.is_whole ? state.open : kernels_->reachable(&index_->adjacency[record.first], state.open, from);
-  reached_.insert(leaf);
+  reached_.insert(leaf);  // mutant: reached-leaf-not-listed
   state.reached |= added;
   state.open &= ~added;
   return added;
@@ -63,7 +63,9 @@ LeafBfs::State& LeafBfs::state_of(LeafId leaf) {
   const Leaf& record = index_->leaves[leaf];
   const Containment side = classify(record.bounds, query_->tree_ball);
   if (side != Containment::Outside) prefetch_leaf(record, side == Containment::Intersecting);
+  // mutant: inside-leaf-taken-as-outside
   return states_.set(leaf, {.open = side == Containment::Outside ? 0 : first_lanes(record.size),
+                            // mutant: disconnected-leaf-taken-whole
                             .is_whole = side == Containment::Inside && record.connected});
 }
 

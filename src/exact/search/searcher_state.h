@@ -56,8 +56,6 @@ struct Searcher::State {
   }
 
  private:
-  friend class SearchSteps;  // bench/search_steps.cpp times the steps one by one
-
   [[nodiscard]] bool is_alone(std::uint32_t slot) const;
   [[nodiscard]] bool is_tiny() const;
   [[nodiscard]] bool is_small(const Leaf& home) const;

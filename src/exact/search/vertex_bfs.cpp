@@ -52,7 +52,7 @@ void VertexBfs::run(VertexId v, double squared_radius, VertexSet& answer) {
     if (part.lanes != 0) answer.add_lanes(part);
   };
   found_->take_all([&](std::size_t w) {
-    if (part.lanes == 0 || w >= index_->leaf_begin[part.leaf + 1]) {
+    if (part.lanes == 0 || w >= index_->leaf_begin[part.leaf + 1]) {  // mutant: leaf-of-an-odd-graph-never-ends
       end_part();
       part = {leaf_of(index_->slot[index_->id(w)]), 0};
     }
