@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "exact/weighted_graph.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -29,12 +30,16 @@ std::vector<double> lengths_of(const Adjacency& edges, std::span<const Real> xyz
 }  // namespace
 
 WeightedGraph make_weighted_graph(const IndexView& index) {
-  // Each edge is gathered at its end: edges are visited leaf by leaf, ascending, so that rows ascend.
   Adjacency edges = gather_rows(index.vertex_count(), [&](auto&& f) {
     for_each_edge(index,
-                  // mutant: rows-of-a-graph-do-not-ascend
-                  [&](std::size_t from, std::size_t to) { f(static_cast<VertexId>(to), static_cast<VertexId>(from)); });
+                  [&](std::size_t from, std::size_t to) { f(static_cast<VertexId>(from), static_cast<VertexId>(to)); });
   });
+  const auto row = [&](std::size_t v) {
+    return edges.neighbors.begin() + static_cast<std::ptrdiff_t>(edges.offsets[v]);
+  };
+  for (std::size_t v = 0; v < index.vertex_count(); ++v) {
+    std::sort(row(v), row(v + 1));  // mutant: rows-of-a-graph-do-not-ascend
+  }
   std::vector<double> lengths = std::visit([&](auto xyz) { return lengths_of(edges, xyz); }, index.positions);
   return {std::move(edges), std::move(lengths)};
 }

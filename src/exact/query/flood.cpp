@@ -26,24 +26,18 @@ void Flood::start(const Point& center, const LaneFilter& walls) {
   awake_.clear();
   sleepers_.clear();
   reached_.clear();
-  if (++number_ == 0) {  // mutant: flood-counter-never-wraps
-    std::fill(states_.begin(), states_.end(), State{});
-    number_ = 1;
-  }
+  states_.forget();
 }
 
 /// The state of a leaf, which is initialized when a flood first needs it.
 Flood::State& Flood::state_of(LeafId leaf) {
-  State& state = states_[leaf];
-  if (state.number == number_) return state;
+  if (states_.is_known(leaf)) return states_[leaf];
   const Leaf& record = index_->leaves[leaf];
   const LaneMask walls = walls_->of(leaf);
-  state = {.number = number_,
-           .open = first_lanes(record.size) & ~walls,    // mutant: walls-are-passed
-           .connected = record.connected && walls == 0,  // mutant: leaf-with-walls-taken-whole
-           .wakes = std::numeric_limits<double>::infinity(),
-           .squares = squared_distances(record.bounds, center_)};
-  return state;
+  return states_.set(leaf, {.open = first_lanes(record.size) & ~walls,    // mutant: walls-are-passed
+                            .connected = record.connected && walls == 0,  // mutant: leaf-with-walls-taken-whole
+                            .wakes = std::numeric_limits<double>::infinity(),
+                            .squares = squared_distances(record.bounds, center_)});
 }
 
 bool Flood::is_whole(const State& state) const {
@@ -103,7 +97,7 @@ void Flood::grow(double radius, std::uint32_t target) {
 
 void Flood::prefetch_neighbors(LeafId leaf) const {
   for (const Link& link : index_->links_of(leaf)) {
-    prefetch(&states_[link.leaf]);
+    prefetch(states_.address(link.leaf));
     prefetch(&index_->leaves[link.leaf]);
   }
 }
@@ -197,8 +191,7 @@ double Flood::next_radius() {
 }
 
 bool Flood::has_reached(std::uint32_t slot) const {
-  const State& state = states_[leaf_of(slot)];
-  return state.number == number_ && (state.reached >> lane_of(slot) & 1U) != 0;
+  return states_.is_known(leaf_of(slot)) && (states_[leaf_of(slot)].reached >> lane_of(slot) & 1U) != 0;
 }
 
 }  // namespace meshhood

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "base/epoch_array.h"
 #include "exact/layout.h"
 #include "exact/query/lane_filter.h"
 #include "exact/query/sleepers.h"
@@ -43,14 +43,10 @@ class Flood {
 
   [[nodiscard]] bool has_reached(std::uint32_t slot) const;
 
-  /// For tests: continues as if so many floods had been started before.
-  void set_number(std::uint32_t floods) { number_ = floods; }
-
  private:
-  /// The state of a leaf in one flood; one cache line.
-  struct alignas(64) State {
-    std::uint32_t number = 0;  // the state is valid for this flood only
-    LaneMask open = 0;         // no walls
+  /// The state of a leaf in one flood.
+  struct State {
+    LaneMask open = 0;  // no walls
     LaneMask reached = 0;
     LaneMask pending = 0;  // not reached, but with a reached neighbor in another leaf; and seeds
     LaneMask inside = 0;   // the vertices in the ball whose squared radius is `inside_of`
@@ -82,11 +78,10 @@ class Flood {
   const LaneFilter* walls_ = nullptr;
   Center center_;
   LeafBall ball_;
-  std::vector<State> states_;  // by leaf
+  EpochArray<State> states_;  // by leaf
   std::vector<LeafId> awake_;
   Sleepers sleepers_;
   std::vector<LeafSubset> reached_;
-  std::uint32_t number_ = 0;
 };
 
 }  // namespace meshhood

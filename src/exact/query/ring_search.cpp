@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "exact/query/ring_search.h"
 
-#include <algorithm>
-
 namespace meshhood {
 
 RingSearch::RingSearch(const IndexView& index, const Kernels& kernels)
@@ -12,10 +10,7 @@ void RingSearch::start(std::uint32_t slot, const LaneFilter& walls) {
   walls_ = &walls;
   next_leaves_.clear();
   ring_.clear();
-  if (++number_ == 0) {
-    std::fill(states_.begin(), states_.end(), State{});
-    number_ = 1;
-  }
+  states_.forget();
   const LaneMask lane = LaneMask{1} << lane_of(slot);
   State& state = state_of(leaf_of(slot));
   if ((state.seen & lane) != 0) return;
@@ -45,9 +40,7 @@ void RingSearch::advance() {
 }
 
 RingSearch::State& RingSearch::state_of(LeafId leaf) {
-  State& state = states_[leaf];
-  if (state.number != number_) state = {number_, walls_->of(leaf), 0};
-  return state;
+  return states_.is_known(leaf) ? states_[leaf] : states_.set(leaf, {.seen = walls_->of(leaf)});
 }
 
 /// Adds those of the vertices to the next ring that are in none yet.

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/epoch_array.h"
 #include "exact/layout.h"
 #include "exact/query/lane_filter.h"
 #include "exact/search/vertex_set.h"
@@ -31,9 +32,8 @@ class RingSearch {
  private:
   /// The state of a leaf in one search.
   struct State {
-    std::uint32_t number = 0;  // the state is valid for this search only
-    LaneMask seen = 0;         // in a ring before the next, or walls
-    LaneMask next = 0;         // in the next ring
+    LaneMask seen = 0;  // in a ring before the next, or walls
+    LaneMask next = 0;  // in the next ring
   };
 
   State& state_of(LeafId leaf);
@@ -42,10 +42,9 @@ class RingSearch {
   const IndexView* index_;
   const Kernels* kernels_;
   const LaneFilter* walls_ = nullptr;
-  std::vector<State> states_;  // by leaf
+  EpochArray<State> states_;  // by leaf
   std::vector<LeafSubset> ring_;
   std::vector<LeafId> next_leaves_;
-  std::uint32_t number_ = 0;
 };
 
 }  // namespace meshhood

@@ -241,20 +241,6 @@ TEST(Region, EndsAtWallsAndPassesIgnoredVertices) {
   EXPECT_EQ(searcher.connecting_radius(VertexId{0}, 26, {.walls = row}), kInfinity);
 }
 
-TEST(Region, IsRightAfterTheCounterOfFloodsHasWrapped) {
-  const TestMesh mesh = bumpy_grid(20);
-  const Index index = build(mesh.view());
-  RegionSearcher searcher(index);
-  Searcher plain(index);
-  std::vector<VertexId> ids;
-  searcher.region(VertexId{0}, 3.0, ids);
-  RegionAccess::flood(searcher).set_number(0xFFFFFFFE);
-  // The second has the number of states that no flood has used, the third that of the first flood.
-  for (const VertexId v : {VertexId{5}, VertexId{399}, VertexId{6}, VertexId{7}}) {
-    EXPECT_EQ(searcher.count(v, 3.0), plain.count(v, 3.0));
-  }
-}
-
 TEST(Region, RefusesInvalidArguments) {
   const TestMesh mesh = make_grid(3, 3, true);
   const Index index = build(mesh.view());
