@@ -86,7 +86,7 @@ TEST(NarrowIds, AnIndexIsSavedAndLoadedAtTheLimits) {
 }
 
 TEST(NarrowIds, AnIndexWithWideIdsIsRefused) {
-  std::ifstream file(MESHHOOD_GOLDEN_DIR "/format2/float.mhi", std::ios::binary);
+  std::ifstream file(MESHHOOD_GOLDEN_DIR "/format3/float.mhi", std::ios::binary);
   const std::vector<char> wide{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   ASSERT_FALSE(wide.empty());
   expect_refused(ErrorCode::MalformedIndex, "header, byte 49: vertex ids of 32 bits, expected 16",

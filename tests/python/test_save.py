@@ -158,7 +158,7 @@ def test_an_index_of_the_paper_is_refused(file):
         meshhood.load(file)
 
 
-@pytest.mark.parametrize("file", sorted(GOLDEN.glob("format2/*.mhi")), ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", sorted(GOLDEN.glob("format3/*.mhi")), ids=lambda file: file.stem)
 def test_indexes_saved_by_the_cpp_library_are_loaded(file):
     """One of them is the index of a reordered mesh, which has no permutation."""
     index = meshhood.load(file)
