@@ -147,7 +147,7 @@ GOLDEN_OF_THE_PAPER = sorted(GOLDEN.glob("format1/paper*.mhi"))
 
 
 def test_an_older_index_is_refused():
-    message = "float.mhi: header, byte 12: format 1, but this version reads format 2: build the index again"
+    message = "float.mhi: header, byte 12: format 1, but this version reads format 3: build the index again"
     with pytest.raises(ValueError, match=message):
         meshhood.load(GOLDEN / "format1" / "float.mhi")
 
