@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checks of arguments that the module cannot make: types and names. Numbers are checked in C++.
+// Checks of arguments that the module cannot make: types, names, and vertices, because whole numbers of JavaScript may
+// have more than the 32 bits of an id. Other numbers are checked in C++.
 import { MeshhoodError } from './instance.js';
 
 /** The place of `value` in `choices`. */
@@ -21,8 +22,11 @@ export function expectBytes(value, name) {
   throw new TypeError(`${name}: ${typeof value}, expected an ArrayBuffer or a typed array`);
 }
 
-export function expectVertex(v) {
+/** `count` is that of the mesh. */
+export function expectVertex(v, count) {
   if (!Number.isInteger(v)) throw new TypeError(`vertex ${String(v)}, expected a whole number`);
+  if (v >= 0 && v < count) return;
+  throw new MeshhoodError('VertexOutOfRange', `vertex ${v}, but the mesh has ${count} vertices`);
 }
 
 export function expectVertices(vertices, name) {

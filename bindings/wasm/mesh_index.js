@@ -7,7 +7,7 @@ import { Curvature } from './curvature.js';
 import { Instance, MeshhoodError, Owner, makeInstance } from './instance.js';
 
 const METHODS = ['exact', 'paper', 'bfs', 'ball'];
-const ALONG_EDGES = METHODS.length;
+const BY_PATH = METHODS.length; // as in bindings/wasm/src/method.h
 const METRICS = ['straight', 'edge'];
 const UNITS = ['mesh', 'edge'];
 const REDUCTIONS = ['sum', 'mean', 'min', 'max', 'var', 'std', 'count'];
@@ -19,7 +19,7 @@ const FITS = ['quadric', 'jet'];
 function chooseMethod(method, metric) {
   const place = choose(METHODS, method, 'method');
   if (choose(METRICS, metric, 'metric') === 0) return place;
-  if (method === 'exact') return ALONG_EDGES;
+  if (method === 'exact') return BY_PATH;
   throw new MeshhoodError('InvalidOption', `method: '${method}', expected 'exact' with metric 'edge'`);
 }
 
@@ -39,8 +39,11 @@ function sorted({ ids, distances }) {
 }
 
 export class MeshIndex extends Owner {
+  #vertexCount;
+
   constructor(positions, corners, options) {
     super(positions instanceof Instance ? positions : build(positions, corners, options));
+    this.#vertexCount = this.instance.call('vertex_count') >>> 0;
   }
 
   static load(bytes, { progress } = {}) {
@@ -57,7 +60,7 @@ export class MeshIndex extends Owner {
   }
 
   get vertexCount() {
-    return this.instance.call('vertex_count') >>> 0;
+    return this.#vertexCount;
   }
 
   get byteLength() {
@@ -90,6 +93,10 @@ export class MeshIndex extends Owner {
     return { meanRadius, rebuiltRadius, gain };
   }
 
+  #expectVertex(v) {
+    expectVertex(v, this.#vertexCount);
+  }
+
   #scale(unit) {
     if (choose(UNITS, unit, 'unit') === 0) return 1;
     const length = this.meanEdgeLength;
@@ -116,14 +123,14 @@ export class MeshIndex extends Owner {
     const place = chooseMethod(method, metric);
     const scale = this.#scale(unit);
     if (v === null || typeof v === 'object') return this.#queryMany(place, v, r, scale, { countOnly: true });
-    expectVertex(v);
+    this.#expectVertex(v);
     expectRadius(r);
     return this.instance.call('count', place, v, scale * r) >>> 0;
   }
 
   /** Returns the number of ids. */
   #query(method, v, r, scale, distances) {
-    expectVertex(v);
+    this.#expectVertex(v);
     expectRadius(r);
     return this.instance.call('query', method, v, scale * r, distances);
   }
@@ -171,21 +178,21 @@ export class MeshIndex extends Owner {
   }
 
   queryRings(v, k, { walls, ignored } = {}) {
-    expectVertex(v);
+    this.#expectVertex(v);
     expectSize(k, 'k');
     this.#search(v, { walls, ignored }, () => this.instance.call('rings', v, k));
     return this.#takeRings();
   }
 
   contains(start, w, r, { unit = 'mesh', ...search } = {}) {
-    expectVertex(w);
+    this.#expectVertex(w);
     expectRadius(r);
     const radius = this.#scale(unit) * r;
     return this.#search(start, search, () => this.instance.call('contains', w, radius)) !== 0;
   }
 
   connectingRadius(start, w, search = {}) {
-    expectVertex(w);
+    this.#expectVertex(w);
     return this.#search(start, search, () => this.instance.call('connecting_radius', w));
   }
 
@@ -203,7 +210,7 @@ export class MeshIndex extends Owner {
 
   /** Calls `use` while the start and the masks are in the memory of the module, and returns its result. */
   #search(start, { seeds = null, walls = null, ignored = null }, use) {
-    if (typeof start === 'number') expectVertex(start);
+    if (typeof start === 'number') this.#expectVertex(start);
     else expectPoint(start, 'start');
     if (seeds !== null && typeof start === 'number') {
       throw new MeshhoodError('InvalidOption', 'seeds: expected null, for the start is a vertex');

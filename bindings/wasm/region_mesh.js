@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { choose, expectMesh, expectPoint, expectRadius, expectType, expectVertex, withMesh } from './arguments.js';
-import { MeshhoodError, Owner, makeInstance } from './instance.js';
+import { Owner, makeInstance } from './instance.js';
 
 const CORNERS = ['all', 'any'];
 
@@ -68,9 +68,7 @@ export class RegionMesh extends Owner {
       expectPoint(start, 'start');
       return start;
     }
-    expectVertex(start);
-    const count = this.#positions.length / 3;
-    if (start >= 0 && start < count) return this.#positions.subarray(3 * start, 3 * start + 3);
-    throw new MeshhoodError('VertexOutOfRange', `vertex ${start}, but the mesh has ${count} vertices`);
+    expectVertex(start, this.#positions.length / 3);
+    return this.#positions.subarray(3 * start, 3 * start + 3);
   }
 }

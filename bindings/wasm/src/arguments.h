@@ -47,7 +47,4 @@ inline std::size_t to_size(double number) {
   return number < kMost ? static_cast<std::size_t>(number) : kMost;
 }
 
-/// `v` is a whole number, as JavaScript has checked. Throws Error{VertexOutOfRange}.
-VertexId to_vertex(double v);
-
 }  // namespace meshhood::wasm

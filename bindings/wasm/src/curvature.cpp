@@ -4,16 +4,30 @@
 #include <cstddef>
 #include <span>
 
+#define XXH_INLINE_ALL  // NOLINT(readability-identifier-naming): the library's own
+#include <xxhash.h>
+
 #include "meshhood/meshhood.h"
 
 #include "arguments.h"
-#include "base/checksum.h"
 #include "workspace.h"
 
 namespace meshhood::wasm {
 namespace {
 
 Curvatures last_curvatures;
+
+/// Of the bytes of the corners and the offsets, in their order: `meshhood::fingerprint` does not see which way round a
+/// face is, on which its normal depends.
+Fingerprint hash_faces(const void* corners, std::size_t corner_count, const void* offsets, std::size_t offset_count) {
+  XXH3_state_t state;
+  XXH3_128bits_reset(&state);
+  XXH3_128bits_update(&state, &corner_count, sizeof corner_count);
+  XXH3_128bits_update(&state, corners, 4 * corner_count);
+  XXH3_128bits_update(&state, offsets, 4 * offset_count);
+  const XXH128_hash_t hash = XXH3_128bits_digest(&state);
+  return {.high = hash.high64, .low = hash.low64};
+}
 
 }  // namespace
 
@@ -23,11 +37,8 @@ extern "C" {
                                                                          bool signed_corners, const void* offsets,
                                                                          std::size_t offset_count,
                                                                          bool signed_offsets) {
-  const Fingerprint content =
-      wide_checksum({view_bytes(&corner_count, sizeof corner_count), view_bytes(corners, 4 * corner_count),
-                     view_bytes(offsets, 4 * offset_count)});
   workspace.use_faces(view_faces(corners, corner_count, signed_corners, offsets, offset_count, signed_offsets),
-                      content);
+                      hash_faces(corners, corner_count, offsets, offset_count));
 }
 
 [[clang::export_name("use_normals")]] void use_normals(const double* normals, std::size_t scalars) {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The index: making, saving and loading it, and its properties.
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
 #include <variant>
 #include <vector>
 
@@ -13,8 +10,6 @@
 
 #include "answer.h"
 #include "arguments.h"
-#include "base/text.h"
-#include "base/vertex_range.h"
 #include "host.h"
 #include "workspace.h"
 
@@ -24,13 +19,6 @@ namespace {
 std::vector<std::byte> saved;
 
 }  // namespace
-
-VertexId to_vertex(double v) {
-  const std::size_t vertices = workspace.index().vertex_count();
-  if (v >= 0 && v < static_cast<double>(vertices)) return static_cast<VertexId>(v);
-  const std::string text = std::abs(v) < 0x1p63 ? std::to_string(static_cast<std::int64_t>(v)) : to_text(v);
-  raise_no_such_vertex(ErrorCode::VertexOutOfRange, "vertex ", text, vertices);
-}
 
 extern "C" {
 

@@ -8,6 +8,7 @@
 
 #include "answer.h"
 #include "arguments.h"
+#include "method.h"
 #include "workspace.h"
 
 namespace meshhood::wasm {
@@ -15,31 +16,23 @@ namespace meshhood::wasm {
 extern "C" {
 
 /// Returns the number of ids.
-[[clang::export_name("query")]] std::size_t query(Method method, double v, double radius, bool with_distances) {
-  const VertexId vertex = to_vertex(v);
-  workspace.with_searcher(method, [&](auto& searcher) {
-    if (with_distances) {
-      searcher.neighborhood(vertex, radius, answer.ids, answer.reals);
-    } else {
-      searcher.neighborhood(vertex, radius, answer.ids);
-    }
-  });
+[[clang::export_name("query")]] std::size_t query(MethodName method, VertexId v, double radius, bool with_distances) {
+  workspace.method(method).neighborhood(v, radius, answer.ids, with_distances ? &answer.reals : nullptr);
   return answer.ids.size();
 }
 
-[[clang::export_name("count")]] std::size_t count(Method method, double v, double radius) {
-  const VertexId vertex = to_vertex(v);
-  return workspace.with_searcher(method, [&](auto& searcher) { return searcher.count(vertex, radius); });
+[[clang::export_name("count")]] std::size_t count(MethodName method, VertexId v, double radius) {
+  return workspace.method(method).count(v, radius);
 }
 
 /// All vertices if `vertices` is null, and `radius` for all rows if `radii` is null. The counts of the answer are the
 /// offsets of the rows; with `count_only`, their sizes.
-[[clang::export_name("batch")]] void batch(Method method, const VertexId* vertices, std::size_t vertex_count,
+[[clang::export_name("batch")]] void batch(MethodName method, const VertexId* vertices, std::size_t vertex_count,
                                            double radius, const double* radii, std::size_t radius_count,
                                            bool count_only, bool with_distances, bool sorted) {
   BatchQuery query{.vertices = view_vertices(vertices, vertex_count), .radius = radius};
   if (radii != nullptr) query.radius = std::span(radii, radius_count);
-  const SearchMethod search = workspace.search_method(method);
+  const SearchMethod& search = workspace.method(method).batches();
   if (count_only) {
     const auto sizes = neighborhood_sizes(search, query);
     answer.counts.assign(sizes.begin(), sizes.end());

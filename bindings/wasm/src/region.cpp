@@ -27,7 +27,7 @@ void answer_sizes() { answer.counts.assign(region_sizes.begin(), region_sizes.en
 
 extern "C" {
 
-[[clang::export_name("start_at_vertex")]] void start_at_vertex(double v) { origin = to_vertex(v); }
+[[clang::export_name("start_at_vertex")]] void start_at_vertex(VertexId v) { origin = v; }
 
 /// The vertex nearest to the point is the seed if `seeds` is null.
 [[clang::export_name("start_at_point")]] void start_at_point(double x, double y, double z, const VertexId* seeds,
@@ -60,17 +60,17 @@ extern "C" {
 }
 
 /// Of the vertex `v`; not of the start.
-[[clang::export_name("rings")]] void rings(double v, double k) {
-  workspace.edges().rings(to_vertex(v), to_size(k), answer.ids, region_sizes, restriction);
+[[clang::export_name("rings")]] void rings(VertexId v, double k) {
+  workspace.edges().rings(v, to_size(k), answer.ids, region_sizes, restriction);
   answer_sizes();
 }
 
-[[clang::export_name("contains")]] bool contains(double w, double radius) {
-  return workspace.regions().contains(origin, to_vertex(w), radius, restriction);
+[[clang::export_name("contains")]] bool contains(VertexId w, double radius) {
+  return workspace.regions().contains(origin, w, radius, restriction);
 }
 
-[[clang::export_name("connecting_radius")]] double connecting_radius(double w) {
-  return workspace.regions().connecting_radius(origin, to_vertex(w), restriction);
+[[clang::export_name("connecting_radius")]] double connecting_radius(VertexId w) {
+  return workspace.regions().connecting_radius(origin, w, restriction);
 }
 
 [[clang::export_name("nearest_connected")]] void nearest_connected(double k) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "workspace.h"
 
+#include <cstddef>
+#include <memory>
 #include <utility>
 
 namespace meshhood::wasm {
@@ -39,10 +41,7 @@ void Workspace::forget_derived() {
   surface_.reset();
   edges_.reset();
   regions_.reset();
-  ball_.reset();
-  bfs_.reset();
-  paper_.reset();
-  exact_.reset();
+  methods_ = {};
   paper_index_.reset();
   mean_edge_.reset();
   graph_.reset();
@@ -63,33 +62,21 @@ const paper::Index& Workspace::paper_index() {
   return *paper_index_;
 }
 
-Searcher& Workspace::exact() {
-  if (!exact_) exact_.emplace(index());
-  return *exact_;
+Method& Workspace::method(MethodName name) {
+  std::unique_ptr<Method>& method = methods_[static_cast<std::size_t>(name)];
+  if (!method) method = make(name);
+  return *method;
 }
 
-paper::Searcher& Workspace::paper() {
-  if (!paper_) paper_.emplace(paper_index());
-  return *paper_;
-}
-
-ReferenceSearcher& Workspace::bfs() {
-  if (!bfs_) bfs_.emplace(graph().view());
-  return *bfs_;
-}
-
-BallSearcher& Workspace::ball() {
-  if (!ball_) ball_.emplace(graph().view().positions);
-  return *ball_;
-}
-
-SearchMethod Workspace::search_method(Method method) {
-  switch (method) {
-    case Method::Exact: return index();
-    case Method::Paper: return paper_index();
-    case Method::Bfs: return SearchMethod::breadth_first(graph().view());
-    case Method::Ball: return SearchMethod::ball_scan(graph().view().positions);
-    case Method::Edges: return SearchMethod::along_edges(index());
+std::unique_ptr<Method> Workspace::make(MethodName name) {
+  switch (name) {
+    case MethodName::Exact: return make_method(Searcher(index()), index());
+    case MethodName::Paper: return make_method(paper::Searcher(paper_index()), paper_index());
+    case MethodName::Bfs:
+      return make_method(ReferenceSearcher(graph().view()), SearchMethod::breadth_first(graph().view()));
+    case MethodName::Ball:
+      return make_method(BallSearcher(graph().view().positions), SearchMethod::ball_scan(graph().view().positions));
+    case MethodName::Path: return make_method(EdgeSearcher(index()), SearchMethod::along_edges(index()));
   }
   __builtin_unreachable();
 }

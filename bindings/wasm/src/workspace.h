@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
-#include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,11 +12,9 @@
 #include "meshhood/meshhood.h"
 
 #include "io/mesh_io.h"
+#include "method.h"
 
 namespace meshhood::wasm {
-
-/// The numbers are part of the interface with JavaScript. `Edges` is the exact search by the metric of the edges.
-enum class Method : std::uint8_t { Exact, Paper, Bfs, Ball, Edges };
 
 /// One mesh, its index, and what the methods need besides: the graph, the paper's index, searchers. Each part is made
 /// when it is first used.
@@ -46,22 +45,7 @@ class Workspace {
   /// In the unit of the positions.
   [[nodiscard]] double mean_edge();
 
-  /// Calls `f` with the searcher of `method`, and returns its result.
-  template <class F>
-  auto with_searcher(Method method, F&& f) {
-    switch (method) {
-      case Method::Exact: return f(exact());
-      case Method::Paper: return f(paper());
-      case Method::Bfs: return f(bfs());
-      case Method::Ball: return f(ball());
-      case Method::Edges: return f(edges());
-    }
-    __builtin_unreachable();
-  }
-
-  /// The method of a batch.
-  [[nodiscard]] SearchMethod search_method(Method method);
-
+  [[nodiscard]] Method& method(MethodName name);
   [[nodiscard]] RegionSearcher& regions();
   [[nodiscard]] EdgeSearcher& edges();
 
@@ -84,20 +68,14 @@ class Workspace {
   void replace_index(Index&& index);
   void forget_derived();
   [[nodiscard]] const paper::Index& paper_index();
-  [[nodiscard]] Searcher& exact();
-  [[nodiscard]] paper::Searcher& paper();
-  [[nodiscard]] ReferenceSearcher& bfs();
-  [[nodiscard]] BallSearcher& ball();
+  [[nodiscard]] std::unique_ptr<Method> make(MethodName name);
 
   io::Mesh mesh_;
   std::optional<Index> index_;
   std::optional<GraphData> graph_;
   std::optional<double> mean_edge_;
   std::optional<paper::Index> paper_index_;
-  std::optional<Searcher> exact_;
-  std::optional<paper::Searcher> paper_;
-  std::optional<ReferenceSearcher> bfs_;
-  std::optional<BallSearcher> ball_;
+  std::array<std::unique_ptr<Method>, kMethodCount> methods_;  // by their names
   std::optional<RegionSearcher> regions_;
   std::optional<EdgeSearcher> edges_;
   std::optional<CurvatureIndex> surface_;
