@@ -33,8 +33,8 @@ function microseconds(rows, work) {
 console.log('radius  batch     one  one / batch');
 for (const radius of RADII) {
   const r = radius * index.meanEdgeLength;
-  const batch = microseconds(index.vertexCount, () => index.queryBallCount(null, r));
-  const one = microseconds(SINGLE, () => few.forEach((v) => index.queryBallCount(v, r)));
+  const batch = microseconds(index.vertexCount, () => index.count(null, r));
+  const one = microseconds(SINGLE, () => few.forEach((v) => index.count(v, r)));
   console.log(`${radius}`.padStart(6), batch.toFixed(3).padStart(6), one.toFixed(3).padStart(7),
     (one / batch).toFixed(1).padStart(12));
 }

@@ -8,8 +8,11 @@ const CODES = [
   'MalformedIndex', 'IoFailure', 'TooLarge', 'Cancelled',
 ];
 
+/** Memory grows by pages. */
+const PAGE_BYTES = 2 ** 16;
+
 /** What an instance can hold is less than the 4 GiB that it can address. */
-const MOST_BYTES = 2 ** 32 - 2 ** 16;
+const MOST_BYTES = 2 ** 32 - PAGE_BYTES;
 
 /** Errors of the arguments of a call, after which the instance is unchanged. */
 const ARGUMENT_ERRORS = new Set(['VertexOutOfRange', 'InvalidRadius', 'InvalidOption', 'InvalidMesh']);
@@ -115,8 +118,18 @@ export class Instance {
     };
   }
 
-  get isDisposed() {
-    return this.#exports === null;
+  /** A copy of this instance: of its memory, which holds all state between calls. */
+  clone() {
+    if (this.#exports === null) throw new Error('meshhood: this object has been disposed');
+    const copy = new Instance();
+    const [from, to] = [this.#exports.memory, copy.#exports.memory];
+    try {
+      to.grow((from.buffer.byteLength - to.buffer.byteLength) / PAGE_BYTES);
+    } catch (error) {
+      throw new MeshhoodError('TooLarge', `not enough memory (${error.message})`);
+    }
+    new Uint8Array(to.buffer).set(new Uint8Array(from.buffer));
+    return copy;
   }
 
   /** Drops the module and its memory. */
@@ -217,9 +230,8 @@ export class Instance {
   }
 }
 
-/** An instance that `fill` has filled. It is disposed if that fails. */
-export function makeInstance(fill) {
-  const instance = new Instance();
+/** An instance that `fill` has filled: a new one, or the one that is given. It is disposed if that fails. */
+export function makeInstance(fill, instance = new Instance()) {
   try {
     fill(instance);
   } catch (error) {

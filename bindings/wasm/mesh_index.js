@@ -8,7 +8,7 @@ import { Instance, MeshhoodError, Owner, makeInstance } from './instance.js';
 
 const METHODS = ['exact', 'paper', 'bfs', 'ball'];
 const BY_PATH = METHODS.length; // as in bindings/wasm/src/method.h
-const METRICS = ['straight', 'edge'];
+const METRICS = ['straight', 'path'];
 const UNITS = ['mesh', 'edge'];
 const REDUCTIONS = ['sum', 'mean', 'min', 'max', 'var', 'std', 'count'];
 const KERNELS = ['box', 'epanechnikov', 'biweight'];
@@ -20,7 +20,7 @@ function chooseMethod(method, metric) {
   const place = choose(METHODS, method, 'method');
   if (choose(METRICS, metric, 'metric') === 0) return place;
   if (method === 'exact') return BY_PATH;
-  throw new MeshhoodError('InvalidOption', `method: '${method}', expected 'exact' with metric 'edge'`);
+  throw new MeshhoodError('InvalidOption', `method: '${method}', expected 'exact' with metric 'path'`);
 }
 
 function build(positions, corners, { offsets = null, cut = null, progress } = {}) {
@@ -83,8 +83,8 @@ export class MeshIndex extends Owner {
   refit(positions, { changed = null } = {}) {
     expectType(positions, [Float32Array, Float64Array], 'positions');
     expectVertices(changed, 'changed');
-    this.instance.with([positions, changed], (xyz, list) => this.instance.call(
-      'refit', xyz, positions.length, positions instanceof Float64Array, list, changed?.length ?? 0));
+    return new MeshIndex(makeInstance((copy) => copy.with([positions, changed], (xyz, list) => copy.call(
+      'refit', xyz, positions.length, positions instanceof Float64Array, list, changed?.length ?? 0)), this.instance.clone()));
   }
 
   quality() {
@@ -119,7 +119,7 @@ export class MeshIndex extends Owner {
     return this.instance.view(Uint32Array, this.instance.call('answer_ids'), count);
   }
 
-  queryBallCount(v, r, { method = 'exact', metric = 'straight', unit = 'mesh' } = {}) {
+  count(v, r, { method = 'exact', metric = 'straight', unit = 'mesh' } = {}) {
     const place = chooseMethod(method, metric);
     const scale = this.#scale(unit);
     if (v === null || typeof v === 'object') return this.#queryMany(place, v, r, scale, { countOnly: true });

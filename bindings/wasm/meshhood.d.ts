@@ -92,10 +92,10 @@ export type Unit = 'mesh' | 'edge';
 export interface QueryOptions {
   method?: Method;
   /**
-   * `straight`: the neighborhood in the ball. `edge`: the vertices whose shortest path along edges is at most r long.
+   * `straight`: the neighborhood in the ball. `path`: the vertices whose shortest path along edges is at most r long.
    * Distances are then those lengths, and the vertices of one neighborhood ascend by them. It needs method `exact`.
    */
-  metric?: 'straight' | 'edge';
+  metric?: 'straight' | 'path';
   unit?: Unit;
 }
 
@@ -280,14 +280,16 @@ export class MeshIndex {
   readonly permutation: Uint32Array;
 
   /**
-   * Moves the vertices; the edges stay. About a third of the time of a build. Answers are exact whatever the positions;
-   * `quality` says when a new index would answer faster.
+   * A new index of the mesh after its vertices have moved; the edges stay. This index stays as it is. Answers are exact
+   * whatever the positions; `quality` says when an index that is built again would answer faster.
+   *
+   * About a third of the time of a build, and a copy of `memoryBytes`. Dispose the index that is no longer needed.
    *
    * @param positions #V by 3
    * @param options `changed`: the vertices that have moved, null for all. Positions of others are not read.
-   * @throws MeshhoodError InvalidMesh, VertexOutOfRange: the index is then as it was
+   * @throws MeshhoodError InvalidMesh, VertexOutOfRange, TooLarge
    */
-  refit(positions: Float32Array | Float64Array, options?: { changed?: Uint32Array | null }): void;
+  refit(positions: Float32Array | Float64Array, options?: { changed?: Uint32Array | null }): MeshIndex;
 
   /**
    * How well the leaves fit the positions: their mean radius at some places of the mesh, that in a new index, and the
@@ -322,9 +324,9 @@ export class MeshIndex {
   /** As `queryBall` for one vertex, without a copy: a view into the memory of the index, valid until its next call. */
   viewBall(v: number, r: number, options?: QueryOptions): Uint32Array;
 
-  /** The number of vertices of each neighborhood. */
-  queryBallCount(v: number, r: number, options?: QueryOptions): number;
-  queryBallCount(v: Uint32Array | null, r: number | Float64Array, options?: QueryOptions): Uint32Array;
+  /** The number of vertices of each neighborhood that `queryBall` returns. */
+  count(v: number, r: number, options?: QueryOptions): number;
+  count(v: Uint32Array | null, r: number | Float64Array, options?: QueryOptions): Uint32Array;
 
   /**
    * The region of a start and the radius r: the vertices that are connected to a seed by edges between vertices within

@@ -77,7 +77,7 @@ test('missing values are left out or spread', () => {
   signal[700] = NaN;
   const vertices = Uint32Array.of(700);
   assert.ok(Number.isNaN(index.aggregate(signal, 2, { vertices })[0]));
-  const count = index.queryBallCount(700, 2);
+  const count = index.count(700, 2);
   assert.deepEqual(index.aggregate(signal, 2, { vertices, nan: 'omit', reduce: 'count' }), Float64Array.of(count - 1));
 });
 

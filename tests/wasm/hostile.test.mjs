@@ -140,10 +140,10 @@ test('numbers that are not finite, denormal or huge give a right answer or an er
 test('the mesh without vertices answers nothing, and refuses the rest', () => {
   const index = new MeshIndex(new Float32Array(), new Uint32Array());
   assert.equal(index.vertexCount, 0);
-  assert.deepEqual(index.queryBallCount(null, 1), new Uint32Array());
+  assert.deepEqual(index.count(null, 1), new Uint32Array());
   assert.deepEqual(index.aggregate(new Float64Array(), 1), new Float64Array());
   assert.throws(() => index.aggregate(new Float64Array(5), 1), { code: 'InvalidOption' });
   assert.throws(() => index.queryBall(0, 1), { code: 'VertexOutOfRange' });
   assert.throws(() => index.nearest([0, 0, 0]), { code: 'VertexOutOfRange' });
-  assert.equal(index.queryBallCount(null, 1).length, 0);
+  assert.equal(index.count(null, 1).length, 0);
 });

@@ -38,7 +38,7 @@ for (const [name, mesh] of Object.entries(families)) {
       found += expected.length;
       assert.deepEqual(index.queryBall(v, radius, { sort: true }), expected, `vertex ${v}, radius ${radius}`);
       assert.deepEqual(index.queryBall(v, radius, { sort: true, method: 'bfs' }), expected);
-      assert.equal(index.queryBallCount(v, radius), expected.length);
+      assert.equal(index.count(v, radius), expected.length);
       assert.deepEqual(index.queryBall(v, radius, { method: 'ball' }), ball(mesh.positions, v, radius));
       const all = new Set(index.viewBall(v, radius, { method: 'ball' }));
       const paper = new Set(index.queryBall(v, radius, { method: 'paper' }));
@@ -68,7 +68,7 @@ test('a batch has the rows of single queries', () => {
   const radii = Float64Array.of(1, 2.5, 0, Infinity);
   for (const method of ['exact', 'paper', 'bfs', 'ball']) {
     const { offsets, ids, distances } = index.queryBall(vertices, radii, { method, sort: true, distances: true });
-    const counts = index.queryBallCount(vertices, radii, { method });
+    const counts = index.count(vertices, radii, { method });
     vertices.forEach((v, row) => {
       const single = index.queryBall(v, radii[row], { method, sort: true, distances: true });
       assert.deepEqual(ids.slice(offsets[row], offsets[row + 1]), single.ids);
@@ -76,9 +76,9 @@ test('a batch has the rows of single queries', () => {
       assert.equal(counts[row], single.ids.length);
     });
   }
-  const sizes = index.queryBallCount(null, 2);
+  const sizes = index.count(null, 2);
   assert.equal(sizes.length, index.vertexCount);
-  sizes.forEach((size, v) => assert.equal(size, index.queryBallCount(v, 2)));
+  sizes.forEach((size, v) => assert.equal(size, index.count(v, 2)));
 });
 
 test('a view is the answer without a copy', () => {
@@ -107,7 +107,7 @@ test('an index of the golden file answers as recorded', () => {
   const index = MeshIndex.load(golden('float.mhi'));
   assert.equal(index.vertexCount, 370);
   assert.deepEqual([...index.queryBall(100, 1.5, { sort: true })], [81, 82, 83, 99, 100, 101, 117, 118, 119]);
-  assert.equal(index.queryBallCount(100, Infinity), 270);
+  assert.equal(index.count(100, Infinity), 270);
 });
 
 test('the same file gives the same index and the same answers as the command line', () => {
@@ -178,12 +178,12 @@ test('a wrong argument gives the error of C++ and leaves the index usable', () =
   for (const v of [vertices, -1, 2 ** 32, 2 ** 53]) {
     const message = `vertex ${v}, but the mesh has ${vertices} vertices`;
     assert.throws(() => index.queryBall(v, 1), { code: 'VertexOutOfRange', message });
-    assert.throws(() => index.queryBallCount(v, 1), { code: 'VertexOutOfRange', message });
+    assert.throws(() => index.count(v, 1), { code: 'VertexOutOfRange', message });
   }
   for (const radius of [-1, NaN, -Infinity]) {
     const message = `radius ${String(radius).toLowerCase().replace('infinity', 'inf')}, expected a number >= 0`;
     assert.throws(() => index.queryBall(7, radius), { code: 'InvalidRadius', message });
-    assert.throws(() => index.queryBallCount(7, radius, { method: 'bfs' }), { code: 'InvalidRadius', message });
+    assert.throws(() => index.count(7, radius, { method: 'bfs' }), { code: 'InvalidRadius', message });
   }
   assert.throws(() => index.queryBall(Uint32Array.of(1, vertices), 1), { code: 'VertexOutOfRange', message: /row 1/ });
   assert.throws(() => index.queryBall(Uint32Array.of(1), Float64Array.of(1, 2)), { message: '2 radii for 1 rows' });
@@ -232,7 +232,7 @@ test('too little memory is an error and not a crash', () => {
 
 test('a mesh of a million vertices takes less than 400 MB, with all methods in use', () => {
   const index = build(grid(1000, 1000, (row, column) => [row, column, 0]));
-  const counts = ['exact', 'bfs', 'paper', 'ball'].map((method) => index.queryBallCount(500_500, 10, { method }));
+  const counts = ['exact', 'bfs', 'paper', 'ball'].map((method) => index.count(500_500, 10, { method }));
   assert.deepEqual(counts, [317, 317, 317, 317]);
   console.log(`${index.memoryBytes} bytes for a million vertices`);
   assert.ok(index.memoryBytes < 400 * 2 ** 20);
@@ -246,7 +246,7 @@ test('memory stays flat over many queries, refused ones included', () => {
     const v = Math.floor(index.vertexCount * next());
     const radius = 5 * next();
     for (const method of ['exact', 'paper']) index.queryBall(v, radius, { method, distances: true });
-    index.queryBallCount(v, radius, { method: 'bfs' });
+    index.count(v, radius, { method: 'bfs' });
     assert.throws(() => index.queryBall(v + 1e6, radius), MeshhoodError);
   };
   for (let i = 0; i < 1000; ++i) runQuery();

@@ -85,21 +85,21 @@ test('rings of edges are those of the command line', () => {
   assert.equal(counts.length, 4);
   assert.equal(counts[0], 1);
   assert.equal(counts[3], ids.length);
-  assert.equal(index.queryRings(333, 1e6).ids.length, index.queryBallCount(333, Infinity));
+  assert.equal(index.queryRings(333, 1e6).ids.length, index.count(333, Infinity));
 });
 
 test('distances along edges are those of the command line', () => {
-  const { ids, distances } = index.queryBall(333, 4, { metric: 'edge', distances: true });
+  const { ids, distances } = index.queryBall(333, 4, { metric: 'path', distances: true });
   const lines = meshhood('query', 'roll.ply', '-v', '333', '-r', '4', '--metric', 'edge', '--distances')
     .trimEnd().split('\n').map((line) => line.split(/\s+/));
   const byId = new Map(lines.map(([id, length]) => [Number(id), Number(length)]));
   assert.equal(ids.length, byId.size);
   ids.forEach((w, i) => assert.ok(Math.abs(byId.get(w) - distances[i]) < 1e-6));
   assert.deepEqual(distances, distances.slice().sort());
-  assert.equal(index.queryBallCount(333, 4, { metric: 'edge' }), ids.length);
-  const rows = index.queryBall(Uint32Array.of(1, 333), 4, { metric: 'edge' });
+  assert.equal(index.count(333, 4, { metric: 'path' }), ids.length);
+  const rows = index.queryBall(Uint32Array.of(1, 333), 4, { metric: 'path' });
   assert.deepEqual(rows.ids.slice(rows.offsets[1]), ids);
-  assert.throws(() => index.queryBall(1, 1, { metric: 'edge', method: 'bfs' }), { code: 'InvalidOption' });
+  assert.throws(() => index.queryBall(1, 1, { metric: 'path', method: 'bfs' }), { code: 'InvalidOption' });
 });
 
 test('connecting radii are those of the command line, and the least that contain the vertex', () => {
@@ -129,33 +129,58 @@ test('no search crosses an edge that was cut', () => {
   const around = Uint32Array.of(0, 1, 4, 0); // all edges of vertex 0
   const cut = build(flat, { cut: around });
   assert.deepEqual(cut.queryBall(0, 10), Uint32Array.of(0));
-  assert.equal(cut.queryBallCount(1, 10), 15);
+  assert.equal(cut.count(1, 10), 15);
   assert.throws(() => build(flat, { cut: Uint32Array.of(0, 15) }), { code: 'InvalidOption', message: /not joined/ });
 });
 
 test('a refitted index answers as a new one', () => {
   const moved = mesh.positions.map((x, i) => x + 0.3 * Math.sin(i));
   const expected = build({ ...mesh, positions: moved });
-  const same = () => {
+  const expectSame = (refitted) => {
     for (const v of [0, 333, 1000]) {
-      assert.deepEqual(refitted.queryBall(v, 4, { sort: true }), expected.queryBall(v, 4, { sort: true }));
+      for (const method of ['exact', 'bfs', 'paper', 'ball']) {
+        assert.deepEqual(
+          refitted.queryBall(v, 4, { sort: true, method }), expected.queryBall(v, 4, { sort: true, method }));
+      }
+      const byPath = { metric: 'path', distances: true };
+      assert.deepEqual(refitted.queryBall(v, 4, byPath), expected.queryBall(v, 4, byPath));
     }
   };
-  const refitted = build(mesh);
-  refitted.queryBall(0, 4);
-  refitted.refit(moved);
-  same();
+  const old = build(mesh);
+  for (const method of ['exact', 'bfs', 'paper', 'ball']) old.queryBall(0, 4, { method }); // what it makes is not kept
+  old.queryBall(0, 4, { metric: 'path' });
+  const refitted = old.refit(moved);
+  expectSame(refitted);
   assert.ok(refitted.quality().gain > 0.5);
-  refitted.refit(mesh.positions);
-  assert.deepEqual(refitted.save(), index.save());
-  refitted.refit(moved, { changed: Uint32Array.from({ length: vertices }, (_, v) => v) });
-  same();
+  assert.deepEqual(refitted.refit(mesh.positions).save(), index.save());
+  const some = Uint32Array.of(333, 334, 335);
+  const partly = mesh.positions.slice();
+  for (const v of some) partly.set(moved.subarray(3 * v, 3 * v + 3), 3 * v);
+  const unread = moved.map((x, i) => (some.includes(Math.floor(i / 3)) ? x : NaN));
+  assert.deepEqual(old.refit(unread, { changed: some }).save(), old.refit(partly).save());
   const wrong = moved.slice();
   wrong[30] = NaN;
-  assert.throws(() => refitted.refit(wrong), { code: 'InvalidMesh', message: /vertex 10/ });
-  assert.throws(() => refitted.refit(moved.subarray(3)), { code: 'InvalidMesh' });
-  assert.throws(() => refitted.refit(moved, { changed: Uint32Array.of(vertices) }), { code: 'VertexOutOfRange' });
-  same();
+  assert.throws(() => old.refit(wrong), { code: 'InvalidMesh', message: /vertex 10/ });
+  assert.throws(() => old.refit(moved.subarray(3)), { code: 'InvalidMesh' });
+  assert.throws(() => old.refit(moved, { changed: Uint32Array.of(vertices) }), { code: 'VertexOutOfRange' });
+  assert.deepEqual(old.save(), index.save());
+  assert.deepEqual(old.queryBall(333, 4), index.queryBall(333, 4));
+  old.dispose();
+  expectSame(refitted);
+  assert.throws(() => old.refit(moved), /has been disposed/);
+});
+
+test('an animation of many refits needs no more memory than its first', () => {
+  let moving = build(mesh).refit(mesh.positions);
+  const before = moving.memoryBytes;
+  for (let frame = 0; frame < 50; ++frame) {
+    const next = moving.refit(mesh.positions.map((x, i) => x + 0.1 * Math.sin(i + frame)));
+    moving.dispose();
+    moving = next;
+    moving.queryBall(333, 4);
+  }
+  console.log(`${before} bytes after one refit, ${moving.memoryBytes} after 50 more`);
+  assert.ok(moving.memoryBytes <= before + 2 ** 20);
 });
 
 test('the permutation has each vertex once', () => {
