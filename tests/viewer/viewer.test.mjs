@@ -217,10 +217,10 @@ test('an answer and values that are handed over are shown', async () => {
   meshhood('view', 'plates.ply', '--ids', 'few.txt', '--values', 'heights.txt', '-o', 'values.html');
   const page = await openPage(browser, file('values.html'));
   assert.deepEqual(await idsOf(page, 'exact'), [1, 3, 5]);
-  assert.equal(await page.inputValue('#color'), 'handed');
+  assert.equal(await page.inputValue('#color'), 'passed');
   const legend = await page.locator('#legend span').allTextContents();
   assert.equal(legend[1], 'heights');
-  await page.selectOption('#color', 'sizes');
+  await page.selectOption('#color', 'count');
   await page.waitForFunction(() => document.querySelectorAll('#legend span')[1].textContent === 'vertices');
   await page.close();
 });
@@ -323,7 +323,7 @@ test('an index file has no faces, and so no curvature', async () => {
   await drop(page, 'points.mhi', readFileSync(file('points.mhi')));
   await waitForMesh(page, 'points.mhi');
   assert.ok(await page.locator('#color option[value=mean]').isDisabled());
-  assert.ok(await page.locator('#color option[value=sizes]').isEnabled());
+  assert.ok(await page.locator('#color option[value=count]').isEnabled());
   await page.close();
 });
 
@@ -348,6 +348,36 @@ test('a link shows the same again', async () => {
   const [a, b] = [await state(page), await state(again)];
   a.forEach((x, i) => assert.ok(Math.abs(x - b[i]) < 1e-3 * (1 + Math.abs(x)), `${a} and ${b}`));
   await Promise.all([page.close(), again.close()]);
+});
+
+test('another link in the address bar shows what it says, also the colors', async () => {
+  const page = await openPage(browser, process.env.MESHHOOD_PAGE, {
+    hash: '#example=folds&vertex=1000&radius=5&without=ball&color=gaussian',
+  });
+  await page.waitForSelector('#legend:not([hidden])');
+  const follow = (hash) => page.evaluate((hash) => { location.hash = hash; }, hash);
+  await follow('#example=folds&vertex=2000&radius=3');
+  await page.waitForFunction(() => document.getElementById('vertex').value === '2000');
+  await waitForAnswers(page);
+  assert.equal(await page.inputValue('#radius-edges'), '3');
+  assert.equal(await page.inputValue('#color'), 'answers');
+  assert.equal(await page.evaluate(() => window.meshhoodPage.values), null);
+  assert.ok(await page.isChecked('tr[data-method=ball] input'));
+  await follow('#example=terrain&vertex=45000&radius=4');
+  await page.waitForFunction(() => document.body.dataset.mesh === 'terrain');
+  await waitForAnswers(page);
+  assert.equal(await page.inputValue('#vertex'), '45000');
+  await page.close();
+});
+
+test('a file that cannot be opened leaves the example and its link', async () => {
+  const page = await openPage(browser, process.env.MESHHOOD_PAGE, { hash: '#example=terrain&vertex=45000&radius=4' });
+  await drop(page, 'broken.obj', Buffer.from('v 0 0 0\nf 1 2 3\n'));
+  await page.waitForSelector('#error:not([hidden])');
+  assert.equal(await page.inputValue('#example'), 'terrain');
+  await setVertex(page, 45100);
+  assert.match(await page.evaluate(() => location.hash), /example=terrain&vertex=45100/);
+  await page.close();
 });
 
 test('in the frame of a notebook the page answers, and offers no link', async () => {

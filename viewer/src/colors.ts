@@ -2,9 +2,8 @@
 // Colors: those of the methods, which color-blind people can distinguish (Okabe and Ito, 2008), and two maps for
 // scalars, which they can read as well: viridis of Matplotlib, by a polynomial fit, for amounts; and RdBu of ColorBrewer
 // (Harrower and Brewer, 2003) for numbers of both signs, blue below 0 and red above.
+import type { Method } from 'meshhood';
 import { Color } from 'three';
-
-import type { Method } from './messages';
 
 export const METHOD_COLORS: Record<Exclude<Method, 'bfs'>, string> = {
   exact: '#009e73',

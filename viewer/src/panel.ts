@@ -3,8 +3,9 @@
 import { METHOD_COLORS } from './colors';
 import { EXAMPLES } from './examples';
 import type { Method } from './messages';
+import { format, shortNumber } from './numbers';
 import { mapOf } from './paint';
-import type { Range, Scalar } from './paint';
+import type { Range, Scalar } from './scalar';
 import type { Cut, Look } from './view';
 
 export interface Wishes {
@@ -34,15 +35,6 @@ const MEANINGS: Record<Method, string> = {
 };
 
 const find = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
-
-const grouped = new Intl.NumberFormat('en');
-export const format = (value: number) => grouped.format(value);
-
-/** Four digits, without an exponent in the usual range. */
-export function shortNumber(value: number): string {
-  if (!Number.isFinite(value) || value === 0) return String(value);
-  return String(Number(value.toPrecision(4)));
-}
 
 // The slider is logarithmic, and its left end is 0.
 const SLIDER = 1000;
@@ -222,7 +214,7 @@ export class Panel {
   setTime(method: Method, microseconds: number | null): void {
     const digits = microseconds !== null && microseconds < 10 ? 1 : 0;
     this.#cells.get(method)!.time.textContent =
-      microseconds === null ? '' : grouped.format(Number(microseconds.toFixed(digits)));
+      microseconds === null ? '' : format(Number(microseconds.toFixed(digits)));
   }
 
   setVerdict(...parts: (string | HTMLElement)[]): void {
@@ -248,25 +240,4 @@ export class Panel {
   openDisplay(): void {
     find<HTMLDetailsElement>('display').open = true;
   }
-}
-
-/** The line at the bottom: what is being done. */
-export function showProgress(stage: string | null, fraction: number | null = null): void {
-  const status = find('status');
-  status.hidden = stage === null;
-  if (stage === null) return;
-  status.querySelector('span')!.textContent = stage;
-  const bar = status.querySelector<HTMLElement>('.bar')!;
-  bar.classList.toggle('endless', fraction === null);
-  (bar.firstElementChild as HTMLElement).style.width = fraction === null ? '' : `${100 * fraction}%`;
-}
-
-export function showError(message: string | null): void {
-  const error = find('error');
-  error.hidden = message === null;
-  error.querySelector('p')!.textContent = message;
-}
-
-export function hideHint(): void {
-  find('hint').classList.add('done');
 }

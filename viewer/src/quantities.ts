@@ -2,7 +2,7 @@
 // Numbers that the neighborhoods of all vertices give, for colors.
 import type { Curvature } from 'meshhood';
 
-import type { Range, Scalar } from './paint';
+import type { Range, Scalar } from './scalar';
 
 /** How the values of a quantity are shown. */
 interface Quantity {
@@ -12,7 +12,7 @@ interface Quantity {
 }
 
 export const QUANTITIES = {
-  sizes: { title: 'vertices', isSigned: false },
+  count: { title: 'vertices', isSigned: false },
   mean: { title: 'mean curvature', isSigned: true },
   gaussian: { title: 'Gaussian curvature', isSigned: true },
   k1: { title: 'larger curvature', isSigned: true },
@@ -22,7 +22,7 @@ export const QUANTITIES = {
 } satisfies Record<string, Quantity>;
 
 export type QuantityName = keyof typeof QUANTITIES;
-export type CurvatureName = Exclude<QuantityName, 'sizes'> & keyof Curvature;
+export type CurvatureName = Exclude<QuantityName, 'count'> & keyof Curvature;
 
 export function isQuantity(name: string): name is QuantityName {
   return Object.hasOwn(QUANTITIES, name);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
+// What the page gives to the browser as files. Their names are made from that of the mesh.
+import type { View } from './view';
 
-/** Gives `content` to the browser as a file. */
-export function download(content: Blob, name: string): void {
+function download(content: Blob, name: string): void {
   const link = document.createElement('a');
   link.href = URL.createObjectURL(content);
   link.download = name;
@@ -9,7 +10,22 @@ export function download(content: Blob, name: string): void {
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
-/** The name of a mesh file without its extension. */
-export function stem(name: string): string {
+/** The name of a mesh file without its folder and its extension. */
+function stem(name: string): string {
   return name.replace(/^.*[/\\]/, '').replace(/\.[^.]*$/, '') || 'mesh';
+}
+
+export async function savePicture(view: View, mesh: string): Promise<void> {
+  const background = getComputedStyle(document.body).getPropertyValue('--background').trim();
+  download(await view.picture(background), `${stem(mesh)}.png`);
+}
+
+/** The ids of the answer for `vertex`, as `meshhood query` prints them. */
+export function saveIds(ids: Uint32Array, vertex: number, mesh: string): void {
+  const lines = [...ids].map((id) => `${id}\n`);
+  download(new Blob(lines, { type: 'text/plain' }), `${stem(mesh)}-${vertex}.txt`);
+}
+
+export function saveIndex(bytes: Uint8Array, mesh: string): void {
+  download(new Blob([bytes as Uint8Array<ArrayBuffer>]), `${stem(mesh)}.mhi`);
 }

@@ -196,13 +196,13 @@ async function forEachPart(stage: string, work: (index: MeshIndex, vertices: Uin
   return computation === latestComputation;
 }
 
-async function computeSizes(radius: number): Promise<Uint32Array | null> {
-  const sizes = new Uint32Array(index!.vertexCount);
+async function computeCounts(radius: number): Promise<Uint32Array | null> {
+  const all = new Uint32Array(index!.vertexCount);
   const isDone = await forEachPart('Counting all neighborhoods', (index, vertices) => {
-    const counts = index.queryBallCount(vertices, radius);
-    vertices.forEach((v, row) => (sizes[v] = counts[row]));
+    const counts = index.count(vertices, radius);
+    vertices.forEach((v, row) => (all[v] = counts[row]));
   });
-  return isDone ? sizes : null;
+  return isDone ? all : null;
 }
 
 /** NaN where nothing could be fitted. */
@@ -225,8 +225,8 @@ async function computeCurvature(radius: number): Promise<Curvature | null> {
 
 async function compute(quantity: QuantityName, radius: number): Promise<void> {
   if (index === null) return;
-  const values = quantity === 'sizes'
-    ? await computeSizes(radius)
+  const values = quantity === 'count'
+    ? await computeCounts(radius)
     : (await computeCurvature(radius))?.[quantity as CurvatureName];
   if (values) reply({ kind: 'computed', quantity, radius, values });
 }

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// The query: its vertex and radius, the methods that answer it, and the table of their answers and times.
+import type { Engine } from './engine';
+import { METHODS } from './messages';
+import type { Method, Opened } from './messages';
+import { hideHint, showError } from './notices';
+import { shortNumber } from './numbers';
+import type { Panel } from './panel';
+
+export interface Listeners {
+  /** A query begins. `isFinal` unless the marker or the slider is being dragged. */
+  asked(isFinal: boolean): void;
+  /** There is another answer to show. */
+  answered(): void;
+}
+
+export class Querying {
+  readonly #engine: Engine;
+  readonly #panel: Panel;
+  readonly #listeners: Listeners;
+  readonly #shown = new Set<Method>(METHODS);
+  readonly #answers = new Map<Method, Uint32Array>();
+  readonly #times = new Map<Method, number>(); // in microseconds
+  #given: Uint32Array | null = null; // an answer that was passed to the page, shown until the next query
+  #opened: Opened | null = null;
+  #vertex = -1;
+  #radius = 0;
+
+  constructor(engine: Engine, panel: Panel, listeners: Listeners) {
+    this.#engine = engine;
+    this.#panel = panel;
+    this.#listeners = listeners;
+  }
+
+  /** Another mesh is open; it has no query yet. */
+  open(opened: Opened): void {
+    this.#opened = opened;
+    this.#vertex = -1;
+    this.#given = null;
+    this.#answers.clear();
+    this.#times.clear();
+  }
+
+  /** `given` is shown instead of the answers, until the next query. */
+  start(vertex: number, radius: number, hidden: string[], given: Uint32Array | null): void {
+    for (const method of METHODS) this.#setShown(method, !hidden.includes(method));
+    this.#radius = radius;
+    this.#setVertex(vertex);
+    this.#ask(true);
+    this.#given = given;
+    this.#listeners.answered();
+  }
+
+  select(vertex: number, isFinal = true): void {
+    if (this.#opened === null) return;
+    const { vertices } = this.#opened;
+    if (!Number.isInteger(vertex) || vertex < 0 || vertex >= vertices) {
+      showError(`vertex ${vertex}, but the mesh has ${vertices} vertices`);
+      return;
+    }
+    hideHint();
+    this.#setVertex(vertex);
+    this.#ask(isFinal);
+  }
+
+  selectRandom(): void {
+    this.select(Math.floor(Math.random() * (this.#opened?.vertices ?? 0)));
+  }
+
+  /** In the unit of the mesh. */
+  setRadius(radius: number, isFinal = true): void {
+    this.#radius = radius;
+    this.#ask(isFinal);
+  }
+
+  multiplyRadius(factor: number): void {
+    this.setRadius(Math.max(this.#radius, 0.5 * this.meanEdge) * factor);
+  }
+
+  showMethod(method: Method, isShown: boolean): void {
+    this.#setShown(method, isShown);
+    this.#ask(true);
+  }
+
+  #setVertex(vertex: number): void {
+    this.#vertex = vertex;
+    this.#panel.setVertex(vertex);
+  }
+
+  #setShown(method: Method, isShown: boolean): void {
+    if (isShown) this.#shown.add(method);
+    else this.#shown.delete(method);
+    this.#panel.setMethodShown(method, isShown);
+  }
+
+  #ask(isFinal: boolean): void {
+    if (this.#vertex < 0) return;
+    this.#given = null;
+    this.#times.clear();
+    this.#panel.setRadius(this.#radius);
+    for (const method of METHODS) this.#panel.setTime(method, null);
+    this.#panel.setVerdict();
+    const shown = METHODS.filter((method) => this.#shown.has(method));
+    const answering = shown.filter((method) => method !== 'bfs'); // whose answer is that of the index
+    this.#engine.query(this.#vertex, this.#radius, withExact(answering), shown);
+    this.#listeners.asked(isFinal);
+  }
+
+  receive(method: Method, ids: Uint32Array): void {
+    if (method === 'exact') this.#answers.clear();
+    this.#answers.set(method, ids);
+    const exact = this.#answers.get('exact');
+    for (const each of this.#shown) {
+      const answer = each === 'bfs' ? exact : this.#answers.get(each);
+      if (answer === undefined) continue;
+      this.#panel.setCount(each, answer.length, exact === undefined ? null : answer.length - exact.length);
+    }
+    this.#listeners.answered();
+  }
+
+  receiveTime(method: Method, microseconds: number): void {
+    this.#panel.setTime(method, microseconds);
+    this.#times.set(method, microseconds);
+    const [exact, bfs] = [this.#times.get('exact'), this.#times.get('bfs')];
+    if (exact === undefined || bfs === undefined) return;
+    const times = Number((bfs / exact).toPrecision(2));
+    const ratio = document.createElement('b');
+    ratio.textContent = times === 1 ? 'as long' : `${shortNumber(times)} times as long`;
+    this.#panel.setVerdict('Breadth-first search takes ', ratio, ' as the index.');
+  }
+
+  /** -1 before the first query. */
+  get vertex(): number {
+    return this.#vertex;
+  }
+
+  /** In the unit of the mesh. */
+  get radius(): number {
+    return this.#radius;
+  }
+
+  /** In the unit of the mesh; 1 without edges. */
+  get meanEdge(): number {
+    return this.#opened?.meanEdge || 1;
+  }
+
+  /** Methods that are not shown. */
+  get hidden(): Method[] {
+    return METHODS.filter((method) => !this.#shown.has(method));
+  }
+
+  /** An answer that was passed to the page, until the next query. */
+  get given(): Uint32Array | null {
+    return this.#given;
+  }
+
+  /** The answers of the methods that are shown. */
+  get answers(): Map<Method, Uint32Array> {
+    return new Map([...this.#answers].filter(([method]) => this.#shown.has(method)));
+  }
+
+  /** The last answer of a method, ascending; empty if there is none. */
+  ids(method: Method): Uint32Array {
+    return (this.#given ?? this.#answers.get(method) ?? new Uint32Array()).slice().sort();
+  }
+}
+
+/** The exact answer is always requested, because the others are compared with it. */
+function withExact(methods: Method[]): Method[] {
+  return methods.includes('exact') ? methods : ['exact', ...methods];
+}
