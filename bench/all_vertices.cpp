@@ -226,8 +226,7 @@ class AllVertices {
 
   std::uint64_t counts_of_batch(const std::vector<VertexId>& rows, double radius, unsigned threads) {
     std::uint64_t ids = 0;
-    for (const std::uint64_t size :
-         neighborhood_sizes(mesh_.index, {.vertices = rows, .radius = radius}, {.threads = threads})) {
+    for (const std::uint64_t size : counts(mesh_.index, {.vertices = rows, .radius = radius}, {.threads = threads})) {
       ids += size;
     }
     return ids;

@@ -39,8 +39,8 @@ void bm_bfs(benchmark::State& state, const std::string& kind) {
 
 void bm_ball(benchmark::State& state, const std::string& kind) {
   const shapes::Shape mesh = shapes::find_kind(kind)->make(kVertices);
-  time_queries(state,
-               [&](VertexId v, double radius, auto& out) { vertices_in_ball(mesh.view().positions, v, radius, out); });
+  BallSearcher searcher(mesh.view().positions);
+  time_queries(state, [&](VertexId v, double radius, auto& out) { searcher.neighborhood(v, radius, out); });
 }
 
 void bm_exact(benchmark::State& state, const std::string& kind) {

@@ -89,7 +89,7 @@ class Writer {
         npz_(npz) {}
 
   BatchSize write() {
-    const std::vector<std::uint64_t> sizes = neighborhood_sizes(method_, query_, next_pass());
+    const std::vector<std::uint64_t> sizes = counts(method_, query_, next_pass());
     const BatchSize total{sizes.size(), std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})};
     limit_.check(total, file_bytes(options_, total, method_.vertex_count()));
     if (options_.count) {
@@ -218,7 +218,7 @@ void batch(const BatchCommand& options) {
   Input input(options.file);
   const QueryVertices vertices(options.vertices, input.vertex_count());
   BatchQuery query{.vertices = vertices.view(), .radius = resolve(options.radius, input)};
-  const SearchMethod method = batch_method(options.method, input, options.threads);
+  const SearchMethod method = method_of(options.method, input, {}, options.threads);
   std::vector<VertexId> in_index_order;
   if (order == RowOrder::Index) {
     in_index_order = all_in_index_order(input.exact_index(options.threads));

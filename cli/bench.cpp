@@ -16,7 +16,6 @@
 
 #include "commands.h"
 #include "input.h"
-#include "measure/methods.h"
 #include "measure/radius_table.h"
 #include "measure/timing.h"
 #include "options.h"
@@ -103,11 +102,13 @@ Table1 table1(Input& input, const Indexes& built) {
 }
 
 std::vector<Measurement> table2(Input& input, const Indexes& built, const measure::Plan& plan) {
-  const std::vector<measure::Method> methods{
-      measure::bfs_method(input.graph()), measure::ball_method(input.positions()),
-      measure::paper_method(built.paper.index), measure::exact_method(built.exact.index)};
+  std::vector<measure::Contestant> contestants{measure::contestant("bfs", SearchMethod::breadth_first(input.graph())),
+                                               measure::contestant("ball", SearchMethod::ball_scan(input.positions())),
+                                               measure::contestant("paper", built.paper.index),
+                                               measure::contestant("exact", built.exact.index)};
+  contestants[1].visits_all_vertices = true;
   Task task("measuring");
-  return measure::measure_radii(methods, plan, mean_edge_length(input.graph()), built.paper.index.permutation(),
+  return measure::measure_radii(contestants, plan, mean_edge_length(input.graph()), built.paper.index.permutation(),
                                 [&](std::size_t done, std::size_t total) {
                                   task.report(done, total);
                                   Task::check_cancelled();

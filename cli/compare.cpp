@@ -13,16 +13,14 @@
 #include "commands.h"
 #include "input.h"
 #include "measure/difference.h"
-#include "measure/methods.h"
 #include "measure/timing.h"
+#include "methods.h"
 #include "options.h"
 #include "output.h"
 #include "painting.h"
 
 namespace meshhood::cli {
 namespace {
-
-using measure::Method;
 
 struct CompareCommand {
   std::string file;
@@ -39,12 +37,13 @@ struct Row {
   double microseconds;
 };
 
-std::vector<Row> answer(const std::vector<Method>& methods, VertexId v, double radius, std::size_t vertices) {
+std::vector<Row> answer(Input& input, VertexId v, double radius) {
   std::vector<Row> rows;
-  measure::Comparison comparison(vertices);
-  for (const Method& method : methods) {
-    Row row{method.name, {}, {}, 0};
-    row.microseconds = 1e6 * measure::median_seconds([&] { method.neighborhood(v, radius, row.vertices); });
+  measure::Comparison comparison(input.vertex_count());
+  for (const char* const method : {"bfs", "ball", "paper", "exact"}) {
+    AnySearcher searcher = method_of(method, input).make_searcher();
+    Row row{method, {}, {}, 0};
+    row.microseconds = 1e6 * measure::median_seconds([&] { searcher.neighborhood(v, radius, row.vertices); });
     if (!rows.empty()) row.difference = comparison.compare(rows.front().vertices, row.vertices);
     rows.push_back(std::move(row));
   }
@@ -88,10 +87,7 @@ void compare(const CompareCommand& options) {
   input.need_edges("compare");
   const VertexId v = resolve_vertex(options.vertex, input);
   const double radius = resolve(options.radius, input);
-  const std::vector<Method> methods{measure::bfs_method(input.graph()), measure::ball_method(input.positions()),
-                                    measure::paper_method(input.paper_index()),
-                                    measure::exact_method(input.exact_index())};
-  const std::vector<Row> rows = answer(methods, v, radius, input.vertex_count());
+  const std::vector<Row> rows = answer(input, v, radius);
   if (!options.output.empty()) paint(options.output, input, v, rows);
   print_result(options.json, to_json(v, radius, rows), to_text(rows));
 }

@@ -21,19 +21,11 @@ void add_method(CLI::App& command, std::string& method) {
              {"exact", "bfs", "paper", "ball"}, method);
 }
 
-measure::Method single_method(const std::string& name, Input& input, const paper::QueryOptions& options) {
-  check_edges(name, input);
-  if (name == "bfs") return measure::bfs_method(input.graph());
-  if (name == "ball") return measure::ball_method(input.positions());
-  if (name == "paper") return measure::paper_method(input.paper_index(), options);
-  return measure::exact_method(input.exact_index());
-}
-
-SearchMethod batch_method(const std::string& name, Input& input, unsigned threads) {
+SearchMethod method_of(const std::string& name, Input& input, const paper::QueryOptions& options, unsigned threads) {
   check_edges(name, input);
   if (name == "bfs") return SearchMethod::breadth_first(input.graph());
   if (name == "ball") return SearchMethod::ball_scan(input.positions());
-  if (name == "paper") return input.paper_index();
+  if (name == "paper") return {input.paper_index(), options};
   return input.exact_index(threads);
 }
 

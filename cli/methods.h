@@ -9,7 +9,6 @@
 #include "meshhood/paper.h"
 
 #include "input.h"
-#include "measure/methods.h"
 
 /// The methods of a search by their names: exact, bfs, paper and ball.
 namespace meshhood::cli {
@@ -17,11 +16,9 @@ namespace meshhood::cli {
 /// --method.
 void add_method(CLI::App& command, std::string& method);
 
-/// The method `name` for single queries. Borrows `input`. Throws Error{InvalidOption} if it needs edges and the input
-/// has none.
-[[nodiscard]] measure::Method single_method(const std::string& name, Input& input, const paper::QueryOptions& options);
-
-/// The same for a batch. `threads` build the index.
-[[nodiscard]] SearchMethod batch_method(const std::string& name, Input& input, unsigned threads);
+/// The method `name`. Borrows `input`. `options` are those of paper; `threads` build the index. Throws
+/// Error{InvalidOption} if the method needs edges and the input has none.
+[[nodiscard]] SearchMethod method_of(const std::string& name, Input& input, const paper::QueryOptions& options = {},
+                                     unsigned threads = kAllThreads);
 
 }  // namespace meshhood::cli

@@ -18,7 +18,6 @@
 
 #include "commands.h"
 #include "input.h"
-#include "measure/methods.h"
 #include "measure/timing.h"
 #include "methods.h"
 #include "options.h"
@@ -28,8 +27,6 @@
 
 namespace meshhood::cli {
 namespace {
-
-using measure::Method;
 
 struct QueryCommand {
   std::string file;
@@ -53,20 +50,20 @@ struct Answer {
   double seconds = 0;               ///< 0 if it was not measured
 };
 
-Method method_of(const QueryCommand& options, Input& input) {
+AnySearcher searcher_of(const QueryCommand& options, Input& input) {
   paper::QueryOptions settings;
   if (options.factor) settings.radius_ratio = parse_radius("--factor", *options.factor);
-  return single_method(options.method, input, settings);
+  return method_of(options.method, input, settings).make_searcher();
 }
 
-/// The answer of `method`, with the median time of several runs.
-Answer timed_answer(const QueryCommand& options, const Method& method, VertexId v, double radius) {
+/// The answer of `searcher`, with the median time of several runs.
+Answer timed_answer(const QueryCommand& options, AnySearcher& searcher, VertexId v, double radius) {
   Answer answer{.vertex = v, .counts = {0}, .vertices = {}, .distances = {}};
   if (options.count && options.output.empty()) {
-    answer.seconds = measure::median_seconds([&] { answer.counts.front() = method.count(v, radius); });
+    answer.seconds = measure::median_seconds([&] { answer.counts.front() = searcher.count(v, radius); });
     return answer;
   }
-  answer.seconds = measure::median_seconds([&] { method.neighborhood(v, radius, answer.vertices); });
+  answer.seconds = measure::median_seconds([&] { searcher.neighborhood(v, radius, answer.vertices); });
   std::sort(answer.vertices.begin(), answer.vertices.end());
   answer.counts.front() = answer.vertices.size();
   return answer;
@@ -74,9 +71,9 @@ Answer timed_answer(const QueryCommand& options, const Method& method, VertexId 
 
 /// An answer of all vertices of a component is a sign of a radius in the wrong unit, or of a mesh of unconnected
 /// triangles. Of several radii, `radius` is the largest.
-void note_whole_component(const Method& method, double radius, const Answer& answer) {
+void note_whole_component(AnySearcher& searcher, double radius, const Answer& answer) {
   if (std::isinf(radius)) return;
-  const std::size_t size = method.count(*answer.vertex, std::numeric_limits<double>::infinity());
+  const std::size_t size = searcher.count(*answer.vertex, std::numeric_limits<double>::infinity());
   if (answer.counts.back() != size) return;
   print_error("note: ",
               fmt::format("the neighborhood of vertex {} is its whole component ({} {}): a larger radius finds "
@@ -158,12 +155,12 @@ void paint(const QueryCommand& options, Input& input, const std::vector<Answer>&
 
 std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<const QueryStart> starts, double radius,
                                       Input& input) {
-  const Method method = method_of(options, input);
+  AnySearcher searcher = searcher_of(options, input);
   std::vector<Answer> answers;
   for (const QueryStart& start : starts) {
     const VertexId v = *start.vertex();
-    Answer answer = timed_answer(options, method, v, radius);
-    if (options.method == "exact" || options.method == "bfs") note_whole_component(method, radius, answer);
+    Answer answer = timed_answer(options, searcher, v, radius);
+    if (options.method == "exact" || options.method == "bfs") note_whole_component(searcher, radius, answer);
     if (options.distances) {
       for (const VertexId w : answer.vertices) answer.distances.push_back(distance(input.positions(), v, w));
     }
@@ -184,8 +181,8 @@ std::vector<Answer> answers_of_starts(const QueryCommand& options, std::span<con
     answers.push_back({start.vertex(), std::move(found.counts), std::move(found.vertices), std::move(found.distances)});
   }
   if (options.start.is_plain() && !options.rings) {
-    const Method method = method_of(options, input);
-    for (const Answer& answer : answers) note_whole_component(method, radii.back(), answer);
+    AnySearcher searcher = searcher_of(options, input);
+    for (const Answer& answer : answers) note_whole_component(searcher, radii.back(), answer);
   }
   return answers;
 }

@@ -74,7 +74,7 @@ std::optional<BatchEstimate> estimate(const SearchMethod& method, const BatchQue
       const std::size_t row = random() % rows;
       v = list ? (*list)[row] : static_cast<VertexId>(row);
     }
-    for (const std::uint64_t size : neighborhood_sizes(method, {.vertices = vertices, .radius = query.radius})) {
+    for (const std::uint64_t size : counts(method, {.vertices = vertices, .radius = query.radius})) {
       sample.add(static_cast<double>(size));
     }
   }

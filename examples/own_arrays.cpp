@@ -40,7 +40,7 @@ int main() {
   const auto index = meshhood::build(mesh);
   meshhood::Searcher searcher(index);
   std::vector<meshhood::VertexId> in_ball;
-  meshhood::vertices_in_ball(mesh.positions, 0, 100.0, in_ball);
+  meshhood::BallSearcher(mesh.positions).neighborhood(0, 100.0, in_ball);
   const std::size_t along_strip = searcher.count(0, 100.0);
   std::printf("within 100 of vertex 0: %zu by the ball, %zu along the strip\n", in_ball.size(), along_strip);
   return along_strip == 201 && in_ball.size() == 401 ? 0 : 1;

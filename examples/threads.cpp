@@ -32,7 +32,7 @@ int main() {
   const meshhood::BatchQuery query{.radius = 5.0};  // around every vertex
   const meshhood::BatchOptions options{.threads = 0};
 
-  const std::vector<std::uint64_t> counts = meshhood::neighborhood_sizes(index, query, options);
+  const std::vector<std::uint64_t> counts = meshhood::counts(index, query, options);
   const std::size_t counted = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
 
   const meshhood::Neighborhoods all = meshhood::neighborhoods(index, query, options);

@@ -27,7 +27,7 @@ void ask_together(const Index& index, test::Random& random) {
   const std::size_t vertices = index.vertex_count();
   std::vector<double> radii(vertices, draw_radius(index, 0, random));
   for (int round = 0; round < 2; ++round) {
-    static_cast<void>(neighborhood_sizes(index, {.radius = radii}));
+    static_cast<void>(counts(index, {.radius = radii}));
     const auto check = [&](const BatchRow& row) {
       if (row.distances.size() != row.ids.size()) fail("a row has too many ids or distances");
       if (std::any_of(row.ids.begin(), row.ids.end(), [&](VertexId w) { return w >= vertices; }))

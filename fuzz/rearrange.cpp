@@ -11,7 +11,7 @@
 
 #include "batch/position_sort.h"
 #include "bytes.h"
-#include "exact/build/dissolve_parts.h"
+#include "exact/build/node_parts.h"
 #include "judge.h"
 #include "support/divided_nodes.h"
 #include "target.h"

@@ -2,6 +2,7 @@
 #include "measure/radius_table.h"
 
 #include <algorithm>
+#include <memory>
 #include <random>
 #include <span>
 #include <utility>
@@ -50,7 +51,7 @@ double quantile(std::vector<double> values, double fraction) {
   return *nth;
 }
 
-/// The sums of one method at one radius so far.
+/// The sums of one contestant at one radius so far.
 struct Tally {
   std::vector<double> microseconds;  // per query, by block
   double count = 0;
@@ -58,24 +59,28 @@ struct Tally {
   double missing = 0;
 };
 
-/// All methods at one radius.
+/// All contestants at one radius.
 class RadiusRun {
  public:
-  RadiusRun(std::span<const Method> methods, double radius, std::size_t vertices)
-      : methods_(methods), radius_(radius), vertices_(vertices), comparison_(vertices), tallies_(methods.size()) {}
+  RadiusRun(std::span<const Contestant> contestants, double radius, std::size_t vertices)
+      : contestants_(contestants),
+        radius_(radius),
+        vertices_(vertices),
+        comparison_(vertices),
+        tallies_(contestants.size()) {}
 
   void run_block(std::span<const VertexId> block) {
-    // Rotate the order: the first method of a block finds the caches as another method left them.
+    // Rotate the order: the first of a block finds the caches as another left them.
     ++first_;
-    for (std::size_t i = 0; i < methods_.size(); ++i) time((first_ + i) % methods_.size(), block);
+    for (std::size_t i = 0; i < contestants_.size(); ++i) time((first_ + i) % contestants_.size(), block);
     for (const VertexId v : block) compare(v);
   }
 
-  [[nodiscard]] Measurement result(std::size_t method, double radius_edges, std::size_t queries) const {
-    const Tally& tally = tallies_[method];
+  [[nodiscard]] Measurement result(std::size_t i, double radius_edges, std::size_t queries) const {
+    const Tally& tally = tallies_[i];
     const auto mean = [&](double sum) { return sum / static_cast<double>(queries); };
     return {.radius_edges = radius_edges,
-            .method = methods_[method].name,
+            .method = contestants_[i].name,
             .microseconds = quantile(tally.microseconds, 0.5),
             .lower = quantile(tally.microseconds, 0.25),
             .upper = quantile(tally.microseconds, 0.75),
@@ -86,20 +91,20 @@ class RadiusRun {
 
  private:
   void time(std::size_t i, std::span<const VertexId> block) {
-    const Method& method = methods_[i];
-    if (method.visits_all_vertices) {
+    const Contestant& contestant = contestants_[i];
+    if (contestant.visits_all_vertices) {
       block = block.first(std::clamp<std::size_t>(kVerticesPerBlock / vertices_, 1, block.size()));
     }
     const double start = processor_time();
-    for (const VertexId v : block) method.neighborhood(v, radius_, answer_);
+    for (const VertexId v : block) contestant.neighborhood(v, radius_, answer_);
     tallies_[i].microseconds.push_back(1e6 * (processor_time() - start) / static_cast<double>(block.size()));
   }
 
   void compare(VertexId v) {
-    for (std::size_t i = 0; i < methods_.size(); ++i) {
-      if (!methods_[i].lists_vertices) continue;
+    for (std::size_t i = 0; i < contestants_.size(); ++i) {
+      if (!contestants_[i].lists_vertices) continue;
       Vertices& answer = i == 0 ? exact_ : answer_;
-      methods_[i].neighborhood(v, radius_, answer);
+      contestants_[i].neighborhood(v, radius_, answer);
       const Difference difference = comparison_.compare(exact_, answer);
       tallies_[i].count += static_cast<double>(answer.size());
       tallies_[i].extra += static_cast<double>(difference.extra);
@@ -107,7 +112,7 @@ class RadiusRun {
     }
   }
 
-  std::span<const Method> methods_;
+  std::span<const Contestant> contestants_;
   double radius_;
   std::size_t vertices_;
   Comparison comparison_;
@@ -124,7 +129,14 @@ std::size_t share(std::size_t total, std::size_t i, std::size_t blocks) {
 
 }  // namespace
 
-std::vector<Measurement> measure_radii(std::span<const Method> methods, const Plan& plan, double unit,
+Contestant contestant(std::string name, const SearchMethod& method) {
+  const auto searcher = std::make_shared<AnySearcher>(method.make_searcher());
+  return {.name = std::move(name), .neighborhood = [searcher](VertexId v, double radius, std::vector<VertexId>& out) {
+            searcher->neighborhood(v, radius, out);
+          }};
+}
+
+std::vector<Measurement> measure_radii(std::span<const Contestant> contestants, const Plan& plan, double unit,
                                        std::span<const VertexId> permutation,
                                        const std::function<void(std::size_t done, std::size_t total)>& report) {
   std::vector<Measurement> table;
@@ -133,12 +145,12 @@ std::vector<Measurement> measure_radii(std::span<const Method> methods, const Pl
   const std::size_t steps = plan.radii.size() * blocks;
   std::size_t step = 0;
   for (const double radius : plan.radii) {
-    RadiusRun run(methods, unit * radius, permutation.size());
+    RadiusRun run(contestants, unit * radius, permutation.size());
     for (std::size_t i = 0; i < blocks; ++i) {
       run.run_block(vertices.next(share(plan.queries, i, blocks)));
       report(++step, steps);
     }
-    for (std::size_t i = 0; i < methods.size(); ++i) table.push_back(run.result(i, radius, plan.queries));
+    for (std::size_t i = 0; i < contestants.size(); ++i) table.push_back(run.result(i, radius, plan.queries));
   }
   return table;
 }

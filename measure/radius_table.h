@@ -8,13 +8,23 @@
 #include <string>
 #include <vector>
 
+#include "meshhood/batch.h"
 #include "meshhood/mesh.h"
-
-#include "measure/methods.h"
 
 namespace meshhood::measure {
 
-/// One method at one radius: a row of the paper's Table 2. All figures are per query.
+/// A search to be timed.
+struct Contestant {
+  std::string name;
+  std::function<void(VertexId v, double radius, std::vector<VertexId>& out)> neighborhood;
+  bool visits_all_vertices = false;  ///< each query costs O(#V)
+  bool lists_vertices = true;        ///< if false, `neighborhood` does not write `out`
+};
+
+/// A searcher of `method`, for one thread.
+[[nodiscard]] Contestant contestant(std::string name, const SearchMethod& method);
+
+/// One contestant at one radius: a row of the paper's Table 2. All figures are per query.
 struct Measurement {
   double radius_edges;
   std::string method;
@@ -40,16 +50,16 @@ struct Plan {
   std::uint64_t seed = 1;
 };
 
-/// Times `methods` at every radius of `plan`. All methods answer each block of queries in turn, so that a disturbance
-/// of the machine affects all of them. Outside the timed section, answers are compared with those of the first method.
-/// A method that visits all vertices is timed on fewer queries of each block; one that does not list vertices is not
+/// Times all contestants at every radius of `plan`. They answer each block of queries in turn, so that a disturbance of
+/// the machine affects all of them. Outside the timed section, answers are compared with those of the first. A
+/// contestant that visits all vertices is timed on fewer queries of each block; one that does not list vertices is not
 /// compared.
 ///
 /// unit          the mean edge length, in the unit of the positions.
 /// permutation   the vertices, #V >= 1, in an order that keeps neighbors close.
 /// report        called after each block; an exception from it ends the measurement.
 [[nodiscard]] std::vector<Measurement> measure_radii(
-    std::span<const Method> methods, const Plan& plan, double unit, std::span<const VertexId> permutation,
+    std::span<const Contestant> contestants, const Plan& plan, double unit, std::span<const VertexId> permutation,
     const std::function<void(std::size_t done, std::size_t total)>& report);
 
 }  // namespace meshhood::measure

@@ -15,10 +15,10 @@ foreach(part
     base/cut_edges base/epoch_array base/number_set base/packed_positions
     aggregate/aggregate
     batch/batch batch/joint_batch batch/packets batch/position_sort
-    exact/cell_components exact/connected_parts exact/dissolve_parts exact/forest exact/joint_search exact/kd_order exact/layout exact/leaf_spheres exact/leaves
+    exact/cell_components exact/forest exact/joint_search exact/kd_order exact/layout exact/leaf_spheres exact/leaves
     exact/links exact/node_groups exact/node_links exact/node_parts exact/quality exact/refit exact/root_tree exact/tree exact/check exact/damage exact/file exact/index exact/verify
     exact/search_families exact/search_differential exact/search_order exact/search_outward exact/search_rare exact/search_traps exact/threads
-    exact/query/edge_search exact/query/nearest exact/query/path_order exact/query/path_queue exact/query/path_search exact/query/region exact/query/square_range
+    exact/query/any_center exact/query/edge_search exact/query/nearest exact/query/path_order exact/query/path_queue exact/query/path_search exact/query/region
     exact/search/component exact/search/descent exact/search/group_states exact/search/home_marks exact/search/leaf_bfs exact/search/leaf_bits
     exact/search/open_elements exact/search/output exact/search/reach exact/search/vertex_bfs exact/search/vertex_set exact/search/waves
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file

@@ -54,10 +54,10 @@ double seconds_of(BuildIndex&& build_index) {
 
 }  // namespace
 
-measure::Method Contestants::method(const std::string& name) {
-  if (name == "bfs") return measure::bfs_method(graph());
+measure::Contestant Contestants::method(const std::string& name) {
+  if (name == "bfs") return measure::contestant(name, SearchMethod::breadth_first(graph()));
   if (name == "bfs-reordered") return bfs_reordered();
-  if (name == "ball") return measure::ball_method(mesh_.positions);
+  if (name == "ball") return ball();
   if (name == "ids") return ids_method();
   if (name == "count") return count_method();
   if (name == "ranges") return ranges_method();
@@ -81,13 +81,15 @@ const Index& Contestants::another_exact() {
   return *exacts_.back();
 }
 
-measure::Method Contestants::ids_method() {
-  measure::Method method = measure::exact_method(another_exact());
-  method.name = "ids";
-  return method;
+measure::Contestant Contestants::ball() const {
+  measure::Contestant ball = measure::contestant("ball", SearchMethod::ball_scan(mesh_.positions));
+  ball.visits_all_vertices = true;
+  return ball;
 }
 
-measure::Method Contestants::before_method(const std::string& name) {
+measure::Contestant Contestants::ids_method() { return measure::contestant("ids", another_exact()); }
+
+measure::Contestant Contestants::before_method(const std::string& name) {
 #if defined(MESHHOOD_BEFORE)
   std::vector<float> floats;
   std::vector<double> doubles;
@@ -108,19 +110,17 @@ measure::Method Contestants::before_method(const std::string& name) {
     return {.name = name,
             .neighborhood = [engine](VertexId v, double radius,
                                      std::vector<VertexId>&) { static_cast<void>(engine->count(v, radius)); },
-            .count = {},
             .lists_vertices = false};
   }
-  return {.name = name,
-          .neighborhood = [engine](VertexId v, double radius,
-                                   std::vector<VertexId>& out) { engine->neighborhood(v, radius, out); },
-          .count = {}};
+  return {.name = name, .neighborhood = [engine](VertexId v, double radius, std::vector<VertexId>& out) {
+            engine->neighborhood(v, radius, out);
+          }};
 #else
   raise(ErrorCode::InvalidOption, name + ": there is no other commit; see bench/before/build");
 #endif
 }
 
-measure::Method Contestants::bfs_reordered() {
+measure::Contestant Contestants::bfs_reordered() {
   if (!reordered_) reordered_ = std::make_unique<Reordered>(graph(), order());
   auto searcher = std::make_shared<ReferenceSearcher>(reordered_->view());
   return {.name = "bfs-reordered",
@@ -128,34 +128,30 @@ measure::Method Contestants::bfs_reordered() {
               [searcher, this](VertexId v, double radius, std::vector<VertexId>& out) {
                 searcher->neighborhood(reordered_->new_id[v], radius, out);
               },
-          .count = {},
           .lists_vertices = false};  // its answers have another numbering
 }
 
 template <class Query>
-measure::Method Contestants::unlisted(const std::string& name, Query query) {
+measure::Contestant Contestants::unlisted(const std::string& name, Query query) {
   auto searcher = std::make_shared<Searcher>(another_exact());
   return {.name = name,
           .neighborhood = [searcher, query](VertexId v, double radius,
                                             std::vector<VertexId>&) { static_cast<void>(query(*searcher, v, radius)); },
-          .count = {},
           .lists_vertices = false};
 }
 
-measure::Method Contestants::count_method() {
+measure::Contestant Contestants::count_method() {
   return unlisted("count", [](Searcher& searcher, VertexId v, double radius) { return searcher.count(v, radius); });
 }
 
-measure::Method Contestants::ranges_method() {
+measure::Contestant Contestants::ranges_method() {
   return unlisted("ranges", [](Searcher& searcher, VertexId v, double radius) { return searcher.ranges(v, radius); });
 }
 
-measure::Method Contestants::paper(const std::string& name) {
+measure::Contestant Contestants::paper(const std::string& name) {
   const PaperOptions options = paper_options(name);
   papers_.push_back(std::make_unique<paper::Index>(paper::build(graph(), options.build)));
-  measure::Method method = measure::paper_method(*papers_.back(), options.query);
-  method.name = name;
-  return method;
+  return measure::contestant(name, {*papers_.back(), options.query});
 }
 
 }  // namespace meshhood::bench

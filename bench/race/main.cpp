@@ -31,7 +31,7 @@ struct Options {
 
 Json to_json(const Build& build) { return {{"name", build.name}, {"seconds", build.seconds}, {"bytes", build.bytes}}; }
 
-Json to_json(const measure::Measurement& m, const measure::Method& method) {
+Json to_json(const measure::Measurement& m, const measure::Contestant& method) {
   Json row{{"radius_edges", m.radius_edges},
            {"method", m.method},
            {"microseconds", m.microseconds},
@@ -42,7 +42,7 @@ Json to_json(const measure::Measurement& m, const measure::Method& method) {
 
 Json race(const MeshView& mesh, Options& options) {
   Contestants contestants(mesh);
-  std::vector<measure::Method> methods;
+  std::vector<measure::Contestant> methods;
   methods.reserve(options.methods.size());
   for (const std::string& name : options.methods) methods.push_back(contestants.method(name));
   const double unit = mean_edge_length(contestants.graph());

@@ -64,7 +64,7 @@ Output<std::int64_t> many_counts(Method& method, const std::optional<Rows>& vert
                                  const std::variant<double, Radii>& radius, unsigned threads, nb::handle progress) {
   const BatchQuery query = query_of(vertices, radius);
   const BatchOptions options{.threads = threads, .progress = progress_to(progress)};
-  return owned<std::int64_t>(method.neighborhood_sizes(query, options));
+  return owned<std::int64_t>(method.counts(query, options));
 }
 
 Output<std::int32_t> ranges(ExactMethod& method, VertexId v, double radius) {

@@ -5,85 +5,65 @@
 #include <utility>
 #include <vector>
 
-#include "meshhood/edge_search.h"
-#include "meshhood/reference.h"
-
-#include "searcher_method.h"
+#include "interpreter.h"
 
 namespace meshhood::python {
-namespace {
 
-struct ExactSource {
-  Index index;
+Answer Method::neighborhood(VertexId v, double radius, bool distances) {
+  return with_searcher([&](AnySearcher& searcher) {
+    Answer answer;
+    if (distances) {
+      searcher.neighborhood(v, radius, answer.ids, answer.distances);
+    } else {
+      searcher.neighborhood(v, radius, answer.ids);
+    }
+    return answer;
+  });
+}
 
-  [[nodiscard]] Searcher searcher() const { return Searcher(index); }
-  [[nodiscard]] SearchMethod method() const { return {index}; }
-};
+std::vector<VertexRange> Method::ranges(VertexId v, double radius) {
+  return with_searcher([&](AnySearcher& searcher) {
+    const auto ranges = searcher.ranges(v, radius);
+    return std::vector(ranges.begin(), ranges.end());
+  });
+}
 
-struct PaperSource {
-  std::shared_ptr<const paper::Index> hierarchy;
-  paper::QueryOptions options;
+std::size_t Method::count(VertexId v, double radius) {
+  return with_searcher([&](AnySearcher& searcher) { return searcher.count(v, radius); });
+}
 
-  [[nodiscard]] paper::Searcher searcher() const { return paper::Searcher(*hierarchy, options); }
-  [[nodiscard]] SearchMethod method() const { return {*hierarchy, options}; }
-};
+std::vector<std::uint64_t> Method::neighborhoods(const BatchQuery& query, const BatchAllocator& allocate,
+                                                 const BatchOptions& options) const {
+  return without_lock([&] { return meshhood::neighborhoods(method_, query, allocate, options); });
+}
 
-struct EdgeSource {
-  std::shared_ptr<const ExactMethod> exact;
-
-  [[nodiscard]] EdgeSearcher searcher() const { return EdgeSearcher(exact->index()); }
-  [[nodiscard]] SearchMethod method() const { return SearchMethod::along_edges(exact->index()); }
-};
-
-struct BfsSource {
-  std::shared_ptr<const GraphData> graph;
-
-  [[nodiscard]] ReferenceSearcher searcher() const { return ReferenceSearcher(graph->view()); }
-  [[nodiscard]] SearchMethod method() const { return SearchMethod::breadth_first(graph->view()); }
-};
-
-struct BallSource {
-  std::shared_ptr<const GraphData> graph;
-
-  [[nodiscard]] BallSearcher searcher() const { return BallSearcher(graph->view().positions); }
-  [[nodiscard]] SearchMethod method() const { return SearchMethod::ball_scan(graph->view().positions); }
-};
-
-class IndexedExactMethod : public SearcherMethod<ExactMethod, ExactSource> {
- public:
-  using SearcherMethod::SearcherMethod;
-
-  [[nodiscard]] const Index& index() const override { return source().index; }
-
-  std::vector<VertexRange> ranges(VertexId v, double radius) override {
-    return with_searcher([&](Searcher& searcher) {
-      const auto ranges = searcher.ranges(v, radius);
-      return std::vector(ranges.begin(), ranges.end());
-    });
-  }
-};
-
-}  // namespace
+std::vector<std::uint64_t> Method::counts(const BatchQuery& query, const BatchOptions& options) const {
+  return without_lock([&] { return meshhood::counts(method_, query, options); });
+}
 
 std::shared_ptr<ExactMethod> exact_method(Index index) {
-  return std::make_shared<IndexedExactMethod>(ExactSource{std::move(index)});
+  return std::make_shared<ExactMethod>(std::make_shared<const Index>(std::move(index)));
 }
 
 std::shared_ptr<Method> paper_method(std::shared_ptr<const paper::Index> hierarchy,
                                      const paper::QueryOptions& options) {
-  return std::make_shared<SearcherMethod<Method, PaperSource>>(PaperSource{std::move(hierarchy), options});
+  const paper::Index& index = *hierarchy;
+  return std::make_shared<Method>(SearchMethod(index, options), std::move(hierarchy));
 }
 
 std::shared_ptr<Method> edge_method(std::shared_ptr<const ExactMethod> exact) {
-  return std::make_shared<SearcherMethod<Method, EdgeSource>>(EdgeSource{std::move(exact)});
+  const Index& index = exact->index();
+  return std::make_shared<Method>(SearchMethod::along_edges(index), std::move(exact));
 }
 
 std::shared_ptr<Method> bfs_method(std::shared_ptr<const GraphData> graph) {
-  return std::make_shared<SearcherMethod<Method, BfsSource>>(BfsSource{std::move(graph)});
+  const GraphView view = graph->view();
+  return std::make_shared<Method>(without_lock([&] { return SearchMethod::breadth_first(view); }), std::move(graph));
 }
 
 std::shared_ptr<Method> ball_method(std::shared_ptr<const GraphData> graph) {
-  return std::make_shared<SearcherMethod<Method, BallSource>>(BallSource{std::move(graph)});
+  const GraphView view = graph->view();
+  return std::make_shared<Method>(SearchMethod::ball_scan(view.positions), std::move(graph));
 }
 
 }  // namespace meshhood::python

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "meshhood/adjacency.h"
@@ -13,6 +14,8 @@
 #include "meshhood/paper.h"
 #include "meshhood/search.h"
 
+#include "pool.h"
+
 namespace meshhood::python {
 
 /// The answer to one query. `distances` is empty unless requested.
@@ -21,27 +24,41 @@ struct Answer {
   std::vector<double> distances;
 };
 
-/// One way to find neighborhoods. Any number of threads may use it at the same time. Each call is made with the
-/// interpreter lock, which is released while the call works. Throws as the C++ calls of the same names.
+/// A method of the core with what it borrows. Any number of threads may use it at the same time. Each call is made with
+/// the interpreter lock, which is released while the call works. Throws as the C++ calls of the same names.
 class Method {
  public:
-  Method() = default;
-  Method(const Method&) = delete;
-  Method& operator=(const Method&) = delete;
-  virtual ~Method() = default;
+  /// `owner` owns what `method` borrows.
+  Method(SearchMethod method, std::shared_ptr<const void> owner)
+      : owner_(std::move(owner)), method_(std::move(method)) {}
 
-  virtual Answer neighborhood(VertexId v, double radius, bool distances) = 0;
-  virtual std::size_t count(VertexId v, double radius) = 0;
-  virtual std::vector<std::uint64_t> neighborhoods(const BatchQuery& query, const BatchAllocator& allocate,
-                                                   const BatchOptions& options) = 0;
-  virtual std::vector<std::uint64_t> neighborhood_sizes(const BatchQuery& query, const BatchOptions& options) = 0;
+  Answer neighborhood(VertexId v, double radius, bool distances);
+  std::vector<VertexRange> ranges(VertexId v, double radius);
+  std::size_t count(VertexId v, double radius);
+  std::vector<std::uint64_t> neighborhoods(const BatchQuery& query, const BatchAllocator& allocate,
+                                           const BatchOptions& options) const;
+  std::vector<std::uint64_t> counts(const BatchQuery& query, const BatchOptions& options) const;
+
+ private:
+  template <class F>
+  auto with_searcher(F&& f) {
+    return searchers_.with([this] { return method_.make_searcher(); }, std::forward<F>(f));
+  }
+
+  std::shared_ptr<const void> owner_;
+  SearchMethod method_;
+  Pool<AnySearcher> searchers_;
 };
 
-/// The exact neighborhood by the index, and the calls that only the index has.
+/// The exact neighborhood by the index, for the calls that only the index has.
 class ExactMethod : public Method {
  public:
-  [[nodiscard]] virtual const Index& index() const = 0;
-  virtual std::vector<VertexRange> ranges(VertexId v, double radius) = 0;
+  explicit ExactMethod(std::shared_ptr<const Index> index) : Method(*index, index), index_(std::move(index)) {}
+
+  [[nodiscard]] const Index& index() const { return *index_; }
+
+ private:
+  std::shared_ptr<const Index> index_;
 };
 
 [[nodiscard]] std::shared_ptr<ExactMethod> exact_method(Index index);

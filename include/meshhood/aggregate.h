@@ -111,10 +111,11 @@ struct AggregateOptions {
 /// before they are squared or added, so that only a result too large for a double overflows; large values elsewhere
 /// have no effect. Infinite values give what IEEE arithmetic gives.
 ///
-/// Cost: the neighborhoods of one leaf are found together (see joint.h), and vertices that they have in common are read
-/// once for all of them, most of them as precomputed sums. Memory: for up to 16 channels at a time 9 bytes for each
-/// vertex and channel, and as much for the weights; with a kernel 14 bytes instead; twice as much for a channel with
-/// values above 2^300. The time and memory of `for_each_packet` are added.
+/// Cost: the neighborhoods of one leaf are found together, and vertices that they have in common are read once for all
+/// of them, most of them as precomputed sums. Memory: for up to 16 channels at a time 9 bytes for each vertex and
+/// channel, and as much for the weights; with a kernel 14 bytes instead; twice as much for a channel with values above
+/// 2^300. Added are the time of `counts`, 8 to 16 bytes a row of at most 2^22 rows at a time, and for each
+/// thread a searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry of a group (docs/joint.md).
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming row, radius or vertex. The
 /// contents of `result` are then unspecified.

@@ -16,15 +16,18 @@
 #include "meshhood/mesh.h"
 #include "meshhood/paper.h"
 #include "meshhood/progress.h"
+#include "meshhood/search.h"
 
 /// Many neighborhoods in one call, on one or more threads.
 ///
 ///     const auto [offsets, ids, distances] = meshhood::neighborhoods(index, {.radius = 1.5}, {.threads = 0});
 namespace meshhood {
 
-class SearcherFactory;
+struct SearcherFactory;
 
-/// The search of a batch, and its index. Converts from either index. Borrows its arguments, which must outlive it.
+/// A way to find neighborhoods, chosen at run time: makes searchers for single queries, and is the first argument of a
+/// batch. Converts from either index. Borrows its arguments, which must outlive it and its searchers. A copy is cheap.
+/// Any number of threads may use one.
 class SearchMethod {
  public:
   /// The exact neighborhoods (see `Searcher`).
@@ -48,6 +51,9 @@ class SearchMethod {
 
   /// #V.
   [[nodiscard]] std::size_t vertex_count() const;
+
+  /// A searcher of this method, as the one named above. One for each thread. Throws as its constructor.
+  [[nodiscard]] AnySearcher make_searcher() const;
 
   /// Used by the batches.
   [[nodiscard]] const SearcherFactory& searchers() const { return *searchers_; }
@@ -191,7 +197,7 @@ void for_each_neighborhood(const SearchMethod& method, const BatchQuery& query, 
                                                        const BatchOptions& options = {});
 
 /// Returns the number of vertices of each row. Throws as `for_each_neighborhood`.
-[[nodiscard]] std::vector<std::uint64_t> neighborhood_sizes(const SearchMethod& method, const BatchQuery& query,
-                                                            const BatchOptions& options = {});
+[[nodiscard]] std::vector<std::uint64_t> counts(const SearchMethod& method, const BatchQuery& query,
+                                                const BatchOptions& options = {});
 
 }  // namespace meshhood

@@ -148,12 +148,6 @@ struct Curvatures {
 [[nodiscard]] Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query,
                                     const CurvatureOptions& options = {});
 
-/// H = (k1 + k2) / 2.
-[[nodiscard]] inline double mean_curvature(double k1, double k2) { return (k1 + k2) / 2; }
-
-/// K = k1 k2.
-[[nodiscard]] inline double gaussian_curvature(double k1, double k2) { return k1 * k2; }
-
 /// Koenderink's shape index, 2 / pi atan((k1 + k2) / (k1 - k2)): 1 on a dome, 0.5 on a ridge, 0 on a saddle, -0.5 in a
 /// valley, -1 in a bowl. NaN where both are 0, where it is not defined.
 [[nodiscard]] double shape_index(double k1, double k2);

@@ -9,7 +9,7 @@
 #include "meshhood/filter.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
-#include "meshhood/searcher.h"
+#include "meshhood/search.h"
 
 namespace meshhood {
 

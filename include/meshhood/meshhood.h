@@ -16,10 +16,11 @@
 ///     std::vector<meshhood::VertexId> ids;
 ///     searcher.neighborhood(42, 1.5, ids);   // the same set as breadth-first search
 ///
-/// `Searcher` is in search.h, batches over many vertices in batch.h and joint.h, visitors in searcher.h, searches from
-/// any point with filters in region.h, along the edges in edge_search.h, meshes that deform in refit.h, files in
-/// io/mesh_io.h and io/index_io.h. Meshes of other libraries are in eigen.h, cgal.h, openmesh.h and
-/// geometry_central.h. `meshhood::paper` has the same calls with the approximate neighborhoods of the paper.
+/// `Searcher` and visitors are in search.h, batches over many vertices in batch.h, sums over neighborhoods in
+/// aggregate.h and moments.h, searches from any point with filters in region.h, along the edges in edge_search.h,
+/// meshes that deform in refit.h, files in io/mesh_io.h and io/index_io.h. Meshes of other libraries are in eigen.h,
+/// cgal.h, openmesh.h and geometry_central.h. `meshhood::paper` has the same calls with the approximate neighborhoods
+/// of the paper.
 
 #include "meshhood/adjacency.h"            // IWYU pragma: export
 #include "meshhood/aggregate.h"            // IWYU pragma: export
@@ -32,7 +33,6 @@
 #include "meshhood/filter.h"               // IWYU pragma: export
 #include "meshhood/fingerprint.h"          // IWYU pragma: export
 #include "meshhood/index.h"                // IWYU pragma: export
-#include "meshhood/joint.h"                // IWYU pragma: export
 #include "meshhood/level.h"                // IWYU pragma: export
 #include "meshhood/mesh.h"                 // IWYU pragma: export
 #include "meshhood/mesh_data.h"            // IWYU pragma: export
@@ -45,6 +45,5 @@
 #include "meshhood/region_mesh.h"          // IWYU pragma: export
 #include "meshhood/reorder.h"              // IWYU pragma: export
 #include "meshhood/search.h"               // IWYU pragma: export
-#include "meshhood/searcher.h"             // IWYU pragma: export
 #include "meshhood/serialize.h"            // IWYU pragma: export
 #include "meshhood/start.h"                // IWYU pragma: export

@@ -12,7 +12,7 @@
 #include "meshhood/level.h"
 #include "meshhood/mesh.h"
 #include "meshhood/progress.h"
-#include "meshhood/searcher.h"
+#include "meshhood/search.h"
 
 /// The index and the query of *Fast neighborhood search on polygonal meshes*, sections 3.2 and 3.3.
 /// `docs/paper.md` lists the deviations from the paper, with reasons.
@@ -152,7 +152,7 @@ class Searcher {
   void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances);
 
   /// The neighborhood as ranges of the index order, without copying ids. In the same order, disjoint, none empty; valid
-  /// until the next call. See `visit` and `reduce` in searcher.h.
+  /// until the next call. See `visit` and `reduce`.
   [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius);
 
   /// The number of vertices of the neighborhood.

@@ -8,7 +8,7 @@
 
 #include "meshhood/adjacency.h"
 #include "meshhood/mesh.h"
-#include "meshhood/searcher.h"
+#include "meshhood/search.h"
 
 namespace meshhood {
 
@@ -102,8 +102,5 @@ class BallSearcher {
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidMesh, TooLarge}.
 [[nodiscard]] std::vector<VertexId> exact_neighborhood(const MeshView& mesh, VertexId v, double radius);
-
-/// One query of a `BallSearcher`. Throws as it does.
-void vertices_in_ball(const PositionsView& positions, VertexId v, double radius, std::vector<VertexId>& out);
 
 }  // namespace meshhood

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "meshhood/error.h"
-#include "meshhood/joint.h"
 
 #include "aggregate/kernel_sums.h"
 #include "aggregate/maximal_nodes.h"
@@ -23,6 +22,7 @@
 #include "aggregate/variances.h"
 #include "base/distance.h"
 #include "base/text.h"
+#include "batch/packets.h"
 #include "batch/rows.h"
 #include "exact/index_access.h"
 

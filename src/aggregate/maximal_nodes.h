@@ -5,10 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "meshhood/joint.h"
-
 #include "aggregate/node_tree.h"
 #include "aggregate/packet_reducer.h"
+#include "exact/joint/packet_answer.h"
 #include "simd/joint.h"
 
 namespace meshhood {

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "meshhood/joint.h"
-#include "meshhood/searcher.h"
+#include "meshhood/search.h"
 
+#include "exact/joint/packet_answer.h"
 #include "exact/layout.h"
 
 namespace meshhood {

@@ -5,9 +5,8 @@
 #include <memory>
 #include <span>
 
-#include "meshhood/joint.h"
-
 #include "aggregate/node_tree.h"
+#include "exact/joint/packet_answer.h"
 #include "simd/joint.h"
 
 namespace meshhood {

@@ -5,9 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "meshhood/joint.h"
-
 #include "aggregate/node_tree.h"
+#include "exact/joint/packet_answer.h"
 #include "simd/ball.h"
 #include "simd/joint.h"
 

@@ -235,8 +235,4 @@ std::size_t BallSearcher::count(VertexId v, double radius) {
   return result;
 }
 
-void vertices_in_ball(const PositionsView& positions, VertexId v, double radius, std::vector<VertexId>& out) {
-  BallSearcher(positions).neighborhood(v, radius, out);
-}
-
 }  // namespace meshhood

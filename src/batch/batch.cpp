@@ -12,7 +12,7 @@ Batch::Batch(SearchMethod method, const BatchQuery& query, const BatchOptions& o
     : method_(std::move(method)),
       factory_(method_.searchers()),
       options_(options),
-      rows_(query, factory_.vertex_count()),
+      rows_(query, factory_.vertex_count),
       task_(options.threads, options.progress, passes * rows_.size()),
       threads_(task_.threads()) {}
 
@@ -46,7 +46,7 @@ bool Batch::ends_unit(std::size_t row, std::uint32_t positions) const {
 }
 
 std::size_t Batch::whole_units(std::size_t first, std::size_t window) const {
-  for (const std::uint32_t positions : {factory_.traits().positions_together, std::uint32_t{kLeafCapacity}}) {
+  for (const std::uint32_t positions : {factory_.positions_together, std::uint32_t{kLeafCapacity}}) {
     for (std::size_t size = window; size > 0; --size) {
       if (ends_unit(first + size - 1, positions)) return size;
     }
@@ -58,7 +58,7 @@ void Batch::cut_into_chunks(std::span<const std::uint64_t> in_order) {
   constexpr std::size_t kChunk = 32;
   constexpr std::size_t kMaxChunk = 512;  // where many rows share their vertices
   const std::size_t count = in_order.size();
-  const std::uint64_t together = std::uint64_t{factory_.traits().positions_together} << 32;
+  const std::uint64_t together = std::uint64_t{factory_.positions_together} << 32;
   // Where there are few rows, each may take long: then a chunk has one row, and those that belong together with it.
   const std::size_t grain = std::clamp<std::size_t>(count / kChunk, 1, kChunk);
   chunk_ends_.clear();

@@ -30,7 +30,7 @@ class Batch {
 
   [[nodiscard]] const Rows& rows() const { return rows_; }
   [[nodiscard]] const BatchOptions& options() const { return options_; }
-  [[nodiscard]] std::size_t vertex_count() const { return factory_.vertex_count(); }
+  [[nodiscard]] std::size_t vertex_count() const { return factory_.vertex_count; }
   [[nodiscard]] TaskContext& task() { return task_; }
 
   /// Sorts the rows by their position in the index, and returns the former number of each.

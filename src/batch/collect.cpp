@@ -154,8 +154,7 @@ void write_rows(Batch& batch, std::span<const std::uint64_t> offsets, const Batc
 
 }  // namespace
 
-std::vector<std::uint64_t> neighborhood_sizes(const SearchMethod& method, const BatchQuery& query,
-                                              const BatchOptions& options) {
+std::vector<std::uint64_t> counts(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options) {
   Batch batch(method, query, options, 1);
   std::vector<std::uint64_t> result(batch.rows().size());
   count_rows(batch, result.data(), nullptr);
@@ -166,7 +165,7 @@ std::vector<std::uint64_t> neighborhood_sizes(const SearchMethod& method, const 
 std::vector<std::uint64_t> neighborhoods(const SearchMethod& method, const BatchQuery& query,
                                          const BatchAllocator& allocate, const BatchOptions& options) {
   if (!allocate) raise(ErrorCode::InvalidOption, "allocate is empty, expected a function");
-  if (!method.searchers().traits().is_count_cheap) return stream_and_copy(method, query, allocate, options);
+  if (!method.searchers().is_count_cheap) return stream_and_copy(method, query, allocate, options);
   Batch batch(method, query, options, 2);
   SizeLimit limit(options, batch.rows().size());
   check_sample(batch, limit);

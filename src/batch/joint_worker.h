@@ -7,12 +7,12 @@
 #include <span>
 #include <vector>
 
-#include "meshhood/joint.h"
 #include "meshhood/search.h"
 
 #include "batch/searcher_factory.h"
 #include "batch/single_packet.h"
 #include "exact/joint/joint_search.h"
+#include "exact/joint/packet_answer.h"
 #include "exact/joint/row_writer.h"
 #include "exact/layout.h"
 

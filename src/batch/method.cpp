@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The methods that a batch can use, each by its searcher.
+// The methods, each by its searcher.
+#include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "meshhood/batch.h"
 #include "meshhood/edge_search.h"
@@ -23,18 +26,42 @@ static_assert(NeighborhoodSearcher<paper::Searcher>);
 static_assert(NeighborhoodSearcher<ReferenceSearcher>);
 static_assert(NeighborhoodSearcher<BallSearcher>);
 static_assert(NeighborhoodSearcher<EdgeSearcher>);
+static_assert(NeighborhoodSearcher<AnySearcher>);
 
-constexpr auto kNothing = [](auto&) {};
+/// Answers rows one by one.
+class SearcherWorker final : public BatchWorker {
+ public:
+  explicit SearcherWorker(AnySearcher searcher) : searcher_(std::move(searcher)) {}
 
-template <NeighborhoodSearcher S, class Begin>
-std::unique_ptr<BatchWorker> worker_of(S searcher, Begin begin) {
-  return std::make_unique<SearcherWorker<S, Begin>>(std::move(searcher), begin);
-}
+  void count(std::span<const BatchItem> chunk, const SizeSink& sink) override {
+    for (const BatchItem& item : chunk) {
+      const std::uint64_t size = searcher_.count(item.vertex, item.radius);
+      if (!sink({&item, 1}, {&size, 1})) return;
+    }
+  }
 
-template <class Make, class Position>
-std::shared_ptr<const SearcherFactory> factory_of(std::size_t vertex_count, const MethodTraits& traits, Make make,
-                                                  Position position) {
-  return std::make_shared<const FactoryOf<Make, Position>>(vertex_count, traits, std::move(make), std::move(position));
+  void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) override {
+    for (const BatchItem& item : chunk) {
+      if (distances) {
+        searcher_.neighborhood(item.vertex, item.radius, ids_, distances_);
+      } else {
+        searcher_.neighborhood(item.vertex, item.radius, ids_);
+      }
+      const BatchMemory memory = receiver.memory(item.row, ids_.size());
+      std::copy(ids_.begin(), ids_.end(), memory.ids.begin());
+      if (distances) std::copy(distances_.begin(), distances_.end(), memory.distances.begin());
+      if (!receiver.done(item.row)) return;
+    }
+  }
+
+ private:
+  AnySearcher searcher_;
+  std::vector<VertexId> ids_;
+  std::vector<double> distances_;
+};
+
+std::shared_ptr<const SearcherFactory> shared(SearcherFactory factory) {
+  return std::make_shared<const SearcherFactory>(std::move(factory));
 }
 
 std::uint32_t position_in_paper_index(const paper::Index& index, VertexId v) {
@@ -46,41 +73,49 @@ constexpr auto kOwnOrder = [](VertexId v) { return std::uint32_t{v}; };
 
 }  // namespace
 
+std::unique_ptr<BatchWorker> SearcherFactory::make_worker() const {
+  return make_joint_worker ? make_joint_worker() : std::make_unique<SearcherWorker>(make_searcher());
+}
+
 SearchMethod::SearchMethod(std::shared_ptr<const SearcherFactory> searchers) : searchers_(std::move(searchers)) {}
 
 SearchMethod::SearchMethod(const Index& index)
-    : SearchMethod(factory_of(
-          index.vertex_count(), {.is_count_cheap = true, .positions_together = JointWorker::kGroupPositions},
-          [&index] { return std::make_unique<JointWorker>(index); },
-          [&index](VertexId v) { return IndexAccess::view(index).slot[v]; })) {}
+    : SearchMethod(shared({.vertex_count = index.vertex_count(),
+                           .make_searcher = [&index] { return AnySearcher(Searcher(index)); },
+                           .position = [&index](VertexId v) { return IndexAccess::view(index).slot[v]; },
+                           .is_count_cheap = true,
+                           .positions_together = JointWorker::kGroupPositions,
+                           .make_joint_worker = [&index] { return std::make_unique<JointWorker>(index); }})) {}
 
 SearchMethod::SearchMethod(const paper::Index& index, const paper::QueryOptions& options)
-    : SearchMethod(factory_of(
-          index.vertex_count(), {.is_count_cheap = true},
-          [&index, options] { return worker_of(paper::Searcher(index, options), kNothing); },
-          [&index](VertexId v) { return position_in_paper_index(index, v); })) {
+    : SearchMethod(shared({.vertex_count = index.vertex_count(),
+                           .make_searcher = [&index, options] { return AnySearcher(paper::Searcher(index, options)); },
+                           .position = [&index](VertexId v) { return position_in_paper_index(index, v); },
+                           .is_count_cheap = true})) {
   paper::validate(options);
 }
 
 SearchMethod SearchMethod::breadth_first(const GraphView& graph) {
   validate(graph);
-  return SearchMethod(factory_of(
-      graph.positions.size(), {.is_count_cheap = false},
-      [graph] { return worker_of(ReferenceSearcher(graph), kNothing); }, kOwnOrder));
+  return SearchMethod(shared({.vertex_count = graph.positions.size(),
+                              .make_searcher = [graph] { return AnySearcher(ReferenceSearcher(graph)); },
+                              .position = kOwnOrder}));
 }
 
 SearchMethod SearchMethod::along_edges(const Index& index) {
-  return SearchMethod(factory_of(
-      index.vertex_count(), {.is_count_cheap = false}, [&index] { return worker_of(EdgeSearcher(index), kNothing); },
-      [&index](VertexId v) { return IndexAccess::view(index).slot[v]; }));
+  return SearchMethod(shared({.vertex_count = index.vertex_count(),
+                              .make_searcher = [&index] { return AnySearcher(EdgeSearcher(index)); },
+                              .position = [&index](VertexId v) { return IndexAccess::view(index).slot[v]; }}));
 }
 
 SearchMethod SearchMethod::ball_scan(const PositionsView& positions) {
-  return SearchMethod(factory_of(
-      positions.size(), {.is_count_cheap = false}, [positions] { return worker_of(BallSearcher(positions), kNothing); },
-      kOwnOrder));
+  return SearchMethod(shared({.vertex_count = positions.size(),
+                              .make_searcher = [positions] { return AnySearcher(BallSearcher(positions)); },
+                              .position = kOwnOrder}));
 }
 
-std::size_t SearchMethod::vertex_count() const { return searchers_->vertex_count(); }
+std::size_t SearchMethod::vertex_count() const { return searchers_->vertex_count; }
+
+AnySearcher SearchMethod::make_searcher() const { return searchers_->make_searcher(); }
 
 }  // namespace meshhood

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The neighborhoods of a batch as packets, each passed to the visitor of the thread that found it.
+#include "batch/packets.h"
+
 #include <memory>
 #include <vector>
 
 #include "meshhood/error.h"
-#include "meshhood/joint.h"
 
 #include "batch/batch.h"
 #include "batch/joint_worker.h"

@@ -5,9 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "meshhood/joint.h"
-
 #include "batch/searcher_factory.h"
+#include "exact/joint/packet_answer.h"
 #include "exact/layout.h"
 #include "exact/search/vertex_set.h"
 #include "simd/joint.h"

@@ -9,7 +9,6 @@
 
 #include "meshhood/curvature.h"
 #include "meshhood/error.h"
-#include "meshhood/joint.h"
 
 #include "base/vector.h"
 #include "curvature/direct_fit.h"
@@ -19,6 +18,7 @@
 #include "curvature/quadric.h"
 #include "curvature/surface.h"
 #include "curvature/visit_moments.h"
+#include "exact/joint/packet_answer.h"
 
 namespace meshhood {
 namespace {

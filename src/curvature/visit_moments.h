@@ -7,8 +7,8 @@
 #include <span>
 
 #include "meshhood/batch.h"
-#include "meshhood/joint.h"
 
+#include "batch/packets.h"
 #include "curvature/packet_moments.h"
 #include "curvature/surface.h"
 

@@ -6,9 +6,9 @@
 #include <span>
 
 #include "meshhood/mesh.h"
-#include "meshhood/query_word.h"
 
 #include "simd/kernels.h"
+#include "simd/query_word.h"
 
 /// The inner loops of the joint search, which answers up to 32 queries of one leaf at once. As in `Kernels`, each
 /// function gives the same result on every processor, bit for bit.

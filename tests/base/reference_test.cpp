@@ -41,7 +41,7 @@ TEST(ExactNeighborhood, ExcludesNearVerticesThatAreNotConnected) {
 TEST(Ball, IncludesNearVerticesThatAreNotConnected) {
   const TestMesh mesh = horseshoe();
   std::vector<VertexId> out;
-  vertices_in_ball(mesh.positions_view(), 0, 1, out);
+  BallSearcher(mesh.positions_view()).neighborhood(0, 1, out);
   EXPECT_THAT(out, ElementsAre(0, 5));
 }
 
@@ -105,7 +105,7 @@ TEST(Ball, EqualsTheOracle) {
       for (int i = 0; mesh.size() > 0 && i < 50; ++i, ++queries) {
         const auto v = static_cast<std::uint32_t>(random.below(mesh.size()));
         const double tie = oracle.distance(v, random.below(mesh.size()));
-        vertices_in_ball(mesh.positions_view(), static_cast<VertexId>(v), tie, out);
+        BallSearcher(mesh.positions_view()).neighborhood(static_cast<VertexId>(v), tie, out);
         ASSERT_TRUE(std::ranges::equal(out, oracle.ball(v, tie))) << mesh.name << ", radius " << tie;
       }
     }
@@ -140,7 +140,7 @@ TEST(Reference, InvalidArgumentsAreRefusedAndResultsStayUnchanged) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto exact = [&](VertexId v, double r) { return [&, v, r] { searcher.neighborhood(v, r, out); }; };
   const auto scan = [&](VertexId v, double r) {
-    return [&, v, r] { vertices_in_ball(mesh.positions_view(), v, r, out); };
+    return [&, v, r] { BallSearcher(mesh.positions_view()).neighborhood(v, r, out); };
   };
   const auto once = [&](VertexId v, double r) {
     return [&, v, r] { static_cast<void>(exact_neighborhood(mesh.view(), v, r)); };

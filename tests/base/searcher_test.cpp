@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // All searchers satisfy `NeighborhoodSearcher`: their calls agree, and a visit gives the same vertices.
-#include "meshhood/searcher.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/meshhood.h"
+#include "meshhood/search.h"
 
 #include "support/families.h"
 #include "support/family_name.h"

@@ -75,8 +75,8 @@ class Views : public testing::Test {
     EXPECT_EQ(distance(view.positions, 3, 40), distance(plain.positions, 3, 40));
     std::vector<VertexId> expected;
     std::vector<VertexId> found;
-    vertices_in_ball(plain.positions, 7, 2.5, expected);
-    vertices_in_ball(view.positions, 7, 2.5, found);
+    BallSearcher(plain.positions).neighborhood(7, 2.5, expected);
+    BallSearcher(view.positions).neighborhood(7, 2.5, found);
     EXPECT_EQ(found, expected);
     EXPECT_EQ(exact_neighborhood(view, 7, 2.5), exact_neighborhood(plain, 7, 2.5));
   }

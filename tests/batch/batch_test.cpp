@@ -124,7 +124,7 @@ void expect_right(const SearchMethod& index, const Source& source, const RandomR
     }
     EXPECT_EQ(rows_of(neighborhoods(index, rows.query(), {.threads = threads, .distances = true, .sorted = true})),
               expected);
-    EXPECT_EQ(neighborhood_sizes(index, rows.query(), {.threads = threads}), sizes_of(expected));
+    EXPECT_EQ(counts(index, rows.query(), {.threads = threads}), sizes_of(expected));
   }
 }
 
@@ -177,20 +177,20 @@ TEST_F(Batches, WithoutAListTakeAllVerticesInOrder) {
   std::iota(all.begin(), all.end(), VertexId{0});
   const BatchOptions options{.threads = 2, .sorted = true};
   EXPECT_EQ(stream(index, {.radius = 2.5}, options), stream(index, {.vertices = all, .radius = 2.5}, options));
-  EXPECT_EQ(neighborhood_sizes(index, {.radius = 0.5}), std::vector<std::uint64_t>(all.size(), 1));
+  EXPECT_EQ(counts(index, {.radius = 0.5}), std::vector<std::uint64_t>(all.size(), 1));
 }
 
 TEST_F(Batches, OfNoRowsAreEmpty) {
   const std::vector<VertexId> none;
   const BatchQuery query{.vertices = none, .radius = 1.0};
-  EXPECT_THAT(neighborhood_sizes(index, query), IsEmpty());
+  EXPECT_THAT(counts(index, query), IsEmpty());
   EXPECT_THAT(neighborhoods(index, query).offsets, ElementsAre(0));
   EXPECT_THAT(stream(index, query, {.threads = 2}).ids, IsEmpty());
 }
 
 TEST_F(Batches, OfAnEmptyMeshAreEmpty) {
   const Index empty = build(MeshView{});
-  EXPECT_THAT(neighborhood_sizes(empty, {.radius = 1.0}), IsEmpty());
+  EXPECT_THAT(counts(empty, {.radius = 1.0}), IsEmpty());
   EXPECT_THAT(neighborhoods(empty, {.radius = 1.0}, {.threads = 2}).offsets, ElementsAre(0));
   const paper::Index empty_paper = paper::build(MeshView{});
   EXPECT_THAT(stream(empty_paper, {.radius = 1.0}, {}).ids, IsEmpty());
@@ -287,8 +287,7 @@ TEST_F(Batches, PassOnExceptionsOfTheAllocator) {
 
 TEST_F(Batches, OfMoreRowsThanAPieceHaveAllRows) {
   const std::vector<VertexId> vertices((std::size_t{1} << 20) + 5, VertexId{7});
-  const std::vector<std::uint64_t> all =
-      neighborhood_sizes(index, {.vertices = vertices, .radius = 1.0}, {.threads = 2});
+  const std::vector<std::uint64_t> all = counts(index, {.vertices = vertices, .radius = 1.0}, {.threads = 2});
   EXPECT_EQ(all.size(), vertices.size());
   EXPECT_EQ(std::count(all.begin(), all.end(), all.front()), static_cast<std::ptrdiff_t>(all.size()));
 }
@@ -303,7 +302,7 @@ void expect_all_refused(ErrorCode code, const std::string& cause, const SearchMe
   };
   expect_refused(code, cause, [&] { for_each_neighborhood(index, query, never, options); });
   expect_refused(code, cause, [&] { static_cast<void>(neighborhoods(index, query, options)); });
-  expect_refused(code, cause, [&] { static_cast<void>(neighborhood_sizes(index, query, options)); });
+  expect_refused(code, cause, [&] { static_cast<void>(counts(index, query, options)); });
   const auto no_memory = [&](std::size_t) -> BatchMemory {
     ADD_FAILURE() << "allocated before: " << cause;
     return {};
@@ -360,7 +359,7 @@ TEST_F(Batches, ReadTheirQueryOnce) {
     }};
     EXPECT_EQ(neighborhoods(method, changed.query(), options).ids, expected.ids);
     changed = rows;
-    EXPECT_EQ(neighborhood_sizes(method, changed.query(), options), sizes_of(rows_of(expected)));
+    EXPECT_EQ(counts(method, changed.query(), options), sizes_of(rows_of(expected)));
     changed = rows;
     EXPECT_EQ(stream(method, changed.query(), options).ids.size(), rows.vertices.size());
   }
@@ -455,9 +454,8 @@ TEST_F(Batches, CanBeCancelledAtAnyReport) {
     }
     EXPECT_LT(rows, index.vertex_count());
     const auto no = [](std::size_t, std::size_t) { return false; };
-    expect_refused(ErrorCode::Cancelled, "cancelled", [&] {
-      static_cast<void>(neighborhood_sizes(index, {.radius = 2.0}, {.threads = threads, .progress = no}));
-    });
+    expect_refused(ErrorCode::Cancelled, "cancelled",
+                   [&] { static_cast<void>(counts(index, {.radius = 2.0}, {.threads = threads, .progress = no})); });
   }
 }
 
@@ -472,7 +470,7 @@ TEST_F(Batches, PassOnExceptionsOfTheSink) {
       EXPECT_THROW(for_each_neighborhood(index, {.radius = 2.0}, sink, {.threads = threads}), std::bad_alloc);
       EXPECT_EQ(rows, last + 1);
     }
-    EXPECT_EQ(neighborhood_sizes(index, {.radius = kInfinity}, {.threads = threads}).back(), index.vertex_count());
+    EXPECT_EQ(counts(index, {.radius = kInfinity}, {.threads = threads}).back(), index.vertex_count());
   }
 }
 
@@ -482,7 +480,7 @@ TEST_F(Batches, PassOnExceptionsOfTheProgressCallback) {
                                  if (done == total) throw std::bad_alloc();
                                  return true;
                                }};
-    EXPECT_THROW(static_cast<void>(neighborhood_sizes(index, {.radius = 2.0}, options)), std::bad_alloc);
+    EXPECT_THROW(static_cast<void>(counts(index, {.radius = 2.0}, options)), std::bad_alloc);
   }
 }
 

@@ -69,7 +69,7 @@ TEST_F(JointBatch, RowsAreThoseOfSingleQueries) {
   Searcher searcher(index);
   std::vector<VertexId> ids;
   std::vector<double> distances;
-  const std::vector<std::uint64_t> sizes = neighborhood_sizes(index, {.vertices = vertices, .radius = radii});
+  const std::vector<std::uint64_t> sizes = counts(index, {.vertices = vertices, .radius = radii});
   for (const Received& row : stream(index, {.vertices = vertices, .radius = radii}, {.distances = true})) {
     searcher.neighborhood(vertices[row.row], radii[row.row], ids, distances);
     ASSERT_EQ(sizes[row.row], ids.size());

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The packets of a batch hold the neighborhoods of its rows, for any selection of rows.
+#include "batch/packets.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>

@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/curvature.h"
-#include "meshhood/joint.h"
 
+#include "batch/packets.h"
 #include "curvature/surface.h"
 #include "support/exact_answer.h"
 #include "support/families.h"

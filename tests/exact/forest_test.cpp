@@ -13,8 +13,7 @@
 
 #include "meshhood/reference.h"
 
-#include "exact/build/connected_parts.h"
-#include "exact/build/dissolve_parts.h"
+#include "exact/build/node_parts.h"
 #include "exact/index_access.h"
 #include "exact/node_search.h"
 #include "support/families.h"

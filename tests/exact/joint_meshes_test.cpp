@@ -56,7 +56,7 @@ class LeafRows {
 
  private:
   void query(const std::vector<double>& radii) {
-    const std::vector<std::uint64_t> sizes = neighborhood_sizes(index_, {.vertices = vertices_, .radius = radii});
+    const std::vector<std::uint64_t> sizes = counts(index_, {.vertices = vertices_, .radius = radii});
     for_each_neighborhood(index_, {.vertices = vertices_, .radius = radii},
                           [&](const BatchRow& row) {
                             reference_.neighborhood(vertices_[row.row], radii[row.row], expected_);

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "exact/joint/packet_answer.h"
 #include "exact/joint/row_writer.h"
 #include "support/exact_answer.h"
 #include "support/families.h"

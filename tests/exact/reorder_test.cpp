@@ -130,8 +130,8 @@ TEST(Reorder, BatchesGiveTheSameSizes) {
   const TestMesh mesh = make_grid(60, 60, true).finish(true);
   const ReorderedMesh reordered = reorder(mesh.view());
   const Index index = build(mesh.view());
-  const std::vector<std::uint64_t> before = neighborhood_sizes(index, {.radius = 3.0});
-  const std::vector<std::uint64_t> now = neighborhood_sizes(reordered.index, {.radius = 3.0}, {.threads = 2});
+  const std::vector<std::uint64_t> before = counts(index, {.radius = 3.0});
+  const std::vector<std::uint64_t> now = counts(reordered.index, {.radius = 3.0}, {.threads = 2});
   for (std::size_t v = 0; v < now.size(); ++v) EXPECT_EQ(now[v], before[reordered.permutation[v]]);
 }
 

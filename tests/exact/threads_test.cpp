@@ -163,7 +163,7 @@ TEST(Threads, ManyThreadsAnswerABatch) {
   const BatchOptions many{.threads = kThreads, .sorted = true};
   EXPECT_EQ(neighborhoods(index, query, many).ids, neighborhoods(index, query, alone).ids);
   EXPECT_EQ(neighborhoods(paper_index, query, many).ids, neighborhoods(paper_index, query, alone).ids);
-  EXPECT_EQ(neighborhood_sizes(index, query, many), neighborhood_sizes(index, query, alone));
+  EXPECT_EQ(counts(index, query, many), counts(index, query, alone));
 }
 
 }  // namespace

@@ -30,7 +30,7 @@
 
 #include "batch/position_sort.h"
 #include "batch/sort_answer.h"
-#include "exact/build/dissolve_parts.h"
+#include "exact/build/node_parts.h"
 #include "exact/search/searcher_state.h"
 #include "support/divided_nodes.h"
 #include "support/fail_each_allocation.h"

@@ -149,7 +149,7 @@ std::size_t extras_of_ball(const Shape& shape, double radius) {
   const std::size_t vertices = shape.positions.size() / 3;
   for (std::size_t v = 0; v < vertices; v += 1 + vertices / 50) {
     searcher.neighborhood(static_cast<VertexId>(v), radius, exact);
-    vertices_in_ball(shape.view().positions, static_cast<VertexId>(v), radius, in_ball);
+    BallSearcher(shape.view().positions).neighborhood(static_cast<VertexId>(v), radius, in_ball);
     extras += in_ball.size() - exact.size();
   }
   return extras;

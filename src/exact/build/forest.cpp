@@ -5,8 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "exact/build/connected_parts.h"
-#include "exact/build/dissolve_parts.h"
+#include "exact/build/node_parts.h"
 
 namespace meshhood {
 namespace {

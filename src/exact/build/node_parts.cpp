@@ -2,8 +2,92 @@
 #include "exact/build/node_parts.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "exact/node_search.h"
 
 namespace meshhood {
+namespace {
+
+constexpr std::uint32_t kNoPlace = std::numeric_limits<std::uint32_t>::max();
+
+/// Divides cells of eight nodes into their connected parts.
+class CellSplitter {
+ public:
+  CellSplitter(const NodeGraph& graph, std::span<const KdPoint> order)
+      : graph_(&graph), order_(order), place_(graph.size(), kNoPlace) {
+    for (std::size_t i = 0; i < order.size(); ++i) place_[order[i].id] = static_cast<std::uint32_t>(i);
+  }
+
+  /// Adds the parts of the cell that begins at a place of the order.
+  void split(std::size_t begin, NodeParts& parts) {
+    const auto size = static_cast<unsigned>(std::min<std::size_t>(kFanOut, order_.size() - begin));
+    const std::array<NodeSet, kFanOut> linked = links_within(begin, size);
+    for (unsigned left = first_nodes(size); left != 0;) {
+      const NodeSet found = reachable_nodes(linked, static_cast<NodeSet>(left & -left), first_nodes(size));
+      left &= ~unsigned{found};
+      nodes_.clear();
+      for_each_node(found, [&](unsigned i) { nodes_.push_back(order_[begin + i].id); });
+      parts.add(nodes_);
+    }
+  }
+
+ private:
+  [[nodiscard]] std::array<NodeSet, kFanOut> links_within(std::size_t begin, unsigned size) const {
+    std::array<NodeSet, kFanOut> linked{};
+    for (unsigned i = 0; i < size; ++i) {
+      for (const std::uint32_t other : (*graph_)[order_[begin + i].id]) {
+        // A place before the cell wraps around to a large number.
+        const std::size_t place = std::size_t{place_[other]} - begin;
+        if (place < size) linked[i] |= node_at(static_cast<unsigned>(place));
+      }
+    }
+    return linked;
+  }
+
+  const NodeGraph* graph_;
+  std::span<const KdPoint> order_;
+  std::vector<std::uint32_t> place_;  // by node: its place in the order
+  std::vector<std::uint32_t> nodes_;
+};
+
+/// Joins small parts with linked ones that have room, the smallest first: a single node has the fewest parts to join.
+void join_small_parts(NodeParts& parts) {
+  // The largest radius of a joined part, divided by that of a full one. Chosen: joining a part of one or two nodes
+  // gains more.
+  constexpr double kSmallStretch = 2.5;
+  constexpr double kLargeStretch = 1.5;
+  const double full = parts.mean_full_radius();
+  std::vector<std::uint32_t> nodes;
+  for (std::size_t size = 1; size <= kFanOut / 2; ++size) {
+    const double limit = (size <= 2 ? kSmallStretch : kLargeStretch) * full;
+    for (std::uint32_t part = 0; part < parts.size(); ++part) {
+      if (parts[part].size() != size) continue;
+      nodes.assign(parts[part].begin(), parts[part].end());
+      const std::uint32_t other = parts.best_part_for(nodes, limit);
+      if (other == NodeParts::kNoPart) continue;
+      for (const std::uint32_t node : nodes) parts.move(node, other);  // mutant: small-parts-stay-alone
+    }
+  }
+}
+
+/// Moves nodes of `part` to other parts until none can move. Returns whether all have moved.
+bool move_all(std::uint32_t part, double limit, NodeParts& parts) {
+  std::vector<std::uint32_t> left;
+  do {
+    left.assign(parts[part].begin(), parts[part].end());
+    for (const std::uint32_t node : left) {
+      const std::uint32_t other = parts.best_part_for(std::span(&node, 1), limit);
+      if (other != NodeParts::kNoPart) parts.move(node, other);
+    }
+    // A node that has moved may link one that is left with another part.
+  } while (!parts[part].empty() && parts[part].size() < left.size());  // mutant: nodes-move-once
+  return parts[part].empty();
+}
+
+}  // namespace
 
 void NodeParts::Part::remove(std::uint32_t node) {
   std::uint32_t* const end = nodes_.data() + size_;
@@ -65,6 +149,30 @@ NodeGroups NodeParts::groups() const {
     if (!part.nodes().empty()) groups.add(part.nodes());
   }
   return groups;
+}
+
+NodeParts connected_parts(const NodeGraph& graph, std::span<const KdPoint> order) {
+  NodeParts parts(graph);
+  CellSplitter splitter(graph, order);
+  for (std::size_t begin = 0; begin < order.size(); begin += kFanOut) splitter.split(begin, parts);
+  join_small_parts(parts);
+  return parts;
+}
+
+void dissolve_small_parts(NodeParts& parts) {
+  // Chosen. Seven nodes hardly ever all find room; wider parts would slow down queries.
+  constexpr std::size_t kMostNodes = 6;
+  constexpr double kStretch = 1.5;  // the largest radius of a part that a node moves to, divided by that of a full one
+  const double limit = kStretch * parts.mean_full_radius();
+  std::vector<std::uint32_t> nodes;
+  for (std::size_t size = 1; size <= kMostNodes; ++size) {
+    for (std::uint32_t part = 0; part < parts.size(); ++part) {
+      if (parts[part].size() != size) continue;
+      nodes.assign(parts[part].begin(), parts[part].end());
+      if (move_all(part, limit, parts)) continue;
+      for (const std::uint32_t node : nodes) parts.move(node, part);  // mutant: part-half-dissolved
+    }
+  }
 }
 
 }  // namespace meshhood

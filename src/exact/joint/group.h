@@ -5,8 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "meshhood/joint.h"
-
+#include "exact/joint/packet_answer.h"
 #include "exact/layout.h"
 #include "simd/joint.h"
 #include "simd/kernels.h"

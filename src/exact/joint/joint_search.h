@@ -7,10 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "meshhood/joint.h"
-
 #include "exact/joint/group.h"
 #include "exact/joint/packet.h"
+#include "exact/joint/packet_answer.h"
 #include "exact/joint/spread.h"
 #include "exact/layout.h"
 #include "simd/joint.h"

@@ -4,8 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "meshhood/joint.h"
-
+#include "exact/joint/packet_answer.h"
 #include "exact/layout.h"
 #include "simd/joint.h"
 

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "base/prefetch.h"
-#include "exact/query/any_ball.h"
 
 namespace meshhood {
 

@@ -7,9 +7,9 @@
 
 #include "base/epoch_array.h"
 #include "exact/layout.h"
+#include "exact/query/any_center.h"
 #include "exact/query/lane_filter.h"
 #include "exact/query/sleepers.h"
-#include "exact/query/square_range.h"
 #include "exact/search/vertex_set.h"
 #include "simd/ball.h"
 #include "simd/kernels.h"

@@ -15,8 +15,8 @@
 #include "base/text.h"
 #include "exact/index_access.h"
 #include "exact/node_search.h"
+#include "exact/query/any_center.h"
 #include "exact/query/arguments.h"
-#include "exact/query/square_range.h"
 
 namespace meshhood {
 namespace {

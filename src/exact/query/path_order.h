@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "exact/query/path_buckets.h"
+#include "exact/query/path_queue.h"
 
 namespace meshhood {
 

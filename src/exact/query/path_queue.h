@@ -1,12 +1,81 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
-#include "exact/query/path_buckets.h"
-
 namespace meshhood {
+
+/// A path of edges.
+struct Path {
+  double length;
+  std::uint32_t end;  // a vertex, in index order
+};
+
+/// Lists of paths by number. Their memory is used again at once, so it stays in the cache.
+class PathBuckets {
+ public:
+  static constexpr std::size_t kCount = 1024;
+
+  void clear() {
+    occupied_ = {};
+    entries_.clear();
+    free_ = kNone;
+  }
+
+  void add(std::size_t bucket, const Path& path) {
+    if (free_ == kNone) {
+      free_ = static_cast<std::uint32_t>(entries_.size());
+      entries_.push_back({{}, kNone});
+    }
+    Entry& entry = entries_[free_];
+    std::uint64_t& word = occupied_[bucket / 64];
+    const std::uint64_t bit = std::uint64_t{1} << bucket % 64;
+    const std::uint32_t rest = (word & bit) != 0 ? first_[bucket] : kNone;
+    first_[bucket] = free_;
+    free_ = entry.next;
+    entry = {path, rest};
+    word |= bit;
+  }
+
+  /// The first bucket from `bucket` on that has paths, or `kCount`.
+  [[nodiscard]] std::size_t find_from(std::size_t bucket) const {
+    std::uint64_t word = occupied_[bucket / 64] >> bucket % 64 << bucket % 64;
+    for (std::size_t i = bucket / 64;; word = occupied_[i]) {
+      if (word != 0) return 64 * i + static_cast<std::size_t>(std::countr_zero(word));
+      if (++i == occupied_.size()) return kCount;
+    }
+  }
+
+  /// Removes the paths of a bucket, and calls `f(path)` for each.
+  template <class F>
+  void take(std::size_t bucket, F&& f) {
+    const std::uint64_t bit = std::uint64_t{1} << bucket % 64;
+    if ((occupied_[bucket / 64] & bit) == 0) return;
+    std::uint32_t last = first_[bucket];
+    for (; entries_[last].next != kNone; last = entries_[last].next) f(entries_[last].path);
+    f(entries_[last].path);
+    entries_[last].next = free_;
+    free_ = first_[bucket];
+    occupied_[bucket / 64] &= ~bit;
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+
+  struct Entry {
+    Path path;
+    std::uint32_t next;  // of the same bucket, or of those without a path
+  };
+
+  std::array<std::uint64_t, kCount / 64> occupied_{};  // bit by bucket
+  std::array<std::uint32_t, kCount> first_{};          // by bucket, if it is occupied: its first entry
+  std::vector<Entry> entries_;
+  std::uint32_t free_ = kNone;  // the first entry without a path
+};
 
 /// Paths in buckets by their length, taken a bucket at a time, as in a calendar queue (Brown 1988).
 ///

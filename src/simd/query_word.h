@@ -7,7 +7,7 @@
 
 namespace meshhood {
 
-/// A set of rows of a packet (see `meshhood/joint.h`): bit `i` stands for row `i` of the packet.
+/// A set of rows of a packet (see exact/joint/packet_answer.h): bit `i` stands for row `i` of the packet.
 using QueryWord = std::uint32_t;
 
 /// The most rows of a packet.

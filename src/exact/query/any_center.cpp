@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "exact/query/square_range.h"
+#include "exact/query/any_center.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +29,19 @@ SquareRange squared_distances(const FrameSphere& sphere, const Center& center) {
   // A center so far away that its distance overflows gives no bounds: infinity less infinity is not > 0.
   const double low = near > 0 ? std::max(near * near * (1 - kRangeSlack) - kSmallestSquare, 0.0) : 0.0;
   return {low, far * far * (1 + kRangeSlack) + kSmallestSquare};
+}
+
+LeafBall any_ball(const Point& center, double radius) {
+  LeafBall ball(center, LeafBounds(radius));
+  const Point rounded{static_cast<double>(ball.x), static_cast<double>(ball.y), static_cast<double>(ball.z)};
+  const double shift = length(center - rounded) * (1 + 0x1p-40);  // mutant: shift-of-center-ignored
+  if (shift == 0) return ball;
+  // The filter measures from the rounded center: a vertex within `radius - shift` of it is surely inside, one beyond
+  // `radius + shift` surely outside. If the shift overflows, the predicate decides all vertices.
+  ball.surely_inside =
+      radius > shift ? LeafBounds(radius - shift).surely_inside : -std::numeric_limits<float>::infinity();
+  ball.surely_outside = LeafBounds(radius + shift).surely_outside;
+  return ball;
 }
 
 }  // namespace meshhood

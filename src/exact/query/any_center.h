@@ -3,7 +3,9 @@
 
 #include "base/distance.h"
 #include "base/frame.h"
+#include "simd/ball.h"
 
+/// Bounds on the distances from a center that need not be a vertex, and may be far away from the mesh.
 namespace meshhood {
 
 /// Bounds on squared distances.
@@ -23,5 +25,9 @@ struct Center {
 
 /// Bounds on the squared distances, as the predicate computes them, from `center` to the vertices in `sphere`.
 [[nodiscard]] SquareRange squared_distances(const FrameSphere& sphere, const Center& center);
+
+/// A ball to be compared with vertices, whose center need not be a vertex: `LeafBall` by itself assumes that the center
+/// is exact in single precision where the positions are floats.
+[[nodiscard]] LeafBall any_ball(const Point& center, double radius);
 
 }  // namespace meshhood

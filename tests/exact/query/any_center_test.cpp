@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The bounds on distances and the filter of balls, on which region searches rely, agree with the predicate.
-#include "exact/query/square_range.h"
+#include "exact/query/any_center.h"
 
 #include <array>
 #include <cstdio>
@@ -10,7 +10,6 @@
 #include "meshhood/index.h"
 
 #include "exact/index_access.h"
-#include "exact/query/any_ball.h"
 #include "support/draw_start.h"
 #include "support/exact_answer.h"
 #include "support/families.h"

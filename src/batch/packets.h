@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+
+#include "meshhood/batch.h"
+#include "meshhood/index.h"
+#include "meshhood/progress.h"
+
+#include "exact/joint/packet_answer.h"
+
+namespace meshhood {
+
+/// Called with each packet of one thread.
+using PacketVisitor = std::function<void(const PacketAnswer&)>;
+
+/// Makes the visitor of thread number `thread`, which is less than `PacketOptions::threads`, or than the number of
+/// processors if that is 0. Called at most once for each number, by the thread itself, before its first packet.
+using PacketVisitorFactory = std::function<PacketVisitor(unsigned thread)>;
+
+/// How packets are computed. The answers do not depend on these options.
+struct PacketOptions {
+  /// The calling thread included; 0 means one per processor; at most `kMaxThreads`. 1 starts no thread.
+  unsigned threads = 1;
+
+  /// Receives the number of rows that were visited.
+  Progress progress = {};
+};
+
+/// Visits the exact neighborhoods of all rows of `query`, each row in one packet, packets in no stated order.
+///
+/// The visitors run on the worker threads, one for each thread, so that each may have scratch memory of its own. They
+/// must not write to the same memory, except that each row belongs to one packet: `result[rows[i]] = ...` is safe.
+/// Packets depend on the query alone, so floating-point sums have the same bits for any number of threads.
+///
+/// A leaf with few rows is searched row by row: packets then have one row and no cores. If a vertex is queried more
+/// than once, its rows may be in different packets. Time is that of `counts`. Memory: a copy of the query;
+/// 8 bytes a row, of at most 2^22 rows at a time, and 16 where these are not in index order; and for each thread a
+/// searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry of a group (docs/joint.md).
+///
+/// All arguments are checked before the first packet is computed. An exception from a visitor, the factory or
+/// `options.progress` ends the call; it is passed on once all threads have stopped.
+/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
+void for_each_packet(const Index& index, const BatchQuery& query, const PacketVisitorFactory& make_visitor,
+                     const PacketOptions& options = {});
+
+}  // namespace meshhood
