@@ -12,11 +12,11 @@
 
 #include <fmt/format.h>
 
-#include "base/checksum.h"
 #include "bytes.h"
 #include "parts/manifest.h"
 #include "parts/partition.h"
 #include "refusal.h"
+#include "shared/checksum.h"
 #include "support/families.h"
 #include "support/parts_folder.h"
 #include "support/scratch.h"

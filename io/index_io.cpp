@@ -17,7 +17,6 @@
 
 #include "meshhood/error.h"
 
-#include "base/aligned_buffer.h"
 #include "io/byte_source.h"
 #include "io/file_writer.h"
 #include "io/load_any.h"
@@ -25,6 +24,7 @@
 #include "io/messages.h"
 #include "io/readers.h"
 #include "io/watched_source.h"
+#include "shared/aligned_buffer.h"
 
 namespace meshhood::io {
 namespace {

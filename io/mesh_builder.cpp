@@ -10,8 +10,8 @@
 
 #include "meshhood/mesh.h"
 
-#include "base/distance.h"
 #include "io/number.h"
+#include "shared/distance.h"
 
 namespace meshhood::io {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "meshhood/error.h"
 
-#include "base/text.h"
-#include "base/vertex_range.h"
 #include "io/messages.h"
+#include "shared/text.h"
+#include "shared/vertex_range.h"
 
 namespace meshhood::parts {
 namespace {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/distance.h"
 #include "io/mesh_io.h"
+#include "shared/distance.h"
 
 namespace meshhood::parts {
 

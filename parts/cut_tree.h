@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "base/distance.h"
+#include "shared/distance.h"
 
 namespace meshhood::parts {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
-#include "base/distance.h"
 #include "parts/vertex_chunks.h"
+#include "shared/distance.h"
 
 namespace meshhood::parts {
 

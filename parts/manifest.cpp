@@ -15,11 +15,11 @@
 
 #include "meshhood/error.h"
 
-#include "base/checksum.h"
 #include "io/file_writer.h"
 #include "io/mapped_file.h"
 #include "io/messages.h"
 #include "parts/json.h"
+#include "shared/checksum.h"
 
 // Each JSON file begins with a line of fixed length that holds the checksum of all bytes after it.
 

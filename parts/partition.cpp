@@ -13,7 +13,7 @@
 
 #include "meshhood/error.h"
 
-#include "base/text.h"
+#include "shared/text.h"
 #include "io/messages.h"
 #include "parts/cut_tree.h"
 #include "parts/distribution.h"

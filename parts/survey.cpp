@@ -7,8 +7,8 @@
 #include <limits>
 #include <span>
 
-#include "base/checksum.h"
 #include "parts/vertex_chunks.h"
+#include "shared/checksum.h"
 
 namespace meshhood::parts {
 namespace {

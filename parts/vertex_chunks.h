@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "base/distance.h"
 #include "parts/chunked_mesh.h"
 #include "parts/cut_tree.h"
 #include "parts/stages.h"
+#include "shared/distance.h"
 
 /// Passes over the vertices of a chunked mesh, with progress.
 namespace meshhood::parts {

@@ -5,6 +5,7 @@ if(CMAKE_CXX_FLAGS MATCHES "-fsanitize|--coverage")
 endif()
 
 add_test(NAME repo.docs COMMAND ${PROJECT_SOURCE_DIR}/tools/check_docs.py $<$<TARGET_EXISTS:meshhood_cli>:$<TARGET_FILE:meshhood_cli>>)
+add_test(NAME repo.includes COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/repo/includes.sh ${PROJECT_SOURCE_DIR})
 add_test(NAME repo.drawings COMMAND python3 -B ${PROJECT_SOURCE_DIR}/tools/drawings --check)
 if(NOT MESHHOOD_LONG_TESTS)
   return()

@@ -20,11 +20,11 @@
 #include "aggregate/signal_block.h"
 #include "aggregate/sums.h"
 #include "aggregate/variances.h"
-#include "base/distance.h"
-#include "base/text.h"
 #include "batch/packets.h"
 #include "batch/rows.h"
 #include "exact/index_access.h"
+#include "shared/distance.h"
+#include "shared/text.h"
 
 namespace meshhood {
 namespace {

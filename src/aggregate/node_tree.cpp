@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "aggregate/node_tree.h"
 
+#include <cassert>
+
 #include "base/vector.h"
 #include "exact/node_search.h"
 
 namespace meshhood {
 
 NodeTree::Children NodeTree::children(Node node) const {
+  assert(!is_leaf(node));
   const GroupRecord& record = index_->records[node / kFanOut];
   if (node % kFanOut >= record.nodes) return {0, 0};
   const Node first = (record.first_child + node % kFanOut) * kFanOut;

@@ -3,8 +3,8 @@
 
 #include <variant>
 
-#include "base/distance.h"
 #include "base/frame.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 

@@ -11,7 +11,7 @@
 
 #include "meshhood/error.h"
 
-#include "base/distance.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 namespace {

@@ -8,8 +8,8 @@
 #include "meshhood/error.h"
 #include "meshhood/filter.h"
 
-#include "base/text.h"
-#include "base/vertex_range.h"
+#include "shared/text.h"
+#include "shared/vertex_range.h"
 
 namespace meshhood {
 namespace {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -29,8 +30,14 @@ class EpochArray {
   [[nodiscard]] bool is_known(std::size_t i) const { return slots_[i].epoch == epoch_; }
 
   /// A state that is known.
-  [[nodiscard]] State& operator[](std::size_t i) { return slots_[i].state; }
-  [[nodiscard]] const State& operator[](std::size_t i) const { return slots_[i].state; }
+  [[nodiscard]] State& operator[](std::size_t i) {
+    assert(is_known(i));
+    return slots_[i].state;
+  }
+  [[nodiscard]] const State& operator[](std::size_t i) const {
+    assert(is_known(i));
+    return slots_[i].state;
+  }
 
   /// Makes a state known.
   State& set(std::size_t i, const State& state) {

@@ -5,8 +5,8 @@
 #include <span>
 #include <string_view>
 
-#include "base/checksum.h"
 #include "base/packed_positions.h"
+#include "shared/checksum.h"
 
 namespace meshhood {
 

@@ -2,6 +2,7 @@
 #include "base/frame.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace meshhood {
@@ -35,6 +36,7 @@ double unit_scale(double extent) {
 Frame make_frame(const PositionsView& positions) {
   if (positions.size() == 0) return {};
   const Box box = positions.visit([](const auto& xyz) { return bounding_box(xyz); });
+  assert(box.low.x <= box.high.x && box.low.y <= box.high.y && box.low.z <= box.high.z);  // so they are numbers
   const Point origin{box.low.x / 2 + box.high.x / 2, box.low.y / 2 + box.high.y / 2, box.low.z / 2 + box.high.z / 2};
   // Measured from the rounded center: half the width of the box may round to less.
   // mutant: box-width-for-extent

@@ -6,7 +6,7 @@
 
 #include "meshhood/mesh.h"
 
-#include "base/distance.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 

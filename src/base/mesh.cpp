@@ -6,9 +6,9 @@
 
 #include "meshhood/error.h"
 
-#include "base/distance.h"
 #include "base/valid_position.h"
-#include "base/vertex_range.h"
+#include "shared/distance.h"
+#include "shared/vertex_range.h"
 
 namespace meshhood {
 namespace {

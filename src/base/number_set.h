@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -15,6 +16,7 @@ class NumberSet {
   explicit NumberSet(std::size_t bound) : words_(bound / 64 + 1), summary_(bound / 4096 + 1) {}
 
   void insert(std::size_t number) {
+    assert(number / 64 < words_.size());
     words_[number / 64] |= bit(number);           // mutant: one-number-a-word
     summary_[number / 4096] |= bit(number / 64);  // mutant: summary-of-other-words
   }

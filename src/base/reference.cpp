@@ -7,9 +7,9 @@
 #include <utility>
 #include <variant>
 
-#include "base/distance.h"
 #include "base/prefetch.h"
 #include "base/reference_access.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 

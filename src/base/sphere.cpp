@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -37,7 +38,10 @@ struct Ball {
 /// Up to four points.
 class Support {
  public:
-  void add(const Point& p) { points_[size_++] = p; }
+  void add(const Point& p) {
+    assert(size_ < points_.size());
+    points_[size_++] = p;
+  }
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] const Point& operator[](std::size_t i) const { return points_[i]; }
 

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "base/distance.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 

@@ -7,8 +7,8 @@
 
 #include "meshhood/error.h"
 
-#include "base/distance.h"
-#include "base/text.h"
+#include "shared/distance.h"
+#include "shared/text.h"
 
 namespace meshhood {
 

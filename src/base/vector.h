@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "base/distance.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "batch/rows.h"
 
+#include <cassert>
 #include <span>
 #include <string>
 #include <utility>
 
 #include "meshhood/error.h"
 
-#include "base/distance.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 namespace {
@@ -49,6 +50,7 @@ bool Rows::are_valid(std::size_t vertex_count) const {
 }
 
 void Rows::reorder(std::span<const std::size_t> order) {
+  assert(order.size() == size_);
   std::vector<VertexId> vertices;
   vertices.reserve(size_);
   for (const std::size_t row : order) vertices.push_back(vertex(row));

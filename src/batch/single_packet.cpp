@@ -2,6 +2,7 @@
 #include "batch/single_packet.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace meshhood {
 
@@ -24,6 +25,7 @@ const PacketAnswer& SinglePacket::describe(const IndexView& index, const VertexS
   const auto is_subset = [](const VertexSet::Part& part) { return !part.is_run(); };
   words_.resize(static_cast<std::size_t>(std::ranges::count_if(found.parts(), is_subset)));
   for (const auto& [begin, end, lanes] : found.parts()) {
+    assert(begin < end);
     if (lanes == 0) {
       whole_.push_back({{leaf_of_vertex(begin), leaf_of_vertex(end - 1) + 1, {begin, end}}, kQuery});
     } else {

@@ -12,10 +12,10 @@
 #include "meshhood/error.h"
 #include "meshhood/moments.h"
 
-#include "base/distance.h"
-#include "base/text.h"
 #include "base/vector.h"
 #include "curvature/surface.h"
+#include "shared/distance.h"
+#include "shared/text.h"
 
 namespace meshhood {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "base/distance.h"
 #include "curvature/packet_moments.h"
 #include "curvature/quadric.h"
+#include "shared/distance.h"
 
 /// The jet z = f + d x + e y + a x^2 + b x y + c y^2 over the plane of the principal components of its points. Its
 /// curvatures are those of the quadric without f: the constant moves the surface, but does not bend it.

@@ -13,13 +13,13 @@
 #include "meshhood/error.h"
 
 #include "base/limits.h"
-#include "base/text.h"
 #include "curvature/direct_moments.h"
 #include "curvature/directions.h"
 #include "curvature/packet_moments.h"
 #include "curvature/symmetric.h"
 #include "curvature/visit_moments.h"
 #include "exact/index_access.h"
+#include "shared/text.h"
 
 namespace meshhood {
 namespace {

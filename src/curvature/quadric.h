@@ -8,8 +8,8 @@
 
 #include "meshhood/curvature.h"
 
-#include "base/distance.h"
 #include "curvature/packet_moments.h"
+#include "shared/distance.h"
 #include "simd/moments.h"
 
 namespace meshhood {

@@ -9,9 +9,9 @@
 
 #include "meshhood/curvature.h"
 
-#include "base/distance.h"
 #include "exact/index_access.h"
 #include "exact/layout.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 

@@ -8,7 +8,6 @@
 #include "meshhood/error.h"
 #include "meshhood/serialize.h"
 
-#include "base/aligned_buffer.h"
 #include "base/parallel.h"
 #include "exact/extract_graph.h"
 #include "exact/index_access.h"
@@ -16,6 +15,7 @@
 #include "exact/verify.h"
 #include "format/section_reader.h"
 #include "format/section_writer.h"
+#include "shared/aligned_buffer.h"
 
 namespace meshhood {
 namespace {

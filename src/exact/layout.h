@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -149,6 +150,7 @@ struct IndexView {
 
   /// The links of a leaf, ascending by the linked leaf.
   [[nodiscard]] std::span<const Link> links_of(std::size_t leaf) const {
+    assert(leaf < leaf_count());
     return links.subspan(leaves[leaf].first_link, leaves[leaf + 1].first_link - leaves[leaf].first_link);
   }
 
@@ -159,6 +161,7 @@ struct IndexView {
 
   /// The cross edges of a link, ascending by `from`, then `to`. `link` must be an element of `links`.
   [[nodiscard]] std::span<const CrossEdge> cross_edges_of(const Link& link) const {
+    assert(&link >= links.data() && &link + 1 < links.data() + links.size());
     const Link& next = *(&link + 1);
     return cross_edges.subspan(link.first_cross_edge, next.first_cross_edge - link.first_cross_edge);
   }

@@ -10,12 +10,12 @@
 
 #include "meshhood/error.h"
 
-#include "base/text.h"
 #include "base/valid_position.h"
-#include "base/vertex_range.h"
 #include "exact/arrays.h"
 #include "exact/build/leaf_spheres.h"
 #include "exact/build/tree.h"
+#include "shared/text.h"
+#include "shared/vertex_range.h"
 
 namespace meshhood {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstddef>
 
 #include "exact/layout.h"
@@ -25,6 +26,7 @@ void for_each_node(NodeSet nodes, F&& f) {
 
 /// The nodes of a group that can be reached from `from` by links within `among`; `from` is a part of it.
 [[nodiscard]] inline NodeSet reachable_nodes(const std::array<NodeSet, kFanOut>& linked, NodeSet from, NodeSet among) {
+  assert((from & ~among) == 0);
   unsigned reached = from;
   for (unsigned todo = from; todo != 0;) {
     const unsigned added = linked[static_cast<unsigned>(std::countr_zero(todo))] & among & ~reached;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <utility>
 
 #include "base/vector.h"
@@ -14,6 +15,7 @@ namespace {
 
 /// A sphere around at least one sphere.
 FrameSphere enclosing(std::span<const FrameSphere> spheres) {
+  assert(!spheres.empty());
   Point sum{0, 0, 0};
   for (const FrameSphere& sphere : spheres) sum = sum + center_of(sphere);
   const Point mean = 1 / static_cast<double>(spheres.size()) * sum;

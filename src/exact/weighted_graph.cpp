@@ -9,9 +9,9 @@
 #include <variant>
 
 #include "base/adjacency.h"
-#include "base/distance.h"
 #include "exact/layout.h"
 #include "exact/neighbors.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <span>
 
-#include "base/distance.h"
 #include "format/section_reader.h"
+#include "shared/distance.h"
 
 namespace meshhood::file {
 

@@ -7,7 +7,7 @@
 
 #include "meshhood/error.h"
 
-#include "base/checksum.h"
+#include "shared/checksum.h"
 
 namespace meshhood::file {
 namespace {

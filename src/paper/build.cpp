@@ -10,7 +10,6 @@
 
 #include "base/packed_positions.h"
 #include "base/parallel.h"
-#include "base/text.h"
 #include "paper/arrange.h"
 #include "paper/create.h"
 #include "paper/fusion.h"
@@ -18,6 +17,7 @@
 #include "paper/index_access.h"
 #include "paper/link.h"
 #include "paper/select.h"
+#include "shared/text.h"
 
 namespace meshhood::paper {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <numeric>
 #include <span>
@@ -29,6 +30,7 @@ struct ChildLists {
   std::inclusive_scan(result.offsets.begin(), result.offsets.end(), result.offsets.begin());
   result.children.resize(parent.size());
   for (std::size_t c = parent.size(); c-- > 0;) {
+    assert(parent[c] < parents);
     result.children[--result.offsets[parent[c]]] = static_cast<VertexId>(c);
   }
   return result;

@@ -7,7 +7,7 @@
 #include "meshhood/adjacency.h"
 #include "meshhood/paper.h"
 
-#include "base/distance.h"
+#include "shared/distance.h"
 
 namespace meshhood::paper {
 

@@ -7,7 +7,6 @@
 #include "meshhood/error.h"
 #include "meshhood/serialize.h"
 
-#include "base/aligned_buffer.h"
 #include "base/parallel.h"
 #include "format/coordinates.h"
 #include "format/section_reader.h"
@@ -16,6 +15,7 @@
 #include "paper/index_access.h"
 #include "paper/link.h"
 #include "paper/verify.h"
+#include "shared/aligned_buffer.h"
 
 namespace meshhood::paper {
 namespace {

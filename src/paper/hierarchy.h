@@ -8,8 +8,8 @@
 #include "meshhood/fingerprint.h"
 #include "meshhood/paper.h"
 
-#include "base/distance.h"
 #include "paper/packed_ids.h"
+#include "shared/distance.h"
 
 namespace meshhood::paper {
 

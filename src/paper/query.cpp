@@ -10,9 +10,9 @@
 #include "meshhood/error.h"
 #include "meshhood/paper.h"
 
-#include "base/distance.h"
-#include "base/text.h"
 #include "paper/hierarchy.h"
+#include "shared/distance.h"
+#include "shared/text.h"
 
 namespace meshhood::paper {
 

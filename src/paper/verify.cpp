@@ -5,7 +5,7 @@
 
 #include "meshhood/error.h"
 
-#include "base/distance.h"
+#include "shared/distance.h"
 
 namespace meshhood::file {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "base/distance.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 

@@ -5,9 +5,9 @@
 #include "meshhood/error.h"
 #include "meshhood/region_mesh.h"
 
-#include "base/vertex_range.h"
 #include "region/face_lists.h"
 #include "region/mesher_state.h"
+#include "shared/vertex_range.h"
 
 namespace meshhood {
 

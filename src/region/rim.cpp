@@ -12,12 +12,12 @@
 #include "meshhood/error.h"
 #include "meshhood/region_mesh.h"
 
-#include "base/distance.h"
-#include "base/text.h"
 #include "exact/query/arguments.h"
 #include "region/exit_point.h"
 #include "region/mesher_state.h"
 #include "region/polylines.h"
+#include "shared/distance.h"
+#include "shared/text.h"
 
 namespace meshhood {
 namespace {

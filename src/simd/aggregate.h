@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "base/distance.h"
+#include "shared/distance.h"
 #include "simd/joint.h"
 #include "simd/kernels.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "base/distance.h"
 #include "base/frame.h"
+#include "shared/distance.h"
 
 /// A search ball as the kernels compare it: with vertices, and with bounding spheres in the frame. All margins for
 /// rounding are in ball.cpp.

@@ -8,7 +8,7 @@
 
 #include "meshhood/mesh.h"
 
-#include "base/distance.h"
+#include "shared/distance.h"
 #include "simd/ball.h"
 #include "simd/leaf.h"
 #include "simd/node_group.h"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "base/distance.h"
+#include "shared/distance.h"
 #include "simd/joint.h"
 #include "simd/kernels.h"
 

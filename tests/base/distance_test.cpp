@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "base/distance.h"
+#include "shared/distance.h"
 
 #include <array>
 #include <bit>

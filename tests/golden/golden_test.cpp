@@ -10,9 +10,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/checksum.h"
 #include "paper/same_index.h"
 #include "shapes.h"
+#include "shared/checksum.h"
 #include "support/exact_answer.h"
 #include "support/refusal.h"
 

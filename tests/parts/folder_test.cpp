@@ -17,9 +17,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/checksum.h"
 #include "parts/folder_lock.h"
 #include "parts/partition.h"
+#include "shared/checksum.h"
 #include "support/families.h"
 #include "support/parts_folder.h"
 #include "support/random.h"

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/checksum.h"
 #include "format/format.h"
+#include "shared/checksum.h"
 #include "support/index_bytes.h"
 
 namespace meshhood::test {

@@ -2,6 +2,7 @@
 #include "exact/build/kd_order.h"
 
 #include <algorithm>
+#include <cassert>
 #include <vector>
 
 #include "exact/build/nth_element.h"
@@ -34,6 +35,7 @@ void cut_at(std::span<KdPoint> points, std::size_t middle) {
 /// Cuts across the widest side and returns the size of the first part.
 std::size_t cut(std::span<KdPoint> points, std::size_t unit) {
   const std::size_t units = (points.size() + unit - 1) / unit;
+  assert(unit > 0 && points.size() > unit);
   const std::size_t middle = units / 2 * unit;  // mutant: cut-anywhere
   switch (widest_axis(points)) {
     case 0: cut_at<0>(points, middle); break;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,12 +23,14 @@ struct Links {
   std::vector<CrossEdge> cross_edges;   // by link, then by `from`, then by `to`
 
   [[nodiscard]] std::span<const Link> links_of(std::size_t leaf) const {
+    assert(leaf < link_end.size());
     const std::size_t begin = leaf == 0 ? 0 : link_end[leaf - 1];
     return std::span(links).subspan(begin, link_end[leaf] - begin);
   }
 
   /// `link` must be an element of `links`.
   [[nodiscard]] std::span<const CrossEdge> cross_edges_of(const Link& link) const {
+    assert(&link >= links.data() && &link + 1 < links.data() + links.size());
     const std::size_t end = (&link + 1)->first_cross_edge;
     return std::span(cross_edges).subspan(link.first_cross_edge, end - link.first_cross_edge);
   }

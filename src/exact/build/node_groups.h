@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "base/distance.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 
@@ -24,6 +25,7 @@ struct NodeGraph {
 
   [[nodiscard]] std::size_t size() const { return balls.size(); }
   [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t node) const {
+    assert(node < size());
     return std::span(neighbors).subspan(offsets[node], offsets[node + 1] - offsets[node]);
   }
 };
@@ -37,6 +39,7 @@ class NodeGroups {
   }
   [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
   [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t group) const {
+    assert(group < size());
     return std::span(nodes_).subspan(begin_[group], begin_[group + 1] - begin_[group]);
   }
 

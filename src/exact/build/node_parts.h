@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -48,7 +49,10 @@ class NodeParts {
  private:
   class Part {
    public:
-    void add(std::uint32_t node) { nodes_[size_++] = node; }
+    void add(std::uint32_t node) {
+      assert(size_ < kFanOut);
+      nodes_[size_++] = node;
+    }
     void remove(std::uint32_t node);
     [[nodiscard]] std::span<const std::uint32_t> nodes() const { return std::span(nodes_).first(size_); }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -45,7 +46,10 @@ class JointGroup {
 
   [[nodiscard]] std::size_t size() const { return leaves_.size(); }
   [[nodiscard]] bool is_core(GroupEntry entry) const { return leaves_[entry] >= kCore; }
-  [[nodiscard]] LeafId leaf(GroupEntry entry) const { return leaves_[entry]; }
+  [[nodiscard]] LeafId leaf(GroupEntry entry) const {
+    assert(!is_core(entry));
+    return leaves_[entry];
+  }
 
   /// The spheres of the entries, eight to a node group; that of a core is not used.
   [[nodiscard]] std::span<const Group> spheres() const { return spheres_; }
@@ -71,7 +75,10 @@ class JointGroup {
 
   // Of a core.
   [[nodiscard]] std::span<const CoreLink> core_links(GroupEntry core) const;
-  [[nodiscard]] std::size_t core_number(GroupEntry core) const { return leaves_[core] - kCore; }
+  [[nodiscard]] std::size_t core_number(GroupEntry core) const {
+    assert(is_core(core));
+    return leaves_[core] - kCore;
+  }
   [[nodiscard]] std::size_t core_vertices(GroupEntry core) const { return cores_[core_number(core)].vertices; }
   /// Its leaves, ascending. Sorted at the first call.
   [[nodiscard]] std::span<const LeafRun> core_runs(GroupEntry core);

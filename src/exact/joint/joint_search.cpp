@@ -2,6 +2,7 @@
 #include "exact/joint/joint_search.h"
 
 #include <bit>
+#include <cassert>
 
 namespace meshhood {
 
@@ -15,6 +16,7 @@ void JointSearch::run(LeafId leaf, std::span<const JointQuery> queries) {
 }
 
 const PerLane<std::uint64_t>& JointSearch::counts() {
+  assert(packet_);  // of the last `run`
   if (has_counts_) return counts_;
   has_counts_ = true;
   counts_ = {};
@@ -36,6 +38,7 @@ const PerLane<std::uint64_t>& JointSearch::counts() {
 }
 
 const PacketAnswer& JointSearch::answer() {
+  assert(packet_);
   cores_.clear();
   whole_.clear();
   partial_.clear();

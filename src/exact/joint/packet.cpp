@@ -2,6 +2,7 @@
 #include "exact/joint/packet.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -39,7 +40,9 @@ JointRadius::JointRadius(const Frame& frame, double at)
 
 Packet::Packet(const IndexView& index, const JointGroup& group, LeafId leaf, std::span<const JointQuery> queries)
     : index_(&index), leaf_(leaf), size_(queries.size()), ball_({0, 0, 0}, queries.front().radius.bounds) {
+  assert(size_ <= kPacketCapacity);
   for (std::size_t i = 0; i < size_; ++i) {
+    assert(queries[i].lane < index.leaves[leaf].size);
     lanes_[i] = queries[i].lane;
     squared_radii_[i] = queries[i].radius.squared;
     ball_.inner = std::min(ball_.inner, queries[i].radius.bounds.inner);  // mutant: packet-inside-one-ball

@@ -2,10 +2,11 @@
 #include "exact/joint/row_writer.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <variant>
 
-#include "base/distance.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 
@@ -23,6 +24,7 @@ void RowWriter::begin(const PacketAnswer& answer) {
   std::size_t kept = 0;
   for (const RowPiece& piece : pieces_) {
     RowPiece* last = kept == 0 ? nullptr : &pieces_[kept - 1];
+    assert(last == nullptr || last->first + last->size <= piece.first);  // an answer names each vertex once
     // mutant: runs-of-other-rows-joined
     if (last != nullptr && last->reached == nullptr && piece.reached == nullptr && last->queries == piece.queries &&
         last->first + last->size == piece.first) {
@@ -60,6 +62,7 @@ void RowWriter::write_distances(unsigned query, const Point& center, std::span<d
         }
       },
       index_->positions);
+  assert(next == distances.data() + distances.size());
 }
 
 }  // namespace meshhood

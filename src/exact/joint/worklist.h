@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -16,6 +17,7 @@ class Worklist {
   void reset(std::size_t size) { words_.assign((size + 63) / 64, 0); }
 
   void add(std::uint32_t entry) {
+    assert(entry / 64 < words_.size());
     words_[entry / 64] |= std::uint64_t{1} << entry % 64;
     again_ |= entry / 64 < at_;
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "base/distance.h"
 #include "base/frame.h"
+#include "shared/distance.h"
 #include "simd/ball.h"
 
 /// Bounds on the distances from a center that need not be a vertex, and may be far away from the mesh.

@@ -6,8 +6,8 @@
 
 #include "meshhood/error.h"
 
-#include "base/text.h"
-#include "base/vertex_range.h"
+#include "shared/text.h"
+#include "shared/vertex_range.h"
 
 namespace meshhood {
 namespace {

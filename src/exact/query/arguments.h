@@ -7,8 +7,8 @@
 #include "meshhood/filter.h"
 #include "meshhood/start.h"
 
-#include "base/distance.h"
 #include "exact/layout.h"
+#include "shared/distance.h"
 
 /// The arguments of queries that start anywhere. Each check throws unless its argument is as the public header says;
 /// the message begins with `where`.

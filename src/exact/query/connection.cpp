@@ -7,9 +7,9 @@
 #include <tuple>
 #include <utility>
 
-#include "base/distance.h"
 #include "exact/query/arguments.h"
 #include "exact/query/region_state.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 namespace {

@@ -6,13 +6,13 @@
 #include <optional>
 #include <utility>
 
-#include "base/distance.h"
 #include "exact/index_access.h"
 #include "exact/query/arguments.h"
 #include "exact/query/path_search.h"
 #include "exact/query/ring_search.h"
 #include "exact/search/output.h"
 #include "exact/search/vertex_set.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 

@@ -12,11 +12,11 @@
 #include "meshhood/error.h"
 #include "meshhood/start.h"
 
-#include "base/text.h"
 #include "exact/index_access.h"
 #include "exact/node_search.h"
 #include "exact/query/any_center.h"
 #include "exact/query/arguments.h"
+#include "shared/text.h"
 
 namespace meshhood {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "meshhood/error.h"
 
-#include "base/distance.h"
-#include "base/text.h"
 #include "exact/query/region_state.h"
 #include "exact/search/output.h"
+#include "shared/distance.h"
+#include "shared/text.h"
 
 namespace meshhood {
 namespace {

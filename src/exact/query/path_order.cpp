@@ -2,6 +2,7 @@
 #include "exact/query/path_order.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <utility>
 
@@ -47,6 +48,7 @@ std::span<const Path> PathOrder::sorted(const Path& first, std::span<const Path>
   for (const Path& path : paths) result[ends_[interval(path)]++] = path;
   if (most <= kFewPaths) {
     sort_by_insertion(result);
+    assert(std::is_sorted(result.begin(), result.end(), is_before));
     return sorted_;
   }
   for (std::size_t i = 0; i < ends_.size(); ++i) {
@@ -54,6 +56,7 @@ std::span<const Path> PathOrder::sorted(const Path& first, std::span<const Path>
     std::sort(result.begin() + static_cast<std::ptrdiff_t>(from),
               result.begin() + static_cast<std::ptrdiff_t>(ends_[i]), is_before);
   }
+  assert(std::is_sorted(result.begin(), result.end(), is_before));
   return sorted_;
 }
 

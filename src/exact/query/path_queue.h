@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -27,6 +28,7 @@ class PathBuckets {
   }
 
   void add(std::size_t bucket, const Path& path) {
+    assert(bucket < kCount);
     if (free_ == kNone) {
       free_ = static_cast<std::uint32_t>(entries_.size());
       entries_.push_back({{}, kNone});
@@ -43,6 +45,7 @@ class PathBuckets {
 
   /// The first bucket from `bucket` on that has paths, or `kCount`.
   [[nodiscard]] std::size_t find_from(std::size_t bucket) const {
+    assert(bucket < kCount);
     std::uint64_t word = occupied_[bucket / 64] >> bucket % 64 << bucket % 64;
     for (std::size_t i = bucket / 64;; word = occupied_[i]) {
       if (word != 0) return 64 * i + static_cast<std::size_t>(std::countr_zero(word));
@@ -89,6 +92,7 @@ class PathQueue {
   /// Adds a path of finite length, which is not shorter than those of the open bucket were.
   void push(const Path& path) {
     const double at = position(path.length);
+    assert(!(at < static_cast<double>(open_)));
     if (at < PathBuckets::kCount) {
       buckets_.add(static_cast<std::size_t>(at), path);
     } else {

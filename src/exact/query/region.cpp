@@ -4,11 +4,11 @@
 
 #include <utility>
 
-#include "base/distance.h"
 #include "exact/index_access.h"
 #include "exact/query/arguments.h"
 #include "exact/query/region_state.h"
 #include "exact/search/output.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "exact/query/ring_search.h"
 
+#include <cassert>
+
 namespace meshhood {
 
 RingSearch::RingSearch(const IndexView& index, const Kernels& kernels)
@@ -32,6 +34,7 @@ void RingSearch::advance() {
   ring_.clear();
   for (const LeafId leaf : next_leaves_) {
     State& state = states_[leaf];
+    assert(state.next != 0 && (state.next & state.seen) == 0);  // a leaf is listed once, its vertices are new
     ring_.push_back({leaf, state.next});
     state.seen |= state.next;
     state.next = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <vector>
 
@@ -35,6 +36,7 @@ class Sleepers {
 
   /// An entry with the smallest bound. There must be one.
   [[nodiscard]] Entry first() {
+    assert(!empty());
     if (!is_heap_) std::make_heap(entries_.begin(), entries_.end(), later);
     is_heap_ = true;
     return entries_.front();
@@ -42,6 +44,7 @@ class Sleepers {
 
   /// Removes the entry that `first` returned.
   void remove_first() {
+    assert(is_heap_ && !empty());
     std::pop_heap(entries_.begin(), entries_.end(), later);
     entries_.pop_back();
   }

@@ -3,9 +3,9 @@
 #include <string>
 #include <utility>
 
-#include "base/distance.h"
 #include "exact/query/region_state.h"
 #include "exact/search/output.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 

@@ -11,11 +11,11 @@
 
 #include "meshhood/search.h"
 
-#include "base/distance.h"
 #include "exact/index_access.h"
 #include "exact/neighbors.h"
 #include "exact/search/output.h"
 #include "exact/search/searcher_state.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 

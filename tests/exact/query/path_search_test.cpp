@@ -13,8 +13,8 @@
 
 #include "meshhood/index.h"
 
-#include "base/distance.h"
 #include "exact/index_access.h"
+#include "shared/distance.h"
 #include "support/random.h"
 
 namespace meshhood::test {

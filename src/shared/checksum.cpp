@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "base/checksum.h"
+#include "shared/checksum.h"
 
 #define XXH_INLINE_ALL  // NOLINT(readability-identifier-naming): the library's own
 #include <xxhash.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "base/distance.h"
+#include "shared/distance.h"
 
 #include <cmath>
 #include <string>
@@ -7,8 +7,8 @@
 #include "meshhood/error.h"
 
 #include "base/limits.h"
-#include "base/text.h"
-#include "base/vertex_range.h"
+#include "shared/text.h"
+#include "shared/vertex_range.h"
 
 namespace meshhood {
 

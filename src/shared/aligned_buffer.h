@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstring>
 #include <memory>
@@ -31,7 +32,10 @@ class AlignedBuffer {
   [[nodiscard]] std::span<char> room() { return {chars() + size_, capacity_ - size_}; }
 
   /// Appends the first `bytes` of `room()`.
-  void add(std::size_t bytes) { size_ += bytes; }
+  void add(std::size_t bytes) {
+    assert(bytes <= capacity_ - size_);
+    size_ += bytes;
+  }
 
   /// Doubles the capacity.
   void grow() {
