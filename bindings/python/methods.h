@@ -31,6 +31,8 @@ class Method {
   /// `owner` owns what `method` borrows.
   Method(SearchMethod method, std::shared_ptr<const void> owner)
       : owner_(std::move(owner)), method_(std::move(method)) {}
+  Method(const Method&) = delete;
+  Method& operator=(const Method&) = delete;
 
   Answer neighborhood(VertexId v, double radius, bool distances);
   std::vector<VertexRange> ranges(VertexId v, double radius);

@@ -94,6 +94,48 @@ TEST_P(Searchers, AllMembersGiveTheSameAnswer) {
   }
 }
 
+/// The same vertices in the same order, the same distances and ranges.
+template <NeighborhoodSearcher S>
+void expect_same(const SearchMethod& method, S direct, VertexId v, double radius) {
+  AnySearcher chosen = method.make_searcher();
+  EXPECT_EQ(chosen.vertex_count(), method.vertex_count());
+  EXPECT_TRUE(std::ranges::equal(chosen.permutation(), direct.permutation()));
+  std::vector<VertexId> ids;
+  std::vector<VertexId> chosen_ids;
+  std::vector<double> distances;
+  std::vector<double> chosen_distances;
+  direct.neighborhood(v, radius, ids);
+  chosen.neighborhood(v, radius, chosen_ids);
+  EXPECT_EQ(chosen_ids, ids);
+  direct.neighborhood(v, radius, ids, distances);
+  chosen.neighborhood(v, radius, chosen_ids, chosen_distances);
+  EXPECT_EQ(chosen_ids, ids);
+  EXPECT_EQ(chosen_distances, distances);
+  EXPECT_EQ(chosen.count(v, radius), ids.size());
+  EXPECT_TRUE(std::ranges::equal(chosen.ranges(v, radius), direct.ranges(v, radius)));
+  expect_refused(ErrorCode::InvalidRadius, "radius -1", [&] { static_cast<void>(chosen.count(v, -1)); });
+}
+
+TEST_P(Searchers, OfAMethodGiveTheAnswersOfTheSearcherThatItNames) {
+  const TestMesh mesh = make_mesh(GetParam(), 11, scaled(300, 100));
+  if (mesh.size() == 0) return;
+  const Index index = build(mesh.view());
+  const paper::Index hierarchy = paper::build(mesh.view());
+  const paper::QueryOptions options{.radius_ratio = 2};
+  const Adjacency edges = adjacency(mesh.view());
+  const GraphView graph{mesh.view().positions, edges.view()};
+  Random random(4);
+  for (int i = 0; i < 5; ++i) {
+    const auto v = static_cast<VertexId>(random.below(mesh.size()));
+    const double radius = distance(graph.positions, v, static_cast<VertexId>(random.below(mesh.size())));
+    expect_same(index, Searcher(index), v, radius);
+    expect_same({hierarchy, options}, paper::Searcher(hierarchy, options), v, radius);
+    expect_same(SearchMethod::breadth_first(graph), ReferenceSearcher(graph), v, radius);
+    expect_same(SearchMethod::along_edges(index), EdgeSearcher(index), v, radius);
+    expect_same(SearchMethod::ball_scan(graph.positions), BallSearcher(graph.positions), v, radius);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, Searchers, testing::ValuesIn(families()), family_name);
 
 TEST(Visit, EndsWhenTheCallableReturnsFalse) {
