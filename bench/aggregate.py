@@ -46,7 +46,7 @@ def seconds(work, workers):
 def rows_of(index, r, workers):
     """Vertices in index order, and the mean size of their neighborhoods."""
     sample = index.permutation[:: max(1, len(index) // 2000)]
-    size = index.query_ball_count(sample, r, workers=workers).mean()
+    size = index.count(sample, r, workers=workers).mean()
     return index.permutation[: max(1000, int(MOST_ENTRIES / size))], size
 
 

@@ -24,11 +24,14 @@ def tables(names, queries):
     for name in names:
         print(f"  {name}", flush=True)
         mesh = meshes.as_file(name)
-        table = programs.run(places.MESHHOOD, "bench", mesh, "--json", "--queries", queries,
-                             "--radii", ",".join(map(str, RADII)))
-        table["builds"] = programs.race(mesh, builds=3)["builds"]
-        table["phases"] = programs.run(places.PROGRAMS / "phases", mesh, PROFILE_QUERIES, *RADII)
-        measured[name] = {**table, "mesh": meshes.described(name)}
+        raced = programs.race(mesh, ("bfs", "ball", "paper", "ids"), radii=RADII, queries=queries, builds=3)
+        measured[name] = {
+            "mesh": meshes.described(name),
+            "table1": {key: raced[key] for key in ("vertices", "faces", "mesh_bytes", "topology_bytes")},
+            "table2": [{**row, "method": "exact" if row["method"] == "ids" else row["method"]} for row in raced["rows"]],
+            "builds": raced["builds"],
+            "phases": programs.run(places.PROGRAMS / "phases", mesh, PROFILE_QUERIES, *RADII),
+        }
     results.save("paper_tables", {"queries": queries, "meshes": measured}, watched)
 
 
@@ -53,7 +56,7 @@ def account(meshhood, mesh, radius, workers):
     built = time.perf_counter()
     listed = sum(len(chunk.indices) for chunk in index.iter_neighborhoods(None, radius, chunk=1024, workers=workers))
     listed_at = time.perf_counter()
-    counted = int(index.query_ball_count(None, radius, workers=workers).sum())
+    counted = int(index.count(None, radius, workers=workers).sum())
     end = time.perf_counter()
     if listed != counted:
         raise SystemExit(f"bench: {listed} ids listed, but {counted} counted")

@@ -84,4 +84,4 @@ def look(plotter, center, radius, picture):
 
 
 def found(index, v, radius):
-    return {method: int(index.query_ball_count(v, radius, method=method)) for method in ("exact", "paper", "ball")}
+    return {method: int(index.count(v, radius, method=method)) for method in ("exact", "paper", "ball")}

@@ -47,8 +47,8 @@ def print_calls(index, v, r):
         for _ in range(CALLS):
             index.query_ball(v, r)
 
-    call, query = medians(calls, lambda: index.query_ball_count(rows, r, workers=1))
-    count = index.query_ball_count(v, r)
+    call, query = medians(calls, lambda: index.count(rows, r, workers=1))
+    count = index.count(v, r)
     print(f"{r:4.0f} {count:9d} {call:8.2f} {query:9.2f} {call - query:12.2f} {call / query:13.2f}")
 
 
@@ -60,7 +60,7 @@ def print_batch(index, v, r):
         for _ in range(CALLS):
             index.query_ball(one, r, workers=1)
 
-    batch, query = medians(batches, lambda: index.query_ball_count(rows, r, workers=1))
+    batch, query = medians(batches, lambda: index.count(rows, r, workers=1))
     start = time.perf_counter()
     index.query_ball(everything, r, workers=1)
     whole = (time.perf_counter() - start) * 1e6
@@ -76,8 +76,8 @@ def print_rows(index, v, r):
         for chunk in index.iter_neighborhoods(rows, r, chunk=CHUNK, workers=1):
             del chunk
 
-    ids, counted = medians(kept, lambda: index.query_ball_count(rows, r, workers=1))
-    count = index.query_ball_count(rows, r).mean()
+    ids, counted = medians(kept, lambda: index.count(rows, r, workers=1))
+    count = index.count(rows, r).mean()
     print(f"a row of {count:.0f} ids takes {ids:.1f} us in chunks of {CHUNK}, {counted:.1f} us if it is only counted")
 
 

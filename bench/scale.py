@@ -31,7 +31,7 @@ def verify(mesh, folder):
     index = meshhood.MeshIndex(*meshhood.read_mesh(mesh))
     edge = index.mean_edge_length
     sample = np.sort(np.random.default_rng(1).choice(len(index), min(20_000, len(index)), replace=False))
-    counts = {r: index.query_ball_count(None, r * edge) for r in (5, 10)}
+    counts = {r: index.count(None, r * edge) for r in (5, 10)}
     print(f"{Path(mesh).name}: {len(index)} vertices, halo {halo} edges")
     print("| parts | vertices with halos | partition, s | counts that differ | samples | ids that differ |")
     print("|--:|--:|--:|--:|--:|--:|")
@@ -39,7 +39,7 @@ def verify(mesh, folder):
         start = time.monotonic()
         parts = meshhood.partition(mesh, folder / f"{number}", parts=number, halo=halo, unit="edge", memory="4GiB")
         seconds = time.monotonic() - start
-        wrong = sum(int((parts.counts(r, unit="edge").compute() != expected).sum()) for r, expected in counts.items())
+        wrong = sum(int((parts.count(r, unit="edge").compute() != expected).sum()) for r, expected in counts.items())
         samples, wrong_ids = compare_ids(parts, index, sample)
         total = sum(size.vertices for size in parts.sizes)
         print(
@@ -91,7 +91,7 @@ def grow(count, folder, vertices_per_part, memory):
 
 
 def _counts(radius, part, index, owned):
-    return index.query_ball_count(owned, radius, workers=1)
+    return index.count(owned, radius, workers=1)
 
 
 def _mean_positions(radius, positions, part, index, owned):

@@ -8,7 +8,6 @@ namespace meshhood::cli {
 
 void add_aggregate(CLI::App& program);
 void add_batch(CLI::App& program);
-void add_bench(CLI::App& program);
 void add_build(CLI::App& program);
 void add_check(CLI::App& program);
 void add_compare(CLI::App& program);

@@ -79,7 +79,6 @@ void add_subcommands(CLI::App& program) {
   add_merge(program);
   add_partition(program);
   add_compare(program);
-  add_bench(program);
   add_generate(program);
   add_view(program);
 }

@@ -261,7 +261,7 @@ void add_query(CLI::App& program) {
   command
       ->add_flag(
           "--distances", options->distances,
-          "print each vertex with its distance: straight, along the edges with --metric edge, edges with --rings")
+          "print each vertex with its distance: straight, along the edges with --metric path, edges with --rings")
       ->excludes(count);
   add_output(*command, ".ply", "also write the mesh with the neighborhood in color", options->output);
   add_json(*command, options->json);

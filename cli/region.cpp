@@ -94,7 +94,7 @@ void write_arrays(const std::string& file, const Submesh& part, const Rim& rim) 
 void region(const RegionCommand& options) {
   check_start_options(options.start, "exact", !options.vertices.empty());
   if (options.start.is_along_edges()) {
-    raise(ErrorCode::InvalidOption, "--metric edge: a region has no rim in this metric");
+    raise(ErrorCode::InvalidOption, "--metric path: a region has no rim in this metric");
   }
   check_output(options.output, {options.file});
   check_output(options.arrays, {options.file, options.output});

@@ -73,8 +73,8 @@ void add_start(CLI::App& command, StartOptions& options) {
               options.seeds)
       ->needs(point);
   add_choice(command, "--metric",
-             "straight: distances in a straight line; edge: lengths of the shortest paths along the edges",
-             {"straight", "edge"}, options.metric);
+             "straight: distances in a straight line; path: lengths of the shortest paths along the edges",
+             {"straight", "path"}, options.metric);
   add_file_option(command, "--walls", "a list of vertices that the search does not pass, one in each line",
                   options.walls);
   add_file_option(command, "--ignored", "a list of vertices that the search passes but does not print",
@@ -85,10 +85,10 @@ void check_start_options(const StartOptions& options, const std::string& method,
   const bool has_point = !options.point.empty();
   if (has_point == has_vertices) raise(ErrorCode::InvalidOption, "expected either --vertex or --point");
   if (has_point && options.is_along_edges()) {
-    raise(ErrorCode::InvalidOption, "--metric edge: expected --vertex, because a point has no edges");
+    raise(ErrorCode::InvalidOption, "--metric path: expected --vertex, because a point has no edges");
   }
   if (method != "exact" && !options.is_plain()) {
-    raise(ErrorCode::InvalidOption, "--point, --metric edge, --walls and --ignored require --method exact");
+    raise(ErrorCode::InvalidOption, "--point, --metric path, --walls and --ignored require --method exact");
   }
 }
 

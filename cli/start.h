@@ -26,7 +26,7 @@ struct StartOptions {
   std::string ignored;
 
   [[nodiscard]] bool has_filter() const { return !walls.empty() || !ignored.empty(); }
-  [[nodiscard]] bool is_along_edges() const { return metric == "edge"; }
+  [[nodiscard]] bool is_along_edges() const { return metric == "path"; }
 
   /// Whether the query has none of these options.
   [[nodiscard]] bool is_plain() const { return point.empty() && !has_filter() && !is_along_edges(); }
@@ -86,7 +86,7 @@ struct StartAnswer {
 };
 
 /// The regions of a start for ascending `radii`, at least one, as the rings of `RegionSearcher::nested`; with --metric
-/// edge the vertices whose path distance is at most each radius.
+/// path the vertices whose path distance is at most each radius.
 [[nodiscard]] StartAnswer regions_of(const StartOptions& options, const QueryStart& start,
                                      std::span<const double> radii, Input& input);
 

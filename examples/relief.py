@@ -45,7 +45,7 @@ def tablet():
 def main():
     V, F, depth = tablet()
     index = meshhood.MeshIndex(V, F)
-    radii = meshhood.linear_radii(8.0)  # 0.5, 1, ..., 8 mm
+    radii = np.arange(1, 17) / 2  # 0.5, 1, ..., 8 mm
     vectors = index.features(radii, F=F, kinds=("crease", "height", "area"))
     lasting = meshhood.persistence(vectors[:, :, 0], radii, threshold=0.3)
     found = lasting.scales <= -5  # a valley at five consecutive radii or more

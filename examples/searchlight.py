@@ -49,7 +49,7 @@ def main():
     peak = int(searchlight(index, radius, evidence(*trials(len(index), patch, rng))).argmax())
 
     sample = rng.integers(len(index), size=50)
-    inside, ball = (index.query_ball_count(sample, radius, method=method).sum() for method in ("exact", "ball"))
+    inside, ball = (index.count(sample, radius, method=method).sum() for method in ("exact", "ball"))
     print(f"effect around vertex {center}, found at vertex {peak}, {np.linalg.norm(V[peak] - V[center]):.1f} mm away")
     print(f"of the vertices in a ball, {1 - inside / ball:.0%} are on other folds")
     if peak not in patch:

@@ -47,7 +47,7 @@ class MeshhoodPaper(MeshhoodBatch):
 
     def __init__(self, mesh, threads):
         super().__init__(mesh, threads)
-        self.index.query_ball_count(0, 0.0, method=self.method)  # builds the paper's index
+        self.index.count(0, 0.0, method=self.method)  # builds the paper's index
 
 
 class MeshhoodCount(Meshhood):
@@ -55,7 +55,7 @@ class MeshhoodCount(Meshhood):
     answers = "how many"
 
     def query(self, vertices, radius):
-        return self.index.query_ball_count(vertices, radius, workers=self.threads)
+        return self.index.count(vertices, radius, workers=self.threads)
 
     def rows(self, answer, vertices):
         return None

@@ -40,6 +40,17 @@ Json to_json(const measure::Measurement& m, const measure::Contestant& method) {
   return row;
 }
 
+/// In bytes, counted as in the paper: positions and corners, and offsets unless all faces are triangles.
+std::size_t bytes_of(const MeshView& mesh) {
+  const std::size_t positions = mesh.positions.visit([](const auto& xyz) { return xyz.packed().size_bytes(); });
+  const std::size_t offsets = mesh.faces.are_triangles() ? 0 : 4 * mesh.faces.offsets().size();
+  return positions + 4 * mesh.faces.corners().size() + offsets;
+}
+
+std::size_t bytes_of(const AdjacencyView& adjacency) {
+  return adjacency.offsets.size_bytes() + adjacency.neighbors.size_bytes();
+}
+
 Json race(const MeshView& mesh, Options& options) {
   Contestants contestants(mesh);
   std::vector<measure::Contestant> methods;
@@ -61,6 +72,8 @@ Json race(const MeshView& mesh, Options& options) {
   return {{"mesh", options.mesh},
           {"vertices", mesh.positions.size()},
           {"faces", mesh.faces.size()},
+          {"mesh_bytes", bytes_of(mesh)},
+          {"topology_bytes", bytes_of(mesh) + bytes_of(contestants.graph().adjacency)},
           {"average_edge", unit},
           {"compiler", machine.compiler},
           {"order", options.order},

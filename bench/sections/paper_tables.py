@@ -6,7 +6,7 @@ from .markdown import image, megabytes, number, table, with_spread
 TITLE = "The paper's tables"
 METHODS = ("bfs", "ball", "paper", "exact")
 
-NOTE = """`make reproduce`, which runs `meshhood bench --json` on each mesh: one thread, processor time, {queries:,} random queries
+NOTE = """`make reproduce`, which runs `bench/race` on each mesh: one thread, processor time, {queries:,} random queries
 for each mesh and radius, cold. `bfs`: breadth-first search over an adjacency in CSR form; it owns its memory, clears
 nothing between queries and prefetches. `ball`: a scan of all vertices, as in the paper. `paper`: the paper's index and
 query with the paper's parameters (five levels computed, the last three kept, f = 10). `exact`: the exact index, with all

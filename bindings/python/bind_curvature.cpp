@@ -157,9 +157,6 @@ void bind_curvature(nb::module_& module) {
              nb::arg("threads"), nb::arg("progress").none());
   module.def("persistence", &persistence_of, nb::arg("values"), nb::arg("radii"), nb::arg("threshold"));
   module.def(
-      "linear_radii", [](double largest, std::size_t count) { return owned<double>(linear_radii(largest, count)); },
-      nb::arg("largest"), nb::arg("count"));
-  module.def(
       "geometric_radii",
       [](double smallest, double largest, std::size_t count) {
         return owned<double>(geometric_radii(smallest, largest, count));

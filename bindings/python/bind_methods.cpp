@@ -67,13 +67,6 @@ Output<std::int64_t> many_counts(Method& method, const std::optional<Rows>& vert
   return owned<std::int64_t>(method.counts(query, options));
 }
 
-Output<std::int32_t> ranges(ExactMethod& method, VertexId v, double radius) {
-  static_assert(sizeof(VertexRange) == 2 * sizeof(std::int32_t));
-  std::vector<VertexRange> ranges = method.ranges(v, radius);
-  const std::size_t size = ranges.size();
-  return owned<std::int32_t>(std::move(ranges), {size, 2});
-}
-
 /// Not a copy: the array keeps the index alive, and may not be written to.
 Output<const std::int32_t> permutation(const nb::object& self) {
   const Index& index = nb::cast<ExactMethod&>(self).index();
@@ -95,10 +88,8 @@ void bind_methods(nb::module_& module) {
       .def("count", &Method::count, nb::arg(), nb::arg())
       .def("neighborhoods", &many, nb::arg().none(), nb::arg(), nb::arg("distances"), nb::arg("sorted"),
            nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none())
-      .def("neighborhood_sizes", &many_counts, nb::arg().none(), nb::arg(), nb::arg("threads"),
-           nb::arg("progress").none());
+      .def("counts", &many_counts, nb::arg().none(), nb::arg(), nb::arg("threads"), nb::arg("progress").none());
   nb::class_<ExactMethod, Method>(module, "ExactMethod")
-      .def("ranges", &ranges, nb::arg(), nb::arg())
       .def("quality",
            [](const ExactMethod& method) {
              const Quality found = without_lock([&] { return quality(method.index()); });

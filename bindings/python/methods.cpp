@@ -21,13 +21,6 @@ Answer Method::neighborhood(VertexId v, double radius, bool distances) {
   });
 }
 
-std::vector<VertexRange> Method::ranges(VertexId v, double radius) {
-  return with_searcher([&](AnySearcher& searcher) {
-    const auto ranges = searcher.ranges(v, radius);
-    return std::vector(ranges.begin(), ranges.end());
-  });
-}
-
 std::size_t Method::count(VertexId v, double radius) {
   return with_searcher([&](AnySearcher& searcher) { return searcher.count(v, radius); });
 }

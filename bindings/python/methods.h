@@ -35,7 +35,6 @@ class Method {
   Method& operator=(const Method&) = delete;
 
   Answer neighborhood(VertexId v, double radius, bool distances);
-  std::vector<VertexRange> ranges(VertexId v, double radius);
   std::size_t count(VertexId v, double radius);
   std::vector<std::uint64_t> neighborhoods(const BatchQuery& query, const BatchAllocator& allocate,
                                            const BatchOptions& options) const;

@@ -28,7 +28,7 @@ def run(program):
 
 
 @pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("name", ("query_ball", "query_ball_count"))
+@pytest.mark.parametrize("name", ("query_ball", "count"))
 @pytest.mark.parametrize("which", ("v", "r"))
 def test_a_progress_function_may_write_to_the_arguments(method, name, which):
     run(f"""
@@ -68,8 +68,8 @@ def numbers(result):
 
 CALLS = {
     "query_ball": ("index.query_ball(v, r, progress=p)", {"v": "vertices", "r": "radii"}),
-    "query_ball_count": ("index.query_ball_count(v, r, progress=p)", {"v": "vertices", "r": "radii"}),
-    "along edges": ("index.query_ball(v, r, metric='edge', progress=p)", {"v": "vertices", "r": "radii"}),
+    "count": ("index.count(v, r, progress=p)", {"v": "vertices", "r": "radii"}),
+    "along edges": ("index.query_ball(v, r, metric='path', progress=p)", {"v": "vertices", "r": "radii"}),
     "aggregate": (
         "index.aggregate(values, r, weights=weights, vertices=v, progress=p)",
         {"values": "values", "r": "r", "weights": "weights", "v": "vertices"},

@@ -165,7 +165,7 @@ def test_an_unwelded_mesh_causes_a_warning_whose_advice_welds_it(faces):
     exec(str(caught[0].message).split("Weld the mesh first: ")[1], names)
     welded = meshhood.MeshIndex(names["V"], names["F"])  # no warning
     assert len(welded) == len(V)
-    assert welded.query_ball_count(None, np.inf).min() == len(V)
+    assert welded.count(None, np.inf).min() == len(V)
 
 
 def test_quads_that_are_split_but_not_welded_cause_a_warning():

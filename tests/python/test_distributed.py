@@ -79,23 +79,23 @@ def test_parts_describe_the_mesh(parts, index):
 
 @pytest.mark.parametrize("r", (0, 1, 1.5, 4.25, HALO))
 def test_counts_are_those_of_one_index(parts, index, r):
-    counts = parts.counts(r)
+    counts = parts.count(r)
     assert counts.shape == (len(index),)
-    np.testing.assert_array_equal(counts.compute(), index.query_ball_count(None, r))
+    np.testing.assert_array_equal(counts.compute(), index.count(None, r))
 
 
 def test_counts_in_the_order_of_the_parts(parts, index):
-    counts = parts.counts(2, unit="edge", order="parts")
+    counts = parts.count(2, unit="edge", order="parts")
     assert counts.chunks == (tuple(size.owned for size in parts.sizes),)
     ids = parts.ids().compute()
     assert sorted(ids) == list(range(len(index)))
-    np.testing.assert_array_equal(counts.compute(), index.query_ball_count(ids, 2, unit="edge"))
+    np.testing.assert_array_equal(counts.compute(), index.count(ids, 2, unit="edge"))
 
 
 def test_a_radius_above_the_halo_is_refused_naming_the_required_halo(parts, tmp_path):
     wider = np.nextafter(HALO, 10)
     for call in (
-        lambda: parts.counts(wider),
+        lambda: parts.count(wider),
         lambda: parts.map(len, wider),
         lambda: parts.neighborhoods(wider, tmp_path / "out"),
         lambda: parts.write(len, wider, tmp_path / "out"),
@@ -286,7 +286,7 @@ def test_partition_reads_arrays(mesh, index, tmp_path):
     assert len(parts) == -(-len(V) // 1000)
     assert parts.halo == 3 * index.mean_edge_length
     np.testing.assert_array_equal(
-        parts.counts(3, unit="edge").compute(), index.query_ball_count(None, 3, unit="edge")
+        parts.count(3, unit="edge").compute(), index.count(None, 3, unit="edge")
     )
 
 
@@ -325,7 +325,7 @@ def test_files_that_were_changed_are_refused(folder, tmp_path):
             changed = data[:middle] if cut else data[:middle] + bytes([data[middle] ^ 1]) + data[middle + 1 :]
             replace(forged / "part-00003" / name, changed)
             with pytest.raises(ValueError, match=f"part-00003/{name}"):
-                meshhood.open_parts(forged).counts(1).compute()
+                meshhood.open_parts(forged).count(1).compute()
             changes += 1
     assert changes == 8
 
@@ -352,7 +352,7 @@ def test_a_part_of_another_mesh_is_refused(mesh, folder, tmp_path):
     os.rename(forged / "part-00002", tmp_path / "old")
     os.rename(other / "part-00002", forged / "part-00002")
     with pytest.raises(ValueError, match="part-00002/.*is of another mesh"):
-        meshhood.open_parts(forged).counts(1).compute()
+        meshhood.open_parts(forged).count(1).compute()
     opened = meshhood.open_parts(folder)
     with pytest.raises(ValueError, match="holds 7 parts of another mesh"):
         meshhood.partition(tmp_path / "other.ply", folder, parts=7, halo=HALO)
@@ -369,7 +369,7 @@ def client():
 
 
 def test_a_cluster_of_processes_gives_the_same(parts, index, client, tmp_path):
-    np.testing.assert_array_equal(parts.counts(HALO).compute(), index.query_ball_count(None, HALO))
+    np.testing.assert_array_equal(parts.count(HALO).compute(), index.count(None, HALO))
     paths = parts.neighborhoods(2, tmp_path / "out")
     vertices = np.concatenate([np.load(path)["vertices"] for path in paths])
     assert sorted(vertices) == list(range(len(index)))
@@ -385,7 +385,7 @@ def slow_count(folder, part, index, owned):
     """Writes which process computes the part, and leaves time to kill it."""
     with open(os.path.join(folder, f"{part.number}-{os.getpid()}"), "w"):
         time.sleep(0.3)
-    return index.query_ball_count(owned, 3, workers=1)
+    return index.count(owned, 3, workers=1)
 
 
 class SlowCount:
@@ -412,7 +412,7 @@ def test_a_worker_that_is_killed_loses_only_its_part(parts, index, client, tmp_p
     counts = np.empty(len(index), int)
     for number, path in enumerate(paths):
         counts[parts.open(number).vertices[parts.open(number).owned]] = np.load(path)
-    np.testing.assert_array_equal(counts, index.query_ball_count(None, 3))
+    np.testing.assert_array_equal(counts, index.count(None, 3))
     tries = [name.split("-")[0] for name in os.listdir(begun)]
     assert len(parts) <= len(tries) <= len(parts) + 2, "finished parts are not computed again"
     assert not list((tmp_path / "out").glob(".*.tmp"))
@@ -441,7 +441,7 @@ def test_parts_that_replace_others_are_used(mesh, index, tmp_path, how, where, r
     for n, halo in REPLACED:
         for file, whole in zip(files, (index, other)):
             parts = partition_again(file, tmp_path / "parts", n, halo, how)
-            np.testing.assert_array_equal(parts.counts(halo).compute(), whole.query_ball_count(None, halo))
+            np.testing.assert_array_equal(parts.count(halo).compute(), whole.count(None, halo))
             maxima = parts.aggregate(values, halo, "max").compute()
             np.testing.assert_array_equal(maxima, whole.aggregate(values, halo, "max"))
             corners = np.bincount(F.ravel(), minlength=len(V))
@@ -454,20 +454,20 @@ def test_parts_that_were_replaced_are_right_or_refused(mesh, tmp_path, how):
     file = write_ply(tmp_path / "mesh.ply", V, F)
     old = partition_again(file, tmp_path / "parts", 4, 3.0, how)
     part = old.open(1)
-    counts = part.index.query_ball_count(part.owned, 3.0)
+    counts = part.index.count(part.owned, 3.0)
     new = partition_again(file, tmp_path / "parts", 3, HALO, how)
     with pytest.raises(ValueError, match="other parts have replaced those that were opened"):
         old.open(2)
     with pytest.raises(ValueError, match="other parts have replaced those that were opened"):
-        old.counts(3.0).compute()
-    np.testing.assert_array_equal(part.index.query_ball_count(part.owned, 3.0), counts)
+        old.count(3.0).compute()
+    np.testing.assert_array_equal(part.index.count(part.owned, 3.0), counts)
     with pytest.raises(ValueError, match="part-00001/face_corners.npy"):
         part.mesh
     shutil.rmtree(tmp_path / "parts")
     with pytest.raises(FileNotFoundError, match="face_corners.npy"):
         part.mesh
     with pytest.raises(FileNotFoundError, match="manifest.json"):
-        new.counts(3.0).compute()
+        new.count(3.0).compute()
     assert old.open(1) is part
 
 
@@ -511,7 +511,7 @@ def test_a_part_that_is_emptied_while_it_is_opened_is_refused(folder, tmp_path, 
 
 
 def mean_count(index):
-    return np.array([index.query_ball_count(None, 2, workers=1).mean()])
+    return np.array([index.count(None, 2, workers=1).mean()])
 
 
 def test_map_meshes_takes_meshes_and_indexes(tmp_path):
@@ -547,6 +547,6 @@ def test_the_code_of_the_document_runs(mesh, tmp_path, monkeypatch):
         exec(compile(block, "docs/scale.md", "exec"), names)
     print(f"{len(blocks)} pieces of code")
     index = meshhood.MeshIndex(*mesh)
-    np.testing.assert_array_equal(names["counts"], index.query_ball_count(None, 4, unit="edge"))
+    np.testing.assert_array_equal(names["counts"], index.count(None, 4, unit="edge"))
     assert names["heights"].shape == (len(index),)
     assert len(names["files"]) == 2

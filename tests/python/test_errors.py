@@ -155,16 +155,15 @@ def test_arguments_that_are_not_paths_are_refused(call, path):
     ),
 )
 def test_every_method_and_function_gives_the_same_error(v, r, options):
-    calls = INDEX.query_ball, INDEX.query_ball_count, INDEX.iter_neighborhoods
+    calls = INDEX.query_ball, INDEX.count, INDEX.iter_neighborhoods
     errors = [raised(call, v, r, method=method, **options) for call in calls for method in METHODS]
     assert len({(type(error), str(error)) for error in errors}) == 1, errors
 
 
 @pytest.mark.parametrize(("v", "r"), ((50, 1.0), (-1, 1.0), (0, -1.0), (0, float("nan")), (True, 1.0), (0, True), (0, [1.0])))
 def test_every_method_and_function_gives_the_same_error_for_one_vertex(v, r):
-    calls = INDEX.query_ball, INDEX.query_ball_count
+    calls = INDEX.query_ball, INDEX.count
     errors = [raised(call, v, r, method=method) for call in calls for method in METHODS]
-    errors.append(raised(INDEX.query_ranges, v, r))
     assert len({(type(error), str(error)) for error in errors}) == 1, errors
 
 

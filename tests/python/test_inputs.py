@@ -108,7 +108,7 @@ def test_nothing(faces):
     assert len(empty) == 0
     assert empty.permutation.shape == (0,)
     assert [len(a) for a in empty.query_ball(None, 1.0, return_distance=True)] == [1, 0, 0]
-    assert empty.query_ball_count([], 1.0).shape == (0,)
+    assert empty.count([], 1.0).shape == (0,)
     assert empty.radius_neighbors_graph(1.0).shape == (0, 0)
     assert list(empty.iter_neighborhoods(None, 1.0)) == []
     lonely = meshhood.MeshIndex(V, faces)
@@ -203,7 +203,7 @@ INDEX = meshhood.MeshIndex(V, F)
 )
 @pytest.mark.parametrize("method", ("exact", "paper", "bfs", "ball"))
 def test_refused_queries(v, r, error, message, method):
-    calls = [INDEX.query_ball, INDEX.query_ball_count]
+    calls = [INDEX.query_ball, INDEX.count]
     if np.ndim(v):
         calls.append(INDEX.iter_neighborhoods)
     for call in calls:
@@ -229,7 +229,6 @@ def test_refused_queries(v, r, error, message, method):
         (lambda: INDEX.query_ball([0], 1, workers=0), ValueError, "workers: 0"),
         (lambda: INDEX.query_ball([0], 1, workers=1.5), TypeError, "workers: .*float"),
         (lambda: INDEX.query_ball([0], 1, workers=True), TypeError, "workers: .*bool"),
-        (lambda: INDEX.query_ranges(True, 1), TypeError, "v: .*bool"),
         (lambda: INDEX.query_ball([0], 1, progress=3), TypeError, "progress: .*int"),
         (lambda: INDEX.radius_neighbors_graph(1, mode="far"), ValueError, "mode: 'far'"),
         (lambda: INDEX.iter_neighborhoods(None, 1, chunk=0), ValueError, "chunk: 0"),

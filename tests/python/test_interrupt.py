@@ -33,7 +33,7 @@ def curvature(index, r, **options):
 def without_end(index, method="exact", progress=None):
     """Batches without a receiver, in little memory."""
     while True:
-        index.query_ball_count(None, SIDE / 3.0, method=method, progress=progress)
+        index.count(None, SIDE / 3.0, method=method, progress=progress)
 
 
 def again_and_again(call):
@@ -71,10 +71,10 @@ def ctrl_c():
 
 @pytest.mark.parametrize("method", ("exact", "paper", "bfs", "ball"))
 def test_ctrl_c_in_a_batch(index, ctrl_c, method):
-    before = index.query_ball_count(0, 1.0, method=method)
+    before = index.count(0, 1.0, method=method)
     seconds = ctrl_c(lambda: without_end(index, method))
     print(f"{method}: KeyboardInterrupt after {1000 * seconds:.0f} ms")
-    assert index.query_ball_count(0, 1.0, method=method) == before
+    assert index.count(0, 1.0, method=method) == before
 
 
 @pytest.mark.parametrize("call", (aggregate, curvature))
@@ -162,7 +162,7 @@ def test_ctrl_c_in_a_build_of_the_paper(index, ctrl_c):
         growth = 0.0
         while True:
             growth += 0.001
-            index.query_ball_count(0, 1.0, method=meshhood.Paper(fusion_growth=growth))
+            index.count(0, 1.0, method=meshhood.Paper(fusion_growth=growth))
 
     seconds = ctrl_c(builds_without_end)
     print(f"hierarchy: KeyboardInterrupt after {1000 * seconds:.0f} ms")
@@ -180,7 +180,7 @@ def check_reports(call):
 @pytest.mark.parametrize("method", ("exact", "paper", "bfs", "ball"))
 def test_progress_of_a_batch(index, method):
     check_reports(lambda watch: index.query_ball(range(100), 3.0, method=method, progress=watch))
-    check_reports(lambda watch: index.query_ball_count(range(100), 3.0, method=method, progress=watch))
+    check_reports(lambda watch: index.count(range(100), 3.0, method=method, progress=watch))
 
 
 @pytest.mark.parametrize("call", (aggregate, curvature))
@@ -201,7 +201,7 @@ def test_an_exception_of_progress_ends_the_call(index, method):
         index.query_ball(None, 1.0, method=method, progress=enough)
     with pytest.raises(LookupError, match="enough"):
         meshhood.MeshIndex(*meshes.two_plates(20), progress=enough)
-    assert index.query_ball_count(0, 0.0, method=method) == 1
+    assert index.count(0, 0.0, method=method) == 1
 
 
 def test_progress_bar(index, capsys):

@@ -51,8 +51,8 @@ def test_other_arrays_are_read_in_place_of_every_array(kind):
     expect_same(index.refit(kind(V)))
     expect_same(index.refit(kind(V), kind(np.arange(9))))
     rows = np.array([3, 9, 27])
-    counts = index.query_ball_count(kind(rows), kind(np.array([1.0, 2.0, 3.0])))
-    np.testing.assert_array_equal(counts, index.query_ball_count(rows, [1.0, 2.0, 3.0]))
+    counts = index.count(kind(rows), kind(np.array([1.0, 2.0, 3.0])))
+    np.testing.assert_array_equal(counts, index.count(rows, [1.0, 2.0, 3.0]))
 
 
 class OnAnotherDevice(WithDlpack):

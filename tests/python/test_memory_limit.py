@@ -16,11 +16,11 @@ SECONDS = 600
 
 CALLS = {
     "batch": "index.query_ball(None, 2.0, workers=2)",
-    "counts": "index.query_ball_count(None, 3.0, workers=2)",
+    "counts": "index.count(None, 3.0, workers=2)",
     "chunks": "list(index.iter_neighborhoods(None, 1.0, chunk=5000, workers=2))",
     "paper": "index.query_ball(None, 1.0, method='paper', workers=2)",
-    "bfs": "index.query_ball_count(range(500), 2.0, method='bfs', workers=2)",
-    "along edges": "index.query_ball(None, 1.0, metric='edge', workers=2)",
+    "bfs": "index.count(range(500), 2.0, method='bfs', workers=2)",
+    "along edges": "index.query_ball(None, 1.0, metric='path', workers=2)",
     "aggregate": "index.aggregate(values, 3.0, workers=2)",
     "several radii": "index.aggregate(values, [1.0, 2.0], nesting='patch', workers=2)",
     "maximum": "index.aggregate(values, 3.0, 'max', workers=2)",

@@ -46,8 +46,8 @@ def test_radii_in_edges_are_multiples_of_the_mean_edge_length(method):
         )
     radii = np.linspace(0, 4, len(V))
     np.testing.assert_array_equal(
-        index.query_ball_count(None, radii, unit="edge", method=method),
-        index.query_ball_count(None, unit * radii, method=method),
+        index.count(None, radii, unit="edge", method=method),
+        index.count(None, unit * radii, method=method),
     )
 
 
@@ -66,7 +66,7 @@ def test_a_bool_mask_selects_rows():
         for got in (index.query_ball(mask, 2.0, sort=True), index.query_ball(mask.tolist(), 2.0, sort=True)):
             np.testing.assert_array_equal(got[0], wanted[0])
             np.testing.assert_array_equal(got[1], wanted[1])
-        np.testing.assert_array_equal(index.query_ball_count(mask, 2.0), np.diff(wanted[0]))
+        np.testing.assert_array_equal(index.count(mask, 2.0), np.diff(wanted[0]))
     with pytest.raises(ValueError, match=r"v: a bool mask of shape \(80,\), expected \(81,\)"):
         index.query_ball(np.ones(80, bool), 1.0)
 

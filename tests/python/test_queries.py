@@ -131,7 +131,7 @@ def test_path_distances_are_those_of_scipy_to_the_last_bit(mesh):
     matrix = lengths_graph(V, graph)
     for v in (0, 77):
         expected = dijkstra(matrix, directed=False, indices=v, limit=6)
-        ids, lengths = index.query_ball(v, 6, metric="edge", return_distance=True)
+        ids, lengths = index.query_ball(v, 6, metric="path", return_distance=True)
         np.testing.assert_array_equal(np.sort(ids), np.flatnonzero(np.isfinite(expected)))
         np.testing.assert_array_equal(lengths, expected[ids])
         assert (np.diff(lengths) >= 0).all()
@@ -147,7 +147,7 @@ def test_paths_do_not_pass_walls(mesh):
         matrix = lengths_graph(V, graph)[free][:, free]
         expected = np.full(len(V), np.inf)
         expected[free] = dijkstra(matrix, directed=False, indices=np.searchsorted(free, v), limit=5)
-        options = {"metric": "edge", "walls": walls, "ignored": ignored, "return_distance": True}
+        options = {"metric": "path", "walls": walls, "ignored": ignored, "return_distance": True}
         ids, lengths = index.query_region(v, 5, **options)
         np.testing.assert_array_equal(np.sort(ids), np.flatnonzero(np.isfinite(expected) & ~ignored))
         np.testing.assert_array_equal(lengths, expected[ids])
@@ -159,12 +159,12 @@ def test_paths_do_not_pass_walls(mesh):
 def test_batch_along_edges_has_the_rows_of_single_queries(mesh):
     _, _, index, _ = mesh
     rows = [3, 50, 3, 99]
-    indptr, indices, lengths = index.query_ball(rows, 3, metric="edge", return_distance=True, sort=True)
+    indptr, indices, lengths = index.query_ball(rows, 3, metric="path", return_distance=True, sort=True)
     for i, v in enumerate(rows):
-        ids, expected = index.query_ball(v, 3, metric="edge", return_distance=True, sort=True)
+        ids, expected = index.query_ball(v, 3, metric="path", return_distance=True, sort=True)
         np.testing.assert_array_equal(indices[indptr[i] : indptr[i + 1]], ids)
         np.testing.assert_array_equal(lengths[indptr[i] : indptr[i + 1]], expected)
-    np.testing.assert_array_equal(index.query_ball_count(rows, 3, metric="edge"), np.diff(indptr))
+    np.testing.assert_array_equal(index.count(rows, 3, metric="path"), np.diff(indptr))
 
 
 def test_rings_count_edges(mesh):
@@ -234,7 +234,7 @@ def test_rims_on_a_scan_are_loops_where_the_mesh_is_closed(tmp_path):
         (lambda i: i.query_region([0, 0, 0], 1, seeds=[0, 36]), r"seeds: row 1: vertex 36"),
         (lambda i: i.query_region(0, -1), r"r: radius -1"),
         (lambda i: i.query_region(0, 1, metric="geodesic"), r"metric: 'geodesic'"),
-        (lambda i: i.query_region([0, 0, 0], 1, metric="edge"), r"start: expected a vertex with metric='edge'"),
+        (lambda i: i.query_region([0, 0, 0], 1, metric="path"), r"start: expected a vertex with metric='path'"),
         (lambda i: i.query_region(0, 1, walls=np.zeros(36)), r"walls: expected bool, not float64"),
         (lambda i: i.query_region(0, 1, ignored=np.zeros(35, bool)), r"ignored: a bool mask of shape \(35,\)"),
         (lambda i: i.query_stroke([[0, 0, 0]], 1, seeds=[[0], [1]]), r"seeds: expected \(1,\) or \(1, k\)"),
@@ -250,7 +250,7 @@ def test_rims_on_a_scan_are_loops_where_the_mesh_is_closed(tmp_path):
         (lambda i: meshhood.RegionMesh(*grid(3)).rim([8], np.zeros((4, 3)), 1), r"start: expected a vertex .* \(4, 3\)"),
         (lambda i: i.query_region(np.zeros((1, 3)), 1), r"start: expected a vertex or 3 numbers, not .* \(1, 3\)"),
         (lambda i: i.query_ball(0, 1, metric="geodesic"), r"metric: 'geodesic'"),
-        (lambda i: i.query_ball(0, 1, metric="edge", method="bfs"), r"method: 'bfs', expected 'exact'"),
+        (lambda i: i.query_ball(0, 1, metric="path", method="bfs"), r"method: 'bfs', expected 'exact'"),
         (lambda i: meshhood.MeshIndex(*grid(3), cut=[(0, 1), (0, 8)]), r"cut: edge 1: vertices 0 and 8"),
         (lambda i: meshhood.MeshIndex(*grid(3), cut=[(0, 9)]), r"^cut: edge 0: vertex 9, but the mesh has 9 vertices"),
         (lambda i: meshhood.MeshIndex(*grid(3), cut=[0, 1]), r"cut: expected an array \(n, 2\)"),

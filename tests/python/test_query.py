@@ -37,7 +37,7 @@ def test_one_vertex(plates, method, r):
         np.testing.assert_array_equal(np.sort(ids), wanted)
         np.testing.assert_array_equal(distances, oracle.distances(V, v)[ids])
         np.testing.assert_array_equal(index.query_ball(v, r, sort=True, method=method), wanted)
-        assert index.query_ball_count(v, r, method=method) == len(wanted)
+        assert index.count(v, r, method=method) == len(wanted)
 
 
 @pytest.mark.parametrize("r", RADII)
@@ -56,13 +56,13 @@ def test_paper_with_other_parameters():
     for paper, method in ((one_cluster, "ball"), (single_vertices, "exact"), (meshhood.Paper(), "paper")):
         for got, want in zip(*(index.query_ball(None, 2.5, sort=True, method=m) for m in (paper, method))):
             np.testing.assert_array_equal(got, want)
-    exact, ball = (index.query_ball_count(None, 2.5, method=method) for method in ("exact", "ball"))
+    exact, ball = (index.count(None, 2.5, method=method) for method in ("exact", "ball"))
     assert (exact < ball).any()
 
 
 def test_a_larger_radius_ratio_adds_fewer_vertices():
     index = meshhood.MeshIndex(*meshes.folded(40))
-    few, many = (index.query_ball_count(None, 12.0, method=meshhood.Paper(radius_ratio=ratio)).sum() for ratio in (100, 1))
+    few, many = (index.count(None, 12.0, method=meshhood.Paper(radius_ratio=ratio)).sum() for ratio in (100, 1))
     assert few < many
 
 
@@ -78,7 +78,7 @@ def test_many_vertices_are_one_after_the_other(plates, method, workers):
     for ids, far, single in zip(rows(indptr, indices), rows(indptr, distances), singles):
         np.testing.assert_array_equal(ids, single[0])
         np.testing.assert_array_equal(far, single[1])
-    np.testing.assert_array_equal(np.diff(indptr), index.query_ball_count(v, r, workers=workers, method=method))
+    np.testing.assert_array_equal(np.diff(indptr), index.count(v, r, workers=workers, method=method))
 
 
 def test_all_vertices(plates):
@@ -87,15 +87,6 @@ def test_all_vertices(plates):
     assert len(indptr) == len(V) + 1
     for v, ids in enumerate(rows(indptr, indices)):
         np.testing.assert_array_equal(ids, oracle.neighborhood(V, edges, v, 2.5))
-
-
-@pytest.mark.parametrize("r", RADII)
-def test_ranges_are_the_neighborhood(plates, r):
-    index = plates[3]
-    ranges = index.query_ranges(100, r)
-    assert ranges.shape == (len(ranges), 2)
-    ids = np.concatenate([index.permutation[begin:end] for begin, end in ranges])
-    np.testing.assert_array_equal(np.sort(ids), index.query_ball(100, r, sort=True))
 
 
 def test_permutation_has_each_vertex_once(plates):
@@ -118,7 +109,7 @@ def test_graph_with_a_radius_for_each_vertex(plates):
     index = plates[3]
     r = np.linspace(0, 4, len(index))
     graph = index.radius_neighbors_graph(r)
-    np.testing.assert_array_equal(np.diff(graph.indptr), index.query_ball_count(None, r))
+    np.testing.assert_array_equal(np.diff(graph.indptr), index.count(None, r))
 
 
 @pytest.mark.parametrize("chunk", (1, 100, 10_000))
@@ -160,7 +151,7 @@ def test_all_vertices_in_index_order(plates):
     r = np.linspace(0, 4, len(index))
     (part,) = index.iter_neighborhoods(None, r, chunk=len(index), order="index")
     np.testing.assert_array_equal(part.vertices, index.permutation)
-    np.testing.assert_array_equal(np.diff(part.indptr), index.query_ball_count(None, r)[index.permutation])
+    np.testing.assert_array_equal(np.diff(part.indptr), index.count(None, r)[index.permutation])
 
 
 def test_index_does_not_depend_on_workers():

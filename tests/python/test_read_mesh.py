@@ -17,7 +17,7 @@ def test_triangles(tmp_path):
         np.testing.assert_array_equal(V, [[0, 0, 0], [1, 0, 0], [0, 1, 0]])
         np.testing.assert_array_equal(F, [[0, 1, 2]])
         assert (V.dtype, F.dtype) == (np.float32, np.int32)
-    assert meshhood.MeshIndex(meshhood.read_mesh(file)).query_ball_count(0, 1.0) == 3
+    assert meshhood.MeshIndex(meshhood.read_mesh(file)).count(0, 1.0) == 3
 
 
 def test_polygons(tmp_path):

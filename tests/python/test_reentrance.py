@@ -41,7 +41,7 @@ import os, signal
 from meshhood import _core
 index = meshhood.MeshIndex(*meshes.two_plates(30))
 answers = []
-signal.signal(signal.SIGUSR1, lambda number, frame: answers.append(index.query_ball_count(0, 2.0, method={other!r})))
+signal.signal(signal.SIGUSR1, lambda number, frame: answers.append(index.count(0, 2.0, method={other!r})))
 graph = _core.graph
 def interrupted(exact):
     _core.graph = graph
@@ -49,7 +49,7 @@ def interrupted(exact):
     return graph(exact)
 _core.graph = interrupted
 index.query_ball(0, 2.0, method={made!r})
-assert len(answers) == 1 and answers[0] == index.query_ball_count(0, 2.0, method={other!r})
+assert len(answers) == 1 and answers[0] == index.count(0, 2.0, method={other!r})
 """)
 
 
@@ -74,7 +74,7 @@ making.wait()
 child = os.fork()
 if child == 0:
     _core.graph = graph
-    os._exit(0 if index.query_ball_count(0, 2.0, method={other!r}) > 3 else 1)
+    os._exit(0 if index.count(0, 2.0, method={other!r}) > 3 else 1)
 forked.set()
 thread.join()
 assert os.waitpid(child, 0)[1] == 0
@@ -87,7 +87,7 @@ def test_a_fork_at_any_moment_of_other_threads_leaves_a_child_that_works(method)
     run(f"""
 import os, threading
 index = meshhood.MeshIndex(*meshes.two_plates(20))
-wanted = index.query_ball_count(5, 3.0, method={method!r})
+wanted = index.count(5, 3.0, method={method!r})
 stop = threading.Event()
 def run_query():
     while not stop.is_set():
@@ -99,7 +99,7 @@ for thread in threads:
 for _ in range(50):
     child = os.fork()
     if child == 0:
-        answers = index.query_ball_count(5, 3.0, method={method!r}), *index.query_ball_count([5, 5], 3.0, workers=2)
+        answers = index.count(5, 3.0, method={method!r}), *index.count([5, 5], 3.0, workers=2)
         os._exit(0 if answers[0] == wanted else 1)
     assert os.waitpid(child, 0)[1] == 0
 stop.set()
@@ -205,13 +205,13 @@ def test_a_signal_during_a_batch_may_query(tmp_path):
         pytest.skip("signals reach only the main thread")
     index = meshhood.MeshIndex(*meshes.two_plates(30))
     answers = []
-    old = signal.signal(signal.SIGUSR1, lambda number, frame: answers.append(index.query_ball_count(0, 2.0, method="bfs")))
+    old = signal.signal(signal.SIGUSR1, lambda number, frame: answers.append(index.count(0, 2.0, method="bfs")))
     try:
         index.query_ball(None, 3.0, progress=lambda done, total: signal.raise_signal(signal.SIGUSR1))
     finally:
         signal.signal(signal.SIGUSR1, old)
     assert len(answers) >= 2
-    assert set(answers) == {index.query_ball_count(0, 2.0)}
+    assert set(answers) == {index.count(0, 2.0)}
 
 
 def test_a_child_that_was_forked_by_multiprocessing_may_make_every_method():
@@ -221,7 +221,7 @@ def test_a_child_that_was_forked_by_multiprocessing_may_make_every_method():
 import multiprocessing
 index = meshhood.MeshIndex(*meshes.two_plates(12))
 def count(method):
-    return index.query_ball_count(None, 2.0, method=method).sum()
+    return index.count(None, 2.0, method=method).sum()
 with multiprocessing.get_context("fork").Pool(2) as pool:
     counts = pool.map(count, ["exact", "paper", "bfs", "ball"])
 assert counts[0] == counts[2] <= counts[1] <= counts[3]

@@ -39,7 +39,6 @@ def assert_same(one, other):
     for method in METHODS:
         for a, b in zip(*(i.query_ball(None, 3.5, return_distance=True, method=method) for i in (one, other))):
             np.testing.assert_array_equal(a, b)
-    np.testing.assert_array_equal(one.query_ranges(7, 5.0), other.query_ranges(7, 5.0))
     assert (one.radius_neighbors_graph(2.0) != other.radius_neighbors_graph(2.0)).nnz == 0
 
 
@@ -166,8 +165,6 @@ def test_indexes_saved_by_the_cpp_library_are_loaded(file):
     for v in range(0, len(index), 7):
         ids = index.query_ball(v, 1.0, sort=True)
         np.testing.assert_array_equal(ids, index.query_ball(v, 1.0, sort=True, method="bfs"))
-        ranges = [index.permutation[begin:end] for begin, end in index.query_ranges(v, 1.0)]
-        np.testing.assert_array_equal(ids, np.sort(np.concatenate(ranges)))
 
 
 def test_progress_of_loading(file):

@@ -41,14 +41,13 @@ assert_type(index.query_ball(None, [2.0, 3.0]), tuple[Longs, Ids])
 assert_type(index.query_ball(np.arange(3), np.ones(3), return_distance=True), tuple[Longs, Ids, Reals])
 assert_type(index.query_ball(index.permutation, 1.0), tuple[Longs, Ids])
 assert_type(index.query_ball(np.ones(9, bool), 1.0), tuple[Longs, Ids])
-assert_type(index.query_ball_count(1, 2.0, method=meshhood.Paper(radius_ratio=20)), int)
-assert_type(index.query_ball_count(range(3), 2.0), Longs)
-assert_type(index.query_ranges(1, 2.0), Ids)
+assert_type(index.count(1, 2.0, method=meshhood.Paper(radius_ratio=20)), int)
+assert_type(index.count(range(3), 2.0), Longs)
 assert_type(index.curvature(2.0, F=mesh.faces, fit="jet"), meshhood.Curvature)
 assert_type(index.corrected_curvature(2.0, F=mesh.faces).mean, Reals)
 assert_type(index.moments(2.0, degree=3, weights="area", F=mesh.faces), Reals)
 assert_type(index.principal_components(2.0).surface_variation, Reals)
-assert_type(index.features(meshhood.linear_radii(2.0), F=mesh.faces, kinds=("crease", "mean")), Reals)
+assert_type(index.features(meshhood.geometric_radii(1.0, 2.0, 3), F=mesh.faces, kinds=("crease", "mean")), Reals)
 assert_type(meshhood.persistence(np.ones((1, 2)), [1.0], 0.5).scales, Ids)
 for part in index.iter_neighborhoods(None, 1.0, return_distance=True):
     assert_type(part.vertices, Ids)
@@ -66,7 +65,7 @@ assert_type(parts.neighborhoods(1.0, "out", format="zarr", progress=True), list[
 
 
 def rows(part: distributed.OpenPart, index: meshhood.MeshIndex, owned: Ids) -> Longs:
-    return index.query_ball_count(owned, 1.0)
+    return index.count(owned, 1.0)
 
 
 parts.map(rows, 1.0, order="parts")

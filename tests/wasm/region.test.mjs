@@ -90,7 +90,7 @@ test('rings of edges are those of the command line', () => {
 
 test('distances along edges are those of the command line', () => {
   const { ids, distances } = index.queryBall(333, 4, { metric: 'path', distances: true });
-  const lines = meshhood('query', 'roll.ply', '-v', '333', '-r', '4', '--metric', 'edge', '--distances')
+  const lines = meshhood('query', 'roll.ply', '-v', '333', '-r', '4', '--metric', 'path', '--distances')
     .trimEnd().split('\n').map((line) => line.split(/\s+/));
   const byId = new Map(lines.map(([id, length]) => [Number(id), Number(length)]));
   assert.equal(ids.length, byId.size);

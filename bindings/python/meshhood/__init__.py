@@ -21,7 +21,6 @@ from ._moments import (
     Persistence,
     PrincipalComponents,
     geometric_radii,
-    linear_radii,
     persistence,
 )
 from ._partition import partition
@@ -48,7 +47,6 @@ __all__ = [
     "Submesh",
     "__version__",
     "geometric_radii",
-    "linear_radii",
     "load",
     "open_parts",
     "partition",

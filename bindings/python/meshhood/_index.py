@@ -31,7 +31,7 @@ Vertices = Union[Sequence[int], "NDArray[np.integer[Any]]", NDArray[np.bool_], N
 Number = Union[float, "np.floating[Any]", "np.integer[Any]"]
 Radii = Union[Number, Sequence[float], "NDArray[np.floating[Any]]", "NDArray[np.integer[Any]]"]
 Unit = Literal["mesh", "edge"]
-Metric = Literal["straight", "edge"]
+Metric = Literal["straight", "path"]
 Order = Literal["query", "index"]
 
 
@@ -267,9 +267,9 @@ class MeshIndex(Queries):
                  "bfs", the exact neighborhood by breadth-first search, for comparison;
                  "ball", every vertex within `r` in space, connected or not.
             "paper" builds an index of its own at the first use.
-        metric : "straight", the neighborhood in the ball of radius `r`; "edge", the vertices whose shortest path along
+        metric : "straight", the neighborhood in the ball of radius `r`; "path", the vertices whose shortest path along
             edges is at most `r` long. Distances are then the lengths of these paths, and the vertices of one
-            neighborhood are sorted by them. "edge" needs method "exact".
+            neighborhood are sorted by them. "path" needs method "exact".
         unit : of `r`: "mesh" is that of V, "edge" is `mean_edge_length`.
         max_bytes : refuse a larger result of many vertices; by default, one larger than the memory of the machine. A
             sample of the rows usually shows this within a second.
@@ -294,7 +294,7 @@ class MeshIndex(Queries):
         return (indptr, indices, distances) if return_distance else (indptr, indices)
 
     @overload
-    def query_ball_count(
+    def count(
         self,
         v: Vertex,
         r: Number,
@@ -307,7 +307,7 @@ class MeshIndex(Queries):
     ) -> int: ...
 
     @overload
-    def query_ball_count(
+    def count(
         self,
         v: Vertices,
         r: Radii,
@@ -319,7 +319,7 @@ class MeshIndex(Queries):
         progress: Progress = None,
     ) -> Counts: ...
 
-    def query_ball_count(
+    def count(
         self,
         v: Any,
         r: Any,
@@ -336,14 +336,7 @@ class MeshIndex(Queries):
             return searched.count(_convert.vertex(v, self._count), scale * _convert.radius(r))
         rows, radius, threads = self._batch(v, r, scale, workers)
         with reporter(progress) as report:
-            return searched.neighborhood_sizes(rows, radius, threads=threads, progress=report)
-
-    def query_ranges(self, v: Vertex, r: Number, *, unit: Unit = "mesh") -> Ids:
-        """The exact neighborhood of one vertex as ranges in index order: (#ranges, 2) int32. The vertices are
-        permutation[begin:end] for each row `begin, end`. The ranges ascend, with gaps between them. No ids are
-        copied."""
-        scale = self._scale(unit)
-        return self._exact.ranges(_convert.vertex(v, self._count), scale * _convert.radius(r))
+            return searched.counts(rows, radius, threads=threads, progress=report)
 
     def radius_neighbors_graph(
         self,
@@ -472,7 +465,7 @@ class MeshIndex(Queries):
         Returns float64: an axis of radii if `r` is a sequence, one of vertices unless `vertices` is a single one, then
         the axes of `values` but the first. NaN where a neighborhood has no values; 0 for their sum.
 
-        No ids are listed. The cost is that of `query_ball_count` for all vertices and a little for each channel. Sums
+        No ids are listed. The cost is that of `count` for all vertices and a little for each channel. Sums
         are exact to 1e-14 of the sum of the absolute terms, with a kernel to 1e-13 of the sum without it. A result does
         not depend on the other vertices of the call, bit for bit.
         """
@@ -689,7 +682,7 @@ class MeshIndex(Queries):
     ) -> Reals:
         """Feature vectors over several radii, without unit, so that scales can be compared.
 
-        r : radii, > 0, for example `linear_radii(R)` or `geometric_radii(a, b, count)`.
+        r : radii, > 0, for example `geometric_radii(a, b, count)`.
         kinds : one name or several of crease, mean, gaussian, k1, k2, curvedness, shape_index, area, height, variation.
             See docs/curvature.md for what they mean.
         F, filter, unit, workers, progress : as for `curvature`.
@@ -716,9 +709,9 @@ class MeshIndex(Queries):
             _core.save(self._exact, path, progress=report)
 
     def _method(self, method: Any, metric: Any) -> Any:
-        if _convert.choice(metric, "metric", ("straight", "edge")) == "edge":
+        if _convert.choice(metric, "metric", ("straight", "path")) == "path":
             if method != "exact":
-                raise ValueError(f"method: {method!r}, expected 'exact' with metric='edge'")
+                raise ValueError(f"method: {method!r}, expected 'exact' with metric='path'")
             return self._methods.along_edges
         try:
             return self._methods[method]

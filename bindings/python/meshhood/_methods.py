@@ -72,7 +72,7 @@ class Methods(dict):
 
     def _make(self, method):
         if method is _ALONG_EDGES:
-            return _core.edge(self["exact"])
+            return _core.along_edges(self["exact"])
         if method in _SCANS:
             return _SCANS[method](self.graph())
         paper = Paper() if method == "paper" else method

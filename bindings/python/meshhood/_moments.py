@@ -87,11 +87,6 @@ class Persistence(NamedTuple):
     radius: Reals
 
 
-def linear_radii(largest: float, count: int = 16) -> Reals:
-    """`count` radii up to `largest` in equal steps: those of multi-scale integral invariants, where `count` is 16."""
-    return _core.linear_radii(_convert.finite(largest, "largest", or_zero=False), _count(count))
-
-
 def geometric_radii(smallest: float, largest: float, count: int) -> Reals:
     """`count` radii from `smallest` to `largest` with a constant ratio."""
     smallest = _convert.finite(smallest, "smallest", or_zero=False)

@@ -48,7 +48,7 @@ def owned_ids(part: OpenPart) -> NDArray[np.int64]:
 
 
 def count_vertices(radius: float, part: OpenPart, index: MeshIndex, owned: NDArray[np.int32]) -> NDArray[np.int64]:
-    return index.query_ball_count(owned, radius, workers=1)
+    return index.count(owned, radius, workers=1)
 
 
 def aggregate_values(
@@ -119,7 +119,7 @@ def save_rows(function: PartFunction, path: str, part: OpenPart) -> None:
 
 def save_neighborhoods(radius: float, format: str, distances: bool, path: str, part: OpenPart) -> None:
     owned = np.asarray(part.owned)
-    sizes = part.index.query_ball_count(owned, radius, workers=1)
+    sizes = part.index.count(owned, radius, workers=1)
     indptr = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
 
     def chunks(return_distance: bool) -> Iterator[NDArray[Any]]:

@@ -18,7 +18,7 @@ Number = Union[float, "np.floating[Any]", "np.integer[Any]"]
 Seeds = Union[int, "np.integer[Any]", Sequence[int], "NDArray[np.integer[Any]]", None]
 Mask = Optional[NDArray[np.bool_]]
 Unit = Literal["mesh", "edge"]
-Metric = Literal["straight", "edge"]
+Metric = Literal["straight", "path"]
 
 
 class Queries:
@@ -82,19 +82,19 @@ class Queries:
         walls : a bool mask (#V,): vertices that the search does not pass and that belong to no answer, as if they were
             not in the mesh.
         ignored : a bool mask (#V,): vertices that the search passes but that belong to no answer.
-        metric : "edge": the vertices whose shortest path along edges from the vertex `start` is at most `r` long.
+        metric : "path": the vertices whose shortest path along edges from the vertex `start` is at most `r` long.
         r, return_distance, sort, unit : as for one vertex of `query_ball`, and so is the result.
 
         An answer depends on the index, the start, the radius and the masks alone. Its ids are in index order: ascending
-        places of `permutation`; with "edge" they are sorted by path length.
+        places of `permutation`; with "path" they are sorted by path length.
 
         The cost grows with the size of the region.
         """
         center, first = self._start(start, seeds)
         radius, masks = self._scale(unit) * _convert.radius(r), self._masks(walls, ignored)
-        if _convert.choice(metric, "metric", ("straight", "edge")) == "edge":
+        if _convert.choice(metric, "metric", ("straight", "path")) == "path":
             if np.ndim(start) != 0:
-                raise ValueError("start: expected a vertex with metric='edge', because a point has no edges")
+                raise ValueError("start: expected a vertex with metric='path', because a point has no edges")
             indices, distances = self._queries.path_region(int(first[0]), radius, *masks)
         else:
             indices, distances = self._queries.region(center, first, radius, *masks)

@@ -2,7 +2,7 @@
 """Neighborhoods on a mesh in parts, on Dask: on the threads of this machine, or on a cluster.
 
     parts = meshhood.partition("scan.ply", "scan.parts", parts=32, halo=65, unit="edge")
-    counts = parts.counts(5, unit="edge").compute()
+    counts = parts.count(5, unit="edge").compute()
 
 A part is one task. Without a `dask.distributed.Client`, tasks run on the threads of this machine; with one, on its
 workers, which must see the folder under the same path. Retries and the dashboard are those of Dask.
@@ -97,7 +97,7 @@ class Parts:
         another mesh, and naming the folder if other parts have replaced these; OSError."""
         return self._name(_convert.integer(number, "number", 0, len(self) - 1)).open()
 
-    def counts(self, r: float, *, unit: Unit = "mesh", order: Literal["mesh", "parts"] = "mesh") -> da.Array:
+    def count(self, r: float, *, unit: Unit = "mesh", order: Literal["mesh", "parts"] = "mesh") -> da.Array:
         """The number of vertices of each neighborhood: a dask.array (#V,) int64. See `map` for `order`."""
         return self.map(functools.partial(count_vertices, self._radius(r, unit)), r, unit=unit, dtype=np.int64, order=order)
 
