@@ -39,7 +39,7 @@ def main():
         sys.exit(__doc__)
     scan, edges, output = sys.argv[1:]
     V, F = meshhood.read_mesh(scan)
-    found = meshhood.MeshIndex(V, F).curvature(float(edges), F=F, unit="edge")
+    found = meshhood.MeshIndex(V, F).curvature(float(edges), unit="edge")
     largest = np.quantile(abs(found.mean[found.ok]), 0.98)
     write_ply(output, V, F, colors_of(found.mean, largest))
     print(f"{len(V)} vertices, {found.ok.sum()} fitted; 98 % have a radius of mean curvature above {1 / largest:.4g}")

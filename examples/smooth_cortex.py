@@ -47,7 +47,7 @@ def main():
     surface, values_name, fwhm, output = sys.argv[1:]
     V, F = surface_of(surface)
     values = map_of(values_name, len(V))
-    smooth = meshhood.MeshIndex(V, F).smooth(values, float(fwhm), weights="area", F=F, nan="omit")
+    smooth = meshhood.MeshIndex(V, F).smooth(values, float(fwhm), weights="area", nan="omit")
     save_map(smooth, output)
     print(f"{len(V)} vertices, standard deviation before {np.nanstd(values):.3f}, after {np.nanstd(smooth):.3f}")
 

@@ -139,7 +139,6 @@ def test_errors_name_the_argument(plates):
         ("nan: 'ignore'", ValueError, lambda: index.aggregate(values, 1, nan="ignore")),
         ("nesting: 'both'", ValueError, lambda: index.aggregate(values, 1, nesting="both")),
         ("ddof: 2", ValueError, lambda: index.aggregate(values, 1, "var", ddof=2)),
-        ("weights: 'area' needs the faces", ValueError, lambda: index.aggregate(values, 1, weights="area")),
         ("weights: expected an array of shape", ValueError, lambda: index.aggregate(values, 1, weights=[1, 2])),
         ("vertex 0: the weight is -1", ValueError, lambda: index.aggregate(values, 1, weights=np.full(n, -1.0))),
         (f"v: row 1: vertex {n}", ValueError, lambda: index.aggregate(values, 1, vertices=[0, n])),

@@ -161,11 +161,11 @@ def test_the_normals_are_kept_only_for_the_same_faces():
     V, F = ellipsoid(2)
     index = meshhood.MeshIndex(V, F)
     first = index.curvature(1, F=F)
-    kept = index._surfaces.of(F, None)
-    assert index._surfaces.of(F.copy(), None) is kept
+    kept = index._surface(F, None)
+    assert index._surface(F.copy(), None) is kept
     turned = F[:, ::-1].copy()
     np.testing.assert_allclose(index.curvature(1, F=turned).k1, -first.k2, rtol=1e-9)
-    assert index._surfaces.of(turned, None) is not kept
+    assert index._surface(turned, None) is not kept
     F[:] = turned  # the same array with other faces
     np.testing.assert_array_equal(index.curvature(1, F=F).k1, index.curvature(1, F=turned).k1)
 
@@ -243,8 +243,7 @@ def test_wrong_arguments_are_refused_by_name():
     V, F = ellipsoid(1)
     index = meshhood.MeshIndex(V, F)
     for arguments, message in (
-        (dict(r=1), "F: expected the faces"),
-        (dict(r=1, F=F, normals=V), "F: expected the faces"),
+        (dict(r=1, F=F, normals=V), "F: expected None, because the normals are given"),
         (dict(r=1, normals=V[:3]), r"normals: expected an array of shape \(18, 3\)"),
         (dict(r=1, normals=np.full_like(V, np.inf)), "normals: the normal of vertex 0 is infinite"),
         (dict(r=1, F=F + 1), "face"),

@@ -31,6 +31,7 @@ assert_type(index.nbytes, int)
 assert_type(index.mean_edge_length, float)
 assert_type(index.positions, Union[NDArray[np.float32], Reals])
 assert_type(index.permutation, Ids)
+assert_type(index.faces, Union[Ids, tuple[NDArray[np.signedinteger[Any]], Ids], None])
 assert_type(meshhood.__version__, str)
 
 assert_type(index.query_ball(1, 2), Ids)

@@ -12,9 +12,10 @@ component that contains v.
 
 from . import _core
 from ._aggregate import vertex_areas
-from ._curvature import Curvature, principal_curvature
+from ._curvature import Curvature
 from ._files import Mesh, load, read_mesh
 from ._index import Chunk, MeshIndex, Quality
+from ._libigl import principal_curvature
 from ._methods import Paper
 from ._moments import (
     CorrectedCurvature,

@@ -90,9 +90,8 @@ def area_weights(weights, index, F):
         return None
     if isinstance(weights, str):
         _convert.choice(weights, "weights", ("area",))
-        if F is None:
-            raise ValueError("weights: 'area' needs the faces, which an index does not keep: pass F")
-        return vertex_areas(index.positions, F)
+        corners, offsets = index._face_arrays(F)
+        return _core.vertex_areas(index.positions, corners, offsets=offsets)
     array = _numbers(weights, "weights", "biuf")
     if array.shape != (len(index),):
         raise ValueError(f"weights: expected an array of shape ({len(index)},), not {array.shape}")

@@ -4,14 +4,12 @@
 from __future__ import annotations
 
 import hashlib
-import warnings
-from typing import Any, NamedTuple, Optional
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _convert, _core
-from ._mesh import face_arrays
 from ._progress import reporter
 
 FITTED, RANK_DEFICIENT, TOO_FEW, NO_NORMAL = range(4)
@@ -65,24 +63,33 @@ class Curvature(NamedTuple):
 
 
 class Surfaces:
-    """The normals of an index. Those made from faces are kept until other faces are given."""
+    """The normals of an index. Those of faces are kept until other faces are given."""
 
     def __init__(self, exact: Any) -> None:
         self._exact = exact
-        self._kept = (b"", None)  # replaced as a whole: no lock, which a fork could copy while it is held
+        self._kept: tuple[Any, Any] = (None, None)  # replaced as a whole: no lock, which a fork could copy while it is held
 
-    def of(self, F: Any, normals: Any) -> Any:
-        if (F is None) == (normals is None):
-            raise ValueError("F: expected the faces of the mesh, or the argument normals, and not both")
-        if normals is not None:
-            return _of_normals(self._exact, normals)
-        arrays = face_arrays(F)
-        key = _digest(arrays)
+    def of_faces(self, arrays: tuple[Any, Any], *, is_own: bool) -> Any:
+        """`is_own`: the arrays are the faces that the index keeps, which never change."""
+        key = b"" if is_own else _digest(arrays)
         kept, surface = self._kept
         if kept != key:
             surface = _core.surface_of_faces(self._exact, *arrays)
             self._kept = (key, surface)
         return surface
+
+    def of_normals(self, normals: Any) -> Any:
+        """`normals`: (#V, 3)."""
+        count = self._exact.vertex_count
+        array = np.array(_convert.as_array(normals, "normals"))
+        if array.dtype.kind not in "iuf":
+            raise TypeError(f"normals: expected numbers, not {array.dtype}")
+        if array.shape != (count, 3):
+            raise ValueError(f"normals: expected an array of shape ({count}, 3), not {array.shape}")
+        try:
+            return _core.surface_of_normals(self._exact, array.astype(np.float64).ravel())
+        except ValueError as error:
+            raise ValueError(f"normals: {error}") from None
 
 
 def _digest(arrays: Any) -> bytes:
@@ -94,19 +101,6 @@ def _digest(arrays: Any) -> bytes:
     return digest.digest()
 
 
-def _of_normals(exact: Any, normals: Any) -> Any:
-    count = exact.vertex_count
-    array = np.array(_convert.as_array(normals, "normals"))
-    if array.dtype.kind not in "iuf":
-        raise TypeError(f"normals: expected numbers, not {array.dtype}")
-    if array.shape != (count, 3):
-        raise ValueError(f"normals: expected an array of shape ({count}, 3), not {array.shape}")
-    try:
-        return _core.surface_of_normals(exact, array.astype(np.float64).ravel())
-    except ValueError as error:
-        raise ValueError(f"normals: {error}") from None
-
-
 def curvature(surface: Any, rows: Any, radii: Any, several: bool, options: dict[str, Any], progress: Any) -> Curvature:
     """The curvatures of `rows` for the radius `radii`, or for each of them if they are `several`."""
     with reporter(progress) as report:
@@ -114,36 +108,3 @@ def curvature(surface: Any, rows: Any, radii: Any, several: bool, options: dict[
             return Curvature(*surface.curvatures(rows, radii, progress=report, **options))
         parts = [Curvature(*surface.curvatures(rows, float(r), progress=report, **options)) for r in radii]
     return Curvature(*(np.stack(arrays) for arrays in zip(*parts)))
-
-
-def principal_curvature(
-    V: Any, F: Any, radius: int = 5, useKring: bool = False, *, workers: int = -1
-) -> tuple[
-    NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]
-]:
-    """As `igl.principal_curvature(V, F, radius, False)` of libigl, with the same results: PD1, PD2 (#V, 3), PV1, PV2
-    (#V,), and the vertices without a result.
-
-    V : (#V, 3); F : (#F, 3).
-    radius : of the neighborhood, in mean lengths of the sides of all faces; an integer of at least 2.
-    useKring : must be False: the neighborhood is that of a ball, not the vertices within a number of edges. In libigl
-        the default is True.
-    workers : number of threads, -1 for one per processor.
-
-    Differences from libigl: the list includes vertices without a normal; directions have the sign that makes the
-    component of largest magnitude positive; isolated vertices at the end of V do not end the program. See
-    `MeshIndex.curvature` for a shape operator without libigl's error.
-    """
-    from ._index import MeshIndex
-
-    if useKring:
-        raise ValueError("useKring: True, expected False: rings of edges are not searched")
-    radius = _convert.positive(radius, "radius")
-    if radius < 2:
-        warnings.warn("radius: 1, which libigl raises to 2", stacklevel=2)
-        radius = 2
-    index = MeshIndex(V, F, workers=workers)
-    length = _core.libigl_radius(index.positions, *face_arrays(F), edges=float(radius))
-    found = index.curvature(length, F=F, like="libigl", workers=workers)
-    bad = np.flatnonzero(found.state >= TOO_FEW).astype(np.int32)
-    return found.d1, found.d2, found.k1, found.k2, bad

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _aggregate, _convert, _core, _moments
 from ._curvature import Curvature, Surfaces, curvature
-from ._mesh import mesh_arrays, moved_positions, warn_if_unwelded
+from ._mesh import face_arrays, kept_faces, mesh_arrays, moved_positions, warn_if_unwelded
 from ._methods import Method, Methods
 from ._progress import Progress, reporter
 from ._queries import Queries
@@ -64,6 +64,8 @@ class MeshIndex(Queries):
         one dimension, VTK's padded faces: each face begins with the number of its corners;
         a scipy.sparse matrix (#V, #V): a graph. Each stored entry is an edge, in either direction, whatever its value.
     cut : edges that no search crosses, as pairs of vertices (#cut, 2) in either order.
+    keep_faces : keep a copy of the faces, 4 bytes for each corner and, unless all are triangles, for each face. Without
+        it, or from a graph, the calls that need faces need them as their argument F.
     workers : number of threads, -1 for one per processor. The index does not depend on it.
     progress : True shows a bar of tqdm. A function is called as progress(done, total); an exception from it ends the
         call.
@@ -84,28 +86,38 @@ class MeshIndex(Queries):
     """
 
     _exact: Any
+    _faces: Any  # corners and offsets, as `face_arrays` returns them, or None
     _methods: Methods
     _surfaces: Surfaces
     _queries: Any
     _count: int
 
     def __init__(
-        self, V: Any, F: Any = None, *, cut: Any = None, workers: int = -1, progress: Progress = None
+        self,
+        V: Any,
+        F: Any = None,
+        *,
+        cut: Any = None,
+        keep_faces: bool = True,
+        workers: int = -1,
+        progress: Progress = None,
     ) -> None:
         positions, corners, offsets = mesh_arrays(V, F)
         options = {"cut": _convert.edges(cut, "cut"), "threads": _convert.threads(workers)}
         with reporter(progress) as report:
-            self._hold(_core.exact(positions, corners, offsets=offsets, **options, progress=report))
+            exact = _core.exact(positions, corners, offsets=offsets, **options, progress=report)
+        self._hold(exact, kept_faces(F, corners, offsets) if keep_faces else None)
         warn_if_unwelded(positions, corners, offsets, stacklevel=3)
 
     @classmethod
-    def _holding(cls, exact: Any) -> MeshIndex:
+    def _holding(cls, exact: Any, faces: Any = None) -> MeshIndex:
         self = cls.__new__(cls)
-        self._hold(exact)
+        self._hold(exact, faces)
         return self
 
-    def _hold(self, exact: Any) -> None:
+    def _hold(self, exact: Any, faces: Any) -> None:
         self._exact = exact
+        self._faces = faces
         self._methods = Methods(exact)
         self._surfaces = Surfaces(exact)
         self._queries = _core.queries(exact)
@@ -119,11 +131,11 @@ class MeshIndex(Queries):
         return f"<meshhood.MeshIndex: {self._count} vertices, {_as_size(self.nbytes)}>"
 
     def __reduce_ex__(self, protocol: Any) -> tuple[Any, ...]:
-        """The bytes of an index file, which are verified when they are loaded, and the attributes of a subclass. With
-        protocol 5 the bytes may be sent out of band."""
+        """The bytes of an index file, which are verified when they are loaded, the faces, and the attributes of a
+        subclass. With protocol 5 the bytes may be sent out of band."""
         saved = _core.to_bytes(self._exact)
         buffer = pickle.PickleBuffer(saved) if protocol >= 5 else saved.tobytes()
-        return _unpickled, (type(self), buffer), self.__getstate__()
+        return _unpickled, (type(self), buffer, self._faces), self.__getstate__()
 
     def __getstate__(self) -> Any:
         """The attributes that a subclass has added; None if there are none."""
@@ -134,7 +146,7 @@ class MeshIndex(Queries):
 
     def _like_this(self, exact: Any) -> MeshIndex:
         """An index of this class, with the attributes that a subclass has added."""
-        other = type(self)._holding(exact)
+        other = type(self)._holding(exact, self._faces)
         state = self.__getstate__()
         attributes, slots = state if isinstance(state, tuple) else (state, None)
         for name, value in {**(attributes or {}), **(slots or {})}.items():
@@ -154,15 +166,24 @@ class MeshIndex(Queries):
 
     @property
     def nbytes(self) -> int:
-        """Memory of the index in bytes, including its copy of the positions. The other methods, `positions` and
+        """Memory of the index in bytes, including its copies of the positions and of the faces. The other methods, `positions` and
         `mean_edge_length` need additional memory once they are used."""
-        return self._exact.nbytes
+        return self._exact.nbytes + sum(array.nbytes for array in self._faces or () if array is not None)
 
     @property
     def positions(self) -> Union[NDArray[np.float32], NDArray[np.float64]]:
         """The positions: (#V, 3), in the numbering and precision of V, read-only. Extracted at the first use, then
         kept."""
         return self._methods.graph().positions
+
+    @property
+    def faces(self) -> Union[Ids, tuple[NDArray[np.signedinteger[Any]], Ids], None]:
+        """The faces: (#F, 3) int32, or a tuple (offsets, corners) unless all are triangles; read-only, not copied. None
+        if the index has none: it was built with keep_faces=False or from a graph, or loaded from a file."""
+        if self._faces is None:
+            return None
+        corners, offsets = self._faces
+        return corners.reshape(-1, 3) if offsets is None else (offsets, corners)
 
     @property
     def mean_edge_length(self) -> float:
@@ -450,8 +471,8 @@ class MeshIndex(Queries):
         values : (#V,) or (#V, ...), numbers or bools; each channel by itself. Copied as float64.
         r : the radius, >= 0 or inf, or several. A vertex at exactly `r` is inside.
         reduce : "sum", "mean", "min", "max", "var", "std" or "count".
-        weights : (#V,) finite and >= 0, for sum, mean, var and std; "area" for `vertex_areas`, which needs F. A vertex
-            of weight 0 is left out.
+        weights : (#V,) finite and >= 0, for sum, mean, var and std; "area" for `vertex_areas`. A vertex of weight 0
+            is left out.
         kernel : for sum and mean, how the weight falls with the distance d. None: not at all; "epanechnikov":
             1 - (d/r)^2; "biweight": (1 - (d/r)^2)^2, which is close to a Gaussian of the standard deviation 0.4 r.
         vertices : a vertex, a sequence of vertices, a bool mask (#V,), or None for all.
@@ -459,7 +480,7 @@ class MeshIndex(Queries):
         nesting : what several radii mean. "own": each has its own neighborhoods. "patch": the neighborhoods of the
             largest, and of them the vertices within each smaller radius.
         ddof : "var" and "std" divide by the number of values minus this, 0 or 1.
-        F : the faces, as for the class.
+        F : other faces than those that the index keeps, for weights="area".
         unit, workers, max_bytes, progress : as for `query_ball`. The result does not depend on `workers`.
 
         Returns float64: an axis of radii if `r` is a sequence, one of vertices unless `vertices` is a single one, then
@@ -504,8 +525,8 @@ class MeshIndex(Queries):
 
         fwhm : > 0, a straight-line distance in `unit`. Vertices farther away than 1.06 fwhm, or not connected within
             that distance, have no influence: nothing is smoothed across a gap.
-        weights : None counts each vertex once; "area" weighs it by its area, which needs F, and makes the result
-            independent of how densely the surface is sampled.
+        weights : None counts each vertex once; "area" weighs it by its area, and makes the result independent of how
+            densely the surface is sampled.
         See `aggregate`, which this calls with reduce="mean" and kernel="biweight". Returns float64 of the shape of
         `values`.
         """
@@ -583,9 +604,8 @@ class MeshIndex(Queries):
 
         r : a radius, or a list of radii: the arrays of the result then have a leading axis.
         vertices : a list of vertices, a bool mask, or None for all.
-        F : the faces of the mesh that the index was built from. The index does not keep them, but it keeps their
-            normals for the next call with the same faces.
-        normals : (#V, 3), instead of F, for a mesh without faces; of any length. NaN where a vertex has none.
+        F : other faces than those that the index keeps. The normals are kept for the next call with the same faces.
+        normals : (#V, 3), instead of those of the faces; of any length. NaN where a vertex has none.
         like : "libigl" gives the values of igl.principal_curvature. Its shape operator is wrong where the fitted
             quadric is tilted against the normal, and its neighborhoods have the vertices nearer than `r`.
         fit : "quadric", through the vertex and over its tangent plane, or "jet", over the plane of the principal
@@ -605,14 +625,14 @@ class MeshIndex(Queries):
         radii = self._scale(unit) * _convert.radii(radii, len(radii) if several else 1)
         options = {"libigl": like == "libigl", "jet": _convert.choice(fit, "fit", ("quadric", "jet")) == "jet"}
         options |= {"filter": bool(filter), "threads": _convert.threads(workers)}
-        return curvature(self._surfaces.of(F, normals), rows, radii, several, options, progress)
+        return curvature(self._surface(F, normals), rows, radii, several, options, progress)
 
     def corrected_curvature(
         self,
         r: Number,
         vertices: Vertices = None,
         *,
-        F: Any,
+        F: Any = None,
         normals: Any = None,
         unit: Unit = "mesh",
         workers: int = -1,
@@ -621,8 +641,8 @@ class MeshIndex(Queries):
         """Curvatures by the interpolated corrected curvature measures (Lachaud et al. 2020; in CGAL 6
         `interpolated_corrected_curvatures`): sums over the faces, without a fit.
 
-        r : the radius of all rows. F : the faces. normals : (#V, 3), instead of those that follow from the faces.
-        The other arguments are as for `curvature`. Returns a `CorrectedCurvature`: area, mean, gaussian, k1, k2, d1,
+        r : the radius of all rows. normals : (#V, 3), instead of those that follow from the faces. The faces are needed
+        in any case. The other arguments are as for `curvature`. Returns a `CorrectedCurvature`: area, mean, gaussian, k1, k2, d1,
         d2, measures.
         """
         rows = None if vertices is None else _convert.vertices(vertices, self._count)
@@ -673,7 +693,7 @@ class MeshIndex(Queries):
         r: Union[Number, Sequence[float], ArrayLike],
         vertices: Vertices = None,
         *,
-        F: Any,
+        F: Any = None,
         kinds: Union[str, Sequence[str]] = "crease",
         filter: bool = True,
         unit: Unit = "mesh",
@@ -719,6 +739,25 @@ class MeshIndex(Queries):
             if method.__hash__ is not None:
                 raise
             raise TypeError(f"method: expected a name or a Paper, not {type(method).__name__}") from None
+
+    def _face_arrays(self, F: Any) -> tuple[Any, Any]:
+        """Corners and offsets of `F`, or of the faces that the index keeps."""
+        if F is not None:
+            return face_arrays(F)
+        if self._faces is None:
+            raise ValueError(
+                "F: expected the faces, because this index has none: it was built with keep_faces=False or from a graph, "
+                "or loaded from a file"
+            )
+        return self._faces
+
+    def _surface(self, F: Any, normals: Any) -> Any:
+        """The normals of the faces, or `normals`."""
+        if normals is None:
+            return self._surfaces.of_faces(self._face_arrays(F), is_own=F is None)
+        if F is not None:
+            raise ValueError("F: expected None, because the normals are given")
+        return self._surfaces.of_normals(normals)
 
     def _scale(self, unit: Any) -> float:
         """The factor from `unit` to the unit of the positions."""
@@ -767,5 +806,6 @@ def _as_size(count: float) -> str:
     return f"{count:.4g} GB"
 
 
-def _unpickled(cls: type[MeshIndex], saved: Any) -> MeshIndex:
-    return cls._holding(_core.from_bytes(np.frombuffer(saved, np.uint8)))
+def _unpickled(cls: type[MeshIndex], saved: Any, faces: Any) -> MeshIndex:
+    kept = None if faces is None else kept_faces(None, *faces)
+    return cls._holding(_core.from_bytes(np.frombuffer(saved, np.uint8)), kept)

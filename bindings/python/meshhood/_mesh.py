@@ -27,6 +27,20 @@ def face_arrays(F):
     return _polygons(F) if isinstance(F, tuple) else _faces(F)
 
 
+def kept_faces(F, corners, offsets):
+    """A compact read-only copy of the arrays above, for vertices that int32 can number; None if `F` is a graph."""
+    if hasattr(F, "tocoo"):
+        return None
+    wide = np.int32 if len(corners) < 2**31 else np.int64
+    return _read_only(corners, np.int32), None if offsets is None else _read_only(offsets, wide)
+
+
+def _read_only(array, dtype):
+    array = array.astype(dtype, copy=False)
+    array.flags.writeable = False
+    return array
+
+
 def moved_positions(V):
     """Positions as above, also of a mesh."""
     return _positions(_parts(V)[0] if _is_mesh(V) else V)

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from . import _convert, _core
 from ._aggregate import area_weights
-from ._mesh import face_arrays
 from ._progress import reporter
 
 Reals = NDArray[np.float64]
@@ -129,10 +128,8 @@ def principal_components(index: Any, rows: Any, radii: Any, weights: Any, F: Any
 def corrected_curvature(
     index: Any, r: float, rows: Any, F: Any, normals: Any, workers: Any, progress: Any
 ) -> CorrectedCurvature:
-    if F is None:
-        raise ValueError("F: expected the faces of the mesh, which an index does not keep")
-    surface = index._surfaces.of(None if normals is not None else F, normals)
-    corners, offsets = face_arrays(F)
+    corners, offsets = index._face_arrays(F)
+    surface = index._surface(F if normals is None else None, normals)
     with reporter(progress) as report:
         found = surface.corrected(
             corners, offsets=offsets, vertices=rows, radius=r, threads=_convert.threads(workers), progress=report
@@ -145,8 +142,6 @@ def features(
 ) -> Reals:
     """#radii by #rows by #kinds, or without the last axis if `kinds` is one name."""
     names = (kinds,) if isinstance(kinds, str) else tuple(kinds)
-    if F is None:
-        raise ValueError("F: expected the faces of the mesh, which an index does not keep")
     if not names:
         raise ValueError("kinds: there are none, expected at least one")
     options = {
@@ -157,5 +152,5 @@ def features(
         "threads": _convert.threads(workers),
     }
     with reporter(progress) as report:
-        found = index._surfaces.of(F, None).features(rows, progress=report, **options)
+        found = index._surface(F, None).features(rows, progress=report, **options)
     return found[..., 0] if isinstance(kinds, str) else found

@@ -35,7 +35,7 @@ class RimLine(NamedTuple):
 class RegionMesh:
     """Makes meshes and outlines of the regions of a mesh, for drawing, remeshing and patches.
 
-    V, F : the mesh, as for `MeshIndex`, which does not keep the faces. Both are copied.
+    V, F : the mesh, as for `MeshIndex`. Both are copied.
 
     `ids` are the vertices of a region, in any order, as the queries of `MeshIndex` return them; or a bool mask (#V,).
     The cost of a call is that of sorting the faces around them. Raises ValueError or TypeError, naming the argument and

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: MIT
+"""The faces that an index keeps, for the calls that need them."""
+
+import pickle
+
+import meshes
+import meshhood
+import numpy as np
+import pytest
+from scipy.sparse import csr_array
+
+V, TRIANGLES = meshes.two_plates(12)
+V = V + 0.2 * np.sin(V[:, [1, 2, 0]])  # curved
+VALUES = np.arange(len(V), dtype=float)
+
+CALLS = {
+    "curvature": lambda index, **F: index.curvature(2.5, **F).k1,
+    "corrected curvature": lambda index, **F: index.corrected_curvature(2.5, **F).measures,
+    "features": lambda index, **F: index.features([1.5, 2.5], kinds=("crease", "area"), **F),
+    "aggregate": lambda index, **F: index.aggregate(VALUES, 2.5, weights="area", **F),
+    "smooth": lambda index, **F: index.smooth(VALUES, 2.5, weights="area", **F),
+    "moments": lambda index, **F: index.moments(2.5, weights="area", **F),
+    "principal components": lambda index, **F: index.principal_components(2.5, weights="area", **F).variances,
+}
+
+
+def polygons():
+    """The first two triangles of a plate as a quad, the others as they are."""
+    quad = [TRIANGLES[0, 0], TRIANGLES[0, 1], TRIANGLES[0, 2], next(iter(set(TRIANGLES[1]) - set(TRIANGLES[0])))]
+    corners = np.concatenate([quad, TRIANGLES[2:].ravel()])
+    return np.concatenate([[0], np.arange(4, len(corners) + 1, 3)]), corners
+
+
+@pytest.fixture(
+    params=(
+        TRIANGLES.astype(np.int64),
+        TRIANGLES.astype(np.uint32),
+        TRIANGLES.astype(np.uint16),
+        polygons(),
+        np.concatenate([np.full((len(TRIANGLES), 1), 3), TRIANGLES], axis=1).ravel(),
+    ),
+    ids=("int64", "uint32", "uint16", "polygons", "padded"),
+)
+def F(request):
+    return request.param
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_a_call_uses_the_faces_of_the_index(F, call):
+    kept, without = meshhood.MeshIndex(V, F), meshhood.MeshIndex(V, F, keep_faces=False)
+    np.testing.assert_array_equal(CALLS[call](kept), CALLS[call](without, F=F))
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_other_faces_are_used_for_one_call(call):
+    index = meshhood.MeshIndex(V, TRIANGLES)
+    own, half = CALLS[call](index), CALLS[call](index, F=TRIANGLES[: len(TRIANGLES) // 2])
+    assert not np.array_equal(own, half, equal_nan=True)
+    np.testing.assert_array_equal(CALLS[call](index), own)
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_an_index_without_faces_says_so(tmp_path, call):
+    edges = np.concatenate([TRIANGLES[:, [0, 1]], TRIANGLES[:, [1, 2]], TRIANGLES[:, [2, 0]]]).T
+    graph = csr_array((np.ones(edges.shape[1]), tuple(edges)), shape=(len(V), len(V)))
+    meshhood.MeshIndex(V, TRIANGLES).save(tmp_path / "plates.mhi")
+    for index in (
+        meshhood.MeshIndex(V, TRIANGLES, keep_faces=False),
+        meshhood.MeshIndex(V, graph),
+        meshhood.load(tmp_path / "plates.mhi"),
+    ):
+        assert index.faces is None
+        with pytest.raises(ValueError, match="F: expected the faces, because this index has none"):
+            CALLS[call](index)
+        CALLS[call](index, F=TRIANGLES)
+
+
+def test_the_copy_is_compact_and_read_only():
+    F = TRIANGLES.astype(np.int64)
+    index, without = meshhood.MeshIndex(V, F), meshhood.MeshIndex(V, F, keep_faces=False)
+    F[:] = 0
+    assert index.faces.dtype == np.int32
+    np.testing.assert_array_equal(index.faces, TRIANGLES)
+    assert index.nbytes == without.nbytes + 4 * TRIANGLES.size
+    with pytest.raises(ValueError, match="read-only"):
+        index.faces[0, 0] = 1
+    offsets, corners = meshhood.MeshIndex(V, polygons()).faces
+    assert (offsets.dtype, corners.dtype) == (np.int32, np.int32)
+    for kept, given in zip((offsets, corners), polygons()):
+        np.testing.assert_array_equal(kept, given)
+
+
+def test_the_faces_of_the_caller_stay_writable():
+    F = TRIANGLES.astype(np.int32)
+    meshhood.MeshIndex(V, F)
+    F[0, 0] = F[0, 0]
+
+
+@pytest.mark.parametrize("protocol", range(2, pickle.HIGHEST_PROTOCOL + 1))
+def test_copies_have_the_faces(F, protocol):
+    index = meshhood.MeshIndex(V, F)
+    copy = pickle.loads(pickle.dumps(index, protocol))
+    assert copy.nbytes == index.nbytes
+    np.testing.assert_array_equal(copy.curvature(2.5).k1, index.curvature(2.5).k1)
+    moved = index.refit(2 * V)
+    np.testing.assert_allclose(moved.curvature(5).k1, index.curvature(2.5).k1 / 2, atol=1e-12)
