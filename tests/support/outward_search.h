@@ -25,8 +25,8 @@ struct ReachAccess {
 };
 
 struct HomeMarksAccess {
-  /// Marks only what `HomeMarks::spread` begins with, and what is linked with that in its group, so that all else is
-  /// open.
+  /// Marks what `HomeMarks::spread` begins with, and what is linked with that within a group or from a surface leaf, but
+  /// does not spread the marks further: nearly all is open.
   static void begin(HomeMarks& marks, const Query& query, Reach& reach) {
     marks.states_ = &reach.states();
     marks.leaves_.clear();
@@ -39,15 +39,9 @@ struct HomeMarksAccess {
     }
     marks.keep_open(reach.groups());
     const std::span<const LeafSubset> leaves = reach.surface_leaves();
-    marks.lanes_.assign(leaves.size() + 1, 0);
+    marks.lanes_.resize(leaves.size() + 1);
     marks.open_places_.clear();
-    for (std::size_t place = 0; place < leaves.size(); ++place) {
-      if (leaves[place].leaf == query.leaf()) {
-        marks.mark_leaf(query, leaves[place], place);
-      } else {
-        marks.open_places_.push_back(place);
-      }
-    }
+    for (std::size_t place = 0; place < leaves.size(); ++place) marks.mark_leaf(query, leaves[place], place);
   }
 };
 
