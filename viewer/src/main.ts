@@ -8,6 +8,7 @@ import { connectKeyboard } from './keyboard';
 import { fromHash, toHash } from './link';
 import type { State } from './link';
 import type { Method, Opened } from './messages';
+import { MethodTable } from './method_table';
 import { connectNotices, showError, showProgress } from './notices';
 import { Opening } from './opening';
 import type { Asked } from './opening';
@@ -28,6 +29,7 @@ const HAS_ADDRESS = location.protocol !== 'about:';
 class Page {
   readonly view: View;
   readonly #panel: Panel;
+  readonly #table: MethodTable;
   readonly #engine: Engine;
   readonly #opening: Opening;
   readonly #querying: Querying;
@@ -37,9 +39,10 @@ class Page {
     const canvas = document.getElementById('canvas') as HTMLCanvasElement;
     this.view = new View(canvas);
     this.#panel = this.#makePanel();
+    this.#table = new MethodTable((method, isShown) => this.#querying.showMethod(method, isShown));
     this.#engine = this.#makeEngine();
     this.#opening = new Opening(this.#engine, this.#panel, (opened, asked) => this.#show(opened, asked));
-    this.#querying = new Querying(this.#engine, this.#panel, {
+    this.#querying = new Querying(this.#engine, this.#panel, this.#table, {
       asked: (isFinal) => this.#passQueryOn(isFinal),
       answered: () => this.#coloring.setAnswers(this.#querying.answers, this.#querying.given),
     });
@@ -61,7 +64,6 @@ class Page {
       vertex: (vertex) => this.#querying.select(vertex),
       radius: (radius, unit, isFinal) =>
         this.#querying.setRadius(radius * (unit === 'edge' ? this.meanEdge : 1), isFinal),
-      method: (method, isShown) => this.#querying.showMethod(method, isShown),
       color: (choice) => this.#coloring.choose(choice),
       look: (look) => this.#setLook(look),
       random: () => this.#querying.selectRandom(),
@@ -83,7 +85,7 @@ class Page {
         if (during === 'open') this.#opening.fail();
       },
       answer: (method, ids) => this.#querying.receive(method, ids),
-      time: (method, microseconds) => this.#querying.receiveTime(method, microseconds),
+      time: (method, microseconds) => this.#table.setTime(method, microseconds),
       computed: (quantity, radius, values) => this.#coloring.receive(quantity, radius, values),
       index: (bytes) => saveIndex(bytes, this.#opening.name),
     });
@@ -183,9 +185,9 @@ class Page {
     this.#updateLink(this.view.cameraState);
     try {
       await navigator.clipboard.writeText(location.href);
-      this.#panel.setVerdict('The link is in the clipboard.');
+      this.#table.setVerdict('The link is in the clipboard.');
     } catch {
-      this.#panel.setVerdict('The link is in the address bar.');
+      this.#table.setVerdict('The link is in the address bar.');
     }
   }
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The controls: the values that they show, and the changes that they request.
-import { METHOD_COLORS } from './colors';
 import { EXAMPLES } from './examples';
-import type { Method } from './messages';
-import { format, shortNumber } from './numbers';
+import { shortNumber } from './numbers';
 import { mapOf } from './paint';
 import type { Range, Scalar } from './scalar';
 import type { Cut, Look } from './view';
@@ -14,7 +12,6 @@ export interface Wishes {
   vertex(vertex: number): void;
   /** `isFinal` once the slider is released. */
   radius(radius: number, unit: 'mesh' | 'edge', isFinal: boolean): void;
-  method(method: Method, isShown: boolean): void;
   color(choice: string): void;
   look(look: Look): void;
   random(): void;
@@ -25,15 +22,6 @@ export interface Wishes {
   copyLink(): void;
 }
 
-const ROWS: readonly Method[] = ['exact', 'paper', 'ball', 'bfs'];
-
-const MEANINGS: Record<Method, string> = {
-  exact: 'The exact neighborhood, by the index',
-  paper: 'The approximate neighborhood of the paper: contains the exact one',
-  ball: 'Every vertex within the radius in space',
-  bfs: 'The exact neighborhood by breadth-first search, for comparison',
-};
-
 const find = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 
 // The slider is logarithmic, and its left end is 0.
@@ -42,13 +30,11 @@ const LEAST_EDGES = 0.5;
 
 export class Panel {
   readonly #wishes: Wishes;
-  readonly #cells = new Map<Method, { row: HTMLTableRowElement; count: Node; extra: Node; time: Node; box: HTMLInputElement }>();
   #meanEdge = 1;
   #mostEdges = 100;
 
   constructor(wishes: Wishes) {
     this.#wishes = wishes;
-    this.#makeRows();
     this.#connectFiles();
     this.#connectQuery();
     this.#connectDisplay();
@@ -65,27 +51,6 @@ export class Panel {
   #fold(): void {
     const folded = find('panel').classList.toggle('folded');
     find('fold').setAttribute('aria-expanded', String(!folded));
-  }
-
-  #makeRows(): void {
-    const body = find('methods').querySelector('tbody')!;
-    for (const method of ROWS) {
-      const row = body.insertRow();
-      row.dataset.method = method;
-      row.title = MEANINGS[method];
-      const box = document.createElement('input');
-      box.type = 'checkbox';
-      box.checked = true;
-      box.addEventListener('change', () => this.#wishes.method(method, box.checked));
-      const swatch = document.createElement('span');
-      swatch.className = 'swatch';
-      swatch.style.background = method === 'bfs' ? 'transparent' : METHOD_COLORS[method];
-      const label = document.createElement('label');
-      label.append(box, swatch, method);
-      row.insertCell().append(label);
-      const [count, extra, time] = [0, 1, 2].map(() => row.insertCell().appendChild(document.createTextNode('')));
-      this.#cells.set(method, { row, count, extra, time, box });
-    }
   }
 
   #connectFiles(): void {
@@ -196,29 +161,6 @@ export class Panel {
   #toSlider(edges: number): number {
     if (edges < LEAST_EDGES) return 0;
     return Math.round((SLIDER * Math.log(edges / LEAST_EDGES)) / Math.log(this.#mostEdges / LEAST_EDGES));
-  }
-
-  setMethodShown(method: Method, isShown: boolean): void {
-    const cells = this.#cells.get(method)!;
-    cells.box.checked = isShown;
-    cells.row.classList.toggle('off', !isShown);
-    if (!isShown) for (const node of [cells.count, cells.extra, cells.time]) node.textContent = '';
-  }
-
-  setCount(method: Method, count: number | null, extra: number | null): void {
-    const cells = this.#cells.get(method)!;
-    cells.count.textContent = count === null ? '' : format(count);
-    cells.extra.textContent = extra === null ? '' : format(extra);
-  }
-
-  setTime(method: Method, microseconds: number | null): void {
-    const digits = microseconds !== null && microseconds < 10 ? 1 : 0;
-    this.#cells.get(method)!.time.textContent =
-      microseconds === null ? '' : format(Number(microseconds.toFixed(digits)));
-  }
-
-  setVerdict(...parts: (string | HTMLElement)[]): void {
-    find('verdict').replaceChildren(...(parts.length > 0 ? parts : ['\u00a0']));
   }
 
   setLegend(scalar: Scalar | null, range: Range | null): void {

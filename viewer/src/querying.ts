@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The query: its vertex and radius, the methods that answer it, and the table of their answers and times.
+// The query: its vertex and radius, the methods that answer it, and their answers.
 import type { Engine } from './engine';
 import { METHODS } from './messages';
 import type { Method, Opened } from './messages';
+import type { MethodTable } from './method_table';
 import { hideHint, showError } from './notices';
-import { shortNumber } from './numbers';
 import type { Panel } from './panel';
 
 export interface Listeners {
@@ -17,18 +17,19 @@ export interface Listeners {
 export class Querying {
   readonly #engine: Engine;
   readonly #panel: Panel;
+  readonly #table: MethodTable;
   readonly #listeners: Listeners;
   readonly #shown = new Set<Method>(METHODS);
   readonly #answers = new Map<Method, Uint32Array>();
-  readonly #times = new Map<Method, number>(); // in microseconds
   #given: Uint32Array | null = null; // an answer that was passed to the page, shown until the next query
   #opened: Opened | null = null;
   #vertex = -1;
   #radius = 0;
 
-  constructor(engine: Engine, panel: Panel, listeners: Listeners) {
+  constructor(engine: Engine, panel: Panel, table: MethodTable, listeners: Listeners) {
     this.#engine = engine;
     this.#panel = panel;
+    this.#table = table;
     this.#listeners = listeners;
   }
 
@@ -38,7 +39,6 @@ export class Querying {
     this.#vertex = -1;
     this.#given = null;
     this.#answers.clear();
-    this.#times.clear();
   }
 
   /** `given` is shown instead of the answers, until the next query. */
@@ -90,16 +90,14 @@ export class Querying {
   #setShown(method: Method, isShown: boolean): void {
     if (isShown) this.#shown.add(method);
     else this.#shown.delete(method);
-    this.#panel.setMethodShown(method, isShown);
+    this.#table.setShown(method, isShown);
   }
 
   #ask(isFinal: boolean): void {
     if (this.#vertex < 0) return;
     this.#given = null;
-    this.#times.clear();
+    this.#table.clearTimes();
     this.#panel.setRadius(this.#radius);
-    for (const method of METHODS) this.#panel.setTime(method, null);
-    this.#panel.setVerdict();
     const shown = METHODS.filter((method) => this.#shown.has(method));
     const answering = shown.filter((method) => method !== 'bfs'); // whose answer is that of the index
     this.#engine.query(this.#vertex, this.#radius, withExact(answering), shown);
@@ -113,20 +111,9 @@ export class Querying {
     for (const each of this.#shown) {
       const answer = each === 'bfs' ? exact : this.#answers.get(each);
       if (answer === undefined) continue;
-      this.#panel.setCount(each, answer.length, exact === undefined ? null : answer.length - exact.length);
+      this.#table.setCount(each, answer.length, exact === undefined ? null : answer.length - exact.length);
     }
     this.#listeners.answered();
-  }
-
-  receiveTime(method: Method, microseconds: number): void {
-    this.#panel.setTime(method, microseconds);
-    this.#times.set(method, microseconds);
-    const [exact, bfs] = [this.#times.get('exact'), this.#times.get('bfs')];
-    if (exact === undefined || bfs === undefined) return;
-    const times = Number((bfs / exact).toPrecision(2));
-    const ratio = document.createElement('b');
-    ratio.textContent = times === 1 ? 'as long' : `${shortNumber(times)} times as long`;
-    this.#panel.setVerdict('Breadth-first search takes ', ratio, ' as the index.');
   }
 
   /** -1 before the first query. */

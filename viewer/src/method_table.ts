@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// The table of the methods: which are shown, the sizes of their answers, and their times.
+import { METHOD_COLORS } from './colors';
+import { METHODS } from './messages';
+import type { Method } from './messages';
+import { format, shortNumber } from './numbers';
+
+const ROWS: readonly Method[] = ['exact', 'paper', 'ball', 'bfs'];
+
+const MEANINGS: Record<Method, string> = {
+  exact: 'The exact neighborhood, by the index',
+  paper: 'The approximate neighborhood of the paper: contains the exact one',
+  ball: 'Every vertex within the radius in space',
+  bfs: 'The exact neighborhood by breadth-first search, for comparison',
+};
+
+interface Row {
+  element: HTMLTableRowElement;
+  box: HTMLInputElement;
+  count: Node;
+  extra: Node;
+  time: Node;
+}
+
+export class MethodTable {
+  readonly #rows = new Map<Method, Row>();
+  readonly #times = new Map<Method, number>();
+
+  /** Calls `show` when a method is to be shown or not. */
+  constructor(show: (method: Method, isShown: boolean) => void) {
+    const body = document.querySelector<HTMLTableSectionElement>('#methods tbody')!;
+    for (const method of ROWS) this.#rows.set(method, makeRow(body, method, show));
+  }
+
+  setShown(method: Method, isShown: boolean): void {
+    const { element, box, count, extra, time } = this.#rows.get(method)!;
+    box.checked = isShown;
+    element.classList.toggle('off', !isShown);
+    if (!isShown) for (const node of [count, extra, time]) node.textContent = '';
+  }
+
+  /** `extra` vertices are not in the exact answer. */
+  setCount(method: Method, count: number, extra: number | null): void {
+    const row = this.#rows.get(method)!;
+    row.count.textContent = format(count);
+    row.extra.textContent = extra === null ? '' : format(extra);
+  }
+
+  clearTimes(): void {
+    this.#times.clear();
+    for (const method of METHODS) this.#rows.get(method)!.time.textContent = '';
+    this.setVerdict();
+  }
+
+  setTime(method: Method, microseconds: number): void {
+    this.#times.set(method, microseconds);
+    this.#rows.get(method)!.time.textContent = format(Number(microseconds.toFixed(microseconds < 10 ? 1 : 0)));
+    const [exact, bfs] = [this.#times.get('exact'), this.#times.get('bfs')];
+    if (exact === undefined || bfs === undefined) return;
+    const times = Number((bfs / exact).toPrecision(2));
+    const ratio = document.createElement('b');
+    ratio.textContent = times === 1 ? 'as long' : `${shortNumber(times)} times as long`;
+    this.setVerdict('Breadth-first search takes ', ratio, ' as the index.');
+  }
+
+  /** The line below the table. */
+  setVerdict(...parts: (string | HTMLElement)[]): void {
+    document.getElementById('verdict')!.replaceChildren(...(parts.length > 0 ? parts : ['\u00a0']));
+  }
+}
+
+function makeRow(body: HTMLTableSectionElement, method: Method, show: (method: Method, isShown: boolean) => void): Row {
+  const element = body.insertRow();
+  element.dataset.method = method;
+  element.title = MEANINGS[method];
+  const box = document.createElement('input');
+  box.type = 'checkbox';
+  box.checked = true;
+  box.addEventListener('change', () => show(method, box.checked));
+  const swatch = document.createElement('span');
+  swatch.className = 'swatch';
+  swatch.style.background = method === 'bfs' ? 'transparent' : METHOD_COLORS[method];
+  const label = document.createElement('label');
+  label.append(box, swatch, method);
+  element.insertCell().append(label);
+  const [count, extra, time] = [0, 1, 2].map(() => element.insertCell().appendChild(document.createTextNode('')));
+  return { element, box, count, extra, time };
+}
