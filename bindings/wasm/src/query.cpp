@@ -8,7 +8,6 @@
 
 #include "answer.h"
 #include "arguments.h"
-#include "method.h"
 #include "workspace.h"
 
 namespace meshhood::wasm {
@@ -17,12 +16,17 @@ extern "C" {
 
 /// Returns the number of ids.
 [[clang::export_name("query")]] std::size_t query(MethodName method, VertexId v, double radius, bool with_distances) {
-  workspace.method(method).neighborhood(v, radius, answer.ids, with_distances ? &answer.reals : nullptr);
+  AnySearcher& searcher = workspace.method(method).searcher;
+  if (with_distances) {
+    searcher.neighborhood(v, radius, answer.ids, answer.reals);
+  } else {
+    searcher.neighborhood(v, radius, answer.ids);
+  }
   return answer.ids.size();
 }
 
 [[clang::export_name("count")]] std::size_t count(MethodName method, VertexId v, double radius) {
-  return workspace.method(method).count(v, radius);
+  return workspace.method(method).searcher.count(v, radius);
 }
 
 /// All vertices if `vertices` is null, and `radius` for all rows if `radii` is null. The counts of the answer are the
@@ -32,9 +36,9 @@ extern "C" {
                                            bool count_only, bool with_distances, bool sorted) {
   BatchQuery query{.vertices = view_vertices(vertices, vertex_count), .radius = radius};
   if (radii != nullptr) query.radius = std::span(radii, radius_count);
-  const SearchMethod& search = workspace.method(method).batches();
+  const SearchMethod& search = workspace.method(method).search;
   if (count_only) {
-    const auto sizes = neighborhood_sizes(search, query);
+    const auto sizes = counts(search, query);
     answer.counts.assign(sizes.begin(), sizes.end());
     return;
   }

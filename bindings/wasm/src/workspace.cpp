@@ -2,7 +2,6 @@
 #include "workspace.h"
 
 #include <cstddef>
-#include <memory>
 #include <utility>
 
 namespace meshhood::wasm {
@@ -62,23 +61,24 @@ const paper::Index& Workspace::paper_index() {
   return *paper_index_;
 }
 
-Method& Workspace::method(MethodName name) {
-  std::unique_ptr<Method>& method = methods_[static_cast<std::size_t>(name)];
-  if (!method) method = make(name);
-  return *method;
-}
-
-std::unique_ptr<Method> Workspace::make(MethodName name) {
+SearchMethod Workspace::make_method(MethodName name) {
   switch (name) {
-    case MethodName::Exact: return make_method(Searcher(index()), index());
-    case MethodName::Paper: return make_method(paper::Searcher(paper_index()), paper_index());
-    case MethodName::Bfs:
-      return make_method(ReferenceSearcher(graph().view()), SearchMethod::breadth_first(graph().view()));
-    case MethodName::Ball:
-      return make_method(BallSearcher(graph().view().positions), SearchMethod::ball_scan(graph().view().positions));
-    case MethodName::Path: return make_method(EdgeSearcher(index()), SearchMethod::along_edges(index()));
+    case MethodName::Exact: return index();
+    case MethodName::Paper: return paper_index();
+    case MethodName::Bfs: return SearchMethod::breadth_first(graph().view());
+    case MethodName::Ball: return SearchMethod::ball_scan(graph().view().positions);
+    case MethodName::Path: return SearchMethod::along_edges(index());
   }
   __builtin_unreachable();
+}
+
+Method& Workspace::method(MethodName name) {
+  std::optional<Method>& method = methods_[static_cast<std::size_t>(name)];
+  if (!method) {
+    const SearchMethod search = make_method(name);
+    method.emplace(Method{.search = search, .searcher = search.make_searcher()});
+  }
+  return *method;
 }
 
 RegionSearcher& Workspace::regions() {

@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cstddef>
-#include <memory>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,9 +12,19 @@
 #include "meshhood/meshhood.h"
 
 #include "io/mesh_io.h"
-#include "method.h"
 
 namespace meshhood::wasm {
+
+/// The numbers are part of the interface with JavaScript. `Path` is the exact search by the metric of the paths.
+enum class MethodName : std::uint8_t { Exact, Paper, Bfs, Ball, Path };
+
+inline constexpr std::size_t kMethodCount = 5;
+
+/// A method, and a searcher for single queries.
+struct Method {
+  SearchMethod search;
+  AnySearcher searcher;
+};
 
 /// One mesh, its index, and what the methods need besides: the graph, the paper's index, searchers. Each part is made
 /// when it is first used.
@@ -68,14 +78,14 @@ class Workspace {
   void replace_index(Index&& index);
   void forget_derived();
   [[nodiscard]] const paper::Index& paper_index();
-  [[nodiscard]] std::unique_ptr<Method> make(MethodName name);
+  [[nodiscard]] SearchMethod make_method(MethodName name);
 
   io::Mesh mesh_;
   std::optional<Index> index_;
   std::optional<GraphData> graph_;
   std::optional<double> mean_edge_;
   std::optional<paper::Index> paper_index_;
-  std::array<std::unique_ptr<Method>, kMethodCount> methods_;  // by their names
+  std::array<std::optional<Method>, kMethodCount> methods_;  // by their names
   std::optional<RegionSearcher> regions_;
   std::optional<EdgeSearcher> edges_;
   std::optional<CurvatureIndex> surface_;
