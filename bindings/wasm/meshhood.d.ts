@@ -283,7 +283,8 @@ export class MeshIndex {
    * A new index of the mesh after its vertices have moved; the edges stay. This index stays as it is. Answers are exact
    * whatever the positions; `quality` says when an index that is built again would answer faster.
    *
-   * About a third of the time of a build, and a copy of `memoryBytes`. Dispose the index that is no longer needed.
+   * Faster than a build: it copies `memoryBytes`, however few vertices have moved, and computes the bounds of the leaves
+   * that changed. Dispose the index that is no longer needed.
    *
    * @param positions #V by 3
    * @param options `changed`: the vertices that have moved, null for all. Positions of others are not read.

@@ -61,6 +61,29 @@ test('distances belong to their ids, in either order', () => {
   }
 });
 
+test('exact answers are in index order, whatever was asked before', () => {
+  const index = build(families.plates);
+  const fresh = build(families.plates);
+  const place = new Uint32Array(index.vertexCount);
+  index.permutation.forEach((v, i) => { place[v] = i; });
+  const expectOrder = (ids) => assert.deepEqual(ids, ids.slice().sort((a, b) => place[a] - place[b]));
+  const next = random(11);
+  for (let i = 0; i < scaled(300); ++i) {
+    const v = Math.floor(index.vertexCount * next());
+    const radius = 8 * next();
+    const ids = index.queryBall(v, radius);
+    expectOrder(ids);
+    assert.deepEqual(index.viewBall(v, radius).slice(), ids);
+    assert.deepEqual(index.queryRegion(v, radius), ids);
+    assert.deepEqual(index.queryBall(Uint32Array.of(0, v, 5), radius).ids.slice(
+      index.count(0, radius), index.count(0, radius) + ids.length), ids);
+    assert.deepEqual(fresh.queryBall(v, radius), ids);
+    const { counts, ids: rings } = index.queryNested(v, Float64Array.of(radius, 2 * radius + 1));
+    expectOrder(rings.slice(0, counts[0]));
+    expectOrder(rings.slice(counts[0], counts[1]));
+  }
+});
+
 test('a batch has the rows of single queries', () => {
   const mesh = families.plates;
   const index = build(mesh);
