@@ -20,7 +20,7 @@ foreach(part
     exact/search_families exact/search_differential exact/search_order exact/search_outward exact/search_rare exact/search_traps exact/threads
     exact/query/any_center exact/query/edge_search exact/query/nearest exact/query/path_order exact/query/path_queue exact/query/path_search exact/query/region
     exact/search/component exact/search/descent exact/search/group_states exact/search/home_marks exact/search/leaf_bfs exact/search/leaf_bits
-    exact/search/open_elements exact/search/output exact/search/reach exact/search/vertex_bfs exact/search/vertex_set exact/search/waves
+    exact/search/open_elements exact/output exact/search/reach exact/search/vertex_bfs exact/vertex_set exact/search/waves
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
     region/region_mesher
     curvature/corrected curvature/curvatures curvature/features curvature/moments curvature/packet_moments curvature/quadric

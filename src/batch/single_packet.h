@@ -8,7 +8,7 @@
 #include "batch/searcher_factory.h"
 #include "exact/joint/packet_answer.h"
 #include "exact/layout.h"
-#include "exact/search/vertex_set.h"
+#include "exact/vertex_set.h"
 #include "simd/joint.h"
 
 namespace meshhood {

@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "exact/index_access.h"
+#include "exact/output.h"
 #include "exact/query/arguments.h"
 #include "exact/query/path_search.h"
 #include "exact/query/ring_search.h"
-#include "exact/search/output.h"
-#include "exact/search/vertex_set.h"
+#include "exact/vertex_set.h"
 #include "shared/distance.h"
 
 namespace meshhood {

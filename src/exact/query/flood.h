@@ -10,7 +10,7 @@
 #include "exact/query/any_center.h"
 #include "exact/query/lane_filter.h"
 #include "exact/query/sleepers.h"
-#include "exact/search/vertex_set.h"
+#include "exact/vertex_set.h"
 #include "simd/ball.h"
 #include "simd/kernels.h"
 

@@ -13,7 +13,7 @@
 #include "exact/query/flood.h"
 #include "exact/query/lane_filter.h"
 #include "exact/search/searcher_state.h"
-#include "exact/search/vertex_set.h"
+#include "exact/vertex_set.h"
 #include "simd/kernels.h"
 
 namespace meshhood {

@@ -9,7 +9,7 @@
 #include "base/epoch_array.h"
 #include "exact/layout.h"
 #include "exact/query/lane_filter.h"
-#include "exact/search/vertex_set.h"
+#include "exact/vertex_set.h"
 #include "simd/kernels.h"
 
 namespace meshhood {

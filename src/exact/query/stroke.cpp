@@ -3,8 +3,8 @@
 #include <string>
 #include <utility>
 
+#include "exact/output.h"
 #include "exact/query/region_state.h"
-#include "exact/search/output.h"
 #include "shared/distance.h"
 
 namespace meshhood {

@@ -9,7 +9,7 @@
 #include "exact/search/open_elements.h"
 #include "exact/search/query.h"
 #include "exact/search/reach.h"
-#include "exact/search/vertex_set.h"
+#include "exact/vertex_set.h"
 #include "simd/kernels.h"
 
 namespace meshhood {

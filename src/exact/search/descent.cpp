@@ -20,25 +20,12 @@ std::size_t most_intersecting(double radius_in_frame, double mean_radius) {
 
 }  // namespace
 
-void NodeQueue::make_room(std::size_t groups) {
-  const std::size_t needed = size_ + (groups + 1) * kFanOut;
-  if (nodes_.size() < needed) nodes_.resize(2 * needed);
-}
-
-void NodeQueue::append(std::uint32_t group, NodeSet set) {
-  // Writes eight nodes, and counts those in the set: faster than branching for each.
-  std::uint32_t* out = nodes_.data() + size_;
-  for (std::size_t i = 0; i < kFanOut; ++i) out[i] = group * kFanOut + kBitPositions[set][i];
-  size_ += count_of(set);
-}
-
 bool Descent::run(std::size_t level, std::span<const std::uint32_t> groups, const Query& query,
                   std::size_t limited_above, GroupStates& states) {
   groups_.assign(groups.begin(), groups.end());
   std::sort(groups_.begin(), groups_.end());
   intersecting_.clear();
-  intersecting_.make_room(groups.size());
-  for (const std::uint32_t group : groups_) intersecting_.append(group, states[group].intersecting);
+  for (const std::uint32_t group : groups_) append(group, states[group].intersecting);
   for (;; --level) {
     if (level > limited_above &&
         intersecting_.size() > most_intersecting(query.radius_in_frame, index_->tree[level].mean_radius))
@@ -50,9 +37,17 @@ bool Descent::run(std::size_t level, std::span<const std::uint32_t> groups, cons
   }
 }
 
+void Descent::append(std::uint32_t group, NodeSet intersecting) {
+  // Writes eight nodes, and keeps those in the set: faster than branching for each.
+  const std::size_t size = intersecting_.size();
+  intersecting_.resize(size + kFanOut);
+  for (std::size_t i = 0; i < kFanOut; ++i) intersecting_[size + i] = group * kFanOut + kBitPositions[intersecting][i];
+  intersecting_.resize(size + count_of(intersecting));
+}
+
 /// Appends the groups that the intersecting nodes cover.
 void Descent::add_children() {
-  for (const NodeId node : intersecting_.nodes()) {
+  for (const NodeId node : intersecting_) {
     const std::uint32_t child = index_->records[node / kFanOut].first_child + node % kFanOut;
     groups_.push_back(child);
     fetch_lines(&index_->groups[child], sizeof(Group) / kCacheLine);
@@ -66,13 +61,12 @@ void Descent::place(std::size_t first, const TreeBall& ball, GroupStates& states
   if (containments_.size() < below.size()) containments_.resize(2 * below.size());
   kernels_->classify(index_->groups.data(), below, ball, containments_.data());
   intersecting_.clear();
-  intersecting_.make_room(below.size());
   for (std::size_t i = 0; i < below.size(); ++i) {
     const NodeSet exist = first_nodes(index_->records[below[i]].nodes);
     GroupState& state = states.set(below[i], {});
     state.whole = containments_[i].inside & exist;
     state.intersecting = containments_[i].intersecting & exist;
-    intersecting_.append(below[i], state.intersecting);
+    append(below[i], state.intersecting);
   }
 }
 

@@ -13,25 +13,6 @@
 
 namespace meshhood {
 
-/// A list of nodes. Its buffer never shrinks.
-class NodeQueue {
- public:
-  void clear() { size_ = 0; }
-
-  /// Makes room for the nodes of `groups` more groups.
-  void make_room(std::size_t groups);
-
-  /// Appends the nodes of `group` whose bits are in `set`.
-  void append(std::uint32_t group, NodeSet set);
-
-  [[nodiscard]] std::size_t size() const { return size_; }
-  [[nodiscard]] std::span<const std::uint32_t> nodes() const { return {nodes_.data(), size_}; }
-
- private:
-  std::vector<std::uint32_t> nodes_;
-  std::size_t size_ = 0;
-};
-
 /// Refines the nodes that intersect the surface of the ball down to the leaves.
 class Descent {
  public:
@@ -46,9 +27,10 @@ class Descent {
   [[nodiscard]] std::span<const std::uint32_t> groups() const { return groups_; }
 
   /// The leaves that intersect the surface of the ball.
-  [[nodiscard]] std::span<const LeafId> surface_leaves() const { return intersecting_.nodes(); }
+  [[nodiscard]] std::span<const LeafId> surface_leaves() const { return intersecting_; }
 
  private:
+  void append(std::uint32_t group, NodeSet intersecting);
   void add_children();
   void place(std::size_t first, const TreeBall& ball, GroupStates& states);
 
@@ -56,7 +38,7 @@ class Descent {
   const Kernels* kernels_;
   std::vector<std::uint32_t> groups_;
   std::vector<GroupContainment> containments_;
-  NodeQueue intersecting_;
+  std::vector<NodeId> intersecting_;
 };
 
 }  // namespace meshhood

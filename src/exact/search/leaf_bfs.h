@@ -8,7 +8,7 @@
 #include "base/number_set.h"
 #include "exact/layout.h"
 #include "exact/search/query.h"
-#include "exact/search/vertex_set.h"
+#include "exact/vertex_set.h"
 #include "simd/kernels.h"
 
 namespace meshhood {

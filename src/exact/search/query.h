@@ -28,20 +28,15 @@ struct Query {
   TreeBall tree_ball;  // for nodes
 
   Query(const IndexView& index, VertexId v, const RadiusBounds& bounds)
-      : Query(index, v, index.slot[v], index.position(leaf_of(index.slot[v]), lane_of(index.slot[v])), bounds) {}
+      : vertex(v),
+        slot(index.slot[v]),
+        radius(bounds.radius),
+        radius_in_frame(bounds.radius_in_frame),
+        ball(index.position(leaf(), lane_of(slot)), bounds.leaf),
+        tree_ball(index.frame.round(ball.center), bounds.tree) {}
 
   [[nodiscard]] LeafId leaf() const { return leaf_of(slot); }
   [[nodiscard]] LaneMask lane() const { return LaneMask{1} << lane_of(slot); }
-  [[nodiscard]] const Point& center() const { return ball.center; }
-
- private:
-  Query(const IndexView& index, VertexId v, std::uint32_t slot_of_v, const Point& center, const RadiusBounds& bounds)
-      : vertex(v),
-        slot(slot_of_v),
-        radius(bounds.radius),
-        radius_in_frame(bounds.radius_in_frame),
-        ball(center, bounds.leaf),
-        tree_ball(index.frame.round(center), bounds.tree) {}
 };
 
 }  // namespace meshhood

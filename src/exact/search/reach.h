@@ -10,8 +10,8 @@
 #include "exact/search/descent.h"
 #include "exact/search/group_states.h"
 #include "exact/search/query.h"
-#include "exact/search/vertex_set.h"
 #include "exact/search/waves.h"
+#include "exact/vertex_set.h"
 #include "simd/kernels.h"
 
 namespace meshhood {

@@ -13,7 +13,7 @@
 
 #include "exact/index_access.h"
 #include "exact/neighbors.h"
-#include "exact/search/output.h"
+#include "exact/output.h"
 #include "exact/search/searcher_state.h"
 #include "shared/distance.h"
 

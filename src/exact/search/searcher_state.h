@@ -13,7 +13,7 @@
 #include "exact/search/query.h"
 #include "exact/search/reach.h"
 #include "exact/search/vertex_bfs.h"
-#include "exact/search/vertex_set.h"
+#include "exact/vertex_set.h"
 #include "simd/kernels.h"
 
 namespace meshhood {

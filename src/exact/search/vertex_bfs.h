@@ -9,7 +9,7 @@
 #include "base/number_set.h"
 #include "exact/kept_graph.h"
 #include "exact/layout.h"
-#include "exact/search/vertex_set.h"
+#include "exact/vertex_set.h"
 
 namespace meshhood {
 

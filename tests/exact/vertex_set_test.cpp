@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Sets of vertices against std::set.
-#include "exact/search/vertex_set.h"
+#include "exact/vertex_set.h"
 
 #include <set>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "exact/search/output.h"
+#include "exact/output.h"
 
 #include <algorithm>
 #include <array>

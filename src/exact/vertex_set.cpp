@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "exact/search/vertex_set.h"
+#include "exact/vertex_set.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Ids and distances of an answer, for every instruction set, in the order of VertexSet::for_each.
-#include "exact/search/output.h"
+#include "exact/output.h"
 
 #include <vector>
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "exact/layout.h"
-#include "exact/search/vertex_set.h"
+#include "exact/vertex_set.h"
 #include "simd/kernels.h"
 
 namespace meshhood {
