@@ -61,7 +61,7 @@ void Flood::wake_or_rest(LeafId leaf, State& state) {
 
 /// Puts the leaf into the work list, unless it is there.
 void Flood::wake(LeafId leaf, State& state) {
-  assert(&state == &states_[leaf] && state.number == number_);
+  assert(&state == &states_[leaf]);  // which must be known
   if (state.is_awake) return;
   state.is_awake = true;
   awake_.push_back(leaf);
@@ -83,7 +83,6 @@ void Flood::grow(double radius, std::uint32_t target) {
   ball_ = any_ball(center_.exact, radius);
   sleepers_.wake(ball_.squared_radius, [&](const Sleepers::Entry& entry) {
     State& state = states_[entry.leaf];
-    assert(state.number == number_);
     if (state.wakes != entry.bound) return;  // outdated: the leaf has another entry with a smaller bound
     state.wakes = std::numeric_limits<double>::infinity();
     wake(entry.leaf, state);
