@@ -13,7 +13,6 @@
 
 #include "meshhood/error.h"
 
-#include "shared/text.h"
 #include "io/messages.h"
 #include "parts/cut_tree.h"
 #include "parts/distribution.h"
@@ -24,6 +23,7 @@
 #include "parts/survey.h"
 #include "parts/temporary_folder.h"
 #include "parts/vertex_chunks.h"
+#include "shared/text.h"
 
 namespace meshhood::parts {
 namespace {
