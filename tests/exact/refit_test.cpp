@@ -182,6 +182,30 @@ TEST(Refit, OfTheChangedVerticesHasTheNodesOfARefitOfAll) {
   EXPECT_THAT(differences(index, build(sculpted.mesh.view())), IsEmpty());
 }
 
+/// The path distances of the vertices of the mesh from vertex 0, by their ids.
+std::vector<double> path_distances(const Index& index) {
+  std::vector<VertexId> ids;
+  std::vector<double> distances;
+  EdgeSearcher(index).neighborhood(0, kInfinity, ids, distances);
+  std::vector<double> result(index.vertex_count(), kInfinity);
+  for (std::size_t i = 0; i < ids.size(); ++i) result[ids[i]] = distances[i];
+  return result;
+}
+
+// The first search makes a graph with the lengths of the edges, which the index keeps.
+TEST(Refit, LengthsOfEdgesAreThoseOfTheNewPositions) {
+  const Sculpted sculpted;
+  Index index = build(sculpted.mesh.view());
+  const std::vector<double> before = path_distances(index);
+  const std::vector<double> expected = path_distances(build(sculpted.moved.view()));
+  ASSERT_NE(before, expected);
+  EXPECT_EQ(path_distances(refit(index, sculpted.moved.positions_view())), expected);
+  EXPECT_EQ(path_distances(refit(index, sculpted.moved.positions_view(), sculpted.changed)), expected);
+  EXPECT_EQ(path_distances(index), before);
+  index = refit(std::move(index), sculpted.moved.positions_view(), sculpted.changed);
+  EXPECT_EQ(path_distances(index), expected);
+}
+
 TEST(Refit, ReadsOnlyThePositionsOfTheChangedVertices) {
   Sculpted sculpted;
   const Index index = build(sculpted.mesh.view());
