@@ -7,7 +7,7 @@ import meshhood
 import numpy as np
 import oracle
 import pytest
-from meshhood._moments import _KINDS
+from meshhood._shape import _KINDS
 from test_curvature import ellipsoid
 
 

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _convert, _core
-from ._progress import reporter
 
 FITTED, RANK_DEFICIENT, TOO_FEW, NO_NORMAL = range(4)
 
@@ -99,12 +98,3 @@ def _digest(arrays: Any) -> bytes:
             digest.update(f"{array.dtype} {len(array)};".encode())
             digest.update(array)
     return digest.digest()
-
-
-def curvature(surface: Any, rows: Any, radii: Any, several: bool, options: dict[str, Any], progress: Any) -> Curvature:
-    """The curvatures of `rows` for the radius `radii`, or for each of them if they are `several`."""
-    with reporter(progress) as report:
-        if not several:
-            return Curvature(*surface.curvatures(rows, radii, progress=report, **options))
-        parts = [Curvature(*surface.curvatures(rows, float(r), progress=report, **options)) for r in radii]
-    return Curvature(*(np.stack(arrays) for arrays in zip(*parts)))

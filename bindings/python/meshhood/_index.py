@@ -6,32 +6,39 @@ from __future__ import annotations
 import copyreg
 import os
 import pickle
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from . import _aggregate, _convert, _core, _moments
-from ._curvature import Curvature, Surfaces, curvature
-from ._mesh import face_arrays, kept_faces, mesh_arrays, moved_positions, warn_if_unwelded
-from ._methods import Method, Methods
+from . import _convert, _core
+from ._aggregate import Aggregates
+from ._held import Held
+from ._mesh import kept_faces, mesh_arrays, moved_positions, warn_if_unwelded
+from ._methods import Method
 from ._progress import Progress, reporter
 from ._queries import Queries
+from ._shape import Shape
+from ._types import (
+    BallOptions,
+    CountOptions,
+    Counts,
+    Ids,
+    Metric,
+    Number,
+    Offsets,
+    Radii,
+    Reals,
+    Unit,
+    Vertex,
+    Vertices,
+)
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
+    from typing_extensions import Unpack
 
-Ids = NDArray[np.int32]
-Offsets = NDArray[np.int64]
-Counts = NDArray[np.int64]
-Reals = NDArray[np.float64]
-Vertex = Union[int, "np.integer[Any]"]
-Vertices = Union[Sequence[int], "NDArray[np.integer[Any]]", NDArray[np.bool_], None]
-Number = Union[float, "np.floating[Any]", "np.integer[Any]"]
-Radii = Union[Number, Sequence[float], "NDArray[np.floating[Any]]", "NDArray[np.integer[Any]]"]
-Unit = Literal["mesh", "edge"]
-Metric = Literal["straight", "path"]
 Order = Literal["query", "index"]
 
 
@@ -52,7 +59,7 @@ class Quality(NamedTuple):
     gain: float
 
 
-class MeshIndex(Queries):
+class MeshIndex(Queries, Aggregates, Shape):
     """An index of a mesh that finds the neighborhood of a vertex v with a radius r: the part of the mesh inside the
     ball of radius r around v that is connected to v within the ball.
 
@@ -85,13 +92,6 @@ class MeshIndex(Queries):
     TypeError, naming the argument and the element, and KeyboardInterrupt on Ctrl-C.
     """
 
-    _exact: Any
-    _faces: Any  # corners and offsets, as `face_arrays` returns them, or None
-    _methods: Methods
-    _surfaces: Surfaces
-    _queries: Any
-    _count: int
-
     def __init__(
         self,
         V: Any,
@@ -115,14 +115,6 @@ class MeshIndex(Queries):
         self._hold(exact, faces)
         return self
 
-    def _hold(self, exact: Any, faces: Any) -> None:
-        self._exact = exact
-        self._faces = faces
-        self._methods = Methods(exact)
-        self._surfaces = Surfaces(exact)
-        self._queries = _core.queries(exact)
-        self._count = exact.vertex_count
-
     def __len__(self) -> int:
         """The number of vertices."""
         return self._count
@@ -139,7 +131,7 @@ class MeshIndex(Queries):
 
     def __getstate__(self) -> Any:
         """The attributes that a subclass has added; None if there are none."""
-        attributes = {name: value for name, value in vars(self).items() if name not in MeshIndex.__annotations__}
+        attributes = {name: value for name, value in vars(self).items() if name not in Held.__annotations__}
         names = copyreg._slotnames(type(self))
         slots = {name: getattr(self, name) for name in names if hasattr(self, name)}
         return (attributes, slots) if slots else attributes or None
@@ -199,66 +191,22 @@ class MeshIndex(Queries):
 
     @overload
     def query_ball(
-        self,
-        v: Vertex,
-        r: Number,
-        *,
-        return_distance: Literal[False] = False,
-        sort: bool = False,
-        method: Method = "exact",
-        metric: Metric = "straight",
-        unit: Unit = "mesh",
-        workers: int = -1,
-        max_bytes: Optional[int] = None,
-        progress: Progress = None,
+        self, v: Vertex, r: Number, *, return_distance: Literal[False] = False, **options: Unpack[BallOptions]
     ) -> Ids: ...
 
     @overload
     def query_ball(
-        self,
-        v: Vertex,
-        r: Number,
-        *,
-        return_distance: Literal[True],
-        sort: bool = False,
-        method: Method = "exact",
-        metric: Metric = "straight",
-        unit: Unit = "mesh",
-        workers: int = -1,
-        max_bytes: Optional[int] = None,
-        progress: Progress = None,
+        self, v: Vertex, r: Number, *, return_distance: Literal[True], **options: Unpack[BallOptions]
     ) -> tuple[Ids, Reals]: ...
 
     @overload
     def query_ball(
-        self,
-        v: Vertices,
-        r: Radii,
-        *,
-        return_distance: Literal[False] = False,
-        sort: bool = False,
-        method: Method = "exact",
-        metric: Metric = "straight",
-        unit: Unit = "mesh",
-        workers: int = -1,
-        max_bytes: Optional[int] = None,
-        progress: Progress = None,
+        self, v: Vertices, r: Radii, *, return_distance: Literal[False] = False, **options: Unpack[BallOptions]
     ) -> tuple[Offsets, Ids]: ...
 
     @overload
     def query_ball(
-        self,
-        v: Vertices,
-        r: Radii,
-        *,
-        return_distance: Literal[True],
-        sort: bool = False,
-        method: Method = "exact",
-        metric: Metric = "straight",
-        unit: Unit = "mesh",
-        workers: int = -1,
-        max_bytes: Optional[int] = None,
-        progress: Progress = None,
+        self, v: Vertices, r: Radii, *, return_distance: Literal[True], **options: Unpack[BallOptions]
     ) -> tuple[Offsets, Ids, Reals]: ...
 
     def query_ball(
@@ -315,30 +263,10 @@ class MeshIndex(Queries):
         return (indptr, indices, distances) if return_distance else (indptr, indices)
 
     @overload
-    def count(
-        self,
-        v: Vertex,
-        r: Number,
-        *,
-        method: Method = "exact",
-        metric: Metric = "straight",
-        unit: Unit = "mesh",
-        workers: int = -1,
-        progress: Progress = None,
-    ) -> int: ...
+    def count(self, v: Vertex, r: Number, **options: Unpack[CountOptions]) -> int: ...
 
     @overload
-    def count(
-        self,
-        v: Vertices,
-        r: Radii,
-        *,
-        method: Method = "exact",
-        metric: Metric = "straight",
-        unit: Unit = "mesh",
-        workers: int = -1,
-        progress: Progress = None,
-    ) -> Counts: ...
+    def count(self, v: Vertices, r: Radii, **options: Unpack[CountOptions]) -> Counts: ...
 
     def count(
         self,
@@ -448,102 +376,6 @@ class MeshIndex(Queries):
 
         return chunks()
 
-    def aggregate(
-        self,
-        values: ArrayLike,
-        r: Radii,
-        reduce: _aggregate.Reduce = "mean",
-        *,
-        weights: Union[Literal["area"], ArrayLike, None] = None,
-        kernel: Optional[_aggregate.Kernel] = None,
-        vertices: Union[Vertex, Vertices] = None,
-        nan: Literal["propagate", "omit"] = "propagate",
-        nesting: Literal["own", "patch"] = "own",
-        ddof: int = 0,
-        F: Any = None,
-        unit: Unit = "mesh",
-        workers: int = -1,
-        max_bytes: Optional[int] = None,
-        progress: Progress = None,
-    ) -> Any:
-        """A sum, a mean or another aggregate of values over the exact neighborhood of each vertex.
-
-        values : (#V,) or (#V, ...), numbers or bools; each channel by itself. Copied as float64.
-        r : the radius, >= 0 or inf, or several. A vertex at exactly `r` is inside.
-        reduce : "sum", "mean", "min", "max", "var", "std" or "count".
-        weights : (#V,) finite and >= 0, for sum, mean, var and std; "area" for `vertex_areas`. A vertex of weight 0
-            is left out.
-        kernel : for sum and mean, how the weight falls with the distance d. None: not at all; "epanechnikov":
-            1 - (d/r)^2; "biweight": (1 - (d/r)^2)^2, which is close to a Gaussian of the standard deviation 0.4 r.
-        vertices : a vertex, a sequence of vertices, a bool mask (#V,), or None for all.
-        nan : "propagate", a neighborhood with a NaN gives NaN; "omit", NaN marks a missing value, which is left out.
-        nesting : what several radii mean. "own": each has its own neighborhoods. "patch": the neighborhoods of the
-            largest, and of them the vertices within each smaller radius.
-        ddof : "var" and "std" divide by the number of values minus this, 0 or 1.
-        F : other faces than those that the index keeps, for weights="area".
-        unit, workers, max_bytes, progress : as for `query_ball`. The result does not depend on `workers`.
-
-        Returns float64: an axis of radii if `r` is a sequence, one of vertices unless `vertices` is a single one, then
-        the axes of `values` but the first. NaN where a neighborhood has no values; 0 for their sum.
-
-        No ids are listed. The cost is that of `count` for all vertices and a little for each channel. Sums
-        are exact to 1e-14 of the sum of the absolute terms, with a kernel to 1e-13 of the sum without it. A result does
-        not depend on the other vertices of the call, bit for bit.
-        """
-        return _aggregate.aggregate(
-            self,
-            values,
-            r,
-            self._scale(unit),
-            vertices,
-            F,
-            reduce=reduce,
-            weights=weights,
-            kernel=kernel,
-            nan=nan,
-            nesting=nesting,
-            ddof=ddof,
-            workers=workers,
-            max_bytes=max_bytes,
-            progress=progress,
-        )
-
-    def smooth(
-        self,
-        values: ArrayLike,
-        fwhm: Number,
-        *,
-        weights: Union[Literal["area"], ArrayLike, None] = None,
-        nan: Literal["propagate", "omit"] = "propagate",
-        F: Any = None,
-        unit: Unit = "mesh",
-        workers: int = -1,
-        max_bytes: Optional[int] = None,
-        progress: Progress = None,
-    ) -> Reals:
-        """The values smoothed by a biweight that is close to a Gaussian of this full width at half maximum.
-
-        fwhm : > 0, a straight-line distance in `unit`. Vertices farther away than 1.06 fwhm, or not connected within
-            that distance, have no influence: nothing is smoothed across a gap.
-        weights : None counts each vertex once; "area" weighs it by its area, and makes the result independent of how
-            densely the surface is sampled.
-        See `aggregate`, which this calls with reduce="mean" and kernel="biweight". Returns float64 of the shape of
-        `values`.
-        """
-        fwhm = _convert.finite(fwhm, "fwhm", or_zero=False)
-        return self.aggregate(
-            values,
-            _core.smoothing_radius(fwhm),
-            kernel="biweight",
-            weights=weights,
-            nan=nan,
-            F=F,
-            unit=unit,
-            workers=workers,
-            max_bytes=max_bytes,
-            progress=progress,
-        )
-
     def refit(
         self,
         V: Any,
@@ -586,135 +418,6 @@ class MeshIndex(Queries):
         """
         return Quality(*self._exact.quality())
 
-    def curvature(
-        self,
-        r: Union[Radii, Sequence[float]],
-        vertices: Vertices = None,
-        *,
-        F: Any = None,
-        normals: Any = None,
-        like: Literal[None, "libigl"] = None,
-        fit: Literal["quadric", "jet"] = "quadric",
-        filter: bool = True,
-        unit: Unit = "mesh",
-        workers: int = -1,
-        progress: Progress = None,
-    ) -> Curvature:
-        """Principal curvatures of `vertices` by a quadric that is fitted to their neighborhoods of radius `r`.
-
-        r : a radius, or a list of radii: the arrays of the result then have a leading axis.
-        vertices : a list of vertices, a bool mask, or None for all.
-        F : other faces than those that the index keeps. The normals are kept for the next call with the same faces.
-        normals : (#V, 3), instead of those of the faces; of any length. NaN where a vertex has none.
-        like : "libigl" gives the values of igl.principal_curvature. Its shape operator is wrong where the fitted
-            quadric is tilted against the normal, and its neighborhoods have the vertices nearer than `r`.
-        fit : "quadric", through the vertex and over its tangent plane, or "jet", over the plane of the principal
-            components of the neighborhood: with filter=False CGAL's Monge_via_jet_fitting of degrees 2 and 2.
-        filter : fit only vertices whose normal makes an angle of less than 90 degrees with that of the query vertex, if
-            there are at least six.
-        unit, workers, progress : as for `query_ball`. The result does not depend on `workers`.
-
-        Returns a `Curvature`: k1, k2, d1, d2, state, and as properties mean, gaussian, shape_index, curvedness, ok.
-        Raises ValueError without faces and normals. See docs/curvature.md for what the numbers mean.
-        """
-        if like is not None:
-            _convert.choice(like, "like", ("libigl",))
-        rows = None if vertices is None else _convert.vertices(vertices, self._count)
-        radii = np.array(_convert.as_array(r, "r"))
-        several = radii.ndim > 0
-        radii = self._scale(unit) * _convert.radii(radii, len(radii) if several else 1)
-        options = {"libigl": like == "libigl", "jet": _convert.choice(fit, "fit", ("quadric", "jet")) == "jet"}
-        options |= {"filter": bool(filter), "threads": _convert.threads(workers)}
-        return curvature(self._surface(F, normals), rows, radii, several, options, progress)
-
-    def corrected_curvature(
-        self,
-        r: Number,
-        vertices: Vertices = None,
-        *,
-        F: Any = None,
-        normals: Any = None,
-        unit: Unit = "mesh",
-        workers: int = -1,
-        progress: Progress = None,
-    ) -> _moments.CorrectedCurvature:
-        """Curvatures by the interpolated corrected curvature measures (Lachaud et al. 2020; in CGAL 6
-        `interpolated_corrected_curvatures`): sums over the faces, without a fit.
-
-        r : the radius of all rows. normals : (#V, 3), instead of those that follow from the faces. The faces are needed
-        in any case. The other arguments are as for `curvature`. Returns a `CorrectedCurvature`: area, mean, gaussian, k1, k2, d1,
-        d2, measures.
-        """
-        rows = None if vertices is None else _convert.vertices(vertices, self._count)
-        radius = self._scale(unit) * _convert.radius(r)
-        return _moments.corrected_curvature(self, radius, rows, F, normals, workers, progress)
-
-    def moments(
-        self,
-        r: Radii,
-        vertices: Vertices = None,
-        *,
-        degree: int = 2,
-        weights: Union[Literal["area"], ArrayLike, None] = None,
-        F: Any = None,
-        unit: Unit = "mesh",
-        workers: int = -1,
-        progress: Progress = None,
-    ) -> Reals:
-        """Sums of w x^i y^j z^k over each neighborhood for i + j + k <= degree, where x, y, z are the coordinates
-        relative to the query vertex, and w the weights.
-
-        r : a radius, or one for each row. degree : 0 to 4. weights, F : as for `aggregate`.
-        Returns (#rows, 1, 4, 10, 20 or 35) float64: 1, x, y, z, x^2, xy, xz, y^2, yz, z^2, x^3, ..., the order of
-        scikit-learn's PolynomialFeatures. They are accurate to 1e-13 of the sum of w |p|^(i + j + k). With other rows
-        in the call, the last bits of a row may differ.
-        """
-        rows, radii, _ = self._batch(vertices, r, self._scale(unit), workers)
-        return _moments.moments(self, rows, radii, degree, weights, F, workers, progress)
-
-    def principal_components(
-        self,
-        r: Radii,
-        vertices: Vertices = None,
-        *,
-        weights: Union[Literal["area"], ArrayLike, None] = None,
-        F: Any = None,
-        unit: Unit = "mesh",
-        workers: int = -1,
-        progress: Progress = None,
-    ) -> _moments.PrincipalComponents:
-        """The mean and the covariance of the positions of each neighborhood: normals, surface variation, and with
-        weights="area" the integral invariants area, barycenter and covariance. The arguments are those of `moments`."""
-        rows, radii, _ = self._batch(vertices, r, self._scale(unit), workers)
-        return _moments.principal_components(self, rows, radii, weights, F, workers, progress)
-
-    def features(
-        self,
-        r: Union[Number, Sequence[float], ArrayLike],
-        vertices: Vertices = None,
-        *,
-        F: Any = None,
-        kinds: Union[str, Sequence[str]] = "crease",
-        filter: bool = True,
-        unit: Unit = "mesh",
-        workers: int = -1,
-        progress: Progress = None,
-    ) -> Reals:
-        """Feature vectors over several radii, without unit, so that scales can be compared.
-
-        r : radii, > 0, for example `geometric_radii(a, b, count)`.
-        kinds : one name or several of crease, mean, gaussian, k1, k2, curvedness, shape_index, area, height, variation.
-            See docs/curvature.md for what they mean.
-        F, filter, unit, workers, progress : as for `curvature`.
-
-        Returns (#radii, #rows, #kinds) float64, without the last axis if `kinds` is one name. NaN where there is no
-        result. `persistence` finds over how many radii a feature lasts.
-        """
-        rows = None if vertices is None else _convert.vertices(vertices, self._count)
-        array = np.atleast_1d(np.array(_convert.as_array(r, "r")))
-        radii = self._scale(unit) * _convert.radii(array, len(array))
-        return _moments.features(self, np.atleast_1d(radii), rows, kinds, F, filter, workers, progress)
-
     def save(self, path: Union[str, os.PathLike[str]], *, progress: Progress = None) -> None:
         """Writes the index to a file for `load`. The same mesh gives the same bytes on every machine.
 
@@ -727,53 +430,6 @@ class MeshIndex(Queries):
         path = _convert.path(path)
         with reporter(progress) as report:
             _core.save(self._exact, path, progress=report)
-
-    def _method(self, method: Any, metric: Any) -> Any:
-        if _convert.choice(metric, "metric", ("straight", "path")) == "path":
-            if method != "exact":
-                raise ValueError(f"method: {method!r}, expected 'exact' with metric='path'")
-            return self._methods.along_edges
-        try:
-            return self._methods[method]
-        except TypeError:
-            if method.__hash__ is not None:
-                raise
-            raise TypeError(f"method: expected a name or a Paper, not {type(method).__name__}") from None
-
-    def _face_arrays(self, F: Any) -> tuple[Any, Any]:
-        """Corners and offsets of `F`, or of the faces that the index keeps."""
-        if F is not None:
-            return face_arrays(F)
-        if self._faces is None:
-            raise ValueError(
-                "F: expected the faces, because this index has none: it was built with keep_faces=False or from a graph, "
-                "or loaded from a file"
-            )
-        return self._faces
-
-    def _surface(self, F: Any, normals: Any) -> Any:
-        """The normals of the faces, or `normals`."""
-        if normals is None:
-            return self._surfaces.of_faces(self._face_arrays(F), is_own=F is None)
-        if F is not None:
-            raise ValueError("F: expected None, because the normals are given")
-        return self._surfaces.of_normals(normals)
-
-    def _scale(self, unit: Any) -> float:
-        """The factor from `unit` to the unit of the positions."""
-        if unit == "mesh":
-            return 1.0
-        _convert.choice(unit, "unit", ("mesh", "edge"))
-        length = self.mean_edge_length
-        if length == 0:
-            raise ValueError("unit: 'edge', but the mesh has no edges of positive length")
-        return length
-
-    def _batch(self, v: Any, r: Any, scale: float, workers: Any) -> Any:
-        rows = None if v is None else _convert.vertices(v, self._count)
-        radius = _convert.radii(r, self._count if rows is None else len(rows))
-        return rows, scale * radius, _convert.threads(workers)
-
 
 def _copied(positions: Any, rows: Any) -> Any:
     """A copy, because another thread may write to `positions` once they are checked. With `rows`, only these are set:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Moments, principal components, corrected curvature and features: converts arguments and results of `MeshIndex`."""
+"""Principal components, corrected curvature, and features over many radii."""
 
 from __future__ import annotations
 
@@ -9,15 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _convert, _core
-from ._aggregate import area_weights
-from ._progress import reporter
 
 Reals = NDArray[np.float64]
-
-_KINDS = (
-    "crease", "mean", "gaussian", "k1", "k2", "curvedness", "shape_index", "area", "height", "variation",
-)  # fmt: skip
-
 
 class PrincipalComponents(NamedTuple):
     """How the vertices of each neighborhood are distributed. With areas as weights, `weight`, `center` and `variances`
@@ -111,46 +104,3 @@ def persistence(values: Any, radii: Any, threshold: float) -> Persistence:
         raise ValueError(f"values: expected an array of shape (#radii, #rows), not {array.shape}, for {len(scales)} radii")
     threshold = _convert.finite(threshold, "threshold", or_zero=False)
     return Persistence(*_core.persistence(array.ravel(), scales, threshold))
-
-
-def moments(index: Any, rows: Any, radii: Any, degree: Any, weights: Any, F: Any, workers: Any, progress: Any) -> Any:
-    options = {"degree": _convert.integer(degree, "degree", 0, 4), "weights": area_weights(weights, index, F)}
-    with reporter(progress) as report:
-        return _core.moments(index._exact, rows, radii, **options, threads=_convert.threads(workers), progress=report)
-
-
-def principal_components(index: Any, rows: Any, radii: Any, weights: Any, F: Any, workers: Any, progress: Any) -> Any:
-    options = {"weights": area_weights(weights, index, F), "threads": _convert.threads(workers)}
-    with reporter(progress) as report:
-        return PrincipalComponents(*_core.principal_components(index._exact, rows, radii, **options, progress=report))
-
-
-def corrected_curvature(
-    index: Any, r: float, rows: Any, F: Any, normals: Any, workers: Any, progress: Any
-) -> CorrectedCurvature:
-    corners, offsets = index._face_arrays(F)
-    surface = index._surface(F if normals is None else None, normals)
-    with reporter(progress) as report:
-        found = surface.corrected(
-            corners, offsets=offsets, vertices=rows, radius=r, threads=_convert.threads(workers), progress=report
-        )
-    return CorrectedCurvature(*found)
-
-
-def features(
-    index: Any, radii: Any, rows: Any, kinds: Any, F: Any, filter: bool, workers: Any, progress: Any
-) -> Reals:
-    """#radii by #rows by #kinds, or without the last axis if `kinds` is one name."""
-    names = (kinds,) if isinstance(kinds, str) else tuple(kinds)
-    if not names:
-        raise ValueError("kinds: there are none, expected at least one")
-    options = {
-        "radii": radii,
-        "kinds": [getattr(_core.Feature, _convert.choice(name, "kinds", _KINDS)) for name in names],
-        "areas": area_weights("area", index, F) if {"area", "height", "variation"} & set(names) else None,
-        "filter": bool(filter),
-        "threads": _convert.threads(workers),
-    }
-    with reporter(progress) as report:
-        found = index._surface(F, None).features(rows, progress=report, **options)
-    return found[..., 0] if isinstance(kinds, str) else found

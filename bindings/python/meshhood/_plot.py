@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from . import _convert
-from ._index import MeshIndex, Number, Unit, Vertex
+from ._index import MeshIndex
+from ._types import Number, Unit, Vertex
 from ._mesh import mesh_arrays
 
 # What a vertex belongs to, each a subset of the one before, in the colors of the paper.

@@ -4,60 +4,33 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Literal, Optional, Union, overload
+from typing import TYPE_CHECKING, Any, Literal, Optional, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _convert
+from ._held import Held
+from ._types import Counts, Ids, Metric, Number, Reals, RegionOptions, Unit
 
-Ids = NDArray[np.int32]
-Counts = NDArray[np.int64]
-Reals = NDArray[np.float64]
-Number = Union[float, "np.floating[Any]", "np.integer[Any]"]
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
 Seeds = Union[int, "np.integer[Any]", Sequence[int], "NDArray[np.integer[Any]]", None]
 Mask = Optional[NDArray[np.bool_]]
-Unit = Literal["mesh", "edge"]
-Metric = Literal["straight", "path"]
 
 
-class Queries:
+class Queries(Held):
     """The part of `MeshIndex` that searches regions. `query_region` describes the arguments that all calls share."""
-
-    _count: int
-    _queries: Any
-
-    def _scale(self, unit: Any) -> float:
-        raise NotImplementedError
 
     @overload
     def query_region(
-        self,
-        start: ArrayLike,
-        r: Number,
-        *,
-        seeds: Seeds = None,
-        walls: Mask = None,
-        ignored: Mask = None,
-        return_distance: Literal[False] = False,
-        sort: bool = False,
-        metric: Metric = "straight",
-        unit: Unit = "mesh",
+        self, start: ArrayLike, r: Number, *, return_distance: Literal[False] = False, **options: Unpack[RegionOptions]
     ) -> Ids: ...
 
     @overload
     def query_region(
-        self,
-        start: ArrayLike,
-        r: Number,
-        *,
-        seeds: Seeds = None,
-        walls: Mask = None,
-        ignored: Mask = None,
-        return_distance: Literal[True],
-        sort: bool = False,
-        metric: Metric = "straight",
-        unit: Unit = "mesh",
+        self, start: ArrayLike, r: Number, *, return_distance: Literal[True], **options: Unpack[RegionOptions]
     ) -> tuple[Ids, Reals]: ...
 
     def query_region(

@@ -15,8 +15,8 @@ import numpy as np
 
 from . import _convert
 from ._atomic_file import atomic_file
-from ._index import Number, Unit, Vertex, Vertices
 from ._mesh import mesh_arrays
+from ._types import Number, Unit, Vertex, Vertices
 
 _PLACE = "<!-- meshhood:page -->"  # replaced by the mesh
 

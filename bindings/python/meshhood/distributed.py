@@ -43,13 +43,13 @@ from ._part_tasks import (
 from ._progress import Progress
 from ._result_files import result_folder
 from ._run_tasks import run_all
+from ._types import Unit
 
 if TYPE_CHECKING:
     import dask.array as da
 
 __all__ = ["OpenPart", "PartSize", "Parts", "map_meshes", "open_parts"]
 
-Unit = Literal["mesh", "edge"]
 Folder = Union[str, "os.PathLike[str]"]
 
 
