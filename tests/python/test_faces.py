@@ -96,6 +96,18 @@ def test_the_faces_of_the_caller_stay_writable():
     F[0, 0] = F[0, 0]
 
 
+def test_an_index_does_not_share_the_memory_of_buffers_that_it_was_unpickled_from():
+    buffers = []
+    pickled = pickle.dumps(meshhood.MeshIndex(V, TRIANGLES), 5, buffer_callback=buffers.append)
+    sent = [bytearray(buffer) for buffer in buffers]
+    index = pickle.loads(pickled, buffers=sent)
+    for buffer in sent:
+        buffer[:] = bytes(len(buffer))
+    np.testing.assert_array_equal(index.faces, TRIANGLES)
+    with pytest.raises(ValueError, match="read-only"):
+        index.faces[0, 0] = 1
+
+
 @pytest.mark.parametrize("protocol", range(2, pickle.HIGHEST_PROTOCOL + 1))
 def test_copies_have_the_faces(F, protocol):
     index = meshhood.MeshIndex(V, F)

@@ -106,7 +106,8 @@ class MeshIndex(Queries, Aggregates, Shape):
         options = {"cut": _convert.edges(cut, "cut"), "threads": _convert.threads(workers)}
         with reporter(progress) as report:
             exact = _core.exact(positions, corners, offsets=offsets, **options, progress=report)
-        self._hold(exact, kept_faces(F, corners, offsets) if keep_faces else None)
+        has_faces = keep_faces and not hasattr(F, "tocoo")
+        self._hold(exact, kept_faces(corners, offsets) if has_faces else None)
         warn_if_unwelded(positions, corners, offsets, stacklevel=3)
 
     @classmethod
@@ -158,8 +159,8 @@ class MeshIndex(Queries, Aggregates, Shape):
 
     @property
     def nbytes(self) -> int:
-        """Memory of the index in bytes, including its copies of the positions and of the faces. The other methods, `positions` and
-        `mean_edge_length` need additional memory once they are used."""
+        """Memory of the index in bytes, including its copies of the positions and of the faces. The other methods,
+        `positions` and `mean_edge_length` need additional memory once they are used."""
         return self._exact.nbytes + sum(array.nbytes for array in self._faces or () if array is not None)
 
     @property
@@ -463,5 +464,6 @@ def _as_size(count: float) -> str:
 
 
 def _unpickled(cls: type[MeshIndex], saved: Any, faces: Any) -> MeshIndex:
-    kept = None if faces is None else kept_faces(None, *faces)
+    # A copy, because arrays that were sent out of band are memory of the caller.
+    kept = faces and kept_faces(*(None if array is None else np.array(array) for array in faces))
     return cls._holding(_core.from_bytes(np.frombuffer(saved, np.uint8)), kept)

@@ -27,10 +27,8 @@ def face_arrays(F):
     return _polygons(F) if isinstance(F, tuple) else _faces(F)
 
 
-def kept_faces(F, corners, offsets):
-    """A compact read-only copy of the arrays above, for vertices that int32 can number; None if `F` is a graph."""
-    if hasattr(F, "tocoo"):
-        return None
+def kept_faces(corners, offsets):
+    """The arrays above, compact and read-only, for vertices that int32 can number. Of this type they are not copied."""
     wide = np.int32 if len(corners) < 2**31 else np.int64
     return _read_only(corners, np.int32), None if offsets is None else _read_only(offsets, wide)
 
