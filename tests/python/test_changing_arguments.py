@@ -239,15 +239,16 @@ call = lambda: meshhood.MeshIndex(V, F)
 """ + WRITES.format(times=TIMES // 4))
 
 
-def test_a_thread_may_write_to_a_pickle_that_is_loaded():
-    run("""
+@pytest.mark.parametrize("part", (0, 1), ids=("index", "faces"))
+def test_a_thread_may_write_to_a_pickle_that_is_loaded(part):
+    run(f"part = {part}" + """
 import pickle
 buffers = []
 pickled = pickle.dumps(index, protocol=5, buffer_callback=buffers.append)
-whole = bytearray(buffers[0].raw())
-written = np.frombuffer(whole, np.uint8)
+sent = [bytearray(buffer.raw()) for buffer in buffers]
+written = np.frombuffer(sent[part], np.uint8)
 values = (written.copy(), 255, 0)
-call = lambda: pickle.loads(pickled, buffers=[whole])
+call = lambda: pickle.loads(pickled, buffers=sent).aggregate(np.ones(len(index)), 0.0, weights="area")
 """ + WRITES.format(times=TIMES))
 
 
