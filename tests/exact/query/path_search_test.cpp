@@ -79,7 +79,7 @@ struct PlaneGraph {
 double steps_for_each_vertex(const PlaneGraph& graph) {
   const Index built = graph.index();
   const IndexView& index = IndexAccess::view(built);
-  PathSearch search(index);
+  PathSearch search(index, *IndexAccess::share_graph(built));
   const std::uint32_t slot = index.slot[0];
   search.run(index.leaf_begin[leaf_of(slot)] + lane_of(slot), std::numeric_limits<double>::infinity(), LaneFilter());
   const std::vector<double> expected = graph.distances();
@@ -154,7 +154,7 @@ TEST(PathSearch, SearchesAgainFromOtherVerticesAndBehindOtherWalls) {
   for (VertexId i = 1; i < 10; ++i) graph.join(i - 1, i);
   const Index built = graph.index();
   const IndexView& index = IndexAccess::view(built);
-  PathSearch search(index);
+  PathSearch search(index, *IndexAccess::share_graph(built));
   const auto count = [&](VertexId v, const LaneFilter& walls) {
     const std::uint32_t slot = index.slot[v];
     search.run(index.leaf_begin[leaf_of(slot)] + lane_of(slot), 20, walls);
