@@ -20,8 +20,8 @@ namespace meshhood {
 /// marked. docs/design.md says why no link is missed.
 ///
 /// A link between nodes is listed at both if they are of one level; and a node sees a larger one that covers the other
-/// end of its link. It does not see smaller ones, so these are visited instead (`unite_beside`). Home marks need no such
-/// visit: within a group, and from a surface leaf, all that is linked with a mark has one.
+/// end of its link. It does not see smaller ones, so these are visited instead (`unite_beside`). Home marks need no
+/// such visit: within a group, and from a surface leaf, all that is linked with a mark has one.
 class OpenElements {
  public:
   OpenElements(const IndexView& index, const Kernels& kernels)
