@@ -25,8 +25,8 @@ struct ReachAccess {
 };
 
 struct HomeMarksAccess {
-  /// Marks what `HomeMarks::spread` begins with, and what is linked with that within a group or from a surface leaf, but
-  /// does not spread the marks further: nearly all is open.
+  /// Marks what `HomeMarks::spread` begins with, and what is linked with that within a group or from a surface leaf,
+  /// but does not spread the marks further: nearly all is open.
   static void begin(HomeMarks& marks, const Query& query, Reach& reach) {
     marks.states_ = &reach.states();
     marks.leaves_.clear();
