@@ -126,6 +126,13 @@ TEST(IndexVerify, RejectsWrongLeaves) {
     bool& connected = f.section<Leaf>("leaves")[3].connected;
     connected = !connected;
   });
+  expect_refused_after("leaf 3: it has links, but is not connected", [](Forgery& f) {
+    Leaf& leaf = f.section<Leaf>("leaves")[3];
+    const auto rows = f.section<LaneMask>("adjacency").subspan(leaf.first, leaf.size);
+    for (LaneMask& row : rows) row &= ~LaneMask{1};
+    rows[0] = 0;
+    leaf.connected = false;
+  });
   expect_refused_after("does not mark the end of 400 vertices",
                        [](Forgery& f) { f.section<Leaf>("leaves").back().size = 1; });
 }
