@@ -54,7 +54,8 @@ export class Coloring {
 
   /** The choice of a link, if this mesh has it; else the values that were passed; else the answers. */
   start(linked: string): void {
-    const choice = linked !== ANSWERS && this.#panel.hasColor(linked) ? linked : this.#own.has(PASSED) ? PASSED : ANSWERS;
+    const own = this.#own.has(PASSED) ? PASSED : ANSWERS;
+    const choice = linked !== ANSWERS && this.#panel.hasColor(linked) ? linked : own;
     if (choice !== ANSWERS) this.#panel.openDisplay();
     this.choose(choice);
   }
