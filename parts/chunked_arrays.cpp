@@ -67,14 +67,14 @@ class Rows {
   }
 
   void check_size() const {
-    if (columns() == 0 && rows() != 0) {  // mutant: rows-of-nothing
+    if (columns() == 0 && rows() != 0) {
       raise(ErrorCode::MalformedFile,
             fmt::format("{}: an array of shape ({}, 0), expected values in its rows", name_, rows()));
     }
     const std::uint64_t row = columns() * item();
     const std::uint64_t left = file_.size() - header_.bytes;
     const bool overflows = columns() > std::numeric_limits<std::uint32_t>::max();
-    if (!overflows && (row == 0 || rows() <= left / row)) return;  // mutant: rows-beyond-the-file
+    if (!overflows && (row == 0 || rows() <= left / row)) return;
     raise(ErrorCode::MalformedFile,
           fmt::format("{}: {} rows of {} values of {} bytes, but {} bytes follow the header: the file is truncated",
                       name_, rows(), columns(), item(), left));

@@ -50,7 +50,7 @@ bool ChunkedMesh::read_faces(std::size_t corners, FaceChunk& chunk) {
   chunk.first = next_face_;
   chunk.corners.clear();
   chunk.ends.clear();
-  while (chunk.corners.size() < corners && chunk.size() < corners) {  // mutant: faces-without-corners-fill-memory
+  while (chunk.corners.size() < corners && chunk.size() < corners) {
     const std::size_t begin = chunk.corners.size();
     if (!load_face(chunk.corners)) break;
     check_face(std::span(chunk.corners).subspan(begin));
@@ -62,7 +62,7 @@ bool ChunkedMesh::read_faces(std::size_t corners, FaceChunk& chunk) {
 
 void ChunkedMesh::check_face(std::span<const std::uint64_t> corners) const {
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (corners[i] < vertices_) [[likely]] {  // mutant: corner-one-too-large
+    if (corners[i] < vertices_) [[likely]] {
       continue;
     }
     raise_no_such_vertex(ErrorCode::InvalidMesh, fmt::format("{}: face {}: corner {} is vertex ", name_, next_face_, i),

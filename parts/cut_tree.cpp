@@ -18,8 +18,7 @@ struct Along {
 
   [[nodiscard]] std::tuple<double, double, double, std::uint64_t> key(const Site& vertex) const {
     const Point& p = vertex.position;
-    return {coordinate(p, axis), coordinate(p, (axis + 1) % 3), coordinate(p, (axis + 2) % 3),
-            vertex.id};  // mutant: cut-ignores-ids
+    return {coordinate(p, axis), coordinate(p, (axis + 1) % 3), coordinate(p, (axis + 2) % 3), vertex.id};
   }
 };
 
@@ -41,7 +40,7 @@ void Box::add(const Point& p) {
 bool Box::may_hold_within(const Point& p, double squared_radius) const {
   if (is_empty()) return false;
   const Point nearest{std::clamp(p.x, low.x, high.x), std::clamp(p.y, low.y, high.y), std::clamp(p.z, low.z, high.z)};
-  return squared_distance(p, nearest) <= squared_radius;  // mutant: halo-without-boundary
+  return squared_distance(p, nearest) <= squared_radius;
 }
 
 CutTree::CutTree(std::vector<Site> sample, std::size_t parts) : owned_(parts) {
@@ -85,7 +84,7 @@ std::size_t CutTree::owner(const Site& vertex) const {
 void CutTree::add(const Site& vertex) {
   std::size_t node = 0;
   for (;;) {
-    nodes_[node].box.add(vertex.position);  // mutant: boxes-stay-empty
+    nodes_[node].box.add(vertex.position);
     if (nodes_[node].axis < 0) break;
     node = next(node, vertex);
   }

@@ -72,7 +72,6 @@ void Distribution::add_face(std::span<const std::uint64_t> face, const CornerPos
     takers_.insert(takers_.end(), more.begin(), more.end());
   }
   std::sort(takers_.begin(), takers_.end());
-  // mutant: face-of-a-part-twice
   takers_.erase(std::unique(takers_.begin(), takers_.end()), takers_.end());
   for (const std::uint32_t part : takers_) {
     if (finished_[part]) continue;
@@ -81,7 +80,7 @@ void Distribution::add_face(std::span<const std::uint64_t> face, const CornerPos
     for (const std::uint64_t corner : face) {
       const std::size_t number = vertices.number(corner);
       const auto has = parts[number];
-      if (std::binary_search(has.begin(), has.end(), part)) continue;  // mutant: fringe-forgotten
+      if (std::binary_search(has.begin(), has.end(), part)) continue;
       contents_.vertices.append(part, vertex_words({vertices.at(number), corner}));
     }
   }

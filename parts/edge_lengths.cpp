@@ -80,7 +80,7 @@ void merge(std::vector<SortedRun> runs, F&& f) {
   while (!queue.empty()) {
     SortedRun* const run = queue.top();
     queue.pop();
-    if (!is_same(run->front(), last)) f(run->front());  // mutant: edge-of-two-chunks-twice
+    if (!is_same(run->front(), last)) f(run->front());
     last = run->front();
     if (run->pop()) queue.push(run);
   }

@@ -72,7 +72,7 @@ auto read_json(const std::filesystem::path& file, F&& read) {
   const std::string text = read_text(file);
   const std::size_t line = std::min(text.find('\n'), text.size() - 1) + 1;
   const std::string rest = text.substr(line);
-  if (text.empty() || text.substr(0, line) != first_line(rest)) {  // mutant: manifest-without-checksum
+  if (text.empty() || text.substr(0, line) != first_line(rest)) {
     refuse(file, "has been changed or truncated: its checksum does not match");
   }
   try {
@@ -147,7 +147,7 @@ Part part_from(const JsonValues& json, const std::string& path) {
             .owned = json.count(path + "/owned"),
             .faces = json.count(path + "/faces"),
             .files = {}};
-  if (part.owned > part.vertices) {  // mutant: part-owns-more-than-it-has
+  if (part.owned > part.vertices) {
     raise(ErrorCode::MalformedIndex, fmt::format("a part that owns {} of its {} vertices", part.owned, part.vertices));
   }
   for (const std::string_view name : kPartFiles) {
@@ -163,7 +163,7 @@ void check_counts(const Manifest& manifest) {
   }
   const std::uint64_t owned = std::accumulate(manifest.parts.begin(), manifest.parts.end(), std::uint64_t{0},
                                               [](std::uint64_t sum, const Part& part) { return sum + part.owned; });
-  if (owned != manifest.plan.vertices) {  // mutant: parts-own-too-little
+  if (owned != manifest.plan.vertices) {
     raise(ErrorCode::MalformedIndex, fmt::format("the parts own {} vertices of {}", owned, manifest.plan.vertices));
   }
 }
@@ -182,7 +182,7 @@ void verify_file(const std::filesystem::path& file, std::span<const std::byte> c
     refuse(file, fmt::format("has {} bytes, but the manifest says {}", content.size(), expected.bytes));
   }
   const std::uint64_t found = checksum({content});
-  if (found != expected.checksum) {  // mutant: file-of-another-content
+  if (found != expected.checksum) {
     refuse(file, fmt::format("has the checksum {}, but the manifest says {}: it has been changed, or is of another "
                              "mesh",
                              hex(found), hex(expected.checksum)));
@@ -202,7 +202,6 @@ std::optional<Part> read_part(const std::filesystem::path& part_folder, const Pl
   std::error_code unknown;
   if (!std::filesystem::exists(file, unknown)) return std::nullopt;
   return read_json(file, [&](const JsonValues& json) {
-    // mutant: part-of-another-number, part-of-another-plan
     if (plan_from(json) != plan || json.count("number") != number) {
       raise(ErrorCode::MalformedIndex, "is a part of another mesh, or of another number of parts or halo");
     }
@@ -229,7 +228,7 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& manifes
 Manifest read_manifest(const std::filesystem::path& folder) {
   return read_json(folder / kManifestFile, [](const JsonValues& json) {
     Manifest manifest{.plan = plan_from(json), .parts = {}};
-    manifest.checksum = number_of(json.text("checksum"));  // mutant: manifest-of-any-parts
+    manifest.checksum = number_of(json.text("checksum"));
     const std::size_t parts = json.size("parts");
     for (std::size_t i = 0; i < parts; ++i) manifest.parts.push_back(part_from(json, fmt::format("parts/{}", i)));
     check_counts(manifest);

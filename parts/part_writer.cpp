@@ -37,7 +37,7 @@ std::vector<Site> read_vertices(const Spill& spill, std::size_t number) {
   }
   std::sort(vertices.begin(), vertices.end(), [](const Site& a, const Site& b) { return a.id < b.id; });
   const auto same = [](const Site& a, const Site& b) { return a.id == b.id; };
-  vertices.erase(std::unique(vertices.begin(), vertices.end(), same), vertices.end());  // mutant: vertex-twice
+  vertices.erase(std::unique(vertices.begin(), vertices.end(), same), vertices.end());
   return vertices;
 }
 
@@ -68,7 +68,7 @@ Faces read_faces(const Spill& spill, std::size_t number, std::span<const std::in
     }
     ++faces.count;
     // Offsets are stored from the first face on that is not a triangle.
-    if (are_triangles && corners != 3) {  // mutant: quads-taken-as-triangles
+    if (are_triangles && corners != 3) {
       for (std::uint64_t face = 1; face < faces.count; ++face) ends.push_back(static_cast<std::int64_t>(3 * face));
       are_triangles = false;
     }

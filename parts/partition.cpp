@@ -129,7 +129,7 @@ class Run {
     if (fs::exists(folder_ / kManifestFile)) check_plan(read_manifest(folder_).plan);
     for (std::size_t part = 0; part < plan().parts; ++part) {
       std::optional<Part> found = read_part(folder_of(part), plan(), part);
-      if (!found || !is_whole(folder_of(part), *found)) continue;  // mutant: damaged-part-kept
+      if (!found || !is_whole(folder_of(part), *found)) continue;
       result_.manifest.parts[part] = std::move(*found);
       finished_[part] = true;
       ++result_.kept;
@@ -137,7 +137,7 @@ class Run {
   }
 
   void check_plan(const Plan& old) {
-    if (old == plan()) return;  // mutant: folder-of-another-plan
+    if (old == plan()) return;
     raise(ErrorCode::MalformedIndex,
           fmt::format("{}: holds {} parts of {} with halo {} already; expected an empty folder, or the same mesh, halo "
                       "and number of parts",
@@ -213,7 +213,7 @@ class Run {
     Part written = write_part_files(work, contents, part, tree, plan().is_double, build);
     write_part(work, plan(), part, written);
     // A damaged one.
-    fs::remove_all(folder_of(part));  // mutant: damaged-part-stays
+    fs::remove_all(folder_of(part));
     fs::rename(work, folder_of(part));
     fs::remove(contents.vertices.file(part));
     fs::remove(contents.faces.file(part));

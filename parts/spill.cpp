@@ -75,7 +75,7 @@ void SpillReader::fill() {
   buffer_.resize(kept + more);
   const auto room = std::span(buffer_).subspan(kept);
   RandomFile(path_).read(offset_ * sizeof(std::uint64_t), {reinterpret_cast<char*>(room.data()), room.size_bytes()});
-  offset_ += more;  // mutant: list-read-from-its-beginning
+  offset_ += more;
   left_ -= more;
 }
 

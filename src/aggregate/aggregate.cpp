@@ -211,7 +211,6 @@ class Aggregation {
   }
 
   [[nodiscard]] Destination destination(std::size_t radius, std::size_t first, std::size_t count) const {
-    // mutant: row-of-another-radius
     return {result_.data() + radius * rows_ * signal_.channels + first, signal_.channels, count};
   }
 

@@ -170,7 +170,7 @@ void KernelSumReduction::mark_uneven(const Column& column) {
     for (const double value : values) largest = std::max(largest, std::abs(value));
     std::size_t small = 0;
     for (const double value : values) small += static_cast<std::size_t>(std::abs(value) < largest / kUneven);
-    if (2 * small > values.size()) uneven_[node] = true;  // mutant: node-with-one-huge-value
+    if (2 * small > values.size()) uneven_[node] = true;
   }
 }
 

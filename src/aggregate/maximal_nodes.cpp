@@ -57,7 +57,7 @@ void MaximalNodes::pass_on(std::uint32_t group, PacketReducer& reducer) {
   if (of_all != 0) group_with(parent, parents_).queries[parent % kFanOut] |= of_all;
   QueryWord any = 0;
   for (QueryWord& word : rows.queries) {
-    word &= ~of_all;  // mutant: node-and-its-parent
+    word &= ~of_all;
     any |= word;
   }
   if (any != 0) reducer.add_nodes(nodes, rows.queries.data());
@@ -72,7 +72,7 @@ void MaximalNodes::pass_on_part(const PartialLeaf& leaf, QueryWord& whole, Packe
   PerLane<QueryWord> words;
   QueryWord any = 0;
   for (std::size_t k = 0; k < words.size(); ++k) {
-    words[k] = leaf.queries[k] & ~of_all;  // mutant: whole-leaf-in-parts
+    words[k] = leaf.queries[k] & ~of_all;
     any |= words[k];
   }
   if (any != 0) reducer.add_leaf(leaf.vertices, words.data());

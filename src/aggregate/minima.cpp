@@ -106,7 +106,7 @@ double MinimumReduction::minimum_of(std::span<const double> values) const {
   double least = kNan;
   for (const double value : values) {
     if (std::isnan(value)) {
-      if (propagates()) return kNan;  // mutant: nan-does-not-propagate
+      if (propagates()) return kNan;
     } else if (!(least <= value)) {
       least = value;
     }

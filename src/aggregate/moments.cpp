@@ -85,7 +85,6 @@ std::vector<Moments> moments_by_node(const IndexView& index, const NodeTree& tre
     } else {
       const auto [begin, end] = tree.children(node);
       for (NodeTree::Node child = begin; child < end; ++child)
-        // mutant: moments-not-shifted
         add(moments[node], shifted(moments[child], index.frame.scale * (tree.center(child) - center)));
     }
   }

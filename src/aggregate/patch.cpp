@@ -87,7 +87,7 @@ QueryWord PatchCutter::inside(std::size_t vertex, QueryWord queries) const {
   const Point p = std::visit([&](auto xyz) { return point(xyz, vertex); }, index_->positions);
   QueryWord result = 0;
   for_each_query(queries, [&](std::size_t row) {
-    const bool is_inside = squared_distance(p, centers_[row]) <= squared_radius_;  // mutant: patch-without-boundary
+    const bool is_inside = squared_distance(p, centers_[row]) <= squared_radius_;
     result |= QueryWord{is_inside} << row;
   });
   return result;

@@ -103,7 +103,7 @@ void SignalBlock::omit_missing(std::size_t channel) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isnan(values[i])) continue;
     values[i] = 0;
-    weights[i] = 0;  // mutant: missing-value-with-weight
+    weights[i] = 0;
   }
   weights_of_[channel] = weights_.size();
   weights_.push_back(std::move(weights));

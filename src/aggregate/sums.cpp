@@ -25,7 +25,7 @@ std::vector<double> sums_by_node(const NodeTree& tree, const Column& column) {
       sums[node] = sum_of(std::span(column).subspan(vertices.begin, vertices.size()));
     } else {
       const auto [begin, end] = tree.children(node);
-      sums[node] = sum_of(std::span(sums).subspan(begin, end - begin));  // mutant: node-sum-without-its-last
+      sums[node] = sum_of(std::span(sums).subspan(begin, end - begin));
     }
   }
   return sums;

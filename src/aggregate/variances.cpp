@@ -23,7 +23,7 @@ Spread spread_of(std::span<const double> values, const double* weighted, const d
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double deviation = values[i] - mean;
     deviations += weights[i] * deviation;
-    squares += weights[i] * (deviation * deviation);  // mutant: leaf-spread-without-squares
+    squares += weights[i] * (deviation * deviation);
   }
   return Spread::of(weight, mean, deviations, squares);
 }

@@ -36,7 +36,7 @@ std::vector<bool> marked(const AdjacencyView& graph, const IndicesView& edges) {
   for (std::size_t row = 0; row < edges.size() / 2; ++row) {
     const VertexId v = checked_end(edges, 2 * row, graph.size());
     const VertexId w = checked_end(edges, 2 * row + 1, graph.size());
-    if (mark(graph, v, w, is_cut) && mark(graph, w, v, is_cut)) continue;  // mutant: cut-goes-one-way
+    if (mark(graph, v, w, is_cut) && mark(graph, w, v, is_cut)) continue;
     raise(ErrorCode::InvalidOption, "edge " + std::to_string(row) + ": vertices " + std::to_string(v) + " and " +
                                         std::to_string(w) + " are not joined by an edge");
   }

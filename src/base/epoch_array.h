@@ -18,15 +18,14 @@ class EpochArray {
 
   /// Begins a new search: nothing is known.
   void forget() {
-    if (epoch_ == std::numeric_limits<std::uint32_t>::max()) {  // mutant: epoch-never-wraps
-      std::fill(slots_.begin(), slots_.end(), Slot{});          // mutant: states-known-again-after-the-wrap
+    if (epoch_ == std::numeric_limits<std::uint32_t>::max()) {
+      std::fill(slots_.begin(), slots_.end(), Slot{});
       epoch_ = 0;
     }
     ++epoch_;
   }
 
   [[nodiscard]] std::size_t size() const { return slots_.size(); }
-  // mutant: states-of-earlier-searches-known
   [[nodiscard]] bool is_known(std::size_t i) const { return slots_[i].epoch == epoch_; }
 
   /// A state that is known.

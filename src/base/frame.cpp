@@ -28,7 +28,7 @@ Box bounding_box(const StridedPositions<Real>& xyz) {
 double unit_scale(double extent) {
   if (!(extent > 0)) return 1;
   // The bound keeps the scale finite; for a mesh that small the tree is not used.
-  return std::ldexp(1.0, std::min(-std::ilogb(extent) - 1, 1000));  // mutant: frame-twice-too-large
+  return std::ldexp(1.0, std::min(-std::ilogb(extent) - 1, 1000));
 }
 
 }  // namespace
@@ -39,7 +39,6 @@ Frame make_frame(const PositionsView& positions) {
   assert(box.low.x <= box.high.x && box.low.y <= box.high.y && box.low.z <= box.high.z);  // so they are numbers
   const Point origin{box.low.x / 2 + box.high.x / 2, box.low.y / 2 + box.high.y / 2, box.low.z / 2 + box.high.z / 2};
   // Measured from the rounded center: half the width of the box may round to less.
-  // mutant: box-width-for-extent
   const auto extent = [](double low, double center, double high) { return std::max(center - low, high - center); };
   return {origin, unit_scale(std::max({extent(box.low.x, origin.x, box.high.x), extent(box.low.y, origin.y, box.high.y),
                                        extent(box.low.z, origin.z, box.high.z)}))};

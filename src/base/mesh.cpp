@@ -47,9 +47,9 @@ void validate_offsets(std::span<const Index> offsets, std::size_t corners) {
 /// Divides, because that number may have more than 64 bits.
 bool fit_into(std::size_t corners, const FacesView& faces) {
   if (faces.size() == 0) return true;
-  if (corners == 0 || faces.corner_stride() > (corners - 1) / 2) return false;  // mutant: corner-stride-overflows
+  if (corners == 0 || faces.corner_stride() > (corners - 1) / 2) return false;
   const std::size_t room = corners - 1 - 2 * faces.corner_stride();
-  return faces.size() == 1 || faces.face_stride() <= room / (faces.size() - 1);  // mutant: face-stride-overflows
+  return faces.size() == 1 || faces.face_stride() <= room / (faces.size() - 1);
 }
 
 void validate_triangles(const FacesView& faces) {
@@ -109,7 +109,6 @@ void validate_corners(const FacesView& faces, std::size_t vertices) {
 /// signed type may be read as the unsigned one of its size.
 const VertexId* as_ids(const IndicesView& indices) {
   return indices.visit([]<class Index>(std::span<const Index> all) {
-    // mutant: wide-corners-not-converted
     return sizeof(Index) == sizeof(VertexId) ? reinterpret_cast<const VertexId*>(all.data()) : nullptr;
   });
 }
@@ -117,7 +116,6 @@ const VertexId* as_ids(const IndicesView& indices) {
 }  // namespace
 
 std::span<const VertexId> FacesView::triangles_from(std::size_t face, std::vector<VertexId>& copy) const {
-  // mutant: records-read-as-rows, distant-corners-read-as-rows
   if (const VertexId* const ids = as_ids(corners_); ids && face_stride_ == 3 && corner_stride_ == 1) {
     return {ids + 3 * face, 3 * (count_ - face)};
   }
@@ -127,7 +125,7 @@ std::span<const VertexId> FacesView::triangles_from(std::size_t face, std::vecto
   copy.resize(3 * count);
   corners_.visit([&](auto corners) {
     for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t first = (face + i) * face_stride_;  // mutant: first-triangles-again
+      const std::size_t first = (face + i) * face_stride_;
       for (std::size_t j = 0; j < 3; ++j) copy[3 * i + j] = static_cast<VertexId>(corners[first + j * corner_stride_]);
     }
   });
@@ -136,10 +134,9 @@ std::span<const VertexId> FacesView::triangles_from(std::size_t face, std::vecto
 
 std::span<const VertexId> FacesView::polygon(std::size_t face, std::vector<VertexId>& copy) const {
   const auto [first, count, stride] = places_of(*this, face);
-  if (const VertexId* const ids = as_ids(corners_)) return {ids + first, count};  // mutant: first-polygon-again
+  if (const VertexId* const ids = as_ids(corners_)) return {ids + first, count};
   copy.resize(count);
   corners_.visit([&](auto corners) {
-    // mutant: first-polygon-converted-again
     for (std::size_t i = 0; i < count; ++i) copy[i] = static_cast<VertexId>(corners[first + i]);
   });
   return copy;

@@ -17,8 +17,8 @@ class NumberSet {
 
   void insert(std::size_t number) {
     assert(number / 64 < words_.size());
-    words_[number / 64] |= bit(number);           // mutant: one-number-a-word
-    summary_[number / 4096] |= bit(number / 64);  // mutant: summary-of-other-words
+    words_[number / 64] |= bit(number);
+    summary_[number / 4096] |= bit(number / 64);
   }
 
   /// O(bound / 4096 + numbers).

@@ -133,8 +133,8 @@ std::optional<Ball> exchange(Support& support, const Point& p) {
     if (std::popcount(chosen) > 3) continue;
     const Support candidate = select(support, chosen, p);
     const std::optional<Ball> ball = circumscribed(candidate);
-    if (!ball || !encloses(*ball, support)) continue;  // mutant: old-support-not-enclosed
-    support = candidate;                               // mutant: support-not-exchanged
+    if (!ball || !encloses(*ball, support)) continue;
+    support = candidate;
     return ball;
   }
   return std::nullopt;
@@ -172,7 +172,6 @@ Point smallest_ball_center(std::span<const Real> xyz) {
 template <class Real>
 Real round_up(double value) {
   const auto rounded = static_cast<Real>(value);
-  // mutant: radius-rounded-down
   return static_cast<double>(rounded) < value ? std::nextafter(rounded, std::numeric_limits<Real>::infinity())
                                               : rounded;
 }

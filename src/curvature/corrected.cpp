@@ -88,8 +88,7 @@ std::vector<double> measures_by_vertex(const SurfaceState& surface, const FacesV
     const double share = 1 / static_cast<double>(corners.size());
     for (const VertexId corner : corners) {
       double* const to = &held[measures.size() * corner];
-      for (std::size_t i = 0; i < measures.size(); ++i)
-        to[i] += share * measures[i];  // mutant: measures-of-the-last-face
+      for (std::size_t i = 0; i < measures.size(); ++i) to[i] += share * measures[i];
     }
   });
   return held;

@@ -80,7 +80,6 @@ void CurvatureFitter::fit(const MomentRows& packet, const PacketMoments& sums, c
 void CurvatureFitter::fit_row(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments,
                               std::size_t query) {
   const std::size_t row = packet.rows[query];
-  // mutant: fit-without-normal
   if (std::isnan(frames_[query].n.x)) return write(row, CurvatureState::NoNormal, {});
   if (moments.at[0][query] >= kFewestPoints) {
     if (const std::optional<Quadric> fitted = quadric(sums, query)) {

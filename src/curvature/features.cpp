@@ -26,9 +26,7 @@ bool follows_from_areas(Feature kind) {
   return kind == Feature::Area || kind == Feature::Height || kind == Feature::Variation;
 }
 
-double crease(double k1, double k2) {
-  return std::abs(k1) >= std::abs(k2) ? k1 : k2;  // mutant: crease-of-the-weaker-curvature
-}
+double crease(double k1, double k2) { return std::abs(k1) >= std::abs(k2) ? k1 : k2; }
 
 /// From the curvatures, times the radius.
 double curvature_feature(Feature kind, double k1, double k2) {
@@ -182,7 +180,7 @@ Run longest_run(std::size_t radii, double threshold, const ValueAt& value) {
     const bool strong = std::abs(value(i)) >= threshold;
     const bool continues = strong && run.end == i && run.size() > 0 && (value(i) > 0) == (value(i - 1) > 0);
     if (strong) run = {continues ? run.begin : i, i + 1};
-    if (run.size() > longest.size()) longest = run;  // mutant: last-run-of-a-feature
+    if (run.size() > longest.size()) longest = run;
   }
   return longest;
 }

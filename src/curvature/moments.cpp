@@ -128,7 +128,7 @@ std::vector<double> moments(const Index& index, const BatchQuery& query, const M
     for (unsigned i = 0; i <= options.degree; ++i) {
       for (unsigned j = 0; i + j <= options.degree; ++j) {
         for (unsigned k = 0; i + j + k <= options.degree; ++k) {
-          result[columns * row + moment_column(i, j, k)] = m.at(i, j, k);  // mutant: moments-in-another-order
+          result[columns * row + moment_column(i, j, k)] = m.at(i, j, k);
         }
       }
     }

@@ -89,7 +89,6 @@ void PacketMoments::set_axis() {
   facing_.axis = (1 / size) * sum;
   double least = 1;
   for_each_lane(active_, [&](unsigned q) { least = std::min(least, dot(facing_.axis, normal(q))); });
-  // mutant: faces-the-axis-alone
   if (least > 0) facing_.all = static_cast<float>(std::sqrt(std::max(0.0, 1 - least * least))) + 2 * kFacingMargin;
 }
 
@@ -124,7 +123,6 @@ void PacketMoments::add_common() {
   const auto places = std::span(waiting_common_.places).first(waiting_common_.size);
   set_points(places);
   // Not the weights alone: what an earlier packet left there may be infinite.
-  // mutant: padding-of-earlier-packets
   for (std::size_t i = places.size(); i % PartialMoments::kParts != 0; ++i) points_.set(i, {0, 0, 0}, 0);
   kernels_->add_powers(points_, places.size(), common_);
   waiting_common_.size = 0;
@@ -153,7 +151,7 @@ const QueryMoments& PacketMoments::finish() {
   add_some();
   kernels_->collect(common_, some_, moments_);
   for (std::size_t q = 0; q < size_; ++q) sizes_[q] = sizes_of(moments_, q);
-  kernels_->shift(moments_, offsets_);  // mutant: moments-about-the-packet
+  kernels_->shift(moments_, offsets_);
   for (std::size_t q = 0; q < size_; ++q) {
     const MomentSizes after = sizes_of(moments_, q);
     is_accurate_[q] = is_accurate(q, sizes_[q], after);
@@ -187,7 +185,6 @@ bool PacketMoments::is_accurate(std::size_t query, const MomentSizes& before, co
   const double b4 = (root4 * root4) * (root4 * root4);
   const double a2 = after.second / weight;
   const double a4 = after.fourth / weight;
-  // mutant: digits-lost-by-the-shift
   return b4 <= kMostLoss * a4 && b2 * b4 <= (kMostLoss * kMostLoss) * ((a2 * a2) * a2);
 }
 

@@ -42,7 +42,7 @@ double smallest_determinant(const FrameMoments& s, std::size_t query, const Mome
   // results are then within 1e-9 of the exact ones.
   const double amplification = std::max(ratio(sizes.fourth, std::min({at(s.u4), at(s.u2v2), at(s.v4)})),
                                         ratio(sizes.second, std::min(at(s.uu), at(s.vv))));
-  return 1e-6 * amplification;  // mutant: ill-conditioned-fit
+  return 1e-6 * amplification;
 }
 
 PointFit fit_points(std::span<const Point> points) {
@@ -85,7 +85,7 @@ PrincipalCurvature principal_curvature(const Quadric& quadric, const TangentFram
   const double t = std::sqrt(determinant) / r;  // EG - F^2 = determinant
   const double f = F / r;
   const double p = L / E;
-  const double o = (M - f * L / r) / (r * t);  // mutant: operator-without-tilt
+  const double o = (M - f * L / r) / (r * t);
   const double q = (N - 2 * f * M / r + f * f * L / E) / (t * t);
   const Eigen2 result = eigen(p, o, q);
   const auto direction = [&](const std::array<double, 2>& v) {

@@ -75,7 +75,6 @@ void find_first_neighbors(SurfaceState& state) {
   for (std::size_t i = 0; i < index.vertex_count(); ++i) state.first_neighbor[i] = static_cast<std::uint32_t>(i);
   for_each_edge(index, [&](std::size_t from, std::size_t to) {
     std::uint32_t& first = state.first_neighbor[from];
-    // mutant: axis-to-another-neighbor
     if (first == from || index.id(to) < index.id(first)) first = static_cast<std::uint32_t>(to);
   });
 }

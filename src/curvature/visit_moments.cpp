@@ -15,9 +15,7 @@ namespace {
 
 /// The largest double below `radius`: its closed ball has the vertices nearer than `radius`. Returns NaN and negative
 /// radii unchanged; the batch rejects them.
-double open_radius(double radius) {
-  return radius > 0 ? std::nextafter(radius, 0.0) : radius;  // mutant: open-ball-with-boundary
-}
+double open_radius(double radius) { return radius > 0 ? std::nextafter(radius, 0.0) : radius; }
 
 /// The state of a thread that sums the moments of packets.
 class PacketSummer {

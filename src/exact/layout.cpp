@@ -13,10 +13,8 @@ std::vector<LeafGroupRange> make_leaf_groups(std::span<const std::uint32_t> leve
   const std::size_t leaf_end = levels[1];
   std::vector<LeafGroupRange> result((records.size() - std::min(leaf_end, records.size())) * kFanOut);
   const auto below = [&](std::size_t group) -> LeafGroupRange {
-    // mutant: leaf-groups-without-the-last
     if (group < leaf_end) return {static_cast<std::uint32_t>(group), static_cast<std::uint32_t>(group + 1)};
     const std::size_t first = (group - leaf_end) * kFanOut;
-    // mutant: leaf-groups-of-the-first-child
     const std::size_t last = first + std::clamp<std::size_t>(records[group].nodes, 1, kFanOut) - 1;
     return {result[first].begin, result[last].end};
   };

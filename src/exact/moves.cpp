@@ -51,9 +51,9 @@ class Backup {
 
   ~Backup() {  // NOLINT(bugprone-exception-escape): std::visit throws only for a variant without a value
     if (kept_) return;
-    write_moves(positions_, index_, geometry_.positions);  // mutant: failed-move-keeps-positions
+    write_moves(positions_, index_, geometry_.positions);
     for (const auto& [leaf, bounds] : bounds_) geometry_.leaves[leaf].bounds = bounds;
-    for (const auto& [at, group] : groups_) geometry_.groups[at] = group;  // mutant: failed-move-keeps-groups
+    for (const auto& [at, group] : groups_) geometry_.groups[at] = group;
     std::copy(mean_radii_.begin(), mean_radii_.end(), geometry_.mean_radii.begin());
   }
 

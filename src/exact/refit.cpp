@@ -123,7 +123,7 @@ Index refit(Index&& index, const PositionsView& positions, const IndicesView& ch
   if (!stay_in_frame(moves, view->frame)) return refit_all(*view, moves, task);
   auto graph = std::make_shared<KeptGraph>();
   apply_moves(moves, *view, task);
-  IndexAccess::graph(index) = std::move(graph);  // mutant: graph-before-the-moves
+  IndexAccess::graph(index) = std::move(graph);
   return std::move(index);
 }
 

@@ -24,7 +24,7 @@ FrameSphere enclosing(std::span<const FrameSphere> spheres) {
   for (const FrameSphere& sphere : spheres) {
     radius = std::max(radius, length(center_of(sphere) - center_of(result)) + static_cast<double>(sphere.radius));
   }
-  result.radius = next_above(radius);  // mutant: root-sphere-too-small
+  result.radius = next_above(radius);
   return result;
 }
 

@@ -23,13 +23,13 @@ void verify_leaf(const IndexView& index, std::size_t leaf, const SectionReader& 
   const std::size_t begin = index.leaf_begin[leaf];
   const std::size_t end = index.leaf_begin[leaf + 1];
   const bool exists = leaf % kFanOut < index.records[leaf / kFanOut].nodes;
-  if (begin > end || end - begin > kLeafCapacity || (begin < end) != exists) {  // mutant: oversized-leaf-accepted
+  if (begin > end || end - begin > kLeafCapacity || (begin < end) != exists) {
     file.refuse(&index.leaf_begin[leaf + 1], name("leaf", leaf) + ": vertices " + std::to_string(begin) + " to " +
                                                  std::to_string(end) + ", expected " + (exists ? "1 to 32" : "no") +
                                                  " vertices");
   }
   const Leaf& record = index.leaves[leaf];
-  if (record.first != begin || record.size != end - begin) {  // mutant: leaf-record-not-compared
+  if (record.first != begin || record.size != end - begin) {
     file.refuse(&record, name("leaf", leaf) + ": " + std::to_string(record.size) + " vertices from vertex " +
                              std::to_string(record.first) + ", expected " + std::to_string(end - begin) +
                              " from vertex " + std::to_string(begin));
@@ -89,7 +89,7 @@ void verify_numbering(const IndexView& index, const SectionReader& file) {
                     name("vertex", v) + ", but there are " + std::to_string(vertices) + " vertices");
       }
       // The slots of different positions differ, so no id occurs twice.
-      if (index.slot[v] != slot) {  // mutant: slots-not-compared
+      if (index.slot[v] != slot) {
         file.refuse(&index.slot[v], name("vertex", v) + " has slot " + std::to_string(index.slot[v]) + ", expected " +
                                         std::to_string(slot));
       }
@@ -109,14 +109,14 @@ void verify_edges_within(const IndexView& index, const SectionReader& file) {
       }
       for (LaneMask left = rows[lane]; left != 0; left &= left - 1) {
         const auto other = static_cast<unsigned>(std::countr_zero(left));
-        if ((rows[other] >> lane & 1U) == 0) {  // mutant: one-way-edge-accepted
+        if ((rows[other] >> lane & 1U) == 0) {
           file.refuse(&rows[lane], name("leaf", leaf) + ": an edge leads from lane " + std::to_string(lane) +
                                        " to lane " + std::to_string(other) + ", but none leads back");
         }
       }
     }
     const bool connected = record.size > 0 && is_connected(rows.data(), record.size);
-    if (record.connected != connected) {  // mutant: connected-mark-not-compared
+    if (record.connected != connected) {
       file.refuse(&record.connected, name("leaf", leaf) + ": its mark as connected or not is wrong");
     }
   }
@@ -131,7 +131,7 @@ void verify_positions(const IndexView& index, const SectionReader& file) {
         verify_padding(xyz.subspan(positions.size()), file);
         verify_frame(index, file);
         for (std::size_t i = 0; i < index.vertex_count(); ++i) {
-          if (covers(index.frame, point(xyz, i))) continue;  // mutant: frame-need-not-cover
+          if (covers(index.frame, point(xyz, i))) continue;
           file.refuse(&xyz[3 * i], name("vertex", index.id(i)) + " lies outside the frame");
         }
       },

@@ -35,7 +35,7 @@ class ForestCheck {
         file_.refuse(&record, name(group) + ": " + std::to_string(record.nodes) + " nodes, expected 1 to 8");
       }
       if (record.unused != 0) file_.refuse(&record.unused, name(group) + ": unused bytes are not 0");
-      if (record.first_child != child) {  // mutant: child-group-not-compared
+      if (record.first_child != child) {
         file_.refuse(&record.first_child, name(group) + ": its first child is group " +
                                               std::to_string(record.first_child) + ", expected " +
                                               std::to_string(child));
@@ -48,7 +48,7 @@ class ForestCheck {
 
   /// `end` is the end of the level that the group may be on.
   void check_parent(std::size_t group, std::size_t end, std::size_t parent) const {
-    if (group < end && index_.parents[group] == parent) return;  // mutant: parent-not-compared
+    if (group < end && index_.parents[group] == parent) return;
     file_.refuse(&index_.parents[group < end ? group : end - 1],
                  name(group) + ": expected a group covered by node " + std::to_string(parent));
   }
@@ -69,11 +69,10 @@ void verify_connected(const IndexView& index, std::size_t group, const SectionRe
   const GroupRecord& record = index.records[group];
   if (index.parents[group] == kNoNode) return;
   for (const NodeLink& link : index.node_links_of(record)) {
-    if (index.parents[link.node() / kFanOut] == kNoNode) {  // mutant: link-to-a-root-accepted
+    if (index.parents[link.node() / kFanOut] == kNoNode) {
       file.refuse(&link, name(group) + ": it has a parent, but a group linked with it has none");
     }
   }
-  // mutant: unconnected-node-accepted
   if (reachable_nodes(record.linked, 1, first_nodes(record.nodes)) != first_nodes(record.nodes)) {
     file.refuse(&record.linked, name(group) + ": it has a parent, but its nodes are not connected by links");
   }
@@ -99,7 +98,6 @@ void verify_node_links(const IndexView& index, const SectionReader& file) {
                                              std::to_string(links.size()));
   }
   for (std::size_t i = 0; i < links.size(); ++i) {
-    // mutant: node-link-not-compared
     if (links[i].node() == index.node_links[i].node() && links[i].mine == index.node_links[i].mine) continue;
     file.refuse(&index.node_links[i], "link " + std::to_string(i) + " between nodes: expected node " +
                                           std::to_string(links[i].node()) + ", found " +

@@ -58,7 +58,7 @@ class LinkCheck {
   void check_leaf(std::size_t leaf) const {
     for (std::size_t i = begin(leaf); i < end(leaf); ++i) {
       const Link& link = index_.links[i];
-      const bool is_next = i == begin(leaf) || index_.links[i - 1].leaf < link.leaf;  // mutant: links-in-any-order
+      const bool is_next = i == begin(leaf) || index_.links[i - 1].leaf < link.leaf;
       if (link.leaf >= index_.leaf_count() || link.leaf == leaf || !is_next) {
         file_.refuse(&link, name(leaf, link) + ": expected another of " + std::to_string(index_.leaf_count()) +
                                 " leaves, in ascending order");
@@ -83,12 +83,11 @@ class LinkCheck {
                                       " to lane " + std::to_string(cross_edge.to) + ", but a leaf has no such lane");
       }
       const auto number = static_cast<int>(number_of(cross_edge.from, cross_edge.to));
-      // mutant: cross-edges-in-any-order
       if (number <= last) file_.refuse(&cross_edge, name(leaf, link) + ": the cross edges are not in ascending order");
       last = number;
       boundary |= LaneMask{1} << cross_edge.from;
     }
-    if (boundary != link.boundary) {  // mutant: boundary-not-compared
+    if (boundary != link.boundary) {
       file_.refuse(&link.boundary, name(leaf, link) + ": the boundary does not match the cross edges");
     }
   }
@@ -96,7 +95,7 @@ class LinkCheck {
   /// The search takes a node whose links it follows as a connected whole.
   void check_connected() const {
     for (std::size_t leaf = 0; leaf < index_.leaf_count(); ++leaf) {
-      if (index_.leaves[leaf].connected || begin(leaf) == end(leaf)) continue;  // mutant: loose-leaf-may-have-links
+      if (index_.leaves[leaf].connected || begin(leaf) == end(leaf)) continue;
       file_.refuse(&index_.leaves[leaf], "leaf " + std::to_string(leaf) + ": it has links, but is not connected");
     }
   }
@@ -121,7 +120,6 @@ class LinkCheck {
       for (std::size_t i = begin(leaf); i < end(leaf); ++i) {
         const Link& link = index_.links[i];
         const std::size_t back = next[link.leaf]++;
-        // mutant: edges-back-not-compared
         if (back >= end(link.leaf) || index_.links[back].leaf != leaf || !has_same_edges(link, index_.links[back])) {
           file_.refuse(&link, name(leaf, link) + ": no link back with the same edges");
         }

@@ -45,13 +45,12 @@ class TreeCheck {
   void check_node(std::size_t group, std::size_t i) const {
     const Group& g = index_.groups[group];
     if (i >= index_.records[group].nodes) {
-      // mutant: unused-node-accepted
       if (!is_absent(g, i)) file_.refuse(&g, name(group * kFanOut + i) + ": expected an absent node");
       return;
     }
     const bool is_finite =
         std::isfinite(g.x[i]) && std::isfinite(g.y[i]) && std::isfinite(g.z[i]) && std::isfinite(g.radius[i]);
-    if (is_finite && g.radius[i] > 0) return;  // mutant: empty-sphere-accepted
+    if (is_finite && g.radius[i] > 0) return;
     file_.refuse(&g, name(group * kFanOut + i) + ": the bounding sphere is not valid");
   }
 
@@ -69,7 +68,7 @@ class TreeCheck {
       for (auto node = static_cast<NodeId>(leaf); node != kNoNode; node = index_.parents[node / kFanOut]) {
         const FrameSphere bounds = sphere(node);
         const auto radius = static_cast<double>(bounds.radius);
-        if (squared_distance(center_of(bounds), p) <= radius * radius) continue;  // mutant: sphere-need-not-enclose
+        if (squared_distance(center_of(bounds), p) <= radius * radius) continue;
         file_.refuse(&index_.groups[node / kFanOut], name(node) + ": the bounding sphere does not enclose lane " +
                                                          std::to_string(lane) + " of leaf " + std::to_string(leaf));
       }

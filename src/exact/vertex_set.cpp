@@ -10,11 +10,9 @@ namespace meshhood {
 void VertexSet::assign(std::span<const LeafSubset> subsets) {
   clear();
   sorted_.assign(subsets.begin(), subsets.end());
-  // mutant: subsets-in-any-order
   std::sort(sorted_.begin(), sorted_.end(), [](const LeafSubset& a, const LeafSubset& b) { return a.leaf < b.leaf; });
   for (std::size_t i = 0; i < sorted_.size();) {
     LeafSubset all = sorted_[i];
-    // mutant: subsets-of-a-leaf-not-joined
     while (++i < sorted_.size() && sorted_[i].leaf == all.leaf) all.lanes |= sorted_[i].lanes;
     add_lanes(all);
   }
@@ -27,15 +25,14 @@ void VertexSet::assign_difference(const VertexSet& all, const VertexSet& part) {
     const auto is_taken = [&] { return taken != part.parts().end() && taken->begin < rest.end; };
     if (rest.is_run()) {
       for (; is_taken(); ++taken) {
-        // mutant: run-before-the-part-dropped
         if (rest.begin < taken->begin) add(VertexRange{rest.begin, taken->begin});
         const LaneMask left = first_lanes(taken->end - taken->begin) & ~taken->lanes;
-        if (!taken->is_run()) add(Part{taken->begin, taken->end, left});  // mutant: rest-of-cut-leaf-dropped
-        rest.begin = taken->end;                                          // mutant: part-of-a-run-kept
+        if (!taken->is_run()) add(Part{taken->begin, taken->end, left});
+        rest.begin = taken->end;
       }
-      if (rest.begin < rest.end) add(VertexRange{rest.begin, rest.end});  // mutant: run-behind-the-part-dropped
+      if (rest.begin < rest.end) add(VertexRange{rest.begin, rest.end});
     } else {
-      for (; is_taken(); ++taken) rest.lanes &= ~taken->lanes;  // mutant: part-of-a-subset-kept
+      for (; is_taken(); ++taken) rest.lanes &= ~taken->lanes;
       if (rest.lanes != 0) add(rest);
     }
   }
@@ -44,7 +41,7 @@ void VertexSet::assign_difference(const VertexSet& all, const VertexSet& part) {
 std::span<const VertexRange> VertexSet::ranges() {
   ranges_.clear();
   const auto append = [&](VertexId begin, VertexId end) {
-    if (!ranges_.empty() && ranges_.back().end == begin) {  // mutant: ranges-that-touch-stay-apart
+    if (!ranges_.empty() && ranges_.back().end == begin) {
       ranges_.back().end = end;
     } else {
       ranges_.push_back({begin, end});

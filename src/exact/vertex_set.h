@@ -65,7 +65,6 @@ class VertexSet {
   void add_if(bool condition, const VertexRange& vertices, LaneMask lanes) {
     Part* next = parts_.data() + size_;
     const bool follows =
-        // mutant: runs-that-do-not-touch-joined
         condition && size_ != 0 && (next - 1)->is_run() && lanes == 0 && (next - 1)->end == vertices.begin;
     Part& part = *(next - static_cast<std::ptrdiff_t>(follows));
     part = {follows ? part.begin : vertices.begin, vertices.end, lanes};

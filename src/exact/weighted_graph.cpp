@@ -38,7 +38,7 @@ WeightedGraph make_weighted_graph(const IndexView& index) {
     return edges.neighbors.begin() + static_cast<std::ptrdiff_t>(edges.offsets[v]);
   };
   for (std::size_t v = 0; v < index.vertex_count(); ++v) {
-    std::sort(row(v), row(v + 1));  // mutant: rows-of-a-graph-do-not-ascend
+    std::sort(row(v), row(v + 1));
   }
   std::vector<double> lengths = std::visit([&](auto xyz) { return lengths_of(edges, xyz); }, index.positions);
   return {std::move(edges), std::move(lengths)};

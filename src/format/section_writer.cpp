@@ -51,9 +51,9 @@ std::vector<Section> SectionWriter::make_table(TaskContext& task) const {
   for (const Part& part : parts_) {
     Section& section = table.emplace_back();
     std::copy(part.name.begin(), part.name.end(), section.name.begin());
-    section.begin = begin;  // mutant: section-begin-not-saved
+    section.begin = begin;
     section.bytes = part.bytes.size();
-    section.checksum = checksum({part.bytes});  // mutant: checksum-not-saved
+    section.checksum = checksum({part.bytes});
     task.step(part.bytes.size());
     begin = aligned(begin + part.bytes.size());
   }
@@ -76,7 +76,7 @@ void SectionWriter::write(Header header, const Sink& sink, TaskContext& task) co
   sink(rest);
   for (const Part& part : parts_) {
     write_chunks(part.bytes, sink, task);
-    pad(part.bytes.size(), sink);  // mutant: padding-not-saved
+    pad(part.bytes.size(), sink);
   }
   task.report_progress();
 }

@@ -13,7 +13,7 @@ namespace meshhood {
 // The last term is not positive, so there is one root t >= 0. Of its two usual forms, this is the one that adds numbers
 // of equal sign. All lengths are first divided by the largest of them, so that no product overflows.
 Point exit_point(const Point& inside, const Point& outside, const Point& center, double radius) {
-  if (squared_distance(outside, center) <= squared_radius(radius)) return outside;  // mutant: exit-behind-a-wall
+  if (squared_distance(outside, center) <= squared_radius(radius)) return outside;
   const Point d = outside - inside;
   const Point e = inside - center;
   const auto largest = [](const Point& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); };

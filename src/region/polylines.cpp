@@ -47,7 +47,7 @@ class Joiner {
       is_used_[next] = true;
       at = segments_[next].from == at ? segments_[next].to : segments_[next].from;
       if (at == start && !is_end(at)) {
-        line.is_closed = true;  // mutant: loops-left-open
+        line.is_closed = true;
         return line;
       }
       line.points.push_back(at);

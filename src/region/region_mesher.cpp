@@ -33,7 +33,6 @@ std::vector<std::size_t> RegionMesher::State::select(std::span<const VertexId> i
   if (corners == Corners::Any) return faces;
   std::erase_if(faces, [&](std::size_t face) {
     const auto all = lists.corners(face);
-    // mutant: any-for-all-corners
     return !std::all_of(all.begin(), all.end(), [&](VertexId v) { return is_marked(v); });
   });
   return faces;

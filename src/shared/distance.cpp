@@ -13,7 +13,7 @@
 namespace meshhood {
 
 double squared_radius(double radius) {
-  double threshold = radius * radius;  // mutant: threshold-one-step-low
+  double threshold = radius * radius;
   if (threshold == kInfinity) return kInfinity;
   // Product and root are rounded once each, so the result is one or two steps away. The number of steps is bounded
   // because denormals have the root 0 if the host flushes them to zero.

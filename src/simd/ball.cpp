@@ -24,7 +24,7 @@ float round_up(double value) { return -round_down(-value); }
 // The error of a squared distance in single precision. Float coordinates are exact, so a difference has a relative
 // error of 2^-24, a square of three times that, and the two sums add twice 2^-24: 5 * 2^-24 in total. Products below
 // the smallest float add at most 2^-149 each.
-constexpr double kFloatError = 0x1p-21;  // mutant: no-float-margin
+constexpr double kFloatError = 0x1p-21;
 constexpr double kFloatUnderflow = 0x1p-140;
 
 // The center and the points that the spheres enclose are rounded by 2^-25 along each axis; the radii of the spheres

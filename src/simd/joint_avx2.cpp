@@ -88,7 +88,7 @@ MESHHOOD_JOINT BallWords ball_words(const LeafPoints& points, LaneMask lanes, co
     const QueryWord sure = compare(points, lane, balls, maybe);
     inside[lane] = sure;
     result.all &= sure;
-    doubts[lane] = maybe & ~sure;  // mutant: avx2-words-without-doubts
+    doubts[lane] = maybe & ~sure;
     result.in_doubt |= LaneMask{maybe != sure} << lane;
   }
   return result;
@@ -154,7 +154,6 @@ MESHHOOD_JOINT inline LaneMask spread_once(LeafWords& words, const LaneMask* adj
   LaneMask gained = 0;
   for (std::size_t i = 0; i < kEighths; ++i) {
     const __m256i before = load8(&words.reached[8 * i]);
-    // mutant: avx2-words-spread-outside
     const __m256i grown = _mm256_or_si256(before, _mm256_and_si256(arriving[i], load8(&words.inside[8 * i])));
     gained |= differing8(grown, before) << (8 * i);
     store8(&words.reached[8 * i], grown);
@@ -260,7 +259,7 @@ MESHHOOD_JOINT void write_row(std::span<const RowPiece> pieces, unsigned query, 
   VertexId* next = out.data();
   // The vertices of a leaf are written in steps of eight, up to seven beyond their end. So the last of a row are
   // written elsewhere first.
-  constexpr std::ptrdiff_t kRoom = kLeafCapacity + 8;  // mutant: avx2-row-beyond-its-end
+  constexpr std::ptrdiff_t kRoom = kLeafCapacity + 8;
   std::array<VertexId, 2 * kRoom> end_of_row;
   VertexId* begin_of_end = nullptr;
   for (const RowPiece& piece : pieces) {
@@ -272,7 +271,7 @@ MESHHOOD_JOINT void write_row(std::span<const RowPiece> pieces, unsigned query, 
       for (std::uint32_t k = 0; k < kLeafCapacity; k += 8) {
         next = write8(load_ids(permutation, piece.first + k), with_bit(piece.reached + k, shift), next);
       }
-    } else if ((piece.queries >> query & 1U) != 0) {  // mutant: avx2-row-with-every-run
+    } else if ((piece.queries >> query & 1U) != 0) {
       std::uint32_t k = 0;
       for (; k + 8 <= piece.size; k += 8, next += 8) {
         _mm256_storeu_si256(reinterpret_cast<__m256i*>(next), load_ids(permutation, piece.first + k));

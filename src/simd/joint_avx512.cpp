@@ -129,7 +129,6 @@ MESHHOOD_JOINT inline __m512 coordinate(const Interleaved& xyz, const Coordinate
                                         float center, float scale) {
   const __m512 two = _mm512_permutex2var_ps(xyz.first, _mm512_load_si512(order.in_first_two.data()), xyz.second);
   const __m512 all = _mm512_permutex2var_ps(two, _mm512_load_si512(order.in_third.data()), xyz.third);
-  // mutant: avx512-points-in-every-lane
   return _mm512_maskz_mul_ps(lanes, _mm512_sub_ps(all, _mm512_set1_ps(center)), _mm512_set1_ps(scale));
 }
 
@@ -203,7 +202,7 @@ MESHHOOD_JOINT BallWords ball_words(const LeafPoints& points, LaneMask lanes, co
                  _mm512_cmp_ps_mask(b, second.maybe_inside, _CMP_GE_OQ), maybe[lane]);
   }
   const Words32 sure = load(inside);
-  const Words32 in_doubt = without(load_lanes(maybe, undecided), sure);  // mutant: avx512-words-without-doubts
+  const Words32 in_doubt = without(load_lanes(maybe, undecided), sure);
   _mm512_storeu_si512(doubts.data(), in_doubt.low);
   _mm512_storeu_si512(doubts.data() + 16, in_doubt.high);
   const QueryWord all = in_none != 0 ? 0 : balls.queries & common_bits(sure, undecided);
@@ -271,7 +270,7 @@ MESHHOOD_JOINT SpreadWords spread_words(LeafWords& words, const LaneMask* adjace
   if (open != 0 && differing(reached, before) != 0) {
     const NeighborLists neighbors(adjacency);
     for (LaneMask gained = open; gained != 0 && open != 0;) {
-      const Words32 grown = neighbors.gather(reached) & inside;  // mutant: avx512-words-spread-outside
+      const Words32 grown = neighbors.gather(reached) & inside;
       gained = differing(grown, reached);
       open = differing(grown, inside);
       reached = grown;
@@ -372,7 +371,6 @@ MESHHOOD_JOINT LaneMask lanes_of(const QueryWord* reached, unsigned query) {
 
 /// Writes the first `count` of sixteen ids, and nothing after them.
 MESHHOOD_JOINT inline VertexId* write_first(__m512i ids, unsigned count, VertexId* out) {
-  // mutant: avx512-row-beyond-its-end
   _mm512_mask_storeu_epi32(out, static_cast<__mmask16>(_bzhi_u32(0xFFFF, count)), ids);
   return out + count;
 }
@@ -400,7 +398,7 @@ MESHHOOD_JOINT void write_row(std::span<const RowPiece> pieces, unsigned query, 
       const LaneMask lanes = lanes_with(piece.reached, bit);
       next = write16(load_ids(permutation, piece.first), lanes, next);
       next = write16(load_ids(permutation, piece.first + 16), lanes >> 16, next);
-    } else if ((piece.queries >> query & 1U) != 0) {  // mutant: avx512-row-with-every-run
+    } else if ((piece.queries >> query & 1U) != 0) {
       for (std::uint32_t k = 0; k < piece.size; k += 16) {
         next = write_first(load_ids(permutation, piece.first + k), std::min(piece.size - k, 16U), next);
       }

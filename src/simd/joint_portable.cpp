@@ -48,7 +48,7 @@ BallWords ball_words(const LeafPoints& points, LaneMask lanes, const PacketBalls
   for (LaneMask left = lanes; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));
     const float square = squared_distance_to_center(points, lane, balls);
-    if (square > balls.outside_all) {  // mutant: portable-words-outside-all
+    if (square > balls.outside_all) {
       result.all = 0;
     } else if (square < balls.inside_all) {
       inside[lane] = balls.queries;
@@ -56,7 +56,7 @@ BallWords ball_words(const LeafPoints& points, LaneMask lanes, const PacketBalls
       QueryWord maybe = 0;
       inside[lane] = compare(points, lane, balls, maybe);
       result.all &= inside[lane];
-      doubts[lane] = maybe & ~inside[lane];  // mutant: portable-words-without-doubts
+      doubts[lane] = maybe & ~inside[lane];
       result.in_doubt |= LaneMask{doubts[lane] != 0} << lane;
     }
   }
@@ -75,7 +75,6 @@ LaneMask spread_once(LeafWords& words, const LaneMask* adjacency, LaneMask from,
     const auto lane = static_cast<std::size_t>(std::countr_zero(from));
     for (LaneMask left = adjacency[lane] & open; left != 0; left &= left - 1) {
       const auto neighbor = static_cast<std::size_t>(std::countr_zero(left));
-      // mutant: portable-words-spread-outside
       const QueryWord grown = words.reached[neighbor] | (words.reached[lane] & words.inside[neighbor]);
       gained |= LaneMask{grown != words.reached[neighbor]} << neighbor;
       words.reached[neighbor] = grown;
@@ -160,7 +159,7 @@ void write_row(std::span<const RowPiece> pieces, unsigned query, const VertexId*
   for (const RowPiece& piece : pieces) {
     if (piece.reached != nullptr) {
       for_each_lane(lanes_of(piece.reached, query), [&](unsigned lane) { write(piece.first + lane); });
-    } else if ((piece.queries >> query & 1U) != 0) {  // mutant: portable-row-with-every-run
+    } else if ((piece.queries >> query & 1U) != 0) {
       for (std::uint32_t i = 0; i < piece.size; ++i) write(piece.first + i);
     }
   }

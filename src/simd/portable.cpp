@@ -10,23 +10,23 @@ namespace {
 template <class Real>
 LaneMask within(const Real* xyz, std::size_t size, const LeafBall& ball) {
   LaneMask result = 0;
-  for (std::size_t i = 0; i < size; ++i) {  // mutant: last-lane-not-tested
+  for (std::size_t i = 0; i < size; ++i) {
     const Point p = point(std::span(xyz, 3 * size), i);
-    result |= LaneMask{squared_distance(p, ball.center) <= ball.squared_radius} << i;  // mutant: ball-without-boundary
+    result |= LaneMask{squared_distance(p, ball.center) <= ball.squared_radius} << i;
   }
   return result;
 }
 
 LaneMask cross_edges(std::span<const CrossEdge> edges, LaneMask from) {
   LaneMask result = 0;
-  for (const CrossEdge& edge : edges) result |= (from >> edge.from & 1U) << edge.to;  // mutant: cross-edges-reversed
+  for (const CrossEdge& edge : edges) result |= (from >> edge.from & 1U) << edge.to;
   return result;
 }
 
 LaneMask reachable(const LaneMask* adjacency, LaneMask among, LaneMask from) {
   LaneMask reached = from;
   for (LaneMask todo = from; todo != 0 && reached != among;) {
-    const LaneMask added = adjacency[std::countr_zero(todo)] & among & ~reached;  // mutant: reachable-outside-the-ball
+    const LaneMask added = adjacency[std::countr_zero(todo)] & among & ~reached;
     todo = (todo & (todo - 1)) | added;
     reached |= added;
   }
@@ -42,8 +42,8 @@ GroupContainment classify_group(const Group& group, const TreeBall& ball) {
     const float square = (x * x + y * y) + z * z;
     const float far = ball.outer + group.radius[i];
     const float near = ball.inner - group.radius[i];
-    const bool outside = square > far * far;               // mutant: outside-of-inner-ball
-    const bool inside = near > 0 && square < near * near;  // mutant: inside-of-outer-ball
+    const bool outside = square > far * far;
+    const bool inside = near > 0 && square < near * near;
     result.inside = static_cast<std::uint8_t>(result.inside | unsigned{inside} << i);
     result.intersecting = static_cast<std::uint8_t>(result.intersecting | unsigned{!outside && !inside} << i);
   }

@@ -35,7 +35,6 @@ CellMasks cell_adjacency(const CellGraph& graph, std::size_t cell) {
   for (std::size_t i = 0; i < size; ++i) {
     graph.for_each_neighbor(begin + i, [&](std::size_t neighbor) {
       // A neighbor before the cell wraps around to a number above its size.
-      // mutant: edges-to-next-cell-kept
       if (neighbor - begin < size) adjacency[i] |= LaneMask{1} << (neighbor - begin);
     });
   }
@@ -54,7 +53,7 @@ std::uint32_t split_cell(const CellGraph& graph, std::size_t cell, std::vector<s
   }
   const auto largest = std::max_element(found.begin(), found.begin() + count,
                                         [](LaneMask a, LaneMask b) { return std::popcount(a) < std::popcount(b); });
-  std::swap(*largest, found[0]);  // mutant: first-component-not-the-largest
+  std::swap(*largest, found[0]);
   for (std::uint32_t component = 0; component < count; ++component) {
     for (LaneMask left = found[component]; left != 0; left &= left - 1) {
       component_of[begin + static_cast<std::size_t>(std::countr_zero(left))] = component;
@@ -76,11 +75,11 @@ class Merger {
   void run() {
     for (std::size_t cell = 0; cell < graph_.cells(); ++cell) {
       for (std::uint32_t c = components_.first[cell]; c < components_.first[cell + 1]; ++c) {
-        if (size(c) < kSmallComponent) merge(cell, c);  // mutant: small-components-not-merged
+        if (size(c) < kSmallComponent) merge(cell, c);
       }
     }
     pack_crumbs();
-    for (std::uint32_t& c : components_.of) c = root(c);  // mutant: merges-not-applied
+    for (std::uint32_t& c : components_.of) c = root(c);
   }
 
  private:
@@ -99,7 +98,6 @@ class Merger {
     find_linked();
     std::uint32_t open = kNone;
     for (std::uint32_t c = 0; c < merged_into_.size(); ++c) {
-      // mutant: linked-part-is-crumb
       const bool is_crumb = merged_into_[c] == c && !is_linked_[c] && size(c) < kSmallComponent;
       if (!is_crumb) continue;
       if (open != kNone && has_room(c, open)) {
@@ -143,7 +141,7 @@ class Merger {
     std::ptrdiff_t most = 0;
     for (auto first = neighbors_.begin(); first != neighbors_.end();) {
       const auto last = std::upper_bound(first, neighbors_.end(), *first);
-      if (last - first > most && has_room(component, *first)) {  // mutant: merged-over-fewest-edges
+      if (last - first > most && has_room(component, *first)) {
         best = *first;
         most = last - first;
       }
@@ -152,13 +150,12 @@ class Merger {
     return best;
   }
 
-  // mutant: leaf-filled-over-capacity
   [[nodiscard]] bool has_room(std::uint32_t a, std::uint32_t b) { return size(a) + size(b) <= kLeafCapacity; }
 
   void join(std::uint32_t component, std::uint32_t other) {
     if (component == other || !has_room(component, other)) return;
     merged_into_[component] = other;
-    size(other) += std::exchange(size(component), 0U);  // mutant: size-of-merged-component-kept
+    size(other) += std::exchange(size(component), 0U);
   }
 
   /// Follows the merges, and shortens the path (path compression).
@@ -195,7 +192,7 @@ CellComponents split_cells(const CellGraph& graph, TaskContext& task) {
   result.size.resize(result.first.back());
   for_each_cell(graph.cells(), task, [&](std::size_t cell) {
     for (std::size_t i = graph.begin(cell); i < graph.end(cell); ++i) {
-      result.of[i] += result.first[cell];  // mutant: components-numbered-by-cell
+      result.of[i] += result.first[cell];
       ++result.size[result.of[i]];
     }
   });

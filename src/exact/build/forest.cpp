@@ -53,7 +53,7 @@ class LevelGrouping {
     const std::vector<KdPoint> linked = order_nodes(graph, true);
     result.covered = cover(graph, linked);
     // Around a hub, hardly any node finds a partner that has room.
-    if (4 * result.covered.size() > 3 * linked.size()) {  // mutant: levels-without-end
+    if (4 * result.covered.size() > 3 * linked.size()) {
       result.covered = {};
       pack(linked, result.roots);
     }
@@ -66,8 +66,8 @@ class LevelGrouping {
     // Chosen: leaves are grouped to 0.87 to 0.97 on scans and bodies, to 0.78 on closely folded surfaces.
     constexpr double kWellFilled = 0.85;
     NodeParts parts = connected_parts(graph, linked);
-    if (!dissolves_) dissolves_ = parts.fill() < kWellFilled;  // mutant: every-mesh-dissolved
-    if (*dissolves_) dissolve_small_parts(parts);              // mutant: no-mesh-dissolved
+    if (!dissolves_) dissolves_ = parts.fill() < kWellFilled;
+    if (*dissolves_) dissolve_small_parts(parts);
     return parts.groups();
   }
 

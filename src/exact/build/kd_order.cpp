@@ -20,14 +20,12 @@ std::size_t widest_axis(std::span<const KdPoint> points) {
     }
   }
   const std::array<float, 3> width = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
-  // mutant: cut-across-narrowest-side
   return static_cast<std::size_t>(std::max_element(width.begin(), width.end()) - width.begin());
 }
 
 template <std::size_t Axis>
 void cut_at(std::span<KdPoint> points, std::size_t middle) {
   nth_element(points, middle, [](const KdPoint& a, const KdPoint& b) {
-    // mutant: ties-in-given-order
     return a.at[Axis] != b.at[Axis] ? a.at[Axis] < b.at[Axis] : a.id < b.id;
   });
 }
@@ -36,7 +34,7 @@ void cut_at(std::span<KdPoint> points, std::size_t middle) {
 std::size_t cut(std::span<KdPoint> points, std::size_t unit) {
   const std::size_t units = (points.size() + unit - 1) / unit;
   assert(unit > 0 && points.size() > unit);
-  const std::size_t middle = units / 2 * unit;  // mutant: cut-anywhere
+  const std::size_t middle = units / 2 * unit;
   switch (widest_axis(points)) {
     case 0: cut_at<0>(points, middle); break;
     case 1: cut_at<1>(points, middle); break;
@@ -86,7 +84,6 @@ void kd_order_nested(std::span<KdPoint> points, std::size_t fan_out) {
   while (unit * fan_out < points.size()) unit *= fan_out;
   kd_order(points, unit);
   for (std::size_t begin = 0; begin < points.size(); begin += unit) {
-    // mutant: runs-not-ordered-again
     kd_order_nested(points.subspan(begin, std::min(unit, points.size() - begin)), fan_out);
   }
 }

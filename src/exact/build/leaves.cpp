@@ -115,15 +115,15 @@ void number_vertices(LeafPartition& leaves) {
   for (std::size_t v = 0; v < leaves.slot.size(); ++v) {
     const LeafId leaf = leaves.slot[v];
     const std::uint32_t lane = filled[leaf]++;
-    leaves.slot[v] = leaf * kLeafCapacity + lane;                                   // mutant: slot-without-lane
-    leaves.permutation[leaves.leaf_begin[leaf] + lane] = static_cast<VertexId>(v);  // mutant: vertex-listed-twice
+    leaves.slot[v] = leaf * kLeafCapacity + lane;
+    leaves.permutation[leaves.leaf_begin[leaf] + lane] = static_cast<VertexId>(v);
   }
 }
 
 }  // namespace
 
 void check_leaf_count(std::size_t leaves) {
-  if (leaves <= kMaxLeaves) return;  // mutant: largest-leaf-count-refused
+  if (leaves <= kMaxLeaves) return;
   raise(ErrorCode::TooLarge,
         std::to_string(leaves) + " leaves in the index, but the limit is " + std::to_string(kMaxLeaves));
 }

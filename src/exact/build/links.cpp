@@ -31,7 +31,7 @@ void append_links(const std::vector<Exit>& exits, Links& out) {
       out.links.push_back({target_leaf(exits[i]), 0, static_cast<std::uint32_t>(out.cross_edges.size())});
     }
     const CrossEdge cross_edge = cross_edge_of(exits[i]);
-    out.links.back().boundary |= LaneMask{1} << cross_edge.from;  // mutant: boundary-of-last-edge-only
+    out.links.back().boundary |= LaneMask{1} << cross_edge.from;
     out.cross_edges.push_back(cross_edge);
   }
 }
@@ -48,13 +48,13 @@ Links link_leaves(const AdjacencyView& graph, const LeafPartition& leaves, std::
       for (const VertexId w : graph[leaves.permutation[v]]) {
         const std::uint32_t slot = leaves.slot[w];
         if (leaf_of(slot) == leaf) {
-          adjacency[v] |= LaneMask{1} << lane_of(slot);  // mutant: only-last-neighbor-in-leaf
+          adjacency[v] |= LaneMask{1} << lane_of(slot);
         } else {
           exits.push_back(make_exit(static_cast<unsigned>(v - first), slot));
         }
       }
     }
-    std::sort(exits.begin(), exits.end());  // mutant: fourth-exit-dropped
+    std::sort(exits.begin(), exits.end());
     append_links(exits, result);
     result.link_end.push_back(static_cast<std::uint32_t>(result.links.size()));
   }
@@ -65,7 +65,6 @@ Links link_leaves(const AdjacencyView& graph, const LeafPartition& leaves, std::
 void append(const Links& next, Links& all) {
   const auto links = static_cast<std::uint32_t>(all.links.size());
   const auto cross_edges = static_cast<std::uint32_t>(all.cross_edges.size());
-  // mutant: links-of-later-leaves-not-moved
   for (const std::uint32_t end : next.link_end) all.link_end.push_back(links + end);
   for (const Link& link : next.links) {
     all.links.push_back({link.leaf, link.boundary, cross_edges + link.first_cross_edge});
@@ -91,7 +90,7 @@ Links make_links(const AdjacencyView& graph, const LeafPartition& leaves, TaskCo
 }
 
 bool is_connected(const LaneMask* adjacency, unsigned size) {
-  return size == 0 || reachable_lanes(adjacency, 1) == first_lanes(size);  // mutant: every-leaf-connected
+  return size == 0 || reachable_lanes(adjacency, 1) == first_lanes(size);
 }
 
 }  // namespace meshhood

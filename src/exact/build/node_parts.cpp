@@ -136,7 +136,7 @@ void join_small_parts(NodeParts& parts) {
       nodes.assign(parts[part].begin(), parts[part].end());
       const std::uint32_t other = parts.best_part_for(nodes, limit);
       if (other == NodeParts::kNoPart) continue;
-      for (const std::uint32_t node : nodes) parts.move(node, other);  // mutant: small-parts-stay-alone
+      for (const std::uint32_t node : nodes) parts.move(node, other);
     }
   }
 }
@@ -151,7 +151,7 @@ bool move_all(std::uint32_t part, double limit, NodeParts& parts) {
       if (other != NodeParts::kNoPart) parts.move(node, other);
     }
     // A node that has moved may link one that is left with another part.
-  } while (!parts[part].empty() && parts[part].size() < left.size());  // mutant: nodes-move-once
+  } while (!parts[part].empty() && parts[part].size() < left.size());
   return parts[part].empty();
 }
 
@@ -176,7 +176,7 @@ void dissolve_small_parts(NodeParts& parts) {
       if (parts[part].size() != size) continue;
       nodes.assign(parts[part].begin(), parts[part].end());
       if (move_all(part, limit, parts)) continue;
-      for (const std::uint32_t node : nodes) parts.move(node, part);  // mutant: part-half-dissolved
+      for (const std::uint32_t node : nodes) parts.move(node, part);
     }
   }
 }

@@ -60,7 +60,6 @@ FrameSphere rounded(const Point& center) {
 }
 
 void set_radius(FrameSphere& sphere, double farthest_squared) {
-  // mutant: sphere-too-small
   sphere.radius = next_above(std::sqrt(farthest_squared) * (1 + kRelativeRoom) + kAbsoluteRoom);
 }
 
@@ -128,7 +127,7 @@ class GrowingTree {
     }
     for (auto end = reach.begin() + static_cast<std::ptrdiff_t>(count); end != reach.begin(); --end) {
       const auto next = std::max_element(reach.begin(), end);
-      if (next->first * next->first <= farthest) return;  // mutant: farthest-vertex-skipped
+      if (next->first * next->first <= farthest) return;
       find_farthest(static_cast<NodeId>(child * kFanOut + next->second), from, farthest);
       *next = *(end - 1);
     }
@@ -149,7 +148,7 @@ Spheres make_parents(const GrowingTree& tree, std::size_t level, std::span<const
     for (std::size_t i = 0; i < tree.node_count(first + group); ++i) {
       const auto node = static_cast<NodeId>((first + group) * kFanOut + i);
       const std::size_t child = tree.child_group(node);
-      const std::size_t count = tree.node_count(child);  // mutant: parent-without-last-child
+      const std::size_t count = tree.node_count(child);
       parents[group * kFanOut + i] = tree.measure_parent(node, below.subspan((child - first_below) * kFanOut, count));
     }
   });
@@ -191,7 +190,7 @@ double mean_radius(std::span<const Group> groups, std::span<const GroupRecord> r
     for (std::size_t i = 0; i < records[group].nodes; ++i) sum += static_cast<double>(groups[group].radius[i]);
     nodes += records[group].nodes;
   }
-  return sum / static_cast<double>(nodes);  // mutant: mean-over-absent-nodes
+  return sum / static_cast<double>(nodes);
 }
 
 void set_vertices(std::span<const VertexId> leaf_begin, std::span<const std::uint32_t> levels,

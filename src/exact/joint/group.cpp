@@ -57,9 +57,9 @@ void JointGroup::begin(std::span<const LeafId> leaves, const TreeBounds& low, co
   clear();
   set_sphere(leaves);
   group_ = leaves.front() / kFanOut;
-  high_ = high.outer;                                                   // mutant: group-without-its-balls
-  ball_.outer = next_above(static_cast<double>(high.outer) + radius_);  // mutant: group-without-its-radius
-  ball_.inner = -next_above(radius_ - static_cast<double>(low.inner));  // mutant: core-of-the-largest-ball
+  high_ = high.outer;
+  ball_.outer = next_above(static_cast<double>(high.outer) + radius_);
+  ball_.inner = -next_above(radius_ - static_cast<double>(low.inner));
   for (const LeafId leaf : leaves) {
     if (discover(leaf) == kNoEntry) entry_of_[leaf] = add_entry(leaf);  // if the spheres of the index are wrong
   }
@@ -143,7 +143,7 @@ GroupEntry JointGroup::discover(LeafId leaf) {
   const Leaf& record = index_->leaves[leaf];
   const Containment side = classify(record.bounds, ball_);
   if (side == Containment::Outside || !meets_a_leaf(record.bounds)) return entry_of_[leaf] = kNoEntry;
-  if (side == Containment::Inside && record.connected) return add_core(leaf);  // mutant: core-of-disconnected-leaves
+  if (side == Containment::Inside && record.connected) return add_core(leaf);
   return entry_of_[leaf] = add_entry(leaf);
 }
 
@@ -215,7 +215,7 @@ GroupEntry JointGroup::add_core(LeafId leaf) {
       } else if (linked == kUnknown) {
         linked = discover(link.leaf);
       }
-      if (linked == entry || linked == kNoEntry) continue;  // mutant: core-without-links
+      if (linked == entry || linked == kNoEntry) continue;
       add_core_link(core, linked, kernels_->cross_edges(index_->cross_edges_of(link), link.boundary));
     }
   }
@@ -230,7 +230,7 @@ void JointGroup::add_core_link(const Core& core, GroupEntry linked, LaneMask far
   last_core_link_.resize(leaves_.size(), kUnknown);
   std::uint32_t& last = last_core_link_[linked];
   if (last != kUnknown && last >= core.first_link) {
-    core_links_[last].far_boundary |= far_boundary;  // mutant: core-with-one-link
+    core_links_[last].far_boundary |= far_boundary;
   } else {
     last = static_cast<std::uint32_t>(core_links_.size());
     core_links_.push_back({linked, far_boundary});

@@ -25,7 +25,7 @@ const PerLane<std::uint64_t>& JointSearch::counts() {
     const std::size_t size =
         group_.is_core(entry) ? group_.core_vertices(entry) : index_->leaves[group_.leaf(entry)].size;
     const QueryWord word = spread_.whole_word(entry);
-    if (word == packet_->queries()) {  // mutant: whole-counted-for-every-row
+    if (word == packet_->queries()) {
       common += size;
     } else {
       for (QueryWord left = word; left != 0; left &= left - 1)

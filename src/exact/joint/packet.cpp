@@ -20,7 +20,7 @@ constexpr double kLargestRadius = 8;
 // coordinates of both are rounded by u, which moves a squared distance by 8 u a^2; `2 p.q - p.p` is computed with an
 // error of 12 u a^2, and a threshold is rounded by u a^2: 21 u a^2 in all, less than 2^-19 a^2. A squared distance from
 // the center of the leaf is off by 28 u a^2, less than four times as much.
-constexpr double kRelativeError = 0x1p-19;  // mutant: packet-without-margin
+constexpr double kRelativeError = 0x1p-19;
 
 float float_above(double value) { return std::nextafter(static_cast<float>(value), kFloatInfinity); }
 float float_below(double value) { return -float_above(-value); }
@@ -45,7 +45,7 @@ Packet::Packet(const IndexView& index, const JointGroup& group, LeafId leaf, std
     assert(queries[i].lane < index.leaves[leaf].size);
     lanes_[i] = queries[i].lane;
     squared_radii_[i] = queries[i].radius.squared;
-    ball_.inner = std::min(ball_.inner, queries[i].radius.bounds.inner);  // mutant: packet-inside-one-ball
+    ball_.inner = std::min(ball_.inner, queries[i].radius.bounds.inner);
     ball_.outer = std::max(ball_.outer, queries[i].radius.bounds.outer);
   }
   set_balls(group, queries);
@@ -83,7 +83,6 @@ void Packet::set_balls(const JointGroup& group, std::span<const JointQuery> quer
     balls_.z[i] = 2 * points.z[lane];
     const Point q{static_cast<double>(points.x[lane]), static_cast<double>(points.y[lane]),
                   static_cast<double>(points.z[lane])};
-    // mutant: packet-doubts-inside
     balls_.surely_inside[i] = static_cast<float>(dot(q, q) - queries[i].radius.inner_squared + error);
     balls_.maybe_inside[i] = static_cast<float>(dot(q, q) - queries[i].radius.outer_squared - error);
   }

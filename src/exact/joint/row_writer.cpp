@@ -25,7 +25,6 @@ void RowWriter::begin(const PacketAnswer& answer) {
   for (const RowPiece& piece : pieces_) {
     RowPiece* last = kept == 0 ? nullptr : &pieces_[kept - 1];
     assert(last == nullptr || last->first + last->size <= piece.first);  // an answer names each vertex once
-    // mutant: runs-of-other-rows-joined
     if (last != nullptr && last->reached == nullptr && piece.reached == nullptr && last->queries == piece.queries &&
         last->first + last->size == piece.first) {
       last->size += piece.size;

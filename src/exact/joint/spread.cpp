@@ -26,7 +26,7 @@ void JointSpread::classify(const JointGroup& group, const Packet& packet) {
     const JointGroup::Eight eight = group.eights()[entry / kFanOut];
     const GroupContainment& side = sides_[entry / kFanOut];
     const auto has = [&](unsigned bits) { return (bits >> entry % kFanOut & 1U) != 0; };
-    const bool is_whole = has((side.inside & eight.connected) | eight.cores);  // mutant: disconnected-leaf-whole
+    const bool is_whole = has((side.inside & eight.connected) | eight.cores);
     const bool is_outside = !has(side.inside | side.intersecting | eight.cores);
     const Kind kind = is_whole ? Kind::Whole : is_outside ? Kind::Outside : Kind::Partial;
     states_[entry] = {kind, is_outside, false, false, 0, 0};
@@ -94,7 +94,7 @@ void JointSpread::take_partial(JointGroup& group, const Packet& packet, GroupEnt
   if (is_first) find_inside(group, packet, entry);
   const SpreadWords spread =
       kernels_->spread_words(words_[entry], &index_->adjacency[record.first], record.connected ? state.word : 0);
-  state.closed = spread.closed;  // mutant: entry-closed-at-once
+  state.closed = spread.closed;
   if (spread.gained == 0) return;
   if (state.pushed == 0) partial_.push_back({entry, record.first});
   state.pushed = packet.queries();
@@ -115,7 +115,7 @@ void JointSpread::find_inside(JointGroup& group, const Packet& packet, GroupEntr
     const Point vertex = index_->position(group.leaf(entry), lane);
     for (QueryWord left = doubts[lane]; left != 0; left &= left - 1) {
       const auto query = static_cast<unsigned>(std::countr_zero(left));
-      inside[lane] |= QueryWord{packet.holds(query, vertex)} << query;  // mutant: doubt-is-inside
+      inside[lane] |= QueryWord{packet.holds(query, vertex)} << query;
     }
   }
 }
@@ -128,7 +128,7 @@ void JointSpread::push_leaf(JointGroup& group, const Packet& packet, GroupEntry 
     const std::span<const JointGroup::EntryLink> some = links.first(std::min(links.size(), kAtOnce));
     std::uint64_t taken = 0;
     for (std::size_t i = 0; i < some.size(); ++i) {
-      const bool has_gained = (some[i].boundary & gained) != 0;  // mutant: gained-not-pushed
+      const bool has_gained = (some[i].boundary & gained) != 0;
       const bool is_open = !states_[some[i].entry].closed;
       taken |= static_cast<std::uint64_t>(has_gained & is_open) << i;
     }
@@ -155,7 +155,7 @@ void JointSpread::add_to_whole(const JointGroup& group, const Packet& packet, Gr
   State& state = states_[entry];
   if ((word & ~state.word) == 0) return;
   state.word |= word;
-  state.closed = state.word == packet.queries();  // mutant: whole-entry-closed-at-once
+  state.closed = state.word == packet.queries();
   worklist_.add(group.rank(entry));
 }
 

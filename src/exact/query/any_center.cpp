@@ -23,7 +23,7 @@ SquareRange squared_distances(const FrameSphere& sphere, const Center& center) {
   const Point middle{static_cast<double>(sphere.x), static_cast<double>(sphere.y), static_cast<double>(sphere.z)};
   const double distance = length(center.in_frame - middle);
   const double slack = kRangeSlack * (distance + 4);
-  const double reach = static_cast<double>(sphere.radius) + slack;  // mutant: range-too-narrow
+  const double reach = static_cast<double>(sphere.radius) + slack;
   const double near = (distance - reach) * center.unit;
   const double far = (distance + reach) * center.unit;
   // A center so far away that its distance overflows gives no bounds: infinity less infinity is not > 0.
@@ -34,7 +34,7 @@ SquareRange squared_distances(const FrameSphere& sphere, const Center& center) {
 LeafBall any_ball(const Point& center, double radius) {
   LeafBall ball(center, LeafBounds(radius));
   const Point rounded{static_cast<double>(ball.x), static_cast<double>(ball.y), static_cast<double>(ball.z)};
-  const double shift = length(center - rounded) * (1 + 0x1p-40);  // mutant: shift-of-center-ignored
+  const double shift = length(center - rounded) * (1 + 0x1p-40);
   if (shift == 0) return ball;
   // The filter measures from the rounded center: a vertex within `radius - shift` of it is surely inside, one beyond
   // `radius + shift` surely outside. If the shift overflows, the predicate decides all vertices.

@@ -34,15 +34,13 @@ Flood::State& Flood::state_of(LeafId leaf) {
   if (states_.is_known(leaf)) return states_[leaf];
   const Leaf& record = index_->leaves[leaf];
   const LaneMask walls = walls_->of(leaf);
-  return states_.set(leaf, {.open = first_lanes(record.size) & ~walls,    // mutant: walls-are-passed
-                            .connected = record.connected && walls == 0,  // mutant: leaf-with-walls-taken-whole
+  return states_.set(leaf, {.open = first_lanes(record.size) & ~walls,
+                            .connected = record.connected && walls == 0,
                             .wakes = std::numeric_limits<double>::infinity(),
                             .squares = squared_distances(record.bounds, center_)});
 }
 
-bool Flood::is_whole(const State& state) const {
-  return state.connected && state.squares.high <= ball_.squared_radius;  // mutant: intersecting-leaf-taken-whole
-}
+bool Flood::is_whole(const State& state) const { return state.connected && state.squares.high <= ball_.squared_radius; }
 
 void Flood::add_seed(std::uint32_t slot) {
   State& state = state_of(leaf_of(slot));
@@ -113,7 +111,7 @@ void Flood::visit(LeafId leaf) {
     expand(leaf, added);
   }
   // The bound is that of the ball: whatever is left is farther away.
-  if (state.reached != state.open) rest(leaf, state, ball_.squared_radius, false);  // mutant: leaf-sleeps-for-ever
+  if (state.reached != state.open) rest(leaf, state, ball_.squared_radius, false);
 }
 
 /// Reaches what the ball now connects within the leaf. Returns the vertices added.
@@ -133,7 +131,7 @@ LaneMask Flood::enter(State& state, const Leaf& leaf) {
 
 /// The vertices of the leaf that are in the ball and no walls.
 LaneMask Flood::find_inside(State& state, const Leaf& leaf) {
-  if (state.inside_of != ball_.squared_radius) {  // mutant: ball-of-an-earlier-radius
+  if (state.inside_of != ball_.squared_radius) {
     state.inside = kernels_->within(index_->positions, leaf.first, leaf.size, ball_) & state.open;
     state.inside_of = ball_.squared_radius;
   }
@@ -148,8 +146,7 @@ void Flood::expand(LeafId leaf, LaneMask added) {
     const LaneMask open = other.open & ~(other.reached | other.pending);
     if (open == 0) continue;
     // In a leaf that the ball takes as a whole, each vertex leads to all others.
-    const LaneMask met = is_whole(other) ? open  // mutant: intersecting-leaf-met-whole
-                                         : kernels_->cross_edges(index_->cross_edges_of(link), added) & open;
+    const LaneMask met = is_whole(other) ? open : kernels_->cross_edges(index_->cross_edges_of(link), added) & open;
     if (met == 0) continue;
     other.pending |= met;
     wake_or_rest(link.leaf, other);

@@ -73,7 +73,7 @@ class NearestSearch {
     std::sort(children.begin(), children.begin() + static_cast<std::ptrdiff_t>(size),
               [](const Child& a, const Child& b) { return a.low < b.low; });
     for (const Child& child : std::span(children).first(size)) {
-      if (child.low > distance_) return;  // mutant: nearest-looks-at-one-node
+      if (child.low > distance_) return;
       visit(child.place);
     }
   }
@@ -84,7 +84,7 @@ class NearestSearch {
       const double distance = std::sqrt(squared_distance(center_.exact, p));  // different squares may have one root
       if (distance > distance_) continue;
       const VertexId id = index_->id(v);
-      if (distance == distance_ && best_ < id) continue;  // mutant: nearest-ignores-ties
+      if (distance == distance_ && best_ < id) continue;
       distance_ = distance;
       best_ = id;
     }

@@ -47,12 +47,12 @@ void RegionSearcher::nested(const Start& start, std::span<const double> radii, s
       searcher.search(start.vertex(), radius);
       state.answer.assign_difference(searcher.answer, before);
       append(state.answer);
-      std::swap(before, searcher.answer);  // mutant: nested-rings-overlap
+      std::swap(before, searcher.answer);
     }
   } else {
     state.begin(start, filter);
     for (const double radius : radii) {
-      const std::size_t before = state.flood.reached().size();  // mutant: rings-of-a-flood-overlap
+      const std::size_t before = state.flood.reached().size();
       state.flood.grow(radius);
       state.collect_found(before);
       append(state.answer);

@@ -80,13 +80,13 @@ void PathSearch::search_open_bucket() {
   const auto begin = static_cast<std::ptrdiff_t>(found_.size());
   int rounds = 0;
   for (; take_round(); ++rounds) {
-    if (rounds < kRounds) {  // mutant: bucket-never-in-order
+    if (rounds < kRounds) {
       follow_round();
     } else {
       follow_in_order();
     }
   }
-  if (rounds < 2) return;  // mutant: longer-path-found-too
+  if (rounds < 2) return;
   const auto is_longer_than_least = [this](const Path& path) { return !is_least(path); };
   found_.erase(std::remove_if(found_.begin() + begin, found_.end(), is_longer_than_least), found_.end());
 }
@@ -161,9 +161,9 @@ void PathSearch::follow(const Path& path) {
 
 void PathSearch::push_shorter() {
   for (const Path& path : std::span(shorter_).first(shorter_count_)) {
-    if (!(path.length <= radius_)) {  // mutant: path-of-the-radius-refused
+    if (!(path.length <= radius_)) {
       left_.push_back(path.end);
-    } else if (walls_->has_at(path.end)) {  // mutant: path-through-a-wall
+    } else if (walls_->has_at(path.end)) {
       lengths_[path.end] = kWall;
       left_.push_back(path.end);
     } else {

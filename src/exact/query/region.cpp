@@ -43,7 +43,7 @@ SearcherAccess::State& RegionSearcher::State::searcher() {
 }
 
 LaneMask RegionSearcher::State::without_ignored(const LeafSubset& subset) const {
-  return subset.lanes & ~ignored.of(subset.leaf);  // mutant: ignored-vertices-are-found
+  return subset.lanes & ~ignored.of(subset.leaf);
 }
 
 void RegionSearcher::State::collect_found(std::size_t skip) {

@@ -27,7 +27,7 @@ void RingSearch::advance() {
     for_each_lane(subset.lanes, [&](unsigned lane) { neighbors |= index_->adjacency[first + lane]; });
     add(subset.leaf, neighbors);
     for (const Link& link : index_->links_of(subset.leaf)) {
-      if ((link.boundary & subset.lanes) == 0) continue;  // mutant: ring-needs-whole-boundary
+      if ((link.boundary & subset.lanes) == 0) continue;
       add(link.leaf, kernels_->cross_edges(index_->cross_edges_of(link), subset.lanes));
     }
   }

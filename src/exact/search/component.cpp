@@ -7,7 +7,6 @@ namespace meshhood {
 
 void Component::find(const Query& query, Reach& reach, VertexSet& answer) {
   marks_.spread(query, reach);
-  // mutant: nothing-united
   if (!marks_.open_groups().empty() || !marks_.open_places().empty()) open_.unite(reach, marks_);
   answer.make_room(kFanOut * reach.groups().size());
   std::size_t place = 0;
@@ -24,9 +23,9 @@ void Component::add_group(std::uint32_t group, const Reach& reach, std::size_t& 
     const unsigned is_home = state.home >> i & 1U;
     if (index_->is_of_leaves(group)) {
       // Without branches, which could not be predicted.
-      const LaneMask lanes = marks_.lanes(place) & (is_home - 1U);  // mutant: whole-leaf-with-lanes-of-another
+      const LaneMask lanes = marks_.lanes(place) & (is_home - 1U);
       answer.add_if(is_home != 0 || lanes != 0, run_of(record, i), lanes);
-      place += 1U - is_home;  // mutant: place-not-counted
+      place += 1U - is_home;
     } else if (is_home != 0) {
       answer.add(run_of(record, i));
     } else {

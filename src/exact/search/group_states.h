@@ -33,9 +33,8 @@ class GroupStates : public EpochArray<GroupState> {
 
   /// The whole node that is `node` or covers it, or `kNoNode`.
   [[nodiscard]] NodeId whole_node(NodeId node) const {
-    while (node != kNoNode && node / kFanOut < end_group_) {  // mutant: levels-above-the-start-count
+    while (node != kNoNode && node / kFanOut < end_group_) {
       const std::size_t group = node / kFanOut;
-      // mutant: node-above-a-refined-one-counts
       if (is_known(group)) return ((*this)[group].whole >> node % kFanOut & 1U) != 0 ? node : kNoNode;
       node = parents_[group];
     }

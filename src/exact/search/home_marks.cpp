@@ -29,13 +29,13 @@ void HomeMarks::begin(const Query& query, const Reach& reach) {
     const NodeId whole = states_->whole_node(leaf);
     if (whole != kNoNode) (*states_)[whole / kFanOut].home |= node_at(whole % kFanOut);
   };
-  mark(query.leaf());  // mutant: query-leaf-not-marked
+  mark(query.leaf());
   const std::size_t place = reach.place_of(query.leaf());
   if (place == Reach::kNoPlace) return;
   const LaneMask* adjacency = &index_->adjacency[index_->leaves[query.leaf()].first];
   const LaneMask piece = kernels_->reachable(adjacency, reach.surface_leaves()[place].lanes, query.lane());
   for (const Link& link : index_->links_of(query.leaf())) {
-    if ((link.boundary & piece) != 0) mark(link.leaf);  // mutant: mark-of-another-piece
+    if ((link.boundary & piece) != 0) mark(link.leaf);
   }
 }
 
@@ -51,15 +51,13 @@ void HomeMarks::mark_nodes(std::uint32_t group) {
   } else {
     for (const NodeLink& link : index_->node_links_of(record)) linked |= link.mine & (0U - covers(link.node()));
   }
-  // mutant: mark-of-an-outside-node
   state.home = reachable_nodes(record.linked, static_cast<NodeSet>(linked & state.whole), state.whole);
-  leaves_.add(group, state.home);  // mutant: marks-not-added-to-the-leaves
+  leaves_.add(group, state.home);
 }
 
 /// Whether a node above the leaves, or a larger one that covers it, has a mark: 1 or 0.
 unsigned HomeMarks::covers(NodeId node) const {
   // A node of a known group may have marks below it that are not its own.
-  // mutant: mark-below-taken-for-the-node
   if (states_->is_known(node / kFanOut)) return (*states_)[node / kFanOut].home >> node % kFanOut & 1U;
   return leaves_.has_below(node);
 }
@@ -70,7 +68,6 @@ void HomeMarks::keep_open(std::span<const std::uint32_t> groups) {
   std::size_t kept = 0;
   for (const std::uint32_t group : groups) {
     open_groups_[kept] = group;
-    // mutant: open-groups-dropped
     kept += static_cast<std::size_t>((*states_)[group].whole != (*states_)[group].home);
   }
   open_groups_.resize(kept);
@@ -80,12 +77,12 @@ void HomeMarks::keep_open(std::span<const std::uint32_t> groups) {
 void HomeMarks::mark_leaf(const Query& query, const LeafSubset& leaf, std::size_t place) {
   LaneMask linked = leaf.leaf == query.leaf() ? query.lane() : 0;
   for (const Link& link : index_->links_of(leaf.leaf)) linked |= link.boundary & (0U - leaves_.has(link.leaf));
-  linked &= leaf.lanes;                       // mutant: mark-of-a-vertex-outside
-  if (linked != 0 && linked != leaf.lanes) {  // mutant: half-of-a-piece-marked
+  linked &= leaf.lanes;
+  if (linked != 0 && linked != leaf.lanes) {
     linked = kernels_->reachable(&index_->adjacency[index_->leaves[leaf.leaf].first], leaf.lanes, linked);
   }
   lanes_[place] = linked;
-  if (linked != leaf.lanes) open_places_.push_back(place);  // mutant: open-pieces-dropped
+  if (linked != leaf.lanes) open_places_.push_back(place);
 }
 
 }  // namespace meshhood

@@ -36,7 +36,7 @@ LaneMask LeafBfs::visit(LeafId leaf) {
   if (from == 0) return 0;
   const LaneMask added =
       state.is_whole ? state.open : kernels_->reachable(&index_->adjacency[record.first], state.open, from);
-  reached_.insert(leaf);  // mutant: reached-leaf-not-listed
+  reached_.insert(leaf);
   state.reached |= added;
   state.open &= ~added;
   return added;
@@ -45,11 +45,10 @@ LaneMask LeafBfs::visit(LeafId leaf) {
 /// Makes the vertices pending that edges from the vertices `added` of the leaf lead to.
 void LeafBfs::expand(LeafId leaf, LaneMask added) {
   for (const Link& link : index_->links_of(leaf)) {
-    if ((link.boundary & added) == 0) continue;  // mutant: link-needs-whole-boundary
+    if ((link.boundary & added) == 0) continue;
     State& other = state_of(link.leaf);
     const LaneMask open = other.open & ~other.pending;
     if (open == 0) continue;
-    // mutant: link-reaches-every-lane
     const LaneMask met = other.is_whole ? open : kernels_->cross_edges(index_->cross_edges_of(link), added) & open;
     if (met == 0) continue;
     if (other.pending == 0) queue_.push_back(link.leaf);
@@ -63,9 +62,7 @@ LeafBfs::State& LeafBfs::state_of(LeafId leaf) {
   const Leaf& record = index_->leaves[leaf];
   const Containment side = classify(record.bounds, query_->tree_ball);
   if (side != Containment::Outside) prefetch_leaf(record, side == Containment::Intersecting);
-  // mutant: inside-leaf-taken-as-outside
   return states_.set(leaf, {.open = side == Containment::Outside ? 0 : first_lanes(record.size),
-                            // mutant: disconnected-leaf-taken-whole
                             .is_whole = side == Containment::Inside && record.connected});
 }
 

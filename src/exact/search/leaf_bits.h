@@ -17,7 +17,7 @@ class LeafBits {
   explicit LeafBits(const IndexView& index) : index_(&index), groups_(index.leaf_count() / kFanOut) {}
 
   void clear() {
-    for (const LeafGroupRange& range : added_) fill(range, 0);  // mutant: bits-of-an-earlier-query
+    for (const LeafGroupRange& range : added_) fill(range, 0);
     added_.clear();
   }
 
@@ -25,11 +25,11 @@ class LeafBits {
   void add(std::uint32_t group, NodeSet nodes) {
     if (index_->is_of_leaves(group)) {
       added_.push_back({group, group + 1});
-      groups_[group] |= nodes;  // mutant: one-addition-a-group
+      groups_[group] |= nodes;
     } else {
       for_each_node(nodes, [&](unsigned i) {
         added_.push_back(index_->leaf_groups_of(group * kFanOut + i));
-        fill(added_.back(), first_nodes(kFanOut));  // mutant: leaves-of-large-nodes-missing
+        fill(added_.back(), first_nodes(kFanOut));
       });
     }
   }

@@ -24,13 +24,12 @@ void OpenElements::unite(Reach& reach, HomeMarks& marks) {
   cut_leaves();
   for (const std::uint32_t group : marks.open_groups()) {
     if (index_->is_of_leaves(group)) {
-      unite_whole_leaves(group);  // mutant: whole-leaves-not-united
+      unite_whole_leaves(group);
     } else {
-      unite_nodes(group);   // mutant: nodes-of-a-level-not-united
-      unite_beside(group);  // mutant: smaller-nodes-not-united
+      unite_nodes(group);
+      unite_beside(group);
     }
   }
-  // mutant: pieces-of-leaves-not-united
   for (const std::size_t place : marks.open_places()) unite_with_leaves(place);
   mark_united();
 }
@@ -43,7 +42,6 @@ void OpenElements::number_nodes() {
     first_element_[group] = static_cast<Element>(parents_.size());
     for_each_node(open, [&](unsigned) { parents_.push_back(static_cast<Element>(parents_.size())); });
     for_each_node(open, [&](unsigned i) {
-      // mutant: open-nodes-of-a-group-not-united
       const auto before = static_cast<NodeSet>(index_->records[group].linked[i] & open & (node_at(i) - 1U));
       for_each_node(before,
                     [&](unsigned k) { unite(element_of(group * kFanOut + i), element_of(group * kFanOut + k)); });
@@ -60,7 +58,7 @@ void OpenElements::cut_leaves() {
     first_piece_.resize(place + 1, static_cast<std::uint32_t>(pieces_.size()));
     const LaneMask* adjacency = &index_->adjacency[index_->leaves[leaves[place].leaf].first];
     for (LaneMask left = leaves[place].lanes & ~marks_->lanes(place); left != 0; left &= ~pieces_.back()) {
-      pieces_.push_back(kernels_->reachable(adjacency, left, left & -left));  // mutant: pieces-not-cut
+      pieces_.push_back(kernels_->reachable(adjacency, left, left & -left));
     }
   }
   first_piece_.resize(leaves.size() + 1, static_cast<std::uint32_t>(pieces_.size()));
@@ -76,7 +74,7 @@ void OpenElements::unite_nodes(std::uint32_t group) {
     const auto mine = static_cast<NodeSet>(link.mine & state.whole);
     if (mine == 0) continue;
     const NodeId other = states_->whole_node(link.node());
-    if (other == kNoNode) continue;  // mutant: larger-nodes-not-united
+    if (other == kNoNode) continue;
     for_each_node(mine, [&](unsigned i) { unite(element_of(group * kFanOut + i), element_of(other)); });
   }
 }
@@ -87,7 +85,7 @@ void OpenElements::unite_beside(std::uint32_t group) {
   const GroupRecord& record = index_->records[group];
   const NodeSet open = open_nodes(state);
   unsigned linked = 0;
-  for_each_node(open, [&](unsigned i) { linked |= record.linked[i]; });  // mutant: nodes-below-the-group-not-visited
+  for_each_node(open, [&](unsigned i) { linked |= record.linked[i]; });
   for_each_node(static_cast<NodeSet>(linked & state.intersecting),
                 [&](unsigned i) { unite_below(record.first_child + i); });
   for (const NodeLink& link : index_->node_links_of(record)) {
@@ -95,7 +93,7 @@ void OpenElements::unite_beside(std::uint32_t group) {
     const unsigned place = link.node() % kFanOut;
     if ((link.mine & open) == 0 || !states_->is_known(other)) continue;
     if (((*states_)[other].intersecting & node_at(place)) == 0) continue;
-    unite_below(index_->records[other].first_child + place);  // mutant: nodes-below-links-not-visited
+    unite_below(index_->records[other].first_child + place);
   }
 }
 
@@ -104,12 +102,12 @@ void OpenElements::unite_below(std::uint32_t group) {
   GroupState& state = (*states_)[group];
   if (state.is_united) return;
   state.is_united = true;
-  unite_nodes(group);  // mutant: nodes-below-not-united
+  unite_nodes(group);
   for_each_node(state.intersecting, [&](unsigned i) {
     if (index_->is_of_leaves(group)) {
-      unite_with_nodes(reach_->place_of(group * kFanOut + i));  // mutant: leaves-below-not-united
+      unite_with_nodes(reach_->place_of(group * kFanOut + i));
     } else {
-      unite_below(index_->records[group].first_child + i);  // mutant: levels-below-not-visited
+      unite_below(index_->records[group].first_child + i);
     }
   });
 }
@@ -119,13 +117,12 @@ void OpenElements::unite_whole_leaves(std::uint32_t group) {
   for_each_node(open_nodes((*states_)[group]), [&](unsigned i) {
     const Element mine = element_of(group * kFanOut + i);
     for (const Link& link : index_->links_of(group * kFanOut + i)) {
-      if (marks_->has(link.leaf) != 0) {  // mutant: mark-beside-a-leaf-ignored
+      if (marks_->has(link.leaf) != 0) {
         unite(mine, kMarked);
       } else if (leaves_.has(link.leaf) != 0) {
         unite(mine, element_of(states_->whole_node(link.leaf)));
       } else if (const std::size_t place = reach_->place_of(link.leaf); place != Reach::kNoPlace) {
         const LaneMask met = kernels_->cross_edges(index_->cross_edges_of(link), ~LaneMask{0});
-        // mutant: whole-leaf-united-with-every-piece
         for_each_element(place, met & reach_->surface_leaves()[place].lanes,
                          [&](Element theirs, LaneMask) { unite(mine, theirs); });
       }
@@ -139,7 +136,6 @@ void OpenElements::unite_with_nodes(std::size_t place) {
   for (const Link& link : index_->links_of(leaf)) {
     if ((link.boundary & lanes) == 0 || leaves_.has(link.leaf) == 0) continue;
     const Element other = element_of(states_->whole_node(link.leaf));
-    // mutant: node-united-with-every-piece
     for_each_element(place, link.boundary & lanes, [&](Element mine, LaneMask) { unite(mine, other); });
   }
 }
@@ -153,7 +149,6 @@ void OpenElements::unite_with_leaves(std::size_t place) {
     const std::size_t other = reach_->place_of(link.leaf);
     if (other == Reach::kNoPlace) continue;
     for_each_element(place, link.boundary & open, [&](Element mine, LaneMask piece) {
-      // mutant: piece-united-by-edges-of-another
       const LaneMask met = kernels_->cross_edges(index_->cross_edges_of(link), piece) & leaves[other].lanes;
       for_each_element(other, met, [&](Element theirs, LaneMask) { unite(mine, theirs); });
     });
@@ -166,13 +161,12 @@ void OpenElements::mark_united() {
     NodeSet united = 0;
     Element element = first_element_[group];
     for_each_node(open_nodes((*states_)[group]), [&](unsigned i) {
-      if (root_of(element++) == kMarked) united |= node_at(i);  // mutant: nodes-of-other-components-kept
+      if (root_of(element++) == kMarked) united |= node_at(i);
     });
     marks_->add_nodes(group, united);
   }
   for (const std::size_t place : marks_->open_places()) {
     for (std::uint32_t piece = first_piece_[place]; piece < first_piece_[place + 1]; ++piece) {
-      // mutant: pieces-of-other-components-kept
       if (root_of(first_piece_element_ + piece) == kMarked) marks_->add_lanes(place, pieces_[piece]);
     }
   }
@@ -182,14 +176,14 @@ OpenElements::Element OpenElements::element_of(NodeId whole) const {
   const GroupState& state = (*states_)[whole / kFanOut];
   const NodeSet open = open_nodes(state);
   const NodeSet node = node_at(whole % kFanOut);
-  if ((open & node) == 0) return kMarked;  // mutant: marked-node-taken-as-open
+  if ((open & node) == 0) return kMarked;
   return first_element_[whole / kFanOut] + static_cast<Element>(count_of(open & (node - 1U)));
 }
 
 /// Calls `f(element, lanes)` for the elements that have some of the lanes `touching` of a surface leaf.
 template <class F>
 void OpenElements::for_each_element(std::size_t place, LaneMask touching, F&& f) const {
-  if ((marks_->lanes(place) & touching) != 0) f(kMarked, marks_->lanes(place));  // mutant: marked-lanes-not-united
+  if ((marks_->lanes(place) & touching) != 0) f(kMarked, marks_->lanes(place));
   for (std::uint32_t piece = first_piece_[place]; piece < first_piece_[place + 1]; ++piece) {
     if ((pieces_[piece] & touching) != 0) f(first_piece_element_ + piece, pieces_[piece]);
   }
@@ -205,7 +199,7 @@ OpenElements::Element OpenElements::root_of(Element element) {
 void OpenElements::unite(Element a, Element b) {
   a = root_of(a);
   b = root_of(b);
-  parents_[std::max(a, b)] = std::min(a, b);  // mutant: marked-element-is-no-root
+  parents_[std::max(a, b)] = std::min(a, b);
 }
 
 }  // namespace meshhood

@@ -17,7 +17,7 @@ void Reach::run(const Query& query) {
   const Home small = home_of(query, kSmallNodes);
   const Home large = home_of(query, kLargeNodes);
   const bool is_reached = large.level > small.level && reach_from(large, query, small.level);
-  if (!is_reached) static_cast<void>(reach_from(small, query, small.level));  // mutant: no-second-start
+  if (!is_reached) static_cast<void>(reach_from(small, query, small.level));
   find_surface_leaves(query);
 }
 
@@ -63,7 +63,6 @@ void Reach::find_surface_leaves(const Query& query) {
       continue;
     }
     const std::size_t group = leaves[i] / kFanOut;
-    // mutant: place-of-the-last-leaf-of-a-group
     if (surface_leaves_.empty() || surface_leaves_.back().leaf / kFanOut != group) {
       first_surface_leaf_[group] = static_cast<std::uint32_t>(surface_leaves_.size());
     }
@@ -76,16 +75,16 @@ void Reach::find_surface_leaves(const Query& query) {
 void Reach::settle(LeafId leaf, bool is_whole) {
   GroupState& state = states_[leaf / kFanOut];
   const NodeSet bit = node_at(leaf % kFanOut);
-  state.intersecting &= static_cast<NodeSet>(~bit);  // mutant: settled-leaf-stays-a-surface-leaf
-  if (is_whole) state.whole |= bit;                  // mutant: whole-surface-leaf-dropped
+  state.intersecting &= static_cast<NodeSet>(~bit);
+  if (is_whole) state.whole |= bit;
 }
 
 std::size_t Reach::place_of(LeafId leaf) const {
   const std::uint32_t group = leaf / kFanOut;
-  if (!states_.is_known(group)) return kNoPlace;  // mutant: place-of-an-earlier-query
+  if (!states_.is_known(group)) return kNoPlace;
   const unsigned intersecting = states_[group].intersecting;
-  if ((intersecting >> leaf % kFanOut & 1U) == 0) return kNoPlace;        // mutant: place-of-a-leaf-that-has-none
-  const unsigned before = intersecting & (node_at(leaf % kFanOut) - 1U);  // mutant: place-of-the-next-leaf
+  if ((intersecting >> leaf % kFanOut & 1U) == 0) return kNoPlace;
+  const unsigned before = intersecting & (node_at(leaf % kFanOut) - 1U);
   return std::size_t{first_surface_leaf_[group]} + count_of(before);
 }
 

@@ -70,7 +70,6 @@ bool Searcher::State::is_alone(std::uint32_t slot) const {
       [&](auto xyz) {
         bool result = true;
         for_each_neighbor(*index, leaf_of(slot), lane_of(slot), [&](std::size_t other) {
-          // mutant: alone-without-boundary, last-neighbor-decides
           result &= !(squared_distance(point(xyz, other), center) <= bounds.leaf.squared_radius);
         });
         return result;

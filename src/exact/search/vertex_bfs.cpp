@@ -25,7 +25,6 @@ bool is_unlike_a_surface(const IndexView& index) {
   constexpr double kFewestEdges = 2;    // of each link
   const auto links = static_cast<double>(index.links.size() - 1);
   const auto cross_edges = static_cast<double>(index.cross_edges.size() - kLeafCapacity);
-  // mutant: few-links-suffice, links-of-many-edges-suffice
   return links > kMostLinks * static_cast<double>(index.vertex_count()) && cross_edges < kFewestEdges * links;
 }
 
@@ -52,7 +51,7 @@ void VertexBfs::run(VertexId v, double squared_radius, VertexSet& answer) {
     if (part.lanes != 0) answer.add_lanes(part);
   };
   found_->take_all([&](std::size_t w) {
-    if (part.lanes == 0 || w >= index_->leaf_begin[part.leaf + 1]) {  // mutant: leaf-of-an-odd-graph-never-ends
+    if (part.lanes == 0 || w >= index_->leaf_begin[part.leaf + 1]) {
       end_part();
       part = {leaf_of(index_->slot[index_->id(w)]), 0};
     }

@@ -21,7 +21,7 @@ void Waves::run(NodeId home, const TreeBall& ball, GroupStates& states) {
   }
   for (const std::uint32_t group : groups_) {
     GroupState& state = states[group];
-    state.whole &= state.reached;  // mutant: unreached-node-in-answer
+    state.whole &= state.reached;
     state.intersecting &= state.reached;
   }
 }
@@ -62,7 +62,6 @@ void Waves::place(std::size_t first_new, const TreeBall& ball, GroupStates& stat
 void Waves::spread(std::uint32_t group, GroupStates& states) {
   const GroupRecord& record = index_->records[group];
   GroupState& state = states[group];
-  // mutant: waves-through-whole-nodes-only
   const auto open = static_cast<NodeSet>((state.whole | state.intersecting) & ~state.reached);
   const NodeSet from = state.pending & open;
   state.pending = 0;
