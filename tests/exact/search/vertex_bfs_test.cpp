@@ -80,7 +80,7 @@ TEST_P(VertexBfsOnFamilies, FindsTheNeighborhoodInIndexOrder) {
     const Oracle oracle(mesh);
     const Index index = build(mesh.view());
     const IndexView& view = IndexAccess::view(index);
-    VertexBfs bfs(view);
+    VertexBfs bfs(view, *IndexAccess::share_graph(index));
     VertexSet answer(view);
     Random random(seed);
     for (int i = 0; i < 5; ++i) {
@@ -244,10 +244,10 @@ TEST(VertexBfs, AnswersOfALoadedAndOfAMappedIndexAreThoseOfTheOracle) {
 
 TEST(VertexBfs, SearchersOfSeveralThreadsShareOneGraph) {
   const Index index = build(make_hubs(2000, 2).view());
-  std::vector<const GraphData*> graphs(4);
+  std::vector<const WeightedGraph*> graphs(4);
   std::vector<std::thread> threads;
-  for (const GraphData*& graph : graphs) {
-    threads.emplace_back([&] { graph = &IndexAccess::view(index).graph->of(IndexAccess::view(index)); });
+  for (const WeightedGraph*& graph : graphs) {
+    threads.emplace_back([&] { graph = &IndexAccess::share_graph(index)->of(IndexAccess::view(index)); });
   }
   for (std::thread& thread : threads) thread.join();
   EXPECT_THAT(graphs, testing::Each(graphs.front()));
