@@ -32,6 +32,7 @@
 #include "mesh_argument.h"
 #include "peers/quadric_fit.h"
 #include "point_cloud.h"
+#include "program.h"
 
 namespace meshhood::bench {
 namespace {
