@@ -217,7 +217,7 @@ def positive(value, name):
 
 
 def _integer(value, name):
-    if isinstance(value, bool):  # a subclass of int
+    if isinstance(value, (bool, np.bool_)):  # a subclass of int; older NumPy converts its own with a warning
         raise TypeError(f"{name}: expected an integer, not bool")
     try:
         return operator.index(value)
