@@ -226,13 +226,21 @@ class FacesView {
   /// of strided triangles.
   template <class F>
   void for_each(F&& f) const {
+    for_each(0, count_, f);
+  }
+
+  /// The same for the faces `begin .. end - 1`.
+  template <class F>
+  void for_each(std::size_t begin, std::size_t end, F&& f) const {
     std::vector<VertexId> copy;
     if (!are_triangles()) {
-      for (std::size_t face = 0; face < count_; ++face) f(face, polygon(face, copy));
+      for (std::size_t face = begin; face < end; ++face) f(face, polygon(face, copy));
       return;
     }
-    for (std::size_t face = 0; face < count_;) {
-      const std::span<const VertexId> corners = triangles_from(face, copy);
+    for (std::size_t face = begin; face < end;) {
+      const std::span<const VertexId> all = triangles_from(face, copy);
+      const std::size_t left = 3 * (end - face);
+      const std::span<const VertexId> corners = all.first(all.size() < left ? all.size() : left);
       for (std::size_t i = 0; i < corners.size(); i += 3) f(face++, corners.subspan(i, 3));
     }
   }

@@ -11,24 +11,12 @@
 
 #include "meshhood/error.h"
 
+#include "base/sides.h"
+#include "base/validate.h"
 #include "shared/distance.h"
 
 namespace meshhood {
 namespace {
-
-/// Calls `f(v, w)` for every pair of consecutive distinct corners, the last with the first. A side that several
-/// polygons share is repeated.
-template <class F>
-void for_each_side(const FacesView& faces, F&& f) {
-  faces.for_each([&](std::size_t, std::span<const VertexId> corners) {
-    if (corners.empty()) return;
-    VertexId previous = corners.back();
-    for (const VertexId corner : corners) {
-      if (corner != previous) f(previous, corner);
-      previous = corner;
-    }
-  });
-}
 
 /// Sorts each row, removes duplicates, and closes the gaps.
 Adjacency with_unique_rows(Adjacency all, TaskContext& task) {
@@ -103,20 +91,24 @@ void validate_offsets(const AdjacencyView& adjacency) {
 
 }  // namespace
 
+void check_corner_count(const FacesView& faces) {
+  // Every corner starts one side, and each side is in two rows.
+  if (faces.corner_count() > kMaxNeighbors / 2) {
+    raise(ErrorCode::TooLarge, std::to_string(faces.corner_count()) + " face corners, but the limit is " +
+                                   std::to_string(kMaxNeighbors / 2));
+  }
+}
+
 Adjacency adjacency(const MeshView& mesh) {
   TaskContext task;
   return adjacency(mesh, task);
 }
 
 Adjacency adjacency(const MeshView& mesh, TaskContext& task) {
-  validate(mesh);
-  // Every corner starts one side, and each side is in two rows.
-  if (mesh.faces.corner_count() > kMaxNeighbors / 2) {
-    raise(ErrorCode::TooLarge, std::to_string(mesh.faces.corner_count()) + " face corners, but the limit is " +
-                                   std::to_string(kMaxNeighbors / 2));
-  }
+  validate(mesh, task);
+  check_corner_count(mesh.faces);
   const auto for_each_neighbor = [&](auto&& f) {
-    for_each_side(mesh.faces, [&](VertexId v, VertexId w) {
+    for_each_side(mesh.faces, 0, mesh.faces.size(), [&](VertexId v, VertexId w) {
       f(v, w);
       f(w, v);
     });

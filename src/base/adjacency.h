@@ -24,6 +24,9 @@ template <class ForEach>
   return result;
 }
 
+/// Throws Error{TooLarge} if the neighbors over all vertices may be more than `kMaxNeighbors`.
+void check_corner_count(const FacesView& faces);
+
 /// The graph of a mesh, on several threads.
 [[nodiscard]] Adjacency adjacency(const MeshView& mesh, TaskContext& task);
 

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <vector>
+
+#include "base/parallel.h"
 
 namespace meshhood {
 namespace {
@@ -13,15 +16,25 @@ struct Box {
   Point high;
 };
 
+void extend(Box& box, const Box& by) {
+  box.low = {std::min(box.low.x, by.low.x), std::min(box.low.y, by.low.y), std::min(box.low.z, by.low.z)};
+  box.high = {std::max(box.high.x, by.high.x), std::max(box.high.y, by.high.y), std::max(box.high.z, by.high.z)};
+}
+
 template <class Real>
-Box bounding_box(const StridedPositions<Real>& xyz) {
-  Box box{point(xyz, 0), point(xyz, 0)};
-  for (std::size_t v = 1; v < xyz.size(); ++v) {
-    const Point p = point(xyz, v);
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-  }
-  return box;
+Box bounding_box(const StridedPositions<Real>& xyz, TaskContext& task) {
+  constexpr std::size_t kGrain = 65536;  // enough vertices for the cost of starting a thread
+  std::vector<Box> boxes((xyz.size() + kGrain - 1) / kGrain);
+  task.parallel_for(xyz.size(), kGrain, [&](unsigned, std::size_t begin, std::size_t end) {
+    Box box{point(xyz, begin), point(xyz, begin)};
+    for (std::size_t v = begin + 1; v < end; ++v) {
+      const Point p = point(xyz, v);
+      extend(box, {p, p});
+    }
+    boxes[begin / kGrain] = box;
+  });
+  for (const Box& box : boxes) extend(boxes.front(), box);
+  return boxes.front();
 }
 
 /// A power of two by which lengths up to `extent` become at most 1.
@@ -34,8 +47,13 @@ double unit_scale(double extent) {
 }  // namespace
 
 Frame make_frame(const PositionsView& positions) {
+  TaskContext task;
+  return make_frame(positions, task);
+}
+
+Frame make_frame(const PositionsView& positions, TaskContext& task) {
   if (positions.size() == 0) return {};
-  const Box box = positions.visit([](const auto& xyz) { return bounding_box(xyz); });
+  const Box box = positions.visit([&](const auto& xyz) { return bounding_box(xyz, task); });
   assert(box.low.x <= box.high.x && box.low.y <= box.high.y && box.low.z <= box.high.z);  // so they are numbers
   const Point origin{box.low.x / 2 + box.high.x / 2, box.low.y / 2 + box.high.y / 2, box.low.z / 2 + box.high.z / 2};
   // Measured from the rounded center: half the width of the box may round to less.

@@ -10,6 +10,8 @@
 
 namespace meshhood {
 
+class TaskContext;
+
 /// A point in the coordinates of a `Frame`.
 struct FramePoint {
   float x;
@@ -56,6 +58,7 @@ struct Frame {
 
 /// The frame centered at the bounding box of the positions, which must be valid.
 [[nodiscard]] Frame make_frame(const PositionsView& positions);
+[[nodiscard]] Frame make_frame(const PositionsView& positions, TaskContext& task);
 
 /// A float greater than `value`: the one after the nearest.
 [[nodiscard]] inline float next_above(double value) {

@@ -2,20 +2,41 @@
 #include "meshhood/mesh.h"
 
 #include <algorithm>
+#include <atomic>
 #include <string>
 
 #include "meshhood/error.h"
 
 #include "base/valid_position.h"
+#include "base/validate.h"
 #include "shared/distance.h"
 #include "shared/vertex_range.h"
 
 namespace meshhood {
 namespace {
 
-template <class Real>
-void validate_coordinates(const StridedPositions<Real>& xyz) {
-  for (std::size_t v = 0; v < xyz.size(); ++v) check_position(v, point(xyz, v));
+/// The first of the numbers `0 .. count - 1` that is not valid, whatever the thread that finds one first; `count` if
+/// there is none.
+template <class IsValid>
+std::size_t first_invalid(std::size_t count, TaskContext& task, IsValid&& is_valid) {
+  constexpr std::size_t kGrain = 16384;  // enough work for the cost of starting a thread
+  std::atomic<std::size_t> first{count};
+  task.parallel_for(count, kGrain, [&](unsigned, std::size_t begin, std::size_t end) {
+    std::size_t i = begin;
+    while (i < end && is_valid(i)) ++i;
+    if (i == end) return;
+    for (std::size_t known = first; i < known && !first.compare_exchange_weak(known, i);) {
+    }
+  });
+  return first;
+}
+
+void validate_coordinates(const PositionsView& positions, TaskContext& task) {
+  positions.visit([&](const auto& xyz) {
+    const std::size_t v =
+        first_invalid(xyz.size(), task, [&](std::size_t i) { return is_valid_position(point(xyz, i)); });
+    if (v < xyz.size()) refuse_position(v, point(xyz, v));
+  });
 }
 
 /// Offsets must ascend from 0 to the number of corners.
@@ -93,15 +114,22 @@ CornerPlaces places_of(const FacesView& faces, std::size_t face) {
 }
 
 /// A negative corner is huge when read as unsigned, so that one comparison detects both faults.
-void validate_corners(const FacesView& faces, std::size_t vertices) {
+void validate_corners(const FacesView& faces, std::size_t vertices, TaskContext& task) {
   faces.corners().visit([&](auto corners) {
-    for (std::size_t face = 0; face < faces.size(); ++face) {
-      const auto [first, count, stride] = places_of(faces, face);
-      for (std::size_t i = 0; i < count; ++i) {
-        const auto vertex = corners[first + i * stride];
-        if (static_cast<std::uint64_t>(vertex) >= vertices) raise_corner(face, i, vertex, vertices);
-      }
-    }
+    const auto is_valid = [&](const CornerPlaces& places, std::size_t i) {
+      return static_cast<std::uint64_t>(corners[places.first + i * places.stride]) < vertices;
+    };
+    const std::size_t face = first_invalid(faces.size(), task, [&](std::size_t f) {
+      const CornerPlaces places = places_of(faces, f);
+      bool are_valid = true;
+      for (std::size_t i = 0; i < places.count; ++i) are_valid &= is_valid(places, i);
+      return are_valid;
+    });
+    if (face == faces.size()) return;
+    const CornerPlaces places = places_of(faces, face);
+    std::size_t i = 0;
+    while (is_valid(places, i)) ++i;
+    raise_corner(face, i, corners[places.first + i * places.stride], vertices);
   });
 }
 
@@ -143,6 +171,16 @@ std::span<const VertexId> FacesView::polygon(std::size_t face, std::vector<Verte
 }
 
 void validate(const PositionsView& positions) {
+  TaskContext task;
+  validate(positions, task);
+}
+
+void validate(const MeshView& mesh) {
+  TaskContext task;
+  validate(mesh, task);
+}
+
+void validate(const PositionsView& positions, TaskContext& task) {
   const std::size_t scalars = positions.scalar_count();
   if (scalars % 3 != 0) {
     raise(ErrorCode::InvalidMesh, std::to_string(scalars) + " coordinates, expected three a vertex");
@@ -151,17 +189,17 @@ void validate(const PositionsView& positions) {
     raise(ErrorCode::TooLarge,
           std::to_string(positions.size()) + " vertices, but the limit is " + std::to_string(kMaxVertices));
   }
-  positions.visit([](const auto& xyz) { validate_coordinates(xyz); });
+  validate_coordinates(positions, task);
 }
 
-void validate(const MeshView& mesh) {
-  validate(mesh.positions);
+void validate(const MeshView& mesh, TaskContext& task) {
+  validate(mesh.positions, task);
   if (mesh.faces.are_triangles()) {
     validate_triangles(mesh.faces);
   } else {
     mesh.faces.offsets().visit([&](auto offsets) { validate_offsets(offsets, mesh.faces.corners().size()); });
   }
-  validate_corners(mesh.faces, mesh.positions.size());
+  validate_corners(mesh.faces, mesh.positions.size(), task);
 }
 
 }  // namespace meshhood

@@ -140,12 +140,13 @@ std::optional<Ball> exchange(Support& support, const Point& p) {
   return std::nullopt;
 }
 
-template <class Real>
-std::pair<std::size_t, double> farthest(std::span<const Real> xyz, const Point& from) {
+/// The point farthest from `from` and its squared distance. `at(i)` is point `i`.
+template <class At>
+std::pair<std::size_t, double> farthest(std::size_t count, const At& at, const Point& from) {
   std::size_t index = 0;
   double largest = -1;
-  for (std::size_t i = 0; i < xyz.size() / 3; ++i) {
-    const double d2 = squared_distance(from, point(xyz, i));
+  for (std::size_t i = 0; i < count; ++i) {
+    const double d2 = squared_distance(from, at(i));
     if (d2 > largest) {
       largest = d2;
       index = i;
@@ -154,15 +155,15 @@ std::pair<std::size_t, double> farthest(std::span<const Real> xyz, const Point& 
   return {index, largest};
 }
 
-template <class Real>
-Point smallest_ball_center(std::span<const Real> xyz) {
+template <class At>
+Point smallest_ball_center(std::size_t count, const At& at) {
   Support support;
-  support.add(point(xyz, farthest(xyz, point(xyz, 0)).first));
+  support.add(at(farthest(count, at, at(0)).first));
   Ball ball{support[0], 0};
   for (int exchanges = 0; exchanges < kMaxExchanges; ++exchanges) {
-    const auto [index, d2] = farthest(xyz, ball.center);
+    const auto [index, d2] = farthest(count, at, ball.center);
     if (d2 <= ball.squared_radius * (1 + kTolerance) * (1 + kTolerance)) break;
-    const std::optional<Ball> larger = exchange(support, point(xyz, index));
+    const std::optional<Ball> larger = exchange(support, at(index));
     if (!larger || larger->squared_radius <= ball.squared_radius) break;
     ball = *larger;
   }
@@ -178,11 +179,17 @@ Real round_up(double value) {
 
 }  // namespace
 
+Point bounding_center(std::span<const Point> points) {
+  return smallest_ball_center(points.size(), [&](std::size_t i) { return points[i]; });
+}
+
 template <class Real>
 Sphere<Real> bounding_sphere(std::span<const Real> xyz) {
-  const Point center = smallest_ball_center(xyz);
+  const std::size_t count = xyz.size() / 3;
+  const auto at = [&](std::size_t i) { return point(xyz, i); };
+  const Point center = smallest_ball_center(count, at);
   Sphere<Real> sphere{static_cast<Real>(center.x), static_cast<Real>(center.y), static_cast<Real>(center.z), 0};
-  sphere.radius = round_up<Real>(std::sqrt(farthest(xyz, center_of(sphere)).second));
+  sphere.radius = round_up<Real>(std::sqrt(farthest(count, at, center_of(sphere)).second));
   return sphere;
 }
 

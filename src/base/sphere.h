@@ -13,4 +13,7 @@ namespace meshhood {
 template <class Real>
 [[nodiscard]] Sphere<Real> bounding_sphere(std::span<const Real> xyz);
 
+/// The center of such a sphere around at least one point, not rounded.
+[[nodiscard]] Point bounding_center(std::span<const Point> points);
+
 }  // namespace meshhood

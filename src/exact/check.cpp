@@ -157,7 +157,8 @@ class Check {
     for (const Leaf& leaf : index_.leaves) first_link.push_back(leaf.first_link);
     std::vector<GroupRecord> expected(index_.records.begin(), index_.records.end());
     set_vertices(index_.leaf_begin, index_.levels, expected);
-    const auto links = make_node_links(first_link, index_.links, index_.levels, index_.parents, expected);
+    TaskContext task;
+    const auto links = make_node_links(first_link, index_.links, index_.levels, index_.parents, expected, task);
     const auto is_same = [](const NodeLink& a, const NodeLink& b) { return a.node() == b.node() && a.mine == b.mine; };
     const bool same_links = std::ranges::equal(links, index_.node_links, is_same);
     faults_.expect(same_links, [] { return std::string("the links between nodes are not those of the leaves"); });

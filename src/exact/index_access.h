@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "exact/arrays.h"
+#include "exact/build/edge_source.h"
 #include "exact/kept_graph.h"
 #include "exact/layout.h"
 
@@ -31,11 +32,16 @@ struct IndexAccess {
   [[nodiscard]] static std::shared_ptr<IndexView>& storage(Index& index) { return index.view_; }
   [[nodiscard]] static std::shared_ptr<KeptGraph>& graph(Index& index) { return index.graph_; }
 
-  /// The number of steps of a build, for progress: graph, leaves, links, positions, spheres of leaves, tree.
-  static constexpr std::size_t kBuildSteps = 6;
+  /// The number of steps of a build, for progress: those of `make_leaves`, links between nodes, and those of
+  /// `make_geometry`.
+  static constexpr std::size_t kBuildSteps = 7;
 
-  /// The steps after the graph, which must be valid. The caller reports the last step.
-  [[nodiscard]] static IndexData build_valid(const GraphView& graph, TaskContext& task);
+  /// The arrays of the index of a mesh. The caller reports the last step. Throws as `build`.
+  [[nodiscard]] static IndexData build_arrays(const MeshView& mesh, TaskContext& task);
+
+  /// The same from positions and edges, which must be valid.
+  [[nodiscard]] static IndexData build_arrays(const PositionsView& positions, const EdgeSource& edges,
+                                              TaskContext& task);
 };
 
 }  // namespace meshhood

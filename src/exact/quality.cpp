@@ -117,7 +117,7 @@ GraphData graph_of(const IndexView& index, const std::vector<std::uint32_t>& sam
 /// The radius of the new leaf of each vertex, in the frame.
 std::vector<double> new_radii(const GraphData& graph, const Frame& frame) {
   TaskContext task;
-  const LeafPartition leaves = make_leaves(graph.view(), frame, task);
+  const LeafPartition leaves = make_leaves(graph.view().positions, EdgeSource(graph.view().adjacency), frame, task);
   const auto& xyz = std::get<std::vector<double>>(graph.positions);
   std::vector<double> radii(leaves.slot.size());
   for (std::size_t leaf = 0; leaf + 1 < leaves.leaf_begin.size(); ++leaf) {

@@ -86,11 +86,7 @@ ReorderedMesh reorder(const MeshView& mesh, const BuildOptions& options) {
     raise(ErrorCode::TooLarge, std::to_string(mesh.faces.size()) + " faces, but the limit is " +
                                    std::to_string(std::numeric_limits<std::uint32_t>::max()));
   }
-  IndexData arrays;
-  {
-    const Adjacency graph = adjacency(mesh, task);
-    arrays = IndexAccess::build_valid({mesh.positions, graph.view()}, task);
-  }
+  IndexData arrays = IndexAccess::build_arrays(mesh, task);
   std::vector<VertexId> permutation = adopt_order(arrays);
   ReorderedMesh result{IndexAccess::make(std::move(arrays)), std::move(permutation), {}, {}, {}};
   add_faces(mesh.faces, inverse(result.permutation), result);

@@ -87,7 +87,9 @@ void verify_node_links(const IndexView& index, const SectionReader& file) {
   set_vertices(index.leaf_begin, index.levels, expected);
   std::vector<std::uint32_t> first_link;
   for (const Leaf& leaf : index.leaves) first_link.push_back(leaf.first_link);
-  const std::vector<NodeLink> links = make_node_links(first_link, index.links, index.levels, index.parents, expected);
+  TaskContext task;
+  const std::vector<NodeLink> links =
+      make_node_links(first_link, index.links, index.levels, index.parents, expected, task);
   for (std::size_t group = 0; group < expected.size(); ++group) {
     // All bytes are defined. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
     if (std::memcmp(&expected[group], &index.records[group], sizeof(GroupRecord)) == 0) continue;

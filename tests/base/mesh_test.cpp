@@ -14,6 +14,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/validate.h"
 #include "support/refusal.h"
 
 namespace meshhood::test {
@@ -229,6 +230,22 @@ TEST(Distance, RefusesAVertexOutOfRange) {
   const auto out_of_range = ErrorCode::VertexOutOfRange;
   expect_refused(out_of_range, "vertex 3, but the mesh has 3", [] { static_cast<void>(distance(kThreePoints, 3, 0)); });
   expect_refused(out_of_range, "vertex 9, but the mesh has 3", [] { static_cast<void>(distance(kThreePoints, 0, 9)); });
+}
+
+TEST(ValidateOnThreads, NamesTheFirstFaultWhateverTheThreadThatFindsOneFirst) {
+  std::vector<float> xyz(3 * 100000, 0.5F);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  xyz[3 * 99999] = xyz[3 * 60000 + 1] = xyz[3 * 60000 + 2] = nan;
+  std::vector<std::uint32_t> corners(3 * 100000, 1);
+  corners[3 * 99999] = corners[3 * 40000 + 2] = corners[3 * 40000 + 1] = 100000;
+  const Progress silent;
+  for (int i = 0; i < 50; ++i) {
+    TaskContext task(4, silent, 0);
+    expect_refused(ErrorCode::InvalidMesh, "vertex 60000: y is nan", [&] { validate(PositionsView(xyz), task); });
+    const std::vector<float> valid(xyz.size(), 0.5F);
+    expect_refused(ErrorCode::InvalidMesh, "face 40000: corner 1 is vertex 100000",
+                   [&] { validate(MeshView{valid, FacesView::triangles(corners)}, task); });
+  }
 }
 
 }  // namespace

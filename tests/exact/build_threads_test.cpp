@@ -65,13 +65,13 @@ std::size_t count_reports(const MeshView& mesh, unsigned threads) {
   const auto progress = [&](std::size_t done, std::size_t total) {
     EXPECT_EQ(std::this_thread::get_id(), caller);
     EXPECT_GE(done, last);
-    EXPECT_EQ(done == total, done == 6);
+    EXPECT_EQ(done == total, done == 7);
     last = done;
     ++reports;
     return true;
   };
   static_cast<void>(build(mesh, {.threads = threads, .progress = progress}));
-  EXPECT_EQ(last, 6U);
+  EXPECT_EQ(last, 7U);
   return reports;
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "exact/build/cell_components.h"
 
-#include <algorithm>
+#include <bit>
 #include <cstdio>
 #include <numeric>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -19,45 +20,63 @@
 namespace meshhood::test {
 namespace {
 
-/// The vertices of a mesh in kd order, and its graph.
-struct Cells {
-  explicit Cells(const TestMesh& mesh, unsigned threads = 1)
-      : task(threads, silent, 0),
-        adjacency(meshhood::adjacency(mesh.view())),
-        points(kd_points(mesh)),
-        graph((kd_order(points, kCellSize), points), adjacency.view(), task) {}
+/// The cells of a mesh, and its graph.
+struct Divided {
+  explicit Divided(const TestMesh& mesh, unsigned threads = 1)
+      : Divided(mesh.positions_view(), meshhood::adjacency(mesh.view()), threads) {}
 
-  static std::vector<KdPoint> kd_points(const TestMesh& mesh) {
-    const Frame frame = make_frame(mesh.positions_view());
-    std::vector<KdPoint> result;
-    for (std::uint32_t v = 0; v < mesh.size(); ++v) {
-      const FramePoint p = frame.round(point(mesh.positions_view(), v));
-      result.push_back({{p.x, p.y, p.z}, v});
+  Divided(const PositionsView& positions, Adjacency graph, unsigned threads)
+      : adjacency(std::move(graph)), cells(make_cells(positions, make_frame(positions), task)) {
+    const Progress silent;
+    TaskContext on_threads(threads, silent, 0);
+    links = make_links(EdgeSource(adjacency.view()), cells.slot, cells.begin, on_threads);
+    components = split_cells(cells, links, on_threads);
+    leaves = merge_small(components, links);
+    for (const KdPoint& p : cells.points) {
+      const std::uint32_t slot = cells.slot[p.id];
+      component_of.push_back(components.at(leaf_of(slot), lane_of(slot)));
+      leaf_of_point.push_back(leaves.leaf_of[component_of.back()]);
+    }
+  }
+
+  [[nodiscard]] std::size_t size() const { return cells.points.size(); }
+
+  /// The points that an edge joins to point `i`.
+  [[nodiscard]] std::vector<std::size_t> neighbors(std::size_t i) const {
+    std::vector<std::size_t> result;
+    for (const VertexId w : adjacency.view()[cells.points[i].id]) {
+      result.push_back(std::size_t{cells.begin[leaf_of(cells.slot[w])]} + lane_of(cells.slot[w]));
     }
     return result;
   }
 
-  [[nodiscard]] std::vector<std::size_t> neighbors(std::size_t i) const {
-    std::vector<std::size_t> result;
-    graph.for_each_neighbor(i, [&](std::size_t other) { result.push_back(other); });
-    return result;
+  [[nodiscard]] std::size_t size_of_component(std::size_t component) const {
+    return count_of(components.all[component].lanes);
+  }
+  [[nodiscard]] std::size_t size_of_leaf(std::size_t leaf) const {
+    std::size_t size = 0;
+    for (const CellComponent& part : leaves[leaf]) size += count_of(part.lanes);
+    return size;
   }
 
-  Progress silent;
   TaskContext task;
   Adjacency adjacency;
-  std::vector<KdPoint> points;
-  CellGraph graph;
+  Cells cells;
+  Links links;
+  CellComponents components;
+  MergedComponents leaves;
+  std::vector<std::uint32_t> component_of;   // by point in kd order
+  std::vector<std::uint32_t> leaf_of_point;  // by point in kd order
 };
 
 /// For each vertex in kd order the first vertex that is connected to it within its cell.
-std::vector<std::size_t> connected_within_cells(const Cells& cells) {
-  std::vector<std::size_t> first(cells.graph.size());
+std::vector<std::size_t> connected_within_cells(const Divided& mesh) {
+  std::vector<std::size_t> first(mesh.size());
   std::iota(first.begin(), first.end(), 0);
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t i = 0; i < first.size(); ++i) {
-      for (const std::size_t other : cells.neighbors(i)) {
+      for (const std::size_t other : mesh.neighbors(i)) {
         if (other / kCellSize != i / kCellSize || first[other] >= first[i]) continue;
         first[i] = first[other];
         changed = true;
@@ -67,72 +86,70 @@ std::vector<std::size_t> connected_within_cells(const Cells& cells) {
   return first;
 }
 
-std::vector<std::uint32_t> sizes_of(const CellComponents& components) {
-  std::vector<std::uint32_t> result(components.size.size());
-  for (const std::uint32_t c : components.of) ++result[c];
-  return result;
-}
-
 class CellComponentsOfFamilies : public testing::TestWithParam<Family> {};
 
 TEST_P(CellComponentsOfFamilies, ComponentsOfCellsAreThoseOfTheGraphWithinEachCell) {
   std::size_t count = 0;
   for (const std::size_t vertices : {1U, 50U, 2000U}) {
-    Cells cells(make_mesh(GetParam(), 3, vertices));
-    const CellComponents components = split_cells(cells.graph, cells.task);
-    const std::vector<std::size_t> expected = connected_within_cells(cells);
-    ASSERT_EQ(components.of.size(), expected.size());
+    const Divided mesh(make_mesh(GetParam(), 3, vertices));
+    const CellComponents& components = mesh.components;
+    const std::vector<std::size_t> expected = connected_within_cells(mesh);
+    std::vector<std::size_t> sizes(components.all.size());
+    std::size_t roots = 0;
     for (std::size_t i = 0; i < expected.size(); ++i) {
-      const std::uint32_t c = components.of[i];
-      ASSERT_EQ(c, components.of[expected[i]]) << "vertices connected within a cell";
+      const std::uint32_t c = mesh.component_of[i];
+      ASSERT_EQ(c, mesh.component_of[expected[i]]) << "vertices connected within a cell";
+      ASSERT_EQ(components.all[c].cell, i / kCellSize);
       ASSERT_GE(c, components.first[i / kCellSize]) << "numbered by cell";
       ASSERT_LT(c, components.first[i / kCellSize + 1]) << "numbered by cell";
+      ++sizes[c];
+      roots += expected[i] == i ? 1 : 0;
     }
-    const std::size_t roots = static_cast<std::size_t>(std::count_if(
-        expected.begin(), expected.end(), [&, i = std::size_t{0}](std::size_t e) mutable { return e == i++; }));
-    ASSERT_EQ(components.size.size(), roots) << "vertices not connected lie in different components";
-    ASSERT_EQ(components.size, sizes_of(components));
+    ASSERT_EQ(components.all.size(), roots) << "vertices not connected lie in different components";
+    for (std::size_t c = 0; c < sizes.size(); ++c) ASSERT_EQ(sizes[c], mesh.size_of_component(c));
     count += roots;
   }
   std::printf("%s: %zu components\n", std::string(GetParam().name).c_str(), count);
 }
 
 TEST_P(CellComponentsOfFamilies, TheFirstComponentOfACellIsTheLargest) {
-  Cells cells(make_mesh(GetParam(), 4, 1000));
-  const CellComponents components = split_cells(cells.graph, cells.task);
-  for (std::size_t cell = 0; cell < cells.graph.cells(); ++cell) {
-    for (std::uint32_t c = components.first[cell]; c < components.first[cell + 1]; ++c) {
-      ASSERT_LE(components.size[c], components.size[components.first[cell]]);
+  const Divided mesh(make_mesh(GetParam(), 4, 1000));
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
+    for (std::uint32_t c = mesh.components.first[cell]; c < mesh.components.first[cell + 1]; ++c) {
+      ASSERT_LE(mesh.size_of_component(c), mesh.size_of_component(mesh.components.first[cell]));
     }
   }
 }
 
-TEST_P(CellComponentsOfFamilies, MergingKeepsComponentsTogetherAndFillsNoLeafOverItsCapacity) {
+TEST_P(CellComponentsOfFamilies, EveryComponentIsAPartOfOneLeafAndNoLeafIsFilledOverItsCapacity) {
   for (const std::size_t vertices : {1U, 50U, 3000U}) {
-    Cells cells(make_mesh(GetParam(), 5, vertices));
-    const CellComponents before = split_cells(cells.graph, cells.task);
-    CellComponents after = before;
-    merge_small(cells.graph, after);
-    std::vector<std::uint32_t> moved_to(before.size.size(), 0);
-    for (std::size_t i = 0; i < before.of.size(); ++i) moved_to[before.of[i]] = after.of[i];
-    for (std::size_t i = 0; i < before.of.size(); ++i) ASSERT_EQ(after.of[i], moved_to[before.of[i]]);
-    ASSERT_EQ(after.size, sizes_of(after));
-    for (const std::uint32_t size : after.size) ASSERT_LE(size, kLeafCapacity);
+    const Divided mesh(make_mesh(GetParam(), 5, vertices));
+    std::size_t parts = 0;
+    for (std::uint32_t leaf = 0; leaf < mesh.leaves.size(); ++leaf) {
+      ASSERT_FALSE(mesh.leaves[leaf].empty());
+      ASSERT_LE(mesh.size_of_leaf(leaf), kLeafCapacity);
+      for (const CellComponent& part : mesh.leaves[leaf]) {
+        const std::uint32_t component =
+            mesh.components.at(part.cell, static_cast<unsigned>(std::countr_zero(part.lanes)));
+        ASSERT_EQ(mesh.components.all[component].lanes, part.lanes);
+        ASSERT_EQ(mesh.leaves.leaf_of[component], leaf);
+        ++parts;
+      }
+    }
+    ASSERT_EQ(parts, mesh.components.all.size());
   }
 }
 
-TEST_P(CellComponentsOfFamilies, AComponentStaysSmallOnlyIfNoNeighborHasRoom) {
-  Cells cells(make_mesh(GetParam(), 6, 3000));
-  const CellComponents before = split_cells(cells.graph, cells.task);
-  CellComponents after = before;
-  merge_small(cells.graph, after);
-  for (std::size_t i = 0; i < after.of.size(); ++i) {
-    const std::uint32_t c = after.of[i];
+TEST_P(CellComponentsOfFamilies, ALeafOfOneSmallComponentHasNoNeighborWithRoom) {
+  const Divided mesh(make_mesh(GetParam(), 6, 3000));
+  for (std::size_t i = 0; i < mesh.size(); ++i) {
+    const std::uint32_t leaf = mesh.leaf_of_point[i];
     // Nothing has been merged into it, so that it had this size when it was its turn.
-    if (after.size[c] >= kSmallComponent || before.of[i] != c || before.size[c] != after.size[c]) continue;
-    for (const std::size_t other : cells.neighbors(i)) {
-      if (after.of[other] == c) continue;
-      ASSERT_GT(after.size[c] + after.size[after.of[other]], kLeafCapacity) << "component " << c;
+    if (mesh.leaves[leaf].size() > 1 || mesh.size_of_leaf(leaf) >= kSmallComponent) continue;
+    for (const std::size_t other : mesh.neighbors(i)) {
+      const std::uint32_t neighbor = mesh.leaf_of_point[other];
+      if (neighbor == leaf) continue;
+      ASSERT_GT(mesh.size_of_leaf(leaf) + mesh.size_of_leaf(neighbor), kLeafCapacity) << "leaf " << leaf;
     }
   }
 }
@@ -140,16 +157,14 @@ TEST_P(CellComponentsOfFamilies, AComponentStaysSmallOnlyIfNoNeighborHasRoom) {
 INSTANTIATE_TEST_SUITE_P(CellComponents, CellComponentsOfFamilies, testing::ValuesIn(families()), family_name);
 
 TEST(CellComponents, PointsWithoutEdgesFillLeavesInTheOrderOfTheCells) {
-  TestMesh mesh;
+  TestMesh points;
   Random random(1);
-  for (int i = 0; i < 300; ++i) mesh.add_vertex(random.uniform(), random.uniform(), random.uniform());
-  Cells cells(mesh.finish(true));
-  CellComponents components = split_cells(cells.graph, cells.task);
-  EXPECT_EQ(components.size.size(), 300U);
-  merge_small(cells.graph, components);
-  const auto leaves = std::count_if(components.size.begin(), components.size.end(), [](auto size) { return size > 0; });
-  EXPECT_EQ(leaves, 10);
-  for (std::size_t i = 0; i < 300; ++i) EXPECT_EQ(components.of[i], components.of[i / kLeafCapacity * kLeafCapacity]);
+  for (int i = 0; i < 300; ++i) points.add_vertex(random.uniform(), random.uniform(), random.uniform());
+  const Divided mesh(points.finish(true));
+  EXPECT_EQ(mesh.components.all.size(), 300U);
+  EXPECT_EQ(mesh.leaves.size(), 10U);
+  // The components of a cell are numbered from one to the next, not in the order of its lanes.
+  for (std::uint32_t c = 0; c < 300; ++c) EXPECT_EQ(mesh.leaves.leaf_of[c], c / kLeafCapacity);
 }
 
 /// Two sheets of `columns` columns, so near to each other that cells hold vertices of both.
@@ -161,50 +176,43 @@ TestMesh two_sheets(std::size_t columns) {
   return mesh.finish(true);
 }
 
+/// Expects that no leaf has vertices below `first` as well as others.
+void expect_apart(const Divided& mesh, VertexId first) {
+  std::vector<int> known(mesh.leaves.size(), -1);
+  for (std::size_t i = 0; i < mesh.size(); ++i) {
+    const int mine = mesh.cells.points[i].id < first ? 0 : 1;
+    int& of_leaf = known[mesh.leaf_of_point[i]];
+    EXPECT_TRUE(of_leaf == -1 || of_leaf == mine) << "vertex " << mesh.cells.points[i].id;
+    of_leaf = mine;
+  }
+}
+
 TEST(CellComponents, SmallComponentsOfTheMeshShareNoLeafWithASurface) {
   TestMesh mesh = make_grid(30, 30, false);
   Random random(2);
   for (int i = 0; i < 40; ++i) mesh.add_vertex(random.uniform(0, 30), random.uniform(0, 30), 0.1);
-  Cells cells(mesh.finish(true));
-  CellComponents components = split_cells(cells.graph, cells.task);
-  merge_small(cells.graph, components);
-  std::vector<int> is_crumb(components.size.size(), -1);
-  for (std::size_t i = 0; i < components.of.size(); ++i) {
-    int& known = is_crumb[components.of[i]];
-    const int mine = cells.points[i].id < 900 ? 0 : 1;
-    EXPECT_TRUE(known == -1 || known == mine) << "vertex " << cells.points[i].id;
-    known = mine;
-  }
+  expect_apart(Divided(mesh.finish(true)), 900);
 }
 
 TEST(CellComponents, SheetsThatTouchInSpaceAreNotMerged) {
-  Cells cells(two_sheets(300));
-  CellComponents components = split_cells(cells.graph, cells.task);
-  merge_small(cells.graph, components);
-  std::vector<int> sheet(components.size.size(), -1);
-  for (std::size_t i = 0; i < components.of.size(); ++i) {
-    int& known = sheet[components.of[i]];
-    const int mine = cells.points[i].id < 1200 ? 0 : 1;
-    EXPECT_TRUE(known == -1 || known == mine) << "vertex " << cells.points[i].id;
-    known = mine;
-  }
-  const auto leaves = std::count_if(components.size.begin(), components.size.end(), [](auto size) { return size > 0; });
-  std::printf("%td leaves of 2400 vertices\n", leaves);
-  EXPECT_LE(leaves, 2400 / static_cast<std::ptrdiff_t>(kSmallComponent)) << "small components are merged";
+  const Divided mesh(two_sheets(300));
+  expect_apart(mesh, 1200);
+  std::printf("%zu leaves of 2400 vertices\n", mesh.leaves.size());
+  EXPECT_LE(mesh.leaves.size(), 2400 / std::size_t{kSmallComponent}) << "small components are merged";
 }
 
 /// Three cells on a line, each a path. The first two vertices of the middle cell are cut off from the rest of it, and
 /// have `left` edges to the first cell and `right` edges to the last, at most two each.
-CellComponents merged_pair(std::size_t left, std::size_t right) {
-  std::vector<KdPoint> points;
-  for (std::uint32_t v = 0; v < 3 * kCellSize; ++v) points.push_back({{static_cast<float>(v), 0, 0}, v});
+Divided merged_pair(std::size_t left, std::size_t right) {
+  std::vector<float> positions;
+  for (std::size_t v = 0; v < 3 * kCellSize; ++v) positions.insert(positions.end(), {static_cast<float>(v), 0, 0});
   const auto pair = static_cast<VertexId>(kCellSize);
-  std::vector<std::set<VertexId>> neighbors(points.size());
+  std::vector<std::set<VertexId>> neighbors(3 * kCellSize);
   const auto join = [&](VertexId v, VertexId w) {
     neighbors[v].insert(w);
     neighbors[w].insert(v);
   };
-  for (VertexId v = 0; v + 1 < points.size(); ++v) {
+  for (VertexId v = 0; v + 1 < neighbors.size(); ++v) {
     if ((v + 1) % kCellSize != 0 && v != pair + 1) join(v, v + 1);
   }
   for (std::size_t i = 0; i < left; ++i) join(pair, static_cast<VertexId>(i));
@@ -215,32 +223,25 @@ CellComponents merged_pair(std::size_t left, std::size_t right) {
     adjacency.neighbors.insert(adjacency.neighbors.end(), row.begin(), row.end());
     adjacency.offsets.push_back(static_cast<EdgeOffset>(adjacency.neighbors.size()));
   }
-  const Progress silent;
-  TaskContext task(1, silent, 0);
-  const CellGraph graph(points, adjacency.view(), task);
-  CellComponents components = split_cells(graph, task);
-  merge_small(graph, components);
-  return components;
+  return {positions, std::move(adjacency), 1};
 }
 
 TEST(CellComponents, ASmallComponentJoinsTheNeighborWithMostEdgesToIt) {
-  const CellComponents left = merged_pair(2, 1);
-  EXPECT_EQ(left.of[kCellSize], left.of[0]);
-  EXPECT_EQ(left.size[left.of[0]], kCellSize + 2);
-  const CellComponents right = merged_pair(1, 2);
-  EXPECT_EQ(right.of[kCellSize], right.of[2 * kCellSize]);
+  const Divided left = merged_pair(2, 1);
+  EXPECT_EQ(left.leaf_of_point[kCellSize], left.leaf_of_point[0]);
+  EXPECT_EQ(left.size_of_leaf(left.leaf_of_point[0]), kCellSize + 2);
+  const Divided right = merged_pair(1, 2);
+  EXPECT_EQ(right.leaf_of_point[kCellSize], right.leaf_of_point[2 * kCellSize]);
 }
 
 TEST(CellComponents, AreTheSameForAnyNumberOfThreads) {
-  const TestMesh mesh = two_sheets(5000);
-  Cells one(mesh);
-  const CellComponents expected = split_cells(one.graph, one.task);
+  const TestMesh sheets = two_sheets(5000);
+  const Divided expected(sheets);
   for (const unsigned threads : {2U, 5U}) {
-    Cells cells(mesh, threads);
-    const CellComponents components = split_cells(cells.graph, cells.task);
-    EXPECT_EQ(components.of, expected.of);
-    EXPECT_EQ(components.first, expected.first);
-    EXPECT_EQ(components.size, expected.size);
+    const Divided mesh(sheets, threads);
+    EXPECT_EQ(mesh.components.first, expected.components.first);
+    EXPECT_EQ(mesh.component_of, expected.component_of);
+    EXPECT_EQ(mesh.leaf_of_point, expected.leaf_of_point);
   }
 }
 

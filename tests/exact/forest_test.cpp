@@ -77,6 +77,11 @@ TEST_P(ForestOfFamilies, EachGroupIsCoveredByOneNodeOfTheLevelAboveOrByNone) {
 
 INSTANTIATE_TEST_SUITE_P(Forest, ForestOfFamilies, testing::ValuesIn(families()), family_name);
 
+Forest forest_of(const NodeGraph& graph) {
+  TaskContext task;
+  return make_forest(graph, task);
+}
+
 /// Leaves in a row, each linked with the next within runs of `run`.
 NodeGraph rows_of(std::size_t leaves, std::size_t run) {
   NodeGraph graph;
@@ -91,14 +96,14 @@ NodeGraph rows_of(std::size_t leaves, std::size_t run) {
 }
 
 TEST(Forest, OfLeavesWithoutLinksHasRootGroupsOfEight) {
-  const Forest forest = make_forest(rows_of(20, 1));
+  const Forest forest = forest_of(rows_of(20, 1));
   EXPECT_EQ(forest.levels, (std::vector<std::uint32_t>{0, 3}));
   EXPECT_EQ(forest.records[0].nodes + forest.records[1].nodes + forest.records[2].nodes, 20U);
   EXPECT_EQ(forest.parents, std::vector<NodeId>(3, kNoNode));
 }
 
 TEST(Forest, OfOneRowEndsInOneNodeWithoutLinks) {
-  const Forest forest = make_forest(rows_of(64, 64));
+  const Forest forest = forest_of(rows_of(64, 64));
   ASSERT_EQ(forest.levels.size(), 4U);
   EXPECT_EQ(forest.records.back().nodes, 1U);
   EXPECT_EQ(forest.leaves.size() % kFanOut, 0U);
@@ -113,7 +118,7 @@ TEST(Forest, AroundAHubStopsWhereGroupingNoLongerHelps) {
     star.neighbors.push_back(0);
     star.offsets.push_back(static_cast<std::uint32_t>(star.neighbors.size()));
   }
-  const Forest forest = make_forest(star);
+  const Forest forest = forest_of(star);
   EXPECT_EQ(forest.levels.size(), 2U);
   EXPECT_EQ(forest.parents, std::vector<NodeId>(125, kNoNode));
 }
@@ -147,10 +152,6 @@ NodeParts undissolved_parts_of(const NodeGraph& graph) {
     order.push_back({{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}, leaf});
   }
   kd_order(order, kFanOut);
-  for (std::size_t begin = 0; begin < order.size(); begin += kFanOut) {
-    const auto cell = std::span(order).subspan(begin, std::min<std::size_t>(kFanOut, order.size() - begin));
-    std::sort(cell.begin(), cell.end(), [](const KdPoint& a, const KdPoint& b) { return a.id < b.id; });
-  }
   return connected_parts(graph, order);
 }
 
@@ -162,7 +163,7 @@ TEST(Forest, DissolvesSmallGroupsWhereManyPlacesWouldStayEmpty) {
   dissolve_small_parts(parts);
   EXPECT_GT(parts.fill(), 0.85);
   EXPECT_LT(parts.groups().size(), before);
-  EXPECT_EQ(make_forest(graph).levels[1], parts.groups().size());
+  EXPECT_EQ(forest_of(graph).levels[1], parts.groups().size());
 }
 
 TEST(Forest, KeepsSmallGroupsWhereFewPlacesStayEmpty) {
@@ -170,13 +171,13 @@ TEST(Forest, KeepsSmallGroupsWhereFewPlacesStayEmpty) {
   NodeParts parts = undissolved_parts_of(graph);
   const std::size_t kept = parts.groups().size();
   EXPECT_GE(parts.fill(), 0.85);
-  EXPECT_EQ(make_forest(graph).levels[1], kept);
+  EXPECT_EQ(forest_of(graph).levels[1], kept);
   dissolve_small_parts(parts);
   EXPECT_LT(parts.groups().size(), kept);
 }
 
 TEST(Forest, OfNoLeafHasNoLevel) {
-  const Forest forest = make_forest(NodeGraph{});
+  const Forest forest = forest_of(NodeGraph{});
   EXPECT_EQ(forest.levels, std::vector<std::uint32_t>{0});
   EXPECT_TRUE(forest.records.empty());
 }

@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include "base/adjacency.h"
 #include "base/sphere.h"
 #include "exact/layout.h"
 #include "support/families.h"
@@ -21,8 +20,7 @@ namespace {
 LeafPartition leaves_of(const TestMesh& mesh, unsigned threads = 1) {
   const Progress silent;
   TaskContext task(threads, silent, 0);
-  const Adjacency graph = adjacency(mesh.view());
-  return make_leaves({mesh.positions_view(), graph.view()}, make_frame(mesh.positions_view()), task);
+  return make_leaves(mesh.positions_view(), EdgeSource(mesh.view().faces), make_frame(mesh.positions_view()), task);
 }
 
 class LeavesOfFamilies : public testing::TestWithParam<Family> {};

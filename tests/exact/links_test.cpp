@@ -24,8 +24,8 @@ struct Linked {
   explicit Linked(const TestMesh& mesh, unsigned threads = 1) : graph(adjacency(mesh.view())) {
     const Progress silent;
     TaskContext task(threads, silent, 0);
-    leaves = make_leaves({mesh.positions_view(), graph.view()}, make_frame(mesh.positions_view()), task);
-    links = make_links(graph.view(), leaves, task);
+    leaves = make_leaves(mesh.positions_view(), EdgeSource(mesh.view().faces), make_frame(mesh.positions_view()), task);
+    links = std::move(leaves.links);
   }
 
   [[nodiscard]] std::size_t leaf_count() const { return leaves.leaf_begin.size() - 1; }
@@ -107,15 +107,47 @@ TEST_P(LinksOfFamilies, TheBoundaryOfALinkAreTheVerticesWithANeighborThere) {
   }
 }
 
+void expect_same_links(const Links& a, const Links& b) {
+  EXPECT_EQ(a.adjacency, b.adjacency);
+  EXPECT_EQ(a.link_end, b.link_end);
+  ASSERT_EQ(a.links.size(), b.links.size());
+  for (std::size_t i = 0; i < a.links.size(); ++i) {
+    EXPECT_EQ(a.links[i].leaf, b.links[i].leaf);
+    EXPECT_EQ(a.links[i].boundary, b.links[i].boundary);
+    EXPECT_EQ(a.links[i].first_cross_edge, b.links[i].first_cross_edge);
+  }
+  const auto number = [](const CrossEdge& edge) { return edge.from * kLeafCapacity + edge.to; };
+  EXPECT_TRUE(std::ranges::equal(a.cross_edges, b.cross_edges, {}, number, number));
+}
+
+TEST_P(LinksOfFamilies, OfLeavesAreThoseThatTheEdgesOfTheMeshGive) {
+  for (const std::size_t vertices : {1U, 50U, 3000U}) {
+    const TestMesh mesh = make_mesh(GetParam(), 5, vertices);
+    const Linked linked(mesh);
+    TaskContext task;
+    expect_same_links(make_links(EdgeSource(mesh.view().faces), linked.leaves.slot, linked.leaves.leaf_begin, task),
+                 linked.links);
+    expect_same_links(make_links(EdgeSource(linked.graph.view()), linked.leaves.slot, linked.leaves.leaf_begin, task),
+                 linked.links);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Links, LinksOfFamilies, testing::ValuesIn(families()), family_name);
 
 TEST(Links, AreTheSameForAnyNumberOfThreads) {
-  const TestMesh mesh = make_grid(150, 150, false).finish(true);
+  // So many cells that there are several buckets of them.
+  const TestMesh mesh = make_grid(200, 200, false).finish(true);
   const Linked expected(mesh);
-  const Linked linked(mesh, 4);
-  EXPECT_EQ(linked.links.adjacency, expected.links.adjacency);
-  EXPECT_EQ(linked.links.link_end, expected.links.link_end);
-  EXPECT_EQ(edges_of(linked), edges_of(expected));
+  EXPECT_EQ(edges_of(expected), edges_of(expected.graph.view()));
+  for (const unsigned threads : {2U, 5U}) expect_same_links(Linked(mesh, threads).links, expected.links);
+}
+
+TEST(Links, OfAHubAreFoundOnceEach) {
+  TestMesh mesh;
+  Random random(3);
+  for (int i = 0; i < 20000; ++i) mesh.add_vertex(random.uniform(), random.uniform(), random.uniform());
+  for (VertexId v = 1; v < 20000; ++v) mesh.add_face({0, v, v});
+  const Linked linked(mesh.finish(true));
   EXPECT_EQ(edges_of(linked), edges_of(linked.graph.view()));
 }
 

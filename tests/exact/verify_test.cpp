@@ -288,8 +288,9 @@ void relink(Forgery& f) {
   std::vector<std::uint32_t> first_link;
   for (const Leaf& leaf : f.section<Leaf>("leaves")) first_link.push_back(leaf.first_link);
   set_vertices(f.section<VertexId>("leaf_begin"), levels, records);
+  TaskContext task;
   const std::vector<NodeLink> links =
-      make_node_links(first_link, f.section<Link>("links"), levels, f.section<NodeId>("parents"), records);
+      make_node_links(first_link, f.section<Link>("links"), levels, f.section<NodeId>("parents"), records, task);
   ASSERT_EQ(links.size(), f.section<NodeLink>("node_links").size());
   std::copy(records.begin(), records.end(), sections.begin());
   std::copy(links.begin(), links.end(), f.section<NodeLink>("node_links").begin());

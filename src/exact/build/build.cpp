@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The steps that build the exact index.
 #include <algorithm>
+#include <cassert>
 #include <span>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 
 #include "base/adjacency.h"
 #include "base/parallel.h"
+#include "base/validate.h"
 #include "exact/build/geometry.h"
 #include "exact/build/leaves.h"
 #include "exact/build/links.h"
@@ -24,7 +26,8 @@ namespace {
 constexpr std::size_t kLeafGrain = 64;
 
 /// The leaves without their bounding spheres.
-std::vector<Leaf> make_leaf_records(const LeafPartition& partition, const Links& links, TaskContext& task) {
+std::vector<Leaf> make_leaf_records(const LeafPartition& partition, TaskContext& task) {
+  const Links& links = partition.links;
   const std::size_t count = partition.leaf_begin.size() - 1;
   std::vector<Leaf> leaves(count + 1);
   task.parallel_for(count, kLeafGrain, [&](unsigned, std::size_t begin, std::size_t end) {
@@ -44,20 +47,22 @@ std::vector<Leaf> make_leaf_records(const LeafPartition& partition, const Links&
 }
 
 /// The records of the groups, complete, and the links between nodes.
-void add_forest(LeafPartition& partition, const Links& links, IndexData& arrays) {
+void add_forest(LeafPartition& partition, IndexData& arrays, TaskContext& task) {
+  const Links& links = partition.links;
   arrays.levels = std::move(partition.forest.levels);
   arrays.records = std::move(partition.forest.records);
   arrays.parents = std::move(partition.forest.parents);
   set_vertices(partition.leaf_begin, arrays.levels, arrays.records);
   std::vector<std::uint32_t> first_link{0};
   first_link.insert(first_link.end(), links.link_end.begin(), links.link_end.end());
-  arrays.node_links = make_node_links(first_link, links.links, arrays.levels, arrays.parents, arrays.records);
+  arrays.node_links = make_node_links(first_link, links.links, arrays.levels, arrays.parents, arrays.records, task);
 }
 
+/// Adds the entries that a kernel may read beyond the end. There is room for them.
 template <class T>
 void pad(std::vector<T>& values) {
+  assert(values.capacity() >= values.size() + kLeafCapacity);
   values.resize(values.size() + kLeafCapacity);
-  values.shrink_to_fit();
 }
 
 Index finish(IndexData arrays, TaskContext& task) {
@@ -69,37 +74,39 @@ Index finish(IndexData arrays, TaskContext& task) {
 
 Index build(const MeshView& mesh, const BuildOptions& options) {
   TaskContext task(options.threads, options.progress, IndexAccess::kBuildSteps);
-  const Adjacency graph = adjacency(mesh, task);
-  return finish(IndexAccess::build_valid({mesh.positions, graph.view()}, task), task);
+  return finish(IndexAccess::build_arrays(mesh, task), task);
 }
 
 Index build(const GraphView& graph, const BuildOptions& options) {
   TaskContext task(options.threads, options.progress, IndexAccess::kBuildSteps);
   validate(graph);
-  return finish(IndexAccess::build_valid(graph, task), task);
+  return finish(IndexAccess::build_arrays(graph.positions, EdgeSource(graph.adjacency), task), task);
 }
 
-IndexData IndexAccess::build_valid(const GraphView& graph, TaskContext& task) {
-  task.advance(1);
+IndexData IndexAccess::build_arrays(const MeshView& mesh, TaskContext& task) {
+  validate(mesh, task);
+  check_corner_count(mesh.faces);
+  return build_arrays(mesh.positions, EdgeSource(mesh.faces), task);
+}
+
+IndexData IndexAccess::build_arrays(const PositionsView& positions, const EdgeSource& edges, TaskContext& task) {
   IndexData arrays;
-  arrays.frame = make_frame(graph.positions);
-  LeafPartition partition = make_leaves(graph, arrays.frame, task);
+  arrays.frame = make_frame(positions, task);
+  LeafPartition partition = make_leaves(positions, edges, arrays.frame, task);
+  arrays.leaves = make_leaf_records(partition, task);
+  add_forest(partition, arrays, task);
   task.advance(1);
-  Links links = make_links(graph.adjacency, partition, task);
-  task.advance(1);
-  arrays.leaves = make_leaf_records(partition, links, task);
-  add_forest(partition, links, arrays);
+  Links& links = partition.links;
   pad(links.adjacency);
   pad(links.cross_edges);
   pad(partition.permutation);
-  links.links.shrink_to_fit();
   arrays.permutation = std::move(partition.permutation);
   arrays.slot = std::move(partition.slot);
   arrays.leaf_begin = std::move(partition.leaf_begin);
   arrays.adjacency = std::move(links.adjacency);
   arrays.links = std::move(links.links);
   arrays.cross_edges = std::move(links.cross_edges);
-  make_geometry(graph.positions, view_of(arrays), arrays, task);
+  make_geometry(positions, view_of(arrays), arrays, task);
   return arrays;
 }
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "exact/build/cell_components.h"
 
+#include <algorithm>
 #include <array>
-#include <bit>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 #include "exact/lane_search.h"
-#include "exact/layout.h"
 
 namespace meshhood {
 namespace {
@@ -16,50 +15,22 @@ namespace {
 static_assert(kCellSize <= kLeafCapacity);
 
 // Enough work for the cost of starting a thread.
-constexpr std::size_t kCellsPerTask = 128;
+constexpr std::size_t kCellsPerTask = 512;
 
-template <class F>
-void for_each_cell(std::size_t cells, TaskContext& task, F&& f) {
-  task.parallel_for(cells, kCellsPerTask, [&](unsigned, std::size_t begin, std::size_t end) {
-    for (std::size_t cell = begin; cell < end; ++cell) f(cell);
-  });
-}
-
-using CellMasks = std::array<LaneMask, kLeafCapacity>;
-
-/// For each vertex of a cell its neighbors in the cell.
-CellMasks cell_adjacency(const CellGraph& graph, std::size_t cell) {
-  const std::size_t begin = graph.begin(cell);
-  const std::size_t size = graph.end(cell) - begin;
-  CellMasks adjacency{};
-  for (std::size_t i = 0; i < size; ++i) {
-    graph.for_each_neighbor(begin + i, [&](std::size_t neighbor) {
-      // A neighbor before the cell wraps around to a number above its size.
-      if (neighbor - begin < size) adjacency[i] |= LaneMask{1} << (neighbor - begin);
-    });
+/// Appends the components of a cell, the largest first; returns how many there are.
+std::uint32_t split_cell(const Cells& cells, const Links& links, std::uint32_t cell, std::vector<CellComponent>& out) {
+  const auto first = static_cast<std::ptrdiff_t>(out.size());
+  const LaneMask* const adjacency = &links.adjacency[cells.begin[cell]];
+  for (LaneMask left = first_lanes(cells.size_of(cell)); left != 0;) {
+    const LaneMask found = reachable_lanes(adjacency, left & -left);
+    out.push_back({cell, found});
+    left &= ~found;
   }
-  return adjacency;
-}
-
-/// Numbers the components of a cell from 0, the largest first, in `components`; returns how many there are.
-std::uint32_t split_cell(const CellGraph& graph, std::size_t cell, std::vector<std::uint32_t>& component_of) {
-  const std::size_t begin = graph.begin(cell);
-  const CellMasks adjacency = cell_adjacency(graph, cell);
-  CellMasks found{};
-  std::uint32_t count = 0;
-  const auto size = static_cast<unsigned>(graph.end(cell) - begin);
-  for (LaneMask left = first_lanes(size); left != 0; left &= ~found[count++]) {
-    found[count] = reachable_lanes(adjacency.data(), left & -left);
-  }
-  const auto largest = std::max_element(found.begin(), found.begin() + count,
-                                        [](LaneMask a, LaneMask b) { return std::popcount(a) < std::popcount(b); });
-  std::swap(*largest, found[0]);
-  for (std::uint32_t component = 0; component < count; ++component) {
-    for (LaneMask left = found[component]; left != 0; left &= left - 1) {
-      component_of[begin + static_cast<std::size_t>(std::countr_zero(left))] = component;
-    }
-  }
-  return count;
+  const auto begin = out.begin() + first;
+  std::swap(*begin, *std::max_element(begin, out.end(), [](const CellComponent& a, const CellComponent& b) {
+    return count_of(a.lanes) < count_of(b.lanes);
+  }));
+  return static_cast<std::uint32_t>(out.end() - begin);
 }
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -67,29 +38,32 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// Merges small components, in the order of their numbers.
 class Merger {
  public:
-  Merger(const CellGraph& graph, CellComponents& components)
-      : graph_(graph), components_(components), merged_into_(components.size.size()) {
+  Merger(const CellComponents& components, const Links& links)
+      : components_(components), links_(links), merged_into_(components.all.size()) {
     std::iota(merged_into_.begin(), merged_into_.end(), 0);
+    for (const CellComponent& component : components.all) {
+      sizes_.push_back(static_cast<std::uint8_t>(count_of(component.lanes)));
+    }
   }
 
-  void run() {
-    for (std::size_t cell = 0; cell < graph_.cells(); ++cell) {
-      for (std::uint32_t c = components_.first[cell]; c < components_.first[cell + 1]; ++c) {
-        if (size(c) < kSmallComponent) merge(cell, c);
-      }
+  /// For each component the one that it is merged into at last.
+  std::vector<std::uint32_t> run() {
+    for (std::uint32_t c = 0; c < merged_into_.size(); ++c) {
+      if (size(c) < kSmallComponent) merge(c);
     }
     pack_crumbs();
-    for (std::uint32_t& c : components_.of) c = root(c);
+    for (std::uint32_t c = 0; c < merged_into_.size(); ++c) merged_into_[c] = root(c);
+    return std::move(merged_into_);
   }
 
  private:
-  [[nodiscard]] std::uint32_t& size(std::uint32_t component) { return components_.size[component]; }
+  [[nodiscard]] std::uint8_t& size(std::uint32_t component) { return sizes_[component]; }
 
   /// Merges a small component into the neighbor with the most edges to it among those with room.
-  void merge(std::size_t cell, std::uint32_t small) {
+  void merge(std::uint32_t small) {
     const std::uint32_t merged = root(small);
     if (size(merged) >= kSmallComponent) return;
-    gather_neighbors(cell, small, merged);
+    gather_neighbors(small, merged);
     join(merged, best_neighbor(merged));
   }
 
@@ -111,25 +85,25 @@ class Merger {
   /// Marks the small components that an edge joins to another one.
   void find_linked() {
     is_linked_.assign(merged_into_.size(), false);
-    for (std::size_t cell = 0; cell < graph_.cells(); ++cell) {
-      for (std::uint32_t c = components_.first[cell]; c < components_.first[cell + 1]; ++c) {
-        const std::uint32_t merged = root(c);
-        if (is_linked_[merged] || size(merged) >= kSmallComponent) continue;
-        gather_neighbors(cell, c, merged);
-        is_linked_[merged] = !neighbors_.empty();
-      }
+    for (std::uint32_t c = 0; c < merged_into_.size(); ++c) {
+      const std::uint32_t merged = root(c);
+      if (is_linked_[merged] || size(merged) >= kSmallComponent) continue;
+      gather_neighbors(c, merged);
+      is_linked_[merged] = !neighbors_.empty();
     }
   }
 
   /// The components at the other ends of all edges that leave `merged` from `small`, which is a part of it.
-  void gather_neighbors(std::size_t cell, std::uint32_t small, std::uint32_t merged) {
+  void gather_neighbors(std::uint32_t small, std::uint32_t merged) {
     neighbors_.clear();
-    for (std::size_t point = graph_.begin(cell); point < graph_.end(cell); ++point) {
-      if (components_.of[point] != small) continue;
-      graph_.for_each_neighbor(point, [&](std::size_t other) {
-        const std::uint32_t neighbor = root(components_.of[other]);
+    const CellComponent& component = components_.all[small];
+    for (const Link& link : links_.links_of(component.cell)) {
+      if ((link.boundary & component.lanes) == 0) continue;
+      for (const CrossEdge& edge : links_.cross_edges_of(link)) {
+        if ((component.lanes >> edge.from & 1U) == 0) continue;
+        const std::uint32_t neighbor = root(components_.at(link.leaf, edge.to));
         if (neighbor != merged) neighbors_.push_back(neighbor);
-      });
+      }
     }
   }
 
@@ -150,12 +124,12 @@ class Merger {
     return best;
   }
 
-  [[nodiscard]] bool has_room(std::uint32_t a, std::uint32_t b) { return size(a) + size(b) <= kLeafCapacity; }
+  [[nodiscard]] bool has_room(std::uint32_t a, std::uint32_t b) { return unsigned{size(a)} + size(b) <= kLeafCapacity; }
 
   void join(std::uint32_t component, std::uint32_t other) {
     if (component == other || !has_room(component, other)) return;
     merged_into_[component] = other;
-    size(other) += std::exchange(size(component), 0U);
+    size(other) = static_cast<std::uint8_t>(size(other) + std::exchange(size(component), std::uint8_t{0}));
   }
 
   /// Follows the merges, and shortens the path (path compression).
@@ -166,39 +140,52 @@ class Merger {
     return component;
   }
 
-  const CellGraph& graph_;
-  CellComponents& components_;
+  const CellComponents& components_;
+  const Links& links_;
   std::vector<std::uint32_t> merged_into_;  // by component: itself, or the component it has been merged into
+  std::vector<std::uint8_t> sizes_;         // by component, with those merged into it; 0 if it has been merged
   std::vector<std::uint32_t> neighbors_;    // of the component that is being merged, one for each edge
   std::vector<bool> is_linked_;             // by component, if small
 };
 
-}  // namespace
-
-CellGraph::CellGraph(std::span<const KdPoint> points, const AdjacencyView& adjacency, TaskContext& task)
-    : points_(points), adjacency_(adjacency), number_(points.size()) {
-  for_each_cell(cells(), task, [&](std::size_t cell) {
-    for (std::size_t i = begin(cell); i < end(cell); ++i) number_[points_[i].id] = static_cast<std::uint32_t>(i);
-  });
-}
-
-CellComponents split_cells(const CellGraph& graph, TaskContext& task) {
-  CellComponents result;
-  result.first.resize(graph.cells() + 1);
-  result.of.resize(graph.size());
-  for_each_cell(graph.cells(), task,
-                [&](std::size_t cell) { result.first[cell + 1] = split_cell(graph, cell, result.of); });
-  std::partial_sum(result.first.begin(), result.first.end(), result.first.begin());
-  result.size.resize(result.first.back());
-  for_each_cell(graph.cells(), task, [&](std::size_t cell) {
-    for (std::size_t i = graph.begin(cell); i < graph.end(cell); ++i) {
-      result.of[i] += result.first[cell];
-      ++result.size[result.of[i]];
-    }
-  });
+/// Numbers the leaves in the order of the components that others have been merged into.
+MergedComponents number_leaves(std::vector<std::uint32_t> merged_into, std::span<const CellComponent> components) {
+  MergedComponents result;
+  std::vector<std::uint32_t> number(merged_into.size());
+  std::uint32_t leaves = 0;
+  for (std::uint32_t c = 0; c < number.size(); ++c) number[c] = merged_into[c] == c ? leaves++ : 0;
+  result.leaf_of = std::move(merged_into);
+  result.begin.assign(std::size_t{leaves} + 1, 0);
+  for (std::uint32_t& leaf : result.leaf_of) {
+    leaf = number[leaf];
+    ++result.begin[leaf];
+  }
+  std::inclusive_scan(result.begin.begin(), result.begin.end(), result.begin.begin());
+  result.parts.resize(components.size());
+  for (std::size_t c = components.size(); c-- > 0;) result.parts[--result.begin[result.leaf_of[c]]] = components[c];
   return result;
 }
 
-void merge_small(const CellGraph& graph, CellComponents& components) { Merger(graph, components).run(); }
+}  // namespace
+
+CellComponents split_cells(const Cells& cells, const Links& links, TaskContext& task) {
+  CellComponents result;
+  result.first.resize(cells.size() + 1);
+  std::vector<std::vector<CellComponent>> runs((cells.size() + kCellsPerTask - 1) / kCellsPerTask);
+  task.parallel_for(cells.size(), kCellsPerTask, [&](unsigned, std::size_t begin, std::size_t end) {
+    std::vector<CellComponent>& run = runs[begin / kCellsPerTask];
+    for (std::size_t cell = begin; cell < end; ++cell) {
+      result.first[cell + 1] = split_cell(cells, links, static_cast<std::uint32_t>(cell), run);
+    }
+  });
+  std::inclusive_scan(result.first.begin(), result.first.end(), result.first.begin());
+  result.all.reserve(result.first.back());
+  for (const std::vector<CellComponent>& run : runs) result.all.insert(result.all.end(), run.begin(), run.end());
+  return result;
+}
+
+MergedComponents merge_small(const CellComponents& components, const Links& links) {
+  return number_leaves(Merger(components, links).run(), components.all);
+}
 
 }  // namespace meshhood

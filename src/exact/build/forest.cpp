@@ -19,18 +19,14 @@ struct LevelGroups {
 };
 
 /// The nodes with links, or those without, in a kd order of eight; ascending within each eight.
-std::vector<KdPoint> order_nodes(const NodeGraph& graph, bool with_links) {
+std::vector<KdPoint> order_nodes(const NodeGraph& graph, bool with_links, TaskContext& task) {
   std::vector<KdPoint> points;
   for (std::uint32_t node = 0; node < graph.size(); ++node) {
     if (graph[node].empty() == with_links) continue;
     const Point& p = graph.balls[node].center;
     points.push_back({{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}, node});
   }
-  kd_order(points, kFanOut);
-  for (std::size_t begin = 0; begin < points.size(); begin += kFanOut) {
-    const auto cell = std::span(points).subspan(begin, std::min<std::size_t>(kFanOut, points.size() - begin));
-    std::sort(cell.begin(), cell.end(), [](const KdPoint& a, const KdPoint& b) { return a.id < b.id; });
-  }
+  kd_order(points, kFanOut, task);
   return points;
 }
 
@@ -48,16 +44,16 @@ void pack(std::span<const KdPoint> order, NodeGroups& groups) {
 /// Groups the nodes of one level after the other, upwards.
 class LevelGrouping {
  public:
-  LevelGroups group(const NodeGraph& graph) {
+  LevelGroups group(const NodeGraph& graph, TaskContext& task) {
     LevelGroups result;
-    const std::vector<KdPoint> linked = order_nodes(graph, true);
+    const std::vector<KdPoint> linked = order_nodes(graph, true, task);
     result.covered = cover(graph, linked);
     // Around a hub, hardly any node finds a partner that has room.
     if (4 * result.covered.size() > 3 * linked.size()) {
       result.covered = {};
       pack(linked, result.roots);
     }
-    pack(order_nodes(graph, false), result.roots);
+    pack(order_nodes(graph, false, task), result.roots);
     return result;
   }
 
@@ -129,11 +125,11 @@ class Numbering {
 
 }  // namespace
 
-Forest make_forest(NodeGraph leaves) {
+Forest make_forest(NodeGraph leaves, TaskContext& task) {
   std::vector<LevelGroups> levels;
   LevelGrouping grouping;
   for (NodeGraph graph = std::move(leaves); graph.size() > 0;) {
-    levels.push_back(grouping.group(graph));
+    levels.push_back(grouping.group(graph, task));
     graph = contract(graph, levels.back().covered);
   }
   if (levels.empty()) return {{0}, {}, {}, {}};

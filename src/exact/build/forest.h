@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/parallel.h"
 #include "exact/build/node_groups.h"
 #include "exact/layout.h"
 
@@ -22,6 +23,6 @@ struct Forest {
 };
 
 /// Groups the leaves and numbers them in the order of the groups, from the top down. O(leaves log(leaves) + links).
-[[nodiscard]] Forest make_forest(NodeGraph leaves);
+[[nodiscard]] Forest make_forest(NodeGraph leaves, TaskContext& task);
 
 }  // namespace meshhood

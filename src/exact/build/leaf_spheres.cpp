@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "exact/build/leaf_spheres.h"
 
+#include <array>
 #include <cstddef>
-#include <vector>
+#include <span>
+#include <variant>
 
 namespace meshhood {
 namespace {
@@ -13,15 +15,18 @@ Spheres measure(std::size_t count, LeafAt&& leaf_at, const IndexView& index, Tas
   constexpr std::size_t kGrain = 64;  // enough leaves for the cost of starting a thread
   Spheres result(count);
   task.parallel_for(count, kGrain, [&](unsigned, std::size_t begin, std::size_t end) {
-    std::vector<Point> points;
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t leaf = leaf_at(i);
-      points.clear();
-      for (std::size_t v = index.leaf_begin[leaf]; v < index.leaf_begin[leaf + 1]; ++v) {
-        points.push_back(index.in_frame(v));
-      }
-      if (!points.empty()) result[i] = enclosing_sphere(points);
-    }
+    std::visit(
+        [&](auto xyz) {
+          std::array<Point, kLeafCapacity> points;
+          for (std::size_t i = begin; i < end; ++i) {
+            const std::size_t first = index.leaf_begin[leaf_at(i)];
+            const std::size_t size = index.leaf_begin[leaf_at(i) + 1] - first;
+            for (std::size_t lane = 0; lane < size; ++lane)
+              points[lane] = index.frame.to_frame(point(xyz, first + lane));
+            if (size > 0) result[i] = enclosing_sphere(std::span(points).first(size));
+          }
+        },
+        index.positions);
   });
   return result;
 }
@@ -29,7 +34,7 @@ Spheres measure(std::size_t count, LeafAt&& leaf_at, const IndexView& index, Tas
 }  // namespace
 
 Spheres measure_leaves(std::span<const LeafId> leaves, const IndexView& index, TaskContext& task) {
-  return measure(leaves.size(), [&](std::size_t i) { return leaves[i]; }, index, task);
+  return measure(leaves.size(), [&](std::size_t i) { return std::size_t{leaves[i]}; }, index, task);
 }
 
 Spheres measure_leaves(const IndexView& index, TaskContext& task) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A kd tree divides space into cells of 30 vertices. The mesh may pass through a cell in several connected components;
 // each becomes a leaf of its own if it is large enough, else it is merged into a neighboring leaf that has room.
-// The leaves are then grouped by their links, which decides their order.
+// The leaves are then grouped by their links, which decides their order. The edges are sorted once, by cell; what
+// follows finds them there.
 #include "exact/build/leaves.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -16,109 +16,217 @@
 
 #include "base/vector.h"
 #include "exact/build/cell_components.h"
-#include "exact/build/kd_order.h"
+#include "exact/build/cells.h"
+#include "exact/build/link_collector.h"
 #include "exact/layout.h"
 
 namespace meshhood {
 namespace {
 
-// Enough work for the cost of starting a thread.
-constexpr std::size_t kVerticesPerTask = 4096;
+// Enough leaves for the cost of starting a thread.
+constexpr std::size_t kLeavesPerTask = 256;
 
-Point center_of(const KdPoint& p) {
+/// What the leaves are made of.
+struct Material {
+  Cells cells;
+  Links links;  // of the cells
+  CellComponents components;
+  MergedComponents leaves;
+
+  [[nodiscard]] std::uint32_t leaf_at(std::size_t cell, unsigned lane) const {
+    return leaves.leaf_of[components.at(cell, lane)];
+  }
+};
+
+/// Calls `f(point)` for the vertices of a leaf.
+template <class F>
+void for_each_point(const Material& mesh, std::size_t leaf, F&& f) {
+  for (const CellComponent& part : mesh.leaves[leaf]) {
+    for_each_lane(part.lanes, [&](unsigned lane) { f(mesh.cells.begin[part.cell] + lane); });
+  }
+}
+
+Point position_of(const KdPoint& p) {
   return {static_cast<double>(p.at[0]), static_cast<double>(p.at[1]), static_cast<double>(p.at[2])};
 }
 
-std::vector<KdPoint> make_points(const PositionsView& positions, const Frame& frame, TaskContext& task) {
-  return positions.visit([&](const auto& xyz) {
-    std::vector<KdPoint> points(xyz.size());
-    task.parallel_for(points.size(), kVerticesPerTask, [&](unsigned, std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) {
-        const FramePoint p = frame.round(point(xyz, v));
-        points[v] = {{p.x, p.y, p.z}, static_cast<std::uint32_t>(v)};
+/// The mean of the vertices of a leaf, and the distance of the farthest from it.
+NodeBall measure_leaf(const Material& mesh, std::size_t leaf) {
+  NodeBall ball{{0, 0, 0}, 0};
+  std::size_t size = 0;
+  for_each_point(mesh, leaf, [&](std::size_t i) {
+    ball.center = ball.center + position_of(mesh.cells.points[i]);
+    ++size;
+  });
+  ball.center = 1 / static_cast<double>(size) * ball.center;
+  for_each_point(mesh, leaf, [&](std::size_t i) {
+    ball.radius = std::max(ball.radius, squared_distance(ball.center, position_of(mesh.cells.points[i])));
+  });
+  ball.radius = std::sqrt(ball.radius);
+  return ball;
+}
+
+/// Appends the other leaves that an edge joins to this one, ascending.
+void append_neighbors(const Material& mesh, std::uint32_t leaf, std::vector<std::uint32_t>& out) {
+  const auto row = static_cast<std::ptrdiff_t>(out.size());
+  const auto add = [&](std::uint32_t other) {
+    // Most edges between two leaves follow each other.
+    if (other != leaf && (out.size() == static_cast<std::size_t>(row) || out.back() != other)) out.push_back(other);
+  };
+  for (const CellComponent& part : mesh.leaves[leaf]) {
+    for (const Link& link : mesh.links.links_of(part.cell)) {
+      if ((link.boundary & part.lanes) == 0) continue;
+      const std::uint32_t first = mesh.components.first[link.leaf];
+      if (mesh.components.first[link.leaf + std::size_t{1}] == first + 1) {
+        add(mesh.leaves.leaf_of[first]);
+        continue;
       }
-    });
-    return points;
-  });
-}
-
-/// The number of each component that has vertices, counted without the others.
-std::vector<std::uint32_t> number_components(const CellComponents& components) {
-  std::vector<std::uint32_t> number(components.size.size());
-  std::uint32_t count = 0;
-  for (std::size_t c = 0; c < number.size(); ++c) number[c] = components.size[c] > 0 ? count++ : count;
-  return number;
-}
-
-/// The mean of the vertices of each leaf, and the distance of the farthest from it. `leaf_of`: by point.
-std::vector<NodeBall> measure_leaves(std::span<const KdPoint> points, std::span<const std::uint32_t> leaf_of,
-                                     std::span<const std::uint32_t> sizes) {
-  std::vector<NodeBall> balls(sizes.size(), NodeBall{{0, 0, 0}, 0});
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    balls[leaf_of[i]].center = balls[leaf_of[i]].center + center_of(points[i]);
-  }
-  for (std::size_t leaf = 0; leaf < sizes.size(); ++leaf) {
-    balls[leaf].center = 1 / static_cast<double>(sizes[leaf]) * balls[leaf].center;
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    NodeBall& ball = balls[leaf_of[i]];
-    ball.radius = std::max(ball.radius, squared_distance(ball.center, center_of(points[i])));
-  }
-  for (NodeBall& ball : balls) ball.radius = std::sqrt(ball.radius);
-  return balls;
-}
-
-using LeafPair = std::uint64_t;
-
-/// Every pair of leaves that an edge joins, in both directions: 2^32 times the first, plus the second.
-std::vector<LeafPair> find_pairs(const CellGraph& cells, std::span<const std::uint32_t> leaf_of, TaskContext& task) {
-  std::vector<std::vector<LeafPair>> runs((cells.size() + kVerticesPerTask - 1) / kVerticesPerTask);
-  task.parallel_for(cells.size(), kVerticesPerTask, [&](unsigned, std::size_t begin, std::size_t end) {
-    std::vector<LeafPair>& pairs = runs[begin / kVerticesPerTask];
-    // Most edges between two leaves follow each other closely, and need not be sorted. No leaf is joined with itself.
-    std::array<LeafPair, 64> recent{};
-    for (std::size_t i = begin; i < end; ++i) {
-      cells.for_each_neighbor(i, [&](std::size_t other) {
-        if (leaf_of[i] == leaf_of[other]) return;
-        const LeafPair pair = LeafPair{leaf_of[i]} << 32U | leaf_of[other];
-        LeafPair& last = recent[(7 * std::size_t{leaf_of[i]} + leaf_of[other]) % recent.size()];
-        if (std::exchange(last, pair) != pair) pairs.push_back(pair);
-      });
+      for (const CrossEdge& edge : mesh.links.cross_edges_of(link)) {
+        if ((part.lanes >> edge.from & 1U) != 0) add(mesh.leaf_at(link.leaf, edge.to));
+      }
     }
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  });
-  std::vector<LeafPair> all;
-  for (const std::vector<LeafPair>& run : runs) all.insert(all.end(), run.begin(), run.end());
-  // Nearly in order: the leaves of a run mostly follow those of the run before.
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
+  }
+  std::sort(out.begin() + row, out.end());
+  out.erase(std::unique(out.begin() + row, out.end()), out.end());
 }
 
-NodeGraph graph_of_leaves(std::vector<NodeBall> balls, std::span<const LeafPair> pairs) {
+/// The leaves and the links between them, by which they are grouped.
+NodeGraph graph_of_leaves(const Material& mesh, TaskContext& task) {
+  const std::size_t leaves = mesh.leaves.size();
   NodeGraph graph;
-  graph.balls = std::move(balls);
-  graph.offsets.assign(graph.balls.size() + 1, 0);
-  for (const LeafPair pair : pairs) {
-    ++graph.offsets[(pair >> 32U) + 1];
-    graph.neighbors.push_back(static_cast<std::uint32_t>(pair));
+  graph.balls.resize(leaves);
+  graph.offsets.assign(leaves + 1, 0);
+  std::vector<std::vector<std::uint32_t>> runs((leaves + kLeavesPerTask - 1) / kLeavesPerTask);
+  task.parallel_for(leaves, kLeavesPerTask, [&](unsigned, std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t>& run = runs[begin / kLeavesPerTask];
+    for (std::size_t leaf = begin; leaf < end; ++leaf) {
+      graph.balls[leaf] = measure_leaf(mesh, leaf);
+      append_neighbors(mesh, static_cast<std::uint32_t>(leaf), run);
+      graph.offsets[leaf + 1] = static_cast<std::uint32_t>(run.size());
+    }
+  });
+  for (const std::vector<std::uint32_t>& run : runs) {
+    const std::size_t begin = static_cast<std::size_t>(&run - runs.data()) * kLeavesPerTask;
+    const auto before = static_cast<std::uint32_t>(graph.neighbors.size());
+    for (std::size_t leaf = begin; leaf < std::min(begin + kLeavesPerTask, leaves); ++leaf) {
+      graph.offsets[leaf + 1] += before;
+    }
+    graph.neighbors.insert(graph.neighbors.end(), run.begin(), run.end());
   }
-  std::partial_sum(graph.offsets.begin(), graph.offsets.end(), graph.offsets.begin());
   return graph;
 }
 
-/// Gives each vertex the next free lane of its leaf, which `slot` holds at first. In the order of the caller's
-/// vertices, so that neighbors in a leaf stay neighbors.
-void number_vertices(LeafPartition& leaves) {
-  std::vector<std::uint8_t> filled(leaves.leaf_begin.size() - 1, 0);
-  for (std::size_t v = 0; v < leaves.slot.size(); ++v) {
-    const LeafId leaf = leaves.slot[v];
-    const std::uint32_t lane = filled[leaf]++;
-    leaves.slot[v] = leaf * kLeafCapacity + lane;
-    leaves.permutation[leaves.leaf_begin[leaf] + lane] = static_cast<VertexId>(v);
+/// The vertices of each leaf in their order, and for each vertex in kd order its slot.
+class Placing {
+ public:
+  Placing(const Material& mesh, LeafPartition& result) : mesh_(mesh), result_(result), slot_(mesh.cells.points.size()) {
+    const std::span<const std::uint32_t> order = result.forest.leaves;
+    result.leaf_begin.assign(order.size() + 1, 0);
+    for (std::size_t place = 0; place < order.size(); ++place) {
+      result.leaf_begin[place + 1] = result.leaf_begin[place];
+      if (order[place] != kNoNode) result.leaf_begin[place + 1] += size_of(order[place]);
+    }
+    result.slot.resize(slot_.size());
+    result.permutation.reserve(slot_.size() + kLeafCapacity);  // and the padding of an index
+    result.permutation.resize(slot_.size());
   }
-}
+
+  std::vector<std::uint32_t> run(TaskContext& task) {
+    task.parallel_for(result_.forest.leaves.size(), kLeavesPerTask, [&](unsigned, std::size_t begin, std::size_t end) {
+      for (std::size_t place = begin; place < end; ++place) {
+        if (result_.forest.leaves[place] != kNoNode) number_vertices(place);
+      }
+    });
+    return std::move(slot_);
+  }
+
+ private:
+  [[nodiscard]] VertexId size_of(std::size_t leaf) const {
+    std::size_t size = 0;
+    for (const CellComponent& part : mesh_.leaves[leaf]) size += count_of(part.lanes);
+    return static_cast<VertexId>(size);
+  }
+
+  /// Gives the vertices of a leaf its lanes in the order of the caller's vertices, so that neighbors stay neighbors.
+  void number_vertices(std::size_t place) {
+    std::array<std::pair<VertexId, std::uint32_t>, kLeafCapacity> members;
+    std::size_t size = 0;
+    const std::uint32_t leaf = result_.forest.leaves[place];
+    for_each_point(mesh_, leaf,
+                   [&](std::size_t i) { members[size++] = {mesh_.cells.points[i].id, static_cast<std::uint32_t>(i)}; });
+    // The vertices of one cell ascend.
+    if (mesh_.leaves[leaf].size() > 1) std::sort(members.begin(), members.begin() + size);
+    for (std::size_t lane = 0; lane < size; ++lane) {
+      const auto [vertex, i] = members[lane];
+      result_.permutation[result_.leaf_begin[place] + lane] = vertex;
+      slot_[i] = result_.slot[vertex] = static_cast<std::uint32_t>(place * kLeafCapacity + lane);
+    }
+  }
+
+  const Material& mesh_;
+  LeafPartition& result_;
+  std::vector<std::uint32_t> slot_;
+};
+
+/// Turns the links of cells into those of leaves.
+class LeafLinker {
+ public:
+  /// `slot`: of the vertices in kd order.
+  LeafLinker(const Material& mesh, std::span<const std::uint32_t> slot, const LeafPartition& leaves)
+      : mesh_(mesh), slot_(slot), leaves_(leaves) {}
+
+  Links run(TaskContext& task) const {
+    const std::size_t places = leaves_.forest.leaves.size();
+    std::vector<LaneMask> adjacency;
+    adjacency.reserve(slot_.size() + kLeafCapacity);  // and the padding of an index
+    adjacency.resize(slot_.size());
+    std::vector<Links> runs((places + kLeavesPerTask - 1) / kLeavesPerTask);
+    std::vector<LinkCollector> collectors(std::min<std::size_t>(task.threads(), runs.size()), LinkCollector(places));
+    task.parallel_for(places, kLeavesPerTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
+      for (std::size_t place = begin; place < end; ++place) {
+        LinkCollector& exits = collectors[thread];
+        exits.begin();
+        link(place, adjacency.data() + leaves_.leaf_begin[place], exits);
+        exits.finish(runs[begin / kLeavesPerTask]);
+      }
+    });
+    Links result = join_runs(runs);
+    result.adjacency = std::move(adjacency);
+    return result;
+  }
+
+ private:
+  void link(std::size_t place, LaneMask* adjacency, LinkCollector& exits) const {
+    const std::uint32_t leaf = leaves_.forest.leaves[place];
+    if (leaf == kNoNode) return;
+    for (const CellComponent& part : mesh_.leaves[leaf]) {
+      const std::size_t begin = mesh_.cells.begin[part.cell];
+      for_each_lane(part.lanes, [&](unsigned from) {
+        LaneMask& row = adjacency[lane_of(slot_[begin + from])];
+        for_each_lane(mesh_.links.adjacency[begin + from],
+                      [&](unsigned to) { row |= LaneMask{1} << lane_of(slot_[begin + to]); });
+      });
+      for (const Link& link : mesh_.links.links_of(part.cell)) {
+        if ((link.boundary & part.lanes) == 0) continue;
+        const std::size_t other = mesh_.cells.begin[link.leaf];
+        for (const CrossEdge& edge : mesh_.links.cross_edges_of(link)) {
+          if ((part.lanes >> edge.from & 1U) == 0) continue;
+          const unsigned from = lane_of(slot_[begin + edge.from]);
+          const std::uint32_t to = slot_[other + edge.to];
+          if (leaf_of(to) == place) {
+            adjacency[from] |= LaneMask{1} << lane_of(to);
+          } else {
+            exits.add(from, to);
+          }
+        }
+      }
+    }
+  }
+
+  const Material& mesh_;
+  std::span<const std::uint32_t> slot_;
+  const LeafPartition& leaves_;
+};
 
 }  // namespace
 
@@ -128,37 +236,22 @@ void check_leaf_count(std::size_t leaves) {
         std::to_string(leaves) + " leaves in the index, but the limit is " + std::to_string(kMaxLeaves));
 }
 
-LeafPartition make_leaves(const GraphView& graph, const Frame& frame, TaskContext& task) {
-  std::vector<KdPoint> points = make_points(graph.positions, frame, task);
-  kd_order(points, kCellSize, task);
-  const CellGraph cells(points, graph.adjacency, task);
-  CellComponents components = split_cells(cells, task);
-  merge_small(cells, components);
-  const std::vector<std::uint32_t> number = number_components(components);
-  std::vector<std::uint32_t> leaf_of = std::move(components.of);
-  for (std::uint32_t& leaf : leaf_of) leaf = number[leaf];
-  std::vector<std::uint32_t> sizes = std::move(components.size);
-  std::erase(sizes, 0U);
+LeafPartition make_leaves(const PositionsView& positions, const EdgeSource& edges, const Frame& frame,
+                          TaskContext& task) {
+  Material mesh;
+  mesh.cells = make_cells(positions, frame, task);
+  task.advance(1);
+  mesh.links = make_links(edges, mesh.cells.slot, mesh.cells.begin, task);
+  task.advance(1);
+  mesh.components = split_cells(mesh.cells, mesh.links, task);
+  mesh.leaves = merge_small(mesh.components, mesh.links);
 
   LeafPartition result;
-  result.forest =
-      make_forest(graph_of_leaves(measure_leaves(points, leaf_of, sizes), find_pairs(cells, leaf_of, task)));
-  const std::span<const std::uint32_t> order = result.forest.leaves;
-  check_leaf_count(order.size());
-  result.slot.resize(points.size());
-  result.permutation.resize(points.size());
-  result.leaf_begin.assign(order.size() + 1, 0);
-  std::vector<LeafId> place_of(sizes.size());
-  for (std::size_t leaf = 0; leaf < order.size(); ++leaf) {
-    result.leaf_begin[leaf + 1] = result.leaf_begin[leaf];
-    if (order[leaf] == kNoNode) continue;
-    place_of[order[leaf]] = static_cast<LeafId>(leaf);
-    result.leaf_begin[leaf + 1] += static_cast<VertexId>(sizes[order[leaf]]);
-  }
-  task.parallel_for(points.size(), kVerticesPerTask, [&](unsigned, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) result.slot[points[i].id] = place_of[leaf_of[i]];
-  });
-  number_vertices(result);
+  result.forest = make_forest(graph_of_leaves(mesh, task), task);
+  check_leaf_count(result.forest.leaves.size());
+  const std::vector<std::uint32_t> slot = Placing(mesh, result).run(task);
+  result.links = LeafLinker(mesh, slot, result).run(task);
+  task.advance(1);
   return result;
 }
 

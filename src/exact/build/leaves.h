@@ -5,29 +5,36 @@
 #include <cstdint>
 #include <vector>
 
-#include "meshhood/adjacency.h"
+#include "meshhood/mesh.h"
 
 #include "base/frame.h"
 #include "base/parallel.h"
+#include "exact/build/edge_source.h"
 #include "exact/build/forest.h"
+#include "exact/build/links.h"
 
 namespace meshhood {
 
-/// The vertices of each leaf, and the order of leaves and of vertices in them: the index order.
+/// The vertices of each leaf, the order of leaves and of vertices in them, which is the index order, and the edges.
 struct LeafPartition {
   Forest forest;                      // whose groups the leaves are numbered by
   std::vector<std::uint32_t> slot;    // by the caller's vertex: 32 times its leaf plus its lane
   std::vector<VertexId> permutation;  // in index order: the caller's vertex
   std::vector<VertexId> leaf_begin;   // by place of a leaf, and one more: its first vertex in index order
+  Links links;                        // by place of a leaf
 };
+
+/// The steps that `make_leaves` reports: cells, the edges by cell, leaves.
+inline constexpr std::size_t kLeafSteps = 3;
 
 /// Divides the vertices into leaves of 1 to 32 vertices that lie close together and are connected; small components of
 /// the mesh share leaves. Groups the leaves. Vertices within a leaf keep the caller's order.
 ///
-/// graph  valid
-/// frame  the frame of its positions
+/// positions, edges  valid
+/// frame             the frame of the positions
 /// Throws Error{TooLarge} for more than `kMaxLeaves` leaves, and Error{Cancelled}. O(#V log #V + #E).
-[[nodiscard]] LeafPartition make_leaves(const GraphView& graph, const Frame& frame, TaskContext& task);
+[[nodiscard]] LeafPartition make_leaves(const PositionsView& positions, const EdgeSource& edges, const Frame& frame,
+                                        TaskContext& task);
 
 /// Throws Error{TooLarge} if the slots of so many leaves do not fit into 32 bits.
 void check_leaf_count(std::size_t leaves);

@@ -1,92 +1,161 @@
 // SPDX-License-Identifier: MIT
+// The edges come in the order of the polygons. They are distributed to buckets of consecutive leaves, then within each
+// bucket to leaves, so that all that is looked up stays in the cache.
 #include "exact/build/links.h"
 
 #include <algorithm>
+#include <bit>
+#include <numeric>
 
+#include "exact/build/edge_buckets.h"
+#include "exact/build/link_collector.h"
 #include "exact/lane_search.h"
 
 namespace meshhood {
 namespace {
 
-/// An edge that leaves a leaf as one number, which orders edges by the other leaf, then the lane in this leaf, then the
-/// lane in the other.
-using Exit = std::uint64_t;
+// Enough polygons for the cost of starting a thread.
+constexpr std::size_t kPolygonsPerTask = 16384;
 
-Exit make_exit(unsigned lane, std::uint32_t slot) {
-  const Exit leaf = leaf_of(slot);
-  return (leaf * kLeafCapacity + lane) * kLeafCapacity + lane_of(slot);
-}
-
-LeafId target_leaf(Exit exit) { return static_cast<LeafId>(exit / (Exit{kLeafCapacity} * kLeafCapacity)); }
-
-CrossEdge cross_edge_of(Exit exit) {
-  return {static_cast<std::uint8_t>(exit / kLeafCapacity % kLeafCapacity),
-          static_cast<std::uint8_t>(exit % kLeafCapacity)};
-}
-
-/// `exits` are in ascending order, so those to one leaf are consecutive.
-void append_links(const std::vector<Exit>& exits, Links& out) {
-  for (std::size_t i = 0; i < exits.size(); ++i) {
-    if (i == 0 || target_leaf(exits[i]) != target_leaf(exits[i - 1])) {
-      out.links.push_back({target_leaf(exits[i]), 0, static_cast<std::uint32_t>(out.cross_edges.size())});
-    }
-    const CrossEdge cross_edge = cross_edge_of(exits[i]);
-    out.links.back().boundary |= LaneMask{1} << cross_edge.from;
-    out.cross_edges.push_back(cross_edge);
+/// Ranges of leaves, of equal size.
+class Buckets {
+ public:
+  explicit Buckets(std::size_t leaves) : leaves_(leaves) {
+    // The masks and edges of so many leaves fit into the second cache. But to a thread that writes to very many
+    // buckets, each is far away.
+    constexpr std::size_t kLeaves = 256;
+    constexpr std::size_t kMost = 1024;
+    leaves_each_ = std::bit_ceil(std::max(kLeaves, leaves / kMost));
+    shift_ = static_cast<unsigned>(std::countr_zero(leaves_each_ * kLeafCapacity));
   }
-}
 
-/// The links of the leaves `begin .. end - 1`, numbered from 0. Fills their part of `adjacency`.
-Links link_leaves(const AdjacencyView& graph, const LeafPartition& leaves, std::size_t begin, std::size_t end,
-                  std::vector<LaneMask>& adjacency) {
-  Links result;
-  std::vector<Exit> exits;
-  for (std::size_t leaf = begin; leaf < end; ++leaf) {
-    exits.clear();
-    const std::size_t first = leaves.leaf_begin[leaf];
-    for (std::size_t v = first; v < leaves.leaf_begin[leaf + 1]; ++v) {
-      for (const VertexId w : graph[leaves.permutation[v]]) {
-        const std::uint32_t slot = leaves.slot[w];
-        if (leaf_of(slot) == leaf) {
-          adjacency[v] |= LaneMask{1} << lane_of(slot);
-        } else {
-          exits.push_back(make_exit(static_cast<unsigned>(v - first), slot));
-        }
-      }
-    }
-    std::sort(exits.begin(), exits.end());
-    append_links(exits, result);
-    result.link_end.push_back(static_cast<std::uint32_t>(result.links.size()));
+  [[nodiscard]] std::size_t count() const { return (leaves_ + leaves_each_ - 1) / leaves_each_; }
+  [[nodiscard]] std::size_t of(std::uint32_t slot) const { return slot >> shift_; }
+  [[nodiscard]] LeafId begin(std::size_t bucket) const { return static_cast<LeafId>(bucket * leaves_each_); }
+  [[nodiscard]] LeafId end(std::size_t bucket) const {
+    return static_cast<LeafId>(std::min(leaves_, (bucket + 1) * leaves_each_));
   }
+
+ private:
+  std::size_t leaves_;
+  std::size_t leaves_each_;
+  unsigned shift_;
+};
+
+EdgeBuckets distribute(const EdgeSource& edges, std::span<const std::uint32_t> slot, const Buckets& buckets,
+                       TaskContext& task) {
+  EdgeBuckets result(task.threads(), buckets.count());
+  task.parallel_for(edges.size(), kPolygonsPerTask, [&](unsigned thread, std::size_t begin, std::size_t end) {
+    edges.for_each(begin, end, [&](VertexId v, VertexId w) {
+      const std::uint32_t a = slot[v];
+      const std::uint32_t b = slot[w];
+      result.add(thread, buckets.of(a), {a, b});
+      if (buckets.of(a) != buckets.of(b)) result.add(thread, buckets.of(b), {b, a});
+    });
+  });
   return result;
 }
 
-/// Appends the links of the leaves after those in `all`.
-void append(const Links& next, Links& all) {
-  const auto links = static_cast<std::uint32_t>(all.links.size());
-  const auto cross_edges = static_cast<std::uint32_t>(all.cross_edges.size());
-  for (const std::uint32_t end : next.link_end) all.link_end.push_back(links + end);
-  for (const Link& link : next.links) {
-    all.links.push_back({link.leaf, link.boundary, cross_edges + link.first_cross_edge});
+/// Links the leaves of one bucket after the other; each thread has one.
+class Linker {
+ public:
+  Linker(const Buckets& buckets, std::span<const VertexId> begin, std::span<LaneMask> adjacency)
+      : buckets_(buckets), begin_(begin), adjacency_(adjacency), collector_(begin.size() - 1) {}
+
+  Links link(std::size_t bucket, EdgeBuckets& edges) {
+    take(bucket, edges);
+    sort_by_leaf(bucket);
+    Links result;
+    for (LeafId leaf = buckets_.begin(bucket); leaf < buckets_.end(bucket); ++leaf) {
+      const std::size_t i = leaf - buckets_.begin(bucket);
+      collector_.begin();
+      for (std::size_t exit = i == 0 ? 0 : ends_[i - 1]; exit < ends_[i]; ++exit) {
+        collector_.add(lane_of(sorted_[exit].from), sorted_[exit].to);
+      }
+      collector_.finish(result);
+    }
+    return result;
   }
-  all.cross_edges.insert(all.cross_edges.end(), next.cross_edges.begin(), next.cross_edges.end());
-}
+
+ private:
+  /// Sets the edges within leaves, and collects the others, in both directions.
+  void take(std::size_t bucket, EdgeBuckets& edges) {
+    exits_.clear();
+    edges.take(bucket, [&](const SlotEdge& edge) {
+      const bool is_inside = buckets_.of(edge.to) == bucket;
+      if (leaf_of(edge.from) == leaf_of(edge.to)) {
+        join(edge.from, edge.to);
+        join(edge.to, edge.from);
+      } else {
+        exits_.push_back(edge);
+        if (is_inside) exits_.push_back({edge.to, edge.from});
+      }
+    });
+  }
+
+  void join(std::uint32_t slot, std::uint32_t other) {
+    adjacency_[begin_[leaf_of(slot)] + lane_of(slot)] |= LaneMask{1} << lane_of(other);
+  }
+
+  void sort_by_leaf(std::size_t bucket) {
+    const LeafId first = buckets_.begin(bucket);
+    ends_.assign(buckets_.end(bucket) - first, 0);
+    for (const SlotEdge& exit : exits_) ++ends_[leaf_of(exit.from) - first];
+    std::exclusive_scan(ends_.begin(), ends_.end(), ends_.begin(), std::size_t{0});
+    sorted_.resize(exits_.size());
+    for (const SlotEdge& exit : exits_) sorted_[ends_[leaf_of(exit.from) - first]++] = exit;
+  }
+
+  const Buckets& buckets_;
+  std::span<const VertexId> begin_;
+  std::span<LaneMask> adjacency_;
+  LinkCollector collector_;
+  std::vector<SlotEdge> exits_;
+  std::vector<SlotEdge> sorted_;   // by leaf
+  std::vector<std::size_t> ends_;  // by leaf of the bucket: the end of its exits
+};
 
 }  // namespace
 
-Links make_links(const AdjacencyView& graph, const LeafPartition& leaves, TaskContext& task) {
-  constexpr std::size_t kGrain = 256;
-  const std::size_t leaf_count = leaves.leaf_begin.size() - 1;
-  Links result;
-  result.adjacency.resize(leaves.permutation.size());
-  std::vector<Links> runs((leaf_count + kGrain - 1) / kGrain);
-  task.parallel_for(leaf_count, kGrain, [&](unsigned, std::size_t begin, std::size_t end) {
-    runs[begin / kGrain] = link_leaves(graph, leaves, begin, end, result.adjacency);
+Links make_links(const EdgeSource& edges, std::span<const std::uint32_t> slot, std::span<const VertexId> begin,
+                 TaskContext& task) {
+  const Buckets buckets(begin.size() - 1);
+  EdgeBuckets distributed = distribute(edges, slot, buckets, task);
+  std::vector<LaneMask> adjacency(slot.size());
+  std::vector<Links> runs(buckets.count());
+  std::vector<Linker> linkers(std::min<std::size_t>(task.threads(), runs.size()), {buckets, begin, adjacency});
+  task.parallel_for(runs.size(), 1, [&](unsigned thread, std::size_t bucket, std::size_t) {
+    runs[bucket] = linkers[thread].link(bucket, distributed);
   });
-  result.cross_edges.reserve(graph.neighbors.size() / 3);
-  for (const Links& run : runs) append(run, result);
-  result.links.push_back({0, 0, static_cast<std::uint32_t>(result.cross_edges.size())});
+  Links result = join_runs(runs);
+  result.adjacency = std::move(adjacency);
   return result;
+}
+
+Links join_runs(std::span<const Links> runs) {
+  Links all;
+  std::size_t leaves = 0;
+  std::size_t links = 1;
+  std::size_t cross_edges = 0;
+  for (const Links& run : runs) {
+    leaves += run.link_end.size();
+    links += run.links.size();
+    cross_edges += run.cross_edges.size();
+  }
+  all.link_end.reserve(leaves);
+  all.links.reserve(links);
+  all.cross_edges.reserve(cross_edges + kLeafCapacity);  // and the padding of an index
+  for (const Links& run : runs) {
+    const auto first_link = static_cast<std::uint32_t>(all.links.size());
+    const auto first_cross_edge = static_cast<std::uint32_t>(all.cross_edges.size());
+    for (const std::uint32_t end : run.link_end) all.link_end.push_back(first_link + end);
+    for (const Link& link : run.links) {
+      all.links.push_back({link.leaf, link.boundary, first_cross_edge + link.first_cross_edge});
+    }
+    all.cross_edges.insert(all.cross_edges.end(), run.cross_edges.begin(), run.cross_edges.end());
+  }
+  all.links.push_back({0, 0, static_cast<std::uint32_t>(all.cross_edges.size())});
+  return all;
 }
 
 bool is_connected(const LaneMask* adjacency, unsigned size) {

@@ -7,17 +7,15 @@
 #include <span>
 #include <vector>
 
-#include "meshhood/adjacency.h"
-
 #include "base/parallel.h"
-#include "exact/build/leaves.h"
+#include "exact/build/edge_source.h"
 #include "exact/layout.h"
 
 namespace meshhood {
 
-/// The edges of the mesh, by leaf.
+/// The edges of the mesh, by leaf; or by cell, which then takes the place of a leaf.
 struct Links {
-  std::vector<LaneMask> adjacency;      // in index order: the neighbors in the same leaf
+  std::vector<LaneMask> adjacency;      // in the order of the leaves: the neighbors in the same leaf
   std::vector<std::uint32_t> link_end;  // by leaf: the end of its links
   std::vector<Link> links;              // by leaf, then by linked leaf; one more, for the end of the last cross edges
   std::vector<CrossEdge> cross_edges;   // by link, then by `from`, then by `to`
@@ -36,8 +34,16 @@ struct Links {
   }
 };
 
-/// Every edge of the mesh in both directions. O(#V + #E log(edges that leave a leaf)).
-[[nodiscard]] Links make_links(const AdjacencyView& adjacency, const LeafPartition& leaves, TaskContext& task);
+/// Every edge of the mesh in both directions.
+///
+/// slot   by vertex: 32 times its leaf, plus its lane
+/// begin  by leaf, and one more: its first vertex in the order of the leaves
+/// Throws Error{Cancelled}. O(#V + edges of the source).
+[[nodiscard]] Links make_links(const EdgeSource& edges, std::span<const std::uint32_t> slot,
+                               std::span<const VertexId> begin, TaskContext& task);
+
+/// Links of consecutive runs of leaves, each numbered from 0, as one. Without `adjacency`.
+[[nodiscard]] Links join_runs(std::span<const Links> runs);
 
 /// Whether the `size` vertices of a leaf are connected by the edges between them; true for one and for none.
 [[nodiscard]] bool is_connected(const LaneMask* adjacency, unsigned size);

@@ -43,18 +43,20 @@ class GroupLinks {
   std::vector<NodeLink> outer_;
 };
 
+void append(const std::vector<NodeLink>& links, std::vector<NodeLink>& all) {
+  all.insert(all.end(), links.begin(), links.end());
+}
+
 }  // namespace
 
 std::vector<NodeLink> make_node_links(std::span<const std::uint32_t> first_link, std::span<const Link> links,
                                       std::span<const std::uint32_t> levels, std::span<const NodeId> parents,
-                                      std::vector<GroupRecord>& records) {
+                                      std::vector<GroupRecord>& records, TaskContext& task) {
+  constexpr std::size_t kGrain = 512;  // enough groups for the cost of starting a thread
   std::vector<NodeLink> result;
-  GroupLinks collected(result);
-  const std::uint32_t leaf_groups = levels.size() > 1 ? levels[1] : 0;
-  for (std::uint32_t group = 0; group < records.size(); ++group) {
-    collected.begin(group);
+  const auto add_links = [&](std::size_t level, std::uint32_t group, GroupLinks& collected) {
     for (unsigned i = 0; i < records[group].nodes; ++i) {
-      if (group < leaf_groups) {
+      if (level == 0) {
         const std::size_t leaf = std::size_t{group} * kFanOut + i;
         for (std::size_t link = first_link[leaf]; link < first_link[leaf + 1]; ++link) {
           collected.add(i, links[link].leaf);
@@ -67,7 +69,25 @@ std::vector<NodeLink> make_node_links(std::span<const std::uint32_t> first_link,
         if (other != kNoNode) collected.add(i, other);
       }
     }
-    collected.finish(records[group]);
+  };
+  for (std::size_t level = 0; level + 1 < levels.size(); ++level) {
+    const std::size_t groups = levels[level + 1] - levels[level];
+    std::vector<std::vector<NodeLink>> runs((groups + kGrain - 1) / kGrain);
+    task.parallel_for(groups, kGrain, [&](unsigned, std::size_t begin, std::size_t end) {
+      GroupLinks collected(runs[begin / kGrain]);
+      for (auto group = static_cast<std::uint32_t>(levels[level] + begin); group < levels[level] + end; ++group) {
+        collected.begin(group);
+        add_links(level, group, collected);
+        collected.finish(records[group]);
+      }
+    });
+    for (std::size_t group = 0; group < groups; ++group) {
+      if (group % kGrain == 0 && group > 0) append(runs[group / kGrain - 1], result);
+      GroupRecord& record = records[levels[level] + group];
+      record.first_link += static_cast<std::uint32_t>(result.size());
+      record.end_link += static_cast<std::uint32_t>(result.size());
+    }
+    if (!runs.empty()) append(runs.back(), result);
   }
   return result;
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/parallel.h"
 #include "exact/layout.h"
 
 namespace meshhood {
@@ -17,6 +18,7 @@ namespace meshhood {
 /// A link from a group with a parent to one without has no counterpart on the level above. O(links).
 [[nodiscard]] std::vector<NodeLink> make_node_links(std::span<const std::uint32_t> first_link,
                                                     std::span<const Link> links, std::span<const std::uint32_t> levels,
-                                                    std::span<const NodeId> parents, std::vector<GroupRecord>& records);
+                                                    std::span<const NodeId> parents, std::vector<GroupRecord>& records,
+                                                    TaskContext& task);
 
 }  // namespace meshhood

@@ -21,23 +21,6 @@ constexpr double kAbsoluteRoom = 0x1p-22;
 // Farther than any vertex; its square is still a float.
 constexpr float kFarAway = 1e18F;
 
-std::vector<float> as_floats(std::span<const Point> points) {
-  std::vector<float> xyz;
-  xyz.reserve(3 * points.size());
-  for (const Point& p : points) {
-    xyz.push_back(static_cast<float>(p.x));
-    xyz.push_back(static_cast<float>(p.y));
-    xyz.push_back(static_cast<float>(p.z));
-  }
-  return xyz;
-}
-
-Point smallest_sphere_center(std::span<const Point> points) {
-  const std::vector<float> xyz = as_floats(points);
-  const Sphere<float> sphere = bounding_sphere(std::span<const float>(xyz));
-  return center_of(sphere);
-}
-
 void set_node(Group& group, std::size_t i, const FrameSphere& sphere) {
   group.x[i] = sphere.x;
   group.y[i] = sphere.y;
@@ -99,7 +82,7 @@ class GrowingTree {
   [[nodiscard]] FrameSphere measure_parent(NodeId node, std::span<const FrameSphere> spheres) const {
     std::vector<Point> centers;
     for (const FrameSphere& sphere : spheres) centers.push_back(center_of(sphere));
-    FrameSphere result = rounded(smallest_sphere_center(centers));
+    FrameSphere result = rounded(bounding_center(centers));
     double farthest = 0;
     find_farthest(node, center_of(result), farthest);
     set_radius(result, farthest);
@@ -173,7 +156,7 @@ FrameSphere enclosing_sphere(std::span<const Point> points, const Point& center)
 }
 
 FrameSphere enclosing_sphere(std::span<const Point> points) {
-  return enclosing_sphere(points, smallest_sphere_center(points));
+  return enclosing_sphere(points, bounding_center(points));
 }
 
 bool is_absent(const Group& group, std::size_t i) {

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "meshhood/mesh.h"
+
+#include "base/frame.h"
+#include "base/parallel.h"
+#include "exact/build/kd_order.h"
+#include "exact/layout.h"
+
+namespace meshhood {
+
+/// The number of vertices in a cell of the kd order. Below the capacity of a leaf, so that small components of
+/// neighboring cells fit in.
+inline constexpr std::size_t kCellSize = 30;
+
+/// The vertices in a kd order, of which every `kCellSize` consecutive ones are a cell. Within a cell they ascend.
+/// A vertex of a cell has a slot, as it has in a leaf: 32 times its cell, plus its place in the cell.
+struct Cells {
+  std::vector<KdPoint> points;      // in kd order
+  std::vector<std::uint32_t> slot;  // by vertex
+  std::vector<VertexId> begin;      // by cell, and one more: its first point
+
+  [[nodiscard]] std::size_t size() const { return begin.size() - 1; }
+  [[nodiscard]] unsigned size_of(std::size_t cell) const { return begin[cell + 1] - begin[cell]; }
+  [[nodiscard]] const KdPoint& point(std::size_t cell, unsigned lane) const { return points[begin[cell] + lane]; }
+};
+
+/// frame  the frame of the positions
+/// Throws Error{Cancelled}. O(#V log #V).
+[[nodiscard]] Cells make_cells(const PositionsView& positions, const Frame& frame, TaskContext& task);
+
+}  // namespace meshhood
