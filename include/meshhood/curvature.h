@@ -20,7 +20,7 @@
 namespace meshhood {
 
 /// The data for curvature besides the index of a mesh: the normals of the vertices. Immutable: any number of threads
-/// may use it. Shares the memory of the index, as a searcher does: the index may be moved or destroyed. 28 bytes a
+/// may use it. Shares the memory of the index, as a searcher does: the index may be moved or destroyed. 24 bytes a
 /// vertex.
 class CurvatureIndex {
  public:

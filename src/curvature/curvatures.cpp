@@ -26,7 +26,7 @@ namespace {
 TangentFrame frame_at(const SurfaceState& surface, std::uint32_t place, ShapeOperator shape_operator) {
   const Point normal = surface.normal(place);
   if (shape_operator == ShapeOperator::Exact) return frame_of(normal);
-  return frame_towards(normal, surface.position(surface.first_neighbor[place]) - surface.position(place));
+  return frame_towards(normal, surface.position(surface.first_neighbor(place)) - surface.position(place));
 }
 
 /// Fits the rows of packets. One object a thread.

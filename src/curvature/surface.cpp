@@ -37,46 +37,35 @@ void check_positions(const IndexView& index, const MeshView& mesh) {
   });
 }
 
-/// The vector area of a polygon, in the frame, where products do not overflow.
-Point vector_area(const SurfaceState& state, std::span<const VertexId> corners) {
-  return 0.5 * doubled_vector_area(corners.size(), [&](std::size_t i) {
-           const std::uint32_t place = place_of(*state.index, corners[i]);
-           return state.index->frame.scale * state.position(place);
-         });
-}
-
 /// Stores the normals as unit vectors; one of length 0 becomes NaN.
 void set_normals(SurfaceState& state, std::span<const Point> normals) {
-  for (const Point& n : normals) {
+  for (std::vector<double>* const axis : {&state.normal_x, &state.normal_y, &state.normal_z}) {
+    axis->resize(normals.size());
+  }
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const Point& n = normals[i];
     const double norm = length(n);
     const double size = norm > 0 ? norm : std::numeric_limits<double>::quiet_NaN();
-    state.normal_x.push_back(n.x / size);
-    state.normal_y.push_back(n.y / size);
-    state.normal_z.push_back(n.z / size);
+    state.normal_x[i] = n.x / size;
+    state.normal_y[i] = n.y / size;
+    state.normal_z[i] = n.z / size;
   }
 }
 
-void add_faces(SurfaceState& state, const FacesView& faces) {
-  const IndexView& index = *state.index;
-  std::vector<Point> normals(index.vertex_count(), {0, 0, 0});
+/// The sums of the vector areas of the faces at each vertex, in the frame, where products do not overflow.
+template <class Real>
+std::vector<Point> sum_areas(const IndexView& index, std::span<const Real> xyz, const FacesView& faces) {
+  std::vector<Point> sums(index.vertex_count(), {0, 0, 0});
+  std::vector<std::uint32_t> places;
   faces.for_each([&](std::size_t, std::span<const VertexId> corners) {
-    const Point area = vector_area(state, corners);
-    for (const VertexId corner : corners) {
-      const std::size_t place = place_of(index, corner);
-      normals[place] = normals[place] + area;
-    }
+    places.clear();
+    for (const VertexId corner : corners) places.push_back(place_of(index, corner));
+    const Point area = 0.5 * doubled_vector_area(places.size(), [&](std::size_t i) {
+                         return index.frame.scale * point(xyz, places[i]);
+                       });
+    for (const std::uint32_t place : places) sums[place] = sums[place] + area;
   });
-  set_normals(state, normals);
-}
-
-void find_first_neighbors(SurfaceState& state) {
-  const IndexView& index = *state.index;
-  state.first_neighbor.resize(index.vertex_count());
-  for (std::size_t i = 0; i < index.vertex_count(); ++i) state.first_neighbor[i] = static_cast<std::uint32_t>(i);
-  for_each_edge(index, [&](std::size_t from, std::size_t to) {
-    std::uint32_t& first = state.first_neighbor[from];
-    if (first == from || index.id(to) < index.id(first)) first = static_cast<std::uint32_t>(to);
-  });
+  return sums;
 }
 
 }  // namespace
@@ -85,6 +74,15 @@ void find_first_neighbors(SurfaceState& state) {
 CurvatureIndex::State::State(const Index& given)
     : searched(IndexAccess::make(std::const_pointer_cast<IndexView>(IndexAccess::share(given)))),
       index(&IndexAccess::view(searched)) {}
+
+std::size_t CurvatureIndex::State::first_neighbor(std::size_t place) const {
+  const std::uint32_t slot = index->slot[index->id(place)];
+  std::size_t first = place;
+  for_each_neighbor(*index, leaf_of(slot), lane_of(slot), [&](std::size_t other) {
+    if (first == place || index->id(other) < index->id(first)) first = other;
+  });
+  return first;
+}
 
 CurvatureIndex CurvatureIndex::build(const Index& index, const MeshView& mesh) {
   validate(mesh);
@@ -98,8 +96,8 @@ CurvatureIndex CurvatureIndex::build(const Index& index, const FacesView& faces)
     raise(ErrorCode::InvalidMesh, "the mesh has no faces, expected faces or normals");
   }
   auto state = std::make_unique<State>(index);
-  add_faces(*state, faces);
-  find_first_neighbors(*state);
+  const IndexView& view = *state->index;
+  set_normals(*state, std::visit([&](auto xyz) { return sum_areas(view, xyz, faces); }, view.positions));
   return CurvatureIndex(std::move(state));
 }
 
@@ -124,7 +122,6 @@ CurvatureIndex CurvatureIndex::build(const Index& index, std::span<const double>
     scaled.push_back({n.x / largest, n.y / largest, n.z / largest});  // its square may overflow
   }
   set_normals(*state, scaled);
-  find_first_neighbors(*state);
   return CurvatureIndex(std::move(state));
 }
 
@@ -135,9 +132,7 @@ CurvatureIndex::~CurvatureIndex() = default;
 
 std::size_t CurvatureIndex::vertex_count() const { return state_->normal_x.size(); }
 
-std::size_t CurvatureIndex::bytes() const {
-  return 3 * state_->normal_x.size() * sizeof(double) + state_->first_neighbor.size() * sizeof(std::uint32_t);
-}
+std::size_t CurvatureIndex::bytes() const { return 3 * state_->normal_x.size() * sizeof(double); }
 
 double libigl_radius(const MeshView& mesh, double edges) {
   validate(mesh);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -24,12 +25,14 @@ struct CurvatureIndex::State {
   std::vector<double> normal_x;  // unit vectors; NaN without one
   std::vector<double> normal_y;
   std::vector<double> normal_z;
-  std::vector<std::uint32_t> first_neighbor;  // the neighbor with the lowest id; the vertex itself if it has none
 
   [[nodiscard]] Point position(std::size_t place) const {
     return std::visit([&](auto xyz) { return point(xyz, place); }, index->positions);
   }
   [[nodiscard]] Point normal(std::size_t place) const { return {normal_x[place], normal_y[place], normal_z[place]}; }
+
+  /// The neighbor with the lowest id; the vertex itself if it has none.
+  [[nodiscard]] std::size_t first_neighbor(std::size_t place) const;
 };
 
 /// The position in index order of a vertex of the caller.

@@ -164,7 +164,7 @@ void expect_like_points(const Family& family, const CurvatureOptions& options, s
           EXPECT_EQ(k.state[v], CurvatureState::NoNormal);
           continue;
         }
-        const Point offset = state.position(state.first_neighbor[i]) - state.position(i);
+        const Point offset = state.position(state.first_neighbor(i)) - state.position(i);
         const TangentFrame frame =
             options.shape_operator == ShapeOperator::Exact ? frame_of(normal) : frame_towards(normal, offset);
         const DirectFit::Result expected =
@@ -409,7 +409,7 @@ TEST(Curvatures, LibiglsAxisPointsToTheNeighborWithTheLowestId) {
   const Adjacency edges = adjacency(one.mesh.view());
   for (std::size_t i = 0; i < one.mesh.size(); ++i) {
     const auto neighbors = edges.view()[state.index->id(i)];
-    EXPECT_EQ(state.index->id(state.first_neighbor[i]), *std::min_element(neighbors.begin(), neighbors.end()));
+    EXPECT_EQ(state.index->id(state.first_neighbor(i)), *std::min_element(neighbors.begin(), neighbors.end()));
   }
 }
 
