@@ -36,9 +36,9 @@ def exact(options):
 
 
 def before(options):
-    from . import exact_index
+    from . import before as measuring
 
-    exact_index.compare(options.commit, options.meshes, options.queries or 600)
+    measuring.run(options.commit, options.meshes, options.queries or 600)
 
 
 def batch(options):
@@ -97,7 +97,8 @@ def main():
     parser = argparse.ArgumentParser(prog="python3 -m bench", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("parts", nargs="+", choices=PARTS, metavar="PART", help=", ".join(PARTS))
-    parser.add_argument("--meshes", nargs="+", choices=meshes.MESHES, metavar="NAME", help=", ".join(meshes.MESHES))
+    parser.add_argument("--meshes", nargs="+", choices=[*meshes.MESHES, *meshes.SHEETS, *meshes.ODD], metavar="NAME",
+                        help=", ".join(meshes.MESHES))
     parser.add_argument("--queries", type=int, help="a mesh and radius")
     parser.add_argument("--commit", default="HEAD~1", help="the commit to compare with, for `before`")
     parser.add_argument("--largest", type=int, default=10_000_000,

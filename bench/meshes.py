@@ -33,6 +33,10 @@ MESHES = {
     "tiny": Mesh("", "scroll:3000", remark="by formula, to try the harness"),
     "scroll": Mesh("", "scroll:100000", remark="by formula: a rolled sheet, its turns 2.5 edges apart"),
 }
+# Arguments of our programs. Sheets so close together that a ball contains several, by formula.
+SHEETS = {kind: f"{kind}:1000000" for kind in ("scroll", "plates", "folds", "gyroid")}
+# Families of the tests: coordinates of sixty magnitudes, a hub, and faces of random corners.
+ODD = {family: f"{family}:20000" for family in ("mixed scales", "star", "random faces")}
 OF_PAPER = [name for name, mesh in MESHES.items() if mesh.of_paper]
 
 

@@ -5,12 +5,13 @@
     text(data)      its page, docs/benchmarks/NAME.md
     summary(data)   its part of docs/benchmarks.md; may be absent
 """
-from . import (accuracy, all_vertices, batch, curvature, curvature_growth, exact_index, figure4, paper_tables, peers,
+from . import (accuracy, all_vertices, batch, before, curvature, curvature_growth, exact_index, figure4, paper_tables, peers,
                scaling)
 
 SECTIONS = {
     "batch": batch,
     "exact_index": exact_index,
+    "before": before,
     "paper_tables": paper_tables,
     "accuracy": accuracy,
     "all_vertices": all_vertices,

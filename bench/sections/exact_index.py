@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: MIT
 """The exact index compared with breadth-first search."""
-from statistics import geometric_mean
-
 from .. import programs
 from .markdown import number, table, with_spread
 
@@ -19,14 +17,6 @@ three has an index of its own, so that none profits from the cache of another. S
 generated (`meshhood generate`).
 """
 
-BEFORE_NOTE = """
-## Beside another commit
-
-`python3 -m bench before --commit {commit}`. Time of this version / time of that commit, cold, ids and counts, on the
-same {queries:,} queries in one process; the last column is the geometric mean.
-
-"""
-
 SUMMARY_NOTE = """`{command}`: µs a query, one thread, processor time. `bfs` is breadth-first search, in the order of the file
 or in index order, whichever is faster. All meshes and radii, with quartiles:
 [benchmarks/exact_index.md](benchmarks/exact_index.md).
@@ -38,21 +28,7 @@ def text(data):
     parts = [NOTE.format(command=COMMAND, queries=data["queries"])]
     for name, result in data["meshes"].items():
         parts.append(f"\n**{name}**, {result['vertices']:,} vertices\n\n{mesh_table(result)}")
-    if "before" in data:
-        parts.append(BEFORE_NOTE.format(**data["before"]) + before_table(data["before"]["meshes"]))
     return "".join(parts)
-
-
-def before_table(meshes):
-    """A row for each mesh, and the geometric mean of its radii."""
-    radii = sorted(programs.by_radius(next(iter(meshes.values()))["rows"]))
-    rows = []
-    for name, result in meshes.items():
-        by_radius = programs.by_radius(result["rows"])
-        for label, old, new in ((name, "before", "ids"), (f"{name}, count", "before-count", "count")):
-            ratios = [by_radius[radius][new]["microseconds"] / by_radius[radius][old]["microseconds"] for radius in radii]
-            rows.append([label, *(f"{value:.2f}" for value in ratios), f"{geometric_mean(ratios):.2f}"])
-    return table(["mesh", *(f"{radius:g}" for radius in radii), "mean"], rows)
 
 
 def summary(data):

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace meshhood {
@@ -29,12 +30,18 @@ class NumberSet {
   /// Calls `f(number)` for each number, ascending, and removes it. O(bound / 4096 + numbers).
   template <class F>
   void take_all(F&& f) {
+    take_words([&](std::size_t first, std::uint64_t bits) {
+      for (; bits != 0; bits &= bits - 1) f(first + static_cast<std::size_t>(std::countr_zero(bits)));
+    });
+  }
+
+  /// The same by words: calls `f(first, bits)` for the numbers `first + i` of the bits `i`.
+  template <class F>
+  void take_words(F&& f) {
     for (std::size_t s = 0; s < summary_.size(); ++s) {
       for (; summary_[s] != 0; summary_[s] &= summary_[s] - 1) {
         const std::size_t w = 64 * s + static_cast<std::size_t>(std::countr_zero(summary_[s]));
-        for (; words_[w] != 0; words_[w] &= words_[w] - 1) {
-          f(64 * w + static_cast<std::size_t>(std::countr_zero(words_[w])));
-        }
+        f(64 * w, std::exchange(words_[w], 0));
       }
     }
   }

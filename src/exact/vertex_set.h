@@ -22,10 +22,11 @@ struct LeafSubset {
   return {static_cast<VertexId>(group.begin[place]), static_cast<VertexId>(group.begin[place + 1])};
 }
 
-/// A set of vertices in index order: runs of whole leaves, and subsets of leaves, in one list.
+/// A set of vertices in index order, in one list: runs, and subsets of at most 32 consecutive vertices. Nearly always
+/// these are whole leaves and subsets of leaves.
 class VertexSet {
  public:
-  /// A run of whole leaves, or those of the vertices of a leaf that `lanes` names.
+  /// A run, or those of at most 32 vertices that `lanes` names.
   struct Part {
     VertexId begin;
     VertexId end;
@@ -50,10 +51,12 @@ class VertexSet {
   }
 
   /// The same for a subset that may be all of the leaf.
-  void add_lanes(const LeafSubset& subset) {
-    const VertexRange all = vertices_of(subset.leaf);
+  void add_lanes(const LeafSubset& subset) { add_lanes(vertices_of(subset.leaf), subset.lanes); }
+
+  /// The same for any range of at most 32 vertices, none of them, some or all.
+  void add_lanes(const VertexRange& all, LaneMask lanes) {
     make_room(1);
-    add_if(true, all, subset.lanes == first_lanes(static_cast<unsigned>(all.size())) ? 0 : subset.lanes);
+    add_if(lanes != 0, all, lanes == first_lanes(static_cast<unsigned>(all.size())) ? 0 : lanes);
   }
 
   /// Prepares for that many calls of `add_if`.

@@ -46,6 +46,21 @@ TEST(NumberSet, HasEveryNumberBelowItsBound) {
   EXPECT_EQ(taken(set), all);
 }
 
+TEST(NumberSet, ListsItsWords) {
+  NumberSet set(10'000);
+  for (const std::size_t number : {1U, 63U, 64U, 4096U, 9999U}) set.insert(number);
+  std::vector<std::size_t> numbers;
+  set.take_words([&](std::size_t first, std::uint64_t bits) {
+    EXPECT_EQ(first % 64, 0U);
+    EXPECT_NE(bits, 0U);
+    for (std::size_t i = 0; i < 64; ++i) {
+      if ((bits >> i & 1U) != 0) numbers.push_back(first + i);
+    }
+  });
+  EXPECT_THAT(numbers, testing::ElementsAre(1, 63, 64, 4096, 9999));
+  EXPECT_THAT(taken(set), testing::IsEmpty());
+}
+
 TEST(NumberSet, IsEmptyOnceCleared) {
   NumberSet set(10'000);
   for (const std::size_t number : {0U, 63U, 64U, 4096U, 9999U}) set.insert(number);

@@ -182,25 +182,46 @@ TEST(Rare, SheetsThatMeetAtOneSideAreConnectedOnlyInALargeBall) {
   query_everywhere(exact, mesh.size(), {1, 3, 7, 12, 15, 18, 25, 39, 41, 60});
 }
 
-TEST(Rare, BallThroughManyFoldsIsSearchedAgainFromSmallNodes) {
-  // An accordion of sixty walls.
-  constexpr std::uint32_t kSide = 24;
-  TestMesh mesh = make_grid(60 * kSide, kSide, false);
+/// An accordion of walls, half a unit apart.
+TestMesh accordion(std::uint32_t walls, std::uint32_t side) {
+  TestMesh mesh = make_grid(std::size_t{walls} * side, side, false);
   for (std::uint32_t v = 0; v < mesh.size(); ++v) {
-    const std::uint32_t row = v / kSide % kSide;
-    const std::uint32_t wall = v / kSide / kSide;
-    mesh.positions[3 * v + 1] = wall % 2 == 0 ? row : kSide - 1 - row;
+    const std::uint32_t row = v / side % side;
+    const std::uint32_t wall = v / side / side;
+    mesh.positions[3 * v + 1] = wall % 2 == 0 ? row : side - 1 - row;
     mesh.positions[3 * v + 2] = 0.5 * wall;
   }
-  mesh.finish(true);
+  return mesh.finish(true);
+}
+
+/// The vertex in the middle of the wall in the middle.
+VertexId middle_of_accordion(std::uint32_t walls, std::uint32_t side) {
+  return walls / 2 * side * side + side / 2 * side + side / 2;
+}
+
+TEST(Rare, BallThroughManyFoldsIsSearchedAgainFromSmallNodes) {
+  const TestMesh mesh = accordion(60, 24);
   ExactAnswer exact(mesh.view());
   for (Searcher& searcher : exact.searchers()) {
-    static_cast<void>(searcher.count(30 * kSide * kSide + kSide / 2 * kSide + kSide / 2, 21));
+    static_cast<void>(searcher.count(middle_of_accordion(60, 24), 21));
     SearcherAccess::State& state = SearcherAccess::state(searcher);
     ASSERT_EQ(state.way, Way::Component);
     EXPECT_EQ(level_of(state.reach.top_groups()[0], *state.index), 0U);
   }
   query_everywhere(exact, mesh.size(), {0.5, 1, 3, 8, 11, 16, 30, kInfinity});
+}
+
+// The ball does not reach the folds, but leaves at its surface do: all walls are reached, and all but one are open.
+TEST(Rare, AnswerThatIsSmallBesideWhatWasReachedIsSearchedLeafByLeaf) {
+  const TestMesh mesh = accordion(40, 40);
+  ExactAnswer exact(mesh.view());
+  for (Searcher& searcher : exact.searchers()) {
+    static_cast<void>(searcher.count(middle_of_accordion(40, 40), 18.5));
+    SearcherAccess::State& state = SearcherAccess::state(searcher);
+    EXPECT_EQ(state.way, Way::LeafBfs);
+    EXPECT_GT(state.reach.surface_leaves().size(), 100U);
+  }
+  query_everywhere(exact, mesh.size(), {15, 17, 18, 18.5, 19, 19.5, 20});
 }
 
 TEST(Rare, WholeMeshInsideTheBall) {

@@ -108,7 +108,8 @@ struct OutwardSearch {
   /// The answer of `component`, in its order.
   [[nodiscard]] Ids found(const Query& query, const IndexView& index) {
     answer.clear();
-    component.find(query, reach, answer);
+    component.mark(query, reach);
+    component.complete(reach, answer);
     Ids ids;
     answer.for_each([&](std::size_t v) { ids.push_back(index.id(v)); });
     return ids;

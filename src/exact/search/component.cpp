@@ -5,8 +5,7 @@
 
 namespace meshhood {
 
-void Component::find(const Query& query, Reach& reach, VertexSet& answer) {
-  marks_.spread(query, reach);
+void Component::complete(Reach& reach, VertexSet& answer) {
   if (!marks_.open_groups().empty() || !marks_.open_places().empty()) open_.unite(reach, marks_);
   answer.make_room(kFanOut * reach.groups().size());
   std::size_t place = 0;

@@ -24,8 +24,14 @@ class Component {
   Component(const IndexView& index, const Kernels& kernels)
       : index_(&index), marks_(index, kernels), open_(index, kernels) {}
 
-  /// Adds the component to `answer`, which is empty.
-  void find(const Query& query, Reach& reach, VertexSet& answer);
+  /// The first step: marks what is surely connected with the query vertex.
+  void mark(const Query& query, Reach& reach) { marks_.spread(query, reach); }
+
+  /// How many surface leaves have vertices in the ball without a mark.
+  [[nodiscard]] std::size_t open_leaves() const { return marks_.open_places().size(); }
+
+  /// The second step: completes the marks. Adds the component to `answer`, which is empty.
+  void complete(Reach& reach, VertexSet& answer);
 
  private:
   void add_group(std::uint32_t group, const Reach& reach, std::size_t& place, VertexSet& answer) const;

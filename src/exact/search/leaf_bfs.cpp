@@ -7,20 +7,22 @@
 
 namespace meshhood {
 
-void LeafBfs::run(const Query& query, VertexSet& answer) {
+bool LeafBfs::run_within(std::size_t visits, const Query& query, VertexSet& answer) {
   query_ = &query;
   states_.forget();
-  reached_.clear();  // a search that ran out of memory has left some
+  reached_.clear();  // a search that did not end has left some
   queue_.clear();
   prefetched_ = 0;
   state_of(query.leaf()).pending = query.lane();
   queue_.push_back(query.leaf());
   for (head_ = 0; head_ < queue_.size(); ++head_) {
+    if (head_ == visits) return false;
     prefetch_ahead();
     const LaneMask added = visit(queue_[head_]);
     if (added != 0) expand(queue_[head_], added);
   }
   reached_.take_all([&](std::size_t leaf) { answer.add_lanes({static_cast<LeafId>(leaf), states_[leaf].reached}); });
+  return true;
 }
 
 /// Reaches what is pending in the leaf and what is connected to it there. Returns the vertices added.

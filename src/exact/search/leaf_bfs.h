@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "base/epoch_array.h"
@@ -21,7 +22,12 @@ class LeafBfs {
       : index_(&index), kernels_(&kernels), states_(index.leaf_count()), reached_(index.leaf_count()) {}
 
   /// Adds the neighborhood of the query to `answer`, which is empty.
-  void run(const Query& query, VertexSet& answer);
+  void run(const Query& query, VertexSet& answer) {
+    static_cast<void>(run_within(std::numeric_limits<std::size_t>::max(), query, answer));
+  }
+
+  /// The same in at most so many visits of leaves. If these do not suffice, it returns false and adds nothing.
+  [[nodiscard]] bool run_within(std::size_t visits, const Query& query, VertexSet& answer);
 
   /// Prefetches what a visit of the leaf reads, and then the output; without positions and edges if the leaf is known
   /// to be inside.

@@ -38,15 +38,20 @@ void Searcher::State::search(VertexId v, double radius) {
     return;
   }
   const Query query(*index, v, bounds);
-  // A leaf that is not connected has no links, so the answer is a part of it.
-  if (is_small(home) || !home.connected) {
+  // A leaf that is not connected has no links, so the answer is a part of it. Where the outward search would begin with
+  // leaves, it saves nothing.
+  if (is_small(home) || !home.connected || !reach.run(query)) {
     way = Way::LeafBfs;
     leaf_bfs.run(query, answer);
     return;
   }
+  component.mark(query, reach);
+  if (is_mostly_open() && leaf_bfs.run_within(component.open_leaves(), query, answer)) {
+    way = Way::LeafBfs;
+    return;
+  }
   way = Way::Component;
-  reach.run(query);
-  component.find(query, reach, answer);
+  component.complete(reach, answer);
 }
 
 /// Whether the answer may well be the query vertex alone.
@@ -62,6 +67,10 @@ bool Searcher::State::is_small(const Leaf& home) const {
   const double radius = std::min(static_cast<double>(home.bounds.radius), index->tree[0].mean_radius);
   return bounds.radius_in_frame < kLeafRadii * radius;
 }
+
+/// Whether the marks have left most of the surface open. Then most of what was reached is likely not connected with the
+/// query vertex, and a search over as many leaves as are open takes less time than to unite what is open.
+bool Searcher::State::is_mostly_open() const { return 2 * component.open_leaves() > reach.surface_leaves().size(); }
 
 /// Whether no neighbor of the vertex at a slot, the center of the ball, is in the ball.
 bool Searcher::State::is_alone(std::uint32_t slot) const {

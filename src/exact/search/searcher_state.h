@@ -59,6 +59,7 @@ struct Searcher::State {
   [[nodiscard]] bool is_alone(std::uint32_t slot) const;
   [[nodiscard]] bool is_tiny() const;
   [[nodiscard]] bool is_small(const Leaf& home) const;
+  [[nodiscard]] bool is_mostly_open() const;
 };
 
 /// Access to the parts of a searcher, for the batch and for tests.

@@ -46,18 +46,13 @@ void VertexBfs::run(VertexId v, double squared_radius, VertexSet& answer) {
   const auto vertex = static_cast<VertexId>(index_->leaf_begin[leaf_of(slot)] + lane_of(slot));
   found_->clear();  // a search that ran out of memory has left some
   for (const VertexId w : ReferenceAccess::search(*searcher_, vertex, squared_radius)) found_->insert(w);
-  LeafSubset part{0, 0};
-  const auto end_part = [&] {
-    if (part.lanes != 0) answer.add_lanes(part);
-  };
-  found_->take_all([&](std::size_t w) {
-    if (part.lanes == 0 || w >= index_->leaf_begin[part.leaf + 1]) {
-      end_part();
-      part = {leaf_of(index_->slot[index_->id(w)]), 0};
+  found_->take_words([&](std::size_t first, std::uint64_t bits) {
+    for (std::size_t begin = first; bits != 0; begin += kLeafCapacity, bits >>= kLeafCapacity) {
+      const std::size_t end = std::min(begin + kLeafCapacity, index_->vertex_count());
+      answer.add_lanes(VertexRange{static_cast<VertexId>(begin), static_cast<VertexId>(end)},
+                       static_cast<LaneMask>(bits));
     }
-    part.lanes |= LaneMask{1} << (w - index_->leaf_begin[part.leaf]);
   });
-  end_part();
 }
 
 }  // namespace meshhood

@@ -25,7 +25,8 @@ TEST_P(ComponentOnFamilies, HasTheVerticesOfTheAnswerInIndexOrder) {
         }
         std::sort(expected.begin(), expected.end());
         VertexSet found(c.index);
-        search.component.find(c.query, search.reach, found);
+        search.component.mark(c.query, search.reach);
+        search.component.complete(search.reach, found);
         std::vector<std::size_t> in_order;
         found.for_each([&](std::size_t v) { in_order.push_back(v); });
         ASSERT_EQ(in_order, expected) << c.mesh.name << ": vertex " << c.query.vertex << ", radius " << c.query.radius;
@@ -37,7 +38,8 @@ TEST_P(ComponentOnFamilies, HasTheVerticesOfTheAnswerInIndexOrder) {
 TEST_P(ComponentOnFamilies, HasRunsThatDoNotTouchAndSubsetsThatAreNotWhole) {
   for_each_outward_search(GetParam(), scaled(15, 3), 3, [&](const SearchCase& c, OutwardSearch& search) {
     VertexSet found(c.index);
-    search.component.find(c.query, search.reach, found);
+    search.component.mark(c.query, search.reach);
+    search.component.complete(search.reach, found);
     const VertexSet::Part* before = nullptr;
     for (const VertexSet::Part& part : found.parts()) {
       ASSERT_LT(part.begin, part.end);

@@ -30,6 +30,7 @@ class LeafBfsOnFamilies : public testing::TestWithParam<Family> {};
 
 TEST_P(LeafBfsOnFamilies, FindsTheNeighborhoodInIndexOrder) {
   std::size_t queries = 0;
+  std::size_t unfinished = 0;
   for (std::uint64_t seed = 0; seed < scaled(40, 4); ++seed) {
     const TestMesh mesh = make_mesh(GetParam(), seed, seed == 0 ? 1500 : std::min<std::size_t>(draw_size(seed), 400));
     if (mesh.size() == 0) continue;
@@ -44,13 +45,22 @@ TEST_P(LeafBfsOnFamilies, FindsTheNeighborhoodInIndexOrder) {
         for (const double radius : draw_radii(random, oracle, v)) {
           const Query query(index, v, RadiusBounds(index.frame, radius));
           const SearchCase c{mesh, oracle, index, query, kernels(isa)};
-          ASSERT_EQ(found(bfs, c), c.neighborhood()) << mesh.name << ": vertex " << v << ", radius " << radius;
+          const Ids expected = c.neighborhood();
+          ASSERT_EQ(found(bfs, c), expected) << mesh.name << ": vertex " << v << ", radius " << radius;
+          const std::size_t visits = random.below(12);
+          VertexSet answer(index);
+          if (bfs.run_within(visits, query, answer)) {
+            ASSERT_EQ(answer.count(), expected.size()) << mesh.name << ": vertex " << v << ", " << visits << " visits";
+          } else {
+            ASSERT_EQ(answer.count(), 0U);
+            ++unfinished;
+          }
           ++queries;
         }
       }
     }
   }
-  std::printf("%zu queries\n", queries);
+  std::printf("%zu queries, %zu with too few visits\n", queries, unfinished);
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, LeafBfsOnFamilies, testing::ValuesIn(families()), family_name);

@@ -127,12 +127,22 @@ TEST(Reach, BeginsWithLargeNodesOnASingleSheetAndWithSmallOnesAmongMany) {
     const IndexView& index = IndexAccess::view(built);
     const Query query(index, v, RadiusBounds(index.frame, is_folded ? 20 : 60));
     Reach reach(index, portable_kernels());
-    reach.run(query);
+    ASSERT_TRUE(reach.run(query));
     const std::size_t small = level_of_ratio(index, query, 10);
     const std::size_t large = level_of_ratio(index, query, 2.5);
     ASSERT_LT(small, large);
     EXPECT_EQ(first_level(reach, index), is_folded ? small : large);
   }
+}
+
+TEST(Reach, DoesNotBeginWithLeaves) {
+  const TestMesh mesh = make_grid(60, 60, false);
+  const Index built = build(mesh.view());
+  const IndexView& index = IndexAccess::view(built);
+  const double leaf = index.tree[0].mean_radius / index.frame.scale;
+  Reach reach(index, portable_kernels());
+  EXPECT_FALSE(reach.run(Query(index, 30 * 60 + 30, RadiusBounds(index.frame, 2.4 * leaf))));
+  EXPECT_TRUE(reach.run(Query(index, 30 * 60 + 30, RadiusBounds(index.frame, 2.6 * leaf))));
 }
 
 }  // namespace
