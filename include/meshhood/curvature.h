@@ -141,9 +141,11 @@ struct Curvatures {
 /// A neighborhood of fewer than six vertices is extended by the nearest vertex that an edge joins to it, until it has
 /// six.
 /// query    as for a batch: one radius for all rows, or one for each row.
-/// The result has the same bits for any number of threads and on every processor; with other rows in the call, the last
-/// bits of a row may differ. O(size of the neighborhoods) in the worst case; where many vertices of a leaf are queried,
-/// the common part of their neighborhoods is summed once.
+/// A row depends on surface, vertex and radius alone, bit for bit: not on the other rows of the call, earlier calls,
+/// threads or the processor. Only if the rows have different radii, those of the vertices nearby have an effect on the
+/// last bits. O(size of the neighborhoods) in the worst case; the common part of the neighborhoods of a leaf is summed
+/// once. If few vertices are queried, the others of their leaves are searched, too: a single vertex takes three to four
+/// times as long as a query of its neighborhood alone would.
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
 [[nodiscard]] Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query,
                                     const CurvatureOptions& options = {});

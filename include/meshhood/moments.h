@@ -51,9 +51,9 @@ struct MomentOptions {
 /// w |p|^(i + j + k), where p is the position relative to the query vertex, on every mesh; a weight 2^-1300 of the
 /// largest, or less, may be lost. A power of a coordinate outside the range of doubles becomes 0 or infinite.
 ///
-/// The result has the same bits for any number of threads and on every processor. It depends on the mesh, the index and
-/// the rows of the call: with other rows, a row may differ within the bound. Takes the time of `curvatures`; a row that
-/// is summed again takes that of one more query.
+/// A row depends on index, weights, vertex and radius alone, bit for bit: not on the other rows of the call, earlier
+/// calls, threads or the processor. Only if the rows have different radii, those of the vertices nearby have an effect
+/// within the bound. Takes the time of `curvatures`; a row that is summed again takes that of one more query.
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming row or vertex.
 [[nodiscard]] std::vector<double> moments(const Index& index, const BatchQuery& query,
                                           const MomentOptions& options = {});

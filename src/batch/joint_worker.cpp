@@ -28,7 +28,8 @@ JointWorker::JointWorker(const Index& index, Isa isa)
 
 void JointWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink) {
   for_each_run(
-      chunk, [&](const Run& run) { return sink(run.items, std::span(joint_->counts()).first(run.items.size())); },
+      chunk, PacketRows::Asked,
+      [&](const Run& run) { return sink(run.items, std::span(joint_->counts()).first(run.items.size())); },
       [&](const BatchItem& item) {
         const std::uint64_t size = searcher().count(item.vertex, item.radius);
         return sink({&item, 1}, {&size, 1});
@@ -48,43 +49,51 @@ void JointWorker::find(std::span<const BatchItem> chunk, bool distances, RowRece
     return true;
   };
   for_each_run(
-      chunk, [&](const Run& run) { return write(joint_->answer(), joint_->counts(), run.items); },
+      chunk, PacketRows::Asked, [&](const Run& run) { return write(joint_->answer(), joint_->counts(), run.items); },
       [&](const BatchItem& item) {
         const VertexSet& found = search_single(item);
         return write(single_packet_.describe(view_, found), {found.count()}, {&item, 1});
       });
 }
 
-void JointWorker::visit(std::span<const BatchItem> chunk, const std::function<bool(const PacketAnswer&)>& sink) {
+void JointWorker::visit(std::span<const BatchItem> chunk, PacketRows rows,
+                        const std::function<bool(const PacketAnswer&)>& sink) {
   LeafId group = 0;
   bool has_group = false;
-  const auto pass_on = [&](PacketAnswer answer, std::span<const BatchItem> items, bool begins_group) {
-    rows_.assign(items);
-    answer.rows = rows_.rows;
-    answer.vertices = rows_.vertices;
-    answer.radii = rows_.radii;
+  const auto pass_on = [&](PacketAnswer answer, bool begins_group) {
+    answer.rows = lists_.rows;
+    answer.queries_of_rows = lists_.queries_of_rows;
+    answer.vertices = lists_.vertices;
+    answer.radii = lists_.radii;
     answer.begins_group = begins_group;
     return sink(answer);
   };
   for_each_run(
-      chunk,
+      chunk, rows,
       [&](const Run& run) {
         const bool begins_group = !has_group || run.leaf / kFanOut != group;
         has_group = true;
         group = run.leaf / kFanOut;
-        return pass_on(joint_->answer(), run.items, begins_group);
+        if (rows == PacketRows::WholeLeaves) {
+          lists_.assign_leaf(view_, run.leaf, run.items);
+        } else {
+          lists_.assign(run.items);
+        }
+        return pass_on(joint_->answer(), begins_group);
       },
       [&](const BatchItem& item) {
         has_group = false;
-        return pass_on(single_packet_.describe(view_, search_single(item)), {&item, 1}, true);
+        lists_.assign({&item, 1});
+        return pass_on(single_packet_.describe(view_, search_single(item)), true);
       });
 }
 
 /// Calls `together(run)` for each packet once its search is done, and `single(item)` for the other rows, until one of
 /// them returns false.
 template <class Together, class Single>
-void JointWorker::for_each_run(std::span<const BatchItem> chunk, Together&& together, Single&& single) {
-  split(chunk);
+void JointWorker::for_each_run(std::span<const BatchItem> chunk, PacketRows rows, Together&& together,
+                               Single&& single) {
+  split(chunk, rows);
   const auto group_of = [](const Run& run) { return run.leaf / kFanOut; };
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     if (!runs_[i].is_joint) {
@@ -96,28 +105,30 @@ void JointWorker::for_each_run(std::span<const BatchItem> chunk, Together&& toge
     if (leaves_.empty() || leaves_.front() / kFanOut != group_of(runs_[i])) {
       std::size_t end = i;
       while (end < runs_.size() && group_of(runs_[end]) == group_of(runs_[i])) ++end;
-      begin_group(std::span(runs_).subspan(i, end - i));
+      begin_group(std::span(runs_).subspan(i, end - i), rows);
     }
-    begin_packet(runs_[i]);
+    begin_packet(runs_[i], rows);
     if (!together(runs_[i])) return;
   }
 }
 
 /// Cuts a chunk, whose vertices ascend in index order, into runs.
-void JointWorker::split(std::span<const BatchItem> chunk) {
+void JointWorker::split(std::span<const BatchItem> chunk, PacketRows rows) {
   runs_.clear();
   leaves_.clear();
   while (!chunk.empty()) {
     const LeafId leaf = leaf_of(chunk.front().position);
-    const std::size_t most = std::min<std::size_t>(chunk.size(), kPacketCapacity);
+    const bool is_whole = rows == PacketRows::WholeLeaves;
+    const std::size_t most = is_whole ? chunk.size() : std::min<std::size_t>(chunk.size(), kPacketCapacity);
     std::size_t size = 1;
     while (size < most && leaf_of(chunk[size].position) == leaf) ++size;
-    runs_.push_back({leaf, chunk.first(size), pays(chunk.first(size))});
+    const double radius = chunk.front().radius;
+    runs_.push_back({leaf, chunk.first(size), is_whole ? pays_whole(leaf, radius) : pays(leaf, size, radius)});
     chunk = chunk.subspan(size);
   }
 }
 
-void JointWorker::begin_group(std::span<const Run> runs) {
+void JointWorker::begin_group(std::span<const Run> runs, PacketRows rows) {
   leaves_.clear();
   double low = std::numeric_limits<double>::infinity();
   double high = 0;
@@ -129,25 +140,37 @@ void JointWorker::begin_group(std::span<const Run> runs) {
       high = std::max(high, item.radius);
     }
   }
+  if (rows == PacketRows::WholeLeaves) {
+    // All leaves of the group that would be answered together, so that the group does not depend on the rows either.
+    const LeafId first = runs.front().leaf / kFanOut * kFanOut;
+    leaves_.clear();
+    for (LeafId leaf = first; leaf < first + kFanOut; ++leaf) {
+      if (view_.leaves[leaf].size != 0 && pays_whole(leaf, high)) leaves_.push_back(leaf);
+    }
+  }
   if (!joint_) joint_.emplace(view_, isa_);
   const TreeBounds low_bounds = prepared(low).bounds;
   joint_->begin_group(leaves_, low_bounds, prepared(high).bounds);
 }
 
-void JointWorker::begin_packet(const Run& run) {
+void JointWorker::begin_packet(const Run& run, PacketRows rows) {
   queries_.clear();
-  for (const BatchItem& item : run.items) {
-    queries_.push_back({lane_of(item.position), prepared(item.radius)});
+  if (rows == PacketRows::WholeLeaves) {
+    const JointRadius& radius = prepared(run.items.front().radius);
+    for (unsigned lane = 0; lane < view_.leaves[run.leaf].size; ++lane) queries_.push_back({lane, radius});
+  } else {
+    for (const BatchItem& item : run.items) queries_.push_back({lane_of(item.position), prepared(item.radius)});
   }
   joint_->run(run.leaf, queries_);
 }
 
-bool JointWorker::pays(std::span<const BatchItem> items) const {
+/// Whether to answer `size` vertices of a leaf together.
+bool JointWorker::pays(LeafId leaf, std::size_t size, double radius) const {
   if (unlike_a_surface_) return false;  // few vertices of a leaf have the same neighbors
-  const bool is_large = items.front().radius > kLargeRadius * view_.tree.front().mean_radius / view_.frame.scale;
+  const bool is_large = radius > kLargeRadius * view_.tree.front().mean_radius / view_.frame.scale;
   // If all vertices of a small leaf are queried, then mostly all vertices of its group are.
-  if (is_large && items.size() == view_.leaves[leaf_of(items.front().position)].size) return true;
-  return items.size() >= (is_large ? kBreakEvenOfLarge : kBreakEven);
+  if (is_large && size == view_.leaves[leaf].size) return true;
+  return size >= (is_large ? kBreakEvenOfLarge : kBreakEven);
 }
 
 const JointRadius& JointWorker::prepared(double radius) {
@@ -158,6 +181,7 @@ const JointRadius& JointWorker::prepared(double radius) {
 const VertexSet& JointWorker::search_single(const BatchItem& item) {
   SearcherAccess::State& state = SearcherAccess::state(searcher());
   state.search(item.vertex, item.radius);
+  if (state.way == SearcherAccess::State::Way::VertexBfs) state.answer.align_to_leaves();
   return state.answer;
 }
 

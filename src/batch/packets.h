@@ -18,13 +18,16 @@ using PacketVisitor = std::function<void(const PacketAnswer&)>;
 /// processors if that is 0. Called at most once for each number, by the thread itself, before its first packet.
 using PacketVisitorFactory = std::function<PacketVisitor(unsigned thread)>;
 
-/// How packets are computed. The answers do not depend on these options.
+/// How packets are computed. The answers do not depend on threads and progress.
 struct PacketOptions {
   /// The calling thread included; 0 means one per processor; at most `kMaxThreads`. 1 starts no thread.
   unsigned threads = 1;
 
   /// Receives the number of rows that were visited.
   Progress progress = {};
+
+  /// `WholeLeaves` requires one radius for all rows.
+  PacketRows rows = PacketRows::Asked;
 };
 
 /// Visits the exact neighborhoods of all rows of `query`, each row in one packet, packets in no stated order.
@@ -33,7 +36,7 @@ struct PacketOptions {
 /// must not write to the same memory, except that each row belongs to one packet: `result[rows[i]] = ...` is safe.
 /// Packets depend on the query alone, so floating-point sums have the same bits for any number of threads.
 ///
-/// A leaf with few rows is searched row by row: packets then have one row and no cores. If a vertex is queried more
+/// A leaf with few queries is searched row by row: packets then have one row and no cores. If a vertex is queried more
 /// than once, its rows may be in different packets. Time is that of `counts`. Memory: a copy of the query;
 /// 8 bytes a row, of at most 2^22 rows at a time, and 16 where these are not in index order; and for each thread a
 /// searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry of a group (docs/joint.md).

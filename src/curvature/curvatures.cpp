@@ -38,7 +38,7 @@ class CurvatureFitter {
   void fit(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments);
 
  private:
-  void fit_row(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments, std::size_t query);
+  void fit_row(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments, std::size_t i);
   [[nodiscard]] TangentFrame fit_frame(const QueryMoments& moments, std::size_t query) const;
   void solve(const PacketMoments& sums, const QueryMoments& moments, std::size_t size);
   [[nodiscard]] std::optional<Quadric> quadric(const PacketMoments& sums, std::size_t query) const;
@@ -74,12 +74,13 @@ void CurvatureFitter::fit(const MomentRows& packet, const PacketMoments& sums, c
   }
   sums.kernels().rotate(moments, u_, v_, n_, in_frame_);
   solve(sums, moments, packet.places.size());
-  for (std::size_t q = 0; q < packet.places.size(); ++q) fit_row(packet, sums, moments, q);
+  for (std::size_t i = 0; i < packet.rows.size(); ++i) fit_row(packet, sums, moments, i);
 }
 
 void CurvatureFitter::fit_row(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments,
-                              std::size_t query) {
-  const std::size_t row = packet.rows[query];
+                              std::size_t i) {
+  const std::size_t row = packet.rows[i];
+  const std::size_t query = packet.queries_of_rows[i];
   if (std::isnan(frames_[query].n.x)) return write(row, CurvatureState::NoNormal, {});
   if (moments.at[0][query] >= kFewestPoints) {
     if (const std::optional<Quadric> fitted = quadric(sums, query)) {

@@ -80,12 +80,13 @@ void for_each_row(const Index& index, const BatchQuery& query, const MomentOptio
   visit_moments(index, query, false, source, {.threads = options.threads, .progress = options.progress}, [&] {
     const auto direct = std::make_shared<DirectMoments>(index, source);
     return [&, direct](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
-      for (std::size_t q = 0; q < packet.rows.size(); ++q) {
+      for (std::size_t i = 0; i < packet.rows.size(); ++i) {
+        const unsigned q = packet.queries_of_rows[i];
         if (sums.is_accurate(q)) {
-          take(packet.rows[q], {moments, q, sums.scale(), weights.exponent});
+          take(packet.rows[i], {moments, q, sums.scale(), weights.exponent});
         } else {
           direct->sum(packet.places[q], packet.radii[q]);
-          take(packet.rows[q], {direct->moments(), 0, direct->scale(), weights.exponent + direct->weight_exponent()});
+          take(packet.rows[i], {direct->moments(), 0, direct->scale(), weights.exponent + direct->weight_exponent()});
         }
       }
     };

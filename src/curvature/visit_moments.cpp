@@ -17,6 +17,11 @@ namespace {
 /// radii unchanged; the batch rejects them.
 double open_radius(double radius) { return radius > 0 ? std::nextafter(radius, 0.0) : radius; }
 
+bool has_one_radius(const BatchQuery& query) {
+  const auto& list = query.radius.list();
+  return !list || std::ranges::all_of(*list, [&](double radius) { return radius == list->front(); });
+}
+
 /// The state of a thread that sums the moments of packets.
 class PacketSummer {
  public:
@@ -24,7 +29,7 @@ class PacketSummer {
       : index_(source.index), sums_(source, best_isa()), visitor_(std::move(visitor)) {}
 
   void visit(const PacketAnswer& packet) {
-    const std::size_t size = packet.rows.size();
+    const std::size_t size = packet.vertices.size();
     for (std::size_t i = 0; i < size; ++i) places_[i] = place_of(*index_, packet.vertices[i]);
     const auto places = std::span(places_).first(size);
     sums_.begin(places, *std::max_element(packet.radii.begin(), packet.radii.end()));
@@ -37,7 +42,7 @@ class PacketSummer {
     for (const PartialLeaf& leaf : packet.partial) {
       sums_.add(leaf.vertices.begin, leaf.vertices.size(), leaf.queries);
     }
-    visitor_({packet.rows, places, packet.radii}, sums_, sums_.finish());
+    visitor_({packet.rows, packet.queries_of_rows, places, packet.radii}, sums_, sums_.finish());
   }
 
  private:
@@ -59,13 +64,15 @@ void visit_moments(const Index& index, const BatchQuery& query, bool open_ball, 
   } else if (open_ball) {
     closed.radius = open_radius(query.radius.common());
   }
+  PacketOptions packets = options;
+  packets.rows = has_one_radius(closed) ? PacketRows::WholeLeaves : PacketRows::Asked;
   for_each_packet(
       index, closed,
       [&](unsigned) -> PacketVisitor {
         auto summer = std::make_shared<PacketSummer>(source, make_visitor());
         return [summer](const PacketAnswer& packet) { summer->visit(packet); };
       },
-      options);
+      packets);
 }
 
 }  // namespace meshhood

@@ -18,6 +18,18 @@ void VertexSet::assign(std::span<const LeafSubset> subsets) {
   }
 }
 
+void VertexSet::align_to_leaves() {
+  sorted_.clear();
+  for_each([&](std::size_t v) {
+    if (sorted_.empty() || v >= index_->leaf_begin[sorted_.back().leaf + 1]) {
+      sorted_.push_back({leaf_of(index_->slot[index_->id(v)]), 0});
+    }
+    sorted_.back().lanes |= LaneMask{1} << (v - index_->leaf_begin[sorted_.back().leaf]);
+  });
+  clear();
+  for (const LeafSubset& subset : sorted_) add_lanes(subset);
+}
+
 void VertexSet::assign_difference(const VertexSet& all, const VertexSet& part) {
   clear();
   auto taken = part.parts().begin();

@@ -23,7 +23,7 @@ struct LeafSubset {
 }
 
 /// A set of vertices in index order, in one list: runs, and subsets of at most 32 consecutive vertices. Nearly always
-/// these are whole leaves and subsets of leaves.
+/// these are whole leaves and subsets of leaves; those of `VertexBfs` lie anywhere.
 class VertexSet {
  public:
   /// A run, or those of at most 32 vertices that `lanes` names.
@@ -74,6 +74,10 @@ class VertexSet {
     size_ += static_cast<std::size_t>(condition && !follows);
   }
 
+  /// Cuts it at the ends of leaves, and joins what is of one leaf, so that every run has whole leaves and every subset
+  /// is one of a leaf. Only sets of `VertexBfs` need it.
+  void align_to_leaves();
+
   /// Refills the set with the union of `subsets`, in any order, each vertex once.
   void assign(std::span<const LeafSubset> subsets);
 
@@ -115,7 +119,7 @@ class VertexSet {
   const IndexView* index_;
   std::vector<Part> parts_;
   std::size_t size_ = 0;
-  std::vector<LeafSubset> sorted_;  // scratch of `assign`
+  std::vector<LeafSubset> sorted_;  // scratch of `assign` and `align_to_leaves`
   std::vector<VertexRange> ranges_;
 };
 

@@ -113,6 +113,27 @@ TEST_F(VertexSetTest, AddsUnderAConditionOnly) {
   EXPECT_EQ(set.parts().size(), 3U) << "a run does not become a part of a subset";
 }
 
+TEST_F(VertexSetTest, AlignedToLeavesHasRunsOfWholeLeavesAndSubsetsOfLeaves) {
+  for (int round = 0; round < 200; ++round) {
+    VertexSet set(index);
+    Vertices expected;
+    for (VertexId begin = 0; begin < mesh.size(); begin += kLeafCapacity) {
+      const VertexRange range{begin, std::min(begin + kLeafCapacity, static_cast<VertexId>(mesh.size()))};
+      const LaneMask all = first_lanes(static_cast<unsigned>(range.size()));
+      const LaneMask lanes = round % 2 == 0 ? all : static_cast<LaneMask>(random.bits() | random.bits()) & all;
+      set.add_lanes(range, lanes);
+      for_each_lane(lanes, [&](unsigned lane) { expected.insert(begin + lane); });
+    }
+    set.align_to_leaves();
+    ASSERT_EQ(vertices_of(set), expected);
+    for (const VertexSet::Part& part : set.parts()) {
+      ASSERT_THAT(index.leaf_begin, testing::Contains(part.begin));
+      ASSERT_THAT(index.leaf_begin, testing::Contains(part.end));
+      ASSERT_TRUE(part.is_run() || part.end - part.begin <= kLeafCapacity);
+    }
+  }
+}
+
 TEST_F(VertexSetTest, AssignTakesSubsetsInAnyOrderAndLeavesSeveralTimes) {
   VertexSet set(index);
   std::size_t several = 0;

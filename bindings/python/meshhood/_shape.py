@@ -116,8 +116,8 @@ class Shape(Held):
 
         r : a radius, or one for each row. degree : 0 to 4. weights, F : as for `aggregate`.
         Returns (#rows, 1, 4, 10, 20 or 35) float64: 1, x, y, z, x^2, xy, xz, y^2, yz, z^2, x^3, ..., the order of
-        scikit-learn's PolynomialFeatures. They are accurate to 1e-13 of the sum of w |p|^(i + j + k). With other rows
-        in the call, the last bits of a row may differ.
+        scikit-learn's PolynomialFeatures. They are accurate to 1e-13 of the sum of w |p|^(i + j + k). A row does not
+        depend on the other rows of the call, bit for bit, unless the rows have different radii.
         """
         rows, radii, threads = self._batch(vertices, r, self._scale(unit), workers)
         options = {"degree": _convert.integer(degree, "degree", 0, 4), "weights": area_weights(self, weights, F)}
