@@ -66,13 +66,26 @@ std::vector<Feature> kinds_of(const FeaturesCommand& options) {
   return kinds;
 }
 
+/// R / count, 2 R / count, ..., R: the radii of multi-scale integral invariants (H. Mara, S. Krömker, S. Jakob,
+/// B. Breuckmann, "GigaMesh and Gilgamesh: 3D multiscale integral invariant cuneiform character extraction", VAST
+/// 2010).
+std::vector<double> equal_steps(double largest, std::size_t count) {
+  std::vector<double> radii;
+  radii.reserve(count);
+  for (std::size_t i = 1; i <= count; ++i) {
+    radii.push_back(largest * (static_cast<double>(i) / static_cast<double>(count)));
+  }
+  return radii;
+}
+
 std::vector<double> radii_of(const FeaturesCommand& options, Input& input) {
   if (options.radii.values.empty() == options.largest.empty()) {
     raise(ErrorCode::InvalidOption, "expected either --radius or --largest");
   }
   if (options.largest.empty()) return resolve(options.radii, input);
+  if (options.count == 0) raise(ErrorCode::InvalidOption, "--count is 0, expected 1 to 1000");
   const auto in_mesh = [&](const std::string& radius) { return resolve(Radius{radius, options.radii.unit}, input); };
-  if (options.smallest.empty()) return linear_radii(in_mesh(options.largest), options.count);
+  if (options.smallest.empty()) return equal_steps(in_mesh(options.largest), options.count);
   return geometric_radii(in_mesh(options.smallest), in_mesh(options.largest), options.count);
 }
 

@@ -58,11 +58,6 @@ struct FeatureOptions {
 [[nodiscard]] std::vector<double> features(const CurvatureIndex& surface, const BatchVertices& vertices,
                                            std::span<const double> radii, const FeatureOptions& options = {});
 
-/// `count` radii R / count, 2 R / count, ..., R: those of multi-scale integral invariants (H. Mara, S. Krömker, S.
-/// Jakob, B. Breuckmann, "GigaMesh and Gilgamesh: 3D multiscale integral invariant cuneiform character extraction",
-/// VAST 2010), where `count` is 16. Throws Error{InvalidRadius, InvalidOption}.
-[[nodiscard]] std::vector<double> linear_radii(double largest, std::size_t count = 16);
-
 /// `count` radii from `smallest` to `largest` with a constant ratio. Throws Error{InvalidRadius, InvalidOption}.
 [[nodiscard]] std::vector<double> geometric_radii(double smallest, double largest, std::size_t count);
 

@@ -192,16 +192,6 @@ std::vector<double> features(const CurvatureIndex& surface, const BatchVertices&
   return FeatureExtraction(surface, vertices, radii, options).run();
 }
 
-std::vector<double> linear_radii(double largest, std::size_t count) {
-  check_largest(largest);
-  check_count(count);
-  std::vector<double> radii;
-  for (std::size_t i = 1; i <= count; ++i) {
-    radii.push_back(largest * (static_cast<double>(i) / static_cast<double>(count)));
-  }
-  return radii;
-}
-
 std::vector<double> geometric_radii(double smallest, double largest, std::size_t count) {
   check_largest(smallest);
   check_largest(largest);

@@ -112,8 +112,6 @@ TEST(Features, OfAVertexWithoutNormalAreNan) {
 }
 
 TEST(Features, RadiiAreSpacedAsTheNameSays) {
-  EXPECT_THAT(linear_radii(8, 4), testing::ElementsAre(2, 4, 6, 8));
-  EXPECT_EQ(linear_radii(1).size(), 16U);
   const std::vector<double> radii = geometric_radii(1, 16, 5);
   for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(radii[i], std::exp2(static_cast<double>(i)), 1e-13);
   EXPECT_EQ(radii.back(), 16);
@@ -170,8 +168,8 @@ TEST(Features, RefuseInvalidArgumentsAndNameThem) {
   expect_refused(ErrorCode::InvalidRadius, "radius 1: 0", [&] { (void)of({1.0, 0.0}, {}); });
   expect_refused(ErrorCode::InvalidRadius, "inf", [&] { (void)of({std::numeric_limits<double>::infinity()}, {}); });
   expect_refused(ErrorCode::InvalidOption, "need the areas", [&] { (void)of({1.0}, {.kinds = {Feature::Area}}); });
-  expect_refused(ErrorCode::InvalidOption, "0 radii", [&] { (void)linear_radii(1, 0); });
-  expect_refused(ErrorCode::InvalidRadius, "-1", [&] { (void)linear_radii(-1); });
+  expect_refused(ErrorCode::InvalidOption, "0 radii", [&] { (void)geometric_radii(1, 2, 0); });
+  expect_refused(ErrorCode::InvalidRadius, "-1", [&] { (void)geometric_radii(-1, 1, 2); });
   expect_refused(ErrorCode::InvalidRadius, "the smallest radius is 2", [&] { (void)geometric_radii(2, 1, 3); });
   const std::vector<double> values(4);
   const std::vector<double> radii{2.0, 1.0};

@@ -17,7 +17,7 @@ class ComponentOnFamilies : public testing::TestWithParam<Family> {};
 TEST_P(ComponentOnFamilies, HasTheVerticesOfTheAnswerInIndexOrder) {
   std::size_t vertices = 0;
   const std::size_t searches =
-      for_each_outward_search(GetParam(), scaled(25, 3), 4, [&](const SearchCase& c, OutwardSearch& search) {
+      for_each_outward_search(GetParam(), scaled(100, 4), 10, [&](const SearchCase& c, OutwardSearch& search) {
         std::vector<std::size_t> expected;
         const Ids answer = c.neighborhood();
         for (const std::uint32_t w : answer) {
