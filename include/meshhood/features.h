@@ -52,9 +52,9 @@ struct FeatureOptions {
 /// result (see `CurvatureState`), where a row has no normal, or where the neighborhood has no area.
 ///
 /// Each radius has a neighborhood of its own. Time of `curvatures`, of `principal_components`, or of both, for each
-/// radius, as the kinds require. A row depends on surface, areas, vertex and radius alone, bit for bit: not on the other
-/// rows of the call, earlier calls, threads or the processor.
-/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}. A radius must be > 0 and finite.
+/// radius, as the kinds require. A row depends on surface, areas, vertex and radius alone, bit for bit: not on the
+/// other rows of the call, earlier calls, threads or the processor. Throws Error{VertexOutOfRange, InvalidRadius,
+/// InvalidOption, Cancelled}. A radius must be > 0 and finite.
 [[nodiscard]] std::vector<double> features(const CurvatureIndex& surface, const BatchVertices& vertices,
                                            std::span<const double> radii, const FeatureOptions& options = {});
 

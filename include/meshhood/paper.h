@@ -162,7 +162,7 @@ class Searcher {
   [[nodiscard]] const QueryProfile& profile() const { return profile_; }
 
  private:
-  friend struct SearcherAccess;
+  friend struct SearcherAccess;  // defined by tests
 
   /// Vertices in index order of which all, or those within the radius, belong to the answer.
   struct Piece {

@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "exact/kept_graph.h"
 #include "exact/layout.h"
+#include "exact/weighted_graph.h"
 
 namespace meshhood {
 namespace {

@@ -10,8 +10,8 @@
 #include "base/parallel.h"
 #include "exact/arrays.h"
 #include "exact/build/edge_source.h"
-#include "exact/kept_graph.h"
 #include "exact/layout.h"
+#include "exact/weighted_graph.h"
 
 namespace meshhood {
 

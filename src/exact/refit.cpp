@@ -12,8 +12,8 @@
 #include "exact/arrays.h"
 #include "exact/build/geometry.h"
 #include "exact/index_access.h"
-#include "exact/kept_graph.h"
 #include "exact/moves.h"
+#include "exact/weighted_graph.h"
 
 namespace meshhood {
 namespace {

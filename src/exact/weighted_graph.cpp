@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <utility>
 #include <variant>
@@ -27,8 +28,6 @@ std::vector<double> lengths_of(const Adjacency& edges, std::span<const Real> xyz
   return lengths;
 }
 
-}  // namespace
-
 WeightedGraph make_weighted_graph(const IndexView& index) {
   Adjacency edges = gather_rows(index.vertex_count(), [&](auto&& f) {
     for_each_edge(index,
@@ -42,6 +41,18 @@ WeightedGraph make_weighted_graph(const IndexView& index) {
   }
   std::vector<double> lengths = std::visit([&](auto xyz) { return lengths_of(edges, xyz); }, index.positions);
   return {std::move(edges), std::move(lengths)};
+}
+
+}  // namespace
+
+KeptGraph::~KeptGraph() { delete graph_.load(std::memory_order_acquire); }
+
+const WeightedGraph& KeptGraph::of(const IndexView& index) {
+  const WeightedGraph* found = graph_.load(std::memory_order_acquire);
+  if (found != nullptr) return *found;
+  auto made = std::make_unique<const WeightedGraph>(make_weighted_graph(index));
+  if (!graph_.compare_exchange_strong(found, made.get(), std::memory_order_acq_rel)) return *found;
+  return *made.release();
 }
 
 }  // namespace meshhood

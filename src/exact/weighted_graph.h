@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <vector>
 
 #include "meshhood/adjacency.h"
@@ -16,7 +17,22 @@ struct WeightedGraph {
   std::vector<double> lengths;  // by element of `edges.neighbors`
 };
 
-/// O(#V + #E).
-[[nodiscard]] WeightedGraph make_weighted_graph(const IndexView& index);
+/// The graph of an index vertex by vertex, made at its first use and kept for all searchers: for paths along the edges,
+/// and for odd graphs.
+///
+/// Any thread may ask for it. There is no lock, because a fork could leave it held: if several threads make the graph
+/// at once, one result is kept. O(#V + #E) the first time.
+class KeptGraph {
+ public:
+  KeptGraph() = default;
+  KeptGraph(const KeptGraph&) = delete;
+  KeptGraph& operator=(const KeptGraph&) = delete;
+  ~KeptGraph();
+
+  [[nodiscard]] const WeightedGraph& of(const IndexView& index);
+
+ private:
+  std::atomic<const WeightedGraph*> graph_{nullptr};
+};
 
 }  // namespace meshhood

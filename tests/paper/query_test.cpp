@@ -10,9 +10,17 @@
 
 #include "meshhood/meshhood.h"
 
-#include "paper/searcher_access.h"
 #include "support/families.h"
 #include "support/refusal.h"
+
+namespace meshhood::paper {
+
+struct SearcherAccess {
+  /// Continues as if there had been `queries` queries.
+  static void set_query(Searcher& searcher, std::uint32_t queries) { searcher.query_ = queries; }
+};
+
+}  // namespace meshhood::paper
 
 namespace meshhood::test {
 namespace {

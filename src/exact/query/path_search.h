@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "exact/kept_graph.h"
 #include "exact/layout.h"
 #include "exact/query/lane_filter.h"
 #include "exact/query/path_order.h"

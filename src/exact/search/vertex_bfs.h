@@ -7,9 +7,9 @@
 #include "meshhood/reference.h"
 
 #include "base/number_set.h"
-#include "exact/kept_graph.h"
 #include "exact/layout.h"
 #include "exact/vertex_set.h"
+#include "exact/weighted_graph.h"
 
 namespace meshhood {
 
