@@ -126,9 +126,9 @@ TEST_P(LinksOfFamilies, OfLeavesAreThoseThatTheEdgesOfTheMeshGive) {
     const Linked linked(mesh);
     TaskContext task;
     expect_same_links(make_links(EdgeSource(mesh.view().faces), linked.leaves.slot, linked.leaves.leaf_begin, task),
-                 linked.links);
+                      linked.links);
     expect_same_links(make_links(EdgeSource(linked.graph.view()), linked.leaves.slot, linked.leaves.leaf_begin, task),
-                 linked.links);
+                      linked.links);
   }
 }
 
