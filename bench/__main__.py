@@ -6,6 +6,7 @@ pages and plots are made from them.
     python3 -m bench exact       the exact index beside the best breadth-first search, cold and warm
     python3 -m bench before      the exact index beside that of another commit, in one process: --commit
     python3 -m bench batch       all vertices of a mesh in one call, beside breadth-first search
+    python3 -m bench arrays      all vertices from the arrays of a mesh, beside other libraries; --radii, --threads: a part
     python3 -m bench curvature   principal curvatures of all vertices, beside libigl, MeshLab and CGAL
     python3 -m bench growth      the same as the mesh grows to 10 million vertices
     python3 -m bench pictures    the paper's Figure 4
@@ -45,6 +46,12 @@ def batch(options):
     from . import batch as measuring
 
     measuring.run(options.meshes)
+
+
+def arrays(options):
+    from .arrays import contest
+
+    contest.run(options.meshes, options.radii, options.threads)
 
 
 def curvature(options):
@@ -89,7 +96,7 @@ def report(_):
     writing.write()
 
 
-PARTS = {part.__name__: part for part in (tables, exact, before, batch, curvature, growth, pictures, accuracy, scaling, peers,
+PARTS = {part.__name__: part for part in (tables, exact, before, batch, arrays, curvature, growth, pictures, accuracy, scaling, peers,
                                        report)}
 
 
@@ -99,6 +106,8 @@ def main():
     parser.add_argument("parts", nargs="+", choices=PARTS, metavar="PART", help=", ".join(PARTS))
     parser.add_argument("--meshes", nargs="+", choices=[*meshes.MESHES, *meshes.SHEETS, *meshes.ODD], metavar="NAME",
                         help=", ".join(meshes.MESHES))
+    parser.add_argument("--radii", nargs="+", type=int, metavar="EDGES", help="in mean edges, for `arrays`")
+    parser.add_argument("--threads", nargs="+", type=int, choices=(1, 2), metavar="COUNT", help="1 or 2, for `arrays`")
     parser.add_argument("--queries", type=int, help="a mesh and radius")
     parser.add_argument("--commit", default="HEAD~1", help="the commit to compare with, for `before`")
     parser.add_argument("--largest", type=int, default=10_000_000,

@@ -24,6 +24,7 @@ PLOTS = (("table2", "Above: time of a query over the radius, by method. Below: v
 
 PAGE_HEAD = "# {title}\n\nPart of the [benchmarks](../benchmarks.md), where the terms are explained. Generated; do not edit.\n\n"
 
+IN_README = ("batch", "arrays", "exact_index")
 MARKERS = re.compile(r"(<!-- from the benchmarks -->\n).*?(<!-- to here -->)", re.DOTALL)
 
 
@@ -35,9 +36,7 @@ def write():
     for path, text in texts.items():
         path.write_text(text, encoding="utf-8")
     print(f"wrote {len(texts)} pages and {len(drawn)} plots")
-    measured = [(source, data) for source in ("batch", "exact_index") if (data := results.load(source)) is not None]
-    if measured:
-        places.README.write_text(readme(measured), encoding="utf-8")
+    places.README.write_text(readme(), encoding="utf-8")
 
 
 def documents():
@@ -70,10 +69,10 @@ def measured_on(data):
     return f"\n*Measured on {machine.caption(data['machine'])}*\n"
 
 
-def readme(measured):
-    """README.md with its tables replaced by those of the results, which come as pairs of source and data."""
+def readme():
+    """README.md with its tables replaced by those of the results."""
     text = places.README.read_text(encoding="utf-8")
     if not MARKERS.search(text):
         raise SystemExit("bench: README.md lacks the two comments that enclose its table")
-    tables = "".join(SECTIONS[source].head_table(data) for source, data in measured)
+    tables = "".join(SECTIONS[source].head_table(data) for source in IN_README if (data := results.load(source)) is not None)
     return MARKERS.sub(lambda found: f"{found[1]}{tables}{found[2]}", text)

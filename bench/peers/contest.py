@@ -7,7 +7,7 @@ from .. import meshes, results
 from . import PEERS, mesh_files
 from .contestant import BLOCK_QUERIES, BLOCKS, Contestant, Judged
 from .edges import edges_of, lengths_of
-from .worker import ALL_THREADS, ONE_THREAD
+from .service import ALL_THREADS, ONE_THREAD
 
 # mesh: radii in average edges.
 CONTESTS = {"cortex": (5, 20), "dragon": (5, 10)}

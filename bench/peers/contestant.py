@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .. import timing
+from ..worker import Worker
 from . import PEERS
-from .worker import Worker
+from .service import ONE_THREAD, Service
 
 BLOCKS = 5
 BLOCK_QUERIES = 2000
@@ -49,7 +50,7 @@ class Contestant:
 
     @classmethod
     def started(cls, name, path, threads):
-        contestant = cls(name, Worker(name, path, threads))
+        contestant = cls(name, Worker(Service, name, path, threads, processors=1 if threads == ONE_THREAD else None))
         contestant.built = contestant.attempt(contestant.worker.result)
         return contestant
 

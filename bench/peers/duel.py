@@ -9,7 +9,7 @@ import argparse
 from .. import meshes
 from . import PEERS
 from .contest import contest
-from .worker import ONE_THREAD
+from .service import ONE_THREAD
 
 BLOCK_SECONDS = 0.3
 

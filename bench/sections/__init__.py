@@ -5,11 +5,12 @@
     text(data)      its page, docs/benchmarks/NAME.md
     summary(data)   its part of docs/benchmarks.md; may be absent
 """
-from . import (accuracy, all_vertices, batch, before, curvature, curvature_growth, exact_index, figure4, paper_tables, peers,
-               scaling)
+from . import (accuracy, all_vertices, arrays, batch, before, curvature, curvature_growth, exact_index, figure4,
+               paper_tables, peers, scaling)
 
 SECTIONS = {
     "batch": batch,
+    "arrays": arrays,
     "exact_index": exact_index,
     "before": before,
     "paper_tables": paper_tables,

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: MIT
+"""From the arrays of a mesh in memory to the answers for all of its vertices, beside other libraries."""
+from .. import machine
+from .markdown import number, table
+
+TITLE = "From arrays to the answers for all vertices"
+COMMAND = "python3 -m bench arrays"
+OURS, BFS = "meshhood", "our breadth-first search (C++)"
+TRUEFORM_CURVATURE = "trueform principal_curvatures"
+QUESTIONS = {"counts": "Counts", "ids": "Ids", "mean": "Mean of a signal", "curvature": "Principal curvatures"}
+RADII = (2, 3, 5, 10)
+
+NOTE = """`{command}`: wall clock from the arrays of positions and triangles in memory to the answers for all vertices, in µs a
+vertex, with what must be built for it. Each tool runs in a process of its own that has as many processors as the table
+has threads, in turns with the others; medians. It gets its own types of numbers, and answers all vertices. **Bold**:
+faster than meshhood. The radii are in mean edges. The answers are not all the same, see the second column: *exact* is
+the neighborhood of meshhood; *ball* is the ball in space, which takes other sheets for near ones, except for libigl's,
+which is connected; *k rings* are the vertices within k edges, whatever their length, for k as large as the radius;
+*found* is how many vertices that gives at the largest radius. In the tables of counts, a tool that can only return ids
+counts by them. *(in hand)* is the same with the index already built. A tool that would take longer than {most:g} s is stopped or left out,
+as a piece of the mesh suggests; so is one that needs more than 12 GiB.
+
+"""
+MOST_SECONDS = 20
+
+# How many times as long as meshhood another tool should take at least, by question and radius; more threads or less.
+GOALS = (("counts", BFS, {3: 1, 5: 3, 10: 8}), ("curvature", TRUEFORM_CURVATURE, {2: 1 / 0.7, 5: 4}))
+GOALS_NOTE = """
+## Goals
+
+The time of another tool over that of meshhood, both from arrays, and in parentheses the goal; in bold where it is missed.
+
+"""
+
+
+def text(data):
+    contests = grouped(data)
+    parts = [NOTE.format(command=COMMAND, most=MOST_SECONDS)]
+    for (name, threads), pieces in contests.items():
+        parts.append(f"## {name}, {threads_in_words(threads)}\n\n{next(iter(pieces.values()))['vertices']:,} vertices.\n")
+        for question, title in QUESTIONS.items():
+            parts.append(f"\n{title}:\n\n{question_table(question, pieces)}")
+        parts.append("\n")
+    return "".join(parts).rstrip("\n") + "\n" + goals(contests)
+
+
+def grouped(data):
+    """mesh and threads -> radius -> piece, in the order of the radii."""
+    contests = {}
+    for piece in sorted(data["pieces"].values(), key=lambda piece: piece["radius_edges"]):
+        contests.setdefault((piece["mesh"], piece["threads"]), {})[piece["radius_edges"]] = piece
+    return dict(sorted(contests.items()))
+
+
+def threads_in_words(threads):
+    return {1: "one thread", 2: "two threads"}[threads]
+
+
+def question_table(question, pieces):
+    tools = {}
+    for piece in pieces.values():
+        for name, row in rows_of(question, piece).items():
+            tools[name] = row["answers"]
+    last = rows_of(question, list(pieces.values())[-1])
+    rows = [[name, answers, *(cell(rows_of(question, piece), name, piece) for piece in pieces.values()),
+             number(last[name]["found"]) if last.get(name, {}).get("found") else ""] for name, answers in tools.items()]
+    in_hand = [f"*({number(microseconds(piece, question, OURS, 'answer_seconds'))})*" for piece in pieces.values()]
+    rows.insert(1, [f"{OURS} (in hand)", "exact", *in_hand, ""])
+    return table(["", "answers", *(f"r = {edges}" for edges in pieces), "found"], rows)
+
+
+def rows_of(question, piece):
+    """The rows of those that answer the question; of those that answer it by ids, the rows of the ids."""
+    found = dict(piece["questions"][question])
+    if question == "counts":
+        found |= {name: row for name, row in piece["questions"]["ids"].items() if name not in found}
+    return found
+
+
+def cell(rows, name, piece):
+    row = rows.get(name)
+    if row is None:
+        return ""
+    if "seconds" not in row:
+        return row["failure"]
+    mine, own = rows[OURS]["seconds"]["median"], row["seconds"]["median"]
+    text = number(1e6 * own / piece["vertices"])
+    return f"**{text}**" if own < mine else text
+
+
+def microseconds(piece, question, name, key="seconds"):
+    return 1e6 * piece["questions"][question][name][key]["median"] / piece["vertices"]
+
+
+def goals(contests):
+    rows = []
+    for question, other, aims in GOALS:
+        for (name, threads), pieces in contests.items():
+            cells = [compared(question, other, pieces.get(edges), aims.get(edges)) for edges in RADII]
+            if any(cells):
+                rows.append([f"{QUESTIONS[question]}, {other}", name, threads_in_words(threads), *cells])
+    return GOALS_NOTE + table(["", "mesh", "threads", *(f"r = {edges}" for edges in RADII)], rows)
+
+
+def compared(question, other, piece, aim):
+    if piece is None or aim is None or "seconds" not in piece["questions"][question].get(other, {}):
+        return ""
+    reached = microseconds(piece, question, other) / microseconds(piece, question, OURS)
+    text = f"{number(reached)} ({number(aim)})"
+    return text if reached >= aim else f"**{text}**"
+
+
+HEAD_NOTE = """From the arrays of a mesh to the counts and curvatures of all vertices on two threads, beside the same with the index in
+hand (`{command}`), in µs a vertex; *BFS* is the reference search with the adjacency that it needs.{remark}
+
+"""
+
+
+def head_table(data):
+    """The table of the README."""
+    remark = " **Preliminary figures.**" if machine.is_busy(data["machine"]) else ""
+    rows = []
+    for (name, threads), pieces in grouped(data).items():
+        if threads != max(threads for _, threads in grouped(data)):
+            continue
+        for edges, piece in pieces.items():
+            rows.append([f"{name}, {edges}", *(number(microseconds(piece, *what)) for what in
+                                               (("counts", BFS), ("counts", OURS), ("counts", OURS, "answer_seconds"),
+                                                ("curvature", OURS), ("curvature", OURS, "answer_seconds")))])
+    header = ["mesh, radius in mean edges", "BFS, counts", "counts", "in hand", "curvature", "in hand"]
+    return "\n" + HEAD_NOTE.format(command=COMMAND, remark=remark) + table(header, rows) + "\n"
+
+
+def summary(data):
+    """Counts on the most threads, and the goals."""
+    return (f"`{COMMAND}`: what users do, from arrays in memory, beside other libraries."
+            f" [All figures](benchmarks/arrays.md).\n\n{head_table(data)}")
