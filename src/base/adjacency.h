@@ -6,7 +6,7 @@
 
 #include "meshhood/adjacency.h"
 
-#include "base/parallel.h"
+#include "shared/parallel.h"
 
 namespace meshhood {
 

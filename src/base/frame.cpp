@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/parallel.h"
+#include "shared/parallel.h"
 
 namespace meshhood {
 namespace {

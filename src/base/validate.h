@@ -3,7 +3,7 @@
 
 #include "meshhood/mesh.h"
 
-#include "base/parallel.h"
+#include "shared/parallel.h"
 
 namespace meshhood {
 

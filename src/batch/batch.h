@@ -10,11 +10,11 @@
 
 #include "meshhood/batch.h"
 
-#include "base/parallel.h"
 #include "batch/position_sort.h"
 #include "batch/raw_values.h"
 #include "batch/rows.h"
 #include "batch/searcher_factory.h"
+#include "shared/parallel.h"
 
 namespace meshhood {
 

@@ -4,7 +4,7 @@
 #include "meshhood/adjacency.h"
 #include "meshhood/index.h"
 
-#include "base/parallel.h"
+#include "shared/parallel.h"
 
 namespace meshhood {
 

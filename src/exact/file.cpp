@@ -8,7 +8,6 @@
 #include "meshhood/error.h"
 #include "meshhood/serialize.h"
 
-#include "base/parallel.h"
 #include "exact/extract_graph.h"
 #include "exact/index_access.h"
 #include "exact/layout.h"
@@ -16,6 +15,7 @@
 #include "format/section_reader.h"
 #include "format/section_writer.h"
 #include "shared/aligned_buffer.h"
+#include "shared/parallel.h"
 
 namespace meshhood {
 namespace {

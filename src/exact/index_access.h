@@ -7,11 +7,11 @@
 #include "meshhood/adjacency.h"
 #include "meshhood/index.h"
 
-#include "base/parallel.h"
 #include "exact/arrays.h"
 #include "exact/build/edge_source.h"
 #include "exact/layout.h"
 #include "exact/weighted_graph.h"
+#include "shared/parallel.h"
 
 namespace meshhood {
 

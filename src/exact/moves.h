@@ -7,8 +7,8 @@
 
 #include "meshhood/mesh.h"
 
-#include "base/parallel.h"
 #include "exact/layout.h"
+#include "shared/parallel.h"
 
 namespace meshhood {
 

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <span>
 
-#include "base/parallel.h"
 #include "exact/layout.h"
 #include "format/section_reader.h"
+#include "shared/parallel.h"
 
 namespace meshhood::file {
 

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <type_traits>
 
-#include "base/parallel.h"
 #include "format/format.h"
+#include "shared/parallel.h"
 
 namespace meshhood::file {
 

@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "base/parallel.h"
 #include "format/format.h"
+#include "shared/parallel.h"
 
 namespace meshhood::file {
 

@@ -9,7 +9,6 @@
 #include "meshhood/paper.h"
 
 #include "base/packed_positions.h"
-#include "base/parallel.h"
 #include "paper/arrange.h"
 #include "paper/create.h"
 #include "paper/fusion.h"
@@ -17,6 +16,7 @@
 #include "paper/index_access.h"
 #include "paper/link.h"
 #include "paper/select.h"
+#include "shared/parallel.h"
 #include "shared/text.h"
 
 namespace meshhood::paper {

@@ -7,7 +7,6 @@
 #include "meshhood/error.h"
 #include "meshhood/serialize.h"
 
-#include "base/parallel.h"
 #include "format/coordinates.h"
 #include "format/section_reader.h"
 #include "format/section_writer.h"
@@ -16,6 +15,7 @@
 #include "paper/link.h"
 #include "paper/verify.h"
 #include "shared/aligned_buffer.h"
+#include "shared/parallel.h"
 
 namespace meshhood::paper {
 namespace {

@@ -9,7 +9,6 @@
 #include "meshhood/index.h"
 
 #include "base/adjacency.h"
-#include "base/parallel.h"
 #include "base/validate.h"
 #include "exact/build/geometry.h"
 #include "exact/build/leaves.h"
@@ -18,6 +17,7 @@
 #include "exact/build/tree.h"
 #include "exact/index_access.h"
 #include "exact/layout.h"
+#include "shared/parallel.h"
 
 namespace meshhood {
 namespace {

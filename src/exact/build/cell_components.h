@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "base/parallel.h"
 #include "exact/build/cells.h"
 #include "exact/build/links.h"
 #include "exact/layout.h"
+#include "shared/parallel.h"
 
 namespace meshhood {
 

@@ -9,9 +9,9 @@
 #include "meshhood/mesh.h"
 
 #include "base/frame.h"
-#include "base/parallel.h"
 #include "exact/build/kd_order.h"
 #include "exact/layout.h"
+#include "shared/parallel.h"
 
 namespace meshhood {
 

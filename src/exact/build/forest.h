@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/parallel.h"
 #include "exact/build/node_groups.h"
 #include "exact/layout.h"
+#include "shared/parallel.h"
 
 namespace meshhood {
 

@@ -3,9 +3,9 @@
 
 #include "meshhood/mesh.h"
 
-#include "base/parallel.h"
 #include "exact/arrays.h"
 #include "exact/layout.h"
+#include "shared/parallel.h"
 
 namespace meshhood {
 

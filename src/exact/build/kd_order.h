@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "base/parallel.h"
+#include "shared/parallel.h"
 
 namespace meshhood {
 

@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "base/parallel.h"
 #include "exact/build/tree.h"
 #include "exact/layout.h"
+#include "shared/parallel.h"
 
 namespace meshhood {
 

@@ -8,10 +8,10 @@
 #include "meshhood/mesh.h"
 
 #include "base/frame.h"
-#include "base/parallel.h"
 #include "exact/build/edge_source.h"
 #include "exact/build/forest.h"
 #include "exact/build/links.h"
+#include "shared/parallel.h"
 
 namespace meshhood {
 

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "base/parallel.h"
 #include "exact/build/edge_source.h"
 #include "exact/layout.h"
+#include "shared/parallel.h"
 
 namespace meshhood {
 

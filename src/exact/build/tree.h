@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "base/parallel.h"
 #include "exact/layout.h"
+#include "shared/parallel.h"
 
 namespace meshhood {
 

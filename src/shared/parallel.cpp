@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "base/parallel.h"
+#include "shared/parallel.h"
 
 #include <cstdlib>
 #include <exception>

@@ -9,7 +9,7 @@
 
 #include "meshhood/progress.h"
 
-#include "base/coarse_clock.h"
+#include "shared/coarse_clock.h"
 
 namespace meshhood {
 
