@@ -106,7 +106,7 @@ AggregateShape run(const AggregateCommand& options, Input& input, const Aggregat
 
 void aggregate_command(const AggregateCommand& options) {
   check_output(options.output, {options.file, options.values, options.weights, options.vertices});
-  Input input(options.file);
+  Input input(options.file, options.threads);
   input.need_edges("aggregate");
   const QueryVertices vertices(options.vertices, input.vertex_count());
   const AggregateQuery query{.vertices = vertices.view(),

@@ -215,7 +215,7 @@ std::vector<VertexId> all_in_index_order(const Index& index) {
 void batch(const BatchCommand& options) {
   check_output(options.output, {options.file, options.vertices});
   const RowOrder order = row_order(options);
-  Input input(options.file);
+  Input input(options.file, options.threads);
   const QueryVertices vertices(options.vertices, input.vertex_count());
   BatchQuery query{.vertices = vertices.view(), .radius = resolve(options.radius, input)};
   const SearchMethod method = method_of(options.method, input, {}, options.threads);

@@ -97,7 +97,7 @@ Adjacency cut_graph(const MeshView& mesh, const std::string& file) {
 
 void build(const BuildCommand& options) {
   check_output(options.output, {options.mesh, options.cut});
-  const io::Mesh mesh = read_mesh(options.mesh);
+  const io::Mesh mesh = read_mesh(options.mesh, options.threads);
   Summary summary{};
   if (options.cut.empty()) {
     summary = build_and_save(options, mesh.view());

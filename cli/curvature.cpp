@@ -99,7 +99,7 @@ void print(const CurvatureCommand& options, std::size_t rows, std::size_t radii,
 
 void curvature(const CurvatureCommand& options) {
   check_output(options.output, {options.file, options.vertices});
-  Input input(options.file);
+  Input input(options.file, options.threads);
   input.need_faces("curvature");
   const std::vector<double> radii = resolve(options.radii, input);
   const QueryVertices vertices(options.vertices, input.vertex_count());

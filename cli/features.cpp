@@ -217,7 +217,7 @@ void features_command(const FeaturesCommand& options) {
   }
   check_output(options.output, {options.file});
   check_output(options.ply, {options.file, options.output});
-  Input input(options.file);
+  Input input(options.file, options.threads);
   input.need_faces("features");
   const FeaturesFound found = compute(options, input);
   if (!options.output.empty()) write_npz(options, found);

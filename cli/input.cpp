@@ -48,10 +48,10 @@ PositionsData positions_of(const paper::Index& index) {
 
 }  // namespace
 
-Input::Input(std::string file) : name_(std::move(file)) {
-  auto content = [this] {
+Input::Input(std::string file, unsigned threads) : name_(std::move(file)) {
+  auto content = [this, threads] {
     Task task(reading(name_), kMegabytes);
-    return io::read_mesh_or_index(name_, {.progress = task.progress()});
+    return io::read_mesh_or_index(name_, {.threads = threads, .progress = task.progress()});
   }();
   if (auto* mesh = std::get_if<io::Mesh>(&content)) {
     mesh_ = std::move(*mesh);
@@ -119,10 +119,10 @@ const paper::Index& Input::paper_index() {
   return *paper_;
 }
 
-io::Mesh read_mesh(const std::string& file) {
+io::Mesh read_mesh(const std::string& file, unsigned threads) {
   io::Mesh mesh = [&] {
     Task task(reading(file), kMegabytes);
-    return io::read_mesh(file, {.progress = task.progress()});
+    return io::read_mesh(file, {.threads = threads, .progress = task.progress()});
   }();
   print_warnings(mesh, file);
   return mesh;

@@ -25,7 +25,7 @@ inline constexpr unsigned kAllThreads = 0;
 class Input {
  public:
   /// Reads `file` and prints the warnings of the reader. Throws as `io::read_mesh` and `io::load`.
-  explicit Input(std::string file);
+  explicit Input(std::string file, unsigned threads = kAllThreads);
 
   /// As on the command line.
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -74,7 +74,7 @@ class Input {
 };
 
 /// Reads a mesh, with progress, and prints the warnings of the reader. Throws as `io::read_mesh`.
-[[nodiscard]] io::Mesh read_mesh(const std::string& file);
+[[nodiscard]] io::Mesh read_mesh(const std::string& file, unsigned threads = kAllThreads);
 
 /// Reads and verifies an index, with progress. Throws as `io::load`.
 [[nodiscard]] io::LoadedIndex load_index(const std::string& file);

@@ -8,11 +8,12 @@
 
 namespace meshhood::io {
 class InputBuffer;
-}
+struct ReaderOptions;
+}  // namespace meshhood::io
 
 namespace meshhood::fuzz {
 
-using Reader = io::Mesh (*)(io::InputBuffer& input, const io::ReadOptions& options);
+using Reader = io::Mesh (*)(io::InputBuffer& input, const io::ReaderOptions& options);
 
 /// Checks that `reader` returns a valid mesh or throws an error of one line. Meshes that are not large are passed to
 /// `judge`.

@@ -101,6 +101,30 @@ void Faces::end_face(std::uint64_t corners) {
   ++size_;
 }
 
+void PlainFaces::clear() {
+  corners.clear();
+  sizes.clear();
+  are_triangles = true;
+}
+
+void Faces::append(const PlainFaces& faces) {
+  append_many(corners_, std::span<const std::uint32_t>(faces.corners));
+  if (faces.are_triangles && offsets_.empty()) {
+    size_ += faces.sizes.size();
+  } else {
+    for (const std::uint8_t corners : faces.sizes) end_face(corners);
+  }
+}
+
+void Faces::append(std::size_t count, std::span<const std::uint32_t> corners) {
+  append_many(corners_, corners);
+  if (corners.size() == 3 * count && offsets_.empty()) {
+    size_ += count;
+  } else {
+    for (std::size_t i = 0; i < count; ++i) end_face(corners.size() / count);
+  }
+}
+
 void Warnings::add(std::string_view what, const Location& location, std::uint64_t count) {
   if (strict_) fail_at(file_, location, ErrorCode::MalformedFile, fmt::format("{} (refused in strict mode)", what));
   const auto same = std::find_if(list_.begin(), list_.end(), [what](const Warning& w) { return w.what == what; });

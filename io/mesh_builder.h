@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -25,6 +27,15 @@ template <class Real>
 template <class Real>
 [[nodiscard]] std::optional<std::string_view> to_coordinate(double number, Real& value);
 
+/// Appends to an array that will become large. Grows in larger steps than a vector does by itself: untouched memory
+/// costs nothing, and a new array has to be filled again.
+template <class T>
+void append_many(std::vector<T>& array, std::span<const T> more) {
+  const std::size_t size = array.size() + more.size();
+  if (size > array.capacity()) array.reserve(std::max(size, 4 * array.size()));
+  array.insert(array.end(), more.begin(), more.end());
+}
+
 /// Positions in the chosen precision.
 class Positions {
  public:
@@ -38,6 +49,14 @@ class Positions {
   /// Appends the next coordinate, or returns the problem as `to_coordinate`.
   [[nodiscard]] std::optional<std::string_view> append(std::string_view token) { return append_as(token); }
   [[nodiscard]] std::optional<std::string_view> append(double number) { return append_as(number); }
+
+  [[nodiscard]] bool are_double() const { return std::holds_alternative<std::vector<double>>(xyz_); }
+
+  /// Appends coordinates that are valid.
+  template <class Real>
+  void append(std::span<const Real> scalars) {
+    append_many(std::get<std::vector<Real>>(xyz_), scalars);
+  }
 
   /// Sorts the last three coordinates into the order x, y, z. They were appended in ascending order of `ranks`, which
   /// has one value for each of x, y, z.
@@ -59,6 +78,19 @@ class Positions {
 /// 'x', 'y' or 'z': the axis of coordinate `scalar` in a list of positions.
 [[nodiscard]] inline char axis(std::uint64_t scalar) { return "xyz"[scalar % 3]; }
 
+/// Faces of few corners.
+struct PlainFaces {
+  std::vector<std::uint32_t> corners;  ///< face after face
+  std::vector<std::uint8_t> sizes;     ///< the number of corners of each face
+  bool are_triangles = true;
+
+  void clear();
+  void end_face(std::size_t size) {
+    sizes.push_back(static_cast<std::uint8_t>(size));
+    are_triangles = are_triangles && size == 3;
+  }
+};
+
 /// Faces in order. Offsets are stored from the first face on that is not a triangle.
 class Faces {
  public:
@@ -67,6 +99,12 @@ class Faces {
 
   /// Ends a face of `corners` corners. The corners may be appended before or after.
   void end_face(std::uint64_t corners);
+
+  /// Appends many faces, with their corners one after the other.
+  void append(const PlainFaces& faces);
+
+  /// Appends `count` faces of as many corners each.
+  void append(std::size_t count, std::span<const std::uint32_t> corners);
 
   [[nodiscard]] std::uint64_t size() const { return size_; }
 

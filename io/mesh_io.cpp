@@ -4,6 +4,8 @@
 #include <new>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include "meshhood/error.h"
 
 #include "io/byte_source.h"
@@ -16,10 +18,10 @@ namespace {
 
 Mesh read_format(InputBuffer& input, const std::string& name, const ReadOptions& options) {
   switch (detect_format(input, name)) {
-    case Format::Ply: return read_ply(input, options);
-    case Format::Obj: return read_obj(input, options);
-    case Format::Off: return read_off(input, options);
-    case Format::Stl: return read_stl(input, options);
+    case Format::Ply: return read_ply(input, {options});
+    case Format::Obj: return read_obj(input, {options});
+    case Format::Off: return read_off(input, {options});
+    case Format::Stl: return read_stl(input, {options});
   }
   raise(ErrorCode::UnsupportedFormat, input.name() + ": unknown format");
 }
@@ -30,12 +32,18 @@ Mesh read_whole(WatchedSource& source, InputBuffer& input, const std::string& na
   return mesh;
 }
 
+void check_threads(const ReadOptions& options) {
+  if (options.threads <= kMaxThreads) return;
+  raise(ErrorCode::InvalidOption, fmt::format("threads is {}, expected at most {}", options.threads, kMaxThreads));
+}
+
 #if defined(__cpp_exceptions)
 [[noreturn]] void refuse_memory(const InputBuffer& input) {
   raise(ErrorCode::TooLarge, input.name() + ": not enough memory for this mesh");
 }
 
 Mesh read(WatchedSource& source, const std::string& name, const ReadOptions& options) {
+  check_threads(options);
   InputBuffer input(source, name, options.max_bytes);
   try {
     return read_whole(source, input, name, options);
@@ -47,6 +55,7 @@ Mesh read(WatchedSource& source, const std::string& name, const ReadOptions& opt
 }
 #else
 Mesh read(WatchedSource& source, const std::string& name, const ReadOptions& options) {
+  check_threads(options);
   InputBuffer input(source, name, options.max_bytes);
   return read_whole(source, input, name, options);
 }

@@ -30,11 +30,15 @@ struct ReadOptions {
   /// Throw an error instead of recording a warning.
   bool strict = false;
 
+  /// The calling thread included; 0 means one per processor; at most `kMaxThreads`. 1 starts no thread. The mesh, its
+  /// warnings and errors do not depend on it.
+  unsigned threads = 1;
+
   /// Refuse a file of more bytes. Also limits endless devices.
   std::uint64_t max_bytes = std::uint64_t{16} << 30;
 
-  /// Called at least once per 4 MB, and ten times a second while a pipe has nothing to read. Counts bytes; the total is
-  /// 0 if the size is unknown (a pipe).
+  /// Called on the calling thread, at least once per 4 MB, and ten times a second while a pipe has nothing to read.
+  /// Counts bytes; the total is 0 if the size is unknown (a pipe).
   Progress progress = {};
 };
 

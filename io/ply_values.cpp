@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -42,7 +43,18 @@ bool is_in_range(std::int64_t value, PlyType type) {
 
 class TextValues final : public PlyValues {
  public:
-  TextValues(InputBuffer& input, const PlyHeader& header) : text_(input, {.lines_before = header.lines}) {}
+  TextValues(InputBuffer& input, const PlyHeader& header, ReaderOptions options)
+      : text_(input, {.lines_before = header.lines}), options_(std::move(options)) {}
+
+  std::unique_ptr<PlyRows> vertex_rows(const PlyElement& element, const std::array<std::size_t, 3>& axes,
+                                       Positions& positions) override {
+    return io::vertex_rows(text_, options_, element, axes, positions);
+  }
+
+  std::unique_ptr<PlyRows> face_rows(const PlyElement& element, std::size_t list, std::uint64_t vertices,
+                                     Faces& faces) override {
+    return io::face_rows(text_, options_, element, list, vertices, faces);
+  }
 
   Problem take_coordinate(PlyType /*type*/, Positions& positions) override {
     const auto token = text_.token();
@@ -85,6 +97,7 @@ class TextValues final : public PlyValues {
 
  private:
   Text text_;
+  ReaderOptions options_;
 };
 
 /// Reads the next value; false at the end of the file.
@@ -102,8 +115,18 @@ bool load(InputBuffer& input, bool swaps, T& value) {
 
 class BinaryValues final : public PlyValues {
  public:
-  BinaryValues(InputBuffer& input, bool big_endian)
-      : input_(input), swaps_(big_endian != (std::endian::native == std::endian::big)) {}
+  BinaryValues(InputBuffer& input, bool big_endian, ReaderOptions options)
+      : input_(input), options_(std::move(options)), swaps_(big_endian != (std::endian::native == std::endian::big)) {}
+
+  std::unique_ptr<PlyRows> vertex_rows(const PlyElement& element, const std::array<std::size_t, 3>& axes,
+                                       Positions& positions) override {
+    return swaps_ ? nullptr : io::vertex_rows(input_, options_, element, axes, positions);
+  }
+
+  std::unique_ptr<PlyRows> face_rows(const PlyElement& element, std::size_t list, std::uint64_t vertices,
+                                     Faces& faces) override {
+    return swaps_ ? nullptr : io::face_rows(input_, options_, element, list, vertices, faces);
+  }
 
   Problem take_coordinate(PlyType type, Positions& positions) override {
     begin_ = input_.offset();
@@ -149,15 +172,16 @@ class BinaryValues final : public PlyValues {
 
  private:
   InputBuffer& input_;
+  ReaderOptions options_;
   bool swaps_;
   std::uint64_t begin_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<PlyValues> ply_values(InputBuffer& input, const PlyHeader& header) {
-  if (header.encoding == PlyEncoding::Ascii) return std::make_unique<TextValues>(input, header);
-  return std::make_unique<BinaryValues>(input, header.encoding == PlyEncoding::BigEndian);
+std::unique_ptr<PlyValues> ply_values(InputBuffer& input, const PlyHeader& header, const ReaderOptions& options) {
+  if (header.encoding == PlyEncoding::Ascii) return std::make_unique<TextValues>(input, header, options);
+  return std::make_unique<BinaryValues>(input, header.encoding == PlyEncoding::BigEndian, options);
 }
 
 }  // namespace meshhood::io

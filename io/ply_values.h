@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -11,6 +13,8 @@
 #include "io/mesh_builder.h"
 #include "io/messages.h"
 #include "io/ply_header.h"
+#include "io/ply_rows.h"
+#include "io/readers.h"
 
 namespace meshhood::io {
 
@@ -34,6 +38,14 @@ class PlyValues {
   /// Reads the next value, of an integer type.
   [[nodiscard]] virtual Problem take_integer(PlyType type, std::int64_t& value) = 0;
 
+  /// For the vertices, with the properties x, y, z at `axes`, and for the faces, with the vertices in the property
+  /// `list` and every index below `vertices`. Null if no row is plain. Both borrow their arguments.
+  [[nodiscard]] virtual std::unique_ptr<PlyRows> vertex_rows(const PlyElement& element,
+                                                             const std::array<std::size_t, 3>& axes,
+                                                             Positions& positions) = 0;
+  [[nodiscard]] virtual std::unique_ptr<PlyRows> face_rows(const PlyElement& element, std::size_t list,
+                                                           std::uint64_t vertices, Faces& faces) = 0;
+
   /// Skips `count` values.
   [[nodiscard]] virtual Problem skip(PlyType type, std::uint64_t count) = 0;
 
@@ -54,6 +66,7 @@ class PlyValues {
 };
 
 /// The values after a header that was read from `input`, which must outlive them.
-[[nodiscard]] std::unique_ptr<PlyValues> ply_values(InputBuffer& input, const PlyHeader& header);
+[[nodiscard]] std::unique_ptr<PlyValues> ply_values(InputBuffer& input, const PlyHeader& header,
+                                                    const ReaderOptions& options = {});
 
 }  // namespace meshhood::io

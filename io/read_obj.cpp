@@ -6,6 +6,8 @@
 
 #include "io/mesh_builder.h"
 #include "io/number.h"
+#include "io/plain_obj.h"
+#include "io/plain_rows.h"
 #include "io/readers.h"
 #include "io/text.h"
 
@@ -32,17 +34,42 @@ bool contains(const Words& words, std::string_view word) {
 
 class ObjReader {
  public:
-  ObjReader(InputBuffer& input, const ReadOptions& options)
-      : text_(input, {.hash_comments = true}), builder_(input, options, false) {}
+  ObjReader(InputBuffer& input, const ReaderOptions& options)
+      : text_(input, {.hash_comments = true}), builder_(input, options, false), options_(options) {}
 
   Mesh read() {
-    while (text_.next_line()) read_statement(text_.token_on_continued_line());
+    builder_.positions.are_double() ? read_all<double>() : read_all<float>();
     if (unknown_ != 0 && !is_obj_) text_.malformed("the file has no OBJ statement");
     check_forward_reference();
     return builder_.finish(Format::Obj);
   }
 
  private:
+  template <class Real>
+  void read_all() {
+    PlainRows plain(text_, options_, PlainObj<Real>());
+    constexpr auto kAny = std::numeric_limits<uint64_t>::max();
+    do {
+      plain.take(kAny, [this](const PlainObj<Real>& rows) { return append(rows); });
+    } while (read_line());
+  }
+
+  bool read_line() {
+    if (!text_.next_line()) return false;
+    read_statement(text_.token_on_continued_line());
+    return true;
+  }
+
+  template <class Real>
+  bool append(const PlainObj<Real>& rows) {
+    const auto before = builder_.positions.vertex_count();
+    if (rows.most_missing() > before || before + rows.vertex_count() > kMaxVertices) return false;
+    is_obj_ = true;
+    builder_.positions.append(rows.positions());
+    builder_.faces.append(rows.faces());
+    return true;
+  }
+
   void read_statement(std::string_view keyword) {
     if (keyword.empty()) return;
     is_obj_ = is_obj_ || is_obj_statement(keyword);
@@ -148,6 +175,7 @@ class ObjReader {
 
   Text text_;
   MeshBuilder builder_;
+  const ReaderOptions& options_;
   ForwardReference forward_;
   uint64_t unknown_ = 0;
   bool is_obj_ = false;
@@ -159,6 +187,6 @@ bool is_obj_statement(std::string_view word) {
   return word == "v" || word == "f" || contains(kAttributes, word) || contains(kOtherGeometry, word);
 }
 
-Mesh read_obj(InputBuffer& input, const ReadOptions& options) { return ObjReader(input, options).read(); }
+Mesh read_obj(InputBuffer& input, const ReaderOptions& options) { return ObjReader(input, options).read(); }
 
 }  // namespace meshhood::io

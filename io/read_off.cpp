@@ -5,6 +5,8 @@
 
 #include "io/mesh_builder.h"
 #include "io/number.h"
+#include "io/plain_elements.h"
+#include "io/plain_rows.h"
 #include "io/readers.h"
 #include "io/text.h"
 
@@ -26,14 +28,14 @@ constexpr uint64_t kLeastBytesOfFace = 2;
 
 class OffReader {
  public:
-  OffReader(InputBuffer& input, const ReadOptions& options)
-      : text_(input, {.hash_comments = true}), builder_(input, options, false) {}
+  OffReader(InputBuffer& input, const ReaderOptions& options)
+      : text_(input, {.hash_comments = true}), builder_(input, options, false), options_(options) {}
 
   Mesh read() {
     read_keyword();
     read_counts();
-    for (uint64_t vertex = 0; vertex < vertices_; ++vertex) read_vertex(vertex);
-    for (uint64_t face = 0; face < faces_; ++face) read_face(face);
+    builder_.positions.are_double() ? read_vertices<double>() : read_vertices<float>();
+    read_faces();
     if (!text_.token().empty()) builder_.warnings.add("data after the last face", text_.location());
     return builder_.finish(Format::Off);
   }
@@ -83,6 +85,36 @@ class OffReader {
                     least, *left, count - (*left + 1) / least);
   }
 
+  template <class Real>
+  void read_vertices() {
+    PlainRows plain(text_, options_, PlainVertexRows<Real>({.values = 3, .axes = {0, 1, 2}}));
+    const auto append = [this](const PlainVertexRows<Real>& rows) {
+      builder_.positions.append(rows.content());
+      return true;
+    };
+    for (;;) {
+      plain.take(vertices_ - builder_.positions.vertex_count(), append);
+      const uint64_t vertex = builder_.positions.vertex_count();
+      if (vertex == vertices_) return;
+      read_vertex(vertex);
+    }
+  }
+
+  void read_faces() {
+    constexpr uint64_t kMostCorners = 255;
+    PlainRows plain(text_, options_,
+                    PlainFaceRows({.before = 0, .after = 0, .most_count = kMostCorners, .end = vertices_}));
+    const auto append = [this](const PlainFaceRows& rows) {
+      builder_.faces.append(rows.content());
+      return true;
+    };
+    for (;;) {
+      plain.take(faces_ - builder_.faces.size(), append);
+      if (builder_.faces.size() == faces_) return;
+      read_face(builder_.faces.size());
+    }
+  }
+
   void read_vertex(uint64_t vertex) {
     for (int i = 0; i < 3; ++i) {
       const char name = axis(builder_.positions.scalar_count());
@@ -127,6 +159,7 @@ class OffReader {
 
   Text text_;
   MeshBuilder builder_;
+  const ReaderOptions& options_;
   std::string first_count_;  // where it follows the keyword without a separator
   bool has_attributes_ = false;
   bool has_long_lines_ = false;
@@ -147,6 +180,6 @@ bool is_off_keyword(std::string_view word) {
   return take_prefix(word, "OFF") && (word.empty() || parse_count(word));
 }
 
-Mesh read_off(InputBuffer& input, const ReadOptions& options) { return OffReader(input, options).read(); }
+Mesh read_off(InputBuffer& input, const ReaderOptions& options) { return OffReader(input, options).read(); }
 
 }  // namespace meshhood::io

@@ -72,12 +72,12 @@ const PlyElement& vertex_element(const InputBuffer& input, const PlyHeader& head
 
 class PlyReader {
  public:
-  PlyReader(InputBuffer& input, const ReadOptions& options)
+  PlyReader(InputBuffer& input, const ReaderOptions& options)
       : input_(input),
         header_(read_ply_header(input)),
         vertex_(vertex_element(input, header_)),
         axes_(find_axes(input, vertex_)),
-        values_(ply_values(input, header_)),
+        values_(ply_values(input, header_, options)),
         builder_(input, options, has_double_axis(vertex_, axes_)) {}
 
   Mesh read() {
@@ -115,8 +115,8 @@ class PlyReader {
   void read_element() {
     if (element_->properties.empty()) return;  // rows without bytes
     if (element_ == &vertex_) return read_vertices();
-    if (element_->name == "face") return read_lists(&PlyReader::read_face);
-    if (element_->name == "tristrips") return read_lists(&PlyReader::read_strip);
+    if (element_->name == "face") return read_faces();
+    if (element_->name == "tristrips") return read_lists(nullptr, &PlyReader::read_strip);
     for (; row_ < element_->count; ++row_) skip_properties(0, element_->properties.size());
   }
 
@@ -124,31 +124,48 @@ class PlyReader {
     if (values_->bytes_left()) builder_.positions.reserve(vertex_.count);
     Axes sorted = axes_;
     std::sort(sorted.begin(), sorted.end());
-    for (; row_ < vertex_.count; ++row_) {
-      std::size_t next = 0;
-      for (const auto axis_property : sorted) {
-        skip_properties(next, axis_property);
-        property_ = &vertex_.properties[axis_property];
-        require(values_->take_coordinate(property_->type, builder_.positions));
-        next = axis_property + 1;
-      }
-      skip_properties(next, vertex_.properties.size());
-      if (sorted != axes_) builder_.positions.reorder_last(axes_);
+    read_rows(values_->vertex_rows(vertex_, axes_, builder_.positions), [&] { read_vertex(sorted); });
+  }
+
+  void read_vertex(const Axes& sorted) {
+    std::size_t next = 0;
+    for (const auto axis_property : sorted) {
+      skip_properties(next, axis_property);
+      property_ = &vertex_.properties[axis_property];
+      require(values_->take_coordinate(property_->type, builder_.positions));
+      next = axis_property + 1;
+    }
+    skip_properties(next, vertex_.properties.size());
+    if (sorted != axes_) builder_.positions.reorder_last(axes_);
+  }
+
+  // The rows of the element: those that `plain` takes, and `read_row` for each of the others.
+  template <class ReadRow>
+  void read_rows(const std::unique_ptr<PlyRows>& plain, ReadRow&& read_row) {
+    for (; row_ < element_->count; ++row_) {
+      if (plain) row_ += plain->take(element_->count - row_);
+      if (row_ == element_->count) return;
+      read_row();
     }
   }
 
-  // Calls `read_list` for the list of vertices in each row of the element.
-  void read_lists(void (PlyReader::*read_list)(uint64_t corners)) {
+  void read_faces() {
+    if (element_->count == 0 && !find_list()) return;
+    read_lists(values_->face_rows(*element_, list_property(), vertex_.count, builder_.faces), &PlyReader::read_face);
+  }
+
+  // Calls `read_list` for the list of vertices in each row of the element, except in those that `plain` takes.
+  void read_lists(const std::unique_ptr<PlyRows>& plain, void (PlyReader::*read_list)(uint64_t corners)) {
     if (element_->count == 0 && !find_list()) return;
     const std::size_t list = list_property();
     property_ = &element_->properties[list];
     reserve_corners();
-    for (; row_ < element_->count; ++row_) {
+    read_rows(plain, [&] {
       skip_properties(0, list);
       property_ = &element_->properties[list];
       (this->*read_list)(take_list_count());
       skip_properties(list + 1, element_->properties.size());
-    }
+    });
   }
 
   [[nodiscard]] std::optional<std::size_t> find_list() const {
@@ -270,6 +287,6 @@ class PlyReader {
 
 }  // namespace
 
-Mesh read_ply(InputBuffer& input, const ReadOptions& options) { return PlyReader(input, options).read(); }
+Mesh read_ply(InputBuffer& input, const ReaderOptions& options) { return PlyReader(input, options).read(); }
 
 }  // namespace meshhood::io

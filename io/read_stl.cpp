@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <string>
 #include <type_traits>
 
@@ -24,9 +25,8 @@ constexpr std::size_t kFacetBytes = 50;
 constexpr std::size_t kNormalBytes = 12;
 
 std::uint32_t little_endian_word(std::string_view bytes) {
-  std::uint32_t word = 0;
-  for (std::size_t i = 4; i-- > 0;) word = (word << 8U) | static_cast<unsigned char>(bytes[i]);
-  return word;
+  const auto byte = [bytes](std::size_t i) { return std::uint32_t{static_cast<unsigned char>(bytes[i])} << (8 * i); };
+  return byte(0) | byte(1) | byte(2) | byte(3);  // which compilers read at once
 }
 
 std::uint32_t facet_count(std::string_view header) { return little_endian_word(header.substr(80)); }
@@ -64,28 +64,43 @@ class BinaryStl {
   void read() {
     const auto facets = facet_count(input_.ahead(kHeaderBytes));
     input_.skip(kHeaderBytes);
+    // A closed surface has half as many vertices as triangles. The file has as many bytes as its header says, if the
+    // number is known.
+    if (const auto left = input_.left()) welder_.expect(static_cast<std::size_t>(*left / kFacetBytes / 2));
     for (std::uint32_t facet = 0; facet < facets; ++facet) read_facet(facet, facets);
     if (!input_.ahead(1).empty()) builder_.warnings.add("bytes after the last facet", {.byte = input_.offset()});
   }
 
  private:
+  using Corners = std::array<typename VertexWelder<Real>::Point, 3>;
+
   void read_facet(std::uint32_t facet, std::uint32_t facets) {
     const auto bytes = input_.ahead(kFacetBytes);
     if (bytes.size() < kFacetBytes) {
       fail_at(input_.name(), {.byte = input_.offset()}, ErrorCode::MalformedFile,
               fmt::format("the file ends in facet {} of {}, {} facets are missing", facet, facets, facets - facet));
     }
-    std::array<typename VertexWelder<Real>::Point, 3> corners;
+    Corners corners;
+    bool are_valid = true;
     for (std::size_t i = 0; i < 9; ++i) {
-      const std::size_t at = kNormalBytes + 4 * i;
-      const double number = std::bit_cast<float>(little_endian_word(bytes.substr(at)));
-      if (const auto problem = to_coordinate(number, corners[i / 3][i % 3])) {
-        fail_at(input_.name(), {.byte = input_.offset() + at}, ErrorCode::MalformedFile,
-                fmt::format("facet {}, vertex {}, {} {}", facet, i / 3, axis(i), *problem));
-      }
+      const float number = coordinate(bytes, i);
+      corners[i / 3][i % 3] = number;
+      are_valid = are_valid && std::isfinite(number);
     }
+    if (!are_valid) refuse(bytes, facet);
     append_triangle(corners, {.byte = input_.offset()}, builder_, welder_);
     input_.skip(kFacetBytes);
+  }
+
+  static float coordinate(std::string_view facet, std::size_t i) {
+    return std::bit_cast<float>(little_endian_word(facet.substr(kNormalBytes + 4 * i)));
+  }
+
+  [[noreturn]] void refuse(std::string_view bytes, std::uint32_t facet) const {
+    std::size_t i = 0;
+    while (std::isfinite(coordinate(bytes, i))) ++i;
+    fail_at(input_.name(), {.byte = input_.offset() + kNormalBytes + 4 * i}, ErrorCode::MalformedFile,
+            fmt::format("facet {}, vertex {}, {} is not finite", facet, i / 3, axis(i)));
   }
 
   InputBuffer& input_;
@@ -104,14 +119,14 @@ void reserve(MeshBuilder& builder, const InputBuffer& input, bool binary) {
 }
 
 template <class Real>
-void read_soup(InputBuffer& input, bool binary, MeshBuilder& builder, std::vector<Real>& positions) {
+void read_soup(InputBuffer& input, const ReaderOptions& options, bool binary, MeshBuilder& builder,
+               std::vector<Real>& positions) {
   VertexWelder<Real> welder(positions, builder.faces.corners(), input.name());
   if (binary) {
     BinaryStl<Real>(input, builder, welder).read();
   } else {
-    read_stl_text(input, builder, welder);
+    read_stl_text(input, options, builder, welder);
   }
-  welder.flush();
 }
 
 /// Calls `read`. If the file may be text or binary, the error names both reasons; without exceptions, only that of the
@@ -137,14 +152,15 @@ bool has_binary_stl_size(InputBuffer& input) {
   return header.size() >= kHeaderBytes && input.left() == binary_size(header);
 }
 
-Mesh read_stl(InputBuffer& input, const ReadOptions& options) {
+Mesh read_stl(InputBuffer& input, const ReaderOptions& options) {
   const bool binary = is_binary(input);
   const bool may_be_either = !binary && !is_text(input.ahead(kHeaderBytes).substr(0, kHeaderBytes));
   const std::string not_binary = binary ? "" : why_not_binary(input);
   MeshBuilder builder(input, options, false);
   reserve(builder, input, binary);
   read_or_explain(may_be_either, not_binary, [&] {
-    std::visit([&](auto& positions) { read_soup(input, binary, builder, positions); }, builder.positions.values());
+    std::visit([&](auto& positions) { read_soup(input, options, binary, builder, positions); },
+               builder.positions.values());
   });
   return builder.finish(Format::Stl);
 }

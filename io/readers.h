@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -14,10 +15,15 @@ namespace meshhood::io {
 /// Reads a file of any format.
 [[nodiscard]] Mesh read_mesh(FileSource& file, const std::string& name, const ReadOptions& options);
 
-[[nodiscard]] Mesh read_ply(InputBuffer& input, const ReadOptions& options);
-[[nodiscard]] Mesh read_obj(InputBuffer& input, const ReadOptions& options);
-[[nodiscard]] Mesh read_off(InputBuffer& input, const ReadOptions& options);
-[[nodiscard]] Mesh read_stl(InputBuffer& input, const ReadOptions& options);
+struct ReaderOptions : ReadOptions {
+  /// Rows are parsed in blocks of about this size; with 0, each by itself. The result does not depend on it.
+  std::size_t block_bytes = std::size_t{1} << 16;
+};
+
+[[nodiscard]] Mesh read_ply(InputBuffer& input, const ReaderOptions& options);
+[[nodiscard]] Mesh read_obj(InputBuffer& input, const ReaderOptions& options);
+[[nodiscard]] Mesh read_off(InputBuffer& input, const ReaderOptions& options);
+[[nodiscard]] Mesh read_stl(InputBuffer& input, const ReaderOptions& options);
 
 /// Detects the format by content or, if the content fits none, by the extension of `name`. Removes a byte-order mark
 /// from the front of `input`. Throws Error{UnsupportedFormat, MalformedFile}.

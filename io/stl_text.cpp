@@ -2,8 +2,11 @@
 #include "io/stl_text.h"
 
 #include <algorithm>
+#include <limits>
 #include <string_view>
 
+#include "io/plain_rows.h"
+#include "io/plain_stl.h"
 #include "io/text.h"
 
 namespace meshhood::io {
@@ -19,19 +22,35 @@ bool is_word(std::string_view token, std::string_view lower_case) {
 template <class Real>
 class StlText {
  public:
-  StlText(InputBuffer& input, MeshBuilder& builder, VertexWelder<Real>& weld)
-      : text_(input, {}), builder_(builder), weld_(weld) {}
+  StlText(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder, VertexWelder<Real>& weld)
+      : text_(input, {}), plain_(text_, options, {}), builder_(builder), weld_(weld) {}
 
   void read() {
     if (!is_word(text_.token(), "solid")) text_.malformed("expected 'solid'");
     text_.skip_line();
-    for (auto token = text_.token(); !token.empty(); token = text_.token()) read_item(token);
+    for (;;) {
+      take_plain_facets();
+      const auto token = text_.token();
+      if (token.empty()) break;
+      read_item(token);
+    }
     // A text that only begins with "solid" is not an empty mesh.
     if (in_solid_ && facets_ == 0) text_.malformed("expected 'facet' or 'endsolid', but the file ends");
     if (in_solid_) builder_.warnings.add("no 'endsolid' at the end", text_.location());
   }
 
  private:
+  void take_plain_facets() {
+    plain_.take(std::numeric_limits<uint64_t>::max(), [this](const PlainStl<Real>& rows) {
+      for (const auto& corners : rows.facets()) {
+        for (const auto& corner : corners) weld_.append(corner);
+        builder_.faces.end_face(3);
+      }
+      facets_ += rows.size();
+      return true;
+    });
+  }
+
   void read_item(std::string_view token) {
     if (is_word(token, "facet")) return read_facet();
     in_solid_ = is_word(token, "solid");
@@ -102,6 +121,7 @@ class StlText {
   }
 
   Text text_;
+  PlainRows<PlainStl<Real>> plain_;
   MeshBuilder& builder_;
   VertexWelder<Real>& weld_;
   std::array<typename VertexWelder<Real>::Point, 3> first_ = {};
@@ -112,11 +132,13 @@ class StlText {
 }  // namespace
 
 template <class Real>
-void read_stl_text(InputBuffer& input, MeshBuilder& builder, VertexWelder<Real>& weld) {
-  StlText<Real>(input, builder, weld).read();
+void read_stl_text(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder, VertexWelder<Real>& weld) {
+  StlText<Real>(input, options, builder, weld).read();
 }
 
-template void read_stl_text(InputBuffer& input, MeshBuilder& builder, VertexWelder<float>& weld);
-template void read_stl_text(InputBuffer& input, MeshBuilder& builder, VertexWelder<double>& weld);
+template void read_stl_text(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder,
+                            VertexWelder<float>& weld);
+template void read_stl_text(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder,
+                            VertexWelder<double>& weld);
 
 }  // namespace meshhood::io

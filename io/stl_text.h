@@ -6,6 +6,7 @@
 #include "io/input_buffer.h"
 #include "io/mesh_builder.h"
 #include "io/messages.h"
+#include "io/readers.h"
 #include "io/vertex_welder.h"
 
 namespace meshhood::io {
@@ -14,7 +15,7 @@ namespace meshhood::io {
 /// format allows only triangles: a facet of more vertices is kept as a polygon, so that no vertex is lost, and one of
 /// fewer is left out, both with a warning.
 template <class Real>
-void read_stl_text(InputBuffer& input, MeshBuilder& builder, VertexWelder<Real>& weld);
+void read_stl_text(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder, VertexWelder<Real>& weld);
 
 /// Appends a facet of an ASCII or binary file.
 template <class Real>
@@ -26,7 +27,9 @@ void append_triangle(const std::array<std::array<Real, 3>, 3>& corners, const Lo
   builder.faces.end_face(3);
 }
 
-extern template void read_stl_text(InputBuffer& input, MeshBuilder& builder, VertexWelder<float>& weld);
-extern template void read_stl_text(InputBuffer& input, MeshBuilder& builder, VertexWelder<double>& weld);
+extern template void read_stl_text(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder,
+                                   VertexWelder<float>& weld);
+extern template void read_stl_text(InputBuffer& input, const ReaderOptions& options, MeshBuilder& builder,
+                                   VertexWelder<double>& weld);
 
 }  // namespace meshhood::io

@@ -35,6 +35,14 @@ bool Text::next_line() {
   return true;
 }
 
+void Text::skip_lines(std::size_t bytes, std::uint64_t lines) {
+  const auto skipped = input_.ahead(bytes).substr(0, bytes);
+  input_.skip(skipped.rfind('\n', bytes - 2) + 1);  // npos + 1 is 0
+  line_number_ += lines - 1;
+  next_line();
+  skip_line();
+}
+
 std::string_view Text::token_on_line() {
   while (cursor_ < line_.size() && is_blank(line_[cursor_])) ++cursor_;
   token_begin_ = cursor_;

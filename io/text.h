@@ -48,6 +48,15 @@ class Text {
 
   void skip_line() { cursor_ = line_.size(); }
 
+  /// Leaves the current line behind: the next one is at the front of the input.
+  void finish_line() {
+    skip_line();
+    leave_line();
+  }
+
+  /// Moves to the end of the last of `lines` lines, which have `bytes` bytes and are at the front of the input.
+  void skip_lines(std::size_t bytes, std::uint64_t lines);
+
   /// Moves the input past the current line and its end.
   void leave_line() { input_.skip(std::exchange(whole_length_, 0)); }
 

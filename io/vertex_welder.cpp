@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "io/vertex_welder.h"
 
-#include <algorithm>
+#include <bit>
+#include <chrono>
 #include <limits>
-#include <numeric>
-#include <ranges>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -15,17 +15,33 @@ namespace meshhood::io {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t kFirstSlots = std::size_t{1} << 12;
+
+std::uint64_t mixed(std::uint64_t word) {
+  word *= 0x9e3779b97f4a7c15U;
+  return word ^ (word >> 32U);
+}
+
+// Not known before the program runs: the time, and where the system has put it in memory.
+std::uint64_t new_seed(const void* place) {
+  const auto time = static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
+  return mixed(time ^ mixed(reinterpret_cast<std::uintptr_t>(place)));
+}
 
 }  // namespace
 
 template <class Real>
-void VertexWelder<Real>::flush() {
-  sort_batch();
-  match_groups();
-  number_corners();
-  merge_new_vertices();
-  batch_.clear();
-  batch_limit_ = std::max(batch_limit_, vertex_count() / 8);
+VertexWelder<Real>::VertexWelder(std::vector<Real>& positions, std::vector<std::uint32_t>& corners, std::string file)
+    : positions_(positions),
+      corners_(corners),
+      file_(std::move(file)),
+      seed_(new_seed(this)),
+      slots_(kFirstSlots, kNone) {}
+
+template <class Real>
+void VertexWelder<Real>::expect(std::size_t vertices) {
+  const std::size_t slots = std::bit_ceil(vertices + vertices / 2);
+  if (slots > slots_.size()) resize(slots);
 }
 
 template <class Real>
@@ -35,65 +51,44 @@ auto VertexWelder<Real>::vertex(std::uint32_t id) const -> Point {
 }
 
 template <class Real>
-void VertexWelder<Real>::sort_batch() {
-  sorted_batch_.resize(batch_.size());
-  std::iota(sorted_batch_.begin(), sorted_batch_.end(), 0U);
-  std::sort(sorted_batch_.begin(), sorted_batch_.end(), [this](std::uint32_t a, std::uint32_t b) {
-    return batch_[a] == batch_[b] ? a < b : batch_[a] < batch_[b];
-  });
+std::size_t VertexWelder<Real>::first_slot(const Point& point) const {
+  using Bits = std::conditional_t<sizeof(Real) == sizeof(std::uint32_t), std::uint32_t, std::uint64_t>;
+  std::uint64_t hash = seed_;
+  for (const Real coordinate : point) hash = mixed(hash ^ std::bit_cast<Bits>(coordinate + Real{0}));  // -0 + 0 is 0
+  return static_cast<std::size_t>(hash) & (slots_.size() - 1);
 }
 
-// Merges the sorted batch with the sorted vertices: each group of equal corners gets its vertex, or becomes a new one.
 template <class Real>
-void VertexWelder<Real>::match_groups() {
-  first_.resize(batch_.size());
-  id_.assign(batch_.size(), kNone);
-  new_.clear();
-  auto known = sorted_vertices_.begin();
-  std::uint32_t group = kNone;
-  for (const auto corner : sorted_batch_) {
-    if (group != kNone && batch_[group] == batch_[corner]) {
-      first_[corner] = group;
-      continue;
-    }
-    group = first_[corner] = corner;
-    known =
-        std::find_if(known, sorted_vertices_.end(), [&](std::uint32_t id) { return !(vertex(id) < batch_[corner]); });
-    const bool is_known = known != sorted_vertices_.end() && vertex(*known) == batch_[corner];
-    if (is_known) {
-      id_[corner] = *known;
-    } else {
-      new_.push_back(corner);
-    }
+std::uint32_t VertexWelder<Real>::vertex_at(const Point& point) {
+  std::size_t slot = first_slot(point);
+  for (; slots_[slot] != kNone; slot = next_slot(slot)) {
+    if (vertex(slots_[slot]) == point) return slots_[slot];
   }
+  const std::uint32_t id = new_vertex(point);
+  slots_[slot] = id;
+  if (3 * vertex_count() > 2 * slots_.size()) resize(2 * slots_.size());
+  return id;
 }
 
 template <class Real>
-void VertexWelder<Real>::number_corners() {
-  for (std::uint32_t corner = 0; corner < batch_.size(); ++corner) {
-    const auto first = first_[corner];
-    if (id_[first] == kNone) {
-      if (vertex_count() == kMaxVertices) {
-        raise(ErrorCode::TooLarge, fmt::format("{}: more than {} vertices", file_, kMaxVertices));
-      }
-      id_[first] = static_cast<std::uint32_t>(vertex_count());
-      positions_.insert(positions_.end(), batch_[first].begin(), batch_[first].end());
-    }
-    corners_.push_back(id_[first]);
+std::uint32_t VertexWelder<Real>::new_vertex(const Point& point) {
+  if (vertex_count() == kMaxVertices) {
+    raise(ErrorCode::TooLarge, fmt::format("{}: more than {} vertices", file_, kMaxVertices));
   }
+  const auto id = static_cast<std::uint32_t>(vertex_count());
+  positions_.insert(positions_.end(), point.begin(), point.end());
+  return id;
 }
 
-// Merges from the back, in corner.
+// The old table is freed before there is a new one, so that both are never in memory.
 template <class Real>
-void VertexWelder<Real>::merge_new_vertices() {
-  std::size_t old_end = sorted_vertices_.size();
-  sorted_vertices_.resize(old_end + new_.size());
-  std::size_t write = sorted_vertices_.size();
-  for (const auto corner : std::views::reverse(new_)) {
-    while (old_end > 0 && batch_[corner] < vertex(sorted_vertices_[old_end - 1])) {
-      sorted_vertices_[--write] = sorted_vertices_[--old_end];
-    }
-    sorted_vertices_[--write] = id_[corner];
+void VertexWelder<Real>::resize(std::size_t slots) {
+  slots_ = {};
+  slots_.resize(slots, kNone);
+  for (std::uint32_t id = 0; id < vertex_count(); ++id) {
+    std::size_t slot = first_slot(vertex(id));
+    while (slots_[slot] != kNone) slot = next_slot(slot);
+    slots_[slot] = id;
   }
 }
 

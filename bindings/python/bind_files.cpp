@@ -37,8 +37,8 @@ namespace meshhood::python {
 namespace {
 
 /// Returns positions (#V by 3), corners, offsets (empty if all faces are triangles) and warnings.
-auto read(const std::filesystem::path& path, nb::handle progress) {
-  const io::ReadOptions options{.progress = progress_to(progress)};
+auto read(const std::filesystem::path& path, unsigned threads, nb::handle progress) {
+  const io::ReadOptions options{.threads = threads, .progress = progress_to(progress)};
   io::Mesh mesh = without_lock([&] { return io::read_mesh(path, options); });
   check_vertex_count(mesh.view().positions.size());
   nb::object positions = std::visit(
@@ -124,7 +124,7 @@ std::shared_ptr<ExactMethod> from_bytes(const Bytes& bytes) {
 }  // namespace
 
 void bind_files(nb::module_& module) {
-  module.def("read_mesh", &read, nb::arg("path"), nb::arg("progress").none());
+  module.def("read_mesh", &read, nb::arg("path"), nb::arg("threads"), nb::arg("progress").none());
   module.def("save", &save_file, nb::arg(), nb::arg("path"), nb::arg("progress").none());
   module.def("load", &load_file, nb::arg("path"), nb::arg("mmap"), nb::arg("trusted"), nb::arg("progress").none());
   module.def("to_bytes", &to_bytes);

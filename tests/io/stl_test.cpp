@@ -146,7 +146,7 @@ std::vector<std::uint32_t> welded_by_map(const std::vector<std::array<float, 9>>
 }
 
 // M14
-TEST(Stl, WeldingInManyBatchesEqualsAnOrderedMap) {
+TEST(Stl, WeldingOfManyCornersEqualsAnOrderedMap) {
   std::mt19937 random(14);
   std::size_t corners = 0;
   for (const int range : {1, 20, 90, 100000}) {

@@ -71,3 +71,15 @@ def test_shared_mesh(tmp_path):
     mesh = meshhood.read_mesh(meshes.shared("scan/cortex_left_41k.ply.zst", tmp_path))
     assert mesh.vertices.shape == (40_962, 3)
     assert mesh.faces.shape == (81_920, 3)
+
+
+def test_the_number_of_workers_does_not_change_the_mesh(tmp_path):
+    file = tmp_path / "many.obj"
+    rows = [f"v {i} {i % 7}.5 -{i}e-3" for i in range(30_000)] + [f"f {i} {i + 1} {i + 2}" for i in range(1, 29_999)]
+    file.write_text("\n".join(rows), encoding="ascii")
+    alone = meshhood.read_mesh(file, workers=1)
+    for workers in (2, 3, -1):
+        for one, other in zip(alone, meshhood.read_mesh(file, workers=workers)):
+            assert one.tobytes() == other.tobytes()
+    with pytest.raises(ValueError, match="workers: 0"):
+        meshhood.read_mesh(file, workers=0)

@@ -22,9 +22,10 @@ class Mesh(NamedTuple):
     faces: Union[NDArray[np.int32], tuple[NDArray[np.int64], NDArray[np.int32]]]
 
 
-def read_mesh(path: Union[str, os.PathLike[str]], *, progress: Progress = None) -> Mesh:
+def read_mesh(path: Union[str, os.PathLike[str]], *, workers: int = -1, progress: Progress = None) -> Mesh:
     """Reads a PLY, OBJ, OFF or STL file. The format is recognized by content.
 
+    workers : as for `MeshIndex`. The result does not depend on it.
     progress : as for `MeshIndex`; the parts are bytes. Their total is 0 if the size is unknown (a pipe).
 
     Returns `Mesh(vertices, faces)`: positions (#V, 3), float64 if the file declares that, else float32; triangles
@@ -33,9 +34,9 @@ def read_mesh(path: Union[str, os.PathLike[str]], *, progress: Progress = None) 
 
     Raises OSError, with errno and filename; ValueError, naming the file, place and element; KeyboardInterrupt on Ctrl-C.
     """
-    path = _convert.path(path)
+    path, threads = _convert.path(path), _convert.threads(workers)
     with reporter(progress) as report:
-        vertices, corners, offsets, irregularities = _core.read_mesh(path, progress=report)
+        vertices, corners, offsets, irregularities = _core.read_mesh(path, threads=threads, progress=report)
     for irregularity in irregularities:
         warnings.warn(f"{path}: {irregularity}", stacklevel=2)
     return Mesh(vertices, (offsets, corners) if len(offsets) else corners.reshape(-1, 3))
