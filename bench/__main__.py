@@ -13,6 +13,7 @@ pages and plots are made from them.
     python3 -m bench accuracy    the paper's answer and the ball against the exact one
     python3 -m bench scaling     cost as mesh and radius grow
     python3 -m bench peers       other libraries on the same queries
+    python3 -m bench reading     files of a million triangles, beside other libraries
     python3 -m bench report      plots and docs/benchmarks.md, from the results
 
 `make reproduce` and `make peers` install what is needed and run them. Figures from a busy machine are marked.
@@ -90,14 +91,20 @@ def peers(options):
     contest.run(options.meshes, options.block_seconds)
 
 
+def reading(options):
+    from . import reading as measuring
+
+    measuring.run(options.threads)
+
+
 def report(_):
     from . import report as writing
 
     writing.write()
 
 
-PARTS = {part.__name__: part for part in (tables, exact, before, batch, arrays, curvature, growth, pictures, accuracy, scaling, peers,
-                                       report)}
+PARTS = {part.__name__: part for part in (tables, exact, before, batch, arrays, curvature, growth, pictures, accuracy,
+                                       scaling, peers, reading, report)}
 
 
 def main():
@@ -107,7 +114,7 @@ def main():
     parser.add_argument("--meshes", nargs="+", choices=[*meshes.MESHES, *meshes.SHEETS, *meshes.ODD], metavar="NAME",
                         help=", ".join(meshes.MESHES))
     parser.add_argument("--radii", nargs="+", type=int, metavar="EDGES", help="in mean edges, for `arrays`")
-    parser.add_argument("--threads", nargs="+", type=int, choices=(1, 2), metavar="COUNT", help="1 or 2, for `arrays`")
+    parser.add_argument("--threads", nargs="+", type=int, choices=(1, 2), metavar="COUNT", help="1 or 2, for `arrays` and `reading`")
     parser.add_argument("--queries", type=int, help="a mesh and radius")
     parser.add_argument("--commit", default="HEAD~1", help="the commit to compare with, for `before`")
     parser.add_argument("--largest", type=int, default=10_000_000,

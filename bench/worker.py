@@ -8,7 +8,8 @@ import traceback
 
 
 class Worker:
-    """An object in another process: `make(*arguments)`. Its attribute `started` is the first result."""
+    """An object in another process: `make(*arguments)`. The first result is its attribute `started`; at the end, its
+    method `end` is called."""
 
     def __init__(self, make, *arguments, processors=None):
         """make: found by its name in its module. processors: how many the process may use; None for all."""

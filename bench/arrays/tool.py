@@ -55,10 +55,17 @@ class Tool:
         """For all vertices, as a piece of the mesh suggests; None for a small mesh."""
         if len(self.V) < 10 * PIECE:
             return None
+        part = self.part()
+        seconds = min(sum(part.run(question, scale)[:2]) for _ in range(2))  # the first call may start threads
+        return seconds / len(part.V) * len(self.V)
+
+    def part(self):
+        """The tool with a piece of a large mesh."""
         part = copy.copy(self)
-        part.V, part.F = piece(self.V, self.F)
-        part.signal = self.signal[:len(part.V)]
-        return sum(part.run(question, scale)[:2]) / len(part.V) * len(self.V)
+        if len(self.V) >= 10 * PIECE:
+            part.V, part.F = piece(self.V, self.F)
+            part.signal = self.signal[:len(part.V)]
+        return part
 
     def end(self):
         """Ends the processes that it has started."""
@@ -93,10 +100,11 @@ class OneByOne(Tool):
         return sum(map(len, answer)) / len(self.V)
 
     def expected_seconds(self, question, scale):
-        built = self.build()
+        part = self.part()
+        built = part.build()
         begin = time.perf_counter()
-        for v in np.random.default_rng(3).integers(0, len(self.V), self.SAMPLE):
-            self.neighborhood(built, int(v), scale)
+        for v in np.random.default_rng(3).integers(0, len(part.V), self.SAMPLE):
+            part.neighborhood(built, int(v), scale)
         return (time.perf_counter() - begin) / self.SAMPLE * len(self.V)
 
     def neighborhood(self, built, v, scale):

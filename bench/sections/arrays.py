@@ -17,11 +17,10 @@ faster than meshhood. The radii are in mean edges. The answers are not all the s
 the neighborhood of meshhood; *ball* is the ball in space, which takes other sheets for near ones, except for libigl's,
 which is connected; *k rings* are the vertices within k edges, whatever their length, for k as large as the radius;
 *found* is how many vertices that gives at the largest radius. In the tables of counts, a tool that can only return ids
-counts by them. *(in hand)* is the same with the index already built. A tool that would take longer than {most:g} s is stopped or left out,
-as a piece of the mesh suggests; so is one that needs more than 12 GiB.
+counts by them. *(in hand)* is the same with the index already built. A tool that would take longer than {most:g} s is
+stopped, or left out if a piece of the mesh suggests so; one that needs more than 12 GiB is stopped.
 
 """
-MOST_SECONDS = 20
 
 # How many times as long as meshhood another tool should take at least, by question and radius; more threads or less.
 GOALS = (("counts", BFS, {3: 1, 5: 3, 10: 8}), ("curvature", TRUEFORM_CURVATURE, {2: 1 / 0.7, 5: 4}))
@@ -35,7 +34,7 @@ The time of another tool over that of meshhood, both from arrays, and in parenth
 
 def text(data):
     contests = grouped(data)
-    parts = [NOTE.format(command=COMMAND, most=MOST_SECONDS)]
+    parts = [NOTE.format(command=COMMAND, most=data["most_seconds"])]
     for (name, threads), pieces in contests.items():
         parts.append(f"## {name}, {threads_in_words(threads)}\n\n{next(iter(pieces.values()))['vertices']:,} vertices.\n")
         for question, title in QUESTIONS.items():

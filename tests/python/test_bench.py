@@ -10,6 +10,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
 from bench import machine, pictures, places, results  # noqa: E402: from the checkout
+from bench.arrays import contest as arrays  # noqa: E402
 from bench.peers import contest  # noqa: E402
 from bench.sections import SECTIONS  # noqa: E402
 
@@ -48,6 +49,24 @@ def test_peers(elsewhere, monkeypatch):
     assert far["scipy cKDTree"]["missing"] == 0
     assert "failure" in far["Open3D fixed_radius_search"] or far["Open3D fixed_radius_search"]["missing"] == 0
     assert "tiny, 20 mean edges, one thread, vertices shuffled" in SECTIONS["peers"].text(data)
+
+
+def test_arrays(elsewhere, monkeypatch):
+    names = ("meshhood", "our breadth-first search (C++)", "SciPy power of the sparse matrix")
+    if not (places.PROGRAMS / "breadth_first").is_file():
+        pytest.skip("no breadth_first")
+    monkeypatch.setattr(arrays, "TOOLS", {name: arrays.TOOLS[name] for name in names})
+    monkeypatch.setattr(arrays, "ENOUGH_SECONDS", 0.01)
+    for edges in (3, 4):  # results are added to those of before
+        arrays.run(["tiny"], [edges], [2])
+    data = results.load("arrays")
+    assert list(data["pieces"]) == ["tiny, 2, 3", "tiny, 2, 4"]
+    for question in ("counts", "ids"):
+        rows = data["pieces"]["tiny, 2, 3"]["questions"][question]
+        assert rows[names[0]]["found"] == pytest.approx(rows[names[1]]["found"])
+        assert all(row["seconds"]["median"] > 0 for row in rows.values())
+    assert "## tiny, two threads" in SECTIONS["arrays"].text(data)
+    assert "tiny, 3" in SECTIONS["arrays"].head_table(data)
 
 
 def test_pictures(elsewhere, monkeypatch):
