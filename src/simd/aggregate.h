@@ -102,10 +102,4 @@ struct AggregateKernels {
 /// The kernels for `isa`, which the processor must have.
 [[nodiscard]] const AggregateKernels& aggregate_kernels(Isa isa);
 
-const AggregateKernels& portable_aggregate_kernels();
-#if defined(MESHHOOD_HAS_X86)
-const AggregateKernels& avx2_aggregate_kernels();
-const AggregateKernels& avx512_aggregate_kernels();
-#endif
-
 }  // namespace meshhood

@@ -86,7 +86,8 @@ struct RowPiece {
 };
 
 struct JointKernels {
-  /// Converts `size` vertices, three coordinates each, to points relative to the center.
+  /// Converts `size` vertices, three coordinates each, to points relative to the center. Reads 32
+  /// vertices.
   void (*convert_points)(const float* xyz, unsigned size, const FloatCenter& center, LeafPoints& points);
 
   /// Sets `reached` and `pending` to 0. Compilers may do it by a string instruction, which takes much longer.
@@ -113,20 +114,6 @@ struct JointKernels {
                     std::span<VertexId> out);
 };
 
-/// `JointKernels::convert_points`, for compilers to vectorize.
-inline void convert_points_in_turn(const float* xyz, unsigned size, const FloatCenter& center, LeafPoints& points) {
-  points = {};
-  for (std::size_t i = 0; i < size; ++i) {
-    const float x = (xyz[3 * i] - center.x) * center.scale;
-    const float y = (xyz[3 * i + 1] - center.y) * center.scale;
-    const float z = (xyz[3 * i + 2] - center.z) * center.scale;
-    points.x[i] = x;
-    points.y[i] = y;
-    points.z[i] = z;
-    points.square[i] = (x * x + y * y) + z * z;
-  }
-}
-
 /// Pushes words over the edges between two leaves. Scalar on every processor: a link has six edges on average.
 inline void push_words(std::span<const CrossEdge> edges, const PerLane<QueryWord>& reached,
                        PerLane<QueryWord>& pending) {
@@ -135,11 +122,5 @@ inline void push_words(std::span<const CrossEdge> edges, const PerLane<QueryWord
 
 /// Those for `isa`, which the processor must have.
 [[nodiscard]] const JointKernels& joint_kernels(Isa isa);
-
-const JointKernels& portable_joint_kernels();
-#if defined(MESHHOOD_HAS_X86)
-const JointKernels& avx2_joint_kernels();
-const JointKernels& avx512_joint_kernels();
-#endif
 
 }  // namespace meshhood

@@ -16,13 +16,18 @@
 /// The code that exists once per instruction set. Each kernel returns the same bits on every processor.
 namespace meshhood {
 
-enum class Isa : std::uint8_t { Portable, Avx2, Avx512 };
+/// An instruction set that the kernels were compiled for: its place in their order from slow to fast. The first, 0, is
+/// that of every processor that the library runs on.
+enum class Isa : std::uint8_t {};
 
 /// The best instruction set of this processor, at most that of `limit_isa`.
 [[nodiscard]] Isa best_isa();
 
 /// For tests. Not while another thread uses the library.
 void limit_isa(Isa most);
+
+/// The name of the target in Highway, such as AVX3, AVX2, SSE4, NEON, WASM; EMU128 is without vector instructions.
+[[nodiscard]] const char* name_of(Isa isa);
 
 struct Kernels {
   /// The lanes, of the first `size` vertices of `xyz`, #V by 3, that are in the ball; `size` <= 32. Reads 32 vertices.
@@ -60,12 +65,5 @@ struct Kernels {
 
 /// The kernels for `isa`, which the processor must have.
 [[nodiscard]] const Kernels& kernels(Isa isa);
-
-const Kernels& portable_kernels();
-#if defined(__x86_64__) && !defined(MESHHOOD_NARROW_IDS)
-#define MESHHOOD_HAS_X86 1
-const Kernels& avx2_kernels();
-const Kernels& avx512_kernels();
-#endif
 
 }  // namespace meshhood

@@ -143,12 +143,6 @@ struct alignas(64) QueryQuadrics {
   QueryRow determinant;  // of the normal equations, see `MomentKernels::fit_quadrics`
 };
 
-/// Eight numbers, which the compiler keeps in as many registers as it takes.
-using Eight = double __attribute__((vector_size(64), may_alias));
-inline constexpr std::size_t kEight = 8;
-using Sixteen = float __attribute__((vector_size(64), may_alias));
-inline constexpr std::size_t kSixteen = 16;
-
 struct MomentKernels {
   /// Adds the powers of `size` points, times their weights, to `sums`. Reads points up to the next multiple of eight:
   /// they must be finite, with weight 0 beyond the size.
@@ -162,7 +156,7 @@ struct MomentKernels {
   void (*keep_facing)(const NormalColumns& normals, const FacingTest& test, std::span<QueryWord> words);
 
   /// Appends vertex `first + i` with `words[i]` to `common` if the word is `all`, and to `some` if it is neither that
-  /// nor 0. Both lists have room for all.
+  /// nor 0. Both lists have room for all. Reads `kLeafCapacity` words.
   void (*append)(std::uint32_t first, std::span<const QueryWord> words, QueryWord all, VertexList& common,
                  VertexList& some);
 
@@ -188,11 +182,5 @@ struct MomentKernels {
 
 /// The kernels for `isa`, which the processor must have.
 [[nodiscard]] const MomentKernels& moment_kernels(Isa isa);
-
-const MomentKernels& portable_moment_kernels();
-#if defined(MESHHOOD_HAS_X86)
-const MomentKernels& avx2_moment_kernels();
-const MomentKernels& avx512_moment_kernels();
-#endif
 
 }  // namespace meshhood

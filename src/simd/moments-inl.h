@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+// `MomentKernels`, for the target that is being compiled; see targets.cpp. The loops run over queries or vertices that do
+// not depend on each other, so that vectors of any width give the same bits.
 
-// The loops of `MomentKernels`, which the sources moments_*.cpp compile once for each instruction set: they define
-// MESHHOOD_MOMENTS, the attribute of each function. The loops run over queries or vertices that do not depend on each
-// other, so that the compiler may use vectors of any width without changing a bit of the result.
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-
-#include "simd/moments.h"
-
-namespace meshhood {
+HWY_BEFORE_NAMESPACE();
+namespace meshhood::HWY_NAMESPACE {
 namespace {
 
-/// The eight numbers from `first` on, which is aligned to them.
-MESHHOOD_MOMENTS inline Eight& eight(double& first) { return reinterpret_cast<Eight&>(first); }
-MESHHOOD_MOMENTS inline const Eight& eight(const double& first) { return reinterpret_cast<const Eight&>(first); }
+constexpr std::size_t kEight = 8;
+
+/// The numbers from `first` on, which is aligned to a vector.
+HWY_INLINE Numbers load(const double& first) { return hn::Load(Doubles(), &first); }
+HWY_INLINE void store(Numbers numbers, double& first) { hn::Store(numbers, Doubles(), &first); }
+HWY_INLINE void add_to(double& first, Numbers numbers) { store(hn::Add(load(first), numbers), first); }
 
 /// How the power of a moment is the power of an earlier one times a coordinate.
 struct PowerStep {
@@ -101,26 +94,66 @@ constexpr std::array<Factors, PaddedMoments::kPadded> kFactors = [] {
   return factors;
 }();
 
-MESHHOOD_MOMENTS void add_powers(const MomentPoints& points, std::size_t size, PartialMoments& sums) {
-  static_assert(PartialMoments::kParts == kEight);
-  for (std::size_t first = 0; first < size; first += kEight) {
-    // NOLINTBEGIN(modernize-avoid-c-arrays): a template would lose the attributes of the type.
-    const Eight axes[]{eight(points.x[first]), eight(points.y[first]), eight(points.z[first])};
-    Eight powers[kMomentCount];
+void add_powers(const MomentPoints& points, std::size_t size, PartialMoments& sums) {
+  const std::size_t end = (size + kEight - 1) / kEight * kEight;
+  for (std::size_t i = 0; i < end; i += kLanes<Doubles>) {
+    const std::size_t part = i % PartialMoments::kParts;
+    // NOLINTBEGIN(modernize-avoid-c-arrays): std::array drops the alignment
+    const Numbers axes[]{load(points.x[i]), load(points.y[i]), load(points.z[i])};
+    Numbers powers[kMomentCount];
     // NOLINTEND(modernize-avoid-c-arrays)
-    powers[0] = eight(points.weight[first]);
-    eight(sums.at[0][0]) += powers[0];
+    powers[0] = load(points.weight[i]);
+    add_to(sums.at[0][part], powers[0]);
 #pragma GCC unroll 34
     for (std::size_t step = 1; step < kMomentCount; ++step) {
       const std::size_t m = kByDegree[step];
-      powers[m] = powers[kPowers[m].from] * axes[kPowers[m].axis];
-      eight(sums.at[m][0]) += powers[m];
+      powers[m] = hn::Mul(powers[kPowers[m].from], axes[kPowers[m].axis]);
+      add_to(sums.at[m][part], powers[m]);
     }
   }
 }
 
+#if HWY_TARGET == HWY_AVX3
+/// The places of one of the factors of each power.
+constexpr std::array<std::uint64_t, PaddedMoments::kPadded> places_of(std::size_t Factors::*factor) {
+  std::array<std::uint64_t, PaddedMoments::kPadded> places{};
+  for (std::size_t m = 0; m < places.size(); ++m) places[m] = kFactors[m].*factor;
+  return places;
+}
+alignas(64) constexpr auto kFirstPlaces = places_of(&Factors::first);
+alignas(64) constexpr auto kSecondPlaces = places_of(&Factors::second);
+
+/// Eight of the sixteen numbers, those of which the places are given.
+HWY_INLINE Numbers chosen(const Numbers& low, const std::uint64_t& places, const Numbers& high) {
+  return Numbers{_mm512_permutex2var_pd(low.raw, _mm512_load_si512(&places), high.raw)};
+}
+
+/// The powers of point `i`, times its weight: products of two of the ten small ones, which a permutation brings to their
+/// places.
+HWY_INLINE void powers_of(const MomentPoints& points, std::size_t i, PaddedMoments& out) {
+  const Doubles d;
+  const auto one = number(1);
+  const auto x = number(points.x[i]);
+  const auto y = number(points.y[i]);
+  const auto z = number(points.z[i]);
+  const auto weight = number(points.weight[i]);
+  const auto either = [d](LaneMask places, Numbers yes, Numbers no)
+                          HWY_ATTR { return hn::IfThenElse(mask_of(d, places), yes, no); };
+  // 1 x y z xx xy xz yy, and yz zz: products of two coordinates.
+  const auto left = either(0b1, one, either(0b1000'0100, y, either(0b1000, z, x)));
+  const auto right = either(0b1111, one, either(0b1010'0000, y, either(0b0100'0000, z, x)));
+  const auto low = hn::Mul(left, right);
+  const auto high = hn::Mul(either(0b1, y, z), z);
+  const auto weighted_low = hn::Mul(weight, low);
+  const auto weighted_high = hn::Mul(weight, high);
+#pragma GCC unroll 5
+  for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kLanes<Doubles>) {
+    store(hn::Mul(chosen(weighted_low, kFirstPlaces[m], weighted_high), chosen(low, kSecondPlaces[m], high)), out.at[m]);
+  }
+}
+#else
 /// The powers of point `i`, times its weight.
-MESHHOOD_MOMENTS inline void powers_of(const MomentPoints& points, std::size_t i, PaddedMoments& out) {
+HWY_INLINE void powers_of(const MomentPoints& points, std::size_t i, PaddedMoments& out) {
   const std::array<double, 4> coordinates{1, points.x[i], points.y[i], points.z[i]};
   std::array<double, kSmallPowers.size()> small;
 #pragma GCC unroll 10
@@ -133,8 +166,10 @@ MESHHOOD_MOMENTS inline void powers_of(const MomentPoints& points, std::size_t i
   }
 }
 
+#endif
+
 /// Bit `i` is set if part `i` of the word is not 0.
-MESHHOOD_MOMENTS inline std::uint64_t used_parts(QueryWord word) {
+HWY_INLINE std::uint64_t used_parts(QueryWord word) {
   static_assert(MomentsByWord::kQueries == 4 && MomentsByWord::kParts == 8);
   word |= word >> 1;
   word = (word | word >> 2) & 0x11111111U;
@@ -146,15 +181,14 @@ MESHHOOD_MOMENTS inline std::uint64_t used_parts(QueryWord word) {
 /// As `MomentKernels::add_powers_by_word`. Finds the powers of eight points before it adds them, because a processor
 /// waits if it reads as a vector what it has just written number by number. The parts of eight words that are not 0 are
 /// the bits of one number, so that few branches cannot be predicted.
-template <void (*PowersOf)(const MomentPoints&, std::size_t, PaddedMoments&)>
-MESHHOOD_MOMENTS void add_powers_by_word(const MomentPoints& points, std::span<const QueryWord> words,
+void add_powers_by_word(const MomentPoints& points, std::span<const QueryWord> words,
                                          MomentsByWord& sums) {
   std::array<PaddedMoments, kEight> powers;
   for (std::size_t first = 0; first < words.size(); first += kEight) {
     const std::size_t count = std::min(kEight, words.size() - first);
     std::uint64_t used = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      PowersOf(points, first + i, powers[i]);
+      powers_of(points, first + i, powers[i]);
       used |= used_parts(words[first + i]) << (MomentsByWord::kParts * i);
     }
     for (; used != 0; used &= used - 1) {
@@ -163,27 +197,32 @@ MESHHOOD_MOMENTS void add_powers_by_word(const MomentPoints& points, std::span<c
       const std::size_t part = bit % MomentsByWord::kParts;
       const QueryWord value = words[first + i] >> (MomentsByWord::kQueries * part) & (MomentsByWord::kValues - 1);
       PaddedMoments& sum = sums.at[part][value];
-      for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kEight) eight(sum.at[m]) += eight(powers[i].at[m]);
+      for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kLanes<Doubles>) add_to(sum.at[m], load(powers[i].at[m]));
     }
   }
 }
 
-MESHHOOD_MOMENTS inline const Sixteen& sixteen(const float& first) { return reinterpret_cast<const Sixteen&>(first); }
+/// Products with the vectors from `first` on.
+HWY_INLINE VectorOf<Floats> products_with(const RoundedVectors& vectors, std::size_t first, float x, float y, float z) {
+  const Floats d;
+  return hn::Add(hn::Add(hn::Mul(hn::Set(d, x), hn::Load(d, &vectors.x[first])),
+                         hn::Mul(hn::Set(d, y), hn::Load(d, &vectors.y[first]))),
+                 hn::Mul(hn::Set(d, z), hn::Load(d, &vectors.z[first])));
+}
 
-/// The products of a vector and sixteen others.
-MESHHOOD_MOMENTS inline void multiply(float x, float y, float z, const RoundedVectors& by, std::size_t first,
-                                      Sixteen& out) {
-  out = (x * sixteen(by.x[first]) + y * sixteen(by.y[first])) + z * sixteen(by.z[first]);
+/// Those of the numbers that are > `limit`, as bits.
+HWY_INLINE QueryWord greater(VectorOf<Floats> numbers, float limit) {
+  const Floats d;
+  return bits_of(d, hn::Gt(numbers, hn::Set(d, limit)));
 }
 
 /// Those of the queries `among` that vertex `i` faces. Single precision decides almost all.
-MESHHOOD_MOMENTS inline QueryWord facing(const NormalColumns& normals, const RoundedVectors& rounded, std::size_t i,
+HWY_INLINE QueryWord facing(const NormalColumns& normals, const RoundedVectors& rounded, std::size_t i,
                                          const FacingTest& test, QueryWord among) {
   QueryWord surely = 0;
   QueryWord perhaps = 0;
-  for (std::size_t q = 0; q < kPacketCapacity; q += kSixteen) {
-    Sixteen products;
-    multiply(rounded.x[i], rounded.y[i], rounded.z[i], test.rounded, q, products);
+  for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Floats>) {
+    const auto products = products_with(test.rounded, q, rounded.x[i], rounded.y[i], rounded.z[i]);
     surely |= greater(products, kFacingMargin) << q;
     perhaps |= greater(products, -kFacingMargin) << q;
   }
@@ -198,7 +237,7 @@ MESHHOOD_MOMENTS inline QueryWord facing(const NormalColumns& normals, const Rou
 }
 
 /// The axis decides first, for all vertices together, without branches, which could not be predicted.
-MESHHOOD_MOMENTS void keep_facing(const NormalColumns& normals, const FacingTest& test, std::span<QueryWord> words) {
+void keep_facing(const NormalColumns& normals, const FacingTest& test, std::span<QueryWord> words) {
   RoundedVectors rounded{};
   QueryWord undecided = 0;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -209,9 +248,9 @@ MESHHOOD_MOMENTS void keep_facing(const NormalColumns& normals, const FacingTest
   }
   QueryWord some = 0;
   const auto [x, y, z] = test.axis;
-  for (std::size_t i = 0; i < kLeafCapacity; i += kSixteen) {
-    Sixteen products;
-    multiply(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), rounded, i, products);
+  for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Floats>) {
+    const auto products =
+        products_with(rounded, i, static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
     some |= greater(products, -test.all) << i;
     undecided &= ~(greater(products, test.all) << i);
   }
@@ -222,22 +261,29 @@ MESHHOOD_MOMENTS void keep_facing(const NormalColumns& normals, const FacingTest
   }
 }
 
-/// Written without branches, which could not be predicted: each vertex goes to the end of both lists, and the lists
-/// that keep it grow.
-MESHHOOD_MOMENTS void append(std::uint32_t first, std::span<const QueryWord> words, QueryWord all, VertexList& common,
-                             VertexList& some) {
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool is_common = words[i] == all;
-    common.places[common.size] = first + static_cast<std::uint32_t>(i);
-    common.words[common.size] = words[i];
-    some.places[some.size] = first + static_cast<std::uint32_t>(i);
-    some.words[some.size] = words[i];
-    common.size += static_cast<std::size_t>(is_common);
-    some.size += static_cast<std::size_t>(!is_common) & static_cast<std::size_t>(words[i] != 0);
+/// Adds those of the vertices whose bits are set.
+HWY_INLINE void append_chosen(Word places, Word words, LaneMask chosen, VertexList& list) {
+  const Words d;
+  std::uint32_t* const end = write_chosen(d, places, chosen, &list.places[list.size]);
+  write_chosen(d, words, chosen, &list.words[list.size]);
+  list.size = static_cast<std::size_t>(end - list.places.data());
+}
+
+void append(std::uint32_t first, std::span<const QueryWord> words, QueryWord all, VertexList& common,
+            VertexList& some) {
+  const Words d;
+  for (std::size_t i = 0; i < words.size(); i += kLanes<Words>) {
+    const LaneMask exist = first_lanes(static_cast<unsigned>(std::min(words.size() - i, kLanes<Words>)));
+    const auto word = hn::LoadU(d, words.data() + i);
+    const auto place = hn::Add(hn::Set(d, static_cast<std::uint32_t>(first + i)), hn::Iota(d, 0));
+    const LaneMask is_common = bits_of(d, hn::Eq(word, hn::Set(d, all))) & exist;
+    const LaneMask is_some = bits_of(d, hn::Ne(word, hn::Zero(d))) & exist & ~is_common;
+    append_chosen(place, word, is_common, common);
+    append_chosen(place, word, is_some, some);
   }
 }
 
-MESHHOOD_MOMENTS void collect(const PartialMoments& common, const MomentsByWord& some, QueryMoments& out) {
+void collect(const PartialMoments& common, const MomentsByWord& some, QueryMoments& out) {
   constexpr std::size_t kQueries = MomentsByWord::kQueries;
   PaddedMoments all{};
   for (std::size_t m = 0; m < kMomentCount; ++m) all.at[m] = common.total(m);
@@ -246,7 +292,7 @@ MESHHOOD_MOMENTS void collect(const PartialMoments& common, const MomentsByWord&
     for (std::size_t value = 0; value < MomentsByWord::kValues; ++value) {
       if ((value >> q % kQueries & 1U) == 0) continue;
       const PaddedMoments& term = some.at[q / kQueries][value];
-      for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kEight) eight(sum.at[m]) += eight(term.at[m]);
+      for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kLanes<Doubles>) add_to(sum.at[m], load(term.at[m]));
     }
     for (std::size_t m = 0; m < kMomentCount; ++m) out.at[m][q] = sum.at[m];
   }
@@ -283,13 +329,13 @@ constexpr std::array<ShiftStep, 105> kShift = [] {
   return steps;
 }();
 
-MESHHOOD_MOMENTS void shift(QueryMoments& moments, const QueryVectors& by) {
+void shift(QueryMoments& moments, const QueryVectors& by) {
   const std::array<const QueryRow*, 3> axes{&by.x, &by.y, &by.z};
   for (const ShiftStep& step : kShift) {
     const QueryRow& t = *axes[step.axis];
     const QueryRow& from = moments.at[step.from];
     QueryRow& to = moments.at[step.to];
-    for (std::size_t q = 0; q < kPacketCapacity; q += kEight) eight(to[q]) += eight(t[q]) * eight(from[q]);
+    for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>) add_to(to[q], hn::Mul(load(t[q]), load(from[q])));
   }
 }
 
@@ -299,36 +345,48 @@ template <std::size_t Degree>
 using Tensor = std::array<QueryRow, (Degree + 1) * (Degree + 2) / 2>;
 
 template <std::size_t Degree>
-MESHHOOD_MOMENTS void take(const QueryMoments& moments, Tensor<Degree>& out) {
+void take(const QueryMoments& moments, Tensor<Degree>& out) {
   for (std::size_t m = 0; m <= Degree; ++m) {
     for (std::size_t k = 0; k <= m; ++k) out[m * (m + 1) / 2 + k] = moments.at[moment_index(Degree - m, m - k, k)];
   }
 }
 
+/// The products of three numbers with those that `by` has for the same queries.
+struct Contraction {
+  HWY_INLINE Contraction(const QueryVectors& by, std::size_t q) : x(load(by.x[q])), y(load(by.y[q])), z(load(by.z[q])) {}
+  HWY_INLINE Numbers operator()(Numbers a, Numbers b, Numbers c) const {
+    return hn::Add(hn::Add(hn::Mul(x, a), hn::Mul(y, b)), hn::Mul(z, c));
+  }
+
+  Numbers x;
+  Numbers y;
+  Numbers z;
+};
+
 /// One index of the tensor, summed with the components of a vector.
 template <std::size_t Degree>
-MESHHOOD_MOMENTS void contract(const Tensor<Degree>& in, const QueryVectors& by, Tensor<Degree - 1>& out) {
-  for (std::size_t m = 0; m < Degree; ++m) {
-    for (std::size_t k = 0; k <= m; ++k) {
-      const QueryRow& x = in[m * (m + 1) / 2 + k];
-      const QueryRow& y = in[(m + 1) * (m + 2) / 2 + k];
-      const QueryRow& z = in[(m + 1) * (m + 2) / 2 + k + 1];
-      QueryRow& to = out[m * (m + 1) / 2 + k];
-      for (std::size_t q = 0; q < kPacketCapacity; q += kEight) {
-        eight(to[q]) = (eight(by.x[q]) * eight(x[q]) + eight(by.y[q]) * eight(y[q])) + eight(by.z[q]) * eight(z[q]);
+void contract(const Tensor<Degree>& in, const QueryVectors& by, Tensor<Degree - 1>& out) {
+  for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>) {
+    const Contraction contraction(by, q);
+#pragma GCC unroll 4
+    for (std::size_t m = 0; m < Degree; ++m) {
+#pragma GCC unroll 4
+      for (std::size_t k = 0; k <= m; ++k) {
+        const std::size_t below = (m + 1) * (m + 2) / 2 + k;
+        store(contraction(load(in[m * (m + 1) / 2 + k][q]), load(in[below][q]), load(in[below + 1][q])),
+              out[m * (m + 1) / 2 + k][q]);
       }
     }
   }
 }
 
-MESHHOOD_MOMENTS void contract(const Tensor<1>& in, const QueryVectors& by, QueryRow& out) {
-  for (std::size_t q = 0; q < kPacketCapacity; q += kEight) {
-    eight(out[q]) =
-        (eight(by.x[q]) * eight(in[0][q]) + eight(by.y[q]) * eight(in[1][q])) + eight(by.z[q]) * eight(in[2][q]);
+void contract(const Tensor<1>& in, const QueryVectors& by, QueryRow& out) {
+  for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>) {
+    store(Contraction(by, q)(load(in[0][q]), load(in[1][q]), load(in[2][q])), out[q]);
   }
 }
 
-MESHHOOD_MOMENTS void rotate_fourth(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v,
+void rotate_fourth(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v,
                                     FrameMoments& out) {
   alignas(64) Tensor<4> all;
   alignas(64) Tensor<3> once;
@@ -350,7 +408,7 @@ MESHHOOD_MOMENTS void rotate_fourth(const QueryMoments& moments, const QueryVect
   contract(last, v, out.u2v2);
 }
 
-MESHHOOD_MOMENTS void rotate_third(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v,
+void rotate_third(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v,
                                    const QueryVectors& n, FrameMoments& out) {
   alignas(64) Tensor<3> all;
   alignas(64) Tensor<2> once;
@@ -370,7 +428,7 @@ MESHHOOD_MOMENTS void rotate_third(const QueryMoments& moments, const QueryVecto
   contract(last, n, out.uvn);
 }
 
-MESHHOOD_MOMENTS void rotate_second(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v,
+void rotate_second(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v,
                                     const QueryVectors& n, FrameMoments& out) {
   alignas(64) Tensor<2> all;
   alignas(64) Tensor<1> last;
@@ -384,94 +442,98 @@ MESHHOOD_MOMENTS void rotate_second(const QueryMoments& moments, const QueryVect
   contract(last, n, out.vn);
 }
 
-MESHHOOD_MOMENTS void rotate(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v,
+void rotate(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v,
                              const QueryVectors& n, FrameMoments& out) {
   rotate_fourth(moments, u, v, out);
   rotate_third(moments, u, v, n, out);
   rotate_second(moments, u, v, n, out);
 }
 
-// NOLINTBEGIN(modernize-avoid-c-arrays): a template would lose the attributes of `Eight`.
+// NOLINTBEGIN(modernize-avoid-c-arrays): std::array drops the alignment
 
 /// Solves b x = right by the decomposition b = L D L^T, where `b` is symmetric and given by its lower triangle, and
-/// writes x to `right`. The scaling to a diagonal of ones is left out, since it changes L, D and x by factors only; so
-/// are the roots of Cholesky's method.
+/// writes x to `right`; returns the determinant of `MomentKernels::fit_quadrics`. The scaling to a diagonal of ones is
+/// left out, since it changes L, D and x by factors only; so are the roots of Cholesky's method.
 template <std::size_t N>
-MESHHOOD_MOMENTS inline void solve(Eight (&b)[N][N], Eight (&right)[N], Eight& determinant) {
-  const Eight one = Eight{} + 1;
-  Eight l[N][N];  // while `b` becomes L D
-  Eight inverse[N];
-  Eight product = one;
-  determinant = one;
+HWY_INLINE Numbers solve(Numbers (&b)[N][N], Numbers (&right)[N]) {
+  const auto one = number(1);
+  Numbers l[N][N];  // while `b` becomes L D
+  Numbers inverse[N];
+  auto product = one;
+  auto determinant = one;
 #pragma GCC unroll 6
   for (std::size_t j = 0; j < N; ++j) {
-    const Eight diagonal = b[j][j];
+    const auto diagonal = b[j][j];
+#pragma GCC unroll 6
     for (std::size_t i = j; i < N; ++i) {
-      for (std::size_t k = 0; k < j; ++k) b[i][j] -= b[i][k] * l[j][k];
+#pragma GCC unroll 6
+      for (std::size_t k = 0; k < j; ++k) b[i][j] = hn::Sub(b[i][j], hn::Mul(b[i][k], l[j][k]));
     }
-    product *= diagonal > 0 ? b[j][j] / diagonal : -one;
-    determinant = product >= determinant ? determinant : product;  // NaN stays
-    inverse[j] = 1 / b[j][j];
-    for (std::size_t i = j + 1; i < N; ++i) l[i][j] = b[i][j] * inverse[j];
+    const auto is_positive = hn::Gt(diagonal, hn::Zero(Doubles()));
+    product = hn::Mul(product, hn::IfThenElse(is_positive, hn::Div(b[j][j], diagonal), number(-1)));
+    determinant = hn::IfThenElse(hn::Ge(product, determinant), determinant, product);  // NaN stays
+    inverse[j] = hn::Div(one, b[j][j]);
+#pragma GCC unroll 6
+    for (std::size_t i = j + 1; i < N; ++i) l[i][j] = hn::Mul(b[i][j], inverse[j]);
   }
 #pragma GCC unroll 6
   for (std::size_t i = 0; i < N; ++i) {
-    for (std::size_t k = 0; k < i; ++k) right[i] -= l[i][k] * right[k];
+#pragma GCC unroll 6
+    for (std::size_t k = 0; k < i; ++k) right[i] = hn::Sub(right[i], hn::Mul(l[i][k], right[k]));
   }
 #pragma GCC unroll 6
   for (std::size_t solved = 0; solved < N; ++solved) {
     const std::size_t i = N - 1 - solved;
-    right[i] *= inverse[i];
-    for (std::size_t k = i + 1; k < N; ++k) right[i] -= l[k][i] * right[k];
+    right[i] = hn::Mul(right[i], inverse[i]);
+#pragma GCC unroll 6
+    for (std::size_t k = i + 1; k < N; ++k) right[i] = hn::Sub(right[i], hn::Mul(l[k][i], right[k]));
   }
+  return determinant;
 }
 
-/// The queries from `q` on.
+/// The fits of the queries from `q` on.
 template <std::size_t N>
-MESHHOOD_MOMENTS inline void store(const Eight (&x)[N], const Eight& determinant, std::size_t q, QueryQuadrics& out) {
-  eight(out.a[q]) = x[0];
-  eight(out.b[q]) = x[1];
-  eight(out.c[q]) = x[2];
-  eight(out.d[q]) = x[3];
-  eight(out.e[q]) = x[4];
-  eight(out.determinant[q]) = determinant;
+HWY_INLINE void store_fits(const Numbers (&x)[N], Numbers determinant, std::size_t q, QueryQuadrics& out) {
+  store(x[0], out.a[q]);
+  store(x[1], out.b[q]);
+  store(x[2], out.c[q]);
+  store(x[3], out.d[q]);
+  store(x[4], out.e[q]);
+  store(determinant, out.determinant[q]);
 }
 
-MESHHOOD_MOMENTS void fit_quadrics(const FrameMoments& s, QueryQuadrics& out) {
-  for (std::size_t q = 0; q < kPacketCapacity; q += kEight) {
-    Eight b[5][5]{{eight(s.u4[q])},
-                  {eight(s.u3v[q]), eight(s.u2v2[q])},
-                  {eight(s.u2v2[q]), eight(s.uv3[q]), eight(s.v4[q])},
-                  {eight(s.u3[q]), eight(s.u2v[q]), eight(s.uv2[q]), eight(s.uu[q])},
-                  {eight(s.u2v[q]), eight(s.uv2[q]), eight(s.v3[q]), eight(s.uv[q]), eight(s.vv[q])}};
-    Eight right[5]{eight(s.uun[q]), eight(s.uvn[q]), eight(s.vvn[q]), eight(s.un[q]), eight(s.vn[q])};
-    Eight determinant;
-    solve(b, right, determinant);
-    store(right, determinant, q, out);
+void fit_quadrics(const FrameMoments& s, QueryQuadrics& out) {
+  for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>) {
+    Numbers b[5][5]{{load(s.u4[q])},
+                    {load(s.u3v[q]), load(s.u2v2[q])},
+                    {load(s.u2v2[q]), load(s.uv3[q]), load(s.v4[q])},
+                    {load(s.u3[q]), load(s.u2v[q]), load(s.uv2[q]), load(s.uu[q])},
+                    {load(s.u2v[q]), load(s.uv2[q]), load(s.v3[q]), load(s.uv[q]), load(s.vv[q])}};
+    Numbers right[5]{load(s.uun[q]), load(s.uvn[q]), load(s.vvn[q]), load(s.un[q]), load(s.vn[q])};
+    const auto determinant = solve(b, right);
+    store_fits(right, determinant, q, out);
   }
 }
 
-MESHHOOD_MOMENTS void fit_jets(const FrameMoments& s, const QueryVectors& sums, const QueryRow& counts,
-                               QueryQuadrics& out) {
-  for (std::size_t q = 0; q < kPacketCapacity; q += kEight) {
-    Eight b[6][6]{
-        {eight(s.u4[q])},
-        {eight(s.u3v[q]), eight(s.u2v2[q])},
-        {eight(s.u2v2[q]), eight(s.uv3[q]), eight(s.v4[q])},
-        {eight(s.u3[q]), eight(s.u2v[q]), eight(s.uv2[q]), eight(s.uu[q])},
-        {eight(s.u2v[q]), eight(s.uv2[q]), eight(s.v3[q]), eight(s.uv[q]), eight(s.vv[q])},
-        {eight(s.uu[q]), eight(s.uv[q]), eight(s.vv[q]), eight(sums.x[q]), eight(sums.y[q]), eight(counts[q])}};
-    Eight right[6]{eight(s.uun[q]), eight(s.uvn[q]), eight(s.vvn[q]), eight(s.un[q]), eight(s.vn[q]), eight(sums.z[q])};
-    Eight determinant;
-    solve(b, right, determinant);
-    store(right, determinant, q, out);
+void fit_jets(const FrameMoments& s, const QueryVectors& sums, const QueryRow& counts, QueryQuadrics& out) {
+  for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>) {
+    Numbers b[6][6]{
+        {load(s.u4[q])},
+        {load(s.u3v[q]), load(s.u2v2[q])},
+        {load(s.u2v2[q]), load(s.uv3[q]), load(s.v4[q])},
+        {load(s.u3[q]), load(s.u2v[q]), load(s.uv2[q]), load(s.uu[q])},
+        {load(s.u2v[q]), load(s.uv2[q]), load(s.v3[q]), load(s.uv[q]), load(s.vv[q])},
+        {load(s.uu[q]), load(s.uv[q]), load(s.vv[q]), load(sums.x[q]), load(sums.y[q]), load(counts[q])}};
+    Numbers right[6]{load(s.uun[q]), load(s.uvn[q]), load(s.vvn[q]), load(s.un[q]), load(s.vn[q]), load(sums.z[q])};
+    const auto determinant = solve(b, right);
+    store_fits(right, determinant, q, out);
   }
 }
 // NOLINTEND(modernize-avoid-c-arrays)
 
 constexpr MomentKernels kMomentKernels{
     .add_powers = add_powers,
-    .add_powers_by_word = add_powers_by_word<powers_of>,
+    .add_powers_by_word = add_powers_by_word,
     .keep_facing = keep_facing,
     .append = append,
     .collect = collect,
@@ -482,4 +544,5 @@ constexpr MomentKernels kMomentKernels{
 };
 
 }  // namespace
-}  // namespace meshhood
+}  // namespace meshhood::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// `BallKernels`, for the target that is being compiled; see targets.cpp.
+
+HWY_BEFORE_NAMESPACE();
+namespace meshhood::HWY_NAMESPACE {
+namespace {
+
+/// The predicate.
+template <class Real>
+LaneMask within_exact(const Real* xyz, std::size_t size, const LeafBall& ball) {
+  const Doubles d;
+  LaneMask inside = 0;
+  for (std::size_t i = 0; i < size; i += kLanes<Doubles>) {
+    const auto [x, y, z] = load_points(d, xyz + 3 * i);
+    const auto square = squared_length(hn::Sub(x, hn::Set(d, ball.center.x)), hn::Sub(y, hn::Set(d, ball.center.y)),
+                                       hn::Sub(z, hn::Set(d, ball.center.z)));
+    inside |= bits_of(d, hn::Le(square, hn::Set(d, ball.squared_radius))) << i;
+  }
+  return inside & first_lanes(static_cast<unsigned>(size));
+}
+
+/// In single precision, if that decides all vertices.
+LaneMask within_float(const float* xyz, std::size_t size, const LeafBall& ball) {
+  const Floats d;
+  LaneMask inside = 0;
+  LaneMask outside = 0;
+  for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Floats>) {
+    const auto [x, y, z] = load_points(d, xyz + 3 * i);
+    const auto square = squared_length(hn::Sub(x, hn::Set(d, ball.x)), hn::Sub(y, hn::Set(d, ball.y)),
+                                       hn::Sub(z, hn::Set(d, ball.z)));
+    inside |= bits_of(d, hn::Le(square, hn::Set(d, ball.surely_inside))) << i;
+    outside |= bits_of(d, hn::Gt(square, hn::Set(d, ball.surely_outside))) << i;
+  }
+  const LaneMask all = first_lanes(static_cast<unsigned>(size));
+  if (((inside | outside) & all) != all) [[unlikely]] {
+    return within_exact(xyz, size, ball);
+  }
+  return inside & all;
+}
+
+LaneMask cross_edges(std::span<const CrossEdge> edges, LaneMask from) {
+  if constexpr (kLanes<Words> <= 4) {  // some of these targets cannot shift each lane by another number
+    LaneMask result = 0;
+    for (const CrossEdge& edge : edges) result |= (from >> edge.from & 1U) << edge.to;
+    return result;
+  }
+  const Words d;
+  const hn::Rebind<std::uint16_t, Words> pairs;
+  auto result = hn::Zero(d);
+  for (std::size_t i = 0; i < edges.size(); i += kLanes<Words>) {
+    const auto pair = hn::PromoteTo(d, hn::LoadU(pairs, reinterpret_cast<const std::uint16_t*>(edges.data() + i)));
+    const auto begins = hn::And((hn::Set(d, from) >> hn::And(pair, hn::Set(d, 31))), hn::Set(d, 1));
+    const auto ends = begins << hn::ShiftRight<8>(pair);
+    result = hn::Or(result, hn::IfThenElseZero(hn::FirstN(d, edges.size() - i), ends));
+  }
+  return any_of(d, result);
+}
+
+LaneMask reachable(const LaneMask* adjacency, LaneMask among, LaneMask from) {
+  const Words d;
+  for (LaneMask reached = from;;) {
+    LaneMask near = 0;  // the lanes with a neighbor among those reached
+    for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Words>) {
+      near |= lanes_with(hn::LoadU(d, adjacency + i), hn::Set(d, reached)) << i;
+    }
+    const LaneMask grown = reached | (near & among);
+    if (grown == reached) return reached;
+    reached = grown;
+  }
+}
+
+HWY_INLINE GroupContainment classify_group(const Group& group, const TreeBall& ball) {
+  const hn::CappedTag<float, kFanOut> d;
+  unsigned outside = 0;
+  unsigned inside = 0;
+  for (std::size_t i = 0; i < kFanOut; i += kLanes<decltype(d)>) {
+    const auto square = squared_length(hn::Sub(hn::Set(d, ball.x), hn::Load(d, &group.x[i])),
+                                       hn::Sub(hn::Set(d, ball.y), hn::Load(d, &group.y[i])),
+                                       hn::Sub(hn::Set(d, ball.z), hn::Load(d, &group.z[i])));
+    const auto radius = hn::Load(d, &group.radius[i]);
+    const auto far = hn::Add(hn::Set(d, ball.outer), radius);
+    const auto near = hn::Max(hn::Sub(hn::Set(d, ball.inner), radius), hn::Zero(d));
+    outside |= bits_of(d, hn::Gt(square, hn::Mul(far, far))) << i;
+    inside |= bits_of(d, hn::Lt(square, hn::Mul(near, near))) << i;
+  }
+  return {static_cast<std::uint8_t>(inside), static_cast<std::uint8_t>(~(outside | inside))};
+}
+
+void classify(const Group* groups, std::span<const std::uint32_t> list, const TreeBall& ball, GroupContainment* out) {
+  constexpr std::size_t kAhead = 4;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (i + kAhead < list.size()) {
+      const auto* const next = reinterpret_cast<const char*>(groups + list[i + kAhead]);
+      for (std::size_t line = 0; line < sizeof(Group); line += 64) hwy::Prefetch(next + line);
+    }
+    out[i] = classify_group(groups[list[i]], ball);
+  }
+}
+
+VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId* out) {
+  const Ids d;
+  for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Ids>) {
+    out = write_chosen(d, hn::LoadU(d, ids + i), lanes >> i, out);
+  }
+  return out;
+}
+
+constexpr Kernels kBallKernels{within_float, within_exact<double>, cross_edges, reachable, classify, compress};
+
+}  // namespace
+}  // namespace meshhood::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();

@@ -1,0 +1,424 @@
+// SPDX-License-Identifier: MIT
+// `JointKernels`, for the target that is being compiled; see targets.cpp.
+
+HWY_BEFORE_NAMESPACE();
+namespace meshhood::HWY_NAMESPACE {
+namespace {
+
+using Word = VectorOf<Words>;
+
+/// The vectors that hold a word for each of 32 lanes.
+constexpr std::size_t kParts = kLeafCapacity / kLanes<Words>;
+
+/// The lanes, of those of a vector, in which the words differ, as bits.
+HWY_INLINE LaneMask differing(Word a, Word b) {
+  const Words d;
+  return bits_of(d, hn::Ne(a, b));
+}
+
+void convert_points(const float* xyz, unsigned size, const FloatCenter& center, LeafPoints& points) {
+  const Floats d;
+  const auto scale = hn::Set(d, center.scale);
+  for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Floats>) {
+    const auto exists = hn::FirstN(d, size > i ? size - i : 0);
+    const auto from = load_points(d, xyz + 3 * i);
+    const auto x = hn::IfThenElseZero(exists, hn::Mul(hn::Sub(from.x, hn::Set(d, center.x)), scale));
+    const auto y = hn::IfThenElseZero(exists, hn::Mul(hn::Sub(from.y, hn::Set(d, center.y)), scale));
+    const auto z = hn::IfThenElseZero(exists, hn::Mul(hn::Sub(from.z, hn::Set(d, center.z)), scale));
+    hn::Store(x, d, &points.x[i]);
+    hn::Store(y, d, &points.y[i]);
+    hn::Store(z, d, &points.z[i]);
+    hn::Store(squared_length(x, y, z), d, &points.square[i]);
+  }
+}
+
+/// What `heights` gives of one vertex: which queries surely hold it, and which may.
+struct Held {
+  QueryWord surely;
+  QueryWord maybe;
+};
+
+/// Compares `2 p.q - p.p` of one vertex with the balls of the packet.
+HWY_INLINE Held compare(const LeafPoints& points, std::size_t lane, const PacketBalls& balls) {
+  const Floats d;
+  const auto x = hn::Set(d, points.x[lane]);
+  const auto y = hn::Set(d, points.y[lane]);
+  const auto z = hn::Set(d, points.z[lane]);
+  const auto square = hn::Set(d, points.square[lane]);
+  Held held{0, 0};
+  for (std::size_t i = 0; i < kPacketCapacity; i += kLanes<Floats>) {
+    const auto product = hn::Add(hn::Add(hn::Mul(x, hn::Load(d, &balls.x[i])), hn::Mul(y, hn::Load(d, &balls.y[i]))),
+                                 hn::Mul(z, hn::Load(d, &balls.z[i])));
+    const auto height = hn::Sub(product, square);
+    held.surely |= bits_of(d, hn::Ge(height, hn::Load(d, &balls.surely_inside[i]))) << i;
+    held.maybe |= bits_of(d, hn::Ge(height, hn::Load(d, &balls.maybe_inside[i]))) << i;
+  }
+  return held;
+}
+
+BallWords ball_words(const LeafPoints& points, LaneMask lanes, const PacketBalls& balls, PerLane<QueryWord>& inside,
+                     PerLane<QueryWord>& doubts) {
+  const Floats d;
+  const Words words;
+  LaneMask in_all = 0;
+  LaneMask in_none = 0;
+  for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Floats>) {
+    const auto square = squared_length(hn::Sub(hn::Load(d, &points.x[i]), hn::Set(d, balls.center_x)),
+                                       hn::Sub(hn::Load(d, &points.y[i]), hn::Set(d, balls.center_y)),
+                                       hn::Sub(hn::Load(d, &points.z[i]), hn::Set(d, balls.center_z)));
+    in_all |= bits_of(d, hn::Lt(square, hn::Set(d, balls.inside_all))) << i;
+    in_none |= bits_of(d, hn::Gt(square, hn::Set(d, balls.outside_all))) << i;
+  }
+  in_none &= lanes;
+  in_all &= lanes & ~in_none;
+  for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Words>) {
+    hn::Store(hn::IfThenElseZero(mask_of(words, in_all >> i), hn::Set(words, balls.queries)), words, &inside[i]);
+  }
+  BallWords result{in_none == 0 ? balls.queries : 0, 0};
+  for (LaneMask left = lanes & ~(in_all | in_none); left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    const auto [surely, maybe] = compare(points, lane, balls);
+    inside[lane] = surely;
+    result.all &= surely;
+    doubts[lane] = maybe & ~surely;
+    result.in_doubt |= LaneMask{maybe != surely} << lane;
+  }
+  return result;
+}
+
+void clear_words(LeafWords& words) {
+  const Words d;
+  for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Words>) {
+    hn::Store(hn::Zero(d), d, &words.reached[i]);
+    hn::Store(hn::Zero(d), d, &words.pending[i]);
+  }
+}
+
+#if HWY_TARGET == HWY_AVX3
+/// A word for each of 32 lanes.
+struct Words32 {
+  Word low;
+  Word high;
+};
+
+/// The edges within a leaf as lists with one neighbor of each lane. A lane that has no more names itself. One
+/// instruction then takes 16 words from any of 32 lanes.
+class NeighborLists {
+ public:
+  explicit NeighborLists(const LaneMask* adjacency) {
+    const Words d;
+    const auto lanes = hn::Iota(d, 0);
+    Words32 left{hn::LoadU(d, adjacency), hn::LoadU(d, adjacency + 16)};
+    while (!hn::AllFalse(d, hn::Ne(hn::Or(left.low, left.high), hn::Zero(d)))) {
+      lists_[size_++] = {take_first(left.low, lanes), take_first(left.high, hn::Add(lanes, hn::Set(d, 16)))};
+    }
+  }
+
+  /// The words of all neighbors of each lane, and its own.
+  [[nodiscard]] Words32 gather(const Words32& words) const {
+    Words32 all = words;
+    for (std::size_t i = 0; i < size_; ++i) {
+      all.low = hn::Or(all.low, Word{_mm512_permutex2var_epi32(words.low.raw, lists_[i].low.raw, words.high.raw)});
+      all.high = hn::Or(all.high, Word{_mm512_permutex2var_epi32(words.low.raw, lists_[i].high.raw, words.high.raw)});
+    }
+    return all;
+  }
+
+ private:
+  /// Removes the first neighbor of each lane, and returns it. What is left does not wait for which it was.
+  static Word take_first(Word& neighbors, Word lanes) {
+    const Words d;
+    const auto has = hn::Ne(neighbors, hn::Zero(d));
+    const auto first = hn::And(neighbors, hn::Sub(hn::Zero(d), neighbors));
+    neighbors = hn::AndNot(first, neighbors);
+    // The exponent of a power of two.
+    const Word exponent{_mm512_srli_epi32(_mm512_castps_si512(_mm512_cvtepu32_ps(first.raw)), 23)};
+    return hn::IfThenElse(has, hn::Sub(exponent, hn::Set(d, 127)), lanes);
+  }
+
+  Words32 lists_[kLeafCapacity];  // NOLINT(modernize-avoid-c-arrays): std::array drops the alignment
+  std::size_t size_ = 0;
+};
+
+SpreadWords spread_words(LeafWords& words, const LaneMask* adjacency, QueryWord whole) {
+  const Words d;
+  const auto differing32 = [](const Words32& a, const Words32& b) HWY_ATTR {
+    return differing(a.low, b.low) | differing(a.high, b.high) << 16;
+  };
+  const Words32 inside{hn::Load(d, &words.inside[0]), hn::Load(d, &words.inside[16])};
+  const Words32 before{hn::Load(d, &words.reached[0]), hn::Load(d, &words.reached[16])};
+  Words32 reached{hn::Or(before.low, hn::And(hn::Load(d, &words.pending[0]), inside.low)),
+                  hn::Or(before.high, hn::And(hn::Load(d, &words.pending[16]), inside.high))};
+  hn::Store(hn::Zero(d), d, &words.pending[0]);
+  hn::Store(hn::Zero(d), d, &words.pending[16]);
+  if (whole != 0) {
+    const auto any = hn::Set(d, any_of(d, hn::Or(reached.low, reached.high)) & whole);
+    reached = {hn::Or(reached.low, hn::And(any, inside.low)), hn::Or(reached.high, hn::And(any, inside.high))};
+  }
+  LaneMask open = differing32(reached, inside);
+  if (open != 0 && differing32(reached, before) != 0) {
+    const NeighborLists neighbors(adjacency);
+    for (LaneMask gained = open; gained != 0 && open != 0;) {
+      Words32 grown = neighbors.gather(reached);
+      grown = {hn::And(grown.low, inside.low), hn::And(grown.high, inside.high)};
+      gained = differing32(grown, reached);
+      open = differing32(grown, inside);
+      reached = grown;
+    }
+  }
+  hn::Store(reached.low, d, &words.reached[0]);
+  hn::Store(reached.high, d, &words.reached[16]);
+  return {differing32(reached, before), open == 0};
+}
+#else
+/// Adds what arrives, where the balls have it, to the words that are reached; returns the lanes that gain.
+HWY_INLINE LaneMask grow(LeafWords& words, const Word (&arriving)[kParts]) {
+  const Words d;
+  LaneMask gained = 0;
+  for (std::size_t part = 0; part < kParts; ++part) {
+    const std::size_t i = part * kLanes<Words>;
+    const auto before = hn::Load(d, &words.reached[i]);
+    const auto grown = hn::Or(before, hn::And(arriving[part], hn::Load(d, &words.inside[i])));
+    gained |= differing(grown, before) << i;
+    hn::Store(grown, d, &words.reached[i]);
+  }
+  return gained;
+}
+
+/// Moves what is pending to `reached`; returns the lanes that gained.
+HWY_INLINE LaneMask take_pending(LeafWords& words, QueryWord whole) {
+  const Words d;
+  Word arriving[kParts];
+  auto any = hn::Zero(d);
+  for (std::size_t part = 0; part < kParts; ++part) {
+    const std::size_t i = part * kLanes<Words>;
+    arriving[part] = hn::And(hn::Load(d, &words.pending[i]), hn::Load(d, &words.inside[i]));
+    hn::Store(hn::Zero(d), d, &words.pending[i]);
+    any = hn::Or(any, hn::Or(arriving[part], hn::Load(d, &words.reached[i])));
+  }
+  const auto all = hn::Set(d, any_of(d, any) & whole);
+  for (Word& word : arriving) word = hn::Or(word, all);
+  return grow(words, arriving);
+}
+
+HWY_INLINE LaneMask open_lanes(const LeafWords& words) {
+  const Words d;
+  LaneMask open = 0;
+  for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Words>) {
+    open |= differing(hn::Load(d, &words.reached[i]), hn::Load(d, &words.inside[i])) << i;
+  }
+  return open;
+}
+
+/// Reaches the open neighbors of the lanes `from`; returns those that have gained.
+HWY_INLINE LaneMask spread_once(LeafWords& words, const LaneMask* adjacency, LaneMask from, LaneMask open) {
+  const Words d;
+  Word arriving[kParts];
+  for (Word& word : arriving) word = hn::Zero(d);
+  for (; from != 0; from &= from - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(from));
+    if ((adjacency[lane] & open) == 0) continue;
+    const auto word = hn::Set(d, words.reached[lane]);
+    const auto neighbors = hn::Set(d, adjacency[lane]);
+    for (std::size_t part = 0; part < kParts; ++part) {
+      const auto to = hn::TestBit(neighbors, hn::Set(d, 1) << hn::Iota(d, part * kLanes<Words>));
+      arriving[part] = hn::Or(arriving[part], hn::IfThenElseZero(to, word));
+    }
+  }
+  return grow(words, arriving);
+}
+
+SpreadWords spread_words(LeafWords& words, const LaneMask* adjacency, QueryWord whole) {
+  SpreadWords result{take_pending(words, whole), false};
+  LaneMask open = open_lanes(words);
+  for (LaneMask fresh = result.gained; fresh != 0 && open != 0; open = open_lanes(words)) {
+    fresh = spread_once(words, adjacency, fresh, open);
+    result.gained |= fresh;
+  }
+  result.closed = open == 0;
+  return result;
+}
+#endif
+
+/// Adds how many words of a vector have each bit, times a power of two, to the counts.
+class BitSums {
+ public:
+  explicit BitSums(PerLane<std::uint64_t>& counts) : counts_(counts) {}
+
+  void add(Word words, std::size_t digit) {
+#if HWY_TARGET == HWY_AVX3
+    // A word is the mask of the numbers to increase. The sums of all these digits have 16 bits.
+    if (digit <= kMostShort) {
+      PerLane<QueryWord> each;
+      hn::StoreU(words, Words(), each.data());
+      const __m512i weight = _mm512_set1_epi16(static_cast<std::int16_t>(1 << digit));
+      for (std::size_t i = 0; i < kLanes<Words>; i += 2) {
+        even_ = _mm512_mask_add_epi16(even_, each[i], even_, weight);
+        odd_ = _mm512_mask_add_epi16(odd_, each[i + 1], odd_, weight);
+      }
+      return;
+    }
+#endif
+    const Words d;
+    auto bit = hn::Set(d, 1);
+    for (std::size_t query = 0; query < kPacketCapacity; ++query, bit = hn::Add(bit, bit)) {
+      counts_[query] += std::uint64_t{hn::CountTrue(d, hn::TestBit(words, bit))} << digit;
+    }
+  }
+
+#if HWY_TARGET == HWY_AVX3
+  ~BitSums() {
+    PerLane<std::uint16_t> sums;
+    _mm512_storeu_si512(sums.data(), _mm512_add_epi16(even_, odd_));
+    for (std::size_t i = 0; i < kPacketCapacity; ++i) counts_[i] += sums[i];
+  }
+  BitSums(const BitSums&) = delete;
+  BitSums& operator=(const BitSums&) = delete;
+
+ private:
+  static constexpr std::size_t kMostShort = 11;
+  __m512i even_ = _mm512_setzero_si512();
+  __m512i odd_ = _mm512_setzero_si512();
+#else
+ private:
+#endif
+  PerLane<std::uint64_t>& counts_;
+};
+
+/// Counts bits in each position of many words: a vector for each binary digit, with a number in each of its bits.
+class BitCounters {
+ public:
+  BitCounters() {
+    const Words d;
+    ones_ = twos_ = fours_ = eights_ = hn::Zero(d);
+  }
+
+  /// Adds sixteen vectors.
+  void add(const Word (&words)[16]) {
+    Word fours[4];
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto a = add_digit(ones_, words[4 * i], words[4 * i + 1]);
+      const auto b = add_digit(ones_, words[4 * i + 2], words[4 * i + 3]);
+      fours[i] = add_digit(twos_, a, b);
+    }
+    const auto a = add_digit(fours_, fours[0], fours[1]);
+    const auto b = add_digit(fours_, fours[2], fours[3]);
+    add_sixteens(add_digit(eights_, a, b));
+  }
+
+  void add_to(PerLane<std::uint64_t>& counts) const {
+    BitSums sums(counts);
+    sums.add(ones_, 0);
+    sums.add(twos_, 1);
+    sums.add(fours_, 2);
+    sums.add(eights_, 3);
+    for (std::size_t digit = 0; digit < used_; ++digit) sums.add(planes_[digit], digit + 4);
+  }
+
+ private:
+  /// The sum of three bits each stays in the digit, the carry is returned.
+  static Word add_digit(Word& digit, Word a, Word b) {
+    const auto old = digit;
+    const auto either = hn::Xor(a, b);
+    digit = hn::Xor(old, either);
+    return hn::IfVecThenElse(either, old, a);
+  }
+
+  /// Adds a vector of carries to the higher digits.
+  void add_sixteens(Word carry) {
+    const Words d;
+    for (std::size_t digit = 0;; ++digit) {
+      if (digit == used_) {
+        planes_[used_++] = carry;
+        return;
+      }
+      const auto old = planes_[digit];
+      planes_[digit] = hn::Xor(old, carry);
+      carry = hn::And(old, carry);
+      if (hn::AllFalse(d, hn::Ne(carry, hn::Zero(d)))) return;
+    }
+  }
+
+  static constexpr std::size_t kPlanes = 32;  // enough for all leaves of an index
+  Word ones_;
+  Word twos_;
+  Word fours_;
+  Word eights_;
+  Word planes_[kPlanes];  // NOLINT(modernize-avoid-c-arrays): std::array drops the alignment
+  std::size_t used_ = 0;
+};
+
+void count_words(const LeafWords* words, std::span<const LeafOfWords> list, PerLane<std::uint64_t>& counts) {
+  const Words d;
+  alignas(64) static constexpr PerLane<QueryWord> kNone{};
+  constexpr std::size_t kLeaves = 16 / kParts;  // of a block
+  BitCounters counters;
+  for (std::size_t i = 0; i < list.size(); i += kLeaves) {
+    Word block[16];
+    for (std::size_t k = 0; k < kLeaves; ++k) {
+      const auto& reached = i + k < list.size() ? words[list[i + k].words].reached : kNone;
+      for (std::size_t part = 0; part < kParts; ++part) {
+        block[k * kParts + part] = hn::Load(d, &reached[part * kLanes<Words>]);
+      }
+    }
+    counters.add(block);
+  }
+  counters.add_to(counts);
+}
+
+LaneMask lanes_of(const QueryWord* reached, unsigned query) {
+  const Words d;
+  const auto bit = hn::Set(d, QueryWord{1} << query);
+  LaneMask lanes = 0;
+  for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Words>) {
+    lanes |= bits_of(d, hn::TestBit(hn::LoadU(d, reached + i), bit)) << i;
+  }
+  return lanes;
+}
+
+/// The ids of the vertices from `first` on.
+HWY_INLINE VectorOf<Ids> load_ids(const VertexId* permutation, std::uint32_t first) {
+  const Ids d;
+  if (permutation != nullptr) return hn::LoadU(d, permutation + first);
+  return hn::Add(hn::Set(d, static_cast<VertexId>(first)), hn::Iota(d, 0));
+}
+
+void write_row(std::span<const RowPiece> pieces, unsigned query, const VertexId* permutation, std::span<VertexId> out) {
+  const Ids d;
+  const Words words;
+  const auto bit = hn::Set(words, QueryWord{1} << query);
+  VertexId* next = out.data();
+  // The vertices of a leaf are written as vectors, which may go beyond their end. So the last of a row are written
+  // elsewhere first.
+  constexpr std::ptrdiff_t kRoom = kLeafCapacity + kLanes<Ids>;
+  std::array<VertexId, 2 * kRoom> end_of_row;
+  VertexId* begin_of_end = nullptr;
+  for (const RowPiece& piece : pieces) {
+    if (piece.reached != nullptr) {
+      if (begin_of_end == nullptr && out.data() + out.size() - next < kRoom) {
+        begin_of_end = next;
+        next = end_of_row.data();
+      }
+      for (std::uint32_t k = 0; k < kLeafCapacity; k += kLanes<Ids>) {
+        const LaneMask lanes = bits_of(words, hn::TestBit(hn::LoadU(words, piece.reached + k), bit));
+        next = write_chosen(d, load_ids(permutation, piece.first + k), lanes, next);
+      }
+    } else if ((piece.queries >> query & 1U) != 0) {
+      std::uint32_t k = 0;
+      for (; k + kLanes<Ids> <= piece.size; k += kLanes<Ids>, next += kLanes<Ids>) {
+        hn::StoreU(load_ids(permutation, piece.first + k), d, next);
+      }
+      for (; k < piece.size; ++k) {
+        *next++ = permutation == nullptr ? static_cast<VertexId>(piece.first + k) : permutation[piece.first + k];
+      }
+    }
+  }
+  if (begin_of_end != nullptr) std::copy(end_of_row.data(), next, begin_of_end);
+}
+
+constexpr JointKernels kJointKernels{convert_points, clear_words, ball_words, spread_words,
+                                     count_words,    lanes_of,    write_row};
+
+}  // namespace
+}  // namespace meshhood::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// The kernels, compiled once for each target of Highway that can matter, and the choice between them.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <type_traits>
+
+#include "simd/aggregate.h"
+#include "simd/joint.h"
+#include "simd/kernels.h"
+#include "simd/moments.h"
+#include "simd/processor.h"
+
+#ifndef MESHHOOD_SIMD_TARGET
+#define MESHHOOD_SIMD_TARGET
+namespace meshhood {
+namespace {
+
+/// The kernels of one target.
+struct Target {
+  std::int64_t id;  // of Highway
+  const Kernels* ball;
+  const JointKernels* joint;
+  const AggregateKernels* aggregate;
+  const MomentKernels* moments;
+};
+
+/// For every set of eight bits: the places of its bits in ascending order, followed by zeros.
+constexpr std::array<std::array<std::uint8_t, 8>, 256> kPlaces = [] {
+  std::array<std::array<std::uint8_t, 8>, 256> lists{};
+  for (unsigned set = 0; set < 256; ++set) {
+    std::size_t size = 0;
+    for (std::uint8_t bit = 0; bit < 8; ++bit) {
+      if ((set >> bit & 1U) != 0) lists[set][size++] = bit;
+    }
+  }
+  return lists;
+}();
+
+/// For every set of four words of 32 bits: the places of their bytes.
+alignas(16) constexpr std::array<std::array<std::uint8_t, 16>, 16> kBytePlaces = [] {
+  std::array<std::array<std::uint8_t, 16>, 16> lists{};
+  for (std::size_t set = 0; set < 16; ++set) {
+    for (std::size_t i = 0; i < 16; ++i) lists[set][i] = static_cast<std::uint8_t>(4 * kPlaces[set][i / 4] + i % 4);
+  }
+  return lists;
+}();
+
+}  // namespace
+}  // namespace meshhood
+
+// Assertions of Highway would need its library.
+#define HWY_IS_DEBUG_BUILD 0
+// The target without vector instructions: Highway avoids it before g++ 12.3 because of GCC bug 106322, which is about the
+// upper half of products of 16 bits. No kernel has any.
+#define HWY_BROKEN_EMU128 0
+// Vectors of a length that is known only at run time do not fit into the rows of 32 lanes; and the few processors that
+// end at SSSE3 take what has no vector instructions.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#endif
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/targets.cpp"
+#include <hwy/foreach_target.h>
+
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+#include "simd/lanes-inl.h"
+// These use the last.
+#include "simd/aggregate-inl.h"
+#include "simd/ball-inl.h"
+#include "simd/joint-inl.h"
+#include "simd/moments-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace meshhood::HWY_NAMESPACE {
+namespace {
+constexpr Target kTarget{HWY_TARGET, &kBallKernels, &kJointKernels, &kAggregateKernels, &kMomentKernels};
+}  // namespace
+}  // namespace meshhood::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace meshhood {
+namespace {
+
+/// From slow to fast, each with the instructions of those before it.
+constexpr std::array kTargets{
+    &HWY_STATIC_DISPATCH(kTarget),
+#if HWY_TARGETS & HWY_SSE4 & ~HWY_STATIC_TARGET
+    &N_SSE4::kTarget,
+#endif
+#if HWY_TARGETS & HWY_AVX2 & ~HWY_STATIC_TARGET
+    &N_AVX2::kTarget,
+#endif
+#if HWY_TARGETS & HWY_AVX3 & ~HWY_STATIC_TARGET
+    &N_AVX3::kTarget,
+#endif
+};
+
+bool runs_on(const Processor& processor, std::int64_t target) {
+  switch (target) {
+    case HWY_STATIC_TARGET: return true;
+    case HWY_SSE4: return processor.sse4;
+    case HWY_AVX2: return processor.avx2;
+    case HWY_AVX3: return processor.avx512;
+    default: return false;
+  }
+}
+
+Isa isa_of_processor() {
+  const Processor processor = this_processor();
+  std::size_t best = 0;
+  while (best + 1 < kTargets.size() && runs_on(processor, kTargets[best + 1]->id)) ++best;
+  return static_cast<Isa>(best);
+}
+
+const Target& target(Isa isa) { return *kTargets[static_cast<std::size_t>(isa)]; }
+
+Isa most_isa{kTargets.size() - 1};
+
+}  // namespace
+
+Isa best_isa() {
+  static const Isa of_processor = isa_of_processor();
+  return std::min(of_processor, most_isa);
+}
+
+void limit_isa(Isa most) { most_isa = most; }
+
+const char* name_of(Isa isa) { return hwy::TargetName(target(isa).id); }
+
+const Kernels& kernels(Isa isa) { return *target(isa).ball; }
+const JointKernels& joint_kernels(Isa isa) { return *target(isa).joint; }
+const AggregateKernels& aggregate_kernels(Isa isa) { return *target(isa).aggregate; }
+const MomentKernels& moment_kernels(Isa isa) { return *target(isa).moments; }
+
+}  // namespace meshhood
+#endif
