@@ -106,6 +106,15 @@ double wall_clock() {
 /// Processor time of all threads.
 double process_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
+/// One for each instruction set that this processor has.
+std::vector<Timing> timings_by_isa() {
+  std::vector<Timing> timings;
+  for (std::size_t isa = 0; isa <= static_cast<std::size_t>(best_isa()); ++isa) {
+    timings.push_back(Timing{name_of(static_cast<Isa>(isa))});
+  }
+  return timings;
+}
+
 /// The methods in the order of the table. `one_thread` and `two_threads` count more rows at once, and their wall-clock
 /// time is measured, and as `work` their processor time; `two_processes` is that of two processes, each of which counts
 /// all of these rows. `portable` to `avx512` count by one worker of the batch each.
@@ -124,7 +133,7 @@ struct Row {
   Timing two_processes{"two_processes"};
   Timing one_thread_work{"one_thread_work"};
   Timing two_threads_work{"two_threads_work"};
-  std::array<Timing, 3> by_isa{Timing{"portable"}, Timing{"avx2"}, Timing{"avx512"}};
+  std::vector<Timing> by_isa = timings_by_isa();
 
   void print() const {
     std::printf("%6.4g %8.0f %9.3f %8.3f %8.3f %8.3f %8.3f %8.1f %6.1f %8.1f %6.1f", edges, ids.found, bfs.median(),
@@ -133,7 +142,7 @@ struct Row {
                 single_ids.median() / ids.median());
     std::printf("%10.2f", one_thread.median() / two_threads.median());
     if (!two_processes.microseconds.empty()) std::printf(" (%.2f)", 2 * one_thread.median() / two_processes.median());
-    const Timing& best = by_isa[static_cast<std::size_t>(best_isa())];
+    const Timing& best = by_isa.back();
     for (const Timing& isa : by_isa) {
       if (!isa.microseconds.empty()) std::printf("%10.2f", best.median() / isa.median());
     }
@@ -180,7 +189,7 @@ class AllVertices {
       result.single_ids.round(fewer.size(), [&] { return ids_one_by_one(searcher_, fewer, radius); });
       result.count.round(rows.size(), [&] { return counts_of_batch(rows, radius, 1); });
       result.ids.round(rows.size(), [&] { return ids_of_batch(rows, radius); });
-      for (std::size_t isa = 0; isa <= static_cast<std::size_t>(best_isa()); ++isa) {
+      for (std::size_t isa = 0; isa < result.by_isa.size(); ++isa) {
         result.by_isa[isa].round(rows.size(), [&] { return counts_of_worker(static_cast<Isa>(isa), rows, radius); });
       }
     }

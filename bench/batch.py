@@ -14,7 +14,7 @@ from . import meshes, places, programs, results, timing
 MESHES = ("cat0", "cortex", "dragon", "head_skin", "mri_head")
 RADII = (2, 3, 5, 10, 20, 65)
 METHODS = ("bfs", "single_count", "single_ids", "count", "ids", "one_thread", "two_threads", "two_processes", "one_thread_work",
-           "two_threads_work", "portable", "avx2", "avx512", "kept", "python")
+           "two_threads_work", *KERNELS, "kept", "python")
 ROUNDS = 5
 # C++ and Python get memory alike: from the heap, which keeps what is freed, in pages of 4 kB. Otherwise NumPy gets large
 # pages, and which arrays are new to the process depends on their sizes.

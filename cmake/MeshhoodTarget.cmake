@@ -35,16 +35,14 @@ function(meshhood_compile_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
 endfunction()
 
-# In a unity build of the core, the kernels of each processor are a unit, because those of two share their names.
-function(meshhood_group_core target)
-  get_target_property(sources ${target} SOURCES)
-  set_source_files_properties(${sources} PROPERTIES UNITY_GROUP library)
-  foreach(processor portable avx2 avx512 wasm128)
-    set(kernels ${sources})
-    list(FILTER kernels INCLUDE REGEX "/simd/(.*_)?${processor}\\.cpp$")
-    set_source_files_properties(${kernels} PROPERTIES UNITY_GROUP ${processor})
-  endforeach()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+# In a unity build of the core, the kernels are a unit of their own.
+function(meshhood_separate_kernels target)
+  get_target_property(kernels ${target} SOURCES)
+  list(FILTER kernels INCLUDE REGEX "/simd/targets\\.cpp$")
+  set_source_files_properties(${kernels} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  # g++ would replace the stores of `clear_words` by a call of memset, which takes longer.
+  set_source_files_properties(${kernels} PROPERTIES
+    COMPILE_OPTIONS $<$<CXX_COMPILER_ID:GNU>:-fno-tree-loop-distribute-patterns>)
 endfunction()
 
 # For code that reads untrusted bytes: an error ends the program at once.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compares the kernels of every instruction set with the portable ones. An input is a leaf and a ball, edges, or groups
+// Compares the kernels of every instruction set with plain loops. An input is a leaf and a ball, edges, or groups
 // of nodes, with any numbers that an index may hold.
 #include "simd/kernels.h"
 
@@ -13,6 +13,7 @@
 #include "bytes.h"
 #include "judge.h"
 #include "support/exact_answer.h"
+#include "support/plain_kernels.h"
 #include "target.h"
 
 namespace meshhood::fuzz {
@@ -80,7 +81,7 @@ void compare_edges(Bytes bytes, const Kernels& tried) {
   const auto edges = std::span<const CrossEdge>(padded).first(bytes.take<std::uint8_t>() % (2 * kLeafCapacity));
   const auto among = bytes.take<LaneMask>();
   const LaneMask from = bytes.take<LaneMask>() & among;
-  const Kernels& plain = portable_kernels();
+  const Kernels& plain = test::kPlainKernels;
   if (tried.cross_edges(edges, from) != plain.cross_edges(edges, from)) fail("cross_edges differs");
 
   std::array<LaneMask, kLeafCapacity> adjacency{};
@@ -122,7 +123,7 @@ void compare_groups(Bytes bytes, const Kernels& tried) {
   std::array<GroupContainment, list.size()> found{};
   std::array<GroupContainment, list.size()> expected{};
   tried.classify(groups.data(), list, ball, found.data());
-  portable_kernels().classify(groups.data(), list, ball, expected.data());
+  test::kPlainKernels.classify(groups.data(), list, ball, expected.data());
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (found[i].inside != expected[i].inside || found[i].intersecting != expected[i].intersecting) {
       fail("classify differs");

@@ -11,6 +11,7 @@ set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 
 # Libraries that are headers only. They are copied, as their folder also has the headers of the C library of this machine.
 find_path(xxhash_folder xxhash.h PATHS /usr/include REQUIRED)
-file(GLOB portable_headers ${xxhash_folder}/xxh*.h ${xxhash_folder}/fmt ${xxhash_folder}/fast_float)
+file(GLOB portable_headers ${xxhash_folder}/xxh*.h ${xxhash_folder}/fmt ${xxhash_folder}/fast_float ${xxhash_folder}/hwy)
 file(COPY ${portable_headers} DESTINATION ${CMAKE_BINARY_DIR}/headers)
 set(XXHASH_INCLUDE_DIR ${CMAKE_BINARY_DIR}/headers CACHE PATH "The headers of xxHash")
+set(HIGHWAY_INCLUDE_DIR ${CMAKE_BINARY_DIR}/headers CACHE PATH "The headers of Highway")

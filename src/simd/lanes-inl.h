@@ -139,7 +139,7 @@ HWY_INLINE VectorOf<D> compressed(D d, VectorOf<D> numbers, LaneMask bits) {
   // Before each use, g++ 12 copies the tables of `hn::Compress` to the stack.
   if constexpr (sizeof(hn::TFromD<D>) == 4 && kLanes<D> == 8) {
     const hn::Rebind<std::uint8_t, D> bytes;
-    return hn::TableLookupLanes(numbers, hn::IndicesFromVec(d, hn::PromoteTo(d, hn::LoadU(bytes, kPlaces[bits].data()))));
+    return hn::TableLookupLanes(numbers, hn::IndicesFromVec(d, hn::PromoteTo(d, hn::LoadU(bytes, kBitPositions[bits].data()))));
   } else if constexpr (sizeof(hn::TFromD<D>) == 4) {
     const hn::Repartition<std::uint8_t, D> bytes;
     return hn::BitCast(d, hn::TableLookupBytes(numbers, hn::Load(bytes, kBytePlaces[bits].data())));

@@ -41,4 +41,16 @@ struct CrossEdge {
 /// any vertex on.
 using PositionsInOrder = std::variant<std::span<const float>, std::span<const double>>;
 
+/// For every set of eight bits: the positions of its bits in ascending order, followed by zeros.
+inline constexpr std::array<std::array<std::uint8_t, 8>, 256> kBitPositions = [] {
+  std::array<std::array<std::uint8_t, 8>, 256> lists{};
+  for (unsigned set = 0; set < 256; ++set) {
+    std::size_t size = 0;
+    for (std::uint8_t bit = 0; bit < 8; ++bit) {
+      if ((set >> bit & 1U) != 0) lists[set][size++] = bit;
+    }
+  }
+  return lists;
+}();
+
 }  // namespace meshhood

@@ -12,6 +12,7 @@
 #include "simd/aggregate.h"
 #include "simd/joint.h"
 #include "simd/kernels.h"
+#include "simd/leaf.h"
 #include "simd/moments.h"
 #include "simd/processor.h"
 
@@ -29,23 +30,11 @@ struct Target {
   const MomentKernels* moments;
 };
 
-/// For every set of eight bits: the places of its bits in ascending order, followed by zeros.
-constexpr std::array<std::array<std::uint8_t, 8>, 256> kPlaces = [] {
-  std::array<std::array<std::uint8_t, 8>, 256> lists{};
-  for (unsigned set = 0; set < 256; ++set) {
-    std::size_t size = 0;
-    for (std::uint8_t bit = 0; bit < 8; ++bit) {
-      if ((set >> bit & 1U) != 0) lists[set][size++] = bit;
-    }
-  }
-  return lists;
-}();
-
 /// For every set of four words of 32 bits: the places of their bytes.
 alignas(16) constexpr std::array<std::array<std::uint8_t, 16>, 16> kBytePlaces = [] {
   std::array<std::array<std::uint8_t, 16>, 16> lists{};
   for (std::size_t set = 0; set < 16; ++set) {
-    for (std::size_t i = 0; i < 16; ++i) lists[set][i] = static_cast<std::uint8_t>(4 * kPlaces[set][i / 4] + i % 4);
+    for (std::size_t i = 0; i < 16; ++i) lists[set][i] = static_cast<std::uint8_t>(4 * kBitPositions[set][i / 4] + i % 4);
   }
   return lists;
 }();

@@ -105,14 +105,7 @@ TEST_P(Output, OfAnEmptySetNothingIsWritten) {
   expect_output(IndexAccess::view(index), VertexSet(IndexAccess::view(index)), tried);
 }
 
-std::string case_name(const testing::TestParamInfo<Isa>& isa) {
-  switch (isa.param) {
-    case Isa::Portable: return "Portable";
-    case Isa::Avx2: return "Avx2";
-    case Isa::Avx512: return "Avx512";
-  }
-  return "";
-}
+std::string case_name(const testing::TestParamInfo<Isa>& isa) { return name_of(isa.param); }
 
 INSTANTIATE_TEST_SUITE_P(Isas, Output, testing::ValuesIn(available_isas()), case_name);
 

@@ -52,7 +52,7 @@ class EveryAggregatePath : public testing::TestWithParam<Isa> {
   }
 
   const AggregateKernels& tried = aggregate_kernels(GetParam());
-  const AggregateKernels& plain = portable_aggregate_kernels();
+  const AggregateKernels& plain = aggregate_kernels(Isa{});
   Random random{21};
   std::vector<double> values;
   PerLane<QueryWord> words{};
@@ -61,7 +61,7 @@ class EveryAggregatePath : public testing::TestWithParam<Isa> {
   KernelRadius radius{};
 };
 
-TEST_P(EveryAggregatePath, GivesTheBitsOfThePortableKernel) {
+TEST_P(EveryAggregatePath, GivesTheBitsOfTheFirstInstructionSet) {
   for (std::size_t round = 0; round < scaled(3000, 200); ++round) {
     draw();
     RowSums other = sums;
@@ -96,7 +96,7 @@ TEST_P(EveryAggregatePath, GivesTheBitsOfThePortableKernel) {
   }
 }
 
-TEST_P(EveryAggregatePath, GivesTheBitsOfThePortableKernelForWeightsByDistance) {
+TEST_P(EveryAggregatePath, GivesTheBitsOfTheFirstInstructionSetForWeightsByDistance) {
   for (std::size_t round = 0; round < scaled(3000, 200); ++round) {
     draw();
     const bool squared = random.below(2) == 0;

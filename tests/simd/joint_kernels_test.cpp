@@ -14,6 +14,7 @@
 
 #include "simd/joint.h"
 #include "support/exact_answer.h"
+#include "support/plain_kernels.h"
 #include "support/random.h"
 #include "support/scale.h"
 
@@ -33,14 +34,14 @@ class EveryJointPath : public testing::TestWithParam<Isa> {
   float coordinate() { return static_cast<float>(random.uniform(-1, 1)); }
 
   const JointKernels& tried = joint_kernels(GetParam());
-  const JointKernels& plain = portable_joint_kernels();
+  const JointKernels& plain = kPlainJointKernels;
   Random random{11};
 };
 
-TEST_P(EveryJointPath, PointsAreRoundedOnceAndReadNothingBeyondTheLeaf) {
+TEST_P(EveryJointPath, PointsAreRoundedOnceAndZeroBeyondTheLeaf) {
   for (std::size_t round = 0; round < scaled(2000, 100); ++round) {
     const unsigned size = 1 + static_cast<unsigned>(random.below(kLeafCapacity));
-    std::vector<float> xyz(std::size_t{3} * size);
+    std::vector<float> xyz(std::size_t{3} * kLeafCapacity);
     for (float& value : xyz) value = 100 * coordinate();
     const FloatCenter center{coordinate(), coordinate(), coordinate(), std::ldexp(1.0F, -7)};
     LeafPoints points;
@@ -66,7 +67,7 @@ TEST_P(EveryJointPath, ClearedWordsReachNothing) {
   EXPECT_EQ(words.inside, inside);
 }
 
-TEST_P(EveryJointPath, BallWordsAreThoseOfThePortableKernel) {
+TEST_P(EveryJointPath, BallWordsAreThoseOfThePlainKernel) {
   std::size_t doubts = 0;
   for (std::size_t round = 0; round < scaled(4000, 200); ++round) {
     const unsigned size = 1 + static_cast<unsigned>(random.below(kLeafCapacity));
@@ -270,7 +271,7 @@ TEST_P(EveryJointPath, WordsArePushedOverEveryEdge) {
 }
 
 std::string path_name(const testing::TestParamInfo<Isa>& info) {
-  return info.param == Isa::Portable ? "Portable" : info.param == Isa::Avx2 ? "Avx2" : "Avx512";
+  return name_of(info.param);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EveryJointPath, testing::ValuesIn(available_isas()), path_name);

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "support/exact_answer.h"
+#include "support/plain_kernels.h"
 #include "support/random.h"
 #include "support/scale.h"
 
@@ -20,7 +21,7 @@ namespace {
 class EveryIsa : public testing::TestWithParam<Isa> {
  protected:
   const Kernels& tried = kernels(GetParam());
-  const Kernels& plain = portable_kernels();
+  const Kernels& plain = kPlainKernels;
   Random random{9};
 };
 
@@ -156,14 +157,7 @@ TEST_P(EveryIsa, CompressKeepsTheOrder) {
   }
 }
 
-std::string case_name(const testing::TestParamInfo<Isa>& isa) {
-  switch (isa.param) {
-    case Isa::Portable: return "Portable";
-    case Isa::Avx2: return "Avx2";
-    case Isa::Avx512: return "Avx512";
-  }
-  return "";
-}
+std::string case_name(const testing::TestParamInfo<Isa>& isa) { return name_of(isa.param); }
 
 INSTANTIATE_TEST_SUITE_P(Isas, EveryIsa, testing::ValuesIn(available_isas()), case_name);
 

@@ -122,8 +122,8 @@ TEST(MomentKernels, ShiftedMomentsAreThoseOfShiftedPoints) {
   Random random(2);
   const Input points = random_input(random, 40);
   const QueryVectors by = random_vectors(random);
-  QueryMoments moments = collected(portable_moment_kernels(), points, {});
-  portable_moment_kernels().shift(moments, by);
+  QueryMoments moments = collected(moment_kernels(Isa{}), points, {});
+  moment_kernels(Isa{}).shift(moments, by);
   for (std::size_t q = 0; q < kPacketCapacity; ++q) {
     Input shifted = points;
     for (std::size_t i = 0; i < 40; ++i) {
@@ -140,12 +140,12 @@ TEST(MomentKernels, ShiftedMomentsAreThoseOfShiftedPoints) {
 TEST(MomentKernels, RotatedMomentsAreThoseOfRotatedPoints) {
   Random random(3);
   const Input points = random_input(random, 40);
-  const QueryMoments moments = collected(portable_moment_kernels(), points, {});
+  const QueryMoments moments = collected(moment_kernels(Isa{}), points, {});
   const QueryVectors u = random_vectors(random);
   const QueryVectors v = random_vectors(random);
   const QueryVectors n = random_vectors(random);
   FrameMoments out{};
-  portable_moment_kernels().rotate(moments, u, v, n, out);
+  moment_kernels(Isa{}).rotate(moments, u, v, n, out);
   struct Case {
     const QueryRow* row;
     Powers powers;
@@ -282,11 +282,12 @@ TEST(MomentKernels, VerticesGoToTheListOfTheirWord) {
     VertexList common{};
     VertexList some{};
     for (const std::uint32_t first : {40U, 90U}) {
-      std::vector<QueryWord> words(19, 0);
+      std::vector<QueryWord> words(kLeafCapacity, 0b100);
+      std::fill_n(words.begin(), 19, 0);
       words[0] = words[17] = 0b111;
       words[3] = 0b100;
       words[18] = 0b010;
-      moment_kernels(isa).append(first, words, 0b111, common, some);
+      moment_kernels(isa).append(first, std::span(words).first(19), 0b111, common, some);
     }
     EXPECT_THAT(std::span(common.places).first(common.size), testing::ElementsAre(40, 57, 90, 107));
     EXPECT_THAT(std::span(some.places).first(some.size), testing::ElementsAre(43, 58, 93, 108));
@@ -372,7 +373,9 @@ TEST(MomentKernels, EveryInstructionSetGivesTheSameBits) {
       facing.emplace_back(some.words).resize(leaf);
       kernels.keep_facing(normals, test, facing.back());
       auto& [in_common, in_some] = lists.emplace_back();
-      kernels.append(100, facing.back(), 0b11, in_common, in_some);
+      std::vector<QueryWord> padded = facing.back();
+      padded.resize(kLeafCapacity);
+      kernels.append(100, std::span(padded).first(leaf), 0b11, in_common, in_some);
       fits.emplace_back();
       kernels.fit_quadrics(results.back(), fits.back()[0]);
       kernels.fit_jets(results.back(), by, moments.at[0], fits.back()[1]);

@@ -20,11 +20,10 @@
 
 namespace meshhood::test {
 
-/// Every kernel that this processor supports.
+/// Every instruction set with kernels that this processor has.
 inline std::vector<Isa> available_isas() {
-  std::vector<Isa> all{Isa::Portable};
-  if (best_isa() >= Isa::Avx2) all.push_back(Isa::Avx2);
-  if (best_isa() >= Isa::Avx512) all.push_back(Isa::Avx512);
+  std::vector<Isa> all;
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(best_isa()); ++i) all.push_back(static_cast<Isa>(i));
   return all;
 }
 

@@ -38,10 +38,13 @@ void append(Bits& bits, const std::vector<double>& numbers) {
 /// Limits the kernels while it lives.
 class LimitedIsa {
  public:
-  explicit LimitedIsa(Isa isa) { limit_isa(isa); }
+  explicit LimitedIsa(Isa isa) : before_(best_isa()) { limit_isa(isa); }
   LimitedIsa(const LimitedIsa&) = delete;
   LimitedIsa& operator=(const LimitedIsa&) = delete;
-  ~LimitedIsa() { limit_isa(Isa::Avx512); }
+  ~LimitedIsa() { limit_isa(before_); }
+
+ private:
+  Isa before_;
 };
 
 /// A mesh with everything that a call may need.

@@ -76,7 +76,7 @@ TEST(Descent, ManySheetsExceedTheLimitOfIntersectingNodes) {
   const Index built = build(mesh.view());
   const IndexView& index = IndexAccess::view(built);
   const Query query(index, 30 * 24 * 24 + 12 * 24 + 12, RadiusBounds(index.frame, 20));
-  Descended d(index, portable_kernels());
+  Descended d(index, kernels(best_isa()));
   const std::size_t top = nodes_above(index, query.leaf()).size() - 1;
   EXPECT_FALSE(d.run(index, query, top, 0));
   EXPECT_TRUE(d.run(index, query, top, top));
@@ -84,7 +84,7 @@ TEST(Descent, ManySheetsExceedTheLimitOfIntersectingNodes) {
   const Index single = build(sheet.view());
   const IndexView& one = IndexAccess::view(single);
   const Query on_one(one, 60 * 120 + 60, RadiusBounds(one.frame, 20));
-  Descended one_sheet(one, portable_kernels());
+  Descended one_sheet(one, kernels(best_isa()));
   EXPECT_TRUE(one_sheet.run(one, on_one, 1, 0));
 }
 

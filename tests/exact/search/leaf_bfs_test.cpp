@@ -81,10 +81,10 @@ TEST(LeafBfs, LeavesOutOtherComponentsInALeafInsideTheBall) {
     disconnected += static_cast<std::size_t>(index.leaves[leaf].size != 0 && !index.leaves[leaf].connected);
   }
   ASSERT_GT(disconnected, 0U);
-  LeafBfs bfs(index, portable_kernels());
+  LeafBfs bfs(index, kernels(best_isa()));
   for (VertexId v = 0; v < mesh.size(); ++v) {
     const Query query(index, v, RadiusBounds(index.frame, kInfinity));
-    const SearchCase c{mesh, oracle, index, query, portable_kernels()};
+    const SearchCase c{mesh, oracle, index, query, kernels(best_isa())};
     ASSERT_EQ(found(bfs, c), c.neighborhood()) << "vertex " << v;
   }
 }

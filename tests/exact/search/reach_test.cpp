@@ -126,7 +126,7 @@ TEST(Reach, BeginsWithLargeNodesOnASingleSheetAndWithSmallOnesAmongMany) {
     const Index built = build(mesh.view());
     const IndexView& index = IndexAccess::view(built);
     const Query query(index, v, RadiusBounds(index.frame, is_folded ? 20 : 60));
-    Reach reach(index, portable_kernels());
+    Reach reach(index, kernels(best_isa()));
     ASSERT_TRUE(reach.run(query));
     const std::size_t small = level_of_ratio(index, query, 10);
     const std::size_t large = level_of_ratio(index, query, 2.5);
@@ -140,7 +140,7 @@ TEST(Reach, DoesNotBeginWithLeaves) {
   const Index built = build(mesh.view());
   const IndexView& index = IndexAccess::view(built);
   const double leaf = index.tree[0].mean_radius / index.frame.scale;
-  Reach reach(index, portable_kernels());
+  Reach reach(index, kernels(best_isa()));
   EXPECT_FALSE(reach.run(Query(index, 30 * 60 + 30, RadiusBounds(index.frame, 2.4 * leaf))));
   EXPECT_TRUE(reach.run(Query(index, 30 * 60 + 30, RadiusBounds(index.frame, 2.6 * leaf))));
 }

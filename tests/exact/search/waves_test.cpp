@@ -66,8 +66,8 @@ TEST(Waves, LeaveOutASheetThatIsNotConnectedAtTheScaleOfTheNodes) {
   const Index built = build(mesh.view());
   const IndexView& index = IndexAccess::view(built);
   const Query query(index, 40 * 80 + 40, RadiusBounds(index.frame, 25));
-  const SearchCase c{mesh, oracle, index, query, portable_kernels()};
-  Waves waves(index, portable_kernels());
+  const SearchCase c{mesh, oracle, index, query, kernels(best_isa())};
+  Waves waves(index, kernels(best_isa()));
   GroupStates states(index);
   const std::vector<NodeId> homes = nodes_above(index, query.leaf());
   for (std::size_t level = 0; level < homes.size(); ++level) {

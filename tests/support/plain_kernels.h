@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "simd/joint.h"
+#include "simd/kernels.h"
+
+/// The kernels as plain loops, a lane after the other: what those of each instruction set are compared with.
+namespace meshhood::test {
+namespace plain {
+
+template <class Real>
+LaneMask within(const Real* xyz, std::size_t size, const LeafBall& ball) {
+  LaneMask result = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    const Point p = point(std::span(xyz, 3 * size), i);
+    result |= LaneMask{squared_distance(p, ball.center) <= ball.squared_radius} << i;
+  }
+  return result;
+}
+
+inline LaneMask cross_edges(std::span<const CrossEdge> edges, LaneMask from) {
+  LaneMask result = 0;
+  for (const CrossEdge& edge : edges) result |= (from >> edge.from & 1U) << edge.to;
+  return result;
+}
+
+inline LaneMask reachable(const LaneMask* adjacency, LaneMask among, LaneMask from) {
+  LaneMask reached = from;
+  for (LaneMask todo = from; todo != 0 && reached != among;) {
+    const LaneMask added = adjacency[std::countr_zero(todo)] & among & ~reached;
+    todo = (todo & (todo - 1)) | added;
+    reached |= added;
+  }
+  return reached;
+}
+
+inline GroupContainment classify_group(const Group& group, const TreeBall& ball) {
+  GroupContainment result{0, 0};
+  for (unsigned i = 0; i < kFanOut; ++i) {
+    const float x = ball.x - group.x[i];
+    const float y = ball.y - group.y[i];
+    const float z = ball.z - group.z[i];
+    const float square = (x * x + y * y) + z * z;
+    const float far = ball.outer + group.radius[i];
+    const float near = ball.inner - group.radius[i];
+    const bool outside = square > far * far;
+    const bool inside = near > 0 && square < near * near;
+    result.inside = static_cast<std::uint8_t>(result.inside | unsigned{inside} << i);
+    result.intersecting = static_cast<std::uint8_t>(result.intersecting | unsigned{!outside && !inside} << i);
+  }
+  return result;
+}
+
+inline void classify(const Group* groups, std::span<const std::uint32_t> list, const TreeBall& ball, GroupContainment* out) {
+  for (const std::uint32_t group : list) *out++ = classify_group(groups[group], ball);
+}
+
+inline VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId* out) {
+  for (; lanes != 0; lanes &= lanes - 1) *out++ = ids[std::countr_zero(lanes)];
+  return out;
+}
+
+/// Bit `i` for each `i`.
+inline constexpr PerLane<std::uint32_t> kBits = [] {
+  PerLane<std::uint32_t> bits{};
+  for (unsigned i = 0; i < kLeafCapacity; ++i) bits[i] = std::uint32_t{1} << i;
+  return bits;
+}();
+
+/// The words of one vertex: compares it with all balls of the packet.
+inline QueryWord compare(const LeafPoints& points, std::size_t lane, const PacketBalls& balls, QueryWord& maybe) {
+  const float x = points.x[lane];
+  const float y = points.y[lane];
+  const float z = points.z[lane];
+  const float square = points.square[lane];
+  PerLane<float> heights;
+  for (std::size_t i = 0; i < kPacketCapacity; ++i) {
+    heights[i] = ((x * balls.x[i] + y * balls.y[i]) + z * balls.z[i]) - square;
+  }
+  QueryWord sure = 0;
+  QueryWord some = 0;
+  for (std::size_t i = 0; i < kPacketCapacity; ++i) {
+    sure |= (0 - QueryWord{heights[i] >= balls.surely_inside[i]}) & kBits[i];
+    some |= (0 - QueryWord{heights[i] >= balls.maybe_inside[i]}) & kBits[i];
+  }
+  maybe = some;
+  return sure;
+}
+
+inline float squared_distance_to_center(const LeafPoints& points, std::size_t lane, const PacketBalls& balls) {
+  const float x = points.x[lane] - balls.center_x;
+  const float y = points.y[lane] - balls.center_y;
+  const float z = points.z[lane] - balls.center_z;
+  return (x * x + y * y) + z * z;
+}
+
+inline BallWords ball_words(const LeafPoints& points, LaneMask lanes, const PacketBalls& balls, PerLane<QueryWord>& inside,
+                     PerLane<QueryWord>& doubts) {
+  BallWords result{balls.queries, 0};
+  inside = {};
+  for (LaneMask left = lanes; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    const float square = squared_distance_to_center(points, lane, balls);
+    if (square > balls.outside_all) {
+      result.all = 0;
+    } else if (square < balls.inside_all) {
+      inside[lane] = balls.queries;
+    } else {
+      QueryWord maybe = 0;
+      inside[lane] = compare(points, lane, balls, maybe);
+      result.all &= inside[lane];
+      doubts[lane] = maybe & ~inside[lane];
+      result.in_doubt |= LaneMask{doubts[lane] != 0} << lane;
+    }
+  }
+  return result;
+}
+
+inline void clear_words(LeafWords& words) {
+  words.reached = {};
+  words.pending = {};
+}
+
+/// Reaches the open neighbors of the lanes `from`; returns those that have gained.
+inline LaneMask spread_once(LeafWords& words, const LaneMask* adjacency, LaneMask from, LaneMask open) {
+  LaneMask gained = 0;
+  for (; from != 0; from &= from - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(from));
+    for (LaneMask left = adjacency[lane] & open; left != 0; left &= left - 1) {
+      const auto neighbor = static_cast<std::size_t>(std::countr_zero(left));
+      const QueryWord grown = words.reached[neighbor] | (words.reached[lane] & words.inside[neighbor]);
+      gained |= LaneMask{grown != words.reached[neighbor]} << neighbor;
+      words.reached[neighbor] = grown;
+    }
+  }
+  return gained;
+}
+
+/// The lanes in which the words differ.
+inline LaneMask differing(const PerLane<QueryWord>& a, const PerLane<QueryWord>& b) {
+  LaneMask lanes = 0;
+  for (std::size_t i = 0; i < kLeafCapacity; ++i) lanes |= a[i] != b[i] ? kBits[i] : 0;
+  return lanes;
+}
+
+/// Moves what is pending to `reached`; returns the lanes that gained.
+inline LaneMask take_pending(LeafWords& words, QueryWord whole) {
+  const PerLane<QueryWord> before = words.reached;
+  QueryWord any = 0;
+  for (std::size_t i = 0; i < kLeafCapacity; ++i) {
+    words.reached[i] |= words.pending[i] & words.inside[i];
+    any |= words.reached[i];
+  }
+  for (std::size_t i = 0; i < kLeafCapacity; ++i) words.reached[i] |= any & whole & words.inside[i];
+  words.pending = {};
+  return differing(words.reached, before);
+}
+
+inline SpreadWords spread_words(LeafWords& words, const LaneMask* adjacency, QueryWord whole) {
+  SpreadWords result{take_pending(words, whole), false};
+  LaneMask open = differing(words.reached, words.inside);
+  for (LaneMask fresh = result.gained; fresh != 0 && open != 0; open = differing(words.reached, words.inside)) {
+    fresh = spread_once(words, adjacency, fresh, open);
+    result.gained |= fresh;
+  }
+  result.closed = open == 0;
+  return result;
+}
+
+/// Counters for each bit of a word, a plane for each binary digit, so that a word is added to all of them at once.
+class BitCounters {
+ public:
+  void add(QueryWord word) {
+    for (std::size_t digit = 0; word != 0; ++digit) {
+      const QueryWord carry = planes_[digit] & word;
+      planes_[digit] ^= word;
+      word = carry;
+    }
+  }
+
+  void add_to(PerLane<std::uint64_t>& counts) const {
+    for (std::size_t digit = 0; digit < planes_.size(); ++digit) {
+      for (QueryWord left = planes_[digit]; left != 0; left &= left - 1) {
+        counts[static_cast<std::size_t>(std::countr_zero(left))] += std::uint64_t{1} << digit;
+      }
+    }
+  }
+
+ private:
+  std::array<QueryWord, 40> planes_{};  // enough for every vertex of an index
+};
+
+inline void count_words(const LeafWords* words, std::span<const LeafOfWords> list, PerLane<std::uint64_t>& counts) {
+  BitCounters counters;
+  for (const LeafOfWords& leaf : list) {
+    for (const QueryWord word : words[leaf.words].reached) counters.add(word);
+  }
+  counters.add_to(counts);
+}
+
+inline LaneMask lanes_of(const QueryWord* reached, unsigned query) {
+  LaneMask lanes = 0;
+  for (std::size_t i = 0; i < kLeafCapacity; ++i) lanes |= (reached[i] & kBits[query]) != 0 ? kBits[i] : 0;
+  return lanes;
+}
+
+inline void write_row(std::span<const RowPiece> pieces, unsigned query, const VertexId* permutation, std::span<VertexId> out) {
+  VertexId* next = out.data();
+  const auto write = [&](std::uint32_t vertex) {
+    *next++ = permutation == nullptr ? static_cast<VertexId>(vertex) : permutation[vertex];
+  };
+  for (const RowPiece& piece : pieces) {
+    if (piece.reached != nullptr) {
+      for_each_lane(lanes_of(piece.reached, query), [&](unsigned lane) { write(piece.first + lane); });
+    } else if ((piece.queries >> query & 1U) != 0) {
+      for (std::uint32_t i = 0; i < piece.size; ++i) write(piece.first + i);
+    }
+  }
+}
+
+inline void convert_points(const float* xyz, unsigned size, const FloatCenter& center, LeafPoints& points) {
+  points = {};
+  for (std::size_t i = 0; i < size; ++i) {
+    const float x = (xyz[3 * i] - center.x) * center.scale;
+    const float y = (xyz[3 * i + 1] - center.y) * center.scale;
+    const float z = (xyz[3 * i + 2] - center.z) * center.scale;
+    points.x[i] = x;
+    points.y[i] = y;
+    points.z[i] = z;
+    points.square[i] = (x * x + y * y) + z * z;
+  }
+}
+
+}  // namespace plain
+
+inline constexpr Kernels kPlainKernels{plain::within<float>, plain::within<double>, plain::cross_edges,
+                                       plain::reachable,     plain::classify,       plain::compress};
+inline constexpr JointKernels kPlainJointKernels{plain::convert_points, plain::clear_words, plain::ball_words,
+                                                 plain::spread_words,   plain::count_words, plain::lanes_of,
+                                                 plain::write_row};
+
+}  // namespace meshhood::test
