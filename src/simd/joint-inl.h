@@ -319,9 +319,12 @@ class BitCounters {
   /// The sum of three bits each stays in the digit, the carry is returned.
   static Word add_digit(Word& digit, Word a, Word b) {
     const auto old = digit;
-    const auto either = hn::Xor(a, b);
-    digit = hn::Xor(old, either);
-    return hn::IfVecThenElse(either, old, a);
+    digit = hn::Xor(old, hn::Xor(a, b));
+#if HWY_TARGET == HWY_AVX3
+    return Word{_mm512_ternarylogic_epi32(old.raw, a.raw, b.raw, 0xE8)};
+#else
+    return hn::Or(hn::And(a, b), hn::And(old, hn::Xor(a, b)));
+#endif
   }
 
   /// Adds a vector of carries to the higher digits.
