@@ -18,6 +18,7 @@
 #include <unistd.h>
 
 #include "meshhood/error.h"
+#include "meshhood/kernel_target.h"
 #include "meshhood/version.h"
 
 #include "commands.h"
@@ -65,7 +66,7 @@ ExitCode fail(ExitCode code, std::string_view message) {
 
 void add_subcommands(CLI::App& program) {
   program.require_subcommand(0, 1);
-  program.set_version_flag("--version", "meshhood " + std::string(kVersion));
+  program.set_version_flag("--version", fmt::format("meshhood {}, kernels for {}", kVersion, kernel_target()));
   add_info(program);
   add_build(program);
   add_check(program);

@@ -118,7 +118,7 @@ int main(int arguments, char** values) {
 #endif
   if (argument == "--compiler") return std::puts(kCompiler) < 0 ? 1 : 0;
   constexpr int kSkipped = 77;
-  if (!avx2()) {
+  if (!bench::avx2()) {
     std::puts("skipped: the baseline counts AVX2 instructions, which this processor does not have");
     return kSkipped;
   }

@@ -6,6 +6,7 @@
 #include <nanobind/stl/string.h>
 
 #include "meshhood/error.h"
+#include "meshhood/kernel_target.h"
 #include "meshhood/version.h"
 
 #include "bindings.h"
@@ -74,4 +75,5 @@ NB_MODULE(_core, module) {
   meshhood::python::bind_files(module);
   meshhood::python::bind_parts(module);
   module.attr("__version__") = meshhood::kVersion.data();
+  module.def("kernel_target", [] { return std::string(meshhood::kernel_target()); });
 }

@@ -7,7 +7,10 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <string_view>
 #include <type_traits>
+
+#include "meshhood/kernel_target.h"
 
 #include "simd/aggregate.h"
 #include "simd/joint.h"
@@ -47,6 +50,11 @@ alignas(16) constexpr std::array<std::array<std::uint8_t, 16>, 16> kBytePlaces =
 // The target without vector instructions: Highway avoids it before g++ 12.3 because of GCC bug 106322, which is about the
 // upper half of products of 16 bits. No kernel has any.
 #define HWY_BROKEN_EMU128 0
+// On ARM, one target, without the instructions for cryptography that Highway would allow itself: not every processor has
+// them.
+#if defined(__arm__) || defined(__aarch64__)
+#define TOOLCHAIN_MISS_SYS_AUXV_H
+#endif
 // Vectors of a length that is known only at run time do not fit into the rows of 32 lanes; and the few processors that
 // end at SSSE3 take what has no vector instructions.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
@@ -121,6 +129,8 @@ Isa best_isa() {
 }
 
 void limit_isa(Isa most) { most_isa = most; }
+
+std::string_view kernel_target() { return name_of(best_isa()); }
 
 const char* name_of(Isa isa) { return hwy::TargetName(target(isa).id); }
 

@@ -33,6 +33,7 @@ assert_type(index.positions, Union[NDArray[np.float32], Reals])
 assert_type(index.permutation, Ids)
 assert_type(index.faces, Union[Ids, tuple[NDArray[np.signedinteger[Any]], Ids], None])
 assert_type(meshhood.__version__, str)
+assert_type(meshhood.show_config(), None)
 
 assert_type(index.query_ball(1, 2), Ids)
 assert_type(index.query_ball(np.int64(1), np.float32(2), sort=True, unit="edge"), Ids)

@@ -32,6 +32,14 @@ from .distributed import open_parts
 
 __version__: str = _core.__version__
 
+
+def show_config() -> None:
+    """Prints the version and the instructions that the inner loops use on this processor, by the names of Google
+    Highway: AVX3 for AVX-512, AVX2, SSE4, NEON, or EMU128 for none but those of every processor. Answers do not depend on
+    them, only their speed."""
+    print(f"meshhood {__version__}, kernels for {_core.kernel_target()}")
+
+
 __all__ = [
     "Chunk",
     "CorrectedCurvature",
@@ -55,6 +63,7 @@ __all__ = [
     "plot_neighborhood",
     "principal_curvature",
     "read_mesh",
+    "show_config",
     "vertex_areas",
     "view",
 ]
