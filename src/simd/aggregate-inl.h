@@ -37,11 +37,11 @@ class RowsOfBlock {
 HWY_INLINE Numbers number(double value) { return hn::Set(Doubles(), value); }
 
 HWY_INLINE void load_block(const PerLane<double>& from, std::size_t block, Block& to) {
-  for (std::size_t part = 0; part < kVectors; ++part) to[part] = hn::Load(Doubles(), &from[block + part * kLanes<Doubles>]);
+  for (std::size_t part = 0; part < kVectors; ++part) to[part] = hn::LoadU(Doubles(), &from[block + part * kLanes<Doubles>]);
 }
 
 HWY_INLINE void store_block(const Block& from, std::size_t block, PerLane<double>& to) {
-  for (std::size_t part = 0; part < kVectors; ++part) hn::Store(from[part], Doubles(), &to[block + part * kLanes<Doubles>]);
+  for (std::size_t part = 0; part < kVectors; ++part) hn::StoreU(from[part], Doubles(), &to[block + part * kLanes<Doubles>]);
 }
 
 HWY_INLINE void clear_block(Block& block) {
@@ -172,7 +172,7 @@ void set_weights(const Offsets& offsets, const KernelRadius& radius, bool square
     const auto raw = hn::Mul(rest, number(radius.inverse));
     auto weight = hn::IfThenElseZero(hn::Gt(raw, hn::Zero(d)), raw);  // the rim may be beyond it by rounding
     if (squared) weight = hn::Mul(weight, weight);
-    hn::Store(weight, d, &weights[i]);
+    hn::StoreU(weight, d, &weights[i]);
   }
 }
 
