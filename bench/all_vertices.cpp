@@ -117,7 +117,7 @@ std::vector<Timing> timings_by_isa() {
 
 /// The methods in the order of the table. `one_thread` and `two_threads` count more rows at once, and their wall-clock
 /// time is measured, and as `work` their processor time; `two_processes` is that of two processes, each of which counts
-/// all of these rows. `portable` to `avx512` count by one worker of the batch each.
+/// all of these rows. Those of `by_isa` count by one worker of the batch each.
 struct Row {
   double edges;
   double radius;

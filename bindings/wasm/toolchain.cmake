@@ -4,7 +4,11 @@ set(CMAKE_SYSTEM_PROCESSOR wasm32)
 set(CMAKE_CXX_COMPILER clang++-22)
 # Debian's libraries have the old name of this target, which clang 22 calls wasm32-wasip1.
 set(CMAKE_CXX_COMPILER_TARGET wasm32-wasi)
-set(CMAKE_CXX_FLAGS_INIT "-Wno-deprecated -fno-exceptions -fno-rtti -msimd128")
+set(CMAKE_CXX_FLAGS_INIT "-Wno-deprecated -fno-exceptions -fno-rtti")
+set(MESHHOOD_WASM_SIMD ON CACHE BOOL "Vectors of 128 bits, which all browsers have had since 2023")
+if(MESHHOOD_WASM_SIMD)
+  string(APPEND CMAKE_CXX_FLAGS_INIT " -msimd128")
+endif()
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-mexec-model=reactor")
 # Programs have no main function.
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)

@@ -37,11 +37,13 @@ class RowsOfBlock {
 HWY_INLINE Numbers number(double value) { return hn::Set(Doubles(), value); }
 
 HWY_INLINE void load_block(const PerLane<double>& from, std::size_t block, Block& to) {
-  for (std::size_t part = 0; part < kVectors; ++part) to[part] = hn::LoadU(Doubles(), &from[block + part * kLanes<Doubles>]);
+  for (std::size_t part = 0; part < kVectors; ++part)
+    to[part] = hn::LoadU(Doubles(), &from[block + part * kLanes<Doubles>]);
 }
 
 HWY_INLINE void store_block(const Block& from, std::size_t block, PerLane<double>& to) {
-  for (std::size_t part = 0; part < kVectors; ++part) hn::StoreU(from[part], Doubles(), &to[block + part * kLanes<Doubles>]);
+  for (std::size_t part = 0; part < kVectors; ++part)
+    hn::StoreU(from[part], Doubles(), &to[block + part * kLanes<Doubles>]);
 }
 
 HWY_INLINE void clear_block(Block& block) {
@@ -58,7 +60,8 @@ HWY_INLINE void add_exactly(RowSums& sums, std::size_t block, const Block& adden
   for (std::size_t part = 0; part < kVectors; ++part) {
     const auto sum = hn::Add(high[part], addends[part]);
     const auto rounded = hn::Sub(sum, high[part]);
-    low[part] = hn::Add(low[part], hn::Add(hn::Sub(high[part], hn::Sub(sum, rounded)), hn::Sub(addends[part], rounded)));
+    low[part] =
+        hn::Add(low[part], hn::Add(hn::Sub(high[part], hn::Sub(sum, rounded)), hn::Sub(addends[part], rounded)));
     high[part] = sum;
   }
   store_block(high, block, sums.high);

@@ -26,8 +26,8 @@ LaneMask within_float(const float* xyz, std::size_t size, const LeafBall& ball) 
   LaneMask outside = 0;
   for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Floats>) {
     const auto [x, y, z] = load_points(d, xyz + 3 * i);
-    const auto square = squared_length(hn::Sub(x, hn::Set(d, ball.x)), hn::Sub(y, hn::Set(d, ball.y)),
-                                       hn::Sub(z, hn::Set(d, ball.z)));
+    const auto square =
+        squared_length(hn::Sub(x, hn::Set(d, ball.x)), hn::Sub(y, hn::Set(d, ball.y)), hn::Sub(z, hn::Set(d, ball.z)));
     inside |= bits_of(d, hn::Le(square, hn::Set(d, ball.surely_inside))) << i;
     outside |= bits_of(d, hn::Gt(square, hn::Set(d, ball.surely_outside))) << i;
   }

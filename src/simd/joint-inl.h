@@ -142,9 +142,8 @@ class NeighborLists {
 
 SpreadWords spread_words(LeafWords& words, const LaneMask* adjacency, QueryWord whole) {
   const Words d;
-  const auto differing32 = [](const Words32& a, const Words32& b) HWY_ATTR {
-    return differing(a.low, b.low) | differing(a.high, b.high) << 16;
-  };
+  const auto differing32 = [](const Words32& a, const Words32& b)
+                               HWY_ATTR { return differing(a.low, b.low) | differing(a.high, b.high) << 16; };
   const Words32 inside{hn::Load(d, &words.inside[0]), hn::Load(d, &words.inside[16])};
   const Words32 before{hn::Load(d, &words.reached[0]), hn::Load(d, &words.reached[16])};
   Words32 reached{hn::Or(before.low, hn::And(hn::Load(d, &words.pending[0]), inside.low)),

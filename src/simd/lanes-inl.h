@@ -43,7 +43,7 @@ HWY_INLINE hn::Mask<D> mask_of(D d, LaneMask bits) {
 #else
   const hn::RebindToUnsigned<D> words;
   const auto of_lanes = hn::Set(words, 1) << hn::Iota(words, 0);
-  return hn::RebindMask(d, hn::TestBit(hn::Set(words, static_cast<hn::TFromD<decltype(words)>>(bits)), of_lanes));
+  return hn::RebindMask(d, hn::TestBit(hn::Set(words, static_cast<hn::TFromD<decltype(words)> >(bits)), of_lanes));
 #endif
 }
 
@@ -139,7 +139,8 @@ HWY_INLINE VectorOf<D> compressed(D d, VectorOf<D> numbers, LaneMask bits) {
   // Before each use, g++ 12 copies the tables of `hn::Compress` to the stack.
   if constexpr (sizeof(hn::TFromD<D>) == 4 && kLanes<D> == 8) {
     const hn::Rebind<std::uint8_t, D> bytes;
-    return hn::TableLookupLanes(numbers, hn::IndicesFromVec(d, hn::PromoteTo(d, hn::LoadU(bytes, kBitPositions[bits].data()))));
+    return hn::TableLookupLanes(numbers,
+                                hn::IndicesFromVec(d, hn::PromoteTo(d, hn::LoadU(bytes, kBitPositions[bits].data()))));
   } else if constexpr (sizeof(hn::TFromD<D>) == 4) {
     const hn::Repartition<std::uint8_t, D> bytes;
     return hn::BitCast(d, hn::TableLookupBytes(numbers, hn::Load(bytes, kBytePlaces[bits].data())));

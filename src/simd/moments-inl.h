@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `MomentKernels`, for the target that is being compiled; see targets.cpp. The loops run over queries or vertices that do
-// not depend on each other, so that vectors of any width give the same bits.
+// `MomentKernels`, for the target that is being compiled; see targets.cpp. The loops run over queries or vertices that
+// do not depend on each other, so that vectors of any width give the same bits.
 
 HWY_BEFORE_NAMESPACE();
 namespace meshhood::HWY_NAMESPACE {
@@ -115,7 +115,7 @@ void add_powers(const MomentPoints& points, std::size_t size, PartialMoments& su
 
 #if HWY_TARGET == HWY_AVX3
 /// The places of one of the factors of each power.
-constexpr std::array<std::uint64_t, PaddedMoments::kPadded> places_of(std::size_t Factors::*factor) {
+constexpr std::array<std::uint64_t, PaddedMoments::kPadded> places_of(std::size_t Factors::* factor) {
   std::array<std::uint64_t, PaddedMoments::kPadded> places{};
   for (std::size_t m = 0; m < places.size(); ++m) places[m] = kFactors[m].*factor;
   return places;
@@ -128,8 +128,8 @@ HWY_INLINE Numbers chosen(const Numbers& low, const std::uint64_t& places, const
   return Numbers{_mm512_permutex2var_pd(low.raw, _mm512_load_si512(&places), high.raw)};
 }
 
-/// The powers of point `i`, times its weight: products of two of the ten small ones, which a permutation brings to their
-/// places.
+/// The powers of point `i`, times its weight: products of two of the ten small ones, which a permutation brings to
+/// their places.
 HWY_INLINE void powers_of(const MomentPoints& points, std::size_t i, PaddedMoments& out) {
   const Doubles d;
   const auto one = number(1);
@@ -148,7 +148,8 @@ HWY_INLINE void powers_of(const MomentPoints& points, std::size_t i, PaddedMomen
   const auto weighted_high = hn::Mul(weight, high);
 #pragma GCC unroll 5
   for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kLanes<Doubles>) {
-    store(hn::Mul(chosen(weighted_low, kFirstPlaces[m], weighted_high), chosen(low, kSecondPlaces[m], high)), out.at[m]);
+    store(hn::Mul(chosen(weighted_low, kFirstPlaces[m], weighted_high), chosen(low, kSecondPlaces[m], high)),
+          out.at[m]);
   }
 }
 #else
@@ -181,8 +182,7 @@ HWY_INLINE std::uint64_t used_parts(QueryWord word) {
 /// As `MomentKernels::add_powers_by_word`. Finds the powers of eight points before it adds them, because a processor
 /// waits if it reads as a vector what it has just written number by number. The parts of eight words that are not 0 are
 /// the bits of one number, so that few branches cannot be predicted.
-void add_powers_by_word(const MomentPoints& points, std::span<const QueryWord> words,
-                                         MomentsByWord& sums) {
+void add_powers_by_word(const MomentPoints& points, std::span<const QueryWord> words, MomentsByWord& sums) {
   std::array<PaddedMoments, kEight> powers;
   for (std::size_t first = 0; first < words.size(); first += kEight) {
     const std::size_t count = std::min(kEight, words.size() - first);
@@ -197,7 +197,8 @@ void add_powers_by_word(const MomentPoints& points, std::span<const QueryWord> w
       const std::size_t part = bit % MomentsByWord::kParts;
       const QueryWord value = words[first + i] >> (MomentsByWord::kQueries * part) & (MomentsByWord::kValues - 1);
       PaddedMoments& sum = sums.at[part][value];
-      for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kLanes<Doubles>) add_to(sum.at[m], load(powers[i].at[m]));
+      for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kLanes<Doubles>)
+        add_to(sum.at[m], load(powers[i].at[m]));
     }
   }
 }
@@ -218,7 +219,7 @@ HWY_INLINE QueryWord greater(VectorOf<Floats> numbers, float limit) {
 
 /// Those of the queries `among` that vertex `i` faces. Single precision decides almost all.
 HWY_INLINE QueryWord facing(const NormalColumns& normals, const RoundedVectors& rounded, std::size_t i,
-                                         const FacingTest& test, QueryWord among) {
+                            const FacingTest& test, QueryWord among) {
   QueryWord surely = 0;
   QueryWord perhaps = 0;
   for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Floats>) {
@@ -335,7 +336,8 @@ void shift(QueryMoments& moments, const QueryVectors& by) {
     const QueryRow& t = *axes[step.axis];
     const QueryRow& from = moments.at[step.from];
     QueryRow& to = moments.at[step.to];
-    for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>) add_to(to[q], hn::Mul(load(t[q]), load(from[q])));
+    for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>)
+      add_to(to[q], hn::Mul(load(t[q]), load(from[q])));
   }
 }
 
@@ -353,7 +355,8 @@ void take(const QueryMoments& moments, Tensor<Degree>& out) {
 
 /// The products of three numbers with those that `by` has for the same queries.
 struct Contraction {
-  HWY_INLINE Contraction(const QueryVectors& by, std::size_t q) : x(load(by.x[q])), y(load(by.y[q])), z(load(by.z[q])) {}
+  HWY_INLINE Contraction(const QueryVectors& by, std::size_t q)
+      : x(load(by.x[q])), y(load(by.y[q])), z(load(by.z[q])) {}
   HWY_INLINE Numbers operator()(Numbers a, Numbers b, Numbers c) const {
     return hn::Add(hn::Add(hn::Mul(x, a), hn::Mul(y, b)), hn::Mul(z, c));
   }
@@ -386,8 +389,7 @@ void contract(const Tensor<1>& in, const QueryVectors& by, QueryRow& out) {
   }
 }
 
-void rotate_fourth(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v,
-                                    FrameMoments& out) {
+void rotate_fourth(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v, FrameMoments& out) {
   alignas(64) Tensor<4> all;
   alignas(64) Tensor<3> once;
   alignas(64) Tensor<2> uu;
@@ -408,8 +410,8 @@ void rotate_fourth(const QueryMoments& moments, const QueryVectors& u, const Que
   contract(last, v, out.u2v2);
 }
 
-void rotate_third(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v,
-                                   const QueryVectors& n, FrameMoments& out) {
+void rotate_third(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v, const QueryVectors& n,
+                  FrameMoments& out) {
   alignas(64) Tensor<3> all;
   alignas(64) Tensor<2> once;
   alignas(64) Tensor<1> last;
@@ -428,8 +430,8 @@ void rotate_third(const QueryMoments& moments, const QueryVectors& u, const Quer
   contract(last, n, out.uvn);
 }
 
-void rotate_second(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v,
-                                    const QueryVectors& n, FrameMoments& out) {
+void rotate_second(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v, const QueryVectors& n,
+                   FrameMoments& out) {
   alignas(64) Tensor<2> all;
   alignas(64) Tensor<1> last;
   take<2>(moments, all);
@@ -442,8 +444,8 @@ void rotate_second(const QueryMoments& moments, const QueryVectors& u, const Que
   contract(last, n, out.vn);
 }
 
-void rotate(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v,
-                             const QueryVectors& n, FrameMoments& out) {
+void rotate(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v, const QueryVectors& n,
+            FrameMoments& out) {
   rotate_fourth(moments, u, v, out);
   rotate_third(moments, u, v, n, out);
   rotate_second(moments, u, v, n, out);
@@ -517,13 +519,12 @@ void fit_quadrics(const FrameMoments& s, QueryQuadrics& out) {
 
 void fit_jets(const FrameMoments& s, const QueryVectors& sums, const QueryRow& counts, QueryQuadrics& out) {
   for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>) {
-    Numbers b[6][6]{
-        {load(s.u4[q])},
-        {load(s.u3v[q]), load(s.u2v2[q])},
-        {load(s.u2v2[q]), load(s.uv3[q]), load(s.v4[q])},
-        {load(s.u3[q]), load(s.u2v[q]), load(s.uv2[q]), load(s.uu[q])},
-        {load(s.u2v[q]), load(s.uv2[q]), load(s.v3[q]), load(s.uv[q]), load(s.vv[q])},
-        {load(s.uu[q]), load(s.uv[q]), load(s.vv[q]), load(sums.x[q]), load(sums.y[q]), load(counts[q])}};
+    Numbers b[6][6]{{load(s.u4[q])},
+                    {load(s.u3v[q]), load(s.u2v2[q])},
+                    {load(s.u2v2[q]), load(s.uv3[q]), load(s.v4[q])},
+                    {load(s.u3[q]), load(s.u2v[q]), load(s.uv2[q]), load(s.uu[q])},
+                    {load(s.u2v[q]), load(s.uv2[q]), load(s.v3[q]), load(s.uv[q]), load(s.vv[q])},
+                    {load(s.uu[q]), load(s.uv[q]), load(s.vv[q]), load(sums.x[q]), load(sums.y[q]), load(counts[q])}};
     Numbers right[6]{load(s.uun[q]), load(s.uvn[q]), load(s.vvn[q]), load(s.un[q]), load(s.vn[q]), load(sums.z[q])};
     const auto determinant = solve(b, right);
     store_fits(right, determinant, q, out);

@@ -40,8 +40,8 @@ Processor this_processor() {
     return processor;
   }
   const std::uint32_t saved = saved_registers();
-  processor.avx2 = has(saved, kSavesYmm) && has(basic, bit_AVX | bit_FMA | bit_F16C) &&
-                   has(extended, bit_AVX2 | bit_BMI | bit_BMI2);
+  processor.avx2 =
+      has(saved, kSavesYmm) && has(basic, bit_AVX | bit_FMA | bit_F16C) && has(extended, bit_AVX2 | bit_BMI | bit_BMI2);
   processor.avx512 = processor.avx2 && has(saved, kSavesZmm) &&
                      has(extended, bit_AVX512F | bit_AVX512BW | bit_AVX512DQ | bit_AVX512VL);
   return processor;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Which instructions this processor has, and its operating system allows. The compiler's `__builtin_cpu_supports` needs
-/// a library that not every compiler links; it then answers no.
+/// Which instructions this processor has, and its operating system allows. The compiler's `__builtin_cpu_supports`
+/// needs a library that not every compiler links; it then answers no.
 namespace meshhood {
 
 struct Processor {

@@ -37,7 +37,8 @@ struct Target {
 alignas(16) constexpr std::array<std::array<std::uint8_t, 16>, 16> kBytePlaces = [] {
   std::array<std::array<std::uint8_t, 16>, 16> lists{};
   for (std::size_t set = 0; set < 16; ++set) {
-    for (std::size_t i = 0; i < 16; ++i) lists[set][i] = static_cast<std::uint8_t>(4 * kBitPositions[set][i / 4] + i % 4);
+    for (std::size_t i = 0; i < 16; ++i)
+      lists[set][i] = static_cast<std::uint8_t>(4 * kBitPositions[set][i / 4] + i % 4);
   }
   return lists;
 }();
@@ -47,11 +48,11 @@ alignas(16) constexpr std::array<std::array<std::uint8_t, 16>, 16> kBytePlaces =
 
 // Assertions of Highway would need its library.
 #define HWY_IS_DEBUG_BUILD 0
-// The target without vector instructions: Highway avoids it before g++ 12.3 because of GCC bug 106322, which is about the
-// upper half of products of 16 bits. No kernel has any.
+// The target without vector instructions: Highway avoids it before g++ 12.3 because of GCC bug 106322, which is about
+// the upper half of products of 16 bits. No kernel has any.
 #define HWY_BROKEN_EMU128 0
-// On ARM, one target, without the instructions for cryptography that Highway would allow itself: not every processor has
-// them.
+// On ARM, one target, without the instructions for cryptography that Highway would allow itself: not every processor
+// has them.
 #if defined(__arm__) || defined(__aarch64__)
 #define TOOLCHAIN_MISS_SYS_AUXV_H
 #endif
@@ -62,25 +63,23 @@ alignas(16) constexpr std::array<std::array<std::uint8_t, 16>, 16> kBytePlaces =
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/targets.cpp"
-#include <hwy/foreach_target.h>
-
 #include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "simd/lanes-inl.h"
-// These use the last.
+#include "simd/wasm_doubles-inl.h"
+// In this order: each may use those before it.
 #include "simd/aggregate-inl.h"
 #include "simd/ball-inl.h"
 #include "simd/joint-inl.h"
+#include "simd/lanes-inl.h"
 #include "simd/moments-inl.h"
 
-HWY_BEFORE_NAMESPACE();
 namespace meshhood::HWY_NAMESPACE {
 namespace {
 constexpr Target kTarget{HWY_TARGET, &kBallKernels, &kJointKernels, &kAggregateKernels, &kMomentKernels};
 }  // namespace
 }  // namespace meshhood::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace meshhood {

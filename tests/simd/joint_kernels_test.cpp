@@ -270,9 +270,7 @@ TEST_P(EveryJointPath, WordsArePushedOverEveryEdge) {
   }
 }
 
-std::string path_name(const testing::TestParamInfo<Isa>& info) {
-  return name_of(info.param);
-}
+std::string path_name(const testing::TestParamInfo<Isa>& info) { return name_of(info.param); }
 
 INSTANTIATE_TEST_SUITE_P(All, EveryJointPath, testing::ValuesIn(available_isas()), path_name);
 

@@ -57,7 +57,8 @@ inline GroupContainment classify_group(const Group& group, const TreeBall& ball)
   return result;
 }
 
-inline void classify(const Group* groups, std::span<const std::uint32_t> list, const TreeBall& ball, GroupContainment* out) {
+inline void classify(const Group* groups, std::span<const std::uint32_t> list, const TreeBall& ball,
+                     GroupContainment* out) {
   for (const std::uint32_t group : list) *out++ = classify_group(groups[group], ball);
 }
 
@@ -100,8 +101,8 @@ inline float squared_distance_to_center(const LeafPoints& points, std::size_t la
   return (x * x + y * y) + z * z;
 }
 
-inline BallWords ball_words(const LeafPoints& points, LaneMask lanes, const PacketBalls& balls, PerLane<QueryWord>& inside,
-                     PerLane<QueryWord>& doubts) {
+inline BallWords ball_words(const LeafPoints& points, LaneMask lanes, const PacketBalls& balls,
+                            PerLane<QueryWord>& inside, PerLane<QueryWord>& doubts) {
   BallWords result{balls.queries, 0};
   inside = {};
   for (LaneMask left = lanes; left != 0; left &= left - 1) {
@@ -210,7 +211,8 @@ inline LaneMask lanes_of(const QueryWord* reached, unsigned query) {
   return lanes;
 }
 
-inline void write_row(std::span<const RowPiece> pieces, unsigned query, const VertexId* permutation, std::span<VertexId> out) {
+inline void write_row(std::span<const RowPiece> pieces, unsigned query, const VertexId* permutation,
+                      std::span<VertexId> out) {
   VertexId* next = out.data();
   const auto write = [&](std::uint32_t vertex) {
     *next++ = permutation == nullptr ? static_cast<VertexId>(vertex) : permutation[vertex];
