@@ -67,13 +67,14 @@ alignas(16) constexpr std::array<std::array<std::uint8_t, 16>, 16> kBytePlaces =
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+// clang-format off: each may use those before it.
 #include "simd/wasm_doubles-inl.h"
-// In this order: each may use those before it.
-#include "simd/aggregate-inl.h"
+#include "simd/lanes-inl.h"
 #include "simd/ball-inl.h"
 #include "simd/joint-inl.h"
-#include "simd/lanes-inl.h"
+#include "simd/aggregate-inl.h"
 #include "simd/moments-inl.h"
+// clang-format on
 
 namespace meshhood::HWY_NAMESPACE {
 namespace {
