@@ -10,6 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "meshhood/kernel_target.h"
+
 #include "support/exact_answer.h"
 #include "support/plain_kernels.h"
 #include "support/random.h"
@@ -155,6 +157,14 @@ TEST_P(EveryIsa, CompressKeepsTheOrder) {
       ASSERT_EQ(*next++, 100 + lane);
     }
   }
+}
+
+TEST(KernelTarget, IsTheLimitOfTheKernels) {
+  const Isa best = best_isa();
+  EXPECT_EQ(kernel_target(), name_of(best));
+  limit_isa(Isa{});
+  EXPECT_EQ(kernel_target(), name_of(Isa{}));
+  limit_isa(best);
 }
 
 std::string case_name(const testing::TestParamInfo<Isa>& isa) { return name_of(isa.param); }
