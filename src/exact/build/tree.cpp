@@ -37,9 +37,13 @@ Spheres spheres_of(const Group& group, std::size_t count) {
   return result;
 }
 
-/// A sphere of radius 0.
+/// A sphere of radius 0. The coordinates are rounded through memory: where they are converted back at once, g++ 12
+/// would measure the radius from those that are not rounded (docs/decisions.md, "A compiler trap").
 FrameSphere rounded(const Point& center) {
-  return {static_cast<float>(center.x), static_cast<float>(center.y), static_cast<float>(center.z), 0};
+  volatile float x = static_cast<float>(center.x);
+  volatile float y = static_cast<float>(center.y);
+  volatile float z = static_cast<float>(center.z);
+  return {x, y, z, 0};
 }
 
 void set_radius(FrameSphere& sphere, double farthest_squared) {
