@@ -288,7 +288,8 @@ class Session {
       const double maximum = *std::ranges::max_element(ids);
       const bool right = sums[row] == sum && counts[row] == static_cast<double>(ids.size()) && maxima[row] == maximum;
       // The query vertex has the weight 1, so the mean is a number.
-      if (!right || !(means[row] >= -1e-9 && means[row] <= maximum + 1e-9)) fail("an aggregate differs");
+      const bool mean_is_within = means[row] >= -1e-9 && means[row] <= maximum + 1e-9;
+      if (!right || !mean_is_within) fail("an aggregate differs");
     }
   }
 

@@ -21,6 +21,8 @@ namespace {
 
 constexpr double kLargestCoordinate = 0x1p500;  // see `validate`
 constexpr double kLargestInFrame = 1e18;        // the centers of nodes that do not exist
+constexpr std::size_t kLeafCoordinates = std::size_t{3} * kLeafCapacity;
+constexpr std::size_t kPaddedEdges = std::size_t{3} * kLeafCapacity;
 
 /// The next number; 0 instead of a number that no index holds.
 template <class Real>
@@ -30,8 +32,8 @@ Real take_real(Bytes& bytes, double most) {
 }
 
 template <class Real>
-std::array<Real, 3 * kLeafCapacity> take_leaf(Bytes& bytes, std::size_t size) {
-  std::array<Real, 3 * kLeafCapacity> xyz{};
+std::array<Real, kLeafCoordinates> take_leaf(Bytes& bytes, std::size_t size) {
+  std::array<Real, kLeafCoordinates> xyz{};
   xyz.fill(std::numeric_limits<Real>::quiet_NaN());  // the padding may hold anything
   for (Real& x : std::span(xyz).first(3 * size)) x = take_real<Real>(bytes, kLargestCoordinate);
   return xyz;
@@ -73,7 +75,7 @@ void compare_distances(Bytes bytes, const Kernels& tried) {
 }
 
 void compare_edges(Bytes bytes, const Kernels& tried) {
-  std::array<CrossEdge, 3 * kLeafCapacity> padded{};
+  std::array<CrossEdge, kPaddedEdges> padded{};
   for (CrossEdge& edge : padded) {
     edge = {static_cast<std::uint8_t>(bytes.take<std::uint8_t>() % kLeafCapacity),
             static_cast<std::uint8_t>(bytes.take<std::uint8_t>() % kLeafCapacity)};

@@ -2,6 +2,8 @@
 // Sets of numbers against std::set.
 #include "base/number_set.h"
 
+#include <cstddef>
+#include <ranges>
 #include <set>
 #include <vector>
 
@@ -42,7 +44,7 @@ TEST(NumberSet, HasEveryNumberBelowItsBound) {
   NumberSet set(kBound);
   std::vector<std::size_t> all;
   for (std::size_t number = 0; number < kBound; ++number) all.push_back(number);
-  for (auto number = all.rbegin(); number != all.rend(); ++number) set.insert(*number);
+  for (const std::size_t number : std::views::reverse(all)) set.insert(number);
   EXPECT_EQ(taken(set), all);
 }
 

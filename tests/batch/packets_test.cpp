@@ -168,7 +168,6 @@ TEST_F(Packets, HaveEachRowOnceWithItsVertexAndRadius) {
 
 TEST_F(Packets, SumASignalAsTheReferenceDoes) {
   std::vector<double> by_id(signal.size());
-  std::vector<double> whole_numbers;
   for (std::size_t i = 0; i < signal.size(); ++i) {
     signal[i] = std::round(1000 * signal[i]);
     by_id[index.permutation()[i]] = signal[i];

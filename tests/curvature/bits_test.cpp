@@ -121,7 +121,8 @@ TEST(Bits, OfARowDependOnIndexVertexAndRadiusAloneOnEveryFamily) {
     const Surface s(std::move(mesh));
     const Adjacency graph = adjacency(s.mesh.view());
     const double edge = mean_edge_length(GraphView{s.mesh.view().positions, graph.view()});
-    if (!(edge > 0 && 4 * edge < std::numeric_limits<double>::infinity())) continue;
+    const bool radii_are_valid = edge > 0 && 4 * edge < std::numeric_limits<double>::infinity();
+    if (!radii_are_valid) continue;
     for (const double edges : {1.2, 4.0}) expect_equal_bits(s, edges * edge, random);
     ++meshes;
   }

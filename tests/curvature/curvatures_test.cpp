@@ -230,7 +230,7 @@ TEST(Curvatures, OfJetsAreThoseOfAnyUnit) {
 }
 
 TEST(Curvatures, ScaleByPowersOfTwoBitForBit) {
-  TestMesh mesh = bumpy_grid(30).finish(false);
+  const TestMesh mesh = bumpy_grid(30).finish(false);
   const Case one(mesh);
   const Curvatures expected = curvatures(one.surface, {.radius = 3.0});
   for (const int exponent : {-480, -300, -3, 5, 300, 480}) {

@@ -51,7 +51,7 @@ Expected moments_of(const TestMesh& mesh, const std::vector<std::uint32_t>& ids,
                     const std::vector<double>& weights) {
   Expected expected;
   for (const std::uint32_t w : ids) {
-    double p[3];
+    std::array<double, 3> p{};
     for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = mesh.positions[3 * w + axis] - mesh.positions[3 * v + axis];
     const double size = std::hypot(p[0], p[1], p[2]);
     for (unsigned i = 0; i <= 4; ++i) {
@@ -126,7 +126,7 @@ TEST_P(MomentsOfAGradedMesh, KeepTheirBound) {
   const TestMesh mesh = graded_mesh(GetParam());
   const Oracle oracle(mesh);
   const Index index = build(mesh.view());
-  std::vector<double> areas = vertex_areas(mesh.view());  // of the corners 10^14 times those of the patch
+  const std::vector<double> areas = vertex_areas(mesh.view());  // of the corners 10^14 times those of the patch
   double worst = 0;
   for (const double radius : {0.0, 0.011, 0.05, 0.3}) {
     for (const std::vector<double>& weights : {std::vector<double>(), areas}) {
@@ -148,7 +148,7 @@ TEST_P(MomentsOfAGradedMesh, KeepTheirBound) {
 INSTANTIATE_TEST_SUITE_P(Sizes, MomentsOfAGradedMesh, testing::Values(1, 1e2, 1e4, 1e6));
 
 TEST(Moments, OfTinyNeighborhoodsAreThoseOfTheirVertices) {
-  TestMesh mesh = bumpy_grid(12).finish(false);
+  const TestMesh mesh = bumpy_grid(12).finish(false);
   const Index index = build(mesh.view());
   std::vector<double> radii(mesh.size(), 3.0);
   for (std::size_t v = 0; v < radii.size(); v += 7) radii[v] = 1e-320;

@@ -117,7 +117,7 @@ TEST(SerializeEdges, HandlesNoVerticesOneVertexAndIsolatedVertices) {
 TEST(SerializeEdges, AMappedIndexKeepsItsOwner) {
   const TestMesh mesh = make_grid(20, 20, false).finish(true);
   auto owner = std::make_shared<Mappable>(saved(build(mesh.view())));
-  std::weak_ptr<Mappable> watch = owner;
+  const std::weak_ptr<Mappable> watch = owner;
   const auto bytes = owner->bytes();
   {
     const Index index = map(bytes, std::move(owner));

@@ -156,7 +156,7 @@ TEST(IsConnected, AgreesWithTheTransitiveClosure) {
   std::size_t connected = 0;
   const std::size_t leaves = scaled(20000, 1000);
   for (std::size_t i = 0; i < leaves; ++i) {
-    const unsigned size = static_cast<unsigned>(random.below(kLeafCapacity + 1));
+    const auto size = static_cast<unsigned>(random.below(kLeafCapacity + 1));
     std::vector<LaneMask> adjacency(kLeafCapacity, 0);
     for (std::size_t edge = 0; size > 0 && edge < random.below(3 * size); ++edge) {
       const std::size_t a = random.below(size);

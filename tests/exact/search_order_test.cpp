@@ -101,7 +101,7 @@ struct Questions {
 std::vector<std::vector<std::uint32_t>> orders_of(std::size_t queries, Random& random) {
   std::vector<std::vector<std::uint32_t>> orders(1);
   for (std::uint32_t i = 0; i < queries; ++i) orders[0].push_back(i);
-  orders.push_back({orders[0].rbegin(), orders[0].rend()});
+  orders.emplace_back(orders[0].rbegin(), orders[0].rend());
   for (int i = 0; i < 2; ++i) orders.push_back(random.permutation(queries));
   return orders;
 }

@@ -204,7 +204,7 @@ TEST(Rare, BallThroughManyFoldsIsSearchedAgainFromSmallNodes) {
   ExactAnswer exact(mesh.view());
   for (Searcher& searcher : exact.searchers()) {
     static_cast<void>(searcher.count(middle_of_accordion(60, 24), 21));
-    SearcherAccess::State& state = SearcherAccess::state(searcher);
+    const SearcherAccess::State& state = SearcherAccess::state(searcher);
     ASSERT_EQ(state.way, Way::Component);
     EXPECT_EQ(level_of(state.reach.top_groups()[0], *state.index), 0U);
   }
@@ -217,7 +217,7 @@ TEST(Rare, AnswerThatIsSmallBesideWhatWasReachedIsSearchedLeafByLeaf) {
   ExactAnswer exact(mesh.view());
   for (Searcher& searcher : exact.searchers()) {
     static_cast<void>(searcher.count(middle_of_accordion(40, 40), 18.5));
-    SearcherAccess::State& state = SearcherAccess::state(searcher);
+    const SearcherAccess::State& state = SearcherAccess::state(searcher);
     EXPECT_EQ(state.way, Way::LeafBfs);
     EXPECT_GT(state.reach.surface_leaves().size(), 100U);
   }
@@ -277,7 +277,8 @@ TEST(Rare, SurfacesOfManyComponents) {
     const auto first = static_cast<std::uint32_t>(mesh.size());
     const std::array<double, 3> corner{random.uniform(0, 300), random.uniform(0, 300), random.uniform(0, 300)};
     for (std::size_t k = 0; k < kSheet; ++k) {
-      mesh.add_vertex(corner[0] + static_cast<double>(k % 6), corner[1] + static_cast<double>(k / 6), corner[2]);
+      const std::size_t row = k / 6;
+      mesh.add_vertex(corner[0] + static_cast<double>(k % 6), corner[1] + static_cast<double>(row), corner[2]);
     }
     for (std::uint32_t k = 0; k + 7 < kSheet; ++k) {
       if (k % 6 < 5) mesh.add_face({first + k, first + k + 1, first + k + 7, first + k + 6});

@@ -22,7 +22,7 @@ void for_each_ball_before_the_fold(const TestMesh& mesh, F&& f) {
   const Oracle oracle(mesh);
   const Index index = build(mesh.view());
   for (Searcher& searcher : searchers_of(index)) {
-    SearcherAccess::State& state = SearcherAccess::state(searcher);
+    const SearcherAccess::State& state = SearcherAccess::state(searcher);
     for (std::uint32_t row = 40; row < 80; row += 5) {
       for (const double below : {0.5, 1.5, 3.5}) {
         const VertexId v = row * kFoldRow + kFoldRow / 2;

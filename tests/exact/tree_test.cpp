@@ -2,6 +2,7 @@
 #include "exact/build/tree.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <vector>
@@ -95,7 +96,7 @@ void for_each_node_above(const RandomLeaves& leaves, const TreeArrays& tree, std
   }
 }
 
-constexpr std::size_t kSizes[] = {1, 2, 7, 8, 9, 64, 65, 600};
+constexpr std::array<std::size_t, 8> kSizes = {1, 2, 7, 8, 9, 64, 65, 600};
 
 TEST(Tree, SpheresEncloseTheVerticesBelowWithRoomForSinglePrecision) {
   Random random(1);

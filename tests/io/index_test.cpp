@@ -94,7 +94,7 @@ TEST_F(IndexFile, IsLoadedFromAPipe) {
   const auto pipe = scratch.path() / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   std::thread writer([&] {
-    std::ifstream from(file, std::ios::binary);
+    const std::ifstream from(file, std::ios::binary);
     std::ofstream(pipe, std::ios::binary) << from.rdbuf();
   });
   const Index loaded = io::load(pipe);

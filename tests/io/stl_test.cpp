@@ -71,7 +71,7 @@ TEST(Stl, ABinaryFileMayBeginWithSolid) {
     EXPECT_TRUE(mesh.warnings.empty()) << header;
     EXPECT_EQ(warned(read("a.stl", binary_stl({kTriangle}, header) + "x"), "after the last facet"), 1U) << header;
   }
-  std::string blank_header = binary_stl({kTriangle}, "solid" + std::string(75, ' '));
+  const std::string blank_header = binary_stl({kTriangle}, "solid" + std::string(75, ' '));
   EXPECT_EQ(face_count(read("no_ending", blank_header)), 1U);
 }
 
@@ -151,9 +151,10 @@ TEST(Stl, WeldingOfManyCornersEqualsAnOrderedMap) {
   std::size_t corners = 0;
   for (const int range : {1, 20, 90, 100000}) {
     std::vector<std::array<float, 9>> triangles(scaled(150'000, 70'000));
+    const int middle = range / 2;
     for (auto& triangle : triangles) {
       for (float& number : triangle)
-        number = static_cast<float>(static_cast<int>(random() % static_cast<unsigned>(range)) - range / 2);
+        number = static_cast<float>(static_cast<int>(random() % static_cast<unsigned>(range)) - middle);
     }
     const auto mesh = read("a.stl", binary_stl(triangles));
     EXPECT_EQ(mesh.corners, welded_by_map(triangles)) << range;

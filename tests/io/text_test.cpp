@@ -124,7 +124,7 @@ TEST(Text, EveryFloatReadsBackFromItsShortestText) {
   std::vector<float> numbers;
   std::array<char, 32> text = {};
   while (numbers.size() < 300000) {
-    const float number = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+    const auto number = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
     if (!std::isfinite(number)) continue;
     numbers.push_back(number);
     const int length = std::snprintf(text.data(), text.size(), "%.9g", static_cast<double>(number));

@@ -154,10 +154,10 @@ TEST(Build, PermutationHasEachVertexOnce) {
 TEST(Build, IndexOutlivesTheMeshAndCanBeMoved) {
   const TestMesh mesh = make_grid(10, 10, false);
   paper::Index index = [&] {
-    const TestMesh copy = mesh;
+    const TestMesh copy = mesh;  // NOLINT(performance-unnecessary-copy-initialization): destroyed before the index
     return paper::build(copy.view());
   }();
-  paper::Index moved = std::move(index);
+  const paper::Index moved = std::move(index);
   index = paper::build(mesh.view());
   EXPECT_TRUE(same_index(index, moved));
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -63,7 +64,7 @@ TEST(CutTree, HasNoPartNearbyThatOwnsNothing) {
   tree.find_near({0, 0, 0}, std::numeric_limits<double>::infinity(), near);
   EXPECT_THAT(near, testing::IsEmpty());
   tree.add({{1, 1, 1}, 0});
-  tree.find_near({0, 0, 0}, squared_radius(std::sqrt(3.0)), near);
+  tree.find_near({0, 0, 0}, squared_radius(std::numbers::sqrt3), near);
   EXPECT_EQ(near.size(), 1U);
   tree.find_near({0, 0, 0}, squared_radius(1.7), near);
   EXPECT_THAT(near, testing::IsEmpty());

@@ -249,7 +249,7 @@ TEST_F(Folder, IsRefusedIfItsManifestContradictsItself) {
   refuses("'plan/precision' is 'half'", "\"float\"", "\"half\"");
   refuses("'plan/halo' is -3", "\"halo\": 3.0", "\"halo\": -3.0");
   refuses("'plan/halo' is not a number", "\"halo\": 3.0", "\"halo\": null");
-  refuses("'parts' is not an array", "\"parts\": [", "\"parts\": 1, \"others\": [");
+  refuses("'parts' is not an array", R"("parts": [)", R"("parts": 1, "others": [)");
   refuses("lists 4 parts of 5", "\"parts\": 4", "\"parts\": 5");
   refuses("the parts own 900 vertices of 901", "\"vertices\": 900", "\"vertices\": 901");
   refuses("a part that owns", "\"owned\": 2", "\"owned\": 9002");

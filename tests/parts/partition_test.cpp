@@ -3,10 +3,12 @@
 #include "parts/partition.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <map>
+#include <numbers>
 #include <set>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -43,8 +45,8 @@ std::vector<Face> faces_of(const OpenPart& part) {
   const bool triangles = part.offsets.empty();
   const std::size_t count = triangles ? part.corners.size() / 3 : part.offsets.size() - 1;
   for (std::size_t f = 0; f < count; ++f) {
-    const auto begin = static_cast<std::size_t>(triangles ? 3 * f : static_cast<std::size_t>(part.offsets[f]));
-    const auto end = static_cast<std::size_t>(triangles ? 3 * f + 3 : static_cast<std::size_t>(part.offsets[f + 1]));
+    const auto begin = triangles ? 3 * f : static_cast<std::size_t>(part.offsets[f]);
+    const auto end = triangles ? 3 * f + 3 : static_cast<std::size_t>(part.offsets[f + 1]);
     Face face;
     for (std::size_t i = begin; i < end; ++i) {
       face.push_back(static_cast<std::uint32_t>(part.ids[static_cast<std::size_t>(part.corners[i])]));
@@ -64,7 +66,7 @@ std::vector<Face> faces_of(const TestMesh& mesh) {
 std::vector<Face> faces_around(const std::vector<Face>& faces, const std::set<std::uint32_t>& vertices) {
   std::vector<Face> result;
   std::copy_if(faces.begin(), faces.end(), std::back_inserter(result), [&](const Face& face) {
-    return std::any_of(face.begin(), face.end(), [&](std::uint32_t v) { return vertices.count(v) != 0; });
+    return std::any_of(face.begin(), face.end(), [&](std::uint32_t v) { return vertices.contains(v); });
   });
   return result;
 }
@@ -72,8 +74,8 @@ std::vector<Face> faces_around(const std::vector<Face>& faces, const std::set<st
 /// Checks all parts of a folder against the oracle, and returns the number of queries.
 class Checker {
  public:
-  Checker(const TestMesh& mesh, const std::filesystem::path& folder, const Manifest& manifest)
-      : mesh_(mesh), oracle_(mesh), folder_(folder), manifest_(manifest), owners_(mesh.size()) {}
+  Checker(const TestMesh& mesh, std::filesystem::path folder, const Manifest& manifest)
+      : mesh_(mesh), oracle_(mesh), folder_(std::move(folder)), manifest_(manifest), owners_(mesh.size()) {}
 
   std::size_t check(Random& random, std::size_t vertices_per_part) {
     for (std::size_t number = 0; number < manifest_.parts.size(); ++number) {
@@ -186,7 +188,7 @@ TEST(PartitionOfDuplicates, AreSeparatedByIdAndAnsweredExactly) {
   for (int i = 0; i < 50; ++i) mesh.add_vertex(5, 5, 0);
   mesh.finish(true);
   Random random(1);
-  for (const double halo : {0.0, 1.0, 3.0, std::sqrt(2.0)}) {
+  for (const double halo : {0.0, 1.0, 3.0, std::numbers::sqrt2}) {
     EXPECT_GT(check_parts(mesh, {.parts = 7, .halo = halo}, random), 0U);
   }
 }
@@ -251,7 +253,7 @@ TEST(PartitionBytes, DependOnNeitherMemoryNorThreadsNorNumberOfRuns) {
   const Scratch scratch;
   const auto a = scratch.path() / "a";
   const auto b = scratch.path() / "b";
-  PartitionOptions options{.parts = 8, .halo = 3, .memory = parts::kLeastMemory};
+  const PartitionOptions options{.parts = 8, .halo = 3, .memory = parts::kLeastMemory};
   make_parts(mesh, a, options);
   make_parts(mesh, b, {.parts = 8, .halo = 3, .memory = std::uint64_t{1} << 32, .threads = 2});
   for (const auto& entry : std::filesystem::recursive_directory_iterator(a)) {

@@ -93,12 +93,10 @@ TEST_F(Arguments, RadiusInfiniteIsTheComponent) {
 }
 
 TEST_F(Arguments, RadiusRatioIsPositiveAndFinite) {
-  std::vector<VertexId> out{7};
   for (const double factor : {kNan, 0.0, -0.0, -1.0, kInfinity}) {
     expect_refused(ErrorCode::InvalidOption, "radius_ratio is ",
                    [&] { paper_searcher.set_options({.radius_ratio = factor}); });
   }
-  EXPECT_THAT(out, ElementsAre(7));
 }
 
 TEST_F(Arguments, VertexOutOfRangeIsRefusedAndNeverWraps) {

@@ -214,7 +214,6 @@ TEST(VertexBfs, AnswersOfASearcherAroundHubsAreThoseOfTheOracle) {
 TEST(VertexBfs, AnswersOfAReorderedIndexAreInItsOwnOrder) {
   const TestMesh mesh = make_hubs(1500, 2);
   const ReorderedMesh reordered = reorder(mesh.view());
-  TestMesh renamed = mesh;
   std::vector<std::uint32_t> place(mesh.size());
   for (std::size_t i = 0; i < place.size(); ++i) place[reordered.permutation[i]] = static_cast<std::uint32_t>(i);
   compare_answers(renumbered(mesh, place), reordered.index);
