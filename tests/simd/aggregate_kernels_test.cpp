@@ -31,8 +31,8 @@ class EveryAggregatePath : public testing::TestWithParam<Isa> {
     return random.uniform(-1, 1) * std::exp2(random.uniform(-60, 60));
   }
 
-  template <std::size_t size>
-  void fill(std::array<double, size>& numbers) {
+  template <std::size_t Size>
+  void fill(std::array<double, Size>& numbers) {
     for (double& value : numbers) value = number();
   }
 
