@@ -96,11 +96,8 @@ def in_child(end):
 eval(call)
 """
 
-# With the short interval, threads wait for the lock anywhere in Python code, also in code that C++ functions run. With
-# that of Python, they nearly always wait where they have released it.
 AT_ANY_MOMENT = """
 def end():
-    sys.setswitchinterval(random.choice((0.005, 1e-6)))
     for _ in range(2):
         threading.Thread(target=run, daemon=True).start()
     time.sleep(random.choice((0, 0.001, 0.003, 0.01, 0.03)))
