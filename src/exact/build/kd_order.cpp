@@ -43,7 +43,7 @@ class Intervals {
   Intervals(float low, float high, std::size_t points)
       : count_(std::clamp<std::size_t>(points / 4, 2, kMost)),
         low_(low),
-        per_unit_(static_cast<float>(count_) / (high - low)) {}
+        per_unit_(low < high ? static_cast<float>(count_) / (high - low) : std::numeric_limits<float>::infinity()) {}
 
   [[nodiscard]] std::size_t count() const { return count_; }
 
