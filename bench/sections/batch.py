@@ -11,7 +11,8 @@ NOTE = """`{command}`: the neighborhoods of many vertices in one call, in index 
 time in µs a row. `bfs` is breadth-first search on the mesh in index order, warm. *One* queries the exact index for one
 vertex after another, *batch* for all in one call; each computes sizes (count) and ids. × is the ratio to `bfs`. The
 vertices stand for all: they are stretches of some 900 consecutive vertices, evenly spread over the mesh, 40,000 in all;
-above 10 mean edges of 450, 4,000 in all. `bfs` and *one* take the first eighth or tenth of each stretch.
+above 10 mean edges of 450, 4,000 in all. `bfs` and *one* take the first eighth or tenth of each stretch. The figures are
+of the kernels before the present ones, and have to be measured again.
 
 """
 
@@ -22,8 +23,8 @@ OTHERS_NOTE = """
 processes*: how many times as fast two processes on two processors, each with one thread and the same rows, are as one
 of them alone. They share nothing that they write, so this is what the machine allows for two threads. *Work*: the
 processor time of two threads, as a multiple of that of one; unlike the others it hardly depends on what else the
-machine does. *AVX2* and
-*portable*: the speed of the kernels for these processors as a part of that of the best ones here, counts. *Python*:
+machine does. *AVX2* and *portable*: the speed of the kernels for AVX2, and of those without vector instructions, as a
+part of that of the best ones here, counts. *Python*:
 `query_ball`, kept in one array, in µs a row, and its time over that of the same call of C++, `neighborhoods`; called in
 turn, one thread, processor time, with memory from the same allocator with the same settings.
 
