@@ -59,11 +59,11 @@ struct AggregateCommand {
   std::string output;
 };
 
-std::vector<double> weights_of(const AggregateCommand& options, const Input& input) {
+std::vector<double> weights_of(const AggregateCommand& options, Input& input) {
   if (options.weights.empty()) return {};
   if (options.weights == "area") {
     input.need_faces("--weights area");
-    return vertex_areas(input.mesh()->view());
+    return vertex_areas(input.surface());
   }
   return read_channel(options.weights, input.vertex_count(), "weights");
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -31,6 +32,7 @@ struct BuildCommand {
   std::string mesh;
   std::string index = "exact";
   std::string cut;
+  bool faces = false;
   unsigned threads = kAllThreads;
   bool json = false;
   std::string output;
@@ -44,17 +46,17 @@ struct Summary {
 };
 
 template <class AnyIndex>
-void save(const std::string& file, const AnyIndex& index) {
+void save(const std::string& file, const AnyIndex& index, const std::optional<FacesView>& faces) {
   Task task("writing " + file);
-  io::save(file, index, {.progress = task.progress()});
+  io::save(file, index, {.faces = faces, .progress = task.progress()});
 }
 
 template <class Build>
-Summary build_and_save(const std::string& file, Build&& build) {
+Summary build_and_save(const std::string& file, const std::optional<FacesView>& faces, Build&& build) {
   const auto start = std::chrono::steady_clock::now();
   const auto index = build();
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  save(file, index);
+  save(file, index, faces);
   std::error_code not_regular;
   const std::uintmax_t bytes = std::filesystem::file_size(file, not_regular);
   const std::vector<LevelSummary> levels = index.levels();
@@ -79,9 +81,9 @@ std::string to_text(const BuildCommand& options, const Summary& summary) {
 }
 
 template <class Mesh>
-Summary build_and_save(const BuildCommand& options, const Mesh& mesh) {
-  if (options.index == "paper") return build_and_save(options.output, [&] { return build_paper_index(mesh); });
-  return build_and_save(options.output, [&] { return build_exact_index(mesh, options.threads); });
+Summary build_and_save(const BuildCommand& options, const Mesh& mesh, const std::optional<FacesView>& faces) {
+  if (options.index == "paper") return build_and_save(options.output, faces, [&] { return build_paper_index(mesh); });
+  return build_and_save(options.output, faces, [&] { return build_exact_index(mesh, options.threads); });
 }
 
 /// The graph of the mesh without the edges that `file` lists.
@@ -96,14 +98,18 @@ Adjacency cut_graph(const MeshView& mesh, const std::string& file) {
 }
 
 void build(const BuildCommand& options) {
+  if (options.faces && options.index == "paper") {
+    raise(ErrorCode::InvalidOption, "--faces: the index of the paper is saved without faces; expected --index exact");
+  }
   check_output(options.output, {options.mesh, options.cut});
   const io::Mesh mesh = read_mesh(options.mesh, options.threads);
+  const std::optional<FacesView> faces = options.faces ? std::optional(mesh.view().faces) : std::nullopt;
   Summary summary{};
   if (options.cut.empty()) {
-    summary = build_and_save(options, mesh.view());
+    summary = build_and_save(options, mesh.view(), faces);
   } else {
     const Adjacency rest = cut_graph(mesh.view(), options.cut);
-    summary = build_and_save(options, GraphView{mesh.view().positions, rest.view()});
+    summary = build_and_save(options, GraphView{mesh.view().positions, rest.view()}, faces);
   }
   print_result(options.json, to_json(options, summary), to_text(options, summary));
 }
@@ -118,6 +124,8 @@ void add_build(CLI::App& program) {
              options->index);
   add_file_option(*command, "--cut", "a list of edges that no search crosses: on each line the two vertices of one",
                   options->cut);
+  command->add_flag("--faces", options->faces,
+                    "save the faces with the index, for the commands that need them, such as curvature");
   add_threads(*command, options->threads);
   add_output(*command, ".mhi", "index file to write", options->output)->required();
   add_json(*command, options->json);

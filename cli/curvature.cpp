@@ -104,7 +104,7 @@ void curvature(const CurvatureCommand& options) {
   const std::vector<double> radii = resolve(options.radii, input);
   const QueryVertices vertices(options.vertices, input.vertex_count());
   const Index& index = input.exact_index(options.threads);
-  const CurvatureIndex surface = CurvatureIndex::build(index, input.mesh()->view());
+  const CurvatureIndex surface = CurvatureIndex::build(index, input.surface());
   CurvatureOptions settings = options.like_libigl ? like_libigl() : CurvatureOptions{};
   settings.filter = !options.no_filter;
   settings.threads = options.threads;

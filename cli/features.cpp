@@ -105,8 +105,8 @@ struct FeaturesFound {
 FeaturesFound compute(const FeaturesCommand& options, Input& input) {
   FeaturesFound found{radii_of(options, input), options.kinds.size(), {}, {}};
   static_cast<void>(persistence({}, found.radii, options.threshold));  // refuses wrong radii before the work begins
-  const CurvatureIndex surface = CurvatureIndex::build(input.exact_index(options.threads), input.mesh()->view());
-  const std::vector<double> areas = vertex_areas(input.mesh()->view());
+  const CurvatureIndex surface = CurvatureIndex::build(input.exact_index(options.threads), input.surface());
+  const std::vector<double> areas = vertex_areas(input.surface());
   Task task("measuring", {"rows", static_cast<double>(found.radii.size())});
   found.values = features(surface, {}, found.radii,
                           {.kinds = kinds_of(options),
@@ -221,7 +221,7 @@ void features_command(const FeaturesCommand& options) {
   input.need_faces("features");
   const FeaturesFound found = compute(options, input);
   if (!options.output.empty()) write_npz(options, found);
-  if (!options.ply.empty()) write_ply(options, found, input.mesh()->view());
+  if (!options.ply.empty()) write_ply(options, found, input.surface());
   print(options, found);
 }
 

@@ -77,9 +77,10 @@ void Input::need_edges(const std::string& purpose) const {
 }
 
 void Input::need_faces(const std::string& purpose) const {
-  if (mesh_) return;
+  if (mesh_ || (exact_ && exact_->faces())) return;
   raise(ErrorCode::InvalidOption,
-        fmt::format("{}: {} needs the faces of the mesh, which an index does not contain; name the mesh",
+        fmt::format("{}: {} needs the faces of the mesh, which this index does not contain; name the mesh, or an index "
+                    "that was built with --faces",
                     printable_name(name_), purpose));
 }
 
@@ -104,7 +105,8 @@ GraphView Input::graph() {
 
 MeshView Input::surface() {
   if (mesh_) return mesh_->view();
-  print_error("warning: ", name_ + ": an index has no faces, so the picture has only vertices");
+  if (exact_ && exact_->faces()) return {positions(), *exact_->faces()};
+  print_error("warning: ", name_ + ": this index has no faces, so the picture has only vertices");
   return {positions(), FacesView{}};
 }
 

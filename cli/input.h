@@ -20,8 +20,8 @@ inline constexpr unsigned kAllThreads = 0;
 
 /// FILE: a mesh, or an index, which represents the mesh it was built from.
 ///
-/// Each form is derived from the content of the file when it is first needed. Only a mesh has faces. An index of
-/// the paper has no edges; commands that need edges call `need_edges` first.
+/// Each form is derived from the content of the file when it is first needed. Of indexes, only an exact one that was
+/// saved with faces has faces. An index of the paper has no edges; commands that need edges call `need_edges` first.
 class Input {
  public:
   /// Reads `file` and prints the warnings of the reader. Throws as `io::read_mesh` and `io::load`.
@@ -53,7 +53,7 @@ class Input {
   /// The file must have edges.
   [[nodiscard]] GraphView graph();
 
-  /// The mesh for a picture; of an index the vertices without faces, with a warning.
+  /// The mesh; of an index without faces only the vertices, with a warning that a picture has only these.
   [[nodiscard]] MeshView surface();
 
   /// The file must have edges.

@@ -7,8 +7,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <type_traits>
-#include <variant>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -40,29 +38,19 @@ struct RegionCommand {
   bool json = false;
 };
 
-void write_mesh(const std::string& file, const io::Mesh& whole, const Submesh& part) {
+void write_mesh(const std::string& file, const PositionsView& whole, const Submesh& part) {
   Task task("writing " + file);
-  std::visit(
-      [&](const auto& all) {
-        std::remove_cvref_t<decltype(all)> positions;
-        for (const VertexId v : part.vertices) {
-          const auto first = all.begin() + static_cast<std::ptrdiff_t>(3 * std::size_t{v});
-          positions.insert(positions.end(), first, first + 3);
-        }
-        io::write_ply(file, {positions, FacesView::polygons(part.offsets, part.corners)},
-                      {.progress = task.progress()});
-      },
-      whole.positions);
+  whole.visit([&]<class Real>(const StridedPositions<Real>& all) {
+    std::vector<Real> positions;
+    for (const VertexId v : part.vertices) positions.insert(positions.end(), {all(v, 0), all(v, 1), all(v, 2)});
+    io::write_ply(file, {positions, FacesView::polygons(part.offsets, part.corners)}, {.progress = task.progress()});
+  });
 }
 
-SpacePoint center_of(const Start& start, const io::Mesh& mesh) {
+SpacePoint center_of(const Start& start, const PositionsView& positions) {
   if (start.center()) return *start.center();
-  return std::visit(
-      [&](const auto& all) {
-        const std::size_t first = 3 * std::size_t{start.vertex()};
-        return SpacePoint{all[first], all[first + 1], all[first + 2]};
-      },
-      mesh.positions);
+  const std::size_t v = start.vertex();
+  return positions.visit([v](const auto& all) { return SpacePoint{all(v, 0), all(v, 1), all(v, 2)}; });
 }
 
 template <class T, class Value, std::size_t N>
@@ -105,8 +93,8 @@ void region(const RegionCommand& options) {
   const std::vector<VertexId> ids = regions_of(options.start, start, std::span(&radius, 1), input).vertices;
   RegionMesher mesher(input.surface());
   const Submesh part = mesher.submesh(ids, options.faces == "all" ? Corners::All : Corners::Any);
-  const Rim rim = mesher.rim(ids, center_of(start.view(), *input.mesh()), radius);
-  write_mesh(options.output, *input.mesh(), part);
+  const Rim rim = mesher.rim(ids, center_of(start.view(), input.positions()), radius);
+  write_mesh(options.output, input.positions(), part);
   if (!options.arrays.empty()) write_arrays(options.arrays, part, rim);
   const auto closed = static_cast<std::size_t>(std::count(rim.closed.begin(), rim.closed.end(), 1));
   print_result(options.json,

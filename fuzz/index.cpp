@@ -17,7 +17,8 @@ void run(std::span<const std::byte> input) {
   try {
     const Index index = load(input);
     query_untrusted(index);
-    if (!std::ranges::equal(test::saved(index), input)) fail("saved again, not the same bytes");
+    if (!std::ranges::equal(test::saved(index, {.faces = index.faces()}), input))
+      fail("saved again, not the same bytes");
   } catch (const Error& error) {
     if (error.code() != ErrorCode::MalformedIndex) fail(error.what());
   }

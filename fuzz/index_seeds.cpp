@@ -14,8 +14,8 @@ namespace {
 
 using namespace meshhood;
 
-void write(const std::string& folder, const std::string& name, const Index& index) {
-  const std::vector<std::byte> bytes = test::saved(index);
+void write(const std::string& folder, const std::string& name, const Index& index, const SaveOptions& options = {}) {
+  const std::vector<std::byte> bytes = test::saved(index, options);
   std::ofstream file(folder + "/" + name, std::ios::binary);
   file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   std::printf("%s: %zu bytes\n", name.c_str(), bytes.size());
@@ -35,6 +35,10 @@ void write_all(const std::string& folder) {
   write(folder, "two_leaves", build(grid(6, 7, true).view()));
   write(folder, "double", build(grid(4, 9, false).view()));
   write(folder, "reordered", reorder(grid(6, 8, true).view()).index);
+  for (const bool quads : {false, true}) {
+    const test::TestMesh mesh = test::make_grid(4, 4, quads).finish(true);
+    write(folder, quads ? "quads" : "triangles", build(mesh.view()), {.faces = mesh.view().faces});
+  }
   test::TestMesh sheets = grid(4, 5, true);
   test::TestMesh upper = grid(4, 6, true);
   for (std::size_t i = 2; i < upper.positions.size(); i += 3) upper.positions[i] += 0.75;

@@ -44,6 +44,7 @@ void query_untrusted(const Index& index) {
   const std::size_t vertices = index.vertex_count();
   const GraphData graph = extract_graph(index);
   validate(graph.view());
+  if (index.faces()) validate(MeshView{index.positions(), *index.faces()});
   Searcher searcher(index);
   std::vector<VertexId> ids;
   std::vector<double> distances;

@@ -104,7 +104,7 @@ void save_any(const std::filesystem::path& path, const AnyIndex& index, const Sa
   const Sink sink = [&](std::span<const std::byte> bytes) {
     file.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   };
-  save(index, sink, {.progress = progress});
+  save(index, sink, {.faces = options.faces, .progress = progress});
   file.commit([&] { report(options.progress, all, all, name); });
 }
 

@@ -13,7 +13,8 @@ namespace meshhood::io {
 /// that have the old file open or mapped keep the old content. If several save at once, the last wins.
 ///
 /// Progress is reported as by the core, and once more when the data is on the disk, just before the rename.
-/// Throws Error{IoFailure, Cancelled}; the old file is then unchanged, as it is when memory runs out.
+/// Throws Error{IoFailure, Cancelled}, and as the core if the faces are refused; the old file is then unchanged, as it
+/// is when memory runs out.
 void save(const std::filesystem::path& path, const Index& index, const SaveOptions& options = {});
 
 /// Reads an index into memory and verifies it. The file may change or disappear afterwards.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +16,8 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
@@ -59,8 +62,11 @@ auto read(const std::filesystem::path& path, unsigned threads, nb::handle progre
                     owned<std::int64_t>(std::move(mesh.offsets)), std::move(warnings));
 }
 
-void save_file(const ExactMethod& method, const std::filesystem::path& path, nb::handle progress) {
-  const SaveOptions options{.progress = progress_to(progress)};
+/// `faces`: corners and offsets, to be saved with the index.
+void save_file(const ExactMethod& method, const std::filesystem::path& path,
+               const std::optional<std::pair<Input, std::optional<Input>>>& faces, nb::handle progress) {
+  SaveOptions options{.progress = progress_to(progress)};
+  if (faces) options.faces = faces_of(faces->first, faces->second);
   without_lock([&] { io::save(path, method.index(), options); });
 }
 
@@ -125,7 +131,7 @@ std::shared_ptr<ExactMethod> from_bytes(const Bytes& bytes) {
 
 void bind_files(nb::module_& module) {
   module.def("read_mesh", &read, nb::arg("path"), nb::arg("threads"), nb::arg("progress").none());
-  module.def("save", &save_file, nb::arg(), nb::arg("path"), nb::arg("progress").none());
+  module.def("save", &save_file, nb::arg(), nb::arg("path"), nb::arg("faces").none(), nb::arg("progress").none());
   module.def("load", &load_file, nb::arg("path"), nb::arg("mmap"), nb::arg("trusted"), nb::arg("progress").none());
   module.def("to_bytes", &to_bytes);
   nb::class_<OpenFile>(module, "FileWriter")

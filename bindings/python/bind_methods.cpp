@@ -79,6 +79,24 @@ Output<const std::int32_t> permutation(const nb::object& self) {
   return owned<const std::int32_t>(std::move(all));
 }
 
+/// Not copies: the arrays keep the index alive, and may not be written to.
+Output<const std::uint32_t> array_of(const IndicesView& indices, const nb::object& self) {
+  return indices.visit([&](auto values) -> Output<const std::uint32_t> {
+    return {reinterpret_cast<const std::uint32_t*>(values.data()), {values.size()}, self};
+  });
+}
+
+/// Corners and offsets, none of which for triangles; nothing if the index has no faces.
+auto faces(const nb::object& self) {
+  using Corners = Output<const std::uint32_t>;
+  std::optional<std::pair<Corners, std::optional<Corners>>> result;
+  const std::optional<FacesView> found = nb::cast<ExactMethod&>(self).index().faces();
+  if (!found) return result;
+  result.emplace(array_of(found->corners(), self), std::nullopt);
+  if (!found->are_triangles()) result->second = array_of(found->offsets(), self);
+  return result;
+}
+
 }  // namespace
 
 void bind_methods(nb::module_& module) {
@@ -96,6 +114,7 @@ void bind_methods(nb::module_& module) {
              return std::tuple(found.mean_radius, found.rebuilt_radius, found.gain);
            })
       .def_prop_ro("permutation", &permutation, nb::rv_policy::reference)
+      .def_prop_ro("faces", &faces, nb::rv_policy::reference)
       .def_prop_ro("vertex_count", [](const ExactMethod& method) { return method.index().vertex_count(); })
       .def_prop_ro("nbytes", [](const ExactMethod& method) { return method.index().bytes().total(); });
 }

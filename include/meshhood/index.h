@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,7 +43,7 @@ class Index {
   /// #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
-  /// Memory of all arrays. O(1).
+  /// Memory of all arrays but the faces. O(1).
   [[nodiscard]] IndexBytes bytes() const;
 
   /// The leaves, and the levels of nodes above them.
@@ -58,6 +59,10 @@ class Index {
 
   /// The first vertex of each leaf in index order, and #V: #leaves + 1, some empty. Valid as long as the index.
   [[nodiscard]] std::span<const VertexId> leaf_starts() const;
+
+  /// The faces of the mesh, if the index comes from a file that was saved with them (see `SaveOptions`); also of its
+  /// refits. Corners and offsets have 32 bits. Valid as long as the index. O(1).
+  [[nodiscard]] std::optional<FacesView> faces() const;
 
   /// Verifies the index against the mesh it was built from. Returns one line per violation, naming the leaf or node, at
   /// most sixteen. An empty result means:

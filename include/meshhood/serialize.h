@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "meshhood/fingerprint.h"
 #include "meshhood/index.h"
+#include "meshhood/mesh.h"
 #include "meshhood/paper.h"
 #include "meshhood/progress.h"
 
@@ -27,13 +29,20 @@ inline constexpr std::size_t kIndexAlignment = 64;
 
 /// How an index is saved.
 struct SaveOptions {
+  /// The faces of the mesh that the index was built from, borrowed for the call. They are saved with the index, for
+  /// calls that need them (see `Index::faces`): 4 bytes for each corner and, unless all are triangles, for each face.
+  /// The index does not know them: they are verified to be faces of #V vertices, not to be those of its graph. Without
+  /// them, the file has none; `.faces = index.faces()` saves those of a loaded index again. Not for the paper's index.
+  std::optional<FacesView> faces = {};
+
   /// Called while the fingerprint is computed, then between parts: the checksum of each section, and pieces of the
   /// bytes. The longest part takes O(bytes).
   Progress progress = {};
 };
 
-/// Streams the bytes of `index` to `sink`. Peak memory is one copy of the graph, for the fingerprint.
-/// Throws Error{Cancelled}. O(bytes of the index).
+/// Streams the bytes of `index` to `sink`. Peak memory is one copy of the graph, for the fingerprint, and one of the
+/// faces. Throws Error{InvalidMesh, TooLarge} if the faces are invalid, or are not all triangles and have 2^32 corners
+/// or more; Error{Cancelled}. O(bytes of the index).
 void save(const Index& index, const Sink& sink, const SaveOptions& options = {});
 
 /// How an index is loaded.
@@ -116,6 +125,7 @@ void check_mesh(const IndexHeader& header, const Fingerprint& mesh);
 namespace paper {
 
 /// As `meshhood::save`. The fingerprint was computed by `build`: nothing is copied.
+/// Throws Error{InvalidOption} if there are faces: this index does not hold them.
 void save(const Index& index, const Sink& sink, const SaveOptions& options = {});
 
 /// As `meshhood::load`.

@@ -2,6 +2,8 @@
 // Saves and loads the exact index. Its sections are its arrays as they are in memory, so that a file can be mapped.
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -11,6 +13,7 @@
 #include "exact/extract_graph.h"
 #include "exact/index_access.h"
 #include "exact/layout.h"
+#include "exact/stored_faces.h"
 #include "exact/verify.h"
 #include "format/section_reader.h"
 #include "format/section_writer.h"
@@ -77,12 +80,33 @@ void verify_sizes(const IndexView& view, const file::SectionReader& file) {
   expect("mean_radii", view.mean_radii.size(), view.levels.size() - 1, " values");
 }
 
+/// The sections of faces, which are optional and follow on those of all arrays. Does not read their elements.
+std::optional<StoredFaces> take_faces(file::SectionReader& file) {
+  if (!file.is_next("face_corners")) return std::nullopt;
+  StoredFaces faces{.corners = file.take<std::uint32_t>("face_corners"), .offsets = {}};
+  if (file.is_next("face_offsets")) {
+    faces.offsets = file.take<std::uint32_t>("face_offsets");
+    if (faces.offsets.size() < 2) {
+      file.refuse_last(std::to_string(faces.offsets.size()) + " values, expected one more than there are faces");
+    }
+  } else if (faces.corners.size() % 3 != 0) {
+    file.refuse_last(std::to_string(faces.corners.size()) + " corners, expected three for each triangle");
+  }
+  return faces;
+}
+
+void add(file::SectionWriter& writer, const FaceArrays& faces) {
+  writer.add("face_corners", std::span<const std::uint32_t>(faces.corners));
+  if (!faces.offsets.empty()) writer.add("face_offsets", std::span<const std::uint32_t>(faces.offsets));
+}
+
 /// A view of the arrays in the file; only their sizes are verified.
 std::shared_ptr<IndexView> take_arrays(file::SectionReader& file) {
   auto view = std::make_shared<IndexView>();
   view->frame = file.take<Frame>("frame", 1).front();
   for_each_array([&](ArrayInfo info, auto& array) { take(file, info.section, array); }, *view);
   verify_sizes(*view, file);
+  view->faces = take_faces(file);
   derive(*view);
   return view;
 }
@@ -110,6 +134,12 @@ void save(const Index& index, const Sink& sink, const SaveOptions& options) {
   file::SectionWriter writer;
   writer.add("frame", std::span(&view.frame, 1));
   for_each_array([&](ArrayInfo info, const auto& array) { add(writer, info.section, array); }, view);
+  FaceArrays faces;
+  if (options.faces) {
+    validate(MeshView{index.positions(), *options.faces});
+    faces = make_face_arrays(*options.faces);
+    add(writer, faces);
+  }
   const bool is_double = std::holds_alternative<std::span<const double>>(view.positions);
   const std::size_t scalar_bytes = is_double ? sizeof(double) : sizeof(float);
   TaskContext task(1, options.progress, writer.parts());

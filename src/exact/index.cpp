@@ -38,6 +38,11 @@ std::span<const VertexId> Index::permutation() const {
 
 std::span<const VertexId> Index::leaf_starts() const { return view_->leaf_begin; }
 
+std::optional<FacesView> Index::faces() const {
+  if (!view_->faces) return std::nullopt;
+  return view_->faces->view();
+}
+
 std::vector<LevelSummary> Index::levels() const {
   std::vector<LevelSummary> result;
   for (const TreeLevel& level : view_->tree) {

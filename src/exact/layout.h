@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <variant>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "base/frame.h"
 #include "base/prefetch.h"
 #include "exact/root_tree.h"
+#include "exact/stored_faces.h"
 #include "simd/leaf.h"
 #include "simd/node_group.h"
 
@@ -120,6 +122,7 @@ struct IndexView {
   Tree tree;                               // the levels, made from `levels`, `records` and `mean_radii`
   RootTree roots;                          // over the groups that no node covers
   std::vector<LeafGroupRange> leaf_groups;  // by node above the leaves, the first of which follows on the last leaf
+  std::optional<StoredFaces> faces;         // of the index file, if it has them; no search reads them
   std::shared_ptr<const void> owner;        // a `ConnectivityData`, or the bytes of an index file
   std::shared_ptr<GeometryData> geometry;   // of this view alone; none while all arrays are in a file
 

@@ -63,7 +63,7 @@ void verify_last_leaf(const IndexView& index, const SectionReader& file) {
 
 void verify(const IndexView& index, const SectionReader& file, TaskContext& task) {
   constexpr std::array kParts{verify_forest,     verify_numbering, verify_edges_within, verify_links,
-                              verify_node_links, verify_positions, verify_tree};
+                              verify_node_links, verify_positions, verify_tree,         verify_faces};
   static_assert(kParts.size() == kVerifyParts);
   for (const auto part : kParts) {
     part(index, file);

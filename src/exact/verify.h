@@ -17,7 +17,7 @@ namespace meshhood::file {
 /// Throws Error{MalformedIndex, Cancelled}. One pass over each array; advances `task` by `kVerifyParts`.
 void verify(const IndexView& index, const SectionReader& file, TaskContext& task);
 
-inline constexpr std::size_t kVerifyParts = 7;
+inline constexpr std::size_t kVerifyParts = 8;
 
 // The parts of the verification, in this order: each relies on those before.
 
@@ -42,6 +42,10 @@ void verify_positions(const IndexView& index, const SectionReader& file);
 
 /// Spheres enclose their vertices, regions are not NaN, and mean radii are those of their levels.
 void verify_tree(const IndexView& index, const SectionReader& file);
+
+/// Corners of faces are vertices, offsets ascend from 0 to the number of corners, and are left out if all faces are
+/// triangles, so that the same faces have the same bytes.
+void verify_faces(const IndexView& index, const SectionReader& file);
 
 /// The padding after the last element, which kernels may read, is 0.
 template <class T>

@@ -151,6 +151,10 @@ void SectionReader::verify_checksums(TaskContext& task) const {
   }
 }
 
+bool SectionReader::is_next(std::string_view name) const {
+  return taken_ < table_.size() && name_of(table_[taken_]) == name;
+}
+
 std::span<const std::byte> SectionReader::take_bytes(std::string_view name, std::size_t of_each) {
   if (taken_ == table_.size())
     refuse_header(offsetof(Header, sections), "section " + std::string(name) + " is missing");

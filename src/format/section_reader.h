@@ -30,6 +30,9 @@ class SectionReader {
 
   [[nodiscard]] const Header& header() const { return header_; }
 
+  /// Whether there is a next section, and has this name.
+  [[nodiscard]] bool is_next(std::string_view name) const;
+
   /// The next section, which must have this name; a view of the bytes.
   template <class T>
   [[nodiscard]] std::span<const T> take(std::string_view name) {

@@ -121,6 +121,7 @@ Hierarchy<Real> take_hierarchy(SectionReader& file) {
 }  // namespace
 
 void save(const Index& index, const Sink& sink, const SaveOptions& options) {
+  if (options.faces) raise(ErrorCode::InvalidOption, "faces: the index of the paper is saved without them");
   std::visit([&](const auto& hierarchy) { save(hierarchy, IndexAccess::mesh(index), sink, options.progress); },
              IndexAccess::hierarchy(index));
 }

@@ -81,8 +81,8 @@ class Damage {
 };
 
 /// Flips every `step`-th bit, and replaces every byte in which a bit was flipped.
-void expect_every_change_refused(const char* name, const Index& index) {
-  Damage damage(saved(index));
+void expect_every_change_refused(const char* name, const Index& index, const SaveOptions& options = {}) {
+  Damage damage(saved(index, options));
   const std::size_t bits = 8 * damage.size();
   const std::size_t step = std::max<std::size_t>(1, bits / scaled(bits));
   for (std::size_t bit = 0; bit < bits; bit += step) {
@@ -98,6 +98,10 @@ TEST(IndexDamage, EveryFlippedBitAndEveryReplacedByteIsRejected) {
   expect_every_change_refused("small", build(bumpy_sheets(5, true).view()));
   expect_every_change_refused("double", build(bumpy_sheets(12, false).view()));
   expect_every_change_refused("reordered", reorder(bumpy_sheets(12, true).view()).index);
+  for (const bool quads : {false, true}) {
+    const TestMesh mesh = make_grid(7, 7, quads).finish(true);
+    expect_every_change_refused(quads ? "quads" : "triangles", build(mesh.view()), {.faces = mesh.view().faces});
+  }
   expect_every_change_refused("large", build(bumpy_sheets(32, true).view()));
 }
 
@@ -118,6 +122,7 @@ void expect_harmless(const Index& index, Random& random) {
     }
   }
   static_cast<void>(extract_graph(index));
+  if (index.faces()) validate(MeshView{index.positions(), *index.faces()});
 }
 
 TEST(IndexDamage, AForgedBitIsRejectedOrHarmless) {
@@ -125,7 +130,8 @@ TEST(IndexDamage, AForgedBitIsRejectedOrHarmless) {
   std::size_t accepted = 0;
   Random random(3);
   for (const bool single : {true, false}) {
-    const std::vector<std::byte> original = saved(build(bumpy_sheets(9, single).view()));
+    const TestMesh mesh = bumpy_sheets(9, single);
+    const std::vector<std::byte> original = saved(build(mesh.view()), {.faces = mesh.view().faces});
     Mappable copy(original);
     const std::size_t step = std::max<std::size_t>(1, 8 * original.size() / scaled(8 * original.size()));
     for (std::size_t bit = 0; bit < 8 * original.size(); bit += step) {
@@ -145,7 +151,9 @@ TEST(IndexDamage, AForgedBitIsRejectedOrHarmless) {
 }
 
 TEST(IndexDamage, ManyForgedBytesAreRejectedOrHarmless) {
-  const std::vector<std::byte> original = saved(build(bumpy_sheets(9, true).view()));
+  TestMesh mesh = bumpy_sheets(9, true);
+  mesh.add_face({0, 1, 10, 9});
+  const std::vector<std::byte> original = saved(build(mesh.view()), {.faces = mesh.view().faces});
   Mappable copy(original);
   Random random(4);
   std::size_t accepted = 0;
@@ -183,7 +191,8 @@ TEST(IndexDamage, EveryTruncationIsRejected) {
 }
 
 TEST(IndexDamage, AForgedTruncationIsRejectedOrHarmless) {
-  const std::vector<std::byte> whole = saved(build(bumpy_sheets(9, true).view()));
+  const TestMesh mesh = bumpy_sheets(9, true);
+  const std::vector<std::byte> whole = saved(build(mesh.view()), {.faces = mesh.view().faces});
   for (std::size_t length = sizeof(file::Header); length < whole.size(); ++length) {
     Forgery cut(std::vector<std::byte>(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length)));
     cut.header().bytes = length;

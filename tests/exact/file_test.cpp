@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 // An index that is saved and then loaded or mapped is the same index.
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <new>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "meshhood/paper.h"
+#include "meshhood/refit.h"
 #include "meshhood/reorder.h"
 #include "meshhood/search.h"
 #include "meshhood/serialize.h"
@@ -112,6 +116,77 @@ TEST(SerializeEdges, HandlesNoVerticesOneVertexAndIsolatedVertices) {
     const ReorderedMesh reordered = reorder(mesh);
     expect_the_same_after_saving(reordered.index, reordered.view());
   }
+}
+
+/// Corner by corner, with the number of corners before those of each face.
+std::vector<std::uint64_t> padded(const FacesView& faces) {
+  std::vector<std::uint64_t> result;
+  faces.for_each([&](std::size_t, std::span<const VertexId> corners) {
+    result.push_back(corners.size());
+    result.insert(result.end(), corners.begin(), corners.end());
+  });
+  return result;
+}
+
+class SerializeFaces : public testing::TestWithParam<Family> {};
+
+TEST_P(SerializeFaces, RestoresThem) {
+  for (const std::size_t vertices : {1U, 33U, 400U}) {
+    const TestMesh mesh = make_mesh(GetParam(), 7, vertices);
+    SCOPED_TRACE(mesh.name);
+    const FacesView faces = mesh.view().faces;
+    const Index index = build(mesh.view());
+    EXPECT_FALSE(index.faces());
+    const std::vector<std::byte> bytes = saved(index, {.faces = faces});
+    Mappable mappable(bytes);
+    const Index loaded = load(bytes);
+    const Index mapped = map(mappable.bytes(), nullptr);
+    const Index trusted = map(mappable.bytes(), nullptr, {.trusted = true});
+    const Index moved = refit(loaded, mesh.view().positions);
+    for (const Index* other : {&loaded, &mapped, &trusted, &moved}) {
+      ASSERT_TRUE(other->faces());
+      EXPECT_EQ(padded(*other->faces()), padded(faces));
+      EXPECT_EQ(saved(*other, {.faces = other->faces()}), bytes);
+      EXPECT_EQ(saved(*other), saved(index)) << "saved without faces";
+    }
+    EXPECT_THAT(differences(loaded, index), IsEmpty());
+    EXPECT_FALSE(load(saved(index)).faces());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SerializeFaces, testing::ValuesIn(families()), family_name);
+
+TEST(SerializeEdges, GivesTheSameBytesHoweverTheFacesAreRepresented) {
+  const TestMesh mesh = make_grid(5, 4, false).finish(true);
+  const Index index = build(mesh.view());
+  const std::vector<std::byte> expected = saved(index, {.faces = mesh.view().faces});
+  EXPECT_TRUE(load(expected).faces()->are_triangles());
+  EXPECT_EQ(saved(index, {.faces = FacesView::triangles(mesh.corners)}), expected);
+  const std::vector<std::int64_t> wide(mesh.corners.begin(), mesh.corners.end());
+  EXPECT_EQ(saved(index, {.faces = FacesView::triangles(wide)}), expected);
+  std::vector<std::uint32_t> columns;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) columns.push_back(mesh.corners[3 * f + i]);
+  }
+  EXPECT_EQ(saved(index, {.faces = FacesView::column_major_triangles(columns)}), expected);
+}
+
+TEST(SerializeEdges, KeepsNoFacesApartFromFacesThatAreNone) {
+  const TestMesh mesh = make_grid(5, 4, false).finish(true);
+  const Index index = build(mesh.view());
+  const Index loaded = load(saved(index, {.faces = FacesView{}}));
+  ASSERT_TRUE(loaded.faces());
+  EXPECT_EQ(loaded.faces()->size(), 0U);
+}
+
+TEST(SerializeEdges, RefusesFacesThatAreNotOfTheIndex) {
+  const TestMesh small = make_grid(5, 4, false).finish(true);
+  const TestMesh large = make_grid(5, 5, false).finish(true);
+  const Index index = build(small.view());
+  expect_refused(ErrorCode::InvalidMesh, "but the mesh has 20 vertices",
+                 [&] { static_cast<void>(saved(index, {.faces = large.view().faces})); });
+  expect_refused(ErrorCode::InvalidOption, "the index of the paper is saved without them",
+                 [&] { static_cast<void>(saved(paper::build(small.view()), {.faces = small.view().faces})); });
 }
 
 TEST(SerializeEdges, AMappedIndexKeepsItsOwner) {

@@ -111,6 +111,60 @@ TEST(IndexVerify, RejectsWrongSizesOfArrays) {
   expect_refused_after("section mean_radii", [](Forgery& f) { f.entry("mean_radii").bytes += sizeof(double); });
 }
 
+void expect_faces_refused_after(const char* cause, const TestMesh& mesh, const Change& change) {
+  Forgery forgery(saved(build(mesh.view()), {.faces = mesh.view().faces}));
+  change(forgery);
+  seal(forgery.bytes());
+  const auto call = [&] { static_cast<void>(load(forgery.bytes())); };
+  expect_refused(ErrorCode::MalformedIndex, cause, call);
+  EXPECT_THAT(call, testing::ThrowsMessage<Error>(testing::Truly(names_a_place)));
+}
+
+std::span<std::uint32_t> corners_of(Forgery& f) { return f.section<std::uint32_t>("face_corners"); }
+std::span<std::uint32_t> offsets_of(Forgery& f) { return f.section<std::uint32_t>("face_offsets"); }
+
+TEST(IndexVerify, RejectsWrongCornersOfFaces) {
+  const TestMesh triangles = make_grid(6, 6, false).finish(true);
+  const TestMesh quads = make_grid(6, 6, true).finish(true);
+  for (const TestMesh* mesh : {&triangles, &quads}) {
+    expect_faces_refused_after("vertex 36, but there are 36 vertices", *mesh,
+                               [](Forgery& f) { corners_of(f)[5] = 36; });
+    expect_faces_refused_after("section face_corners, byte", *mesh, [](Forgery& f) { corners_of(f).back() = ~0U; });
+    expect_faces_refused_after("bytes, expected a multiple of 4", *mesh, [](Forgery& f) {
+      corners_of(f).back() = 0;  // what becomes padding must be 0
+      f.entry("face_corners").bytes -= 1;
+    });
+  }
+  expect_faces_refused_after("149 corners, expected three for each triangle", triangles, [](Forgery& f) {
+    corners_of(f).back() = 0;
+    f.entry("face_corners").bytes -= sizeof(std::uint32_t);
+  });
+  expect_faces_refused_after("section face_corner, expected no more sections", triangles,
+                             [](Forgery& f) { f.entry("face_corners").name[11] = '\0'; });
+}
+
+TEST(IndexVerify, RejectsWrongOffsetsOfFaces) {
+  const TestMesh quads = make_grid(6, 6, true).finish(true);
+  expect_faces_refused_after("section face_offset, expected no more sections", quads,
+                             [](Forgery& f) { f.entry("face_offsets").name[11] = '\0'; });
+  expect_faces_refused_after("0 values, expected one more than there are faces", quads,
+                             [](Forgery& f) { f.remove_content("face_offsets"); });
+  expect_faces_refused_after("does not begin at corner 0", quads, [](Forgery& f) { offsets_of(f)[0] = 1; });
+  expect_faces_refused_after("face 3 ends at corner 11, before it begins at 12", quads,
+                             [](Forgery& f) { offsets_of(f)[4] = 11; });
+  expect_faces_refused_after("face 4 ends at corner 20, before it begins at 4000000000", quads,
+                             [](Forgery& f) { offsets_of(f)[4] = 4000000000U; });
+  expect_faces_refused_after("the faces have 101 corners, expected 100", quads,
+                             [](Forgery& f) { ++offsets_of(f).back(); });
+  TestMesh mixed = make_grid(6, 6, true).finish(true);
+  mixed.offsets = {0};
+  mixed.corners.clear();
+  mixed.add_face({0, 1});
+  mixed.add_face({0, 1, 7, 6});
+  expect_faces_refused_after("all faces are triangles, expected no offsets", mixed,
+                             [](Forgery& f) { offsets_of(f)[1] = 3; });
+}
+
 TEST(IndexVerify, RejectsWrongLeaves) {
   expect_refused_after("leaf 0 does not begin", [](Forgery& f) { f.section<VertexId>("leaf_begin")[0] = 1; });
   expect_refused_after("expected 1 to 32", [](Forgery& f) { f.section<VertexId>("leaf_begin")[2] = 0; });

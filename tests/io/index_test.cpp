@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Index files: atomic replacement, mapping, detection, truncation. Rows F3, F7 and F9 of the catalogue.
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
 #include <thread>
 
@@ -46,6 +49,21 @@ TEST_F(IndexFile, RoundTripsTheIndex) {
   EXPECT_THAT(differences(io::map(file, {.trusted = true}), index), IsEmpty());
   EXPECT_EQ(io::read_header(file).vertices, 2500U);
   EXPECT_EQ(io::read_header(file).bytes, std::filesystem::file_size(file));
+}
+
+TEST_F(IndexFile, RoundTripsTheFaces) {
+  const TestMesh mesh = make_grid(20, 20, true).finish(true);
+  io::save(file, build(mesh.view()), {.faces = mesh.view().faces});
+  const std::array loaded{io::load(file), io::map(file), io::map(file, {.trusted = true})};
+  for (const Index& index : loaded) {
+    ASSERT_TRUE(index.faces());
+    index.faces()->for_each([&](std::size_t face, std::span<const VertexId> corners) {
+      EXPECT_TRUE(std::ranges::equal(corners, mesh.face(face))) << "face " << face;
+    });
+    EXPECT_EQ(index.faces()->size(), mesh.face_count());
+  }
+  io::save(file, build(mesh.view()));
+  EXPECT_FALSE(io::load(file).faces());
 }
 
 TEST_F(IndexFile, IsDetectedByContent) {

@@ -13,10 +13,10 @@
 namespace meshhood::test {
 
 template <class AnyIndex>
-[[nodiscard]] std::vector<std::byte> saved(const AnyIndex& index) {
+[[nodiscard]] std::vector<std::byte> saved(const AnyIndex& index, const SaveOptions& options = {}) {
   std::vector<std::byte> bytes;
   const Sink append = [&](std::span<const std::byte> part) { bytes.insert(bytes.end(), part.begin(), part.end()); };
-  save(index, append);
+  save(index, append, options);
   return bytes;
 }
 

@@ -80,13 +80,13 @@ class Allocation : public testing::TestWithParam<Family> {
 
   /// A call that saves `any_index`. If it fails, the index is unchanged.
   template <class AnyIndex>
-  void expect_saved(const AnyIndex& any_index) {
-    const std::vector<std::byte> bytes = saved(any_index);
-    const auto save = [&](std::vector<std::byte>& out) { out = saved(any_index); };
+  void expect_saved(const AnyIndex& any_index, const SaveOptions& options = {}) {
+    const std::vector<std::byte> bytes = saved(any_index, options);
+    const auto save = [&](std::vector<std::byte>& out) { out = saved(any_index, options); };
     shortages.fail_each([] { return std::vector<std::byte>(); }, save,
                         [&](const auto& out, Ending ending) {
                           EXPECT_EQ(out, ending == Ending::Well ? bytes : std::vector<std::byte>());
-                          EXPECT_EQ(saved(any_index), bytes);
+                          EXPECT_EQ(saved(any_index, options), bytes);
                         });
   }
 };
@@ -106,6 +106,7 @@ TEST_P(Allocation, FailsInAReordering) {
 
 TEST_P(Allocation, FailsInASave) {
   expect_saved(index);
+  expect_saved(index, {.faces = mesh.view().faces});
   expect_saved(paper_index);
 }
 
@@ -116,6 +117,8 @@ TEST_P(Allocation, FailsInALoad) {
   expect_made<paper::Index>(paper_bytes, [&] { return paper::load(paper_bytes); });
   Mappable place(bytes);
   expect_made<Index>(bytes, [&] { return map(place.bytes(), nullptr); });
+  const std::vector<std::byte> with_faces = saved(index, {.faces = mesh.view().faces});
+  expect_made<Index>(bytes, [&] { return load(with_faces); });
 }
 
 /// The answer to one query, in vectors of the caller.

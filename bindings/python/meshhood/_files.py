@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from . import _convert, _core
 from ._index import MeshIndex
+from ._mesh import kept_faces
 from ._progress import Progress, reporter
 
 
@@ -55,7 +56,8 @@ def load(
     progress : as for `read_mesh`.
 
     Unless `trusted`, all data is verified: a damaged file is refused; a forged one is refused or gives wrong results
-    within its arrays. The loaded index supports every method. Cost: that of reading the file once; almost nothing if
+    within its arrays. The loaded index supports every method, and has the faces if they were saved (`MeshIndex.save`
+    with faces=True). Cost: that of reading the file once; almost nothing if
     `trusted`.
 
     Raises OSError, with errno and filename; ValueError, naming the file, place and what was expected;
@@ -65,4 +67,6 @@ def load(
         raise ValueError("trusted: expected only with mmap=True")
     path = _convert.path(path)
     with reporter(progress) as report:
-        return MeshIndex._holding(_core.load(path, mmap=bool(mmap), trusted=bool(trusted), progress=report))
+        exact = _core.load(path, mmap=bool(mmap), trusted=bool(trusted), progress=report)
+    faces = exact.faces
+    return MeshIndex._holding(exact, faces and kept_faces(*faces))

@@ -60,10 +60,14 @@ class Held:
         """Corners and offsets of `F`, or of the faces that the index keeps."""
         if F is not None:
             return face_arrays(F)
+        return self._own_faces("F: expected the faces, because")
+
+    def _own_faces(self, wish: str) -> tuple[Any, Any]:
+        """Corners and offsets of the faces that the index keeps. `wish`: the beginning of the error if it has none."""
         if self._faces is None:
             raise ValueError(
-                "F: expected the faces, because this index has none: it was built with keep_faces=False or from a graph, "
-                "or loaded from a file"
+                f"{wish} this index has none: it was built with keep_faces=False or from a graph, or loaded from a file "
+                "without faces; index.save(path, faces=True) saves an index with its faces"
             )
         return self._faces
 

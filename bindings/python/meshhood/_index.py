@@ -172,7 +172,7 @@ class MeshIndex(Queries, Aggregates, Shape):
     @property
     def faces(self) -> Union[Ids, tuple[NDArray[np.signedinteger[Any]], Ids], None]:
         """The faces: (#F, 3) int32, or a tuple (offsets, corners) unless all are triangles; read-only, not copied. None
-        if the index has none: it was built with keep_faces=False or from a graph, or loaded from a file."""
+        if the index has none: it was built with keep_faces=False or from a graph, or loaded from a file without them."""
         if self._faces is None:
             return None
         corners, offsets = self._faces
@@ -419,18 +419,23 @@ class MeshIndex(Queries, Aggregates, Shape):
         """
         return Quality(*self._exact.quality())
 
-    def save(self, path: Union[str, os.PathLike[str]], *, progress: Progress = None) -> None:
+    def save(
+        self, path: Union[str, os.PathLike[str]], *, faces: bool = False, progress: Progress = None
+    ) -> None:
         """Writes the index to a file for `load`. The same mesh gives the same bytes on every machine.
 
+        faces : also write the faces that the index keeps, so that the loaded index has them: 4 bytes for each corner and,
+            unless all are triangles, for each face. ValueError if the index has none.
         progress : as for the class, in bytes; each byte is counted twice, for its checksum and for writing it.
 
-        The file holds the positions and the graph of the mesh, but not its faces. It appears whole or not at all: it is
+        The file holds the positions and the graph of the mesh, and its faces if `faces`. It appears whole or not at all: it is
         written to the same folder under another name, synchronized to disk and renamed. Raises OSError, with errno and
         filename, and KeyboardInterrupt on Ctrl-C; an old file of that name is then unchanged.
         """
         path = _convert.path(path)
+        arrays = self._own_faces("faces: True, but") if faces else None
         with reporter(progress) as report:
-            _core.save(self._exact, path, progress=report)
+            _core.save(self._exact, path, faces=arrays, progress=report)
 
 def _copied(positions: Any, rows: Any) -> Any:
     """A copy, because another thread may write to `positions` once they are checked. With `rows`, only these are set:

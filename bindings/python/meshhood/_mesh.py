@@ -28,13 +28,14 @@ def face_arrays(F):
 
 
 def kept_faces(corners, offsets):
-    """The arrays above, compact and read-only, for vertices that int32 can number. Of this type they are not copied."""
+    """The arrays above, compact and read-only, for vertices that int32 can number. Of this size they are not copied."""
     wide = np.int32 if len(corners) < 2**31 else np.int64
     return _read_only(corners, np.int32), None if offsets is None else _read_only(offsets, wide)
 
 
 def _read_only(array, dtype):
-    array = array.astype(dtype, copy=False)
+    # Valid ids and offsets are the same numbers in a signed and an unsigned type of the same size.
+    array = array.view(dtype) if array.itemsize == np.dtype(dtype).itemsize else array.astype(dtype)
     array.flags.writeable = False
     return array
 
