@@ -171,6 +171,16 @@ TEST(SerializeEdges, GivesTheSameBytesHoweverTheFacesAreRepresented) {
   EXPECT_EQ(saved(index, {.faces = FacesView::column_major_triangles(columns)}), expected);
 }
 
+TEST(SerializeEdges, RestoresPolygonsWithAsManyCornersAsTriangles) {
+  TestMesh mesh = make_grid(5, 4, false).finish(true);
+  mesh.offsets = {0};
+  mesh.corners.clear();
+  mesh.add_face({0, 1});
+  mesh.add_face({0, 1, 5, 4});
+  const Index loaded = load(saved(build(mesh.view()), {.faces = mesh.view().faces}));
+  EXPECT_EQ(padded(*loaded.faces()), padded(mesh.view().faces));
+}
+
 TEST(SerializeEdges, KeepsNoFacesApartFromFacesThatAreNone) {
   const TestMesh mesh = make_grid(5, 4, false).finish(true);
   const Index index = build(mesh.view());

@@ -70,9 +70,58 @@ def test_an_index_without_faces_says_so(tmp_path, call):
         meshhood.load(tmp_path / "plates.mhi"),
     ):
         assert index.faces is None
-        with pytest.raises(ValueError, match="F: expected the faces, because this index has none"):
+        with pytest.raises(ValueError, match=r"F: expected the faces, because this index has none.*save\(path, faces=True\)"):
             CALLS[call](index)
         CALLS[call](index, F=TRIANGLES)
+
+
+@pytest.mark.parametrize("way", ({}, {"mmap": True}, {"mmap": True, "trusted": True}), ids=lambda way: "-".join(way) or "copied")
+def test_a_file_may_have_the_faces(F, way, tmp_path):
+    index = meshhood.MeshIndex(V, F)
+    index.save(tmp_path / "with.mhi", faces=True)
+    loaded = meshhood.load(tmp_path / "with.mhi", **way)
+    if isinstance(index.faces, tuple):
+        for ours, given in zip(loaded.faces, index.faces):
+            np.testing.assert_array_equal(ours, given)
+            assert ours.dtype == given.dtype
+    else:
+        np.testing.assert_array_equal(loaded.faces, index.faces)
+        assert loaded.faces.dtype == index.faces.dtype
+    for call in CALLS.values():
+        np.testing.assert_array_equal(call(loaded), call(index))
+    np.testing.assert_array_equal(loaded.curvature(5.0, unit="edge").k1, index.curvature(5.0, unit="edge").k1)
+    assert loaded.nbytes == index.nbytes
+    assert loaded.refit(2 * V).faces is not None
+
+
+def test_the_faces_of_a_file_are_read_only_and_outlive_its_index(tmp_path):
+    meshhood.MeshIndex(V, TRIANGLES).save(tmp_path / "with.mhi", faces=True)
+    for mmap in (False, True):
+        faces = meshhood.load(tmp_path / "with.mhi", mmap=mmap).faces
+        np.testing.assert_array_equal(faces, TRIANGLES)
+        with pytest.raises(ValueError, match="read-only"):
+            faces[0, 0] = 1
+
+
+def test_a_loaded_index_saves_its_faces_again(F, tmp_path):
+    with_faces, again, without, bare = (tmp_path / name for name in ("with", "again", "without", "bare"))
+    index = meshhood.MeshIndex(V, F)
+    index.save(with_faces, faces=True)
+    index.save(bare)
+    loaded = meshhood.load(with_faces)
+    loaded.save(again, faces=True)
+    loaded.save(without)
+    assert again.read_bytes() == with_faces.read_bytes()
+    assert without.read_bytes() == bare.read_bytes()
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(loaded)).curvature(2.5).k1, index.curvature(2.5).k1)
+
+
+def test_an_index_without_faces_cannot_save_them(tmp_path):
+    meshhood.MeshIndex(V, TRIANGLES).save(tmp_path / "bare.mhi")
+    for index in (meshhood.MeshIndex(V, TRIANGLES, keep_faces=False), meshhood.load(tmp_path / "bare.mhi")):
+        with pytest.raises(ValueError, match=r"faces: True, but this index has none.*save\(path, faces=True\)"):
+            index.save(tmp_path / "no.mhi", faces=True)
+    assert not (tmp_path / "no.mhi").exists()
 
 
 def test_the_copy_is_compact_and_read_only():
