@@ -87,7 +87,7 @@ Output<const std::uint32_t> array_of(const IndicesView& indices, const nb::objec
 }
 
 /// Corners and offsets, none of which for triangles; nothing if the index has no faces.
-auto faces(const nb::object& self) {
+auto stored_faces(const nb::object& self) {
   using Corners = Output<const std::uint32_t>;
   std::optional<std::pair<Corners, std::optional<Corners>>> result;
   const std::optional<FacesView> found = nb::cast<ExactMethod&>(self).index().faces();
@@ -114,7 +114,7 @@ void bind_methods(nb::module_& module) {
              return std::tuple(found.mean_radius, found.rebuilt_radius, found.gain);
            })
       .def_prop_ro("permutation", &permutation, nb::rv_policy::reference)
-      .def_prop_ro("faces", &faces, nb::rv_policy::reference)
+      .def_prop_ro("faces", &stored_faces, nb::rv_policy::reference)
       .def_prop_ro("vertex_count", [](const ExactMethod& method) { return method.index().vertex_count(); })
       .def_prop_ro("nbytes", [](const ExactMethod& method) { return method.index().bytes().total(); });
 }

@@ -75,7 +75,10 @@ def test_an_index_without_faces_says_so(tmp_path, call):
         CALLS[call](index, F=TRIANGLES)
 
 
-@pytest.mark.parametrize("way", ({}, {"mmap": True}, {"mmap": True, "trusted": True}), ids=lambda way: "-".join(way) or "copied")
+WAYS = ({}, {"mmap": True}, {"mmap": True, "trusted": True})
+
+
+@pytest.mark.parametrize("way", WAYS, ids=lambda way: "-".join(way) or "copied")
 def test_a_file_may_have_the_faces(F, way, tmp_path):
     index = meshhood.MeshIndex(V, F)
     index.save(tmp_path / "with.mhi", faces=True)

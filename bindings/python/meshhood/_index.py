@@ -424,12 +424,12 @@ class MeshIndex(Queries, Aggregates, Shape):
     ) -> None:
         """Writes the index to a file for `load`. The same mesh gives the same bytes on every machine.
 
-        faces : also write the faces that the index keeps, so that the loaded index has them: 4 bytes for each corner and,
-            unless all are triangles, for each face. ValueError if the index has none.
+        faces : also write the faces that the index keeps, so that the loaded index has them: 4 bytes for each corner
+            and, unless all are triangles, for each face. ValueError if the index has none.
         progress : as for the class, in bytes; each byte is counted twice, for its checksum and for writing it.
 
-        The file holds the positions and the graph of the mesh, and its faces if `faces`. It appears whole or not at all: it is
-        written to the same folder under another name, synchronized to disk and renamed. Raises OSError, with errno and
+        The file holds the positions and the graph of the mesh, and its faces if `faces`. It appears whole or not at
+        all: it is written to the same folder under another name, synchronized to disk and renamed. Raises OSError, with errno and
         filename, and KeyboardInterrupt on Ctrl-C; an old file of that name is then unchanged.
         """
         path = _convert.path(path)
