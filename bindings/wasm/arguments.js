@@ -2,6 +2,24 @@
 // Checks of arguments that the module cannot make: types, names, and vertices, because whole numbers of JavaScript may
 // have more than the 32 bits of an id. Other numbers are checked in C++.
 import { MeshhoodError } from './instance.js';
+import { nearestWord } from './words.js';
+
+function refuseOption(name, known) {
+  const nearest = nearestWord(name, known);
+  const hint = nearest === null ? `expected one of ${known.join(', ')}` : `did you mean '${nearest}'?`;
+  throw new TypeError(`unknown option '${name}', ${hint}`);
+}
+
+/** `given` with the defaults of what it leaves out. Other options are refused, or a misspelt one would do nothing. */
+export function withDefaults(given, defaults) {
+  if (typeof given !== 'object' || given === null) throw new TypeError(`options: ${String(given)}, expected an object`);
+  const options = { ...defaults };
+  for (const name of Object.keys(given)) {
+    if (!Object.hasOwn(defaults, name)) refuseOption(name, Object.keys(defaults));
+    if (given[name] !== undefined) options[name] = given[name];
+  }
+  return options;
+}
 
 /** The place of `value` in `choices`. */
 export function choose(choices, value, name) {
@@ -67,14 +85,21 @@ export function expectMesh(positions, { corners, offsets }) {
   expectFaces({ corners, offsets });
 }
 
+const INDICES = [Uint32Array, Int32Array, Uint16Array];
+
 export function expectFaces({ corners, offsets }) {
-  expectType(corners, [Uint32Array, Int32Array], 'corners');
-  if (offsets !== null && offsets !== undefined) expectType(offsets, [Uint32Array, Int32Array], 'offsets');
+  expectType(corners, INDICES, 'corners');
+  if (offsets !== null && offsets !== undefined) expectType(offsets, INDICES, 'offsets');
+}
+
+/** The module takes indices of 32 bits. */
+function widened(indices) {
+  return indices instanceof Uint16Array ? Uint32Array.from(indices) : indices;
 }
 
 /** Copies faces into the module, and calls `use` with the six arguments that describe them. */
 export function withFaces(instance, { corners, offsets = null }, use) {
-  return instance.with([corners, offsets], (ids, begins) => use(
+  return instance.with([widened(corners), widened(offsets)], (ids, begins) => use(
     ids, corners.length, corners instanceof Int32Array, begins, offsets?.length ?? 0, offsets instanceof Int32Array));
 }
 

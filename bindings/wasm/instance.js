@@ -31,21 +31,32 @@ const NODE_FILES = 'node:fs/promises';
 /** The compiled module; a promise while it is being compiled. */
 let compiled = null;
 
-async function compileDefault() {
-  const address = new URL('./meshhood.wasm', import.meta.url);
-  if (address.protocol === 'file:' && typeof process !== 'undefined') {
-    const files = await import(/* @vite-ignore */ NODE_FILES);
-    return WebAssembly.compile(await files.readFile(address));
-  }
-  const response = await fetch(address);
-  if (!response.ok) throw new Error(`${address}: ${response.status} ${response.statusText}`);
-  return WebAssembly.compile(await response.arrayBuffer());
+async function bytesOf(response) {
+  if (!response.ok) throw new Error(`${response.url}: ${response.status} ${response.statusText}`);
+  return response.arrayBuffer();
 }
 
-export async function initialize(source) {
+/** `address` is absolute, or relative to the page. Node reads files, which its `fetch` does not. */
+async function download(address) {
+  if (String(address).startsWith('file:') && typeof process !== 'undefined') {
+    const files = await import(/* @vite-ignore */ /* webpackIgnore: true */ NODE_FILES);
+    return files.readFile(new URL(address));
+  }
+  return bytesOf(await fetch(address));
+}
+
+async function compile(source) {
+  const given = await source;
+  if (given instanceof WebAssembly.Module) return given;
+  if (given instanceof ArrayBuffer || ArrayBuffer.isView(given)) return WebAssembly.compile(given);
+  if (typeof Response !== 'undefined' && given instanceof Response) return WebAssembly.compile(await bytesOf(given));
+  if (typeof given === 'string' || given instanceof URL) return WebAssembly.compile(await download(given));
+  throw new TypeError(`source: ${String(given)}, expected an address, a Response, bytes or a WebAssembly.Module`);
+}
+
+export async function initialize(source = new URL('./meshhood.wasm', import.meta.url)) {
   if (compiled instanceof WebAssembly.Module) return;
-  if (source instanceof WebAssembly.Module) compiled = source;
-  compiled ??= source === undefined ? compileDefault() : WebAssembly.compile(source);
+  compiled ??= compile(source);
   try {
     compiled = await compiled;
   } catch (error) {

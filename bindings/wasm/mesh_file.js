@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-import { choose, expectBytes } from './arguments.js';
+import { choose, expectBytes, withDefaults } from './arguments.js';
 import { Instance } from './instance.js';
 
 const FORMATS = ['ply', 'obj', 'off', 'stl'];
 const PRECISIONS = ['file', 'float', 'double'];
 
-export function readMesh(bytes, name, { precision = 'file', strict = false, progress } = {}) {
+const READING = { precision: 'file', strict: false, progress: undefined };
+
+export function readMesh(bytes, name, options = {}) {
+  const { precision, strict, progress } = withDefaults(options, READING);
   expectBytes(bytes, 'bytes');
   const place = choose(PRECISIONS, precision, 'precision');
   const encoded = new TextEncoder().encode(name);

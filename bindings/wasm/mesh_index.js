@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import {
   choose, expectBytes, expectFaces, expectMesh, expectNumber, expectPoint, expectRadius, expectSize, expectType,
-  expectVertex, expectVertices, toReals, withFaces, withMesh,
+  expectVertex, expectVertices, toReals, withDefaults, withFaces, withMesh,
 } from './arguments.js';
 import { Curvature } from './curvature.js';
 import { Instance, MeshhoodError, Owner, makeInstance } from './instance.js';
@@ -16,6 +16,18 @@ const MISSING = ['propagate', 'omit'];
 const NESTINGS = ['own', 'patch'];
 const FITS = ['quadric', 'jet'];
 
+// The options of the calls, with their defaults.
+const BUILDING = { offsets: null, cut: null, progress: undefined };
+const QUERY = { method: 'exact', metric: 'straight', unit: 'mesh' };
+const ANSWER = { sort: false, distances: false };
+const MASKS = { walls: null, ignored: null };
+const SEARCH = { seeds: null, ...MASKS };
+const SMOOTHING = { weights: null, faces: null, vertices: null, nan: 'propagate', unit: 'mesh' };
+const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, ...SMOOTHING };
+const CURVATURE = {
+  vertices: null, faces: null, normals: null, like: null, fit: 'quadric', filter: true, unit: 'mesh',
+};
+
 function chooseMethod(method, metric) {
   const place = choose(METHODS, method, 'method');
   if (choose(METRICS, metric, 'metric') === 0) return place;
@@ -23,12 +35,27 @@ function chooseMethod(method, metric) {
   throw new MeshhoodError('InvalidOption', `method: '${method}', expected 'exact' with metric 'path'`);
 }
 
-function build(positions, corners, { offsets = null, cut = null, progress } = {}) {
+function build(positions, corners, options = {}) {
+  const { offsets, cut, progress } = withDefaults(options, BUILDING);
   expectMesh(positions, { corners, offsets });
   expectVertices(cut, 'cut');
   return makeInstance((instance) =>
     withMesh(instance, positions, { corners, offsets }, (...mesh) => instance.with([cut], (ends) =>
       instance.callWithProgress(progress, 'build', ...mesh, ends, cut?.length ?? 0))));
+}
+
+/** What a refit needs, checked. */
+function movement(positions, options = {}) {
+  const { changed } = withDefaults(options, { changed: null });
+  expectType(positions, [Float32Array, Float64Array], 'positions');
+  expectVertices(changed, 'changed');
+  return { positions, changed };
+}
+
+/** Moves the vertices of the index in `instance`. */
+function move(instance, { positions, changed }) {
+  instance.with([positions, changed], (xyz, list) => instance.call(
+    'refit', xyz, positions.length, positions instanceof Float64Array, list, changed?.length ?? 0));
 }
 
 /** Ids and distances in ascending order of the ids. */
@@ -46,7 +73,8 @@ export class MeshIndex extends Owner {
     this.#vertexCount = this.instance.call('vertex_count') >>> 0;
   }
 
-  static load(bytes, { progress } = {}) {
+  static load(bytes, options = {}) {
+    const { progress } = withDefaults(options, { progress: undefined });
     expectBytes(bytes, 'bytes');
     return new MeshIndex(makeInstance((instance) =>
       instance.with([bytes], (file) => instance.callWithProgress(progress, 'load', file, bytes.byteLength))));
@@ -80,11 +108,13 @@ export class MeshIndex extends Owner {
     return this.instance.take(Uint32Array, this.instance.call('permutation'), this.vertexCount);
   }
 
-  refit(positions, { changed = null } = {}) {
-    expectType(positions, [Float32Array, Float64Array], 'positions');
-    expectVertices(changed, 'changed');
-    return new MeshIndex(makeInstance((copy) => copy.with([positions, changed], (xyz, list) => copy.call(
-      'refit', xyz, positions.length, positions instanceof Float64Array, list, changed?.length ?? 0)), this.instance.clone()));
+  refit(positions, options) {
+    const change = movement(positions, options);
+    return new MeshIndex(makeInstance((copy) => move(copy, change), this.instance.clone()));
+  }
+
+  refitInPlace(positions, options) {
+    move(this.instance, movement(positions, options));
   }
 
   quality() {
@@ -106,7 +136,8 @@ export class MeshIndex extends Owner {
 
   // Neighborhoods.
 
-  queryBall(v, r, { method = 'exact', metric = 'straight', unit = 'mesh', sort = false, distances = false } = {}) {
+  queryBall(v, r, options = {}) {
+    const { method, metric, unit, sort, distances } = withDefaults(options, { ...QUERY, ...ANSWER });
     const place = chooseMethod(method, metric);
     const scale = this.#scale(unit);
     if (v === null || typeof v === 'object') return this.#queryMany(place, v, r, scale, { sort, distances });
@@ -114,12 +145,14 @@ export class MeshIndex extends Owner {
     return this.#takeNeighborhood(sort, distances);
   }
 
-  viewBall(v, r, { method = 'exact', metric = 'straight', unit = 'mesh' } = {}) {
+  viewBall(v, r, options = {}) {
+    const { method, metric, unit } = withDefaults(options, QUERY);
     const count = this.#query(chooseMethod(method, metric), v, r, this.#scale(unit), false);
     return this.instance.view(Uint32Array, this.instance.call('answer_ids'), count);
   }
 
-  count(v, r, { method = 'exact', metric = 'straight', unit = 'mesh' } = {}) {
+  count(v, r, options = {}) {
+    const { method, metric, unit } = withDefaults(options, QUERY);
     const place = chooseMethod(method, metric);
     const scale = this.#scale(unit);
     if (v === null || typeof v === 'object') return this.#queryMany(place, v, r, scale, { countOnly: true });
@@ -162,14 +195,16 @@ export class MeshIndex extends Owner {
 
   // Regions.
 
-  queryRegion(start, r, { unit = 'mesh', sort = false, distances = false, ...search } = {}) {
+  queryRegion(start, r, options = {}) {
+    const { unit, sort, distances, ...search } = withDefaults(options, { unit: 'mesh', ...ANSWER, ...SEARCH });
     expectRadius(r);
     const radius = this.#scale(unit) * r;
     this.#search(start, search, () => this.instance.call('region', radius, distances));
     return this.#takeNeighborhood(sort, distances);
   }
 
-  queryNested(start, radii, { unit = 'mesh', ...search } = {}) {
+  queryNested(start, radii, options = {}) {
+    const { unit, ...search } = withDefaults(options, { unit: 'mesh', ...SEARCH });
     const scale = this.#scale(unit);
     const scaled = toReals(radii, 'radii').map((radius) => scale * radius);
     this.#search(start, search, () =>
@@ -177,26 +212,30 @@ export class MeshIndex extends Owner {
     return this.#takeRings();
   }
 
-  queryRings(v, k, { walls, ignored } = {}) {
+  queryRings(v, k, options = {}) {
+    const masks = withDefaults(options, MASKS);
     this.#expectVertex(v);
     expectSize(k, 'k');
-    this.#search(v, { walls, ignored }, () => this.instance.call('rings', v, k));
+    this.#search(v, { seeds: null, ...masks }, () => this.instance.call('rings', v, k));
     return this.#takeRings();
   }
 
-  contains(start, w, r, { unit = 'mesh', ...search } = {}) {
+  contains(start, w, r, options = {}) {
+    const { unit, ...search } = withDefaults(options, { unit: 'mesh', ...SEARCH });
     this.#expectVertex(w);
     expectRadius(r);
     const radius = this.#scale(unit) * r;
     return this.#search(start, search, () => this.instance.call('contains', w, radius)) !== 0;
   }
 
-  connectingRadius(start, w, search = {}) {
+  connectingRadius(start, w, options = {}) {
+    const search = withDefaults(options, SEARCH);
     this.#expectVertex(w);
     return this.#search(start, search, () => this.instance.call('connecting_radius', w));
   }
 
-  nearestConnected(start, k, search = {}) {
+  nearestConnected(start, k, options = {}) {
+    const search = withDefaults(options, SEARCH);
     expectSize(k, 'k');
     this.#search(start, search, () => this.instance.call('nearest_connected', k));
     return { ids: this.instance.takeIds(), radii: this.instance.takeReals() };
@@ -209,7 +248,7 @@ export class MeshIndex extends Owner {
   }
 
   /** Calls `use` while the start and the masks are in the memory of the module, and returns its result. */
-  #search(start, { seeds = null, walls = null, ignored = null }, use) {
+  #search(start, { seeds, walls, ignored }, use) {
     if (typeof start === 'number') this.#expectVertex(start);
     else expectPoint(start, 'start');
     if (seeds !== null && typeof start === 'number') {
@@ -233,10 +272,8 @@ export class MeshIndex extends Owner {
 
   // Values and shape.
 
-  aggregate(values, r, {
-    reduce = 'mean', weights = null, kernel = 'box', vertices = null, nan = 'propagate', nesting = 'own', ddof = 0,
-    faces = null, unit = 'mesh',
-  } = {}) {
+  aggregate(values, r, options = {}) {
+    const { reduce, weights, kernel, vertices, nan, nesting, ddof, faces, unit } = withDefaults(options, AGGREGATION);
     const scale = this.#scale(unit);
     const signal = toReals(values, 'values');
     const radii = (typeof r === 'number' ? Float64Array.of(r) : toReals(r, 'r')).map((radius) => scale * radius);
@@ -257,9 +294,10 @@ export class MeshIndex extends Owner {
   }
 
   smooth(values, fwhm, options = {}) {
+    const chosen = withDefaults(options, SMOOTHING);
     expectNumber(fwhm, 'fwhm');
     const radius = this.instance.call('smoothing_radius', fwhm);
-    return this.aggregate(values, radius, { ...options, reduce: 'mean', kernel: 'biweight' });
+    return this.aggregate(values, radius, { ...chosen, reduce: 'mean', kernel: 'biweight' });
   }
 
   #weights(weights, faces) {
@@ -274,9 +312,8 @@ export class MeshIndex extends Owner {
     return this.instance.takeReals();
   }
 
-  curvature(r, {
-    vertices = null, faces = null, normals = null, like = null, fit = 'quadric', filter = true, unit = 'mesh',
-  } = {}) {
+  curvature(r, options = {}) {
+    const { vertices, faces, normals, like, fit, filter, unit } = withDefaults(options, CURVATURE);
     expectRadius(r);
     const radius = this.#scale(unit) * r;
     expectVertices(vertices, 'vertices');

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+/// <reference lib="esnext.disposable" />
 
 /**
  * meshhood: the connected component of a mesh inside a ball around a vertex, exact and indexed.
@@ -27,7 +28,10 @@ export type ErrorCode =
   | 'TooLarge'
   | 'Cancelled';
 
-/** An error of the library, with the message of the C++ library. Arguments of a wrong type give a TypeError instead. */
+/**
+ * An error of the library, with the message of the C++ library. Arguments of a wrong type and unknown options give a
+ * TypeError instead.
+ */
 export class MeshhoodError extends Error {
   readonly code: ErrorCode;
 }
@@ -35,19 +39,37 @@ export class MeshhoodError extends Error {
 /**
  * Compiles the WebAssembly module; to be awaited once before all other calls. Later calls do nothing.
  *
- * @param source the bytes of `meshhood.wasm`, or the compiled module. By default the file beside this module is read.
+ * @param source `meshhood.wasm`: its address, as bundlers give it, the response to a request for it, or its bytes; or the
+ * compiled module; or a promise of one of these. An address may be relative to the page. By default the file beside this
+ * module is read.
  */
-export function initialize(source?: BufferSource | WebAssembly.Module): Promise<void>;
+export function initialize(source?: WasmSource | Promise<WasmSource>): Promise<void>;
+
+export type WasmSource = string | URL | Response | Bytes | WebAssembly.Module;
+
+export type Bytes = ArrayBuffer | ArrayBufferView;
+
+declare global {
+  // Of the library DOM. Without it, as under Node, these are empty.
+  interface Response {}
+  interface URL {}
+  namespace WebAssembly {
+    interface Module {}
+  }
+}
 
 /** Called during long calls, at most twenty times a second. Return false to end the call with the error `Cancelled`. */
 export type Progress = (done: number, total: number) => boolean | void;
 
+/** Indices of 16 bits are copied into 32. */
+export type Indices = Uint32Array | Int32Array | Uint16Array;
+
 /** Triangles or polygons. A `Mesh` has these, too. */
 export interface Faces {
   /** The corners of all faces, face after face. */
-  corners: Uint32Array | Int32Array;
+  corners: Indices;
   /** Face f has the corners `corners[offsets[f]]` to `corners[offsets[f + 1] - 1]`. Null: all are triangles. */
-  offsets?: Uint32Array | Int32Array | null;
+  offsets?: Indices | null;
 }
 
 /** The triangles or polygons of a file, in the numbering of the file. */
@@ -77,7 +99,7 @@ export interface ReadOptions {
  * @param name its name in messages; its extension decides only where the content does not
  * @throws MeshhoodError MalformedFile, UnsupportedFormat, InvalidMesh, TooLarge, Cancelled
  */
-export function readMesh(bytes: BufferSource, name: string, options?: ReadOptions): Mesh;
+export function readMesh(bytes: Bytes, name: string, options?: ReadOptions): Mesh;
 
 /**
  * `exact`: the exact neighborhood, by the index. `paper`: the approximate neighborhood of the paper, a superset of
@@ -237,9 +259,9 @@ export class MeshIndex {
    */
   constructor(
     positions: Float32Array | Float64Array,
-    corners: Uint32Array | Int32Array,
+    corners: Indices,
     options?: {
-      offsets?: Uint32Array | Int32Array | null;
+      offsets?: Indices | null;
       /** Edges that no search crosses: #cut by 2 vertices, in either order. */
       cut?: Uint32Array | null;
       progress?: Progress;
@@ -253,7 +275,7 @@ export class MeshIndex {
    * @throws MeshhoodError MalformedIndex, naming the section, the byte, what it contains and what was expected;
    * TooLarge
    */
-  static load(bytes: BufferSource, options?: { progress?: Progress }): MeshIndex;
+  static load(bytes: Bytes, options?: { progress?: Progress }): MeshIndex;
 
   /** The bytes of an index file. The same mesh gives the same bytes on every machine. */
   save(): Uint8Array;
@@ -291,6 +313,13 @@ export class MeshIndex {
    * @throws MeshhoodError InvalidMesh, VertexOutOfRange, TooLarge
    */
   refit(positions: Float32Array | Float64Array, options?: { changed?: Uint32Array | null }): MeshIndex;
+
+  /**
+   * As `refit`, but this index becomes that of the moved mesh: for animations. No memory of the instance is copied. With
+   * `changed`, the time depends on the number of these vertices, apart from a sum over all leaves. If the call fails, the
+   * index stays as it is.
+   */
+  refitInPlace(positions: Float32Array | Float64Array, options?: { changed?: Uint32Array | null }): void;
 
   /**
    * How well the leaves fit the positions: their mean radius at some places of the mesh, that in a new index, and the
@@ -453,8 +482,8 @@ export class RegionMesh {
   /** @throws MeshhoodError InvalidMesh, TooLarge */
   constructor(
     positions: Float32Array | Float64Array,
-    corners: Uint32Array | Int32Array,
-    options?: { offsets?: Uint32Array | Int32Array | null },
+    corners: Indices,
+    options?: { offsets?: Indices | null },
   );
 
   readonly memoryBytes: number;

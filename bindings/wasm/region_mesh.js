@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-import { choose, expectMesh, expectPoint, expectRadius, expectType, expectVertex, withMesh } from './arguments.js';
+import {
+  choose, expectMesh, expectPoint, expectRadius, expectType, expectVertex, withDefaults, withMesh,
+} from './arguments.js';
 import { Owner, makeInstance } from './instance.js';
 
 const CORNERS = ['all', 'any'];
@@ -8,7 +10,8 @@ export class RegionMesh extends Owner {
   #positions;
   #isTriangles;
 
-  constructor(positions, corners, { offsets = null } = {}) {
+  constructor(positions, corners, options = {}) {
+    const { offsets } = withDefaults(options, { offsets: null });
     expectMesh(positions, { corners, offsets });
     super(makeInstance((instance) =>
       withMesh(instance, positions, { corners, offsets }, (...mesh) => instance.call('prepare_regions', ...mesh))));

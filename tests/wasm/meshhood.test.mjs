@@ -9,7 +9,7 @@ import { test } from 'node:test';
 import { ball, distance, grid, neighborhood, neighbors, plates, polygons, random, roll, toPly } from './meshes.mjs';
 import { build, library, meshhood, read as readFile, scaled, wordsOfCommandLine, write } from './setup.mjs';
 
-const { MeshIndex, MeshhoodError, initialize, readMesh } = library;
+const { MeshIndex, MeshhoodError, RegionMesh, initialize, readMesh } = library;
 
 test('nothing works before the module is compiled, and the error says what to call', () => {
   assert.throws(() => new MeshIndex(new Float32Array(), new Uint32Array()), /call initialize\(\) first/);
@@ -229,6 +229,18 @@ test('arrays that are no mesh are refused in the words of C++', () => {
   refuse([0, 0, 0], new Uint32Array(), {}, TypeError);
   refuse(positions, [0, 1, 2], {}, TypeError);
   refuse(positions, undefined, {}, TypeError);
+});
+
+test('indices of 16 bits, as three.js makes them, give the same index', () => {
+  for (const mesh of [families.roll, families.polygons]) {
+    const narrow = { ...mesh, corners: Uint16Array.from(mesh.corners), offsets: mesh.offsets && Uint16Array.from(mesh.offsets) };
+    assert.deepEqual(build(narrow).save(), build(mesh).save());
+    assert.deepEqual(build(mesh).curvature(3, { faces: narrow }), build(mesh).curvature(3, { faces: mesh }));
+    const ids = build(mesh).queryBall(7, 3);
+    const regionsOf = ({ positions, corners, offsets }) => new RegionMesh(positions, corners, { offsets });
+    assert.deepEqual(regionsOf(narrow).submesh(ids), regionsOf(mesh).submesh(ids));
+  }
+  assert.throws(() => build({ positions: new Float32Array(9), corners: Uint16Array.of(0, 1, 3) }), { code: 'InvalidMesh', message: /3/ });
 });
 
 test('progress is reported, can cancel, and its exceptions are passed on', () => {

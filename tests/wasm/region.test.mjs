@@ -170,6 +170,40 @@ test('a refitted index answers as a new one', () => {
   assert.throws(() => old.refit(moved), /has been disposed/);
 });
 
+test('a refit in place gives the index that a refit gives, and keeps it after an error', () => {
+  const moved = mesh.positions.map((x, i) => x + 0.3 * Math.sin(i));
+  const moving = build(mesh);
+  for (const method of ['exact', 'bfs', 'paper', 'ball']) moving.queryBall(0, 4, { method }); // what it makes is not kept
+  assert.equal(moving.refitInPlace(moved), undefined);
+  const expected = build(mesh).refit(moved);
+  assert.deepEqual(moving.save(), expected.save());
+  const unread = moved.map((_, i) => (i < 9 ? i : NaN));
+  const changed = Uint32Array.of(0, 1, 2);
+  moving.refitInPlace(unread, { changed });
+  const partly = expected.refit(unread, { changed });
+  assert.deepEqual(moving.save(), partly.save());
+  for (const method of ['exact', 'bfs', 'paper', 'ball']) {
+    assert.deepEqual(moving.queryBall(333, 4, { method }), partly.queryBall(333, 4, { method }));
+  }
+  assert.throws(() => moving.refitInPlace(unread), { code: 'InvalidMesh', message: /vertex 3/ });
+  assert.throws(() => moving.refitInPlace(moved, { changed: Uint32Array.of(vertices) }), { code: 'VertexOutOfRange' });
+  assert.deepEqual(moving.save(), partly.save());
+  assert.deepEqual(moving.queryBall(333, 4), partly.queryBall(333, 4));
+});
+
+test('an animation of refits in place needs no more memory after its first frames', () => {
+  const moving = build(mesh);
+  const changed = Uint32Array.of(333, 334, 335);
+  let before = 0;
+  for (let frame = 0; frame < 200; ++frame) {
+    moving.refitInPlace(mesh.positions.map((x, i) => x + 0.1 * Math.sin(i + frame)), frame % 2 === 0 ? {} : { changed });
+    moving.queryBall(333, 4);
+    if (frame === 5) before = moving.memoryBytes;
+  }
+  console.log(`${before} bytes after some frames, ${moving.memoryBytes} after 200`);
+  assert.equal(moving.memoryBytes, before);
+});
+
 test('an animation of many refits needs no more memory than its first', () => {
   let moving = build(mesh).refit(mesh.positions);
   const before = moving.memoryBytes;

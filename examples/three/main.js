@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// meshhood in a scene of three.js: a click colors the neighborhood of the vertex under the pointer, and a brush paints
+// the surface under it, but not the strands of the knot behind. `npm install && npm start`, after `make view`.
+import { MeshIndex, initialize } from 'meshhood';
+import wasm from 'meshhood/meshhood.wasm?url';
+import * as THREE from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { mergeVertices } from 'three/addons/utils/BufferGeometryUtils.js';
+
+const RADIUS = 2;
+const BRUSH_RADIUS = 0.5;
+const SURFACE = new THREE.Color('#d9dbe0');
+const NEAR = new THREE.Color('#009e73');
+const PAINT = new THREE.Color('#d55e00');
+
+/** A knot whose triangles share vertices: three.js repeats them along a seam, which no search would cross. */
+function makeGeometry() {
+  const seamed = new THREE.TorusKnotGeometry(3, 0.9, 400, 40);
+  seamed.deleteAttribute('normal');
+  seamed.deleteAttribute('uv');
+  const geometry = mergeVertices(seamed);
+  geometry.computeVertexNormals();
+  geometry.setAttribute('color', new THREE.BufferAttribute(new Float32Array(3 * geometry.attributes.position.count), 3));
+  return geometry;
+}
+
+await initialize(wasm);
+const geometry = makeGeometry();
+const colors = geometry.attributes.color;
+const index = new MeshIndex(geometry.attributes.position.array, geometry.index.array);
+
+const canvas = document.getElementById('canvas');
+const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
+const camera = new THREE.PerspectiveCamera(40, innerWidth / innerHeight, 0.1, 100);
+camera.position.set(0, 0, 16);
+const light = new THREE.DirectionalLight('#ffffff', 2);
+camera.add(light);
+const scene = new THREE.Scene();
+const mesh = new THREE.Mesh(geometry, new THREE.MeshStandardMaterial({ vertexColors: true }));
+scene.add(mesh, camera, new THREE.HemisphereLight('#ffffff', '#9aa3b5', 1.5));
+const controls = new OrbitControls(camera, canvas);
+
+function draw() {
+  renderer.setPixelRatio(devicePixelRatio);
+  renderer.setSize(innerWidth, innerHeight, false);
+  camera.aspect = innerWidth / innerHeight;
+  camera.updateProjectionMatrix();
+  renderer.render(scene, camera);
+}
+
+function paint(vertices, color) {
+  for (const v of vertices) colors.setXYZ(v, color.r, color.g, color.b);
+  colors.needsUpdate = true;
+  draw();
+}
+
+/** The point of the surface under the pointer, and the corners of its triangle; undefined over the background. */
+function hitOf(event) {
+  const at = new THREE.Vector2((2 * event.clientX) / innerWidth - 1, 1 - (2 * event.clientY) / innerHeight);
+  const ray = new THREE.Raycaster();
+  ray.setFromCamera(at, camera);
+  const [hit] = ray.intersectObject(mesh);
+  return hit && { point: hit.point.toArray(), corners: Uint32Array.of(hit.face.a, hit.face.b, hit.face.c) };
+}
+
+function showNeighborhood({ point }) {
+  const { vertex } = index.nearest(point);
+  const near = index.queryBall(vertex, RADIUS);
+  paint(Array(colors.count).keys(), SURFACE);
+  paint(near, NEAR);
+  document.getElementById('result').textContent = `Vertex ${vertex}: ${near.length} vertices.`;
+}
+
+/** One dab: the vertices that are connected with the triangle under the pointer, within the radius around the point. */
+function brush({ point, corners }) {
+  paint(index.queryRegion(point, BRUSH_RADIUS, { seeds: corners }), PAINT);
+}
+
+let pressed = null;
+canvas.addEventListener('pointerdown', (event) => {
+  pressed = { x: event.clientX, y: event.clientY, isBrush: event.shiftKey };
+  controls.enabled = !pressed.isBrush;
+}, { capture: true });
+canvas.addEventListener('pointermove', (event) => {
+  const hit = pressed?.isBrush ? hitOf(event) : undefined;
+  if (hit) brush(hit);
+});
+canvas.addEventListener('pointerup', (event) => {
+  const isClick = !pressed.isBrush && Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) < 5;
+  const hit = isClick ? hitOf(event) : undefined;
+  if (hit) showNeighborhood(hit);
+  pressed = null;
+});
+controls.addEventListener('change', draw);
+window.addEventListener('resize', draw);
+paint(Array(colors.count).keys(), SURFACE);
+document.body.dataset.ready = 'true';

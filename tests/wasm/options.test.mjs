@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// A misspelt option of the package for JavaScript is an error. Without one it would change nothing, and the answer would
+// be that of another question.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+import { plates, toPly } from './meshes.mjs';
+import { build, library } from './setup.mjs';
+
+const { MeshIndex, RegionMesh, initialize, readMesh } = library;
+await initialize();
+
+const mesh = plates(6);
+const index = build(mesh);
+const heights = mesh.positions.filter((_, i) => i % 3 === 2);
+
+/** Every call that takes options, with one that it knows. */
+const CALLS = {
+  readMesh: [(options) => readMesh(toPly(mesh), 'mesh.ply', options), 'precision'],
+  MeshIndex: [(options) => new MeshIndex(mesh.positions, mesh.corners, options), 'offsets'],
+  load: [(options) => MeshIndex.load(index.save(), options), 'progress'],
+  refit: [(options) => index.refit(mesh.positions, options), 'changed'],
+  refitInPlace: [(options) => index.refitInPlace(mesh.positions, options), 'changed'],
+  queryBall: [(options) => index.queryBall(5, 3, options), 'unit'],
+  batch: [(options) => index.queryBall(null, 3, options), 'distances'],
+  viewBall: [(options) => index.viewBall(5, 3, options), 'metric'],
+  count: [(options) => index.count(5, 3, options), 'method'],
+  queryRegion: [(options) => index.queryRegion(5, 3, options), 'ignored'],
+  queryNested: [(options) => index.queryNested(5, Float64Array.of(1, 2), options), 'walls'],
+  queryRings: [(options) => index.queryRings(5, 2, options), 'walls'],
+  contains: [(options) => index.contains(5, 6, 2, options), 'seeds'],
+  connectingRadius: [(options) => index.connectingRadius(5, 6, options), 'ignored'],
+  nearestConnected: [(options) => index.nearestConnected(5, 6, options), 'walls'],
+  aggregate: [(options) => index.aggregate(heights, 2, options), 'reduce'],
+  smooth: [(options) => index.smooth(heights, 2, options), 'weights'],
+  curvature: [(options) => index.curvature(2, { faces: mesh, ...options }), 'filter'],
+  RegionMesh: [(options) => new RegionMesh(mesh.positions, mesh.corners, options), 'offsets'],
+};
+
+for (const [name, [call, known]] of Object.entries(CALLS)) {
+  test(`${name} refuses an unknown option, and names the one that was meant`, () => {
+    call({ [known]: undefined });
+    assert.throws(() => call({ [`${known}s`]: undefined }), {
+      name: 'TypeError', message: `unknown option '${known}s', did you mean '${known}'?`,
+    });
+    assert.throws(() => call({ zzzzzzzz: 1 }), { name: 'TypeError', message: /^unknown option 'zzzzzzzz', expected one of [a-z]/ });
+    assert.throws(() => call({ toString: 1 }), { name: 'TypeError', message: /^unknown option 'toString'/ });
+  });
+}
+
+test('options in other letters are named, too', () => {
+  assert.throws(() => index.queryBall(5, 3, { Sort: true }), { message: "unknown option 'Sort', did you mean 'sort'?" });
+  assert.throws(() => index.count(5, 3, { sort: true }), { message: "unknown option 'sort', expected one of method, metric, unit" });
+});
+
+test('options that are no object are refused', () => {
+  for (const options of ['edge', null, 3, true]) {
+    assert.throws(() => index.queryBall(5, 3, options), { name: 'TypeError', message: `options: ${options}, expected an object` });
+  }
+});

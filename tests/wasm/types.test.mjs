@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// The declarations of the package hold under `tsc --strict`, without `skipLibCheck`. MESHHOOD_PACKAGE is its folder.
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import { writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+
+import { makeProject } from './project.mjs';
+
+const { project } = makeProject();
+const compiler = fileURLToPath(new URL('node_modules/typescript/bin/tsc', import.meta.url));
+
+function compile(text, ...options) {
+  writeFileSync(join(project, 'use.ts'), text);
+  const { status, stdout } = spawnSync(process.execPath, [
+    compiler, '--strict', '--noEmit', '--skipLibCheck', 'false', '--module', 'nodenext', ...options, 'use.ts'], { cwd: project, encoding: 'utf8' });
+  return { status, stdout };
+}
+
+const USE = `
+  import { Curvature, MeshIndex, MeshhoodError, RegionMesh, initialize, readMesh } from 'meshhood';
+  import type { Faces, Mesh, Rows } from 'meshhood';
+
+  await initialize();
+  const mesh: Mesh = readMesh(new Uint8Array(9), 'hand.ply', { precision: 'double' });
+  const faces: Faces = { corners: Uint16Array.of(0, 1, 2) };
+  const index: MeshIndex = new MeshIndex(mesh.positions, mesh.corners, { offsets: mesh.offsets });
+  const near: Uint32Array = index.queryBall(42, 1.5, { unit: 'edge' });
+  const rows: Rows = index.queryBall(null, 1.5);
+  const curvature: Curvature = index.curvature(2, { faces });
+  index.refitInPlace(mesh.positions, { changed: near });
+  const part = new RegionMesh(mesh.positions, faces.corners).submesh(near);
+  const codes: string[] = [new MeshhoodError().code];
+  export const used = [rows.offsets, curvature.mean, part.vertices, codes];
+`;
+
+for (const [name, options] of Object.entries({
+  'es2022 with the DOM': ['--target', 'es2022'],
+  'es2022 alone': ['--target', 'es2022', '--lib', 'es2022'],
+  'the latest version': ['--target', 'esnext'],
+})) {
+  test(`the declarations pass for ${name}`, () => assert.deepEqual(compile(USE, ...options), { status: 0, stdout: '' }));
+}
+
+test('unknown options and wrong types are errors of the compiler', () => {
+  for (const wrong of ["{ units: 'edge' }", "{ unit: 'foot' }", "{ sort: 1 }"]) {
+    const { status, stdout } = compile(`
+      import type { MeshIndex } from 'meshhood';
+      export const near = (index: MeshIndex) => index.queryBall(5, 3, ${wrong});`, '--target', 'es2022');
+    assert.notEqual(status, 0, wrong);
+    assert.match(stdout, /^use\.ts\(3,/, wrong);
+  }
+});
