@@ -88,19 +88,30 @@ export function placeOf(page, vertex) {
   return page.evaluate((vertex) => window.meshhoodPage.view.toCanvas(vertex), vertex);
 }
 
-/** How many pixels of a screenshot have about the color `rgb`; counted by the browser, which can read PNG. */
-export async function countPixels(page, rgb, reach = 60) {
+/** Calls `use` in the page with the pixels of a screenshot, which the browser can read, and with `argument`. */
+async function withPixels(page, use, argument) {
   const picture = (await page.screenshot()).toString('base64');
-  return page.evaluate(async ({ picture, rgb, reach }) => {
+  return page.evaluate(async ({ picture, use, argument }) => {
     const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${picture}`)).blob());
     const canvas = new OffscreenCanvas(image.width, image.height);
     const context = canvas.getContext('2d');
     context.drawImage(image, 0, 0);
-    const { data } = context.getImageData(0, 0, image.width, image.height);
-    let count = 0;
-    for (let i = 0; i < data.length; i += 4) {
-      if (Math.hypot(data[i] - rgb[0], data[i + 1] - rgb[1], data[i + 2] - rgb[2]) < reach) ++count;
-    }
-    return count;
-  }, { picture, rgb, reach });
+    const pixels = context.getImageData(0, 0, image.width, image.height);
+    return new Function(`return (${use})(...arguments)`)(pixels, argument);
+  }, { picture, use: use.toString(), argument });
 }
+
+/** How many pixels of a screenshot have about the color `rgb`. */
+export const countPixels = (page, rgb, reach = 60) => withPixels(page, ({ data }, { rgb, reach }) => {
+  let count = 0;
+  for (let i = 0; i < data.length; i += 4) {
+    if (Math.hypot(data[i] - rgb[0], data[i + 1] - rgb[1], data[i + 2] - rgb[2]) < reach) ++count;
+  }
+  return count;
+}, { rgb, reach });
+
+/** The colors of a screenshot at some places. */
+export const colorsAt = (page, places) => withPixels(page, ({ data, width }, places) => places.map(({ x, y }) => {
+  const at = 4 * (Math.round(y) * width + Math.round(x));
+  return [...data.slice(at, at + 3)];
+}), places);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the colors show: the answers, a quantity that is computed for all vertices, or values that came with the mesh.
+import type { ColorKey } from './color_key';
 import type { Engine } from './engine';
 import type { Method, Opened } from './messages';
 import { showProgress } from './notices';
@@ -20,6 +21,7 @@ export class Coloring {
   readonly #view: View;
   readonly #engine: Engine;
   readonly #panel: Panel;
+  readonly #key: ColorKey;
   readonly #changed: () => void;
   #painting = new Painting(0);
   #own = new Map<string, Scalar>(); // the values that came with the mesh, by their choices
@@ -32,15 +34,16 @@ export class Coloring {
   #timer = 0;
 
   /** Calls `changed` after another choice. */
-  constructor(view: View, engine: Engine, panel: Panel, changed: () => void) {
+  constructor(view: View, engine: Engine, panel: Panel, key: ColorKey, changed: () => void) {
     this.#view = view;
     this.#engine = engine;
     this.#panel = panel;
+    this.#key = key;
     this.#changed = changed;
   }
 
-  /** Another mesh is open, perhaps with values that were passed to the page. Returns the colors of its vertices. */
-  open(opened: Opened, passed: Scalar | null): Uint8Array {
+  /** Another mesh is open, perhaps with values that were passed to the page. Returns what is drawn of its vertices. */
+  open(opened: Opened, passed: Scalar | null): Painting {
     this.#painting = new Painting(opened.vertices);
     this.#own = new Map(opened.scalars.map(({ name, values }) => [`ply:${name}`, { title: name, values }]));
     if (passed !== null) this.#own.set(PASSED, passed);
@@ -49,7 +52,7 @@ export class Coloring {
     this.#given = null;
     this.#vertex = -1;
     this.choose(ANSWERS);
-    return this.#painting.bytes;
+    return this.#painting;
   }
 
   /** The choice of a link, if this mesh has it; else the values that were passed; else the answers. */
@@ -99,6 +102,7 @@ export class Coloring {
   #setScalar(scalar: Scalar | null): void {
     this.#scalar = scalar;
     this.#panel.setLegend(scalar, this.#painting.setScalar(scalar));
+    this.#view.updateColors();
     this.#showValue();
   }
 
@@ -109,7 +113,8 @@ export class Coloring {
   #paint(): void {
     const answers = this.#choice === ANSWERS ? this.#answers : new Map<Method, Uint32Array>();
     this.#painting.setAnswers(this.#given === null ? answers : new Map([['exact', this.#given]]));
-    this.#view.updateColors();
+    this.#view.updateAnswers(this.#given === null);
+    this.#key.show(answers, this.#given);
   }
 
   get choice(): string {

@@ -10,7 +10,9 @@ export interface Handlers {
   opened(opened: Opened): void;
   failed(during: 'open' | 'query', message: string): void;
   answer(method: Method, ids: Uint32Array): void;
-  time(method: Method, microseconds: number): void;
+  /** Microseconds of a warm query by each method. */
+  times(times: Map<Method, number>): void;
+  neighbors(vertex: number, ids: Uint32Array): void;
   computed(quantity: QuantityName, radius: number, values: Uint32Array | Float64Array): void;
   index(bytes: Uint8Array): void;
 }
@@ -66,6 +68,11 @@ export class Engine {
     this.#send({ kind: 'query', query });
   }
 
+  /** The vertices that an edge joins with `vertex`. */
+  requestNeighbors(vertex: number): void {
+    this.#send({ kind: 'neighbors', vertex });
+  }
+
   /** For all vertices. */
   compute(quantity: QuantityName, radius: number): void {
     this.#send({ kind: 'compute', quantity, radius });
@@ -87,9 +94,10 @@ export class Engine {
         this.#busy = false;
         return this.#handlers.failed(reply.during, reply.message);
       case 'answer': return this.#receiveAnswer(reply.id, reply.method, reply.ids);
-      case 'time':
-        if (reply.id === this.#id) this.#handlers.time(reply.method, reply.microseconds);
+      case 'times':
+        if (reply.id === this.#id) this.#handlers.times(reply.times);
         return;
+      case 'neighbors': return this.#handlers.neighbors(reply.vertex, reply.ids);
       case 'computed': return this.#handlers.computed(reply.quantity, reply.radius, reply.values);
       case 'index': return this.#handlers.index(reply.bytes);
     }

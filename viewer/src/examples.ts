@@ -97,15 +97,18 @@ function knot(vertices: number): ExampleMesh {
   }, true, true);
 }
 
-/** Hills and valleys. A terrain, on which the ball holds nothing but the neighborhood. */
+/** Hills with a gorge between them, deeper than it is wide. */
 function terrain(vertices: number): ExampleMesh {
   const columns = Math.max(2, Math.floor(Math.sqrt(vertices)));
-  const frequency = (4 * Math.PI) / columns;
-  return sheet(columns, columns, (row, column) => [
-    row,
-    column,
-    (columns / 18) * (Math.sin(frequency * row) * Math.cos(0.8 * frequency * column) + 0.4 * Math.sin(2.3 * frequency * column)),
-  ]);
+  const [frequency, depth, width] = [(4 * Math.PI) / columns, columns / 8, columns / 40];
+  const rim = columns / 2 - depth - width / 2; // the row above one wall; the rows go down it, over the floor, and up the other
+  return sheet(columns, columns, (row, column) => {
+    const inGorge = Math.min(Math.max(row - rim, 0), 2 * depth + width);
+    const fromWall = Math.min(inGorge, 2 * depth + width - inGorge);
+    const x = row - inGorge + Math.max(0, Math.min(inGorge - depth, width));
+    const hills = Math.sin(frequency * x) * Math.cos(0.8 * frequency * column) + 0.4 * Math.sin(2.3 * frequency * column);
+    return [x + 2 * width * Math.sin(0.75 * frequency * column), column, (columns / 18) * hills - Math.min(fromWall, depth)];
+  });
 }
 
 const subtract = (a: Point, b: Point): Point => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
@@ -122,7 +125,7 @@ const unit = (a: Point): Point => {
 export const EXAMPLES: readonly Example[] = [
   {
     name: 'scroll', title: 'Scroll', trap: 'a rolled sheet whose layers nearly touch',
-    make: scroll, vertices: 100_000, query: { at: 0.30082, radius: 24, cut: 'z', from: [0.3, 0.55, 1] },
+    make: scroll, vertices: 100_000, query: { at: 0.300945, radius: 24, cut: 'z', from: [0.3, 0.55, 1] },
   },
   {
     name: 'folds', title: 'Folds', trap: 'an accordion whose walls nearly touch',
@@ -130,11 +133,11 @@ export const EXAMPLES: readonly Example[] = [
   },
   {
     name: 'knot', title: 'Knot', trap: 'a tube whose strands come close to each other',
-    make: knot, vertices: 60_000, query: { at: 0.31, radius: 30 },
+    make: knot, vertices: 60_000, query: { at: 0.31009, radius: 30, from: [0, 0, 1] },
   },
   {
-    name: 'terrain', title: 'Terrain', trap: 'none: here the ball is the neighborhood',
-    make: terrain, vertices: 90_000, query: { at: 0.5, radius: 30 },
+    name: 'terrain', title: 'Terrain', trap: 'hills with a gorge, whose rims are near each other',
+    make: terrain, vertices: 90_000, query: { at: 0.3483, radius: 24, from: [0.5, -0.5, 1] },
   },
 ];
 

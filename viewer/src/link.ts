@@ -52,6 +52,16 @@ export function fromHash(hash: string): State {
   };
 }
 
+/** `radius` in mean edge lengths, with the fewest digits that give the same radius again, if any do. */
+export function toEdges(radius: number, meanEdge: number): number {
+  const edges = radius / meanEdge;
+  for (let digits = 1; digits <= 17; ++digits) {
+    const rounded = Number(edges.toPrecision(digits));
+    if (rounded * meanEdge === radius) return rounded;
+  }
+  return edges;
+}
+
 function toNumber(text: string | null, accept: (value: unknown) => boolean): number | null {
   const value = text === null || text === '' ? NaN : Number(text);
   return accept(value) && value >= 0 ? value : null;

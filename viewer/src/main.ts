@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The page: what happens in one part is passed on to the others.
+import { ColorKey } from './color_key';
 import { Coloring } from './coloring';
 import { connectDrop } from './drop';
 import { Engine } from './engine';
 import type { FirstQuery } from './examples';
 import { connectKeyboard } from './keyboard';
-import { fromHash, toHash } from './link';
+import { fromHash, toEdges, toHash } from './link';
 import type { State } from './link';
 import type { Method, Opened } from './messages';
 import { MethodTable } from './method_table';
-import { connectNotices, showError, showProgress } from './notices';
+import { connectNotices, say, showError, showProgress } from './notices';
 import { Opening } from './opening';
 import type { Asked } from './opening';
 import { Panel } from './panel';
@@ -19,6 +20,8 @@ import { saveIds, saveIndex, savePicture } from './saving';
 import { startOf } from './start';
 import { View } from './view';
 import type { Look } from './view';
+import { nextVertex } from './walking';
+import type { Direction } from './walking';
 
 /** Of a mesh that is no example. */
 const FIRST_QUERY: FirstQuery = { at: 0.5, radius: 20 };
@@ -34,6 +37,7 @@ class Page {
   readonly #opening: Opening;
   readonly #querying: Querying;
   readonly #coloring: Coloring;
+  #walking: Direction | null = null; // while the neighbors are looked up
 
   constructor() {
     const canvas = document.getElementById('canvas') as HTMLCanvasElement;
@@ -46,12 +50,12 @@ class Page {
       asked: (isFinal) => this.#passQueryOn(isFinal),
       answered: () => this.#coloring.setAnswers(this.#querying.answers, this.#querying.given),
     });
-    this.#coloring = new Coloring(this.view, this.#engine, this.#panel, () => this.#updateLink());
+    this.#coloring = new Coloring(this.view, this.#engine, this.#panel, new ColorKey(), () => this.#updateLink());
     connectPointer(canvas, this.view, (vertex, isFinal) => this.#querying.select(vertex, isFinal));
     connectDrop((file) => this.#opening.openFile(file));
     connectNotices();
     this.#connectKeys();
-    this.#keepClearOfPanel();
+    this.#keepClear();
     window.addEventListener('hashchange', () => this.#follow(fromHash(location.hash)));
     document.getElementById('copy-link')!.hidden = !HAS_ADDRESS;
     this.#opening.openFirst(fromHash(location.hash));
@@ -85,7 +89,8 @@ class Page {
         if (during === 'open') this.#opening.fail();
       },
       answer: (method, ids) => this.#querying.receive(method, ids),
-      time: (method, microseconds) => this.#table.setTime(method, microseconds),
+      times: (times) => this.#table.setTimes(times),
+      neighbors: (vertex, ids) => this.#walkTo(vertex, ids),
       computed: (quantity, radius, values) => this.#coloring.receive(quantity, radius, values),
       index: (bytes) => saveIndex(bytes, this.#opening.name),
     });
@@ -102,6 +107,9 @@ class Page {
       '+': larger, '=': larger, '-': () => this.#querying.multiplyRadius(1 / 1.12),
       ArrowLeft: () => this.view.turn(-0.12, 0), ArrowRight: () => this.view.turn(0.12, 0),
       ArrowUp: () => this.view.turn(0, -0.12), ArrowDown: () => this.view.turn(0, 0.12),
+      'Shift+ArrowLeft': () => this.#walk({ x: -1, y: 0 }), 'Shift+ArrowRight': () => this.#walk({ x: 1, y: 0 }),
+      'Shift+ArrowUp': () => this.#walk({ x: 0, y: -1 }), 'Shift+ArrowDown': () => this.#walk({ x: 0, y: 1 }),
+      z: () => this.view.zoom(1.15), x: () => this.view.zoom(1 / 1.15),
       f: () => this.view.showQuery(this.#querying.radius), a: () => this.view.showAll(),
       r: () => this.#querying.selectRandom(),
       h: () => change({ hideNearer: !this.#panel.look.hideNearer }),
@@ -114,21 +122,41 @@ class Page {
     });
   }
 
-  /** The panel covers a part of the canvas where it stands beside it, but not on a phone. */
-  #keepClearOfPanel(): void {
-    const panel = document.getElementById('panel')!;
+  /** Walks along an edge, in a direction on the canvas. */
+  #walk(direction: Direction): void {
+    if (this.#querying.vertex < 0 || this.#walking !== null) return;
+    this.#walking = direction;
+    this.#engine.requestNeighbors(this.#querying.vertex);
+  }
+
+  #walkTo(vertex: number, neighbors: Uint32Array): void {
+    const direction = this.#walking;
+    this.#walking = null;
+    if (direction === null || vertex !== this.#querying.vertex) return;
+    const next = nextVertex(vertex, neighbors, direction, (v) => this.view.toCanvas(v));
+    if (next !== null) this.#querying.select(next);
+  }
+
+  /** The panel covers the canvas at the right, or on a phone at the bottom, below what the page says at the top. */
+  #keepClear(): void {
+    const [panel, about] = ['panel', 'about'].map((id) => document.getElementById(id)!);
     const update = () => {
-      const isBeside = panel.clientWidth < innerWidth / 2;
-      this.view.covered = isBeside ? innerWidth - panel.getBoundingClientRect().left : 0;
+      const [below, above] = [panel.getBoundingClientRect(), about.getBoundingClientRect()];
+      const isBeside = below.width < innerWidth / 2;
+      const bottom = isBeside ? 0 : innerHeight - below.top;
+      document.body.style.setProperty('--covered', `${bottom}px`);
+      this.view.covered = { top: isBeside ? 0 : above.bottom, right: isBeside ? innerWidth - below.left : 0, bottom };
     };
-    window.addEventListener('resize', update);
+    const observer = new ResizeObserver(update);
+    for (const element of [panel, about, document.body]) observer.observe(element);
     update();
   }
 
   #show(opened: Opened, asked: Asked): void {
     this.#querying.open(opened);
-    const colors = this.#coloring.open(opened, asked.pageData?.scalar ?? null);
-    this.view.setMesh(opened.surface, opened.tree, colors);
+    this.#walking = null;
+    const painting = this.#coloring.open(opened, asked.pageData?.scalar ?? null);
+    this.view.setMesh(opened.surface, opened.tree, painting);
     this.#start(opened, asked, this.#opening.example?.query ?? FIRST_QUERY);
   }
 
@@ -173,7 +201,7 @@ class Page {
     history.replaceState(null, '', toHash({
       example: this.#opening.example?.name ?? null,
       vertex: vertex < 0 ? null : vertex,
-      radius: radius / this.meanEdge,
+      radius: toEdges(radius, this.meanEdge),
       hidden,
       look: this.#panel.look,
       color: this.#coloring.choice,
@@ -185,9 +213,9 @@ class Page {
     this.#updateLink(this.view.cameraState);
     try {
       await navigator.clipboard.writeText(location.href);
-      this.#table.setVerdict('The link is in the clipboard.');
+      say('The link is in the clipboard.');
     } catch {
-      this.#table.setVerdict('The link is in the address bar.');
+      say('The link is in the address bar.');
     }
   }
 
@@ -219,4 +247,10 @@ declare global {
   }
 }
 
-window.meshhoodPage = new Page();
+if (document.createElement('canvas').getContext('webgl2') !== null) {
+  window.meshhoodPage = new Page();
+} else {
+  document.body.classList.add('without-webgl');
+  showError('This browser has no WebGL 2, by which the page draws the mesh. Turn on its hardware acceleration, or open ' +
+    'the page in another browser. Without a picture, `meshhood query` and `meshhood compare` give the same answers.');
+}

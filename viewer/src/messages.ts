@@ -25,6 +25,7 @@ export type Request =
   | { kind: 'open'; source: Source }
   | { kind: 'query'; query: Query }
   | { kind: 'time'; query: Query }
+  | { kind: 'neighbors'; vertex: number }
   | { kind: 'compute'; quantity: QuantityName; radius: number }
   | { kind: 'cancel' }
   | { kind: 'save-index' };
@@ -62,6 +63,7 @@ export type Reply =
   | { kind: 'opened'; opened: Opened }
   | { kind: 'failed'; during: 'open' | 'query'; message: string }
   | { kind: 'answer'; id: number; method: Method; ids: Uint32Array }
-  | { kind: 'time'; id: number; method: Method; microseconds: number }
+  | { kind: 'times'; id: number; times: Map<Method, number> }
+  | { kind: 'neighbors'; vertex: number; ids: Uint32Array }
   | { kind: 'computed'; quantity: QuantityName; radius: number; values: Uint32Array | Float64Array }
   | { kind: 'index'; bytes: Uint8Array };

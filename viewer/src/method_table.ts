@@ -3,7 +3,9 @@
 import { METHOD_COLORS } from './colors';
 import { METHODS } from './messages';
 import type { Method } from './messages';
-import { format, shortNumber } from './numbers';
+import { format } from './numbers';
+import { comparison, differences } from './verdict';
+import type { Sentence } from './verdict';
 
 const ROWS: readonly Method[] = ['exact', 'paper', 'ball', 'bfs'];
 
@@ -24,7 +26,6 @@ interface Row {
 
 export class MethodTable {
   readonly #rows = new Map<Method, Row>();
-  readonly #times = new Map<Method, number>();
 
   /** Calls `show` when a method is to be shown or not. */
   constructor(show: (method: Method, isShown: boolean) => void) {
@@ -46,27 +47,34 @@ export class MethodTable {
     row.extra.textContent = extra === null ? '' : format(extra);
   }
 
+  /** `sizes` of the answers, once all methods have answered. Screen readers say it. */
+  setSizes(sizes: Map<Method, number>): void {
+    write('result', differences(sizes));
+  }
+
   clearTimes(): void {
-    this.#times.clear();
     for (const method of METHODS) this.#rows.get(method)!.time.textContent = '';
-    this.setVerdict();
+    write('verdict', []);
   }
 
-  setTime(method: Method, microseconds: number): void {
-    this.#times.set(method, microseconds);
-    this.#rows.get(method)!.time.textContent = format(Number(microseconds.toFixed(microseconds < 10 ? 1 : 0)));
-    const [exact, bfs] = [this.#times.get('exact'), this.#times.get('bfs')];
-    if (exact === undefined || bfs === undefined) return;
-    const times = Number((bfs / exact).toPrecision(2));
-    const ratio = document.createElement('b');
-    ratio.textContent = times === 1 ? 'as long' : `${shortNumber(times)} times as long`;
-    this.setVerdict('Breadth-first search takes ', ratio, ' as the index.');
+  /** In microseconds. */
+  setTimes(times: Map<Method, number>): void {
+    for (const [method, microseconds] of times) {
+      this.#rows.get(method)!.time.textContent = format(Number(microseconds.toFixed(microseconds < 10 ? 1 : 0)));
+    }
+    write('verdict', comparison(times));
   }
+}
 
-  /** The line below the table. */
-  setVerdict(...parts: (string | HTMLElement)[]): void {
-    document.getElementById('verdict')!.replaceChildren(...(parts.length > 0 ? parts : ['\u00a0']));
-  }
+/** Below the table. */
+function write(id: 'result' | 'verdict', sentence: Sentence): void {
+  const parts = sentence.map((part) => {
+    if (typeof part === 'string') return part;
+    const emphasis = document.createElement('b');
+    emphasis.textContent = part.emphasized;
+    return emphasis;
+  });
+  document.getElementById(id)!.replaceChildren(...(parts.length > 0 ? parts : ['\u00a0']));
 }
 
 function makeRow(body: HTMLTableSectionElement, method: Method, show: (method: Method, isShown: boolean) => void): Row {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the page says over the picture: what is being done, an error, how to begin.
+// What the page says over the picture: what is being done, an error, how to begin, what was done.
 
 /** The line at the bottom: what is being done. */
 export function showProgress(stage: string | null, fraction: number | null = null): void {
@@ -19,10 +19,29 @@ export function showError(message: string | null): void {
   error.querySelector('p')!.textContent = message;
 }
 
+/** What the page accepted, but may not be as it was meant. Until it is closed, or null is shown. */
+export function showWarning(message: string | null): void {
+  const warning = document.getElementById('warning')!;
+  warning.hidden = message === null;
+  warning.querySelector('p')!.textContent = message;
+}
+
+const hint = () => document.getElementById('hint')!;
+let timer = 0;
+
+/** Says something for some seconds. */
+export function say(message: string): void {
+  hint().textContent = message;
+  hint().classList.remove('done');
+  clearTimeout(timer);
+  timer = window.setTimeout(hideHint, 4000);
+}
+
 export function hideHint(): void {
-  document.getElementById('hint')!.classList.add('done');
+  hint().classList.add('done');
 }
 
 export function connectNotices(): void {
   document.querySelector('#error button')!.addEventListener('click', () => showError(null));
+  document.querySelector('#warning button')!.addEventListener('click', () => showWarning(null));
 }

@@ -6,7 +6,7 @@ import type { Example } from './examples';
 import { fromHash } from './link';
 import type { State } from './link';
 import type { Opened, Source } from './messages';
-import { showError, showProgress } from './notices';
+import { showError, showProgress, showWarning } from './notices';
 import { format, shortNumber } from './numbers';
 import { takePageData } from './page_data';
 import type { PageData } from './page_data';
@@ -61,6 +61,7 @@ export class Opening {
     this.#panel.setExample(exampleOf(asked)?.name ?? null);
     delete document.body.dataset.mesh;
     showError(null);
+    showWarning(null);
     showProgress('Reading');
     this.#engine.open(asked.source);
   }
@@ -72,7 +73,7 @@ export class Opening {
     const title = this.example?.title ?? opened.name;
     this.#panel.setMesh(title, facts(opened), opened.vertices, opened.faces, opened.meanEdge, mostEdges(opened));
     showProgress(null);
-    if (opened.warnings.length > 0) showError(`${opened.name}: accepted with a warning: ${opened.warnings.join('; ')}`);
+    if (opened.warnings.length > 0) showWarning(`${opened.name}: accepted with a warning: ${opened.warnings.join('; ')}`);
     this.#show(opened, asked);
     document.body.dataset.mesh = opened.name; // for tests: the mesh is open
   }

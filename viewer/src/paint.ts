@@ -1,27 +1,29 @@
 // SPDX-License-Identifier: MIT
-// The colors of all vertices as bytes: the answers, exact over paper over ball, on the plain surface or on a scalar.
-import { AMOUNTS, METHOD_COLORS, MISSING_COLOR, SIGNED, SURFACE_COLOR, linearBytes } from './colors';
+// What is drawn of each vertex, as bytes: its color under the answers, that of the plain surface or of a scalar; and
+// the answers that have it. The shader draws the answers over the colors (answer_shader.ts).
+import { AMOUNTS, MISSING_COLOR, SIGNED, SURFACE_COLOR, linearBytes } from './colors';
 import type { ColorMap, Rgb } from './colors';
 import type { Method } from './messages';
 import { scalarRange } from './scalar';
 import type { Range, Scalar } from './scalar';
 
-/** From bottom to top, as in Figure 4 of the paper. */
-const LAYERS = ['ball', 'paper', 'exact'] as const;
+/** From top to bottom, as in Figure 4 of the paper. The places of their bytes. */
+const LAYERS = ['exact', 'paper', 'ball'] as const;
 
 export function mapOf(scalar: Scalar): ColorMap {
   return scalar.isSigned ? SIGNED : AMOUNTS;
 }
 
 export class Painting {
-  /** #V by 4; the last byte is not used. */
-  readonly bytes: Uint8Array;
-  readonly #base: Uint8Array;
+  /** #V by 4: red, green and blue; the last byte is not used. */
+  readonly colors: Uint8Array;
+  /** #V by 4: 255 for each layer that has the vertex, else 0; the last byte is not used. */
+  readonly answers: Uint8Array;
   #painted: Uint32Array[] = [];
 
   constructor(vertices: number) {
-    this.bytes = new Uint8Array(4 * vertices);
-    this.#base = new Uint8Array(4 * vertices);
+    this.colors = new Uint8Array(4 * vertices);
+    this.answers = new Uint8Array(4 * vertices);
     this.setScalar(null);
   }
 
@@ -29,37 +31,22 @@ export class Painting {
   setScalar(scalar: Scalar | null): Range | null {
     const range = scalar === null ? null : scalarRange(scalar);
     const color = scalar === null ? () => SURFACE : colorsOf(scalar, range!);
-    for (let v = 0; 4 * v < this.#base.length; ++v) this.#base.set(color(v), 4 * v);
-    this.bytes.set(this.#base);
-    this.#painted = [];
+    for (let v = 0; 4 * v < this.colors.length; ++v) this.colors.set(color(v), 4 * v);
     return range;
   }
 
   /** Paints the answers of the methods that `answers` has. */
   setAnswers(answers: Map<Method, Uint32Array>): void {
-    for (const ids of this.#painted) this.#restore(ids);
+    for (const ids of this.#painted) {
+      for (const v of ids) this.answers.fill(0, 4 * v, 4 * v + LAYERS.length);
+    }
     this.#painted = [];
-    for (const method of LAYERS) {
+    LAYERS.forEach((method, layer) => {
       const ids = answers.get(method);
-      if (ids === undefined) continue;
-      this.#fill(ids, linearBytes(METHOD_COLORS[method]));
+      if (ids === undefined) return;
+      for (const v of ids) this.answers[4 * v + layer] = 255;
       this.#painted.push(ids);
-    }
-  }
-
-  #fill(ids: Uint32Array, [r, g, b]: Rgb): void {
-    const { bytes } = this;
-    for (const v of ids) {
-      bytes[4 * v] = r;
-      bytes[4 * v + 1] = g;
-      bytes[4 * v + 2] = b;
-    }
-  }
-
-  #restore(ids: Uint32Array): void {
-    for (const v of ids) {
-      for (let i = 4 * v; i < 4 * v + 3; ++i) this.bytes[i] = this.#base[i];
-    }
+    });
   }
 }
 

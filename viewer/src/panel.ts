@@ -46,6 +46,7 @@ export class Panel {
     }
     find('help').addEventListener('click', () => find<HTMLDialogElement>('keys').showModal());
     find('fold').addEventListener('click', () => this.#fold());
+    if (matchMedia('(max-width: 700px)').matches) this.#fold();
   }
 
   #fold(): void {

@@ -23,6 +23,15 @@ export class Picker {
     return this.#tree === null ? this.#pickPoint(camera) : this.#pickTriangle(this.#tree);
   }
 
+  /** Whether the triangles hide a point from an eye; those nearer to the point than `slack` do not. */
+  isHidden(point: THREE.Vector3, eye: THREE.Vector3, slack: number): boolean {
+    if (this.#tree === null) return false;
+    const towards = point.clone().sub(eye);
+    const distance = towards.length();
+    const hits = this.#tree.raycast(new THREE.Ray(eye, towards.normalize()), THREE.DoubleSide);
+    return hits.some((hit) => hit.distance < distance - slack && this.#isSeen(hit.point));
+  }
+
   #isSeen(point: THREE.Vector3): boolean {
     return this.plane === null || this.plane.distanceToPoint(point) >= 0;
   }

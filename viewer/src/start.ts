@@ -33,7 +33,6 @@ export function startOf(opened: Opened, { source, link, pageData }: Asked, query
   const linked = link.radius === null ? null : link.radius * meanEdge;
   const look = { ...link.look };
   if (!isLink) look.cut = query.cut ?? look.cut;
-  if (!isLink && isPassed) look.hideNearer = true;
   return {
     vertex: Math.min(vertex, opened.vertices - 1),
     radius: linked ?? passed ?? query.radius * meanEdge,

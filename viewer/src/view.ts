@@ -3,8 +3,11 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
+import { drawAnswers } from './answer_shader';
+import type { Ball } from './answer_shader';
 import { VERTEX_COLOR } from './colors';
 import type { Surface } from './messages';
+import type { Painting } from './paint';
 import { Picker } from './picking';
 
 export type Cut = 'none' | 'x' | 'y' | 'z';
@@ -24,6 +27,15 @@ const NORMALS: Record<Exclude<Cut, 'none'>, THREE.Vector3> = {
   y: new THREE.Vector3(0, -1, 0),
   z: new THREE.Vector3(0, 0, -1),
 };
+
+/** Pixels at three sides of the canvas that something covers. */
+export interface Covered {
+  top: number;
+  right: number;
+  bottom: number;
+}
+
+const HIDDEN_OPACITY = 0.35;
 
 /** A disk with a white rim, always of the same size. */
 function makeMarker(): THREE.Sprite {
@@ -46,12 +58,14 @@ function makeMarker(): THREE.Sprite {
   return marker;
 }
 
+const isDark = () => matchMedia('(prefers-color-scheme: dark)').matches;
+
 /** A glass ball: only its rim is visible. */
 function makeBall(): THREE.Mesh {
   const material = new THREE.ShaderMaterial({
     transparent: true,
     depthWrite: false,
-    uniforms: { color: { value: new THREE.Color('#3b4a66') } },
+    uniforms: { color: { value: new THREE.Color(isDark() ? '#c3d0e8' : '#3b4a66') } },
     vertexShader: `
       varying float facing;
       void main() {
@@ -81,13 +95,17 @@ export class View {
   readonly #plane = new THREE.Plane();
   #surface: Surface | null = null;
   #colors: THREE.BufferAttribute | null = null;
+  #answers: THREE.BufferAttribute | null = null;
+  #areBalls = true; // the answers that are drawn
+  readonly #queryBall: Ball = { center: new THREE.Vector3(), radius: 0 };
   #drawn: THREE.Mesh | THREE.Points | null = null;
   #edges: THREE.Mesh | null = null;
   #picker: Picker | null = null;
   #look: Look = { wireframe: false, ball: true, cut: 'none', hideNearer: false };
   #vertex = -1;
+  #radius = 0;
   #pending = false;
-  #covered = 0;
+  #covered: Covered = { top: 0, right: 0, bottom: 0 };
 
   constructor(canvas: HTMLCanvasElement) {
     this.#renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: false });
@@ -110,13 +128,14 @@ export class View {
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.#renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
-    this.camera.setViewOffset(clientWidth, clientHeight, this.#covered / 2, 0, clientWidth, clientHeight);
+    const { top, right, bottom } = this.#covered;
+    this.camera.setViewOffset(clientWidth, clientHeight, right / 2, (bottom - top) / 2, clientWidth, clientHeight);
     this.draw();
   }
 
-  /** Pixels at the right of the canvas that something covers: the middle of the picture is that of the rest. */
-  set covered(pixels: number) {
-    this.#covered = pixels;
+  /** The middle of the picture is that of what is not covered. */
+  set covered(covered: Covered) {
+    this.#covered = covered;
     this.#resize();
   }
 
@@ -133,17 +152,26 @@ export class View {
 
   #render(): void {
     this.#placePlane();
+    this.#marker.material.opacity = this.isVertexHidden ? HIDDEN_OPACITY : 1;
     this.#renderer.render(this.#scene, this.camera);
   }
 
-  setMesh(surface: Surface, tree: unknown, colors: Uint8Array): void {
+  /** Whether something stands between the camera and the vertex. */
+  get isVertexHidden(): boolean {
+    if (this.#vertex < 0 || this.#picker === null) return false;
+    return this.#picker.isHidden(this.position(this.#vertex), this.camera.position, 2e-3 * this.extent);
+  }
+
+  setMesh(surface: Surface, tree: unknown, painting: Painting): void {
     this.#clear();
     this.#surface = surface;
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', new THREE.BufferAttribute(surface.positions, 3));
     geometry.setAttribute('normal', new THREE.BufferAttribute(surface.normals, 3));
-    this.#colors = new THREE.BufferAttribute(colors, 4, true).setUsage(THREE.DynamicDrawUsage);
+    [this.#colors, this.#answers] = [painting.colors, painting.answers].map((bytes) =>
+      new THREE.BufferAttribute(bytes, 4, true).setUsage(THREE.DynamicDrawUsage));
     geometry.setAttribute('color', this.#colors);
+    geometry.setAttribute('answers', this.#answers);
     geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), surface.extent);
     if (surface.triangles.length > 0) {
       geometry.setIndex(new THREE.BufferAttribute(surface.triangles, 1));
@@ -151,6 +179,7 @@ export class View {
     } else {
       this.#drawn = new THREE.Points(geometry, new THREE.PointsMaterial({ size: 2.5, sizeAttenuation: false, vertexColors: true }));
     }
+    drawAnswers(this.#drawn.material as THREE.Material, this.#queryBall);
     this.#scene.add(this.#drawn);
     this.#picker = new Picker(this.#drawn, tree);
     this.#marker.visible = this.#ball.visible = false;
@@ -169,10 +198,25 @@ export class View {
     this.#edges = null;
   }
 
-  /** To be called after the bytes of the colors have changed. */
+  /** To be called after the colors of the painting have changed. */
   updateColors(): void {
     if (this.#colors !== null) this.#colors.needsUpdate = true;
     this.draw();
+  }
+
+  /** To be called after the answers of the painting have changed. `areBalls`: they are those of the query. */
+  updateAnswers(areBalls: boolean): void {
+    if (this.#answers !== null) this.#answers.needsUpdate = true;
+    this.#areBalls = areBalls;
+    this.#placeBall();
+    this.draw();
+  }
+
+  /** The ball that the answers end at; points have no borders. */
+  #placeBall(): void {
+    const isMesh = this.#drawn instanceof THREE.Mesh;
+    this.#queryBall.radius = isMesh && this.#areBalls ? this.#radius / this.unit : -1;
+    if (this.#vertex >= 0) this.#queryBall.center.copy(this.position(this.#vertex));
   }
 
   setLook(look: Look): void {
@@ -199,11 +243,13 @@ export class View {
   /** The radius is in the unit of the mesh. */
   setQuery(vertex: number, radius: number): void {
     this.#vertex = vertex;
+    this.#radius = radius;
     const at = this.position(vertex);
     this.#marker.position.copy(at);
     this.#ball.position.copy(at);
     this.#ball.scale.setScalar(Math.max(Math.min(radius / this.unit, 1e3 * this.extent), 1e-9 * this.extent));
     this.#marker.visible = true;
+    this.#placeBall();
     this.setLook(this.#look);
   }
 
@@ -267,9 +313,17 @@ export class View {
    */
   showQuery(radius: number, from?: readonly [number, number, number]): void {
     if (this.#vertex < 0) return;
-    const direction = from === undefined ? this.#outwards() : new THREE.Vector3(...from);
     const reach = Math.min(Math.max((1.5 * radius) / this.unit, 0.05 * this.extent), this.extent);
-    this.#lookFrom(direction, this.position(this.#vertex), reach);
+    const look = (direction: THREE.Vector3) => this.#lookFrom(direction, this.position(this.#vertex), reach);
+    const preferred = from === undefined ? this.#outwards() : new THREE.Vector3(...from);
+    look(preferred);
+    if (from !== undefined || !this.isVertexHidden) return;
+    // Of the directions near the preferred one, the first from which the vertex is seen.
+    for (const direction of directionsAround(preferred)) {
+      look(direction);
+      if (!this.isVertexHidden) return;
+    }
+    look(preferred);
   }
 
   #outwards(): THREE.Vector3 {
@@ -281,9 +335,10 @@ export class View {
 
   #lookFrom(direction: THREE.Vector3, target: THREE.Vector3, radius: number): void {
     const half = THREE.MathUtils.degToRad(this.camera.fov / 2);
-    const { clientWidth } = this.#renderer.domElement;
-    const visible = (clientWidth - this.#covered) / Math.max(clientWidth, 1);
-    const narrow = Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect * visible));
+    const { clientWidth, clientHeight } = this.#renderer.domElement;
+    const { top, right, bottom } = this.#covered;
+    const free = Math.min(clientWidth - right, clientHeight - top - bottom) / Math.max(clientHeight, 1);
+    const narrow = Math.atan(Math.tan(half) * Math.max(free, 0.1));
     const distance = (1.05 * radius) / Math.sin(narrow);
     this.camera.near = 1e-3 * this.extent;
     this.camera.far = distance + 4 * this.extent;
@@ -322,6 +377,13 @@ export class View {
     this.draw();
   }
 
+  /** Moves the camera towards its target: the distance is divided by `factor`. */
+  zoom(factor: number): void {
+    const offset = this.camera.position.clone().sub(this.controls.target).divideScalar(factor);
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.draw();
+  }
+
   /** A PNG of what is seen, over `background`. */
   async picture(background: string): Promise<Blob> {
     this.#scene.background = new THREE.Color(background);
@@ -332,6 +394,15 @@ export class View {
     if (blob === null) throw new Error('The browser could not make the picture.');
     return blob;
   }
+}
+
+/** The corners, edges and faces of a cube, seen from its middle, those nearest to `preferred` first. */
+function directionsAround(preferred: THREE.Vector3): THREE.Vector3[] {
+  const steps = [-1, 0, 1];
+  return steps
+    .flatMap((x) => steps.flatMap((y) => steps.map((z) => new THREE.Vector3(x, y, z).normalize())))
+    .filter((direction) => direction.lengthSq() > 0)
+    .sort((a, b) => b.dot(preferred) - a.dot(preferred));
 }
 
 function surfaceMaterial(): THREE.Material {

@@ -107,7 +107,6 @@ async function open(source: Source): Promise<void> {
   // The triangles go to the page.
   faces = mesh.offsets === null ? { corners: mesh.corners.slice() } : { corners: mesh.corners, offsets: mesh.offsets };
   curvature = null;
-  latestQuery = 0;
   ++latestComputation;
   reply({
     kind: 'opened',
@@ -126,49 +125,65 @@ async function open(source: Source): Promise<void> {
   }, [surface.positions.buffer, surface.normals.buffer, surface.triangles.buffer]);
 }
 
-/** Calls `work` for each method of the query in turn, until a newer query arrives. */
-async function forEachMethod(query: Query, work: (index: MeshIndex, method: Method) => void): Promise<void> {
+/**
+ * Calls `work` for each method of the query in turn, `rounds` times. Returns whether all was done: no newer query and no
+ * other mesh has come meanwhile.
+ */
+async function forEachMethod(
+  query: Query, work: (index: MeshIndex, method: Method) => void, rounds = 1,
+): Promise<boolean> {
+  const asked = index;
   latestQuery = Math.max(latestQuery, query.id);
-  for (const method of query.methods) {
+  for (const method of Array<Method[]>(rounds).fill(query.methods).flat()) {
     await nextTask();
-    if (query.id < latestQuery || index === null) return;
-    work(index, method);
+    if (query.id < latestQuery || asked === null || index !== asked) return false;
+    work(asked, method);
   }
+  return true;
 }
 
-function answer(query: Query): Promise<void> {
-  return forEachMethod(query, (index, method) => {
+async function answer(query: Query): Promise<void> {
+  await forEachMethod(query, (index, method) => {
     const ids = index.queryBall(query.vertex, query.radius, { method });
     reply({ kind: 'answer', id: query.id, method, ids }, [ids.buffer]);
   });
 }
 
-/** Milliseconds for `runs` queries: the median of seven blocks. */
+// Times. A browser compiles code again while it runs, faster code each time, and another process may take the processor for
+// a moment. So the methods first run without a clock; then they are measured in turn, several times; and the median counts.
+const WARM_UP = 40; // milliseconds for each method
+const ROUNDS = 9;
+const BATCH = 2; // milliseconds, as the clock of a browser is coarse
+
+/** Milliseconds for `runs` queries. */
 function duration(index: MeshIndex, query: Query, method: Method, runs: number): number {
-  const durations = Array.from({ length: 7 }, () => {
-    const begin = performance.now();
-    for (let run = 0; run < runs; ++run) index.viewBall(query.vertex, query.radius, { method });
-    return performance.now() - begin;
-  });
-  return durations.sort((a, b) => a - b)[3];
+  const begin = performance.now();
+  for (let run = 0; run < runs; ++run) index.viewBall(query.vertex, query.radius, { method });
+  return performance.now() - begin;
 }
 
-/** Microseconds of a warm query, over some milliseconds, as the clock of a browser is coarse. */
-function microseconds(index: MeshIndex, query: Query, method: Method): number {
-  const enough = 2; // milliseconds
-  let runs = 1;
-  let measured = duration(index, query, method, runs);
-  while (measured < enough) {
-    runs *= 4;
-    measured = duration(index, query, method, runs);
+/** Returns how many queries take as long as a batch. */
+function warmUp(index: MeshIndex, query: Query, method: Method): number {
+  let [runs, spent, last] = [1, 0, 0];
+  while (spent < WARM_UP) {
+    last = duration(index, query, method, runs);
+    spent += last;
+    if (last < BATCH) runs *= 2;
   }
-  return (1000 * measured) / runs;
+  return runs;
 }
 
-function time(query: Query): Promise<void> {
-  return forEachMethod(query, (index, method) => {
-    reply({ kind: 'time', id: query.id, method, microseconds: microseconds(index, query, method) });
-  });
+async function time(query: Query): Promise<void> {
+  const runs = new Map<Method, number>();
+  const measured = new Map<Method, number[]>(query.methods.map((method) => [method, []]));
+  const isDone = await forEachMethod(query, (index, method) => runs.set(method, warmUp(index, query, method)))
+    && await forEachMethod(query, (index, method) => {
+      const count = runs.get(method)!;
+      measured.get(method)!.push((1000 * duration(index, query, method, count)) / count);
+    }, ROUNDS);
+  if (!isDone) return;
+  const median = (times: number[]) => times.sort((a, b) => a - b)[ROUNDS >> 1];
+  reply({ kind: 'times', id: query.id, times: new Map([...measured].map(([method, times]) => [method, median(times)])) });
 }
 
 /** Milliseconds for a part of a computation, after which queries are answered. */
@@ -231,6 +246,12 @@ async function compute(quantity: QuantityName, radius: number): Promise<void> {
   if (values) reply({ kind: 'computed', quantity, radius, values });
 }
 
+function findNeighbors(vertex: number): void {
+  if (index === null || vertex >= index.vertexCount) return;
+  const ids = index.queryRings(vertex, 1).ids.filter((v) => v !== vertex);
+  reply({ kind: 'neighbors', vertex, ids }, [ids.buffer]);
+}
+
 function saveIndex(): void {
   if (index === null) return;
   const bytes = index.save();
@@ -242,6 +263,7 @@ async function handle(request: Request): Promise<void> {
     case 'open': return open(request.source);
     case 'query': return answer(request.query);
     case 'time': return time(request.query);
+    case 'neighbors': return findNeighbors(request.vertex);
     case 'compute': return compute(request.quantity, request.radius);
     case 'cancel': ++latestComputation; return;
     case 'save-index': return saveIndex();
