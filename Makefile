@@ -1,6 +1,7 @@
 # The commands for a fresh Debian machine. Their steps are in tools/; daily work uses the presets.
 #
 #   make build                installs the packages it needs and builds build/release/meshhood
+#   make install PREFIX=dir   installs what make build builds, with the page of meshhood view; /usr/local by default
 #   make demo [MESH=file]     compares all methods on a mesh where they differ, or on your own, and draws a picture
 #   make view [MESH=file]     shows the same in an interactive page, build/demo/view.html
 #   make test                 runs the short tests; about ten minutes
@@ -12,7 +13,9 @@
 #   make reproduce            the paper's tables and pictures, accuracy, growth; about 20 minutes
 #   make peers                other libraries on the same queries; about 15 minutes
 #   make benchmarks           both
-.PHONY: build test test-all demo view reproduce peers benchmarks
+.PHONY: build install test test-all demo view reproduce peers benchmarks
+
+PREFIX ?= /usr/local
 
 # The demo reads these from the environment, so that a name may contain blanks.
 export MESH VERTEX RADIUS
@@ -20,6 +23,11 @@ export MESH VERTEX RADIUS
 build:
 	@tools/setup build
 	@tools/build release -DMESHHOOD_BUILD_TESTS=OFF -DMESHHOOD_BUILD_BENCH=OFF -DMESHHOOD_BUILD_EXAMPLES=OFF
+
+install: build
+	@tools/setup web
+	@tools/build_viewer
+	@cmake --install build/release --prefix "$(PREFIX)"
 
 test:
 	@tools/setup test
@@ -31,6 +39,7 @@ test-all:
 	@tools/test release asan tsan:exact/threads
 
 demo: build
+	@tools/setup demo
 	@tools/demo
 	@echo "== make view shows the same in an interactive page, to turn the mesh and to choose vertex and radius"
 

@@ -16,8 +16,7 @@ if(TARGET meshhood_io)
 endif()
 if(TARGET meshhood_cli)
   install(TARGETS meshhood_cli)
-  # The page of `meshhood view`, where `make view` has built it.
-  install(FILES build/viewer/viewer.html DESTINATION ${CMAKE_INSTALL_DATADIR}/meshhood OPTIONAL)
+  meshhood_install_page(${CMAKE_INSTALL_DATADIR}/meshhood Unspecified)
 endif()
 
 configure_package_config_file(cmake/meshhoodConfig.cmake.in meshhoodConfig.cmake INSTALL_DESTINATION ${package_dir})
