@@ -101,9 +101,10 @@ void add_compare(CLI::App& program) {
   add_file(*command, options->file);
   add_number(*command, "-v,--vertex", "query vertex, by its number in the file from 0", options->vertex)->required();
   add_radius(*command, options->radius);
-  add_output(*command, ".ply",
-             "also write the mesh in color: the query vertex red, exact green, only in paper yellow, only in ball blue",
-             options->output);
+  add_output(
+      *command, ".ply",
+      "also write the mesh in color: the query vertex orange, exact green, only in paper yellow, only in ball blue",
+      options->output);
   add_json(*command, options->json);
   command->callback([options] { compare(*options); });
 }

@@ -14,12 +14,13 @@ namespace meshhood::cli {
 
 using Color = std::array<std::uint8_t, 3>;
 
-/// The colors of the paper's Figure 4.
-inline constexpr Color kExactColor{46, 160, 67};
-inline constexpr Color kPaperColor{245, 190, 20};
-inline constexpr Color kBallColor{45, 105, 215};
-inline constexpr Color kQueryColor{225, 25, 25};
-inline constexpr Color kOtherColor{222, 222, 222};
+/// Green, yellow and blue, as in the paper's Figure 4, in shades that color-blind people can distinguish. The same are
+/// in viewer/src/colors.ts and tools/render_ply.py.
+inline constexpr Color kExactColor{0, 158, 115};
+inline constexpr Color kPaperColor{240, 228, 66};
+inline constexpr Color kBallColor{0, 114, 178};
+inline constexpr Color kQueryColor{213, 94, 0};
+inline constexpr Color kOtherColor{217, 219, 224};
 
 /// The colors of the vertices of a mesh, initially light gray.
 class Painting {

@@ -1,20 +1,28 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws a colored mesh, as `meshhood compare -o` writes it, into a PNG. Needs only the standard library.
+"""Draws a colored mesh, as `meshhood compare -o` writes it, into a PNG. Needs Pillow.
 
-The view is orthographic. By default the camera faces the surface at the red vertex. `--cut` removes the part of the
-mesh on one side of that vertex, which opens a rolled or folded sheet.
+The view is orthographic. If the mesh has a query, the camera faces the surface at its vertex, and the picture is as wide
+as the ball and a margin. `--cut` removes the part of the mesh on one side of that vertex, which opens a rolled or folded
+sheet. `--legend` writes above the picture what the colors mean, with the number of vertices.
 """
 import argparse
+import functools
 import math
 import struct
 import sys
-import zlib
 from array import array
 
-QUERY_COLOR = (225, 25, 25)
-REST_COLOR = (222, 222, 222)
+from PIL import Image, ImageDraw, ImageFont
+
+# As in cli/painting.h, and on the page.
+EXACT_COLOR = (0, 158, 115)
+PAPER_COLOR = (240, 228, 66)
+BALL_COLOR = (0, 114, 178)
+QUERY_COLOR = (213, 94, 0)
+REST_COLOR = (217, 219, 224)
 BACKGROUND = (255, 255, 255)
+INK = (23, 32, 51)
 LIGHT = (-0.35, 0.45, 1.0)  # right, up and towards the eye
 SCALARS = {
     "char": "b", "int8": "b", "uchar": "B", "uint8": "B", "short": "h", "int16": "h", "ushort": "H", "uint16": "H",
@@ -100,13 +108,20 @@ class Mesh:
                 sums[v] = (s[0] + normal[0], s[1] + normal[1], s[2] + normal[2])
         return [unit(normal) for normal in sums]
 
+    @functools.cache
     def query(self):
-        """The red vertex, or None."""
+        """The vertex of the query, or None."""
         return self.colors.index(QUERY_COLOR) if self.colors.count(QUERY_COLOR) == 1 else None
 
     def subject(self):
         """The positions of the vertices that are not gray; of all if there are none."""
         return [p for p, color in zip(self.positions, self.colors) if color != REST_COLOR] or self.positions
+
+    @functools.cache
+    def radius(self):
+        """About that of the ball of the query: a vertex of an answer is near its surface."""
+        center = self.positions[self.query()]
+        return max(math.dist(center, p) for p in self.subject())
 
 
 class Camera:
@@ -136,8 +151,8 @@ class Canvas:
         self.depth = array("d", [-math.inf]) * (pixels * pixels)
         self.image = bytearray(bytes(BACKGROUND) * (pixels * pixels))
 
-    def fill(self, corners, colors):
-        """A triangle in projected coordinates, whose colors are interpolated."""
+    def fill(self, corners, color_at):
+        """A triangle in projected coordinates. `color_at` gives the color of a place by the weights of the corners."""
         (ax, ay, az), (bx, by, bz), (cx, cy, cz) = corners
         area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
         if abs(area) < 1e-9:
@@ -151,80 +166,124 @@ class Canvas:
                 at = y * self.pixels + x
                 if u >= 0 and v >= 0 and w >= 0 and u * az + v * bz + w * cz > self.depth[at]:
                     self.depth[at] = u * az + v * bz + w * cz
-                    self.image[3 * at:3 * at + 3] = bytes(int(u * a + v * b + w * c) for a, b, c in zip(*colors))
+                    self.image[3 * at:3 * at + 3] = bytes(map(int, color_at(u, v, w)))
 
-    def disc(self, center, radius, color):
-        for y in range(max(0, int(center[1] - radius)), min(self.pixels, int(center[1] + radius) + 2)):
-            for x in range(max(0, int(center[0] - radius)), min(self.pixels, int(center[0] + radius) + 2)):
-                if math.hypot(x + 0.5 - center[0], y + 0.5 - center[1]) < radius:
-                    at = 3 * (y * self.pixels + x)
-                    self.image[at:at + 3] = bytes(color)
-
-    def halved(self):
-        """The rows of the picture at half the size: the mean of each two by two pixels."""
-        stride = 3 * self.pixels
-        for y in range(0, self.pixels, 2):
-            upper, lower = self.image[y * stride:(y + 1) * stride], self.image[(y + 1) * stride:(y + 2) * stride]
-            sums = [a + b for a, b in zip(upper, lower)]
-            row = bytearray(stride // 2)
-            for channel in range(3):
-                row[channel::3] = bytes((a + b + 2) // 4 for a, b in zip(sums[channel::6], sums[channel + 3::6]))
-            yield row
+    def picture(self):
+        """At half the size: the mean of each two by two pixels."""
+        image = Image.frombytes("RGB", (self.pixels, self.pixels), bytes(self.image))
+        return image.resize((self.pixels // 2, self.pixels // 2), Image.Resampling.BOX)
 
 
-def shaded_colors(mesh, camera):
-    """The colors of the vertices in the light of a lamp above the left shoulder; both sides of the surface alike."""
+def lights(mesh, camera):
+    """Of each vertex, in the light of a lamp above the left shoulder; both sides of the surface alike."""
     lamp = unit(tuple(sum(LIGHT[i] * camera.axes[i][axis] for i in range(3)) for axis in range(3)))
-    colors = []
-    for color, normal in zip(mesh.colors, mesh.normals):
-        light = 0.45 + 0.55 * abs(dot(normal, lamp))
-        colors.append((color[0] * light, color[1] * light, color[2] * light))
-    return colors
+    return [0.6 + 0.4 * abs(dot(normal, lamp)) for normal in mesh.normals]
+
+
+def mixed(colors, light):
+    """Colors that are interpolated."""
+    a, b, c = (tuple(light[i] * part for part in colors[i]) for i in range(3))
+    return lambda u, v, w: [u * x + v * y + w * z for x, y, z in zip(a, b, c)]
+
+
+def cut_by_ball(mesh, corners, colors, light):
+    """The colors of a triangle on the border of an answer: that of its nearest corner in the answer, within the ball."""
+    places = [mesh.positions[v] for v in corners]
+    inner = [i for i in range(3) if colors[i] != REST_COLOR]
+    center, radius = mesh.positions[mesh.query()], mesh.radius()
+
+    def color_at(*weights):
+        place = [sum(weight * p[axis] for weight, p in zip(weights, places)) for axis in range(3)]
+        color = colors[max(inner, key=weights.__getitem__)] if math.dist(place, center) <= radius else REST_COLOR
+        shade = sum(weight * x for weight, x in zip(weights, light))
+        return [shade * part for part in color]
+
+    return color_at
 
 
 def draw(mesh, camera, pixels, cut):
     canvas = Canvas(pixels)
     points = [camera.project(position, pixels) for position in mesh.positions]
-    colors = shaded_colors(mesh, camera)
+    light = lights(mesh, camera)
     query = mesh.query()
+    colors = mesh.colors
+    if query is not None:
+        colors = [EXACT_COLOR if color == QUERY_COLOR else color for color in colors]  # a marker shows the vertex
     kept = [True] * len(points)
     if cut and query is not None:
         kept = [dot(minus(p, mesh.positions[query]), cut) <= 1e-6 * camera.width for p in mesh.positions]
     inside = [0 <= p[0] < pixels and 0 <= p[1] < pixels for p in points]
     for corners in mesh.triangles:
-        if all(kept[v] for v in corners) and any(inside[v] for v in corners):
-            canvas.fill([points[v] for v in corners], [colors[v] for v in corners])
+        if not all(kept[v] for v in corners) or not any(inside[v] for v in corners):
+            continue
+        own, own_light = [colors[v] for v in corners], [light[v] for v in corners]
+        is_border = query is not None and len(set(own)) > 1
+        color_at = cut_by_ball(mesh, corners, own, own_light) if is_border else mixed(own, own_light)
+        canvas.fill([points[v] for v in corners], color_at)
+    picture = canvas.picture()
     if query is not None:
-        canvas.disc(points[query], 1.35 * pixels / 90, BACKGROUND)
-        canvas.disc(points[query], pixels / 90, QUERY_COLOR)
-    return canvas
+        middle, size = picture.width / 2, picture.width / 90
+        draw_circle(picture, middle, mesh.radius() / camera.width * picture.width, INK, 1.5)
+        draw_circle(picture, middle, 1.35 * size, BACKGROUND)
+        draw_circle(picture, middle, size, QUERY_COLOR)
+    return picture
 
 
-def write_png(path, rows):
-    """`rows`: the red, green and blue bytes of each row."""
-    above = bytes(len(rows[0]))
-    data = bytearray()
-    for row in rows:
-        data.append(2)  # filter: the difference from the row above
-        data += bytes((a - b) & 255 for a, b in zip(row, above))
-        above = row
+def draw_circle(picture, middle, radius, color, width=None):
+    """A disc around the middle of the picture, or its rim if it has a width."""
+    scale = 4  # drawn larger, for a smooth rim
+    stencil = Image.new("L", (scale * picture.width, scale * picture.height))
+    low, high = scale * (middle - radius), scale * (middle + radius)
+    look = {"fill": 255} if width is None else {"outline": 255, "width": round(scale * width)}
+    ImageDraw.Draw(stencil).ellipse((low, low, high, high), **look)
+    picture.paste(color, (0, 0), stencil.resize(picture.size, Image.Resampling.BOX))
 
-    def chunk(kind, content):
-        return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
 
-    with open(path, "wb") as file:
-        file.write(b"\x89PNG\r\n\x1a\n")
-        file.write(chunk(b"IHDR", struct.pack(">IIBBBBB", len(rows[0]) // 3, len(rows), 8, 2, 0, 0, 0)))
-        file.write(chunk(b"IDAT", zlib.compress(bytes(data), 9)))
-        file.write(chunk(b"IEND", b""))
+def legend_rows(mesh):
+    """Colors, what they mean, in the words of the page, and how many vertices that are."""
+    exact, paper, ball = (mesh.colors.count(color) for color in (EXACT_COLOR, PAPER_COLOR, BALL_COLOR))
+    return [(EXACT_COLOR, "connected within the ball: the answer", exact + mesh.colors.count(QUERY_COLOR)),
+            (BALL_COLOR, "near, but not connected", ball + paper),
+            (PAPER_COLOR, "of these, extra of the approximate method", paper),
+            (QUERY_COLOR, "the vertex, in the middle of the ball", mesh.colors.count(QUERY_COLOR))]
+
+
+def load_font(size):
+    try:
+        return ImageFont.truetype("DejaVuSans.ttf", size)
+    except OSError:  # Pillow has a font of its own
+        return ImageFont.load_default(size)
+
+
+def with_legend(picture, rows):
+    """The picture with the rows above it."""
+    size = max(picture.width // 40, 10)
+    line, margin = round(1.6 * size), size
+    top = 2 * margin + line * len(rows)
+    whole = Image.new("RGB", (picture.width, top + picture.height), BACKGROUND)
+    whole.paste(picture, (0, top))
+    font, pen = load_font(size), ImageDraw.Draw(whole)
+    numbers = [f"{count:,}" for _, _, count in rows]
+    right = 2 * margin + size + max(pen.textlength(words, font) for _, words, _ in rows)
+    right += margin + max(pen.textlength(number, font) for number in numbers)
+    for i, ((color, words, _), number) in enumerate(zip(rows, numbers)):
+        y = margin + line * i
+        pen.rounded_rectangle((margin, y + size // 8, margin + size, y + size // 8 + size), size // 4, fill=color)
+        pen.text((2 * margin + size, y), words, INK, font)
+        pen.text((right - pen.textlength(number, font), y), number, INK, font)
+    return whole
 
 
 def choose_camera(mesh, options):
     query, subject = mesh.query(), mesh.subject()
-    low, high = ([bound(p[axis] for p in subject) for axis in range(3)] for bound in (min, max))
-    center = mesh.positions[query] if query is not None else [(a + b) / 2 for a, b in zip(low, high)]
-    towards = options.towards or (mesh.normals[query] if query is not None else (1.0, 1.0, 1.0))
-    return Camera(towards, options.up, center, options.zoom * (math.dist(low, high) or 1.0))
+    if query is None:
+        low, high = ([bound(p[axis] for p in subject) for axis in range(3)] for bound in (min, max))
+        center, width = [(a + b) / 2 for a, b in zip(low, high)], math.dist(low, high)
+        normal = (1.0, 1.0, 1.0)
+    else:
+        center, normal = mesh.positions[query], mesh.normals[query]
+        width = 2 * mesh.radius()
+    return Camera(options.towards or normal, options.up, center, options.zoom * (width or 1.0))
 
 
 def vector(text):
@@ -237,17 +296,21 @@ def parse_arguments():
     parser.add_argument("picture", metavar="OUT.png")
     parser.add_argument("--towards", type=vector, metavar="X,Y,Z", help="direction from the mesh to the eye")
     parser.add_argument("--up", type=vector, metavar="X,Y,Z", default=(0.0, 0.0, 1.0), help="default 0,0,1")
-    parser.add_argument("--zoom", type=float, default=1.6, help="width of the picture over that of the colored part")
-    parser.add_argument("--pixels", type=int, default=800, help="height of the picture")
-    parser.add_argument("--cut", type=vector, metavar="X,Y,Z", help="remove what lies on that side of the red vertex")
+    parser.add_argument("--zoom", type=float, default=1.2,
+                        help="width of the picture over that of the ball, or of the colored part without a query")
+    parser.add_argument("--pixels", type=int, default=800, help="width of the picture")
+    parser.add_argument("--cut", type=vector, metavar="X,Y,Z", help="remove what lies on that side of the vertex")
+    parser.add_argument("--legend", action="store_true", help="say above the picture what the colors mean")
     return parser.parse_args()
 
 
 def main():
     options = parse_arguments()
     mesh = Mesh(options.mesh)
-    canvas = draw(mesh, choose_camera(mesh, options), 2 * options.pixels, options.cut)
-    write_png(options.picture, list(canvas.halved()))
+    picture = draw(mesh, choose_camera(mesh, options), 2 * options.pixels, options.cut)
+    if options.legend:
+        picture = with_legend(picture, legend_rows(mesh))
+    picture.save(options.picture, optimize=True)
 
 
 if __name__ == "__main__":
