@@ -9,16 +9,18 @@
 namespace meshhood {
 
 /// Begins with large nodes, which are few. Where they reach more than a single sheet, begins again with small ones,
-/// which leave out what is not connected at that scale.
+/// which leave out what is not connected at that scale. Leaves save nothing over a search along their links.
 bool Reach::run(const Query& query) {
   // How many mean radii of nodes the radius of the ball has at most.
   constexpr double kSmallNodes = 10;   // the paper's f
   constexpr double kLargeNodes = 2.5;  // chosen: larger ones hide which parts are connected within the ball
   const Home small = home_of(query, kSmallNodes);
   const Home large = home_of(query, kLargeNodes);
-  if (large.level == 0) return false;
   const bool is_reached = large.level > small.level && reach_from(large, query, small.level);
-  if (!is_reached) static_cast<void>(reach_from(small, query, small.level));
+  if (!is_reached) {
+    if (small.level == 0) return false;
+    static_cast<void>(reach_from(small, query, small.level));
+  }
   find_surface_leaves(query);
   return true;
 }

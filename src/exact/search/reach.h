@@ -29,7 +29,7 @@ class Reach {
         descent_(index, kernels),
         first_surface_leaf_(index.leaf_count() / kFanOut) {}
 
-  /// Returns false, and reaches nothing, if the search would begin with leaves.
+  /// Returns false, and reaches nothing, if leaves are what the search would begin with.
   [[nodiscard]] bool run(const Query& query);
 
   /// The groups of known state: those of the level where the search began, then level by level downwards; those of a
