@@ -51,8 +51,10 @@ class Shape(Held):
             components of the neighborhood: with filter=False CGAL's Monge_via_jet_fitting of degrees 2 and 2.
         filter : fit only vertices whose normal makes an angle of less than 90 degrees with that of the query vertex, if
             there are at least six.
-        unit, workers, progress : as for `query_ball`. The result does not depend on `workers`.
+        unit, workers, progress : as for `query_ball`.
 
+        A row depends on index, faces or normals, vertex and radius alone, bit for bit: not on the other rows or radii of
+        the call, earlier calls, threads or the processor.
         Returns a `Curvature`: k1, k2, d1, d2, state, and as properties mean, gaussian, shape_index, curvedness, ok.
         Raises ValueError without faces and normals. See docs/curvature.md for what the numbers mean.
         """
@@ -87,7 +89,7 @@ class Shape(Held):
 
         r : the radius of all rows. normals : (#V, 3), instead of those that follow from the faces. The faces are needed
         in any case. The other arguments are as for `curvature`. Returns a `CorrectedCurvature`: area, mean, gaussian, k1, k2, d1,
-        d2, measures.
+        d2, measures. A row depends on the same as that of `curvature`.
         """
         rows = None if vertices is None else _convert.vertices(vertices, self._count)
         radius = self._scale(unit) * _convert.radius(r)
@@ -116,8 +118,9 @@ class Shape(Held):
 
         r : a radius, or one for each row. degree : 0 to 4. weights, F : as for `aggregate`.
         Returns (#rows, 1, 4, 10, 20 or 35) float64: 1, x, y, z, x^2, xy, xz, y^2, yz, z^2, x^3, ..., the order of
-        scikit-learn's PolynomialFeatures. They are accurate to 1e-13 of the sum of w |p|^(i + j + k). A row does not
-        depend on the other rows of the call, bit for bit, unless the rows have different radii.
+        scikit-learn's PolynomialFeatures. They are accurate to 1e-13 of the sum of w |p|^(i + j + k). A row depends on
+        index, weights, vertex and radius alone, bit for bit: not on the other rows of the call, earlier calls, threads or
+        the processor. Only if the rows have different radii, those of the vertices nearby have an effect on the last bits.
         """
         rows, radii, threads = self._batch(vertices, r, self._scale(unit), workers)
         options = {"degree": _convert.integer(degree, "degree", 0, 4), "weights": area_weights(self, weights, F)}
@@ -136,7 +139,8 @@ class Shape(Held):
         progress: Progress = None,
     ) -> PrincipalComponents:
         """The mean and the covariance of the positions of each neighborhood: normals, surface variation, and with
-        weights="area" the integral invariants area, barycenter and covariance. The arguments are those of `moments`."""
+        weights="area" the integral invariants area, barycenter and covariance. The arguments are those of `moments`,
+        and so is what a row depends on."""
         rows, radii, threads = self._batch(vertices, r, self._scale(unit), workers)
         options = {"weights": area_weights(self, weights, F), "threads": threads}
         with reporter(progress) as report:
@@ -162,7 +166,7 @@ class Shape(Held):
         F, filter, unit, workers, progress : as for `curvature`.
 
         Returns (#radii, #rows, #kinds) float64, without the last axis if `kinds` is one name. NaN where there is no
-        result. `persistence` finds over how many radii a feature lasts.
+        result. `persistence` finds over how many radii a feature lasts. A row depends on the same as that of `curvature`.
         """
         rows = None if vertices is None else _convert.vertices(vertices, self._count)
         array = np.atleast_1d(np.array(_convert.as_array(r, "r")))
