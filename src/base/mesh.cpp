@@ -7,7 +7,6 @@
 
 #include "meshhood/error.h"
 
-#include "base/valid_position.h"
 #include "base/validate.h"
 #include "shared/distance.h"
 #include "shared/vertex_range.h"

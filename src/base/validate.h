@@ -1,11 +1,47 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include "meshhood/error.h"
 #include "meshhood/mesh.h"
 
+#include "shared/distance.h"
 #include "shared/parallel.h"
+#include "shared/text.h"
 
 namespace meshhood {
+
+[[nodiscard]] inline bool is_valid_coordinate(double coordinate) { return std::abs(coordinate) <= kLargestCoordinate; }
+
+/// Whether the coordinates are finite and at most 2^500 in magnitude.
+[[nodiscard]] inline bool is_valid_position(const Point& p) {
+  return is_valid_coordinate(p.x) && is_valid_coordinate(p.y) && is_valid_coordinate(p.z);
+}
+
+/// Throws Error{InvalidMesh}, naming vertex `v` and the first of its coordinates that is not valid.
+[[noreturn]] inline void refuse_position(std::size_t v, const Point& p) {
+  const bool is_x = !is_valid_coordinate(p.x);
+  const bool is_y = !is_x && !is_valid_coordinate(p.y);
+  raise(ErrorCode::InvalidMesh, "vertex " + std::to_string(v) + ": " +
+                                    (is_x   ? 'x'
+                                     : is_y ? 'y'
+                                            : 'z') +
+                                    " is " +
+                                    to_text(is_x   ? p.x
+                                            : is_y ? p.y
+                                                   : p.z) +
+                                    ", expected a finite number of at most 2^500 in magnitude");
+}
+
+/// Throws as `refuse_position` unless the position is valid.
+inline void check_position(std::size_t v, const Point& p) {
+  if (!is_valid_position(p)) [[unlikely]] {
+    refuse_position(v, p);
+  }
+}
 
 /// As the public functions, on several threads, with the same errors. Throw also Error{Cancelled}.
 void validate(const PositionsView& positions, TaskContext& task);

@@ -10,7 +10,7 @@
 
 #include "meshhood/error.h"
 
-#include "base/valid_position.h"
+#include "base/validate.h"
 #include "exact/arrays.h"
 #include "exact/build/leaf_spheres.h"
 #include "exact/build/tree.h"
