@@ -11,7 +11,6 @@
 
 #include "meshhood/error.h"
 
-#include "base/sides.h"
 #include "base/validate.h"
 #include "shared/distance.h"
 

@@ -8,7 +8,7 @@
 #include "meshhood/adjacency.h"
 #include "meshhood/mesh.h"
 
-#include "base/sides.h"
+#include "base/adjacency.h"
 
 namespace meshhood {
 
