@@ -11,7 +11,6 @@
 
 #include "io/messages.h"
 #include "shared/text.h"
-#include "shared/vertex_range.h"
 
 namespace meshhood::parts {
 namespace {

@@ -9,7 +9,6 @@
 #include "meshhood/filter.h"
 
 #include "shared/text.h"
-#include "shared/vertex_range.h"
 
 namespace meshhood {
 namespace {

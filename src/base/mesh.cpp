@@ -9,7 +9,7 @@
 
 #include "base/validate.h"
 #include "shared/distance.h"
-#include "shared/vertex_range.h"
+#include "shared/text.h"
 
 namespace meshhood {
 namespace {

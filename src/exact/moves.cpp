@@ -15,7 +15,6 @@
 #include "exact/build/leaf_spheres.h"
 #include "exact/build/tree.h"
 #include "shared/text.h"
-#include "shared/vertex_range.h"
 
 namespace meshhood {
 namespace {

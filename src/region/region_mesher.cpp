@@ -7,7 +7,7 @@
 
 #include "region/face_lists.h"
 #include "region/mesher_state.h"
-#include "shared/vertex_range.h"
+#include "shared/text.h"
 
 namespace meshhood {
 

@@ -8,7 +8,6 @@
 
 #include "base/limits.h"
 #include "shared/text.h"
-#include "shared/vertex_range.h"
 
 namespace meshhood {
 

@@ -5,7 +5,9 @@
 #include <charconv>
 #include <cstddef>
 #include <string>
+#include <string_view>
 
+#include "meshhood/error.h"
 #include "meshhood/mesh.h"
 
 namespace meshhood {
@@ -20,6 +22,13 @@ namespace meshhood {
 /// Index `i` as it was given, with its sign.
 [[nodiscard]] inline std::string to_text(const IndicesView& indices, std::size_t i) {
   return indices.visit([i](auto all) { return std::to_string(all[i]); });
+}
+
+/// Throws Error{code} about a vertex that the mesh does not have. `where` tells what named it, as in `edge 3: vertex `,
+/// and `vertex` is its number as it was given, with its sign.
+[[noreturn]] inline void raise_no_such_vertex(ErrorCode code, std::string_view where, std::string_view vertex,
+                                              std::size_t vertices) {
+  raise(code, std::string(where).append(vertex) + ", but the mesh has " + std::to_string(vertices) + " vertices");
 }
 
 }  // namespace meshhood

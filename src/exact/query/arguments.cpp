@@ -7,7 +7,6 @@
 #include "meshhood/error.h"
 
 #include "shared/text.h"
-#include "shared/vertex_range.h"
 
 namespace meshhood {
 namespace {
