@@ -9,6 +9,7 @@
 #include "meshhood/region_mesh.h"
 
 #include "region/face_lists.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 
@@ -27,5 +28,8 @@ struct RegionMesher::State {
   /// Marks the ids, and returns the faces that belong to them, ascending.
   std::vector<std::size_t> select(std::span<const VertexId> ids, Corners corners);
 };
+
+/// Where the segment from `inside`, a point of the ball, to `outside` leaves the ball; `outside` if that is inside too.
+[[nodiscard]] Point exit_point(const Point& inside, const Point& outside, const Point& center, double radius);
 
 }  // namespace meshhood

@@ -3,8 +3,10 @@
 // joined into polylines.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,15 +14,85 @@
 #include "meshhood/error.h"
 #include "meshhood/region_mesh.h"
 
+#include "base/vector.h"
 #include "exact/query/arguments.h"
-#include "region/exit_point.h"
 #include "region/mesher_state.h"
-#include "region/polylines.h"
 #include "shared/distance.h"
 #include "shared/text.h"
 
 namespace meshhood {
 namespace {
+
+/// A directed segment between two points, given by their numbers.
+struct Segment {
+  std::uint32_t from;
+  std::uint32_t to;
+};
+
+/// A chain of points, each joined to the next; of a loop also the last to the first.
+struct Polyline {
+  std::vector<std::uint32_t> points;
+  bool is_closed;
+};
+
+/// Joins segments into the longest polylines that end only at points of which the number of segments is not two. A
+/// polyline has the direction of its first segment.
+class Joiner {
+ public:
+  Joiner(std::span<const Segment> segments, std::size_t points)
+      : segments_(segments), begin_(points + 1), of_point_(2 * segments.size()), is_used_(segments.size()) {
+    for (const Segment& segment : segments) {
+      ++begin_[segment.from];
+      ++begin_[segment.to];
+    }
+    std::inclusive_scan(begin_.begin(), begin_.end(), begin_.begin());
+    for (std::size_t i = segments.size(); i-- > 0;) {
+      of_point_[--begin_[segments[i].from]] = i;
+      of_point_[--begin_[segments[i].to]] = i;
+    }
+  }
+
+  std::vector<Polyline> join() {
+    std::vector<Polyline> result;
+    for (std::size_t i = 0; i < segments_.size(); ++i) {
+      if (!is_used_[i] && is_end(segments_[i].from)) result.push_back(walk(i, segments_[i].from));
+    }
+    // Segments that run against the others, where faces are not consistently oriented.
+    for (std::size_t i = 0; i < segments_.size(); ++i) {
+      if (!is_used_[i] && is_end(segments_[i].to)) result.push_back(walk(i, segments_[i].to));
+    }
+    for (std::size_t i = 0; i < segments_.size(); ++i) {
+      if (!is_used_[i]) result.push_back(walk(i, segments_[i].from));
+    }
+    return result;
+  }
+
+ private:
+  [[nodiscard]] bool is_end(std::uint32_t point) const { return begin_[point + 1] - begin_[point] != 2; }
+
+  /// From `start`, an end of segment `next`, to an end or back to `start`.
+  Polyline walk(std::size_t next, std::uint32_t start) {
+    Polyline line{{start}, false};
+    std::uint32_t at = start;
+    while (true) {
+      is_used_[next] = true;
+      at = segments_[next].from == at ? segments_[next].to : segments_[next].from;
+      if (at == start && !is_end(at)) {
+        line.is_closed = true;
+        return line;
+      }
+      line.points.push_back(at);
+      if (is_end(at)) return line;
+      const std::size_t first = of_point_[begin_[at]];
+      next = is_used_[first] ? of_point_[begin_[at] + 1] : first;
+    }
+  }
+
+  std::span<const Segment> segments_;
+  std::vector<std::size_t> begin_;     // by point: where its segments begin in `of_point_`
+  std::vector<std::size_t> of_point_;  // segments
+  std::vector<bool> is_used_;
+};
 
 /// An edge that leaves the region: its end inside, and its end outside.
 using RimEdge = std::array<VertexId, 2>;
@@ -66,6 +138,28 @@ std::vector<Segment> segments_of(std::span<const ExitPair> pairs, const std::vec
 
 }  // namespace
 
+// The point inside + t d, with d = outside - inside and e = inside - center, has the distance r from the center where
+//   (d.d) t^2 + 2 (d.e) t + (e.e - r^2) = 0.
+// The last term is not positive, so there is one root t >= 0. Of its two usual forms, this is the one that adds numbers
+// of equal sign. All lengths are first divided by the largest of them, so that no product overflows.
+Point exit_point(const Point& inside, const Point& outside, const Point& center, double radius) {
+  if (squared_distance(outside, center) <= squared_radius(radius)) return outside;
+  const Point d = outside - inside;
+  const Point e = inside - center;
+  const auto largest = [](const Point& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); };
+  const double unit = std::max({largest(d), largest(e), radius});
+  const Point step = (1 / unit) * d;
+  const Point offset = (1 / unit) * e;
+  const double a = dot(step, step);
+  const double b = dot(step, offset);
+  const double r = radius / unit;
+  const double distance = length(offset);
+  const double c = std::min((distance - r) * (distance + r), 0.0);
+  const double root = std::sqrt(b * b - a * c);
+  const double t = b > 0 ? -c / (b + root) : (root - b) / a;
+  return inside + std::clamp(t, 0.0, 1.0) * d;
+}
+
 Rim RegionMesher::rim(std::span<const VertexId> ids, const SpacePoint& center, double radius) {
   check_point(center, "center: ");
   check_radius(radius);
@@ -90,7 +184,7 @@ Rim RegionMesher::rim(std::span<const VertexId> ids, const SpacePoint& center, d
   }
   Rim rim;
   rim.offsets.push_back(0);
-  for (const Polyline& line : join_segments(segments_of(pairs, exits), exits.size())) {
+  for (const Polyline& line : Joiner(segments_of(pairs, exits), exits.size()).join()) {
     for (const std::uint32_t i : line.points) {
       rim.points.push_back(points[i]);
       rim.edges.push_back(exits[i]);

@@ -12,7 +12,7 @@
 
 #include "meshhood/region_mesh.h"
 
-#include "region/exit_point.h"
+#include "region/mesher_state.h"
 #include "support/draw_start.h"
 #include "support/families.h"
 #include "support/family_name.h"
