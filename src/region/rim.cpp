@@ -16,7 +16,7 @@
 
 #include "base/vector.h"
 #include "exact/query/arguments.h"
-#include "region/mesher_state.h"
+#include "region/region_mesher.h"
 #include "shared/distance.h"
 #include "shared/text.h"
 

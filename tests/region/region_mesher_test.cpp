@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Faces, submeshes and rims of regions, against passes over all faces of small meshes of every kind.
+#include "region/region_mesher.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +14,6 @@
 
 #include "meshhood/region_mesh.h"
 
-#include "region/mesher_state.h"
 #include "support/draw_start.h"
 #include "support/families.h"
 #include "support/family_name.h"
