@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -12,14 +11,13 @@
 namespace meshhood {
 
 /// The places in index order of the vertices that lie within `radius` of the one at `place` and are connected with it.
-/// Ascending, so that sums do not depend on the earlier queries of the searcher.
+/// They ascend.
 inline void find_places(Searcher& searcher, const IndexView& index, std::uint32_t place, double radius,
                         std::vector<std::uint32_t>& found) {
   found.clear();
   for (const VertexRange& range : searcher.ranges(index.id(place), radius)) {
     for (VertexId i = range.begin; i < range.end; ++i) found.push_back(i);
   }
-  std::sort(found.begin(), found.end());
 }
 
 }  // namespace meshhood
