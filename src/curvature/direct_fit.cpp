@@ -6,7 +6,7 @@
 
 #include "base/vector.h"
 #include "curvature/jet.h"
-#include "curvature/places.h"
+#include "curvature/surface.h"
 #include "curvature/unit.h"
 #include "exact/neighbors.h"
 

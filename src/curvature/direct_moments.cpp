@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "base/vector.h"
-#include "curvature/places.h"
+#include "curvature/surface.h"
 #include "curvature/unit.h"
 #include "simd/kernels.h"
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "meshhood/curvature.h"
+#include "meshhood/search.h"
 
 #include "exact/index_access.h"
 #include "exact/layout.h"
@@ -52,5 +53,15 @@ struct CurvatureAccess {
 };
 
 using SurfaceState = CurvatureAccess::State;
+
+/// The places in index order of the vertices that lie within `radius` of the one at `place` and are connected with it.
+/// They ascend.
+inline void find_places(Searcher& searcher, const IndexView& index, std::uint32_t place, double radius,
+                        std::vector<std::uint32_t>& found) {
+  found.clear();
+  for (const VertexRange& range : searcher.ranges(index.id(place), radius)) {
+    for (VertexId i = range.begin; i < range.end; ++i) found.push_back(i);
+  }
+}
 
 }  // namespace meshhood
