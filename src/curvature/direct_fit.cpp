@@ -6,8 +6,8 @@
 
 #include "base/vector.h"
 #include "curvature/jet.h"
+#include "curvature/packet_moments.h"
 #include "curvature/surface.h"
-#include "curvature/unit.h"
 #include "exact/neighbors.h"
 
 namespace meshhood {

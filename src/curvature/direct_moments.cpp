@@ -6,8 +6,8 @@
 #include <variant>
 
 #include "base/vector.h"
+#include "curvature/packet_moments.h"
 #include "curvature/surface.h"
-#include "curvature/unit.h"
 #include "simd/kernels.h"
 
 namespace meshhood {

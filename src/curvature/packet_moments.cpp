@@ -6,7 +6,6 @@
 #include <variant>
 
 #include "base/vector.h"
-#include "curvature/unit.h"
 
 namespace meshhood {
 namespace {
