@@ -9,7 +9,6 @@
 
 #include "base/limits.h"
 #include "base/vector.h"
-#include "curvature/directions.h"
 #include "curvature/quadric.h"
 #include "curvature/surface.h"
 #include "curvature/symmetric.h"

@@ -12,11 +12,11 @@
 
 #include "base/vector.h"
 #include "curvature/direct_fit.h"
-#include "curvature/directions.h"
 #include "curvature/jet.h"
 #include "curvature/packet_moments.h"
 #include "curvature/quadric.h"
 #include "curvature/surface.h"
+#include "curvature/symmetric.h"
 #include "curvature/visit_moments.h"
 #include "exact/joint/packet_answer.h"
 

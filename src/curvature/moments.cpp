@@ -14,7 +14,6 @@
 
 #include "base/limits.h"
 #include "curvature/direct_moments.h"
-#include "curvature/directions.h"
 #include "curvature/packet_moments.h"
 #include "curvature/symmetric.h"
 #include "curvature/visit_moments.h"

@@ -7,7 +7,6 @@
 
 #include "base/limits.h"
 #include "base/vector.h"
-#include "curvature/directions.h"
 #include "curvature/least_squares.h"
 #include "curvature/symmetric.h"
 

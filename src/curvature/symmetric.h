@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
 
+#include "base/vector.h"
 #include "shared/distance.h"
 
 namespace meshhood {
@@ -35,5 +40,25 @@ struct Eigen3 {
 
 /// By Jacobi's method: every eigenvalue is right to a few epsilon of the largest.
 [[nodiscard]] Eigen3 eigen(const Symmetric3& matrix);
+
+/// A vector of length 0, which has no direction, stays as it is.
+[[nodiscard]] inline Point unit(const Point& a) {
+  const double size = length(a);
+  return size == 0 ? a : (1 / size) * a;
+}
+
+/// The vector, or its negative: the one whose component of largest magnitude is positive.
+[[nodiscard]] inline Point with_sign(const Point& a) {
+  const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+  const bool negative = a.x == -largest || (a.x != largest && (a.y == -largest || (a.y != largest && a.z < 0)));
+  return negative ? -1 * a : a;
+}
+
+/// Writes row `row` of an array of 3 columns.
+inline void set_row(std::vector<double>& rows, std::size_t row, const Point& p) {
+  rows[3 * row] = p.x;
+  rows[3 * row + 1] = p.y;
+  rows[3 * row + 2] = p.z;
+}
 
 }  // namespace meshhood
