@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Ids and distances of an answer, for every instruction set, in the order of VertexSet::for_each.
-#include "exact/output.h"
-
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -9,6 +7,7 @@
 
 #include "meshhood/reorder.h"
 
+#include "exact/vertex_set.h"
 #include "support/search_case.h"
 
 namespace meshhood::test {

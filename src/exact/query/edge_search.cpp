@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "exact/index_access.h"
-#include "exact/output.h"
 #include "exact/query/arguments.h"
 #include "exact/query/path_search.h"
 #include "exact/query/ring_search.h"

@@ -7,8 +7,8 @@
 
 #include "meshhood/error.h"
 
-#include "exact/output.h"
 #include "exact/query/region_state.h"
+#include "exact/vertex_set.h"
 #include "shared/distance.h"
 #include "shared/text.h"
 

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "exact/index_access.h"
-#include "exact/output.h"
 #include "exact/query/arguments.h"
 #include "exact/query/region_state.h"
+#include "exact/vertex_set.h"
 #include "shared/distance.h"
 
 namespace meshhood {

@@ -3,8 +3,8 @@
 #include <string>
 #include <utility>
 
-#include "exact/output.h"
 #include "exact/query/region_state.h"
+#include "exact/vertex_set.h"
 #include "shared/distance.h"
 
 namespace meshhood {

@@ -13,8 +13,8 @@
 
 #include "exact/index_access.h"
 #include "exact/neighbors.h"
-#include "exact/output.h"
 #include "exact/search/searcher_state.h"
+#include "exact/vertex_set.h"
 #include "shared/distance.h"
 
 namespace meshhood {
