@@ -2,6 +2,7 @@
 // The region of one start and one radius: the neighborhood of a vertex, or else a flood that grows once.
 #include "meshhood/region.h"
 
+#include <string>
 #include <utility>
 
 #include "exact/index_access.h"
@@ -91,6 +92,25 @@ void RegionSearcher::region(const Start& start, double radius, std::vector<Verte
 std::size_t RegionSearcher::count(const Start& start, double radius, const Filter& filter) {
   state_->search(start, radius, filter);
   return state_->answer.count();
+}
+
+void RegionSearcher::stroke(std::span<const Dab> dabs, std::vector<VertexId>& out, const Filter& filter) {
+  State& state = *state_;
+  for (std::size_t i = 0; i < dabs.size(); ++i) {
+    const std::string where = "dab " + std::to_string(i) + ": ";
+    state.check(dabs[i].start, where);
+    check_radius(dabs[i].radius, where);
+  }
+  state.check(filter);
+  std::vector<LeafSubset>& found = state.found;
+  found.clear();
+  for (const Dab& dab : dabs) {
+    state.begin(dab.start, filter);
+    state.flood.grow(dab.radius);
+    state.for_each_found(0, [&](const LeafSubset& subset) { found.push_back(subset); });
+  }
+  state.answer.assign(found);
+  replace_ids(state.answer, *state.index, *state.kernels, out);
 }
 
 }  // namespace meshhood
