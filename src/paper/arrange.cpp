@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/packed_positions.h"
-#include "paper/child_lists.h"
 #include "paper/derive.h"
+#include "paper/draft.h"
 
 namespace meshhood::paper {
 namespace {

@@ -10,12 +10,9 @@
 
 #include "base/packed_positions.h"
 #include "paper/arrange.h"
-#include "paper/create.h"
-#include "paper/fusion.h"
+#include "paper/draft.h"
 #include "paper/hierarchy.h"
 #include "paper/index_access.h"
-#include "paper/link.h"
-#include "paper/select.h"
 #include "shared/parallel.h"
 #include "shared/text.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Step 1 of sec. 3.2, create: one candidate for each cluster of the level below, in a priority queue ordered by how far
 // its number of children is from the average.
-#include "paper/create.h"
-
 #include <cmath>
 #include <numeric>
 #include <utility>
+
+#include "paper/draft.h"
 
 namespace meshhood::paper {
 

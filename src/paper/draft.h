@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
+#include <cstddef>
 #include <cstdint>
+#include <numeric>
+#include <queue>
+#include <span>
 #include <vector>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/mesh.h"
 #include "meshhood/paper.h"
 
+#include "paper/hierarchy.h"
 #include "shared/distance.h"
 
 namespace meshhood::paper {
@@ -28,5 +35,76 @@ struct Partition {
 };
 
 inline constexpr ClusterId kNoCluster = static_cast<ClusterId>(-1);
+
+/// The priority queue `Q` of sec. 3.2. The candidate of cluster `C` has as children those of `C` and its siblings that
+/// have no parent yet. So the number of `C` identifies the candidate, and only the count of its children is stored.
+class CandidateQueue {
+ public:
+  /// children[c]: the number of children of the candidate of cluster `c`.
+  explicit CandidateQueue(const std::vector<VertexId>& children);
+
+  struct Candidate {
+    double from_average;  ///< the key: distance of its number of children from the average
+    VertexId children;
+    ClusterId cluster;
+  };
+
+  [[nodiscard]] bool empty() const { return queue_.empty(); }
+  Candidate pop();
+  void insert(ClusterId cluster, VertexId children);
+
+ private:
+  /// Ties are broken by id, so the order is total.
+  struct ComesLater {
+    bool operator()(const Candidate& a, const Candidate& b) const {
+      return a.from_average != b.from_average ? a.from_average > b.from_average : a.cluster > b.cluster;
+    }
+  };
+
+  [[nodiscard]] Candidate make(ClusterId cluster, VertexId children) const;
+
+  double average_ = 0;
+  std::priority_queue<Candidate, std::vector<Candidate>, ComesLater> queue_;
+};
+
+/// The number of children of each candidate at first: its cluster and all siblings.
+[[nodiscard]] std::vector<VertexId> create(const DraftLevel& below);
+
+/// Chooses clusters for the next level until each cluster of `below` is the child of exactly one.
+/// children: the result of `create`.
+[[nodiscard]] Partition select(const DraftLevel& below, std::vector<VertexId> children);
+
+/// Dissolves the clusters of `partition` that have fewer than `threshold` vertices or a single child into the clusters
+/// they touch. The others are numbered in the order of their first children. A cluster that touches no other is a whole
+/// component of the mesh and stays.
+void fuse(const DraftLevel& below, double threshold, Partition& partition);
+
+/// Computes the next level: vertices and siblings of each cluster, from those of its children.
+[[nodiscard]] DraftLevel link(const DraftLevel& below, const Partition& partition);
+
+/// The children of each parent, ascending: parent `p` has `children[offsets[p]] .. children[offsets[p + 1] - 1]`.
+struct ChildLists {
+  std::vector<VertexId> offsets;
+  std::vector<VertexId> children;
+
+  [[nodiscard]] std::span<const VertexId> operator[](std::size_t parent) const {
+    return std::span(children).subspan(offsets[parent],
+                                       static_cast<std::size_t>(offsets[parent + 1] - offsets[parent]));
+  }
+};
+
+/// parent[c]: the parent of child `c`, below `parents`.
+[[nodiscard]] inline ChildLists child_lists(std::span<const VertexId> parent, std::size_t parents) {
+  ChildLists result;
+  result.offsets.assign(parents + 1, 0);
+  for (const VertexId p : parent) ++result.offsets[p];
+  std::inclusive_scan(result.offsets.begin(), result.offsets.end(), result.offsets.begin());
+  result.children.resize(parent.size());
+  for (std::size_t c = parent.size(); c-- > 0;) {
+    assert(parent[c] < parents);
+    result.children[--result.offsets[parent[c]]] = static_cast<VertexId>(c);
+  }
+  return result;
+}
 
 }  // namespace meshhood::paper

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Step 4 of sec. 3.2, fusion: Algorithm 2. Deviation: it runs before step 3, because it only needs the parents of the
 // clusters. So there are no siblings or spheres yet to update.
-#include "paper/fusion.h"
-
 #include <limits>
 #include <queue>
 #include <utility>
+
+#include "paper/draft.h"
 
 namespace meshhood::paper {
 namespace {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Step 3 of sec. 3.2, link and sphere. A cluster has the vertices of its children. Its siblings are the other clusters
 // that are parents of siblings of its children.
-#include "paper/link.h"
-
 #include <algorithm>
 #include <utility>
 
 #include "base/sphere.h"
-#include "paper/child_lists.h"
+#include "paper/draft.h"
 
 namespace meshhood::paper {
 namespace {

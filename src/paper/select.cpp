@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Step 2 of sec. 3.2, select: Algorithm 1, a greedy set cover. A candidate that has lost children since it was queued
 // is queued again with its new count; any other becomes a cluster. O(#siblings log #clusters).
-#include "paper/select.h"
-
 #include <utility>
+
+#include "paper/draft.h"
 
 namespace meshhood::paper {
 namespace {

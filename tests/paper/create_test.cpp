@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "paper/create.h"
-
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -9,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "paper/draft.h"
 #include "paper/levels.h"
 
 namespace meshhood::test {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "paper/link.h"
-
 #include <cmath>
 #include <cstdio>
 #include <set>
@@ -9,9 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "paper/create.h"
+#include "paper/draft.h"
 #include "paper/levels.h"
-#include "paper/select.h"
 #include "support/scale.h"
 
 namespace meshhood::test {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "paper/select.h"
-
 #include <algorithm>
 #include <cstdio>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "paper/draft.h"
 #include "paper/levels.h"
 #include "support/scale.h"
 
