@@ -16,7 +16,7 @@
 #include "batch/joint_worker.h"
 #include "batch/searcher_factory.h"
 #include "exact/index_access.h"
-#include "paper/index_access.h"
+#include "paper/hierarchy.h"
 
 namespace meshhood {
 namespace {

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The index order. From the highest level down, the children of each cluster get consecutive numbers. The vertices of
 // each cluster of each level then form one range (sec. 3: "precomputed groups of vertices contiguously stored").
-#include "paper/arrange.h"
-
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
 #include "base/packed_positions.h"
-#include "paper/derive.h"
 #include "paper/draft.h"
+#include "paper/hierarchy.h"
 
 namespace meshhood::paper {
 namespace {

@@ -9,10 +9,8 @@
 #include "meshhood/paper.h"
 
 #include "base/packed_positions.h"
-#include "paper/arrange.h"
 #include "paper/draft.h"
 #include "paper/hierarchy.h"
-#include "paper/index_access.h"
 #include "shared/parallel.h"
 #include "shared/text.h"
 

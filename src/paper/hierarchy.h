@@ -2,9 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <span>
+#include <utility>
 #include <variant>
 #include <vector>
 
+#include "meshhood/adjacency.h"
 #include "meshhood/fingerprint.h"
 #include "meshhood/paper.h"
 
@@ -42,6 +46,42 @@ using AnyHierarchy = std::variant<Hierarchy<float>, Hierarchy<double>>;
 struct Index::Storage {
   AnyHierarchy hierarchy;
   Fingerprint mesh;  // computed by the build, because the graph is not kept
+};
+
+/// Computes the bounding sphere of each cluster of `level`, and the mean radius of the level.
+/// positions: in index order, #V by 3.
+template <class Real>
+void enclose(std::span<const Real> positions, Level<Real>& level);
+
+/// The mean radius of the spheres of `level`; 0 if it has none.
+template <class Real>
+[[nodiscard]] double mean_radius(const Level<Real>& level);
+
+/// Fills in what follows from the rest of a hierarchy: parents, the vertices of the clusters above the lowest level,
+/// and the lowest cluster of each vertex. The hierarchy has the vertices of the clusters of the lowest level, and the
+/// children of the others.
+template <class Real>
+void derive(Hierarchy<Real>& hierarchy);
+
+/// Lays out the levels that are kept, without their spheres.
+///
+/// xyz         #V by 3, in the caller's order.
+/// parents     parents[l][c]: the parent, on level `l + 1`, of cluster `c` on level `l`; a base cluster is its vertex.
+/// siblings    siblings[l]: of the clusters of level `l`; levels below `lowest` are not read.
+/// lowest      the lowest level to keep; the highest is `parents.size()`.
+template <class Real>
+[[nodiscard]] Hierarchy<Real> arrange(std::span<const Real> xyz, const std::vector<std::vector<ClusterId>>& parents,
+                                      const std::vector<AdjacencyView>& siblings, std::size_t lowest);
+
+/// Access to the data of an index, for `build`, for files, and for tests that damage an index on purpose.
+struct IndexAccess {
+  [[nodiscard]] static Index make(AnyHierarchy hierarchy, const Fingerprint& mesh = {}) {
+    return Index(std::make_unique<const Index::Storage>(Index::Storage{std::move(hierarchy), mesh}));
+  }
+
+  [[nodiscard]] static const Fingerprint& mesh(const Index& index) { return index.storage_->mesh; }
+
+  [[nodiscard]] static const AnyHierarchy& hierarchy(const Index& index) { return index.storage_->hierarchy; }
 };
 
 }  // namespace meshhood::paper

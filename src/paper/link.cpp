@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Step 3 of sec. 3.2, link and sphere. A cluster has the vertices of its children. Its siblings are the other clusters
-// that are parents of siblings of its children.
+// Step 3 of sec. 3.2, link. A cluster has the vertices of its children. Its siblings are the other clusters that are
+// parents of siblings of its children. Spheres are computed last (`enclose`).
 #include <algorithm>
 #include <utility>
 
-#include "base/sphere.h"
 #include "paper/draft.h"
 
 namespace meshhood::paper {
@@ -47,28 +46,5 @@ DraftLevel link(const DraftLevel& below, const Partition& partition) {
   link_siblings(below, partition, level);
   return level;
 }
-
-template <class Real>
-void enclose(std::span<const Real> positions, Level<Real>& level) {
-  level.spheres.resize(level.size());
-  for (std::size_t c = 0; c < level.size(); ++c) {
-    const std::size_t begin = level.first_vertex[c];
-    const std::size_t end = level.first_vertex[c + 1];
-    level.spheres[c] = bounding_sphere(positions.subspan(3 * begin, 3 * (end - begin)));
-  }
-  level.mean_radius = mean_radius(level);
-}
-
-template <class Real>
-double mean_radius(const Level<Real>& level) {
-  double sum = 0;
-  for (const Sphere<Real>& sphere : level.spheres) sum += static_cast<double>(sphere.radius);
-  return level.size() == 0 ? 0.0 : sum / static_cast<double>(level.size());
-}
-
-template void enclose(std::span<const float> positions, Level<float>& level);
-template void enclose(std::span<const double> positions, Level<double>& level);
-template double mean_radius(const Level<float>& level);
-template double mean_radius(const Level<double>& level);
 
 }  // namespace meshhood::paper

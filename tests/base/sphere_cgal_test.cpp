@@ -15,7 +15,7 @@
 #include "meshhood/paper.h"
 
 #include "base/sphere.h"
-#include "paper/index_access.h"
+#include "paper/hierarchy.h"
 #include "support/families.h"
 #include "support/scale.h"
 #include "support/shared_meshes.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "paper/arrange.h"
-
 #include <algorithm>
 #include <cstdio>
 #include <numeric>
@@ -8,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "paper/hierarchy.h"
 #include "paper/levels.h"
 #include "support/scale.h"
 

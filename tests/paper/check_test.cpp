@@ -14,7 +14,7 @@
 
 #include "meshhood/meshhood.h"
 
-#include "paper/index_access.h"
+#include "paper/hierarchy.h"
 #include "support/families.h"
 
 namespace meshhood::test {

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "paper/index_access.h"
+#include "paper/hierarchy.h"
 
 namespace meshhood::test {
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "paper/derive.h"
+// What follows from the rest of a hierarchy: parents, vertices, spheres.
+#include "paper/hierarchy.h"
+
+#include "base/sphere.h"
 
 namespace meshhood::paper {
 namespace {
@@ -40,7 +43,29 @@ void derive(Hierarchy<Real>& hierarchy) {
   hierarchy.lowest_cluster = cluster_of_vertex(hierarchy.levels.front(), hierarchy.vertices);
 }
 
+template <class Real>
+void enclose(std::span<const Real> positions, Level<Real>& level) {
+  level.spheres.resize(level.size());
+  for (std::size_t c = 0; c < level.size(); ++c) {
+    const std::size_t begin = level.first_vertex[c];
+    const std::size_t end = level.first_vertex[c + 1];
+    level.spheres[c] = bounding_sphere(positions.subspan(3 * begin, 3 * (end - begin)));
+  }
+  level.mean_radius = mean_radius(level);
+}
+
+template <class Real>
+double mean_radius(const Level<Real>& level) {
+  double sum = 0;
+  for (const Sphere<Real>& sphere : level.spheres) sum += static_cast<double>(sphere.radius);
+  return level.size() == 0 ? 0.0 : sum / static_cast<double>(level.size());
+}
+
 template void derive(Hierarchy<float>& hierarchy);
 template void derive(Hierarchy<double>& hierarchy);
+template void enclose(std::span<const float> positions, Level<float>& level);
+template void enclose(std::span<const double> positions, Level<double>& level);
+template double mean_radius(const Level<float>& level);
+template double mean_radius(const Level<double>& level);
 
 }  // namespace meshhood::paper
