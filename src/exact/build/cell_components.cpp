@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "exact/lane_search.h"
+#include "exact/build/links.h"
 
 namespace meshhood {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "exact/build/edge_buckets.h"
 #include "exact/build/link_collector.h"
-#include "exact/lane_search.h"
 
 namespace meshhood {
 namespace {
