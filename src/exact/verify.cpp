@@ -9,7 +9,7 @@
 #include <variant>
 
 #include "exact/build/links.h"
-#include "format/coordinates.h"
+#include "format/section_reader.h"
 
 namespace meshhood::file {
 namespace {

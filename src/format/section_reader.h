@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -9,6 +10,7 @@
 #include <type_traits>
 
 #include "format/format.h"
+#include "shared/distance.h"
 #include "shared/parallel.h"
 
 namespace meshhood::file {
@@ -76,5 +78,14 @@ class SectionReader {
   std::span<const Section> table_;
   std::size_t taken_ = 0;
 };
+
+/// Throws if a coordinate is one that `validate` rejects.
+template <class Real>
+void verify_coordinates(std::span<const Real> xyz, const SectionReader& file) {
+  for (const Real& value : xyz) {
+    if (std::abs(static_cast<double>(value)) <= kLargestCoordinate) continue;
+    file.refuse(&value, "a coordinate is not finite or exceeds 2^500");
+  }
+}
 
 }  // namespace meshhood::file

@@ -7,7 +7,6 @@
 #include "meshhood/error.h"
 #include "meshhood/serialize.h"
 
-#include "format/coordinates.h"
 #include "format/section_reader.h"
 #include "format/section_writer.h"
 #include "paper/draft.h"
