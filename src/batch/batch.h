@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "meshhood/batch.h"
+#include "meshhood/mesh.h"
 
 #include "batch/position_sort.h"
 #include "batch/raw_values.h"
@@ -17,6 +18,9 @@
 #include "shared/parallel.h"
 
 namespace meshhood {
+
+/// Sorts `ids` in ascending order, and `distances`, unless empty, along with them.
+void sort_answer(std::span<VertexId> ids, std::span<double> distances);
 
 /// The common part of all batches: the rows, and threads that process them in chunks that follow the index order.
 class Batch {

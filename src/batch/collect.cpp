@@ -11,7 +11,6 @@
 #include "meshhood/error.h"
 
 #include "batch/batch.h"
-#include "batch/sort_answer.h"
 
 namespace meshhood {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "batch/batch.h"
 #include "batch/raw_values.h"
-#include "batch/sort_answer.h"
 
 namespace meshhood {
 namespace {

@@ -28,8 +28,8 @@
 #include "meshhood/search.h"
 #include "meshhood/serialize.h"
 
+#include "batch/batch.h"
 #include "batch/position_sort.h"
-#include "batch/sort_answer.h"
 #include "exact/build/node_parts.h"
 #include "exact/search/searcher_state.h"
 #include "support/divided_nodes.h"
