@@ -10,9 +10,17 @@
 #include <unistd.h>
 
 #include "io/messages.h"
-#include "io/uninterrupted.h"
 
 namespace meshhood::io {
+
+/// Makes the system call `call()`, again if a signal interrupted it, and returns its result.
+template <class F>
+[[nodiscard]] auto uninterrupted(F&& call) {
+  for (;;) {
+    const auto result = call();
+    if (result >= 0 || errno != EINTR) return result;
+  }
+}
 
 /// An open file of the operating system, closed at the end of its scope.
 class Descriptor {

@@ -13,8 +13,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "io/descriptor.h"
 #include "io/messages.h"
-#include "io/uninterrupted.h"
 
 namespace meshhood::io {
 namespace {

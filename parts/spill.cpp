@@ -12,7 +12,6 @@
 
 #include "io/descriptor.h"
 #include "io/messages.h"
-#include "io/uninterrupted.h"
 
 namespace meshhood::parts {
 
