@@ -13,7 +13,6 @@
 #include "io/messages.h"
 #include "io/npy.h"
 #include "parts/chunked_mesh.h"
-#include "parts/number_bytes.h"
 #include "parts/random_file.h"
 
 namespace meshhood::parts {

@@ -15,7 +15,6 @@
 #include "io/ply_header.h"
 #include "io/ply_values.h"
 #include "parts/chunked_mesh.h"
-#include "parts/number_bytes.h"
 #include "parts/random_file.h"
 
 // A binary PLY file in two ways: vertices have a fixed size and are read at any place; faces are read in order, by the
