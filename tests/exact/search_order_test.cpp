@@ -20,10 +20,10 @@
 #include "support/exact_answer.h"
 #include "support/families.h"
 #include "support/family_name.h"
-#include "support/folded_sheet.h"
 #include "support/index_bytes.h"
 #include "support/oracle.h"
 #include "support/scale.h"
+#include "support/sheets.h"
 
 namespace meshhood::test {
 namespace {

@@ -7,9 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "support/family_name.h"
-#include "support/folded_sheet.h"
-#include "support/narrow_sheets.h"
 #include "support/outward_search.h"
+#include "support/sheets.h"
 
 namespace meshhood::test {
 namespace {
