@@ -16,7 +16,6 @@
 
 #include "support/families.h"
 #include "support/same_storage.h"
-#include "support/sanitized.h"
 #include "support/scale.h"
 #include "support/sorted.h"
 

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "support/hostile.h"
-#include "support/sanitized.h"
+#include "support/scale.h"
 #include "support/scratch.h"
 
 // The peak memory of a process that reads a mesh is at most twice the decoded arrays plus 64 MB (R1).

@@ -10,7 +10,7 @@
 #include "io/mesh_io.h"
 #include "parts/partition.h"
 #include "shapes/shapes.h"
-#include "support/sanitized.h"
+#include "support/scale.h"
 #include "support/scratch.h"
 
 namespace meshhood::test {

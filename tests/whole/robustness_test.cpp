@@ -21,7 +21,6 @@
 #include "support/index_bytes.h"
 #include "support/paper_bounds.h"
 #include "support/refusal.h"
-#include "support/sanitized.h"
 #include "support/scale.h"
 
 namespace meshhood::test {

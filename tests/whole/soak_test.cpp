@@ -19,7 +19,6 @@
 
 #include "io/index_io.h"
 #include "support/families.h"
-#include "support/sanitized.h"
 #include "support/scale.h"
 #include "support/scratch.h"
 
