@@ -16,7 +16,7 @@
 #include "io/index_io.h"
 #include "io/mesh_io.h"
 #include "shapes/shapes.h"
-#include "support/fail_each_allocation.h"
+#include "support/failing_allocations.h"
 #include "support/hostile.h"
 #include "support/index_bytes.h"
 #include "support/save_trial.h"

@@ -14,7 +14,7 @@
 #include "parts/chunked_mesh.h"
 #include "parts/manifest.h"
 #include "parts/partition.h"
-#include "support/fail_each_allocation.h"
+#include "support/failing_allocations.h"
 #include "support/families.h"
 #include "support/parts_folder.h"
 #include "support/scratch.h"

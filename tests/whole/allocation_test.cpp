@@ -33,7 +33,7 @@
 #include "exact/build/node_parts.h"
 #include "exact/search/searcher_state.h"
 #include "support/divided_nodes.h"
-#include "support/fail_each_allocation.h"
+#include "support/failing_allocations.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/index_bytes.h"
