@@ -9,7 +9,7 @@
 
 #include "support/families.h"
 
-/// Flat sheets whose parts are joined by a narrow way, or far from the query vertex.
+/// Sheets whose parts are joined by a narrow way, or far from the query vertex, and a sheet that folds back.
 namespace meshhood::test {
 
 /// The part of a grid of `rows` by `columns` vertices where `is_there(x, y)`.
