@@ -10,7 +10,7 @@
 
 #include "exact/index_access.h"
 #include "support/families.h"
-#include "support/index_arrays.h"
+#include "support/forged_index.h"
 #include "support/same_storage.h"
 
 namespace meshhood::test {
