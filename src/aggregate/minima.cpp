@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/limits.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 namespace {

@@ -7,11 +7,11 @@
 #include "meshhood/aggregate.h"
 #include "meshhood/corrected_curvature.h"
 
-#include "base/limits.h"
 #include "base/vector.h"
 #include "curvature/quadric.h"
 #include "curvature/surface.h"
 #include "curvature/symmetric.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 namespace {

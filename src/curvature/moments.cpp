@@ -12,12 +12,12 @@
 
 #include "meshhood/error.h"
 
-#include "base/limits.h"
 #include "curvature/direct_moments.h"
 #include "curvature/packet_moments.h"
 #include "curvature/symmetric.h"
 #include "curvature/visit_moments.h"
 #include "exact/index_access.h"
+#include "shared/distance.h"
 #include "shared/text.h"
 
 namespace meshhood {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
-#include "base/limits.h"
 #include "base/vector.h"
 #include "curvature/least_squares.h"
 #include "curvature/symmetric.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 namespace {

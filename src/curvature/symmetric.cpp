@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "base/limits.h"
 #include "base/vector.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 namespace {

@@ -6,7 +6,6 @@
 
 #include "meshhood/error.h"
 
-#include "base/limits.h"
 #include "shared/text.h"
 
 namespace meshhood {

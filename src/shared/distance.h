@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <string_view>
 
@@ -13,6 +14,9 @@
 #endif
 
 namespace meshhood {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Beyond this the square of a distance overflows.
 inline constexpr double kLargestCoordinate = 0x1p500;

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "base/limits.h"
 #include "base/reference_access.h"
+#include "shared/distance.h"
 
 namespace meshhood {
 namespace {

@@ -18,7 +18,7 @@
 #include "meshhood/reorder.h"
 #include "meshhood/serialize.h"
 
-#include "base/limits.h"
+#include "shared/distance.h"
 #include "support/family_name.h"
 #include "support/index_bytes.h"
 #include "support/refusal.h"
