@@ -13,9 +13,9 @@
 
 #include "meshhood/error.h"
 
-/// Repeats a call, each time with another allocation failing. For that, every `operator new` of the program is replaced:
-/// it counts the calls, and lets some fail. The operators call `malloc` and `free`, so that sanitizers still see all
-/// allocations.
+/// Repeats a call, each time with another allocation failing. For that, every `operator new` of the program is
+/// replaced: it counts the calls, and lets some fail. The operators call `malloc` and `free`, so that sanitizers still
+/// see all allocations.
 namespace meshhood::test {
 
 enum class Shortage {
