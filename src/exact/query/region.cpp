@@ -94,6 +94,7 @@ std::size_t RegionSearcher::count(const Start& start, double radius, const Filte
   return state_->answer.count();
 }
 
+/// The union of the regions, one flood after the other.
 void RegionSearcher::stroke(std::span<const Dab> dabs, std::vector<VertexId>& out, const Filter& filter) {
   State& state = *state_;
   for (std::size_t i = 0; i < dabs.size(); ++i) {
