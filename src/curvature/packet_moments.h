@@ -43,7 +43,7 @@ struct MomentSizes {
 };
 
 /// The moments of the neighborhoods of up to 32 vertices that lie close together. A vertex that counts for all queries
-/// is added once, about a common center; the sums are moved to each query vertex at the end. Owns 60 kB of memory.
+/// is added once, about a common center; the sums are moved to each query vertex at the end. Owns 30 kB of memory.
 class PacketMoments {
  public:
   /// Borrows what `source` names.
@@ -102,7 +102,7 @@ class PacketMoments {
   VertexList waiting_some_;
   MomentPoints points_;
   PartialMoments common_;
-  MomentsByWord some_;
+  MomentsByQuery some_;
   QueryMoments moments_;
   PerLane<MomentSizes> sizes_{};
   PerLane<bool> is_accurate_{};

@@ -169,36 +169,40 @@ HWY_INLINE void powers_of(const MomentPoints& points, std::size_t i, PaddedMomen
 
 #endif
 
-/// Bit `i` is set if part `i` of the word is not 0.
-HWY_INLINE std::uint64_t used_parts(QueryWord word) {
-  static_assert(MomentsByWord::kQueries == 4 && MomentsByWord::kParts == 8);
-  word |= word >> 1;
-  word = (word | word >> 2) & 0x11111111U;
-  word = (word | word >> 3) & 0x03030303U;  // two bits of each byte
-  word = (word | word >> 6) & 0x000F000FU;
-  return (word | word >> 12) & 0xFFU;
+/// The words of up to 64 points as a matrix of bits, transposed: bit `i` of number `q` is bit `q` of word `i`.
+HWY_INLINE void points_of_queries(std::span<const QueryWord> words, std::array<std::uint64_t, kPacketCapacity>& out) {
+  const Words d;
+  out = {};
+  for (std::size_t first = 0; first < words.size(); first += kLanes<Words>) {
+    const std::size_t count = std::min(words.size() - first, kLanes<Words>);
+    const auto some = hn::LoadU(d, words.data() + first);
+    for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+      const LaneMask lanes =
+          lanes_with(some, hn::Set(d, QueryWord{1} << q)) & first_lanes(static_cast<unsigned>(count));
+      out[q] |= std::uint64_t{lanes} << first;
+    }
+  }
 }
 
-/// As `MomentKernels::add_powers_by_word`. Finds the powers of eight points before it adds them, because a processor
-/// waits if it reads as a vector what it has just written number by number. The parts of eight words that are not 0 are
-/// the bits of one number, so that few branches cannot be predicted.
-void add_powers_by_word(const MomentPoints& points, std::span<const QueryWord> words, MomentsByWord& sums) {
-  std::array<PaddedMoments, kEight> powers;
-  for (std::size_t first = 0; first < words.size(); first += kEight) {
-    const std::size_t count = std::min(kEight, words.size() - first);
-    std::uint64_t used = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      powers_of(points, first + i, powers[i]);
-      used |= used_parts(words[first + i]) << (MomentsByWord::kParts * i);
-    }
-    for (; used != 0; used &= used - 1) {
-      const auto bit = static_cast<std::size_t>(std::countr_zero(used));
-      const std::size_t i = bit / MomentsByWord::kParts;
-      const std::size_t part = bit % MomentsByWord::kParts;
-      const QueryWord value = words[first + i] >> (MomentsByWord::kQueries * part) & (MomentsByWord::kValues - 1);
-      PaddedMoments& sum = sums.at[part][value];
-      for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kLanes<Doubles>)
-        add_to(sum.at[m], load(powers[i].at[m]));
+/// As `MomentKernels::add_powers_by_word`. The sums of a query stay in registers while its points are added.
+void add_powers_by_word(const MomentPoints& points, std::span<const QueryWord> words, MomentsByQuery& sums) {
+  constexpr std::size_t kAtOnce = std::min<std::size_t>(PaddedMoments::kPadded / kLanes<Doubles>, 10);  // vectors
+  std::array<PaddedMoments, MomentPoints::kCapacity> powers;
+  for (std::size_t i = 0; i < words.size(); ++i) powers_of(points, i, powers[i]);
+  std::array<std::uint64_t, kPacketCapacity> points_of;
+  points_of_queries(words, points_of);
+  for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+    for (std::size_t m = 0; m < PaddedMoments::kPadded && points_of[q] != 0; m += kAtOnce * kLanes<Doubles>) {
+      Numbers sum[kAtOnce];  // NOLINT(modernize-avoid-c-arrays): std::array drops the alignment
+#pragma GCC unroll 10
+      for (std::size_t k = 0; k < kAtOnce; ++k) sum[k] = number(0);
+      for (std::uint64_t left = points_of[q]; left != 0; left &= left - 1) {
+        const PaddedMoments& power = powers[static_cast<std::size_t>(std::countr_zero(left))];
+#pragma GCC unroll 10
+        for (std::size_t k = 0; k < kAtOnce; ++k) sum[k] = hn::Add(sum[k], load(power.at[m + k * kLanes<Doubles>]));
+      }
+#pragma GCC unroll 10
+      for (std::size_t k = 0; k < kAtOnce; ++k) add_to(sums.at[q].at[m + k * kLanes<Doubles>], sum[k]);
     }
   }
 }
@@ -284,18 +288,10 @@ void append(std::uint32_t first, std::span<const QueryWord> words, QueryWord all
   }
 }
 
-void collect(const PartialMoments& common, const MomentsByWord& some, QueryMoments& out) {
-  constexpr std::size_t kQueries = MomentsByWord::kQueries;
-  PaddedMoments all{};
-  for (std::size_t m = 0; m < kMomentCount; ++m) all.at[m] = common.total(m);
-  for (std::size_t q = 0; q < kPacketCapacity; ++q) {
-    PaddedMoments sum = all;
-    for (std::size_t value = 0; value < MomentsByWord::kValues; ++value) {
-      if ((value >> q % kQueries & 1U) == 0) continue;
-      const PaddedMoments& term = some.at[q / kQueries][value];
-      for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kLanes<Doubles>) add_to(sum.at[m], load(term.at[m]));
-    }
-    for (std::size_t m = 0; m < kMomentCount; ++m) out.at[m][q] = sum.at[m];
+void collect(const PartialMoments& common, const MomentsByQuery& some, QueryMoments& out) {
+  for (std::size_t m = 0; m < kMomentCount; ++m) {
+    const double all = common.total(m);
+    for (std::size_t q = 0; q < kPacketCapacity; ++q) out.at[m][q] = all + some.at[q].at[m];
   }
 }
 

@@ -53,13 +53,9 @@ struct alignas(64) PaddedMoments {
   std::array<double, kPadded> at;
 };
 
-/// Sums for sets of queries. A word of 32 queries has eight parts of four bits; there is a sum for each value of each
-/// part. A vertex is added to one sum of each part, however many queries it counts for; those of value 0 are not used.
-struct MomentsByWord {
-  static constexpr std::size_t kParts = 8;
-  static constexpr std::size_t kQueries = kPacketCapacity / kParts;
-  static constexpr std::size_t kValues = 16;
-  std::array<std::array<PaddedMoments, kValues>, kParts> at;
+/// The sums of each query.
+struct MomentsByQuery {
+  std::array<PaddedMoments, kPacketCapacity> at;
 };
 
 /// Eight partial sums of each moment.
@@ -148,8 +144,9 @@ struct MomentKernels {
   /// they must be finite, with weight 0 beyond the size.
   void (*add_powers)(const MomentPoints& points, std::size_t size, PartialMoments& sums);
 
-  /// Adds the powers of point `i`, times its weight, to the sums of the queries of `words[i]`.
-  void (*add_powers_by_word)(const MomentPoints& points, std::span<const QueryWord> words, MomentsByWord& sums);
+  /// Adds the powers of point `i`, times its weight, to the sums of the queries of `words[i]`. Reads the 15 words after
+  /// the last one, but does not use them.
+  void (*add_powers_by_word)(const MomentPoints& points, std::span<const QueryWord> words, MomentsByQuery& sums);
 
   /// Removes from `words[i]` the queries that vertex `i` does not face. Normals are unit vectors; one of NaN faces
   /// none. At most `kLeafCapacity` words; the columns begin with the first vertex.
@@ -160,8 +157,8 @@ struct MomentKernels {
   void (*append)(std::uint32_t first, std::span<const QueryWord> words, QueryWord all, VertexList& common,
                  VertexList& some);
 
-  /// The sums of each query.
-  void (*collect)(const PartialMoments& common, const MomentsByWord& some, QueryMoments& out);
+  /// The sums of each query, those of `common` included.
+  void (*collect)(const PartialMoments& common, const MomentsByQuery& some, QueryMoments& out);
 
   /// Moves the centers by `-by`: the coordinates grow by `by`. By a Taylor shift along each axis, 105 multiply-adds.
   void (*shift)(QueryMoments& moments, const QueryVectors& by);

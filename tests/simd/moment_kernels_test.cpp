@@ -67,14 +67,22 @@ QueryVectors random_vectors(Random& random) {
   return vectors;
 }
 
+/// The sums of the queries of its words, which are followed by others.
+std::unique_ptr<MomentsByQuery> summed(const MomentKernels& kernels, const Input& input) {
+  std::array<QueryWord, MomentPoints::kCapacity + 15> words;
+  words.fill(~QueryWord{0});
+  std::copy(input.words.begin(), input.words.end(), words.begin());
+  auto sums = std::make_unique<MomentsByQuery>();
+  kernels.add_powers_by_word(input.points, std::span(words).first(input.words.size()), *sums);
+  return sums;
+}
+
 /// The sums of an input, without words and with them.
 QueryMoments collected(const MomentKernels& kernels, const Input& common, const Input& some) {
   PartialMoments parts{};
-  const auto by_word = std::make_unique<MomentsByWord>();
   QueryMoments out{};
   kernels.add_powers(common.points, common.words.size(), parts);
-  kernels.add_powers_by_word(some.points, some.words, *by_word);
-  kernels.collect(parts, *by_word, out);
+  kernels.collect(parts, *summed(kernels, some), out);
   return out;
 }
 
@@ -178,10 +186,8 @@ TEST(MomentKernels, SumsOfFewQueriesAreThoseOfThePowers) {
   for (const std::size_t queries : {1U, 4U, 5U, 27U, 31U}) {
     for (QueryWord& word : some.words) word &= (QueryWord{1} << queries) - 1;
     for (const Isa isa : available_isas()) {
-      const auto by_word = std::make_unique<MomentsByWord>();
       QueryMoments sums{};
-      moment_kernels(isa).add_powers_by_word(some.points, some.words, *by_word);
-      moment_kernels(isa).collect({}, *by_word, sums);
+      moment_kernels(isa).collect({}, *summed(moment_kernels(isa), some), sums);
       for (std::size_t q = 0; q < queries; ++q) {
         EXPECT_NEAR(sums.at[moment_index(1, 2, 1)][q], expected({}, some, q, {1, 2, 1}), 1e-13);
       }
