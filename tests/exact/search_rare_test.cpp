@@ -200,28 +200,38 @@ VertexId middle_of_accordion(std::uint32_t walls, std::uint32_t side) {
 }
 
 TEST(Rare, BallThroughManyFoldsIsSearchedAgainFromSmallNodes) {
+  const TestMesh mesh = accordion(30, 70);
+  ExactAnswer exact(mesh.view());
+  for (Searcher& searcher : exact.searchers()) {
+    static_cast<void>(searcher.count(middle_of_accordion(30, 70), 42));
+    const SearcherAccess::State& state = SearcherAccess::state(searcher);
+    ASSERT_EQ(state.way, Way::Component);
+    EXPECT_EQ(level_of(state.reach.top_groups()[0], *state.index), 1U);
+  }
+  query_everywhere(exact, mesh.size(), {3, 8, 16, 30, 34, 42, kInfinity});
+}
+
+TEST(Rare, BallThroughManySmallFoldsIsSearchedLeafByLeaf) {
   const TestMesh mesh = accordion(60, 24);
   ExactAnswer exact(mesh.view());
   for (Searcher& searcher : exact.searchers()) {
     static_cast<void>(searcher.count(middle_of_accordion(60, 24), 21));
-    const SearcherAccess::State& state = SearcherAccess::state(searcher);
-    ASSERT_EQ(state.way, Way::Component);
-    EXPECT_EQ(level_of(state.reach.top_groups()[0], *state.index), 0U);
+    EXPECT_EQ(SearcherAccess::state(searcher).way, Way::LeafBfs);
   }
   query_everywhere(exact, mesh.size(), {0.5, 1, 3, 8, 11, 16, 30, kInfinity});
 }
 
 // The ball does not reach the folds, but leaves at its surface do: all walls are reached, and all but one are open.
 TEST(Rare, AnswerThatIsSmallBesideWhatWasReachedIsSearchedLeafByLeaf) {
-  const TestMesh mesh = accordion(40, 40);
+  const TestMesh mesh = accordion(40, 80);
   ExactAnswer exact(mesh.view());
   for (Searcher& searcher : exact.searchers()) {
-    static_cast<void>(searcher.count(middle_of_accordion(40, 40), 18.5));
+    static_cast<void>(searcher.count(middle_of_accordion(40, 80), 38.5));
     const SearcherAccess::State& state = SearcherAccess::state(searcher);
     EXPECT_EQ(state.way, Way::LeafBfs);
     EXPECT_GT(state.reach.surface_leaves().size(), 100U);
   }
-  query_everywhere(exact, mesh.size(), {15, 17, 18, 18.5, 19, 19.5, 20});
+  query_everywhere(exact, mesh.size(), {37, 38.5, 39.5, 41});
 }
 
 TEST(Rare, WholeMeshInsideTheBall) {

@@ -121,16 +121,17 @@ std::size_t level_of_ratio(const IndexView& index, const Query& query, double ra
 
 TEST(Reach, BeginsWithLargeNodesOnASingleSheetAndWithSmallOnesAmongMany) {
   for (const bool is_folded : {false, true}) {
-    const TestMesh mesh = is_folded ? stacked_sheets(60, 24, 0.5) : make_grid(190, 190, false);
-    const VertexId v = is_folded ? 30 * 24 * 24 + 12 * 24 + 12 : 95 * 190 + 95;
+    const TestMesh mesh = is_folded ? stacked_sheets(40, 80, 0.5) : make_grid(190, 190, false);
+    const VertexId v = is_folded ? 20 * 80 * 80 + 40 * 80 + 40 : 95 * 190 + 95;
     const Index built = build(mesh.view());
     const IndexView& index = IndexAccess::view(built);
-    const Query query(index, v, RadiusBounds(index.frame, is_folded ? 20 : 60));
+    const Query query(index, v, RadiusBounds(index.frame, is_folded ? 40 : 60));
     Reach reach(index, kernels(best_isa()));
     ASSERT_TRUE(reach.run(query));
     const std::size_t small = level_of_ratio(index, query, 10);
     const std::size_t large = level_of_ratio(index, query, 2.5);
     ASSERT_LT(small, large);
+    ASSERT_GT(small, 0U);
     EXPECT_EQ(first_level(reach, index), is_folded ? small : large);
   }
 }
@@ -143,6 +144,17 @@ TEST(Reach, DoesNotBeginWithLeaves) {
   Reach reach(index, kernels(best_isa()));
   EXPECT_FALSE(reach.run(Query(index, 30 * 60 + 30, RadiusBounds(index.frame, 2.4 * leaf))));
   EXPECT_TRUE(reach.run(Query(index, 30 * 60 + 30, RadiusBounds(index.frame, 2.6 * leaf))));
+}
+
+TEST(Reach, DoesNotBeginAgainWithLeaves) {
+  const TestMesh mesh = stacked_sheets(60, 24, 0.5);
+  const Index built = build(mesh.view());
+  const IndexView& index = IndexAccess::view(built);
+  const Query query(index, 30 * 24 * 24 + 12 * 24 + 12, RadiusBounds(index.frame, 20));
+  ASSERT_EQ(level_of_ratio(index, query, 10), 0U);
+  ASSERT_GT(level_of_ratio(index, query, 2.5), 0U);
+  Reach reach(index, kernels(best_isa()));
+  EXPECT_FALSE(reach.run(query));
 }
 
 }  // namespace
