@@ -33,10 +33,16 @@ std::size_t MemorySource::read(std::span<char> out) {
 
 FileSource::FileSource(const std::filesystem::path& path) : path_(path), file_(open_to_read(path)) {
   const struct stat status = status_of(file_, path);
-  is_regular_ = S_ISREG(status.st_mode);
+  const bool is_file = S_ISREG(status.st_mode);
+  const bool is_standard_input = path == kStandardInput;
+  is_regular_ = is_file && !is_standard_input;
   // A file of length 0 may still have content: /proc is full of them.
-  if (is_regular_ && status.st_size > 0) size_ = static_cast<std::uint64_t>(status.st_size);
-  may_lack_a_writer_ = S_ISFIFO(status.st_mode);
+  if (is_file && status.st_size > 0) size_ = static_cast<std::uint64_t>(status.st_size);
+  may_lack_a_writer_ = S_ISFIFO(status.st_mode) && !is_standard_input;
+  if (!is_standard_input) return;
+  // Opened by another process, without O_NONBLOCK, and perhaps read in part.
+  may_block_ = !is_file;
+  if (size_) *size_ -= std::min(*size_, static_cast<std::uint64_t>(::lseek(file_.number(), 0, SEEK_CUR)));
 }
 
 std::string_view FileSource::peek(std::size_t count) {
@@ -61,6 +67,7 @@ std::size_t FileSource::read(std::span<char> out) {
 
 std::size_t FileSource::read_file(std::span<char> out) {
   for (;;) {
+    if (may_block_) wait_for_bytes(kNoTimeout);
     const ssize_t count = ::read(file_.number(), out.data(), out.size());
     if (count == 0 && std::exchange(may_lack_a_writer_, false)) {
       if (!wait_for_bytes(kWriterTimeout)) raise_io(path_, ETIMEDOUT, "no process writes to this pipe");

@@ -56,7 +56,7 @@ class FileSource final : public ByteSource {
   /// again.
   [[nodiscard]] std::string_view peek(std::size_t count);
 
-  /// Whether it is neither a pipe nor a device.
+  /// Whether it is neither a pipe nor a device, nor standard input, which can be read once.
   [[nodiscard]] bool is_regular() const { return is_regular_; }
 
   /// Calls `f` about ten times a second while there is nothing to read. `read` passes on what it throws.
@@ -64,7 +64,7 @@ class FileSource final : public ByteSource {
 
  private:
   [[nodiscard]] std::size_t read_file(std::span<char> out);
-  [[nodiscard]] bool wait_for_bytes(std::chrono::steady_clock::duration limit) const;
+  bool wait_for_bytes(std::chrono::steady_clock::duration limit) const;
 
   std::filesystem::path path_;
   Descriptor file_;
@@ -72,6 +72,7 @@ class FileSource final : public ByteSource {
   std::optional<std::uint64_t> size_;
   bool is_regular_ = false;
   bool may_lack_a_writer_ = false;
+  bool may_block_ = false;
   std::function<void()> while_waiting_;
 };
 

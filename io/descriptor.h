@@ -3,6 +3,7 @@
 
 #include <cerrno>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include <fcntl.h>
@@ -48,8 +49,25 @@ class Descriptor {
   int number_;
 };
 
+/// The names of the standard streams. A file of this name is the stream of the process itself: opened again, a socket
+/// is refused, and a regular file begins at its start.
+inline constexpr std::string_view kStandardInput = "/dev/stdin";
+inline constexpr std::string_view kStandardOutput = "/dev/stdout";
+
+/// Another descriptor of an open file, at the same place in it.
+[[nodiscard]] inline Descriptor duplicate(int number) {
+#if defined(F_DUPFD_CLOEXEC)
+  return Descriptor(::fcntl(number, F_DUPFD_CLOEXEC, 0));
+#else
+  errno = EBADF;  // WebAssembly, which opens no file
+  static_cast<void>(number);
+  return Descriptor();
+#endif
+}
+
 /// Opens `path` for reading. O_NONBLOCK, because the opening of a pipe without a writer would block.
 [[nodiscard]] inline Descriptor open_to_read(const std::filesystem::path& path) {
+  if (path == kStandardInput) return duplicate(STDIN_FILENO);
   return Descriptor(uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY); }));
 }
 

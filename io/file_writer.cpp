@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <ctime>
 #include <system_error>
 #include <utility>
@@ -25,6 +26,7 @@ constexpr mode_t kPrivateMode = 0600;
 
 // The target of a symbolic link, even if it does not exist yet: the link itself is kept.
 std::filesystem::path resolved(const std::filesystem::path& path) {
+  if (path == kStandardOutput) return path;
   std::error_code failed;
   auto target = std::filesystem::canonical(path, failed);
   if (!failed) return target;
@@ -80,21 +82,45 @@ bool write_all(int file, std::string_view bytes) {
 
 }  // namespace
 
-FileWriter::FileWriter(const std::filesystem::path& path) : name_(path), target_(resolved(path)) {
+FileWriter::FileWriter(const std::filesystem::path& path, Order order) : name_(path), target_(resolved(path)) {
   std::error_code ignored;
   const auto status = std::filesystem::status(target_, ignored);
   const bool is_special = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
-  if (is_special) {
-    open_in_place();
+  if (is_special || target_ == kStandardOutput) {
+    open_in_place(order);
   } else {
     // Create the temporary file private if it replaces a file, so that a private file is never briefly readable.
     open_beside(std::filesystem::exists(status) ? kPrivateMode : kNewFileMode);
   }
 }
 
-void FileWriter::open_in_place() {
-  file_ = Descriptor(uninterrupted([&] { return ::open(target_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY); }));
+void FileWriter::open_in_place(Order order) {
+  file_ = target_ == kStandardOutput
+              ? duplicate(STDOUT_FILENO)
+              : Descriptor(uninterrupted([&] { return ::open(target_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY); }));
   if (!file_.is_open()) fail("open");
+  if (order == Order::Any && !can_seek()) {
+    stream_ = std::move(file_);
+    open_unnamed();
+  }
+}
+
+/// Offsets count from the start of a file, where standard output need not be.
+bool FileWriter::can_seek() const {
+  if (target_ == kStandardOutput) return false;
+  if (uninterrupted([&] { return ::lseek(file_.number(), 0, SEEK_SET); }) == 0) return true;
+  if (errno != ESPIPE) fail("move within");
+  return false;
+}
+
+void FileWriter::open_unnamed() {
+  std::error_code none;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(none);
+  std::string name = (none ? std::filesystem::path(".") : folder) / ".meshhood-XXXXXX";
+  file_ = Descriptor(::mkostemp(name.data(), O_CLOEXEC));
+  if (!file_.is_open() || uninterrupted([&] { return ::unlink(name.c_str()); }) != 0) {
+    raise_errno(name, errno, "create");
+  }
 }
 
 void FileWriter::open_beside(mode_t mode) {
@@ -143,8 +169,21 @@ void FileWriter::seek(std::uint64_t position) {
   flushed_ = position;
 }
 
+void FileWriter::copy_to_stream() {
+  seek(0);
+  std::swap(file_, stream_);
+  std::string piece(kBufferBytes, '\0');
+  for (;;) {
+    const ssize_t count = uninterrupted([&] { return ::read(stream_.number(), piece.data(), piece.size()); });
+    if (count < 0) fail("read the temporary file of");
+    if (count == 0) return;
+    write_through(std::string_view(piece).substr(0, static_cast<std::size_t>(count)));
+  }
+}
+
 void FileWriter::commit(const std::function<void()>& before_rename) {
   flush();
+  if (stream_.is_open()) copy_to_stream();
   if (temporary_.empty()) {
     if (before_rename) before_rename();
     if (!file_.close()) fail("close");

@@ -22,7 +22,11 @@ namespace meshhood::io {
 /// if the folder cannot be synced, the new file is in place but might not survive a loss of power.
 class FileWriter {
  public:
-  explicit FileWriter(const std::filesystem::path& path);
+  /// The order of the bytes. In any order, what goes to a pipe or to standard output is first written to a temporary
+  /// file without a name.
+  enum class Order { Sequential, Any };
+
+  explicit FileWriter(const std::filesystem::path& path, Order order = Order::Sequential);
   FileWriter(const FileWriter&) = delete;
   FileWriter& operator=(const FileWriter&) = delete;
 
@@ -34,7 +38,7 @@ class FileWriter {
   /// The offset of the next byte.
   [[nodiscard]] std::uint64_t position() const { return flushed_ + buffer_.size(); }
 
-  /// Moves to another offset, to overwrite the bytes there. Fails for a pipe.
+  /// Moves to another offset, to overwrite the bytes there. Only with `Order::Any`.
   void seek(std::uint64_t position);
 
   /// Syncs the file and renames it to the target. Call it once, last. `before_rename` is called when the data is on the
@@ -42,10 +46,13 @@ class FileWriter {
   void commit(const std::function<void()>& before_rename = {});
 
  private:
-  void open_in_place();
+  void open_in_place(Order order);
+  [[nodiscard]] bool can_seek() const;
+  void open_unnamed();
   void open_beside(mode_t mode);
   void write_through(std::string_view bytes);
   void flush();
+  void copy_to_stream();
   void keep_owner_and_mode() const;
   [[nodiscard]] Descriptor open_directory() const;
   void sync(const Descriptor& directory) const;
@@ -55,6 +62,7 @@ class FileWriter {
   std::filesystem::path target_;
   std::filesystem::path temporary_;  // empty if the target is written directly
   Descriptor file_;
+  Descriptor stream_;  // where `file_` is copied to, if it has no name
   std::string buffer_;
   std::uint64_t flushed_ = 0;  // offset of the buffer in the file
 };

@@ -178,7 +178,7 @@ Index map(const std::filesystem::path& path, const MapOptions& options) {
 
 bool is_index(const std::filesystem::path& path) {
   std::error_code unknown;
-  if (!std::filesystem::is_regular_file(path, unknown)) return false;
+  if (path == kStandardInput || !std::filesystem::is_regular_file(path, unknown)) return false;
   FileSource file(path);
   return begins_index(file);
 }

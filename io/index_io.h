@@ -35,7 +35,7 @@ void save(const std::filesystem::path& path, const paper::Index& index, const Sa
 /// Verifies everything unless `options.trusted`. Throws as `load`; a pipe cannot be mapped.
 [[nodiscard]] Index map(const std::filesystem::path& path, const MapOptions& options = {});
 
-/// Whether the file begins like a saved index. False for a pipe or device, which is not read.
+/// Whether the file begins like a saved index. False for a pipe, a device or standard input, which is not read.
 /// Throws Error{IoFailure}.
 [[nodiscard]] bool is_index(const std::filesystem::path& path);
 

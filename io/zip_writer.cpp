@@ -70,8 +70,9 @@ zlib_filefunc64_def functions_of(Target& target) {
 }  // namespace
 
 struct ZipWriter::State {
-  explicit State(const std::filesystem::path& file) : path(file), target{FileWriter(file)} {
-    target.file.seek(0);  // refuses a pipe: the sizes in the headers are written after the values
+  explicit State(const std::filesystem::path& file)
+      : path(file),
+        target{FileWriter(file, FileWriter::Order::Any)} {  // the sizes in the headers are written after the values
     zlib_filefunc64_def functions = functions_of(target);
     zip = zipOpen2_64(path.c_str(), APPEND_STATUS_CREATE, nullptr, &functions);
     if (zip == nullptr) throw std::bad_alloc();

@@ -12,7 +12,7 @@ namespace meshhood::io {
 /// Writes a zip file atomically (see `FileWriter`), with members of any size. The same members give the same bytes: all
 /// have the date 1980-01-01, the first that the format can represent.
 ///
-/// All errors are Error{IoFailure} with the path. A pipe is refused.
+/// All errors are Error{IoFailure} with the path.
 class ZipWriter {
  public:
   enum class Packing { Stored, Deflated };

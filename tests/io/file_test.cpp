@@ -57,6 +57,40 @@ TEST_F(Files, FoldersAndMissingFilesAreErrors) {
   EXPECT_EQ(vertex_count(io::read_mesh(scratch.write("empty.obj", ""))), 0U);
 }
 
+/// During its lifetime, standard input is this file.
+class StandardInput {
+ public:
+  explicit StandardInput(const std::filesystem::path& file) : before_(::dup(STDIN_FILENO)) {
+    const int number = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    ::dup2(number, STDIN_FILENO);
+    ::close(number);
+  }
+  StandardInput(const StandardInput&) = delete;
+  StandardInput& operator=(const StandardInput&) = delete;
+  ~StandardInput() {
+    ::dup2(before_, STDIN_FILENO);
+    ::close(before_);
+  }
+
+ private:
+  int before_;
+};
+
+TEST_F(Files, StandardInputIsReadOnceFromItsPlace) {
+  const std::string before = "not a mesh\n";
+  const StandardInput input(scratch.write("in.obj", before + kObj));
+  ASSERT_EQ(::lseek(STDIN_FILENO, static_cast<off_t>(before.size()), SEEK_SET), static_cast<off_t>(before.size()));
+  EXPECT_FALSE(io::is_index("/dev/stdin"));
+  std::size_t total = 0;
+  const io::Mesh mesh = io::read_mesh("/dev/stdin", {.progress = [&](std::size_t, std::size_t all) {
+                                        total = all;
+                                        return true;
+                                      }});
+  EXPECT_EQ(vertex_count(mesh), 3U);
+  EXPECT_EQ(total, kObj.size());
+  EXPECT_THAT(file_refusal("/dev/stdin").message, HasSubstr("/dev/stdin: the file is empty"));
+}
+
 // Bindings need both, for OSError of Python.
 TEST_F(Files, ErrorsOfTheSystemHavePathAndErrno) {
   const auto expect_errno = [](const std::filesystem::path& path, int error_number, auto&& call) {
