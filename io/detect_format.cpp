@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+
+#include <fmt/format.h>
 
 #include "meshhood/serialize.h"
 
@@ -18,6 +21,17 @@ namespace {
 constexpr std::size_t kHead = std::size_t{1} << 16;
 constexpr std::size_t kIndexMark = 8;
 constexpr std::string_view kLfsMark = "version https://git-lfs.github.com/spec/";
+
+/// A compressed file: its first bytes and the command that unpacks it.
+struct Compression {
+  std::string_view mark;
+  std::string_view name;
+  std::string_view command;
+};
+
+constexpr std::array kCompressions{
+    Compression{"\x1f\x8b", "gzip", "gunzip"}, Compression{"\x28\xb5\x2f\xfd", "Zstandard", "unzstd"},
+    Compression{{"\xfd\x37zXZ\0", 6}, "xz", "unxz"}, Compression{"BZh", "bzip2", "bunzip2"}};
 
 bool is_index_start(InputBuffer& input) {
   return meshhood::is_index(std::as_bytes(std::span(input.ahead(kIndexMark))));
@@ -37,6 +51,16 @@ void take_byte_order_mark(InputBuffer& input) {
   if (head.starts_with("\xef\xbb\xbf")) input.skip(3);
   if (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff")) {
     raise(ErrorCode::UnsupportedFormat, input.name() + ": UTF-16 text is not supported, expected UTF-8 or ASCII");
+  }
+}
+
+void refuse_compressed(InputBuffer& input) {
+  for (const auto& [mark, name, command] : kCompressions) {
+    if (!input.ahead(mark.size()).starts_with(mark)) continue;
+    raise(ErrorCode::UnsupportedFormat,
+          fmt::format("{0}: is compressed by {1}, expected a mesh; '{2}' unpacks it, also into a pipe: "
+                      "{2} -c {0} | meshhood info -",
+                      input.name(), name, command));
   }
 }
 
@@ -86,6 +110,7 @@ Format detect_format(InputBuffer& input, const std::string& name) {
   }
   const auto format = format_of_content(input);
   if (format) return *format;
+  refuse_compressed(input);
   if (extension) return *extension;
   raise(ErrorCode::UnsupportedFormat,
         input.name() + ": is neither PLY, OBJ, OFF nor STL, by its first bytes or its extension");
