@@ -75,10 +75,10 @@ struct Mesh {
 [[nodiscard]] Mesh read_mesh(std::span<const std::byte> bytes, const std::string& name,
                              const ReadOptions& options = {});
 
-/// An additional value for each vertex of a written PLY file.
+/// An additional value, or vector, for each vertex of a written file.
 struct VertexProperty {
-  std::string name;               ///< a PLY property name: no blanks
-  std::span<const float> values;  ///< #V
+  std::string name;               ///< printable ASCII without blanks
+  std::span<const float> values;  ///< #V; or #V by 3: in PLY the properties NAME_x, NAME_y and NAME_z
 };
 
 struct PlyOptions {
@@ -96,5 +96,16 @@ struct PlyOptions {
 ///
 /// Throws Error{InvalidMesh, InvalidOption, IoFailure, Cancelled}; the old file is then unchanged.
 void write_ply(const std::filesystem::path& path, const MeshView& mesh, const PlyOptions& options = {});
+
+struct VtkOptions {
+  std::vector<VertexProperty> properties = {};  ///< ParaView and PyVista show the first at once, if it is a scalar
+
+  /// As in `PlyOptions`.
+  Progress progress = {};
+};
+
+/// Writes `mesh` as VTK polygonal data, in the binary legacy format 4.2, with the properties as point data; otherwise
+/// as `write_ply`. Throws also Error{TooLarge}: the format counts in 31 bits.
+void write_vtk(const std::filesystem::path& path, const MeshView& mesh, const VtkOptions& options = {});
 
 }  // namespace meshhood::io

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "io/npz_writer.h"
 
+#include <algorithm>
+#include <bit>
 #include <cassert>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <numeric>
@@ -9,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -51,6 +55,21 @@ void NpzWriter::add_text(std::string_view name, std::string_view text) {
   append(std::span<const char>(text));
 }
 
+void NpzWriter::add_texts(std::string_view name, std::span<const std::string> texts) {
+  std::size_t longest = 1;
+  for (const std::string& text : texts) longest = std::max(longest, text.size());
+  std::vector<char32_t> characters;  // NumPy stores all of them in 32 bits, in the byte order of the header
+  for (const std::string& text : texts) {
+    characters.insert(characters.end(), text.begin(), text.end());
+    characters.resize(characters.size() + longest - text.size());
+  }
+  const char order = std::endian::native == std::endian::little ? '<' : '>';
+  const std::uint64_t bytes = characters.size() * sizeof(char32_t);
+  begin_member(name, fmt::format("{}U{}", order, longest), fmt::format("({},)", texts.size()), bytes,
+               ZipWriter::Packing::Stored);
+  append(std::span<const char32_t>(characters));
+}
+
 void NpzWriter::commit() {
   assert(bytes_left_ == 0);
   zip_.commit();
@@ -61,6 +80,8 @@ template void NpzWriter::begin<std::int32_t>(std::string_view, std::uint64_t);
 template void NpzWriter::begin<std::int64_t>(std::string_view, std::uint64_t);
 template void NpzWriter::begin<std::uint64_t>(std::string_view, std::uint64_t);
 template void NpzWriter::begin<double>(std::string_view, std::uint64_t);
+template void NpzWriter::begin<std::int32_t>(std::string_view, std::span<const std::uint64_t>);
+template void NpzWriter::begin<std::int64_t>(std::string_view, std::span<const std::uint64_t>);
 template void NpzWriter::begin<double>(std::string_view, std::span<const std::uint64_t>);
 template void NpzWriter::append<bool>(std::span<const bool>);
 template void NpzWriter::append<std::int32_t>(std::span<const std::int32_t>);

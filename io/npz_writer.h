@@ -39,6 +39,9 @@ class NpzWriter {
   /// Adds an ASCII string as an array without dimensions.
   void add_text(std::string_view name, std::string_view text);
 
+  /// Adds ASCII strings as a one-dimensional array of strings.
+  void add_texts(std::string_view name, std::span<const std::string> texts);
+
   /// Call it once, last.
   void commit();
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,6 +21,7 @@
 #include "io/file_writer.h"
 #include "io/mesh_io.h"
 #include "io/messages.h"
+#include "io/vertex_properties.h"
 
 namespace meshhood::io {
 namespace {
@@ -27,33 +29,16 @@ namespace {
 constexpr std::array<std::string_view, 3> kAxes = {"x", "y", "z"};
 constexpr std::array<std::string_view, 3> kColors = {"red", "green", "blue"};
 
-[[noreturn]] void refuse(const std::string& message) { raise(ErrorCode::InvalidOption, message); }
-
-bool is_property_name(std::string_view name) {
-  const auto is_good = [](char c) { return '!' <= c && c <= '~'; };
-  return !name.empty() && std::all_of(name.begin(), name.end(), is_good);
-}
-
-void check_property(const VertexProperty& property, std::size_t vertices, std::vector<std::string_view>& taken) {
-  const auto name = quote(property.name);
-  if (!is_property_name(property.name)) refuse("PLY property " + name + ": expected printable ASCII without blanks");
-  if (std::find(taken.begin(), taken.end(), property.name) != taken.end())
-    refuse("PLY property " + name + " occurs twice");
-  taken.push_back(property.name);
-  if (property.values.size() == vertices) return;
-  refuse(fmt::format("PLY property {} has {} values, expected one for each of {} vertices", name,
-                     property.values.size(), vertices));
-}
-
 void check(const PlyOptions& options, std::size_t vertices) {
   std::vector<std::string_view> taken(kAxes.begin(), kAxes.end());
   if (!options.colors.empty()) {
     taken.insert(taken.end(), kColors.begin(), kColors.end());
     if (options.colors.size() != 3 * vertices) {
-      refuse(fmt::format("{} color values, expected three for each of {} vertices", options.colors.size(), vertices));
+      raise(ErrorCode::InvalidOption,
+            fmt::format("{} color values, expected three for each of {} vertices", options.colors.size(), vertices));
     }
   }
-  for (const auto& property : options.properties) check_property(property, vertices, taken);
+  check_properties(options.properties, vertices, std::move(taken));
 }
 
 std::size_t largest_face(const FacesView& faces) {
@@ -140,7 +125,13 @@ class PlyWriter {
     if (!options_.colors.empty()) {
       for (const auto name : kColors) text += fmt::format("property uchar {}\n", name);
     }
-    for (const auto& property : options_.properties) text += fmt::format("property float {}\n", property.name);
+    for (const auto& property : options_.properties) {
+      if (components(property, mesh_.positions.size()) == 1) {
+        text += fmt::format("property float {}\n", property.name);
+      } else {
+        for (const auto axis : kAxes) text += fmt::format("property float {}_{}\n", property.name, axis);
+      }
+    }
     text += fmt::format("element face {}\n", mesh_.faces.size());
     text += fmt::format("property list {} {} vertex_indices\n", has_long_faces_ ? "uint" : "uchar", index_type());
     return text + "end_header\n";
@@ -158,7 +149,10 @@ class PlyWriter {
       if (!options_.colors.empty()) {
         for (const auto channel : options_.colors.subspan(3 * vertex, 3)) rows_.value(channel);
       }
-      for (const auto& property : options_.properties) rows_.value(property.values[vertex]);
+      for (const auto& property : options_.properties) {
+        const std::size_t count = components(property, xyz.size());
+        for (const float value : property.values.subspan(count * vertex, count)) rows_.value(value);
+      }
       rows_.end();
     }
   }

@@ -29,6 +29,7 @@
 namespace meshhood::test {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -129,6 +130,50 @@ TEST_F(WritePly, ColorsAndPropertiesAreWritten) {
   EXPECT_THAT(content_of(file), HasSubstr("\nend_header\n0 0 0 255 0 0 0.5 1\n1 0 0 0 128 0 inf 2\n0 1 0 1 2 3 2 3\n"
                                           "3 0 1 2\n"));
   EXPECT_EQ(io::read_mesh(file, {.strict = true}).corners, (std::vector<std::uint32_t>{0, 1, 2}));
+}
+
+TEST_F(WritePly, VectorsAreThreeProperties) {
+  const std::vector<float> normal = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+  const std::vector<float> level = {10, 20, 30};
+  io::write_ply(file, triangle, {.properties = {{"n", normal}, {"level", level}}, .ascii = true});
+  EXPECT_THAT(content_of(file), HasSubstr("property float n_x\nproperty float n_y\nproperty float n_z\n"
+                                          "property float level\n"));
+  EXPECT_THAT(content_of(file), HasSubstr("\n0 0 0 1 2 3 10\n1 0 0 4 5 6 20\n0 1 0 7 8 9 30\n"));
+}
+
+template <class... Values>
+std::string big(Values... values) {
+  std::string bytes;
+  for (std::string one : {little(values)...}) bytes.append(one.rbegin(), one.rend());
+  return bytes;
+}
+
+TEST_F(WritePly, VtkHasTheMeshAndItsValues) {
+  const std::vector<float> normal = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+  const std::vector<float> level = {10, 20, 30};
+  io::write_vtk(file, triangle, {.properties = {{"level", level}, {"n", normal}}});
+  EXPECT_EQ(content_of(file), "# vtk DataFile Version 4.2\nmeshhood\nBINARY\nDATASET POLYDATA\nPOINTS 3 float\n" +
+                                  big(0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F) + "\nPOLYGONS 1 4\n" +
+                                  big(3, 0, 1, 2) + "\nPOINT_DATA 3\nSCALARS level float 1\nLOOKUP_TABLE default\n" +
+                                  big(10.F, 20.F, 30.F) + "\nFIELD FieldData 1\nn 3 3 float\n" +
+                                  big(1.F, 2.F, 3.F, 4.F, 5.F, 6.F, 7.F, 8.F, 9.F) + "\n");
+  io::write_vtk(file, triangle, {.properties = {{"n", normal}}});
+  EXPECT_THAT(content_of(file), HasSubstr("\nPOINT_DATA 3\nFIELD FieldData 1\nn 3 3 float\n"));
+  const std::vector<double> none;
+  io::write_vtk(file, {none, FacesView{}});
+  EXPECT_THAT(content_of(file), EndsWith("\nPOINTS 0 double\n\nPOLYGONS 0 0\n\nPOINT_DATA 0\n"));
+}
+
+TEST_F(WritePly, VtkRefusesWhatDoesNotFit) {
+  const std::vector<float> values = {1, 2, 3};
+  const std::vector<float> two = {1, 2};
+  for (const io::VtkOptions& options :
+       {io::VtkOptions{.properties = {{"a", two}}}, io::VtkOptions{.properties = {{"a", values}, {"a", values}}},
+        io::VtkOptions{.properties = {{"two words", values}}}}) {
+    EXPECT_THROW(io::write_vtk(file, triangle, options), Error);
+  }
+  EXPECT_THROW(io::write_vtk(file, triangle, {.progress = [](std::size_t, std::size_t) { return false; }}), Error);
+  EXPECT_EQ(files_in(scratch.path()), 0U);
 }
 
 TEST_F(WritePly, OptionsThatDoNotFitAreRefusedAndNothingIsWritten) {

@@ -21,6 +21,8 @@ const shapes::Shape& shape(Version version) {
 
 void save_ply(const std::filesystem::path& file, Version version) { io::write_ply(file, shape(version).view()); }
 
+void save_vtk(const std::filesystem::path& file, Version version) { io::write_vtk(file, shape(version).view()); }
+
 void save_npz(const std::filesystem::path& file, Version version) {
   std::vector<std::int64_t> numbers(version == Version::Old ? 50000 : 40000);
   std::iota(numbers.begin(), numbers.end(), 0);
@@ -39,7 +41,8 @@ void save_index(const std::filesystem::path& file, Version version) {
 }  // namespace
 
 const std::vector<Saver>& savers() {
-  static const std::vector<Saver> all = {{"Index", save_index}, {"Ply", save_ply}, {"Npz", save_npz}};
+  static const std::vector<Saver> all = {
+      {"Index", save_index}, {"Ply", save_ply}, {"Vtk", save_vtk}, {"Npz", save_npz}};
   return all;
 }
 

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "meshhood/error.h"
+
+#include "io/file_writer.h"
+#include "io/mesh_io.h"
+#include "io/messages.h"
+#include "io/vertex_properties.h"
+
+namespace meshhood::io {
+namespace {
+
+constexpr std::uint64_t kMostNumbers = std::numeric_limits<std::int32_t>::max();  // of an array of faces
+
+/// Writes numbers as the format has them: big-endian.
+class VtkWriter {
+ public:
+  VtkWriter(FileWriter& file, const MeshView& mesh, const VtkOptions& options, const std::string& name)
+      : file_(file), mesh_(mesh), options_(options), name_(name) {}
+
+  void write() {
+    file_.write("# vtk DataFile Version 4.2\nmeshhood\nBINARY\nDATASET POLYDATA\n");
+    mesh_.positions.visit([this](const auto& xyz) { write_points(xyz); });
+    write_polygons();
+    write_properties();
+  }
+
+  void report() const { io::report(options_.progress, done_, total(), name_); }
+
+ private:
+  [[nodiscard]] std::size_t total() const { return mesh_.positions.size() + mesh_.faces.size(); }
+
+  void add_row() {
+    constexpr std::size_t kRows = 4096;
+    if (++done_ % kRows == 0) report();
+  }
+
+  template <class T>
+  void number(T value) {
+    std::array<char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), &value, sizeof(T));
+    if constexpr (std::endian::native == std::endian::little) std::reverse(bytes.begin(), bytes.end());
+    file_.write({bytes.data(), bytes.size()});
+  }
+
+  template <class Real>
+  void write_points(const StridedPositions<Real>& xyz) {
+    file_.write(fmt::format("POINTS {} {}\n", xyz.size(), std::is_same_v<Real, double> ? "double" : "float"));
+    for (std::size_t v = 0; v < xyz.size(); ++v) {
+      for (std::size_t axis = 0; axis < 3; ++axis) number(xyz(v, axis));
+      add_row();
+    }
+  }
+
+  void write_polygons() {
+    file_.write(
+        fmt::format("\nPOLYGONS {} {}\n", mesh_.faces.size(), mesh_.faces.size() + mesh_.faces.corners().size()));
+    mesh_.faces.for_each([this](std::size_t, std::span<const VertexId> corners) {
+      number(static_cast<std::int32_t>(corners.size()));
+      for (const VertexId v : corners) number(static_cast<std::int32_t>(v));
+      add_row();
+    });
+  }
+
+  /// The first scalar is the one that readers show at once; of several such sections, some read the first alone.
+  void write_properties() {
+    const std::size_t vertices = mesh_.positions.size();
+    std::span<const VertexProperty> rest = options_.properties;
+    file_.write(fmt::format("\nPOINT_DATA {}\n", vertices));
+    if (!rest.empty() && components(rest.front(), vertices) == 1) {
+      file_.write(fmt::format("SCALARS {} float 1\nLOOKUP_TABLE default\n", rest.front().name));
+      write_values(rest.front());
+      rest = rest.subspan(1);
+    }
+    if (rest.empty()) return;
+    file_.write(fmt::format("FIELD FieldData {}\n", rest.size()));
+    for (const VertexProperty& property : rest) {
+      file_.write(fmt::format("{} {} {} float\n", property.name, components(property, vertices), vertices));
+      write_values(property);
+    }
+  }
+
+  void write_values(const VertexProperty& property) {
+    for (const float value : property.values) number(value);
+    file_.write("\n");
+    report();
+  }
+
+  FileWriter& file_;
+  const MeshView& mesh_;
+  const VtkOptions& options_;
+  const std::string& name_;
+  std::size_t done_ = 0;
+};
+
+}  // namespace
+
+void write_vtk(const std::filesystem::path& path, const MeshView& mesh, const VtkOptions& options) {
+  validate(mesh);
+  check_properties(options.properties, mesh.positions.size());
+  const std::uint64_t numbers = std::max(mesh.positions.size(), mesh.faces.size() + mesh.faces.corners().size());
+  const std::string name = path.string();
+  if (numbers > kMostNumbers) {
+    raise(ErrorCode::TooLarge, fmt::format("{}: {} vertices, or faces and corners, but the format has at most {}",
+                                           printable_name(name), numbers, kMostNumbers));
+  }
+  FileWriter file(path);
+  VtkWriter writer(file, mesh, options, name);
+  writer.report();
+  writer.write();
+  file.commit([&] { writer.report(); });
+}
+
+}  // namespace meshhood::io
