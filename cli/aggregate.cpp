@@ -25,6 +25,7 @@
 #include "output.h"
 #include "size_limit.h"
 #include "task.h"
+#include "value_files.h"
 #include "vertex_files.h"
 
 namespace meshhood::cli {
@@ -56,7 +57,7 @@ struct AggregateCommand {
   unsigned threads = kAllThreads;
   bool json = false;
   std::optional<std::uint64_t> max_bytes;
-  std::string output;
+  ValueFiles files;
 };
 
 std::vector<double> weights_of(const AggregateCommand& options, Input& input) {
@@ -76,9 +77,9 @@ struct AggregateShape {
   std::size_t numbers;  ///< the product of the three
 };
 
-void write(const AggregateCommand& options, const AggregateQuery& query, const AggregateShape& shape,
-           const std::vector<double>& result) {
-  io::NpzWriter npz(options.output);
+void write_npz(const std::string& file, const AggregateQuery& query, const AggregateShape& shape,
+               const std::vector<double>& result) {
+  io::NpzWriter npz(file);
   npz.add<double>("radii", query.radii);
   write_vertices(npz, query.vertices);
   const std::array<std::uint64_t, 3> lengths{shape.radii, shape.rows, shape.channels};
@@ -86,6 +87,20 @@ void write(const AggregateCommand& options, const AggregateQuery& query, const A
   npz.append<double>(result);
   Task::check_cancelled();
   npz.commit();
+}
+
+/// Of several channels, the names end in the number of the channel.
+void write_mesh(const AggregateCommand& options, const AggregateShape& shape, const std::vector<double>& result,
+                const MeshView& mesh) {
+  VertexValues values(shape.rows);
+  for (std::size_t i = 0; i < shape.radii; ++i) {
+    for (std::size_t channel = 0; channel < shape.channels; ++channel) {
+      const std::string end = shape.channels == 1 ? "" : fmt::format("_{}", channel);
+      values.add(fmt::format("{}_{}{}", options.reduce, i, end),
+                 [&](std::size_t v) { return result[(i * shape.rows + v) * shape.channels + channel]; });
+    }
+  }
+  values.write(options.files, mesh, (shape.radii - 1) * shape.channels);
 }
 
 AggregateShape run(const AggregateCommand& options, Input& input, const AggregateQuery& query) {
@@ -96,16 +111,19 @@ AggregateShape run(const AggregateCommand& options, Input& input, const Aggregat
   const AggregateShape shape{query.radii.size(), row_count(query.vertices, index.vertex_count()), values.channels,
                              aggregate_size(index, signal, query)};
   const BatchSize size{shape.rows, shape.numbers};
-  SizeLimit(options.output, options.max_bytes).check(size, 8 * static_cast<double>(shape.numbers));
-  Task task("computing", {"rows", static_cast<double>(shape.radii)});
-  const std::vector<double> result =
-      aggregate(index, signal, query, {.threads = options.threads, .progress = task.progress()});
-  write(options, query, shape, result);
+  SizeLimit(options.files.first(), options.max_bytes).check(size, 8 * static_cast<double>(shape.numbers));
+  std::vector<double> result;
+  {
+    Task task("computing", {"rows", static_cast<double>(shape.radii)});
+    result = aggregate(index, signal, query, {.threads = options.threads, .progress = task.progress()});
+    if (!options.files.npz.empty()) write_npz(options.files.npz, query, shape, result);
+  }
+  if (options.files.has_mesh()) write_mesh(options, shape, result, input.surface());
   return shape;
 }
 
 void aggregate_command(const AggregateCommand& options) {
-  check_output(options.output, {options.file, options.values, options.weights, options.vertices});
+  check_value_files(options.files, {options.file, options.values, options.weights, options.vertices});
   Input input(options.file, options.threads);
   input.need_edges("aggregate");
   const QueryVertices vertices(options.vertices, input.vertex_count());
@@ -116,14 +134,12 @@ void aggregate_command(const AggregateCommand& options) {
                              .missing = value_of(kMissing, options.missing),
                              .nesting = value_of(kNestings, options.nesting)};
   const AggregateShape shape = run(options, input, query);
-  print_result(options.json,
-               {{"output", options.output},
-                {"reduce", options.reduce},
-                {"radii", shape.radii},
-                {"rows", shape.rows},
-                {"channels", shape.channels}},
-               fmt::format("{}: {} of {} rows, radii: {}, channels: {}\n", printable_name(options.output),
-                           options.reduce, shape.rows, shape.radii, shape.channels));
+  Json document = to_json(options.files);
+  document.update(
+      {{"reduce", options.reduce}, {"radii", shape.radii}, {"rows", shape.rows}, {"channels", shape.channels}});
+  print_result(options.json, document,
+               fmt::format("{}: {} of {} rows, radii: {}, channels: {}\n", names_of(options.files), options.reduce,
+                           shape.rows, shape.radii, shape.channels));
 }
 
 }  // namespace
@@ -154,7 +170,7 @@ void add_aggregate(CLI::App& program) {
   add_vertices(*command, options->vertices);
   add_threads(*command, options->threads);
   add_max_bytes(*command, options->max_bytes);
-  add_output(*command, ".npz", "file to write", options->output)->required();
+  add_value_files(*command, options->files, "the first channel at the last radius");
   add_json(*command, options->json);
   command->callback([options] { aggregate_command(*options); });
 }

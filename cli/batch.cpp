@@ -26,6 +26,7 @@
 #include "methods.h"
 #include "options.h"
 #include "output.h"
+#include "quantity.h"
 #include "row_file.h"
 #include "shard.h"
 #include "size_limit.h"
@@ -152,8 +153,8 @@ class Writer {
 
 std::string task_name(const BatchCommand& options, const std::optional<BatchEstimate>& estimate, std::size_t columns) {
   if (!estimate) return "computing";
-  return fmt::format("computing {} rows, about {:.3g} MB", estimate->mean.rows,
-                     file_bytes(options, estimate->mean, columns) / 1e6);
+  return fmt::format("computing {} rows, about {}", estimate->mean.rows,
+                     bytes_text(file_bytes(options, estimate->mean, columns)));
 }
 
 /// The description of a shard and of its batch.
@@ -258,7 +259,6 @@ void add_batch(CLI::App& program) {
       "order of all rows; index: the fastest, with the array vertices; vertex: a matrix for scipy.sparse.load_npz "
       "(default: index; with --count or another method: vertex)",
       {"index", "vertex"}, options->order)
-      ->type_name("index|vertex")
       ->excludes("--vertices");
   add_method(*command, options->method);
   add_threads(*command, options->threads);

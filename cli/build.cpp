@@ -22,6 +22,7 @@
 #include "io/messages.h"
 #include "options.h"
 #include "output.h"
+#include "quantity.h"
 #include "task.h"
 #include "vertex_files.h"
 
@@ -76,8 +77,9 @@ Json to_json(const BuildCommand& options, const Summary& summary) {
 }
 
 std::string to_text(const BuildCommand& options, const Summary& summary) {
-  return fmt::format("{}: {} vertices, {} {}, {} bytes, built in {:.3f} s\n", printable_name(options.output),
-                     summary.vertices, summary.clusters, clusters_name(options), summary.bytes, summary.seconds);
+  return fmt::format("{}: {} vertices, {} {}, {}, built in {:.3f} s\n", printable_name(options.output),
+                     summary.vertices, summary.clusters, clusters_name(options),
+                     bytes_text(static_cast<double>(summary.bytes)), summary.seconds);
 }
 
 template <class Mesh>

@@ -15,6 +15,7 @@
 #include "input.h"
 #include "options.h"
 #include "output.h"
+#include "quantity.h"
 
 namespace meshhood::cli {
 namespace {
@@ -71,8 +72,9 @@ Json to_json(const CheckCommand& options, const IndexHeader& header) {
 
 std::string to_text(const CheckCommand& options, const IndexHeader& header) {
   Rows rows(10);
-  rows.add("index", fmt::format("{} ({}, format {}, {} vertices, {} bytes)", printable_name(options.index),
-                                kind_name(header.kind), header.format, header.vertices, header.bytes));
+  rows.add("index",
+           fmt::format("{} ({}, format {}, {} vertices, {})", printable_name(options.index), kind_name(header.kind),
+                       header.format, header.vertices, bytes_text(static_cast<double>(header.bytes))));
   rows.add("checksums", "correct");
   rows.add("structure", "correct");
   const std::string mesh =

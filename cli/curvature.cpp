@@ -2,9 +2,13 @@
 // meshhood curvature: principal curvatures at one or several scales.
 #include "meshhood/curvature.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -18,6 +22,7 @@
 #include "options.h"
 #include "output.h"
 #include "task.h"
+#include "value_files.h"
 #include "vertex_files.h"
 
 namespace meshhood::cli {
@@ -30,7 +35,7 @@ struct CurvatureCommand {
   bool like_libigl = false;
   bool no_filter = false;
   unsigned threads = kAllThreads;
-  std::string output;
+  ValueFiles files;
   bool json = false;
 };
 
@@ -68,37 +73,60 @@ struct Columns {
   }
 };
 
-void write(const CurvatureCommand& options, const std::vector<double>& radii, const BatchVertices& vertices,
-           const Columns& columns) {
-  io::NpzWriter npz(options.output);
+void write_npz(const std::string& file, const std::vector<double>& radii, const BatchVertices& vertices,
+               const Columns& columns) {
+  io::NpzWriter npz(file);
   npz.add<double>("radii", radii);
   write_vertices(npz, vertices);
-  npz.add<double>("k1", columns.k1);
-  npz.add<double>("k2", columns.k2);
-  npz.add<double>("d1", columns.d1);
-  npz.add<double>("d2", columns.d2);
-  npz.add<std::int32_t>("state", columns.state);
+  const std::array<std::uint64_t, 3> shape{radii.size(), columns.k1.size() / radii.size(), 3};
+  const auto add = [&](const char* name, const auto& values, std::size_t dimensions) {
+    using Value = typename std::decay_t<decltype(values)>::value_type;
+    npz.begin<Value>(name, std::span(shape).first(dimensions));
+    npz.append(std::span<const Value>(values));
+  };
+  add("k1", columns.k1, 2);
+  add("k2", columns.k2, 2);
+  add("d1", columns.d1, 3);
+  add("d2", columns.d2, 3);
+  add("state", columns.state, 2);
   npz.commit();
 }
 
+void write_mesh(const ValueFiles& files, std::size_t radii, const Columns& columns, const MeshView& mesh) {
+  const std::size_t rows = mesh.positions.size();
+  VertexValues values(rows);
+  for (std::size_t i = 0; i < radii; ++i) {
+    const std::size_t first = i * rows;
+    values.add(fmt::format("mean_{}", i),
+               [&](std::size_t v) { return (columns.k1[first + v] + columns.k2[first + v]) / 2; });
+    values.add(fmt::format("k1_{}", i), [&](std::size_t v) { return columns.k1[first + v]; });
+    values.add(fmt::format("k2_{}", i), [&](std::size_t v) { return columns.k2[first + v]; });
+    values.add(fmt::format("state_{}", i), [&](std::size_t v) { return columns.state[first + v]; });
+    values.add_vectors(fmt::format("d1_{}", i), std::span(columns.d1).subspan(3 * first, 3 * rows));
+    values.add_vectors(fmt::format("d2_{}", i), std::span(columns.d2).subspan(3 * first, 3 * rows));
+  }
+  constexpr std::size_t kColumns = 6;
+  values.write(files, mesh, (radii - 1) * kColumns);
+}
+
 void print(const CurvatureCommand& options, std::size_t rows, std::size_t radii, const States& states) {
+  Json document = to_json(options.files);
+  document.update({{"rows", rows},
+                   {"radii", radii},
+                   {"fitted", states.fitted},
+                   {"rank_deficient", states.rank_deficient},
+                   {"too_few", states.too_few},
+                   {"no_normal", states.no_normal}});
   print_result(
-      options.json,
-      {{"output", options.output},
-       {"rows", rows},
-       {"radii", radii},
-       {"fitted", states.fitted},
-       {"rank_deficient", states.rank_deficient},
-       {"too_few", states.too_few},
-       {"no_normal", states.no_normal}},
+      options.json, document,
       fmt::format("{}: {} rows, radii: {}; {} fitted, {} without a unique fit, {} of too few vertices, {} without a "
                   "normal\n",
-                  printable_name(options.output), rows, radii, states.fitted, states.rank_deficient, states.too_few,
+                  names_of(options.files), rows, radii, states.fitted, states.rank_deficient, states.too_few,
                   states.no_normal));
 }
 
 void curvature(const CurvatureCommand& options) {
-  check_output(options.output, {options.file, options.vertices});
+  check_value_files(options.files, {options.file, options.vertices});
   Input input(options.file, options.threads);
   input.need_faces("curvature");
   const std::vector<double> radii = resolve(options.radii, input);
@@ -110,14 +138,17 @@ void curvature(const CurvatureCommand& options) {
   settings.threads = options.threads;
   Columns columns;
   States states;
-  Task task("fitting", {"rows", static_cast<double>(radii.size())});
-  for (std::size_t i = 0; i < radii.size(); ++i) {
-    settings.progress = task.progress(i, radii.size());
-    const Curvatures found = curvatures(surface, {.vertices = vertices.view(), .radius = radii[i]}, settings);
-    states.add(found.state);
-    columns.append(found);
+  {
+    Task task("fitting", {"rows", static_cast<double>(radii.size())});
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+      settings.progress = task.progress(i, radii.size());
+      const Curvatures found = curvatures(surface, {.vertices = vertices.view(), .radius = radii[i]}, settings);
+      states.add(found.state);
+      columns.append(found);
+    }
+    if (!options.files.npz.empty()) write_npz(options.files.npz, radii, vertices.view(), columns);
   }
-  write(options, radii, vertices.view(), columns);
+  if (options.files.has_mesh()) write_mesh(options.files, radii.size(), columns, input.surface());
   print(options, row_count(vertices.view(), index.vertex_count()), radii.size(), states);
 }
 
@@ -134,7 +165,7 @@ void add_curvature(CLI::App& program) {
   command->add_flag("--no-filter", options->no_filter,
                     "also fit vertices whose normal points away from that of the query vertex");
   add_threads(*command, options->threads);
-  add_output(*command, ".npz", "file to write", options->output)->required();
+  add_value_files(*command, options->files, "the mean curvature at the last radius");
   add_json(*command, options->json);
   command->callback([options] { curvature(*options); });
 }

@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,18 +18,19 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "meshhood/aggregate.h"
 #include "meshhood/error.h"
 
 #include "commands.h"
 #include "input.h"
-#include "io/mesh_io.h"
 #include "io/npz_writer.h"
 #include "names.h"
 #include "options.h"
 #include "output.h"
 #include "task.h"
+#include "value_files.h"
 
 namespace meshhood::cli {
 namespace {
@@ -54,8 +56,7 @@ struct FeaturesCommand {
   double threshold = 0.5;
   bool no_filter = false;
   unsigned threads = kAllThreads;
-  std::string output;
-  std::string ply;
+  ValueFiles files;
   bool json = false;
 };
 
@@ -122,26 +123,22 @@ FeaturesFound compute(const FeaturesCommand& options, Input& input) {
   return found;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ",") + word;
-  return text;
-}
-
 void write_npz(const FeaturesCommand& options, const FeaturesFound& found) {
-  io::NpzWriter npz(options.output);
+  io::NpzWriter npz(options.files.npz);
   npz.add<double>("radii", found.radii);
-  npz.add_text("kinds", joined(options.kinds));
+  npz.add_texts("kinds", options.kinds);
   const std::array<std::uint64_t, 3> shape{found.radii.size(), found.rows(), found.kinds};
   npz.begin<double>("features", shape);
   npz.append<double>(found.values);
-  const std::array<std::uint64_t, 2> by_kind{found.kinds, found.rows()};
-  npz.begin<std::int32_t>("scales", by_kind);
-  for (const Persistence& one : found.lasting) npz.append<std::int32_t>(one.scales);
-  npz.begin<double>("strength", by_kind);
-  for (const Persistence& one : found.lasting) npz.append<double>(one.strength);
-  npz.begin<double>("radius", by_kind);
-  for (const Persistence& one : found.lasting) npz.append<double>(one.radius);
+  const auto add = [&]<class T>(const char* name, std::vector<T> Persistence::* array) {
+    npz.begin<T>(name, std::span(shape).last(2));
+    for (std::size_t row = 0; row < found.rows(); ++row) {
+      for (const Persistence& one : found.lasting) npz.append(std::span<const T>(&(one.*array)[row], 1));
+    }
+  };
+  add("scales", &Persistence::scales);
+  add("strength", &Persistence::strength);
+  add("radius", &Persistence::radius);
   npz.commit();
 }
 
@@ -161,34 +158,25 @@ std::array<std::uint8_t, 3> color_of(double value, double half) {
   return color;
 }
 
-void write_ply(const FeaturesCommand& options, const FeaturesFound& found, const MeshView& mesh) {
-  const std::size_t rows = found.rows();
-  std::vector<std::vector<float>> columns;
-  std::vector<std::string> names;
-  const auto add = [&](std::string name, const auto& value_of) {
-    names.push_back(std::move(name));
-    std::vector<float>& column = columns.emplace_back(rows);
-    for (std::size_t row = 0; row < rows; ++row) column[row] = static_cast<float>(value_of(row));
-  };
+void write_mesh(const FeaturesCommand& options, const FeaturesFound& found, const MeshView& mesh) {
+  VertexValues values(found.rows());
   for (std::size_t kind = 0; kind < found.kinds; ++kind) {
+    const std::string& name = options.kinds[kind];
     for (std::size_t i = 0; i < found.radii.size(); ++i) {
-      add(fmt::format("{}_{}", options.kinds[kind], i), [&](std::size_t row) { return found.at(i, row, kind); });
+      values.add(fmt::format("{}_{}", name, i), [&](std::size_t row) { return found.at(i, row, kind); });
     }
     const Persistence& lasting = found.lasting[kind];
-    add(options.kinds[kind] + "_scales", [&](std::size_t row) { return lasting.scales[row]; });
-    add(options.kinds[kind] + "_strength", [&](std::size_t row) { return lasting.strength[row]; });
-    add(options.kinds[kind] + "_radius", [&](std::size_t row) { return lasting.radius[row]; });
+    values.add(name + "_scales", [&](std::size_t row) { return lasting.scales[row]; });
+    values.add(name + "_strength", [&](std::size_t row) { return lasting.strength[row]; });
+    values.add(name + "_radius", [&](std::size_t row) { return lasting.radius[row]; });
   }
-  std::vector<io::VertexProperty> properties;
-  properties.reserve(columns.size());
-  for (std::size_t i = 0; i < columns.size(); ++i) properties.push_back({names[i], columns[i]});
+  const std::size_t last = found.radii.size() - 1;
   std::vector<std::uint8_t> colors;
-  for (std::size_t row = 0; row < rows; ++row) {
-    const auto color = color_of(found.at(found.radii.size() - 1, row, 0), options.threshold);
+  for (std::size_t row = 0; row < found.rows(); ++row) {
+    const auto color = color_of(found.at(last, row, 0), options.threshold);
     colors.insert(colors.end(), color.begin(), color.end());
   }
-  Task task("writing");
-  io::write_ply(options.ply, mesh, {.colors = colors, .properties = properties, .progress = task.progress()});
+  values.write(options.files, mesh, last, colors);
 }
 
 void print(const FeaturesCommand& options, const FeaturesFound& found) {
@@ -202,26 +190,22 @@ void print(const FeaturesCommand& options, const FeaturesFound& found) {
   for (std::size_t kind = 0; kind < found.kinds; ++kind) {
     text += fmt::format("{}: {} vertices at {} or more\n", options.kinds[kind], lasting[kind], options.threshold);
   }
-  print_result(options.json,
-               {{"rows", found.rows()},
-                {"radii", found.radii},
-                {"kinds", options.kinds},
-                {"threshold", options.threshold},
-                {"lasting", lasting}},
-               text);
+  Json document = to_json(options.files);
+  document.update({{"rows", found.rows()},
+                   {"radii", found.radii},
+                   {"kinds", options.kinds},
+                   {"threshold", options.threshold},
+                   {"lasting", lasting}});
+  print_result(options.json, document, text);
 }
 
 void features_command(const FeaturesCommand& options) {
-  if (options.output.empty() && options.ply.empty()) {
-    raise(ErrorCode::InvalidOption, "expected --output, --ply or both");
-  }
-  check_output(options.output, {options.file});
-  check_output(options.ply, {options.file, options.output});
+  check_value_files(options.files, {options.file});
   Input input(options.file, options.threads);
   input.need_faces("features");
   const FeaturesFound found = compute(options, input);
-  if (!options.output.empty()) write_npz(options, found);
-  if (!options.ply.empty()) write_ply(options, found, input.surface());
+  if (!options.files.npz.empty()) write_npz(options, found);
+  if (options.files.has_mesh()) write_mesh(options, found, input.surface());
   print(options, found);
 }
 
@@ -246,7 +230,7 @@ void add_features(CLI::App& program) {
   add_radii(*command, *options);
   command
       ->add_option("--kinds", options->kinds,
-                   fmt::format("what to compute, separated by commas: {}", joined(names_of(kKinds))))
+                   fmt::format("what to compute, separated by commas: {}", fmt::join(names_of(kKinds), ", ")))
       ->delimiter(',')
       ->check(one_of(names_of(kKinds)))
       ->type_name("NAMES")
@@ -257,11 +241,8 @@ void add_features(CLI::App& program) {
   command->add_flag("--no-filter", options->no_filter,
                     "also fit vertices whose normal points away from that of the query vertex");
   add_threads(*command, options->threads);
-  add_output(*command, ".npz", "file to write", options->output);
-  add_file_option(*command, "--ply",
-                  "mesh to write (.ply), with the features as properties; the colors show the first kind at the "
-                  "largest radius: blue below 0, red above",
-                  options->ply);
+  add_value_files(*command, options->files,
+                  "the first kind at the largest radius; the colors of PLY show it, too, blue below 0, red above");
   add_json(*command, options->json);
   command->callback([options] { features_command(*options); });
 }

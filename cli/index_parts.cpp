@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "quantity.h"
+
 namespace meshhood::cli {
 namespace {
 
@@ -48,7 +50,7 @@ Json json_of(const paper::Index& index) {
 
 std::string text_of(const Index& index) {
   const IndexBytes bytes = index.bytes();
-  std::string text = fmt::format("exact index: {} bytes\n", bytes.total());
+  std::string text = fmt::format("exact index: {}\n", bytes_text(static_cast<double>(bytes.total())));
   const auto row = [&](std::string_view part, std::size_t size) { text += fmt::format("{:<11}  {:9}\n", part, size); };
   row("positions", bytes.positions);
   row("permutation", bytes.permutation);
@@ -58,7 +60,8 @@ std::string text_of(const Index& index) {
 }
 
 std::string text_of(const paper::Index& index) {
-  return fmt::format("index of the paper: {} bytes\n", index.bytes().total()) + to_text(index.levels());
+  return fmt::format("index of the paper: {}\n", bytes_text(static_cast<double>(index.bytes().total()))) +
+         to_text(index.levels());
 }
 
 }  // namespace meshhood::cli

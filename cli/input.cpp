@@ -5,8 +5,10 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -16,12 +18,25 @@
 #include "meshhood/error.h"
 
 #include "output.h"
+#include "parts/manifest.h"
 #include "task.h"
 
 namespace meshhood::cli {
 namespace {
 
 constexpr Unit kMegabytes{"MB", 1e6};
+
+/// The readers would say that it is a directory.
+void refuse_parts(const std::string& file) {
+  std::error_code none;
+  const std::filesystem::path folder(file);
+  if (!std::filesystem::is_regular_file(folder / parts::kManifestFile, none)) return;
+  raise(
+      ErrorCode::InvalidOption,
+      fmt::format("{}: is a folder of parts; name the index of one, such as {}, whose vertices.npy has the numbers of "
+                  "its vertices, or use meshhood.open_parts of the Python package for all",
+                  printable_name(file), printable_name((folder / "part-00000" / "index.mhi").string())));
+}
 
 std::string reading(const std::string& file) { return "reading " + file; }
 
@@ -49,6 +64,7 @@ PositionsData positions_of(const paper::Index& index) {
 }  // namespace
 
 Input::Input(std::string file, unsigned threads) : name_(std::move(file)) {
+  refuse_parts(name_);
   auto content = [this, threads] {
     Task task(reading(name_), kMegabytes);
     return io::read_mesh_or_index(name_, {.threads = threads, .progress = task.progress()});
@@ -122,6 +138,7 @@ const paper::Index& Input::paper_index() {
 }
 
 io::Mesh read_mesh(const std::string& file, unsigned threads) {
+  refuse_parts(file);
   io::Mesh mesh = [&] {
     Task task(reading(file), kMegabytes);
     return io::read_mesh(file, {.threads = threads, .progress = task.progress()});
@@ -131,6 +148,7 @@ io::Mesh read_mesh(const std::string& file, unsigned threads) {
 }
 
 io::LoadedIndex load_index(const std::string& file) {
+  refuse_parts(file);
   Task task(reading(file), kMegabytes);
   return io::load_any(file, {.progress = task.progress()});
 }

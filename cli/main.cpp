@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The program: its subcommands, and the exit codes of their errors.
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstddef>
 #include <exception>
+#include <memory>
 #include <new>
 #include <span>
 #include <sstream>
@@ -10,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -22,6 +26,9 @@
 #include "meshhood/version.h"
 
 #include "commands.h"
+#include "help.h"
+#include "io/descriptor.h"
+#include "io/number.h"
 #include "options.h"
 #include "output.h"
 
@@ -29,8 +36,14 @@ namespace meshhood::cli {
 namespace {
 
 constexpr const char* kDescription =
-    "Neighborhoods on polygonal meshes: the connected component of the mesh inside a ball around a vertex,\n"
-    "exact and indexed.";
+    "Neighborhoods on polygonal meshes: the connected component of the mesh inside a ball around a vertex, exact and "
+    "indexed.";
+
+constexpr const char* kFooter =
+    "FILE may be - for standard input, and --output - is standard output; what is printed then goes to standard "
+    "error.\n"
+    "Exit codes: 0 done, 2 wrong usage, 3 not a valid mesh, 4 not a valid index, 5 failed to read or write, 6 a limit, "
+    "the memory or the disk is too small, 130 interrupted.";
 
 /// Part of the interface of the program.
 enum class ExitCode {
@@ -66,6 +79,8 @@ ExitCode fail(ExitCode code, std::string_view message) {
 
 void add_subcommands(CLI::App& program) {
   program.require_subcommand(0, 1);
+  program.formatter(std::make_shared<HelpFormatter>());  // the commands inherit it
+  program.footer(kFooter);
   program.set_version_flag("--version", fmt::format("meshhood {}, kernels for {}", kVersion, kernel_target()));
   add_info(program);
   add_build(program);
@@ -82,14 +97,31 @@ void add_subcommands(CLI::App& program) {
   add_compare(program);
   add_generate(program);
   add_view(program);
+  add_manual(program);
 }
 
 /// CLI11 takes the next argument as the value of `--radius=`, which a shell makes of an unset variable.
-void refuse_empty_values(std::span<const char* const> arguments) {
-  for (const std::string_view argument : arguments) {
+void refuse_empty_values(const std::vector<std::string>& arguments) {
+  for (const std::string& argument : arguments) {
     if (argument == "--") return;
     if (!argument.starts_with("--") || argument.find('=') != argument.size() - 1) continue;
     raise(ErrorCode::InvalidOption, fmt::format("{}: the value is empty", argument.substr(0, argument.size() - 1)));
+  }
+}
+
+bool are_numbers(std::span<const std::string> words) {
+  return std::all_of(words.begin(), words.end(), [](const std::string& word) { return io::parse_real<double>(word); });
+}
+
+/// Turns `--point X Y Z` into `--point X,Y,Z`. An option of CLI11 with one to three values would also take the FILE
+/// that follows `--point X,Y,Z`.
+void join_points(std::vector<std::string>& arguments) {
+  constexpr std::size_t kAxes = 3;
+  for (std::size_t i = 0; i + kAxes < arguments.size(); ++i) {
+    if (arguments[i] != "--point" || !are_numbers(std::span(arguments).subspan(i + 1, kAxes))) continue;
+    arguments[i + 1] += ',' + arguments[i + 2] + ',' + arguments[i + 3];
+    arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i + 2),
+                    arguments.begin() + static_cast<std::ptrdiff_t>(i + 1 + kAxes));
   }
 }
 
@@ -99,6 +131,12 @@ std::vector<std::string> names_of_options(const CLI::App& app) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
   return names;
+}
+
+/// Where to find what other programs call `name`.
+std::string command_for(std::string_view name) {
+  if (name == "stats" || name == "stat" || name == "statistics") return "; did you mean 'info'?";
+  return "; meshhood --help prints all";
 }
 
 /// The first argument that no command or option accepts, with a suggestion; "" if there is none.
@@ -113,18 +151,24 @@ std::string unknown_argument(const CLI::App& program) {
       for (const CLI::App* known : program.get_subcommands({})) candidates.push_back(known->get_name());
     }
     const std::string name = argument.substr(0, argument.find('='));
-    return fmt::format("unknown {} '{}'{}", is_option ? "option" : "command", name, suggestion(name, candidates));
+    if (is_option) return fmt::format("unknown option '{}'{}", name, suggestion(name, candidates));
+    const std::string similar = suggestion(name, candidates);
+    return fmt::format("unknown command '{}'{}", name, similar.empty() ? command_for(name) : similar);
   }
   return {};
 }
 
 /// Runs the subcommand, or prints the help or the version if that was requested.
-void run(CLI::App& program, int argc, const char* const* argv) {
+void run(CLI::App& program, std::vector<std::string> arguments) {
   try {
-    refuse_empty_values(std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
-    program.parse(argc, argv);
+    refuse_empty_values(arguments);
+    join_points(arguments);
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+    program.parse(std::move(arguments));
     if (program.get_subcommands().empty()) raise(ErrorCode::InvalidOption, "a command is missing; see --help");
   } catch (const CLI::Success& request) {
+    const std::string unknown = program.get_subcommands().empty() ? unknown_argument(program) : "";
+    if (!unknown.empty()) raise(ErrorCode::InvalidOption, unknown);
     std::ostringstream text;
     program.exit(request, text, text);
     print_text(text.str());
@@ -135,15 +179,16 @@ void run(CLI::App& program, int argc, const char* const* argv) {
   close_output();
 }
 
-ExitCode run_or_report(int argc, const char* const* argv) {
+ExitCode run_or_report(std::span<const char* const> arguments) {
   try {
     CLI::App program(kDescription, "meshhood");
     add_subcommands(program);
-    run(program, argc, argv);
+    run(program, {arguments.begin(), arguments.end()});
     return ExitCode::Ok;
   } catch (const OutputClosed&) {
     return ExitCode::Ok;
   } catch (const Error& error) {
+    if (error.path() == io::kStandardOutput && error.error_number() == EPIPE) return ExitCode::Ok;
     return fail(exit_code(error.code()), error.what());
   } catch (const std::bad_alloc&) {
     return fail(ExitCode::Limit, "not enough memory");
@@ -172,5 +217,6 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   // Both become errors of the write: a closed pipe, and a file-size limit for standard output.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  return static_cast<int>(meshhood::cli::run_or_report(argc, argv));
+  const std::span<const char* const> arguments(argv, static_cast<std::size_t>(argc));
+  return static_cast<int>(meshhood::cli::run_or_report(arguments.subspan(std::min<std::size_t>(1, arguments.size()))));
 }

@@ -186,7 +186,7 @@ void add_merge(CLI::App& program) {
   CLI::App* command = program.add_subcommand("merge", "Join the files that batch --shard has written");
   command->add_option("SHARD", options->files, "all shards of a batch, in any order")
       ->required()
-      ->check(file_name())
+      ->check(stored_name())
       ->type_name("");
   add_output(*command, ".npz", "file to write", options->output)->required();
   add_json(*command, options->json);

@@ -25,6 +25,7 @@
 #include "meshhood/error.h"
 #include "meshhood/progress.h"
 
+#include "io/descriptor.h"
 #include "io/messages.h"
 #include "io/number.h"
 #include "io/text.h"
@@ -32,6 +33,9 @@
 
 namespace meshhood::cli {
 namespace {
+
+constexpr const char* kEmptyName = "the name is empty";
+constexpr std::string_view kStream = "-";
 
 double edge_unit(Input& input) {
   input.need_edges("--unit edge");
@@ -60,7 +64,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 /// A name without extension may be a pipe or a device, and is accepted.
 CLI::Validator output_name(const std::string& extension) {
-  const auto check = [extension](const std::string& name) -> std::string {
+  const auto check = [extension](std::string& name) -> std::string {
+    if (name.empty()) return kEmptyName;
+    if (name == kStream) name = io::kStandardOutput;
     const std::string found = io::lower_case(std::filesystem::path(name).extension().string());
     if (found.empty() || found == extension) return {};
     return fmt::format("'{}' has the extension {}, but the file will be {}", name, found, extension);
@@ -70,8 +76,22 @@ CLI::Validator output_name(const std::string& extension) {
 
 }  // namespace
 
-CLI::Validator file_name() {
-  const auto check = [](const std::string& name) -> std::string { return name.empty() ? "the name is empty" : ""; };
+CLI::Validator input_name() {
+  const auto check = [](std::string& name) -> std::string {
+    static bool is_taken = false;  // there is one standard input
+    if (name.empty()) return kEmptyName;
+    if (name != kStream) return {};
+    name = io::kStandardInput;
+    return std::exchange(is_taken, true) ? "standard input is another argument already" : "";
+  };
+  return {check, ""};
+}
+
+CLI::Validator stored_name() {
+  const auto check = [](std::string& name) -> std::string {
+    if (name.empty()) return kEmptyName;
+    return name == kStream ? "expected the name of a file or folder, not a standard stream" : "";
+  };
   return {check, ""};
 }
 
@@ -106,15 +126,16 @@ CLI::Option* add_numbers(CLI::App& command, const std::string& name, const std::
 
 CLI::Option* add_choice(CLI::App& command, const std::string& name, const std::string& description,
                         std::vector<std::string> values, std::string& value) {
+  const std::string type = fmt::format("{}", fmt::join(values, "|"));
   return command.add_option(name, value, description)
       ->check(one_of(std::move(values)))
-      ->type_name("")
+      ->type_name(type)
       ->capture_default_str();
 }
 
 CLI::Option* add_file_option(CLI::App& command, const std::string& name, const std::string& description,
                              std::string& file) {
-  return command.add_option(name, file, description)->check(file_name())->type_name("FILE");
+  return command.add_option(name, file, description)->transform(input_name())->type_name("FILE");
 }
 
 void add_file(CLI::App& command, std::string& file) {
@@ -128,9 +149,10 @@ void add_mesh(CLI::App& command, std::string& file) {
 }
 
 CLI::Option* add_output(CLI::App& command, const std::string& extension, const std::string& description,
-                        std::string& file) {
-  return add_file_option(command, "-o,--output", fmt::format("{} ({})", description, extension), file)
-      ->check(output_name(extension));
+                        std::string& file, const std::string& name) {
+  return command.add_option(name, file, fmt::format("{} ({})", description, extension))
+      ->transform(output_name(extension))
+      ->type_name("FILE");
 }
 
 void add_max_bytes(CLI::App& command, std::optional<std::uint64_t>& max_bytes) {
@@ -231,6 +253,7 @@ void check_output(const std::string& output, std::initializer_list<std::string> 
     raise(ErrorCode::InvalidOption, printable_name(output) + ": " + printable_name(input) +
                                         " would be overwritten; name another file for the output");
   }
+  if (output == io::kStandardOutput) return keep_standard_output_for_file();
   const fs::file_status status = fs::status(output, ignored);
   if (fs::is_directory(status)) io::raise_errno(output, EISDIR, "create");
   if (fs::exists(status) && !fs::is_regular_file(status)) return;  // a pipe or a device

@@ -19,8 +19,12 @@
 /// outlive the command.
 namespace meshhood::cli {
 
-/// Refuses an empty file name, which is what a shell makes of an unset variable.
-[[nodiscard]] CLI::Validator file_name();
+/// The name of a file to read. `-` is standard input, for one argument at most. An empty name is refused, which is what
+/// a shell makes of an unset variable.
+[[nodiscard]] CLI::Validator input_name();
+
+/// The name of a file that is read more than once, or of a folder: `-` is refused.
+[[nodiscard]] CLI::Validator stored_name();
 
 /// Accepts decimal digits only, for a number up to `most`: CLI11 reads 010 as 8, and 2^64 as 2^64 - 1.
 [[nodiscard]] CLI::Validator whole_number(std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
@@ -43,7 +47,7 @@ CLI::Option* add_numbers(CLI::App& command, const std::string& name, const std::
 CLI::Option* add_choice(CLI::App& command, const std::string& name, const std::string& description,
                         std::vector<std::string> values, std::string& value);
 
-/// An option whose value is the name of a file.
+/// An option whose value is the name of a file to read.
 CLI::Option* add_file_option(CLI::App& command, const std::string& name, const std::string& description,
                              std::string& file);
 
@@ -53,9 +57,10 @@ void add_file(CLI::App& command, std::string& file);
 /// MESH: a mesh.
 void add_mesh(CLI::App& command, std::string& file);
 
-/// --output, optional unless made required. An extension other than `extension` (".ply") is refused.
+/// --output, or the option `name`, optional unless made required. `-` is standard output. An extension other than
+/// `extension` (".ply") is refused.
 CLI::Option* add_output(CLI::App& command, const std::string& extension, const std::string& description,
-                        std::string& file);
+                        std::string& file, const std::string& name = "-o,--output");
 
 /// --max-bytes, for a `SizeLimit`.
 void add_max_bytes(CLI::App& command, std::optional<std::uint64_t>& max_bytes);
@@ -101,8 +106,9 @@ void add_unit(CLI::App& command, const std::string& length, std::string& unit);
 /// Throws Error{VertexOutOfRange} unless the mesh has vertex `v`.
 [[nodiscard]] VertexId resolve_vertex(std::uint64_t v, const Input& input);
 
-/// Checks an output file before the work begins; does nothing if `output` is empty. Throws Error{InvalidOption} if it
-/// is one of the `inputs`, and Error{IoFailure} if its folder does not exist or is not writable.
+/// Checks an output file before the work begins; does nothing if `output` is empty. From then on, if it is standard
+/// output, what the command prints goes to standard error. Throws Error{InvalidOption} if it is one of the `inputs`,
+/// and Error{IoFailure} if its folder does not exist or is not writable.
 void check_output(const std::string& output, std::initializer_list<std::string> inputs = {});
 
 /// "; did you mean 'build'?", or "" if no candidate is similar to `word`.

@@ -11,6 +11,8 @@
 namespace meshhood::cli {
 namespace {
 
+bool is_output_kept = false;
+
 [[noreturn]] void fail(int error_number) {
   if (error_number == EPIPE) throw OutputClosed();
   io::raise_errno("standard output", error_number);
@@ -18,7 +20,13 @@ namespace {
 
 }  // namespace
 
+void keep_standard_output_for_file() { is_output_kept = true; }
+
 void print_text(std::string_view text) {
+  if (is_output_kept) {
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    return;
+  }
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (!written || std::fflush(stdout) != 0) fail(errno);
 }

@@ -10,7 +10,8 @@
 
 #include "io/messages.h"
 
-/// Results go to standard output, everything else to standard error.
+/// Results go to standard output, everything else to standard error. If a file is written to standard output (`-o -`),
+/// it is the result, and text goes to standard error.
 namespace meshhood::cli {
 
 /// Keeps the order of its keys.
@@ -20,6 +21,9 @@ using io::printable_name;
 
 /// Thrown if the reader of standard output has closed it, as `head` does: the program then ends quietly.
 struct OutputClosed {};
+
+/// From now on, `print_text` writes to standard error.
+void keep_standard_output_for_file();
 
 /// Writes `text` to standard output and flushes. Throws Error{IoFailure}, OutputClosed.
 void print_text(std::string_view text);

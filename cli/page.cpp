@@ -14,9 +14,11 @@
 #include "meshhood/error.h"
 
 #include "io/byte_source.h"
+#include "io/descriptor.h"
 #include "io/file_writer.h"
 #include "io/messages.h"
 #include "output.h"
+#include "quantity.h"
 #include "task.h"
 
 namespace meshhood::cli {
@@ -96,15 +98,17 @@ void write_base64(io::FileWriter& output, const fs::path& mesh, Task& task) {
   }
 }
 
-void check_size(const fs::path& mesh) {
+}  // namespace
+
+void check_mesh_of_page(const fs::path& mesh) {
+  if (mesh == io::kStandardInput) io::raise_io(mesh, 0, "is read once, but a page needs the mesh twice; name a file");
   if (!fs::is_regular_file(mesh)) io::raise_io(mesh, 0, "is not a regular file, which a page needs");
   const std::uint64_t bytes = fs::file_size(mesh);
   if (bytes <= kMostBytes) return;
-  raise(ErrorCode::TooLarge, fmt::format("{}: {} bytes, but a page holds at most {}; drop the file onto a page instead",
-                                         printable_name(mesh.string()), bytes, kMostBytes));
+  raise(ErrorCode::TooLarge, fmt::format("{}: {}, but a page holds at most {}; drop the file onto a page instead",
+                                         printable_name(mesh.string()), bytes_text(static_cast<double>(bytes)),
+                                         bytes_text(static_cast<double>(kMostBytes))));
 }
-
-}  // namespace
 
 fs::path find_page() {
   if (const char* const named = std::getenv("MESHHOOD_VIEWER"); named != nullptr && *named != '\0') return named;
@@ -118,7 +122,7 @@ fs::path find_page() {
 }
 
 void write_page(const fs::path& output, const fs::path& mesh, const PageSettings& settings) {
-  check_size(mesh);
+  check_mesh_of_page(mesh);
   const fs::path page = find_page();
   const std::string text = read_text(page);
   const std::size_t place = text.find(kPlace);

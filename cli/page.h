@@ -26,9 +26,13 @@ struct PageSettings {
 /// installation, or build/viewer/viewer.html of the build tree. Throws Error{IoFailure} if there is none.
 [[nodiscard]] std::filesystem::path find_page();
 
+/// Throws Error{IoFailure} if `mesh` is not a regular file, and Error{TooLarge} if it is larger than a browser takes in
+/// a page.
+void check_mesh_of_page(const std::filesystem::path& mesh);
+
 /// Writes a copy of the page that holds `mesh`, a mesh or index file. The file appears whole or not at all.
 ///
-/// Throws Error{IoFailure}; Error{TooLarge} if the mesh is larger than a browser takes in a page; Error{Cancelled}.
+/// Throws as `check_mesh_of_page`; Error{IoFailure, Cancelled}.
 void write_page(const std::filesystem::path& output, const std::filesystem::path& mesh, const PageSettings& settings);
 
 }  // namespace meshhood::cli

@@ -15,6 +15,7 @@
 #include "commands.h"
 #include "options.h"
 #include "output.h"
+#include "quantity.h"
 #include "task.h"
 
 namespace meshhood::cli {
@@ -89,9 +90,9 @@ Json to_json(const std::string& output, const parts::PartitionResult& result) {
 std::string to_text(const std::string& output, const parts::PartitionResult& result) {
   const parts::Plan& plan = result.manifest.plan;
   const Totals totals = totals_of(result.manifest);
-  return fmt::format("{}: {} vertices in {} part{} ({} kept), {} with the halos of {:.6g}, {} bytes\n",
+  return fmt::format("{}: {} vertices in {} part{} ({} kept), {} with the halos of {:.6g}, {}\n",
                      printable_name(output), plan.vertices, plan.parts, plan.parts == 1 ? "" : "s", result.kept,
-                     totals.vertices, plan.halo, totals.bytes);
+                     totals.vertices, plan.halo, bytes_text(static_cast<double>(totals.bytes)));
 }
 
 void partition_mesh(const PartitionCommand& options) {
@@ -106,12 +107,15 @@ void add_partition(CLI::App& program) {
   auto options = std::make_shared<PartitionCommand>();
   CLI::App* command =
       program.add_subcommand("partition", "Cut a mesh of any size into parts, each of which answers queries alone");
-  add_file_option(*command, "MESH",
-                  "binary PLY, or positions as .npy with --faces: read in chunks; other formats: read into memory",
-                  options->mesh)
+  command
+      ->add_option("MESH", options->mesh,
+                   "binary PLY, or positions as .npy with --faces: read in chunks; other formats: read into memory")
+      ->check(stored_name())
       ->required()
       ->type_name("");
-  add_file_option(*command, "--faces", "faces as .npy, (#F, k) integers; MESH then has the positions", options->faces);
+  command->add_option("--faces", options->faces, "faces as .npy, (#F, k) integers; MESH then has the positions")
+      ->check(stored_name())
+      ->type_name("FILE");
   CLI::Option* parts = add_number(*command, "--parts", "number of parts", options->parts);
   add_number(*command, "--vertices-per-part",
              "approximate number of vertices of a part without its halo; sets the number of parts",
@@ -127,7 +131,8 @@ void add_partition(CLI::App& program) {
       ->default_val("1GiB");
   add_threads(*command, options->threads);
   command->add_flag("--no-resume", options->no_resume, "remove the parts that an earlier run has finished");
-  add_file_option(*command, "-o,--output", "folder to write; created if it does not exist", options->output)
+  command->add_option("-o,--output", options->output, "folder to write; created if it does not exist")
+      ->check(stored_name())
       ->type_name("FOLDER")
       ->required();
   add_json(*command, options->json);

@@ -86,7 +86,7 @@ Json to_json(const QueryCommand& options, std::span<const double> radii, const A
   if (answer.vertex) {
     document["vertex"] = *answer.vertex;
   } else {
-    document["point"] = options.start.point;
+    document["point"] = options.start.center();
   }
   if (options.rings) {
     document["rings"] = *options.rings;

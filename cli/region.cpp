@@ -119,10 +119,10 @@ void add_region(CLI::App& program) {
   add_choice(*command, "--faces", "all: the faces with all corners in the neighborhood; any: with at least one corner",
              {"all", "any"}, options->faces);
   add_output(*command, ".ply", "mesh file to write", options->output)->required();
-  add_file_option(*command, "--arrays",
-                  "also write the number in MESH of each vertex and face of the output, and the rim: the lines where "
-                  "the surface leaves the ball (.npz)",
-                  options->arrays);
+  add_output(*command, ".npz",
+             "also write the number in MESH of each vertex and face of the output, and the rim: the lines where the "
+             "surface leaves the ball",
+             options->arrays, "--arrays");
   add_json(*command, options->json);
   command->callback([options] { region(*options); });
 }

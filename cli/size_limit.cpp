@@ -19,13 +19,16 @@
 
 #include "meshhood/error.h"
 
+#include "io/descriptor.h"
 #include "io/messages.h"
+#include "quantity.h"
 #include "vertex_files.h"
 
 namespace meshhood::cli {
 namespace {
 
 std::optional<double> free_space(const std::filesystem::path& output) {
+  if (output == io::kStandardOutput) return std::nullopt;
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::status(output, ignored);
   const bool is_special = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
@@ -96,11 +99,13 @@ SizeLimit::SizeLimit(std::string output, std::optional<std::uint64_t> max_bytes)
 
 void SizeLimit::check(const BatchSize& size, double bytes, std::string_view about) const {
   if (bytes <= bytes_) return;
-  const std::string limit = is_free_space_ ? fmt::format("the disk has {:.4g} MB free", bytes_ / 1e6)
-                                           : fmt::format("the limit is {:.4g} MB", bytes_ / 1e6);
-  raise(ErrorCode::TooLarge,
-        fmt::format("{}: {} rows with {}{} vertices take {}{:.4g} MB, but {}; --max-bytes sets another limit",
-                    io::printable_name(output_), size.rows, about, size.count, about, bytes / 1e6, limit));
+  constexpr int kDigits = 4;  // of two numbers that may be close
+  const std::string limit = is_free_space_ ? fmt::format("the disk has {} free", bytes_text(bytes_, kDigits))
+                                           : fmt::format("the limit is {}", bytes_text(bytes_, kDigits));
+  raise(
+      ErrorCode::TooLarge,
+      fmt::format("{}: {} rows with {}{} vertices take {}{}, but {}; --max-bytes sets another limit",
+                  io::printable_name(output_), size.rows, about, size.count, about, bytes_text(bytes, kDigits), limit));
 }
 
 }  // namespace meshhood::cli

@@ -27,19 +27,6 @@ std::vector<std::uint8_t> read_mask(const std::string& file, std::size_t vertice
   return mask;
 }
 
-SpacePoint parse_point(const std::vector<std::string>& texts) {
-  if (texts.size() != 3) {
-    raise(ErrorCode::InvalidOption, fmt::format("--point: {} numbers, expected X,Y,Z", texts.size()));
-  }
-  SpacePoint p{};
-  for (std::size_t axis = 0; axis < p.size(); ++axis) {
-    const auto number = io::parse_real<double>(texts[axis]);
-    if (!number) raise(ErrorCode::InvalidOption, "--point: " + io::quote(texts[axis]) + ", expected a number");
-    p[axis] = *number;
-  }
-  return p;
-}
-
 /// `ids` come ring by ring. Sorts those of each ring.
 StartAnswer sorted_answer(const std::vector<VertexId>& ids, const std::vector<double>& distances,
                           std::vector<std::size_t> counts) {
@@ -62,11 +49,25 @@ StartAnswer sorted_answer(const std::vector<VertexId>& ids, const std::vector<do
 
 }  // namespace
 
+SpacePoint StartOptions::center() const {
+  if (point.size() != 3) {
+    raise(ErrorCode::InvalidOption, fmt::format("--point: {} numbers, expected X,Y,Z", point.size()));
+  }
+  SpacePoint p{};
+  for (std::size_t axis = 0; axis < p.size(); ++axis) {
+    const auto number = io::parse_real<double>(point[axis]);
+    if (!number) raise(ErrorCode::InvalidOption, "--point: " + io::quote(point[axis]) + ", expected a number");
+    p[axis] = *number;
+  }
+  return p;
+}
+
 void add_start(CLI::App& command, StartOptions& options) {
-  CLI::Option* point = command.add_option("--point", options.point, "start at any point in space instead of a vertex")
-                           ->delimiter(',')
-                           ->allow_extra_args(false)
-                           ->type_name("X,Y,Z");
+  CLI::Option* point =
+      command.add_option("--point", options.point, "start at any point in space instead of a vertex; also X Y Z")
+          ->delimiter(',')
+          ->allow_extra_args(false)
+          ->type_name("X,Y,Z");
   add_numbers(command, "--seed",
               "with --point: the vertices from which the search starts, such as the corners of a face; by default the "
               "vertex nearest to the point",
@@ -95,7 +96,7 @@ void check_start_options(const StartOptions& options, const std::string& method,
 FilterMasks::FilterMasks(const StartOptions& options, std::size_t vertices)
     : walls_(read_mask(options.walls, vertices)), ignored_(read_mask(options.ignored, vertices)) {}
 
-QueryStart::QueryStart(const StartOptions& options, Input& input) : point_(parse_point(options.point)) {
+QueryStart::QueryStart(const StartOptions& options, Input& input) : point_(options.center()) {
   for (const std::uint64_t seed : options.seeds) seeds_.push_back(resolve_vertex(seed, input));
   if (seeds_.empty()) seeds_.push_back(nearest(input.exact_index(), point_).vertex);
 }

@@ -28,6 +28,9 @@ struct StartOptions {
   [[nodiscard]] bool has_filter() const { return !walls.empty() || !ignored.empty(); }
   [[nodiscard]] bool is_along_edges() const { return metric == "path"; }
 
+  /// --point. Throws Error{InvalidOption}.
+  [[nodiscard]] SpacePoint center() const;
+
   /// Whether the query has none of these options.
   [[nodiscard]] bool is_plain() const { return point.empty() && !has_filter() && !is_along_edges(); }
 };

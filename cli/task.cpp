@@ -17,6 +17,7 @@
 #include "meshhood/error.h"
 
 #include "io/messages.h"
+#include "quantity.h"
 
 namespace meshhood::cli {
 namespace {
@@ -88,7 +89,8 @@ void Task::draw(double seconds) const {
   std::string line = fmt::format("{}:", description_);
   if (total > 0) line += fmt::format(" {:.0f} %,", 100 * done / total);
   line += fmt::format(" {:.0f} s", seconds);
-  if (done > 0 && !unit_.name.empty()) line += fmt::format(", {:.4g} {}/s", done / unit_.parts / seconds, unit_.name);
+  if (done > 0 && !unit_.name.empty())
+    line += fmt::format(", {} {}/s", rounded_text(done / unit_.parts / seconds), unit_.name);
   if (done > 0 && total > 0) line += fmt::format(", {:.0f} s left", seconds * (total - done) / done);
   fmt::print(stderr, "{}{}", kClearLine, line);
   std::fflush(stderr);

@@ -96,6 +96,7 @@ void view(const ViewCommand& options) {
   const std::string output =
       options.output.empty() ? std::filesystem::path(options.file).stem().string() + ".html" : options.output;
   check_output(output, {options.file, options.answer, options.values});
+  check_mesh_of_page(options.file);
   static_cast<void>(find_page());  // before the work begins
   Input input(options.file);
   input.need_edges("view");

@@ -3,7 +3,7 @@ meshhood_test(whole/shapes meshhood_shapes)
 
 if(MESHHOOD_BUILD_CLI)
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
-  set(transcripts aggregate batch build check compare connect curvature errors features generate help index info merge names paper partition query region shell view)
+  set(transcripts aggregate batch build check compare connect curvature errors features generate help index info merge names paper partition query region shell streams values view)
   if(MESHHOOD_LONG_TESTS AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     list(APPEND transcripts memory)
   endif()
@@ -16,6 +16,8 @@ if(MESHHOOD_BUILD_CLI)
     COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_interrupt.py $<TARGET_FILE:meshhood_cli>)
   add_test(NAME cli.terminal
     COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_terminal.py $<TARGET_FILE:meshhood_cli>)
+  add_test(NAME cli.manual
+    COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_manual.py $<TARGET_FILE:meshhood_cli>)
   # In the short tests and under sanitizers io/shared_meshes reads the same meshes, which is faster.
   if(MESHHOOD_LONG_TESTS AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     add_test(NAME cli.manifest

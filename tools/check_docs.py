@@ -22,7 +22,7 @@ MACRO = re.compile(r"\bMESHHOOD_[A-Z_]*[A-Z]\b")
 IDENTIFIER = re.compile(r"(?<![\w./<-])(?:k[A-Z]\w+|[a-z]\w*_\w+|[A-Z]\w*[a-z]\w*[A-Z]\w*|\w+(?=\(|::)|(?<=::)\w+)(?![\w/-])")
 OF_OTHER_LIBRARIES = {"KDTree", "KDTreeFlann", "breadth_first_order"}
 INLINE = re.compile(r"(?<!`)`([^`\n]+)`(?!`)")
-COMMAND = re.compile(r"\bmeshhood ([a-z]+)\b([^\n`#]*)")
+COMMAND = re.compile(r"(?<![\w:])(?<!from )meshhood ([a-z]+)\b([^\n`#]*)")
 OPTION = re.compile(r"(?<!\S)\[?(--?[a-z][\w-]*)")
 
 

@@ -15,7 +15,7 @@ import time
 from pathlib import Path
 
 TIMEOUT_SECONDS = 120
-LINE = re.compile(rb"computing 30000 rows, about [0-9.e+]+ MB: \d+ %, \d+ s, [0-9.e+]+ rows/s, \d+ s left")
+LINE = re.compile(rb"computing 30000 rows, about [0-9.]+ GB: \d+ %, \d+ s, [0-9]{1,3}(,[0-9]{3})* rows/s, \d+ s left")
 CLEAR_LINE = b"\r\x1b[K"
 
 

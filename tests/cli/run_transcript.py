@@ -11,7 +11,7 @@ A transcript is a text of
     ! a line of standard error
     ? the exit code, where it is not 0
 
-`<number>` matches any number, `<any>` anything on the line; `#` begins a comment. All commands of a transcript run in
+`<number>` matches any number, `<size>` a number of bytes with its unit, `<any>` anything on the line; `#` begins a comment. All commands of a transcript run in
 one folder, which is empty at the start, with the default disposition of SIGPIPE and SIGXFSZ.
 """
 import os
@@ -21,7 +21,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-PLACEHOLDERS = {"<number>": r"-?[0-9.]+(e[-+]?[0-9]+)?", "<any>": r".*"}
+PLACEHOLDERS = {"<number>": r"-?[0-9.]+(e[-+]?[0-9]+)?", "<size>": r"[0-9.]+ (bytes|[kMGTP]B)", "<any>": r".*"}
 
 
 class Step:

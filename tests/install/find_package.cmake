@@ -12,6 +12,14 @@ execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE_DIR}/tests/install/consumer
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${build} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${build}/consumer ${build} COMMAND_ERROR_IS_FATAL ANY)
 
+foreach(file man/man1/meshhood.1 bash-completion/completions/meshhood zsh/site-functions/_meshhood
+    fish/vendor_completions.d/meshhood.fish)
+  file(STRINGS ${prefix}/share/${file} lines REGEX "curvature")
+  if(NOT lines)
+    message(FATAL_ERROR "share/${file} lacks the command curvature")
+  endif()
+endforeach()
+
 file(GLOB_RECURSE installed ${prefix}/*)
 list(LENGTH installed count)
 message("${count} files installed")
