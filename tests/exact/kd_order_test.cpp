@@ -71,6 +71,14 @@ void order_by_sorting(std::span<KdPoint> points, std::size_t unit) {
   order_by_sorting(points.subspan(middle), unit);
 }
 
+void expect_cuts_as_by_sorting(Points points) {
+  constexpr std::size_t kUnit = 30;
+  Points expected = points;
+  order_by_sorting(expected, kUnit);
+  kd_order(points, kUnit);
+  expect_same_units(points, expected, kUnit);
+}
+
 TEST(KdOrder, EachUnitAscendsByIds) {
   Random random(1);
   for (const std::size_t unit : {1U, 8U, 30U, 32U, 33U, 100U}) {
@@ -100,11 +108,7 @@ TEST(KdOrder, CutsUnevenPointsAtTheSamePlace) {
   Random random(7);
   for (const float ratio : {0.5F, 1e-3F, 1e-6F, 1e-8F}) {
     for (const std::size_t count : {100U, 3000U, 20000U}) {
-      Points points = uneven_points(random, count, ratio);
-      Points expected = points;
-      order_by_sorting(expected, 30);
-      kd_order(points, 30);
-      expect_same_units(points, expected, 30);
+      expect_cuts_as_by_sorting(uneven_points(random, count, ratio));
     }
   }
 }
@@ -116,11 +120,7 @@ TEST(KdOrder, CutsPointsAPartOfWhichHasOneCoordinate) {
     Points points(500, KdPoint{{other < 0x1p-100F ? 0.0F : 1.0F, 0, 0}, 0});
     for (std::uint32_t i = 0; i < points.size(); ++i) points[i].id = i;
     points[random.below(points.size())].at[0] = other;
-    points = shuffled(random, points);
-    Points expected = points;
-    order_by_sorting(expected, 30);
-    kd_order(points, 30);
-    expect_same_units(points, expected, 30);
+    expect_cuts_as_by_sorting(shuffled(random, points));
   }
 }
 
@@ -128,11 +128,7 @@ TEST(KdOrder, CutsAcrossTheWidestSideAtAMultipleOfTheUnit) {
   Random random(1);
   for (const std::size_t count : {0U, 1U, 29U, 30U, 31U, 60U, 61U, 500U, 5000U}) {
     for (const std::size_t range : {1U, 2U, 50U, 1000000U}) {
-      Points points = random_points(random, count, range);
-      Points expected = points;
-      order_by_sorting(expected, 30);
-      kd_order(points, 30);
-      expect_same_units(points, expected, 30);
+      expect_cuts_as_by_sorting(random_points(random, count, range));
     }
   }
 }
