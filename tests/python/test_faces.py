@@ -51,6 +51,13 @@ def test_a_call_uses_the_faces_of_the_index(F, call):
     np.testing.assert_array_equal(CALLS[call](kept), CALLS[call](without, F=F))
 
 
+def test_triangles_are_rows_of_three_in_whatever_form_they_are_given():
+    offsets = 3 * np.arange(len(TRIANGLES) + 1)
+    padded = np.insert(TRIANGLES, 0, 3, axis=1).ravel()
+    for F in (TRIANGLES, (offsets, TRIANGLES.ravel()), (offsets.astype(np.uint64), TRIANGLES.ravel()), padded):
+        np.testing.assert_array_equal(meshhood.MeshIndex(V, F).faces, TRIANGLES.astype(np.int32), strict=True)
+
+
 @pytest.mark.parametrize("call", CALLS)
 def test_other_faces_are_used_for_one_call(call):
     index = meshhood.MeshIndex(V, TRIANGLES)
