@@ -185,7 +185,7 @@ def test_the_faces_around_every_vertex_are_complete(parts, mesh):
 @pytest.mark.parametrize("format", ("npz", "zarr"))
 def test_neighborhoods_are_those_of_one_index(parts, index, tmp_path, format):
     if format == "zarr":
-        zarr = pytest.importorskip("zarr")
+        zarr = pytest.importorskip("zarr", "3")
     paths = parts.neighborhoods(3.5, tmp_path / "out", format=format, return_distance=True)
     rows = 0
     for path in paths:
@@ -221,7 +221,16 @@ def test_a_stopped_call_can_be_continued(parts, tmp_path):
     assert sorted(os.listdir(out)) == [os.path.basename(path) for path in paths] + ["result.json"]
 
 
+def test_an_old_zarr_is_refused_before_anything_is_written(parts, tmp_path, monkeypatch):
+    zarr = pytest.importorskip("zarr")
+    monkeypatch.delattr(zarr.Group, "create_array", raising=False)
+    with pytest.raises(ImportError, match="format: 'zarr' needs zarr 3, found "):
+        parts.neighborhoods(1, tmp_path / "out", format="zarr")
+    assert not (tmp_path / "out").exists()
+
+
 def test_a_folder_of_another_call_is_refused(parts, tmp_path):
+    pytest.importorskip("zarr", "3")
     parts.neighborhoods(1, tmp_path / "out")
     with pytest.raises(ValueError, match="another call, which differs in r"):
         parts.neighborhoods(2, tmp_path / "out")
@@ -539,7 +548,7 @@ def test_the_code_of_the_document_runs(mesh, tmp_path, monkeypatch):
     write_ply("scan.ply", *mesh)
     write_ply("other.ply", *meshes.two_plates(9))
     pytest.importorskip("distributed")
-    pytest.importorskip("zarr")
+    pytest.importorskip("zarr", "3")
     document = Path(__file__).resolve().parents[2] / "docs" / "scale.md"
     blocks = re.findall(r"```python\n(.*?)```", document.read_text(encoding="utf-8"), re.DOTALL)
     names = {}

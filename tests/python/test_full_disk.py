@@ -122,5 +122,5 @@ def test_a_file_is_the_old_one_or_the_new_one(name, tmp_path):
 def test_a_folder_has_whole_files(name, tmp_path):
     pytest.importorskip("dask")
     if "zarr" in name:
-        pytest.importorskip("zarr")
+        pytest.importorskip("zarr", "3")
     run(WRITE_FOLDER.format(write=FOLDERS[name], pages=250, steps=STEPS), tmp_path)

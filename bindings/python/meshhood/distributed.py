@@ -229,7 +229,7 @@ class Parts:
     ) -> list[str]:
         """Computes all neighborhoods and writes them to the folder `to`, a file for each part. Returns the paths.
 
-        format : "npz" or "zarr" (needs the package zarr). Each has the arrays `vertices` (int64: the query vertex of
+        format : "npz" or "zarr" (needs zarr 3, and so Python 3.11). Each has the arrays `vertices` (int64: the query vertex of
             each row), `indptr` (int64) and `indices` (int64): row i is indices[indptr[i]:indptr[i + 1]], ascending. All
             ids are those of the mesh. With `return_distance` also `distances` (float64), in the order of `indices`.
 
@@ -238,7 +238,10 @@ class Parts:
         radius = self._radius(r, unit)
         _convert.choice(format, "format", ("npz", "zarr"))
         if format == "zarr":
-            import zarr  # noqa: F401  # missing here rather than on the workers
+            import zarr  # missing here rather than on the workers
+
+            if not hasattr(zarr.Group, "create_array"):
+                raise ImportError(f"format: 'zarr' needs zarr 3, found {zarr.__version__}")
         task = functools.partial(save_neighborhoods, radius, format, bool(return_distance))
         what = {"neighborhoods": format, "distances": bool(return_distance), "r": radius}
         return self._write(task, to, f".{format}", what, progress)
