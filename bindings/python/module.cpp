@@ -40,11 +40,13 @@ std::string without_path(const Error& error) {
   return message.starts_with(prefix) ? message.substr(prefix.size()) : message;
 }
 
-/// Sets OSError(errno, message, filename), which Python turns into FileNotFoundError and the like.
+/// Sets OSError(errno, message, filename), which Python turns into FileNotFoundError and the like. Before Python 3.11,
+/// an `except` of these catches an error that is set as an object, not one that is set as the arguments of OSError.
 void set_os_error(const Error& error) {
   const nb::object filename =
       nb::steal(PyUnicode_DecodeFSDefaultAndSize(error.path().data(), static_cast<Py_ssize_t>(error.path().size())));
-  PyErr_SetObject(PyExc_OSError, nb::make_tuple(error.error_number(), without_path(error), filename).ptr());
+  const nb::object made = nb::handle(PyExc_OSError)(error.error_number(), without_path(error), filename);
+  PyErr_SetObject(made.type().ptr(), made.ptr());
 }
 
 void translate(const std::exception_ptr& exception, void*) {

@@ -50,6 +50,16 @@ def test_a_missing_file(tmp_path, read):
     check_os_error(raised(read, os.fsencode(path)), FileNotFoundError, errno.ENOENT, path)
 
 
+def test_a_missing_folder_of_parts(tmp_path):
+    manifest = tmp_path / "parts" / "manifest.json"
+    try:
+        meshhood.open_parts(manifest.parent)
+    except FileNotFoundError as error:  # before Python 3.11 this looks at the class that was set, as pytest.raises does not
+        check_os_error(error, FileNotFoundError, errno.ENOENT, manifest)
+    else:
+        pytest.fail("nothing was raised")
+
+
 def test_saving_into_a_missing_folder(tmp_path):
     path = tmp_path / "nowhere" / "file"
     check_os_error(raised(save, path), FileNotFoundError, errno.ENOENT, path)
