@@ -14,6 +14,7 @@ def graph(vertex_count, faces):
 
 
 def triangle_graph(vertex_count, triangles):
+    triangles = triangles.astype(np.int32)  # csgraph of old versions of SciPy takes no other ids
     rows, columns = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
     return coo_array((np.ones(len(rows)), (rows, columns)), shape=(vertex_count, vertex_count)).tocsr()
 
