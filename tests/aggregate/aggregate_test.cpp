@@ -6,10 +6,13 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -147,7 +150,8 @@ TestSignal make_signal(std::size_t vertices, bool gaps, Random& random) {
 /// A mesh, its index, and the definition of every aggregate.
 class AggregateCase {
  public:
-  explicit AggregateCase(const TestMesh& mesh) : mesh_(mesh), index_(build(mesh_.view())), reference_(mesh_.view()) {}
+  explicit AggregateCase(TestMesh mesh)
+      : mesh_(std::move(mesh)), index_(build(mesh_.view())), reference_(mesh_.view()) {}
 
   [[nodiscard]] const Index& index() const { return index_; }
   [[nodiscard]] std::size_t size() const { return mesh_.size(); }
@@ -336,9 +340,9 @@ TEST(AggregateOfATinyCluster, EqualsTheDefinition) {
   const auto first = static_cast<VertexId>(mesh.size());
   const double step = 0x1p-30;
   for (VertexId v = 0; v < 25; ++v) {
-    const double x = step * (v % 5);
-    const double y = step * (v / 5);
-    mesh.add_vertex(1000.1 + x, 700.3 + y, 300.7);
+    const VertexId column = v % 5;
+    const VertexId row = v / 5;
+    mesh.add_vertex(1000.1 + step * column, 700.3 + step * row, 300.7);
   }
   for (VertexId v = 1; v < 25; ++v) mesh.add_face({first + v - 1, first + v});
   AggregateCase scene(mesh.finish(false));
@@ -470,9 +474,9 @@ TEST(AggregateWithAKernel, GivesAVertexAtExactlyTheRadiusNoWeight) {
       const std::vector<VertexId> rows{static_cast<VertexId>(random.below(mesh.size()))};
       searcher.neighborhood(rows[0], radius, ids);
       const auto square = [&](VertexId v) {
-        const long double dx = static_cast<long double>(v % kSide) - rows[0] % kSide;
-        const long double dy = static_cast<long double>(v / kSide) - rows[0] / kSide;
-        return dx * dx + dy * dy;
+        const auto dx = static_cast<std::int64_t>(v % kSide) - static_cast<std::int64_t>(rows[0] % kSide);
+        const auto dy = static_cast<std::int64_t>(v / kSide) - static_cast<std::int64_t>(rows[0] / kSide);
+        return static_cast<long double>(dx * dx + dy * dy);
       };
       const long double r2 = radius * radius;
       for (const VertexId v : ids) {
@@ -588,7 +592,7 @@ TEST_F(Aggregate, CopiesItsListsWhenTheCallBegins) {
 }
 
 TEST(VertexAreas, SumToTheAreaOfTheMesh) {
-  TestMesh mesh = make_grid(4, 6, true).finish(false);
+  const TestMesh mesh = make_grid(4, 6, true).finish(false);
   const std::vector<double> areas = vertex_areas(mesh.view());
   double sum = 0;
   for (const double area : areas) sum += area;
@@ -617,9 +621,9 @@ TEST(SmoothingRadius, IsThatOfTheNearestGaussian) {
     double sum = 0;
     for (int i = 0; i < 4000; ++i) {
       const double d = 0.0005 + 0.001 * i;
-      const double biweight = d < 1 ? (1 - d * d) * (1 - d * d) * 3 / 3.141592653589793 : 0;
+      const double biweight = d < 1 ? (1 - d * d) * (1 - d * d) * 3 / std::numbers::pi : 0;
       const double gaussian =
-          std::exp(-d * d / (2 * deviation * deviation)) / (2 * 3.141592653589793 * deviation * deviation);
+          std::exp(-d * d / (2 * deviation * deviation)) / (2 * std::numbers::pi * deviation * deviation);
       sum += (biweight - gaussian) * (biweight - gaussian) * d;
     }
     return sum;
