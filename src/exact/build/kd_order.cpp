@@ -35,7 +35,7 @@ PointBox box_of(std::span<const KdPoint> points) {
   return box;
 }
 
-/// Equal intervals of a side of a box. Their numbers ascend with the coordinate.
+/// Equal intervals of a side of a box, fewer if it is nearly 0 long. Their numbers ascend with the coordinate.
 class Intervals {
  public:
   static constexpr std::size_t kMost = 1024;
@@ -43,12 +43,10 @@ class Intervals {
   Intervals(float low, float high, std::size_t points)
       : count_(std::clamp<std::size_t>(points / 4, 2, kMost)),
         low_(low),
-        per_unit_(low < high ? static_cast<float>(count_) / (high - low) : std::numeric_limits<float>::infinity()) {}
+        per_unit_(low < high ? std::min(static_cast<float>(count_) / (high - low), std::numeric_limits<float>::max())
+                             : 0) {}
 
   [[nodiscard]] std::size_t count() const { return count_; }
-
-  /// False if all points have one coordinate, or nearly so.
-  [[nodiscard]] bool are_finite() const { return per_unit_ <= std::numeric_limits<float>::max(); }
 
   [[nodiscard]] std::size_t operator()(float coordinate) const {
     const auto interval = static_cast<std::int32_t>((coordinate - low_) * per_unit_);
@@ -70,22 +68,17 @@ bool precedes(const KdPoint& a, const KdPoint& b) {
 template <std::size_t Axis>
 void cut_across(std::span<const KdPoint> points, const PointBox& box, std::size_t middle, std::span<KdPoint> to) {
   const Intervals intervals(box.low[Axis], box.high[Axis], points.size());
+  std::array<std::uint32_t, Intervals::kMost> counts;
+  std::fill_n(counts.begin(), intervals.count(), 0);
+  for (const KdPoint& p : points) ++counts[intervals(p.at[Axis])];
+  std::size_t cut = 0;
   std::size_t before = 0;
-  std::size_t within = points.size();
-  if (intervals.are_finite()) {
-    std::array<std::uint32_t, Intervals::kMost> counts;
-    std::fill_n(counts.begin(), intervals.count(), 0);
-    for (const KdPoint& p : points) ++counts[intervals(p.at[Axis])];
-    std::size_t cut = 0;
-    while (before + counts[cut] <= middle) before += counts[cut++];
-    within = counts[cut];
-    std::array<KdPoint*, 3> next = {to.data(), to.data() + before, to.data() + before + within};
-    for (const KdPoint& p : points) {
-      const std::size_t interval = intervals(p.at[Axis]);
-      *next[std::size_t{interval >= cut} + std::size_t{interval > cut}]++ = p;
-    }
-  } else {
-    std::copy(points.begin(), points.end(), to.begin());
+  while (before + counts[cut] <= middle) before += counts[cut++];
+  const std::size_t within = counts[cut];
+  std::array<KdPoint*, 3> next = {to.data(), to.data() + before, to.data() + before + within};
+  for (const KdPoint& p : points) {
+    const std::size_t interval = intervals(p.at[Axis]);
+    *next[std::size_t{interval >= cut} + std::size_t{interval > cut}]++ = p;
   }
   const auto first = to.begin() + static_cast<std::ptrdiff_t>(before);
   std::nth_element(first, to.begin() + static_cast<std::ptrdiff_t>(middle), first + static_cast<std::ptrdiff_t>(within),
