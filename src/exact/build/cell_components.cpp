@@ -129,7 +129,7 @@ class Merger {
   void join(std::uint32_t component, std::uint32_t other) {
     if (component == other || !has_room(component, other)) return;
     merged_into_[component] = other;
-    size(other) = static_cast<std::uint8_t>(size(other) + std::exchange(size(component), std::uint8_t{0}));
+    size(other) = static_cast<std::uint8_t>(size(other) + size(component));
   }
 
   /// Follows the merges, and shortens the path (path compression).
@@ -143,7 +143,7 @@ class Merger {
   const CellComponents& components_;
   const Links& links_;
   std::vector<std::uint32_t> merged_into_;  // by component: itself, or the component it has been merged into
-  std::vector<std::uint8_t> sizes_;         // by component, with those merged into it; 0 if it has been merged
+  std::vector<std::uint8_t> sizes_;         // by component, with those merged into it; small if it has been merged
   std::vector<std::uint32_t> neighbors_;    // of the component that is being merged, one for each edge
   std::vector<bool> is_linked_;             // by component, if small
 };
