@@ -54,8 +54,10 @@ void VertexSet::assign_difference(const VertexSet& all, const VertexSet& part) {
     if (rest.is_run()) {
       for (; is_taken(); ++taken) {
         if (rest.begin < taken->begin) add(VertexRange{rest.begin, taken->begin});
-        const LaneMask left = first_lanes(taken->end - taken->begin) & ~taken->lanes;
-        if (!taken->is_run()) add(Part{taken->begin, taken->end, left});
+        if (!taken->is_run()) {
+          const LaneMask left = first_lanes(taken->end - taken->begin) & ~taken->lanes;
+          add(Part{taken->begin, taken->end, left});
+        }
         rest.begin = taken->end;
       }
       if (rest.begin < rest.end) add(VertexRange{rest.begin, rest.end});
