@@ -71,8 +71,9 @@ def test_an_index_file_that_is_replaced_all_the_time(mmap, tmp_path, writer):
     seen = {len(index): 0 for index in INDEXES}
 
     def read():
-        kept = []
-        for _ in range(READS):
+        kept, reads = [], 0
+        while reads < READS or not all(seen.values()):  # the writer may begin late
+            reads += 1
             index = meshhood.load(path, mmap=mmap)
             seen[check(index)] += 1
             kept = [*kept[-3:], index]
@@ -83,7 +84,7 @@ def test_an_index_file_that_is_replaced_all_the_time(mmap, tmp_path, writer):
         thread.start()
     for thread in threads:
         thread.join()
-    assert sum(seen.values()) == 2 * READS and all(seen.values())
+    assert sum(seen.values()) >= 2 * READS and all(seen.values())
     print(f"reads of either file: {seen}")
 
 
