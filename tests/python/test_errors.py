@@ -54,7 +54,7 @@ def test_a_missing_folder_of_parts(tmp_path):
     manifest = tmp_path / "parts" / "manifest.json"
     try:
         meshhood.open_parts(manifest.parent)
-    except FileNotFoundError as error:  # before Python 3.11 this looks at the class that was set, as pytest.raises does not
+    except FileNotFoundError as error:  # not pytest.raises, which hides what Python before 3.11 compares
         check_os_error(error, FileNotFoundError, errno.ENOENT, manifest)
     else:
         pytest.fail("nothing was raised")

@@ -229,9 +229,9 @@ class Parts:
     ) -> list[str]:
         """Computes all neighborhoods and writes them to the folder `to`, a file for each part. Returns the paths.
 
-        format : "npz" or "zarr" (needs zarr 3, and so Python 3.11). Each has the arrays `vertices` (int64: the query vertex of
-            each row), `indptr` (int64) and `indices` (int64): row i is indices[indptr[i]:indptr[i + 1]], ascending. All
-            ids are those of the mesh. With `return_distance` also `distances` (float64), in the order of `indices`.
+        format : "npz" or "zarr" (needs zarr 3, and so Python 3.11). Each has the arrays `vertices` (int64: the query
+            vertex of each row), `indptr` (int64) and `indices` (int64): row i is indices[indptr[i]:indptr[i + 1]],
+            ascending. All ids are those of the mesh. With `return_distance` also `distances` (float64), in the order of `indices`.
 
         The memory of a task is small, whatever the size of the result. `to` and `progress` as in `write`.
         """
