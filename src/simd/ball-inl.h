@@ -11,9 +11,7 @@ LaneMask within_exact(const Real* xyz, std::size_t size, const LeafBall& ball) {
   const Doubles d;
   LaneMask inside = 0;
   for (std::size_t i = 0; i < size; i += kLanes<Doubles>) {
-    const auto [x, y, z] = load_points(d, xyz + 3 * i);
-    const auto square = squared_length(hn::Sub(x, hn::Set(d, ball.center.x)), hn::Sub(y, hn::Set(d, ball.center.y)),
-                                       hn::Sub(z, hn::Set(d, ball.center.z)));
+    const auto square = squared_length(difference(load_points(d, xyz + 3 * i), splat_point(d, ball.center)));
     inside |= bits_of(d, hn::Le(square, hn::Set(d, ball.squared_radius))) << i;
   }
   return inside & first_lanes(static_cast<unsigned>(size));
@@ -22,24 +20,24 @@ LaneMask within_exact(const Real* xyz, std::size_t size, const LeafBall& ball) {
 /// In single precision, if that decides all vertices.
 LaneMask within_float(const float* xyz, std::size_t size, const LeafBall& ball) {
   const Floats d;
-  LaneMask inside = 0;
-  LaneMask outside = 0;
-  for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Floats>) {
-    const auto [x, y, z] = load_points(d, xyz + 3 * i);
-    const auto square =
-        squared_length(hn::Sub(x, hn::Set(d, ball.x)), hn::Sub(y, hn::Set(d, ball.y)), hn::Sub(z, hn::Set(d, ball.z)));
-    inside |= bits_of(d, hn::Le(square, hn::Set(d, ball.surely_inside))) << i;
-    outside |= bits_of(d, hn::Gt(square, hn::Set(d, ball.surely_outside))) << i;
+  MasksOfRow<Floats> inside;
+  MasksOfRow<Floats> outside;
+  for (std::size_t i = 0; i < kVectors<Floats>; ++i) {
+    const auto points = load_points(d, xyz + 3 * i * kLanes<Floats>);
+    const auto square = squared_length(difference(points, splat_point(d, ball)));
+    inside[i] = hn::Le(square, hn::Set(d, ball.surely_inside));
+    outside[i] = hn::Gt(square, hn::Set(d, ball.surely_outside));
   }
   const LaneMask all = first_lanes(static_cast<unsigned>(size));
-  if (((inside | outside) & all) != all) [[unlikely]] {
+  const LaneMask surely = bits_of_row(d, inside);
+  if (((surely | bits_of_row(d, outside)) & all) != all) [[unlikely]] {
     return within_exact(xyz, size, ball);
   }
-  return inside & all;
+  return surely & all;
 }
 
 LaneMask cross_edges(std::span<const CrossEdge> edges, LaneMask from) {
-  if constexpr (kLanes<Words> <= 4) {  // some of these targets cannot shift each lane by another number
+  if constexpr (kNarrow) {  // some of these targets cannot shift each lane by another number
     LaneMask result = 0;
     for (const CrossEdge& edge : edges) result |= (from >> edge.from & 1U) << edge.to;
     return result;
@@ -57,6 +55,15 @@ LaneMask cross_edges(std::span<const CrossEdge> edges, LaneMask from) {
 }
 
 LaneMask reachable(const LaneMask* adjacency, LaneMask among, LaneMask from) {
+  if constexpr (kNarrow) {
+    LaneMask reached = from;
+    for (LaneMask todo = from; todo != 0 && reached != among;) {
+      const LaneMask added = adjacency[std::countr_zero(todo)] & among & ~reached;
+      todo = (todo & (todo - 1)) | added;
+      reached |= added;
+    }
+    return reached;
+  }
   const Words d;
   for (LaneMask reached = from;;) {
     LaneMask near = 0;  // the lanes with a neighbor among those reached
@@ -74,9 +81,7 @@ HWY_INLINE GroupContainment classify_group(const Group& group, const TreeBall& b
   unsigned outside = 0;
   unsigned inside = 0;
   for (std::size_t i = 0; i < kFanOut; i += kLanes<decltype(d)>) {
-    const auto square = squared_length(hn::Sub(hn::Set(d, ball.x), hn::Load(d, &group.x[i])),
-                                       hn::Sub(hn::Set(d, ball.y), hn::Load(d, &group.y[i])),
-                                       hn::Sub(hn::Set(d, ball.z), hn::Load(d, &group.z[i])));
+    const auto square = squared_length(difference(splat_point(d, ball), load_rows(d, group, i)));
     const auto radius = hn::Load(d, &group.radius[i]);
     const auto far = hn::Add(hn::Set(d, ball.outer), radius);
     const auto near = hn::Max(hn::Sub(hn::Set(d, ball.inner), radius), hn::Zero(d));

@@ -6,33 +6,31 @@ namespace meshhood::HWY_NAMESPACE {
 namespace {
 
 using Word = VectorOf<Words>;
+using WordsOfRow = Word[kVectors<Words>];  // NOLINT(modernize-avoid-c-arrays): std::array drops the alignment
 
-/// The vectors that hold a word for each of 32 lanes.
-constexpr std::size_t kParts = kLeafCapacity / kLanes<Words>;
-
-/// The lanes, of those of a vector, in which the words differ, as bits.
-HWY_INLINE LaneMask differing(Word a, Word b) {
-  const Words d;
-  return bits_of(d, hn::Ne(a, b));
+/// The lanes in which the words differ.
+HWY_INLINE LaneMask differing(const PerLane<QueryWord>& a, const PerLane<QueryWord>& b) {
+  MasksOfRow<Words> same;
+  for (std::size_t i = 0; i < kVectors<Words>; ++i) {
+    same[i] = hn::Eq(load(a[i * kLanes<Words>]), load(b[i * kLanes<Words>]));
+  }
+  return ~bits_of_row(Words(), same);
 }
 
 void convert_points(const float* xyz, unsigned size, const FloatCenter& center, LeafPoints& points) {
   const Floats d;
-  const auto scale = hn::Set(d, center.scale);
   for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Floats>) {
     const auto exists = hn::FirstN(d, size > i ? size - i : 0);
-    const auto from = load_points(d, xyz + 3 * i);
-    const auto x = hn::IfThenElseZero(exists, hn::Mul(hn::Sub(from.x, hn::Set(d, center.x)), scale));
-    const auto y = hn::IfThenElseZero(exists, hn::Mul(hn::Sub(from.y, hn::Set(d, center.y)), scale));
-    const auto z = hn::IfThenElseZero(exists, hn::Mul(hn::Sub(from.z, hn::Set(d, center.z)), scale));
-    hn::Store(x, d, &points.x[i]);
-    hn::Store(y, d, &points.y[i]);
-    hn::Store(z, d, &points.z[i]);
-    hn::Store(squared_length(x, y, z), d, &points.square[i]);
+    const auto points_of_part =
+        scaled(difference(load_points(d, xyz + 3 * i), splat_point(d, center)), splat(center.scale));
+    const Points<Floats> to{hn::IfThenElseZero(exists, points_of_part.x), hn::IfThenElseZero(exists, points_of_part.y),
+                            hn::IfThenElseZero(exists, points_of_part.z)};
+    store_rows(to, points, i);
+    store(squared_length(to), points.square[i]);
   }
 }
 
-/// What `heights` gives of one vertex: which queries surely hold it, and which may.
+/// Which queries surely hold a vertex, and which may.
 struct Held {
   QueryWord surely;
   QueryWord maybe;
@@ -41,38 +39,34 @@ struct Held {
 /// Compares `2 p.q - p.p` of one vertex with the balls of the packet.
 HWY_INLINE Held compare(const LeafPoints& points, std::size_t lane, const PacketBalls& balls) {
   const Floats d;
-  const auto x = hn::Set(d, points.x[lane]);
-  const auto y = hn::Set(d, points.y[lane]);
-  const auto z = hn::Set(d, points.z[lane]);
-  const auto square = hn::Set(d, points.square[lane]);
-  Held held{0, 0};
-  for (std::size_t i = 0; i < kPacketCapacity; i += kLanes<Floats>) {
-    const auto product = hn::Add(hn::Add(hn::Mul(x, hn::Load(d, &balls.x[i])), hn::Mul(y, hn::Load(d, &balls.y[i]))),
-                                 hn::Mul(z, hn::Load(d, &balls.z[i])));
-    const auto height = hn::Sub(product, square);
-    held.surely |= bits_of(d, hn::Ge(height, hn::Load(d, &balls.surely_inside[i]))) << i;
-    held.maybe |= bits_of(d, hn::Ge(height, hn::Load(d, &balls.maybe_inside[i]))) << i;
+  const Points<Floats> vertex{splat(points.x[lane]), splat(points.y[lane]), splat(points.z[lane])};
+  const auto square = splat(points.square[lane]);
+  MasksOfRow<Floats> surely;
+  MasksOfRow<Floats> maybe;
+  for (std::size_t part = 0; part < kVectors<Floats>; ++part) {
+    const std::size_t i = part * kLanes<Floats>;
+    const auto height = hn::Sub(scalar_product(vertex, load_rows(d, balls, i)), square);
+    surely[part] = hn::Ge(height, load(balls.surely_inside[i]));
+    maybe[part] = hn::Ge(height, load(balls.maybe_inside[i]));
   }
-  return held;
+  return {bits_of_row(d, surely), bits_of_row(d, maybe)};
 }
 
 BallWords ball_words(const LeafPoints& points, LaneMask lanes, const PacketBalls& balls, PerLane<QueryWord>& inside,
                      PerLane<QueryWord>& doubts) {
   const Floats d;
-  const Words words;
-  LaneMask in_all = 0;
-  LaneMask in_none = 0;
-  for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Floats>) {
-    const auto square = squared_length(hn::Sub(hn::Load(d, &points.x[i]), hn::Set(d, balls.center_x)),
-                                       hn::Sub(hn::Load(d, &points.y[i]), hn::Set(d, balls.center_y)),
-                                       hn::Sub(hn::Load(d, &points.z[i]), hn::Set(d, balls.center_z)));
-    in_all |= bits_of(d, hn::Lt(square, hn::Set(d, balls.inside_all))) << i;
-    in_none |= bits_of(d, hn::Gt(square, hn::Set(d, balls.outside_all))) << i;
+  MasksOfRow<Floats> near;
+  MasksOfRow<Floats> far;
+  for (std::size_t part = 0; part < kVectors<Floats>; ++part) {
+    const auto points_of_part = load_rows(d, points, part * kLanes<Floats>);
+    const auto square = squared_length(difference(points_of_part, splat_point(d, balls.center)));
+    near[part] = hn::Lt(square, splat(balls.inside_all));
+    far[part] = hn::Gt(square, splat(balls.outside_all));
   }
-  in_none &= lanes;
-  in_all &= lanes & ~in_none;
+  const LaneMask in_none = bits_of_row(d, far) & lanes;
+  const LaneMask in_all = bits_of_row(d, near) & lanes & ~in_none;
   for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Words>) {
-    hn::Store(hn::IfThenElseZero(mask_of(words, in_all >> i), hn::Set(words, balls.queries)), words, &inside[i]);
+    store(hn::IfThenElseZero(mask_of(Words(), in_all >> i), splat(balls.queries)), inside[i]);
   }
   BallWords result{in_none == 0 ? balls.queries : 0, 0};
   for (LaneMask left = lanes & ~(in_all | in_none); left != 0; left &= left - 1) {
@@ -87,10 +81,9 @@ BallWords ball_words(const LeafPoints& points, LaneMask lanes, const PacketBalls
 }
 
 void clear_words(LeafWords& words) {
-  const Words d;
   for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Words>) {
-    hn::Store(hn::Zero(d), d, &words.reached[i]);
-    hn::Store(hn::Zero(d), d, &words.pending[i]);
+    store(hn::Zero(Words()), words.reached[i]);
+    store(hn::Zero(Words()), words.pending[i]);
   }
 }
 
@@ -142,16 +135,17 @@ class NeighborLists {
 
 SpreadWords spread_words(LeafWords& words, const LaneMask* adjacency, QueryWord whole) {
   const Words d;
-  const auto differing32 = [](const Words32& a, const Words32& b)
-                               HWY_ATTR { return differing(a.low, b.low) | differing(a.high, b.high) << 16; };
-  const Words32 inside{hn::Load(d, &words.inside[0]), hn::Load(d, &words.inside[16])};
-  const Words32 before{hn::Load(d, &words.reached[0]), hn::Load(d, &words.reached[16])};
-  Words32 reached{hn::Or(before.low, hn::And(hn::Load(d, &words.pending[0]), inside.low)),
-                  hn::Or(before.high, hn::And(hn::Load(d, &words.pending[16]), inside.high))};
-  hn::Store(hn::Zero(d), d, &words.pending[0]);
-  hn::Store(hn::Zero(d), d, &words.pending[16]);
+  const auto differing32 = [d](const Words32& a, const Words32& b) HWY_ATTR {
+    return bits_of(d, hn::Ne(a.low, b.low)) | bits_of(d, hn::Ne(a.high, b.high)) << 16;
+  };
+  const Words32 inside{load(words.inside[0]), load(words.inside[16])};
+  const Words32 before{load(words.reached[0]), load(words.reached[16])};
+  Words32 reached{hn::Or(before.low, hn::And(load(words.pending[0]), inside.low)),
+                  hn::Or(before.high, hn::And(load(words.pending[16]), inside.high))};
+  store(hn::Zero(d), words.pending[0]);
+  store(hn::Zero(d), words.pending[16]);
   if (whole != 0) {
-    const auto any = hn::Set(d, any_of(d, hn::Or(reached.low, reached.high)) & whole);
+    const auto any = splat(any_of(d, hn::Or(reached.low, reached.high)) & whole);
     reached = {hn::Or(reached.low, hn::And(any, inside.low)), hn::Or(reached.high, hn::And(any, inside.high))};
   }
   LaneMask open = differing32(reached, inside);
@@ -165,62 +159,51 @@ SpreadWords spread_words(LeafWords& words, const LaneMask* adjacency, QueryWord 
       reached = grown;
     }
   }
-  hn::Store(reached.low, d, &words.reached[0]);
-  hn::Store(reached.high, d, &words.reached[16]);
+  store(reached.low, words.reached[0]);
+  store(reached.high, words.reached[16]);
   return {differing32(reached, before), open == 0};
 }
 #else
 /// Adds what arrives, where the balls have it, to the words that are reached; returns the lanes that gain.
-HWY_INLINE LaneMask grow(LeafWords& words, const Word (&arriving)[kParts]) {
-  const Words d;
-  LaneMask gained = 0;
-  for (std::size_t part = 0; part < kParts; ++part) {
+HWY_INLINE LaneMask grow(LeafWords& words, const WordsOfRow& arriving) {
+  MasksOfRow<Words> stay;
+  for (std::size_t part = 0; part < kVectors<Words>; ++part) {
     const std::size_t i = part * kLanes<Words>;
-    const auto before = hn::Load(d, &words.reached[i]);
-    const auto grown = hn::Or(before, hn::And(arriving[part], hn::Load(d, &words.inside[i])));
-    gained |= differing(grown, before) << i;
-    hn::Store(grown, d, &words.reached[i]);
+    const auto before = load(words.reached[i]);
+    const auto grown = hn::Or(before, hn::And(arriving[part], load(words.inside[i])));
+    stay[part] = hn::Eq(grown, before);
+    store(grown, words.reached[i]);
   }
-  return gained;
+  return ~bits_of_row(Words(), stay);
 }
 
 /// Moves what is pending to `reached`; returns the lanes that gained.
 HWY_INLINE LaneMask take_pending(LeafWords& words, QueryWord whole) {
   const Words d;
-  Word arriving[kParts];
+  WordsOfRow arriving;
   auto any = hn::Zero(d);
-  for (std::size_t part = 0; part < kParts; ++part) {
+  for (std::size_t part = 0; part < kVectors<Words>; ++part) {
     const std::size_t i = part * kLanes<Words>;
-    arriving[part] = hn::And(hn::Load(d, &words.pending[i]), hn::Load(d, &words.inside[i]));
-    hn::Store(hn::Zero(d), d, &words.pending[i]);
-    any = hn::Or(any, hn::Or(arriving[part], hn::Load(d, &words.reached[i])));
+    arriving[part] = hn::And(load(words.pending[i]), load(words.inside[i]));
+    store(hn::Zero(d), words.pending[i]);
+    any = hn::Or(any, hn::Or(arriving[part], load(words.reached[i])));
   }
-  const auto all = hn::Set(d, any_of(d, any) & whole);
+  const auto all = splat(any_of(d, any) & whole);
   for (Word& word : arriving) word = hn::Or(word, all);
   return grow(words, arriving);
 }
 
-HWY_INLINE LaneMask open_lanes(const LeafWords& words) {
-  const Words d;
-  LaneMask open = 0;
-  for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Words>) {
-    open |= differing(hn::Load(d, &words.reached[i]), hn::Load(d, &words.inside[i])) << i;
-  }
-  return open;
-}
-
 /// Reaches the open neighbors of the lanes `from`; returns those that have gained.
 HWY_INLINE LaneMask spread_once(LeafWords& words, const LaneMask* adjacency, LaneMask from, LaneMask open) {
-  const Words d;
-  Word arriving[kParts];
-  for (Word& word : arriving) word = hn::Zero(d);
+  WordsOfRow arriving;
+  for (Word& word : arriving) word = hn::Zero(Words());
   for (; from != 0; from &= from - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(from));
     if ((adjacency[lane] & open) == 0) continue;
-    const auto word = hn::Set(d, words.reached[lane]);
-    const auto neighbors = hn::Set(d, adjacency[lane]);
-    for (std::size_t part = 0; part < kParts; ++part) {
-      const auto to = hn::TestBit(neighbors, hn::Set(d, 1) << hn::Iota(d, part * kLanes<Words>));
+    const auto word = splat(words.reached[lane]);
+    const auto neighbors = splat(adjacency[lane]);
+    for (std::size_t part = 0; part < kVectors<Words>; ++part) {
+      const auto to = hn::TestBit(neighbors, lane_bits(Words(), part * kLanes<Words>));
       arriving[part] = hn::Or(arriving[part], hn::IfThenElseZero(to, word));
     }
   }
@@ -229,8 +212,8 @@ HWY_INLINE LaneMask spread_once(LeafWords& words, const LaneMask* adjacency, Lan
 
 SpreadWords spread_words(LeafWords& words, const LaneMask* adjacency, QueryWord whole) {
   SpreadWords result{take_pending(words, whole), false};
-  LaneMask open = open_lanes(words);
-  for (LaneMask fresh = result.gained; fresh != 0 && open != 0; open = open_lanes(words)) {
+  LaneMask open = differing(words.reached, words.inside);
+  for (LaneMask fresh = result.gained; fresh != 0 && open != 0; open = differing(words.reached, words.inside)) {
     fresh = spread_once(words, adjacency, fresh, open);
     result.gained |= fresh;
   }
@@ -242,46 +225,53 @@ SpreadWords spread_words(LeafWords& words, const LaneMask* adjacency, QueryWord 
 /// Adds how many words of a vector have each bit, times a power of two, to the counts.
 class BitSums {
  public:
-  explicit BitSums(PerLane<std::uint64_t>& counts) : counts_(counts) {}
+  explicit BitSums(PerLane<std::uint64_t>& counts) : counts_(counts) {
+    for (Word& sum : sums_) sum = hn::Zero(Words());
+  }
+  ~BitSums() {
+    alignas(64) PerLane<std::uint32_t> sums;
+    for (std::size_t part = 0; part < kVectors<Words>; ++part) store(sums_[part], sums[part * kLanes<Words>]);
+    for (std::size_t i = 0; i < kPacketCapacity; ++i) counts_[i] += sums[i];
+#if HWY_TARGET == HWY_AVX3
+    PerLane<std::uint16_t> shorts;
+    _mm512_storeu_si512(shorts.data(), _mm512_add_epi16(even_, odd_));
+    for (std::size_t i = 0; i < kPacketCapacity; ++i) counts_[i] += shorts[i];
+#endif
+  }
+  BitSums(const BitSums&) = delete;
+  BitSums& operator=(const BitSums&) = delete;
 
   void add(Word words, std::size_t digit) {
+    alignas(64) std::array<QueryWord, kLanes<Words>> each;
+    store(words, each[0]);
 #if HWY_TARGET == HWY_AVX3
     // A word is the mask of the numbers to increase. The sums of all these digits have 16 bits.
+    constexpr std::size_t kMostShort = 11;
     if (digit <= kMostShort) {
-      PerLane<QueryWord> each;
-      hn::StoreU(words, Words(), each.data());
       const __m512i weight = _mm512_set1_epi16(static_cast<std::int16_t>(1 << digit));
-      for (std::size_t i = 0; i < kLanes<Words>; i += 2) {
+      for (std::size_t i = 0; i < each.size(); i += 2) {
         even_ = _mm512_mask_add_epi16(even_, each[i], even_, weight);
         odd_ = _mm512_mask_add_epi16(odd_, each[i + 1], odd_, weight);
       }
       return;
     }
 #endif
-    const Words d;
-    auto bit = hn::Set(d, 1);
-    for (std::size_t query = 0; query < kPacketCapacity; ++query, bit = hn::Add(bit, bit)) {
-      counts_[query] += std::uint64_t{hn::CountTrue(d, hn::TestBit(words, bit))} << digit;
+    const auto weight = splat(std::uint32_t{1} << digit);
+    for (const QueryWord word : each) {
+      for (std::size_t part = 0; part < kVectors<Words>; ++part) {
+        const auto has = hn::TestBit(splat(word), lane_bits(Words(), part * kLanes<Words>));
+        sums_[part] = hn::Add(sums_[part], hn::IfThenElseZero(has, weight));
+      }
     }
   }
 
-#if HWY_TARGET == HWY_AVX3
-  ~BitSums() {
-    PerLane<std::uint16_t> sums;
-    _mm512_storeu_si512(sums.data(), _mm512_add_epi16(even_, odd_));
-    for (std::size_t i = 0; i < kPacketCapacity; ++i) counts_[i] += sums[i];
-  }
-  BitSums(const BitSums&) = delete;
-  BitSums& operator=(const BitSums&) = delete;
-
  private:
-  static constexpr std::size_t kMostShort = 11;
+  PerLane<std::uint64_t>& counts_;
+  WordsOfRow sums_;  // less than 2^32, as many as there can be vertices
+#if HWY_TARGET == HWY_AVX3
   __m512i even_ = _mm512_setzero_si512();
   __m512i odd_ = _mm512_setzero_si512();
-#else
- private:
 #endif
-  PerLane<std::uint64_t>& counts_;
 };
 
 /// Counts bits in each position of many words: a vector for each binary digit, with a number in each of its bits.
@@ -351,17 +341,15 @@ class BitCounters {
 };
 
 void count_words(const LeafWords* words, std::span<const LeafOfWords> list, PerLane<std::uint64_t>& counts) {
-  const Words d;
   alignas(64) static constexpr PerLane<QueryWord> kNone{};
-  constexpr std::size_t kLeaves = 16 / kParts;  // of a block
+  constexpr std::size_t kLeaves = 16 / kVectors<Words>;  // of a block
   BitCounters counters;
   for (std::size_t i = 0; i < list.size(); i += kLeaves) {
     Word block[16];
-    for (std::size_t k = 0; k < kLeaves; ++k) {
-      const auto& reached = i + k < list.size() ? words[list[i + k].words].reached : kNone;
-      for (std::size_t part = 0; part < kParts; ++part) {
-        block[k * kParts + part] = hn::Load(d, &reached[part * kLanes<Words>]);
-      }
+    for (std::size_t k = 0; k < 16; ++k) {
+      const std::size_t leaf = i + k / kVectors<Words>;
+      const auto& reached = leaf < list.size() ? words[list[leaf].words].reached : kNone;
+      block[k] = load(reached[k % kVectors<Words> * kLanes<Words>]);
     }
     counters.add(block);
   }
@@ -369,13 +357,12 @@ void count_words(const LeafWords* words, std::span<const LeafOfWords> list, PerL
 }
 
 LaneMask lanes_of(const QueryWord* reached, unsigned query) {
-  const Words d;
-  const auto bit = hn::Set(d, QueryWord{1} << query);
-  LaneMask lanes = 0;
-  for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Words>) {
-    lanes |= bits_of(d, hn::TestBit(hn::LoadU(d, reached + i), bit)) << i;
+  const auto bit = splat(QueryWord{1} << query);
+  MasksOfRow<Words> has;
+  for (std::size_t part = 0; part < kVectors<Words>; ++part) {
+    has[part] = hn::TestBit(hn::LoadU(Words(), reached + part * kLanes<Words>), bit);
   }
-  return lanes;
+  return bits_of_row(Words(), has);
 }
 
 /// The ids of the vertices from `first` on.
@@ -387,8 +374,6 @@ HWY_INLINE VectorOf<Ids> load_ids(const VertexId* permutation, std::uint32_t fir
 
 void write_row(std::span<const RowPiece> pieces, unsigned query, const VertexId* permutation, std::span<VertexId> out) {
   const Ids d;
-  const Words words;
-  const auto bit = hn::Set(words, QueryWord{1} << query);
   VertexId* next = out.data();
   // The vertices of a leaf are written as vectors, which may go beyond their end. So the last of a row are written
   // elsewhere first.
@@ -401,9 +386,9 @@ void write_row(std::span<const RowPiece> pieces, unsigned query, const VertexId*
         begin_of_end = next;
         next = end_of_row.data();
       }
+      const LaneMask lanes = lanes_of(piece.reached, query);
       for (std::uint32_t k = 0; k < kLeafCapacity; k += kLanes<Ids>) {
-        const LaneMask lanes = bits_of(words, hn::TestBit(hn::LoadU(words, piece.reached + k), bit));
-        next = write_chosen(d, load_ids(permutation, piece.first + k), lanes, next);
+        next = write_chosen(d, load_ids(permutation, piece.first + k), lanes >> k, next);
       }
     } else if ((piece.queries >> query & 1U) != 0) {
       std::uint32_t k = 0;

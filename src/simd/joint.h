@@ -7,6 +7,7 @@
 
 #include "meshhood/mesh.h"
 
+#include "base/frame.h"
 #include "simd/kernels.h"
 #include "simd/query_word.h"
 
@@ -15,10 +16,6 @@
 namespace meshhood {
 
 static_assert(kPacketCapacity == kLeafCapacity);
-
-/// A value for each lane of a leaf, or for each query of a packet.
-template <class T>
-using PerLane = std::array<T, kLeafCapacity>;
 
 /// The state of a leaf in a packet: words for each vertex.
 struct alignas(64) LeafWords {
@@ -53,9 +50,7 @@ struct alignas(64) PacketBalls {
   PerLane<float> surely_inside;  // >=; infinite for queries that do not exist
   PerLane<float> maybe_inside;   // >=; likewise
   // The center of the leaf of the queries, and squared distances from it.
-  float center_x;
-  float center_y;
-  float center_z;
+  FramePoint center;
   float inside_all;   // a vertex nearer than this is in all balls
   float outside_all;  // a vertex farther than this is in none
   QueryWord queries;  // those that exist

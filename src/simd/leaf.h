@@ -41,6 +41,10 @@ struct CrossEdge {
 /// any vertex on.
 using PositionsInOrder = std::variant<std::span<const float>, std::span<const double>>;
 
+/// A value for each lane of a leaf, or for each query of a packet.
+template <class T>
+using PerLane = std::array<T, kLeafCapacity>;
+
 /// For every set of eight bits: the positions of its bits in ascending order, followed by zeros.
 inline constexpr std::array<std::array<std::uint8_t, 8>, 256> kBitPositions = [] {
   std::array<std::array<std::uint8_t, 8>, 256> lists{};

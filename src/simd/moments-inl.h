@@ -8,48 +8,6 @@ namespace {
 
 constexpr std::size_t kEight = 8;
 
-/// The numbers from `first` on, which is aligned to a vector.
-HWY_INLINE Numbers load(const double& first) { return hn::Load(Doubles(), &first); }
-HWY_INLINE void store(Numbers numbers, double& first) { hn::Store(numbers, Doubles(), &first); }
-HWY_INLINE void add_to(double& first, Numbers numbers) { store(hn::Add(load(first), numbers), first); }
-
-/// How the power of a moment is the power of an earlier one times a coordinate.
-struct PowerStep {
-  std::size_t from;
-  std::size_t axis;
-};
-
-constexpr std::array<PowerStep, kMomentCount> kPowers = [] {
-  std::array<PowerStep, kMomentCount> steps{};
-  for (std::size_t i = 0; i <= 4; ++i) {
-    for (std::size_t j = 0; i + j <= 4; ++j) {
-      for (std::size_t k = 0; i + j + k <= 4; ++k) {
-        PowerStep& step = steps[moment_index(i, j, k)];
-        if (k > 0) {
-          step = {moment_index(i, j, k - 1), 2};
-        } else if (j > 0) {
-          step = {moment_index(i, j - 1, k), 1};
-        } else if (i > 0) {
-          step = {moment_index(i - 1, j, k), 0};
-        }
-      }
-    }
-  }
-  return steps;
-}();
-
-/// Lower powers first: the order in which the steps find their predecessors.
-constexpr std::array<std::size_t, kMomentCount> kByDegree = [] {
-  std::array<std::size_t, kMomentCount> order{};
-  std::size_t at = 0;
-  for (std::size_t degree = 0; degree <= 4; ++degree) {
-    for (std::size_t i = 0; i <= degree; ++i) {
-      for (std::size_t k = 0; i + k <= degree; ++k) order[at++] = moment_index(i, degree - i - k, k);
-    }
-  }
-  return order;
-}();
-
 /// Two numbers whose product is a power.
 struct Factors {
   std::size_t first;
@@ -62,54 +20,50 @@ constexpr std::array<Factors, 10> kSmallPowers{
 
 /// The moments, as products of two of these: the first two of the factors x..., y..., z... in this order, and the rest.
 constexpr std::array<Factors, PaddedMoments::kPadded> kFactors = [] {
-  const auto small = [](std::array<std::size_t, 3> n) {
-    constexpr std::array<std::size_t, 3> kFirstOfAxis{4, 7, 9};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (n[axis] == 2) return kFirstOfAxis[axis];
-      for (std::size_t other = axis + 1; other < 3; ++other) {
-        if (n[axis] == 1 && n[other] == 1) return kFirstOfAxis[axis] + other - axis;
-      }
-    }
-    return n[0] + 2 * n[1] + 3 * n[2];
+  const auto small = [](std::size_t a, std::size_t b) {
+    std::size_t place = 0;
+    while (kSmallPowers[place].first != std::min(a, b) || kSmallPowers[place].second != std::max(a, b)) ++place;
+    return place;
   };
   std::array<Factors, PaddedMoments::kPadded> factors{};
   for (std::size_t i = 0; i <= 4; ++i) {
     for (std::size_t j = 0; i + j <= 4; ++j) {
       for (std::size_t k = 0; i + j + k <= 4; ++k) {
-        std::array<std::size_t, 3> first{};
-        std::array<std::size_t, 3> rest{i, j, k};
-        for (std::size_t taken = 0, axis = 0; taken < 2 && axis < 3;) {
-          if (rest[axis] == 0) {
-            ++axis;
-            continue;
-          }
-          --rest[axis];
-          ++first[axis];
-          ++taken;
-        }
-        factors[moment_index(i, j, k)] = {small(first), small(rest)};
+        std::array<std::size_t, 4> axes{};  // of 1 x y z
+        std::fill_n(axes.begin(), i, 1);
+        std::fill_n(axes.begin() + i, j, 2);
+        std::fill_n(axes.begin() + i + j, k, 3);
+        factors[moment_index(i, j, k)] = {small(axes[0], axes[1]), small(axes[2], axes[3])};
       }
     }
   }
   return factors;
 }();
 
+HWY_INLINE double product(double a, double b) { return a * b; }
+HWY_INLINE Numbers product(Numbers a, Numbers b) { return hn::Mul(a, b); }
+
+/// Calls `f(m, power)` for the first `Count` powers of 1 x y z, times the weight. A number may be a vector.
+template <std::size_t Count, class Number, class F>
+HWY_INLINE void for_each_power(const Number (&coordinates)[4], Number weight, const F& f) {
+  Number small[kSmallPowers.size()];
+  Number weighted[kSmallPowers.size()];
+#pragma GCC unroll 10
+  for (std::size_t m = 0; m < kSmallPowers.size(); ++m) {
+    small[m] = product(coordinates[kSmallPowers[m].first], coordinates[kSmallPowers[m].second]);
+    weighted[m] = product(weight, small[m]);
+  }
+#pragma GCC unroll 40
+  for (std::size_t m = 0; m < Count; ++m) f(m, product(weighted[kFactors[m].first], small[kFactors[m].second]));
+}
+
 void add_powers(const MomentPoints& points, std::size_t size, PartialMoments& sums) {
   const std::size_t end = (size + kEight - 1) / kEight * kEight;
   for (std::size_t i = 0; i < end; i += kLanes<Doubles>) {
-    const std::size_t part = i % PartialMoments::kParts;
-    // NOLINTBEGIN(modernize-avoid-c-arrays): std::array drops the alignment
-    const Numbers axes[]{load(points.x[i]), load(points.y[i]), load(points.z[i])};
-    Numbers powers[kMomentCount];
-    // NOLINTEND(modernize-avoid-c-arrays)
-    powers[0] = load(points.weight[i]);
-    add_to(sums.at[0][part], powers[0]);
-#pragma GCC unroll 34
-    for (std::size_t step = 1; step < kMomentCount; ++step) {
-      const std::size_t m = kByDegree[step];
-      powers[m] = hn::Mul(powers[kPowers[m].from], axes[kPowers[m].axis]);
-      add_to(sums.at[m][part], powers[m]);
-    }
+    const Numbers coordinates[]{splat(1.0), load(points.x[i]), load(points.y[i]), load(points.z[i])};
+    for_each_power<kMomentCount>(coordinates, load(points.weight[i]), [&](std::size_t m, Numbers power) HWY_ATTR {
+      add_to(sums.at[m][i % PartialMoments::kParts], power);
+    });
   }
 }
 
@@ -132,11 +86,11 @@ HWY_INLINE Numbers chosen(const Numbers& low, const std::uint64_t& places, const
 /// their places.
 HWY_INLINE void powers_of(const MomentPoints& points, std::size_t i, PaddedMoments& out) {
   const Doubles d;
-  const auto one = number(1);
-  const auto x = number(points.x[i]);
-  const auto y = number(points.y[i]);
-  const auto z = number(points.z[i]);
-  const auto weight = number(points.weight[i]);
+  const auto one = splat(1.0);
+  const auto x = splat(points.x[i]);
+  const auto y = splat(points.y[i]);
+  const auto z = splat(points.z[i]);
+  const auto weight = splat(points.weight[i]);
   const auto either = [d](LaneMask places, Numbers yes, Numbers no)
                           HWY_ATTR { return hn::IfThenElse(mask_of(d, places), yes, no); };
   // 1 x y z xx xy xz yy, and yz zz: products of two coordinates.
@@ -155,18 +109,10 @@ HWY_INLINE void powers_of(const MomentPoints& points, std::size_t i, PaddedMomen
 #else
 /// The powers of point `i`, times its weight.
 HWY_INLINE void powers_of(const MomentPoints& points, std::size_t i, PaddedMoments& out) {
-  const std::array<double, 4> coordinates{1, points.x[i], points.y[i], points.z[i]};
-  std::array<double, kSmallPowers.size()> small;
-#pragma GCC unroll 10
-  for (std::size_t m = 0; m < small.size(); ++m) {
-    small[m] = coordinates[kSmallPowers[m].first] * coordinates[kSmallPowers[m].second];
-  }
-#pragma GCC unroll 40
-  for (std::size_t m = 0; m < PaddedMoments::kPadded; ++m) {
-    out.at[m] = (points.weight[i] * small[kFactors[m].first]) * small[kFactors[m].second];
-  }
+  const double coordinates[]{1, points.x[i], points.y[i], points.z[i]};
+  for_each_power<PaddedMoments::kPadded>(coordinates, points.weight[i],
+                                         [&](std::size_t m, double power) { out.at[m] = power; });
 }
-
 #endif
 
 /// The words of up to 64 points as a matrix of bits, transposed: bit `i` of number `q` is bit `q` of word `i`.
@@ -207,32 +153,33 @@ void add_powers_by_word(const MomentPoints& points, std::span<const QueryWord> w
   }
 }
 
-/// Products with the vectors from `first` on.
-HWY_INLINE VectorOf<Floats> products_with(const RoundedVectors& vectors, std::size_t first, float x, float y, float z) {
-  const Floats d;
-  return hn::Add(hn::Add(hn::Mul(hn::Set(d, x), hn::Load(d, &vectors.x[first])),
-                         hn::Mul(hn::Set(d, y), hn::Load(d, &vectors.y[first]))),
-                 hn::Mul(hn::Set(d, z), hn::Load(d, &vectors.z[first])));
-}
+/// For which of the normals of a row the product with one normal is > `limit`, and for which it is > `-limit`, in
+/// single precision.
+struct Facing {
+  HWY_INLINE Facing(const RoundedVectors& normals, const Points<Floats>& normal, float limit) {
+    const Floats d;
+    MasksOfRow<Floats> above;
+    MasksOfRow<Floats> not_below;
+    for (std::size_t part = 0; part < kVectors<Floats>; ++part) {
+      const auto products = scalar_product(normal, load_rows(d, normals, part * kLanes<Floats>));
+      above[part] = hn::Gt(products, splat(limit));
+      not_below[part] = hn::Gt(products, splat(-limit));
+    }
+    surely = bits_of_row(d, above);
+    perhaps = bits_of_row(d, not_below);
+  }
 
-/// Those of the numbers that are > `limit`, as bits.
-HWY_INLINE QueryWord greater(VectorOf<Floats> numbers, float limit) {
-  const Floats d;
-  return bits_of(d, hn::Gt(numbers, hn::Set(d, limit)));
-}
+  LaneMask surely;
+  LaneMask perhaps;
+};
 
 /// Those of the queries `among` that vertex `i` faces. Single precision decides almost all.
 HWY_INLINE QueryWord facing(const NormalColumns& normals, const RoundedVectors& rounded, std::size_t i,
                             const FacingTest& test, QueryWord among) {
-  QueryWord surely = 0;
-  QueryWord perhaps = 0;
-  for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Floats>) {
-    const auto products = products_with(test.rounded, q, rounded.x[i], rounded.y[i], rounded.z[i]);
-    surely |= greater(products, kFacingMargin) << q;
-    perhaps |= greater(products, -kFacingMargin) << q;
-  }
-  QueryWord word = among & perhaps;
-  for (QueryWord open = word & ~surely; open != 0; open &= open - 1) {
+  const Points<Floats> normal{splat(rounded.x[i]), splat(rounded.y[i]), splat(rounded.z[i])};
+  const Facing facing(test.rounded, normal, kFacingMargin);
+  QueryWord word = among & facing.perhaps;
+  for (QueryWord open = word & ~facing.surely; open != 0; open &= open - 1) {
     const auto q = static_cast<std::size_t>(std::countr_zero(open));
     const QueryVectors& to = test.normals;
     const double product = (normals.x[i] * to.x[q] + normals.y[i] * to.y[q]) + normals.z[i] * to.z[q];
@@ -244,23 +191,18 @@ HWY_INLINE QueryWord facing(const NormalColumns& normals, const RoundedVectors& 
 /// The axis decides first, for all vertices together, without branches, which could not be predicted.
 void keep_facing(const NormalColumns& normals, const FacingTest& test, std::span<QueryWord> words) {
   RoundedVectors rounded{};
-  QueryWord undecided = 0;
+  QueryWord used = 0;
   for (std::size_t i = 0; i < words.size(); ++i) {
     rounded.x[i] = static_cast<float>(normals.x[i]);
     rounded.y[i] = static_cast<float>(normals.y[i]);
     rounded.z[i] = static_cast<float>(normals.z[i]);
-    undecided |= QueryWord{words[i] != 0} << i;
+    used |= QueryWord{words[i] != 0} << i;
   }
-  QueryWord some = 0;
   const auto [x, y, z] = test.axis;
-  for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Floats>) {
-    const auto products =
-        products_with(rounded, i, static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
-    some |= greater(products, -test.all) << i;
-    undecided &= ~(greater(products, test.all) << i);
-  }
-  for (std::size_t i = 0; i < words.size(); ++i) words[i] &= 0 - (some >> i & 1U);
-  for (QueryWord left = undecided & some; left != 0; left &= left - 1) {
+  const Points<Floats> axis{splat(static_cast<float>(x)), splat(static_cast<float>(y)), splat(static_cast<float>(z))};
+  const Facing facing_axis(rounded, axis, test.all);
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] &= 0 - (facing_axis.perhaps >> i & 1U);
+  for (QueryWord left = used & facing_axis.perhaps & ~facing_axis.surely; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
     words[i] = facing(normals, rounded, i, test, words[i]);
   }
@@ -280,8 +222,8 @@ void append(std::uint32_t first, std::span<const QueryWord> words, QueryWord all
   for (std::size_t i = 0; i < words.size(); i += kLanes<Words>) {
     const LaneMask exist = first_lanes(static_cast<unsigned>(std::min(words.size() - i, kLanes<Words>)));
     const auto word = hn::LoadU(d, words.data() + i);
-    const auto place = hn::Add(hn::Set(d, static_cast<std::uint32_t>(first + i)), hn::Iota(d, 0));
-    const LaneMask is_common = bits_of(d, hn::Eq(word, hn::Set(d, all))) & exist;
+    const auto place = hn::Add(splat(static_cast<std::uint32_t>(first + i)), hn::Iota(d, 0));
+    const LaneMask is_common = bits_of(d, hn::Eq(word, splat(all))) & exist;
     const LaneMask is_some = bits_of(d, hn::Ne(word, hn::Zero(d))) & exist & ~is_common;
     append_chosen(place, word, is_common, common);
     append_chosen(place, word, is_some, some);
@@ -349,30 +291,17 @@ void take(const QueryMoments& moments, Tensor<Degree>& out) {
   }
 }
 
-/// The products of three numbers with those that `by` has for the same queries.
-struct Contraction {
-  HWY_INLINE Contraction(const QueryVectors& by, std::size_t q)
-      : x(load(by.x[q])), y(load(by.y[q])), z(load(by.z[q])) {}
-  HWY_INLINE Numbers operator()(Numbers a, Numbers b, Numbers c) const {
-    return hn::Add(hn::Add(hn::Mul(x, a), hn::Mul(y, b)), hn::Mul(z, c));
-  }
-
-  Numbers x;
-  Numbers y;
-  Numbers z;
-};
-
 /// One index of the tensor, summed with the components of a vector.
 template <std::size_t Degree>
 void contract(const Tensor<Degree>& in, const QueryVectors& by, Tensor<Degree - 1>& out) {
   for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>) {
-    const Contraction contraction(by, q);
+    const auto vector = load_rows(Doubles(), by, q);
 #pragma GCC unroll 4
     for (std::size_t m = 0; m < Degree; ++m) {
 #pragma GCC unroll 4
       for (std::size_t k = 0; k <= m; ++k) {
         const std::size_t below = (m + 1) * (m + 2) / 2 + k;
-        store(contraction(load(in[m * (m + 1) / 2 + k][q]), load(in[below][q]), load(in[below + 1][q])),
+        store(scalar_product(vector, {load(in[m * (m + 1) / 2 + k][q]), load(in[below][q]), load(in[below + 1][q])}),
               out[m * (m + 1) / 2 + k][q]);
       }
     }
@@ -381,7 +310,7 @@ void contract(const Tensor<Degree>& in, const QueryVectors& by, Tensor<Degree - 
 
 void contract(const Tensor<1>& in, const QueryVectors& by, QueryRow& out) {
   for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>) {
-    store(Contraction(by, q)(load(in[0][q]), load(in[1][q]), load(in[2][q])), out[q]);
+    store(scalar_product(load_rows(Doubles(), by, q), {load(in[0][q]), load(in[1][q]), load(in[2][q])}), out[q]);
   }
 }
 
@@ -454,7 +383,7 @@ void rotate(const QueryMoments& moments, const QueryVectors& u, const QueryVecto
 /// left out, since it changes L, D and x by factors only; so are the roots of Cholesky's method.
 template <std::size_t N>
 HWY_INLINE Numbers solve(Numbers (&b)[N][N], Numbers (&right)[N]) {
-  const auto one = number(1);
+  const auto one = splat(1.0);
   Numbers l[N][N];  // while `b` becomes L D
   Numbers inverse[N];
   auto product = one;
@@ -468,7 +397,7 @@ HWY_INLINE Numbers solve(Numbers (&b)[N][N], Numbers (&right)[N]) {
       for (std::size_t k = 0; k < j; ++k) b[i][j] = hn::Sub(b[i][j], hn::Mul(b[i][k], l[j][k]));
     }
     const auto is_positive = hn::Gt(diagonal, hn::Zero(Doubles()));
-    product = hn::Mul(product, hn::IfThenElse(is_positive, hn::Div(b[j][j], diagonal), number(-1)));
+    product = hn::Mul(product, hn::IfThenElse(is_positive, hn::Div(b[j][j], diagonal), splat(-1.0)));
     determinant = hn::IfThenElse(hn::Ge(product, determinant), determinant, product);  // NaN stays
     inverse[j] = hn::Div(one, b[j][j]);
 #pragma GCC unroll 6
@@ -489,42 +418,36 @@ HWY_INLINE Numbers solve(Numbers (&b)[N][N], Numbers (&right)[N]) {
   return determinant;
 }
 
-/// The fits of the queries from `q` on.
+/// The fits of the queries from `q` on; with a constant term if N is 6, which alone needs `sums` and `counts`.
 template <std::size_t N>
-HWY_INLINE void store_fits(const Numbers (&x)[N], Numbers determinant, std::size_t q, QueryQuadrics& out) {
+HWY_INLINE void fit(const FrameMoments& s, const QueryVectors* sums, const QueryRow* counts, std::size_t q,
+                    QueryQuadrics& out) {
+  const auto at = [q](const QueryRow& row) HWY_ATTR { return load(row[q]); };
+  Numbers b[N][N]{{at(s.u4)},
+                  {at(s.u3v), at(s.u2v2)},
+                  {at(s.u2v2), at(s.uv3), at(s.v4)},
+                  {at(s.u3), at(s.u2v), at(s.uv2), at(s.uu)},
+                  {at(s.u2v), at(s.uv2), at(s.v3), at(s.uv), at(s.vv)}};
+  Numbers x[N]{at(s.uun), at(s.uvn), at(s.vvn), at(s.un), at(s.vn)};
+  if constexpr (N == 6) {
+    const Numbers last[]{at(s.uu), at(s.uv), at(s.vv), at(sums->x), at(sums->y), at(*counts)};
+    for (std::size_t i = 0; i < N; ++i) b[5][i] = last[i];
+    x[5] = at(sums->z);
+  }
+  store(solve(b, x), out.determinant[q]);
   store(x[0], out.a[q]);
   store(x[1], out.b[q]);
   store(x[2], out.c[q]);
   store(x[3], out.d[q]);
   store(x[4], out.e[q]);
-  store(determinant, out.determinant[q]);
 }
 
 void fit_quadrics(const FrameMoments& s, QueryQuadrics& out) {
-  for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>) {
-    Numbers b[5][5]{{load(s.u4[q])},
-                    {load(s.u3v[q]), load(s.u2v2[q])},
-                    {load(s.u2v2[q]), load(s.uv3[q]), load(s.v4[q])},
-                    {load(s.u3[q]), load(s.u2v[q]), load(s.uv2[q]), load(s.uu[q])},
-                    {load(s.u2v[q]), load(s.uv2[q]), load(s.v3[q]), load(s.uv[q]), load(s.vv[q])}};
-    Numbers right[5]{load(s.uun[q]), load(s.uvn[q]), load(s.vvn[q]), load(s.un[q]), load(s.vn[q])};
-    const auto determinant = solve(b, right);
-    store_fits(right, determinant, q, out);
-  }
+  for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>) fit<5>(s, nullptr, nullptr, q, out);
 }
 
 void fit_jets(const FrameMoments& s, const QueryVectors& sums, const QueryRow& counts, QueryQuadrics& out) {
-  for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>) {
-    Numbers b[6][6]{{load(s.u4[q])},
-                    {load(s.u3v[q]), load(s.u2v2[q])},
-                    {load(s.u2v2[q]), load(s.uv3[q]), load(s.v4[q])},
-                    {load(s.u3[q]), load(s.u2v[q]), load(s.uv2[q]), load(s.uu[q])},
-                    {load(s.u2v[q]), load(s.uv2[q]), load(s.v3[q]), load(s.uv[q]), load(s.vv[q])},
-                    {load(s.uu[q]), load(s.uv[q]), load(s.vv[q]), load(sums.x[q]), load(sums.y[q]), load(counts[q])}};
-    Numbers right[6]{load(s.uun[q]), load(s.uvn[q]), load(s.vvn[q]), load(s.un[q]), load(s.vn[q]), load(sums.z[q])};
-    const auto determinant = solve(b, right);
-    store_fits(right, determinant, q, out);
-  }
+  for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>) fit<6>(s, &sums, &counts, q, out);
 }
 // NOLINTEND(modernize-avoid-c-arrays)
 

@@ -33,6 +33,14 @@ struct Target {
   const MomentKernels* moments;
 };
 
+/// Bit `i` for each lane `i`.
+template <class T>
+alignas(64) constexpr PerLane<T> kLaneBits = [] {
+  PerLane<T> bits{};
+  for (std::size_t i = 0; i < kLeafCapacity; ++i) bits[i] = static_cast<T>(T{1} << i);
+  return bits;
+}();
+
 /// For every set of four words of 32 bits: the places of their bytes.
 alignas(16) constexpr std::array<std::array<std::uint8_t, 16>, 16> kBytePlaces = [] {
   std::array<std::array<std::uint8_t, 16>, 16> lists{};

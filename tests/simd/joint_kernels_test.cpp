@@ -89,7 +89,7 @@ TEST_P(EveryJointPath, BallWordsAreThoseOfThePlainKernel) {
       balls.surely_inside[i] = exists ? threshold : std::numeric_limits<float>::infinity();
       balls.maybe_inside[i] = exists ? threshold - 0.05F : std::numeric_limits<float>::infinity();
     }
-    balls.center_x = coordinate();
+    balls.center.x = coordinate();
     balls.inside_all = static_cast<float>(random.uniform(0, 0.5));
     balls.outside_all = balls.inside_all + static_cast<float>(random.uniform(0, 2));
     PerLane<QueryWord> expected;

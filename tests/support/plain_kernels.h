@@ -95,9 +95,9 @@ inline QueryWord compare(const LeafPoints& points, std::size_t lane, const Packe
 }
 
 inline float squared_distance_to_center(const LeafPoints& points, std::size_t lane, const PacketBalls& balls) {
-  const float x = points.x[lane] - balls.center_x;
-  const float y = points.y[lane] - balls.center_y;
-  const float z = points.z[lane] - balls.center_z;
+  const float x = points.x[lane] - balls.center.x;
+  const float y = points.y[lane] - balls.center.y;
+  const float z = points.z[lane] - balls.center.z;
   return (x * x + y * y) + z * z;
 }
 

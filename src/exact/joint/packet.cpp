@@ -66,9 +66,9 @@ void Packet::set_balls(const JointGroup& group, std::span<const JointQuery> quer
   const double error = kRelativeError * reach * reach;
   const Point center = center_of(bounds) - group.center_in_frame();
   for (PerLane<float>* coordinate : {&balls_.x, &balls_.y, &balls_.z}) coordinate->fill(0);
-  balls_.center_x = static_cast<float>(center.x);
-  balls_.center_y = static_cast<float>(center.y);
-  balls_.center_z = static_cast<float>(center.z);
+  balls_.center.x = static_cast<float>(center.x);
+  balls_.center.y = static_cast<float>(center.y);
+  balls_.center.z = static_cast<float>(center.z);
   balls_.inside_all = low > 0 ? static_cast<float>(low * low - 4 * error) : 0;
   balls_.outside_all = static_cast<float>(high * high + 4 * error);
   balls_.queries = first_lanes(static_cast<unsigned>(size_));
