@@ -20,20 +20,19 @@ LaneMask within_exact(const Real* xyz, std::size_t size, const LeafBall& ball) {
 /// In single precision, if that decides all vertices.
 LaneMask within_float(const float* xyz, std::size_t size, const LeafBall& ball) {
   const Floats d;
-  MasksOfRow<Floats> inside;
-  MasksOfRow<Floats> outside;
-  for (std::size_t i = 0; i < kVectors<Floats>; ++i) {
-    const auto points = load_points(d, xyz + 3 * i * kLanes<Floats>);
-    const auto square = squared_length(difference(points, splat_point(d, ball)));
-    inside[i] = hn::Le(square, hn::Set(d, ball.surely_inside));
-    outside[i] = hn::Gt(square, hn::Set(d, ball.surely_outside));
+  LaneMask inside = 0;
+  LaneMask outside = 0;
+  const std::size_t end = kNarrow ? size : kLeafCapacity;  // a loop of two or four steps is better unrolled
+  for (std::size_t i = 0; i < end; i += kLanes<Floats>) {
+    const auto square = squared_length(difference(load_points(d, xyz + 3 * i), splat_point(d, ball)));
+    inside |= bits_of(d, hn::Le(square, splat(ball.surely_inside))) << i;
+    outside |= bits_of(d, hn::Gt(square, splat(ball.surely_outside))) << i;
   }
   const LaneMask all = first_lanes(static_cast<unsigned>(size));
-  const LaneMask surely = bits_of_row(d, inside);
-  if (((surely | bits_of_row(d, outside)) & all) != all) [[unlikely]] {
+  if (((inside | outside) & all) != all) [[unlikely]] {
     return within_exact(xyz, size, ball);
   }
-  return surely & all;
+  return inside & all;
 }
 
 LaneMask cross_edges(std::span<const CrossEdge> edges, LaneMask from) {
