@@ -31,13 +31,14 @@ struct ExactSum {
 /// Adds to each row the sum of the terms whose word has it; `term(k, i)`: those of word k for the rows from i on.
 template <class Term>
 HWY_INLINE void add_terms(std::span<const QueryWord> words, RowSums& sums, const Term& term) {
+  const Doubles d;
   for (std::size_t block = 0; block < kPacketCapacity; block += kBlock) {
     Block sum;
-    for (Numbers& part : sum) part = hn::Zero(Doubles());
+    for (Numbers& part : sum) part = hn::Zero(d);
     for (std::size_t k = 0; k < words.size(); ++k) {
       for (std::size_t part = 0; part < kParts; ++part) {
         const std::size_t i = block + part * kLanes<Doubles>;
-        sum[part] = hn::Add(sum[part], hn::IfThenElseZero(rows_in(words[k], i), term(k, i)));
+        sum[part] = hn::Add(sum[part], only(d, rows_in(words[k], i), term(k, i)));
       }
     }
     for (std::size_t part = 0; part < kParts; ++part) {
@@ -69,7 +70,7 @@ void lower_minima(std::span<const double> values, const QueryWord* words, PerLan
       const auto value = splat(values[k]);
       for (std::size_t part = 0; part < kParts; ++part) {
         const auto rows = rows_in(words[k], block + part * kLanes<Doubles>);
-        least[part] = hn::IfThenElse(hn::And(rows, hn::Lt(value, least[part])), value, least[part]);
+        least[part] = either(d, hn::And(rows, hn::Lt(value, least[part])), value, least[part]);
       }
     }
     for (std::size_t part = 0; part < kParts; ++part)
@@ -93,7 +94,7 @@ void sum_deviations(std::span<const double> values, const double* weights, const
       const auto weight = splat(weights[k]);
       for (std::size_t part = 0; part < kParts; ++part) {
         const auto rows = rows_in(words[k], block + part * kLanes<Doubles>);
-        const auto deviation = hn::IfThenElseZero(rows, hn::Sub(value, mean[part]));
+        const auto deviation = only(d, rows, hn::Sub(value, mean[part]));
         const auto weighted = hn::Mul(deviation, weight);
         sum[part] = hn::Add(sum[part], weighted);
         square[part] = hn::Add(square[part], hn::Mul(weighted, deviation));
@@ -126,7 +127,7 @@ void merge_spreads(const RowSpreads& added, RowSpreads& spreads) {
     const auto is_first = hn::Eq(weight, hn::Zero(d));  // then the difference of means would round
     const auto stays = hn::Eq(added_weight, hn::Zero(d));
     const auto chosen = [&](Numbers old, Numbers first, Numbers both)
-                            HWY_ATTR { return hn::IfThenElse(stays, old, hn::IfThenElse(is_first, first, both)); };
+                            HWY_ATTR { return either(d, stays, old, either(d, is_first, first, both)); };
     store(sum, spreads.weight[i]);
     store(chosen(mean, added_mean, moved.sum), spreads.mean[i]);
     store(chosen(low, added_low, hn::Add(low, moved.rest)), spreads.low[i]);
@@ -149,7 +150,7 @@ void set_weights(const Offsets& offsets, const KernelRadius& radius, bool square
   for (std::size_t i = 0; i < kPacketCapacity; i += kLanes<Doubles>) {
     const auto rest = hn::Add(hn::Sub(splat(radius.square), load(offsets.square[i])), splat(radius.low));
     const auto raw = hn::Mul(rest, splat(radius.inverse));
-    auto weight = hn::IfThenElseZero(hn::Gt(raw, hn::Zero(d)), raw);  // the rim may be beyond it by rounding
+    auto weight = only(d, hn::Gt(raw, hn::Zero(d)), raw);  // the rim may be beyond it by rounding
     if (squared) weight = hn::Mul(weight, weight);
     hn::StoreU(weight, d, &weights[i]);
   }

@@ -23,8 +23,8 @@ void convert_points(const float* xyz, unsigned size, const FloatCenter& center, 
     const auto exists = hn::FirstN(d, size > i ? size - i : 0);
     const auto points_of_part =
         scaled(difference(load_points(d, xyz + 3 * i), splat_point(d, center)), splat(center.scale));
-    const Points<Floats> to{hn::IfThenElseZero(exists, points_of_part.x), hn::IfThenElseZero(exists, points_of_part.y),
-                            hn::IfThenElseZero(exists, points_of_part.z)};
+    const Points<Floats> to{only(d, exists, points_of_part.x), only(d, exists, points_of_part.y),
+                            only(d, exists, points_of_part.z)};
     store_rows(to, points, i);
     store(squared_length(to), points.square[i]);
   }
@@ -66,7 +66,7 @@ BallWords ball_words(const LeafPoints& points, LaneMask lanes, const PacketBalls
   const LaneMask in_none = bits_of_row(d, far) & lanes;
   const LaneMask in_all = bits_of_row(d, near) & lanes & ~in_none;
   for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Words>) {
-    store(hn::IfThenElseZero(mask_of(Words(), in_all >> i), splat(balls.queries)), inside[i]);
+    store(only(Words(), mask_of(Words(), in_all >> i), splat(balls.queries)), inside[i]);
   }
   BallWords result{in_none == 0 ? balls.queries : 0, 0};
   for (LaneMask left = lanes & ~(in_all | in_none); left != 0; left &= left - 1) {
@@ -204,7 +204,7 @@ HWY_INLINE LaneMask spread_once(LeafWords& words, const LaneMask* adjacency, Lan
     const auto neighbors = splat(adjacency[lane]);
     for (std::size_t part = 0; part < kVectors<Words>; ++part) {
       const auto to = hn::TestBit(neighbors, lane_bits(Words(), part * kLanes<Words>));
-      arriving[part] = hn::Or(arriving[part], hn::IfThenElseZero(to, word));
+      arriving[part] = hn::Or(arriving[part], only(Words(), to, word));
     }
   }
   return grow(words, arriving);
@@ -260,7 +260,7 @@ class BitSums {
     for (const QueryWord word : each) {
       for (std::size_t part = 0; part < kVectors<Words>; ++part) {
         const auto has = hn::TestBit(splat(word), lane_bits(Words(), part * kLanes<Words>));
-        sums_[part] = hn::Add(sums_[part], hn::IfThenElseZero(has, weight));
+        sums_[part] = hn::Add(sums_[part], only(Words(), has, weight));
       }
     }
   }
@@ -342,14 +342,15 @@ class BitCounters {
 
 void count_words(const LeafWords* words, std::span<const LeafOfWords> list, PerLane<std::uint64_t>& counts) {
   alignas(64) static constexpr PerLane<QueryWord> kNone{};
-  constexpr std::size_t kLeaves = 16 / kVectors<Words>;  // of a block
   BitCounters counters;
-  for (std::size_t i = 0; i < list.size(); i += kLeaves) {
+  const std::size_t vectors = list.size() * kVectors<Words>;
+  for (std::size_t i = 0; i < vectors; i += 16) {
     Word block[16];
     for (std::size_t k = 0; k < 16; ++k) {
-      const std::size_t leaf = i + k / kVectors<Words>;
+      const std::size_t leaf = (i + k) / kVectors<Words>;
+      const std::size_t part = (i + k) % kVectors<Words>;
       const auto& reached = leaf < list.size() ? words[list[leaf].words].reached : kNone;
-      block[k] = load(reached[k % kVectors<Words> * kLanes<Words>]);
+      block[k] = load(reached[part * kLanes<Words>]);
     }
     counters.add(block);
   }

@@ -48,7 +48,7 @@ template <class D>
 constexpr std::size_t kVectors = kLeafCapacity / kLanes<D>;
 
 /// Whether vectors have 128 bits. Loops over single lanes are then often as fast.
-constexpr bool kNarrow = kLanes<Words> == 4;
+constexpr bool kNarrow = kLanes<Words> <= 4;
 
 /// The bits of the lanes of a row from `first` on.
 template <class D>
@@ -57,15 +57,42 @@ HWY_INLINE VectorOf<hn::RebindToUnsigned<D>> lane_bits(D /*d*/, std::size_t firs
   return hn::Load(words, &kLaneBits<hn::TFromD<decltype(words)>>[first]);
 }
 
+// For vectors of one lane, Highway would branch, and the loops around it would not become vectors.
+
+/// `yes` in the lanes of the mask, and `no` in the others.
+template <class D>
+HWY_INLINE VectorOf<D> either([[maybe_unused]] D d, hn::Mask<D> mask, VectorOf<D> yes, VectorOf<D> no) {
+#if HWY_TARGET == HWY_SCALAR
+  const auto lanes = hn::VecFromMask(d, mask);
+  return hn::Or(hn::And(lanes, yes), hn::AndNot(lanes, no));
+#else
+  return hn::IfThenElse(mask, yes, no);
+#endif
+}
+
+/// `yes` in the lanes of the mask, and 0 in the others.
+template <class D>
+HWY_INLINE VectorOf<D> only([[maybe_unused]] D d, hn::Mask<D> mask, VectorOf<D> yes) {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::And(hn::VecFromMask(d, mask), yes);
+#else
+  return hn::IfThenElseZero(mask, yes);
+#endif
+}
+
 /// The words of all lanes together.
 template <class D>
 HWY_INLINE QueryWord any_of([[maybe_unused]] D d, VectorOf<D> words) {
+#if HWY_TARGET == HWY_SCALAR
+  return static_cast<QueryWord>(hn::GetLane(words));
+#else
   if constexpr (kLanes<D> == 2) {
     return static_cast<QueryWord>(hn::ExtractLane(words, 0) | hn::ExtractLane(words, 1));
   } else {
     const hn::Half<D> half;
     return any_of(half, hn::Or(hn::LowerHalf(half, words), hn::UpperHalf(half, words)));
   }
+#endif
 }
 
 /// The lanes of the mask as bits.
@@ -86,7 +113,7 @@ HWY_INLINE LaneMask bits_of([[maybe_unused]] D d, hn::Mask<D> mask) {
   return wasm_i64x2_bitmask(mask.raw);
 #else
   const hn::RebindToUnsigned<D> words;
-  return any_of(words, hn::IfThenElseZero(hn::RebindMask(words, mask), lane_bits(d, 0)));
+  return any_of(words, only(words, hn::RebindMask(words, mask), lane_bits(d, 0)));
 #endif
 }
 
@@ -123,7 +150,7 @@ HWY_INLINE LaneMask bits_of_row([[maybe_unused]] D d, const MasksOfRow<D>& masks
   const hn::RebindToUnsigned<D> words;
   auto bits = hn::Zero(words);
   for (std::size_t i = 0; i < kVectors<D>; ++i) {
-    bits = hn::Or(bits, hn::IfThenElseZero(hn::RebindMask(words, masks[i]), lane_bits(d, i * kLanes<D>)));
+    bits = hn::Or(bits, only(words, hn::RebindMask(words, masks[i]), lane_bits(d, i * kLanes<D>)));
   }
   return any_of(words, bits);
 #endif
@@ -249,6 +276,7 @@ HWY_INLINE VectorOf<D> squared_length(const Points<D>& points) {
   return scalar_product(points, points);
 }
 
+#if HWY_TARGET != HWY_SCALAR
 /// The words whose bits are set first, in order.
 template <class D>
 HWY_INLINE VectorOf<D> compressed([[maybe_unused]] D d, VectorOf<D> words, LaneMask bits) {
@@ -269,16 +297,19 @@ HWY_INLINE VectorOf<D> compressed([[maybe_unused]] D d, VectorOf<D> words, LaneM
 #endif
 #endif
 }
+#endif
 
 /// Writes those of the numbers whose bits are set, and returns the end. May write a whole vector.
 template <class D>
 HWY_INLINE hn::TFromD<D>* write_chosen(D d, VectorOf<D> numbers, LaneMask bits, hn::TFromD<D>* out) {
-  if constexpr (sizeof(hn::TFromD<D>) == 4 && HWY_TARGET != HWY_EMU128) {
+#if HWY_TARGET != HWY_SCALAR
+  if constexpr (sizeof(hn::TFromD<D>) == 4) {
     // Compressed in a register, because compressing stores are slow on some processors.
     bits &= first_lanes(kLanes<D>);
     hn::StoreU(compressed(d, numbers, bits), d, out);
     return out + hwy::PopCount(bits);
   }
+#endif
   std::array<hn::TFromD<D>, kLanes<D>> each;
   hn::StoreU(numbers, d, each.data());
   for (const auto number : each) {

@@ -56,9 +56,8 @@ alignas(16) constexpr std::array<std::array<std::uint8_t, 16>, 16> kBytePlaces =
 
 // Assertions of Highway would need its library.
 #define HWY_IS_DEBUG_BUILD 0
-// The target without vector instructions: Highway avoids it before g++ 12.3 because of GCC bug 106322, which is about
-// the upper half of products of 16 bits. No kernel has any.
-#define HWY_BROKEN_EMU128 0
+// Without vector instructions, vectors of one lane, which leave loops that the compiler understands.
+#define HWY_BROKEN_EMU128 1
 // On ARM, one target, without the instructions for cryptography that Highway would allow itself: not every processor
 // has them.
 #if defined(__arm__) || defined(__aarch64__)
