@@ -14,7 +14,7 @@ from . import meshes, places, programs, results, timing
 MESHES = ("cat0", "cortex", "dragon", "head_skin", "mri_head")
 RADII = (2, 3, 5, 10, 20, 65)
 # The targets of the kernels, as the library names them, from fast to slow.
-KERNELS = ("AVX3", "AVX2", "SSE4", "NEON", "EMU128")
+KERNELS = ("AVX3", "AVX2", "SSE4", "NEON", "SCALAR")
 METHODS = ("bfs", "single_count", "single_ids", "count", "ids", "one_thread", "two_threads", "two_processes", "one_thread_work",
            "two_threads_work", *KERNELS, "kept", "python")
 ROUNDS = 5

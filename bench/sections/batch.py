@@ -79,11 +79,11 @@ def others(data):
         for row in result["rows"]:
             if "python" not in row:
                 continue
-            best = next(isa for isa in ("AVX3", "AVX2", "SSE4", "EMU128") if isa in row)
+            best = next(isa for isa in ("AVX3", "AVX2", "SSE4", "SCALAR") if isa in row)
             rows.append([name, f"{row['radius_edges']:g}", ratio(row, "one_thread", "two_threads"),
                          ratio(row, "one_thread", "two_processes", times=2),
                          ratio(row, "two_threads_work", "one_thread_work"),
-                         ratio(row, best, "AVX2"), ratio(row, best, "EMU128"), number(row["python"]["median"]),
+                         ratio(row, best, "AVX2"), ratio(row, best, "SCALAR"), number(row["python"]["median"]),
                          ratio(row, "python", "kept")])
     return OTHERS_NOTE + table(header, rows) if rows else ""
 

@@ -22,7 +22,9 @@ LaneMask within_float(const float* xyz, std::size_t size, const LeafBall& ball) 
   const Floats d;
   LaneMask inside = 0;
   LaneMask outside = 0;
-  const std::size_t end = kNarrow ? size : kLeafCapacity;  // a loop of two or four steps is better unrolled
+  // An unrolled loop over all lanes takes less time than one that stops early, but not in WebAssembly.
+  constexpr bool kUnrolled = HWY_TARGET != HWY_WASM && HWY_TARGET != HWY_SCALAR;
+  const std::size_t end = kUnrolled ? kLeafCapacity : size;
   for (std::size_t i = 0; i < end; i += kLanes<Floats>) {
     const auto square = squared_length(difference(load_points(d, xyz + 3 * i), splat_point(d, ball)));
     inside |= bits_of(d, hn::Le(square, splat(ball.surely_inside))) << i;
@@ -67,7 +69,7 @@ LaneMask reachable(const LaneMask* adjacency, LaneMask among, LaneMask from) {
   for (LaneMask reached = from;;) {
     LaneMask near = 0;  // the lanes with a neighbor among those reached
     for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Words>) {
-      near |= lanes_with(hn::LoadU(d, adjacency + i), hn::Set(d, reached)) << i;
+      near |= bits_of(d, hn::Ne(hn::And(hn::LoadU(d, adjacency + i), splat(reached)), hn::Zero(d))) << i;
     }
     const LaneMask grown = reached | (near & among);
     if (grown == reached) return reached;

@@ -21,10 +21,8 @@ void convert_points(const float* xyz, unsigned size, const FloatCenter& center, 
   const Floats d;
   for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Floats>) {
     const auto exists = hn::FirstN(d, size > i ? size - i : 0);
-    const auto points_of_part =
-        scaled(difference(load_points(d, xyz + 3 * i), splat_point(d, center)), splat(center.scale));
-    const Points<Floats> to{only(d, exists, points_of_part.x), only(d, exists, points_of_part.y),
-                            only(d, exists, points_of_part.z)};
+    const auto offset = scaled(difference(load_points(d, xyz + 3 * i), splat_point(d, center)), splat(center.scale));
+    const Points<Floats> to{only(d, exists, offset.x), only(d, exists, offset.y), only(d, exists, offset.z)};
     store_rows(to, points, i);
     store(squared_length(to), points.square[i]);
   }
@@ -58,8 +56,8 @@ BallWords ball_words(const LeafPoints& points, LaneMask lanes, const PacketBalls
   MasksOfRow<Floats> near;
   MasksOfRow<Floats> far;
   for (std::size_t part = 0; part < kVectors<Floats>; ++part) {
-    const auto points_of_part = load_rows(d, points, part * kLanes<Floats>);
-    const auto square = squared_length(difference(points_of_part, splat_point(d, balls.center)));
+    const auto vertices = load_rows(d, points, part * kLanes<Floats>);
+    const auto square = squared_length(difference(vertices, splat_point(d, balls.center)));
     near[part] = hn::Lt(square, splat(balls.inside_all));
     far[part] = hn::Gt(square, splat(balls.outside_all));
   }

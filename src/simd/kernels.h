@@ -26,7 +26,7 @@ enum class Isa : std::uint8_t {};
 /// For tests. Not while another thread uses the library.
 void limit_isa(Isa most);
 
-/// The name of the target in Highway, such as AVX3, AVX2, SSE4, NEON, WASM; EMU128 is without vector instructions.
+/// The name of the target in Highway, such as AVX3, AVX2, SSE4, NEON, WASM; SCALAR is without vector instructions.
 [[nodiscard]] const char* name_of(Isa isa);
 
 struct Kernels {

@@ -31,7 +31,6 @@ template <class T>
 HWY_INLINE void store(VectorOf<Tag<T>> numbers, T& first) {
   hn::Store(numbers, Tag<T>(), &first);
 }
-
 template <class T>
 HWY_INLINE void add_to(T& first, VectorOf<Tag<T>> numbers) {
   store(hn::Add(load(first), numbers), first);
@@ -47,7 +46,7 @@ HWY_INLINE VectorOf<Tag<T>> splat(T number) {
 template <class D>
 constexpr std::size_t kVectors = kLeafCapacity / kLanes<D>;
 
-/// Whether vectors have 128 bits. Loops over single lanes are then often as fast.
+/// Whether vectors have at most 128 bits. Where few of the 32 lanes matter, a loop over these is then as fast.
 constexpr bool kNarrow = kLanes<Words> <= 4;
 
 /// The bits of the lanes of a row from `first` on.
@@ -57,7 +56,7 @@ HWY_INLINE VectorOf<hn::RebindToUnsigned<D>> lane_bits(D /*d*/, std::size_t firs
   return hn::Load(words, &kLaneBits<hn::TFromD<decltype(words)>>[first]);
 }
 
-// For vectors of one lane, Highway would branch, and the loops around it would not become vectors.
+// Highway chooses between vectors of one lane by a branch, and the compiler finds no vectors in loops with branches.
 
 /// `yes` in the lanes of the mask, and `no` in the others.
 template <class D>
@@ -165,16 +164,6 @@ HWY_INLINE hn::Mask<D> mask_of(D d, LaneMask bits) {
   const hn::RebindToUnsigned<D> words;
   const auto bits_of_lanes = hn::Set(words, static_cast<hn::TFromD<decltype(words)>>(bits));
   return hn::RebindMask(d, hn::TestBit(bits_of_lanes, lane_bits(d, 0)));
-#endif
-}
-
-/// The lanes whose words have one of the bits.
-HWY_INLINE LaneMask lanes_with(VectorOf<Words> words, VectorOf<Words> bits) {
-#if HWY_TARGET == HWY_AVX3
-  return _mm512_test_epi32_mask(words.raw, bits.raw);
-#else
-  const Words d;
-  return bits_of(d, hn::Ne(hn::And(words, bits), hn::Zero(d)));
 #endif
 }
 

@@ -237,13 +237,6 @@ void collect(const PartialMoments& common, const MomentsByQuery& some, QueryMome
   }
 }
 
-/// `M_p += t M_(p-1)`, where p is the power of the axis.
-struct ShiftStep {
-  std::size_t axis;
-  std::size_t to;
-  std::size_t from;
-};
-
 /// The place of the moment with power p of the axis, and powers a and b of the next two.
 constexpr std::size_t rotated_index(std::size_t axis, std::size_t p, std::size_t a, std::size_t b) {
   if (axis == 0) return moment_index(p, a, b);
@@ -251,31 +244,23 @@ constexpr std::size_t rotated_index(std::size_t axis, std::size_t p, std::size_t
 }
 
 /// Each `start` replaces one factor x of the powers above it by x + t: Horner's scheme for a Taylor shift.
-constexpr std::array<ShiftStep, 105> kShift = [] {
-  std::array<ShiftStep, 105> steps{};
-  std::size_t at = 0;
+void shift(QueryMoments& moments, const QueryVectors& by) {
+  const std::array<const QueryRow*, 3> axes{&by.x, &by.y, &by.z};
+  const auto step = [&](std::size_t axis, std::size_t p, std::size_t a, std::size_t b) HWY_ATTR {
+    const QueryRow& t = *axes[axis];
+    const QueryRow& from = moments.at[rotated_index(axis, p - 1, a, b)];
+    QueryRow& to = moments.at[rotated_index(axis, p, a, b)];
+    for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>)
+      add_to(to[q], hn::Mul(load(t[q]), load(from[q])));
+  };
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t start = 0; start < 4; ++start) {
       for (std::size_t p = 4; p > start; --p) {
         for (std::size_t a = 0; a + p <= 4; ++a) {
-          for (std::size_t b = 0; a + b + p <= 4; ++b) {
-            steps[at++] = {axis, rotated_index(axis, p, a, b), rotated_index(axis, p - 1, a, b)};
-          }
+          for (std::size_t b = 0; a + b + p <= 4; ++b) step(axis, p, a, b);
         }
       }
     }
-  }
-  return steps;
-}();
-
-void shift(QueryMoments& moments, const QueryVectors& by) {
-  const std::array<const QueryRow*, 3> axes{&by.x, &by.y, &by.z};
-  for (const ShiftStep& step : kShift) {
-    const QueryRow& t = *axes[step.axis];
-    const QueryRow& from = moments.at[step.from];
-    QueryRow& to = moments.at[step.to];
-    for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>)
-      add_to(to[q], hn::Mul(load(t[q]), load(from[q])));
   }
 }
 

@@ -42,7 +42,7 @@ alignas(64) constexpr PerLane<T> kLaneBits = [] {
 }();
 
 /// For every set of four words of 32 bits: the places of their bytes.
-alignas(16) constexpr std::array<std::array<std::uint8_t, 16>, 16> kBytePlaces = [] {
+[[maybe_unused]] alignas(16) constexpr std::array<std::array<std::uint8_t, 16>, 16> kBytePlaces = [] {
   std::array<std::array<std::uint8_t, 16>, 16> lists{};
   for (std::size_t set = 0; set < 16; ++set) {
     for (std::size_t i = 0; i < 16; ++i)

@@ -35,7 +35,7 @@ __version__: str = _core.__version__
 
 def show_config() -> None:
     """Prints the version and the instructions that the inner loops use on this processor, by the names of Google
-    Highway: AVX3 for AVX-512, AVX2, SSE4, NEON, or EMU128 for none but those of every processor. Answers do not depend on
+    Highway: AVX3 for AVX-512, AVX2, SSE4, NEON, or SCALAR for none but those of every processor. Answers do not depend on
     them, only their speed."""
     print(f"meshhood {__version__}, kernels for {_core.kernel_target()}")
 
