@@ -85,83 +85,6 @@ void clear_words(LeafWords& words) {
   }
 }
 
-#if HWY_TARGET == HWY_AVX3
-/// A word for each of 32 lanes.
-struct Words32 {
-  Word low;
-  Word high;
-};
-
-/// The edges within a leaf as lists with one neighbor of each lane. A lane that has no more names itself. One
-/// instruction then takes 16 words from any of 32 lanes.
-class NeighborLists {
- public:
-  explicit NeighborLists(const LaneMask* adjacency) {
-    const Words d;
-    const auto lanes = hn::Iota(d, 0);
-    Words32 left{hn::LoadU(d, adjacency), hn::LoadU(d, adjacency + 16)};
-    while (!hn::AllFalse(d, hn::Ne(hn::Or(left.low, left.high), hn::Zero(d)))) {
-      lists_[size_++] = {take_first(left.low, lanes), take_first(left.high, hn::Add(lanes, hn::Set(d, 16)))};
-    }
-  }
-
-  /// The words of all neighbors of each lane, and its own.
-  [[nodiscard]] Words32 gather(const Words32& words) const {
-    Words32 all = words;
-    for (std::size_t i = 0; i < size_; ++i) {
-      all.low = hn::Or(all.low, Word{_mm512_permutex2var_epi32(words.low.raw, lists_[i].low.raw, words.high.raw)});
-      all.high = hn::Or(all.high, Word{_mm512_permutex2var_epi32(words.low.raw, lists_[i].high.raw, words.high.raw)});
-    }
-    return all;
-  }
-
- private:
-  /// Removes the first neighbor of each lane, and returns it. What is left does not wait for which it was.
-  static Word take_first(Word& neighbors, Word lanes) {
-    const Words d;
-    const auto has = hn::Ne(neighbors, hn::Zero(d));
-    const auto first = hn::And(neighbors, hn::Sub(hn::Zero(d), neighbors));
-    neighbors = hn::AndNot(first, neighbors);
-    // The exponent of a power of two.
-    const Word exponent{_mm512_srli_epi32(_mm512_castps_si512(_mm512_cvtepu32_ps(first.raw)), 23)};
-    return hn::IfThenElse(has, hn::Sub(exponent, hn::Set(d, 127)), lanes);
-  }
-
-  Words32 lists_[kLeafCapacity];  // NOLINT(modernize-avoid-c-arrays): std::array drops the alignment
-  std::size_t size_ = 0;
-};
-
-SpreadWords spread_words(LeafWords& words, const LaneMask* adjacency, QueryWord whole) {
-  const Words d;
-  const auto differing32 = [d](const Words32& a, const Words32& b) HWY_ATTR {
-    return bits_of(d, hn::Ne(a.low, b.low)) | bits_of(d, hn::Ne(a.high, b.high)) << 16;
-  };
-  const Words32 inside{load(words.inside[0]), load(words.inside[16])};
-  const Words32 before{load(words.reached[0]), load(words.reached[16])};
-  Words32 reached{hn::Or(before.low, hn::And(load(words.pending[0]), inside.low)),
-                  hn::Or(before.high, hn::And(load(words.pending[16]), inside.high))};
-  store(hn::Zero(d), words.pending[0]);
-  store(hn::Zero(d), words.pending[16]);
-  if (whole != 0) {
-    const auto any = splat(any_of(d, hn::Or(reached.low, reached.high)) & whole);
-    reached = {hn::Or(reached.low, hn::And(any, inside.low)), hn::Or(reached.high, hn::And(any, inside.high))};
-  }
-  LaneMask open = differing32(reached, inside);
-  if (open != 0 && differing32(reached, before) != 0) {
-    const NeighborLists neighbors(adjacency);
-    for (LaneMask gained = open; gained != 0 && open != 0;) {
-      Words32 grown = neighbors.gather(reached);
-      grown = {hn::And(grown.low, inside.low), hn::And(grown.high, inside.high)};
-      gained = differing32(grown, reached);
-      open = differing32(grown, inside);
-      reached = grown;
-    }
-  }
-  store(reached.low, words.reached[0]);
-  store(reached.high, words.reached[16]);
-  return {differing32(reached, before), open == 0};
-}
-#else
 /// Adds what arrives, where the balls have it, to the words that are reached; returns the lanes that gain.
 HWY_INLINE LaneMask grow(LeafWords& words, const WordsOfRow& arriving) {
   MasksOfRow<Words> stay;
@@ -191,34 +114,88 @@ HWY_INLINE LaneMask take_pending(LeafWords& words, QueryWord whole) {
   return grow(words, arriving);
 }
 
-/// Reaches the open neighbors of the lanes `from`; returns those that have gained.
-HWY_INLINE LaneMask spread_once(LeafWords& words, const LaneMask* adjacency, LaneMask from, LaneMask open) {
-  WordsOfRow arriving;
-  for (Word& word : arriving) word = hn::Zero(Words());
-  for (; from != 0; from &= from - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(from));
-    if ((adjacency[lane] & open) == 0) continue;
-    const auto word = splat(words.reached[lane]);
-    const auto neighbors = splat(adjacency[lane]);
-    for (std::size_t part = 0; part < kVectors<Words>; ++part) {
-      const auto to = hn::TestBit(neighbors, lane_bits(Words(), part * kLanes<Words>));
-      arriving[part] = hn::Or(arriving[part], only(Words(), to, word));
+/// The edges within a leaf. `pass` sets what arrives at each lane over the edges from the lanes `from`, or from more;
+/// it may leave out lanes that are not open.
+#if HWY_TARGET == HWY_AVX3
+/// As lists with one neighbor of each lane. A lane that has no more names itself. One instruction then takes 16 words
+/// from any of 32 lanes.
+class Neighbors {
+ public:
+  explicit Neighbors(const LaneMask* adjacency) {
+    const Words d;
+    const Word lanes[]{hn::Iota(d, 0), hn::Iota(d, 16)};
+    WordsOfRow left{hn::LoadU(d, adjacency), hn::LoadU(d, adjacency + 16)};
+    for (; !hn::AllFalse(d, hn::Ne(hn::Or(left[0], left[1]), hn::Zero(d))); ++size_) {
+      for (std::size_t part = 0; part < 2; ++part) lists_[size_][part] = take_first(left[part], lanes[part]);
     }
   }
-  return grow(words, arriving);
-}
+
+  void pass(const PerLane<QueryWord>& words, LaneMask /*from*/, LaneMask /*open*/, WordsOfRow& arriving) const {
+    const Word low = load(words[0]);
+    const Word high = load(words[16]);
+    arriving[0] = arriving[1] = hn::Zero(Words());
+    for (std::size_t i = 0; i < size_; ++i) {
+      for (std::size_t part = 0; part < 2; ++part) {
+        const Word from{_mm512_permutex2var_epi32(low.raw, lists_[i][part].raw, high.raw)};
+        arriving[part] = hn::Or(arriving[part], from);
+      }
+    }
+  }
+
+ private:
+  /// Removes the first neighbor of each lane, and returns it. What is left does not wait for which it was.
+  static Word take_first(Word& neighbors, Word lanes) {
+    const Words d;
+    const auto has = hn::Ne(neighbors, hn::Zero(d));
+    const auto first = hn::And(neighbors, hn::Sub(hn::Zero(d), neighbors));
+    neighbors = hn::AndNot(first, neighbors);
+    // The exponent of a power of two.
+    const Word exponent{_mm512_srli_epi32(_mm512_castps_si512(_mm512_cvtepu32_ps(first.raw)), 23)};
+    return hn::IfThenElse(has, hn::Sub(exponent, hn::Set(d, 127)), lanes);
+  }
+
+  WordsOfRow lists_[kLeafCapacity];  // NOLINT(modernize-avoid-c-arrays): std::array drops the alignment
+  std::size_t size_ = 0;
+};
+#else
+class Neighbors {
+ public:
+  explicit Neighbors(const LaneMask* adjacency) : adjacency_(adjacency) {}
+
+  void pass(const PerLane<QueryWord>& words, LaneMask from, LaneMask open, WordsOfRow& arriving) const {
+    for (Word& word : arriving) word = hn::Zero(Words());
+    for (; from != 0; from &= from - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(from));
+      if ((adjacency_[lane] & open) == 0) continue;
+      const auto word = splat(words[lane]);
+      const auto neighbors = splat(adjacency_[lane]);
+      for (std::size_t part = 0; part < kVectors<Words>; ++part) {
+        const auto to = hn::TestBit(neighbors, lane_bits(Words(), part * kLanes<Words>));
+        arriving[part] = hn::Or(arriving[part], only(Words(), to, word));
+      }
+    }
+  }
+
+ private:
+  const LaneMask* adjacency_;
+};
+#endif
 
 SpreadWords spread_words(LeafWords& words, const LaneMask* adjacency, QueryWord whole) {
   SpreadWords result{take_pending(words, whole), false};
   LaneMask open = differing(words.reached, words.inside);
-  for (LaneMask fresh = result.gained; fresh != 0 && open != 0; open = differing(words.reached, words.inside)) {
-    fresh = spread_once(words, adjacency, fresh, open);
-    result.gained |= fresh;
+  if (result.gained != 0 && open != 0) {
+    const Neighbors neighbors(adjacency);
+    for (LaneMask fresh = result.gained; fresh != 0 && open != 0; open = differing(words.reached, words.inside)) {
+      WordsOfRow arriving;
+      neighbors.pass(words.reached, fresh, open, arriving);
+      fresh = grow(words, arriving);
+      result.gained |= fresh;
+    }
   }
   result.closed = open == 0;
   return result;
 }
-#endif
 
 /// Adds how many words of a vector have each bit, times a power of two, to the counts.
 class BitSums {
