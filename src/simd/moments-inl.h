@@ -264,104 +264,82 @@ void shift(QueryMoments& moments, const QueryVectors& by) {
   }
 }
 
-/// The components of a symmetric tensor of degree n in space: those with m of the indices y or z, and k of these z, at
+// NOLINTBEGIN(modernize-avoid-c-arrays): std::array drops the alignment
+
+/// The components of a symmetric tensor in space: those with m of the indices y or z, and k of these z, at
 /// m (m + 1) / 2 + k.
 template <std::size_t Degree>
-using Tensor = std::array<QueryRow, (Degree + 1) * (Degree + 2) / 2>;
+struct Tensor {
+  Numbers at[(Degree + 1) * (Degree + 2) / 2];
+};
 
+/// The moments of one degree, of the queries from `q` on.
 template <std::size_t Degree>
-void take(const QueryMoments& moments, Tensor<Degree>& out) {
+HWY_INLINE Tensor<Degree> tensor(const QueryMoments& moments, std::size_t q) {
+  Tensor<Degree> result;
+#pragma GCC unroll 5
   for (std::size_t m = 0; m <= Degree; ++m) {
-    for (std::size_t k = 0; k <= m; ++k) out[m * (m + 1) / 2 + k] = moments.at[moment_index(Degree - m, m - k, k)];
+#pragma GCC unroll 5
+    for (std::size_t k = 0; k <= m; ++k) {
+      result.at[m * (m + 1) / 2 + k] = load(moments.at[moment_index(Degree - m, m - k, k)][q]);
+    }
   }
+  return result;
 }
 
 /// One index of the tensor, summed with the components of a vector.
 template <std::size_t Degree>
-void contract(const Tensor<Degree>& in, const QueryVectors& by, Tensor<Degree - 1>& out) {
-  for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>) {
-    const auto vector = load_rows(Doubles(), by, q);
+HWY_INLINE Tensor<Degree - 1> contract(const Tensor<Degree>& in, const Points<Doubles>& by) {
+  Tensor<Degree - 1> result;
 #pragma GCC unroll 4
-    for (std::size_t m = 0; m < Degree; ++m) {
+  for (std::size_t m = 0; m < Degree; ++m) {
 #pragma GCC unroll 4
-      for (std::size_t k = 0; k <= m; ++k) {
-        const std::size_t below = (m + 1) * (m + 2) / 2 + k;
-        store(scalar_product(vector, {load(in[m * (m + 1) / 2 + k][q]), load(in[below][q]), load(in[below + 1][q])}),
-              out[m * (m + 1) / 2 + k][q]);
-      }
+    for (std::size_t k = 0; k <= m; ++k) {
+      const std::size_t at = m * (m + 1) / 2 + k;
+      const std::size_t below = (m + 1) * (m + 2) / 2 + k;
+      result.at[at] = scalar_product(by, {in.at[at], in.at[below], in.at[below + 1]});
     }
   }
+  return result;
 }
 
-void contract(const Tensor<1>& in, const QueryVectors& by, QueryRow& out) {
+void rotate(const QueryMoments& moments, const QueryVectors& us, const QueryVectors& vs, const QueryVectors& ns,
+            FrameMoments& out) {
+  const Doubles d;
   for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>) {
-    store(scalar_product(load_rows(Doubles(), by, q), {load(in[0][q]), load(in[1][q]), load(in[2][q])}), out[q]);
+    const auto u = load_rows(d, us, q);
+    const auto v = load_rows(d, vs, q);
+    const auto n = load_rows(d, ns, q);
+    const auto put = [q](const Tensor<1>& last, const Points<Doubles>& by, QueryRow& row)
+                         HWY_ATTR { store(contract(last, by).at[0], row[q]); };
+    const auto fourth = tensor<4>(moments, q);
+    const auto fourth_uu = contract(contract(fourth, u), u);
+    const auto fourth_vv = contract(contract(fourth, v), v);
+    put(contract(fourth_uu, u), u, out.u4);
+    put(contract(fourth_uu, u), v, out.u3v);
+    put(contract(fourth_uu, v), v, out.u2v2);
+    put(contract(fourth_vv, v), u, out.uv3);
+    put(contract(fourth_vv, v), v, out.v4);
+    const auto third = tensor<3>(moments, q);
+    const auto third_uu = contract(contract(third, u), u);
+    const auto third_uv = contract(contract(third, v), u);
+    const auto third_vv = contract(contract(third, v), v);
+    put(third_uu, u, out.u3);
+    put(third_uu, v, out.u2v);
+    put(third_uu, n, out.uun);
+    put(third_uv, n, out.uvn);
+    put(third_vv, u, out.uv2);
+    put(third_vv, v, out.v3);
+    put(third_vv, n, out.vvn);
+    const auto second_u = contract(tensor<2>(moments, q), u);
+    const auto second_v = contract(tensor<2>(moments, q), v);
+    put(second_u, u, out.uu);
+    put(second_u, v, out.uv);
+    put(second_u, n, out.un);
+    put(second_v, v, out.vv);
+    put(second_v, n, out.vn);
   }
 }
-
-void rotate_fourth(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v, FrameMoments& out) {
-  alignas(64) Tensor<4> all;
-  alignas(64) Tensor<3> once;
-  alignas(64) Tensor<2> uu;
-  alignas(64) Tensor<2> vv;
-  alignas(64) Tensor<1> last;
-  take<4>(moments, all);
-  contract<4>(all, u, once);
-  contract<3>(once, u, uu);
-  contract<4>(all, v, once);
-  contract<3>(once, v, vv);
-  contract<2>(uu, u, last);
-  contract(last, u, out.u4);
-  contract(last, v, out.u3v);
-  contract<2>(vv, v, last);
-  contract(last, u, out.uv3);
-  contract(last, v, out.v4);
-  contract<2>(uu, v, last);
-  contract(last, v, out.u2v2);
-}
-
-void rotate_third(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v, const QueryVectors& n,
-                  FrameMoments& out) {
-  alignas(64) Tensor<3> all;
-  alignas(64) Tensor<2> once;
-  alignas(64) Tensor<1> last;
-  take<3>(moments, all);
-  contract<3>(all, u, once);
-  contract<2>(once, u, last);
-  contract(last, u, out.u3);
-  contract(last, v, out.u2v);
-  contract(last, n, out.uun);
-  contract<3>(all, v, once);
-  contract<2>(once, v, last);
-  contract(last, u, out.uv2);
-  contract(last, v, out.v3);
-  contract(last, n, out.vvn);
-  contract<2>(once, u, last);
-  contract(last, n, out.uvn);
-}
-
-void rotate_second(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v, const QueryVectors& n,
-                   FrameMoments& out) {
-  alignas(64) Tensor<2> all;
-  alignas(64) Tensor<1> last;
-  take<2>(moments, all);
-  contract<2>(all, u, last);
-  contract(last, u, out.uu);
-  contract(last, v, out.uv);
-  contract(last, n, out.un);
-  contract<2>(all, v, last);
-  contract(last, v, out.vv);
-  contract(last, n, out.vn);
-}
-
-void rotate(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v, const QueryVectors& n,
-            FrameMoments& out) {
-  rotate_fourth(moments, u, v, out);
-  rotate_third(moments, u, v, n, out);
-  rotate_second(moments, u, v, n, out);
-}
-
-// NOLINTBEGIN(modernize-avoid-c-arrays): std::array drops the alignment
 
 /// Solves b x = right by the decomposition b = L D L^T, where `b` is symmetric and given by its lower triangle, and
 /// writes x to `right`; returns the determinant of `MomentKernels::fit_quadrics`. The scaling to a diagonal of ones is
