@@ -123,9 +123,8 @@ HWY_INLINE void points_of_queries(std::span<const QueryWord> words, std::array<s
     const std::size_t count = std::min(words.size() - first, kLanes<Words>);
     const auto some = hn::LoadU(d, words.data() + first);
     for (std::size_t q = 0; q < kPacketCapacity; ++q) {
-      const LaneMask lanes =
-          lanes_with(some, hn::Set(d, QueryWord{1} << q)) & first_lanes(static_cast<unsigned>(count));
-      out[q] |= std::uint64_t{lanes} << first;
+      const LaneMask lanes = bits_of(d, hn::TestBit(some, splat(QueryWord{1} << q)));
+      out[q] |= std::uint64_t{lanes & first_lanes(static_cast<unsigned>(count))} << first;
     }
   }
 }
@@ -141,7 +140,7 @@ void add_powers_by_word(const MomentPoints& points, std::span<const QueryWord> w
     for (std::size_t m = 0; m < PaddedMoments::kPadded && points_of[q] != 0; m += kAtOnce * kLanes<Doubles>) {
       Numbers sum[kAtOnce];  // NOLINT(modernize-avoid-c-arrays): std::array drops the alignment
 #pragma GCC unroll 10
-      for (std::size_t k = 0; k < kAtOnce; ++k) sum[k] = number(0);
+      for (std::size_t k = 0; k < kAtOnce; ++k) sum[k] = hn::Zero(Doubles());
       for (std::uint64_t left = points_of[q]; left != 0; left &= left - 1) {
         const PaddedMoments& power = powers[static_cast<std::size_t>(std::countr_zero(left))];
 #pragma GCC unroll 10
