@@ -30,3 +30,14 @@ configure_package_config_file(cmake/meshhoodConfig.cmake.in meshhoodConfig.cmake
 write_basic_package_version_file(meshhoodConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/meshhoodConfig.cmake ${PROJECT_BINARY_DIR}/meshhoodConfigVersion.cmake
   DESTINATION ${package_dir})
+
+# The same for pkg-config, from wherever the files lie. The core is meshhood.pc; meshhood-io.pc names what io needs.
+file(RELATIVE_PATH prefix_from_pc /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+function(meshhood_install_pc name)
+  configure_file(cmake/${name}.pc.in ${name}.pc @ONLY)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endfunction()
+meshhood_install_pc(meshhood)
+if(TARGET meshhood_io)
+  meshhood_install_pc(meshhood-io)
+endif()

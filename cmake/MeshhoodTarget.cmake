@@ -1,3 +1,10 @@
+# Finds a package, unless a project that contains this one has its target already.
+macro(meshhood_find package target)
+  if(NOT TARGET ${target})
+    find_package(${package} ${ARGN})
+  endif()
+endmacro()
+
 # The options of every target of this project. Users of the library inherit none of them.
 function(meshhood_own_target target)
   # The same distance predicate on every path: no fused multiply-add, whatever the default of the compiler.
@@ -35,10 +42,30 @@ function(meshhood_compile_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
 endfunction()
 
-# In a unity build of the core, the kernels are a unit of their own.
+# In a unity build of the core, each part is a unit of its own, so that a linker takes from the archive only those that a
+# program uses. What every program uses is one part: the index, its construction, and searches around a vertex.
+function(meshhood_separate_parts target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    if(source MATCHES "src/(exact/joint|exact/query|[a-z]+)/")
+      set(part ${CMAKE_MATCH_1})
+      if(source MATCHES "/(base/(ball_searcher|cut_edges|fingerprint)|shared/checksum|format/[a-z_]+|\
+exact/(check|extract_graph|file|moves|quality|refit|reorder|verify[a-z_]*))\\.cpp$")
+        set(part others)
+      elseif(part MATCHES "^(base|shared|simd)$")
+        set(part exact)
+      endif()
+      string(MAKE_C_IDENTIFIER ${part} part)
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${part})
+    endif()
+  endforeach()
+endfunction()
+
+# In a unity build of the core, each source of kernels is a unit of its own.
 function(meshhood_separate_kernels target)
   get_target_property(kernels ${target} SOURCES)
-  list(FILTER kernels INCLUDE REGEX "/simd/targets\\.cpp$")
+  list(FILTER kernels INCLUDE REGEX "/simd/[a-z]+_kernels\\.cpp$")
   set_source_files_properties(${kernels} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   # g++ would replace the stores of `clear_words` by a call of memset, which takes longer.
   set_source_files_properties(${kernels} PROPERTIES

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The methods of sec. 4.3 that need no index. They share with the indexes only the graph and the distance predicate.
+// The breadth-first search of sec. 4.3. It shares with the indexes only the graph and the distance predicate.
 #include "meshhood/reference.h"
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "base/prefetch.h"
+#include "base/ranges.h"
 #include "base/reference_access.h"
 #include "shared/distance.h"
 
@@ -36,15 +37,6 @@ std::vector<Record<Real>> make_records(const StridedPositions<Real>& xyz) {
 template <class Real>
 Point position(const Record<Real>& record) {
   return {static_cast<double>(record.x), static_cast<double>(record.y), static_cast<double>(record.z)};
-}
-
-/// Appends `v`, to the last range if it follows.
-void append(std::vector<VertexRange>& ranges, VertexId v) {
-  if (!ranges.empty() && ranges.back().end == v) {
-    ++ranges.back().end;
-  } else {
-    ranges.push_back({v, static_cast<VertexId>(v + 1)});
-  }
 }
 
 }  // namespace
@@ -159,7 +151,7 @@ void ReferenceSearcher::neighborhood(VertexId v, double radius, std::vector<Vert
 std::span<const VertexRange> ReferenceSearcher::ranges(VertexId v, double radius) {
   const std::span<const VertexId> found = state_->neighborhood(v, radius);
   state_->ranges.clear();
-  for (const VertexId w : found) append(state_->ranges, w);
+  for (const VertexId w : found) append_to(state_->ranges, w);
   return state_->ranges;
 }
 
@@ -184,54 +176,6 @@ std::vector<VertexId> exact_neighborhood(const MeshView& mesh, VertexId v, doubl
   check_query(v, mesh.positions.size(), radius);
   std::vector<VertexId> result;
   ReferenceSearcher(mesh).neighborhood(v, radius, result);
-  return result;
-}
-
-namespace {
-
-/// Calls `f(w, position, center)` for every vertex of the ball, in ascending order.
-template <class F>
-void scan(const PositionsView& positions, VertexId v, double radius, F&& f) {
-  check_query(v, positions.size(), radius);
-  positions.visit([&](const auto& xyz) {
-    const SearchBall ball(point(xyz, v), radius);
-    const auto scan_all = [&](const auto& all) {
-      for (std::size_t w = 0; w < positions.size(); ++w) {
-        const Point p = point(all, w);
-        if (ball.contains(p)) f(static_cast<VertexId>(w), p, ball.center());
-      }
-    };
-    xyz.is_packed() ? scan_all(xyz.packed()) : scan_all(xyz);
-  });
-}
-
-}  // namespace
-
-void BallSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
-  check_query(v, vertex_count(), radius);
-  out.clear();
-  scan(positions_, v, radius, [&](VertexId w, const Point&, const Point&) { out.push_back(w); });
-}
-
-void BallSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
-  check_query(v, vertex_count(), radius);
-  out.clear();
-  distances.clear();
-  scan(positions_, v, radius, [&](VertexId w, const Point& p, const Point& center) {
-    out.push_back(w);
-    distances.push_back(std::sqrt(squared_distance(p, center)));
-  });
-}
-
-std::span<const VertexRange> BallSearcher::ranges(VertexId v, double radius) {
-  ranges_.clear();
-  scan(positions_, v, radius, [&](VertexId w, const Point&, const Point&) { append(ranges_, w); });
-  return ranges_;
-}
-
-std::size_t BallSearcher::count(VertexId v, double radius) {
-  std::size_t result = 0;
-  scan(positions_, v, radius, [&](VertexId, const Point&, const Point&) { ++result; });
   return result;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `AggregateKernels`, for the target that is being compiled; see targets.cpp. The operations and their order are the
-// same for each target, and none is fused, so the results have the same bits.
+// `AggregateKernels`, for the target that is being compiled; see each_target-inl.h. The operations and their order are
+// the same for each target, and none is fused, so the results have the same bits.
 
 HWY_BEFORE_NAMESPACE();
 namespace meshhood::HWY_NAMESPACE {

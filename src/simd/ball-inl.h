@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `BallKernels`, for the target that is being compiled; see targets.cpp.
+// `BallKernels`, for the target that is being compiled; see each_target-inl.h.
 
 HWY_BEFORE_NAMESPACE();
 namespace meshhood::HWY_NAMESPACE {

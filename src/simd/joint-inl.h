@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `JointKernels`, for the target that is being compiled; see targets.cpp.
+// `JointKernels`, for the target that is being compiled; see each_target-inl.h.
 
 HWY_BEFORE_NAMESPACE();
 namespace meshhood::HWY_NAMESPACE {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the kernels share, for the target that is being compiled; see targets.cpp. A row of 32 lanes is a few vectors:
-// the tags below have at most as many lanes as the kernels can use, and the constants say how many.
+// What the kernels share, for the target that is being compiled; see each_target-inl.h. A row of 32 lanes is a few
+// vectors: the tags below have at most as many lanes as the kernels can use, and the constants say how many.
 
 HWY_BEFORE_NAMESPACE();
 namespace meshhood::HWY_NAMESPACE {

@@ -1,16 +1,16 @@
-# Installs this build into an empty folder, then configures, builds and runs the consumer against it.
+# Installs this build, then configures, builds and runs the consumer against it.
 cmake_minimum_required(VERSION 3.25)
-set(prefix "${WORK_DIR}/installed tree")
-set(build ${WORK_DIR}/consumer)
-file(REMOVE_RECURSE ${prefix} ${build})
+set(WORK_DIR ${WORK_DIR}/find_package)
+include(${CMAKE_CURRENT_LIST_DIR}/installed.cmake)
+set(build ${WORK_DIR}/build)
+file(REMOVE_RECURSE ${build})
 
-execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix}
-  OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE_DIR}/tests/install/consumer -B ${build} -G ${GENERATOR}
   -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=${prefix} -DVERSION=${VERSION}
   OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${build} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${build}/consumer ${build} COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${build}/small COMMAND_ERROR_IS_FATAL ANY)
 
 foreach(file man/man1/meshhood.1 bash-completion/completions/meshhood zsh/site-functions/_meshhood
     fish/vendor_completions.d/meshhood.fish)
@@ -22,4 +22,10 @@ endforeach()
 
 file(GLOB_RECURSE installed ${prefix}/*)
 list(LENGTH installed count)
-message("${count} files installed")
+file(SIZE ${build}/small size)
+message("${count} files installed; a program of ten lines has ${size} bytes")
+set(limit 550000)
+if(size GREATER limit)
+  message(FATAL_ERROR "expected at most ${limit}: the archive has parts that the program does not use in one object "
+    "with those that it does (meshhood_separate_parts)")
+endif()

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `MomentKernels`, for the target that is being compiled; see targets.cpp. The loops run over queries or vertices that
-// do not depend on each other, so that vectors of any width give the same bits.
+// `MomentKernels`, for the target that is being compiled; see each_target-inl.h. The loops run over queries or vertices
+// that do not depend on each other, so that vectors of any width give the same bits.
 
 HWY_BEFORE_NAMESPACE();
 namespace meshhood::HWY_NAMESPACE {

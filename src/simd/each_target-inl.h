@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// Compiles a source with kernels once for each target. The source defines HWY_TARGET_INCLUDE as itself before. What the
+// kernels share follows.
+#include "simd/target_list.h"
+
+// clang-format off: in this order.
+#include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+#include "simd/wasm_doubles-inl.h"
+#include "simd/lanes-inl.h"
+// clang-format on

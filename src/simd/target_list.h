@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+// The targets of Highway for which the kernels are compiled, from slow to fast, each with the instructions of those
+// before it.
+
+// Assertions of Highway would need its library.
+#define HWY_IS_DEBUG_BUILD 0
+// Without vector instructions, vectors of one lane, which leave loops that the compiler understands.
+#define HWY_BROKEN_EMU128 1
+// On ARM, one target, without the instructions for cryptography that Highway would allow itself: not every processor
+// has them.
+#if defined(__arm__) || defined(__aarch64__)
+#define TOOLCHAIN_MISS_SYS_AUXV_H
+#endif
+// Vectors of a length that is known only at run time do not fit into the rows of 32 lanes; and the few processors that
+// end at SSSE3 take what has no vector instructions.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+
+#include <hwy/targets.h>
+
+#if HWY_TARGETS & HWY_SSE4 & ~HWY_STATIC_TARGET
+#define MESHHOOD_SSE4(what) what,
+#else
+#define MESHHOOD_SSE4(what)
+#endif
+#if HWY_TARGETS & HWY_AVX2 & ~HWY_STATIC_TARGET
+#define MESHHOOD_AVX2(what) what,
+#else
+#define MESHHOOD_AVX2(what)
+#endif
+#if HWY_TARGETS & HWY_AVX3 & ~HWY_STATIC_TARGET
+#define MESHHOOD_AVX3(what) what,
+#else
+#define MESHHOOD_AVX3(what)
+#endif
+
+/// The addresses of the tables of this name, one for each target.
+#define MESHHOOD_TABLES(name) \
+  &HWY_STATIC_DISPATCH(name), MESHHOOD_SSE4(&N_SSE4::name) MESHHOOD_AVX2(&N_AVX2::name) MESHHOOD_AVX3(&N_AVX3::name)
+
+namespace meshhood {
+
+/// As Highway numbers them.
+inline constexpr auto kTargetIds = std::to_array<std::int64_t>(
+    {HWY_STATIC_TARGET, MESHHOOD_SSE4(HWY_SSE4) MESHHOOD_AVX2(HWY_AVX2) MESHHOOD_AVX3(HWY_AVX3)});
+
+}  // namespace meshhood

@@ -1,0 +1,24 @@
+# Installs this build, then compiles and runs the consumer with the flags of pkg-config.
+cmake_minimum_required(VERSION 3.25)
+set(WORK_DIR ${WORK_DIR}/pkg_config)
+include(${CMAKE_CURRENT_LIST_DIR}/installed.cmake)
+file(GLOB_RECURSE files ${prefix}/*/meshhood.pc)
+cmake_path(GET files PARENT_PATH folder)
+set(ENV{PKG_CONFIG_PATH} ${folder})
+
+function(compile program package)
+  execute_process(COMMAND pkg-config --cflags --libs ${package}
+    OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  separate_arguments(flags UNIX_COMMAND "${flags}")
+  execute_process(COMMAND ${COMPILER} -std=c++20 -O1 ${SOURCE_DIR}/tests/install/consumer/${program}.cpp ${flags}
+    -o ${WORK_DIR}/${program} COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${WORK_DIR}/${program} ${WORK_DIR} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+compile(small meshhood)
+compile(main meshhood-io)
+
+execute_process(COMMAND pkg-config --modversion meshhood-io
+  OUTPUT_VARIABLE version OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+if(NOT version STREQUAL VERSION)
+  message(FATAL_ERROR "meshhood-io has version ${version}, expected ${VERSION}")
+endif()
