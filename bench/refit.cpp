@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The time to refit an index after its vertices have moved, beside the time to build it again: all vertices, those
-// under a brush, and as many anywhere; then the time of queries with the refitted index and with a new one. Interleaved
-// in one run, on one thread.
+// under a brush, and as many anywhere. "In place" is a frame of an animation: `refit_in_place`, and `rebind` of a
+// searcher. Then the time of queries with the refitted index and with a new one. Interleaved in one run, on one thread.
 //
 //   bench_refit MESH [CHANGED VERTICES]
 #include <algorithm>
@@ -97,6 +97,28 @@ std::vector<double> dented(std::vector<double> xyz, const std::vector<VertexId>&
   return xyz;
 }
 
+/// Frames of an animation: an index, and a searcher that goes on with each of its states.
+struct Animation {
+  explicit Animation(Index from) : index(std::move(from)) {}
+
+  /// Some frames, each of which moves the vertices there or back, as `move(index, back)` does; ends where it began.
+  template <class Move>
+  void frames(Shortest& time, Move&& move) {
+    for (int frame = 0; frame < 6; ++frame) {
+      time.round([&] {
+        move(index, frame % 2 != 0);
+        searcher.rebind(index);
+      });
+    }
+  }
+
+  Index index;
+  Searcher searcher{index};
+  Shortest all;
+  Shortest brush;
+  Shortest scattered;
+};
+
 class Refits {
  public:
   Refits(const MeshView& mesh, std::size_t changed)
@@ -110,19 +132,19 @@ class Refits {
     const std::vector<double> all_moved = bent(xyz_, 0.1);
     const std::vector<double> brush_moved = dented(xyz_, brush);
     const std::vector<double> spread_moved = dented(xyz_, spread);
-    Index own = build_at(xyz_);
+    Animation animation(build_at(xyz_));
     Shortest built;
     Shortest all;
     Shortest with_copy;
-    Shortest in_place;
-    Shortest scattered;
     for (int round = 0; round < kRounds; ++round) {
-      const bool back = round % 2 != 0;
       built.round([&] { static_cast<void>(build_at(all_moved)); });
       all.round([&] { static_cast<void>(refit(index_, all_moved)); });
       with_copy.round([&] { static_cast<void>(refit(index_, brush_moved, brush)); });
-      in_place.round([&] { own = refit(std::move(own), back ? xyz_ : brush_moved, brush); });
-      scattered.round([&] { own = refit(std::move(own), back ? xyz_ : spread_moved, spread); });
+      animation.frames(animation.all, [&](Index& index, bool back) { index.refit_in_place(back ? xyz_ : all_moved); });
+      animation.frames(animation.brush,
+                       [&](Index& index, bool back) { index.refit_in_place(back ? xyz_ : brush_moved, brush); });
+      animation.frames(animation.scattered,
+                       [&](Index& index, bool back) { index.refit_in_place(back ? xyz_ : spread_moved, spread); });
     }
     std::printf("%zu vertices, %zu of them changed; milliseconds\n", xyz_.size() / 3, changed_);
     std::printf("build                      %9.3f\n", built.milliseconds);
@@ -131,9 +153,10 @@ class Refits {
                   built.milliseconds / time.milliseconds, all.milliseconds / time.milliseconds);
     };
     print("refit, all", all);
+    print("refit, all, in place", animation.all);
     print("refit, brush, with a copy", with_copy);
-    print("refit, brush, in place", in_place);
-    print("refit, anywhere, in place", scattered);
+    print("refit, brush, in place", animation.brush);
+    print("refit, anywhere, in place", animation.scattered);
     compare_queries();
   }
 

@@ -14,9 +14,7 @@ std::vector<meshhood::VertexId> near(const char* file, meshhood::VertexId vertex
   const auto mesh = meshhood::io::read_mesh(file);  // PLY, OBJ, OFF or STL
   const auto index = meshhood::build(mesh.view());  // once for each mesh
   meshhood::Searcher searcher(index);               // one for each thread; answers any number of queries
-  std::vector<meshhood::VertexId> answer;
-  searcher.neighborhood(vertex, radius, answer);  // the radius has the unit of the positions
-  return answer;
+  return searcher.neighborhood(vertex, radius);     // the radius has the unit of the positions
 }
 // [readme]
 // NOLINTEND(misc-use-internal-linkage)

@@ -22,7 +22,7 @@ meshhood::Index index_of_grid() {
     if (column + 1 == kSide || row + 1 == kSide) continue;
     corners.insert(corners.end(), {v, v + 1, v + kSide, v + 1, v + kSide + 1, v + kSide});
   }
-  return meshhood::build({xyz, meshhood::FacesView::triangles(corners)});
+  return meshhood::build(xyz, corners);
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ Mesh read(WatchedSource& source, const std::string& name, const ReadOptions& opt
 
 }  // namespace
 
-MeshView Mesh::view() const {
+MeshView Mesh::view() const& {
   const auto view_of_positions = [](const auto& xyz) { return PositionsView(xyz); };
   const auto faces = offsets.empty() ? FacesView::triangles(corners) : FacesView::polygons(offsets, corners);
   return {std::visit(view_of_positions, positions), faces};

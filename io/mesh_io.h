@@ -57,8 +57,9 @@ struct Mesh {
   std::vector<std::uint32_t> corners;                               ///< the corners of all faces, face after face
   std::vector<Warning> warnings;
 
-  /// Borrows from this mesh.
-  [[nodiscard]] MeshView view() const;
+  /// Borrows from this mesh. A view of a temporary does not compile.
+  [[nodiscard]] MeshView view() const&;
+  [[nodiscard]] MeshView view() const&& = delete;
 };
 
 /// Reads a PLY (ASCII or binary of either byte order), OBJ, OFF or STL (ASCII or binary) file. The format is detected

@@ -23,6 +23,7 @@ if(TARGET meshhood_cli)
 endif()
 
 add_subdirectory(install)
+add_subdirectory(refused)
 add_subdirectory(portability)
 
 # Compiled for a processor with fused multiply-add, the distance must not use it.

@@ -21,6 +21,12 @@ struct AdjacencyView {
   std::span<const EdgeOffset> offsets;  ///< #V + 1; may be empty if there are no vertices
   std::span<const VertexId> neighbors;  ///< twice the number of edges
 
+  AdjacencyView() = default;
+
+  /// Both are needed: with one alone, `build({positions, triangles})` would take the triangles for offsets.
+  AdjacencyView(std::span<const EdgeOffset> row_offsets, std::span<const VertexId> ids)
+      : offsets(row_offsets), neighbors(ids) {}
+
   /// #V.
   [[nodiscard]] std::size_t size() const { return offsets.empty() ? 0 : offsets.size() - 1; }
 
@@ -44,6 +50,9 @@ struct Adjacency {
 struct GraphView {
   PositionsView positions;
   AdjacencyView adjacency;
+
+  GraphView() = default;
+  GraphView(const PositionsView& xyz, const AdjacencyView& graph) : positions(xyz), adjacency(graph) {}
 };
 
 /// Positions of either precision, owned. #V by 3, row by row.

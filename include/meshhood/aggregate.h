@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "meshhood/batch.h"
@@ -52,10 +54,36 @@ enum class Nesting : std::uint8_t {
           ///< connected inside the smaller ball or not
 };
 
+/// A list of float or double. Borrowed; a temporary container is rejected by the compiler.
+class ValuesView {
+ public:
+  ValuesView() = default;
+
+  template <BorrowedReals Range>
+  ValuesView(Range&& values) : values_(std::span<const detail::Element<Range>>(values)) {}
+
+  /// Calls `f` with the span behind this view and returns its result.
+  template <class F>
+  decltype(auto) visit(F&& f) const {
+    return std::visit(std::forward<F>(f), values_);
+  }
+
+  [[nodiscard]] std::size_t size() const {
+    return visit([](auto values) { return values.size(); });
+  }
+
+  [[nodiscard]] double operator[](std::size_t i) const {
+    return visit([i](auto values) { return static_cast<double>(values[i]); });
+  }
+
+ private:
+  std::variant<std::span<const double>, std::span<const float>> values_;
+};
+
 /// Numbers at the vertices, and weights. Borrowed for the call.
 struct SignalView {
-  /// #V by channels, vertex after vertex. Any double; NaN as `MissingValues` says.
-  std::span<const double> values;
+  /// #V by channels, vertex after vertex. Any number, a float as the double of its value; NaN as `MissingValues` says.
+  ValuesView values;
 
   /// Numbers per vertex, each aggregated by itself; at least 1.
   std::size_t channels = 1;

@@ -42,11 +42,23 @@ class EdgeSearcher {
   EdgeSearcher& operator=(EdgeSearcher&&) noexcept;
   ~EdgeSearcher();
 
+  /// Goes on with `index`: the answers are then those of a new searcher. After `refit_in_place` of the same index, it
+  /// keeps its scratch memory and takes O(1).
+  void rebind(const Index& index);
+  void rebind(const Index&&) = delete;
+
   /// #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
   /// The permutation of the index.
   [[nodiscard]] std::span<const VertexId> permutation() const;
+
+  /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
+  [[nodiscard]] std::vector<VertexId> neighborhood(VertexId v, double radius, const Filter& filter = {}) {
+    std::vector<VertexId> out;
+    neighborhood(v, radius, out, filter);
+    return out;
+  }
 
   /// out     replaced, its capacity reused: the vertices whose path distance is at most `radius`, ascending by path
   ///         distance, `v` first.

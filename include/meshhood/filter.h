@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "meshhood/adjacency.h"
 #include "meshhood/mesh.h"
 
 namespace meshhood {
 
-/// A set of vertices: one byte for each vertex by the caller's ids, #V in total. A byte other than 0 puts its vertex
-/// into the set. Borrowed; a temporary container is rejected by the compiler. Empty: no vertex.
+/// A set of vertices: one value for each vertex by the caller's ids, #V in total. A bool that is true, or a byte other
+/// than 0, puts its vertex into the set. Borrowed; a temporary container is rejected by the compiler. Empty: no vertex.
 class VertexMask {
  public:
   VertexMask() = default;
@@ -18,16 +20,23 @@ class VertexMask {
   template <BorrowedArray<std::uint8_t> Range>
   VertexMask(Range&& bytes) : bytes_(bytes) {}
 
-  /// `std::vector<bool>` has no bytes; use `std::vector<std::uint8_t>` or an array of bool.
   template <BorrowedArray<bool> Range>
   VertexMask(Range&& values) : VertexMask(std::span<const bool>(values)) {}
   VertexMask(std::span<const bool> values)
       : bytes_(reinterpret_cast<const std::uint8_t*>(values.data()), values.size()) {}
 
-  [[nodiscard]] std::span<const std::uint8_t> bytes() const { return bytes_; }
+  VertexMask(const std::vector<bool>& bits) : bits_(&bits) {}
+  VertexMask(const std::vector<bool>&&) = delete;
+
+  /// The number of values: #V, or 0.
+  [[nodiscard]] std::size_t size() const { return bits_ != nullptr ? bits_->size() : bytes_.size(); }
+
+  /// Whether the set has a vertex; `v` is less than `size()`.
+  [[nodiscard]] bool operator[](VertexId v) const { return bits_ != nullptr ? (*bits_)[v] : bytes_[v] != 0; }
 
  private:
   std::span<const std::uint8_t> bytes_;
+  const std::vector<bool>* bits_ = nullptr;  // instead of bytes
 };
 
 /// Restricts one search. A mask is read for the leaves that the search reaches, and not copied.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -32,8 +33,10 @@ struct IndexView;
 /// The index of exact neighborhoods: the mesh in an order in which near vertices are close in memory, cut into
 /// connected leaves of up to 32 vertices, and a tree of bounding spheres over the leaves.
 ///
-/// Immutable: any number of threads may query it, each with its own `Searcher`. It does not refer to the mesh: `build`
-/// and `load` copy what they need; the result of `map` refers to the mapped bytes.
+/// Any number of threads may query it, each with its own `Searcher`; only `refit_in_place` changes it. It does not refer
+/// to the mesh: `build` and `load` copy what they need; the result of `map` refers to the mapped bytes.
+///
+/// An index that has been moved from can be assigned and destroyed. All else throws Error{InvalidOption}.
 class Index {
  public:
   Index(Index&&) noexcept;
@@ -64,6 +67,16 @@ class Index {
   /// refits. Corners and offsets have 32 bits. Valid as long as the index. O(1).
   [[nodiscard]] std::optional<FacesView> faces() const;
 
+  /// Moves the vertices of this index, which then equals `refit` with the same arguments (see refit.h). Copies nothing
+  /// of it but what is described there.
+  ///
+  /// No thread may use the index or its searchers meanwhile. Afterwards a searcher throws Error{InvalidOption} until
+  /// `rebind` makes it one of the new state; a `CurvatureIndex` throws, too, and is to be built again.
+  ///
+  /// Throws as `refit`; the index is then as it was.
+  void refit_in_place(const PositionsView& positions, const BuildOptions& options = {});
+  void refit_in_place(const PositionsView& positions, const IndicesView& changed, const BuildOptions& options = {});
+
   /// Verifies the index against the mesh it was built from. Returns one line per violation, naming the leaf or node, at
   /// most sixteen. An empty result means:
   ///  - the leaves contain each vertex once, and the numberings agree;
@@ -79,6 +92,10 @@ class Index {
   friend struct IndexAccess;
 
   explicit Index(std::shared_ptr<IndexView> view);
+
+  /// Throws if the index has been moved from.
+  [[nodiscard]] IndexView& view() const;
+
   std::shared_ptr<IndexView> view_;   // searchers share it
   std::shared_ptr<KeptGraph> graph_;  // and this
 };
@@ -90,6 +107,31 @@ class Index {
 /// 16 vertices, except around vertices with very many neighbors. O(#V log #V + #E).
 [[nodiscard]] Index build(const MeshView& mesh, const BuildOptions& options = {});
 [[nodiscard]] Index build(const GraphView& graph, const BuildOptions& options = {});
+
+/// The same from arrays; borrowed for the call.
+///
+/// positions  float or double in contiguous memory: 3 #V numbers, vertex after vertex, or #V points (see `RowOfThree`);
+///            or a `PositionsView`, for other layouts.
+/// faces      integers of 16 to 64 bits in contiguous memory: 3 #F corners of triangles, or #F triangles, each a row of
+///            three; or a `FacesView`, for polygons and other layouts.
+template <class Positions, class Faces>
+  requires(!std::same_as<Faces, BuildOptions>)
+[[nodiscard]] Index build(const Positions& positions, const Faces& faces, const BuildOptions& options = {}) {
+  constexpr bool are_positions = std::constructible_from<PositionsView, const Positions&>;
+  constexpr bool are_triangles = requires { FacesView::triangles(faces); };
+  constexpr bool are_faces = are_triangles || std::same_as<Faces, FacesView>;
+  static_assert(are_positions,
+                "positions: expected float or double in contiguous memory, 3 #V numbers or #V points of three; "
+                "PositionsView and meshhood/eigen.h read other layouts");
+  static_assert(are_faces,
+                "faces: expected integers of 16 to 64 bits in contiguous memory, 3 #F corners or #F triangles of "
+                "three; FacesView and meshhood/eigen.h read polygons and other layouts");
+  if constexpr (are_positions && are_triangles) {
+    return build(MeshView{positions, FacesView::triangles(faces)}, options);
+  } else if constexpr (are_positions && are_faces) {
+    return build(MeshView{positions, faces}, options);
+  }
+}
 
 /// The positions and the graph of the mesh that `index` was built from, in the caller's order: the input of
 /// `ReferenceSearcher`, `paper::build` and `mean_edge_length` for callers that kept only the index.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>  // also for std::ranges::borrowed_range, which its constructors require; <ranges> takes twice the time
+#include <span>  // also for concepts of ranges, which its constructors require; <ranges> takes twice the time
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -22,6 +22,60 @@ inline constexpr std::size_t kMaxVertices = std::numeric_limits<VertexId>::max()
 /// view of one does not compile.
 template <class Range, class T>
 concept BorrowedArray = std::ranges::borrowed_range<Range> && std::convertible_to<Range, std::span<const T>>;
+
+/// A type of coordinates and values.
+template <class T>
+concept FloatOrDouble = std::same_as<T, float> || std::same_as<T, double>;
+
+/// A type of indices: an integer of 16 to 64 bits.
+template <class T>
+concept IndexInteger =
+    std::same_as<T, short> || std::same_as<T, unsigned short> || std::same_as<T, int> || std::same_as<T, unsigned> ||
+    std::same_as<T, long> || std::same_as<T, unsigned long> || std::same_as<T, long long> ||
+    std::same_as<T, unsigned long long>;
+
+namespace detail {
+
+/// The type of the elements of a range.
+template <class Range>
+using Element = std::ranges::range_value_t<Range>;
+
+/// The type of `row[0]`.
+template <class Row>
+using Scalar = std::remove_cvref_t<decltype(std::declval<const Row&>()[0])>;
+
+}  // namespace detail
+
+/// Three scalars in a row and nothing else: `std::array<T, 3>`, `T[3]`, `Eigen::Vector3d`, `glm::vec3` and others.
+template <class Row>
+concept RowOfThree = requires(const Row& row) {
+  { row[0] } -> std::same_as<const detail::Scalar<Row>&>;
+} && sizeof(Row) == 3 * sizeof(detail::Scalar<Row>);
+
+namespace detail {
+
+/// The scalars of rows of three, #rows by 3.
+template <RowOfThree Row>
+[[nodiscard]] std::span<const Scalar<Row>> flatten(std::span<const Row> rows) {
+  if (rows.empty()) return {};
+  return {&rows.front()[0], 3 * rows.size()};
+}
+
+}  // namespace detail
+
+/// A contiguous range of float or double that may be borrowed; one of points, each a row of three.
+template <class Range>
+concept BorrowedReals = BorrowedArray<Range, detail::Element<Range>> && FloatOrDouble<detail::Element<Range>>;
+template <class Range>
+concept BorrowedPoints = BorrowedArray<Range, detail::Element<Range>> && RowOfThree<detail::Element<Range>> &&
+                         FloatOrDouble<detail::Scalar<detail::Element<Range>>>;
+
+/// A contiguous range of indices that may be borrowed; one of triangles, each a row of three.
+template <class Range>
+concept BorrowedIndices = BorrowedArray<Range, detail::Element<Range>> && IndexInteger<detail::Element<Range>>;
+template <class Range>
+concept BorrowedTriangles = BorrowedArray<Range, detail::Element<Range>> && RowOfThree<detail::Element<Range>> &&
+                            IndexInteger<detail::Scalar<detail::Element<Range>>>;
 
 /// Coordinate `axis` of vertex `v` is `first[v * vertex_stride + axis * axis_stride]`.
 template <class Real>
@@ -46,29 +100,24 @@ struct StridedPositions {
 /// Positions of the vertices, #V by 3, float or double, in any unit. Borrowed: nothing is copied, and the memory must
 /// outlive the view. A temporary container is rejected by the compiler.
 ///
-/// A flat array and an array of `std::array<float, 3>` are read row by row: x, y, z of vertex 0, then of vertex 1. For
-/// other layouts use `column_major`, `strided`, or `meshhood/eigen.h` for matrices of Eigen.
+/// A flat array and an array of points (see `RowOfThree`) are read row by row: x, y, z of vertex 0, then of vertex 1.
+/// For other layouts use `column_major`, `strided`, or `meshhood/eigen.h` for matrices of Eigen.
 class PositionsView {
  public:
   PositionsView() = default;
 
   /// A flat array of 3 #V coordinates, row by row.
-  template <BorrowedArray<float> Range>
-  PositionsView(Range&& xyz) : PositionsView(Rows{}, std::span<const float>(xyz)) {}
-  template <BorrowedArray<double> Range>
-  PositionsView(Range&& xyz) : PositionsView(Rows{}, std::span<const double>(xyz)) {}
+  template <BorrowedReals Range>
+  PositionsView(Range&& xyz) : PositionsView(Rows{}, std::span<const detail::Element<Range>>(xyz)) {}
 
-  /// One array of three coordinates per vertex.
-  template <BorrowedArray<std::array<float, 3>> Range>
-  PositionsView(Range&& points) : PositionsView(Rows{}, flat(std::span<const std::array<float, 3>>(points))) {}
-  template <BorrowedArray<std::array<double, 3>> Range>
-  PositionsView(Range&& points) : PositionsView(Rows{}, flat(std::span<const std::array<double, 3>>(points))) {}
+  /// One point for each vertex.
+  template <BorrowedPoints Range>
+  PositionsView(Range&& points) : PositionsView(Rows{}, detail::flatten(std::span<const detail::Element<Range>>(points))) {}
 
   /// A flat array of all x, then all y, then all z.
-  template <class Range>
-    requires BorrowedArray<Range, float> || BorrowedArray<Range, double>
+  template <BorrowedReals Range>
   [[nodiscard]] static PositionsView column_major(Range&& xyz) {
-    const std::span all(std::as_const(xyz));
+    const std::span<const detail::Element<Range>> all(xyz);
     PositionsView view = strided(all.data(), all.size() / 3, 1, all.size() / 3);
     view.scalars_ = all.size();
     return view;
@@ -76,8 +125,7 @@ class PositionsView {
 
   /// Coordinate `axis` of vertex `v` is `first[v * vertex_stride + axis * axis_stride]`; strides are in elements. Use
   /// it for positions inside larger records: `strided(&points[0].x, points.size(), sizeof(Point) / sizeof(float))`.
-  template <class Real>
-    requires std::same_as<Real, float> || std::same_as<Real, double>
+  template <FloatOrDouble Real>
   [[nodiscard]] static PositionsView strided(const Real* first, std::size_t count, std::size_t vertex_stride,
                                              std::size_t axis_stride = 1) {
     return {StridedPositions<Real>{first, count, vertex_stride, axis_stride}, 3 * count};
@@ -106,30 +154,18 @@ class PositionsView {
   PositionsView(Rows, std::span<const Real> xyz)
       : PositionsView(StridedPositions<Real>{xyz.data(), xyz.size() / 3}, xyz.size()) {}
 
-  template <class Real>
-  static std::span<const Real> flat(std::span<const std::array<Real, 3>> points) {
-    static_assert(sizeof(std::array<Real, 3>) == 3 * sizeof(Real));
-    return {points.empty() ? nullptr : points.front().data(), 3 * points.size()};
-  }
-
   std::variant<StridedPositions<float>, StridedPositions<double>> positions_;
   std::size_t scalars_ = 0;
 };
 
-/// A list of indices of 32 or 64 bits, signed or not. Borrowed: nothing is copied, and the memory must outlive the
+/// A list of indices of 16 to 64 bits, signed or not. Borrowed: nothing is copied, and the memory must outlive the
 /// view. A temporary container is rejected by the compiler. A negative index is out of range.
 class IndicesView {
  public:
   IndicesView() = default;
 
-  template <BorrowedArray<std::uint32_t> Range>
-  IndicesView(Range&& indices) : indices_(std::span<const std::uint32_t>(indices)) {}
-  template <BorrowedArray<std::int32_t> Range>
-  IndicesView(Range&& indices) : indices_(std::span<const std::int32_t>(indices)) {}
-  template <BorrowedArray<std::uint64_t> Range>
-  IndicesView(Range&& indices) : indices_(std::span<const std::uint64_t>(indices)) {}
-  template <BorrowedArray<std::int64_t> Range>
-  IndicesView(Range&& indices) : indices_(std::span<const std::int64_t>(indices)) {}
+  template <BorrowedIndices Range>
+  IndicesView(Range&& indices) : indices_(std::span<const detail::Element<Range>>(indices)) {}
 
   /// Calls `f` with the span behind this view and returns its result.
   template <class F>
@@ -147,14 +183,11 @@ class IndicesView {
   }
 
  private:
-  std::variant<std::span<const std::uint32_t>, std::span<const std::int32_t>, std::span<const std::uint64_t>,
-               std::span<const std::int64_t>>
+  std::variant<std::span<const unsigned>, std::span<const int>, std::span<const unsigned short>, std::span<const short>,
+               std::span<const unsigned long>, std::span<const long>, std::span<const unsigned long long>,
+               std::span<const long long>>
       indices_;
 };
-
-/// A contiguous range of triangles as arrays of three indices of `T`, that may be borrowed.
-template <class Range, class T>
-concept BorrowedTriangles = BorrowedArray<Range, std::array<T, 3>>;
 
 /// The polygons of a mesh: triangles, #F by 3, or polygons of any size as offsets and corners.
 ///
@@ -170,13 +203,10 @@ class FacesView {
     return strided_triangles(corners, corners.size() / 3, 3, 1);
   }
 
-  /// One array of three corners per triangle.
-  template <class Range>
-    requires BorrowedTriangles<Range, std::uint32_t> || BorrowedTriangles<Range, std::int32_t> ||
-             BorrowedTriangles<Range, std::uint64_t> || BorrowedTriangles<Range, std::int64_t>
+  /// One row of three corners for each triangle.
+  template <BorrowedTriangles Range>
   [[nodiscard]] static FacesView triangles(Range&& corners) {
-    const std::span all(std::as_const(corners));
-    return triangles(std::span(all.empty() ? nullptr : all.front().data(), 3 * all.size()));
+    return triangles(detail::flatten(std::span<const detail::Element<Range>>(corners)));
   }
 
   /// Triangles in a flat array of all first corners, then all second, then all third.

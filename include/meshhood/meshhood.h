@@ -11,10 +11,9 @@
 ///     std::vector<float> positions = ...;          // #V by 3
 ///     std::vector<std::uint32_t> triangles = ...;  // #F by 3
 ///
-///     const auto index = meshhood::build({positions, meshhood::FacesView::triangles(triangles)});
-///     meshhood::Searcher searcher(index);    // one per thread
-///     std::vector<meshhood::VertexId> ids;
-///     searcher.neighborhood(42, 1.5, ids);   // the same set as breadth-first search
+///     const auto index = meshhood::build(positions, triangles);
+///     meshhood::Searcher searcher(index);             // one per thread
+///     const auto ids = searcher.neighborhood(42, 1.5);  // the same set as breadth-first search
 ///
 /// `Searcher` and visitors are in search.h, batches over many vertices in batch.h, sums over neighborhoods in
 /// aggregate.h and moments.h, searches from any point with filters in region.h, along the edges in edge_search.h,

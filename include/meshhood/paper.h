@@ -45,7 +45,8 @@ using LevelSummary = meshhood::LevelSummary;
 
 /// The hierarchy of connected clusters (3.1), with the positions in the order of the clusters.
 ///
-/// Immutable: any number of threads may query it, each with its own `Searcher`. It does not refer to the mesh.
+/// Immutable: any number of threads may query it, each with its own `Searcher`. It does not refer to the mesh. An index
+/// that has been moved from can only be assigned and destroyed.
 class Index {
  public:
   Index(Index&&) noexcept;
@@ -143,6 +144,13 @@ class Searcher {
 
   /// The permutation of the index.
   [[nodiscard]] std::span<const VertexId> permutation() const;
+
+  /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
+  [[nodiscard]] std::vector<VertexId> neighborhood(VertexId v, double radius) {
+    std::vector<VertexId> out;
+    neighborhood(v, radius, out);
+    return out;
+  }
 
   /// out     replaced, its capacity reused: ids without duplicates, `v` included. Their order depends on the
   ///         index, the options, the vertex and the radius alone.

@@ -43,6 +43,13 @@ class ReferenceSearcher {
   /// Empty: ranges are in the caller's order.
   [[nodiscard]] std::span<const VertexId> permutation() const { return {}; }
 
+  /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
+  [[nodiscard]] std::vector<VertexId> neighborhood(VertexId v, double radius) {
+    std::vector<VertexId> out;
+    neighborhood(v, radius, out);
+    return out;
+  }
+
   /// out     replaced, its capacity reused: ids in the order of the search, `v` first, no duplicates.
   void neighborhood(VertexId v, double radius, std::vector<VertexId>& out);
 
@@ -79,6 +86,13 @@ class BallSearcher {
 
   /// Empty: ranges are in the caller's order.
   [[nodiscard]] std::span<const VertexId> permutation() const { return {}; }
+
+  /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
+  [[nodiscard]] std::vector<VertexId> neighborhood(VertexId v, double radius) {
+    std::vector<VertexId> out;
+    neighborhood(v, radius, out);
+    return out;
+  }
 
   /// out     replaced, its capacity reused: ids ascending, `v` included.
   void neighborhood(VertexId v, double radius, std::vector<VertexId>& out);

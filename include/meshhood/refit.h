@@ -10,8 +10,12 @@
 ///
 ///     auto index = meshhood::build(mesh);
 ///     ...
-///     index = meshhood::refit(index, positions);                      // all vertices may have moved
-///     index = meshhood::refit(std::move(index), positions, changed);  // only these have
+///     index.refit_in_place(positions, changed);   // these vertices have moved; without `changed`, all may have
+///     searcher.rebind(index);                     // each searcher that goes on
+///
+/// Or, if the state before is still needed:
+///
+///     const auto moved = meshhood::refit(index, positions, changed);
 ///
 /// The order of the vertices, the leaves and the edges stay as they are and are shared with the index that was given.
 /// Positions and bounding spheres are computed again from the leaves up. Answers are exact, whatever the positions.
@@ -38,18 +42,14 @@ namespace meshhood {
 /// positions  as above; may be float for an index in double, but not the reverse.
 /// changed    ids of vertices, in any order; duplicates are allowed. Borrowed for the call; read once.
 ///
-/// The first overload copies everything that depends on the positions: 14 bytes a vertex in float, 26 in double. The
-/// second works in the memory of `index`. If a searcher still uses that memory, the second makes the copy too, because
-/// a searcher keeps the state for which it was made. So destroy searchers first. If the call fails, `index` is as it
-/// was.
+/// Copies everything that depends on the positions: 14 bytes a vertex in float, 26 in double. `Index::refit_in_place`
+/// does not, unless the index was loaded or mapped; then the first call does.
 ///
 /// If a vertex leaves the cube in which the tree is stored, all bounds are computed again, as above.
 ///
 /// Throws also Error{VertexOutOfRange}, naming the row of `changed`. Besides the copy: O(changed log #V), for the
 /// leaves of these vertices and the nodes above; and a sum over all leaves.
 [[nodiscard]] Index refit(const Index& index, const PositionsView& positions, const IndicesView& changed,
-                          const BuildOptions& options = {});
-[[nodiscard]] Index refit(Index&& index, const PositionsView& positions, const IndicesView& changed,
                           const BuildOptions& options = {});
 
 /// How well the leaves of an index fit the positions.

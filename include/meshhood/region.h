@@ -47,6 +47,18 @@ class RegionSearcher {
   RegionSearcher& operator=(RegionSearcher&&) noexcept;
   ~RegionSearcher();
 
+  /// Goes on with `index`: the answers are then those of a new searcher. After `refit_in_place` of the same index, it
+  /// keeps its scratch memory and takes O(1).
+  void rebind(const Index& index);
+  void rebind(const Index&&) = delete;
+
+  /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
+  [[nodiscard]] std::vector<VertexId> region(const Start& start, double radius, const Filter& filter = {}) {
+    std::vector<VertexId> out;
+    region(start, radius, out, filter);
+    return out;
+  }
+
   /// out     replaced, its capacity reused: ids in index order, without duplicates.
   void region(const Start& start, double radius, std::vector<VertexId>& out, const Filter& filter = {});
 

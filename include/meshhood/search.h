@@ -47,6 +47,7 @@ concept NeighborhoodSearcher = requires(S& searcher, const S& constant, VertexId
                                         std::vector<VertexId>& ids, std::vector<double>& distances) {
   { constant.vertex_count() } -> std::same_as<std::size_t>;
   { constant.permutation() } -> std::same_as<std::span<const VertexId>>;
+  { searcher.neighborhood(v, radius) } -> std::same_as<std::vector<VertexId>>;
   { searcher.neighborhood(v, radius, ids) } -> std::same_as<void>;
   { searcher.neighborhood(v, radius, ids, distances) } -> std::same_as<void>;
   { searcher.count(v, radius) } -> std::same_as<std::size_t>;
@@ -84,11 +85,23 @@ class Searcher {
   Searcher& operator=(Searcher&&) noexcept;
   ~Searcher();
 
+  /// Goes on with `index`: the answers are then those of a new searcher. After `refit_in_place` of the same index, it
+  /// keeps its scratch memory and takes O(1).
+  void rebind(const Index& index);
+  void rebind(const Index&&) = delete;
+
   /// #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
   /// The permutation of the index.
   [[nodiscard]] std::span<const VertexId> permutation() const;
+
+  /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
+  [[nodiscard]] std::vector<VertexId> neighborhood(VertexId v, double radius) {
+    std::vector<VertexId> out;
+    neighborhood(v, radius, out);
+    return out;
+  }
 
   /// out     replaced, its capacity reused: ids in index order, without duplicates, `v` included.
   void neighborhood(VertexId v, double radius, std::vector<VertexId>& out);
@@ -122,6 +135,13 @@ class AnySearcher {
 
   /// That of the searcher.
   [[nodiscard]] std::span<const VertexId> permutation() const { return searcher_->permutation(); }
+
+  /// Returns the ids as a new list. For many queries, the calls below use the memory of the last answer again.
+  [[nodiscard]] std::vector<VertexId> neighborhood(VertexId v, double radius) {
+    std::vector<VertexId> out;
+    neighborhood(v, radius, out);
+    return out;
+  }
 
   /// out     replaced, its capacity reused: ids without duplicates, `v` included.
   void neighborhood(VertexId v, double radius, std::vector<VertexId>& out) { searcher_->find(v, radius, out, nullptr); }

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#if !defined(__cpp_concepts) || __cpp_concepts < 201907L
+#error "meshhood needs C++20: compile with -std=c++20"
+#endif
+
 #include <cstdint>
 
 namespace meshhood {

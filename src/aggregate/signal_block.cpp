@@ -35,10 +35,14 @@ void drop_large(Column& column) {
 }
 
 /// Every `stride`-th number from `first` on, in index order.
-Column in_index_order(const IndexView& index, std::span<const double> numbers, std::size_t first, std::size_t stride) {
+Column in_index_order(const IndexView& index, const ValuesView& numbers, std::size_t first, std::size_t stride) {
   const std::size_t vertices = index.vertex_count();
   Column column(vertices + kLeafCapacity);
-  for (std::size_t i = 0; i < vertices; ++i) column[i] = numbers[first + stride * index.id(i)];
+  numbers.visit([&](auto all) {
+    for (std::size_t i = 0; i < vertices; ++i) {
+      column[i] = static_cast<double>(all[first + stride * index.id(i)]);
+    }
+  });
   return column;
 }
 

@@ -39,27 +39,30 @@ void validate_coordinates(const PositionsView& positions, TaskContext& task) {
 }
 
 /// Offsets must ascend from 0 to the number of corners.
-template <class Index>
-void validate_offsets(std::span<const Index> offsets, std::size_t corners) {
-  if (offsets.empty()) {
+void validate_offsets(const IndicesView& offsets, std::size_t corners) {
+  const auto text_of = [&](std::size_t i) { return to_text(offsets, i); };
+  if (offsets.size() == 0) {
     if (corners != 0) {
       raise(ErrorCode::InvalidMesh, "face offsets are empty, but there are " + std::to_string(corners) + " corners");
     }
     return;
   }
   if (offsets[0] != 0) {
-    raise(ErrorCode::InvalidMesh, "face offsets begin with " + std::to_string(offsets[0]) + ", expected 0");
+    raise(ErrorCode::InvalidMesh, "face offsets begin with " + text_of(0) + ", expected 0");
   }
-  for (std::size_t face = 0; face + 1 < offsets.size(); ++face) {
-    if (offsets[face + 1] < offsets[face]) {
-      raise(ErrorCode::InvalidMesh, "face " + std::to_string(face) + " ends at corner " +
-                                        std::to_string(offsets[face + 1]) + ", before it begins at " +
-                                        std::to_string(offsets[face]));
-    }
+  const std::size_t faces = offsets.size() - 1;
+  const std::size_t face = offsets.visit([&](auto all) {
+    std::size_t i = 0;
+    while (i < faces && all[i + 1] >= all[i]) ++i;
+    return i;
+  });
+  if (face < faces) {
+    raise(ErrorCode::InvalidMesh, "face " + std::to_string(face) + " ends at corner " + text_of(face + 1) +
+                                      ", before it begins at " + text_of(face));
   }
-  if (static_cast<std::uint64_t>(offsets.back()) != corners) {
-    raise(ErrorCode::InvalidMesh, "face offsets end with " + std::to_string(offsets.back()) + ", but there are " +
-                                      std::to_string(corners) + " corners");
+  if (offsets[faces] != corners) {
+    raise(ErrorCode::InvalidMesh,
+          "face offsets end with " + text_of(faces) + ", but there are " + std::to_string(corners) + " corners");
   }
 }
 
@@ -196,7 +199,7 @@ void validate(const MeshView& mesh, TaskContext& task) {
   if (mesh.faces.are_triangles()) {
     validate_triangles(mesh.faces);
   } else {
-    mesh.faces.offsets().visit([&](auto offsets) { validate_offsets(offsets, mesh.faces.corners().size()); });
+    validate_offsets(mesh.faces.offsets(), mesh.faces.corners().size());
   }
   validate_corners(mesh.faces, mesh.positions.size(), task);
 }

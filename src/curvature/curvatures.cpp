@@ -142,7 +142,7 @@ Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query, co
   result.d1.resize(3 * rows);
   result.d2.resize(3 * rows);
   result.state.resize(rows);
-  const MomentSource source{.index = state.index, .filter = options.filter ? &state : nullptr};
+  const MomentSource source{.index = &*state.index, .filter = options.filter ? &state : nullptr};
   visit_moments(state.searched, query, options.open_ball, source,
                 {.threads = options.threads, .progress = options.progress}, [&] {
                   auto fitter = std::make_shared<CurvatureFitter>(state, options, result);

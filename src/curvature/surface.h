@@ -11,7 +11,7 @@
 #include "meshhood/curvature.h"
 #include "meshhood/search.h"
 
-#include "exact/index_access.h"
+#include "exact/bound_index.h"
 #include "exact/layout.h"
 #include "shared/distance.h"
 
@@ -22,7 +22,7 @@ struct CurvatureIndex::State {
   explicit State(const Index& given);
 
   Index searched;                // shares its memory with the caller's
-  const IndexView* index;        // its arrays
+  BoundIndex index;              // its arrays
   std::vector<double> normal_x;  // unit vectors; NaN without one
   std::vector<double> normal_y;
   std::vector<double> normal_z;
@@ -46,7 +46,11 @@ struct CurvatureIndex::State {
 struct CurvatureAccess {
   using State = CurvatureIndex::State;
 
-  [[nodiscard]] static const State& state(const CurvatureIndex& surface) { return *surface.state_; }
+  /// Throws Error{InvalidOption} after a refit in place.
+  [[nodiscard]] static const State& state(const CurvatureIndex& surface) {
+    surface.state_->index.check_current();
+    return *surface.state_;
+  }
   [[nodiscard]] static CurvatureIndex make(std::unique_ptr<const State> state) {
     return CurvatureIndex(std::move(state));
   }

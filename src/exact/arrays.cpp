@@ -36,13 +36,15 @@ std::shared_ptr<IndexView> make_view(IndexData data) {
 }
 
 void set_geometry(IndexView& view, std::shared_ptr<GeometryData> geometry) {
-  view.frame = geometry->frame;
-  borrow(view.positions, geometry->positions);
-  borrow(view.leaves, geometry->leaves);
-  borrow(view.groups, geometry->groups);
-  borrow(view.mean_radii, geometry->mean_radii);
-  derive(view);
-  view.geometry = std::move(geometry);
+  IndexView next = view;
+  next.frame = geometry->frame;
+  borrow(next.positions, geometry->positions);
+  borrow(next.leaves, geometry->leaves);
+  borrow(next.groups, geometry->groups);
+  borrow(next.mean_radii, geometry->mean_radii);
+  derive(next);
+  next.geometry = std::move(geometry);
+  view = std::move(next);
 }
 
 }  // namespace meshhood

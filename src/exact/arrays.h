@@ -46,7 +46,7 @@ struct IndexData : ConnectivityData, GeometryData {};
 /// A view that owns `data`.
 [[nodiscard]] std::shared_ptr<IndexView> make_view(IndexData data);
 
-/// Makes `view` own `geometry`, and refer to it.
+/// Makes `view` own `geometry`, and refer to it. If memory runs out, `view` is as it was.
 void set_geometry(IndexView& view, std::shared_ptr<GeometryData> geometry);
 
 }  // namespace meshhood

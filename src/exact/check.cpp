@@ -202,12 +202,12 @@ class Check {
 
 std::vector<std::string> Index::check(const MeshView& mesh) const {
   const Adjacency graph = adjacency(mesh);
-  return Check(*view_, {mesh.positions, graph.view()}).run();
+  return Check(view(), {mesh.positions, graph.view()}).run();
 }
 
 std::vector<std::string> Index::check(const GraphView& graph) const {
   validate(graph);
-  return Check(*view_, graph).run();
+  return Check(view(), graph).run();
 }
 
 }  // namespace meshhood

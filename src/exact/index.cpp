@@ -3,6 +3,9 @@
 
 #include <utility>
 
+#include "meshhood/error.h"
+
+#include "exact/bound_index.h"
 #include "exact/layout.h"
 #include "exact/weighted_graph.h"
 
@@ -25,45 +28,56 @@ Index::Index(Index&&) noexcept = default;
 Index& Index::operator=(Index&&) noexcept = default;
 Index::~Index() = default;
 
-std::size_t Index::vertex_count() const { return view_->vertex_count(); }
+IndexView& Index::view() const {
+  if (!view_) raise(ErrorCode::InvalidOption, "the index has been moved from, expected one that holds a mesh");
+  return *view_;
+}
+
+void BoundIndex::raise_outdated() {
+  raise(ErrorCode::InvalidOption,
+        "the index was refitted in place, expected `rebind` before the next query, or a new CurvatureIndex");
+}
+
+std::size_t Index::vertex_count() const { return view().vertex_count(); }
 
 PositionsView Index::positions() const {
-  return std::visit([&](auto xyz) { return PositionsView(xyz.first(3 * vertex_count())); }, view_->positions);
+  return std::visit([&](auto xyz) { return PositionsView(xyz.first(3 * vertex_count())); }, view().positions);
 }
 
 std::span<const VertexId> Index::permutation() const {
-  const std::span<const VertexId> padded = view_->permutation;
-  return padded.empty() ? padded : padded.first(view_->vertex_count());
+  const std::span<const VertexId> padded = view().permutation;
+  return padded.empty() ? padded : padded.first(view().vertex_count());
 }
 
-std::span<const VertexId> Index::leaf_starts() const { return view_->leaf_begin; }
+std::span<const VertexId> Index::leaf_starts() const { return view().leaf_begin; }
 
 std::optional<FacesView> Index::faces() const {
-  if (!view_->faces) return std::nullopt;
-  return view_->faces->view();
+  const std::optional<StoredFaces>& faces = view().faces;
+  if (!faces) return std::nullopt;
+  return faces->view();
 }
 
 std::vector<LevelSummary> Index::levels() const {
   std::vector<LevelSummary> result;
-  for (const TreeLevel& level : view_->tree) {
+  for (const TreeLevel& level : view().tree) {
     result.push_back({.level = static_cast<int>(result.size()),
                       .clusters = level.nodes,
                       .mean_vertices = static_cast<double>(vertex_count()) / static_cast<double>(level.nodes),
-                      .mean_radius = level.mean_radius / view_->frame.scale,
+                      .mean_radius = level.mean_radius / view().frame.scale,
                       .mean_siblings = 0,
                       .bytes = level.groups * (sizeof(Group) + sizeof(GroupRecord))});
   }
   if (result.empty()) return result;
   // Links between nodes above the leaves are not counted. The last link is an end marker.
   LevelSummary& leaves = result.front();
-  leaves.mean_siblings = static_cast<double>(view_->links.size() - 1) / static_cast<double>(leaves.clusters);
-  leaves.bytes += bytes_of(view_->leaves) + bytes_of(view_->leaf_begin);
+  leaves.mean_siblings = static_cast<double>(view().links.size() - 1) / static_cast<double>(leaves.clusters);
+  leaves.bytes += bytes_of(view().leaves) + bytes_of(view().leaf_begin);
   return result;
 }
 
 IndexBytes Index::bytes() const {
   IndexBytes result;
-  for_each_array([&](ArrayInfo info, const auto& array) { result.*info.bytes += bytes_of(array); }, *view_);
+  for_each_array([&](ArrayInfo info, const auto& array) { result.*info.bytes += bytes_of(array); }, view());
   return result;
 }
 

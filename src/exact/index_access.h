@@ -20,17 +20,16 @@ struct IndexAccess {
   [[nodiscard]] static Index make(std::shared_ptr<IndexView> view) { return Index(std::move(view)); }
   [[nodiscard]] static Index make(IndexData arrays) { return make(make_view(std::move(arrays))); }
 
-  [[nodiscard]] static const IndexView& view(const Index& index) { return *index.view_; }
+  [[nodiscard]] static const IndexView& view(const Index& index) { return index.view(); }
 
-  /// Keeps the view alive and unchanged, for searchers.
-  [[nodiscard]] static std::shared_ptr<const IndexView> share(const Index& index) { return index.view_; }
+  /// Keeps the view alive, for `BoundIndex`.
+  [[nodiscard]] static std::shared_ptr<const IndexView> share(const Index& index) {
+    static_cast<void>(index.view());
+    return index.view_;
+  }
 
   /// The graph vertex by vertex, for the same.
   [[nodiscard]] static std::shared_ptr<KeptGraph> share_graph(const Index& index) { return index.graph_; }
-
-  /// The view itself, for `refit`, and the graph that belongs to its positions.
-  [[nodiscard]] static std::shared_ptr<IndexView>& storage(Index& index) { return index.view_; }
-  [[nodiscard]] static std::shared_ptr<KeptGraph>& graph(Index& index) { return index.graph_; }
 
   /// The number of steps of a build, for progress: those of `make_leaves`, links between nodes, and those of
   /// `make_geometry`.

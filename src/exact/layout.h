@@ -125,6 +125,7 @@ struct IndexView {
   std::optional<StoredFaces> faces;         // of the index file, if it has them; no search reads them
   std::shared_ptr<const void> owner;        // a `ConnectivityData`, or the bytes of an index file
   std::shared_ptr<GeometryData> geometry;   // of this view alone; none while all arrays are in a file
+  std::uint64_t version = 0;                // the number of refits in place
 
   [[nodiscard]] std::size_t vertex_count() const { return slot.size(); }
   /// The number of places for leaves. A leaf that does not exist has no vertices.

@@ -116,8 +116,10 @@ void apply_moves(std::span<const Move> moves, IndexView& index, TaskContext& tas
   Spheres spheres = measure_leaves(leaves, index, task);
   for (std::size_t i = 0; i < leaves.size(); ++i) geometry.leaves[leaves[i]].bounds = spheres[i];
   update_tree(leaves, std::move(spheres), index, geometry.groups, geometry.mean_radii);
+  RootTree roots = make_root_tree(index.groups, index.records, index.parents);
   task.finish();
   backup.keep();
+  index.roots = std::move(roots);
   for (std::size_t level = 0; level < index.tree.size(); ++level) {
     index.tree[level].mean_radius = geometry.mean_radii[level];
   }

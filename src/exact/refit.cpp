@@ -62,8 +62,21 @@ PositionsView without_padding(const PositionsData& positions, std::size_t vertic
   return std::visit([&](const auto& xyz) { return PositionsView(std::span(xyz).first(3 * vertices)); }, positions);
 }
 
-/// Some moves leave the frame: makes a new one, and all bounds in it.
-Index refit_all(const IndexView& index, std::span<const Move> moves, TaskContext& task) {
+/// The geometry with all positions given, in any precision.
+std::shared_ptr<GeometryData> geometry_at(const PositionsView& positions, const IndexView& index, TaskContext& task) {
+  check_size(positions, index);
+  validate(positions);
+  auto geometry = std::make_shared<GeometryData>();
+  geometry->frame = make_frame(positions);
+  geometry->leaves = copy(index.leaves);
+  make_geometry(positions, index, *geometry, task);
+  task.finish();
+  return geometry;
+}
+
+/// The geometry after moves that leave the frame: makes a new one, and all bounds in it.
+std::shared_ptr<GeometryData> geometry_beyond_frame(std::span<const Move> moves, const IndexView& index,
+                                                    TaskContext& task) {
   auto geometry = std::make_shared<GeometryData>();
   geometry->positions = copy(index.positions);
   write_moves(moves, index, geometry->positions);
@@ -71,7 +84,7 @@ Index refit_all(const IndexView& index, std::span<const Move> moves, TaskContext
   geometry->leaves = copy(index.leaves);
   measure_geometry(index, *geometry, task);
   task.finish();
-  return with_geometry(index, std::move(geometry));
+  return geometry;
 }
 
 std::vector<Move> checked_moves(const IndexView& index, const PositionsView& positions, const IndicesView& changed) {
@@ -80,13 +93,14 @@ std::vector<Move> checked_moves(const IndexView& index, const PositionsView& pos
   return read_moves(index, positions, changed);
 }
 
-/// Whether `view` has no other owner, such as a searcher. No other owner can appear meanwhile.
-bool is_only_owner(const std::shared_ptr<IndexView>& view) {
-  if (view.use_count() != 1) return false;
-  // Reading the count does not synchronize with a searcher that another thread has just destroyed. Releasing another
-  // reference does: the reads of that thread then happen before the writes of this one.
-  static_cast<void>(std::shared_ptr<IndexView>(view));
-  return true;
+/// Moves vertices of an index that no search uses. If an exception ends the call, it is as it was.
+void move_in_place(std::span<const Move> moves, IndexView& index, TaskContext& task) {
+  if (!stay_in_frame(moves, index.frame)) {
+    set_geometry(index, geometry_beyond_frame(moves, index, task));
+    return;
+  }
+  if (!index.geometry) set_geometry(index, copy_geometry(index));  // of a file, which must not change
+  apply_moves(moves, index, task);
 }
 
 }  // namespace
@@ -94,14 +108,7 @@ bool is_only_owner(const std::shared_ptr<IndexView>& view) {
 Index refit(const Index& index, const PositionsView& positions, const BuildOptions& options) {
   TaskContext task(options.threads, options.progress, kGeometrySteps);
   const IndexView& view = IndexAccess::view(index);
-  check_size(positions, view);
-  validate(positions);
-  auto geometry = std::make_shared<GeometryData>();
-  geometry->frame = make_frame(positions);
-  geometry->leaves = copy(view.leaves);
-  make_geometry(positions, view, *geometry, task);
-  task.finish();
-  return with_geometry(view, std::move(geometry));
+  return with_geometry(view, geometry_at(positions, view, task));
 }
 
 Index refit(const Index& index, const PositionsView& positions, const IndicesView& changed,
@@ -109,22 +116,27 @@ Index refit(const Index& index, const PositionsView& positions, const IndicesVie
   TaskContext task(options.threads, options.progress, kGeometrySteps);
   const IndexView& view = IndexAccess::view(index);
   const std::vector<Move> moves = checked_moves(view, positions, changed);
-  if (!stay_in_frame(moves, view.frame)) return refit_all(view, moves, task);
-  Index result = with_geometry(view, copy_geometry(view));
-  apply_moves(moves, *IndexAccess::storage(result), task);
-  return result;
+  if (!stay_in_frame(moves, view.frame)) return with_geometry(view, geometry_beyond_frame(moves, view, task));
+  auto moved = std::make_shared<IndexView>(view);
+  set_geometry(*moved, copy_geometry(view));
+  apply_moves(moves, *moved, task);
+  return IndexAccess::make(std::move(moved));
 }
 
-Index refit(Index&& index, const PositionsView& positions, const IndicesView& changed, const BuildOptions& options) {
-  const std::shared_ptr<IndexView>& view = IndexAccess::storage(index);
-  if (!view->geometry || !is_only_owner(view)) return refit(std::as_const(index), positions, changed, options);
+void Index::refit_in_place(const PositionsView& positions, const BuildOptions& options) {
   TaskContext task(options.threads, options.progress, kGeometrySteps);
-  const std::vector<Move> moves = checked_moves(*view, positions, changed);
-  if (!stay_in_frame(moves, view->frame)) return refit_all(*view, moves, task);
   auto graph = std::make_shared<KeptGraph>();
-  apply_moves(moves, *view, task);
-  IndexAccess::graph(index) = std::move(graph);
-  return std::move(index);
+  set_geometry(view(), geometry_at(positions, view(), task));
+  graph_ = std::move(graph);
+  ++view_->version;
+}
+
+void Index::refit_in_place(const PositionsView& positions, const IndicesView& changed, const BuildOptions& options) {
+  TaskContext task(options.threads, options.progress, kGeometrySteps);
+  auto graph = std::make_shared<KeptGraph>();
+  move_in_place(checked_moves(view(), positions, changed), view(), task);
+  graph_ = std::move(graph);
+  ++view_->version;
 }
 
 }  // namespace meshhood

@@ -518,6 +518,22 @@ TEST(AggregateOfIsolatedVertices, IsTheirOwnValue) {
   EXPECT_THAT(aggregate(index, {values}, {.radii = {1}, .reduce = Reduce::Variance, .ddof = 1}), Each(IsNan()));
 }
 
+TEST(AggregateOfFloats, IsThatOfTheSameNumbersAsDoubles) {
+  const TestMesh mesh = bumpy_grid(30);
+  const Index index = build(mesh.view());
+  std::vector<float> floats;
+  Random random(8);
+  for (std::size_t i = 0; i < 2 * mesh.size(); ++i) floats.push_back(static_cast<float>(random.uniform(-3, 5)));
+  floats[77] = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<double> doubles(floats.begin(), floats.end());
+  for (const Reduce reduce : {Reduce::Sum, Reduce::Mean, Reduce::Minimum, Reduce::Variance, Reduce::Count}) {
+    const AggregateQuery query{.radii = {2.5}, .reduce = reduce, .missing = MissingValues::Omit};
+    const std::span<const float> values = floats;
+    EXPECT_EQ(aggregate(index, {.values = values, .channels = 2}, query),
+              aggregate(index, {.values = doubles, .channels = 2}, query));
+  }
+}
+
 TEST(AggregateOfAnEmptyMesh, IsEmpty) {
   const Index index = build(TestMesh().finish(true).view());
   EXPECT_TRUE(aggregate(index, {}, {.radii = {1}}).empty());

@@ -57,6 +57,7 @@ void expect_consistent(S& searcher, const PositionsView& positions, VertexId v, 
     ASSERT_EQ(distances[i], distance(positions, v, same_ids[i]));
     ASSERT_LE(distances[i], radius);
   }
+  EXPECT_EQ(searcher.neighborhood(v, radius), ids);
   EXPECT_EQ(searcher.count(v, radius), ids.size());
   EXPECT_EQ(sorted(ids_of_visit(searcher, v, radius)), sorted(ids));
   const auto add = [](std::size_t sum, VertexRange run) { return sum + run.size(); };
@@ -107,6 +108,7 @@ void expect_same(const SearchMethod& method, S direct, VertexId v, double radius
   direct.neighborhood(v, radius, ids);
   chosen.neighborhood(v, radius, chosen_ids);
   EXPECT_EQ(chosen_ids, ids);
+  EXPECT_EQ(chosen.neighborhood(v, radius), ids);
   direct.neighborhood(v, radius, ids, distances);
   chosen.neighborhood(v, radius, chosen_ids, chosen_distances);
   EXPECT_EQ(chosen_ids, ids);

@@ -40,6 +40,20 @@ static_assert(MakesTriangles<const std::vector<std::int32_t>&>);
 static_assert(MakesTriangles<std::span<const std::uint64_t>>);
 static_assert(MakesTriangles<const std::vector<std::array<std::uint32_t, 3>>&>);
 
+// Indices of each width, the rows of other libraries, and rows with more than three scalars.
+struct Padded {
+  float x[4];  // NOLINT(modernize-avoid-c-arrays)
+  const float& operator[](int i) const { return x[i]; }
+};
+static_assert(MakesTriangles<const std::vector<short>&> && MakesTriangles<const std::vector<unsigned short>&>);
+static_assert(MakesTriangles<const std::vector<long>&> && MakesTriangles<const std::vector<long long>&>);
+static_assert(MakesTriangles<const std::vector<unsigned long long>&>);
+static_assert(MakesTriangles<const int (&)[5][3]>);                             // NOLINT(modernize-avoid-c-arrays)
+static_assert(std::constructible_from<PositionsView, const double (&)[5][3]>);  // NOLINT(modernize-avoid-c-arrays)
+static_assert(!std::constructible_from<PositionsView, const std::vector<Padded>&>);
+static_assert(!MakesTriangles<const std::vector<std::array<int, 4>>&>);
+static_assert(!MakesTriangles<const std::vector<char>&> && !MakesTriangles<const std::vector<bool>&>);
+
 // Temporaries.
 static_assert(!std::constructible_from<PositionsView, std::vector<float>>);
 static_assert(!std::constructible_from<PositionsView, const std::vector<float>>);
@@ -62,6 +76,16 @@ static_assert(HasView<const ReorderedMesh&> && !HasView<ReorderedMesh>);
 static_assert(std::constructible_from<BatchRadius, int>);
 static_assert(std::constructible_from<BatchRadius, float>);
 static_assert(std::constructible_from<BatchRadius, const std::vector<double>&>);
+
+/// Numbers as rows of three.
+template <class Scalar>
+std::vector<std::array<Scalar, 3>> rows_of(const auto& flat) {
+  std::vector<std::array<Scalar, 3>> rows;
+  for (std::size_t i = 0; i < flat.size(); i += 3) {
+    rows.push_back({static_cast<Scalar>(flat[i]), static_cast<Scalar>(flat[i + 1]), static_cast<Scalar>(flat[i + 2])});
+  }
+  return rows;
+}
 
 /// A mesh in the plain layout, row by row, and the bytes of its index.
 class Views : public testing::Test {
@@ -114,13 +138,32 @@ class Views : public testing::Test {
 };
 
 TEST_F(Views, OfArraysOfThreeAreRead) {
-  std::vector<std::array<double, 3>> points;
-  for (std::size_t i = 0; i < xyz.size(); i += 3) points.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  for (std::size_t i = 0; i < corners.size(); i += 3) {
-    triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
-  }
+  const auto points = rows_of<double>(xyz);
+  const auto triangles = rows_of<std::int32_t>(corners);
   expect_same({points, FacesView::triangles(triangles)});
+}
+
+/// `build` of flat corners, and of triangles, of one type.
+template <class T>
+void expect_built_from(const std::vector<double>& xyz, const std::vector<std::int32_t>& corners, const Index& index) {
+  const std::vector<T> flat(corners.begin(), corners.end());
+  EXPECT_EQ(saved(build(xyz, flat)), saved(index));
+  EXPECT_EQ(saved(build(rows_of<double>(xyz), rows_of<T>(corners), {.threads = 2})), saved(index));
+}
+
+TEST_F(Views, AreMadeByBuildFromArraysOfEachType) {
+  expect_built_from<short>(xyz, corners, index);
+  expect_built_from<unsigned short>(xyz, corners, index);
+  expect_built_from<int>(xyz, corners, index);
+  expect_built_from<unsigned>(xyz, corners, index);
+  expect_built_from<long>(xyz, corners, index);
+  expect_built_from<unsigned long>(xyz, corners, index);
+  expect_built_from<long long>(xyz, corners, index);
+  expect_built_from<unsigned long long>(xyz, corners, index);
+  EXPECT_EQ(saved(build(PositionsView(xyz), plain.faces)), saved(index));
+  const std::vector<short> negative{0, 1, -2};
+  expect_refused(ErrorCode::InvalidMesh, "face 0: corner 2 is vertex -2",
+                 [&] { static_cast<void>(build(xyz, negative)); });
 }
 
 TEST_F(Views, OfColumnsAreRead) {
@@ -208,6 +251,15 @@ TEST_F(Views, OfMatricesOfEigenAreReadInBothOrders) {
   expect_same(mesh_view(transposed.transpose(), column_faces));
   const Eigen::MatrixX<std::int64_t> wide = column_faces.cast<std::int64_t>();
   expect_same(mesh_view(columns, wide));
+}
+
+TEST_F(Views, OfVectorsOfEigenAreReadAsRows) {
+  std::vector<Eigen::RowVector3d> points;
+  for (const auto& p : rows_of<double>(xyz)) points.emplace_back(p[0], p[1], p[2]);
+  std::vector<Eigen::Vector3i> triangles;
+  for (const auto& t : rows_of<int>(corners)) triangles.emplace_back(t[0], t[1], t[2]);
+  expect_same({points, FacesView::triangles(triangles)});
+  EXPECT_EQ(saved(build(points, triangles)), saved(index));
 }
 
 TEST_F(Views, OfBlocksOfMatricesAreRead) {

@@ -397,7 +397,7 @@ TEST(Curvatures, ARefitOfTheIndexLeavesTheSurfaceUnchanged) {
   mesh.positions[3 * 40 + 2] += 0.5;
   mesh.finish(false);
   const std::vector<std::uint32_t> changed{40};
-  index = refit(std::move(index), mesh.positions_view(), changed);
+  index = refit(index, mesh.positions_view(), changed);
   EXPECT_EQ(curvatures(surface, {.radius = 3.0}).k1, expected.k1);
   EXPECT_NE(curvatures(CurvatureIndex::build(index, mesh.view()), {.radius = 3.0}).k1, expected.k1);
 }

@@ -71,7 +71,7 @@ TEST(PacketMoments, DoNotDependOnTheScratchMemory) {
   }
   std::size_t rows = 0;
   for (const bool filtered : {false, true}) {
-    const MomentSource source{.index = state.index, .filter = filtered ? &state : nullptr};
+    const MomentSource source{.index = &*state.index, .filter = filtered ? &state : nullptr};
     for (const Isa isa : available_isas()) {
       PacketMoments reused(source, isa);
       for_each_packet(state.searched, {.radius = radii}, [&](unsigned) -> PacketVisitor {

@@ -3,14 +3,19 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "meshhood/meshhood.h"
+
 #include "exact/index_access.h"
 #include "support/families.h"
 #include "support/forged_index.h"
+#include "support/index_bytes.h"
+#include "support/refusal.h"
 #include "support/same_storage.h"
 
 namespace meshhood::test {
@@ -54,6 +59,35 @@ TEST(IndexLevels, DescribeTheLeavesAndTheTreeAboveThem) {
   }
   EXPECT_GT(levels.front().mean_radius, 1);
   EXPECT_THAT(build(TestMesh{}.view()).levels(), IsEmpty());
+}
+
+TEST(Index, ThatHasBeenMovedFromIsRefusedByEveryCallAndCanBeAssigned) {
+  const TestMesh mesh = bumpy_grid(20);
+  Index index = build(mesh.view());
+  const Index taken = std::move(index);
+  const auto refuse = [&](const auto& call) {  // NOLINTBEGIN(bugprone-use-after-move): the subject of this test
+    expect_refused(ErrorCode::InvalidOption, "the index has been moved from, expected one that holds a mesh", call);
+  };
+  refuse([&] { static_cast<void>(index.vertex_count()); });
+  refuse([&] { static_cast<void>(index.bytes()); });
+  refuse([&] { static_cast<void>(index.levels()); });
+  refuse([&] { static_cast<void>(index.positions()); });
+  refuse([&] { static_cast<void>(index.permutation()); });
+  refuse([&] { static_cast<void>(index.leaf_starts()); });
+  refuse([&] { static_cast<void>(index.faces()); });
+  refuse([&] { static_cast<void>(index.check(mesh.view())); });
+  refuse([&] { index.refit_in_place(mesh.positions_view()); });
+  refuse([&] { static_cast<void>(refit(index, mesh.positions_view())); });
+  refuse([&] { static_cast<void>(Searcher(index)); });
+  refuse([&] { static_cast<void>(RegionSearcher(index)); });
+  refuse([&] { static_cast<void>(EdgeSearcher(index)); });
+  refuse([&] { static_cast<void>(nearest(index, {0, 0, 0})); });
+  refuse([&] { static_cast<void>(counts(index, {.radius = 1.0})); });
+  refuse([&] { static_cast<void>(quality(index)); });
+  refuse([&] { static_cast<void>(saved(index)); });
+  index = build(mesh.view());
+  // NOLINTEND(bugprone-use-after-move)
+  EXPECT_THAT(differences(index, taken), IsEmpty());
 }
 
 }  // namespace

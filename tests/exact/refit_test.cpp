@@ -145,7 +145,7 @@ TEST_P(RefitFamilies, OfSomeVerticesGivesTheAnswersOfTheOracle) {
           }
         }
       });
-      index = refit(std::move(index), mesh.positions_view(), changed);
+      index.refit_in_place(mesh.positions_view(), changed);
       EXPECT_THAT(index.check(mesh.view()), IsEmpty());
       queries += expect_right_answers(index, mesh, random, scaled(4, 1));
       ASSERT_FALSE(HasFailure());
@@ -203,7 +203,7 @@ TEST(Refit, LengthsOfEdgesAreThoseOfTheNewPositions) {
   EXPECT_EQ(path_distances(refit(index, sculpted.moved.positions_view())), expected);
   EXPECT_EQ(path_distances(refit(index, sculpted.moved.positions_view(), sculpted.changed)), expected);
   EXPECT_EQ(path_distances(index), before);
-  index = refit(std::move(index), sculpted.moved.positions_view(), sculpted.changed);
+  index.refit_in_place(sculpted.moved.positions_view(), sculpted.changed);
   EXPECT_EQ(path_distances(index), expected);
 }
 
@@ -227,7 +227,8 @@ TEST(Refit, OfVerticesThatLeaveTheFrameIsARefitOfAll) {
   const Index all = refit(index, sculpted.moved.positions_view());
   EXPECT_THAT(differences(refit(index, sculpted.moved.positions_view(), sculpted.changed), all), IsEmpty());
   Index own = build(sculpted.mesh.view());
-  EXPECT_THAT(differences(refit(std::move(own), sculpted.moved.positions_view(), sculpted.changed), all), IsEmpty());
+  own.refit_in_place(sculpted.moved.positions_view(), sculpted.changed);
+  EXPECT_THAT(differences(own, all), IsEmpty());
 }
 
 TEST(Refit, IsTheSameForAnyNumberOfThreads) {
@@ -284,28 +285,122 @@ TEST(Refit, OfALoadedIndexWorksAndLeavesItAsItIs) {
   const Index expected = refit(build(sculpted.mesh.view()), sculpted.moved.positions_view(), sculpted.changed);
   EXPECT_THAT(differences(refit(loaded, sculpted.moved.positions_view(), sculpted.changed), expected), IsEmpty());
   EXPECT_EQ(saved(loaded), file);
-  EXPECT_THAT(differences(refit(std::move(loaded), sculpted.moved.positions_view(), sculpted.changed), expected),
-              IsEmpty());
+  loaded.refit_in_place(sculpted.moved.positions_view(), sculpted.changed);
+  EXPECT_THAT(differences(loaded, expected), IsEmpty());
 }
 
 const float* positions_of(const Index& index) {
   return std::get<std::span<const float>>(IndexAccess::view(index).positions).data();
 }
 
-TEST(Refit, WorksInTheMemoryOfItsArgumentUnlessASearcherUsesIt) {
+TEST(RefitInPlace, HasTheIndexOfARefitInTheSameMemory) {
   const Sculpted sculpted;
   Index index = build(sculpted.mesh.view());
+  const Searcher searcher(index);
   const float* const before = positions_of(index);
-  index = refit(std::move(index), sculpted.moved.positions_view(), sculpted.changed);
+  index.refit_in_place(sculpted.moved.positions_view(), sculpted.changed);
   EXPECT_EQ(positions_of(index), before);
-  {
-    const Searcher searcher(index);
-    index = refit(std::move(index), sculpted.mesh.positions_view(), sculpted.changed);
-    EXPECT_NE(positions_of(index), before);
+  EXPECT_THAT(differences(index, refit(build(sculpted.mesh.view()), sculpted.moved.positions_view())), IsEmpty());
+  index.refit_in_place(sculpted.mesh.positions_view());
+  EXPECT_THAT(differences(index, build(sculpted.mesh.view())), IsEmpty());
+}
+
+/// Moves some vertices, then more of them out of the frame, then all.
+TEST_P(RefitFamilies, SearchersThatAreBoundAgainGiveTheAnswersOfNewOnes) {
+  TestMesh mesh = make_mesh(GetParam(), 5, 400);
+  if (mesh.size() == 0) return;
+  for (double& x : mesh.positions) x *= 0.25;  // so that there is room for larger numbers
+  mesh.finish(mesh.single_precision);
+  Index index = build(mesh.view());
+  Searcher searcher(index);
+  RegionSearcher regions(index);
+  EdgeSearcher edges(index);
+  Random random(17);
+  const double fixed = 0.4 * distance(mesh.positions_view(), 0, static_cast<VertexId>(mesh.size() / 2));
+  std::vector<VertexId> changed;
+  for (VertexId v = 0; v < mesh.size(); v += 3) changed.push_back(v);
+  for (int step = 0; step < 6; ++step) {
+    for (const VertexId v : changed) mesh.positions[3 * std::size_t{v}] *= step == 3 ? 1.5 : random.uniform(0.7, 1.0);
+    mesh.finish(mesh.single_precision);
+    if (step == 5) {
+      index.refit_in_place(mesh.positions_view());
+    } else {
+      index.refit_in_place(mesh.positions_view(), changed);
+    }
+    searcher.rebind(index);
+    regions.rebind(index);
+    edges.rebind(index);
+    const auto v = static_cast<VertexId>(random.below(mesh.size()));
+    const auto w = static_cast<VertexId>(random.below(mesh.size()));
+    const double far = distance(mesh.positions_view(), v, w);
+    for (const double radius : {fixed, 0.3 * far, far, fixed}) {  // the last one is also that before the next refit
+      const std::array seeds{w};
+      const Start start({0, 0, 0}, seeds);
+      EXPECT_EQ(searcher.neighborhood(v, radius), Searcher(index).neighborhood(v, radius));
+      EXPECT_EQ(regions.region(v, radius), Searcher(index).neighborhood(v, radius));
+      EXPECT_EQ(regions.region(start, radius), RegionSearcher(index).region(start, radius));
+      EXPECT_EQ(edges.neighborhood(v, radius), EdgeSearcher(index).neighborhood(v, radius));
+    }
   }
-  const float* const after = positions_of(index);
-  index = refit(std::move(index), sculpted.moved.positions_view(), sculpted.changed);
-  EXPECT_EQ(positions_of(index), after);
+}
+
+TEST(RefitInPlace, IsRefusedBySearchersThatAreNotBoundAgain) {
+  const Sculpted sculpted;
+  Index index = build(sculpted.mesh.view());
+  Searcher searcher(index);
+  RegionSearcher regions(index);
+  EdgeSearcher edges(index);
+  const CurvatureIndex surface = CurvatureIndex::build(index, sculpted.mesh.view());
+  index.refit_in_place(sculpted.moved.positions_view(), sculpted.changed);
+  const char* const cause = "the index was refitted in place";
+  expect_refused(ErrorCode::InvalidOption, cause, [&] { static_cast<void>(searcher.count(0, 1)); });
+  expect_refused(ErrorCode::InvalidOption, cause, [&] { static_cast<void>(regions.count(0, 1)); });
+  expect_refused(ErrorCode::InvalidOption, cause, [&] { static_cast<void>(regions.contains(0, 1, 1)); });
+  expect_refused(ErrorCode::InvalidOption, cause, [&] { static_cast<void>(regions.connecting_radius(0, 1)); });
+  expect_refused(ErrorCode::InvalidOption, cause, [&] { static_cast<void>(edges.count(0, 1)); });
+  std::vector<VertexId> ids;
+  std::vector<std::size_t> counts;
+  expect_refused(ErrorCode::InvalidOption, cause, [&] { edges.rings(0, 1, ids, counts); });
+  expect_refused(ErrorCode::InvalidOption, cause, [&] { static_cast<void>(curvatures(surface, {.radius = 2.0})); });
+}
+
+TEST(RefitInPlace, LeavesAnIndexMadeByRefitAsItIs) {
+  const Sculpted sculpted;
+  Index index = build(sculpted.mesh.view());
+  const Index copy = refit(index, sculpted.mesh.positions_view());
+  Searcher of_copy(copy);
+  index.refit_in_place(sculpted.moved.positions_view(), sculpted.changed);
+  EXPECT_THAT(differences(copy, build(sculpted.mesh.view())), IsEmpty());
+  EXPECT_EQ(of_copy.neighborhood(7, 2), Searcher(copy).neighborhood(7, 2));
+}
+
+TEST(Searchers, AreBoundToAnotherIndex) {
+  const TestMesh small = bumpy_grid(20);
+  const TestMesh large = bumpy_grid(70);
+  const Index first = build(small.view());
+  const Index second = build(large.view());
+  Searcher searcher(first);
+  Searcher moved = std::move(searcher);
+  searcher.rebind(second);  // NOLINT(bugprone-use-after-move): that binds it again
+  EXPECT_EQ(searcher.neighborhood(2450, 5), Searcher(second).neighborhood(2450, 5));
+  moved.rebind(second);
+  EXPECT_EQ(moved.neighborhood(2450, 5), Searcher(second).neighborhood(2450, 5));
+}
+
+/// Two components far apart; a vertex of one moves next to the other.
+TEST(Refit, OfSomeVerticesIsKnownToTheSearchForTheNearestVertex) {
+  TestMesh mesh = bumpy_grid(40);
+  TestMesh other = mesh;
+  for (std::size_t i = 0; i < other.positions.size(); i += 3) other.positions[i] += 200;
+  append(mesh, other);
+  mesh.finish(false);
+  Index index = build(mesh.view());
+  const std::vector<VertexId> changed{820};
+  const SpacePoint place{180, 20, 0};
+  std::copy(place.begin(), place.end(), mesh.positions.begin() + std::ptrdiff_t{3} * 820);
+  EXPECT_EQ(nearest(refit(index, mesh.positions, changed), place).vertex, 820U);
+  index.refit_in_place(mesh.positions, changed);
+  EXPECT_EQ(nearest(index, place).vertex, 820U);
 }
 
 TEST(Refit, LeavesSearchersOfTheOldStateWithTheOldAnswers) {
@@ -314,7 +409,7 @@ TEST(Refit, LeavesSearchersOfTheOldStateWithTheOldAnswers) {
   const Oracle after(sculpted.moved);
   Index index = build(sculpted.mesh.view());
   Searcher old(index);
-  index = refit(std::move(index), sculpted.moved.positions_view(), sculpted.changed);
+  index = refit(index, sculpted.moved.positions_view(), sculpted.changed);
   Searcher young(index);
   RegionSearcher young_region(index);
   EdgeSearcher young_edges(index);
@@ -366,7 +461,7 @@ TEST(Refit, LetsOtherThreadsSearchTheOldState) {
     }
     while (ready == 0) std::this_thread::yield();
     const TestMesh& next = step % 2 == 0 ? sculpted.moved : sculpted.mesh;
-    index = refit(std::move(index), next.positions_view(), sculpted.changed);
+    index = refit(index, next.positions_view(), sculpted.changed);
     for (std::thread& thread : threads) thread.join();
   }
   EXPECT_EQ(wrong, 0U);
@@ -421,14 +516,15 @@ TEST(Refit, LeavesTheIndexUnchangedIfItFails) {
   const std::vector<std::byte> before = saved(index);
   std::vector<float> xyz = sculpted.moved.single_positions;
   xyz[3 * static_cast<std::size_t>(sculpted.changed.back())] = std::nanf("");
-  EXPECT_THROW(static_cast<void>(refit(std::move(index), xyz, sculpted.changed)), Error);
-  EXPECT_EQ(saved(index), before);  // NOLINT(bugprone-use-after-move): a failed refit does not move
+  EXPECT_THROW(index.refit_in_place(xyz, sculpted.changed), Error);
+  EXPECT_THROW(index.refit_in_place(xyz), Error);
+  EXPECT_EQ(saved(index), before);
   std::size_t cancelled = 0;
   for (std::size_t last = 1; last < 8; ++last) {
     std::size_t reports = 0;
     const auto give_up = [&](std::size_t, std::size_t) { return ++reports < last; };
     try {
-      index = refit(std::move(index), sculpted.moved.positions_view(), sculpted.changed, {.progress = give_up});
+      index.refit_in_place(sculpted.moved.positions_view(), sculpted.changed, {.progress = give_up});
       break;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::Cancelled);

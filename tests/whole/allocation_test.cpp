@@ -409,7 +409,7 @@ TEST_P(Allocation, FailsInARefit) {
   const std::vector<std::byte> after = saved(refit(index, positions, changed));
   expect_made<Index>(after, [&] { return refit(index, positions, changed); });
   shortages.fail_each(
-      [&] { return build(mesh.view()); }, [&](Index& own) { own = refit(std::move(own), positions, changed); },
+      [&] { return build(mesh.view()); }, [&](Index& own) { own.refit_in_place(positions, changed); },
       [&](Index& own, Ending ending) { EXPECT_EQ(saved(own), ending == Ending::Well ? after : before); });
 }
 

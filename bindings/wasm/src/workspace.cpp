@@ -24,9 +24,9 @@ void Workspace::load(std::span<const std::byte> bytes, const LoadOptions& option
 void Workspace::refit(const PositionsView& positions, const std::optional<IndicesView>& changed) {
   forget_derived();
   if (changed) {
-    index_ = meshhood::refit(std::move(*index_), positions, *changed);
+    index_->refit_in_place(positions, *changed);
   } else {
-    index_ = meshhood::refit(*index_, positions);
+    index_->refit_in_place(positions);
   }
 }
 

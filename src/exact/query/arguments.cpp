@@ -12,7 +12,7 @@ namespace meshhood {
 namespace {
 
 void check_mask(const VertexMask& mask, std::size_t vertices, const char* name) {
-  const std::size_t size = mask.bytes().size();
+  const std::size_t size = mask.size();
   if (size == 0 || size == vertices) return;
   raise(ErrorCode::InvalidOption, std::string(name) + ": " + std::to_string(size) +
                                       " values, expected one for each of " + std::to_string(vertices) + " vertices");

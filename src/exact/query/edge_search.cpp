@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "exact/index_access.h"
+#include "exact/bound_index.h"
 #include "exact/query/arguments.h"
 #include "exact/query/path_search.h"
 #include "exact/query/ring_search.h"
@@ -17,7 +17,7 @@ namespace meshhood {
 
 /// The scratch memory of an edge searcher.
 struct EdgeSearcher::State {
-  std::shared_ptr<const IndexView> index;  // shared, so that `refit` leaves it as it is
+  BoundIndex index;
   std::shared_ptr<KeptGraph> graph;
   const Kernels* kernels;
   std::optional<PathSearch> paths;  // made by the first search: it needs the lengths of all edges
@@ -26,16 +26,21 @@ struct EdgeSearcher::State {
   std::vector<VertexRange> ranges;  // of the last call of that name
 
   explicit State(const Index& owner)
-      : index(IndexAccess::share(owner)),
+      : index(owner),
         graph(IndexAccess::share_graph(owner)),
         kernels(&meshhood::kernels(best_isa())),
         rings(*index, *kernels),
         answer(*index) {}
 
-  /// Finds the vertices, those that are ignored included.
-  void search(VertexId v, double radius, const Filter& filter) {
+  void check(VertexId v, double radius, const Filter& filter) const {
+    index.check_current();
     check_query(v, index->vertex_count(), radius);
     check_filter(filter, index->vertex_count());
+  }
+
+  /// Finds the vertices, those that are ignored included.
+  void search(VertexId v, double radius, const Filter& filter) {
+    check(v, radius, filter);
     if (!paths) paths.emplace(*index, *graph);
     const std::uint32_t slot = index->slot[v];
     paths->run(index->leaf_begin[leaf_of(slot)] + lane_of(slot), radius, LaneFilter(*index, filter.walls));
@@ -55,6 +60,16 @@ EdgeSearcher::EdgeSearcher(const Index& index) : state_(std::make_unique<State>(
 EdgeSearcher::EdgeSearcher(EdgeSearcher&&) noexcept = default;
 EdgeSearcher& EdgeSearcher::operator=(EdgeSearcher&&) noexcept = default;
 EdgeSearcher::~EdgeSearcher() = default;
+
+void EdgeSearcher::rebind(const Index& index) {
+  if (state_ && state_->index.is_of(index)) {
+    state_->index = BoundIndex(index);
+    state_->graph = IndexAccess::share_graph(index);
+    state_->paths.reset();
+  } else {
+    *this = EdgeSearcher(index);
+  }
+}
 
 std::size_t EdgeSearcher::vertex_count() const { return state_->index->vertex_count(); }
 
@@ -111,8 +126,7 @@ std::span<const VertexRange> EdgeSearcher::ranges(VertexId v, double radius, con
 void EdgeSearcher::rings(VertexId v, std::size_t k, std::vector<VertexId>& out, std::vector<std::size_t>& counts,
                          const Filter& filter) {
   State& state = *state_;
-  check_query(v, vertex_count(), 0);
-  check_filter(filter, vertex_count());
+  state.check(v, 0, filter);
   const LaneFilter walls(*state.index, filter.walls);
   const LaneFilter ignored(*state.index, filter.ignored);
   std::vector<VertexId> ids;

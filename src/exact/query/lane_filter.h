@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <span>
 
 #include "meshhood/filter.h"
 
@@ -17,16 +15,16 @@ class LaneFilter {
   /// No vertex.
   LaneFilter() = default;
 
-  /// The mask has a byte for each vertex, or is empty.
-  LaneFilter(const IndexView& index, const VertexMask& mask) : index_(&index), bytes_(mask.bytes()) {}
+  /// The mask has a value for each vertex, or is empty.
+  LaneFilter(const IndexView& index, const VertexMask& mask) : index_(&index), mask_(mask) {}
 
-  [[nodiscard]] bool empty() const { return bytes_.empty(); }
+  [[nodiscard]] bool empty() const { return mask_.size() == 0; }
 
   /// Whether the mask has a vertex, by the caller's id.
-  [[nodiscard]] bool has(VertexId id) const { return !empty() && bytes_[id] != 0; }
+  [[nodiscard]] bool has(VertexId id) const { return !empty() && mask_[id]; }
 
   /// Whether the mask has a vertex, in index order.
-  [[nodiscard]] bool has_at(std::size_t vertex) const { return !empty() && bytes_[index_->id(vertex)] != 0; }
+  [[nodiscard]] bool has_at(std::size_t vertex) const { return !empty() && mask_[index_->id(vertex)]; }
 
   /// The vertices of a leaf that are in the mask.
   [[nodiscard]] LaneMask of(LeafId leaf) const {
@@ -34,15 +32,14 @@ class LaneFilter {
     LaneMask lanes = 0;
     const Leaf& record = index_->leaves[leaf];
     for (unsigned lane = 0; lane < record.size; ++lane) {
-      const bool is_in = bytes_[index_->id(record.first + lane)] != 0;
-      lanes |= LaneMask{is_in} << lane;
+      lanes |= LaneMask{mask_[index_->id(record.first + lane)]} << lane;
     }
     return lanes;
   }
 
  private:
   const IndexView* index_ = nullptr;
-  std::span<const std::uint8_t> bytes_;
+  VertexMask mask_;
 };
 
 }  // namespace meshhood

@@ -104,6 +104,12 @@ NearestVertex nearest(const Index& index, const SpacePoint& p) {
   return NearestSearch(IndexAccess::view(index), {p[0], p[1], p[2]}).run();
 }
 
+Start Start::nearest(const Index& index, const SpacePoint& center) {
+  Start start(meshhood::nearest(index, center).vertex);
+  start.center_ = center;
+  return start;
+}
+
 SpacePoint point_on_face(const Index& index, std::span<const VertexId> corners, std::span<const double> weights) {
   if (weights.size() != corners.size()) {
     raise(ErrorCode::InvalidOption, "weights: " + std::to_string(weights.size()) +

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "exact/index_access.h"
+#include "exact/bound_index.h"
 #include "exact/query/arguments.h"
 #include "exact/query/region_state.h"
 #include "exact/vertex_set.h"
@@ -14,6 +14,7 @@
 namespace meshhood {
 
 void RegionSearcher::State::check(const Start& start, std::string_view where) const {
+  index.check_current();
   check_start(start, index->vertex_count(), where);
 }
 
@@ -22,20 +23,20 @@ void RegionSearcher::State::check(const Filter& filter) const { check_filter(fil
 Point RegionSearcher::State::begin(const Start& start, const Filter& filter) {
   walls = LaneFilter(*index, filter.walls);
   ignored = LaneFilter(*index, filter.ignored);
-  if (!start.center()) {
-    const Point center = position_of(*index, start.vertex());
-    flood.start(center, walls);
-    flood.add_seed(slot(start.vertex()));
-    return center;
-  }
-  const SpacePoint& p = *start.center();
-  flood.start({p[0], p[1], p[2]}, walls);
+  const Point center = center_of(start);
+  flood.start(center, walls);
   for (const VertexId seed : start.seeds()) flood.add_seed(slot(seed));
+  return center;
+}
+
+Point RegionSearcher::State::center_of(const Start& start) const {
+  if (!start.center()) return position_of(*index, start.vertex());
+  const SpacePoint& p = *start.center();
   return {p[0], p[1], p[2]};
 }
 
 bool RegionSearcher::State::is_neighborhood(const Start& start, const Filter& filter) {
-  return !start.center() && filter.walls.bytes().empty() && filter.ignored.bytes().empty();
+  return !start.center() && filter.walls.size() == 0 && filter.ignored.size() == 0;
 }
 
 SearcherAccess::State& RegionSearcher::State::searcher() {
@@ -60,7 +61,7 @@ Point RegionSearcher::State::search(const Start& start, double radius, const Fil
   if (is_neighborhood(start, filter)) {
     searcher().search(start.vertex(), radius);
     std::swap(answer, searcher().answer);
-    return position_of(*index, start.vertex());
+    return center_of(start);
   }
   const Point center = begin(start, filter);
   flood.grow(radius);
@@ -69,10 +70,20 @@ Point RegionSearcher::State::search(const Start& start, double radius, const Fil
 }
 
 RegionSearcher::RegionSearcher(const Index& index)
-    : state_(std::make_unique<State>(IndexAccess::share(index), IndexAccess::share_graph(index), best_isa())) {}
+    : state_(std::make_unique<State>(BoundIndex(index), IndexAccess::share_graph(index), best_isa())) {}
 RegionSearcher::RegionSearcher(RegionSearcher&&) noexcept = default;
 RegionSearcher& RegionSearcher::operator=(RegionSearcher&&) noexcept = default;
 RegionSearcher::~RegionSearcher() = default;
+
+void RegionSearcher::rebind(const Index& index) {
+  if (state_ && state_->index.is_of(index)) {
+    state_->index = BoundIndex(index);
+    state_->graph = IndexAccess::share_graph(index);
+    if (state_->neighborhoods) state_->neighborhoods->rebind(state_->index, state_->graph);
+  } else {
+    *this = RegionSearcher(index);
+  }
+}
 
 void RegionSearcher::region(const Start& start, double radius, std::vector<VertexId>& out, const Filter& filter) {
   state_->search(start, radius, filter);

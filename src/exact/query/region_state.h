@@ -9,6 +9,7 @@
 
 #include "meshhood/region.h"
 
+#include "exact/bound_index.h"
 #include "exact/layout.h"
 #include "exact/query/flood.h"
 #include "exact/query/lane_filter.h"
@@ -20,8 +21,8 @@ namespace meshhood {
 
 /// The scratch memory of a region searcher, and what its queries share.
 struct RegionSearcher::State {
-  std::shared_ptr<const IndexView> index;  // shared, so that `refit` leaves it as it is
-  std::shared_ptr<KeptGraph> graph;        // of odd graphs
+  BoundIndex index;
+  std::shared_ptr<KeptGraph> graph;  // of odd graphs
   Isa isa;
   const Kernels* kernels;
   Flood flood;
@@ -31,8 +32,8 @@ struct RegionSearcher::State {
   VertexSet answer;
   std::unique_ptr<SearcherAccess::State> neighborhoods;
 
-  State(std::shared_ptr<const IndexView> view, std::shared_ptr<KeptGraph> kept, Isa chosen)
-      : index(std::move(view)),
+  State(BoundIndex bound, std::shared_ptr<KeptGraph> kept, Isa chosen)
+      : index(std::move(bound)),
         graph(std::move(kept)),
         isa(chosen),
         kernels(&meshhood::kernels(isa)),
@@ -42,6 +43,8 @@ struct RegionSearcher::State {
   /// Throws unless the arguments of a query are valid. `where` begins the messages.
   void check(const Start& start, std::string_view where = {}) const;
   void check(const Filter& filter) const;
+
+  [[nodiscard]] Point center_of(const Start& start) const;
 
   /// Begins a flood from valid arguments, with nothing reached. Returns its center.
   Point begin(const Start& start, const Filter& filter);

@@ -7,6 +7,7 @@
 // breadth-first searches.
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <variant>
 
 #include "meshhood/search.h"
@@ -19,7 +20,16 @@
 
 namespace meshhood {
 
+void Searcher::State::rebind(BoundIndex bound, std::shared_ptr<KeptGraph> kept) {
+  index = std::move(bound);
+  graph = std::move(kept);
+  bounds = RadiusBounds(index->frame, 0);
+  is_odd = meshhood::is_odd(*index);
+  vertex_bfs = VertexBfs(*index, *graph);
+}
+
 void Searcher::State::search(VertexId v, double radius) {
+  index.check_current();
   // A call for valid arguments would take a tenth of the shortest queries.
   if (v >= index->vertex_count() || !(radius >= 0)) check_query(v, index->vertex_count(), radius);
   if (radius != bounds.radius) bounds = RadiusBounds(index->frame, radius);
@@ -87,10 +97,18 @@ bool Searcher::State::is_alone(std::uint32_t slot) const {
 }
 
 Searcher::Searcher(const Index& index)
-    : state_(std::make_unique<State>(IndexAccess::share(index), IndexAccess::share_graph(index), best_isa())) {}
+    : state_(std::make_unique<State>(BoundIndex(index), IndexAccess::share_graph(index), best_isa())) {}
 Searcher::Searcher(Searcher&&) noexcept = default;
 Searcher& Searcher::operator=(Searcher&&) noexcept = default;
 Searcher::~Searcher() = default;
+
+void Searcher::rebind(const Index& index) {
+  if (state_ && state_->index.is_of(index)) {
+    state_->rebind(BoundIndex(index), IndexAccess::share_graph(index));
+  } else {
+    *this = Searcher(index);
+  }
+}
 
 std::size_t Searcher::vertex_count() const { return state_->index->vertex_count(); }
 

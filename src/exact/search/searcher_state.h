@@ -7,6 +7,7 @@
 
 #include "meshhood/search.h"
 
+#include "exact/bound_index.h"
 #include "exact/layout.h"
 #include "exact/search/component.h"
 #include "exact/search/leaf_bfs.h"
@@ -20,8 +21,8 @@ namespace meshhood {
 
 /// The scratch memory of a searcher, and the outline of a query.
 struct Searcher::State {
-  std::shared_ptr<const IndexView> index;  // shared, so that `refit` leaves it as it is
-  std::shared_ptr<KeptGraph> graph;        // of odd graphs
+  BoundIndex index;
+  std::shared_ptr<KeptGraph> graph;  // of odd graphs
   const Kernels* kernels;
   RadiusBounds bounds;
   bool is_odd;
@@ -31,8 +32,8 @@ struct Searcher::State {
   Component component;
   VertexSet answer;
 
-  State(std::shared_ptr<const IndexView> view, std::shared_ptr<KeptGraph> kept, Isa isa)
-      : index(std::move(view)),
+  State(BoundIndex bound, std::shared_ptr<KeptGraph> kept, Isa isa)
+      : index(std::move(bound)),
         graph(std::move(kept)),
         kernels(&meshhood::kernels(isa)),
         bounds(index->frame, 0),
@@ -42,6 +43,9 @@ struct Searcher::State {
         reach(*index, *kernels),
         component(*index, *kernels),
         answer(*index) {}
+
+  /// Goes on with the present state of the same index.
+  void rebind(BoundIndex bound, std::shared_ptr<KeptGraph> kept);
 
   /// Refills `answer` with the neighborhood.
   void search(VertexId v, double radius);

@@ -6,9 +6,11 @@
 #include <limits>
 #include <string>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "meshhood/index.h"
+#include "meshhood/region.h"
 #include "meshhood/start.h"
 
 #include "support/draw_start.h"
@@ -74,6 +76,21 @@ TEST(Nearest, RefusesAPointThatIsNotFiniteAndAMeshWithoutVertices) {
                  [&] { static_cast<void>(nearest(index, {nan, 0, 0})); });
   const Index empty = build(TestMesh{}.finish(true).view());
   expect_refused(ErrorCode::VertexOutOfRange, "no vertices", [&] { static_cast<void>(nearest(empty, {0, 0, 0})); });
+}
+
+TEST(StartNearest, HasTheNearestVertexAsItsOnlySeed) {
+  const TestMesh mesh = bumpy_grid(30);
+  const Index index = build(mesh.view());
+  RegionSearcher searcher(index);
+  for (const SpacePoint& p : {SpacePoint{3.2, 4.1, 0.5}, SpacePoint{28, 28, -1}, SpacePoint{-50, 0, 0}}) {
+    const std::array seed{nearest(index, p).vertex};
+    const Start start = Start::nearest(index, p);
+    const Start copy = start;  // NOLINT(performance-unnecessary-copy-initialization): a copy has a seed of its own
+    EXPECT_EQ(copy.center(), p);
+    EXPECT_THAT(copy.seeds(), testing::ElementsAre(seed[0]));
+    EXPECT_EQ(searcher.region(Start::nearest(index, p), 4), searcher.region(Start(p, seed), 4));
+    EXPECT_EQ(searcher.count(Start::nearest(index, p), 4) == 0, p[0] < 0);
+  }
 }
 
 TEST(PointOnFace, IsTheWeightedSumOfTheCorners) {

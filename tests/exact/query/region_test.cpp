@@ -235,7 +235,10 @@ TEST(Region, EndsAtWallsAndPassesIgnoredVertices) {
   RegionSearcher searcher(index);
   std::vector<std::uint8_t> row(mesh.size());
   for (VertexId v = 12; v < 15; ++v) row[v] = 1;  // the fifth of nine rows of three
+  const std::vector<bool> bits(row.begin(), row.end());
   EXPECT_EQ(searcher.count(VertexId{0}, kInfinity, {.walls = row}), 12U);
+  EXPECT_EQ(searcher.count(VertexId{0}, kInfinity, {.walls = bits}), 12U);
+  EXPECT_EQ(searcher.count(VertexId{0}, kInfinity, {.ignored = bits}), 24U);
   EXPECT_EQ(searcher.count(VertexId{0}, kInfinity, {.ignored = row}), 24U);
   EXPECT_EQ(searcher.count(VertexId{12}, kInfinity, {.walls = row}), 0U) << "a wall is no seed";
   EXPECT_EQ(searcher.connecting_radius(VertexId{0}, 26, {.walls = row}), kInfinity);

@@ -229,7 +229,7 @@ TEST(VertexBfs, FollowsTheVerticesAfterARefit) {
   Index index = build(before.view());
   compare_answers(before, index);
   compare_answers(after, refit(index, after.positions_view()));
-  index = refit(std::move(index), after.positions_view(), all);
+  index.refit_in_place(after.positions_view(), all);
   compare_answers(after, index);
 }
 
