@@ -42,8 +42,8 @@ class EdgeSearcher {
   EdgeSearcher& operator=(EdgeSearcher&&) noexcept;
   ~EdgeSearcher();
 
-  /// Goes on with `index`: the answers are then those of a new searcher. After `refit_in_place` of the same index, it
-  /// keeps its scratch memory and takes O(1).
+  /// Goes on with `index`: the answers are then those of a new searcher. After `refit_in_place`, the next search along
+  /// the edges takes O(#V + #E), as the first of an index does.
   void rebind(const Index& index);
   void rebind(const Index&&) = delete;
 

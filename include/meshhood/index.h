@@ -33,8 +33,8 @@ struct IndexView;
 /// The index of exact neighborhoods: the mesh in an order in which near vertices are close in memory, cut into
 /// connected leaves of up to 32 vertices, and a tree of bounding spheres over the leaves.
 ///
-/// Any number of threads may query it, each with its own `Searcher`; only `refit_in_place` changes it. It does not refer
-/// to the mesh: `build` and `load` copy what they need; the result of `map` refers to the mapped bytes.
+/// Any number of threads may query it, each with its own `Searcher`; only `refit_in_place` changes it. It does not
+/// refer to the mesh: `build` and `load` copy what they need; the result of `map` refers to the mapped bytes.
 ///
 /// An index that has been moved from can be assigned and destroyed. All else throws Error{InvalidOption}.
 class Index {
@@ -52,7 +52,7 @@ class Index {
   /// The leaves, and the levels of nodes above them.
   [[nodiscard]] std::vector<LevelSummary> levels() const;
 
-  /// The positions in index order, #V by 3. Valid as long as the index.
+  /// The positions in index order, #V by 3. Valid as long as the index, or until a refit in place.
   [[nodiscard]] PositionsView positions() const;
 
   /// The caller's id of each vertex in index order, #V: the order in which the index stores the vertices, and in which

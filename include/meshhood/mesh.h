@@ -29,10 +29,9 @@ concept FloatOrDouble = std::same_as<T, float> || std::same_as<T, double>;
 
 /// A type of indices: an integer of 16 to 64 bits.
 template <class T>
-concept IndexInteger =
-    std::same_as<T, short> || std::same_as<T, unsigned short> || std::same_as<T, int> || std::same_as<T, unsigned> ||
-    std::same_as<T, long> || std::same_as<T, unsigned long> || std::same_as<T, long long> ||
-    std::same_as<T, unsigned long long>;
+concept IndexInteger = std::same_as<T, short> || std::same_as<T, unsigned short> || std::same_as<T, int> ||
+                       std::same_as<T, unsigned> || std::same_as<T, long> || std::same_as<T, unsigned long> ||
+                       std::same_as<T, long long> || std::same_as<T, unsigned long long>;
 
 namespace detail {
 
@@ -46,11 +45,15 @@ using Scalar = std::remove_cvref_t<decltype(std::declval<const Row&>()[0])>;
 
 }  // namespace detail
 
-/// Three scalars in a row and nothing else: `std::array<T, 3>`, `T[3]`, `Eigen::Vector3d`, `glm::vec3` and others.
+/// Three scalars in a row and nothing else: `std::array<T, 3>`, `T[3]`, `Eigen::Vector3d`, `glm::vec3` and others. A
+/// container or a view of that size, such as `std::vector<double>`, holds its scalars elsewhere; the last two
+/// conditions reject it.
 template <class Row>
-concept RowOfThree = requires(const Row& row) {
-  { row[0] } -> std::same_as<const detail::Scalar<Row>&>;
-} && sizeof(Row) == 3 * sizeof(detail::Scalar<Row>);
+concept RowOfThree =
+    requires(const Row& row) {
+      { row[0] } -> std::same_as<const detail::Scalar<Row>&>;
+    } && sizeof(Row) == 3 * sizeof(detail::Scalar<Row>) && std::is_trivially_destructible_v<Row> &&
+    std::default_initializable<Row>;
 
 namespace detail {
 
@@ -112,7 +115,8 @@ class PositionsView {
 
   /// One point for each vertex.
   template <BorrowedPoints Range>
-  PositionsView(Range&& points) : PositionsView(Rows{}, detail::flatten(std::span<const detail::Element<Range>>(points))) {}
+  PositionsView(Range&& points)
+      : PositionsView(Rows{}, detail::flatten(std::span<const detail::Element<Range>>(points))) {}
 
   /// A flat array of all x, then all y, then all z.
   template <BorrowedReals Range>

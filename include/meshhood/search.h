@@ -86,7 +86,7 @@ class Searcher {
   ~Searcher();
 
   /// Goes on with `index`: the answers are then those of a new searcher. After `refit_in_place` of the same index, it
-  /// keeps its scratch memory and takes O(1).
+  /// keeps its scratch memory and takes O(1); on a graph unlike a surface, the next query takes O(#V + #E).
   void rebind(const Index& index);
   void rebind(const Index&&) = delete;
 

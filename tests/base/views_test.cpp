@@ -52,6 +52,9 @@ static_assert(MakesTriangles<const int (&)[5][3]>);                             
 static_assert(std::constructible_from<PositionsView, const double (&)[5][3]>);  // NOLINT(modernize-avoid-c-arrays)
 static_assert(!std::constructible_from<PositionsView, const std::vector<Padded>&>);
 static_assert(!MakesTriangles<const std::vector<std::array<int, 4>>&>);
+// A vector has the size of three doubles or long integers.
+static_assert(!std::constructible_from<PositionsView, const std::vector<std::vector<double>>&>);
+static_assert(!MakesTriangles<const std::vector<std::vector<std::int64_t>>&>);
 static_assert(!MakesTriangles<const std::vector<char>&> && !MakesTriangles<const std::vector<bool>&>);
 
 // Temporaries.
