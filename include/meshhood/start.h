@@ -13,8 +13,8 @@ namespace meshhood {
 /// A point in space, in the unit of the positions.
 using SpacePoint = std::array<double, 3>;
 
-/// Where a search starts: the center of its balls, and its seeds, the vertices from which it spreads. Borrows seeds that
-/// are given, which must outlive the call.
+/// Where a search starts: the center of its balls, and its seeds, the vertices from which it spreads. Borrows seeds
+/// that are given, which must outlive the call.
 class Start {
  public:
   /// Vertex `v` is the center and the only seed.
@@ -24,8 +24,8 @@ class Start {
   /// seeds   in [0, #V), in any order; repeats are allowed. A seed outside a ball does not count for that ball.
   Start(const SpacePoint& center, std::span<const VertexId> seeds) : center_(center), seeds_(seeds) {}
 
-  /// Any point in space is the center, and the vertex nearest to it the only seed: what a click or a tracked tool gives.
-  /// Throws as `nearest`.
+  /// Any point in space is the center, and the vertex nearest to it the only seed: what a click or a tracked tool
+  /// gives. Throws as `nearest`.
   [[nodiscard]] static Start nearest(const Index& index, const SpacePoint& center);
 
   /// The vertex, if the start is a vertex; then `center` is empty.

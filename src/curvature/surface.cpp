@@ -72,8 +72,7 @@ std::vector<Point> sum_areas(const IndexView& index, std::span<const Real> xyz, 
 
 // A refit writes to a view only if it has one owner, so the second owner makes it as immutable as a const one.
 CurvatureIndex::State::State(const Index& given)
-    : searched(IndexAccess::make(std::const_pointer_cast<IndexView>(IndexAccess::share(given)))),
-      index(searched) {}
+    : searched(IndexAccess::make(std::const_pointer_cast<IndexView>(IndexAccess::share(given)))), index(searched) {}
 
 std::size_t CurvatureIndex::State::first_neighbor(std::size_t place) const {
   const std::uint32_t slot = index->slot[index->id(place)];

@@ -20,7 +20,8 @@ extern "C" {
                                                    const double* radii, std::size_t radius_count, Reduce reduce,
                                                    SmoothingKernel kernel, MissingValues missing, Nesting nesting,
                                                    double ddof) {
-  const SignalView signal{.values = std::span(values, value_count), .channels = channels, .weights = {weights, weight_count}};
+  const SignalView signal{
+      .values = std::span(values, value_count), .channels = channels, .weights = {weights, weight_count}};
   answer.reals = meshhood::aggregate(workspace.index(), signal,
                                      {.vertices = view_vertices(vertices, vertex_count),
                                       .radii = {radii, radii + radius_count},
