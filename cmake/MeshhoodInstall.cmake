@@ -10,7 +10,7 @@ install(TARGETS meshhood EXPORT meshhood)
 install(EXPORT meshhood NAMESPACE meshhood:: FILE meshhoodTargets.cmake DESTINATION ${package_dir})
 
 if(TARGET meshhood_io)
-  install(FILES io/index_io.h io/mesh_io.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/meshhood/io)
+  install(FILES io/index_io.h io/mesh_io.h io/weld.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/meshhood/io)
   install(TARGETS meshhood_io EXPORT meshhood_io)
   install(EXPORT meshhood_io NAMESPACE meshhood:: FILE meshhoodIoTargets.cmake DESTINATION ${package_dir})
 endif()

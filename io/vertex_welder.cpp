@@ -2,31 +2,20 @@
 #include "io/vertex_welder.h"
 
 #include <bit>
-#include <chrono>
 #include <limits>
-#include <type_traits>
 
 #include <fmt/format.h>
 
 #include "meshhood/error.h"
 #include "meshhood/mesh.h"
 
+#include "io/seeded_hash.h"
+
 namespace meshhood::io {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kFirstSlots = std::size_t{1} << 12;
-
-std::uint64_t mixed(std::uint64_t word) {
-  word *= 0x9e3779b97f4a7c15U;
-  return word ^ (word >> 32U);
-}
-
-// Not known before the program runs: the time, and where the system has put it in memory.
-std::uint64_t new_seed(const void* place) {
-  const auto time = static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
-  return mixed(time ^ mixed(reinterpret_cast<std::uintptr_t>(place)));
-}
 
 }  // namespace
 
@@ -52,9 +41,8 @@ auto VertexWelder<Real>::vertex(std::uint32_t id) const -> Point {
 
 template <class Real>
 std::size_t VertexWelder<Real>::first_slot(const Point& point) const {
-  using Bits = std::conditional_t<sizeof(Real) == sizeof(std::uint32_t), std::uint32_t, std::uint64_t>;
   std::uint64_t hash = seed_;
-  for (const Real coordinate : point) hash = mixed(hash ^ std::bit_cast<Bits>(coordinate + Real{0}));  // -0 + 0 is 0
+  for (const Real coordinate : point) hash = hash_with(hash, coordinate);
   return static_cast<std::size_t>(hash) & (slots_.size() - 1);
 }
 

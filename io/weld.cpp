@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "io/weld.h"
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "meshhood/error.h"
+
+#include "io/near_welder.h"
+#include "io/vertex_welder.h"
+
+namespace meshhood::io {
+namespace {
+
+void check_eps(double eps) {
+  if (eps >= 0 && std::isfinite(eps)) return;
+  raise(ErrorCode::InvalidOption, fmt::format("eps is {}, expected a finite number >= 0", eps));
+}
+
+template <class Real, class Welder>
+void append_all(const StridedPositions<Real>& xyz, Welder welder) {
+  for (std::size_t v = 0; v < xyz.size(); ++v) welder.append({xyz(v, 0), xyz(v, 1), xyz(v, 2)});
+}
+
+/// Fills `kept` with the positions of the kept vertices. Returns the place of each vertex among these.
+template <class Real>
+std::vector<std::uint32_t> weld_into(std::vector<Real>& kept, const StridedPositions<Real>& xyz, double eps) {
+  std::vector<std::uint32_t> ids;
+  ids.reserve(xyz.size());
+  if (eps > 0) {
+    append_all(xyz, NearWelder<Real>(kept, ids, xyz.size(), eps));
+  } else {
+    append_all(xyz, VertexWelder<Real>(kept, ids, "weld"));
+  }
+  return ids;
+}
+
+}  // namespace
+
+MeshView WeldedMesh::view() const& {
+  const auto view_of_positions = [](const auto& xyz) { return PositionsView(xyz); };
+  const auto faces = offsets.empty() ? FacesView::triangles(corners) : FacesView::polygons(offsets, corners);
+  return {std::visit(view_of_positions, positions), faces};
+}
+
+WeldedMesh weld(const MeshView& mesh, double eps) {
+  check_eps(eps);
+  validate(mesh);
+  WeldedMesh welded;
+  welded.ids = mesh.positions.visit([&]<class Real>(const StridedPositions<Real>& xyz) {
+    return weld_into(welded.positions.emplace<std::vector<Real>>(), xyz, eps);
+  });
+  welded.corners.reserve(mesh.faces.corner_count());
+  if (!mesh.faces.are_triangles()) {
+    welded.offsets.reserve(mesh.faces.size() + 1);
+    welded.offsets.push_back(0);
+  }
+  mesh.faces.for_each([&](std::size_t, std::span<const VertexId> corners) {
+    for (const VertexId v : corners) welded.corners.push_back(welded.ids[v]);
+    if (!mesh.faces.are_triangles()) welded.offsets.push_back(welded.corners.size());
+  });
+  return welded;
+}
+
+std::vector<std::uint32_t> welded_ids(const PositionsView& positions, double eps) {
+  check_eps(eps);
+  validate(positions);
+  return positions.visit([&]<class Real>(const StridedPositions<Real>& xyz) {
+    std::vector<Real> kept;
+    return weld_into(kept, xyz, eps);
+  });
+}
+
+}  // namespace meshhood::io

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "meshhood/adjacency.h"
+#include "meshhood/mesh.h"
+
+/// Welding: makes one vertex of all vertices at the same place, so that faces which meet there are connected.
+///
+/// Vertices are taken in ascending order of their ids. A vertex becomes the first kept vertex at most `eps` away; if
+/// there is none, it is kept. So kept vertices are more than `eps` apart, every vertex is at most `eps` away from the
+/// one that it becomes, no chain of near vertices collapses, and welding again with the same `eps` changes nothing.
+/// With an `eps` > 0 the choice depends on the order of the vertices; with 0 only their numbers do.
+///
+/// eps  >= 0 and finite, in the unit of the positions. With 0, positions must be equal, where -0 equals 0; otherwise
+///      `distance` decides, and a vertex at exactly `eps` is welded.
+///
+/// Expected O(#V + #corners) if `eps` is no larger than the mean edge length, on one thread. The result does not depend
+/// on the machine. Throws Error{InvalidOption, InvalidMesh, TooLarge}.
+namespace meshhood::io {
+
+/// A welded mesh, owned. Kept vertices have their positions, and their order.
+struct WeldedMesh {
+  PositionsData positions;             ///< #kept by 3, in the precision given
+  std::vector<std::uint64_t> offsets;  ///< #F + 1 (see `FacesView::polygons`), or empty if triangles were given
+  std::vector<std::uint32_t> corners;  ///< of all faces, as ids in this mesh
+  std::vector<std::uint32_t> ids;      ///< by vertex of the mesh given: its id in this one. #V
+
+  /// Borrows from this object. A view of a temporary does not compile.
+  [[nodiscard]] MeshView view() const&;
+  [[nodiscard]] MeshView view() const&& = delete;
+};
+
+/// All faces stay, in their order, and keep the number of their corners: values by face or by corner remain valid. A
+/// face whose corners were welded with each other repeats a vertex, which no search minds.
+[[nodiscard]] WeldedMesh weld(const MeshView& mesh, double eps = 0);
+
+/// The `ids` that `weld` returns. O(#V).
+[[nodiscard]] std::vector<std::uint32_t> welded_ids(const PositionsView& positions, double eps = 0);
+
+}  // namespace meshhood::io
