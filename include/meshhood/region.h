@@ -59,31 +59,35 @@ class RegionSearcher {
     return out;
   }
 
+  /// Returns whether a seed lies in the ball, as a vertex that is the start always does. If none does, the answer is
+  /// empty: the center is too far from the mesh.
+  ///
   /// out     replaced, its capacity reused: ids in index order, without duplicates.
-  void region(const Start& start, double radius, std::vector<VertexId>& out, const Filter& filter = {});
+  bool region(const Start& start, double radius, std::vector<VertexId>& out, const Filter& filter = {});
 
   /// Also returns the distance of each vertex from the center, in the order of the ids. See `distance`.
-  void region(const Start& start, double radius, std::vector<VertexId>& out, std::vector<double>& distances,
+  bool region(const Start& start, double radius, std::vector<VertexId>& out, std::vector<double>& distances,
               const Filter& filter = {});
 
   /// The number of vertices of the region.
   [[nodiscard]] std::size_t count(const Start& start, double radius, const Filter& filter = {});
 
-  /// The union of the regions of `dabs`, such as those of a brush stroke.
+  /// The union of the regions of `dabs`, such as those of a brush stroke. Returns whether each ball has a seed.
   ///
   /// out     replaced: ids in index order, without duplicates.
   /// An error names the dab. The cost is that of the single regions together.
-  void stroke(std::span<const Dab> dabs, std::vector<VertexId>& out, const Filter& filter = {});
+  bool stroke(std::span<const Dab> dabs, std::vector<VertexId>& out, const Filter& filter = {});
 
   /// The regions of one start for several radii, each vertex once. Around a vertex, without a filter, about as fast as
-  /// the queries of a `Searcher`; else about as fast as the region of the largest radius.
+  /// the queries of a `Searcher`; else about as fast as the region of the largest radius. Returns whether a seed lies
+  /// in the largest ball; true without radii.
   ///
   /// radii   strictly ascending.
   /// out     replaced: the region of the largest radius, ring by ring. Ring `i` has the vertices of the region of
   ///         `radii[i]` that the region of `radii[i - 1]` does not have. A near vertex may belong to a late ring if
   ///         only the wider ball connects it. Each ring is in index order.
   /// counts  replaced, one for each radius: the region of `radii[i]` is the first `counts[i]` ids of `out`.
-  void nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& out,
+  bool nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& out,
               std::vector<std::size_t>& counts, const Filter& filter = {});
 
   /// Whether the region has vertex `w`. Costs at most as much as the region, and less if the search reaches `w` early.

@@ -27,7 +27,7 @@ void check_radii(std::span<const double> radii) {
 
 }  // namespace
 
-void RegionSearcher::nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& out,
+bool RegionSearcher::nested(const Start& start, std::span<const double> radii, std::vector<VertexId>& out,
                             std::vector<std::size_t>& counts, const Filter& filter) {
   State& state = *state_;
   state.check(start);
@@ -60,6 +60,7 @@ void RegionSearcher::nested(const Start& start, std::span<const double> radii, s
   }
   out = std::move(ids);
   counts = std::move(sizes);
+  return radii.empty() || state.has_seed(start, radii.back());
 }
 
 }  // namespace meshhood

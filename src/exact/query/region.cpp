@@ -2,6 +2,7 @@
 // The region of one start and one radius: the neighborhood of a vertex, or else a flood that grows once.
 #include "meshhood/region.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -37,6 +38,14 @@ Point RegionSearcher::State::center_of(const Start& start) const {
 
 bool RegionSearcher::State::is_neighborhood(const Start& start, const Filter& filter) {
   return !start.center() && filter.walls.size() == 0 && filter.ignored.size() == 0;
+}
+
+bool RegionSearcher::State::has_seed(const Start& start, double radius) const {
+  if (!start.center() || !flood.reached().empty()) return true;
+  const SpacePoint& p = *start.center();
+  const SearchBall ball({p[0], p[1], p[2]}, radius);
+  const auto is_inside = [&](VertexId seed) { return ball.contains(position_of(*index, seed)); };  // but a wall
+  return std::any_of(start.seeds().begin(), start.seeds().end(), is_inside);
 }
 
 SearcherAccess::State& RegionSearcher::State::searcher() {
@@ -85,12 +94,13 @@ void RegionSearcher::rebind(const Index& index) {
   }
 }
 
-void RegionSearcher::region(const Start& start, double radius, std::vector<VertexId>& out, const Filter& filter) {
+bool RegionSearcher::region(const Start& start, double radius, std::vector<VertexId>& out, const Filter& filter) {
   state_->search(start, radius, filter);
   replace_ids(state_->answer, *state_->index, *state_->kernels, out);
+  return state_->has_seed(start, radius);
 }
 
-void RegionSearcher::region(const Start& start, double radius, std::vector<VertexId>& out,
+bool RegionSearcher::region(const Start& start, double radius, std::vector<VertexId>& out,
                             std::vector<double>& distances, const Filter& filter) {
   const Point center = state_->search(start, radius, filter);
   // Before `out` changes: if this throws, neither has changed.
@@ -98,6 +108,7 @@ void RegionSearcher::region(const Start& start, double radius, std::vector<Verte
   replace_ids(state_->answer, *state_->index, *state_->kernels, out);
   distances.resize(out.size());
   write_distances(state_->answer, *state_->index, center, distances.data());
+  return state_->has_seed(start, radius);
 }
 
 std::size_t RegionSearcher::count(const Start& start, double radius, const Filter& filter) {
@@ -106,7 +117,7 @@ std::size_t RegionSearcher::count(const Start& start, double radius, const Filte
 }
 
 /// The union of the regions, one flood after the other.
-void RegionSearcher::stroke(std::span<const Dab> dabs, std::vector<VertexId>& out, const Filter& filter) {
+bool RegionSearcher::stroke(std::span<const Dab> dabs, std::vector<VertexId>& out, const Filter& filter) {
   State& state = *state_;
   for (std::size_t i = 0; i < dabs.size(); ++i) {
     const std::string where = "dab " + std::to_string(i) + ": ";
@@ -116,13 +127,16 @@ void RegionSearcher::stroke(std::span<const Dab> dabs, std::vector<VertexId>& ou
   state.check(filter);
   std::vector<LeafSubset>& found = state.found;
   found.clear();
+  bool all_have_seeds = true;
   for (const Dab& dab : dabs) {
     state.begin(dab.start, filter);
     state.flood.grow(dab.radius);
+    all_have_seeds = all_have_seeds && state.has_seed(dab.start, dab.radius);
     state.for_each_found(0, [&](const LeafSubset& subset) { found.push_back(subset); });
   }
   state.answer.assign(found);
   replace_ids(state.answer, *state.index, *state.kernels, out);
+  return all_have_seeds;
 }
 
 }  // namespace meshhood

@@ -52,6 +52,9 @@ struct RegionSearcher::State {
   /// Whether the region of a valid start is the neighborhood of its vertex.
   [[nodiscard]] static bool is_neighborhood(const Start& start, const Filter& filter);
 
+  /// Whether a seed lies in the ball, when the flood of a valid start has grown to `radius`.
+  [[nodiscard]] bool has_seed(const Start& start, double radius) const;
+
   /// The searcher of neighborhoods, made when first needed.
   [[nodiscard]] SearcherAccess::State& searcher();
 

@@ -189,10 +189,40 @@ TEST(Region, OfAPointOnAFaceWhoseCornersAreOutsideIsEmpty) {
   const std::array<VertexId, 3> corners{0, 1, 6};
   const SpacePoint middle = point_on_face(index, corners, std::array{0.4, 0.3, 0.3});
   std::vector<VertexId> ids{7};
-  searcher.region({middle, corners}, 0.2, ids);
+  EXPECT_FALSE(searcher.region({middle, corners}, 0.2, ids));
   EXPECT_THAT(ids, IsEmpty());
-  searcher.region({middle, corners}, 0.9, ids);
+  EXPECT_TRUE(searcher.region({middle, corners}, 0.9, ids));
   EXPECT_THAT(ids, testing::Not(IsEmpty()));
+}
+
+TEST(Region, SaysWhetherASeedLiesInTheBall) {
+  const TestMesh mesh = make_grid(5, 5, false);
+  const Index index = build(mesh.view());
+  RegionSearcher searcher(index);
+  const SpacePoint above{2, 2, 3};
+  const std::array<VertexId, 2> seeds{0, 12};  // 12 at exactly 3, and 0 farther
+  const Start start(above, seeds);
+  std::vector<VertexId> ids;
+  std::vector<double> distances;
+  std::vector<std::size_t> counts;
+  EXPECT_TRUE(searcher.region(start, 3, ids, distances));
+  EXPECT_TRUE(searcher.nested(start, std::array{1.0, 3.0}, ids, counts));
+  EXPECT_THAT(counts, testing::ElementsAre(0, 1));
+  EXPECT_FALSE(searcher.region(start, 2.9, ids, distances));
+  EXPECT_FALSE(searcher.nested(start, std::array{1.0, 2.9}, ids, counts));
+  EXPECT_TRUE(searcher.nested(start, {}, ids, counts));
+  EXPECT_FALSE(searcher.region({above, {}}, 100, ids)) << "no seeds";
+
+  // A vertex always lies in its ball. A wall does, too, although nothing is found.
+  std::vector<std::uint8_t> walls(25);
+  walls[12] = 1;
+  EXPECT_TRUE(searcher.region(VertexId{12}, 0, ids, {.walls = walls}));
+  EXPECT_TRUE(searcher.region(start, 3, ids, {.walls = walls}));
+  EXPECT_THAT(ids, IsEmpty());
+
+  EXPECT_TRUE(searcher.stroke(std::array{Dab{start, 3}, Dab{VertexId{0}, 0}}, ids));
+  EXPECT_FALSE(searcher.stroke(std::array{Dab{start, 2.9}, Dab{VertexId{0}, 0}}, ids));
+  EXPECT_THAT(ids, testing::ElementsAre(0));
 }
 
 TEST(Region, WithoutSeedsIsEmpty) {
