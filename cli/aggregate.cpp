@@ -46,6 +46,7 @@ constexpr Names<Nesting, 2> kNestings{{{"own", Nesting::Own}, {"patch", Nesting:
 
 struct AggregateCommand {
   std::string file;
+  std::string weld;  ///< as typed; empty without
   std::string values;
   Radii radii;
   std::string reduce = "mean";
@@ -77,11 +78,11 @@ struct AggregateShape {
   std::size_t numbers;  ///< the product of the three
 };
 
-void write_npz(const std::string& file, const AggregateQuery& query, const AggregateShape& shape,
-               const std::vector<double>& result) {
+void write_npz(const std::string& file, const AggregateQuery& query, const BatchVertices& listed,
+               const AggregateShape& shape, const std::vector<double>& result) {
   io::NpzWriter npz(file);
   npz.add<double>("radii", query.radii);
-  write_vertices(npz, query.vertices);
+  write_vertices(npz, listed);
   const std::array<std::uint64_t, 3> lengths{shape.radii, shape.rows, shape.channels};
   npz.begin<double>("values", lengths);
   npz.append<double>(result);
@@ -103,7 +104,8 @@ void write_mesh(const AggregateCommand& options, const AggregateShape& shape, co
   values.write(options.files, mesh, (shape.radii - 1) * shape.channels);
 }
 
-AggregateShape run(const AggregateCommand& options, Input& input, const AggregateQuery& query) {
+AggregateShape run(const AggregateCommand& options, Input& input, const AggregateQuery& query,
+                   const BatchVertices& listed) {
   const Channels values = read_channels(options.values, input.vertex_count());
   const std::vector<double> weights = weights_of(options, input);
   const SignalView signal{values.numbers, values.channels, weights};
@@ -116,7 +118,7 @@ AggregateShape run(const AggregateCommand& options, Input& input, const Aggregat
   {
     Task task("computing", {"rows", static_cast<double>(shape.radii)});
     result = aggregate(index, signal, query, {.threads = options.threads, .progress = task.progress()});
-    if (!options.files.npz.empty()) write_npz(options.files.npz, query, shape, result);
+    if (!options.files.npz.empty()) write_npz(options.files.npz, query, listed, shape, result);
   }
   if (options.files.has_mesh()) write_mesh(options, shape, result, input.surface());
   return shape;
@@ -124,16 +126,16 @@ AggregateShape run(const AggregateCommand& options, Input& input, const Aggregat
 
 void aggregate_command(const AggregateCommand& options) {
   check_value_files(options.files, {options.file, options.values, options.weights, options.vertices});
-  Input input(options.file, options.threads);
+  Input input(options.file, options.weld, options.threads);
   input.need_edges("aggregate");
-  const QueryVertices vertices(options.vertices, input.vertex_count());
+  const QueryVertices vertices(options.vertices, input);
   const AggregateQuery query{.vertices = vertices.view(),
                              .radii = resolve(options.radii, input),
                              .reduce = value_of(kReductions, options.reduce),
                              .kernel = value_of(kKernels, options.kernel),
                              .missing = value_of(kMissing, options.missing),
                              .nesting = value_of(kNestings, options.nesting)};
-  const AggregateShape shape = run(options, input, query);
+  const AggregateShape shape = run(options, input, query, vertices.listed());
   Json document = to_json(options.files);
   document.update(
       {{"reduce", options.reduce}, {"radii", shape.radii}, {"rows", shape.rows}, {"channels", shape.channels}});
@@ -149,6 +151,7 @@ void add_aggregate(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("aggregate", "Write the mean or another aggregate of values over each neighborhood");
   add_file(*command, options->file);
+  add_weld(*command, options->weld);
   add_file_option(*command, "--values", "numbers by vertex: text with a line per vertex, or an array of NumPy (.npy)",
                   options->values)
       ->required();

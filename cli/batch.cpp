@@ -38,6 +38,7 @@ namespace {
 
 struct BatchCommand {
   std::string file;
+  std::string weld;  ///< as typed; empty without
   Radius radius;
   std::string vertices;  ///< a file with a list; empty for all
   std::string order;     ///< as typed; empty for the default
@@ -183,7 +184,7 @@ BatchSize write(const SearchMethod& method, const BatchQuery& query, const Batch
   Task task(task_name(options, expected, columns),
             {"rows", static_cast<double>(number_of_passes(options))});  // outlives the temporary file
   io::NpzWriter npz(options.output);
-  write_vertices(npz, query.vertices);
+  if (has_vertices(row_order(options))) write_vertices(npz, query.vertices);
   if (!shard.empty()) npz.add_text(kShardArray, shard);
   const BatchSize total = Writer(method, query, options, limit, task, npz).write();
   Task::check_cancelled();
@@ -204,25 +205,28 @@ std::vector<VertexId> vertices_of(const Shard& shard, const BatchVertices& rows,
   return result;
 }
 
-std::vector<VertexId> all_in_index_order(const Index& index) {
+/// Without the vertices that have become others.
+std::vector<VertexId> all_in_index_order(const Index& index, const Welding& welding) {
   std::vector<VertexId> result(index.permutation().begin(), index.permutation().end());
   if (result.empty()) {  // the orders are equal
     result.resize(index.vertex_count());
     std::iota(result.begin(), result.end(), VertexId{0});
   }
+  std::erase_if(result, [&](VertexId v) { return welding.kept(v) != v; });
   return result;
 }
 
 void batch(const BatchCommand& options) {
+  check_weld(options.weld, options.method);
   check_output(options.output, {options.file, options.vertices});
   const RowOrder order = row_order(options);
-  Input input(options.file, options.threads);
-  const QueryVertices vertices(options.vertices, input.vertex_count());
+  Input input(options.file, options.weld, options.threads);
+  const QueryVertices vertices(options.vertices, input);
   BatchQuery query{.vertices = vertices.view(), .radius = resolve(options.radius, input)};
   const SearchMethod method = method_of(options.method, input, {}, options.threads);
   std::vector<VertexId> in_index_order;
   if (order == RowOrder::Index) {
-    in_index_order = all_in_index_order(input.exact_index(options.threads));
+    in_index_order = all_in_index_order(input.exact_index(options.threads), input.welding());
     query.vertices = in_index_order;
   }
   std::string about;
@@ -252,6 +256,7 @@ void add_batch(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("batch", "Write the neighborhoods of all vertices, or of a list, in CSR form");
   add_file(*command, options->file);
+  add_weld(*command, options->weld);
   add_radius(*command, options->radius);
   add_vertices(*command, options->vertices);
   add_choice(

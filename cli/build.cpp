@@ -31,6 +31,7 @@ namespace {
 
 struct BuildCommand {
   std::string mesh;
+  std::string weld;  ///< as typed; empty without
   std::string index = "exact";
   std::string cut;
   bool faces = false;
@@ -89,9 +90,10 @@ Summary build_and_save(const BuildCommand& options, const Mesh& mesh, const std:
 }
 
 /// The graph of the mesh without the edges that `file` lists.
-Adjacency cut_graph(const MeshView& mesh, const std::string& file) {
+Adjacency cut_graph(const MeshView& mesh, const std::string& file, const Welding& welding) {
   const Adjacency whole = adjacency(mesh);
-  const std::vector<VertexId> edges = read_vertex_list(file, whole.view().size(), 2);
+  std::vector<VertexId> edges = read_vertex_list(file, whole.view().size(), 2);
+  for (VertexId& v : edges) v = welding.kept(v);
   try {
     return cut_edges(whole.view(), edges);
   } catch (const Error& error) {
@@ -104,13 +106,14 @@ void build(const BuildCommand& options) {
     raise(ErrorCode::InvalidOption, "--faces: the index of the paper is saved without faces; expected --index exact");
   }
   check_output(options.output, {options.mesh, options.cut});
-  const io::Mesh mesh = read_mesh(options.mesh, options.threads);
+  io::Mesh mesh = read_mesh(options.mesh, options.threads);
+  const Welding welding(mesh, options.weld, options.mesh);
   const std::optional<FacesView> faces = options.faces ? std::optional(mesh.view().faces) : std::nullopt;
   Summary summary{};
   if (options.cut.empty()) {
     summary = build_and_save(options, mesh.view(), faces);
   } else {
-    const Adjacency rest = cut_graph(mesh.view(), options.cut);
+    const Adjacency rest = cut_graph(mesh.view(), options.cut, welding);
     summary = build_and_save(options, GraphView{mesh.view().positions, rest.view()}, faces);
   }
   print_result(options.json, to_json(options, summary), to_text(options, summary));
@@ -122,6 +125,7 @@ void add_build(CLI::App& program) {
   auto options = std::make_shared<BuildCommand>();
   CLI::App* command = program.add_subcommand("build", "Build the index of a mesh and save it");
   add_mesh(*command, options->mesh);
+  add_weld(*command, options->weld);
   add_choice(*command, "--index", "exact: for exact answers; paper: the index of the paper", {"exact", "paper"},
              options->index);
   add_file_option(*command, "--cut", "a list of edges that no search crosses: on each line the two vertices of one",

@@ -23,6 +23,7 @@ namespace {
 struct CheckCommand {
   std::string index;
   std::string mesh;  ///< empty if not given
+  std::string weld;  ///< as typed; empty without
   bool json = false;
 };
 
@@ -45,7 +46,8 @@ void expect_none(const CheckCommand& options, const std::vector<std::string>& vi
 
 template <class AnyIndex>
 void check_against_mesh(const CheckCommand& options, const IndexHeader& header, const AnyIndex& index) {
-  const io::Mesh mesh = read_mesh(options.mesh);
+  io::Mesh mesh = read_mesh(options.mesh);
+  static_cast<void>(Welding(mesh, options.weld, options.mesh));
   expect_built_from(options, header, fingerprint(mesh.view()), options.mesh);
   expect_none(options, index.check(mesh.view()));
 }
@@ -101,6 +103,7 @@ void add_check(CLI::App& program) {
   CLI::App* command = program.add_subcommand("check", "Verify an index file, alone or against the mesh");
   add_file_option(*command, "INDEX", "index file (made by meshhood build)", options->index)->required()->type_name("");
   add_file_option(*command, "--mesh", "also verify that the index was built from this mesh", options->mesh);
+  add_weld(*command, options->weld);
   add_json(*command, options->json);
   command->callback([options] { check(*options); });
 }

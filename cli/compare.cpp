@@ -24,6 +24,7 @@ namespace {
 
 struct CompareCommand {
   std::string file;
+  std::string weld;  ///< as typed; empty without
   std::uint64_t vertex = 0;
   Radius radius;
   std::string output;
@@ -44,6 +45,7 @@ std::vector<Row> answer(Input& input, VertexId v, double radius) {
     AnySearcher searcher = method_of(method, input).make_searcher();
     Row row{method, {}, {}, 0};
     row.microseconds = 1e6 * measure::median_seconds([&] { searcher.neighborhood(v, radius, row.vertices); });
+    std::erase_if(row.vertices, [&](VertexId w) { return input.welding().kept(w) != w; });  // the ball has them all
     if (!rows.empty()) row.difference = comparison.compare(rows.front().vertices, row.vertices);
     rows.push_back(std::move(row));
   }
@@ -83,7 +85,7 @@ void paint(const std::string& file, Input& input, VertexId v, const std::vector<
 
 void compare(const CompareCommand& options) {
   check_output(options.output, {options.file});
-  Input input(options.file);
+  Input input(options.file, options.weld);
   input.need_edges("compare");
   const VertexId v = resolve_vertex(options.vertex, input);
   const double radius = resolve(options.radius, input);
@@ -99,6 +101,7 @@ void add_compare(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "compare", "Compare the methods on one query: size, difference from breadth-first search, time");
   add_file(*command, options->file);
+  add_weld(*command, options->weld);
   add_number(*command, "-v,--vertex", "query vertex, by its number in the file from 0", options->vertex)->required();
   add_radius(*command, options->radius);
   add_output(

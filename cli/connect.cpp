@@ -25,6 +25,7 @@ namespace {
 
 struct ConnectCommand {
   std::string file;
+  std::string weld;  ///< as typed; empty without
   std::vector<std::uint64_t> vertices;
   StartOptions start;
   std::vector<std::uint64_t> targets;
@@ -38,7 +39,7 @@ struct Connections {
 };
 
 Connections connections_of(const ConnectCommand& options, const QueryStart& start, Input& input) {
-  const FilterMasks masks(options.start, input.vertex_count());
+  const FilterMasks masks(options.start, input);
   RegionSearcher searcher(input.exact_index());
   Connections found;
   if (options.nearest) {
@@ -70,7 +71,7 @@ void connect(const ConnectCommand& options) {
     raise(ErrorCode::InvalidOption, "expected either --to or --nearest");
   }
   check_start_options(options.start, "exact", !options.vertices.empty());
-  Input input(options.file);
+  Input input(options.file, options.weld);
   input.need_edges("connect");
   const QueryStart start = start_of(options.start, options.vertices, input);
   const Connections found = connections_of(options, start, input);
@@ -84,6 +85,7 @@ void add_connect(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("connect", "Print the smallest radii at which vertices belong to a neighborhood");
   add_file(*command, options->file);
+  add_weld(*command, options->weld);
   add_numbers(*command, "-v,--vertex", "the vertex of the neighborhood, by its number in the file from 0",
               options->vertices);
   add_start(*command, options->start);

@@ -30,6 +30,7 @@ namespace {
 
 struct CurvatureCommand {
   std::string file;
+  std::string weld;  ///< as typed; empty without
   std::string vertices;
   Radii radii;
   bool like_libigl = false;
@@ -127,10 +128,10 @@ void print(const CurvatureCommand& options, std::size_t rows, std::size_t radii,
 
 void curvature(const CurvatureCommand& options) {
   check_value_files(options.files, {options.file, options.vertices});
-  Input input(options.file, options.threads);
+  Input input(options.file, options.weld, options.threads);
   input.need_faces("curvature");
   const std::vector<double> radii = resolve(options.radii, input);
-  const QueryVertices vertices(options.vertices, input.vertex_count());
+  const QueryVertices vertices(options.vertices, input);
   const Index& index = input.exact_index(options.threads);
   const CurvatureIndex surface = CurvatureIndex::build(index, input.surface());
   CurvatureOptions settings = options.like_libigl ? like_libigl() : CurvatureOptions{};
@@ -146,7 +147,7 @@ void curvature(const CurvatureCommand& options) {
       states.add(found.state);
       columns.append(found);
     }
-    if (!options.files.npz.empty()) write_npz(options.files.npz, radii, vertices.view(), columns);
+    if (!options.files.npz.empty()) write_npz(options.files.npz, radii, vertices.listed(), columns);
   }
   if (options.files.has_mesh()) write_mesh(options.files, radii.size(), columns, input.surface());
   print(options, row_count(vertices.view(), index.vertex_count()), radii.size(), states);
@@ -158,6 +159,7 @@ void add_curvature(CLI::App& program) {
   auto options = std::make_shared<CurvatureCommand>();
   CLI::App* command = program.add_subcommand("curvature", "Write the principal curvatures at one or several scales");
   add_mesh(*command, options->file);
+  add_weld(*command, options->weld);
   add_radii(*command, options->radii);
   add_vertices(*command, options->vertices);
   command->add_flag("--like-libigl", options->like_libigl,

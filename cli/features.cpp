@@ -31,6 +31,7 @@
 #include "output.h"
 #include "task.h"
 #include "value_files.h"
+#include "vertex_files.h"
 
 namespace meshhood::cli {
 namespace {
@@ -48,6 +49,7 @@ constexpr Names<Feature, 10> kKinds{{{"crease", Feature::Crease},
 
 struct FeaturesCommand {
   std::string file;
+  std::string weld;  ///< as typed; empty without
   Radii radii;
   std::string smallest;
   std::string largest;
@@ -107,9 +109,10 @@ FeaturesFound compute(const FeaturesCommand& options, Input& input) {
   FeaturesFound found{radii_of(options, input), options.kinds.size(), {}, {}};
   static_cast<void>(persistence({}, found.radii, options.threshold));  // refuses wrong radii before the work begins
   const CurvatureIndex surface = CurvatureIndex::build(input.exact_index(options.threads), input.surface());
+  const QueryVertices vertices("", input);
   const std::vector<double> areas = vertex_areas(input.surface());
   Task task("measuring", {"rows", static_cast<double>(found.radii.size())});
-  found.values = features(surface, {}, found.radii,
+  found.values = features(surface, vertices.view(), found.radii,
                           {.kinds = kinds_of(options),
                            .areas = areas,
                            .filter = !options.no_filter,
@@ -201,7 +204,7 @@ void print(const FeaturesCommand& options, const FeaturesFound& found) {
 
 void features_command(const FeaturesCommand& options) {
   check_value_files(options.files, {options.file});
-  Input input(options.file, options.threads);
+  Input input(options.file, options.weld, options.threads);
   input.need_faces("features");
   const FeaturesFound found = compute(options, input);
   if (!options.files.npz.empty()) write_npz(options, found);
@@ -227,6 +230,7 @@ void add_features(CLI::App& program) {
   auto options = std::make_shared<FeaturesCommand>();
   CLI::App* command = program.add_subcommand("features", "Write creases and other features at many scales");
   add_mesh(*command, options->file);
+  add_weld(*command, options->weld);
   add_radii(*command, *options);
   command
       ->add_option("--kinds", options->kinds,

@@ -15,6 +15,7 @@
 #include "commands.h"
 #include "index_parts.h"
 #include "input.h"
+#include "io/weld.h"
 #include "options.h"
 #include "output.h"
 #include "statistics.h"
@@ -26,6 +27,7 @@ constexpr std::size_t kWidth = 19;  // of the names in the text
 
 struct InfoCommand {
   std::string file;
+  std::string weld;  ///< as typed; empty without
   bool index = false;
   bool json = false;
 };
@@ -44,24 +46,26 @@ Json to_json(const io::Warning& warning) {
   return {{"what", warning.what}, {"count", warning.count}, {"first_place", warning.first_place}};
 }
 
-Json to_json(const std::string& file, const io::Mesh& mesh, const Statistics& s) {
+Json to_json(Input& input, const Statistics& s) {
+  const io::Mesh& mesh = *input.mesh();
   Json degrees = Json::object();
   for (const auto& [corners, faces] : s.polygon_degrees) degrees[std::to_string(corners)] = faces;
   Json warnings = Json::array();
   for (const io::Warning& warning : mesh.warnings) warnings.push_back(to_json(warning));
-  return {{"mesh", file},
+  return {{"mesh", input.name()},
           {"format", format_name(mesh.format)},
           {"vertices", s.vertices},
           {"faces", s.faces},
           {"polygon_degrees", degrees},
           {"edges", s.edges},
           {"components", s.components},
-          {"isolated_vertices", s.isolated_vertices},
+          {"isolated_vertices", s.isolated_vertices - input.welding().count()},
           {"boundary_edges", s.boundary_edges},
           {"nonmanifold_edges", s.nonmanifold_edges},
           {"average_edge", s.average_edge},
           {"repeated_corners", s.repeated_corners},
           {"repeated_positions", s.repeated_positions},
+          {"welded_vertices", input.welding().count()},
           {"bounding_box", s.bounds ? Json{{"min", s.bounds->min}, {"max", s.bounds->max}} : Json()},
           {"warnings", warnings}};
 }
@@ -78,20 +82,21 @@ std::string to_text(const std::optional<Box>& bounds) {
   return fmt::format("{:g} to {:g}", fmt::join(bounds->min, " "), fmt::join(bounds->max, " "));
 }
 
-std::string to_text(const std::string& file, const io::Mesh& mesh, const Statistics& s) {
+std::string to_text(Input& input, const Statistics& s) {
   Rows rows(kWidth);
-  rows.add("mesh", fmt::format("{} ({})", printable_name(file), format_name(mesh.format)));
+  rows.add("mesh", fmt::format("{} ({})", printable_name(input.name()), format_name(input.mesh()->format)));
   rows.add("vertices", s.vertices);
   rows.add("faces", s.faces);
   rows.add("corners per face", to_text(s.polygon_degrees));
   rows.add("edges", s.edges);
   rows.add("components", s.components);
-  rows.add("isolated vertices", s.isolated_vertices);
+  rows.add("isolated vertices", s.isolated_vertices - input.welding().count());
   rows.add("boundary edges", s.boundary_edges);
   rows.add("non-manifold edges", s.nonmanifold_edges);
   rows.add("mean edge length", fmt::format("{:.4g}", s.average_edge));
   rows.add("repeated corners", s.repeated_corners);
   rows.add("repeated positions", s.repeated_positions);
+  if (input.welding().count() > 0) rows.add("welded vertices", input.welding().count());
   rows.add("bounding box", to_text(s.bounds));
   return rows.text();
 }
@@ -120,11 +125,24 @@ std::string to_text(Input& input) {
          (header.kind == IndexKind::Paper ? text_of(input.paper_index()) : text_of(input.exact_index()));
 }
 
+/// Names welding if repeated positions split components.
+void note_split_components(const Input& input, const Statistics& summary) {
+  if (summary.components < 2 || summary.repeated_positions == 0 || input.welding().count() > 0) return;
+  const io::WeldedMesh welded = io::weld(input.mesh()->view());
+  const Adjacency graph = adjacency(welded.view());
+  const std::size_t joined = count_components(welded.view(), graph.view());
+  if (joined == summary.components) return;
+  print_error("note: ", fmt::format("vertices at equal positions split the mesh into {} components; --weld joins them "
+                                    "into {}",
+                                    summary.components, joined));
+}
+
 /// With --index, also builds both indexes.
 void info_of_mesh(const InfoCommand& options, Input& input) {
   const Statistics summary = statistics(input.mesh()->view(), input.graph().adjacency);
-  Json document = to_json(input.name(), *input.mesh(), summary);
-  std::string text = to_text(input.name(), *input.mesh(), summary);
+  note_split_components(input, summary);
+  Json document = to_json(input, summary);
+  std::string text = to_text(input, summary);
   if (options.index) {
     document["index"] = {{"exact", json_of(input.exact_index())}, {"paper", json_of(input.paper_index())}};
     text += '\n' + text_of(input.exact_index()) + '\n' + text_of(input.paper_index());
@@ -133,7 +151,7 @@ void info_of_mesh(const InfoCommand& options, Input& input) {
 }
 
 void info(const InfoCommand& options) {
-  Input input(options.file);
+  Input input(options.file, options.weld);
   if (input.mesh() != nullptr) return info_of_mesh(options, input);
   print_result(options.json, to_json(input), to_text(input));
 }
@@ -145,6 +163,7 @@ void add_info(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "info", "Print the size, components, boundary and defects of a mesh, or the size and levels of an index");
   add_file(*command, options->file);
+  add_weld(*command, options->weld);
   command->add_flag("--index", options->index, "for a mesh: also build both indexes and print their sizes and levels");
   add_json(*command, options->json);
   command->callback([options] { info(*options); });

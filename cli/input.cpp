@@ -63,7 +63,7 @@ PositionsData positions_of(const paper::Index& index) {
 
 }  // namespace
 
-Input::Input(std::string file, unsigned threads) : name_(std::move(file)) {
+Input::Input(std::string file, const std::string& weld, unsigned threads) : name_(std::move(file)) {
   refuse_parts(name_);
   auto content = [this, threads] {
     Task task(reading(name_), kMegabytes);
@@ -72,7 +72,12 @@ Input::Input(std::string file, unsigned threads) : name_(std::move(file)) {
   if (auto* mesh = std::get_if<io::Mesh>(&content)) {
     mesh_ = std::move(*mesh);
     print_warnings(*mesh_, name_);
+    welding_ = Welding(*mesh_, weld, name_);
     return;
+  }
+  if (!weld.empty()) {
+    raise(ErrorCode::InvalidOption,
+          fmt::format("--weld: {} is an index; weld the mesh when the index is built", printable_name(name_)));
   }
   auto& loaded = std::get<io::LoadedIndex>(content);
   header_ = loaded.header;
@@ -137,11 +142,11 @@ const paper::Index& Input::paper_index() {
   return *paper_;
 }
 
-io::Mesh read_mesh(const std::string& file, unsigned threads) {
+io::Mesh read_mesh(const std::string& file, unsigned threads, std::uint64_t max_bytes) {
   refuse_parts(file);
   io::Mesh mesh = [&] {
     Task task(reading(file), kMegabytes);
-    return io::read_mesh(file, {.threads = threads, .progress = task.progress()});
+    return io::read_mesh(file, {.threads = threads, .max_bytes = max_bytes, .progress = task.progress()});
   }();
   print_warnings(mesh, file);
   return mesh;

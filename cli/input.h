@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "meshhood/serialize.h"
 
 #include "io/load_any.h"
+#include "weld.h"
 
 namespace meshhood::cli {
 
@@ -24,8 +26,9 @@ inline constexpr unsigned kAllThreads = 0;
 /// saved with faces has faces. An index of the paper has no edges; commands that need edges call `need_edges` first.
 class Input {
  public:
-  /// Reads `file` and prints the warnings of the reader. Throws as `io::read_mesh` and `io::load`.
-  explicit Input(std::string file, unsigned threads = kAllThreads);
+  /// Reads `file`, prints the warnings of the reader, and welds the mesh as --weld says. Throws as `io::read_mesh`,
+  /// `io::load` and `Welding`; Error{InvalidOption} if an index is to be welded.
+  Input(std::string file, const std::string& weld, unsigned threads = kAllThreads);
 
   /// As on the command line.
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -37,6 +40,8 @@ class Input {
   [[nodiscard]] const IndexHeader& header() const { return *header_; }
 
   [[nodiscard]] std::size_t vertex_count() const;
+
+  [[nodiscard]] const Welding& welding() const { return welding_; }
 
   /// Throws Error{InvalidOption} if the file has no edges. `purpose` is for the message: "--method bfs".
   void need_edges(const std::string& purpose) const;
@@ -65,6 +70,7 @@ class Input {
  private:
   std::string name_;
   std::optional<io::Mesh> mesh_;
+  Welding welding_;
   std::optional<Adjacency> adjacency_;  // of the mesh
   std::optional<IndexHeader> header_;
   std::optional<Index> exact_;
@@ -73,8 +79,10 @@ class Input {
   std::optional<PositionsData> positions_;  // of the paper's index in the file
 };
 
-/// Reads a mesh, with progress, and prints the warnings of the reader. Throws as `io::read_mesh`.
-[[nodiscard]] io::Mesh read_mesh(const std::string& file, unsigned threads = kAllThreads);
+/// Reads a mesh of at most `max_bytes`, with progress, and prints the warnings of the reader. Throws as
+/// `io::read_mesh`.
+[[nodiscard]] io::Mesh read_mesh(const std::string& file, unsigned threads = kAllThreads,
+                                 std::uint64_t max_bytes = io::ReadOptions{}.max_bytes);
 
 /// Reads and verifies an index, with progress. Throws as `io::load`.
 [[nodiscard]] io::LoadedIndex load_index(const std::string& file);

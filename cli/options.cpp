@@ -239,7 +239,7 @@ std::vector<double> resolve(const Radii& radii, Input& input) {
 
 VertexId resolve_vertex(std::uint64_t v, const Input& input) {
   const std::size_t vertices = input.vertex_count();
-  if (v < vertices) return static_cast<VertexId>(v);
+  if (v < vertices) return input.welding().kept(static_cast<VertexId>(v));
   raise(ErrorCode::VertexOutOfRange,
         fmt::format("vertex {} is out of range: {} has {} vertices", v, printable_name(input.name()), vertices));
 }

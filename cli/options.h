@@ -103,7 +103,8 @@ void add_unit(CLI::App& command, const std::string& length, std::string& unit);
 /// The double nearest to `text`; `name` is for the message. Throws Error{InvalidRadius}.
 [[nodiscard]] double parse_radius(std::string_view name, const std::string& text);
 
-/// Throws Error{VertexOutOfRange} unless the mesh has vertex `v`.
+/// Vertex `v` of the file, or the one that it has become (see `Welding`). Throws Error{VertexOutOfRange} unless the
+/// mesh has it.
 [[nodiscard]] VertexId resolve_vertex(std::uint64_t v, const Input& input);
 
 /// Checks an output file before the work begins; does nothing if `output` is empty. From then on, if it is standard

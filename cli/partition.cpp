@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -24,6 +25,7 @@ namespace {
 struct PartitionCommand {
   std::string mesh;
   std::string faces;  ///< a file of faces; empty if `mesh` has them
+  std::string weld;   ///< as typed; empty without
   std::uint64_t parts = 0;
   std::uint64_t vertices_per_part = 0;
   std::string halo;
@@ -39,7 +41,11 @@ std::unique_ptr<parts::ChunkedMesh> open(const PartitionCommand& options) {
   if (!options.faces.empty()) return parts::open_arrays(options.mesh, options.faces);
   // A mesh that is read into memory takes several times the bytes of its file.
   constexpr std::uint64_t kMemoryPerByte = 4;
-  return parts::open_mesh(options.mesh, options.memory / kMemoryPerByte);
+  const std::uint64_t most = options.memory / kMemoryPerByte;
+  if (options.weld.empty()) return parts::open_mesh(options.mesh, most);
+  io::Mesh mesh = read_mesh(options.mesh, options.threads, most);
+  static_cast<void>(Welding(mesh, options.weld, options.mesh));
+  return parts::chunked(std::move(mesh), printable_name(options.mesh));
 }
 
 parts::PartitionResult run(const PartitionCommand& options) {
@@ -116,6 +122,7 @@ void add_partition(CLI::App& program) {
   command->add_option("--faces", options->faces, "faces as .npy, (#F, k) integers; MESH then has the positions")
       ->check(stored_name())
       ->type_name("FILE");
+  add_weld(*command, options->weld);
   CLI::Option* parts = add_number(*command, "--parts", "number of parts", options->parts);
   add_number(*command, "--vertices-per-part",
              "approximate number of vertices of a part without its halo; sets the number of parts",

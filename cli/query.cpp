@@ -30,6 +30,7 @@ namespace {
 
 struct QueryCommand {
   std::string file;
+  std::string weld;  ///< as typed; empty without
   std::vector<std::uint64_t> vertices;
   Radii radii;
   std::optional<std::uint64_t> rings;  ///< instead of the radii
@@ -69,16 +70,35 @@ Answer timed_answer(const QueryCommand& options, AnySearcher& searcher, VertexId
   return answer;
 }
 
+/// Names welding if vertices of other components lie where those of `component` do.
+std::string advice_to_weld(const std::vector<VertexId>& component, Input& input) {
+  const std::vector<VertexId> first = kept_vertices(input.positions(), 0);
+  std::vector<std::uint8_t> is_of_component(first.size());
+  std::vector<std::uint8_t> is_shared(first.size());  // by the first vertex at each position
+  for (const VertexId v : component) is_of_component[v] = 1;
+  for (std::size_t v = 0; v < first.size(); ++v) {
+    if (is_of_component[v] == 0 && input.welding().kept(static_cast<VertexId>(v)) == v) is_shared[first[v]] = 1;
+  }
+  const auto shared =
+      std::count_if(component.begin(), component.end(), [&](VertexId v) { return is_shared[first[v]] != 0; });
+  if (shared == 0) return "";
+  return fmt::format("; {} of its vertices have the position of vertices outside it, which {} would join", shared,
+                     input.mesh() != nullptr ? "--weld" : "meshhood build --weld");
+}
+
 /// An answer of all vertices of a component is a sign of a radius in the wrong unit, or of a mesh of unconnected
 /// triangles. Of several radii, `radius` is the largest.
-void note_whole_component(AnySearcher& searcher, double radius, const Answer& answer) {
+void note_whole_component(AnySearcher& searcher, double radius, const Answer& answer, Input& input) {
   if (std::isinf(radius)) return;
-  const std::size_t size = searcher.count(*answer.vertex, std::numeric_limits<double>::infinity());
-  if (answer.counts.back() != size) return;
+  constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+  if (answer.counts.back() != searcher.count(*answer.vertex, kUnlimited)) return;
+  std::vector<VertexId> component;
+  searcher.neighborhood(*answer.vertex, kUnlimited, component);
   print_error("note: ",
               fmt::format("the neighborhood of vertex {} is its whole component ({} {}): a larger radius finds "
-                          "no more",
-                          *answer.vertex, size, size == 1 ? "vertex" : "vertices"));
+                          "no more{}",
+                          *answer.vertex, component.size(), component.size() == 1 ? "vertex" : "vertices",
+                          advice_to_weld(component, input)));
 }
 
 Json to_json(const QueryCommand& options, std::span<const double> radii, const Answer& answer) {
@@ -160,7 +180,7 @@ std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<con
   for (const QueryStart& start : starts) {
     const VertexId v = *start.vertex();
     Answer answer = timed_answer(options, searcher, v, radius);
-    if (options.method == "exact" || options.method == "bfs") note_whole_component(searcher, radius, answer);
+    if (options.method == "exact" || options.method == "bfs") note_whole_component(searcher, radius, answer, input);
     if (options.distances) {
       for (const VertexId w : answer.vertices) answer.distances.push_back(distance(input.positions(), v, w));
     }
@@ -182,7 +202,7 @@ std::vector<Answer> answers_of_starts(const QueryCommand& options, std::span<con
   }
   if (options.start.is_plain() && !options.rings) {
     AnySearcher searcher = searcher_of(options, input);
-    for (const Answer& answer : answers) note_whole_component(searcher, radii.back(), answer);
+    for (const Answer& answer : answers) note_whole_component(searcher, radii.back(), answer, input);
   }
   return answers;
 }
@@ -214,12 +234,13 @@ void check_options(const QueryCommand& options) {
           fmt::format("--radius: {} radii, expected one with --method {}", radii, options.method));
   }
   check_start_options(options.start, options.method, !options.vertices.empty());
+  check_weld(options.weld, options.method);
 }
 
 void query(const QueryCommand& options) {
   check_options(options);
   check_output(options.output, {options.file});
-  Input input(options.file);
+  Input input(options.file, options.weld);
   const std::vector<QueryStart> starts = starts_of(options.start, options.vertices, input);
   const std::vector<double> radii = ascending_radii(options, input);
   const std::vector<Answer> answers = options.start.is_plain() && radii.size() == 1
@@ -235,6 +256,7 @@ void add_query(CLI::App& program) {
   auto options = std::make_shared<QueryCommand>();
   CLI::App* command = program.add_subcommand("query", "Print the neighborhood of one or more vertices");
   add_file(*command, options->file);
+  add_weld(*command, options->weld);
   add_numbers(*command, "-v,--vertex",
               "query vertex, by its number in the file from 0; several: -v 3,7 or -v 3 -v 7, then each line of the "
               "answer begins with the query vertex",

@@ -29,6 +29,7 @@ namespace {
 
 struct RegionCommand {
   std::string file;
+  std::string weld;  ///< as typed; empty without
   std::vector<std::uint64_t> vertices;
   Radius radius;
   StartOptions start;
@@ -86,7 +87,7 @@ void region(const RegionCommand& options) {
   }
   check_output(options.output, {options.file});
   check_output(options.arrays, {options.file, options.output});
-  Input input(options.file);
+  Input input(options.file, options.weld);
   input.need_faces("region");
   const QueryStart start = start_of(options.start, options.vertices, input);
   const double radius = resolve(options.radius, input);
@@ -113,6 +114,7 @@ void add_region(CLI::App& program) {
   auto options = std::make_shared<RegionCommand>();
   CLI::App* command = program.add_subcommand("region", "Write the part of the mesh in a neighborhood, and its rim");
   add_mesh(*command, options->file);
+  add_weld(*command, options->weld);
   add_numbers(*command, "-v,--vertex", "query vertex, by its number in the file from 0", options->vertices);
   add_radius(*command, options->radius);
   add_start(*command, options->start);

@@ -2,6 +2,7 @@
 #include "start.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -14,17 +15,33 @@
 #include "io/messages.h"
 #include "io/number.h"
 #include "options.h"
+#include "output.h"
 #include "vertex_files.h"
 
 namespace meshhood::cli {
 namespace {
 
-std::vector<std::uint8_t> read_mask(const std::string& file, std::size_t vertices) {
+std::vector<std::uint8_t> read_mask(const std::string& file, const Input& input) {
   std::vector<std::uint8_t> mask;
   if (file.empty()) return mask;
-  mask.assign(vertices, 0);
-  for (const VertexId v : read_vertex_list(file, vertices)) mask[v] = 1;
+  mask.assign(input.vertex_count(), 0);
+  for (const VertexId v : read_vertex_list(file, input.vertex_count())) mask[input.welding().kept(v)] = 1;
   return mask;
+}
+
+/// A search that starts nowhere finds nothing, which may be a radius in the wrong unit.
+void note_far_point(RegionSearcher& searcher, const Start& start, double radius) {
+  VertexId nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const VertexId seed : start.seeds()) {
+    const double distance =
+        searcher.connecting_radius(start, seed);  // the path of a seed to itself has no other vertex
+    if (distance < least) nearest = seed;
+    least = std::min(least, distance);
+  }
+  print_error("note: ", fmt::format("the point is {:.6g} from vertex {}, where the search starts: farther than the "
+                                    "radius {:.6g}, so nothing is found",
+                                    least, nearest, radius));
 }
 
 /// `ids` come ring by ring. Sorts those of each ring.
@@ -93,12 +110,12 @@ void check_start_options(const StartOptions& options, const std::string& method,
   }
 }
 
-FilterMasks::FilterMasks(const StartOptions& options, std::size_t vertices)
-    : walls_(read_mask(options.walls, vertices)), ignored_(read_mask(options.ignored, vertices)) {}
+FilterMasks::FilterMasks(const StartOptions& options, const Input& input)
+    : walls_(read_mask(options.walls, input)), ignored_(read_mask(options.ignored, input)) {}
 
 QueryStart::QueryStart(const StartOptions& options, Input& input) : point_(options.center()) {
   for (const std::uint64_t seed : options.seeds) seeds_.push_back(resolve_vertex(seed, input));
-  if (seeds_.empty()) seeds_.push_back(nearest(input.exact_index(), point_).vertex);
+  if (seeds_.empty()) seeds_.push_back(input.welding().kept(nearest(input.exact_index(), point_).vertex));
 }
 
 std::vector<QueryStart> starts_of(const StartOptions& options, std::span<const std::uint64_t> vertices, Input& input) {
@@ -115,7 +132,7 @@ QueryStart start_of(const StartOptions& options, std::span<const std::uint64_t> 
 
 StartAnswer regions_of(const StartOptions& options, const QueryStart& start, std::span<const double> radii,
                        Input& input) {
-  const FilterMasks masks(options, input.vertex_count());
+  const FilterMasks masks(options, input);
   std::vector<VertexId> ids;
   std::vector<double> distances;
   std::vector<std::size_t> counts;
@@ -127,7 +144,8 @@ StartAnswer regions_of(const StartOptions& options, const QueryStart& start, std
     }
   } else {
     RegionSearcher searcher(input.exact_index());
-    searcher.region(start.view(), radii.back(), ids, distances, masks.filter());
+    const bool is_near = searcher.region(start.view(), radii.back(), ids, distances, masks.filter());
+    if (!is_near) note_far_point(searcher, start.view(), radii.back());
     std::vector<double> distance_of(input.vertex_count());  // `nested` returns no distances
     for (std::size_t i = 0; i < ids.size(); ++i) distance_of[ids[i]] = distances[i];
     searcher.nested(start.view(), radii, ids, counts, masks.filter());
@@ -137,7 +155,7 @@ StartAnswer regions_of(const StartOptions& options, const QueryStart& start, std
 }
 
 StartAnswer rings_of(const StartOptions& options, VertexId v, std::size_t k, Input& input) {
-  const FilterMasks masks(options, input.vertex_count());
+  const FilterMasks masks(options, input);
   std::vector<VertexId> ids;
   std::vector<std::size_t> counts;
   EdgeSearcher(input.exact_index()).rings(v, k, ids, counts, masks.filter());

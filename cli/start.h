@@ -44,7 +44,7 @@ void check_start_options(const StartOptions& options, const std::string& method,
 /// The masks of a query, from files that list vertices.
 class FilterMasks {
  public:
-  FilterMasks(const StartOptions& options, std::size_t vertices);
+  FilterMasks(const StartOptions& options, const Input& input);
 
   [[nodiscard]] Filter filter() const { return {.walls = walls_, .ignored = ignored_}; }
 

@@ -58,7 +58,7 @@ void count_edges(const FacesView& faces, Statistics& result) {
   }
 }
 
-/// For each vertex: whether it is in no face. `count_components` then also marks visited vertices.
+/// For each vertex: whether it is in no face.
 std::vector<char> mark_isolated(const MeshView& mesh) {
   std::vector<char> done(mesh.positions.size(), 1);
   mesh.faces.for_each([&](std::size_t, std::span<const VertexId> corners) {
@@ -78,17 +78,6 @@ void mark_component(const AdjacencyView& adjacency, std::size_t start, std::vect
       if (done[w] == 0) stack.push_back(w);
       done[w] = 1;
     }
-  }
-}
-
-void count_components(const MeshView& mesh, const AdjacencyView& adjacency, Statistics& result) {
-  std::vector<char> done = mark_isolated(mesh);
-  std::vector<VertexId> stack;
-  result.isolated_vertices = static_cast<std::size_t>(std::count(done.begin(), done.end(), 1));
-  for (std::size_t v = 0; v < done.size(); ++v) {
-    if (done[v] != 0) continue;
-    mark_component(adjacency, v, done, stack);
-    ++result.components;
   }
 }
 
@@ -117,13 +106,27 @@ std::optional<Box> bounds(const PositionsView& positions) {
 
 }  // namespace
 
+std::size_t count_components(const MeshView& mesh, const AdjacencyView& adjacency) {
+  std::vector<char> done = mark_isolated(mesh);
+  std::vector<VertexId> stack;
+  std::size_t components = 0;
+  for (std::size_t v = 0; v < done.size(); ++v) {
+    if (done[v] != 0) continue;
+    mark_component(adjacency, v, done, stack);
+    ++components;
+  }
+  return components;
+}
+
 Statistics statistics(const MeshView& mesh, const AdjacencyView& adjacency) {
   Statistics result;
   result.vertices = mesh.positions.size();
   result.faces = mesh.faces.size();
   result.polygon_degrees = polygon_degrees(mesh.faces);
   count_edges(mesh.faces, result);
-  count_components(mesh, adjacency, result);
+  const std::vector<char> isolated = mark_isolated(mesh);
+  result.isolated_vertices = static_cast<std::size_t>(std::count(isolated.begin(), isolated.end(), 1));
+  result.components = count_components(mesh, adjacency);
   result.average_edge = mean_edge_length({mesh.positions, adjacency});
   result.repeated_corners = repeated_corners(mesh.faces);
   result.repeated_positions = repeated_positions(mesh.positions);

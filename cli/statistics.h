@@ -32,6 +32,9 @@ struct Statistics {
   std::optional<Box> bounds;                           ///< empty for a mesh without vertices
 };
 
+/// The number of components, as above. `adjacency`: that of `mesh`. O(#V + #corners).
+[[nodiscard]] std::size_t count_components(const MeshView& mesh, const AdjacencyView& adjacency);
+
 /// `adjacency`: that of `mesh`. O(#V log #V + #corners log #corners).
 [[nodiscard]] Statistics statistics(const MeshView& mesh, const AdjacencyView& adjacency);
 

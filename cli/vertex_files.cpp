@@ -178,8 +178,14 @@ void add_vertices(CLI::App& command, std::string& file) {
   add_file_option(command, "--vertices", "text file with the query vertices, one per line (default: all)", file);
 }
 
-QueryVertices::QueryVertices(const std::string& file, std::size_t vertices) : are_listed_(!file.empty()) {
-  if (are_listed_) list_ = read_vertex_list(file, vertices);
+QueryVertices::QueryVertices(const std::string& file, const Input& input) : are_listed_(!file.empty()) {
+  if (!are_listed_) {
+    if (input.welding().count() > 0) rows_ = input.welding().kept();
+    return;
+  }
+  list_ = read_vertex_list(file, input.vertex_count());
+  for (VertexId& v : list_) v = input.welding().kept(v);
+  rows_ = list_;
 }
 
 std::size_t row_count(const BatchVertices& rows, std::size_t vertices) {

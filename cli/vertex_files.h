@@ -11,6 +11,7 @@
 #include "meshhood/batch.h"
 #include "meshhood/mesh.h"
 
+#include "input.h"
 #include "io/npz_writer.h"
 
 /// Files that list vertices, or that have values for them. In a text, blank lines and what follows `#` are skipped.
@@ -38,18 +39,22 @@ struct Channels {
 /// --vertices: a file with the query vertices of a command that writes a row for each.
 void add_vertices(CLI::App& command, std::string& file);
 
-/// The query vertices of such a command.
+/// The query vertices of such a command. A row of a vertex that was welded is that of the one that it has become.
 class QueryVertices {
  public:
-  /// The vertices that `file` lists, or all if it is "".
-  QueryVertices(const std::string& file, std::size_t vertices);
+  /// The vertices that `file` lists, or all if it is "". Borrows from `input`.
+  QueryVertices(const std::string& file, const Input& input);
 
-  /// Borrows from this object.
-  [[nodiscard]] BatchVertices view() const { return are_listed_ ? BatchVertices(list_) : BatchVertices(); }
+  /// For the search. Borrows from this object, as the next.
+  [[nodiscard]] BatchVertices view() const { return rows_; }
+
+  /// For the array `vertices` of the result: none if the rows are those of all vertices.
+  [[nodiscard]] BatchVertices listed() const { return are_listed_ ? rows_ : BatchVertices(); }
 
  private:
   bool are_listed_;
   std::vector<VertexId> list_;
+  BatchVertices rows_;
 };
 
 /// The number of rows for `rows` in a mesh of `vertices`.

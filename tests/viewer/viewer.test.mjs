@@ -224,6 +224,17 @@ test('an answer and values that are handed over are shown', async () => {
   await page.close();
 });
 
+test('a page joins vertices as the command line does', async () => {
+  // Two triangles with vertices of their own: 3 lies where 1 does, and 5 where 2 does.
+  writeFileSync(file('two.off'), 'OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 3 4 5\n');
+  for (const [options, exact] of [[[], [3, 4, 5]], [['--weld'], [0, 1, 2, 4]], [['--weld=1'], [0, 4]]]) {
+    meshhood('view', 'two.off', '-v', '4', '-r', '5', ...options, '-o', 'two.html');
+    const page = await openPage(browser, file('two.html'));
+    assert.deepEqual(await idsOf(page, 'exact'), exact, `with ${options}`);
+    await page.close();
+  }
+});
+
 test('the properties of a PLY file are colors', async () => {
   const rows = [0, 1, 2, 3].map((v) => `${v % 2} ${Math.floor(v / 2)} 0 ${10 * v}`);
   const ply = ['ply', 'format ascii 1.0', 'element vertex 4', ...['x', 'y', 'z', 'heat'].map((p) => `property float ${p}`),

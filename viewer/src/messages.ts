@@ -10,7 +10,10 @@ export type { Method };
 /** All methods, in the order in which they are answered: the fastest first. */
 export const METHODS: readonly Method[] = ['exact', 'ball', 'paper', 'bfs'];
 
-export type Source = { kind: 'file'; name: string; content: Blob } | { kind: 'example'; name: string; vertices?: number };
+export type Source =
+  /** With `weld`, vertices at most this far apart are joined: faces name the first of them. */
+  | { kind: 'file'; name: string; content: Blob; weld?: number }
+  | { kind: 'example'; name: string; vertices?: number };
 
 export interface Query {
   /** Grows with each query; a newer query ends an older one. */

@@ -41,7 +41,8 @@ export class Opening {
   openFirst(link: State): void {
     const pageData = takePageData();
     if (pageData !== null) {
-      this.#open({ source: { kind: 'file', name: pageData.settings.name, content: pageData.file }, link, pageData });
+      const { name, weld } = pageData.settings;
+      this.#open({ source: { kind: 'file', name, content: pageData.file, weld }, link, pageData });
     } else {
       this.openExample(link.example ?? EXAMPLES[0].name, link);
     }

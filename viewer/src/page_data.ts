@@ -10,6 +10,8 @@ export interface Settings {
   unit?: 'mesh' | 'edge';
   /** An answer to show as it is, instead of those of the methods. */
   ids?: number[];
+  /** Join vertices at most this far apart; they keep their numbers. */
+  weld?: number;
   /** A value for each vertex: float32, little-endian, in base 64. */
   scalar?: { title: string; values: string };
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reads meshes, builds indexes and answers queries, so that the page never waits.
-import { Curvature, initialize, MeshIndex, readMesh } from 'meshhood';
+import { Curvature, initialize, MeshIndex, readMesh, weld } from 'meshhood';
 import type { Faces } from 'meshhood';
 import { BufferAttribute, BufferGeometry } from 'three';
 import { MeshBVH } from 'three-mesh-bvh';
@@ -57,12 +57,24 @@ function makeExample(name: string, vertices?: number): Arrays {
   return { ...example.make(vertices ?? example.vertices), offsets: null, warnings: [], scalars: [] };
 }
 
-function read(bytes: Uint8Array<ArrayBuffer>, name: string): Arrays | MeshIndex {
+/** As `meshhood --weld`: the faces name the first of the vertices that are joined. */
+function joinVertices(mesh: Arrays, eps: number): void {
+  const { ids } = weld(mesh.positions, mesh.corners, { offsets: mesh.offsets, eps });
+  const first: number[] = [];
+  ids.forEach((id, v) => {
+    if (id === first.length) first.push(v);
+  });
+  mesh.corners = mesh.corners.map((v) => first[ids[v]]);
+}
+
+function read(bytes: Uint8Array<ArrayBuffer>, name: string, eps?: number): Arrays | MeshIndex {
   if (INDEX_MARK.every((byte, i) => bytes[i] === byte)) {
     return MeshIndex.load(bytes, { progress: reportProgress('Verifying the index') });
   }
   const mesh = readMesh(bytes, name, { progress: reportProgress('Reading') });
-  return { ...mesh, scalars: mesh.format === 'ply' ? readPlyScalars(bytes) : [] };
+  const arrays = { ...mesh, scalars: mesh.format === 'ply' ? readPlyScalars(bytes) : [] };
+  if (eps !== undefined) joinVertices(arrays, eps);
+  return arrays;
 }
 
 function build(arrays: Arrays | MeshIndex): MeshIndex {
@@ -89,7 +101,7 @@ async function open(source: Source): Promise<void> {
   const bytes = source.kind === 'file' ? new Uint8Array(await source.content.arrayBuffer()) : null;
   if (opening !== latestOpening) return;
   const reading = await timed(() => {
-    return source.kind === 'file' ? read(bytes!, source.name) : makeExample(source.name, source.vertices);
+    return source.kind === 'file' ? read(bytes!, source.name, source.weld) : makeExample(source.name, source.vertices);
   });
   const building = await timed(() => build(reading.result));
   const arrays = reading.result;
