@@ -55,15 +55,15 @@ SpacePoint point_of(const Points& points, std::size_t i) {
   return {points.data()[3 * i], points.data()[3 * i + 1], points.data()[3 * i + 2]};
 }
 
+/// Also returns whether a seed lies in the ball, as `stroke` and `nested` do.
 auto region(Queries& queries, const Center& center, const Seeds& seeds, double radius, const Mask& walls,
             const Mask& ignored) {
   std::vector<VertexId> ids;
   std::vector<double> distances;
-  queries.with_regions([&](RegionSearcher& searcher) {
-    searcher.region(start_of(center, seeds), radius, ids, distances, filter_of(walls, ignored));
-    return true;
+  const bool has_seed = queries.with_regions([&](RegionSearcher& searcher) {
+    return searcher.region(start_of(center, seeds), radius, ids, distances, filter_of(walls, ignored));
   });
-  return std::pair(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(distances)));
+  return std::tuple(owned<std::int32_t>(std::move(ids)), owned<double>(std::move(distances)), has_seed);
 }
 
 auto path_region(Queries& queries, VertexId v, double radius, const Mask& walls, const Mask& ignored) {
@@ -77,10 +77,10 @@ auto path_region(Queries& queries, VertexId v, double radius, const Mask& walls,
 }
 
 /// Seeds that do not exist are -1.
-Output<std::int32_t> stroke(Queries& queries, const Points& centers, const SeedRows& seeds, const Reals& radii,
-                            const Mask& walls, const Mask& ignored) {
+auto stroke(Queries& queries, const Points& centers, const SeedRows& seeds, const Reals& radii, const Mask& walls,
+            const Mask& ignored) {
   std::vector<VertexId> ids;
-  queries.with_regions([&](RegionSearcher& searcher) {
+  const bool has_seeds = queries.with_regions([&](RegionSearcher& searcher) {
     std::vector<Dab> dabs;
     for (std::size_t i = 0; i < radii.size(); ++i) {
       const std::int32_t* const row = seeds.data() + i * seeds.shape(1);
@@ -88,22 +88,20 @@ Output<std::int32_t> stroke(Queries& queries, const Points& centers, const SeedR
       while (count < seeds.shape(1) && row[count] >= 0) ++count;
       dabs.push_back({{point_of(centers, i), ids_of(row, count)}, radii.data()[i]});
     }
-    searcher.stroke(dabs, ids, filter_of(walls, ignored));
-    return true;
+    return searcher.stroke(dabs, ids, filter_of(walls, ignored));
   });
-  return owned<std::int32_t>(std::move(ids));
+  return std::pair(owned<std::int32_t>(std::move(ids)), has_seeds);
 }
 
 auto nested(Queries& queries, const Center& center, const Seeds& seeds, const Reals& radii, const Mask& walls,
             const Mask& ignored) {
   std::vector<VertexId> ids;
   std::vector<std::size_t> counts;
-  queries.with_regions([&](RegionSearcher& searcher) {
-    searcher.nested(start_of(center, seeds), std::span(radii.data(), radii.size()), ids, counts,
-                    filter_of(walls, ignored));
-    return true;
+  const bool has_seed = queries.with_regions([&](RegionSearcher& searcher) {
+    return searcher.nested(start_of(center, seeds), std::span(radii.data(), radii.size()), ids, counts,
+                           filter_of(walls, ignored));
   });
-  return std::pair(owned<std::int64_t>(std::move(counts)), owned<std::int32_t>(std::move(ids)));
+  return std::tuple(owned<std::int64_t>(std::move(counts)), owned<std::int32_t>(std::move(ids)), has_seed);
 }
 
 bool contains(Queries& queries, const Center& center, const Seeds& seeds, VertexId w, double radius, const Mask& walls,

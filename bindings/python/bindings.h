@@ -31,4 +31,7 @@ void bind_files(nanobind::module_& module);
 /// Meshes in parts.
 void bind_parts(nanobind::module_& module);
 
+/// Welding.
+void bind_weld(nanobind::module_& module);
+
 }  // namespace meshhood::python

@@ -76,6 +76,7 @@ NB_MODULE(_core, module) {
   meshhood::python::bind_region_mesh(module);
   meshhood::python::bind_files(module);
   meshhood::python::bind_parts(module);
+  meshhood::python::bind_weld(module);
   module.attr("__version__") = meshhood::kVersion.data();
   module.def("kernel_target", [] { return std::string(meshhood::kernel_target()); });
 }

@@ -158,10 +158,10 @@ def soup(V, F):
 @pytest.mark.parametrize("faces", (F, QUADS), ids=("triangles", "quads"))
 def test_an_unwelded_mesh_causes_a_warning_whose_advice_welds_it(faces):
     apart, separate = soup(V, faces)
-    with pytest.warns(UserWarning, match="(100|150) vertices at 36 different positions.*np.unique") as caught:
+    with pytest.warns(UserWarning, match="(100|150) vertices at 36 different positions.*meshhood.weld") as caught:
         meshhood.MeshIndex(apart, separate)
     assert caught[0].filename == __file__
-    names = {"np": np, "V": apart, "F": separate}
+    names = {"meshhood": meshhood, "V": apart, "F": separate}
     exec(str(caught[0].message).split("Weld the mesh first: ")[1], names)
     welded = meshhood.MeshIndex(names["V"], names["F"])  # no warning
     assert len(welded) == len(V)

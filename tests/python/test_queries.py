@@ -9,6 +9,9 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 
 import meshhood
 
+# Many of the starts below are drawn at random.
+pytestmark = pytest.mark.filterwarnings("ignore:.*point is farther than r")
+
 
 @pytest.fixture(params=[two_plates, folded], ids=["plates", "folded"])
 def mesh(request):
@@ -262,3 +265,25 @@ def test_rims_on_a_scan_are_loops_where_the_mesh_is_closed(tmp_path):
 def test_wrong_arguments_are_refused_by_name(call, message):
     with pytest.raises((ValueError, TypeError), match=message):
         call(meshhood.MeshIndex(*grid(6)))
+
+
+FAR = "point is farther than r from the vertices where its search starts"
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_point_farther_from_the_mesh_than_the_radius_causes_a_warning():
+    V, quads = grid(5)
+    index = meshhood.MeshIndex(V, quads)
+    above = [2.0, 2.0, 3.0]
+    for ask in (
+        lambda r: index.query_region(above, r),
+        lambda r: index.query_region(above, r, seeds=[0, 12]),
+        lambda r: index.query_nested(above, [0.5, r])[1],
+        lambda r: index.query_stroke([above], r),
+    ):
+        with pytest.warns(UserWarning, match=FAR) as caught:
+            assert len(ask(2.9)) == 0
+        assert caught[0].filename == __file__
+        assert 12 in ask(3.0)  # at exactly 3; no warning
+    assert len(index.query_region(above, 3.0, walls=np.ones(25, bool))) == 0  # no warning: a wall lies in the ball
+    assert len(index.query_region(above, 1.0, seeds=np.empty(0, int))) == 0  # no seed is far

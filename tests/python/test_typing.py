@@ -33,6 +33,8 @@ assert_type(index.mean_edge_length, float)
 assert_type(index.positions, Union[NDArray[np.float32], Reals])
 assert_type(index.permutation, Ids)
 assert_type(index.faces, Union[Ids, tuple[NDArray[np.signedinteger[Any]], Ids], None])
+assert_type(meshhood.weld(*mesh, eps=0.1).ids, Ids)
+assert_type(meshhood.weld(*mesh).faces, Union[Ids, tuple[Longs, Ids]])
 assert_type(meshhood.__version__, str)
 assert_type(meshhood.show_config(), None)
 

@@ -28,6 +28,7 @@ from ._partition import partition
 from ._plot import plot_neighborhood
 from ._region_mesh import RegionMesh, RimLine, Submesh
 from ._view import Page, view
+from ._weld import Welded, weld
 from .distributed import open_parts
 
 __version__: str = _core.__version__
@@ -54,6 +55,7 @@ __all__ = [
     "RegionMesh",
     "RimLine",
     "Submesh",
+    "Welded",
     "__version__",
     "geometric_radii",
     "load",
@@ -66,4 +68,5 @@ __all__ = [
     "show_config",
     "vertex_areas",
     "view",
+    "weld",
 ]

@@ -316,7 +316,6 @@ def warn_if_unwelded(positions, corners, offsets, stacklevel):
     if 2 * distinct <= len(positions):
         warnings.warn(
             f"V: {len(positions)} vertices at {distinct} different positions: the faces are not connected, and a "
-            "neighborhood cannot cross from one to the next. Weld the mesh first: V, same = np.unique(V, axis=0, "
-            "return_inverse=True); F = same.ravel()[F]",
+            "neighborhood cannot cross from one to the next. Weld the mesh first: V, F, ids = meshhood.weld(V, F)",
             stacklevel=stacklevel,
         )

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal, Optional, Union, overload
 
@@ -52,6 +53,7 @@ class Queries(Held):
         start : a vertex, or a point in space (3 numbers). It is the center of the ball.
         seeds : if `start` is a point: the vertices from which the search starts, for example the corners of the face
             on which the point lies; None for the vertex nearest to the point. A seed outside the ball does not count.
+            If all seeds are outside, the region is empty, and a warning says so: the point is too far from the mesh.
         walls : a bool mask (#V,): vertices that the search does not pass and that belong to no answer, as if they were
             not in the mesh.
         ignored : a bool mask (#V,): vertices that the search passes but that belong to no answer.
@@ -70,7 +72,8 @@ class Queries(Held):
                 raise ValueError("start: expected a vertex with metric='path', because a point has no edges")
             indices, distances = self._queries.path_region(int(first[0]), radius, *masks)
         else:
-            indices, distances = self._queries.region(center, first, radius, *masks)
+            indices, distances, has_seed = self._queries.region(center, first, radius, *masks)
+            _warn_unless(has_seed or not len(first), "start: the")
         if sort:
             order = np.argsort(indices)
             indices, distances = indices[order], distances[order]
@@ -92,14 +95,16 @@ class Queries(Held):
 
         points : (n, 3).
         r : one radius, or one for each point.
-        seeds : (n,) or (n, k), those of each point; None for the vertex nearest to each.
+        seeds : (n,) or (n, k), those of each point; None for the vertex nearest to each. A warning says that all seeds
+            of a point are farther than its radius.
         """
         centers = _convert.points(points, "points")
         if seeds is None:
             seeds = self._queries.nearest(centers)[0] if len(centers) else np.empty(0, np.int32)
         radii = np.array(np.broadcast_to(_convert.radii(r, len(centers)), len(centers))) * self._scale(unit)
         rows = _convert.seed_rows(seeds, len(centers), self._count)
-        indices = self._queries.stroke(centers, rows, radii, *self._masks(walls, ignored))
+        indices, has_seeds = self._queries.stroke(centers, rows, radii, *self._masks(walls, ignored))
+        _warn_unless(has_seeds, "points: a")
         if sort:
             indices.sort()
         return indices
@@ -125,7 +130,8 @@ class Queries(Held):
         """
         center, first = self._start(start, seeds)
         values = _convert.ascending(radii, "radii") * self._scale(unit)
-        counts, indices = self._queries.nested(center, first, values, *self._masks(walls, ignored))
+        counts, indices, has_seed = self._queries.nested(center, first, values, *self._masks(walls, ignored))
+        _warn_unless(has_seed or not len(first), "start: the")
         return counts, indices
 
     def query_rings(self, v: Any, k: Any, *, walls: Mask = None, ignored: Mask = None) -> tuple[Counts, Ids]:
@@ -198,3 +204,13 @@ class Queries(Held):
 
     def _masks(self, walls: Any, ignored: Any) -> tuple[Any, Any]:
         return _convert.mask(walls, "walls", self._count), _convert.mask(ignored, "ignored", self._count)
+
+
+def _warn_unless(has_seed: bool, which: str) -> None:
+    """The text is always the same, so that a loop over points warns once."""
+    if not has_seed:
+        warnings.warn(
+            f"{which} point is farther than r from the vertices where its search starts, so its region is empty; "
+            "MeshIndex.nearest returns the nearest vertex and its distance",
+            stacklevel=3,
+        )

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: MIT
+"""Welding: the rule, in NumPy; what becomes of faces and of values by vertex."""
+
+import numpy as np
+import pytest
+from meshes import grid, shared, triangles
+
+import meshhood
+
+V, QUADS = grid(6)
+F = triangles(QUADS)
+
+
+def soup(V, F):
+    return V[F].reshape(-1, 3), np.arange(F.size).reshape(F.shape)
+
+
+def ids_of_rule(V, eps):
+    """Each vertex in turn becomes the first kept one within eps."""
+    kept, ids = [], []
+    for p in V.astype(np.float64):
+        near = [i for i, q in enumerate(kept) if np.sqrt(((p - q) ** 2).sum()) <= eps]
+        ids.append(near[0] if near else len(kept))
+        if not near:
+            kept.append(p)
+    return np.array(ids)
+
+
+@pytest.mark.parametrize("dtype", (np.float32, np.float64))
+@pytest.mark.parametrize("eps", (0, 0.3, 1.0, 2.5))
+def test_ids_are_those_of_the_rule(dtype, eps):
+    random = np.random.default_rng(1)
+    points = random.integers(0, 8, (400, 3)).astype(dtype) / 2
+    welded = meshhood.weld(points, np.zeros((0, 3), int), eps)
+    np.testing.assert_array_equal(welded.ids, ids_of_rule(points, eps))
+    assert welded.vertices.dtype == dtype
+    assert welded.ids.dtype == np.int32
+    np.testing.assert_array_equal(welded.vertices, points[np.unique(welded.ids, return_index=True)[1]])
+
+
+def test_faces_stay_and_name_the_new_vertices():
+    apart, separate = soup(V, F)
+    vertices, faces, ids = meshhood.weld(apart, separate)
+    assert faces.dtype == np.int32
+    np.testing.assert_array_equal(faces, ids[separate])
+    np.testing.assert_array_equal(vertices[ids], apart)
+    assert len(vertices) == len(V)
+    assert meshhood.MeshIndex(vertices, faces).count(None, np.inf).min() == len(V)
+
+
+def test_polygons_stay_with_all_corners():
+    apart, separate = soup(V, QUADS)
+    vertices, (offsets, corners), ids = meshhood.weld(apart, separate, eps=1)
+    np.testing.assert_array_equal(offsets, 4 * np.arange(len(QUADS) + 1))
+    np.testing.assert_array_equal(corners, ids[separate].ravel())
+    assert len(vertices) < len(V)
+
+
+def test_a_mesh_of_read_mesh_is_welded_as_it_is(tmp_path):
+    mesh = meshhood.read_mesh(shared("components/suzanne_unwelded.ply", tmp_path))
+    with pytest.warns(UserWarning, match="meshhood.weld"):
+        meshhood.MeshIndex(*mesh)
+    welded = meshhood.weld(*mesh)
+    assert len(welded.vertices) == 1966 - 1461
+    index = meshhood.MeshIndex(welded.vertices, welded.faces)  # no warning
+    assert index.count(0, np.inf) > 100
+
+
+def test_zeros_of_both_signs_are_equal():
+    assert meshhood.weld([[0.0, 0, 0], [-0.0, 0, 0]], np.zeros((0, 3), int)).ids.tolist() == [0, 0]
+
+
+@pytest.mark.parametrize("eps", (-1, np.nan, np.inf))
+def test_a_wrong_eps_is_refused(eps):
+    with pytest.raises(ValueError, match="eps: .*expected a finite number >= 0"):
+        meshhood.weld(V, F, eps)
+
+
+def test_wrong_arrays_are_refused():
+    broken = V.copy()
+    broken[7, 1] = np.nan
+    with pytest.raises(ValueError, match="V: vertex 7: y is nan"):
+        meshhood.weld(broken, F)
+    with pytest.raises(ValueError, match="F: face 0: corner 1 is vertex 36"):
+        meshhood.weld(V, [[0, 36, 1]])
+    with pytest.raises(TypeError, match="eps: expected a number"):
+        meshhood.weld(V, F, "1")
