@@ -67,6 +67,7 @@ function sorted({ ids, distances }) {
 
 export class MeshIndex extends Owner {
   #vertexCount;
+  #hasWarned = false;
 
   constructor(positions, corners, options) {
     super(positions instanceof Instance ? positions : build(positions, corners, options));
@@ -199,7 +200,8 @@ export class MeshIndex extends Owner {
     const { unit, sort, distances, ...search } = withDefaults(options, { unit: 'mesh', ...ANSWER, ...SEARCH });
     expectRadius(r);
     const radius = this.#scale(unit) * r;
-    this.#search(start, search, () => this.instance.call('region', radius, distances));
+    const isNear = this.#search(start, search, () => this.instance.call('region', radius, distances));
+    this.#warnUnless(isNear);
     return this.#takeNeighborhood(sort, distances);
   }
 
@@ -207,8 +209,9 @@ export class MeshIndex extends Owner {
     const { unit, ...search } = withDefaults(options, { unit: 'mesh', ...SEARCH });
     const scale = this.#scale(unit);
     const scaled = toReals(radii, 'radii').map((radius) => scale * radius);
-    this.#search(start, search, () =>
+    const isNear = this.#search(start, search, () =>
       this.instance.with([scaled], (list) => this.instance.call('nested', list, scaled.length)));
+    this.#warnUnless(isNear);
     return this.#takeRings();
   }
 
@@ -245,6 +248,14 @@ export class MeshIndex extends Owner {
     expectPoint(point, 'point');
     const vertex = this.instance.call('nearest', ...point) >>> 0;
     return { vertex, distance: this.instance.takeReals()[0] };
+  }
+
+  /** Once for each index: a pointer that leaves the mesh would cause many. */
+  #warnUnless(isNear) {
+    if (isNear || this.#hasWarned) return;
+    this.#hasWarned = true;
+    console.warn('meshhood: the start is farther than the radius from the vertices where the search starts, so the ' +
+      'region is empty; nearest() returns the nearest vertex and its distance');
   }
 
   /** Calls `use` while the start and the masks are in the memory of the module, and returns its result. */

@@ -101,6 +101,38 @@ export interface ReadOptions {
  */
 export function readMesh(bytes: Bytes, name: string, options?: ReadOptions): Mesh;
 
+export interface WeldOptions {
+  /** Of polygons; as in `Faces`. */
+  offsets?: Indices | null;
+  /**
+   * Vertices at most this far apart are welded; finite, >= 0, in the unit of the positions. With 0, the default,
+   * positions must be equal, where -0 equals 0.
+   */
+  eps?: number;
+}
+
+/** A welded mesh, and what has become of each vertex. */
+export interface WeldedMesh {
+  /** Of the kept vertices, in their order; of the type given. */
+  positions: Float32Array | Float64Array;
+  /** Of all faces, in their order; a face whose corners were welded with each other repeats a vertex. */
+  corners: Uint32Array;
+  offsets: Uint32Array | null;
+  /** For each vertex of the mesh given, its id in this one: #V. */
+  ids: Uint32Array;
+}
+
+/**
+ * Makes one vertex of all vertices at the same place, so that faces which meet there are connected. WebGL needs separate
+ * vertices where normals or texture coordinates differ; a search needs one.
+ *
+ * Vertices are taken in ascending order. A vertex becomes the first kept vertex at most `eps` away; if there is none, it
+ * is kept. So kept vertices are more than `eps` apart, and no chain of near vertices collapses.
+ *
+ * @throws MeshhoodError InvalidMesh, InvalidOption, TooLarge
+ */
+export function weld(positions: Float32Array | Float64Array, corners: Indices, options?: WeldOptions): WeldedMesh;
+
 /**
  * `exact`: the exact neighborhood, by the index. `paper`: the approximate neighborhood of the paper, a superset of
  * `exact` and a subset of `ball`. `bfs`: the exact neighborhood by breadth-first search, for comparison. `ball`: every
@@ -149,7 +181,9 @@ export interface Masks {
 export interface RegionOptions extends Masks {
   /**
    * If the start is a point: the vertices from which the search spreads, for example the corners of the face on which
-   * the point lies; by default the vertex nearest to the point. A seed outside the ball does not count.
+   * the point lies; by default the vertex nearest to the point. A seed outside the ball does not count. If all are
+   * outside, the region is empty: the point is too far from the mesh. The first time that this happens with an index,
+   * a warning is written to the console. `nearest` returns the nearest vertex and its distance.
    */
   seeds?: Uint32Array | null;
 }

@@ -281,3 +281,18 @@ test('wrong arguments of regions give the errors of C++ and leave the index usab
   refuse(() => regions.rim(Uint32Array.of(1), vertices, 1), { code: 'VertexOutOfRange' });
   assert.deepEqual(index.queryRegion(7, 2), index.queryBall(7, 2));
 });
+
+test('a point farther from the mesh than the radius causes one warning for each index', (context) => {
+  const warn = context.mock.method(console, 'warn', () => {});
+  const { positions, corners } = grid(5, 5, (row, column) => [row, column, 0]);
+  const near = new MeshIndex(positions, corners);
+  assert.equal(near.queryRegion([2, 2, 3], 3).length, 1);
+  assert.equal(near.queryRegion([2, 2, 3], 3, { walls: new Uint8Array(25).fill(1) }).length, 0);
+  assert.equal(warn.mock.callCount(), 0);
+  assert.equal(near.queryRegion([2, 2, 3], 2.9).length, 0);
+  assert.equal(near.queryNested([2, 2, 3], Float64Array.of(1, 2.9)).ids.length, 0);
+  assert.equal(warn.mock.callCount(), 1);
+  assert.match(warn.mock.calls[0].arguments[0], /farther than the radius/);
+  new MeshIndex(positions, corners).queryNested([2, 2, 3], Float64Array.of(1, 2.9));
+  assert.equal(warn.mock.callCount(), 2);
+});

@@ -46,17 +46,18 @@ extern "C" {
   restriction = {.walls = std::span(walls, wall_count), .ignored = std::span(ignored, ignored_count)};
 }
 
-[[clang::export_name("region")]] void region(double radius, bool with_distances) {
-  if (with_distances) {
-    workspace.regions().region(origin, radius, answer.ids, answer.reals, restriction);
-  } else {
-    workspace.regions().region(origin, radius, answer.ids, restriction);
-  }
+/// Whether a seed lies in the ball.
+[[clang::export_name("region")]] bool region(double radius, bool with_distances) {
+  if (with_distances) return workspace.regions().region(origin, radius, answer.ids, answer.reals, restriction);
+  return workspace.regions().region(origin, radius, answer.ids, restriction);
 }
 
-[[clang::export_name("nested")]] void nested(const double* radii, std::size_t radius_count) {
-  workspace.regions().nested(origin, std::span(radii, radius_count), answer.ids, region_sizes, restriction);
+/// The same of the largest ball.
+[[clang::export_name("nested")]] bool nested(const double* radii, std::size_t radius_count) {
+  const bool is_near =
+      workspace.regions().nested(origin, std::span(radii, radius_count), answer.ids, region_sizes, restriction);
   answer_sizes();
+  return is_near;
 }
 
 /// Of the vertex `v`; not of the start.
