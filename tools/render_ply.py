@@ -240,12 +240,12 @@ def draw_circle(picture, middle, radius, color, width=None):
 
 
 def legend_rows(mesh):
-    """Colors, what they mean, in the words of the page, and how many vertices that are."""
+    """Colors, what they mean, in the words of the page, and how many vertices that are, where it can be several."""
     exact, paper, ball = (mesh.colors.count(color) for color in (EXACT_COLOR, PAPER_COLOR, BALL_COLOR))
     return [(EXACT_COLOR, "connected within the ball: the answer", exact + mesh.colors.count(QUERY_COLOR)),
             (BALL_COLOR, "near, but not connected", ball + paper),
             (PAPER_COLOR, "of these, extra of the approximate method", paper),
-            (QUERY_COLOR, "the vertex, in the middle of the ball", mesh.colors.count(QUERY_COLOR))]
+            (QUERY_COLOR, "the vertex, in the middle of the ball", None)]
 
 
 def load_font(size):
@@ -263,7 +263,7 @@ def with_legend(picture, rows):
     whole = Image.new("RGB", (picture.width, top + picture.height), BACKGROUND)
     whole.paste(picture, (0, top))
     font, pen = load_font(size), ImageDraw.Draw(whole)
-    numbers = [f"{count:,}" for _, _, count in rows]
+    numbers = ["" if count is None else f"{count:,}" for _, _, count in rows]
     right = 2 * margin + size + max(pen.textlength(words, font) for _, words, _ in rows)
     right += margin + max(pen.textlength(number, font) for number in numbers)
     for i, ((color, words, _), number) in enumerate(zip(rows, numbers)):
