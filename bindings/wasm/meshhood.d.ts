@@ -123,11 +123,11 @@ export interface WeldedMesh {
 }
 
 /**
- * Makes one vertex of all vertices at the same place, so that faces which meet there are connected. WebGL needs separate
- * vertices where normals or texture coordinates differ; a search needs one.
+ * Makes one vertex of all vertices at the same place, so that faces which meet there are connected. WebGL needs
+ * separate vertices where normals or texture coordinates differ; a search needs one.
  *
- * Vertices are taken in ascending order. A vertex becomes the first kept vertex at most `eps` away; if there is none, it
- * is kept. So kept vertices are more than `eps` apart, and no chain of near vertices collapses.
+ * Vertices are taken in ascending order. A vertex becomes the first kept vertex at most `eps` away; if there is none,
+ * it is kept. So kept vertices are more than `eps` apart, and no chain of near vertices collapses.
  *
  * @throws MeshhoodError InvalidMesh, InvalidOption, TooLarge
  */

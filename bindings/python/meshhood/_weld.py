@@ -29,14 +29,14 @@ def weld(V: Any, F: Any = None, eps: Number = 0) -> Welded:
         be equal, where -0 equals 0.
 
     Vertices are taken in ascending order. A vertex becomes the first kept vertex at most `eps` away; if there is none,
-    it is kept. So kept vertices are more than `eps` apart, no chain of near vertices collapses, and welding again changes
-    nothing. With eps > 0 the choice depends on the order of the vertices.
+    it is kept. So kept vertices are more than `eps` apart, no chain of near vertices collapses, and welding again
+    changes nothing. With eps > 0 the choice depends on the order of the vertices.
 
     Returns `Welded(vertices, faces, ids)`: the kept vertices in their order, (#kept, 3) of the type of V; the faces as
-    triangles (#F, 3) int32, or polygons as a tuple (offsets int64, corners int32); and for each vertex of V its id in the
-    new mesh, (#V,) int32. All faces stay, in their order and with the number of their corners; a face whose corners were
-    welded with each other repeats a vertex. Values by vertex of the new mesh, `values`, are `values[ids]` for V; values
-    by vertex of V are `of_V[np.unique(ids, return_index=True)[1]]` for the kept vertices.
+    triangles (#F, 3) int32, or polygons as a tuple (offsets int64, corners int32); and for each vertex of V its id in
+    the new mesh, (#V,) int32. All faces stay, in their order and with the number of their corners; a face whose corners
+    were welded with each other repeats a vertex. Values by vertex of the new mesh, `values`, are `values[ids]` for V;
+    values by vertex of V are `of_V[np.unique(ids, return_index=True)[1]]` for the kept vertices.
 
     About O(#V + #F) if `eps` is no larger than the mean edge length; one thread. Raises ValueError or TypeError, naming
     the argument and the element.
