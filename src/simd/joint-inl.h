@@ -5,7 +5,6 @@ HWY_BEFORE_NAMESPACE();
 namespace meshhood::HWY_NAMESPACE {
 namespace {
 
-using Word = VectorOf<Words>;
 using WordsOfRow = Word[kVectors<Words>];  // NOLINT(modernize-avoid-c-arrays): std::array drops the alignment
 
 /// The lanes in which the words differ.

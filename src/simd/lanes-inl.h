@@ -18,6 +18,7 @@ using Ids = hn::Rebind<VertexId, Words>;
 template <class D>
 using VectorOf = hn::Vec<D>;
 using Numbers = VectorOf<Doubles>;
+using Word = VectorOf<Words>;
 
 template <class D>
 constexpr std::size_t kLanes = hn::MaxLanes(D());
