@@ -107,7 +107,8 @@ class SphereCgalShared : public testing::TestWithParam<const char*> {};
 
 TEST_P(SphereCgalShared, Clusters) {
   MESHHOOD_NEED_SHARED_MESHES();
-  const Ratio ratio = index_ratio(shared_mesh(GetParam()).view());
+  const io::Mesh mesh = shared_mesh(GetParam());
+  const Ratio ratio = index_ratio(mesh.view());
   ratio.print(GetParam());
   EXPECT_LE(ratio.largest, 1.0011);
   EXPECT_GT(ratio.spheres, 0U);
