@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: MIT
 # Compiles the core and some of its tests for AArch64, and runs them in QEMU: the golden files, the kernels, and a sample
 # of queries compared with the oracle. So answers and files have the same bits on processors with NEON.
-# Usage: aarch64.sh FOLDER HEADERS TESTS CORE KERNELS, where FOLDER is for what it makes, HEADERS holds the headers of
+# Usage: aarch64.sh FOLDER HEADERS TESTS CORE KERNELS..., where FOLDER is for what it makes, HEADERS holds the headers of
 # libraries, TESTS is tests/ of the repository, CORE includes all sources but KERNELS
 set -eu
-folder=$1 headers=$2 tests=$3 core=$4 kernels=$5
+folder=$1 headers=$2 tests=$3 core=$4
+shift 4
 googletest=/usr/src/googletest
 
 for program in aarch64-linux-gnu-g++ qemu-aarch64-static; do
@@ -13,7 +14,7 @@ for program in aarch64-linux-gnu-g++ qemu-aarch64-static; do
 done
 [ -d "$googletest" ] || { echo "SKIPPED: no $googletest (googletest)"; exit 0; }
 
-mkdir -p "$folder"
+rm -rf "$folder" && mkdir -p "$folder"
 root=$(dirname "$tests")
 compile() {
   printf '%s\0' "-c $1 -o $folder/$(basename "$1").o $2"
@@ -21,7 +22,7 @@ compile() {
 golden="-DMESHHOOD_GOLDEN_DIR=\"$tests/golden\""
 {
   compile "$core" -O1
-  compile "$kernels" -O2
+  for source in "$@"; do compile "$source" -O2; done
   compile "$tests/golden/golden_test.cpp" -O0
   compile "$tests/whole/differential_test.cpp" -O0
   for source in "$tests"/simd/*.cpp; do compile "$source" -O0; done
