@@ -17,8 +17,9 @@
 #define TOOLCHAIN_MISS_SYS_AUXV_H
 #endif
 // Vectors of a length that is known only at run time do not fit into the rows of 32 lanes; and the few processors that
-// end at SSSE3 take what has no vector instructions.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+// end at SSSE3 take what has no vector instructions. What Highway numbers below AVX3 has more instructions than that,
+// which no kernel uses; a build for such a processor (-march=native) takes AVX3.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV | (HWY_AVX3 - 1LL))
 
 #include <hwy/targets.h>
 

@@ -14,9 +14,9 @@
 namespace meshhood {
 namespace {
 
+/// Whether the processor has a target beyond the first of the list.
 bool runs_on(const Processor& processor, std::int64_t target) {
   switch (target) {
-    case HWY_STATIC_TARGET: return true;
     case HWY_SSE4: return processor.sse4;
     case HWY_AVX2: return processor.avx2;
     case HWY_AVX3: return processor.avx512;
