@@ -26,6 +26,9 @@ namespace {
 
 constexpr std::uint64_t kMostNumbers = std::numeric_limits<std::int32_t>::max();  // of an array of faces
 
+/// The length of the array of faces: of each the number of its corners, and the corners.
+std::size_t numbers_of(const FacesView& faces) { return faces.size() + faces.corner_count(); }
+
 /// Writes numbers as the format has them: big-endian.
 class VtkWriter {
  public:
@@ -67,8 +70,7 @@ class VtkWriter {
   }
 
   void write_polygons() {
-    file_.write(
-        fmt::format("\nPOLYGONS {} {}\n", mesh_.faces.size(), mesh_.faces.size() + mesh_.faces.corners().size()));
+    file_.write(fmt::format("\nPOLYGONS {} {}\n", mesh_.faces.size(), numbers_of(mesh_.faces)));
     mesh_.faces.for_each([this](std::size_t, std::span<const VertexId> corners) {
       number(static_cast<std::int32_t>(corners.size()));
       for (const VertexId v : corners) number(static_cast<std::int32_t>(v));
@@ -112,7 +114,7 @@ class VtkWriter {
 void write_vtk(const std::filesystem::path& path, const MeshView& mesh, const VtkOptions& options) {
   validate(mesh);
   check_properties(options.properties, mesh.positions.size());
-  const std::uint64_t numbers = std::max(mesh.positions.size(), mesh.faces.size() + mesh.faces.corners().size());
+  const std::uint64_t numbers = std::max(mesh.positions.size(), numbers_of(mesh.faces));
   const std::string name = path.string();
   if (numbers > kMostNumbers) {
     raise(ErrorCode::TooLarge, fmt::format("{}: {} vertices, or faces and corners, but the format has at most {}",

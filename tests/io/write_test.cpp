@@ -159,6 +159,9 @@ TEST_F(WritePly, VtkHasTheMeshAndItsValues) {
                                   big(1.F, 2.F, 3.F, 4.F, 5.F, 6.F, 7.F, 8.F, 9.F) + "\n");
   io::write_vtk(file, triangle, {.properties = {{"n", normal}}});
   EXPECT_THAT(content_of(file), HasSubstr("\nPOINT_DATA 3\nFIELD FieldData 1\nn 3 3 float\n"));
+  const std::vector<std::int32_t> records = {0, 1, 2, -1, 2, 1, 0, -1};
+  io::write_vtk(file, {positions, FacesView::strided_triangles(records, 2, 4, 1)});
+  EXPECT_THAT(content_of(file), HasSubstr("\nPOLYGONS 2 8\n" + big(3, 0, 1, 2, 3, 2, 1, 0) + "\nPOINT_DATA 3\n"));
   const std::vector<double> none;
   io::write_vtk(file, {none, FacesView{}});
   EXPECT_THAT(content_of(file), EndsWith("\nPOINTS 0 double\n\nPOLYGONS 0 0\n\nPOINT_DATA 0\n"));
