@@ -10,6 +10,7 @@
 #include "meshhood/error.h"
 #include "meshhood/paper.h"
 
+#include "base/ranges.h"
 #include "paper/hierarchy.h"
 #include "shared/distance.h"
 #include "shared/text.h"
@@ -179,12 +180,7 @@ void Searcher::Query<Real>::collect(std::vector<VertexRange>& out) const {
       continue;
     }
     for (VertexId i = piece.begin; i < piece.end; ++i) {
-      if (!ball_.contains(point<Real>(hierarchy_.positions, i))) continue;
-      if (!out.empty() && out.back().end == i) {
-        ++out.back().end;
-      } else {
-        out.push_back({i, static_cast<VertexId>(i + 1)});
-      }
+      if (ball_.contains(point<Real>(hierarchy_.positions, i))) append_to(out, i);
     }
   }
 }

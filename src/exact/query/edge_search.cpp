@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/ranges.h"
 #include "exact/bound_index.h"
 #include "exact/query/arguments.h"
 #include "exact/query/path_search.h"
@@ -116,10 +117,7 @@ std::span<const VertexRange> EdgeSearcher::ranges(VertexId v, double radius, con
                    [&](const Path& path) { positions.push_back(static_cast<VertexId>(path.end)); });
   std::sort(positions.begin(), positions.end());
   ranges.clear();
-  for (const VertexId i : positions) {
-    if (ranges.empty() || ranges.back().end != i) ranges.push_back({i, i});
-    ++ranges.back().end;
-  }
+  for (const VertexId i : positions) append_to(ranges, i);
   return ranges;
 }
 
