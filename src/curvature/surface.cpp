@@ -70,7 +70,7 @@ std::vector<Point> sum_areas(const IndexView& index, std::span<const Real> xyz, 
 
 }  // namespace
 
-// A refit writes to a view only if it has one owner, so the second owner makes it as immutable as a const one.
+// The cast is safe: `searched` is never refitted. If the caller's index is, in place, `check_current` of `index` throws.
 CurvatureIndex::State::State(const Index& given)
     : searched(IndexAccess::make(std::const_pointer_cast<IndexView>(IndexAccess::share(given)))), index(searched) {}
 
