@@ -102,8 +102,9 @@ void add_check(CLI::App& program) {
   auto options = std::make_shared<CheckCommand>();
   CLI::App* command = program.add_subcommand("check", "Verify an index file, alone or against the mesh");
   add_file_option(*command, "INDEX", "index file (made by meshhood build)", options->index)->required()->type_name("");
-  add_file_option(*command, "--mesh", "also verify that the index was built from this mesh", options->mesh);
-  add_weld(*command, options->weld);
+  CLI::Option* mesh =
+      add_file_option(*command, "--mesh", "also verify that the index was built from this mesh", options->mesh);
+  add_weld(*command, options->weld)->needs(mesh);
   add_json(*command, options->json);
   command->callback([options] { check(*options); });
 }

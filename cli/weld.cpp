@@ -22,8 +22,8 @@ constexpr const char* kNoValue = "true";
 
 }  // namespace
 
-void add_weld(CLI::App& command, std::string& weld) {
-  command
+CLI::Option* add_weld(CLI::App& command, std::string& weld) {
+  return command
       .add_flag(
           "--weld", weld,
           "of a mesh: join vertices at equal positions, or at most EPS apart; they keep their numbers, and results "

@@ -17,7 +17,7 @@
 namespace meshhood::cli {
 
 /// Stores what was typed: "" without the option.
-void add_weld(CLI::App& command, std::string& weld);
+CLI::Option* add_weld(CLI::App& command, std::string& weld);
 
 /// What was typed, as a number; 0 if none was.
 [[nodiscard]] double eps_of(const std::string& weld);
