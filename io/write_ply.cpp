@@ -29,6 +29,27 @@ namespace {
 constexpr std::array<std::string_view, 3> kAxes = {"x", "y", "z"};
 constexpr std::array<std::string_view, 3> kColors = {"red", "green", "blue"};
 
+/// The names of a property in the file: three for a vector.
+std::vector<std::string> names_of(const VertexProperty& property, std::size_t vertices) {
+  if (components(property, vertices) == 1) return {property.name};
+  std::vector<std::string> names;
+  for (const auto axis : kAxes) names.push_back(fmt::format("{}_{}", property.name, axis));
+  return names;
+}
+
+void check_names(const PlyOptions& options, std::size_t vertices) {
+  std::vector<std::string> taken;
+  for (const VertexProperty& property : options.properties) {
+    for (std::string& name : names_of(property, vertices)) {
+      if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
+        raise(ErrorCode::InvalidOption,
+              fmt::format("property {} occurs twice, once as a coordinate of a vector", quote(name)));
+      }
+      taken.push_back(std::move(name));
+    }
+  }
+}
+
 void check(const PlyOptions& options, std::size_t vertices) {
   std::vector<std::string_view> taken(kAxes.begin(), kAxes.end());
   if (!options.colors.empty()) {
@@ -39,6 +60,7 @@ void check(const PlyOptions& options, std::size_t vertices) {
     }
   }
   check_properties(options.properties, vertices, std::move(taken));
+  check_names(options, vertices);
 }
 
 std::size_t largest_face(const FacesView& faces) {
@@ -126,10 +148,8 @@ class PlyWriter {
       for (const auto name : kColors) text += fmt::format("property uchar {}\n", name);
     }
     for (const auto& property : options_.properties) {
-      if (components(property, mesh_.positions.size()) == 1) {
-        text += fmt::format("property float {}\n", property.name);
-      } else {
-        for (const auto axis : kAxes) text += fmt::format("property float {}_{}\n", property.name, axis);
+      for (const auto& name : names_of(property, mesh_.positions.size())) {
+        text += fmt::format("property float {}\n", name);
       }
     }
     text += fmt::format("element face {}\n", mesh_.faces.size());

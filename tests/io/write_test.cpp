@@ -183,11 +183,13 @@ TEST_F(WritePly, OptionsThatDoNotFitAreRefusedAndNothingIsWritten) {
   const std::vector<std::uint8_t> short_colors = {1, 2};
   const std::vector<float> values = {1, 2, 3};
   const std::vector<float> two = {1, 2};
+  const std::vector<float> vectors = {1, 2, 3, 4, 5, 6, 7, 8, 9};
   const std::vector<io::PlyOptions> bad = {
       {.colors = short_colors},
       {.properties = {{"a", two}}},
       {.properties = {{"a", values}, {"a", values}}},
       {.properties = {{"x", values}}},
+      {.properties = {{"n", vectors}, {"n_y", values}}},
       {.properties = {{"two words", values}}},
       {.properties = {{"line\nend_header", values}}},
       {.properties = {{"", values}}},
