@@ -153,7 +153,7 @@ void FileWriter::write(std::string_view bytes) {
 }
 
 void FileWriter::write_through(std::string_view bytes) {
-  if (!write_all(file_.number(), bytes)) fail("write");
+  if (!write_all(file_.number(), bytes)) fail(stream_.is_open() ? "write its temporary file" : "write");
   flushed_ += bytes.size();
 }
 
@@ -171,11 +171,11 @@ void FileWriter::seek(std::uint64_t position) {
 
 void FileWriter::copy_to_stream() {
   seek(0);
-  std::swap(file_, stream_);
+  const Descriptor unnamed = std::exchange(file_, std::move(stream_));
   std::string piece(kBufferBytes, '\0');
   for (;;) {
-    const ssize_t count = uninterrupted([&] { return ::read(stream_.number(), piece.data(), piece.size()); });
-    if (count < 0) fail("read the temporary file of");
+    const ssize_t count = uninterrupted([&] { return ::read(unnamed.number(), piece.data(), piece.size()); });
+    if (count < 0) fail("read its temporary file");
     if (count == 0) return;
     write_through(std::string_view(piece).substr(0, static_cast<std::size_t>(count)));
   }

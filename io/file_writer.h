@@ -14,11 +14,11 @@
 namespace meshhood::io {
 
 /// Writes a file atomically: to a temporary file beside the target, `.NAME.meshhood-PID-N.tmp`, which is renamed to the
-/// target by `commit`. If the process is killed, the temporary file remains. A target that is not a regular file (a
-/// pipe, a device) is written directly.
+/// target by `commit`. If the process is killed, the temporary file remains. Standard output, and a target that is not
+/// a regular file (a pipe, a device), are written directly.
 ///
 /// All errors are Error{IoFailure} with the path and errno, also a file-size limit (EFBIG; no SIGXFSZ reaches the
-/// process). The target is then unchanged, as it is when memory runs out. One error comes after the rename and says so:
+/// process). A file is then unchanged, as it is when memory runs out. One error comes after the rename and says so:
 /// if the folder cannot be synced, the new file is in place but might not survive a loss of power.
 class FileWriter {
  public:
@@ -62,7 +62,7 @@ class FileWriter {
   std::filesystem::path target_;
   std::filesystem::path temporary_;  // empty if the target is written directly
   Descriptor file_;
-  Descriptor stream_;  // where `file_` is copied to, if it has no name
+  Descriptor stream_;  // while `file_` has no name: what it will be copied to
   std::string buffer_;
   std::uint64_t flushed_ = 0;  // offset of the buffer in the file
 };
