@@ -86,6 +86,7 @@ canvas.addEventListener('pointermove', (event) => {
   if (hit) brush(hit);
 });
 canvas.addEventListener('pointerup', (event) => {
+  if (pressed === null) return; // it went down elsewhere
   const isClick = !pressed.isBrush && Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) < 5;
   const hit = isClick ? hitOf(event) : undefined;
   if (hit) showNeighborhood(hit);
