@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compiles a source with kernels once for each target. The source defines HWY_TARGET_INCLUDE as itself before. What the
-// kernels share follows.
+// Compiles a source with kernels once for each target, and includes what the kernels share. The source defines
+// HWY_TARGET_INCLUDE, its own path, before.
 #include "simd/target_list.h"
 
 // clang-format off: in this order.

@@ -81,8 +81,7 @@ struct RowPiece {
 };
 
 struct JointKernels {
-  /// Converts `size` vertices, three coordinates each, to points relative to the center. Reads 32
-  /// vertices.
+  /// Converts `size` vertices, three coordinates each, to points relative to the center. Reads 32 vertices.
   void (*convert_points)(const float* xyz, unsigned size, const FloatCenter& center, LeafPoints& points);
 
   /// Sets `reached` and `pending` to 0. Compilers may do it by a string instruction, which takes much longer.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The region of one start and one radius: the neighborhood of a vertex, or else a flood that grows once.
+// The region of one start and one radius: the neighborhood of a vertex, or else a flood that grows once. And strokes.
 #include "meshhood/region.h"
 
 #include <algorithm>
@@ -44,7 +44,8 @@ bool RegionSearcher::State::has_seed(const Start& start, double radius) const {
   if (!start.center() || !flood.reached().empty()) return true;
   const SpacePoint& p = *start.center();
   const SearchBall ball({p[0], p[1], p[2]}, radius);
-  const auto is_inside = [&](VertexId seed) { return ball.contains(position_of(*index, seed)); };  // but a wall
+  // A seed in the ball that the flood has not reached is a wall.
+  const auto is_inside = [&](VertexId seed) { return ball.contains(position_of(*index, seed)); };
   return std::any_of(start.seeds().begin(), start.seeds().end(), is_inside);
 }
 
