@@ -57,8 +57,7 @@ def load(
 
     Unless `trusted`, all data is verified: a damaged file is refused; a forged one is refused or gives wrong results
     within its arrays. The loaded index supports every method, and has the faces if they were saved (`MeshIndex.save`
-    with faces=True). Cost: that of reading the file once; almost nothing if
-    `trusted`.
+    with faces=True). Cost: that of reading the file once; almost nothing if `trusted`.
 
     Raises OSError, with errno and filename; ValueError, naming the file, place and what was expected;
     KeyboardInterrupt on Ctrl-C.

@@ -429,8 +429,8 @@ class MeshIndex(Queries, Aggregates, Shape):
         progress : as for the class, in bytes; each byte is counted twice, for its checksum and for writing it.
 
         The file holds the positions and the graph of the mesh, and its faces if `faces`. It appears whole or not at
-        all: it is written to the same folder under another name, synchronized to disk and renamed. Raises OSError, with errno and
-        filename, and KeyboardInterrupt on Ctrl-C; an old file of that name is then unchanged.
+        all: it is written to the same folder under another name, synchronized to disk and renamed. Raises OSError, with
+        errno and filename, and KeyboardInterrupt on Ctrl-C; an old file of that name is then unchanged.
         """
         path = _convert.path(path)
         arrays = self._own_faces("faces: True, but") if faces else None
