@@ -11,8 +11,9 @@ A transcript is a text of
     ! a line of standard error
     ? the exit code, where it is not 0
 
-`<number>` matches any number, `<size>` a number of bytes with its unit, `<any>` anything on the line; `#` begins a comment. All commands of a transcript run in
-one folder, which is empty at the start, with the default disposition of SIGPIPE and SIGXFSZ.
+`<number>` matches any number, `<size>` a number of bytes with its unit, `<any>` anything on the line; `#` begins a
+comment. All commands of a transcript run in one folder, which is empty at the start, with the default disposition of
+SIGPIPE and SIGXFSZ.
 """
 import os
 import re
