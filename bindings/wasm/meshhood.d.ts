@@ -350,8 +350,10 @@ export class MeshIndex {
 
   /**
    * As `refit`, but this index becomes that of the moved mesh: for animations. No memory of the instance is copied. With
-   * `changed`, the time depends on the number of these vertices, apart from a sum over all leaves. If the call fails, the
-   * index stays as it is.
+   * `changed`, the time depends on the number of these vertices, apart from a sum over all leaves. If arguments are
+   * refused, the index stays as it is.
+   *
+   * @throws MeshhoodError InvalidMesh, VertexOutOfRange; TooLarge, which disposes the index
    */
   refitInPlace(positions: Float32Array | Float64Array, options?: { changed?: Uint32Array | null }): void;
 
