@@ -46,12 +46,13 @@ using Scalar = std::remove_cvref_t<decltype(std::declval<const Row&>()[0])>;
 }  // namespace detail
 
 /// Three scalars in a row and nothing else: `std::array<T, 3>`, `T[3]`, `Eigen::Vector3d`, `glm::vec3` and others. A
-/// container or a view of that size, such as `std::vector<double>`, holds its scalars elsewhere; the last two
-/// conditions reject it.
+/// container or a view of that size holds its scalars elsewhere, and is rejected: a container has a destructor, and the
+/// scalars of a view do not become constant with it, or it has no default.
 template <class Row>
 concept RowOfThree =
-    requires(const Row& row) {
-      { row[0] } -> std::same_as<const detail::Scalar<Row>&>;
+    requires(const Row& constant, Row& row) {
+      { constant[0] } -> std::same_as<const detail::Scalar<Row>&>;
+      { row[0] } -> std::same_as<detail::Scalar<Row>&>;
     } && sizeof(Row) == 3 * sizeof(detail::Scalar<Row>) && std::is_trivially_destructible_v<Row> &&
     std::default_initializable<Row>;
 

@@ -43,6 +43,7 @@ static_assert(MakesTriangles<const std::vector<std::array<std::uint32_t, 3>>&>);
 // Indices of each width, the rows of other libraries, and rows with more than three scalars.
 struct Padded {
   float x[4];  // NOLINT(modernize-avoid-c-arrays)
+  float& operator[](int i) { return x[i]; }
   const float& operator[](int i) const { return x[i]; }
 };
 static_assert(MakesTriangles<const std::vector<short>&> && MakesTriangles<const std::vector<unsigned short>&>);
@@ -52,7 +53,15 @@ static_assert(MakesTriangles<const int (&)[5][3]>);                             
 static_assert(std::constructible_from<PositionsView, const double (&)[5][3]>);  // NOLINT(modernize-avoid-c-arrays)
 static_assert(!std::constructible_from<PositionsView, const std::vector<Padded>&>);
 static_assert(!MakesTriangles<const std::vector<std::array<int, 4>>&>);
-// A vector has the size of three doubles or long integers.
+// A vector has the size of three doubles or long integers, and so has a view with a stride.
+struct StridedView {
+  const double* first;
+  std::size_t size;
+  std::size_t stride;
+  const double& operator[](std::size_t i) const { return first[i * stride]; }
+};
+static_assert(sizeof(StridedView) != 3 * sizeof(double) ||
+              !std::constructible_from<PositionsView, const std::vector<StridedView>&>);
 static_assert(!std::constructible_from<PositionsView, const std::vector<std::vector<double>>&>);
 static_assert(!MakesTriangles<const std::vector<std::vector<std::int64_t>>&>);
 static_assert(!MakesTriangles<const std::vector<char>&> && !MakesTriangles<const std::vector<bool>&>);
