@@ -67,8 +67,9 @@ class Index {
   /// refits. Corners and offsets have 32 bits. Valid as long as the index. O(1).
   [[nodiscard]] std::optional<FacesView> faces() const;
 
-  /// Moves the vertices of this index, which then equals `refit` with the same arguments (see refit.h). Copies nothing
-  /// of it but what is described there.
+  /// Moves the vertices of this index, which then equals the result of `refit` with the same arguments (see refit.h).
+  /// Without `changed`, positions and bounds are made beside the old ones, which are then freed; with it, they are
+  /// changed in place, unless refit.h says otherwise.
   ///
   /// No thread may use the index or its searchers meanwhile. Afterwards a searcher throws Error{InvalidOption} until
   /// `rebind` makes it one of the new state; a `CurvatureIndex` throws, too, and is to be built again.
