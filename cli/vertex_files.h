@@ -44,6 +44,8 @@ class QueryVertices {
  public:
   /// The vertices that `file` lists, or all if it is "". Borrows from `input`.
   QueryVertices(const std::string& file, const Input& input);
+  QueryVertices(const QueryVertices&) = delete;  // `rows_` may borrow from `list_`
+  QueryVertices& operator=(const QueryVertices&) = delete;
 
   /// For the search. Borrows from this object, as the next.
   [[nodiscard]] BatchVertices view() const { return rows_; }
