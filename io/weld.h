@@ -18,8 +18,8 @@
 /// eps  >= 0 and finite, in the unit of the positions. With 0, positions must be equal, where -0 equals 0; otherwise
 ///      `distance` decides, and a vertex at exactly `eps` is welded.
 ///
-/// Expected O(#V + #corners) if `eps` is no larger than the mean edge length, on one thread. The result does not depend
-/// on the machine. Throws Error{InvalidOption, InvalidMesh, TooLarge}.
+/// Expected O(#V + #corners) if `eps` is no larger than the mean edge length, and that is at least 1e-150, on one
+/// thread. The result does not depend on the machine. Throws Error{InvalidOption, InvalidMesh, TooLarge}.
 namespace meshhood::io {
 
 /// A welded mesh, owned. Kept vertices have their positions, and their order.

@@ -258,9 +258,10 @@ async function compute(quantity: QuantityName, radius: number): Promise<void> {
   if (values) reply({ kind: 'computed', quantity, radius, values });
 }
 
+/** Always replies: the page waits for it. */
 function findNeighbors(vertex: number): void {
-  if (index === null || vertex >= index.vertexCount) return;
-  const ids = index.queryRings(vertex, 1).ids.filter((v) => v !== vertex);
+  const known = index !== null && vertex < index.vertexCount ? index : null;
+  const ids = known?.queryRings(vertex, 1).ids.filter((v) => v !== vertex) ?? new Uint32Array();
   reply({ kind: 'neighbors', vertex, ids }, [ids.buffer]);
 }
 
