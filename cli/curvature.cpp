@@ -158,7 +158,7 @@ void curvature(const CurvatureCommand& options) {
 void add_curvature(CLI::App& program) {
   auto options = std::make_shared<CurvatureCommand>();
   CLI::App* command = program.add_subcommand("curvature", "Write the principal curvatures at one or several scales");
-  add_mesh(*command, options->file);
+  add_surface(*command, options->file);
   add_weld(*command, options->weld);
   add_radii(*command, options->radii);
   add_vertices(*command, options->vertices);

@@ -229,7 +229,7 @@ void add_radii(CLI::App& command, FeaturesCommand& options) {
 void add_features(CLI::App& program) {
   auto options = std::make_shared<FeaturesCommand>();
   CLI::App* command = program.add_subcommand("features", "Write creases and other features at many scales");
-  add_mesh(*command, options->file);
+  add_surface(*command, options->file);
   add_weld(*command, options->weld);
   add_radii(*command, *options);
   command

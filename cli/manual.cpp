@@ -248,7 +248,11 @@ std::string option_for_man(const CLI::Option& option, bool positional) {
   text += positional ? roff(option.get_name(true)) : fmt::format("{}", fmt::join(spellings(option), "\\fR, \\fB"));
   text = positional ? text : replaced(text, "-", "\\-");
   text += "\\fR";
-  if (has_value(option)) text += " \\fI" + roff(option.get_type_name()) + "\\fR";
+  if (!option.get_option_text().empty()) {
+    text += "\\fI" + roff(option.get_option_text()) + "\\fR";
+  } else if (has_value(option)) {
+    text += " \\fI" + roff(option.get_type_name()) + "\\fR";
+  }
   std::string description = roff(option.get_description());
   if (!option.get_default_str().empty()) description += fmt::format(" (default: {})", roff(option.get_default_str()));
   if (option.get_required() && !positional) description += " (required)";

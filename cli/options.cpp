@@ -148,6 +148,12 @@ void add_mesh(CLI::App& command, std::string& file) {
   add_file_option(command, "MESH", "PLY, OBJ, OFF or STL", file)->required()->type_name("");
 }
 
+void add_surface(CLI::App& command, std::string& file) {
+  add_file_option(command, "MESH", "PLY, OBJ, OFF or STL, or an index that was built with --faces", file)
+      ->required()
+      ->type_name("");
+}
+
 CLI::Option* add_output(CLI::App& command, const std::string& extension, const std::string& description,
                         std::string& file, const std::string& name) {
   return command.add_option(name, file, fmt::format("{} ({})", description, extension))
@@ -249,6 +255,9 @@ void check_output(const std::string& output, std::initializer_list<std::string> 
   if (output.empty()) return;
   std::error_code ignored;
   for (const std::string& input : inputs) {
+    if (output == io::kStandardOutput && input == output) {
+      raise(ErrorCode::InvalidOption, "- names standard output for two files, which would be mixed");
+    }
     if (!fs::equivalent(input, output, ignored)) continue;
     raise(ErrorCode::InvalidOption, printable_name(output) + ": " + printable_name(input) +
                                         " would be overwritten; name another file for the output");

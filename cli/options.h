@@ -57,6 +57,9 @@ void add_file(CLI::App& command, std::string& file);
 /// MESH: a mesh.
 void add_mesh(CLI::App& command, std::string& file);
 
+/// MESH: a mesh, or an index with faces.
+void add_surface(CLI::App& command, std::string& file);
+
 /// --output, or the option `name`, optional unless made required. `-` is standard output. An extension other than
 /// `extension` (".ply") is refused.
 CLI::Option* add_output(CLI::App& command, const std::string& extension, const std::string& description,

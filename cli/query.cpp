@@ -72,6 +72,8 @@ Answer timed_answer(const QueryCommand& options, AnySearcher& searcher, VertexId
 
 /// Names welding if vertices of other components lie where those of `component` do.
 std::string advice_to_weld(const std::vector<VertexId>& component, Input& input) {
+  // In an index of a welded mesh, a vertex that was not kept is a component.
+  if (input.mesh() == nullptr && component.size() == 1) return "";
   const std::vector<VertexId> first = kept_vertices(input.positions(), 0);
   std::vector<std::uint8_t> is_of_component(first.size());
   std::vector<std::uint8_t> is_shared(first.size());  // by the first vertex at each position

@@ -113,7 +113,7 @@ void region(const RegionCommand& options) {
 void add_region(CLI::App& program) {
   auto options = std::make_shared<RegionCommand>();
   CLI::App* command = program.add_subcommand("region", "Write the part of the mesh in a neighborhood, and its rim");
-  add_mesh(*command, options->file);
+  add_surface(*command, options->file);
   add_weld(*command, options->weld);
   add_numbers(*command, "-v,--vertex", "query vertex, by its number in the file from 0", options->vertices);
   add_radius(*command, options->radius);
