@@ -18,8 +18,7 @@ the neighborhood of meshhood; *ball* is the ball in space, which takes other she
 which is connected; *k rings* are the vertices within k edges, whatever their length, for k as large as the radius;
 *found* is how many vertices that gives at the largest radius. In the tables of counts, a tool that can only return ids
 counts by them. *(in hand)* is the same with the index already built. A tool that would take longer than {most:g} s is
-stopped, or left out if a piece of the mesh suggests so; one that needs more than 12 GiB is stopped. The figures are of
-the build before the present one, which takes about half the time; they have to be measured again.
+stopped, or left out if a piece of the mesh suggests so; one that needs more than 12 GiB is stopped.
 
 """
 
@@ -111,8 +110,7 @@ def compared(question, other, piece, aim):
 
 
 HEAD_NOTE = """From the arrays of a mesh to the counts and curvatures of all vertices on two threads, beside the same with the index in
-hand (`{command}`), in µs a vertex; *BFS* is the reference search with the adjacency that it needs.
-The figures are of the build before the present one, which takes about half the time.{remark}
+hand (`{command}`), in µs a vertex; *BFS* is the reference search with the adjacency that it needs.{remark}
 
 """
 
