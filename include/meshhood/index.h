@@ -118,18 +118,18 @@ class Index {
 template <class Positions, class Faces>
   requires(!std::same_as<Faces, BuildOptions>)
 [[nodiscard]] Index build(const Positions& positions, const Faces& faces, const BuildOptions& options = {}) {
-  constexpr bool are_positions = std::constructible_from<PositionsView, const Positions&>;
-  constexpr bool are_triangles = requires { FacesView::triangles(faces); };
-  constexpr bool are_faces = are_triangles || std::same_as<Faces, FacesView>;
-  static_assert(are_positions,
+  constexpr bool kArePositions = std::constructible_from<PositionsView, const Positions&>;
+  constexpr bool kAreTriangles = requires { FacesView::triangles(faces); };
+  constexpr bool kAreFaces = kAreTriangles || std::same_as<Faces, FacesView>;
+  static_assert(kArePositions,
                 "positions: expected float or double in contiguous memory, 3 #V numbers or #V points of three; "
                 "PositionsView and meshhood/eigen.h read other layouts");
-  static_assert(are_faces,
+  static_assert(kAreFaces,
                 "faces: expected integers of 16 to 64 bits in contiguous memory, 3 #F corners or #F triangles of "
                 "three; FacesView and meshhood/eigen.h read polygons and other layouts");
-  if constexpr (are_positions && are_triangles) {
+  if constexpr (kArePositions && kAreTriangles) {
     return build(MeshView{positions, FacesView::triangles(faces)}, options);
-  } else if constexpr (are_positions && are_faces) {
+  } else if constexpr (kArePositions && kAreFaces) {
     return build(MeshView{positions, faces}, options);
   }
 }
