@@ -34,7 +34,7 @@ class Start {
 
   /// Valid as long as this object and the seeds that it was given.
   [[nodiscard]] std::span<const VertexId> seeds() const& { return seeds_ ? *seeds_ : std::span(&vertex_, 1); }
-  std::span<const VertexId> seeds() const&& = delete;
+  [[nodiscard]] std::span<const VertexId> seeds() const&& = delete;
 
  private:
   VertexId vertex_ = 0;  // the only seed, unless `seeds_` are given
