@@ -3,19 +3,14 @@
 // right or an error. The variables of the environment are those of viewer.test.mjs.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, renameSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, test } from 'node:test';
+import { test } from 'node:test';
 
-import { countPixels, drop, idsOf, launch, openPage, waitForAnswers, waitForMesh } from './browser.mjs';
+import { countPixels, drop, idsOf, openPage, waitForAnswers, waitForMesh } from './browser.mjs';
+import { launchWithFolder } from './fixture.mjs';
 
-const folder = mkdtempSync(join(tmpdir(), 'meshhood-'));
-const browser = await launch();
-after(async () => {
-  await browser.close();
-  rmSync(folder, { recursive: true });
-});
+const { browser, folder } = await launchWithFolder();
 
 /** Opens the built page; what a script of a file would do fails the test. */
 async function openBuilt(hash = '#example=terrain&vertex=5&radius=3') {

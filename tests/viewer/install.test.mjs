@@ -3,19 +3,14 @@
 // installs it; MESHHOOD_PYTHON is a Python for it.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, test } from 'node:test';
+import { test } from 'node:test';
 
-import { idsOf, launch, openPage } from './browser.mjs';
+import { idsOf, openPage } from './browser.mjs';
+import { launchWithFolder } from './fixture.mjs';
 
-const folder = mkdtempSync(join(tmpdir(), 'meshhood-'));
-const browser = await launch();
-after(async () => {
-  await browser.close();
-  rmSync(folder, { recursive: true });
-});
+const { browser, folder } = await launchWithFolder();
 
 const { MESHHOOD_VIEWER: _, ...environment } = process.env;
 const run = (program, ...options) =>

@@ -3,25 +3,18 @@
 // and in the dark. The variables of the environment are those of viewer.test.mjs.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdirSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { mkdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, test } from 'node:test';
+import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 
-import { colorsAt, countPixels, drop, idsOf, launch, openPage, placeOf, setVertex, waitForMesh } from './browser.mjs';
+import { colorsAt, countPixels, drop, idsOf, openPage, placeOf, setVertex, waitForMesh } from './browser.mjs';
+import { commandLine, launchWithFolder } from './fixture.mjs';
 
-const folder = mkdtempSync(join(tmpdir(), 'meshhood-'));
-const browser = await launch();
-after(async () => {
-  await browser.close();
-  rmSync(folder, { recursive: true });
-});
+const { browser, folder } = await launchWithFolder();
 const pictures = process.env.MESHHOOD_PICTURES;
 mkdirSync(pictures, { recursive: true });
-const environment = { ...process.env, MESHHOOD_VIEWER: process.env.MESHHOOD_PAGE };
-const meshhood = (...options) =>
-  execFileSync(process.env.MESHHOOD_CLI, options, { cwd: folder, encoding: 'utf8', env: environment, stdio: 'pipe' });
+const meshhood = commandLine(folder);
 const open = (hash, options) => openPage(browser, process.env.MESHHOOD_PAGE, { hash, ...options });
 const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
 

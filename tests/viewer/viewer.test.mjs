@@ -3,29 +3,22 @@
 // line, MESHHOOD_VIEWER_SOURCES the folder of the page's sources, MESHHOOD_PICTURES a folder for screenshots.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, test } from 'node:test';
+import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 
 import {
-  countPixels, drop, idsOf, launch, memoryOfPages, openPage, placeOf, setRadius, setVertex, waitForAnswers, waitForMesh,
+  countPixels, drop, idsOf, memoryOfPages, openPage, placeOf, setRadius, setVertex, waitForAnswers, waitForMesh,
 } from './browser.mjs';
+import { commandLine, launchWithFolder } from './fixture.mjs';
 import { arraysOf } from '../wasm/npz.mjs';
 
-const folder = mkdtempSync(join(tmpdir(), 'meshhood-'));
-const browser = await launch();
-after(async () => {
-  await browser.close();
-  rmSync(folder, { recursive: true });
-});
+const { browser, folder } = await launchWithFolder();
 
 const pictures = process.env.MESHHOOD_PICTURES;
 mkdirSync(pictures, { recursive: true });
-const environment = { ...process.env, MESHHOOD_VIEWER: process.env.MESHHOOD_PAGE };
-const meshhood = (...options) =>
-  execFileSync(process.env.MESHHOOD_CLI, options, { cwd: folder, encoding: 'utf8', env: environment, stdio: 'pipe' });
+const meshhood = commandLine(folder);
 const file = (name) => join(folder, name);
 
 /** The answer of the command line. */
