@@ -112,6 +112,11 @@ PositionsView Input::positions() {
   return std::visit([](const auto& xyz) { return PositionsView(xyz); }, *positions_);
 }
 
+const std::vector<VertexId>& Input::first_at_position() {
+  if (!first_at_position_) first_at_position_ = kept_vertices(positions(), 0);
+  return *first_at_position_;
+}
+
 Fingerprint Input::fingerprint() { return header_ ? header_->mesh : meshhood::fingerprint(graph()); }
 
 GraphView Input::graph() {

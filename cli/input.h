@@ -52,6 +52,9 @@ class Input {
   /// In the numbering of the mesh. Borrowed, as all views below.
   [[nodiscard]] PositionsView positions();
 
+  /// By vertex: the first vertex at its position. Computed at the first use, then kept.
+  [[nodiscard]] const std::vector<VertexId>& first_at_position();
+
   /// Of the mesh. An index says its own.
   [[nodiscard]] Fingerprint fingerprint();
 
@@ -77,6 +80,7 @@ class Input {
   std::optional<GraphData> graph_;  // of the exact index in the file
   std::optional<paper::Index> paper_;
   std::optional<PositionsData> positions_;  // of the paper's index in the file
+  std::optional<std::vector<VertexId>> first_at_position_;
 };
 
 /// Reads a mesh of at most `max_bytes`, with progress, and prints the warnings of the reader. Throws as

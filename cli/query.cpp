@@ -74,7 +74,7 @@ Answer timed_answer(const QueryCommand& options, AnySearcher& searcher, VertexId
 std::string advice_to_weld(const std::vector<VertexId>& component, Input& input) {
   // In an index of a welded mesh, a vertex that was not kept is a component.
   if (input.mesh() == nullptr && component.size() == 1) return "";
-  const std::vector<VertexId> first = kept_vertices(input.positions(), 0);
+  const std::vector<VertexId>& first = input.first_at_position();
   std::vector<std::uint8_t> is_of_component(first.size());
   std::vector<std::uint8_t> is_shared(first.size());  // by the first vertex at each position
   for (const VertexId v : component) is_of_component[v] = 1;
