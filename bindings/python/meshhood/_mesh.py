@@ -28,8 +28,8 @@ def face_arrays(F):
 
 
 def kept_faces(corners, offsets):
-    """The arrays above, compact and read-only, for vertices that int32 can number; no offsets if all faces are triangles.
-    Arrays of this size are not copied."""
+    """The arrays above, compact and read-only, for vertices that int32 can number; no offsets if all faces are
+    triangles. Arrays of this size are not copied."""
     if offsets is not None and len(corners) == 3 * (len(offsets) - 1) and np.all(np.diff(offsets) == 3):
         offsets = None
     wide = np.int32 if len(corners) < 2**31 else np.int64

@@ -53,8 +53,8 @@ class Shape(Held):
             there are at least six.
         unit, workers, progress : as for `query_ball`.
 
-        A row depends on index, faces or normals, vertex and radius alone, bit for bit: not on the other rows or radii of
-        the call, earlier calls, threads or the processor.
+        A row depends on index, faces or normals, vertex and radius alone, bit for bit: not on the other rows or radii
+        of the call, earlier calls, threads or the processor.
         Returns a `Curvature`: k1, k2, d1, d2, state, and as properties mean, gaussian, shape_index, curvedness, ok.
         Raises ValueError without faces and normals. See docs/curvature.md for what the numbers mean.
         """
@@ -88,8 +88,8 @@ class Shape(Held):
         `interpolated_corrected_curvatures`): sums over the faces, without a fit.
 
         r : the radius of all rows. normals : (#V, 3), instead of those that follow from the faces. The faces are needed
-        in any case. The other arguments are as for `curvature`. Returns a `CorrectedCurvature`: area, mean, gaussian, k1, k2, d1,
-        d2, measures. A row depends on the same as that of `curvature`.
+        in any case. The other arguments are as for `curvature`. Returns a `CorrectedCurvature`: area, mean, gaussian,
+        k1, k2, d1, d2, measures. As for `curvature`, a row does not depend on the others.
         """
         rows = None if vertices is None else _convert.vertices(vertices, self._count)
         radius = self._scale(unit) * _convert.radius(r)
@@ -119,8 +119,9 @@ class Shape(Held):
         r : a radius, or one for each row. degree : 0 to 4. weights, F : as for `aggregate`.
         Returns (#rows, 1, 4, 10, 20 or 35) float64: 1, x, y, z, x^2, xy, xz, y^2, yz, z^2, x^3, ..., the order of
         scikit-learn's PolynomialFeatures. They are accurate to 1e-13 of the sum of w |p|^(i + j + k). A row depends on
-        index, weights, vertex and radius alone, bit for bit: not on the other rows of the call, earlier calls, threads or
-        the processor. Only if the rows have different radii, those of the vertices nearby have an effect on the last bits.
+        index, weights, vertex and radius alone, bit for bit: not on the other rows of the call, earlier calls, threads
+        or the processor. Only if the rows have different radii, those of the vertices nearby have an effect on the last
+        bits.
         """
         rows, radii, threads = self._batch(vertices, r, self._scale(unit), workers)
         options = {"degree": _convert.integer(degree, "degree", 0, 4), "weights": area_weights(self, weights, F)}
@@ -166,7 +167,8 @@ class Shape(Held):
         F, filter, unit, workers, progress : as for `curvature`.
 
         Returns (#radii, #rows, #kinds) float64, without the last axis if `kinds` is one name. NaN where there is no
-        result. `persistence` finds over how many radii a feature lasts. A row depends on the same as that of `curvature`.
+        result. `persistence` finds over how many radii a feature lasts. As for
+        `curvature`, a row does not depend on the others.
         """
         rows = None if vertices is None else _convert.vertices(vertices, self._count)
         array = np.atleast_1d(np.array(_convert.as_array(r, "r")))
