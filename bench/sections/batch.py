@@ -11,8 +11,7 @@ NOTE = """`{command}`: the neighborhoods of many vertices in one call, in index 
 time in µs a row. `bfs` is breadth-first search on the mesh in index order, warm. *One* queries the exact index for one
 vertex after another, *batch* for all in one call; each computes sizes (count) and ids. × is the ratio to `bfs`. The
 vertices stand for all: they are stretches of some 900 consecutive vertices, evenly spread over the mesh, 40,000 in all;
-above 10 mean edges of 450, 4,000 in all. `bfs` and *one* take the first eighth or tenth of each stretch. The figures are
-of the kernels before the present ones, and have to be measured again.
+above 10 mean edges of 450, 4,000 in all. `bfs` and *one* take the first eighth or tenth of each stretch.
 
 """
 
