@@ -35,7 +35,8 @@ IndexView& Index::view() const {
 
 void BoundIndex::raise_outdated() {
   raise(ErrorCode::InvalidOption,
-        "the index was refitted in place, expected `rebind` of the searcher, or a new CurvatureIndex, before the next call");
+        "the index was refitted in place, expected `rebind` of the searcher, or a new CurvatureIndex, before the next "
+        "call");
 }
 
 std::size_t Index::vertex_count() const { return view().vertex_count(); }
