@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "base/adjacency.h"
+#include "exact/build/leaves.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/scale.h"
