@@ -80,7 +80,7 @@ if(CMAKE_BUILD_TYPE STREQUAL "Release")
   find_package(nlohmann_json REQUIRED)
   add_library(mutant_library STATIC EXCLUDE_FROM_ALL ${core_sources} ${mutant_sources} ${mutant_readers} support/small_disk.cpp)
   target_link_libraries(mutant_library PRIVATE nlohmann_json::nlohmann_json)
-  add_dependencies(mutant_library meshhood_families meshhood_io)
+  add_dependencies(mutant_library meshhood_families meshhood_io meshhood_test_support)
   foreach(target mutant_tests mutant_library)
     target_include_directories(${target} PRIVATE
       $<TARGET_PROPERTY:meshhood,INCLUDE_DIRECTORIES> ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR})
@@ -91,8 +91,8 @@ if(CMAKE_BUILD_TYPE STREQUAL "Release")
     set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
   endforeach()
   file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/mutants/link.txt CONTENT "${CMAKE_CXX_COMPILER}
--Wl,--start-group $<TARGET_FILE:meshhood_families> $<TARGET_FILE:mutant_library> $<TARGET_FILE:meshhood_io>
--Wl,--end-group $<TARGET_FILE:fmt::fmt>
+-Wl,--start-group $<TARGET_FILE:meshhood_families> $<TARGET_FILE:meshhood_test_support> $<TARGET_FILE:mutant_library>
+$<TARGET_FILE:meshhood_io> -Wl,--end-group $<TARGET_FILE:fmt::fmt> ${ZSTD_LINK_LIBRARIES}
 $<TARGET_FILE:GTest::gmock> $<TARGET_FILE:GTest::gtest_main> $<TARGET_FILE:GTest::gtest>
 ")
   add_test(NAME mutants.build COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR}
