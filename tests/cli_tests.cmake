@@ -5,7 +5,7 @@ if(MESHHOOD_BUILD_CLI)
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
   set(transcripts aggregate batch build check compare connect curvature errors features generate help index info merge names paper partition query region shell streams values view weld)
   if(MESHHOOD_LONG_TESTS AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
-    list(APPEND transcripts memory)
+    list(APPEND transcripts limits)
   endif()
   foreach(name ${transcripts})
     add_test(NAME cli.${name}
