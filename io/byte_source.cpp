@@ -67,7 +67,7 @@ std::size_t FileSource::read(std::span<char> out) {
 
 std::size_t FileSource::read_file(std::span<char> out) {
   for (;;) {
-    if (may_block_) wait_for_bytes(kNoTimeout);
+    if (may_block_) static_cast<void>(wait_for_bytes(kNoTimeout));
     const ssize_t count = ::read(file_.number(), out.data(), out.size());
     if (count == 0 && std::exchange(may_lack_a_writer_, false)) {
       if (!wait_for_bytes(kWriterTimeout)) raise_io(path_, ETIMEDOUT, "no process writes to this pipe");

@@ -64,7 +64,7 @@ class FileSource final : public ByteSource {
 
  private:
   [[nodiscard]] std::size_t read_file(std::span<char> out);
-  bool wait_for_bytes(std::chrono::steady_clock::duration limit) const;
+  [[nodiscard]] bool wait_for_bytes(std::chrono::steady_clock::duration limit) const;
 
   std::filesystem::path path_;
   Descriptor file_;
