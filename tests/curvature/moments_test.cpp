@@ -127,11 +127,13 @@ TEST_P(MomentsOfAGradedMesh, KeepTheirBound) {
   const Oracle oracle(mesh);
   const Index index = build(mesh.view());
   const std::vector<double> areas = vertex_areas(mesh.view());  // of the corners 10^14 times those of the patch
+  const std::size_t rows = scaled(mesh.size(), 24);
   double worst = 0;
   for (const double radius : {0.0, 0.011, 0.05, 0.3}) {
     for (const std::vector<double>& weights : {std::vector<double>(), areas}) {
       const std::vector<double> found = moments(index, {.radius = radius}, {.degree = 4, .weights = weights});
-      for (std::uint32_t v = 0; v < mesh.size(); ++v) {
+      for (std::size_t row = 0; row < rows; ++row) {
+        const auto v = static_cast<VertexId>(mesh.size() - 1 - row * mesh.size() / rows);  // the first is far away
         const Expected expected = moments_of(mesh, oracle.exact(v, radius), v, weights);
         for (std::size_t column = 0; column < 35; ++column) {
           const double error = std::abs(static_cast<double>(found[35 * v + column] - expected.sums[column]));
@@ -142,7 +144,7 @@ TEST_P(MomentsOfAGradedMesh, KeepTheirBound) {
       }
     }
   }
-  std::printf("largest error %.1e\n", worst);
+  std::printf("%zu vertices, largest error %.1e\n", rows, worst);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, MomentsOfAGradedMesh, testing::Values(1, 1e2, 1e4, 1e6));
