@@ -120,6 +120,7 @@ def test_ctrl_c_while_loading_an_index(index, tmp_path, ctrl_c, mmap):
 
 def test_ctrl_c_while_saving_an_index(index, tmp_path, ctrl_c):
     file = tmp_path / "index"
+    index.save(file)  # so that there is a file, however slow the machine is
     with nothing_stays_open():
         seconds = ctrl_c(again_and_again(lambda: index.save(file)))
     print(f"save: KeyboardInterrupt after {1000 * seconds:.0f} ms")
