@@ -19,6 +19,7 @@ void Waves::run(NodeId home, const TreeBall& ball, GroupStates& states) {
     placed = groups_.size();
     for (const std::uint32_t group : wave_) spread(group, states);
   }
+  // What was not reached is not connected with the query vertex. To look at it again would only take time.
   for (const std::uint32_t group : groups_) {
     GroupState& state = states[group];
     state.whole &= state.reached;
