@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -56,6 +57,7 @@ class VertexSet {
 
   /// The same for any range of at most 32 vertices, none of them, some or all.
   void add_lanes(const VertexRange& all, LaneMask lanes) {
+    assert(all.end <= index_->vertex_count());
     make_room(1);
     add_if(lanes != 0, all, lanes == first_lanes(static_cast<unsigned>(all.size())) ? 0 : lanes);
   }
