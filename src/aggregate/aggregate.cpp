@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -17,12 +19,18 @@
 #include "aggregate/minima.h"
 #include "aggregate/node_tree.h"
 #include "aggregate/patch.h"
+#include "aggregate/path_reducer.h"
 #include "aggregate/signal_block.h"
 #include "aggregate/sums.h"
 #include "aggregate/variances.h"
+#include "batch/batch.h"
+#include "batch/filter_copy.h"
 #include "batch/packets.h"
 #include "batch/rows.h"
+#include "exact/filtered.h"
 #include "exact/index_access.h"
+#include "exact/query/lane_filter.h"
+#include "exact/query/path_search.h"
 #include "shared/distance.h"
 #include "shared/text.h"
 
@@ -70,15 +78,17 @@ class CheckedQuery {
       : query_(query), rows_(index.vertex_count()) {
     check_signal(signal, index.vertex_count());
     check_reduction(signal, query);
-    if (query.radii.empty()) raise(ErrorCode::InvalidOption, "there are no radii, expected at least one");
-    for (std::size_t i = 0; i < query.radii.size(); ++i)
-      check_radius(query.radii[i], "radius " + std::to_string(i) + ": ");
     if (const auto& list = query.vertices.list()) {
-      list_.assign(list->begin(), list->end());
-      rows_ = list_.size();
-      query_.vertices = list_;
-      static_cast<void>(Rows({query_.vertices, query.radii.front()}, index.vertex_count()));
+      vertices_.assign(list->begin(), list->end());
+      rows_ = vertices_.size();
+      query_.vertices = vertices_;
     }
+    if (const auto& list = query.radius.list()) {
+      radii_.assign(list->begin(), list->end());
+      query_.radius = radii_;
+    }
+    passes_ = radius_of_passes(query_.radius);
+    static_cast<void>(Rows({query_.vertices, passes_.front()}, index.vertex_count()));
   }
   CheckedQuery(const CheckedQuery&) = delete;
   CheckedQuery& operator=(const CheckedQuery&) = delete;
@@ -87,9 +97,17 @@ class CheckedQuery {
   [[nodiscard]] const AggregateQuery& query() const { return query_; }
   [[nodiscard]] std::size_t rows() const { return rows_; }
 
+  /// The radius of each pass over the rows.
+  [[nodiscard]] std::span<const BatchRadius> passes() const { return passes_; }
+
+  /// Whether the neighborhoods of smaller radii are cut from those of the largest.
+  [[nodiscard]] bool has_patches() const { return query_.nesting == Nesting::Patch && !query_.radius.list(); }
+
  private:
   AggregateQuery query_;
-  std::vector<VertexId> list_;
+  std::vector<VertexId> vertices_;
+  std::vector<double> radii_;
+  std::vector<BatchRadius> passes_;
   std::size_t rows_;
 };
 
@@ -133,11 +151,17 @@ struct Destination {
 
   void write(const PacketAnswer& packet, PacketReducer& reducer) const {
     for (std::size_t i = 0; i < packet.rows.size(); ++i) {
-      reducer.write(i, {first + packet.rows[i] * stride, count});
-      for (std::size_t channel = 0; channel < count; ++channel) {
-        double& value = first[packet.rows[i] * stride + channel];
-        if (std::isnan(value)) value = std::numeric_limits<double>::quiet_NaN();  // its sign and payload vary
-      }
+      write(packet.rows[i], [&](std::span<double> channels) { reducer.write(i, channels); });
+    }
+  }
+
+  /// `f(channels)` sets the results of a row.
+  template <class F>
+  void write(std::size_t row, F&& f) const {
+    const std::span<double> channels(first + row * stride, count);
+    f(channels);
+    for (double& value : channels) {
+      if (std::isnan(value)) value = std::numeric_limits<double>::quiet_NaN();  // its sign and payload vary
     }
   }
 };
@@ -147,11 +171,14 @@ class Aggregation {
  public:
   Aggregation(const Index& index, const SignalView& signal, const CheckedQuery& checked, std::span<double> result,
               const AggregateOptions& options)
-      : index_(index),
-        view_(IndexAccess::view(index)),
+      : index_(filtered(index, checked.query().filter, options.threads)),
+        view_(IndexAccess::view(index_)),
         tree_(view_),
         signal_(signal),
         query_(checked.query()),
+        filter_(checked.query().filter),
+        radii_(checked.passes()),
+        has_patches_(checked.has_patches()),
         rows_(checked.rows()),
         result_(result),
         options_(options),
@@ -160,12 +187,21 @@ class Aggregation {
   void run() {
     for (std::size_t first = 0; first < signal_.channels; first += kChannelsTogether) {
       const std::size_t count = std::min(kChannelsTogether, signal_.channels - first);
-      const std::unique_ptr<Reduction> reduction =
-          make_reduction(view_, tree_, make_block(view_, signal_, first, count, query_), query_);
-      if (query_.nesting == Nesting::Patch) {
+      SignalBlock block = make_block(view_, signal_, first, count, query_);
+      if (query_.metric == Metric::Path && query_.kernel != SmoothingKernel::Box) {
+        const SumColumns columns(std::move(block), query_.reduce);
+        const bool squared = query_.kernel == SmoothingKernel::Biweight;
+        reduce_paths([&] { return std::make_unique<PathKernelReducer>(columns, squared); }, first, count);
+        continue;
+      }
+      const std::unique_ptr<Reduction> reduction = make_reduction(view_, tree_, std::move(block), query_);
+      if (query_.metric == Metric::Path) {
+        reduce_paths([&] { return std::make_unique<PathSetReducer>(view_, tree_, reduction->make_reducer()); }, first,
+                     count);
+      } else if (has_patches_) {
         reduce_patches(*reduction, first, count);
       } else {
-        for (std::size_t i = 0; i < query_.radii.size(); ++i) reduce_radius(*reduction, i, first, count);
+        for (std::size_t i = 0; i < radii_.size(); ++i) reduce_radius(*reduction, i, first, count);
       }
     }
   }
@@ -173,9 +209,9 @@ class Aggregation {
  private:
   void reduce_radius(const Reduction& reduction, std::size_t radius, std::size_t first, std::size_t count) {
     for_each_packet(
-        index_, {query_.vertices, query_.radii[radius]},
+        index_, {query_.vertices, radii_[radius]},
         [&](unsigned /*thread*/) -> PacketVisitor {
-          const std::shared_ptr<PacketReducer> reducer = reduction.make_reducer(query_.radii[radius]);
+          const std::shared_ptr<PacketReducer> reducer = reduction.make_reducer();
           const auto nodes = std::make_shared<MaximalNodes>(tree_);
           return [nodes, reducer, to = destination(radius, first, count)](const PacketAnswer& packet) {
             nodes->reduce(packet, *reducer);
@@ -192,11 +228,11 @@ class Aggregation {
       Destination to;
     };
     for_each_packet(
-        index_, {query_.vertices, *std::max_element(query_.radii.begin(), query_.radii.end())},
+        index_, {query_.vertices, largest_radius()},
         [&](unsigned /*thread*/) -> PacketVisitor {
           const auto cuts = std::make_shared<std::vector<Cut>>();
-          for (std::size_t i = 0; i < query_.radii.size(); ++i) {
-            cuts->push_back({PatchCutter(view_, tree_, query_.radii[i]), reduction.make_reducer(query_.radii[i]),
+          for (std::size_t i = 0; i < radii_.size(); ++i) {
+            cuts->push_back({PatchCutter(view_, tree_, radii_[i].common()), reduction.make_reducer(),
                              destination(i, first, count)});
           }
           const auto nodes = std::make_shared<MaximalNodes>(tree_);
@@ -210,13 +246,54 @@ class Aggregation {
         next_pass());
   }
 
+  /// One search for each row, at the largest radius: the vertices within a smaller one are among those found.
+  void reduce_paths(const std::function<std::unique_ptr<PathReducer>()>& make_reducer, std::size_t first,
+                    std::size_t count) {
+    struct PerThread {
+      PathSearch search;
+      std::unique_ptr<PathReducer> reducer;
+      std::vector<Path> within{};
+    };
+    const PacketOptions pass = next_pass();
+    const BatchOptions options{.threads = pass.threads, .progress = pass.progress};
+    Batch batch(SearchMethod::along_edges(index_), {query_.vertices, largest_radius()}, options, 1);
+    const std::shared_ptr<KeptGraph> graph = IndexAccess::share_graph(index_);
+    const LaneFilter walls(view_, filter_.view().walls);
+    const LaneFilter ignored(view_, filter_.view().ignored);
+    std::vector<std::unique_ptr<PerThread>> threads(batch.task().threads());
+    batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
+      if (!threads[thread]) threads[thread].reset(new PerThread{PathSearch(view_, *graph), make_reducer()});
+      auto& [search, reducer, within] = *threads[thread];
+      for (const BatchItem& item : chunk) {
+        search.run(view_.leaf_begin[leaf_of(item.position)] + lane_of(item.position), item.radius, walls);
+        for (std::size_t i = 0; i < radii_.size(); ++i) {
+          const double radius = radii_[i].list() ? item.radius : radii_[i].common();
+          within.clear();
+          std::ranges::copy_if(search.found(), std::back_inserter(within),
+                               [&](const Path& path) { return path.length <= radius && !ignored.has_at(path.end); });
+          destination(i, first, count).write(item.row, [&](std::span<double> channels) {
+            reducer->reduce(within, radius, channels);
+          });
+        }
+        batch.task().advance(1);
+        if (!batch.task().should_continue(thread)) return;
+      }
+    });
+    batch.task().finish();
+  }
+
+  /// Of each row.
+  [[nodiscard]] BatchRadius largest_radius() const {
+    return *std::ranges::max_element(radii_, {}, [](const BatchRadius& radius) { return radius.common(); });
+  }
+
   [[nodiscard]] Destination destination(std::size_t radius, std::size_t first, std::size_t count) const {
     return {result_.data() + radius * rows_ * signal_.channels + first, signal_.channels, count};
   }
 
   PacketOptions next_pass() {
     PacketOptions pass{.threads = options_.threads, .progress = {}};
-    const std::size_t passes = blocks_ * (query_.nesting == Nesting::Patch ? 1 : query_.radii.size());
+    const std::size_t passes = blocks_ * (has_patches_ || query_.metric == Metric::Path ? 1 : radii_.size());
     if (options_.progress) {
       pass.progress = [this, passes, before = passes_begun_ * rows_](std::size_t done, std::size_t /*total*/) {
         return options_.progress(before + done, passes * rows_);
@@ -226,11 +303,14 @@ class Aggregation {
     return pass;
   }
 
-  const Index& index_;
+  Index index_;
   const IndexView& view_;
   NodeTree tree_;
   const SignalView& signal_;
   const AggregateQuery& query_;
+  FilterCopy filter_;                   // for paths
+  std::span<const BatchRadius> radii_;  // of the passes
+  bool has_patches_;
   std::size_t rows_;
   std::span<double> result_;
   const AggregateOptions& options_;
@@ -256,9 +336,9 @@ std::size_t checked_size(std::size_t radii, std::size_t rows, std::size_t channe
 std::size_t aggregate_size(const Index& index, const SignalView& signal, const AggregateQuery& query,
                            const AggregateOptions& options) {
   if (signal.channels == 0) raise(ErrorCode::InvalidOption, "channels is 0, expected at least 1");
-  if (query.radii.empty()) raise(ErrorCode::InvalidOption, "there are no radii, expected at least one");
+  const auto& scales = query.radius.scales();
   const auto& list = query.vertices.list();
-  return checked_size(query.radii.size(), list ? list->size() : index.vertex_count(), signal.channels,
+  return checked_size(scales ? scales->size() : 1, list ? list->size() : index.vertex_count(), signal.channels,
                       options.max_bytes);
 }
 

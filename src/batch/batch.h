@@ -28,7 +28,7 @@ class Batch {
   /// The most rows of one call of `for_each_chunk`.
   static constexpr std::size_t kMaxRows = std::size_t{1} << 22;
 
-  /// Shares `method` and borrows `options`. `passes`: the number of passes over all rows.
+  /// Shares `method`, borrows `options`, and copies the rest. `passes`: the number of passes over all rows.
   /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}.
   Batch(SearchMethod method, const BatchQuery& query, const BatchOptions& options, std::size_t passes);
 
@@ -36,6 +36,9 @@ class Batch {
   [[nodiscard]] const BatchOptions& options() const { return options_; }
   [[nodiscard]] std::size_t vertex_count() const { return factory_.vertex_count; }
   [[nodiscard]] TaskContext& task() { return task_; }
+
+  /// Begins another pass, with one radius for all rows, which must be valid.
+  void set_radius(double radius) { rows_.set_radius(radius); }
 
   /// Sorts the rows by their position in the index, and returns the former number of each.
   std::vector<std::size_t> put_in_index_order();
@@ -73,7 +76,8 @@ class Batch {
   void cut_into_chunks(std::span<const std::uint64_t> in_order);
 
   SearchMethod method_;
-  const SearcherFactory& factory_;  // of `method_`
+  std::shared_ptr<const SearcherFactory> filtered_;  // null without a filter
+  const SearcherFactory& factory_;                   // that, or of `method_`
   const BatchOptions& options_;
   Rows rows_;
   TaskContext task_;

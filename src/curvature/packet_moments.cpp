@@ -30,9 +30,10 @@ PacketMoments::PacketMoments(const MomentSource& source, Isa isa)
       some_{},
       moments_{} {}
 
-void PacketMoments::begin(std::span<const std::uint32_t> places, double reach) {
+void PacketMoments::begin(std::span<const std::uint32_t> places, double reach, QueryWord queries) {
   size_ = places.size();
-  active_ = first_lanes(static_cast<unsigned>(size_));
+  active_ = first_lanes(static_cast<unsigned>(size_)) & queries;
+  without_vertices_ = first_lanes(static_cast<unsigned>(size_)) & ~queries;
   if (source_.filter != nullptr) set_normals(places);
   for (std::size_t q = 0; q < size_; ++q) {
     const Point p = std::visit([&](auto xyz) { return point(xyz, places[q]); }, source_.index->positions);
@@ -149,6 +150,10 @@ const QueryMoments& PacketMoments::finish() {
   add_common();
   add_some();
   kernels_->collect(common_, some_, moments_);
+  // What is common to the others was added for all.
+  for_each_lane(without_vertices_, [&](unsigned q) {
+    for (QueryRow& row : moments_.at) row[q] = 0;
+  });
   for (std::size_t q = 0; q < size_; ++q) sizes_[q] = sizes_of(moments_, q);
   kernels_->shift(moments_, offsets_);
   for (std::size_t q = 0; q < size_; ++q) {
