@@ -16,6 +16,7 @@
 #include "batch/joint_worker.h"
 #include "batch/searcher_factory.h"
 #include "exact/index_access.h"
+#include "exact/query/space_search.h"
 #include "paper/hierarchy.h"
 
 namespace meshhood {
@@ -26,6 +27,7 @@ static_assert(NeighborhoodSearcher<paper::Searcher>);
 static_assert(NeighborhoodSearcher<ReferenceSearcher>);
 static_assert(NeighborhoodSearcher<BallSearcher>);
 static_assert(NeighborhoodSearcher<EdgeSearcher>);
+static_assert(NeighborhoodSearcher<SpaceSearcher>);
 static_assert(NeighborhoodSearcher<AnySearcher>);
 
 /// Answers rows one by one.
@@ -106,6 +108,13 @@ SearchMethod SearchMethod::along_edges(const Index& index) {
   return SearchMethod(shared({.vertex_count = index.vertex_count(),
                               .make_searcher = [&index] { return AnySearcher(EdgeSearcher(index)); },
                               .position = [&index](VertexId v) { return IndexAccess::view(index).slot[v]; }}));
+}
+
+SearchMethod SearchMethod::in_space(const Index& index) {
+  return SearchMethod(shared({.vertex_count = index.vertex_count(),
+                              .make_searcher = [&index] { return AnySearcher(SpaceSearcher(index)); },
+                              .position = [&index](VertexId v) { return IndexAccess::view(index).slot[v]; },
+                              .is_count_cheap = true}));
 }
 
 SearchMethod SearchMethod::ball_scan(const PositionsView& positions) {
