@@ -4,12 +4,16 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
 #include <variant>
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
 #include "meshhood/batch.h"
+#include "meshhood/error.h"
 
 namespace meshhood::python {
 
@@ -27,6 +31,22 @@ using Radii = nanobind::ndarray<const double, nanobind::shape<-1>, nanobind::c_c
     query.radius = std::get<double>(radius);
   }
   return query;
+}
+
+/// A result beyond the limit of bytes: a MemoryError in Python.
+class ResultTooLarge : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Calls `f`, whose result alone may be too large.
+template <class F>
+auto limited(F&& f) {
+  try {
+    return std::forward<F>(f)();
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::TooLarge) throw;
+    throw ResultTooLarge(std::string(error.what()) + "; iter_neighborhoods returns the rows in chunks");
+  }
 }
 
 }  // namespace meshhood::python

@@ -11,7 +11,7 @@ component that contains v.
 """
 
 from . import _core
-from ._aggregate import vertex_areas
+from ._aggregate import smoothing_radius, vertex_areas
 from ._curvature import Curvature
 from ._files import Mesh, load, read_mesh
 from ._index import Chunk, MeshIndex, Quality
@@ -66,6 +66,7 @@ __all__ = [
     "principal_curvature",
     "read_mesh",
     "show_config",
+    "smoothing_radius",
     "vertex_areas",
     "view",
     "weld",

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from . import _convert, _core
 
-FITTED, RANK_DEFICIENT, TOO_FEW, NO_NORMAL = range(4)
+FITTED, RANK_DEFICIENT, TOO_FEW, NO_NORMAL, EXTENDED = range(5)
 
 
 class Curvature(NamedTuple):
@@ -22,9 +22,12 @@ class Curvature(NamedTuple):
     d1, d2 : (#rows, 3) float64, unit vectors, with the sign that makes the component of largest magnitude positive.
     state : (#rows,) uint8. 0: fitted. 1: the points determine no unique quadric; the values are those of the one with
         the smallest coefficients. 2: fewer than six vertices are connected with the vertex; all values are 0. 3: the
-        vertex has no normal, as it belongs to no face with an area; all values are 0.
+        vertex has no normal, as it belongs to no face with an area; all values are 0. 4: fewer than six vertices are in
+        the ball; the fit is to these and to the nearest connected ones.
+    count : (#rows,) uint32, the vertices within the radius to which the quadric is fitted, without those that the filter
+        leaves out. If they are fewer than six, the state is not 0.
 
-    With a list of radii each array has a leading axis of radii.
+    With `scales` each array has a leading axis.
     """
 
     k1: NDArray[np.float64]
@@ -32,10 +35,16 @@ class Curvature(NamedTuple):
     d1: NDArray[np.float64]
     d2: NDArray[np.float64]
     state: NDArray[np.uint8]
+    count: NDArray[np.uint32]  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        rows = " by ".join(map(str, self.k1.shape))
+        fitted = f", {np.count_nonzero(self.ok)} ok" if isinstance(self.state, np.ndarray) else ""
+        return f"<meshhood.Curvature: {rows} rows{fitted}>"
 
     @property
     def ok(self) -> NDArray[np.bool_]:
-        """Whether the row has a unique fit."""
+        """Whether the row has a unique fit to the vertices of its ball alone: state 0."""
         return self.state == FITTED
 
     @property

@@ -36,7 +36,7 @@ def read_mesh(path: Union[str, os.PathLike[str]], *, workers: int = -1, progress
     Raises OSError, with errno and filename; ValueError, naming the file, place and element; KeyboardInterrupt on Ctrl-C.
     """
     path, threads = _convert.path(path), _convert.threads(workers)
-    with reporter(progress) as report:
+    with reporter(progress, "read_mesh", "bytes") as report:
         vertices, corners, offsets, irregularities = _core.read_mesh(path, threads=threads, progress=report)
     for irregularity in irregularities:
         warnings.warn(f"{path}: {irregularity}", stacklevel=2)
@@ -65,7 +65,7 @@ def load(
     if trusted and not mmap:
         raise ValueError("trusted: expected only with mmap=True")
     path = _convert.path(path)
-    with reporter(progress) as report:
+    with reporter(progress, "load", "bytes") as report:
         exact = _core.load(path, mmap=bool(mmap), trusted=bool(trusted), progress=report)
     faces = exact.faces
     return MeshIndex._holding(exact, faces and kept_faces(*faces))

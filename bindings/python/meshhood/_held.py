@@ -3,7 +3,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
+
+import numpy as np
 
 from . import _convert, _core
 from ._curvature import Surfaces
@@ -29,11 +32,16 @@ class Held:
         self._queries = _core.queries(exact)
         self._count = exact.vertex_count
 
-    def _method(self, method: Any, metric: Any) -> Any:
-        if _convert.choice(metric, "metric", ("straight", "path")) == "path":
+    def _method(self, words: Mapping[str, Any]) -> Any:
+        """The method that the words name."""
+        method = words.get("method", "exact")
+        if _convert.choice(words.get("metric", "straight"), "metric", ("straight", "path")) == "path":
             if method != "exact":
                 raise ValueError(f"method: {method!r}, expected 'exact' with metric='path'")
             return self._methods.along_edges
+        for mask in ("walls", "ignored"):
+            if method != "exact" and words.get(mask) is not None:
+                raise ValueError(f"method: {method!r}, expected 'exact' with {mask}")
         try:
             return self._methods[method]
         except TypeError:
@@ -51,10 +59,14 @@ class Held:
             raise ValueError("unit: 'edge', but the mesh has no edges of positive length")
         return length
 
-    def _batch(self, v: Any, r: Any, scale: float, workers: Any) -> Any:
-        rows = None if v is None else _convert.vertices(v, self._count)
-        radius = _convert.radii(r, self._count if rows is None else len(rows))
-        return rows, scale * radius, _convert.threads(workers)
+    def _masks(self, walls: Any, ignored: Any) -> tuple[Any, Any]:
+        return _convert.mask(walls, "walls", self._count), _convert.mask(ignored, "ignored", self._count)
+
+    def _places(self) -> Any:
+        """The place of each vertex in index order."""
+        places = np.empty(self._count, np.int32)
+        places[self._exact.permutation] = np.arange(self._count, dtype=np.int32)
+        return places
 
     def _face_arrays(self, F: Any) -> tuple[Any, Any]:
         """Corners and offsets of `F`, or of the faces that the index keeps."""

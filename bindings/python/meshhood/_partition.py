@@ -68,7 +68,7 @@ def partition(
     }
     if (parts is None) == (vertices_per_part is None):
         raise ValueError("parts, vertices_per_part: expected one of them")
-    with reporter(progress) as report:
+    with reporter(progress, "partition") as report:
         _, notes = _core.partition(
             _convert.path(vertices), None if faces is None else _convert.path(faces), folder, **options, progress=report
         )

@@ -19,7 +19,7 @@ class Submesh(NamedTuple):
     """Some faces of a mesh, as a mesh of their own."""
 
     V: Union[NDArray[np.float32], NDArray[np.float64]]  #: the positions of its vertices
-    F: Any  #: (#F, 3) int32, or a tuple (offsets, corners) if the mesh was given as polygons; rows of V
+    F: Union[Ids, tuple[NDArray[np.int64], Ids]]  #: (#F, 3), or a tuple (offsets, corners) if the mesh was given as polygons; rows of V
     vertices: Ids  #: its vertices by their ids in the whole mesh, ascending
     faces: NDArray[np.int64]  #: its faces by their rows in the whole mesh, ascending
 
@@ -74,7 +74,7 @@ class RegionMesh:
         if np.ndim(start) == 0:
             center = self._positions[_convert.vertex(start, len(self._positions), "start")].astype(np.float64)
         else:
-            center = _convert.point(start, "start")[0]
+            center = _convert.point(start, "start", "a call for each")[0]
         x, y, z = (float(value) for value in center)
         points, edges, offsets, closed = self._mesher.rim(self._ids(ids), (x, y, z), _convert.radius(r))
         parts = [slice(begin, end) for begin, end in zip(offsets[:-1], offsets[1:])]
