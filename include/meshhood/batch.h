@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/filter.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/paper.h"
@@ -119,6 +120,10 @@ struct BatchQuery {
 
   /// Required. A vertex at exactly the radius is inside.
   BatchRadius radius = {};
+
+  /// With an `Index`, and along its edges. The neighborhood of a wall is empty. An index is not built anew: the search
+  /// itself takes about as long as without walls, but each call reads the masks, O(#V).
+  Filter filter = {};
 };
 
 /// How a batch runs. A row depends on the index, its vertex and its radius alone, not on the other rows or on

@@ -39,7 +39,8 @@ class VertexMask {
   const std::vector<bool>* bits_ = nullptr;  // instead of bytes
 };
 
-/// Restricts one search. A mask is read for the leaves that the search reaches, and not copied.
+/// Restricts a search. Of a single query, a mask is read for the leaves that the search reaches, and not copied. A batch
+/// copies it when the call begins.
 struct Filter {
   /// The search does not pass these vertices, and they do not belong to its answer. The result is as if they were not
   /// in the mesh.
@@ -47,6 +48,9 @@ struct Filter {
 
   /// The search passes these vertices, but they do not belong to its answer.
   VertexMask ignored = {};
+
+  /// Whether there are no masks.
+  [[nodiscard]] bool empty() const { return walls.size() == 0 && ignored.size() == 0; }
 };
 
 /// The graph without some of its edges. `build` of its view gives an index whose searches do not cross them.

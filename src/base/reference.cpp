@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <variant>
 
@@ -159,6 +160,11 @@ std::size_t ReferenceSearcher::count(VertexId v, double radius) { return state_-
 
 std::span<const VertexId> ReferenceAccess::search(ReferenceSearcher& searcher, VertexId v, double squared_radius) {
   return searcher.state_->search(v, squared_radius);
+}
+
+void ReferenceAccess::remove(ReferenceSearcher& searcher, VertexId v) {
+  std::visit([v](auto& records) { records[v].x = std::numeric_limits<decltype(records[v].x)>::quiet_NaN(); },
+             searcher.state_->records);
 }
 
 void ReferenceAccess::measure(const ReferenceSearcher& searcher, VertexId v, std::span<const VertexId> ids,

@@ -16,6 +16,9 @@ struct ReferenceAccess {
   /// the function of this name. Nothing is checked.
   [[nodiscard]] static std::span<const VertexId> search(ReferenceSearcher& searcher, VertexId v, double squared_radius);
 
+  /// No later search enters `v`, which is in no ball from now on. It must not be the vertex of a query.
+  static void remove(ReferenceSearcher& searcher, VertexId v);
+
   /// Refills `out` with the distances of `ids` from `v`.
   static void measure(const ReferenceSearcher& searcher, VertexId v, std::span<const VertexId> ids,
                       std::vector<double>& out);

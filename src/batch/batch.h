@@ -28,7 +28,7 @@ class Batch {
   /// The most rows of one call of `for_each_chunk`.
   static constexpr std::size_t kMaxRows = std::size_t{1} << 22;
 
-  /// Shares `method` and borrows `options`. `passes`: the number of passes over all rows.
+  /// Shares `method`, borrows `options`, and copies the rest. `passes`: the number of passes over all rows.
   /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}.
   Batch(SearchMethod method, const BatchQuery& query, const BatchOptions& options, std::size_t passes);
 
@@ -73,7 +73,8 @@ class Batch {
   void cut_into_chunks(std::span<const std::uint64_t> in_order);
 
   SearchMethod method_;
-  const SearcherFactory& factory_;  // of `method_`
+  std::shared_ptr<const SearcherFactory> filtered_;  // null without a filter
+  const SearcherFactory& factory_;                   // that, or of `method_`
   const BatchOptions& options_;
   Rows rows_;
   TaskContext task_;

@@ -13,9 +13,12 @@
 #include "meshhood/reference.h"
 #include "meshhood/search.h"
 
+#include "batch/filter_copy.h"
 #include "batch/joint_worker.h"
 #include "batch/searcher_factory.h"
+#include "exact/filtered.h"
 #include "exact/index_access.h"
+#include "exact/query/arguments.h"
 #include "exact/query/space_search.h"
 #include "paper/hierarchy.h"
 
@@ -71,6 +74,63 @@ std::uint32_t position_in_paper_index(const paper::Index& index, VertexId v) {
                     paper::IndexAccess::hierarchy(index));
 }
 
+/// Does not own the index, which must outlive all that use it.
+std::shared_ptr<const Index> borrowed(const Index& index) { return {std::shared_ptr<const void>(), &index}; }
+
+SearcherFactory exact_factory(const std::shared_ptr<const Index>& index) {
+  return {.vertex_count = index->vertex_count(),
+          .make_searcher = [index] { return AnySearcher(Searcher(*index)); },
+          .position = [index](VertexId v) { return IndexAccess::view(*index).slot[v]; },
+          .is_count_cheap = true,
+          .positions_together = JointWorker::kGroupPositions,
+          .with_filter =
+              [index](const Filter& filter, unsigned threads) {
+                return shared(exact_factory(std::make_shared<const Index>(filtered(*index, filter, threads))));
+              },
+          .make_joint_worker = [index] { return std::make_unique<JointWorker>(*index); }};
+}
+
+/// A searcher along the edges with one filter for all queries.
+class FilteredEdgeSearcher {
+ public:
+  FilteredEdgeSearcher(const Index& index, std::shared_ptr<const FilterCopy> filter)
+      : searcher_(index), filter_(std::move(filter)) {}
+
+  [[nodiscard]] std::size_t vertex_count() const { return searcher_.vertex_count(); }
+  [[nodiscard]] std::span<const VertexId> permutation() const { return searcher_.permutation(); }
+  std::vector<VertexId> neighborhood(VertexId v, double radius) {
+    return searcher_.neighborhood(v, radius, filter_->view());
+  }
+  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
+    searcher_.neighborhood(v, radius, out, filter_->view());
+  }
+  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
+    searcher_.neighborhood(v, radius, out, distances, filter_->view());
+  }
+  std::size_t count(VertexId v, double radius) { return searcher_.count(v, radius, filter_->view()); }
+  std::span<const VertexRange> ranges(VertexId v, double radius) {
+    return searcher_.ranges(v, radius, filter_->view());
+  }
+
+ private:
+  EdgeSearcher searcher_;
+  std::shared_ptr<const FilterCopy> filter_;
+};
+
+SearcherFactory edge_factory(const Index& index, const std::shared_ptr<const FilterCopy>& filter) {
+  return {.vertex_count = index.vertex_count(),
+          .make_searcher =
+              [&index, filter] {
+                return filter ? AnySearcher(FilteredEdgeSearcher(index, filter)) : AnySearcher(EdgeSearcher(index));
+              },
+          .position = [&index](VertexId v) { return IndexAccess::view(index).slot[v]; },
+          .with_filter =
+              [&index](const Filter& given, unsigned /*threads*/) {
+                check_filter(given, index.vertex_count());
+                return shared(edge_factory(index, std::make_shared<const FilterCopy>(given)));
+              }};
+}
+
 constexpr auto kOwnOrder = [](VertexId v) { return std::uint32_t{v}; };
 
 }  // namespace
@@ -81,13 +141,7 @@ std::unique_ptr<BatchWorker> SearcherFactory::make_worker() const {
 
 SearchMethod::SearchMethod(std::shared_ptr<const SearcherFactory> searchers) : searchers_(std::move(searchers)) {}
 
-SearchMethod::SearchMethod(const Index& index)
-    : SearchMethod(shared({.vertex_count = index.vertex_count(),
-                           .make_searcher = [&index] { return AnySearcher(Searcher(index)); },
-                           .position = [&index](VertexId v) { return IndexAccess::view(index).slot[v]; },
-                           .is_count_cheap = true,
-                           .positions_together = JointWorker::kGroupPositions,
-                           .make_joint_worker = [&index] { return std::make_unique<JointWorker>(index); }})) {}
+SearchMethod::SearchMethod(const Index& index) : SearchMethod(shared(exact_factory(borrowed(index)))) {}
 
 SearchMethod::SearchMethod(const paper::Index& index, const paper::QueryOptions& options)
     : SearchMethod(shared({.vertex_count = index.vertex_count(),
@@ -104,11 +158,7 @@ SearchMethod SearchMethod::breadth_first(const GraphView& graph) {
                               .position = kOwnOrder}));
 }
 
-SearchMethod SearchMethod::along_edges(const Index& index) {
-  return SearchMethod(shared({.vertex_count = index.vertex_count(),
-                              .make_searcher = [&index] { return AnySearcher(EdgeSearcher(index)); },
-                              .position = [&index](VertexId v) { return IndexAccess::view(index).slot[v]; }}));
-}
+SearchMethod SearchMethod::along_edges(const Index& index) { return SearchMethod(shared(edge_factory(index, nullptr))); }
 
 SearchMethod SearchMethod::in_space(const Index& index) {
   return SearchMethod(shared({.vertex_count = index.vertex_count(),

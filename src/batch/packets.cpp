@@ -9,6 +9,7 @@
 
 #include "batch/batch.h"
 #include "batch/joint_worker.h"
+#include "exact/filtered.h"
 
 namespace meshhood {
 namespace {
@@ -29,10 +30,11 @@ void for_each_packet(const Index& index, const BatchQuery& query, const PacketVi
                      const PacketOptions& options) {
   if (!make_visitor) raise(ErrorCode::InvalidOption, "make_visitor is empty, expected a function");
   const BatchOptions batch_options{.threads = options.threads, .progress = options.progress};
-  Batch batch(index, query, batch_options, 1);
+  const Index searched = filtered(index, query.filter, options.threads);
+  Batch batch(searched, {.vertices = query.vertices, .radius = query.radius}, batch_options, 1);
   std::vector<std::unique_ptr<PacketThread>> threads(batch.task().threads());
   batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
-    if (!threads[thread]) threads[thread] = std::make_unique<PacketThread>(index, make_visitor(thread));
+    if (!threads[thread]) threads[thread] = std::make_unique<PacketThread>(searched, make_visitor(thread));
     threads[thread]->worker.visit(chunk, options.rows, [&](const PacketAnswer& answer) {
       threads[thread]->visitor(answer);
       batch.task().advance(answer.rows.size());

@@ -68,6 +68,10 @@ struct SearcherFactory {
   /// Rows that lie between two multiples of this many positions are computed together.
   std::uint32_t positions_together = 1;
 
+  /// The same method with answers that a filter restricts; empty if it has no filters. Copies the masks. Throws
+  /// Error{InvalidOption} unless each is empty or has a value for each vertex.
+  std::function<std::shared_ptr<const SearcherFactory>(const Filter& filter, unsigned threads)> with_filter = {};
+
   /// Makes a worker that answers rows together; empty if rows are answered one by one, by a searcher.
   std::function<std::unique_ptr<BatchWorker>()> make_joint_worker = {};
 

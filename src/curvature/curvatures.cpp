@@ -18,6 +18,7 @@
 #include "curvature/surface.h"
 #include "curvature/symmetric.h"
 #include "curvature/visit_moments.h"
+#include "exact/filtered.h"
 #include "exact/joint/packet_answer.h"
 
 namespace meshhood {
@@ -32,8 +33,8 @@ TangentFrame frame_at(const SurfaceState& surface, std::uint32_t place, ShapeOpe
 /// Fits the rows of packets. One object a thread.
 class CurvatureFitter {
  public:
-  CurvatureFitter(const SurfaceState& surface, const CurvatureOptions& options, Curvatures& out)
-      : surface_(&surface), options_(&options), out_(&out), direct_(surface, options) {}
+  CurvatureFitter(const SurfaceState& surface, const Index& searched, const CurvatureOptions& options, Curvatures& out)
+      : surface_(&surface), options_(&options), out_(&out), direct_(surface, searched, options) {}
 
   void fit(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments);
 
@@ -145,9 +146,10 @@ Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query, co
   result.state.resize(rows);
   result.count.resize(rows);
   const MomentSource source{.index = &*state.index, .filter = options.filter ? &state : nullptr};
-  visit_moments(state.searched, query, options.open_ball, source,
+  const Index searched = filtered(state.searched, query.filter, options.threads);
+  visit_moments(searched, {.vertices = query.vertices, .radius = query.radius}, options.open_ball, source,
                 {.threads = options.threads, .progress = options.progress}, [&] {
-                  auto fitter = std::make_shared<CurvatureFitter>(state, options, result);
+                  auto fitter = std::make_shared<CurvatureFitter>(state, searched, options, result);
                   return [fitter](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
                     fitter->fit(packet, sums, moments);
                   };

@@ -8,15 +8,21 @@
 #include "curvature/jet.h"
 #include "curvature/packet_moments.h"
 #include "curvature/surface.h"
+#include "exact/index_access.h"
 #include "exact/neighbors.h"
 
 namespace meshhood {
 
 /// Adds the vertices nearest to the query vertex among those that are linked to the set, one by one; of several the one
-/// with the lowest id.
+/// with the lowest id. None that the filter of the query leaves out.
 void DirectFit::extend(std::uint32_t place) {
-  const IndexView& index = *surface_->index;
+  const IndexView& index = IndexAccess::view(*searched_);
   const Point center = surface_->position(place);
+  const auto is_barred = [&](std::uint32_t i) {
+    const std::uint32_t slot = index.slot[index.id(i)];
+    const LaneMask in_answers = index.open_lanes(leaf_of(slot)) & ~index.ignored_lanes(leaf_of(slot));
+    return (in_answers >> lane_of(slot) & 1U) == 0;
+  };
   while (found_.size() < kFewestPoints) {
     std::optional<std::uint32_t> nearest;
     const auto key = [&](std::uint32_t i) {
@@ -26,7 +32,7 @@ void DirectFit::extend(std::uint32_t place) {
       const std::uint32_t slot = index.slot[index.id(i)];
       for_each_neighbor(index, leaf_of(slot), lane_of(slot), [&](std::size_t to) {
         const auto other = static_cast<std::uint32_t>(to);
-        if (std::find(found_.begin(), found_.end(), other) != found_.end()) return;
+        if (is_barred(other) || std::find(found_.begin(), found_.end(), other) != found_.end()) return;
         if (!nearest || key(other) < key(*nearest)) nearest = other;
       });
     }
@@ -58,7 +64,7 @@ double DirectFit::set_points(std::uint32_t place) {
 }
 
 DirectFit::Result DirectFit::fit(std::uint32_t place, double radius, const TangentFrame& frame) {
-  if (!searcher_) searcher_.emplace(surface_->searched);
+  if (!searcher_) searcher_.emplace(*searched_);
   find_places(*searcher_, *surface_->index, place, radius, found_);
   const std::size_t inside = found_.size();
   const bool is_extended = inside < kFewestPoints;

@@ -16,7 +16,9 @@ namespace meshhood {
 /// equations are not: for few or badly placed vertices. One object a thread.
 class DirectFit {
  public:
-  DirectFit(const SurfaceState& surface, const CurvatureOptions& options) : surface_(&surface), options_(&options) {}
+  /// Borrows its arguments. `searched` is the index of the surface, which may be filtered.
+  DirectFit(const SurfaceState& surface, const Index& searched, const CurvatureOptions& options)
+      : surface_(&surface), searched_(&searched), options_(&options) {}
 
   struct Result {
     CurvatureState state;
@@ -34,6 +36,7 @@ class DirectFit {
   [[nodiscard]] double scale_for(double extent) const;
 
   const SurfaceState* surface_;
+  const Index* searched_;
   const CurvatureOptions* options_;
   std::optional<Searcher> searcher_;
   std::vector<std::uint32_t> found_;  // places in index order

@@ -16,6 +16,7 @@
 #include "curvature/packet_moments.h"
 #include "curvature/symmetric.h"
 #include "curvature/visit_moments.h"
+#include "exact/filtered.h"
 #include "exact/index_access.h"
 #include "shared/distance.h"
 #include "shared/text.h"
@@ -76,8 +77,9 @@ void for_each_row(const Index& index, const BatchQuery& query, const MomentOptio
   const IndexView& view = IndexAccess::view(index);
   const MomentWeights weights(view, options.weights);
   const MomentSource source{.index = &view, .weights = weights.values};
-  visit_moments(index, query, false, source, {.threads = options.threads, .progress = options.progress}, [&] {
-    const auto direct = std::make_shared<DirectMoments>(index, source);
+  const Index searched = filtered(index, query.filter, options.threads);
+  visit_moments(searched, {.vertices = query.vertices, .radius = query.radius}, false, source, {.threads = options.threads, .progress = options.progress}, [&] {
+    const auto direct = std::make_shared<DirectMoments>(searched, source);
     return [&, direct](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
       for (std::size_t i = 0; i < packet.rows.size(); ++i) {
         const unsigned q = packet.queries_of_rows[i];

@@ -30,9 +30,9 @@ PacketMoments::PacketMoments(const MomentSource& source, Isa isa)
       some_{},
       moments_{} {}
 
-void PacketMoments::begin(std::span<const std::uint32_t> places, double reach) {
+void PacketMoments::begin(std::span<const std::uint32_t> places, double reach, QueryWord queries) {
   size_ = places.size();
-  active_ = first_lanes(static_cast<unsigned>(size_));
+  active_ = first_lanes(static_cast<unsigned>(size_)) & queries;
   if (source_.filter != nullptr) set_normals(places);
   for (std::size_t q = 0; q < size_; ++q) {
     const Point p = std::visit([&](auto xyz) { return point(xyz, places[q]); }, source_.index->positions);

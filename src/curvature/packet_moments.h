@@ -50,8 +50,8 @@ class PacketMoments {
   PacketMoments(const MomentSource& source, Isa isa);
 
   /// Begins with the query vertices at these positions in index order. No vertex that will be added is farther than
-  /// `reach` from its query vertex.
-  void begin(std::span<const std::uint32_t> places, double reach);
+  /// `reach` from its query vertex. Only `queries` have vertices.
+  void begin(std::span<const std::uint32_t> places, double reach, QueryWord queries = ~QueryWord{0});
 
   /// The vertices `first .. first + size - 1` in index order belong to the queries of `word`.
   void add(std::size_t first, std::size_t size, QueryWord word);

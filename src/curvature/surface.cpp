@@ -70,10 +70,8 @@ std::vector<Point> sum_areas(const IndexView& index, std::span<const Real> xyz, 
 
 }  // namespace
 
-// The cast is safe: `searched` is never refitted. If the caller's index is, in place, `check_current` of `index`
-// throws.
-CurvatureIndex::State::State(const Index& given)
-    : searched(IndexAccess::make(std::const_pointer_cast<IndexView>(IndexAccess::share(given)))), index(searched) {}
+// `searched` is never refitted. If the caller's index is, in place, `check_current` of `index` throws.
+CurvatureIndex::State::State(const Index& given) : searched(IndexAccess::alias(given)), index(searched) {}
 
 std::size_t CurvatureIndex::State::first_neighbor(std::size_t place) const {
   const std::uint32_t slot = index->slot[index->id(place)];

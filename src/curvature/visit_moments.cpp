@@ -32,7 +32,7 @@ class PacketSummer {
     const std::size_t size = packet.vertices.size();
     for (std::size_t i = 0; i < size; ++i) places_[i] = place_of(*index_, packet.vertices[i]);
     const auto places = std::span(places_).first(size);
-    sums_.begin(places, *std::max_element(packet.radii.begin(), packet.radii.end()));
+    sums_.begin(places, *std::max_element(packet.radii.begin(), packet.radii.end()), packet.queries);
     for (const CoreLeaves& core : packet.cores) {
       for (const LeafRun& run : core.runs) sums_.add(run.vertices.begin, run.vertices.size(), core.queries);
     }

@@ -18,6 +18,17 @@ namespace meshhood {
 /// Access to the arrays of an index, for `build`, for index files and for tests.
 struct IndexAccess {
   [[nodiscard]] static Index make(std::shared_ptr<IndexView> view) { return Index(std::move(view)); }
+  /// Another view of the mesh of `index`, with the same edges and positions, whose graph it shares.
+  [[nodiscard]] static Index make(std::shared_ptr<IndexView> view, const Index& index) {
+    Index result(std::move(view));
+    result.graph_ = index.graph_;
+    return result;
+  }
+  /// The same index, which must not be refitted in place.
+  [[nodiscard]] static Index alias(const Index& index) {
+    static_cast<void>(index.view());
+    return make(index.view_, index);
+  }
   [[nodiscard]] static Index make(IndexData arrays) { return make(make_view(std::move(arrays))); }
 
   [[nodiscard]] static const IndexView& view(const Index& index) { return index.view(); }

@@ -72,7 +72,8 @@ struct alignas(64) GroupRecord {
   std::uint32_t end_link = 0;
   std::array<NodeSet, kFanOut> linked{};  // by node: the nodes of the group that it is linked with
   std::uint32_t nodes = 0;
-  std::uint32_t unused = 0;  // so that every byte has a defined value
+  NodeSet pierced = 0;                   // the nodes that have walls; 0 in files: see filtered.h
+  std::array<std::uint8_t, 3> unused{};  // so that every byte has a defined value
 };
 
 /// At least one edge of the mesh joins `node()` to each of the nodes `mine` of the group that the link belongs to,
@@ -119,6 +120,8 @@ struct IndexView {
   std::span<const NodeId> parents;         // by group: the node that covers it, or kNoNode
   std::span<const NodeLink> node_links;    // by group
   std::span<const double> mean_radii;      // by level
+  std::span<const LaneMask> walls;         // by leaf; empty if there are none: see filtered.h
+  std::span<const LaneMask> ignored;       // likewise
   Tree tree;                               // the levels, made from `levels`, `records` and `mean_radii`
   RootTree roots;                          // over the groups that no node covers
   std::vector<LeafGroupRange> leaf_groups;  // by node above the leaves, the first of which follows on the last leaf
@@ -136,6 +139,18 @@ struct IndexView {
 
   /// The groups of leaves below a node that is not a leaf.
   [[nodiscard]] const LeafGroupRange& leaf_groups_of(NodeId node) const { return leaf_groups[node - leaf_count()]; }
+
+  /// The vertices of a leaf that a search may pass.
+  [[nodiscard]] LaneMask open_lanes(LeafId leaf) const {
+    return first_lanes(leaves[leaf].size) & ~(walls.empty() ? LaneMask{0} : walls[leaf]);
+  }
+
+  /// The vertices of a leaf that are in no answer, although a search may pass them.
+  [[nodiscard]] LaneMask ignored_lanes(LeafId leaf) const { return ignored.empty() ? LaneMask{0} : ignored[leaf]; }
+
+  [[nodiscard]] bool is_wall(LeafId leaf, unsigned lane) const {
+    return !walls.empty() && (walls[leaf] >> lane & 1U) != 0;
+  }
 
   /// The caller's id of a vertex in index order.
   [[nodiscard]] VertexId id(std::size_t vertex) const {

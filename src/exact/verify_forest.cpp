@@ -34,7 +34,9 @@ class ForestCheck {
       if (record.nodes == 0 || record.nodes > kFanOut) {
         file_.refuse(&record, name(group) + ": " + std::to_string(record.nodes) + " nodes, expected 1 to 8");
       }
-      if (record.unused != 0) file_.refuse(&record.unused, name(group) + ": unused bytes are not 0");
+      if (record.pierced != 0 || record.unused != decltype(record.unused){}) {
+        file_.refuse(&record.pierced, name(group) + ": unused bytes are not 0");
+      }
       if (record.first_child != child) {
         file_.refuse(&record.first_child, name(group) + ": its first child is group " +
                                               std::to_string(record.first_child) + ", expected " +

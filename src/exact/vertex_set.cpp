@@ -46,6 +46,19 @@ void VertexSet::align_to_leaves() {
   for (const LeafSubset& subset : sorted_) add_lanes(subset);
 }
 
+void VertexSet::leave_out(std::span<const LaneMask> by_leaf) {
+  sorted_.clear();
+  for (const Part& part : parts()) {
+    LeafId leaf = leaf_of(index_->slot[index_->id(part.begin)]);
+    for (; leaf + 1 < index_->leaf_begin.size() && index_->leaf_begin[leaf] < part.end; ++leaf) {
+      const auto all = first_lanes(static_cast<unsigned>(vertices_of(leaf).size()));
+      sorted_.push_back({leaf, (part.is_run() ? all : part.lanes) & ~by_leaf[leaf]});
+    }
+  }
+  clear();
+  for (const LeafSubset& subset : sorted_) add_lanes(subset);
+}
+
 void VertexSet::assign_difference(const VertexSet& all, const VertexSet& part) {
   clear();
   auto taken = part.parts().begin();

@@ -79,6 +79,9 @@ class VertexSet {
   /// is one of a leaf. Only sets of `VertexBfs` need it.
   void align_to_leaves();
 
+  /// Takes vertices out, given by leaf. Runs have whole leaves, and subsets are of a leaf.
+  void leave_out(std::span<const LaneMask> by_leaf);
+
   /// Refills the set with the union of `subsets`, in any order, each vertex once.
   void assign(std::span<const LeafSubset> subsets);
 
@@ -120,7 +123,7 @@ class VertexSet {
   const IndexView* index_;
   std::vector<Part> parts_;
   std::size_t size_ = 0;
-  std::vector<LeafSubset> sorted_;  // scratch of `assign` and `align_to_leaves`
+  std::vector<LeafSubset> sorted_;  // scratch of `assign`, `align_to_leaves` and `leave_out`
   std::vector<VertexRange> ranges_;
 };
 

@@ -317,7 +317,8 @@ TEST(IndexVerify, RejectsWrongLinksBetweenNodes) {
   expect_refused_after(wrong, [&](Forgery& f) { records(f)[0].end_link = 4000000000U; });
   expect_refused_after(wrong, [&](Forgery& f) { ++records(f)[0].begin[1]; });
   expect_refused_after(wrong, [&](Forgery& f) { records(f).back().begin[0] = 4000000000U; });
-  expect_refused_after("unused bytes are not 0", [&](Forgery& f) { records(f)[0].unused = 1; });
+  expect_refused_after("unused bytes are not 0", [&](Forgery& f) { records(f)[0].unused[0] = 1; });
+  expect_refused_after("unused bytes are not 0", [&](Forgery& f) { records(f)[0].pierced = 1; });
   expect_refused_after("link 0 between nodes: expected node", [](Forgery& f) {
     NodeLink& link = f.section<NodeLink>("node_links")[0];
     link = NodeLink(4000000000U, link.mine);

@@ -143,7 +143,7 @@ GroupEntry JointGroup::discover(LeafId leaf) {
   const Leaf& record = index_->leaves[leaf];
   const Containment side = classify(record.bounds, ball_);
   if (side == Containment::Outside || !meets_a_leaf(record.bounds)) return entry_of_[leaf] = kNoEntry;
-  if (side == Containment::Inside && record.connected) return add_core(leaf);
+  if (side == Containment::Inside && fits_into_core(leaf)) return add_core(leaf);
   return entry_of_[leaf] = add_entry(leaf);
 }
 
@@ -192,9 +192,9 @@ void JointGroup::add_to_eights(LeafId leaf, const FrameSphere& sphere, bool conn
   eights_.back().connected |= static_cast<std::uint8_t>(connected) << i;
 }
 
-bool JointGroup::is_inside(LeafId leaf) const {
-  const Leaf& record = index_->leaves[leaf];
-  return record.connected && classify(record.bounds, ball_) == Containment::Inside;
+/// Whether a leaf that lies in every ball may be a part of a core, of which a query has all vertices or none.
+bool JointGroup::fits_into_core(LeafId leaf) const {
+  return index_->leaves[leaf].connected && index_->ignored_lanes(leaf) == 0;
 }
 
 GroupEntry JointGroup::add_core(LeafId leaf) {
@@ -208,7 +208,8 @@ GroupEntry JointGroup::add_core(LeafId leaf) {
     core.vertices += index_->leaves[core_leaves_[head]].size;
     for (const Link& link : index_->links_of(core_leaves_[head])) {
       GroupEntry linked = entry_of_[link.leaf];
-      if (linked == kUnknown && is_inside(link.leaf)) {
+      if (linked == kUnknown && fits_into_core(link.leaf) &&
+          classify(index_->leaves[link.leaf].bounds, ball_) == Containment::Inside) {
         touched_.push_back(link.leaf);
         linked = entry_of_[link.leaf] = entry;
         core_leaves_.push_back(link.leaf);

@@ -124,7 +124,7 @@ class JointGroup {
     return static_cast<std::uint8_t>(1U << entry % kFanOut);
   }
   void prefetch(const Leaf& leaf) const;
-  [[nodiscard]] bool is_inside(LeafId leaf) const;
+  [[nodiscard]] bool fits_into_core(LeafId leaf) const;
   [[nodiscard]] bool meets_a_leaf(const FrameSphere& sphere) const;
 
   const IndexView* index_;

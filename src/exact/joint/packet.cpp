@@ -71,13 +71,15 @@ void Packet::set_balls(const JointGroup& group, std::span<const JointQuery> quer
   balls_.center.z = static_cast<float>(center.z);
   balls_.inside_all = low > 0 ? static_cast<float>(low * low - 4 * error) : 0;
   balls_.outside_all = static_cast<float>(high * high + 4 * error);
-  balls_.queries = first_lanes(static_cast<unsigned>(size_));
+  balls_.queries = 0;
   balls_.surely_inside.fill(kFloatInfinity);
   balls_.maybe_inside.fill(kFloatInfinity);
   LeafPoints points;
   group.read_points(leaf_, points);
   for (std::size_t i = 0; i < size_; ++i) {
     const unsigned lane = lanes_[i];
+    if (index_->is_wall(leaf_, lane)) continue;
+    balls_.queries |= QueryWord{1} << i;
     balls_.x[i] = 2 * points.x[lane];
     balls_.y[i] = 2 * points.y[lane];
     balls_.z[i] = 2 * points.z[lane];

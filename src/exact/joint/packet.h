@@ -35,6 +35,7 @@ class Packet {
   Packet(const IndexView& index, const JointGroup& group, LeafId leaf, std::span<const JointQuery> queries);
 
   [[nodiscard]] std::size_t size() const { return size_; }
+  /// Those whose vertex is not a wall. The others have no ball.
   [[nodiscard]] QueryWord queries() const { return balls_.queries; }
   [[nodiscard]] const PacketBalls& balls() const { return balls_; }
   [[nodiscard]] LeafId leaf() const { return leaf_; }

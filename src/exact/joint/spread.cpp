@@ -14,6 +14,24 @@ void JointSpread::run(JointGroup& group, const Packet& packet) {
   classify(group, packet);
   start(group, packet);
   worklist_.run([&](std::uint32_t rank) { take(group, packet, group.at_rank(rank)); });
+  if (!index_->ignored.empty()) leave_out_ignored(group);
+}
+
+/// Takes the ignored vertices out of what was reached. A leaf that has some gets words; a core has none.
+void JointSpread::leave_out_ignored(const JointGroup& group) {
+  for (const LeafOfWords& found : partial_) {
+    for_each_lane(index_->ignored[group.leaf(found.words)],
+                  [&](unsigned lane) { words_[found.words].reached[lane] = 0; });
+  }
+  std::erase_if(whole_, [&](GroupEntry entry) {
+    if (group.is_core(entry) || index_->ignored[group.leaf(entry)] == 0) return false;
+    const LeafId leaf = group.leaf(entry);
+    words_[entry].reached = {};
+    for_each_lane(first_lanes(index_->leaves[leaf].size) & ~index_->ignored[leaf],
+                  [&](unsigned lane) { words_[entry].reached[lane] = states_[entry].word; });
+    partial_.push_back({entry, index_->leaves[leaf].first});
+    return true;
+  });
 }
 
 void JointSpread::classify(const JointGroup& group, const Packet& packet) {
@@ -104,15 +122,15 @@ void JointSpread::take_partial(JointGroup& group, const Packet& packet, GroupEnt
 /// Which queries hold which vertices of the leaf.
 void JointSpread::find_inside(JointGroup& group, const Packet& packet, GroupEntry entry) {
   states_[entry].has_inside = true;
-  const Leaf& record = index_->leaves[group.leaf(entry)];
+  const LeafId leaf = group.leaf(entry);
   PerLane<QueryWord>& inside = words_[entry].inside;
   PerLane<QueryWord> doubts;
   const BallWords found =
-      kernels_->ball_words(group.points(entry), first_lanes(record.size), packet.balls(), inside, doubts);
+      kernels_->ball_words(group.points(entry), index_->open_lanes(leaf), packet.balls(), inside, doubts);
   states_[entry].word = found.all;
   for (LaneMask lanes = found.in_doubt; lanes != 0; lanes &= lanes - 1) {
     const auto lane = static_cast<unsigned>(std::countr_zero(lanes));
-    const Point vertex = index_->position(group.leaf(entry), lane);
+    const Point vertex = index_->position(leaf, lane);
     for (QueryWord left = doubts[lane]; left != 0; left &= left - 1) {
       const auto query = static_cast<unsigned>(std::countr_zero(left));
       inside[lane] |= QueryWord{packet.holds(query, vertex)} << query;

@@ -46,6 +46,7 @@ class JointSpread {
     QueryWord pushed;  // whole: the queries that were pushed on
   };
 
+  void leave_out_ignored(const JointGroup& group);
   void classify(const JointGroup& group, const Packet& packet);
   void start(const JointGroup& group, const Packet& packet);
   void take(JointGroup& group, const Packet& packet, GroupEntry entry);

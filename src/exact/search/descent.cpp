@@ -62,10 +62,8 @@ void Descent::place(std::size_t first, const TreeBall& ball, GroupStates& states
   kernels_->classify(index_->groups.data(), below, ball, containments_.data());
   intersecting_.clear();
   for (std::size_t i = 0; i < below.size(); ++i) {
-    const NodeSet exist = first_nodes(index_->records[below[i]].nodes);
     GroupState& state = states.set(below[i], {});
-    state.whole = containments_[i].inside & exist;
-    state.intersecting = containments_[i].intersecting & exist;
+    state.place(index_->records[below[i]], containments_[i]);
     append(below[i], state.intersecting);
   }
 }

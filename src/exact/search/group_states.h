@@ -17,6 +17,14 @@ struct GroupState {
   NodeSet pending = 0;       // linked with a reached node, and not yet reached
   NodeSet home = 0;          // whole, and known to be connected with the query vertex
   bool is_united = false;    // with larger whole nodes, see `OpenElements`
+
+  /// Sets `whole` and `intersecting`. A pierced node is never whole, so it is refined to its leaves: a search uses the
+  /// links of whole nodes alone, and the ends of these are no walls.
+  void place(const GroupRecord& record, const GroupContainment& found) {
+    const NodeSet exist = first_nodes(record.nodes);
+    whole = found.inside & exist & static_cast<NodeSet>(~record.pierced);
+    intersecting = (found.intersecting | (found.inside & record.pierced)) & exist;
+  }
 };
 
 /// The states of all groups in one query. If no step of the search has made the state of a group, its nodes are

@@ -30,7 +30,8 @@ LaneMask LeafBfs::visit(LeafId leaf) {
   State& state = states_[leaf];
   const Leaf& record = index_->leaves[leaf];
   if (!state.is_whole && !state.is_visited) {
-    state.open = kernels_->within(index_->positions, record.first, record.size, query_->ball);
+    state.open =
+        kernels_->within(index_->positions, record.first, record.size, query_->ball) & index_->open_lanes(leaf);
   }
   state.is_visited = true;
   const LaneMask from = state.pending & state.open;

@@ -61,7 +61,8 @@ void Reach::find_surface_leaves(const Query& query) {
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     if (i + kLeavesAhead < leaves.size()) prefetch_vertices(leaves[i + kLeavesAhead]);
     const auto [first, end] = vertices_of(leaves[i]);
-    const LaneMask lanes = kernels_->within(index_->positions, first, end - first, query.ball);
+    LaneMask lanes = kernels_->within(index_->positions, first, end - first, query.ball);
+    if (!index_->walls.empty()) lanes &= ~index_->walls[leaves[i]];
     if (lanes == 0 || lanes == first_lanes(end - first)) {
       settle(leaves[i], lanes != 0);
       continue;

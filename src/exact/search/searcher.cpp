@@ -34,12 +34,24 @@ void Searcher::State::search(VertexId v, double radius) {
   if (v >= index->vertex_count() || !(radius >= 0)) check_query(v, index->vertex_count(), radius);
   if (radius != bounds.radius) bounds = RadiusBounds(index->frame, radius);
   answer.clear();
+  const std::uint32_t slot = index->slot[v];
+  if (index->is_wall(leaf_of(slot), lane_of(slot))) {
+    way = Way::Wall;
+    return;
+  }
+  find(v, slot);
+  if (!index->ignored.empty()) {
+    if (way == Way::VertexBfs) answer.align_to_leaves();
+    answer.leave_out(index->ignored);
+  }
+}
+
+void Searcher::State::find(VertexId v, std::uint32_t slot) {
   if (is_odd) {
     way = Way::VertexBfs;
     vertex_bfs.run(v, bounds.leaf.squared_radius, answer);
     return;
   }
-  const std::uint32_t slot = index->slot[v];
   const Leaf& home = index->leaves[leaf_of(slot)];
   leaf_bfs.prefetch_leaf(home, true);
   if (is_tiny() && is_alone(slot)) {
@@ -82,7 +94,8 @@ bool Searcher::State::is_small(const Leaf& home) const {
 /// query vertex, and a search over as many leaves as are open takes less time than to unite what is open.
 bool Searcher::State::is_mostly_open() const { return 2 * component.open_leaves() > reach.surface_leaves().size(); }
 
-/// Whether no neighbor of the vertex at a slot, the center of the ball, is in the ball.
+/// Whether no neighbor of the vertex at a slot, the center of the ball, is in the ball. With walls the answer may be
+/// false although it is so.
 bool Searcher::State::is_alone(std::uint32_t slot) const {
   const Point center = index->position(leaf_of(slot), lane_of(slot));
   return std::visit(

@@ -51,7 +51,7 @@ struct Searcher::State {
   void search(VertexId v, double radius);
 
   /// The way that answers a query. It depends on index, vertex and radius alone.
-  enum class Way { VertexBfs, Alone, LeafBfs, Component };
+  enum class Way { VertexBfs, Wall, Alone, LeafBfs, Component };
   Way way = Way::VertexBfs;  // of the last query, for tests and benchmarks
 
   [[nodiscard]] Point center_of(VertexId v) const {
@@ -60,6 +60,7 @@ struct Searcher::State {
   }
 
  private:
+  void find(VertexId v, std::uint32_t slot);
   [[nodiscard]] bool is_alone(std::uint32_t slot) const;
   [[nodiscard]] bool is_tiny() const;
   [[nodiscard]] bool is_small(const Leaf& home) const;

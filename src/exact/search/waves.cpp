@@ -51,10 +51,9 @@ void Waves::place(std::size_t first_new, const TreeBall& ball, GroupStates& stat
   kernels_->classify(index_->groups.data(), met, ball, containments_.data());
   for (std::size_t i = 0; i < met.size(); ++i) {
     GroupState& state = states[met[i]];
-    const NodeSet exist = first_nodes(index_->records[met[i]].nodes);
-    state.whole = containments_[i].inside & exist;
-    state.intersecting = containments_[i].intersecting & exist;
-    fetch_lines(index_->node_links.data() + index_->records[met[i]].first_link, 2);
+    const GroupRecord& record = index_->records[met[i]];
+    state.place(record, containments_[i]);
+    fetch_lines(index_->node_links.data() + record.first_link, 2);
   }
 }
 
