@@ -93,6 +93,13 @@ void bind_makers(nb::module_& module) {
   module.def("refit", &make_refitted, nb::arg(), nb::arg(), nb::arg("changed").none(), nb::arg("threads"),
              nb::arg("progress").none());
   module.def("graph", &make_graph);
+  module.def(
+      "check_faces",
+      [](const GraphData& graph, const Input& corners, const std::optional<Input>& offsets) {
+        const FacesView faces = faces_of(corners, offsets);
+        without_lock([&] { check_faces(graph.view(), faces); });
+      },
+      nb::arg(), nb::arg(), nb::arg("offsets").none());
   module.def("hierarchy", &make_hierarchy, nb::arg(), nb::arg("levels"), nb::arg("discard"), nb::arg("fusion_growth"));
   module.def("paper", &make_paper, nb::arg(), nb::arg("radius_ratio"));
   module.def("along_edges", [](std::shared_ptr<ExactMethod> exact) { return edge_method(std::move(exact)); });

@@ -98,7 +98,7 @@ CALLS = {
         {"r": "radii", "v": "vertices", "weights": "weights"},
     ),
     "features": (
-        "index.features(r, v, F=F, kinds=('crease', 'area', 'variation'), progress=p)",
+        "index.features(scales=r, vertices=v, F=F, kinds=('crease', 'area', 'variation'), progress=p)",
         {"r": "r", "v": "vertices", "F": "F"},
     ),
     "build": ("meshhood.MeshIndex(V, F, cut=cut, progress=p)", {"V": "V", "F": "F", "cut": "cut"}),

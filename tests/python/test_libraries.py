@@ -9,11 +9,11 @@ import pytest
 V, QUADS = meshes.grid(8)
 V[:, 2] = V[:, 0] * V[:, 1] / 16
 F = meshes.triangles(QUADS)
-WANTED = meshhood.MeshIndex(V, F).query_ball(None, 2.0, sort=True)[1]
+WANTED = meshhood.MeshIndex(V, F).query_ball(None, 2.0, sort="id")[1]
 
 
 def expect_same(index):
-    np.testing.assert_array_equal(index.query_ball(None, 2.0, sort=True)[1], WANTED)
+    np.testing.assert_array_equal(index.query_ball(None, 2.0, sort="id")[1], WANTED)
 
 
 def test_arrays_of_igl_in_either_order_are_read():

@@ -39,7 +39,7 @@ assert_type(meshhood.__version__, str)
 assert_type(meshhood.show_config(), None)
 
 assert_type(index.query_ball(1, 2), Ids)
-assert_type(index.query_ball(np.int64(1), np.float32(2), sort=True, unit="edge"), Ids)
+assert_type(index.query_ball(np.int64(1), np.float32(2), sort="id", unit="edge"), Ids)
 assert_type(index.query_ball(1, 2.0, return_distance=True), tuple[Ids, Reals])
 assert_type(index.query_ball([1, 2], 2.0, method="bfs"), tuple[Longs, Ids])
 assert_type(index.query_ball(None, [2.0, 3.0]), tuple[Longs, Ids])
@@ -84,7 +84,7 @@ REFUSED = (
     'index.query_ball(1, 2.0, method="fast")',
     'index.query_ball(1, 2.0, unit="mile")',
     'index.query_ball([1], 2.0, metric="edge")',
-    "index.count(1, 2.0, sort=True)",
+    "index.count(1, 2.0, sort="id")",
     "index.iter_neighborhoods(1.0)",
     "meshhood.Paper(factor=20)",
     "meshhood.load(3)",

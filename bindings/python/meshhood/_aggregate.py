@@ -149,7 +149,7 @@ class Aggregates(Held):
                 weights=weights,
                 vertices=rows.vertices,
                 radii=radii,
-                radius=radius,
+                **({} if radius is None else {"radius": radius}),
                 threads=rows.threads,
                 max_bytes=2**64 - 1,
                 progress=report,

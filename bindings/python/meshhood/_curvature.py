@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -77,9 +76,8 @@ class Surfaces:
         self._exact = exact
         self._kept: tuple[Any, Any] = (None, None)  # replaced as a whole: no lock, which a fork could copy while it is held
 
-    def of_faces(self, arrays: tuple[Any, Any], *, is_own: bool) -> Any:
-        """`is_own`: the arrays are the faces that the index keeps, which never change."""
-        key = b"" if is_own else _digest(arrays)
+    def of_faces(self, key: bytes, arrays: tuple[Any, Any]) -> Any:
+        """`key`: what tells the faces from others; empty for those that the index keeps, which never change."""
         kept, surface = self._kept
         if kept != key:
             surface = _core.surface_of_faces(self._exact, *arrays)
@@ -98,12 +96,3 @@ class Surfaces:
             return _core.surface_of_normals(self._exact, array.astype(np.float64).ravel())
         except ValueError as error:
             raise ValueError(f"normals: {error}") from None
-
-
-def _digest(arrays: Any) -> bytes:
-    digest = hashlib.blake2b(digest_size=16)
-    for array in arrays:
-        if array is not None:
-            digest.update(f"{array.dtype} {len(array)};".encode())
-            digest.update(array)
-    return digest.digest()

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Mapping
 from typing import Any
 
@@ -19,6 +20,8 @@ class Held:
 
     _exact: Any
     _faces: Any  # corners and offsets, as `face_arrays` returns them, or None
+    _checked: bytes  # the key of the faces given last
+    _mesher: Any  # of the faces that the index keeps, made at the first use
     _methods: Methods
     _surfaces: Surfaces
     _queries: Any
@@ -27,6 +30,8 @@ class Held:
     def _hold(self, exact: Any, faces: Any) -> None:
         self._exact = exact
         self._faces = faces
+        self._checked = b""
+        self._mesher = None
         self._methods = Methods(exact)
         self._surfaces = Surfaces(exact)
         self._queries = _core.queries(exact)
@@ -70,9 +75,18 @@ class Held:
 
     def _face_arrays(self, F: Any) -> tuple[Any, Any]:
         """Corners and offsets of `F`, or of the faces that the index keeps."""
-        if F is not None:
-            return face_arrays(F)
-        return self._own_faces("F: expected the faces, because")
+        return self._keyed_faces(F)[1]
+
+    def _keyed_faces(self, F: Any) -> tuple[bytes, tuple[Any, Any]]:
+        """The same, and what tells them from other faces. Those of another mesh are refused."""
+        if F is None:
+            return b"", self._own_faces("F: expected the faces, because")
+        arrays = face_arrays(F)
+        key = _digest(arrays)
+        if key != self._checked:
+            _core.check_faces(self._methods.graph(), *arrays)
+            self._checked = key
+        return key, arrays
 
     def _own_faces(self, wish: str) -> tuple[Any, Any]:
         """Corners and offsets of the faces that the index keeps. `wish`: the beginning of the error if it has none."""
@@ -86,7 +100,16 @@ class Held:
     def _surface(self, F: Any, normals: Any) -> Any:
         """The normals of the faces, or `normals`."""
         if normals is None:
-            return self._surfaces.of_faces(self._face_arrays(F), is_own=F is None)
+            return self._surfaces.of_faces(*self._keyed_faces(F))
         if F is not None:
             raise ValueError("F: expected None, because the normals are given")
         return self._surfaces.of_normals(normals)
+
+
+def _digest(arrays: Any) -> bytes:
+    digest = hashlib.blake2b(digest_size=16)
+    for array in arrays:
+        if array is not None:
+            digest.update(f"{array.dtype} {len(array)};".encode())
+            digest.update(array)
+    return digest.digest()

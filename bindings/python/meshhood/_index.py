@@ -19,6 +19,7 @@ from ._held import Held
 from ._mesh import kept_faces, mesh_arrays, moved_positions, warn_if_unwelded
 from ._progress import Progress, reporter
 from ._queries import Queries
+from ._region_mesh import Regions
 from ._rows import CountWords, ListWords, Rows, check_words, read_rows, result_dtype, sort_of, sorted_rows
 from ._shape import Shape
 from ._types import Counts, Floats, Ids, Number, Offsets, Radii, Scales, Vertex, Vertices
@@ -47,12 +48,12 @@ class Quality(NamedTuple):
     gain: float
 
 
-class MeshIndex(Queries, Aggregates, Shape):
+class MeshIndex(Queries, Aggregates, Shape, Regions):
     """An index of a mesh that finds the neighborhood of a vertex v with a radius r: the part of the mesh inside the
     ball of radius r around v that is connected to v within the ball.
 
     V : (#V, 3) float32 or float64, the positions, in any unit. Or a mesh without F: of
-        trimesh, PyVista, VTK (vtkPolyData), vedo, meshio, Open3D, or a GIFTI surface of nibabel.
+        trimesh, PyVista, VTK (vtkPolyData), vedo, meshio, Open3D, nilearn, or a GIFTI surface of nibabel.
     F : the faces, of any integer type; one of
         (#F, 3) triangles, (#F, 4) quads, (#F, k);
         a tuple (offsets, corners): polygon i has the corners corners[offsets[i]:offsets[i + 1]];
@@ -60,10 +61,25 @@ class MeshIndex(Queries, Aggregates, Shape):
         a scipy.sparse matrix (#V, #V): a graph. Each stored entry is an edge, in either direction, whatever its value.
     cut : edges that no search crosses, as pairs of vertices (#cut, 2) in either order.
     keep_faces : keep a copy of the faces, 4 bytes for each corner and, unless all are triangles, for each face. Without
-        it, or from a graph, the calls that need faces need them as their argument F.
+        it, or from a graph, the calls that need faces need them as their argument F: the faces, or a mesh. Faces of
+        another mesh are refused.
     workers : number of threads, -1 for one per processor. The index does not depend on it.
     progress : True shows a bar of tqdm. A function is called as progress(done, total); an exception from it ends the
         call.
+
+    Calls on many vertices understand the same words:
+
+    vertices : the rows: a vertex, a sequence of vertices, a bool mask (#V,), or None for all.
+    r : the radius, >= 0 or inf, or one for each row. A vertex at exactly `r` is inside.
+    scales : several radii for all rows, instead of `r`. The result has a leading axis of scales. Lists of neighborhoods
+        have the rows of all scales, scale after scale.
+    walls, ignored : bool masks (#V,). A search does not pass walls, as if they were not in the mesh; it passes ignored
+        vertices. Neither belong to a neighborhood, and that of a wall is empty.
+    metric : "straight", the neighborhood in the ball of radius `r`; "path", the vertices whose shortest path along edges
+        is at most `r` long. Distances, and the weights that follow from them, are then the lengths of these paths.
+        Calls that measure the surface know "straight" alone.
+    unit : of `r` and `scales`: "mesh" is that of V, "edge" is `mean_edge_length`.
+    workers, progress : as above. Progress is over all scales. The result does not depend on `workers`.
 
     Vertices are numbered as in V, with int32 ids; at most 2^31 - 1 vertices. V and F are copied: later changes have no
     effect. V and F may have any memory layout, and be anything that offers its memory to NumPy (`__array__`,
@@ -72,12 +88,17 @@ class MeshIndex(Queries, Aggregates, Shape):
 
     Warns if faces with coinciding corners are not connected (an unwelded mesh).
 
-    An exact answer depends on the index, the vertex and the radius alone. Its ids are in index order: ascending places
-    of `permutation`.
+    An exact answer depends on the index, the vertex, the radius and the masks alone. Its ids are in index order:
+    ascending places of `permutation`.
 
     Immutable. Any number of threads may use it at the same time; the interpreter lock is released during calls. An
     index can be saved, pickled (the same bytes), and used in a forked process. Every method raises ValueError or
-    TypeError, naming the argument and the element, and KeyboardInterrupt on Ctrl-C.
+    TypeError, naming the argument and the element, MemoryError for a result that does not fit, and KeyboardInterrupt on
+    Ctrl-C.
+
+    >>> index = meshhood.MeshIndex(V, F)
+    >>> index
+    <meshhood.MeshIndex: 642 vertices, mean edge not computed yet, 32.1 kB>
     """
 
     def __init__(
@@ -109,7 +130,9 @@ class MeshIndex(Queries, Aggregates, Shape):
         return self._count
 
     def __repr__(self) -> str:
-        return f"<meshhood.MeshIndex: {self._count} vertices, {_as_size(self.nbytes)}>"
+        length = self._methods.known_mean_edge_length
+        edge = "not computed yet" if length is None else f"{length:.4g}"
+        return f"<meshhood.MeshIndex: {self._count} vertices, mean edge {edge}, {_as_size(self.nbytes)}>"
 
     def __reduce_ex__(self, protocol: Any) -> tuple[Any, ...]:
         """The bytes of an index file, which are verified when they are loaded, the faces, and the attributes of a

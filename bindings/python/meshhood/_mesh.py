@@ -21,9 +21,11 @@ def mesh_arrays(V, F):
 
 
 def face_arrays(F):
-    """The corners of faces, and the offsets of the polygons or None for triangles."""
+    """The corners of faces, or of a mesh, and the offsets of the polygons or None for triangles."""
     if hasattr(F, "tocoo"):
         raise ValueError("F: a graph, expected faces")
+    if _is_mesh(F):
+        F = _parts(F)[1]
     return _polygons(F) if isinstance(F, tuple) else _faces(F)
 
 

@@ -11,7 +11,6 @@ from typing import Literal, Union
 from . import _convert, _core
 
 _MOST_LEVELS = 64  # no mesh has more
-_SCANS = {"bfs": _core.bfs, "ball": _core.ball}
 _ALONG_EDGES = object()  # no method that callers can name
 
 
@@ -73,8 +72,10 @@ class Methods(dict):
     def _make(self, method):
         if method is _ALONG_EDGES:
             return _core.along_edges(self["exact"])
-        if method in _SCANS:
-            return _SCANS[method](self.graph())
+        if method == "ball":
+            return _core.ball(self["exact"])
+        if method == "bfs":
+            return _core.bfs(self.graph())
         paper = Paper() if method == "paper" else method
         if not isinstance(paper, Paper):
             raise ValueError(f"method: {method!r}, expected 'exact', 'paper', 'bfs', 'ball' or a Paper")
@@ -99,6 +100,11 @@ class Methods(dict):
             if self._graph is None:
                 self._graph = _core.graph(self["exact"])
             return self._graph
+
+    @property
+    def known_mean_edge_length(self):
+        """None if it has not been computed yet, which takes as long as a pass over all edges."""
+        return self._mean_edge_length
 
     @property
     def mean_edge_length(self):

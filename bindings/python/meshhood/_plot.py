@@ -53,7 +53,7 @@ def plot_neighborhood(
     """
     import pyvista
 
-    v = _convert.vertex(v, len(index))
+    v = _convert.vertex(v, len(index), "v")
     labels = np.zeros(len(index), np.uint8)
     for label, method in enumerate(_LABELS[1:], start=1):
         labels[index.query_ball(v, r, method=method, unit=unit)] = label

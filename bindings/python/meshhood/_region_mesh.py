@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _convert, _core
+from ._held import Held
 from ._mesh import mesh_arrays
 
 Ids = NDArray[np.int32]
@@ -85,3 +86,40 @@ class RegionMesh:
 
     def _all(self, corners: Any) -> bool:
         return _convert.choice(corners, "corners", ("all", "any")) == "all"
+
+
+class Regions(Held):
+    """The part of `MeshIndex` that makes meshes of regions."""
+
+    def submesh(self, ids: ArrayLike, corners: Corners = "all", *, F: Any = None) -> Submesh:
+        """The faces with all corners in `ids`, or with at least one, as a mesh.
+
+        ids : the vertices of a region, in any order, or a bool mask (#V,).
+        F : other faces than those that the index keeps. The faces that the surface of a ball cuts are left out with
+            "all" and whole with "any": the area of a patch is off by a share of its rim.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> part = index.submesh(index.query_ball(42, 0.5))
+        >>> part.F.max() < len(part.V) == len(part.vertices)
+        np.True_
+        """
+        return self._region_mesh(F).submesh(ids, corners)
+
+    def rim(self, ids: ArrayLike, start: Any, r: Any, *, F: Any = None) -> list[RimLine]:
+        """Where the surface leaves a region: see `RegionMesh.rim`.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> [line.closed for line in index.rim(index.query_ball(42, 0.5), 42, 0.5)]
+        [True]
+        """
+        return self._region_mesh(F).rim(ids, start, r)
+
+    def _region_mesh(self, F: Any) -> RegionMesh:
+        if F is None and self._mesher is not None:
+            return self._mesher
+        corners, offsets = self._face_arrays(F)
+        faces = corners.reshape(-1, 3) if offsets is None else (offsets, corners)
+        mesher = RegionMesh(self._methods.graph().positions, faces)
+        if F is None:
+            self._mesher = mesher
+        return mesher

@@ -75,7 +75,7 @@ class Rows:
 
     @property
     def filter(self) -> dict[str, Any]:
-        return {"walls": self.walls, "ignored": self.ignored}
+        return {name: mask for name, mask in (("walls", self.walls), ("ignored", self.ignored)) if mask is not None}
 
     def reporter(self, title: str) -> AbstractContextManager[Report]:
         return reporter(self.progress, title, "vertices", self.count * len(self.radii))
@@ -102,7 +102,7 @@ def read_rows(index: Held, vertices: Any, r: Any, scales: Any, words: Mapping[st
         one = np.array([_convert.vertex(vertices, index._count)], np.int32) if is_one else None
         ids = _convert.vertices(vertices, index._count) if one is None else one
         count = len(ids)
-    radii = _radii(r, scales, count, index._scale(words.get("unit", "mesh")))
+    radii = _radii(r, scales, None if is_one else count, index._scale(words.get("unit", "mesh")))
     shape = () if scales is None else (len(radii),)
     walls, ignored = index._masks(words.get("walls"), words.get("ignored"))
     return Rows(
@@ -160,11 +160,12 @@ def check_size(shape: tuple[int, ...], itemsize: int, max_bytes: Any) -> None:
         )
 
 
-def _radii(r: Any, scales: Any, rows: int, unit: float) -> list[Any]:
+def _radii(r: Any, scales: Any, rows: Optional[int], unit: float) -> list[Any]:
+    """`rows`: None for a single vertex."""
     if (r is None) == (scales is None):
         raise TypeError("r: expected a radius, or one for each row; or several radii for all rows as scales, not both")
     if scales is None:
-        return [unit * _convert.radii(r, rows)]
+        return [unit * (_convert.radius(r) if rows is None else _convert.radii(r, rows))]
     values = _convert.as_array(scales, "scales")
     if values.ndim != 1 or values.size == 0:
         raise ValueError(f"scales: expected a list of radii, not an array of shape {values.shape}")

@@ -14,7 +14,7 @@ from ._aggregate import area_weights
 from ._curvature import Curvature
 from ._held import Held
 from ._moments import CorrectedCurvature, PrincipalComponents
-from ._rows import Words, read_rows
+from ._rows import Rows, Words, read_rows
 from ._types import Radii, Reals, Scales, Vertices
 
 if TYPE_CHECKING:
@@ -93,7 +93,7 @@ class Shape(Held):
         like, fit = words.get("like"), words.get("fit", "quadric")
         if like is not None:
             _convert.choice(like, "like", ("libigl",))
-        rows = read_rows(self, vertices, r, words.get("scales"), words, CurvatureWords)
+        rows = self._surface_rows(vertices, r, words, CurvatureWords)
         options: Any = {"libigl": like == "libigl", "jet": _convert.choice(fit, "fit", ("quadric", "jet")) == "jet"}
         options |= {"filter": bool(words.get("filter", True)), "threads": rows.threads, **rows.filter}
         surface = self._surface(words.get("F"), words.get("normals"))
@@ -116,7 +116,7 @@ class Shape(Held):
         >>> index.corrected_curvature(scales=[0.3, 0.5]).mean.shape
         (2, 642)
         """
-        rows = read_rows(self, vertices, r, words.get("scales"), words, CorrectedWords)
+        rows = self._surface_rows(vertices, r, words, CorrectedWords)
         F, normals = words.get("F"), words.get("normals")
         corners, offsets = self._face_arrays(F)
         surface = self._surface(F if normals is None else None, normals)
@@ -151,7 +151,7 @@ class Shape(Held):
         >>> meshhood.MeshIndex(V, F).moments(0.3).shape
         (642, 10)
         """
-        rows = read_rows(self, vertices, r, words.get("scales"), words, MomentWords)
+        rows = self._surface_rows(vertices, r, words, MomentWords)
         weights = area_weights(self, words.get("weights"), words.get("F"))
         options = {"degree": _convert.integer(degree, "degree", 0, 4), "weights": weights, "threads": rows.threads}
         found = rows.for_each_scale(
@@ -173,7 +173,7 @@ class Shape(Held):
         >>> found.normal.shape, found.surface_variation.shape
         ((642, 3), (642,))
         """
-        rows = read_rows(self, vertices, r, words.get("scales"), words, MomentWords)
+        rows = self._surface_rows(vertices, r, words, MomentWords)
         weights = area_weights(self, words.get("weights"), words.get("F"))
         options = {"weights": weights, "threads": rows.threads, **rows.filter}
         found = rows.for_each_scale(
@@ -208,7 +208,7 @@ class Shape(Held):
         >>> index.features(scales=meshhood.geometric_radii(0.2, 0.8, 3), kinds=("crease", "area")).shape
         (3, 642, 2)
         """
-        rows = read_rows(self, vertices, r, words.get("scales"), words, FeatureWords)
+        rows = self._surface_rows(vertices, r, words, FeatureWords)
         names = (kinds,) if isinstance(kinds, str) else tuple(kinds)
         if not names:
             raise ValueError("kinds: there are none, expected at least one")
@@ -223,6 +223,12 @@ class Shape(Held):
         surface = self._surface(F, None)
         radii, radius = rows.common_radii
         with rows.reporter("features") as report:
-            found = surface.features(rows.vertices, radii=np.array(radii), radius=radius, progress=report, **options)
+            found = surface.features(rows.vertices, radii=np.array(radii), **({} if radius is None else {"radius": radius}), progress=report, **options)
         found = found.reshape(rows.shape + found.shape[2:])
         return found[..., 0] if isinstance(kinds, str) else found
+
+    def _surface_rows(self, vertices: Any, r: Any, words: Any, accepted: Any) -> Rows:
+        rows = read_rows(self, vertices, r, words.get("scales"), words, accepted)
+        if rows.metric == "path":
+            raise ValueError("metric: 'path', expected 'straight': the surface is measured in balls")
+        return rows

@@ -117,7 +117,7 @@ def _surface(V: Any, F: Any) -> Any:
 def _settings(count: int, v: Any, r: Any, unit: Any, ids: Any, values: Any, name: Any) -> dict[str, Any]:
     settings: dict[str, Any] = {"name": str(name)}
     if v is not None:
-        settings["vertex"] = _convert.vertex(v, count)
+        settings["vertex"] = _convert.vertex(v, count, "v")
     if r is not None:
         settings["radius"] = _convert.radius(r)
         settings["unit"] = _convert.choice(unit, "unit", ("mesh", "edge"))
