@@ -210,11 +210,17 @@ def _coordinate_entries(graph):
 
 
 def _is_mesh(V):
-    return any(hasattr(V, name) for name in ("points", "vertices", "vertex", "dataset", "GetPolys", "agg_data"))
+    return any(hasattr(V, name) for name in ("points", "vertices", "vertex", "dataset", "GetPolys", "agg_data", "coordinates", "parts", "mesh"))
 
 
 def _parts(mesh):
     """Positions and faces of a mesh of another library or of this package."""
+    if hasattr(mesh, "mesh") and hasattr(mesh, "data"):  # nilearn's SurfaceImage
+        mesh = mesh.mesh
+    if hasattr(mesh, "parts"):
+        mesh = only_part(mesh.parts, "V")
+    if hasattr(mesh, "coordinates") and hasattr(mesh, "faces"):  # nilearn's InMemoryMesh and FileMesh
+        return mesh.coordinates, mesh.faces
     if hasattr(mesh, "agg_data"):
         return _gifti_data(mesh, "pointset"), _gifti_data(mesh, "triangle")
     if hasattr(mesh, "dataset"):  # vedo
@@ -235,9 +241,16 @@ def _parts(mesh):
     if hasattr(mesh, "vertices") and hasattr(mesh, "triangles"):  # Open3D
         return mesh.vertices, np.asarray(mesh.triangles)
     raise TypeError(
-        "V: expected a mesh of trimesh, PyVista, VTK, vedo, meshio, Open3D or nibabel if F is omitted, "
+        "V: expected a mesh of trimesh, PyVista, VTK, vedo, meshio, Open3D, nilearn or nibabel if F is omitted, "
         f"not {type(mesh).__name__}"
     )
+
+
+def only_part(parts, name):
+    """The one part of a mesh or of data of nilearn, which may have one for each hemisphere."""
+    if len(parts) != 1:
+        raise ValueError(f"{name}: has the parts {', '.join(map(repr, parts))}, expected one: .parts[{next(iter(parts), '')!r}]")
+    return next(iter(parts.values()))
 
 
 def _gifti_data(image, intent):

@@ -135,8 +135,8 @@ class Queries(Held):
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> counts, ids = index.query_nested(42, [0.2, 0.4])
-        >>> len(ids) == counts[-1] == index.count(42, 0.4)
-        np.True_
+        >>> len(ids) == index.count(42, 0.4)
+        True
         """
         center, first = self._start(start, seeds, "query_ball(vertices, scales=radii)")
         values = _convert.ascending(radii, "radii") * self._scale(unit)
@@ -169,7 +169,7 @@ class Queries(Held):
     ) -> bool:
         """Whether the region of `start` and the radius `r` has vertex `w`.
 
-        >>> meshhood.MeshIndex(V, F).contains(42, 43, 0.5)
+        >>> meshhood.MeshIndex(V, F).contains(42, 163, 0.3)
         True
         """
         center, first = self._start(start, seeds, "a call for each")
@@ -197,8 +197,8 @@ class Queries(Held):
         then by distance from `start`, then by id. Fewer if no more are connected.
 
         >>> ids, radii = meshhood.MeshIndex(V, F).nearest_connected(42, 20)
-        >>> ids[0]
-        np.int32(42)
+        >>> int(ids[0])
+        42
         """
         center, first = self._start(start, seeds, "query_knn(vertices, k), or seeds= around a point")
         k = _convert.integer(k, "k", 0, 2**63 - 1)

@@ -68,8 +68,8 @@ def view(
     the exact neighborhood in green, extra vertices of the search of the paper in yellow, further vertices of the ball
     in blue.
 
-        meshhood.view(V, F, v=42, r=10, unit="edge")             # displayed by a notebook
-        meshhood.view(V, F, values=sizes).save("sizes.html")
+    >>> page = meshhood.view(V, F, v=42, r=10, unit="edge")  # displayed by a notebook
+    >>> meshhood.view(V, F, values=V[:, 2]).save("heights.html")
 
     V, F : the mesh, as for `MeshIndex`, but not a graph.
     v, r, unit : the query to show at first, as for `MeshIndex.query_ball`; by default the page chooses one.

@@ -40,6 +40,10 @@ def weld(V: Any, F: Any = None, eps: Number = 0) -> Welded:
 
     About O(#V + #F) if `eps` is no larger than the mean edge length; one thread. Raises ValueError or TypeError, naming
     the argument and the element.
+
+    >>> welded = meshhood.weld(V[F].reshape(-1, 3), np.arange(F.size).reshape(-1, 3))
+    >>> len(welded.vertices)
+    642
     """
     positions, corners, offsets = mesh_arrays(V, F)
     distance = _convert.finite(eps, "eps", or_zero=True)

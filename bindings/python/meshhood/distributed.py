@@ -288,6 +288,11 @@ def open_parts(folder: Folder) -> Parts:
 
     The manifest is verified here, the files of a part when it is first used in a process. Raises ValueError, naming the
     file, if one has been changed, is truncated or is of another mesh; OSError.
+
+    >>> np.save("V.npy", V), np.save("F.npy", F)
+    (None, None)
+    >>> parts = meshhood.partition(("V.npy", "F.npy"), "parts", parts=2, halo=0.3)
+    >>> counts = meshhood.open_parts("parts").count(0.3).compute()
     """
     return Parts(folder)
 
