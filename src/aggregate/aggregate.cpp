@@ -22,6 +22,7 @@
 #include "aggregate/variances.h"
 #include "batch/packets.h"
 #include "batch/rows.h"
+#include "exact/filtered.h"
 #include "exact/index_access.h"
 #include "shared/distance.h"
 #include "shared/text.h"
@@ -70,15 +71,17 @@ class CheckedQuery {
       : query_(query), rows_(index.vertex_count()) {
     check_signal(signal, index.vertex_count());
     check_reduction(signal, query);
-    if (query.radii.empty()) raise(ErrorCode::InvalidOption, "there are no radii, expected at least one");
-    for (std::size_t i = 0; i < query.radii.size(); ++i)
-      check_radius(query.radii[i], "radius " + std::to_string(i) + ": ");
     if (const auto& list = query.vertices.list()) {
-      list_.assign(list->begin(), list->end());
-      rows_ = list_.size();
-      query_.vertices = list_;
-      static_cast<void>(Rows({query_.vertices, query.radii.front()}, index.vertex_count()));
+      vertices_.assign(list->begin(), list->end());
+      rows_ = vertices_.size();
+      query_.vertices = vertices_;
     }
+    if (const auto& list = query.radius.list()) {
+      radii_.assign(list->begin(), list->end());
+      query_.radius = radii_;
+    }
+    passes_ = radius_of_passes(query_.radius);
+    static_cast<void>(Rows({query_.vertices, passes_.front()}, index.vertex_count()));
   }
   CheckedQuery(const CheckedQuery&) = delete;
   CheckedQuery& operator=(const CheckedQuery&) = delete;
@@ -87,9 +90,17 @@ class CheckedQuery {
   [[nodiscard]] const AggregateQuery& query() const { return query_; }
   [[nodiscard]] std::size_t rows() const { return rows_; }
 
+  /// The radius of each pass over the rows.
+  [[nodiscard]] std::span<const BatchRadius> passes() const { return passes_; }
+
+  /// Whether the neighborhoods of smaller radii are cut from those of the largest.
+  [[nodiscard]] bool has_patches() const { return query_.nesting == Nesting::Patch && !query_.radius.list(); }
+
  private:
   AggregateQuery query_;
-  std::vector<VertexId> list_;
+  std::vector<VertexId> vertices_;
+  std::vector<double> radii_;
+  std::vector<BatchRadius> passes_;
   std::size_t rows_;
 };
 
@@ -147,11 +158,13 @@ class Aggregation {
  public:
   Aggregation(const Index& index, const SignalView& signal, const CheckedQuery& checked, std::span<double> result,
               const AggregateOptions& options)
-      : index_(index),
-        view_(IndexAccess::view(index)),
+      : index_(filtered(index, checked.query().filter, options.threads)),
+        view_(IndexAccess::view(index_)),
         tree_(view_),
         signal_(signal),
         query_(checked.query()),
+        radii_(checked.passes()),
+        has_patches_(checked.has_patches()),
         rows_(checked.rows()),
         result_(result),
         options_(options),
@@ -162,10 +175,10 @@ class Aggregation {
       const std::size_t count = std::min(kChannelsTogether, signal_.channels - first);
       const std::unique_ptr<Reduction> reduction =
           make_reduction(view_, tree_, make_block(view_, signal_, first, count, query_), query_);
-      if (query_.nesting == Nesting::Patch) {
+      if (has_patches_) {
         reduce_patches(*reduction, first, count);
       } else {
-        for (std::size_t i = 0; i < query_.radii.size(); ++i) reduce_radius(*reduction, i, first, count);
+        for (std::size_t i = 0; i < radii_.size(); ++i) reduce_radius(*reduction, i, first, count);
       }
     }
   }
@@ -173,9 +186,9 @@ class Aggregation {
  private:
   void reduce_radius(const Reduction& reduction, std::size_t radius, std::size_t first, std::size_t count) {
     for_each_packet(
-        index_, {query_.vertices, query_.radii[radius]},
+        index_, {query_.vertices, radii_[radius]},
         [&](unsigned /*thread*/) -> PacketVisitor {
-          const std::shared_ptr<PacketReducer> reducer = reduction.make_reducer(query_.radii[radius]);
+          const std::shared_ptr<PacketReducer> reducer = reduction.make_reducer();
           const auto nodes = std::make_shared<MaximalNodes>(tree_);
           return [nodes, reducer, to = destination(radius, first, count)](const PacketAnswer& packet) {
             nodes->reduce(packet, *reducer);
@@ -191,12 +204,13 @@ class Aggregation {
       std::unique_ptr<PacketReducer> reducer;
       Destination to;
     };
+    const auto common = [](const BatchRadius& radius) { return radius.common(); };
     for_each_packet(
-        index_, {query_.vertices, *std::max_element(query_.radii.begin(), query_.radii.end())},
+        index_, {query_.vertices, *std::ranges::max_element(radii_, {}, common)},
         [&](unsigned /*thread*/) -> PacketVisitor {
           const auto cuts = std::make_shared<std::vector<Cut>>();
-          for (std::size_t i = 0; i < query_.radii.size(); ++i) {
-            cuts->push_back({PatchCutter(view_, tree_, query_.radii[i]), reduction.make_reducer(query_.radii[i]),
+          for (std::size_t i = 0; i < radii_.size(); ++i) {
+            cuts->push_back({PatchCutter(view_, tree_, radii_[i].common()), reduction.make_reducer(),
                              destination(i, first, count)});
           }
           const auto nodes = std::make_shared<MaximalNodes>(tree_);
@@ -216,7 +230,7 @@ class Aggregation {
 
   PacketOptions next_pass() {
     PacketOptions pass{.threads = options_.threads, .progress = {}};
-    const std::size_t passes = blocks_ * (query_.nesting == Nesting::Patch ? 1 : query_.radii.size());
+    const std::size_t passes = blocks_ * (has_patches_ ? 1 : radii_.size());
     if (options_.progress) {
       pass.progress = [this, passes, before = passes_begun_ * rows_](std::size_t done, std::size_t /*total*/) {
         return options_.progress(before + done, passes * rows_);
@@ -226,11 +240,13 @@ class Aggregation {
     return pass;
   }
 
-  const Index& index_;
+  Index index_;
   const IndexView& view_;
   NodeTree tree_;
   const SignalView& signal_;
   const AggregateQuery& query_;
+  std::span<const BatchRadius> radii_;  // of the passes
+  bool has_patches_;
   std::size_t rows_;
   std::span<double> result_;
   const AggregateOptions& options_;
@@ -256,9 +272,9 @@ std::size_t checked_size(std::size_t radii, std::size_t rows, std::size_t channe
 std::size_t aggregate_size(const Index& index, const SignalView& signal, const AggregateQuery& query,
                            const AggregateOptions& options) {
   if (signal.channels == 0) raise(ErrorCode::InvalidOption, "channels is 0, expected at least 1");
-  if (query.radii.empty()) raise(ErrorCode::InvalidOption, "there are no radii, expected at least one");
+  const auto& scales = query.radius.scales();
   const auto& list = query.vertices.list();
-  return checked_size(query.radii.size(), list ? list->size() : index.vertex_count(), signal.channels,
+  return checked_size(scales ? scales->size() : 1, list ? list->size() : index.vertex_count(), signal.channels,
                       options.max_bytes);
 }
 
