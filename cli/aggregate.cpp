@@ -81,7 +81,7 @@ struct AggregateShape {
 void write_npz(const std::string& file, const AggregateQuery& query, const BatchVertices& listed,
                const AggregateShape& shape, const std::vector<double>& result) {
   io::NpzWriter npz(file);
-  npz.add<double>("radii", query.radii);
+  npz.add<double>("radii", *query.radius.scales());
   write_vertices(npz, listed);
   const std::array<std::uint64_t, 3> lengths{shape.radii, shape.rows, shape.channels};
   npz.begin<double>("values", lengths);
@@ -110,8 +110,8 @@ AggregateShape run(const AggregateCommand& options, Input& input, const Aggregat
   const std::vector<double> weights = weights_of(options, input);
   const SignalView signal{values.numbers, values.channels, weights};
   const Index& index = input.exact_index(options.threads);
-  const AggregateShape shape{query.radii.size(), row_count(query.vertices, index.vertex_count()), values.channels,
-                             aggregate_size(index, signal, query)};
+  const AggregateShape shape{query.radius.scales()->size(), row_count(query.vertices, index.vertex_count()),
+                             values.channels, aggregate_size(index, signal, query)};
   const BatchSize size{shape.rows, shape.numbers};
   SizeLimit(options.files.first(), options.max_bytes).check(size, 8 * static_cast<double>(shape.numbers));
   std::vector<double> result;
@@ -130,7 +130,7 @@ void aggregate_command(const AggregateCommand& options) {
   input.need_edges("aggregate");
   const QueryVertices vertices(options.vertices, input);
   const AggregateQuery query{.vertices = vertices.view(),
-                             .radii = resolve(options.radii, input),
+                             .radius = BatchRadius::scales(resolve(options.radii, input)),
                              .reduce = value_of(kReductions, options.reduce),
                              .kernel = value_of(kKernels, options.kernel),
                              .missing = value_of(kMissing, options.missing),

@@ -112,7 +112,7 @@ FeaturesFound compute(const FeaturesCommand& options, Input& input) {
   const QueryVertices vertices("", input);
   const std::vector<double> areas = vertex_areas(input.surface());
   Task task("measuring", {"rows", static_cast<double>(found.radii.size())});
-  found.values = features(surface, vertices.view(), found.radii,
+  found.values = features(surface, {vertices.view(), BatchRadius::scales(found.radii)},
                           {.kinds = kinds_of(options),
                            .areas = areas,
                            .filter = !options.no_filter,

@@ -14,23 +14,48 @@
 
 #include "meshhood/batch.h"
 #include "meshhood/error.h"
+#include "meshhood/filter.h"
 
 namespace meshhood::python {
 
 using Rows = nanobind::ndarray<const std::int32_t, nanobind::shape<-1>, nanobind::c_contig, nanobind::device::cpu>;
 using Radii = nanobind::ndarray<const double, nanobind::shape<-1>, nanobind::c_contig, nanobind::device::cpu>;
 
+/// A radius, or one for each row; none if there are scales.
+using Radius = std::optional<std::variant<double, Radii>>;
+
+/// A value for each vertex, 0 or 1.
+using Mask = std::optional<
+    nanobind::ndarray<const std::uint8_t, nanobind::shape<-1>, nanobind::c_contig, nanobind::device::cpu>>;
+
+[[nodiscard]] inline VertexMask mask_of(const Mask& mask) {
+  return mask ? VertexMask(std::span(mask->data(), mask->size())) : VertexMask();
+}
+
+/// Borrows the arrays.
+[[nodiscard]] inline Filter filter_of(const Mask& walls, const Mask& ignored) {
+  return {mask_of(walls), mask_of(ignored)};
+}
+
+[[nodiscard]] inline std::span<const double> numbers_of(const Radii& array) { return {array.data(), array.size()}; }
+
+[[nodiscard]] inline BatchVertices vertices_of(const std::optional<Rows>& vertices) {
+  if (!vertices) return {};
+  return std::span(reinterpret_cast<const VertexId*>(vertices->data()), vertices->size());
+}
+
+/// Without either, a radius that every call rejects.
+[[nodiscard]] inline BatchRadius radius_of(const Radius& radius, const std::optional<Radii>& scales = std::nullopt) {
+  if (scales) return BatchRadius::scales({numbers_of(*scales).begin(), numbers_of(*scales).end()});
+  if (!radius) return {};
+  if (const auto* const radii = std::get_if<Radii>(&*radius)) return numbers_of(*radii);
+  return std::get<double>(*radius);
+}
+
 /// The query of a batch. Borrows the arrays.
-[[nodiscard]] inline BatchQuery query_of(const std::optional<Rows>& vertices,
-                                         const std::variant<double, Radii>& radius) {
-  BatchQuery query;
-  if (vertices) query.vertices = std::span(reinterpret_cast<const VertexId*>(vertices->data()), vertices->size());
-  if (const auto* const radii = std::get_if<Radii>(&radius)) {
-    query.radius = std::span(radii->data(), radii->size());
-  } else {
-    query.radius = std::get<double>(radius);
-  }
-  return query;
+[[nodiscard]] inline BatchQuery query_of(const std::optional<Rows>& vertices, const Radius& radius, const Mask& walls,
+                                         const Mask& ignored, const std::optional<Radii>& scales = std::nullopt) {
+  return {.vertices = vertices_of(vertices), .radius = radius_of(radius, scales), .filter = filter_of(walls, ignored)};
 }
 
 /// A result beyond the limit of bytes: a MemoryError in Python.

@@ -9,11 +9,13 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
 #include "meshhood/aggregate.h"
 
 #include "arrays.h"
+#include "batch_query.h"
 #include "bindings.h"
 #include "interpreter.h"
 #include "methods.h"
@@ -25,7 +27,6 @@ namespace {
 
 using Values = nb::ndarray<const double, nb::shape<-1, -1>, nb::c_contig, nb::device::cpu>;
 using Weights = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
-using Vertices = nb::ndarray<const std::int32_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 
 SignalView signal_of(const Values& values, const std::optional<Weights>& weights) {
   SignalView signal{std::span(values.data(), values.size()), values.shape(1)};
@@ -33,20 +34,21 @@ SignalView signal_of(const Values& values, const std::optional<Weights>& weights
   return signal;
 }
 
-/// A flat array, #radii by #rows by channels.
+/// A flat array, #radii by #rows by channels. Either `radii`, the scales, or `radius`.
 nb::object aggregates(const ExactMethod& method, const Values& values, const std::optional<Weights>& weights,
-                      const std::optional<Vertices>& vertices, std::vector<double> radii, Reduce reduce,
+                      const std::optional<Rows>& vertices, std::vector<double> radii, Reduce reduce,
                       SmoothingKernel kernel, MissingValues missing, Nesting nesting, unsigned ddof, unsigned threads,
-                      std::uint64_t max_bytes, nb::handle progress) {
+                      std::uint64_t max_bytes, nb::handle progress, const Mask& walls, const Mask& ignored,
+                      const Radius& radius) {
   const SignalView signal = signal_of(values, weights);
-  AggregateQuery query{.vertices = {},
-                       .radii = std::move(radii),
-                       .reduce = reduce,
-                       .kernel = kernel,
-                       .missing = missing,
-                       .nesting = nesting,
-                       .ddof = ddof};
-  if (vertices) query.vertices = std::span(reinterpret_cast<const VertexId*>(vertices->data()), vertices->size());
+  const AggregateQuery query{.vertices = vertices_of(vertices),
+                             .radius = radius ? radius_of(radius) : BatchRadius::scales(std::move(radii)),
+                             .filter = filter_of(walls, ignored),
+                             .reduce = reduce,
+                             .kernel = kernel,
+                             .missing = missing,
+                             .nesting = nesting,
+                             .ddof = ddof};
   const AggregateOptions options{.threads = threads, .max_bytes = max_bytes, .progress = progress_to(progress)};
   nb::object result = unset(aggregate_size(method.index(), signal, query, options), "float64");
   const std::span<double> numbers = values_of<double>(result);
@@ -82,7 +84,8 @@ void bind_aggregates(nb::module_& module) {
   nb::enum_<Nesting>(module, "Nesting").value("own", Nesting::Own).value("patch", Nesting::Patch);
   module.def("aggregate", &aggregates, nb::arg(), nb::arg("values"), nb::arg("weights").none(),
              nb::arg("vertices").none(), nb::arg("radii"), nb::arg("reduce"), nb::arg("kernel"), nb::arg("missing"),
-             nb::arg("nesting"), nb::arg("ddof"), nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none());
+             nb::arg("nesting"), nb::arg("ddof"), nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none(),
+             nb::arg("walls") = nb::none(), nb::arg("ignored") = nb::none(), nb::arg("radius") = nb::none());
   module.def("vertex_areas", &areas, nb::arg("V"), nb::arg("F"), nb::arg("offsets").none());
   module.def("smoothing_radius", &smoothing_radius, nb::arg());
 }

@@ -41,15 +41,15 @@ CurvatureIndex of_normals(const ExactMethod& method, const Radii& normals) {
   return without_lock([&] { return CurvatureIndex::build(method.index(), values); });
 }
 
-auto curvatures_of(const CurvatureIndex& surface, const std::optional<Rows>& vertices,
-                   const std::variant<double, Radii>& radius, bool libigl, bool jet, bool filter, unsigned threads,
-                   nb::handle progress) {
+auto curvatures_of(const CurvatureIndex& surface, const std::optional<Rows>& vertices, const Radius& radius,
+                   bool libigl, bool jet, bool filter, unsigned threads, nb::handle progress, const Mask& walls,
+                   const Mask& ignored) {
   CurvatureOptions options = libigl ? like_libigl() : CurvatureOptions{};
   options.fit = jet ? CurvatureFit::Jet : CurvatureFit::Quadric;
   options.filter = filter;
   options.threads = threads;
   options.progress = progress_to(progress);
-  const BatchQuery query = query_of(vertices, radius);
+  const BatchQuery query = query_of(vertices, radius, walls, ignored);
   Curvatures found = without_lock([&] { return curvatures(surface, query, options); });
   const std::size_t rows = found.state.size();
   return std::tuple(owned<double>(std::move(found.k1)), owned<double>(std::move(found.k2)),
@@ -58,22 +58,27 @@ auto curvatures_of(const CurvatureIndex& surface, const std::optional<Rows>& ver
                     owned<std::uint32_t>(std::move(found.count)));
 }
 
-std::span<const double> numbers_of(const Radii& array) { return {array.data(), array.size()}; }
-
+/// With scales, each array has a leading axis.
 auto corrected_curvatures_of(const CurvatureIndex& surface, const Input& corners, const std::optional<Input>& offsets,
-                             const std::optional<Rows>& vertices, double radius, unsigned threads,
-                             nb::handle progress) {
+                             const std::optional<Rows>& vertices, const Radius& radius, unsigned threads,
+                             nb::handle progress, const Mask& walls, const Mask& ignored,
+                             const std::optional<Radii>& scales) {
   const FacesView faces = faces_of(corners, offsets);
-  const BatchQuery query = query_of(vertices, radius);
+  const BatchQuery query = query_of(vertices, radius, walls, ignored, scales);
   const CorrectedCurvatureOptions options{.threads = threads, .progress = progress_to(progress)};
-  CorrectedCurvatures found =
-      without_lock([&] { return corrected_curvatures(surface, faces, query.vertices, radius, options); });
-  const std::size_t rows = found.area.size();
-  return std::tuple(owned<double>(std::move(found.area)), owned<double>(std::move(found.mean)),
-                    owned<double>(std::move(found.gaussian)), owned<double>(std::move(found.k1)),
-                    owned<double>(std::move(found.k2)), owned<double>(std::move(found.d1), {rows, 3}),
-                    owned<double>(std::move(found.d2), {rows, 3}),
-                    owned<double>(std::move(found.measures), {rows, CorrectedCurvatures::kMeasures}));
+  CorrectedCurvatures found = without_lock([&] { return corrected_curvatures(surface, faces, query, options); });
+  const std::size_t count = scales ? scales->size() : 1;
+  const std::size_t rows = found.area.size() / count;
+  const auto numbers = [&](std::vector<double>& values) {
+    return scales ? owned<double>(std::move(values), {count, rows}) : owned<double>(std::move(values), {rows});
+  };
+  const auto vectors = [&](std::vector<double>& values, std::size_t columns) {
+    return scales ? owned<double>(std::move(values), {count, rows, columns})
+                  : owned<double>(std::move(values), {rows, columns});
+  };
+  return std::tuple(numbers(found.area), numbers(found.mean), numbers(found.gaussian), numbers(found.k1),
+                    numbers(found.k2), vectors(found.d1, 3), vectors(found.d2, 3),
+                    vectors(found.measures, CorrectedCurvatures::kMeasures));
 }
 
 MomentOptions moment_options(unsigned degree, const std::optional<Radii>& weights, unsigned threads,
@@ -83,10 +88,10 @@ MomentOptions moment_options(unsigned degree, const std::optional<Radii>& weight
   return options;
 }
 
-Output<double> moments_of(const ExactMethod& method, const std::optional<Rows>& vertices,
-                          const std::variant<double, Radii>& radius, unsigned degree,
-                          const std::optional<Radii>& weights, unsigned threads, nb::handle progress) {
-  const BatchQuery query = query_of(vertices, radius);
+Output<double> moments_of(const ExactMethod& method, const std::optional<Rows>& vertices, const Radius& radius,
+                          unsigned degree, const std::optional<Radii>& weights, unsigned threads, nb::handle progress,
+                          const Mask& walls, const Mask& ignored) {
+  const BatchQuery query = query_of(vertices, radius, walls, ignored);
   const MomentOptions options = moment_options(degree, weights, threads, progress);
   std::vector<double> found = without_lock([&] { return moments(method.index(), query, options); });
   const std::size_t columns = moment_count(degree);
@@ -94,10 +99,10 @@ Output<double> moments_of(const ExactMethod& method, const std::optional<Rows>& 
   return owned<double>(std::move(found), {rows, columns});
 }
 
-auto components_of(const ExactMethod& method, const std::optional<Rows>& vertices,
-                   const std::variant<double, Radii>& radius, const std::optional<Radii>& weights, unsigned threads,
-                   nb::handle progress) {
-  const BatchQuery query = query_of(vertices, radius);
+auto components_of(const ExactMethod& method, const std::optional<Rows>& vertices, const Radius& radius,
+                   const std::optional<Radii>& weights, unsigned threads, nb::handle progress, const Mask& walls,
+                   const Mask& ignored) {
+  const BatchQuery query = query_of(vertices, radius, walls, ignored);
   const MomentOptions options = moment_options(0, weights, threads, progress);
   PrincipalComponents found = without_lock([&] { return principal_components(method.index(), query, options); });
   const std::size_t rows = found.weight.size();
@@ -106,17 +111,19 @@ auto components_of(const ExactMethod& method, const std::optional<Rows>& vertice
                     owned<double>(std::move(found.axes), {rows, 3, 3}));
 }
 
+/// Either `radii`, the scales, or `radius`.
 Output<double> features_of(const CurvatureIndex& surface, const std::optional<Rows>& vertices, const Radii& radii,
                            std::vector<Feature> kinds, const std::optional<Radii>& areas, bool filter, unsigned threads,
-                           nb::handle progress) {
-  const BatchQuery query = query_of(vertices, 0.0);
+                           nb::handle progress, const Mask& walls, const Mask& ignored, const Radius& radius) {
+  const BatchQuery query =
+      radius ? query_of(vertices, radius, walls, ignored) : query_of(vertices, std::nullopt, walls, ignored, radii);
   FeatureOptions options{
       .kinds = std::move(kinds), .areas = {}, .filter = filter, .threads = threads, .progress = progress_to(progress)};
   if (areas) options.areas = numbers_of(*areas);
-  std::vector<double> found =
-      without_lock([&] { return features(surface, query.vertices, numbers_of(radii), options); });
-  const std::size_t rows = found.size() / radii.size() / options.kinds.size();
-  return owned<double>(std::move(found), {radii.size(), rows, options.kinds.size()});
+  std::vector<double> found = without_lock([&] { return features(surface, query, options); });
+  const std::size_t count = radius ? 1 : radii.size();
+  const std::size_t rows = found.size() / count / options.kinds.size();
+  return owned<double>(std::move(found), {count, rows, options.kinds.size()});
 }
 
 auto persistence_of(const Radii& values, const Radii& radii, double threshold) {
@@ -134,6 +141,8 @@ double radius_of_libigl(const Input& positions, const Input& corners, const std:
 }  // namespace
 
 void bind_curvature(nb::module_& module) {
+  const auto walls = nb::arg("walls") = nb::none();
+  const auto ignored = nb::arg("ignored") = nb::none();
   nb::enum_<Feature>(module, "Feature")
       .value("crease", Feature::Crease)
       .value("mean", Feature::Mean)
@@ -147,15 +156,17 @@ void bind_curvature(nb::module_& module) {
       .value("variation", Feature::Variation);
   nb::class_<CurvatureIndex>(module, "Surface")
       .def("curvatures", &curvatures_of, nb::arg().none(), nb::arg(), nb::arg("libigl"), nb::arg("jet"),
-           nb::arg("filter"), nb::arg("threads"), nb::arg("progress").none())
+           nb::arg("filter"), nb::arg("threads"), nb::arg("progress").none(), walls, ignored)
       .def("corrected", &corrected_curvatures_of, nb::arg(), nb::arg("offsets").none(), nb::arg("vertices").none(),
-           nb::arg("radius"), nb::arg("threads"), nb::arg("progress").none())
+           nb::arg("radius").none(), nb::arg("threads"), nb::arg("progress").none(), walls, ignored,
+           nb::arg("scales") = nb::none())
       .def("features", &features_of, nb::arg().none(), nb::arg("radii"), nb::arg("kinds"), nb::arg("areas").none(),
-           nb::arg("filter"), nb::arg("threads"), nb::arg("progress").none());
+           nb::arg("filter"), nb::arg("threads"), nb::arg("progress").none(), walls, ignored,
+           nb::arg("radius") = nb::none());
   module.def("moments", &moments_of, nb::arg(), nb::arg().none(), nb::arg(), nb::arg("degree"),
-             nb::arg("weights").none(), nb::arg("threads"), nb::arg("progress").none());
+             nb::arg("weights").none(), nb::arg("threads"), nb::arg("progress").none(), walls, ignored);
   module.def("principal_components", &components_of, nb::arg(), nb::arg().none(), nb::arg(), nb::arg("weights").none(),
-             nb::arg("threads"), nb::arg("progress").none());
+             nb::arg("threads"), nb::arg("progress").none(), walls, ignored);
   module.def("persistence", &persistence_of, nb::arg("values"), nb::arg("radii"), nb::arg("threshold"));
   module.def(
       "geometric_radii",

@@ -39,9 +39,9 @@ auto one_with_distances(Method& method, VertexId v, double radius) {
   return std::pair(owned<std::int32_t>(std::move(answer.ids)), owned<double>(std::move(answer.distances)));
 }
 
-auto many(Method& method, const std::optional<Rows>& vertices, const std::variant<double, Radii>& radius,
-          bool distances, bool sorted, unsigned threads, std::uint64_t max_bytes, nb::handle progress) {
-  const BatchQuery query = query_of(vertices, radius);
+auto many(Method& method, const std::optional<Rows>& vertices, const Radius& radius, bool distances, bool sorted,
+          unsigned threads, std::uint64_t max_bytes, nb::handle progress, const Mask& walls, const Mask& ignored) {
+  const BatchQuery query = query_of(vertices, radius, walls, ignored);
   const BatchOptions options{.threads = threads,
                              .distances = distances,
                              .sorted = sorted,
@@ -60,11 +60,16 @@ auto many(Method& method, const std::optional<Rows>& vertices, const std::varian
   return std::tuple(owned<std::int64_t>(std::move(offsets)), std::move(ids), std::move(found_distances));
 }
 
-Output<std::int64_t> many_counts(Method& method, const std::optional<Rows>& vertices,
-                                 const std::variant<double, Radii>& radius, unsigned threads, nb::handle progress) {
-  const BatchQuery query = query_of(vertices, radius);
+/// #rows; #scales by #rows if there are scales.
+Output<std::int64_t> many_counts(Method& method, const std::optional<Rows>& vertices, const Radius& radius,
+                                 unsigned threads, nb::handle progress, const Mask& walls, const Mask& ignored,
+                                 const std::optional<Radii>& scales) {
+  const BatchQuery query = query_of(vertices, radius, walls, ignored, scales);
   const BatchOptions options{.threads = threads, .progress = progress_to(progress)};
-  return owned<std::int64_t>(method.counts(query, options));
+  std::vector<std::uint64_t> sizes = method.counts(query, options);
+  if (!scales) return owned<std::int64_t>(std::move(sizes));
+  const std::size_t rows = sizes.size() / scales->size();
+  return owned<std::int64_t>(std::move(sizes), {scales->size(), rows});
 }
 
 /// Not a copy: the array keeps the index alive, and may not be written to.
@@ -105,8 +110,10 @@ void bind_methods(nb::module_& module) {
       .def("neighborhood_and_distances", &one_with_distances, nb::arg(), nb::arg())
       .def("count", &Method::count, nb::arg(), nb::arg())
       .def("neighborhoods", &many, nb::arg().none(), nb::arg(), nb::arg("distances"), nb::arg("sorted"),
-           nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none())
-      .def("counts", &many_counts, nb::arg().none(), nb::arg(), nb::arg("threads"), nb::arg("progress").none());
+           nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none(), nb::arg("walls") = nb::none(),
+           nb::arg("ignored") = nb::none())
+      .def("counts", &many_counts, nb::arg().none(), nb::arg().none(), nb::arg("threads"), nb::arg("progress").none(),
+           nb::arg("walls") = nb::none(), nb::arg("ignored") = nb::none(), nb::arg("scales") = nb::none());
   nb::class_<ExactMethod, Method>(module, "ExactMethod")
       .def("quality",
            [](const ExactMethod& method) {

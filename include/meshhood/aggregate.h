@@ -17,7 +17,7 @@
 /// Sums, means and other aggregates of values over neighborhoods, without lists of ids.
 ///
 ///     const std::vector<double> smooth =
-///         meshhood::aggregate(index, {.values = thickness}, {.radii = {6.0}, .kernel = SmoothingKernel::Biweight});
+///         meshhood::aggregate(index, {.values = thickness}, {.radius = 6.0, .kernel = SmoothingKernel::Biweight});
 ///
 /// See docs/aggregate.md.
 namespace meshhood {
@@ -92,12 +92,16 @@ struct SignalView {
   std::span<const double> weights = {};
 };
 
-/// Which neighborhoods are aggregated, and how. The lists are copied when the call begins.
+/// Which neighborhoods are aggregated, as a `BatchQuery` says, and how. The lists and masks are copied when the call
+/// begins.
 struct AggregateQuery {
   BatchVertices vertices = {};
 
-  /// One or more, each >= 0 or infinite, in any order. A vertex at exactly the radius is inside.
-  std::vector<double> radii;
+  /// Required: one for all rows, one for each row, or scales. A vertex at exactly the radius is inside.
+  BatchRadius radius = {};
+
+  /// The neighborhood of a wall is empty: its sum and count are 0, all else is NaN.
+  Filter filter = {};
 
   Reduce reduce = Reduce::Mean;
   SmoothingKernel kernel = SmoothingKernel::Box;
@@ -123,9 +127,9 @@ struct AggregateOptions {
   Progress progress = {};
 };
 
-/// The size of the result: #radii by #rows by channels, radius after radius, and row after row.
-/// Throws Error{TooLarge} if it exceeds the address space or `options.max_bytes`, and Error{InvalidOption} if there are
-/// no radii or no channels.
+/// The size of the result: #radii by #rows by channels, radius after radius, and row after row; one radius unless there
+/// are scales. Throws Error{TooLarge} if it exceeds the address space or `options.max_bytes`, and Error{InvalidOption}
+/// if there are no channels.
 [[nodiscard]] std::size_t aggregate_size(const Index& index, const SignalView& signal, const AggregateQuery& query,
                                          const AggregateOptions& options = {});
 

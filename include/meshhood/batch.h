@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "meshhood/adjacency.h"
@@ -86,8 +87,8 @@ class BatchVertices {
   std::optional<std::span<const VertexId>> list_;
 };
 
-/// The radius of every row, or a borrowed list with one radius per row. Each is >= 0 or infinite, in the unit of the
-/// positions.
+/// The radius of every row, or a borrowed list with one radius per row, or several radii for every row. Each is >= 0 or
+/// infinite, in the unit of the positions.
 class BatchRadius {
  public:
   /// No radius: every batch rejects it.
@@ -102,15 +103,27 @@ class BatchRadius {
   template <BorrowedArray<double> Range>
   BatchRadius(Range&& radii) : list_(std::span<const double>(radii)) {}
 
-  /// The radius of all rows, unless there is a list.
+  /// Several radii, at least one, in any order, each for all rows: the result then has a leading axis, radius after
+  /// radius. For counts, aggregates, corrected curvatures and features; other calls reject it.
+  [[nodiscard]] static BatchRadius scales(std::vector<double> radii) {
+    BatchRadius result;
+    result.scales_ = std::move(radii);
+    return result;
+  }
+
+  /// The radius of all rows, unless there is a list or there are scales.
   [[nodiscard]] double common() const { return common_; }
 
   /// The list, if there is one.
   [[nodiscard]] const std::optional<std::span<const double>>& list() const { return list_; }
 
+  /// The scales, if there are some.
+  [[nodiscard]] const std::optional<std::vector<double>>& scales() const { return scales_; }
+
  private:
   double common_ = std::numeric_limits<double>::quiet_NaN();
   std::optional<std::span<const double>> list_;
+  std::optional<std::vector<double>> scales_;
 };
 
 /// Which neighborhoods a batch computes, one per row. The lists are copied when the call begins; later changes by the
@@ -205,7 +218,7 @@ void for_each_neighborhood(const SearchMethod& method, const BatchQuery& query, 
                                                        const BatchAllocator& allocate,
                                                        const BatchOptions& options = {});
 
-/// Returns the number of vertices of each row. Throws as `for_each_neighborhood`.
+/// Returns the number of vertices of each row; #radii by #rows if there are scales. Throws as `for_each_neighborhood`.
 [[nodiscard]] std::vector<std::uint64_t> counts(const SearchMethod& method, const BatchQuery& query,
                                                 const BatchOptions& options = {});
 

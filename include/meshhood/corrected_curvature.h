@@ -12,7 +12,8 @@
 /// Curvature from measures instead of a fit. See docs/curvature.md.
 namespace meshhood {
 
-/// One value for each row of the query. All but the area and the measures are NaN where the area is 0.
+/// One value for each row of the query; #radii by #rows if it has scales, which are then meant by #rows. All but the
+/// area and the measures are NaN where the area is 0.
 struct CorrectedCurvatures {
   std::vector<double> area;      ///< #rows: of the neighborhood, corrected by the normals
   std::vector<double> mean;      ///< #rows: H, in 1 / unit of the positions, positive where convex, as in `Curvatures`
@@ -47,13 +48,13 @@ struct CorrectedCurvatureOptions {
 /// Nothing is fitted, and neighborhoods are neither filtered nor extended. The measures are robust on noisy meshes, and
 /// defined for a radius of 0.
 ///
-/// faces     those of the mesh that the index was built from.
-/// vertices  as of a batch; radius of all rows.
+/// faces  those of the mesh that the index was built from. A face at a wall still gives shares to its other corners.
+/// query  as of `aggregate`.
 /// Each row depends on index, faces, vertex and radius alone, bit for bit, as that of `aggregate`. Takes the time of
 /// `aggregate` with twelve channels.
 /// Throws Error{InvalidMesh, TooLarge, VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}.
 [[nodiscard]] CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const FacesView& faces,
-                                                       const BatchVertices& vertices, double radius,
+                                                       const BatchQuery& query,
                                                        const CorrectedCurvatureOptions& options = {});
 
 }  // namespace meshhood

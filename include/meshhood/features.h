@@ -14,7 +14,7 @@
 /// docs/curvature.md.
 ///
 ///     const std::vector<double> radii = meshhood::geometric_radii(1.0, 16.0, 9);
-///     const std::vector<double> creases = meshhood::features(surface, {}, radii);
+///     const auto creases = meshhood::features(surface, {.radius = meshhood::BatchRadius::scales(radii)});
 ///     const meshhood::Persistence lasting = meshhood::persistence(creases, radii, 0.5);
 namespace meshhood {
 
@@ -48,15 +48,16 @@ struct FeatureOptions {
   Progress progress = {};
 };
 
-/// #radii by #rows by #kinds: the features of the neighborhood of each row at each radius. NaN where a fit has no
-/// result (see `CurvatureState`), where a row has no normal, or where the neighborhood has no area.
+/// #radii by #rows by #kinds: the features of the neighborhood of each row at each of the scales of the query; one
+/// radius if it has a radius for all rows, or one for each. NaN where a fit has no result (see `CurvatureState`), where
+/// a row has no normal, or where the neighborhood has no area.
 ///
 /// Each radius has a neighborhood of its own. Time of `curvatures`, of `principal_components`, or of both, for each
 /// radius, as the kinds require. A row depends on surface, areas, vertex and radius alone, bit for bit: not on the
 /// other rows of the call, earlier calls, threads or the processor. Throws Error{VertexOutOfRange, InvalidRadius,
 /// InvalidOption, Cancelled}. A radius must be > 0 and finite.
-[[nodiscard]] std::vector<double> features(const CurvatureIndex& surface, const BatchVertices& vertices,
-                                           std::span<const double> radii, const FeatureOptions& options = {});
+[[nodiscard]] std::vector<double> features(const CurvatureIndex& surface, const BatchQuery& query,
+                                           const FeatureOptions& options = {});
 
 /// `count` radii from `smallest` to `largest` with a constant ratio. Throws Error{InvalidRadius, InvalidOption}.
 [[nodiscard]] std::vector<double> geometric_radii(double smallest, double largest, std::size_t count);

@@ -13,6 +13,7 @@
 #include "meshhood/error.h"
 
 #include "aggregate/kernel_sums.h"
+#include "aggregate/listed_sums.h"
 #include "aggregate/maximal_nodes.h"
 #include "aggregate/minima.h"
 #include "aggregate/node_tree.h"
@@ -22,6 +23,7 @@
 #include "aggregate/variances.h"
 #include "batch/packets.h"
 #include "batch/rows.h"
+#include "exact/filtered.h"
 #include "exact/index_access.h"
 #include "shared/distance.h"
 #include "shared/text.h"
@@ -70,15 +72,17 @@ class CheckedQuery {
       : query_(query), rows_(index.vertex_count()) {
     check_signal(signal, index.vertex_count());
     check_reduction(signal, query);
-    if (query.radii.empty()) raise(ErrorCode::InvalidOption, "there are no radii, expected at least one");
-    for (std::size_t i = 0; i < query.radii.size(); ++i)
-      check_radius(query.radii[i], "radius " + std::to_string(i) + ": ");
     if (const auto& list = query.vertices.list()) {
-      list_.assign(list->begin(), list->end());
-      rows_ = list_.size();
-      query_.vertices = list_;
-      static_cast<void>(Rows({query_.vertices, query.radii.front()}, index.vertex_count()));
+      vertices_.assign(list->begin(), list->end());
+      rows_ = vertices_.size();
+      query_.vertices = vertices_;
     }
+    if (const auto& list = query.radius.list()) {
+      radii_.assign(list->begin(), list->end());
+      query_.radius = radii_;
+    }
+    passes_ = radius_of_passes(query_.radius);
+    static_cast<void>(Rows({query_.vertices, passes_.front()}, index.vertex_count()));
   }
   CheckedQuery(const CheckedQuery&) = delete;
   CheckedQuery& operator=(const CheckedQuery&) = delete;
@@ -87,9 +91,17 @@ class CheckedQuery {
   [[nodiscard]] const AggregateQuery& query() const { return query_; }
   [[nodiscard]] std::size_t rows() const { return rows_; }
 
+  /// The radius of each pass over the rows.
+  [[nodiscard]] std::span<const BatchRadius> passes() const { return passes_; }
+
+  /// Whether the neighborhoods of smaller radii are cut from those of the largest.
+  [[nodiscard]] bool has_patches() const { return query_.nesting == Nesting::Patch && !query_.radius.list(); }
+
  private:
   AggregateQuery query_;
-  std::vector<VertexId> list_;
+  std::vector<VertexId> vertices_;
+  std::vector<double> radii_;
+  std::vector<BatchRadius> passes_;
   std::size_t rows_;
 };
 
@@ -147,35 +159,57 @@ class Aggregation {
  public:
   Aggregation(const Index& index, const SignalView& signal, const CheckedQuery& checked, std::span<double> result,
               const AggregateOptions& options)
-      : index_(index),
-        view_(IndexAccess::view(index)),
+      : index_(filtered(index, checked.query().filter, options.threads)),
+        view_(IndexAccess::view(index_)),
         tree_(view_),
         signal_(signal),
         query_(checked.query()),
+        radii_(checked.passes()),
+        has_patches_(checked.has_patches()),
         rows_(checked.rows()),
         result_(result),
         options_(options),
         blocks_((signal.channels + kChannelsTogether - 1) / kChannelsTogether) {}
 
   void run() {
+    for (std::size_t i = 0; i < radii_.size(); ++i) {
+      if (is_listed(radii_[i])) {
+        reduce_listed(i);
+      } else {
+        passes_.push_back(i);
+      }
+    }
+    if (passes_.empty()) return;
     for (std::size_t first = 0; first < signal_.channels; first += kChannelsTogether) {
       const std::size_t count = std::min(kChannelsTogether, signal_.channels - first);
       const std::unique_ptr<Reduction> reduction =
           make_reduction(view_, tree_, make_block(view_, signal_, first, count, query_), query_);
-      if (query_.nesting == Nesting::Patch) {
+      if (has_patches_) {
         reduce_patches(*reduction, first, count);
       } else {
-        for (std::size_t i = 0; i < query_.radii.size(); ++i) reduce_radius(*reduction, i, first, count);
+        for (const std::size_t i : passes_) reduce_radius(*reduction, i, first, count);
       }
     }
   }
 
  private:
+  [[nodiscard]] bool is_listed(const BatchRadius& radius) const {
+    return !has_patches_ && !radius.list() && is_better_listed(index_, signal_, query_, radius.common());
+  }
+
+  /// All channels of one radius.
+  void reduce_listed(std::size_t radius) {
+    const std::size_t size = rows_ * signal_.channels;
+    const PacketOptions pass = next_pass(blocks_);
+    sum_listed(index_, signal_, query_, radii_[radius].common(), result_.subspan(radius * size, size),
+               {.threads = options_.threads, .progress = pass.progress});
+  }
+
   void reduce_radius(const Reduction& reduction, std::size_t radius, std::size_t first, std::size_t count) {
     for_each_packet(
-        index_, {query_.vertices, query_.radii[radius]},
+        index_, {query_.vertices, radii_[radius]},
         [&](unsigned /*thread*/) -> PacketVisitor {
-          const std::shared_ptr<PacketReducer> reducer = reduction.make_reducer(query_.radii[radius]);
+          const std::shared_ptr<PacketReducer> reducer = reduction.make_reducer();
           const auto nodes = std::make_shared<MaximalNodes>(tree_);
           return [nodes, reducer, to = destination(radius, first, count)](const PacketAnswer& packet) {
             nodes->reduce(packet, *reducer);
@@ -191,12 +225,13 @@ class Aggregation {
       std::unique_ptr<PacketReducer> reducer;
       Destination to;
     };
+    const auto common = [](const BatchRadius& radius) { return radius.common(); };
     for_each_packet(
-        index_, {query_.vertices, *std::max_element(query_.radii.begin(), query_.radii.end())},
+        index_, {query_.vertices, *std::ranges::max_element(radii_, {}, common)},
         [&](unsigned /*thread*/) -> PacketVisitor {
           const auto cuts = std::make_shared<std::vector<Cut>>();
-          for (std::size_t i = 0; i < query_.radii.size(); ++i) {
-            cuts->push_back({PatchCutter(view_, tree_, query_.radii[i]), reduction.make_reducer(query_.radii[i]),
+          for (std::size_t i = 0; i < radii_.size(); ++i) {
+            cuts->push_back({PatchCutter(view_, tree_, radii_[i].common()), reduction.make_reducer(),
                              destination(i, first, count)});
           }
           const auto nodes = std::make_shared<MaximalNodes>(tree_);
@@ -214,23 +249,27 @@ class Aggregation {
     return {result_.data() + radius * rows_ * signal_.channels + first, signal_.channels, count};
   }
 
-  PacketOptions next_pass() {
+  /// `blocks`: how many blocks of channels it reduces.
+  PacketOptions next_pass(std::size_t blocks = 1) {
     PacketOptions pass{.threads = options_.threads, .progress = {}};
-    const std::size_t passes = blocks_ * (query_.nesting == Nesting::Patch ? 1 : query_.radii.size());
+    const std::size_t passes = blocks_ * (has_patches_ ? 1 : radii_.size());
     if (options_.progress) {
-      pass.progress = [this, passes, before = passes_begun_ * rows_](std::size_t done, std::size_t /*total*/) {
-        return options_.progress(before + done, passes * rows_);
+      pass.progress = [this, passes, blocks, before = passes_begun_ * rows_](std::size_t done, std::size_t /*total*/) {
+        return options_.progress(before + blocks * done, passes * rows_);
       };
     }
-    ++passes_begun_;
+    passes_begun_ += blocks;
     return pass;
   }
 
-  const Index& index_;
+  Index index_;
   const IndexView& view_;
   NodeTree tree_;
   const SignalView& signal_;
   const AggregateQuery& query_;
+  std::span<const BatchRadius> radii_;  // of the passes
+  std::vector<std::size_t> passes_;     // those whose rows are not listed
+  bool has_patches_;
   std::size_t rows_;
   std::span<double> result_;
   const AggregateOptions& options_;
@@ -256,9 +295,9 @@ std::size_t checked_size(std::size_t radii, std::size_t rows, std::size_t channe
 std::size_t aggregate_size(const Index& index, const SignalView& signal, const AggregateQuery& query,
                            const AggregateOptions& options) {
   if (signal.channels == 0) raise(ErrorCode::InvalidOption, "channels is 0, expected at least 1");
-  if (query.radii.empty()) raise(ErrorCode::InvalidOption, "there are no radii, expected at least one");
+  const auto& scales = query.radius.scales();
   const auto& list = query.vertices.list();
-  return checked_size(query.radii.size(), list ? list->size() : index.vertex_count(), signal.channels,
+  return checked_size(scales ? scales->size() : 1, list ? list->size() : index.vertex_count(), signal.channels,
                       options.max_bytes);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <variant>
 
@@ -21,29 +22,16 @@ constexpr double kLeastRadius = 0x1p-200;
 constexpr double kRim = 1.0 / 64;
 constexpr double kUneven = 64;
 
-/// By Dekker's product: the parts of the radius have 24 and 29 bits.
-KernelRadius square_of(double radius) {
-  const double square = radius * radius;
-  const auto high = static_cast<double>(static_cast<float>(radius));
-  const double rest = radius - high;
-  const double low = ((high * high - square) + 2 * high * rest) + rest * rest;
-  return {square, low, 1 / square};
+PerLane<double> filled(double number) {
+  PerLane<double> row;
+  row.fill(number);
+  return row;
 }
 
 class KernelSumReducer final : public PacketReducer {
  public:
-  KernelSumReducer(const KernelSumReduction& reduction, double radius)
-      : reduction_(&reduction), sums_(reduction.columns().size()), totals_(sums_.size()) {
-    const double scale = reduction.index().frame.scale;
-    radius_in_frame_ = radius * scale;
-    centers_.unit = 0;
-    if (radius > 0 && std::isfinite(radius)) {
-      centers_.unit = std::ldexp(1.0, std::min(-std::ilogb(radius), 1000));
-      radius_ = radius * centers_.unit;
-      square_ = square_of(radius_);
-    }
-    from_frame_ = centers_.unit / scale;
-  }
+  explicit KernelSumReducer(const KernelSumReduction& reduction)
+      : reduction_(&reduction), sums_(reduction.columns().size()), totals_(sums_.size()) {}
 
   void begin(const PacketAnswer& packet) override {
     for (RowSums& sums : sums_) sums = {};
@@ -55,6 +43,7 @@ class KernelSumReducer final : public PacketReducer {
       centers_.y[row] = center.y;
       centers_.z[row] = center.z;
     }
+    set_radii(packet.radii);
   }
 
   void add_nodes(const NodeTree::Children& nodes, const QueryWord* queries) override {
@@ -69,7 +58,7 @@ class KernelSumReducer final : public PacketReducer {
         [&](auto xyz) {
           for (std::size_t k = 0; k < vertices.size(); ++k) {
             kernels.set_offsets(point(xyz, vertices.begin + k), centers_, offsets_);
-            kernels.set_weights(offsets_, square_, reduction_->squared(), weights_.of_vertex[k]);
+            kernels.set_weights(offsets_, squares_, reduction_->squared(), weights_.of_vertex[k]);
           }
         },
         reduction_->index().positions);
@@ -87,11 +76,45 @@ class KernelSumReducer final : public PacketReducer {
   }
 
  private:
+  /// The rows whose radius has one unit.
+  struct Unit {
+    double unit;
+    QueryWord rows;
+  };
+
+  void set_radii(std::span<const double> radii) {
+    units_.clear();
+    least_in_frame_ = std::numeric_limits<double>::infinity();
+    for (std::size_t row = 0; row < radii.size(); ++row) {
+      set_radius(row, radii[row]);
+      least_in_frame_ = std::min(least_in_frame_, in_frame_[row]);
+      const auto has_unit = [&](const Unit& unit) { return unit.unit == centers_.unit[row]; };
+      auto found = std::ranges::find_if(units_, has_unit);
+      if (found == units_.end()) found = units_.insert(found, {centers_.unit[row], 0});
+      found->rows |= QueryWord{1} << row;
+    }
+  }
+
+  void set_radius(std::size_t row, double radius) {
+    if (radius == given_[row]) return;  // nearly all rows of a call have one radius
+    given_[row] = radius;
+    in_frame_[row] = radius * reduction_->index().frame.scale;
+    const bool has_square = radius > 0 && std::isfinite(radius);
+    centers_.unit[row] = has_square ? std::ldexp(1.0, std::min(-std::ilogb(radius), 1000)) : 0;
+    radius_[row] = has_square ? radius * centers_.unit[row] : 1;  // for weights of 1, all offsets are 0
+    // By Dekker's product: the parts of the radius have 24 and 29 bits.
+    const double square = radius_[row] * radius_[row];
+    const auto high = static_cast<double>(static_cast<float>(radius_[row]));
+    const double rest = radius_[row] - high;
+    squares_.square[row] = square;
+    squares_.low[row] = ((high * high - square) + 2 * high * rest) + rest * rest;
+    squares_.inverse[row] = 1 / square;
+  }
+
   void add_node(NodeTree::Node node, QueryWord queries) {
-    QueryWord inner = 0;
-    if (has_moments_for(node)) {
+    QueryWord inner = queries & with_moments_for(node);
+    if (inner != 0) {
       reduction_->kernels().set_offsets(reduction_->tree().center(node), centers_, offsets_);
-      inner = queries;
       if (reduction_->is_uneven(node)) inner &= inside_the_rim(node);
     }
     if (inner != 0) add_moments(node, inner);
@@ -100,30 +123,41 @@ class KernelSumReducer final : public PacketReducer {
 
   /// The queries in whose balls the sphere of a node lies, away from the rim.
   [[nodiscard]] QueryWord inside_the_rim(NodeTree::Node node) const {
-    const double most =
-        radius_ * (1 - kRim) - static_cast<double>(reduction_->tree().sphere(node).radius) * from_frame_;
-    if (centers_.unit == 0) return ~QueryWord{0};
-    if (!(most > 0)) return 0;
     QueryWord word = 0;
-    for (std::size_t row = 0; row < kPacketCapacity; ++row) {
-      word |= QueryWord{offsets_.square[row] <= most * most} << row;
+    for (const auto& [unit, rows] : units_) {
+      const double size = static_cast<double>(reduction_->tree().sphere(node).radius) * from_frame(unit);
+      for_each_lane(rows, [&](unsigned row) {
+        const double most = radius_[row] * (1 - kRim) - size;
+        const bool is_inside = unit == 0 || (most > 0 && offsets_.square[row] <= most * most);
+        word |= QueryWord{is_inside} << row;
+      });
     }
     return word;
   }
 
   /// `offsets_` are those of the center of the node.
   void add_moments(NodeTree::Node node, QueryWord inner) {
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-      const Moments moments = rescaled(reduction_->moments(i, node), from_frame_);
-      reduction_->kernels().add_moments(moments, offsets_, square_.inverse, reduction_->squared(), inner, sums_[i]);
+    for (const auto& [unit, rows] : units_) {
+      if ((rows & inner) == 0) continue;
+      for (std::size_t i = 0; i < sums_.size(); ++i) {
+        const Moments moments = rescaled(reduction_->moments(i, node), from_frame(unit));
+        reduction_->kernels().add_moments(moments, offsets_, squares_, reduction_->squared(), rows & inner, sums_[i]);
+      }
     }
   }
 
+  [[nodiscard]] double from_frame(double unit) const { return unit / reduction_->index().frame.scale; }
+
   /// The vertices of a node that is added lie in the ball, but its sphere, whose center is rounded to floats, may be
   /// larger. Then offsets from the center are longer than the radius, and their sums would cancel.
-  [[nodiscard]] bool has_moments_for(NodeTree::Node node) const {
-    return radius_in_frame_ >= kLeastRadius &&
-           static_cast<double>(reduction_->tree().sphere(node).radius) <= radius_in_frame_;
+  [[nodiscard]] QueryWord with_moments_for(NodeTree::Node node) const {
+    const double least = std::max(static_cast<double>(reduction_->tree().sphere(node).radius), kLeastRadius);
+    if (least_in_frame_ >= least) return ~QueryWord{0};
+    QueryWord word = 0;
+    for (const auto& [unit, rows] : units_) {
+      for_each_lane(rows, [&](unsigned row) { word |= QueryWord{in_frame_[row] >= least} << row; });
+    }
+    return word;
   }
 
   void add_parts(NodeTree::Node node, QueryWord queries) {
@@ -139,10 +173,12 @@ class KernelSumReducer final : public PacketReducer {
   }
 
   const KernelSumReduction* reduction_;
-  double radius_in_frame_;
-  double from_frame_;
-  double radius_ = 0;             // in the unit of the centers
-  KernelRadius square_{1, 0, 1};  // likewise; for weights of 1, all offsets are 0
+  PerLane<double> given_ = filled(std::numeric_limits<double>::quiet_NaN());  // the radius of each row, NaN if unknown
+  PerLane<double> in_frame_{};
+  PerLane<double> radius_ = filled(1);  // in the unit of the row
+  KernelRadii squares_{filled(1), {}, filled(1)};
+  double least_in_frame_ = 0;
+  std::vector<Unit> units_;
   PacketCenters centers_{};
   Offsets offsets_{};
   RowWeights weights_{};
@@ -174,8 +210,8 @@ void KernelSumReduction::mark_uneven(const Column& column) {
   }
 }
 
-std::unique_ptr<PacketReducer> KernelSumReduction::make_reducer(double radius) const {
-  return std::make_unique<KernelSumReducer>(*this, radius);
+std::unique_ptr<PacketReducer> KernelSumReduction::make_reducer() const {
+  return std::make_unique<KernelSumReducer>(*this);
 }
 
 }  // namespace meshhood

@@ -19,7 +19,7 @@ class KernelSumReduction final : public Reduction {
   KernelSumReduction(const IndexView& index, const NodeTree& tree, const AggregateKernels& kernels, SumColumns columns,
                      bool squared);
 
-  [[nodiscard]] std::unique_ptr<PacketReducer> make_reducer(double radius) const override;
+  [[nodiscard]] std::unique_ptr<PacketReducer> make_reducer() const override;
 
   [[nodiscard]] const IndexView& index() const { return *index_; }
   [[nodiscard]] const NodeTree& tree() const { return *tree_; }

@@ -170,7 +170,7 @@ void sum_listed(const Index& index, const SignalView& signal, const AggregateQue
         std::span(rows).subspan(begin, std::min(kRowsTogether, rows.size() - begin));
     vertices.clear();
     for (const std::size_t row : some) vertices.push_back(vertex(row));
-    listed.set(neighborhoods(index, {.vertices = vertices, .radius = radius, .filter = query.filter},
+    listed.set(neighborhoods(index, {.vertices = vertices, .radius = radius},
                              {.threads = options.threads, .distances = true}));
     constexpr std::size_t kGrain = 16;
     task.parallel_for(some.size(), kGrain, [&](unsigned /*thread*/, std::size_t first, std::size_t end) {

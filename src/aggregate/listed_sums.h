@@ -19,7 +19,8 @@ namespace meshhood {
 [[nodiscard]] bool is_better_listed(const Index& index, const SignalView& signal, const AggregateQuery& query,
                                     double radius);
 
-/// Writes `result`, #rows by channels. The query has been checked, and is a sum or a mean.
+/// Writes `result`, #rows by channels. The query has been checked, and is a sum or a mean; `index` is already that of
+/// its filter.
 void sum_listed(const Index& index, const SignalView& signal, const AggregateQuery& query, double radius,
                 std::span<double> result, const AggregateOptions& options);
 

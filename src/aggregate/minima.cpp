@@ -42,9 +42,8 @@ class MinimumReducer final : public PacketReducer {
   void write(std::size_t row, std::span<double> channels) override {
     for (std::size_t i = 0; i < channels.size(); ++i) {
       const Rows& rows = rows_[i];
-      const bool is_nan = reduction_->propagates()
-                              ? (rows.with_nan >> row & 1U) != 0
-                              : reduction_->channels()[i].has_nan && (rows.with_number >> row & 1U) == 0;
+      const QueryWord nan = ~rows.with_number | (reduction_->propagates() ? rows.with_nan : 0);
+      const bool is_nan = (nan >> row & 1U) != 0;
       channels[i] = is_nan ? kNan : reduction_->is_maximum() ? -rows.minima[row] : rows.minima[row];
     }
   }
@@ -69,6 +68,8 @@ class MinimumReducer final : public PacketReducer {
       }
       queries = words.data();
       values = std::span(numbers).first(values.size());
+    } else {
+      for (std::size_t k = 0; k < values.size(); ++k) rows.with_number |= queries[k];
     }
     reduction_->kernels().lower_minima(values, queries, rows.minima);
   }
@@ -114,7 +115,7 @@ double MinimumReduction::minimum_of(std::span<const double> values) const {
   return least;
 }
 
-std::unique_ptr<PacketReducer> MinimumReduction::make_reducer(double /*radius*/) const {
+std::unique_ptr<PacketReducer> MinimumReduction::make_reducer() const {
   return std::make_unique<MinimumReducer>(*this);
 }
 

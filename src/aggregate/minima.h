@@ -19,7 +19,7 @@ class MinimumReduction final : public Reduction {
   MinimumReduction(const NodeTree& tree, const AggregateKernels& kernels, SignalBlock block, bool maximum,
                    MissingValues missing);
 
-  [[nodiscard]] std::unique_ptr<PacketReducer> make_reducer(double radius) const override;
+  [[nodiscard]] std::unique_ptr<PacketReducer> make_reducer() const override;
 
   struct Channel {
     Column values;

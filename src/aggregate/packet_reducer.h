@@ -11,7 +11,7 @@
 
 namespace meshhood {
 
-/// Reduces the neighborhoods of a packet at one radius, on one thread.
+/// Reduces the neighborhoods of a packet, on one thread.
 class PacketReducer {
  public:
   PacketReducer() = default;
@@ -40,8 +40,8 @@ class Reduction {
   Reduction& operator=(const Reduction&) = delete;
   virtual ~Reduction() = default;
 
-  /// A reducer for neighborhoods of `radius`. Any thread.
-  [[nodiscard]] virtual std::unique_ptr<PacketReducer> make_reducer(double radius) const = 0;
+  /// Any thread.
+  [[nodiscard]] virtual std::unique_ptr<PacketReducer> make_reducer() const = 0;
 };
 
 }  // namespace meshhood

@@ -13,7 +13,9 @@ PatchCutter::PatchCutter(const IndexView& index, const NodeTree& tree, double ra
       tree_(&tree),
       bounds_(index.frame, radius),
       squared_radius_(squared_radius(radius)),
-      ball_({0, 0, 0}, bounds_) {}
+      ball_({0, 0, 0}, bounds_) {
+  radii_.fill(radius);
+}
 
 void PatchCutter::begin(const PacketAnswer& packet) {
   whole_.clear();
@@ -44,6 +46,7 @@ const PacketAnswer& PatchCutter::cut(const PacketAnswer& packet) {
     partial_.push_back({leaves_[i], tree_->vertices(leaves_[i]), words_[i]});
   }
   rest_ = packet;
+  rest_.radii = std::span(radii_).first(packet.radii.size());
   rest_.cores = {};
   rest_.whole = whole_;
   rest_.partial = partial_;

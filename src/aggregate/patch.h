@@ -32,7 +32,8 @@ class PatchCutter {
   const NodeTree* tree_;
   TreeBounds bounds_;
   double squared_radius_;
-  TreeBall ball_;  // around the leaf of the packet: `outer` around all balls, `inner` within each
+  PerLane<double> radii_;  // the radius, for each row
+  TreeBall ball_;          // around the leaf of the packet: `outer` around all balls, `inner` within each
   std::array<Point, kPacketCapacity> centers_{};
   std::vector<WholeLeaves> whole_;
   std::vector<NodeTree::Node> leaves_;  // that are cut, and their words

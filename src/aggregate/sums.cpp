@@ -109,8 +109,6 @@ SumReduction::SumReduction(const NodeTree& tree, const AggregateKernels& kernels
   for (std::size_t i = 0; i < columns_.size(); ++i) node_sums_.push_back(sums_by_node(tree, columns_.column(i)));
 }
 
-std::unique_ptr<PacketReducer> SumReduction::make_reducer(double /*radius*/) const {
-  return std::make_unique<SumReducer>(*this);
-}
+std::unique_ptr<PacketReducer> SumReduction::make_reducer() const { return std::make_unique<SumReducer>(*this); }
 
 }  // namespace meshhood

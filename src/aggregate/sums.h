@@ -46,7 +46,7 @@ class SumReduction final : public Reduction {
  public:
   SumReduction(const NodeTree& tree, const AggregateKernels& kernels, SumColumns columns);
 
-  [[nodiscard]] std::unique_ptr<PacketReducer> make_reducer(double radius) const override;
+  [[nodiscard]] std::unique_ptr<PacketReducer> make_reducer() const override;
 
   [[nodiscard]] const AggregateKernels& kernels() const { return *kernels_; }
   [[nodiscard]] const SumColumns& columns() const { return columns_; }

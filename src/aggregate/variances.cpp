@@ -151,7 +151,7 @@ double VarianceReduction::result(const Channel& channel, const Spread& spread) c
                        : std::ldexp(variance, -2 * channel.exponent);
 }
 
-std::unique_ptr<PacketReducer> VarianceReduction::make_reducer(double /*radius*/) const {
+std::unique_ptr<PacketReducer> VarianceReduction::make_reducer() const {
   return std::make_unique<VarianceReducer>(*this);
 }
 

@@ -62,7 +62,7 @@ class VarianceReduction final : public Reduction {
   VarianceReduction(const NodeTree& tree, const AggregateKernels& kernels, SignalBlock block,
                     const VarianceOptions& options);
 
-  [[nodiscard]] std::unique_ptr<PacketReducer> make_reducer(double radius) const override;
+  [[nodiscard]] std::unique_ptr<PacketReducer> make_reducer() const override;
 
   struct Channel {
     Column values;

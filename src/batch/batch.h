@@ -37,6 +37,9 @@ class Batch {
   [[nodiscard]] std::size_t vertex_count() const { return factory_.vertex_count; }
   [[nodiscard]] TaskContext& task() { return task_; }
 
+  /// Begins another pass, with one radius for all rows, which must be valid.
+  void set_radius(double radius) { rows_.set_radius(radius); }
+
   /// Sorts the rows by their position in the index, and returns the former number of each.
   std::vector<std::size_t> put_in_index_order();
 

@@ -159,9 +159,14 @@ void write_rows(Batch& batch, std::span<const std::uint64_t> offsets, const Batc
 }  // namespace
 
 std::vector<std::uint64_t> counts(const SearchMethod& method, const BatchQuery& query, const BatchOptions& options) {
-  Batch batch(method, query, options, 1);
-  std::vector<std::uint64_t> result(batch.rows().size());
-  count_rows(batch, result.data(), nullptr);
+  const std::vector<BatchRadius> passes = radius_of_passes(query.radius);
+  Batch batch(method, {query.vertices, passes.front(), query.filter}, options, passes.size());
+  const std::size_t rows = batch.rows().size();
+  std::vector<std::uint64_t> result(passes.size() * rows);
+  for (std::size_t i = 0; i < passes.size(); ++i) {
+    if (i > 0) batch.set_radius(passes[i].common());
+    count_rows(batch, result.data() + i * rows, nullptr);
+  }
   batch.task().finish();
   return result;
 }

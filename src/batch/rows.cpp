@@ -21,11 +21,25 @@ std::optional<std::vector<T>> copy(const std::optional<std::span<const T>>& list
 
 }  // namespace
 
+std::vector<BatchRadius> radius_of_passes(const BatchRadius& radius) {
+  if (!radius.scales()) return {radius};
+  if (radius.scales()->empty()) raise(ErrorCode::InvalidOption, "there are no radii, expected at least one");
+  std::vector<BatchRadius> passes;
+  for (const double scale : *radius.scales()) {
+    check_radius(scale, "radius " + std::to_string(passes.size()) + ": ");
+    passes.emplace_back(scale);
+  }
+  return passes;
+}
+
 Rows::Rows(const BatchQuery& query, std::size_t vertex_count)
     : vertices_(copy(query.vertices.list())),
       radii_(copy(query.radius.list())),
       size_(vertices_ ? vertices_->size() : vertex_count),
       radius_(query.radius.common()) {
+  if (query.radius.scales()) {
+    raise(ErrorCode::InvalidRadius, "several radii for all rows, expected one, or one for each row");
+  }
   if (!radii_) {
     check_radius(radius_);
   } else if (radii_->size() != size_) {

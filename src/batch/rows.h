@@ -10,10 +10,14 @@
 
 namespace meshhood {
 
+/// The passes over all rows, one for each of the scales; the radius itself if there are none.
+/// Throws Error{InvalidRadius}, naming the scale, and Error{InvalidOption} if there are scales, but none.
+[[nodiscard]] std::vector<BatchRadius> radius_of_passes(const BatchRadius& radius);
+
 /// The rows of a batch, checked. A copy: nothing that the caller changes later has an effect.
 class Rows {
  public:
-  /// Throws Error{VertexOutOfRange, InvalidRadius}, naming the row.
+  /// Throws Error{VertexOutOfRange, InvalidRadius}, naming the row, and Error{InvalidRadius} if there are scales.
   Rows(const BatchQuery& query, std::size_t vertex_count);
 
   [[nodiscard]] std::size_t size() const { return size_; }
@@ -23,6 +27,9 @@ class Rows {
   }
 
   [[nodiscard]] double radius(std::size_t row) const { return radii_ ? (*radii_)[row] : radius_; }
+
+  /// Replaces the radius of all rows, each of which has the same.
+  void set_radius(double radius) { radius_ = radius; }
 
   /// Replaces row `i` by the former row `order[i]`. `order` is a permutation of the rows.
   void reorder(std::span<const std::size_t> order);

@@ -133,32 +133,32 @@ void write_row(CorrectedCurvatures& out, std::size_t row, std::span<const double
 
 }  // namespace
 
-CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const FacesView& faces,
-                                         const BatchVertices& vertices, double radius,
+CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const FacesView& faces, const BatchQuery& query,
                                          const CorrectedCurvatureOptions& options) {
   const SurfaceState& state = CurvatureAccess::state(surface);
   validate(MeshView{state.searched.positions(), faces});
   constexpr std::size_t kChannels = CorrectedCurvatures::kMeasures;
   const std::vector<double> held = measures_by_vertex(state, faces);
   std::vector<VertexId> listed;
-  AggregateQuery query{.vertices = {}, .radii = {radius}, .reduce = Reduce::Sum};
-  if (vertices.list()) {
-    listed.assign(vertices.list()->begin(), vertices.list()->end());
-    query.vertices = listed;
+  AggregateQuery sum{.vertices = {}, .radius = query.radius, .filter = query.filter, .reduce = Reduce::Sum};
+  if (query.vertices.list()) {
+    listed.assign(query.vertices.list()->begin(), query.vertices.list()->end());
+    sum.vertices = listed;
   }
-  const std::vector<double> sums = aggregate(state.searched, {.values = held, .channels = kChannels}, query,
+  const std::vector<double> sums = aggregate(state.searched, {.values = held, .channels = kChannels}, sum,
                                              {.threads = options.threads, .progress = options.progress});
-  const std::size_t rows = sums.size() / kChannels;
+  const std::size_t results = sums.size() / kChannels;
+  const std::size_t rows = sum.vertices.list() ? listed.size() : surface.vertex_count();
   CorrectedCurvatures result;
   result.measures.resize(sums.size());
   for (auto* const numbers : {&result.area, &result.mean, &result.gaussian, &result.k1, &result.k2}) {
-    numbers->resize(rows);
+    numbers->resize(results);
   }
-  result.d1.resize(3 * rows);
-  result.d2.resize(3 * rows);
-  for (std::size_t row = 0; row < rows; ++row) {
-    const VertexId v = vertices.list() ? listed[row] : static_cast<VertexId>(row);
-    write_row(result, row, std::span(sums).subspan(kChannels * row, kChannels), state.normal(place_of(*state.index, v)),
+  result.d1.resize(3 * results);
+  result.d2.resize(3 * results);
+  for (std::size_t i = 0; i < results; ++i) {
+    const VertexId v = sum.vertices.list() ? listed[i % rows] : static_cast<VertexId>(i % rows);
+    write_row(result, i, std::span(sums).subspan(kChannels * i, kChannels), state.normal(place_of(*state.index, v)),
               state.index->frame.scale);
   }
   return result;

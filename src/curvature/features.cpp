@@ -13,6 +13,8 @@
 #include "meshhood/moments.h"
 
 #include "base/vector.h"
+#include "batch/filter_copy.h"
+#include "batch/rows.h"
 #include "curvature/surface.h"
 #include "shared/distance.h"
 #include "shared/text.h"
@@ -61,18 +63,23 @@ double patch_feature(Feature kind, const PrincipalComponents& patch, std::size_t
 /// What one call of `features` computes, radius by radius.
 class FeatureExtraction {
  public:
-  FeatureExtraction(const CurvatureIndex& surface, const BatchVertices& vertices, std::span<const double> radii,
-                    FeatureOptions options)
+  FeatureExtraction(const CurvatureIndex& surface, const BatchQuery& query, FeatureOptions options)
       : surface_(surface),
         state_(CurvatureAccess::state(surface)),
-        radii_(radii.begin(), radii.end()),
-        options_(std::move(options)) {
+        radii_(radius_of_passes(query.radius)),
+        filter_(query.filter),
+        options_(std::move(options)),
+        rows_(surface.vertex_count()) {
+    if (const auto& list = query.vertices.list()) {
+      listed_.assign(list->begin(), list->end());
+      rows_ = listed_.size();
+      vertices_ = listed_;
+    }
+    if (const auto& list = query.radius.list()) {
+      radius_of_row_.assign(list->begin(), list->end());
+      radii_ = {BatchRadius(radius_of_row_)};
+    }
     check();
-    rows_ = surface.vertex_count();
-    if (!vertices.list()) return;
-    listed_.assign(vertices.list()->begin(), vertices.list()->end());
-    rows_ = listed_.size();
-    vertices_ = listed_;
   }
 
   std::vector<double> run() {
@@ -87,14 +94,23 @@ class FeatureExtraction {
   }
 
  private:
+  [[nodiscard]] double radius_at(const BatchRadius& radius, std::size_t row) const {
+    return radius.list() ? radius_of_row_[row] : radius.common();
+  }
+
+  static void check(double radius, const std::string& where) {
+    if (radius > 0 && std::isfinite(radius)) return;
+    raise(ErrorCode::InvalidRadius, where + to_text(radius) + ", expected a finite number > 0");
+  }
+
   void check() {
     if (options_.kinds.empty())
       raise(ErrorCode::InvalidOption, "there are no kinds of features, expected at least one");
-    if (radii_.empty()) raise(ErrorCode::InvalidOption, "there are no radii, expected at least one");
+    for (std::size_t i = 0; i < radius_of_row_.size(); ++i) {
+      check(radius_of_row_[i], "row " + std::to_string(i) + ": the radius is ");
+    }
     for (std::size_t i = 0; i < radii_.size(); ++i) {
-      if (radii_[i] > 0 && std::isfinite(radii_[i])) continue;
-      raise(ErrorCode::InvalidRadius,
-            "radius " + std::to_string(i) + ": " + to_text(radii_[i]) + ", expected a finite number > 0");
+      if (!radii_[i].list()) check(radii_[i].common(), "radius " + std::to_string(i) + ": ");
     }
     sums_ = std::any_of(options_.kinds.begin(), options_.kinds.end(), follows_from_areas);
     fits_ = !std::all_of(options_.kinds.begin(), options_.kinds.end(), follows_from_areas);
@@ -103,11 +119,16 @@ class FeatureExtraction {
     }
   }
 
-  void write_curvatures(double radius, std::span<double> values) {
-    const Curvatures k = curvatures(surface_, {.vertices = vertices_, .radius = radius},
+  [[nodiscard]] BatchQuery query_of(const BatchRadius& radius) const {
+    return {.vertices = vertices_, .radius = radius, .filter = filter_.view()};
+  }
+
+  void write_curvatures(const BatchRadius& radius_of_rows, std::span<double> values) {
+    const Curvatures k = curvatures(surface_, query_of(radius_of_rows),
                                     {.filter = options_.filter, .threads = options_.threads, .progress = next_pass()});
     const std::size_t kinds = options_.kinds.size();
     for (std::size_t row = 0; row < rows_; ++row) {
+      const double radius = radius_at(radius_of_rows, row);
       const bool has_fit = k.state[row] != CurvatureState::TooFew && k.state[row] != CurvatureState::NoNormal;
       for (std::size_t kind = 0; kind < kinds; ++kind) {
         if (follows_from_areas(options_.kinds[kind])) continue;
@@ -117,12 +138,13 @@ class FeatureExtraction {
     }
   }
 
-  void write_patches(double radius, std::span<double> values) {
+  void write_patches(const BatchRadius& radius_of_rows, std::span<double> values) {
     const PrincipalComponents patch =
-        principal_components(state_.searched, {.vertices = vertices_, .radius = radius},
+        principal_components(state_.searched, query_of(radius_of_rows),
                              {.weights = options_.areas, .threads = options_.threads, .progress = next_pass()});
     const std::size_t kinds = options_.kinds.size();
     for (std::size_t row = 0; row < rows_; ++row) {
+      const double radius = radius_at(radius_of_rows, row);
       const VertexId v = vertices_.list() ? listed_[row] : static_cast<VertexId>(row);
       const Point normal = state_.normal(place_of(*state_.index, v));
       for (std::size_t kind = 0; kind < kinds; ++kind) {
@@ -142,11 +164,13 @@ class FeatureExtraction {
 
   const CurvatureIndex& surface_;
   const SurfaceState& state_;
-  std::vector<double> radii_;
+  std::vector<BatchRadius> radii_;  // of the passes
+  FilterCopy filter_;
   FeatureOptions options_;
   std::vector<VertexId> listed_;
   BatchVertices vertices_;
-  std::size_t rows_ = 0;
+  std::vector<double> radius_of_row_;  // if there is one for each
+  std::size_t rows_;
   bool fits_ = false;
   bool sums_ = false;
   std::size_t passes_begun_ = 0;
@@ -187,9 +211,8 @@ Run longest_run(std::size_t radii, double threshold, const ValueAt& value) {
 
 }  // namespace
 
-std::vector<double> features(const CurvatureIndex& surface, const BatchVertices& vertices,
-                             std::span<const double> radii, const FeatureOptions& options) {
-  return FeatureExtraction(surface, vertices, radii, options).run();
+std::vector<double> features(const CurvatureIndex& surface, const BatchQuery& query, const FeatureOptions& options) {
+  return FeatureExtraction(surface, query, options).run();
 }
 
 std::vector<double> geometric_radii(double smallest, double largest, std::size_t count) {

@@ -138,18 +138,18 @@ void merge_spreads(const RowSpreads& added, RowSpreads& spreads) {
 void set_offsets(const Point& point, const PacketCenters& centers, Offsets& offsets) {
   const Doubles d;
   for (std::size_t i = 0; i < kPacketCapacity; i += kLanes<Doubles>) {
-    const auto offset = scaled(difference(splat_point(d, point), load_rows(d, centers, i)), splat(centers.unit));
+    const auto offset = scaled(difference(splat_point(d, point), load_rows(d, centers, i)), load(centers.unit[i]));
     store_rows(offset, offsets, i);
     store(squared_length(offset), offsets.square[i]);
   }
 }
 
 // Not 1 - d^2 / r^2, whose rounding would give a vertex at the rim a weight.
-void set_weights(const Offsets& offsets, const KernelRadius& radius, bool squared, PerLane<double>& weights) {
+void set_weights(const Offsets& offsets, const KernelRadii& radii, bool squared, PerLane<double>& weights) {
   const Doubles d;
   for (std::size_t i = 0; i < kPacketCapacity; i += kLanes<Doubles>) {
-    const auto rest = hn::Add(hn::Sub(splat(radius.square), load(offsets.square[i])), splat(radius.low));
-    const auto raw = hn::Mul(rest, splat(radius.inverse));
+    const auto rest = hn::Add(hn::Sub(load(radii.square[i]), load(offsets.square[i])), load(radii.low[i]));
+    const auto raw = hn::Mul(rest, load(radii.inverse[i]));
     auto weight = only(d, hn::Gt(raw, hn::Zero(d)), raw);  // the rim may be beyond it by rounding
     if (squared) weight = hn::Mul(weight, weight);
     hn::StoreU(weight, d, &weights[i]);
@@ -161,14 +161,13 @@ void set_weights(const Offsets& offsets, const KernelRadius& radius, bool square
 //   sum of s d^2 = sum s|q|^2 + 2 t . sum s q + |t|^2 sum s
 //   sum of s d^4 = sum s|q|^4 + 4 t . sum s|q|^2 q + 4 t^T (sum s q q^T) t + 2 |t|^2 sum s|q|^2
 //                  + 4 |t|^2 (t . sum s q) + |t|^4 sum s
-void add_moments(const Moments& moments, const Offsets& offsets, double inverse_square, bool squared, QueryWord word,
+void add_moments(const Moments& moments, const Offsets& offsets, const KernelRadii& radii, bool squared, QueryWord word,
                  RowSums& sums) {
   const Doubles d;
   const auto& [xx, xy, xz, yy, yz, zz] = moments.second;
   const auto two = splat(2.0);
   const auto four = splat(4.0);
   const auto zeroth = splat(moments.zeroth);
-  const auto inverse = splat(inverse_square);
   const Points<Doubles> first{splat(moments.first[0]), splat(moments.first[1]), splat(moments.first[2])};
   const Points<Doubles> third{splat(moments.third[0]), splat(moments.third[1]), splat(moments.third[2])};
   const Points<Doubles> diagonal{splat(xx), splat(yy), splat(zz)};
@@ -177,6 +176,7 @@ void add_moments(const Moments& moments, const Offsets& offsets, double inverse_
     const auto offset = load_rows(d, offsets, i);
     const auto& [x, y, z] = offset;
     const auto square = load(offsets.square[i]);
+    const auto inverse = load(radii.inverse[i]);
     const auto along = scalar_product(offset, first);
     auto less = hn::Add(hn::Add(splat(moments.trace), hn::Mul(two, along)), hn::Mul(square, zeroth));
     if (squared) {

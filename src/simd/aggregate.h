@@ -28,22 +28,22 @@ struct alignas(64) RowSpreads {
   PerLane<double> squares;
 };
 
-/// The query vertices of a packet, and the unit in which distances from them are computed.
+/// The query vertices of a packet, and the units in which distances from them are computed.
 struct alignas(64) PacketCenters {
   PerLane<double> x;
   PerLane<double> y;
   PerLane<double> z;
-  double unit;  // a power of two; differences of coordinates are multiplied by it. 0: every vertex has the weight 1
+  PerLane<double> unit;  // powers of two, by which differences of coordinates are multiplied. 0: every weight is 1
 };
 
-/// The square of a radius in the unit of the centers.
-struct KernelRadius {
-  double square;   // rounded
-  double low;      // what is missing
-  double inverse;  // of `square`
+/// The square of the radius of each query, in its unit.
+struct alignas(64) KernelRadii {
+  PerLane<double> square;   // rounded
+  PerLane<double> low;      // what is missing
+  PerLane<double> inverse;  // of `square`
 };
 
-/// The position of a point relative to each query vertex of a packet, in its unit.
+/// The position of a point relative to each query vertex of a packet, in the unit of the query.
 struct alignas(64) Offsets {
   PerLane<double> x;
   PerLane<double> y;
@@ -87,15 +87,16 @@ struct AggregateKernels {
 
   /// Sets the weights of a vertex with these offsets, `1 - d^2/r^2` or, if `squared`, the square of that. None is
   /// negative, and where d^2 is r^2 the weight is 0.
-  void (*set_weights)(const Offsets& offsets, const KernelRadius& radius, bool squared, PerLane<double>& weights);
+  void (*set_weights)(const Offsets& offsets, const KernelRadii& radii, bool squared, PerLane<double>& weights);
 
   /// As `add_values`, each value multiplied by its weight for the row.
   void (*add_weighted)(std::span<const double> values, const QueryWord* words, const RowWeights& weights,
                        RowSums& sums);
 
   /// Adds to the rows of `word` the weighted sum over a node, `sum of s (1 - d^2/r^2)`, or with the square of the
-  /// parenthesis if `squared`. `offsets` are those of the point that the moments are about.
-  void (*add_moments)(const Moments& moments, const Offsets& offsets, double inverse_square, bool squared,
+  /// parenthesis if `squared`. `offsets` are those of the point that the moments are about; those of the rows have the
+  /// unit of the moments.
+  void (*add_moments)(const Moments& moments, const Offsets& offsets, const KernelRadii& radii, bool squared,
                       QueryWord word, RowSums& sums);
 };
 

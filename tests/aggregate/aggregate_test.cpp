@@ -20,11 +20,13 @@
 
 #include "meshhood/meshhood.h"
 
+#include "support/draw_start.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/random.h"
 #include "support/refusal.h"
 #include "support/scale.h"
+#include "support/without_walls.h"
 
 namespace meshhood::test {
 namespace {
@@ -150,8 +152,7 @@ TestSignal make_signal(std::size_t vertices, bool gaps, Random& random) {
 /// A mesh, its index, and the definition of every aggregate.
 class AggregateCase {
  public:
-  explicit AggregateCase(TestMesh mesh)
-      : mesh_(std::move(mesh)), index_(build(mesh_.view())), reference_(mesh_.view()) {}
+  explicit AggregateCase(TestMesh mesh) : mesh_(std::move(mesh)), index_(build(mesh_.view())) {}
 
   [[nodiscard]] const Index& index() const { return index_; }
   [[nodiscard]] std::size_t size() const { return mesh_.size(); }
@@ -172,15 +173,22 @@ class AggregateCase {
   void compare(const SignalView& signal, const AggregateQuery& query) {
     const std::vector<double> result = aggregate(index_, signal, query);
     const auto& list = query.vertices.list();
+    const auto& scales = query.radius.scales();
     const std::size_t rows = list ? list->size() : size();
-    ASSERT_EQ(result.size(), query.radii.size() * rows * signal.channels);
-    const double largest = *std::max_element(query.radii.begin(), query.radii.end());
+    ASSERT_EQ(result.size(), (scales ? scales->size() : 1) * rows * signal.channels);
+    const Adjacency graph = without_walls(mesh_, query.filter.walls);
+    ReferenceSearcher reference(GraphView{mesh_.positions_view(), graph.view()});
+    const double largest = scales ? *std::max_element(scales->begin(), scales->end()) : 0;
     for (std::size_t i = 0; i < result.size(); ++i) {
-      const double radius = query.radii[i / signal.channels / rows];
       const std::size_t row = i / signal.channels % rows;
+      const double radius = scales                ? (*scales)[i / signal.channels / rows]
+                            : query.radius.list() ? (*query.radius.list())[row]
+                                                  : query.radius.common();
       const VertexId v = list ? (*list)[row] : static_cast<VertexId>(row);
-      const double searched = query.nesting == Nesting::Patch ? largest : radius;
-      const Expected expected = reduce_items(items(signal, i % signal.channels, v, searched, radius), query, radius);
+      const double searched = scales && query.nesting == Nesting::Patch ? largest : radius;
+      reference.neighborhood(v, searched, ids_, distances_);
+      const Expected expected =
+          reduce_items(items(signal, i % signal.channels, v, query.filter, radius), query, radius);
       const bool right = std::isnan(expected.value) ? std::isnan(result[i]) || std::isinf(expected.tolerance)
                                                     : std::abs(result[i] - expected.value) <= expected.tolerance;
       EXPECT_TRUE(right) << "vertex " << v << ", radius " << radius << ", channel " << i % signal.channels
@@ -195,11 +203,14 @@ class AggregateCase {
   [[nodiscard]] std::size_t compared() const { return compared_; }
 
  private:
-  std::vector<Item> items(const SignalView& signal, std::size_t channel, VertexId v, double searched, double radius) {
-    reference_.neighborhood(v, searched, ids_, distances_);
+  /// Of the neighborhood that was found, those that the filter leaves.
+  std::vector<Item> items(const SignalView& signal, std::size_t channel, VertexId v, const Filter& filter,
+                          double radius) {
     std::vector<Item> result;
+    if (filter.walls.size() != 0 && filter.walls[v]) return result;
     for (std::size_t i = 0; i < ids_.size(); ++i) {
       if (distances_[i] > radius) continue;  // of a patch
+      if (filter.ignored.size() != 0 && filter.ignored[ids_[i]]) continue;
       result.push_back({signal.values[ids_[i] * signal.channels + channel],
                         signal.weights.empty() ? 1 : signal.weights[ids_[i]], exact_distance(v, ids_[i])});
     }
@@ -219,7 +230,6 @@ class AggregateCase {
 
   TestMesh mesh_;
   Index index_;
-  ReferenceSearcher reference_;
   std::vector<VertexId> ids_;
   std::vector<double> distances_;
   std::size_t compared_ = 0;
@@ -240,7 +250,10 @@ TEST_P(AggregateOfFamily, EqualsTheDefinition) {
         query.kernel = may_have_kernel(reduce) ? kKernels[random.below(3)] : SmoothingKernel::Box;
         query.missing = random.below(2) == 0 ? MissingValues::Omit : MissingValues::Propagate;
         query.nesting = random.below(2) == 0 ? Nesting::Patch : Nesting::Own;
-        query.radii = {scene.radius(random), scene.radius(random)};
+        query.radius = BatchRadius::scales({scene.radius(random), scene.radius(random)});
+        const auto walls = draw_mask(random, scene.size(), random.below(2) * 8);
+        const auto ignored = draw_mask(random, scene.size(), random.below(2) * 5);
+        query.filter = {walls, ignored};
         const bool weighted = random.below(2) == 0;
         if (!weighted) query.ddof = static_cast<unsigned>(random.below(2));
         std::vector<VertexId> list;
@@ -284,7 +297,7 @@ TEST_F(Aggregate, OfLargeNeighborhoodsEqualsTheDefinition) {
       for (const SmoothingKernel kernel : kKernels) {
         if (kernel != SmoothingKernel::Box && !may_have_kernel(reduce)) continue;
         const AggregateQuery query{.vertices = leaves,
-                                   .radii = {25, 9.5, 3, 60},
+                                   .radius = BatchRadius::scales({25, 9.5, 3, 60}),
                                    .reduce = reduce,
                                    .kernel = kernel,
                                    .missing = MissingValues::Omit,
@@ -300,7 +313,8 @@ TEST_F(Aggregate, HasTheSameBitsForAnyNumberOfThreads) {
   for (const Reduce reduce : kReductions) {
     for (const Nesting nesting : {Nesting::Own, Nesting::Patch}) {
       const SmoothingKernel kernel = may_have_kernel(reduce) ? SmoothingKernel::Biweight : SmoothingKernel::Box;
-      const AggregateQuery query{.radii = {4, 12}, .reduce = reduce, .kernel = kernel, .nesting = nesting};
+      const AggregateQuery query{
+          .radius = BatchRadius::scales({4, 12}), .reduce = reduce, .kernel = kernel, .nesting = nesting};
       const auto once = bits_of(run(query));
       for (const unsigned threads : {2U, 3U, 8U, 0U}) EXPECT_EQ(bits_of(run(query, threads)), once);
     }
@@ -309,9 +323,9 @@ TEST_F(Aggregate, HasTheSameBitsForAnyNumberOfThreads) {
 
 TEST_F(Aggregate, OfSeveralRadiiEqualsThatOfEachRadius) {
   for (const Reduce reduce : kReductions) {
-    const std::vector<double> both = run({.radii = {6, 2}, .reduce = reduce});
-    std::vector<double> one_by_one = run({.radii = {6}, .reduce = reduce});
-    const std::vector<double> second = run({.radii = {2}, .reduce = reduce});
+    const std::vector<double> both = run({.radius = BatchRadius::scales({6, 2}), .reduce = reduce});
+    std::vector<double> one_by_one = run({.radius = 6, .reduce = reduce});
+    const std::vector<double> second = run({.radius = 2, .reduce = reduce});
     one_by_one.insert(one_by_one.end(), second.begin(), second.end());
     EXPECT_EQ(bits_of(both), bits_of(one_by_one));
   }
@@ -321,7 +335,7 @@ TEST_F(Aggregate, OfManyChannelsEqualsThatOfEachChannel) {
   constexpr std::size_t kChannels = 37;
   std::vector<double> values(kChannels * scene.size());
   for (double& value : values) value = random.uniform(-1, 1);
-  const AggregateQuery query{.radii = {5}};
+  const AggregateQuery query{.radius = 5};
   const std::vector<double> all = aggregate(scene.index(), {values, kChannels}, query);
   for (const std::size_t channel : {0U, 15U, 16U, 36U}) {
     std::vector<double> column;
@@ -349,13 +363,13 @@ TEST(AggregateOfATinyCluster, EqualsTheDefinition) {
   Random random(7);
   const TestSignal signal = make_signal(mesh.size(), false, random);
   for (const SmoothingKernel kernel : {SmoothingKernel::Epanechnikov, SmoothingKernel::Biweight}) {
-    scene.compare(signal.view(false), {.radii = {7 * step}, .reduce = Reduce::Mean, .kernel = kernel});
+    scene.compare(signal.view(false), {.radius = 7 * step, .reduce = Reduce::Mean, .kernel = kernel});
   }
 }
 
 TEST_F(Aggregate, OfAPatchWithOneRadiusIsThatOfTheNeighborhood) {
   for (const Reduce reduce : {Reduce::Minimum, Reduce::Maximum, Reduce::Count}) {
-    AggregateQuery query{.radii = {7}, .reduce = reduce};
+    AggregateQuery query{.radius = 7, .reduce = reduce};
     const auto own = bits_of(run(query));
     query.nesting = Nesting::Patch;
     EXPECT_EQ(bits_of(run(query)), own);
@@ -364,7 +378,7 @@ TEST_F(Aggregate, OfAPatchWithOneRadiusIsThatOfTheNeighborhood) {
 
 TEST_F(Aggregate, ScalesWithPowersOfTwoToTheBit) {
   for (const Reduce reduce : {Reduce::Sum, Reduce::Mean, Reduce::StandardDeviation, Reduce::Maximum}) {
-    const AggregateQuery query{.radii = {6}, .reduce = reduce};
+    const AggregateQuery query{.radius = 6, .reduce = reduce};
     const std::vector<double> plain = aggregate(scene.index(), signal.view(false), query);
     for (const int exponent : {-900, -500, 500, 900}) {
       TestSignal scaled_signal = signal;
@@ -379,7 +393,7 @@ TEST_F(Aggregate, ScalesWithPowersOfTwoToTheBit) {
 
 TEST_F(Aggregate, OfTheLargestDoublesOverflowsOnlyWhereTheResultDoes) {
   const std::vector<double> values(scene.size(), 0x1p1023);
-  const auto of = [&](Reduce reduce) { return aggregate(scene.index(), {values}, {.radii = {3}, .reduce = reduce}); };
+  const auto of = [&](Reduce reduce) { return aggregate(scene.index(), {values}, {.radius = 3, .reduce = reduce}); };
   EXPECT_THAT(of(Reduce::Mean), Each(0x1p1023));
   EXPECT_THAT(of(Reduce::StandardDeviation), Each(0));
   EXPECT_THAT(of(Reduce::Sum), Each(kInfinity));
@@ -389,7 +403,7 @@ TEST_F(Aggregate, OfInfiniteValuesFollowsIeee) {
   std::vector<double> values(scene.size(), 1.0);
   values[0] = kInfinity;
   const auto of = [&](Reduce reduce) {
-    return aggregate(scene.index(), {values}, {.radii = {kInfinity}, .reduce = reduce}).front();
+    return aggregate(scene.index(), {values}, {.radius = kInfinity, .reduce = reduce}).front();
   };
   EXPECT_EQ(of(Reduce::Sum), kInfinity);
   EXPECT_EQ(of(Reduce::Mean), kInfinity);
@@ -403,7 +417,7 @@ TEST_F(Aggregate, OfInfiniteValuesFollowsIeee) {
 TEST_F(Aggregate, OfMissingValuesOnlyIsNaNExceptForSumAndCount) {
   const std::vector<double> values(scene.size(), kNan);
   const auto of = [&](Reduce reduce, MissingValues missing) {
-    return aggregate(scene.index(), {values}, {.radii = {3}, .reduce = reduce, .missing = missing}).front();
+    return aggregate(scene.index(), {values}, {.radius = 3, .reduce = reduce, .missing = missing}).front();
   };
   for (const Reduce reduce : {Reduce::Mean, Reduce::Minimum, Reduce::Maximum, Reduce::Variance}) {
     EXPECT_THAT(of(reduce, MissingValues::Omit), IsNan());
@@ -420,9 +434,9 @@ TEST_F(Aggregate, IgnoresAHugeValueOutsideTheNeighborhood) {
   std::vector<double> values(scene.size(), 1.0);
   for (std::size_t v = 0; v < scene.size(); v += 2) values[v] = 3.0;
   values[1000] = 1e150;
-  scene.compare({values}, {.radii = {2.2}, .reduce = Reduce::Variance});
-  scene.compare({values}, {.radii = {2.2}, .reduce = Reduce::Sum});
-  scene.compare({values}, {.radii = {2.2}, .reduce = Reduce::Sum, .kernel = SmoothingKernel::Biweight});
+  scene.compare({values}, {.radius = 2.2, .reduce = Reduce::Variance});
+  scene.compare({values}, {.radius = 2.2, .reduce = Reduce::Sum});
+  scene.compare({values}, {.radius = 2.2, .reduce = Reduce::Sum, .kernel = SmoothingKernel::Biweight});
 }
 
 TEST_F(Aggregate, OfSmallValuesDoesNotDependOnHugeOnesElsewhere) {
@@ -441,7 +455,7 @@ TEST_F(Aggregate, OfSmallValuesDoesNotDependOnHugeOnesElsewhere) {
       for (double& weight : scaled_weights) weight *= unit;
       scaled_weights[far] = 1;
       for (const Reduce reduce : kReductions) {
-        const AggregateQuery query{.radii = {4}, .reduce = reduce};
+        const AggregateQuery query{.radius = 4, .reduce = reduce};
         const std::vector<double> found = aggregate(scene.index(), {values, 1, scaled_weights}, query);
         scaled_weights[far] = 0;  // the largest weight of the others decides their scale
         const std::vector<double> expected = aggregate(scene.index(), {usual, 1, scaled_weights}, query);
@@ -493,7 +507,7 @@ TEST(AggregateWithAKernel, GivesAVertexAtExactlyTheRadiusNoWeight) {
           size += weight * std::abs(values[v]);
         }
         const double found = aggregate(
-            index, {values}, {.vertices = rows, .radii = {radius}, .reduce = Reduce::Sum, .kernel = kernel})[0];
+            index, {values}, {.vertices = rows, .radius = radius, .reduce = Reduce::Sum, .kernel = kernel})[0];
         EXPECT_NEAR(found, static_cast<double>(sum), 1e-13 * static_cast<double>(size))
             << "vertex " << rows[0] << ", radius " << radius << ", biweight " << biweight;
       }
@@ -511,11 +525,11 @@ TEST(AggregateOfIsolatedVertices, IsTheirOwnValue) {
   std::vector<double> values;
   for (int i = 0; i < 50; ++i) values.push_back(i);
   for (const Reduce reduce : {Reduce::Sum, Reduce::Mean, Reduce::Minimum, Reduce::Maximum}) {
-    EXPECT_EQ(aggregate(index, {values}, {.radii = {1}, .reduce = reduce}), values);
+    EXPECT_EQ(aggregate(index, {values}, {.radius = 1, .reduce = reduce}), values);
   }
-  EXPECT_THAT(aggregate(index, {values}, {.radii = {1}, .reduce = Reduce::Count}), Each(1));
-  EXPECT_THAT(aggregate(index, {values}, {.radii = {1}, .reduce = Reduce::Variance}), Each(0));
-  EXPECT_THAT(aggregate(index, {values}, {.radii = {1}, .reduce = Reduce::Variance, .ddof = 1}), Each(IsNan()));
+  EXPECT_THAT(aggregate(index, {values}, {.radius = 1, .reduce = Reduce::Count}), Each(1));
+  EXPECT_THAT(aggregate(index, {values}, {.radius = 1, .reduce = Reduce::Variance}), Each(0));
+  EXPECT_THAT(aggregate(index, {values}, {.radius = 1, .reduce = Reduce::Variance, .ddof = 1}), Each(IsNan()));
 }
 
 TEST(AggregateOfFloats, IsThatOfTheSameNumbersAsDoubles) {
@@ -527,7 +541,7 @@ TEST(AggregateOfFloats, IsThatOfTheSameNumbersAsDoubles) {
   floats[77] = std::numeric_limits<float>::quiet_NaN();
   const std::vector<double> doubles(floats.begin(), floats.end());
   for (const Reduce reduce : {Reduce::Sum, Reduce::Mean, Reduce::Minimum, Reduce::Variance, Reduce::Count}) {
-    const AggregateQuery query{.radii = {2.5}, .reduce = reduce, .missing = MissingValues::Omit};
+    const AggregateQuery query{.radius = 2.5, .reduce = reduce, .missing = MissingValues::Omit};
     const std::span<const float> values = floats;
     EXPECT_EQ(aggregate(index, {.values = values, .channels = 2}, query),
               aggregate(index, {.values = doubles, .channels = 2}, query));
@@ -536,8 +550,9 @@ TEST(AggregateOfFloats, IsThatOfTheSameNumbersAsDoubles) {
 
 TEST(AggregateOfAnEmptyMesh, IsEmpty) {
   const Index index = build(TestMesh().finish(true).view());
-  EXPECT_TRUE(aggregate(index, {}, {.radii = {1}}).empty());
-  EXPECT_TRUE(aggregate(index, {}, {.radii = {1, 2}, .kernel = SmoothingKernel::Biweight}).empty());
+  EXPECT_TRUE(aggregate(index, {}, {.radius = 1}).empty());
+  EXPECT_TRUE(
+      aggregate(index, {}, {.radius = BatchRadius::scales({1, 2}), .kernel = SmoothingKernel::Biweight}).empty());
 }
 
 TEST_F(Aggregate, RefusesWrongArguments) {
@@ -546,18 +561,23 @@ TEST_F(Aggregate, RefusesWrongArguments) {
                           const AggregateQuery& query) {
     expect_refused(code, cause, [&] { static_cast<void>(aggregate(scene.index(), given, query)); });
   };
-  const AggregateQuery query{.radii = {1}};
+  const AggregateQuery query{.radius = 1};
   refuse(ErrorCode::InvalidOption, "channels is 0", {values, 0}, query);
   refuse(ErrorCode::InvalidOption, "3600 values, expected 2 for each", {values, 2}, query);
-  refuse(ErrorCode::InvalidOption, "no radii", {values}, {});
-  refuse(ErrorCode::InvalidRadius, "radius 1: ", {values}, {.radii = {1, -1}});
-  refuse(ErrorCode::InvalidRadius, "radius 0: ", {values}, {.radii = {kNan}});
+  refuse(ErrorCode::InvalidOption, "no radii", {values}, {.radius = BatchRadius::scales({})});
+  refuse(ErrorCode::InvalidRadius, "radius nan", {values}, {});
+  refuse(ErrorCode::InvalidRadius, "radius 1: ", {values}, {.radius = BatchRadius::scales({1, -1})});
+  refuse(ErrorCode::InvalidRadius, "radius 0: ", {values}, {.radius = BatchRadius::scales({kNan})});
+  const std::vector<double> short_list(3, 1.0);
+  refuse(ErrorCode::InvalidRadius, "3 radii for 3600 rows", {values}, {.radius = short_list});
+  const std::vector<std::uint8_t> short_mask(8);
+  refuse(ErrorCode::InvalidOption, "walls: 8 values", {values}, {.radius = 1, .filter = {.walls = short_mask}});
   refuse(ErrorCode::InvalidOption, "smoothing kernel", {values},
-         {.radii = {1}, .reduce = Reduce::Minimum, .kernel = SmoothingKernel::Biweight});
-  refuse(ErrorCode::InvalidOption, "ddof is 2", {values}, {.radii = {1}, .reduce = Reduce::Variance, .ddof = 2});
+         {.radius = 1, .reduce = Reduce::Minimum, .kernel = SmoothingKernel::Biweight});
+  refuse(ErrorCode::InvalidOption, "ddof is 2", {values}, {.radius = 1, .reduce = Reduce::Variance, .ddof = 2});
   std::vector<double> weights(scene.size(), 1.0);
   refuse(ErrorCode::InvalidOption, "ddof is 1 and there are weights", {values, 1, weights},
-         {.radii = {1}, .reduce = Reduce::Variance, .ddof = 1});
+         {.radius = 1, .reduce = Reduce::Variance, .ddof = 1});
   for (const double bad : {-1.0, kNan, kInfinity}) {
     weights[17] = bad;
     refuse(ErrorCode::InvalidOption, "vertex 17: the weight is ", {values, 1, weights}, query);
@@ -565,7 +585,7 @@ TEST_F(Aggregate, RefusesWrongArguments) {
   weights.pop_back();
   refuse(ErrorCode::InvalidOption, "3599 weights", {values, 1, weights}, query);
   const std::vector<VertexId> list{0, 3600};
-  refuse(ErrorCode::VertexOutOfRange, "row 1", {values}, {.vertices = list, .radii = {1}});
+  refuse(ErrorCode::VertexOutOfRange, "row 1", {values}, {.vertices = list, .radius = 1});
   expect_refused(ErrorCode::TooLarge, "limit of 10 numbers",
                  [&] { static_cast<void>(aggregate(scene.index(), {values}, query, {.max_bytes = 80})); });
   std::vector<double> small(5);
@@ -576,7 +596,7 @@ TEST_F(Aggregate, RefusesWrongArguments) {
 TEST_F(Aggregate, ReportsItsProgressAndCanBeCancelled) {
   std::size_t last = 0;
   std::size_t total = 0;
-  const AggregateQuery query{.radii = {2, 3}};
+  const AggregateQuery query{.radius = BatchRadius::scales({2, 3})};
   static_cast<void>(
       aggregate(scene.index(), signal.view(false), query, {.progress = [&](std::size_t done, std::size_t of) {
                   EXPECT_GE(done, last);
@@ -597,7 +617,7 @@ TEST_F(Aggregate, ReportsItsProgressAndCanBeCancelled) {
 
 TEST_F(Aggregate, CopiesItsListsWhenTheCallBegins) {
   std::vector<VertexId> list{5, 6, 7};
-  const AggregateQuery query{.vertices = list, .radii = {2, 3, 4}};
+  const AggregateQuery query{.vertices = list, .radius = BatchRadius::scales({2, 3, 4})};
   const std::vector<double> expected = aggregate(scene.index(), signal.view(false), query);
   const std::vector<double> result =
       aggregate(scene.index(), signal.view(false), query, {.progress = [&](std::size_t, std::size_t) {

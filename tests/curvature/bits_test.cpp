@@ -48,7 +48,7 @@ std::vector<std::vector<double>> results(const Surface& s, const BatchVertices& 
   const auto sums = moments(s.index, query, {.degree = 4, .weights = s.areas, .threads = threads});
   const PrincipalComponents patch = principal_components(s.index, query, {.threads = threads});
   const auto feature =
-      features(s.surface, vertices, std::vector<double>{radius},
+      features(s.surface, {vertices, radius},
                {.kinds = {Feature::Crease, Feature::Height, Feature::Variation}, .areas = s.areas, .threads = threads});
   for (std::size_t row = 0; row < rows; ++row) {
     append(out[row], sums, row, moment_count(4));

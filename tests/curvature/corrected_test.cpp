@@ -44,7 +44,7 @@ TEST(CorrectedCurvature, OfACylinderIsThatOfTheFormula) {
     const Index index = build(mesh.view());
     const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());
     const std::vector<VertexId> rows{40 * 30 + 20, 40 * 61 + 18};
-    const CorrectedCurvatures found = corrected_curvatures(surface, mesh.view().faces, rows, 0.8);
+    const CorrectedCurvatures found = corrected_curvatures(surface, mesh.view().faces, {rows, 0.8});
     for (std::size_t row = 0; row < rows.size(); ++row) {
       const double* const p = &mesh.positions[3 * rows[row]];
       EXPECT_NEAR(found.k1[row], 1 / radius, 0.004) << "the other normals of the patch are tilted";
@@ -62,13 +62,13 @@ TEST(CorrectedCurvature, OfACylinderIsThatOfTheFormula) {
 TEST(CorrectedCurvature, ScalesWithTheMeshBitForBit) {
   const TestMesh mesh = bumpy_grid(12).finish(false);
   const Index index = build(mesh.view());
-  const auto expected = corrected_curvatures(CurvatureIndex::build(index, mesh.view()), mesh.view().faces, {}, 3.0);
+  const auto expected = corrected_curvatures(CurvatureIndex::build(index, mesh.view()), mesh.view().faces, {{}, 3.0});
   for (const int exponent : {-300, 300}) {
     TestMesh other = mesh;
     for (double& x : other.positions) x = std::ldexp(x, exponent);
     const Index of_other = build(other.view());
-    const auto found = corrected_curvatures(CurvatureIndex::build(of_other, other.view()), other.view().faces, {},
-                                            std::ldexp(3.0, exponent), {.threads = 2});
+    const auto found = corrected_curvatures(CurvatureIndex::build(of_other, other.view()), other.view().faces,
+                                            {{}, std::ldexp(3.0, exponent), {.threads = 2}});
     for (std::size_t v = 0; v < mesh.size(); ++v) {
       ASSERT_EQ(std::ldexp(found.k1[v], exponent), expected.k1[v]);
       ASSERT_EQ(std::ldexp(found.mean[v], exponent), expected.mean[v]);
@@ -86,7 +86,7 @@ TEST(CorrectedCurvature, ScalesWithTheMeshBitForBit) {
 TEST(CorrectedCurvature, FollowsFromItsMeasures) {
   const TestMesh mesh = bumpy_grid(12).finish(false);
   const Index index = build(mesh.view());
-  const auto found = corrected_curvatures(CurvatureIndex::build(index, mesh.view()), mesh.view().faces, {}, 3.0);
+  const auto found = corrected_curvatures(CurvatureIndex::build(index, mesh.view()), mesh.view().faces, {{}, 3.0});
   ASSERT_EQ(found.measures.size(), 12 * mesh.size());
   for (std::size_t v = 0; v < mesh.size(); ++v) {
     const auto m = std::span(found.measures).subspan(12 * v, 12);
@@ -108,7 +108,7 @@ TEST(CorrectedCurvature, OfAVertexWithoutFacesIsNan) {
   mesh.add_vertex(100, 0, 0);
   mesh.finish(false);
   const Index index = build(mesh.view());
-  const auto found = corrected_curvatures(CurvatureIndex::build(index, mesh.view()), mesh.view().faces, {}, 2.0);
+  const auto found = corrected_curvatures(CurvatureIndex::build(index, mesh.view()), mesh.view().faces, {{}, 2.0});
   EXPECT_EQ(found.area[36], 0);
   EXPECT_TRUE(std::isnan(found.mean[36]) && std::isnan(found.k1[36]) && std::isnan(found.d1[3 * 36]));
   EXPECT_FALSE(std::isnan(found.k1[0]));
@@ -121,11 +121,11 @@ TEST(CorrectedCurvature, RefusesInvalidArgumentsAndNamesThem) {
   const std::vector<VertexId> outside{36};
   const std::vector<std::uint32_t> corners{0, 1, 99};
   expect_refused(ErrorCode::InvalidRadius, "-1",
-                 [&] { (void)corrected_curvatures(surface, mesh.view().faces, {}, -1.0); });
+                 [&] { (void)corrected_curvatures(surface, mesh.view().faces, {{}, -1.0}); });
   expect_refused(ErrorCode::VertexOutOfRange, "36",
-                 [&] { (void)corrected_curvatures(surface, mesh.view().faces, outside, 1.0); });
+                 [&] { (void)corrected_curvatures(surface, mesh.view().faces, {outside, 1.0}); });
   expect_refused(ErrorCode::InvalidMesh, "99",
-                 [&] { (void)corrected_curvatures(surface, FacesView::triangles(corners), {}, 1.0); });
+                 [&] { (void)corrected_curvatures(surface, FacesView::triangles(corners), {{}, 1.0}); });
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ struct Bumps {
 TEST(Features, AreCurvaturesTimesTheRadius) {
   const Bumps bumps;
   const std::vector<double> found =
-      features(bumps.surface, {}, bumps.radii,
+      features(bumps.surface, {{}, BatchRadius::scales(bumps.radii)},
                {.kinds = {Feature::K1, Feature::K2, Feature::Crease, Feature::Gaussian, Feature::ShapeIndex}});
   const std::size_t vertices = bumps.mesh.size();
   for (std::size_t i = 0; i < bumps.radii.size(); ++i) {
@@ -54,7 +54,7 @@ TEST(Features, OfPatchesAreIntegralInvariants) {
   const Bumps bumps;
   const std::vector<VertexId> rows{210, 5, 399};
   const std::vector<double> found =
-      features(bumps.surface, rows, bumps.radii,
+      features(bumps.surface, {rows, BatchRadius::scales(bumps.radii)},
                {.kinds = {Feature::Area, Feature::Crease, Feature::Variation}, .areas = bumps.areas});
   const PrincipalComponents patch =
       principal_components(bumps.index, {.vertices = rows, .radius = bumps.radii[1]}, {.weights = bumps.areas});
@@ -81,8 +81,8 @@ TEST(Features, TheHeightOfASphereIsItsRadiusTimesTheMeanCurvature) {
   const std::vector<VertexId> rows{20 * 41 + 20};
   const std::vector<double> radii{12.0};
   const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());
-  const std::vector<double> found =
-      features(surface, rows, radii, {.kinds = {Feature::Height, Feature::Mean}, .areas = areas});
+  const std::vector<double> found = features(surface, {rows, BatchRadius::scales(radii)},
+                                             {.kinds = {Feature::Height, Feature::Mean}, .areas = areas});
   EXPECT_NEAR(std::abs(found[1]), 12.0 / 50, 0.01);
   EXPECT_NEAR(found[0], found[1], 0.02);
 }
@@ -94,8 +94,8 @@ TEST(Features, DoNotDependOnTheUnit) {
   const Index index = build(mesh.view());
   std::vector<double> radii = bumps.radii;
   for (double& r : radii) r = std::ldexp(r, -200);
-  EXPECT_EQ(features(CurvatureIndex::build(index, mesh.view()), {}, radii, {.threads = 2}),
-            features(bumps.surface, {}, bumps.radii));
+  EXPECT_EQ(features(CurvatureIndex::build(index, mesh.view()), {{}, BatchRadius::scales(radii)}, {.threads = 2}),
+            features(bumps.surface, {{}, BatchRadius::scales(bumps.radii)}));
 }
 
 TEST(Features, OfAVertexWithoutNormalAreNan) {
@@ -105,8 +105,9 @@ TEST(Features, OfAVertexWithoutNormalAreNan) {
   const Index index = build(mesh.view());
   const std::vector<double> areas = vertex_areas(mesh.view());
   const std::vector<double> radii{2.0};
-  const std::vector<double> found = features(CurvatureIndex::build(index, mesh.view()), {}, radii,
-                                             {.kinds = {Feature::Crease, Feature::Area}, .areas = areas});
+  const std::vector<double> found =
+      features(CurvatureIndex::build(index, mesh.view()), {{}, BatchRadius::scales(radii)},
+               {.kinds = {Feature::Crease, Feature::Area}, .areas = areas});
   EXPECT_TRUE(std::isnan(found[2 * 36]) && std::isnan(found[2 * 36 + 1]));
   EXPECT_FALSE(std::isnan(found[0]));
 }
@@ -161,7 +162,7 @@ TEST(Features, PersistIsTheLongestRunOfOneSign) {
 TEST(Features, RefuseInvalidArgumentsAndNameThem) {
   const Bumps bumps;
   const auto of = [&](const std::vector<double>& radii, const FeatureOptions& options) {
-    return features(bumps.surface, {}, radii, options);
+    return features(bumps.surface, {{}, BatchRadius::scales(radii)}, options);
   };
   expect_refused(ErrorCode::InvalidOption, "no kinds", [&] { (void)of({1.0}, {.kinds = {}}); });
   expect_refused(ErrorCode::InvalidOption, "no radii", [&] { (void)of({}, {}); });

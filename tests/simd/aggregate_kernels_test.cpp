@@ -46,9 +46,13 @@ class EveryAggregatePath : public testing::TestWithParam<Isa> {
     fill(centers.x);
     fill(centers.y);
     fill(centers.z);
-    centers.unit = std::exp2(static_cast<double>(random.below(20)) - 10);
-    const double square = random.uniform(1, 4);
-    radius = {square, 0x1p-60 * random.uniform(-1, 1), 1 / square};
+    for (double& unit : centers.unit) unit = std::exp2(static_cast<double>(random.below(20)) - 10);
+    for (std::size_t row = 0; row < kPacketCapacity; ++row) {
+      const double square = random.uniform(1, 4);
+      radii.square[row] = square;
+      radii.low[row] = 0x1p-60 * random.uniform(-1, 1);
+      radii.inverse[row] = 1 / square;
+    }
   }
 
   const AggregateKernels& tried = aggregate_kernels(GetParam());
@@ -58,7 +62,7 @@ class EveryAggregatePath : public testing::TestWithParam<Isa> {
   PerLane<QueryWord> words{};
   RowSums sums{};
   PacketCenters centers{};
-  KernelRadius radius{};
+  KernelRadii radii{};
 };
 
 TEST_P(EveryAggregatePath, GivesTheBitsOfTheFirstInstructionSet) {
@@ -109,8 +113,8 @@ TEST_P(EveryAggregatePath, GivesTheBitsOfTheFirstInstructionSetForWeightsByDista
       tried.set_offsets(point, centers, offsets);
       plain.set_offsets(point, centers, other_offsets);
       ASSERT_EQ(bits_of(offsets), bits_of(other_offsets));
-      tried.set_weights(offsets, radius, squared, weights.of_vertex[k]);
-      plain.set_weights(other_offsets, radius, squared, other_weights.of_vertex[k]);
+      tried.set_weights(offsets, radii, squared, weights.of_vertex[k]);
+      plain.set_weights(other_offsets, radii, squared, other_weights.of_vertex[k]);
     }
     ASSERT_EQ(bits_of(weights), bits_of(other_weights));
     RowSums other = sums;
@@ -121,8 +125,8 @@ TEST_P(EveryAggregatePath, GivesTheBitsOfTheFirstInstructionSetForWeightsByDista
     Moments moments{number(), {number(), number(), number()}, number(), {}, {}, number()};
     fill(moments.second);
     fill(moments.third);
-    tried.add_moments(moments, offsets, radius.inverse, squared, words[0], sums);
-    plain.add_moments(moments, offsets, radius.inverse, squared, words[0], other);
+    tried.add_moments(moments, offsets, radii, squared, words[0], sums);
+    plain.add_moments(moments, offsets, radii, squared, words[0], other);
     ASSERT_EQ(bits_of(sums), bits_of(other));
   }
 }

@@ -352,7 +352,7 @@ TEST_P(Allocation, FailsInAnAggregate) {
   const double radius = distance(mesh.view().positions, 0, static_cast<VertexId>(mesh.size() / 2)) / 4;
   for (const Reduce reduce : {Reduce::Mean, Reduce::Maximum, Reduce::Variance}) {
     const bool smooths = reduce == Reduce::Mean;
-    const AggregateQuery query{.radii = {radius, radius / 2},
+    const AggregateQuery query{.radius = BatchRadius::scales({radius, radius / 2}),
                                .reduce = reduce,
                                .kernel = smooths ? SmoothingKernel::Biweight : SmoothingKernel::Box,
                                .nesting = smooths ? Nesting::Own : Nesting::Patch};

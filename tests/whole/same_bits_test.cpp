@@ -111,7 +111,7 @@ std::vector<Call> aggregates(const Scene& scene, double radius) {
                              std::to_string(static_cast<int>(kernel)) + ", nesting " +
                              std::to_string(static_cast<int>(nesting)),
                          [&scene, radius, reduce, kernel, nesting](const auto& rows, unsigned threads) {
-                           AggregateQuery query{.vertices = rows, .radii = {radius, radius / 2}};
+                           AggregateQuery query{.vertices = rows, .radius = BatchRadius::scales({radius, radius / 2})};
                            query.reduce = reduce;
                            query.kernel = kernel;
                            query.nesting = nesting;
@@ -135,7 +135,7 @@ std::vector<Call> curvature_calls(const Scene& scene, double radius) {
   std::vector<Call> calls;
   calls.push_back({"corrected curvature",
                    [&scene, radius](const auto& rows, unsigned threads) {
-                     return corrected_curvatures(scene.surface, scene.mesh.view().faces, rows, radius,
+                     return corrected_curvatures(scene.surface, scene.mesh.view().faces, {rows, radius},
                                                  {.threads = threads})
                          .measures;
                    },
@@ -149,7 +149,7 @@ std::vector<Call> curvature_calls(const Scene& scene, double radius) {
   calls.push_back({"features",
                    [&scene, radius](const auto& rows, unsigned threads) {
                      const std::array radii{radius};
-                     return features(scene.surface, rows, radii,
+                     return features(scene.surface, {rows, BatchRadius::scales(radii)},
                                      {.kinds = {Feature::Crease, Feature::Height, Feature::Variation, Feature::Area},
                                       .areas = scene.areas,
                                       .threads = threads});

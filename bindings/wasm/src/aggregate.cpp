@@ -24,7 +24,7 @@ extern "C" {
       .values = std::span(values, value_count), .channels = channels, .weights = {weights, weight_count}};
   answer.reals = meshhood::aggregate(workspace.index(), signal,
                                      {.vertices = view_vertices(vertices, vertex_count),
-                                      .radii = {radii, radii + radius_count},
+                                      .radius = BatchRadius::scales({radii, radii + radius_count}),
                                       .reduce = reduce,
                                       .kernel = kernel,
                                       .missing = missing,

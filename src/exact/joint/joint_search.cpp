@@ -32,7 +32,7 @@ const PerLane<std::uint64_t>& JointSearch::counts() {
         counts_[static_cast<std::size_t>(std::countr_zero(left))] += size;
     }
   }
-  for (std::size_t i = 0; i < packet_->size(); ++i) counts_[i] += common;
+  for_each_lane(packet_->queries(), [&](unsigned query) { counts_[query] += common; });
   kernels_->count_words(spread_.words(), spread_.partial(), counts_);
   return counts_;
 }

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+// Answers with walls are those of the reference search on the graph without the walls; ignored vertices are left out of
+// them. Single queries, counts, ids and distances of batches, on every instruction set.
+#include "exact/filtered.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/batch.h"
+#include "meshhood/edge_search.h"
+#include "meshhood/region.h"
+
+#include "batch/joint_worker.h"
+#include "exact/index_access.h"
+#include "exact/search/searcher_state.h"
+#include "exact/search/vertex_bfs.h"
+#include "support/draw.h"
+#include "support/draw_start.h"
+#include "support/exact_answer.h"
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/refusal.h"
+#include "support/scale.h"
+#include "support/without_walls.h"
+
+namespace meshhood::test {
+namespace {
+
+using testing::ElementsAre;
+
+/// Every vertex, one in several, the vertices of some leaves, of a block of leaves, or none.
+std::vector<std::uint8_t> draw_region(Random& random, const IndexView& index) {
+  const std::size_t size = index.vertex_count();
+  std::vector<std::uint8_t> mask(size);
+  const auto leaf = [&](std::size_t v) { return index.slot[v] / kLeafCapacity; };
+  switch (random.below(7)) {
+    case 0: return mask;
+    case 1: return draw_mask(random, size, 1);
+    case 2: return draw_mask(random, size, 2);
+    case 3: return draw_mask(random, size, 9);
+    case 4: return draw_mask(random, size, 200);
+    case 5:
+      for (std::size_t v = 0; v < size; ++v) mask[v] = leaf(v) % 5 == 2 ? 1 : 0;
+      return mask;
+    default:
+      for (std::size_t v = 0; v < size; ++v) mask[v] = leaf(v) / 8 % 3 == 1 ? 1 : 0;
+      return mask;
+  }
+}
+
+/// A mesh with a filter, and the answers of the reference.
+class FilteredCase {
+ public:
+  FilteredCase(TestMesh mesh, Random& random)
+      : mesh_(std::move(mesh)),
+        index_(build(mesh_.view())),
+        walls_(draw_region(random, IndexAccess::view(index_))),
+        ignored_(draw_region(random, IndexAccess::view(index_))),
+        graph_(without_walls(mesh_, walls_)),
+        reference_(GraphView{mesh_.positions_view(), graph_.view()}) {}
+
+  [[nodiscard]] const Index& index() const { return index_; }
+  [[nodiscard]] const TestMesh& mesh() const { return mesh_; }
+  [[nodiscard]] std::size_t size() const { return mesh_.size(); }
+  [[nodiscard]] Filter filter() const { return {walls_, ignored_}; }
+
+  /// Ascending ids.
+  const std::vector<VertexId>& expected(VertexId v, double radius) {
+    ids_.clear();
+    if (walls_[v] != 0) return ids_;
+    reference_.neighborhood(v, radius, ids_);
+    std::erase_if(ids_, [&](VertexId w) { return ignored_[w] != 0; });
+    std::sort(ids_.begin(), ids_.end());
+    return ids_;
+  }
+
+ private:
+  TestMesh mesh_;
+  Index index_;
+  std::vector<std::uint8_t> walls_;
+  std::vector<std::uint8_t> ignored_;
+  Adjacency graph_;
+  ReferenceSearcher reference_;
+  std::vector<VertexId> ids_;
+};
+
+std::vector<VertexId> sorted(std::span<const VertexId> ids) {
+  std::vector<VertexId> result(ids.begin(), ids.end());
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+/// Limits the kernels of all searches.
+class LimitedKernels {
+ public:
+  explicit LimitedKernels(Isa isa) : before_(best_isa()) { limit_isa(isa); }
+  LimitedKernels(const LimitedKernels&) = delete;
+  LimitedKernels& operator=(const LimitedKernels&) = delete;
+  ~LimitedKernels() { limit_isa(before_); }
+
+ private:
+  Isa before_;
+};
+
+/// How many queries had which way.
+struct Ways {
+  std::size_t queries = 0;
+  std::size_t reach = 0;
+  std::size_t walls = 0;
+  std::size_t rows = 0;
+};
+
+void compare_single(FilteredCase& scene, Random& random, const Oracle& oracle, Ways& ways) {
+  const Index searched = filtered(scene.index(), scene.filter(), 1);
+  std::vector<Searcher> searchers = searchers_of(searched);
+  for (int i = 0; i < 6; ++i) {
+    const auto v = static_cast<VertexId>(random.below(scene.size()));
+    for (const double radius : draw_radii(random, oracle, v)) {
+      Searcher& searcher = searchers[ways.queries++ % searchers.size()];
+      const auto& expected = scene.expected(v, radius);
+      ASSERT_EQ(sorted(searcher.neighborhood(v, radius)), expected) << "vertex " << v << ", radius " << radius;
+      ASSERT_EQ(searcher.count(v, radius), expected.size());
+      const auto way = SearcherAccess::state(searcher).way;
+      ways.reach += static_cast<std::size_t>(way == SearcherAccess::State::Way::Component);
+      ways.walls += static_cast<std::size_t>(way == SearcherAccess::State::Way::Wall);
+    }
+  }
+}
+
+void compare_batch(FilteredCase& scene, double radius, unsigned threads, Ways& ways) {
+  const BatchQuery query{.radius = radius, .filter = scene.filter()};
+  const Neighborhoods found = neighborhoods(scene.index(), query, {.threads = threads, .distances = true});
+  const std::vector<std::uint64_t> sizes = counts(scene.index(), query, {.threads = threads});
+  ASSERT_EQ(sizes.size(), scene.size());
+  for (VertexId v = 0; v < scene.size(); ++v) {
+    const std::size_t begin = found.offsets[v];
+    const auto ids = std::span(found.ids).subspan(begin, found.offsets[v + 1] - begin);
+    ASSERT_EQ(sorted(ids), scene.expected(v, radius)) << "vertex " << v << ", radius " << radius;
+    ASSERT_EQ(sizes[v], ids.size());
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      ASSERT_EQ(found.distances[begin + i], distance(scene.mesh().positions_view(), v, ids[i]));
+    }
+  }
+  ways.rows += scene.size();
+}
+
+class FilteredFamily : public testing::TestWithParam<Family> {};
+
+TEST_P(FilteredFamily, GivesTheAnswersOfTheGraphWithoutWalls) {
+  Random random(11);
+  Ways ways;
+  const std::vector<Isa> isas = available_isas();
+  for (std::uint64_t seed = 0; seed < scaled(60, 6); ++seed) {
+    FilteredCase scene(make_mesh(GetParam(), seed, draw_size(seed)), random);
+    if (scene.size() == 0) continue;
+    const Oracle oracle(scene.mesh());
+    ASSERT_NO_FATAL_FAILURE(compare_single(scene, random, oracle, ways));
+    const std::vector<double> radii =
+        draw_radii(random, oracle, static_cast<std::uint32_t>(random.below(scene.size())));
+    const LimitedKernels limited(isas[seed % isas.size()]);
+    for (std::size_t i = 0; i < (scene.size() > 1000 ? 1 : 3); ++i) {
+      ASSERT_NO_FATAL_FAILURE(
+          compare_batch(scene, radii[random.below(radii.size())], 1 + static_cast<unsigned>(seed % 2), ways));
+    }
+  }
+  std::printf("%zu single queries, of which %zu by the outward search and %zu of walls; %zu rows\n", ways.queries,
+              ways.reach, ways.walls, ways.rows);
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, FilteredFamily, testing::ValuesIn(families()), family_name);
+
+/// Large enough for cores, whole nodes of several levels, and packets of one group with and without walls.
+TEST(Filtered, GivesTheAnswersOfTheGraphWithoutWallsOnALargeSheet) {
+  Random random(4);
+  Ways ways;
+  for (int round = 0; round < 10; ++round) {
+    FilteredCase scene(bumpy_grid(70), random);
+    const Oracle oracle(scene.mesh());
+    ASSERT_NO_FATAL_FAILURE(compare_single(scene, random, oracle, ways));
+    ASSERT_NO_FATAL_FAILURE(compare_batch(scene, random.uniform(2, 25), 2, ways));
+  }
+  std::printf("%zu single queries, of which %zu by the outward search and %zu of walls; %zu rows\n", ways.queries,
+              ways.reach, ways.walls, ways.rows);
+  EXPECT_GT(ways.reach, 0U);
+  EXPECT_GT(ways.walls, 0U);
+}
+
+TEST(Filtered, GivesRowsWithRadiiOfTheirOwnAndOfChosenVertices) {
+  Random random(5);
+  FilteredCase scene(bumpy_grid(40), random);
+  std::vector<VertexId> rows;
+  std::vector<double> radii;
+  for (int i = 0; i < 900; ++i) {
+    rows.push_back(static_cast<VertexId>(random.below(scene.size())));
+    radii.push_back(random.uniform(0, 9));
+  }
+  const std::vector<std::uint64_t> sizes =
+      counts(scene.index(), {.vertices = rows, .radius = radii, .filter = scene.filter()});
+  for (std::size_t i = 0; i < rows.size(); ++i) ASSERT_EQ(sizes[i], scene.expected(rows[i], radii[i]).size());
+  const std::vector<std::uint64_t> scaled_sizes =
+      counts(scene.index(), {.vertices = rows, .radius = BatchRadius::scales({5, 1.5}), .filter = scene.filter()});
+  ASSERT_EQ(scaled_sizes.size(), 2 * rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    ASSERT_EQ(scaled_sizes[i], scene.expected(rows[i], 5).size());
+    ASSERT_EQ(scaled_sizes[rows.size() + i], scene.expected(rows[i], 1.5).size());
+  }
+}
+
+TEST(Filtered, RestrictsPathsInBatches) {
+  const TestMesh mesh = make_grid(5, 5, true).finish(false);
+  const Index index = build(mesh.view());
+  std::vector<std::uint8_t> walls(25);
+  for (std::size_t v = 10; v < 14; ++v) walls[v] = 1;
+  std::vector<std::uint8_t> ignored(25);
+  ignored[9] = 1;
+  const std::vector<VertexId> rows{7, 12};
+  const SearchMethod paths = SearchMethod::along_edges(index);
+  const BatchQuery query{.vertices = rows, .radius = 5, .filter = {walls, ignored}};
+  EXPECT_THAT(counts(paths, query), ElementsAre(13, 0)) << "two rows without 9, then 14, 19, 18 and 24";
+  EXPECT_EQ(neighborhoods(paths, query).ids.size(), 13U);
+}
+
+TEST(Filtered, CopiesTheMasksWhenTheCallBegins) {
+  const TestMesh mesh = bumpy_grid(60);
+  const Index index = build(mesh.view());
+  std::vector<std::uint8_t> walls(mesh.size());
+  for (std::size_t v = 0; v < mesh.size(); v += 7) walls[v] = 1;
+  for (const bool along_edges : {false, true}) {
+    const SearchMethod method = along_edges ? SearchMethod::along_edges(index) : SearchMethod(index);
+    const std::vector<std::uint8_t> given = walls;
+    const BatchQuery query{.radius = 2, .filter = {.walls = walls}};
+    const std::vector<std::uint64_t> expected = counts(method, query);
+    std::vector<std::uint64_t> found;
+    for_each_neighborhood(method, query, [&](const BatchRow& row) {
+      found.push_back(row.ids.size());
+      std::fill(walls.begin(), walls.end(), std::uint8_t{1});
+    });
+    EXPECT_EQ(found, expected);
+    walls = given;
+  }
+}
+
+TEST(Filtered, RefusesMasksOfAnotherSizeAndMethodsWithoutFilters) {
+  const TestMesh mesh = make_grid(4, 4, false).finish(false);
+  const Index index = build(mesh.view());
+  const std::vector<std::uint8_t> short_mask(8);
+  const std::vector<std::uint8_t> mask(16);
+  const auto count = [](const SearchMethod& method, const Filter& filter) {
+    return [&method, filter] { static_cast<void>(counts(method, {.radius = 1, .filter = filter})); };
+  };
+  const SearchMethod exact(index);
+  const SearchMethod paths = SearchMethod::along_edges(index);
+  const SearchMethod ball = SearchMethod::ball_scan(mesh.positions_view());
+  expect_refused(ErrorCode::InvalidOption, "walls: 8 values", count(exact, {.walls = short_mask}));
+  expect_refused(ErrorCode::InvalidOption, "ignored: 8 values", count(exact, {.ignored = short_mask}));
+  expect_refused(ErrorCode::InvalidOption, "walls: 8 values", count(paths, {.walls = short_mask}));
+  expect_refused(ErrorCode::InvalidOption, "no walls and no ignored vertices", count(ball, {.walls = mask}));
+}
+
+/// Many vertices in one packet that no filter touches, beside one that loses all of its queries.
+TEST(Filtered, AnswersWallsInTheMiddleOfALeaf) {
+  Random random(9);
+  const TestMesh mesh = bumpy_grid(30);
+  const Index index = build(mesh.view());
+  const IndexView& view = IndexAccess::view(index);
+  for (LeafId leaf = 0; leaf < view.leaf_count(); ++leaf) {
+    if (view.leaves[leaf].size == 0) continue;
+    std::vector<std::uint8_t> walls(mesh.size());
+    for (std::size_t lane = 0; lane < view.leaves[leaf].size; ++lane) {
+      walls[view.id(view.leaves[leaf].first + lane)] = lane % 2 == 0 || leaf % 2 == 0 ? 1 : 0;
+    }
+    const Adjacency graph = without_walls(mesh, walls);
+    ReferenceSearcher reference(GraphView{mesh.positions_view(), graph.view()});
+    const std::vector<std::uint64_t> sizes = counts(index, {.radius = 6, .filter = {.walls = walls}});
+    for (VertexId v = 0; v < mesh.size(); ++v) {
+      ASSERT_EQ(sizes[v], walls[v] != 0 ? 0 : reference.count(v, 6)) << "vertex " << v << ", leaf " << leaf;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace meshhood::test
