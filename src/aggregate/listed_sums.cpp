@@ -19,7 +19,7 @@
 namespace meshhood {
 namespace {
 
-constexpr std::size_t kFewestChannels = 24;    // chosen: from here on, listed rows of 200 vertices take less time
+constexpr std::size_t kFewestChannels = 17;    // more than share one search over nodes
 constexpr double kMostVertices = 400;          // of a mean row; with more, the rounding errors would be too large
 constexpr std::size_t kRowsTogether = 4096;    // whose lists wait for the product
 constexpr std::size_t kChannelsOfABlock = 32;  // the values of a row's vertices, 32 of each, stay in the cache
