@@ -48,6 +48,11 @@ class SearchMethod {
   [[nodiscard]] static SearchMethod along_edges(const Index& index);
   static SearchMethod along_edges(const Index&&) = delete;
 
+  /// The vertices that at most `radius` edges, rounded down, separate from `v`; distances are numbers of edges. Ids are
+  /// in index order. The rows of a leaf are answered together, except with distances.
+  [[nodiscard]] static SearchMethod rings(const Index& index);
+  static SearchMethod rings(const Index&&) = delete;
+
   /// The vertices within the radius in space (see `BallSearcher`). The coordinates must be valid.
   [[nodiscard]] static SearchMethod ball_scan(const PositionsView& positions);
 
