@@ -49,6 +49,11 @@ std::shared_ptr<Method> edge_method(std::shared_ptr<const ExactMethod> exact) {
   return std::make_shared<Method>(SearchMethod::along_edges(index), std::move(exact));
 }
 
+std::shared_ptr<Method> ring_method(std::shared_ptr<const ExactMethod> exact) {
+  const Index& index = exact->index();
+  return std::make_shared<Method>(SearchMethod::rings(index), std::move(exact));
+}
+
 std::shared_ptr<Method> bfs_method(std::shared_ptr<const GraphData> graph) {
   const GraphView view = graph->view();
   return std::make_shared<Method>(without_lock([&] { return SearchMethod::breadth_first(view); }), std::move(graph));

@@ -71,6 +71,9 @@ class ExactMethod : public Method {
 /// The vertices within the radius along the edges, with path distances.
 [[nodiscard]] std::shared_ptr<Method> edge_method(std::shared_ptr<const ExactMethod> exact);
 
+/// The vertices within a number of edges.
+[[nodiscard]] std::shared_ptr<Method> ring_method(std::shared_ptr<const ExactMethod> exact);
+
 /// Breadth-first search.
 [[nodiscard]] std::shared_ptr<Method> bfs_method(std::shared_ptr<const GraphData> graph);
 

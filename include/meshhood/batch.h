@@ -48,11 +48,17 @@ class SearchMethod {
   [[nodiscard]] static SearchMethod along_edges(const Index& index);
   static SearchMethod along_edges(const Index&&) = delete;
 
+  /// The vertices that at most `radius` edges, rounded down, separate from `v`; distances are numbers of edges. Ids are
+  /// in index order. The rows of a leaf are answered together, except with distances.
+  [[nodiscard]] static SearchMethod rings(const Index& index);
+  static SearchMethod rings(const Index&&) = delete;
+
   /// The vertices within the radius in space, connected or not, by the tree of the index. Ids are in index order.
   [[nodiscard]] static SearchMethod in_space(const Index& index);
   static SearchMethod in_space(const Index&&) = delete;
 
-  /// The same without an index, by a scan of all vertices for each query (see `BallSearcher`). The coordinates must be valid.
+  /// The same without an index, by a scan of all vertices for each query (see `BallSearcher`). The coordinates must be
+  /// valid.
   [[nodiscard]] static SearchMethod ball_scan(const PositionsView& positions);
 
   /// #V.

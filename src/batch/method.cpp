@@ -15,6 +15,7 @@
 
 #include "batch/filter_copy.h"
 #include "batch/joint_worker.h"
+#include "batch/ring_worker.h"
 #include "batch/searcher_factory.h"
 #include "exact/filtered.h"
 #include "exact/index_access.h"
@@ -30,6 +31,7 @@ static_assert(NeighborhoodSearcher<paper::Searcher>);
 static_assert(NeighborhoodSearcher<ReferenceSearcher>);
 static_assert(NeighborhoodSearcher<BallSearcher>);
 static_assert(NeighborhoodSearcher<EdgeSearcher>);
+static_assert(NeighborhoodSearcher<RingSearcher>);
 static_assert(NeighborhoodSearcher<SpaceSearcher>);
 static_assert(NeighborhoodSearcher<AnySearcher>);
 
@@ -88,6 +90,19 @@ SearcherFactory exact_factory(const std::shared_ptr<const Index>& index) {
                 return shared(exact_factory(std::make_shared<const Index>(filtered(*index, filter, threads))));
               },
           .make_joint_worker = [index] { return std::make_unique<JointWorker>(*index); }};
+}
+
+SearcherFactory ring_factory(const std::shared_ptr<const Index>& index) {
+  return {.vertex_count = index->vertex_count(),
+          .make_searcher = [index] { return AnySearcher(RingSearcher(*index)); },
+          .position = [index](VertexId v) { return IndexAccess::view(*index).slot[v]; },
+          .is_count_cheap = true,
+          .positions_together = kLeafCapacity,
+          .with_filter =
+              [index](const Filter& filter, unsigned threads) {
+                return shared(ring_factory(std::make_shared<const Index>(filtered(*index, filter, threads))));
+              },
+          .make_joint_worker = [index] { return std::make_unique<RingWorker>(*index); }};
 }
 
 /// A searcher along the edges with one filter for all queries.
@@ -158,7 +173,11 @@ SearchMethod SearchMethod::breadth_first(const GraphView& graph) {
                               .position = kOwnOrder}));
 }
 
-SearchMethod SearchMethod::along_edges(const Index& index) { return SearchMethod(shared(edge_factory(index, nullptr))); }
+SearchMethod SearchMethod::along_edges(const Index& index) {
+  return SearchMethod(shared(edge_factory(index, nullptr)));
+}
+
+SearchMethod SearchMethod::rings(const Index& index) { return SearchMethod(shared(ring_factory(borrowed(index)))); }
 
 SearchMethod SearchMethod::in_space(const Index& index) {
   return SearchMethod(shared({.vertex_count = index.vertex_count(),

@@ -149,6 +149,10 @@ const QueryMoments& PacketMoments::finish() {
   add_common();
   add_some();
   kernels_->collect(common_, some_, moments_);
+  // What is common to the active queries is not of the others: those of walls and, with a filter, without a normal.
+  for_each_lane(first_lanes(static_cast<unsigned>(size_)) & ~active_, [&](unsigned q) {
+    for (auto& sums : moments_.at) sums[q] = 0;
+  });
   for (std::size_t q = 0; q < size_; ++q) sizes_[q] = sizes_of(moments_, q);
   kernels_->shift(moments_, offsets_);
   for (std::size_t q = 0; q < size_; ++q) {

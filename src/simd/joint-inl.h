@@ -196,6 +196,28 @@ SpreadWords spread_words(LeafWords& words, const LaneMask* adjacency, QueryWord 
   return result;
 }
 
+LaneMask step_words(LeafWords& words, FreshWords& fresh, const LaneMask* adjacency, LaneMask from, QueryWord alive) {
+  const Words d;
+  WordsOfRow arriving;
+  if (from != 0) {
+    Neighbors(adjacency).pass(fresh.of, from, ~LaneMask{0}, arriving);
+  } else {
+    for (Word& word : arriving) word = hn::Zero(d);
+  }
+  MasksOfRow<Words> has_none;
+  for (std::size_t part = 0; part < kVectors<Words>; ++part) {
+    const std::size_t i = part * kLanes<Words>;
+    const auto coming = hn::And(hn::Or(arriving[part], load(words.pending[i])), load(words.inside[i]));
+    const auto reached = load(words.reached[i]);
+    const auto added = hn::AndNot(reached, hn::And(coming, splat(alive)));
+    store(added, fresh.of[i]);
+    store(hn::Or(reached, added), words.reached[i]);
+    store(hn::Zero(d), words.pending[i]);
+    has_none[part] = hn::Eq(added, hn::Zero(d));
+  }
+  return ~bits_of_row(d, has_none);
+}
+
 /// Adds how many words of a vector have each bit, times a power of two, to the counts.
 class BitSums {
  public:
@@ -379,7 +401,7 @@ void write_row(std::span<const RowPiece> pieces, unsigned query, const VertexId*
 }
 
 constexpr JointKernels kJointKernels{convert_points, clear_words, ball_words, spread_words,
-                                     count_words,    lanes_of,    write_row};
+                                     step_words,     count_words, lanes_of,   write_row};
 
 }  // namespace
 }  // namespace meshhood::HWY_NAMESPACE

@@ -24,6 +24,11 @@ struct alignas(64) LeafWords {
   PerLane<QueryWord> pending;  // the queries that reach a neighbor in another leaf; not yet compared with `inside`
 };
 
+/// The queries that reach each vertex of a leaf by as many edges as the last step had, and by no fewer.
+struct alignas(64) FreshWords {
+  PerLane<QueryWord> of;
+};
+
 /// The vertices of a leaf in frame units, relative to the center of a group. Lanes without a vertex hold zeros.
 struct alignas(64) LeafPoints {
   PerLane<float> x;
@@ -95,6 +100,12 @@ struct JointKernels {
   /// Moves what is pending to `reached`, and on along the edges within the leaf, for each query through the vertices in
   /// its ball. `whole`: queries that reach all vertices if they reach one. Reads all 32 rows of `adjacency`.
   SpreadWords (*spread_words)(LeafWords& words, const LaneMask* adjacency, QueryWord whole);
+
+  /// One step along the edges, for the queries `alive`: what is pending, and what is fresh at a neighbor within the
+  /// leaf, is fresh now where it is inside and not reached before, and is reached. Returns the lanes with fresh words.
+  /// `from`: the lanes whose words are fresh before. Reads all 32 rows of `adjacency`.
+  LaneMask (*step_words)(LeafWords& words, FreshWords& fresh, const LaneMask* adjacency, LaneMask from,
+                         QueryWord alive);
 
   /// Adds to `counts` how many vertices each query reaches in the leaves of `list`.
   void (*count_words)(const LeafWords* words, std::span<const LeafOfWords> list, PerLane<std::uint64_t>& counts);

@@ -68,7 +68,7 @@ TEST(CorrectedCurvature, ScalesWithTheMeshBitForBit) {
     for (double& x : other.positions) x = std::ldexp(x, exponent);
     const Index of_other = build(other.view());
     const auto found = corrected_curvatures(CurvatureIndex::build(of_other, other.view()), other.view().faces,
-                                            {{}, std::ldexp(3.0, exponent), {.threads = 2}});
+                                            {{}, std::ldexp(3.0, exponent)}, {.threads = 2});
     for (std::size_t v = 0; v < mesh.size(); ++v) {
       ASSERT_EQ(std::ldexp(found.k1[v], exponent), expected.k1[v]);
       ASSERT_EQ(std::ldexp(found.mean[v], exponent), expected.mean[v]);

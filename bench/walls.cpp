@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// The batch of all vertices with walls and with ignored vertices, beside that without, on one thread, in alternating
+// rounds. For each mask and radius: microseconds a vertex without a filter, and the time with it as a multiple, for the
+// counts and for the ids. *Region* is the neighborhood of one vertex that has about a tenth of the mesh, *seam* its
+// vertices within one edge of the plane through the middle, *scattered* one vertex in a thousand.
+//
+//   bench_walls MESH [RADIUS IN MEAN EDGES...]
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "meshhood/meshhood.h"
+
+#include "measure/timing.h"
+#include "mesh_argument.h"
+#include "program.h"
+
+namespace meshhood::bench {
+namespace {
+
+constexpr int kRounds = 5;
+
+using Mask = std::vector<std::uint8_t>;
+
+struct NamedMask {
+  const char* name;
+  Mask mask;
+};
+
+class Walls {
+ public:
+  explicit Walls(const MeshView& mesh) : index_(build(mesh)), size_(index_.vertex_count()) {
+    mean_edge_ = mean_edge_length(extract_graph(index_).view());
+    masks_ = {{"region", region()}, {"seam", seam(mesh.positions)}, {"scattered", scattered()}};
+  }
+
+  void run(double edges) {
+    for (const NamedMask& named : masks_) {
+      compare(edges, named.name, "walls", {.walls = named.mask});
+      compare(edges, named.name, "ignored", {.ignored = named.mask});
+    }
+  }
+
+ private:
+  [[nodiscard]] Mask region() const {
+    Searcher searcher(index_);
+    std::vector<VertexId> ids;
+    for (double radius = mean_edge_; 10 * ids.size() < size_ && radius < 1e4 * mean_edge_; radius *= 1.1) {
+      searcher.neighborhood(0, radius, ids);
+    }
+    Mask mask(size_);
+    for (const VertexId v : ids) mask[v] = 1;
+    return mask;
+  }
+
+  [[nodiscard]] Mask seam(const PositionsView& positions) const {
+    std::vector<double> x(size_);
+    positions.visit([&](const auto& xyz) {
+      for (std::size_t v = 0; v < size_; ++v) x[v] = static_cast<double>(xyz(v, 0));
+    });
+    std::vector<double> sorted = x;
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(size_ / 2), sorted.end());
+    const double middle = sorted[size_ / 2];
+    Mask mask(size_);
+    for (std::size_t v = 0; v < size_; ++v) mask[v] = std::abs(x[v] - middle) <= mean_edge_ ? 1 : 0;
+    return mask;
+  }
+
+  [[nodiscard]] Mask scattered() const {
+    Mask mask(size_);
+    for (std::size_t v = 500; v < size_; v += 1000) mask[v] = 1;
+    return mask;
+  }
+
+  /// Processor seconds of the fastest round, of each of the runs.
+  static std::array<double, 4> fastest(const std::array<std::function<void()>, 4>& runs) {
+    std::array<double, 4> least;
+    least.fill(std::numeric_limits<double>::infinity());
+    for (int round = 0; round < kRounds; ++round) {
+      for (std::size_t i = 0; i < runs.size(); ++i) {
+        const double start = measure::processor_time();
+        runs[i]();
+        least[i] = std::min(least[i], measure::processor_time() - start);
+      }
+    }
+    return least;
+  }
+
+  void compare(double edges, const char* name, const char* kind, const Filter& filter) {
+    const BatchQuery plain{.radius = edges * mean_edge_};
+    const BatchQuery restricted{.radius = edges * mean_edge_, .filter = filter};
+    std::size_t found = 0;
+    const auto count = [&](const BatchQuery& query) { return [&] { found = counts(index_, query).size(); }; };
+    const auto list = [&](const BatchQuery& query) {
+      return [&] { for_each_neighborhood(index_, query, [&](const BatchRow& row) { found += row.ids.size(); }); };
+    };
+    const auto [count_plain, count_with, list_plain, list_with] =
+        fastest({count(plain), count(restricted), list(plain), list(restricted)});
+    const double to_us = 1e6 / static_cast<double>(size_);
+    std::printf("%6.4g %-10s %-8s %10.3f %8.2f %10.3f %8.2f\n", edges, name, kind, to_us * count_plain,
+                count_with / count_plain, to_us * list_plain, list_with / list_plain);
+    std::fflush(stdout);
+  }
+
+  Index index_;
+  std::size_t size_;
+  double mean_edge_ = 0;
+  std::vector<NamedMask> masks_;
+};
+
+int run(std::span<char*> arguments) {
+  if (arguments.size() < 2) {
+    std::fprintf(stderr, "usage: bench_walls MESH [RADIUS IN MEAN EDGES...]\n");
+    return 2;
+  }
+  const MeshArgument mesh(arguments[1]);
+  Walls walls(mesh.view());
+  std::printf("%6s %-10s %-8s %10s %8s %10s %8s\n", "edges", "mask", "as", "counts us", "ratio", "ids us", "ratio");
+  std::vector<double> edges{5, 10, 20};
+  if (arguments.size() > 2) edges.clear();
+  for (const char* argument : arguments.subspan(2)) edges.push_back(std::stod(argument));
+  for (const double radius : edges) walls.run(radius);
+  return 0;
+}
+
+}  // namespace
+}  // namespace meshhood::bench
+
+int main(int argc, char** argv) {
+  return meshhood::bench::exit_status("bench_walls",
+                                      [&] { return meshhood::bench::run({argv, static_cast<std::size_t>(argc)}); });
+}

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "batch/ring_worker.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "base/ranges.h"
+#include "exact/index_access.h"
+#include "shared/distance.h"
+
+namespace meshhood {
+namespace {
+
+/// More edges than a mesh has vertices are as good as any number of them.
+std::uint32_t rings_of(double radius) {
+  constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
+  return static_cast<std::uint32_t>(std::min(radius, kMost));
+}
+
+}  // namespace
+
+RingSearcher::RingSearcher(const Index& index) : index_(index), packet_(*index_, best_isa()) {}
+
+std::span<const VertexId> RingSearcher::permutation() const {
+  const std::span<const VertexId> padded = index_->permutation;
+  return padded.empty() ? padded : padded.first(vertex_count());
+}
+
+void RingSearcher::run(VertexId v, double radius) {
+  index_.check_current();
+  check_query(v, vertex_count(), radius);
+  const std::uint32_t slot = index_->slot[v];
+  packet_.run(leaf_of(slot), std::array{RingQuery{lane_of(slot), rings_of(radius)}});
+}
+
+/// Calls `f(vertex, edges)` for the vertices of the answer, by their numbers in index order, ascending.
+template <class F>
+void RingSearcher::search(VertexId v, double radius, F&& f) {
+  run(v, radius);
+  for (const PartialLeaf& leaf : packet_.answer().partial) {
+    for (unsigned lane = 0; lane < leaf.vertices.size(); ++lane) {
+      if (leaf.queries[lane] != 0) f(leaf.vertices.begin + lane, packet_.edges_to(leaf.leaf, lane));
+    }
+  }
+}
+
+std::vector<VertexId> RingSearcher::neighborhood(VertexId v, double radius) {
+  std::vector<VertexId> out;
+  neighborhood(v, radius, out);
+  return out;
+}
+
+void RingSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
+  std::vector<VertexId> ids;
+  search(v, radius, [&](std::size_t vertex, std::uint32_t) { ids.push_back(index_->id(vertex)); });
+  out = std::move(ids);
+}
+
+void RingSearcher::neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
+  std::vector<VertexId> ids;
+  std::vector<double> edges_to;
+  search(v, radius, [&](std::size_t vertex, std::uint32_t edges) {
+    ids.push_back(index_->id(vertex));
+    edges_to.push_back(edges);
+  });
+  out = std::move(ids);
+  distances = std::move(edges_to);
+}
+
+std::size_t RingSearcher::count(VertexId v, double radius) {
+  run(v, radius);
+  return packet_.counts()[0];
+}
+
+std::span<const VertexRange> RingSearcher::ranges(VertexId v, double radius) {
+  ranges_.clear();
+  search(v, radius, [&](std::size_t vertex, std::uint32_t) { append_to(ranges_, static_cast<VertexId>(vertex)); });
+  return ranges_;
+}
+
+RingWorker::RingWorker(const Index& index)
+    : searcher_(index), packet_(IndexAccess::view(index), best_isa()), writer_(IndexAccess::view(index), best_isa()) {}
+
+/// Finds the rings of the first rows, those of a leaf, and returns these rows.
+std::span<const BatchItem> RingWorker::run_first(std::span<const BatchItem> chunk) {
+  const LeafId leaf = leaf_of(chunk.front().position);
+  queries_.clear();
+  for (const BatchItem& item : chunk.first(std::min(chunk.size(), kPacketCapacity))) {
+    if (leaf_of(item.position) != leaf) break;
+    queries_.push_back({lane_of(item.position), rings_of(item.radius)});
+  }
+  packet_.run(leaf, queries_);
+  return chunk.first(queries_.size());
+}
+
+void RingWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink) {
+  while (!chunk.empty()) {
+    const std::span<const BatchItem> items = run_first(chunk);
+    const PerLane<std::uint64_t> counts = packet_.counts();
+    if (!sink(items, std::span(counts).first(items.size()))) return;
+    chunk = chunk.subspan(items.size());
+  }
+}
+
+void RingWorker::find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) {
+  if (distances) return find_with_distances(chunk, receiver);
+  while (!chunk.empty()) {
+    const std::span<const BatchItem> items = run_first(chunk);
+    const PerLane<std::uint64_t> counts = packet_.counts();
+    writer_.begin(packet_.answer());
+    for (unsigned i = 0; i < items.size(); ++i) {
+      writer_.write_ids(i, receiver.memory(items[i].row, counts[i]).ids);
+      if (!receiver.done(items[i].row)) return;
+    }
+    chunk = chunk.subspan(items.size());
+  }
+}
+
+void RingWorker::find_with_distances(std::span<const BatchItem> chunk, RowReceiver& receiver) {
+  for (const BatchItem& item : chunk) {
+    searcher_.neighborhood(item.vertex, item.radius, ids_, distances_);
+    const BatchMemory memory = receiver.memory(item.row, ids_.size());
+    std::copy(ids_.begin(), ids_.end(), memory.ids.begin());
+    std::copy(distances_.begin(), distances_.end(), memory.distances.begin());
+    if (!receiver.done(item.row)) return;
+  }
+}
+
+}  // namespace meshhood
