@@ -84,7 +84,7 @@ REFUSED = (
     'index.query_ball(1, 2.0, method="fast")',
     'index.query_ball(1, 2.0, unit="mile")',
     'index.query_ball([1], 2.0, metric="edge")',
-    "index.count(1, 2.0, sort="id")",
+    "index.count(1, 2.0, sort='id')",
     "index.iter_neighborhoods(1.0)",
     "meshhood.Paper(factor=20)",
     "meshhood.load(3)",

@@ -385,3 +385,18 @@ def test_a_ball_is_every_vertex_in_space():
         ids = INDEX.query_ball(v, 1.1, method="ball", sort="id")
         np.testing.assert_array_equal(ids, np.flatnonzero(oracle.distances(V, v) <= 1.1))
         assert len(ids) >= len(oracle.neighborhood(V, edges, v, 1.1))
+
+
+@pytest.mark.parametrize("masks", ({}, MASKS), ids=("all", "masks"))
+def test_rings_are_a_metric(masks):
+    words = {**masks, "metric": "rings", "return_distance": True, "sort": "id"}
+    for v, (ids, edges) in enumerate(rows_of(*INDEX.query_ball(None, 2, **words))):
+        counts, wanted = INDEX.query_rings(v, 2, **masks)
+        np.testing.assert_array_equal(ids, np.sort(wanted))
+        number = dict(zip(wanted, np.repeat(np.arange(len(counts)), np.diff(counts, prepend=0))))
+        assert edges.tolist() == [number[i] for i in ids]
+        np.testing.assert_array_equal(INDEX.query_ball(v, 2, **words)[0], ids)
+    with pytest.raises(ValueError, match="metric: 'rings', expected 'straight' or 'path'"):
+        INDEX.smooth(VALUES, 2, metric="rings")
+    with pytest.raises(ValueError, match="unit: expected 'mesh' with metric='rings'"):
+        INDEX.count(None, 2, metric="rings", unit="edge")

@@ -127,6 +127,8 @@ class Aggregates(Held):
         (2, 2)
         """
         rows = read_rows(self, vertices, r, words.get("scales"), words, AggregateWords)
+        if rows.metric == "rings":
+            raise ValueError("metric: 'rings', expected 'straight' or 'path'")
         given = _values(values, self._count)
         dtype = result_dtype(words, np.float32 if given.dtype == np.float32 else np.float64)
         shape = rows.shape + given.shape[1:]
@@ -151,7 +153,7 @@ class Aggregates(Held):
                 weights=weights,
                 vertices=rows.vertices,
                 radii=radii,
-                **({} if radius is None else {"radius": radius}),
+                radius=radius,
                 threads=rows.threads,
                 max_bytes=2**64 - 1,
                 progress=report,

@@ -13,6 +13,7 @@ from . import _convert, _core
 from ._curvature import Surfaces
 from ._mesh import face_arrays
 from ._methods import Methods
+from ._types import METRICS
 
 
 class Held:
@@ -40,10 +41,13 @@ class Held:
     def _method(self, words: Mapping[str, Any]) -> Any:
         """The method that the words name."""
         method = words.get("method", "exact")
-        if _convert.choice(words.get("metric", "straight"), "metric", ("straight", "path")) == "path":
+        metric = _convert.choice(words.get("metric", "straight"), "metric", METRICS)
+        if metric != "straight":
             if method != "exact":
-                raise ValueError(f"method: {method!r}, expected 'exact' with metric='path'")
-            return self._methods.along_edges
+                raise ValueError(f"method: {method!r}, expected 'exact' with metric={metric!r}")
+            if metric == "rings" and words.get("unit", "mesh") != "mesh":
+                raise ValueError("unit: expected 'mesh' with metric='rings', whose radii are numbers of edges")
+            return self._methods.along_edges if metric == "path" else self._methods.rings
         for mask in ("walls", "ignored"):
             if method != "exact" and words.get(mask) is not None:
                 raise ValueError(f"method: {method!r}, expected 'exact' with {mask}")

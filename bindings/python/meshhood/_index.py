@@ -77,7 +77,8 @@ class MeshIndex(Queries, Aggregates, Shape, Regions):
         vertices. Neither belong to a neighborhood, and that of a wall is empty.
     metric : "straight", the neighborhood in the ball of radius `r`; "path", the vertices whose shortest path along edges
         is at most `r` long. Distances, and the weights that follow from them, are then the lengths of these paths.
-        Calls that measure the surface know "straight" alone.
+        "rings", the vertices that at most `r` edges separate from the vertex; distances are then numbers of edges. Calls
+        that combine values know no "rings", and those that measure the surface "straight" alone.
     unit : of `r` and `scales`: "mesh" is that of V, "edge" is `mean_edge_length`.
     workers, progress : as above. Progress is over all scales. The result does not depend on `workers`.
 
@@ -400,10 +401,15 @@ class MeshIndex(Queries, Aggregates, Shape, Regions):
         radius = unit * _convert.radius(r)
         masks = self._masks(words.get("walls"), words.get("ignored"))
         if any(mask is not None for mask in masks):
-            if words.get("metric", "straight") == "path":
+            metric = words.get("metric", "straight")
+            if metric == "straight":
+                indices, distances, _ = self._queries.region(None, np.array([v], np.int32), radius, *masks)
+            elif metric == "path":
                 indices, distances = self._queries.path_region(v, radius, *masks)
             else:
-                indices, distances, _ = self._queries.region(None, np.array([v], np.int32), radius, *masks)
+                counts, indices = self._queries.rings(v, int(min(radius, 2.0**62)), *masks)
+                distances = np.repeat(np.arange(float(len(counts))), np.diff(counts, prepend=0))
+                sort = sort or "index"
         elif return_distance or sort == "distance":
             indices, distances = searched.neighborhood_and_distances(v, radius)
         else:

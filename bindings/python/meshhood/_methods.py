@@ -11,7 +11,7 @@ from typing import Literal, Union
 from . import _convert, _core
 
 _MOST_LEVELS = 64  # no mesh has more
-_ALONG_EDGES = object()  # no method that callers can name
+_ALONG_EDGES, _RINGS = object(), object()  # no methods that callers can name
 
 
 @dataclass(frozen=True)
@@ -74,6 +74,8 @@ class Methods(dict):
     def _make(self, method):
         if method is _ALONG_EDGES:
             return _core.along_edges(self["exact"])
+        if method is _RINGS:
+            return _core.rings(self["exact"])
         if method == "ball":
             return _core.ball(self["exact"])
         if method == "bfs":
@@ -95,6 +97,10 @@ class Methods(dict):
     @property
     def along_edges(self):
         return self[_ALONG_EDGES]
+
+    @property
+    def rings(self):
+        return self[_RINGS]
 
     def graph(self):
         """The mesh as a graph, extracted from the index at the first use."""

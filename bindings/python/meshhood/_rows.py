@@ -14,7 +14,7 @@ import numpy as np
 from . import _convert
 from ._methods import Method
 from ._progress import Progress, Report, in_parts, reporter
-from ._types import Ids, Mask, Metric, Reals, Sort, Unit
+from ._types import METRICS, Ids, Mask, Metric, Reals, Sort, Unit
 
 if TYPE_CHECKING:
     from numpy.typing import DTypeLike
@@ -75,7 +75,7 @@ class Rows:
 
     @property
     def filter(self) -> dict[str, Any]:
-        return {name: mask for name, mask in (("walls", self.walls), ("ignored", self.ignored)) if mask is not None}
+        return {"walls": self.walls, "ignored": self.ignored}
 
     def reporter(self, title: str) -> AbstractContextManager[Report]:
         return reporter(self.progress, title, "vertices", self.count * len(self.radii))
@@ -112,7 +112,7 @@ def read_rows(index: Held, vertices: Any, r: Any, scales: Any, words: Mapping[st
         shape if is_one else (*shape, count),
         walls,
         ignored,
-        _convert.choice(words.get("metric", "straight"), "metric", ("straight", "path")),
+        _convert.choice(words.get("metric", "straight"), "metric", METRICS),
         _convert.threads(words.get("workers", -1)),
         words.get("progress"),
     )

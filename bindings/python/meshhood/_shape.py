@@ -223,12 +223,12 @@ class Shape(Held):
         surface = self._surface(F, None)
         radii, radius = rows.common_radii
         with rows.reporter("features") as report:
-            found = surface.features(rows.vertices, radii=np.array(radii), **({} if radius is None else {"radius": radius}), progress=report, **options)
+            found = surface.features(rows.vertices, radii=np.array(radii), radius=radius, progress=report, **options)
         found = found.reshape(rows.shape + found.shape[2:])
         return found[..., 0] if isinstance(kinds, str) else found
 
     def _surface_rows(self, vertices: Any, r: Any, words: Any, accepted: Any) -> Rows:
         rows = read_rows(self, vertices, r, words.get("scales"), words, accepted)
-        if rows.metric == "path":
-            raise ValueError("metric: 'path', expected 'straight': the surface is measured in balls")
+        if rows.metric != "straight":
+            raise ValueError(f"metric: {rows.metric!r}, expected 'straight': the surface is measured in balls")
         return rows

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Literal, Optional, Union
+from typing import Any, Literal, Optional, Union, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,5 +21,7 @@ Scales = Union[Sequence[float], "NDArray[np.floating[Any]]", "NDArray[np.integer
 Radii = Union[Number, Scales]
 Mask = Optional[NDArray[np.bool_]]
 Unit = Literal["mesh", "edge"]
-Metric = Literal["straight", "path"]
+Metric = Literal["straight", "path", "rings"]
 Sort = Literal["index", "id", "distance"]
+
+METRICS: tuple[str, ...] = get_args(Metric)
