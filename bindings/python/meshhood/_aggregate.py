@@ -57,8 +57,8 @@ def vertex_areas(V: Any, F: Any = None) -> NDArray[np.float64]:
     """The area that each vertex represents: each face gives equal shares to its corners, a third of a triangle. (#V,)
     float64, in the square of the unit of V. V and F as for `MeshIndex`.
 
-    >>> float(round(meshhood.vertex_areas(V, F).sum() / (4 * np.pi), 2))
-    0.99
+    >>> bool(abs(meshhood.vertex_areas(V, F).sum() - 4 * np.pi) < 0.2)
+    True
     """
     positions, corners, offsets = mesh_arrays(V, F)
     return _core.vertex_areas(positions, corners, offsets=offsets)

@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 from . import _convert, _core
 from ._mesh import mesh_arrays
-from ._types import Ids, Number, Offsets
+from ._types import Ids, Number
 
 
 class Welded(NamedTuple):
     """A welded mesh, and what has become of each vertex (see `weld`)."""
 
     vertices: Union[NDArray[np.float32], NDArray[np.float64]]
-    faces: Union[Ids, tuple[Offsets, Ids]]
+    faces: Union[Ids, tuple[NDArray[np.int64], Ids]]
     ids: Ids
 
 
