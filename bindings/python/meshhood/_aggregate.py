@@ -254,7 +254,7 @@ def area_weights(index: Held, weights: Any, F: Any) -> Any:
     if isinstance(weights, str):
         _convert.choice(weights, "weights", ("area",))
         corners, offsets = index._face_arrays(F)
-        return _core.vertex_areas(index._methods.graph().positions, corners, offsets=offsets)
+        return _core.vertex_areas(index._methods.positions, corners, offsets=offsets)
     array = _numbers(weights, "weights", "biuf")
     if array.shape != (index._count,):
         raise ValueError(f"weights: expected an array of shape ({index._count},), not {array.shape}")

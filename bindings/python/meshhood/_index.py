@@ -179,7 +179,7 @@ class MeshIndex(Queries, Aggregates, Shape, Regions):
     def positions(self) -> Union[NDArray[np.float32], NDArray[np.float64]]:
         """The positions: (#V, 3), in the numbering and precision of V, read-only. Extracted at the first use, then
         kept."""
-        return self._methods.graph().positions
+        return self._methods.positions
 
     @property
     def faces(self) -> Union[Ids, tuple[NDArray[np.signedinteger[Any]], Ids], None]:

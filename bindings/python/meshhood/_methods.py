@@ -55,6 +55,7 @@ class Methods(dict):
     def __init__(self, exact):
         super().__init__(exact=exact)
         self._graph = None
+        self._positions = None
         self._mean_edge_length = None
         self._hierarchies = {}
         self._locks = {}
@@ -93,6 +94,14 @@ class Methods(dict):
                 self.graph(), levels=levels, discard=discard, fusion_growth=fusion_growth
             )
         return self._hierarchies[options]
+
+    @property
+    def positions(self):
+        """The positions in the order of the mesh, extracted from the index at the first use."""
+        with self._making():
+            if self._positions is None:
+                self._positions = _core.positions(self["exact"])
+            return self._positions
 
     @property
     def along_edges(self):

@@ -122,7 +122,7 @@ class Regions(Held):
             return self._mesher
         corners, offsets = self._face_arrays(F)
         faces = corners.reshape(-1, 3) if offsets is None else (offsets, corners)
-        mesher = RegionMesh(self._methods.graph().positions, faces)
+        mesher = RegionMesh(self._methods.positions, faces)
         if F is None:
             self._mesher = mesher
         return mesher
