@@ -103,7 +103,8 @@ struct JointKernels {
 
   /// One step along the edges, for the queries `alive`: what is pending, and what is fresh at a neighbor within the
   /// leaf, is fresh now at the lanes `open` where it was not reached before, and is reached. Returns the lanes with
-  /// fresh words. `from`: the lanes whose words are fresh before. Reads all 32 rows of `adjacency`, and no `inside`.
+  /// fresh words. `from`: the lanes whose words are fresh before, and so reached. Reads all 32 rows of `adjacency`, and
+  /// no `inside`.
   LaneMask (*step_words)(LeafWords& words, FreshWords& fresh, const LaneMask* adjacency, LaneMask from, LaneMask open,
                          QueryWord alive);
 

@@ -184,6 +184,7 @@ TEST_P(EveryJointPath, AStepFollowsEveryEdgeOnce) {
     LaneMask from = random.below(8) == 0 ? 0 : random_word();
     for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
       if ((from >> lane & 1U) == 0) fresh.of[lane] = 0;
+      words.reached[lane] |= fresh.of[lane];
     }
     for (int step = 0; step < 3; ++step) {
       const QueryWord alive = random.below(4) == 0 ? random_word() : ~QueryWord{0};
