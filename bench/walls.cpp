@@ -36,7 +36,8 @@ struct NamedMask {
 class Walls {
  public:
   explicit Walls(const MeshView& mesh) : index_(build(mesh)), size_(index_.vertex_count()) {
-    mean_edge_ = mean_edge_length(extract_graph(index_).view());
+    const GraphData graph = extract_graph(index_);
+    mean_edge_ = mean_edge_length(graph.view());
     masks_ = {{"region", region()}, {"seam", seam(mesh.positions)}, {"scattered", scattered()}};
   }
 

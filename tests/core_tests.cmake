@@ -14,7 +14,7 @@ foreach(part
     base/adjacency base/frame base/mesh shared/distance base/sphere base/reference base/error shared/parallel
     base/cut_edges base/epoch_array base/number_set base/packed_positions
     aggregate/aggregate aggregate/listed_sums
-    batch/batch batch/joint_batch batch/packets batch/position_sort
+    batch/batch batch/joint_batch batch/packets batch/position_sort batch/ring_worker
     exact/cell_components exact/cells exact/edge_buckets exact/edge_source exact/filtered exact/forest exact/joint_search exact/kd_order exact/layout exact/leaf_spheres exact/leaves
     exact/links exact/node_groups exact/node_links exact/node_parts exact/quality exact/refit exact/root_tree exact/tree exact/check exact/damage exact/file exact/index exact/verify
     exact/search_differential exact/search_order exact/search_rare exact/search_traps exact/threads
@@ -23,7 +23,7 @@ foreach(part
     exact/search/open_elements exact/output exact/search/reach exact/search/vertex_bfs exact/vertex_set exact/search/waves
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
     region/region_mesher
-    curvature/bits curvature/corrected curvature/curvatures curvature/features curvature/moments curvature/packet_moments curvature/quadric
+    curvature/bits curvature/corrected curvature/curvatures curvature/features curvature/filter curvature/moments curvature/packet_moments curvature/quadric
     simd/aggregate_kernels simd/joint_kernels simd/kernels simd/moment_kernels
     whole/arguments whole/robustness whole/same_bits whole/differential whole/metamorphic)
   meshhood_test(${part} meshhood_families)

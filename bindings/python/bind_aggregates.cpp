@@ -39,11 +39,12 @@ nb::object aggregates(const ExactMethod& method, const Values& values, const std
                       const std::optional<Rows>& vertices, std::vector<double> radii, Reduce reduce,
                       SmoothingKernel kernel, MissingValues missing, Nesting nesting, unsigned ddof, unsigned threads,
                       std::uint64_t max_bytes, nb::handle progress, const Mask& walls, const Mask& ignored,
-                      const Radius& radius) {
+                      const Radius& radius, Metric metric) {
   const SignalView signal = signal_of(values, weights);
   const AggregateQuery query{.vertices = vertices_of(vertices),
                              .radius = radius ? radius_of(radius) : BatchRadius::scales(std::move(radii)),
                              .filter = filter_of(walls, ignored),
+                             .metric = metric,
                              .reduce = reduce,
                              .kernel = kernel,
                              .missing = missing,
@@ -81,11 +82,13 @@ void bind_aggregates(nb::module_& module) {
   nb::enum_<MissingValues>(module, "MissingValues")
       .value("propagate", MissingValues::Propagate)
       .value("omit", MissingValues::Omit);
+  nb::enum_<Metric>(module, "Metric").value("straight", Metric::Straight).value("path", Metric::Path);
   nb::enum_<Nesting>(module, "Nesting").value("own", Nesting::Own).value("patch", Nesting::Patch);
   module.def("aggregate", &aggregates, nb::arg(), nb::arg("values"), nb::arg("weights").none(),
              nb::arg("vertices").none(), nb::arg("radii"), nb::arg("reduce"), nb::arg("kernel"), nb::arg("missing"),
              nb::arg("nesting"), nb::arg("ddof"), nb::arg("threads"), nb::arg("max_bytes"), nb::arg("progress").none(),
-             nb::arg("walls") = nb::none(), nb::arg("ignored") = nb::none(), nb::arg("radius") = nb::none());
+             nb::arg("walls") = nb::none(), nb::arg("ignored") = nb::none(), nb::arg("radius") = nb::none(),
+             nb::arg("metric") = Metric::Straight);
   module.def("vertex_areas", &areas, nb::arg("V"), nb::arg("F"), nb::arg("offsets").none());
   module.def("smoothing_radius", &smoothing_radius, nb::arg());
 }

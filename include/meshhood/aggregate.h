@@ -34,11 +34,17 @@ enum class Reduce : std::uint8_t {
 };
 
 /// How the weight of a vertex falls with its distance d from `v`, for `Reduce::Sum` and `Reduce::Mean`. Distances are
-/// straight lines, as those of the radius r; nothing beyond the neighborhood is used.
+/// those of the metric, as is the radius r; nothing beyond the neighborhood is used.
 enum class SmoothingKernel : std::uint8_t {
   Box,           ///< 1
   Epanechnikov,  ///< 1 - (d/r)^2
   Biweight,      ///< (1 - (d/r)^2)^2, close to a Gaussian of the standard deviation 0.4 r
+};
+
+/// How the distance of a vertex is measured, of which the radius and the smoothing kernel speak.
+enum class Metric : std::uint8_t {
+  Straight,  ///< the exact neighborhood (see `Searcher`), and straight lines
+  Path,      ///< the vertices within the radius along the edges (see `EdgeSearcher`), and the lengths of shortest paths
 };
 
 /// The meaning of NaN in the values.
@@ -47,7 +53,7 @@ enum class MissingValues : std::uint8_t {
   Omit,       ///< NaN marks a missing value, which is left out; a neighborhood without values gives NaN, its sum 0
 };
 
-/// The meaning of several radii.
+/// The meaning of several radii. Both are the same with `Metric::Path`.
 enum class Nesting : std::uint8_t {
   Own,    ///< each radius has a neighborhood of its own
   Patch,  ///< the neighborhood of the largest radius, and of it the vertices within each smaller radius, whether
@@ -103,6 +109,7 @@ struct AggregateQuery {
   /// The neighborhood of a wall is empty: its sum and count are 0, all else is NaN.
   Filter filter = {};
 
+  Metric metric = Metric::Straight;
   Reduce reduce = Reduce::Mean;
   SmoothingKernel kernel = SmoothingKernel::Box;
   MissingValues missing = MissingValues::Propagate;
@@ -133,7 +140,7 @@ struct AggregateOptions {
 [[nodiscard]] std::size_t aggregate_size(const Index& index, const SignalView& signal, const AggregateQuery& query,
                                          const AggregateOptions& options = {});
 
-/// Aggregates the values over the exact neighborhood (see `Searcher`) of each row, and writes all of `result`, which
+/// Aggregates the values over the neighborhood of each row by the metric, and writes all of `result`, which
 /// has `aggregate_size` numbers.
 ///
 /// Sums are exact to 1e-14 of the sum of the absolute terms, whatever the size of the neighborhood; with a smoothing
@@ -143,11 +150,13 @@ struct AggregateOptions {
 /// before they are squared or added, so that only a result too large for a double overflows; large values elsewhere
 /// have no effect. Infinite values give what IEEE arithmetic gives.
 ///
-/// Cost: the neighborhoods of one leaf are found together, and vertices that they have in common are read once for all
-/// of them, most of them as precomputed sums. Memory: for up to 16 channels at a time 9 bytes for each vertex and
-/// channel, and as much for the weights; with a kernel 14 bytes instead; twice as much for a channel with values above
-/// 2^300. Added are the time of `counts`, 8 to 16 bytes a row of at most 2^22 rows at a time, and for each
-/// thread a searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry of a group (docs/joint.md).
+/// With `Metric::Path`, each row takes the time of a search of `EdgeSearcher` at the largest radius, and the first call
+/// for an index computes the lengths of its edges. Else the neighborhoods of one leaf are found together, and vertices
+/// that they have in common are read once for all of them, most of them as precomputed sums. Memory: for up to 16
+/// channels at a time 9 bytes for each vertex and channel, and as much for the weights; with a kernel 14 bytes instead;
+/// twice as much for a channel with values above 2^300. Added are the time of `counts`, 8 to 16 bytes a row of at most
+/// 2^22 rows at a time, and for each thread a searcher, 4 bytes for each leaf of the mesh and 1 kB for each entry of a
+/// group (docs/joint.md).
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming row, radius or vertex. The
 /// contents of `result` are then unspecified.

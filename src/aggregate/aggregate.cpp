@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -18,13 +20,18 @@
 #include "aggregate/minima.h"
 #include "aggregate/node_tree.h"
 #include "aggregate/patch.h"
+#include "aggregate/path_reducer.h"
 #include "aggregate/signal_block.h"
 #include "aggregate/sums.h"
 #include "aggregate/variances.h"
+#include "batch/batch.h"
+#include "batch/filter_copy.h"
 #include "batch/packets.h"
 #include "batch/rows.h"
 #include "exact/filtered.h"
 #include "exact/index_access.h"
+#include "exact/query/lane_filter.h"
+#include "exact/query/path_search.h"
 #include "shared/distance.h"
 #include "shared/text.h"
 
@@ -145,11 +152,17 @@ struct Destination {
 
   void write(const PacketAnswer& packet, PacketReducer& reducer) const {
     for (std::size_t i = 0; i < packet.rows.size(); ++i) {
-      reducer.write(i, {first + packet.rows[i] * stride, count});
-      for (std::size_t channel = 0; channel < count; ++channel) {
-        double& value = first[packet.rows[i] * stride + channel];
-        if (std::isnan(value)) value = std::numeric_limits<double>::quiet_NaN();  // its sign and payload vary
-      }
+      write(packet.rows[i], [&](std::span<double> channels) { reducer.write(i, channels); });
+    }
+  }
+
+  /// `f(channels)` sets the results of a row.
+  template <class F>
+  void write(std::size_t row, F&& f) const {
+    const std::span<double> channels(first + row * stride, count);
+    f(channels);
+    for (double& value : channels) {
+      if (std::isnan(value)) value = std::numeric_limits<double>::quiet_NaN();  // its sign and payload vary
     }
   }
 };
@@ -164,6 +177,7 @@ class Aggregation {
         tree_(view_),
         signal_(signal),
         query_(checked.query()),
+        filter_(checked.query().filter),
         radii_(checked.passes()),
         has_patches_(checked.has_patches()),
         rows_(checked.rows()),
@@ -182,9 +196,18 @@ class Aggregation {
     if (passes_.empty()) return;
     for (std::size_t first = 0; first < signal_.channels; first += kChannelsTogether) {
       const std::size_t count = std::min(kChannelsTogether, signal_.channels - first);
-      const std::unique_ptr<Reduction> reduction =
-          make_reduction(view_, tree_, make_block(view_, signal_, first, count, query_), query_);
-      if (has_patches_) {
+      SignalBlock block = make_block(view_, signal_, first, count, query_);
+      if (query_.metric == Metric::Path && query_.kernel != SmoothingKernel::Box) {
+        const SumColumns columns(std::move(block), query_.reduce);
+        const bool squared = query_.kernel == SmoothingKernel::Biweight;
+        reduce_paths([&] { return std::make_unique<PathKernelReducer>(columns, squared); }, first, count);
+        continue;
+      }
+      const std::unique_ptr<Reduction> reduction = make_reduction(view_, tree_, std::move(block), query_);
+      if (query_.metric == Metric::Path) {
+        reduce_paths([&] { return std::make_unique<PathSetReducer>(view_, tree_, reduction->make_reducer()); }, first,
+                     count);
+      } else if (has_patches_) {
         reduce_patches(*reduction, first, count);
       } else {
         for (const std::size_t i : passes_) reduce_radius(*reduction, i, first, count);
@@ -225,9 +248,8 @@ class Aggregation {
       std::unique_ptr<PacketReducer> reducer;
       Destination to;
     };
-    const auto common = [](const BatchRadius& radius) { return radius.common(); };
     for_each_packet(
-        index_, {query_.vertices, *std::ranges::max_element(radii_, {}, common)},
+        index_, {query_.vertices, largest_radius()},
         [&](unsigned /*thread*/) -> PacketVisitor {
           const auto cuts = std::make_shared<std::vector<Cut>>();
           for (std::size_t i = 0; i < radii_.size(); ++i) {
@@ -245,6 +267,47 @@ class Aggregation {
         next_pass());
   }
 
+  /// One search for each row, at the largest radius: the vertices within a smaller one are among those found.
+  void reduce_paths(const std::function<std::unique_ptr<PathReducer>()>& make_reducer, std::size_t first,
+                    std::size_t count) {
+    struct PerThread {
+      PathSearch search;
+      std::unique_ptr<PathReducer> reducer;
+      std::vector<Path> within{};
+    };
+    const PacketOptions pass = next_pass();
+    const BatchOptions options{.threads = pass.threads, .progress = pass.progress};
+    Batch batch(SearchMethod::along_edges(index_), {query_.vertices, largest_radius()}, options, 1);
+    const std::shared_ptr<KeptGraph> graph = IndexAccess::share_graph(index_);
+    const LaneFilter walls(view_, filter_.view().walls);
+    const LaneFilter ignored(view_, filter_.view().ignored);
+    std::vector<std::unique_ptr<PerThread>> threads(batch.task().threads());
+    batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
+      if (!threads[thread]) threads[thread].reset(new PerThread{PathSearch(view_, *graph), make_reducer()});
+      auto& [search, reducer, within] = *threads[thread];
+      for (const BatchItem& item : chunk) {
+        search.run(view_.leaf_begin[leaf_of(item.position)] + lane_of(item.position), item.radius, walls);
+        for (std::size_t i = 0; i < radii_.size(); ++i) {
+          const double radius = radii_[i].list() ? item.radius : radii_[i].common();
+          within.clear();
+          std::ranges::copy_if(search.found(), std::back_inserter(within),
+                               [&](const Path& path) { return path.length <= radius && !ignored.has_at(path.end); });
+          destination(i, first, count).write(item.row, [&](std::span<double> channels) {
+            reducer->reduce(within, radius, channels);
+          });
+        }
+        batch.task().advance(1);
+        if (!batch.task().should_continue(thread)) return;
+      }
+    });
+    batch.task().finish();
+  }
+
+  /// Of each row.
+  [[nodiscard]] BatchRadius largest_radius() const {
+    return *std::ranges::max_element(radii_, {}, [](const BatchRadius& radius) { return radius.common(); });
+  }
+
   [[nodiscard]] Destination destination(std::size_t radius, std::size_t first, std::size_t count) const {
     return {result_.data() + radius * rows_ * signal_.channels + first, signal_.channels, count};
   }
@@ -252,7 +315,7 @@ class Aggregation {
   /// `blocks`: how many blocks of channels it reduces.
   PacketOptions next_pass(std::size_t blocks = 1) {
     PacketOptions pass{.threads = options_.threads, .progress = {}};
-    const std::size_t passes = blocks_ * (has_patches_ ? 1 : radii_.size());
+    const std::size_t passes = blocks_ * (has_patches_ || query_.metric == Metric::Path ? 1 : radii_.size());
     if (options_.progress) {
       pass.progress = [this, passes, blocks, before = passes_begun_ * rows_](std::size_t done, std::size_t /*total*/) {
         return options_.progress(before + blocks * done, passes * rows_);
@@ -267,6 +330,7 @@ class Aggregation {
   NodeTree tree_;
   const SignalView& signal_;
   const AggregateQuery& query_;
+  FilterCopy filter_;                   // for paths
   std::span<const BatchRadius> radii_;  // of the passes
   std::vector<std::size_t> passes_;     // those whose rows are not listed
   bool has_patches_;

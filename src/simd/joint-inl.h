@@ -196,20 +196,21 @@ SpreadWords spread_words(LeafWords& words, const LaneMask* adjacency, QueryWord 
   return result;
 }
 
-LaneMask step_words(LeafWords& words, FreshWords& fresh, const LaneMask* adjacency, LaneMask from, QueryWord alive) {
+LaneMask step_words(LeafWords& words, FreshWords& fresh, const LaneMask* adjacency, LaneMask from, LaneMask open,
+                    QueryWord alive) {
   const Words d;
   WordsOfRow arriving;
   if (from != 0) {
-    Neighbors(adjacency).pass(fresh.of, from, ~LaneMask{0}, arriving);
+    Neighbors(adjacency).pass(fresh.of, from, open, arriving);
   } else {
     for (Word& word : arriving) word = hn::Zero(d);
   }
   MasksOfRow<Words> has_none;
   for (std::size_t part = 0; part < kVectors<Words>; ++part) {
     const std::size_t i = part * kLanes<Words>;
-    const auto coming = hn::And(hn::Or(arriving[part], load(words.pending[i])), load(words.inside[i]));
+    const auto coming = hn::Or(arriving[part], load(words.pending[i]));
     const auto reached = load(words.reached[i]);
-    const auto added = hn::AndNot(reached, hn::And(coming, splat(alive)));
+    const auto added = only(d, mask_of(d, open >> i), hn::AndNot(reached, hn::And(coming, splat(alive))));
     store(added, fresh.of[i]);
     store(hn::Or(reached, added), words.reached[i]);
     store(hn::Zero(d), words.pending[i]);

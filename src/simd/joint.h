@@ -102,9 +102,10 @@ struct JointKernels {
   SpreadWords (*spread_words)(LeafWords& words, const LaneMask* adjacency, QueryWord whole);
 
   /// One step along the edges, for the queries `alive`: what is pending, and what is fresh at a neighbor within the
-  /// leaf, is fresh now where it is inside and not reached before, and is reached. Returns the lanes with fresh words.
-  /// `from`: the lanes whose words are fresh before. Reads all 32 rows of `adjacency`.
-  LaneMask (*step_words)(LeafWords& words, FreshWords& fresh, const LaneMask* adjacency, LaneMask from,
+  /// leaf, is fresh now at the lanes `open` where it was not reached before, and is reached. Returns the lanes with
+  /// fresh words. `from`: the lanes whose words are fresh before, and so reached. Reads all 32 rows of `adjacency`, and
+  /// no `inside`.
+  LaneMask (*step_words)(LeafWords& words, FreshWords& fresh, const LaneMask* adjacency, LaneMask from, LaneMask open,
                          QueryWord alive);
 
   /// Adds to `counts` how many vertices each query reaches in the leaves of `list`.

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <limits>
 #include <numbers>
+#include <set>
 #include <string>
 #include <thread>
 #include <utility>
@@ -105,7 +106,7 @@ Expected reduce_items(std::vector<Item> items, const AggregateQuery& query, doub
     case Reduce::Sum: return {as_double(sum), as_double(1e-13L * size)};
     case Reduce::Mean:
       // Weights that nearly vanish come from vertices at the rim alone, and are rounding.
-      if (weights == 0) return {kNan, 0};
+      if (plain_weights == 0) return {kNan, 0};
       if (weights < 1e-9L * plain_weights) return {kNan, kInfinity};
       return {as_double(sum / weights), as_double(1e-13L * (size + std::abs(sum / weights) * plain_weights) / weights)};
     case Reduce::Variance:
@@ -186,9 +187,16 @@ class AggregateCase {
                                                   : query.radius.common();
       const VertexId v = list ? (*list)[row] : static_cast<VertexId>(row);
       const double searched = scales && query.nesting == Nesting::Patch ? largest : radius;
-      reference.neighborhood(v, searched, ids_, distances_);
-      const Expected expected =
-          reduce_items(items(signal, i % signal.channels, v, query.filter, radius), query, radius);
+      if (query.metric == Metric::Path) {
+        if (i == 0 || v != paths_from_) find_paths(v, graph);
+      } else {
+        if (query.metric == Metric::Path) {
+          if (i == 0 || v != paths_from_) find_paths(v, graph);
+        } else {
+          reference.neighborhood(v, searched, ids_, distances_);
+        }
+      }
+      const Expected expected = reduce_items(items(signal, i % signal.channels, v, query, radius), query, radius);
       const bool right = std::isnan(expected.value) ? std::isnan(result[i]) || std::isinf(expected.tolerance)
                                                     : std::abs(result[i] - expected.value) <= expected.tolerance;
       EXPECT_TRUE(right) << "vertex " << v << ", radius " << radius << ", channel " << i % signal.channels
@@ -203,16 +211,41 @@ class AggregateCase {
   [[nodiscard]] std::size_t compared() const { return compared_; }
 
  private:
+  /// All vertices and the lengths of the paths to them, by the algorithm of Dijkstra.
+  void find_paths(VertexId v, const Adjacency& graph) {
+    paths_from_ = v;
+    ids_.clear();
+    distances_.clear();
+    std::vector<double> lengths(size(), kInfinity);
+    std::set<std::pair<double, VertexId>> queue{{0.0, v}};
+    lengths[v] = 0;
+    while (!queue.empty()) {
+      const auto [length, nearest] = *queue.begin();
+      queue.erase(queue.begin());
+      ids_.push_back(nearest);
+      distances_.push_back(length);
+      for (const VertexId w : graph.view()[nearest]) {
+        const double through = length + distance(mesh_.positions_view(), nearest, w);
+        if (!(through < lengths[w])) continue;
+        queue.erase({lengths[w], w});
+        lengths[w] = through;
+        queue.insert({through, w});
+      }
+    }
+  }
+
   /// Of the neighborhood that was found, those that the filter leaves.
-  std::vector<Item> items(const SignalView& signal, std::size_t channel, VertexId v, const Filter& filter,
+  std::vector<Item> items(const SignalView& signal, std::size_t channel, VertexId v, const AggregateQuery& query,
                           double radius) {
+    const Filter& filter = query.filter;
     std::vector<Item> result;
     if (filter.walls.size() != 0 && filter.walls[v]) return result;
     for (std::size_t i = 0; i < ids_.size(); ++i) {
       if (distances_[i] > radius) continue;  // of a patch
       if (filter.ignored.size() != 0 && filter.ignored[ids_[i]]) continue;
       result.push_back({signal.values[ids_[i] * signal.channels + channel],
-                        signal.weights.empty() ? 1 : signal.weights[ids_[i]], exact_distance(v, ids_[i])});
+                        signal.weights.empty() ? 1 : signal.weights[ids_[i]],
+                        query.metric == Metric::Path ? distances_[i] : exact_distance(v, ids_[i])});
     }
     return result;
   }
@@ -230,6 +263,7 @@ class AggregateCase {
 
   TestMesh mesh_;
   Index index_;
+  VertexId paths_from_ = 0;
   std::vector<VertexId> ids_;
   std::vector<double> distances_;
   std::size_t compared_ = 0;
@@ -254,12 +288,19 @@ TEST_P(AggregateOfFamily, EqualsTheDefinition) {
         const auto walls = draw_mask(random, scene.size(), random.below(2) * 8);
         const auto ignored = draw_mask(random, scene.size(), random.below(2) * 5);
         query.filter = {walls, ignored};
+        if (random.below(3) == 0) query.metric = Metric::Path;
         const bool weighted = random.below(2) == 0;
         if (!weighted) query.ddof = static_cast<unsigned>(random.below(2));
         std::vector<VertexId> list;
         if (scene.size() > 0 && random.below(2) == 0) {
           for (std::size_t i = 0; i < 40; ++i) list.push_back(static_cast<VertexId>(random.below(scene.size())));
           query.vertices = list;
+        }
+        std::vector<double> radii;
+        if (random.below(3) == 0) {
+          radii.resize(list.empty() ? scene.size() : list.size());
+          for (double& radius : radii) radius = scene.radius(random);
+          query.radius = radii;
         }
         scene.compare(signal.view(weighted), query);
         if (HasFailure()) return;
@@ -328,6 +369,27 @@ TEST_F(Aggregate, OfSeveralRadiiEqualsThatOfEachRadius) {
     const std::vector<double> second = run({.radius = 2, .reduce = reduce});
     one_by_one.insert(one_by_one.end(), second.begin(), second.end());
     EXPECT_EQ(bits_of(both), bits_of(one_by_one));
+  }
+}
+
+TEST_F(Aggregate, WithARadiusForEachRowEqualsThatOfEachRadiusToTheBit) {
+  const std::vector<double> choices{0, 1.5, 4, 9.5};
+  std::vector<double> radii;
+  for (std::size_t v = 0; v < scene.size(); ++v) radii.push_back(choices[random.below(choices.size())]);
+  for (const Metric metric : {Metric::Straight, Metric::Path}) {
+    for (const Reduce reduce : {Reduce::Mean, Reduce::Maximum, Reduce::StandardDeviation}) {
+      for (const SmoothingKernel kernel : kKernels) {
+        if (kernel != SmoothingKernel::Box && !may_have_kernel(reduce)) continue;
+        AggregateQuery query{.radius = radii, .metric = metric, .reduce = reduce, .kernel = kernel};
+        const std::vector<std::uint64_t> found = bits_of(run(query, 2));
+        query.radius = BatchRadius::scales(choices);
+        const std::vector<std::uint64_t> each = bits_of(run(query));
+        for (std::size_t i = 0; i < found.size(); ++i) {
+          const auto choice = std::ranges::find(choices, radii[i / gappy.channels]) - choices.begin();
+          ASSERT_EQ(found[i], each[static_cast<std::size_t>(choice) * found.size() + i]) << "number " << i;
+        }
+      }
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 // Sums of many channels over listed rows, against those of each channel by itself over nodes.
 #include "aggregate/listed_sums.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -16,6 +17,7 @@
 
 #include "support/families.h"
 #include "support/family_name.h"
+#include "support/random.h"
 #include "support/scale.h"
 
 namespace meshhood::test {
@@ -39,9 +41,9 @@ Values draw(std::size_t vertices, bool gaps) {
   Random random(vertices);
   Values result;
   for (std::size_t i = 0; i < vertices * kChannels; ++i) {
-    result.values.push_back(gaps && i % 11 == 0 ? std::nan("") : random.real(-1, 1));
+    result.values.push_back(gaps && i % 11 == 0 ? std::nan("") : random.uniform(-1, 1));
   }
-  for (std::size_t v = 0; v < vertices; ++v) result.weights.push_back(v % 7 == 0 ? 0 : random.real(0.1, 2));
+  for (std::size_t v = 0; v < vertices; ++v) result.weights.push_back(v % 7 == 0 ? 0 : random.uniform(0.1, 2));
   return result;
 }
 

@@ -168,6 +168,41 @@ TEST_P(EveryJointPath, SpreadingFollowsEveryEdgeWithinTheBalls) {
   ASSERT_GT(closed, 0U);
 }
 
+TEST_P(EveryJointPath, AStepFollowsEveryEdgeOnce) {
+  std::size_t ended = 0;
+  for (std::size_t round = 0; round < 2000; ++round) {
+    std::vector<LaneMask> adjacency(kLeafCapacity);
+    for (LaneMask& lanes : adjacency) lanes = random_word() & random_word() & random_word();
+    for (unsigned i = 0; i < kLeafCapacity; ++i) {
+      for (unsigned j = 0; j < i; ++j) adjacency[i] = (adjacency[i] & ~(1U << j)) | ((adjacency[j] >> i & 1U) << j);
+    }
+    LeafWords words;
+    words.inside = random_words();
+    words.pending = random_words();
+    words.reached = random_words();
+    FreshWords fresh{random_words()};
+    LaneMask from = random.below(8) == 0 ? 0 : random_word();
+    for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
+      if ((from >> lane & 1U) == 0) fresh.of[lane] = 0;
+      words.reached[lane] |= fresh.of[lane];
+    }
+    for (int step = 0; step < 3; ++step) {
+      const QueryWord alive = random.below(4) == 0 ? random_word() : ~QueryWord{0};
+      const LaneMask open = random.below(2) == 0 ? random_word() : ~LaneMask{0};
+      LeafWords expected = words;
+      FreshWords expected_fresh = fresh;
+      const LaneMask lanes = plain.step_words(expected, expected_fresh, adjacency.data(), from, open, alive);
+      ASSERT_EQ(tried.step_words(words, fresh, adjacency.data(), from, open, alive), lanes);
+      ASSERT_EQ(words.reached, expected.reached);
+      ASSERT_EQ(words.pending, expected.pending);
+      ASSERT_EQ(fresh.of, expected_fresh.of);
+      from = lanes;
+      ended += static_cast<std::size_t>(lanes == 0);
+    }
+  }
+  ASSERT_GT(ended, 0U);
+}
+
 TEST_P(EveryJointPath, QueriesThatHoldAConnectedLeafReachAllOfItAtOnce) {
   for (std::size_t round = 0; round < 1000; ++round) {
     const unsigned size = 2 + static_cast<unsigned>(random.below(kLeafCapacity - 1));

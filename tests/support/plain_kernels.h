@@ -174,6 +174,22 @@ inline SpreadWords spread_words(LeafWords& words, const LaneMask* adjacency, Que
   return result;
 }
 
+inline LaneMask step_words(LeafWords& words, FreshWords& fresh, const LaneMask* adjacency, LaneMask from, LaneMask open,
+                           QueryWord alive) {
+  PerLane<QueryWord> arriving = words.pending;
+  for_each_lane(from, [&](unsigned lane) {
+    for_each_lane(adjacency[lane], [&](unsigned neighbor) { arriving[neighbor] |= fresh.of[lane]; });
+  });
+  LaneMask lanes = 0;
+  for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
+    fresh.of[lane] = (open >> lane & 1U) != 0 ? arriving[lane] & alive & ~words.reached[lane] : 0;
+    words.reached[lane] |= fresh.of[lane];
+    lanes |= LaneMask{fresh.of[lane] != 0} << lane;
+  }
+  words.pending = {};
+  return lanes;
+}
+
 /// Counters for each bit of a word, a plane for each binary digit, so that a word is added to all of them at once.
 class BitCounters {
  public:
@@ -244,7 +260,7 @@ inline void convert_points(const float* xyz, unsigned size, const FloatCenter& c
 inline constexpr Kernels kPlainKernels{plain::within<float>, plain::within<double>, plain::cross_edges,
                                        plain::reachable,     plain::classify,       plain::compress};
 inline constexpr JointKernels kPlainJointKernels{plain::convert_points, plain::clear_words, plain::ball_words,
-                                                 plain::spread_words,   plain::count_words, plain::lanes_of,
-                                                 plain::write_row};
+                                                 plain::spread_words,   plain::step_words,  plain::count_words,
+                                                 plain::lanes_of,       plain::write_row};
 
 }  // namespace meshhood::test

@@ -36,17 +36,13 @@ RingPacket::Entry RingPacket::entry_of(LeafId leaf) {
   if (entries_.is_known(leaf)) return entries_[leaf];
   const auto entry = static_cast<Entry>(states_.size());
   entries_.set(leaf, entry);
-  states_.push_back({leaf, 0, false, false});
+  states_.push_back({leaf, index_->leaf_begin[leaf], index_->open_lanes(leaf), 0, false, false});
   if (words_.size() <= entry) {
     words_.resize(2 * states_.size());
     fresh_.resize(2 * states_.size());
     edges_.resize(2 * states_.size());
   }
   kernels_->clear_words(words_[entry]);
-  const LaneMask open = index_->open_lanes(leaf);
-  for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
-    words_[entry].inside[lane] = (open >> lane & 1U) != 0 ? queries_ : 0;
-  }
   return entry;
 }
 
@@ -70,8 +66,8 @@ void RingPacket::step(std::uint32_t ring, QueryWord alive) {
   for (const Entry entry : pending_) {
     State& state = states_[entry];
     state.is_pending = false;
-    state.fresh = kernels_->step_words(words_[entry], fresh_[entry], &index_->adjacency[index_->leaf_begin[state.leaf]],
-                                       state.fresh, alive);
+    state.fresh = kernels_->step_words(words_[entry], fresh_[entry], &index_->adjacency[state.first], state.fresh,
+                                       state.open, alive);
     if (state.fresh == 0) continue;
     state.is_reached = true;
     active_.push_back(entry);

@@ -53,8 +53,10 @@ class RingPacket {
   /// A leaf that the search has met.
   struct State {
     LeafId leaf;
-    LaneMask fresh;   // the lanes that the last step has reached for the first time
-    bool is_pending;  // since the last step; then it is in `pending_`
+    std::uint32_t first;  // in index order
+    LaneMask open;        // no walls
+    LaneMask fresh;       // the lanes that the last step has reached for the first time
+    bool is_pending;      // since the last step; then it is in `pending_`
     bool is_reached;
   };
 
