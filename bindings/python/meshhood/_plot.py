@@ -94,7 +94,7 @@ def plot_neighborhood(
 def _layers(index: MeshIndex, v: int, r: Any, words: Any, unit: Unit) -> dict[str, Any]:
     """The vertices of each layer, by its name in the legend; each nearly always contains the one that follows."""
     ball, exact = (index.query_ball(v, r, unit=unit, method=method) for method in ("ball", "exact"))
-    if words == {"metric": "straight", "walls": None, "ignored": None}:
+    if words["metric"] == "straight" and words["walls"] is None and words["ignored"] is None:
         return {"ball": ball, "paper": index.query_ball(v, r, unit=unit, method="paper"), "exact": exact}
     return {"ball": ball, "straight": exact, "asked": index.query_ball(v, r, unit=unit, **words)}
 
