@@ -88,7 +88,9 @@ TEST_F(Filtered, MomentsAreThoseWithoutTheEdgesAtWalls) {
   const std::vector<double> found = moments(index, {.radius = 4, .filter = filter}, options);
   expect_same(found, moments(expected_index, {.radius = 4}, options), moment_count(4), 1e-11);
   for (std::size_t v = 0; v < mesh.size(); ++v) {
-    if (walls[v] != 0) ASSERT_THAT(std::span(found).subspan(moment_count(4) * v, moment_count(4)), Each(0));
+    if (walls[v] != 0) {
+      ASSERT_THAT(std::span(found).subspan(moment_count(4) * v, moment_count(4)), Each(0));
+    }
   }
   const PrincipalComponents patches = principal_components(index, {.radius = 4, .filter = filter});
   expect_same(patches.variances, principal_components(expected_index, {.radius = 4}).variances, 3, 1e-10);
@@ -131,7 +133,9 @@ TEST_F(Filtered, IgnoredVerticesAreFittedAsLittleAsWallsThatDivideNothing) {
   const Curvatures found = curvatures(surface, {.radius = 5, .filter = {.ignored = scattered}});
   const Curvatures expected = curvatures(surface, {.radius = 5, .filter = {.walls = scattered}});
   for (std::size_t v = 0; v < mesh.size(); ++v) {
-    if (scattered[v] == 0) ASSERT_NEAR(found.k1[v], expected.k1[v], 1e-9) << "vertex " << v;
+    if (scattered[v] == 0) {
+      ASSERT_NEAR(found.k1[v], expected.k1[v], 1e-9) << "vertex " << v;
+    }
   }
 }
 
@@ -149,7 +153,9 @@ TEST_F(Filtered, FeaturesHaveScalesOrARadiusForEachRow) {
   ASSERT_EQ(by_row.size(), found.size() / 2);
   for (std::size_t i = 0; i < by_row.size(); ++i) {
     const double expected = found[(radii[i / 2] == 4 ? by_row.size() : 0) + i];
-    if (!std::isnan(expected)) ASSERT_NEAR(by_row[i], expected, 1e-9 * (1 + std::abs(expected)));
+    if (!std::isnan(expected)) {
+      ASSERT_NEAR(by_row[i], expected, 1e-9 * (1 + std::abs(expected)));
+    }
   }
 }
 

@@ -148,8 +148,7 @@ std::vector<Call> curvature_calls(const Scene& scene, double radius) {
                    35, false});
   calls.push_back({"features",
                    [&scene, radius](const auto& rows, unsigned threads) {
-                     const std::array radii{radius};
-                     return features(scene.surface, {rows, BatchRadius::scales(radii)},
+                     return features(scene.surface, {rows, radius},
                                      {.kinds = {Feature::Crease, Feature::Height, Feature::Variation, Feature::Area},
                                       .areas = scene.areas,
                                       .threads = threads});

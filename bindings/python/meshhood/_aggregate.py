@@ -145,7 +145,6 @@ class Aggregates(Held):
             return np.empty(shape, dtype)
         columns = np.array(given, np.float64, order="C").reshape(self._count, int(np.prod(given.shape[1:])))
         radii, radius = rows.common_radii
-        path = {"path": True} if rows.metric == "path" else {}
         with rows.reporter("aggregate") as report:
             result = _core.aggregate(
                 self._exact,
@@ -159,7 +158,7 @@ class Aggregates(Held):
                 progress=report,
                 **options,
                 **rows.filter,
-                **path,
+                metric=getattr(_core.Metric, rows.metric),
             )
         result = result.reshape(shape).astype(dtype, copy=False)
         return result if result.ndim else float(result)
