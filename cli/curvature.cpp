@@ -123,10 +123,11 @@ void print(const CurvatureCommand& options, std::size_t rows, std::size_t radii,
                    {"no_normal", states.no_normal}});
   print_result(
       options.json, document,
-      fmt::format("{}: {} rows, radii: {}; {} fitted, {} extended to six vertices, {} without a unique fit, {} of too few "
-                  "vertices, {} without a normal\n",
-                  names_of(options.files), rows, radii, states.fitted, states.extended, states.rank_deficient,
-                  states.too_few, states.no_normal));
+      fmt::format(
+          "{}: {} rows, radii: {}; {} fitted, {} extended to six vertices, {} without a unique fit, {} of too few "
+          "vertices, {} without a normal\n",
+          names_of(options.files), rows, radii, states.fitted, states.extended, states.rank_deficient, states.too_few,
+          states.no_normal));
 }
 
 void curvature(const CurvatureCommand& options) {

@@ -287,7 +287,7 @@ class Aggregation {
       auto& [search, reducer, within] = *threads[thread];
       for (const BatchItem& item : chunk) {
         search.run(view_.leaf_begin[leaf_of(item.position)] + lane_of(item.position), item.radius, walls);
-        for (std::size_t i = 0; i < radii_.size(); ++i) {
+        for (const std::size_t i : passes_) {
           const double radius = radii_[i].list() ? item.radius : radii_[i].common();
           within.clear();
           std::ranges::copy_if(search.found(), std::back_inserter(within),
@@ -315,7 +315,8 @@ class Aggregation {
   /// `blocks`: how many blocks of channels it reduces.
   PacketOptions next_pass(std::size_t blocks = 1) {
     PacketOptions pass{.threads = options_.threads, .progress = {}};
-    const std::size_t passes = blocks_ * (has_patches_ || query_.metric == Metric::Path ? 1 : radii_.size());
+    const bool shares_search = passes_.size() > 1 && (has_patches_ || query_.metric == Metric::Path);
+    const std::size_t passes = blocks_ * (shares_search ? radii_.size() - passes_.size() + 1 : radii_.size());
     if (options_.progress) {
       pass.progress = [this, passes, blocks, before = passes_begun_ * rows_](std::size_t done, std::size_t /*total*/) {
         return options_.progress(before + blocks * done, passes * rows_);

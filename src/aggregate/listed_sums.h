@@ -11,16 +11,16 @@ namespace meshhood {
 /// Sums and means of many channels over rows that are listed: each id and its weight are found once, and serve all
 /// channels. For small neighborhoods this takes less time than sums over nodes, which are made for each channel.
 ///
-/// A row is the sum of its terms in index order. Its rounding error grows with their number, so that large neighborhoods
-/// would miss the accuracy of `aggregate`.
+/// A row is the sum of its terms in index order. Its rounding error grows with their number, so that large
+/// neighborhoods would miss the accuracy of `aggregate`.
 
-/// Whether `sum_listed` is the faster way, and as accurate. Depends on the index, the radius and the signal alone, not on
-/// the rows: the bits of a row must not depend on the others.
+/// Whether `sum_listed` is the faster way, and as accurate. Depends on the index, the radius and the signal alone, not
+/// on the rows: the bits of a row must not depend on the others.
 [[nodiscard]] bool is_better_listed(const Index& index, const SignalView& signal, const AggregateQuery& query,
                                     double radius);
 
-/// Writes `result`, #rows by channels. The query has been checked, and is a sum or a mean; `index` is already that of
-/// its filter.
+/// Writes `result`, #rows by channels. The query has been checked, and is a sum or a mean. With `Metric::Straight`,
+/// `index` is already that of its filter.
 void sum_listed(const Index& index, const SignalView& signal, const AggregateQuery& query, double radius,
                 std::span<double> result, const AggregateOptions& options);
 

@@ -18,7 +18,6 @@
 #include "meshhood/meshhood.h"
 
 #include "exact/query/space_search.h"
-
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/refusal.h"
@@ -376,8 +375,7 @@ TEST_F(Batches, RefuseAResultBeyondTheLimit) {
       BatchOptions options{.threads = threads, .distances = distances, .max_bytes = bytes};
       EXPECT_EQ(neighborhoods(index, {.radius = 3}, options).ids.size(), ids);
       --options.max_bytes;
-      expect_refused(ErrorCode::TooLarge,
-                     " bytes, exceeds max_bytes, " + std::to_string(options.max_bytes),
+      expect_refused(ErrorCode::TooLarge, " bytes, exceeds max_bytes, " + std::to_string(options.max_bytes),
                      [&] { static_cast<void>(neighborhoods(index, {.radius = 3}, options)); });
     }
   }

@@ -257,7 +257,7 @@ def test_two_banks_are_not_mixed_along_paths():
     top = (points[:, 0] == 1) & (points[:, 2] == 5)
     straight, path = (index.smooth(signal, 6.0, metric=metric)[top].max() for metric in ("straight", "path"))
     assert straight > 0.4
-    assert path == 0
+    assert path < 0.01
 
 
 def test_progress_ascends_over_all_scales():
