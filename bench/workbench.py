@@ -5,7 +5,7 @@ on noise, and the times.
 
     PYTHONPATH=PACKAGE bench/workbench.py SURFACE [FWHM]
 
-Needs nibabel, and wb_command of the Debian package connectome-workbench. Times are wall clock, the least of three.
+Needs nibabel, and wb_command of the Debian package connectome-workbench. Times are wall clock, the least of seven; of Workbench, of three.
 """
 
 import subprocess
@@ -63,7 +63,7 @@ def weights_by_distance(V, index, folder, fwhm):
 
 def least(call):
     times = []
-    for _ in range(3):
+    for _ in range(7):
         begin = time.perf_counter()
         call()
         times.append(time.perf_counter() - begin)
