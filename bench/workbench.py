@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""How Connectome Workbench smooths a map, beside `MeshIndex.smooth`: the weight of a vertex by its distance, the results
-on noise, and the times.
+"""How Connectome Workbench smooths a map, beside `MeshIndex.smooth`: the weight of a vertex by its distance, the
+results on noise, and the times.
 
     PYTHONPATH=PACKAGE bench/workbench.py SURFACE [FWHM]
 
-Needs nibabel, and wb_command of the Debian package connectome-workbench. Times are wall clock, the least of seven; of Workbench, of three.
+Needs nibabel, and wb_command of the Debian package connectome-workbench. Times are wall clock, the least of seven; of
+Workbench, of three.
 """
 
 import subprocess
@@ -86,7 +87,8 @@ def main():
             kept = least(lambda: index.smooth(maps[:, 0], fwhm, **words))  # noqa: B023
             ours = index.smooth(maps, fwhm, weights="area", metric=metric)
             correlation = np.corrcoef(ours.ravel(), theirs.ravel())[0, 1]
-            print(f"{metric}: correlation {correlation:.3f}, standard deviation {ours.std():.3f} and {theirs.std():.3f}")
+            deviations = f"{ours.std():.3f} and {theirs.std():.3f}"
+            print(f"{metric}: correlation {correlation:.3f}, standard deviation {deviations}")
             for what, took in (("with the build of the index", built), ("with an index", kept)):
                 print(f"  one map {what} {1e3 * took:.1f} ms, {seconds / took:.0f} times as fast")
         print(f"Workbench: {1e3 * seconds:.0f} ms")

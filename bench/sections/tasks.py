@@ -7,10 +7,10 @@ from .markdown import number, table
 TITLE = "Tasks beside the usual tools"
 COMMAND = "python3 -m bench tasks"
 
-NOTE = """`{command}`: each task is a program of at most ten lines in examples/tasks, beside one that does the same with another
-tool (bench/tasks). Wall clock from the arrays of a mesh to the result, with the index built anew, on all processors; the
-median of three processes. The questions are not always the same: a ball has vertices that are not connected, a heat
-method approximates distances, and Workbench reads and writes its files.
+NOTE = """`{command}`: each task is a program of at most ten lines in examples/tasks, beside one that does the same with
+another tool (bench/tasks). Wall clock from the arrays of a mesh to the result, with the index built anew, on all
+processors; the median of three processes. The questions are not always the same: a ball has vertices that are not
+connected, a heat method approximates distances, and Workbench reads and writes its files.
 
 """
 OURS = Path(__file__).resolve().parents[2] / "examples" / "tasks"

@@ -4,8 +4,8 @@
     python3 -m bench tasks [--meshes MESH ...]
 
 A program reads its input in the first paragraph; the last one, from the arrays of a mesh to the result, is timed in a
-process of its own: the median of three runs, wall clock, after one run that is not counted. `NAME.TOOL.py` does with TOOL
-what examples/tasks/NAME.py does. The answers are not the same where the questions differ: a ball has vertices that are
+process of its own: the median of three runs, wall clock, after one run that is not counted. `NAME.TOOL.py` does with
+TOOL what examples/tasks/NAME.py does. The answers are not the same where the questions differ: a ball has vertices that are
 not connected, and a heat method approximates distances.
 """
 
@@ -22,6 +22,7 @@ RUNS = 3
 
 _TIMED = """
 import json, sys, time
+import scipy.sparse  # which some calls import at their first use
 given, task = open(sys.argv[1], encoding="utf-8").read().rsplit("\\n\\n", 1)
 sys.argv = sys.argv[1:]
 names = {}

@@ -39,8 +39,8 @@ class VertexMask {
   const std::vector<bool>* bits_ = nullptr;  // instead of bytes
 };
 
-/// Restricts a search. Of a single query, a mask is read for the leaves that the search reaches, and not copied. A batch
-/// copies it when the call begins.
+/// Restricts a search. Of a single query, a mask is read for the leaves that the search reaches, and not copied. A
+/// batch copies it when the call begins.
 struct Filter {
   /// The search does not pass these vertices, and they do not belong to its answer. The result is as if they were not
   /// in the mesh.

@@ -53,7 +53,8 @@ TEST_P(ListedSumsOf, ManyChannelsAreThoseOfEachByItself) {
   const TestMesh mesh = make_mesh(GetParam(), 5, scaled(400, 120));
   if (mesh.size() == 0) return;
   const Index index = build(mesh.view());
-  const double radius = 3 * mean_edge_length(extract_graph(index).view());
+  const GraphData graph = extract_graph(index);
+  const double radius = 3 * mean_edge_length(graph.view());
   std::size_t listed = 0;
   for (const bool gaps : {false, true}) {
     const Values drawn = draw(mesh.size(), gaps);

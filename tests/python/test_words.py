@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The words that calls on many vertices share mean the same in each: rows, radii, scales, masks, metric, order, types."""
+"""The words that calls on many vertices share mean the same in each: rows, radii, scales, masks, metric, order."""
 
 import meshes
 import meshhood
@@ -179,7 +179,8 @@ def test_sort(method, metric):
     place = np.argsort(INDEX.permutation)
     words = {"method": method, "metric": metric, "return_distance": True}
     whole = rows_of(*INDEX.query_ball(None, 2.5, **words))
-    for sort, key in (("id", lambda i, d: i), ("index", lambda i, d: place[i]), ("distance", lambda i, d: list(zip(d, i)))):
+    keys_of = {"id": lambda i, d: i, "index": lambda i, d: place[i], "distance": lambda i, d: list(zip(d, i))}
+    for sort, key in keys_of.items():
         rows = rows_of(*INDEX.query_ball(None, 2.5, sort=sort, **words))
         for v, ((ids, distances), (all_ids, _)) in enumerate(zip(rows, whole)):
             assert sorted(ids) == sorted(all_ids)

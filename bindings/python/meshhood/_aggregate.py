@@ -44,8 +44,8 @@ class AggregateWords(SmoothWords, total=False):
 
 
 def smoothing_radius(fwhm: Number) -> float:
-    """The radius of the biweight kernel whose nearest Gaussian, in the plane and the L2 norm, has this full width at half
-    maximum: fwhm / (0.4 * 2 sqrt(2 ln 2)), which is 1.06165 fwhm.
+    """The radius of the biweight kernel whose nearest Gaussian, in the plane and the L2 norm, has this full width at
+    half maximum: fwhm / (0.4 * 2 sqrt(2 ln 2)), which is 1.06165 fwhm.
 
     >>> round(meshhood.smoothing_radius(6.0), 4)
     6.3699
@@ -69,14 +69,14 @@ class Aggregates(Held):
 
     @overload
     def aggregate(
-        self, values: NDArray[np.float32], r: Optional[Radii] = None, reduce: Reduce = "mean", *, vertices: Vertices = None,
-        **words: Unpack[AggregateWords],
+        self, values: NDArray[np.float32], r: Optional[Radii] = None, reduce: Reduce = "mean", *,
+        vertices: Vertices = None, **words: Unpack[AggregateWords],
     ) -> NDArray[np.float32]: ...  # fmt: skip
 
     @overload
     def aggregate(
-        self, values: Union[NDArray[np.float64], Sequence[float]], r: Optional[Radii] = None, reduce: Reduce = "mean", *,
-        vertices: Vertices = None, **words: Unpack[AggregateWords],
+        self, values: Union[NDArray[np.float64], Sequence[float]], r: Optional[Radii] = None, reduce: Reduce = "mean",
+        *, vertices: Vertices = None, **words: Unpack[AggregateWords],
     ) -> Reals: ...  # fmt: skip
 
     @overload
@@ -133,11 +133,12 @@ class Aggregates(Held):
         dtype = result_dtype(words, np.float32 if given.dtype == np.float32 else np.float64)
         shape = rows.shape + given.shape[1:]
         check_size(shape, 8, words.get("max_bytes"))
+        nesting = _convert.choice(words.get("nesting", "own"), "nesting", ("own", "patch"))
         options = {
             "reduce": getattr(_core.Reduce, _convert.choice(reduce, "reduce", _REDUCTIONS)),
             "kernel": getattr(_core.SmoothingKernel, _kernel(words.get("kernel"))),
             "missing": getattr(_core.MissingValues, _convert.choice(words.get("nan", "propagate"), "nan", _MISSING)),
-            "nesting": getattr(_core.Nesting, _convert.choice(words.get("nesting", "own"), "nesting", ("own", "patch"))),
+            "nesting": getattr(_core.Nesting, nesting),
             "ddof": _convert.integer(words.get("ddof", 0), "ddof", 0, 1),
         }
         weights = area_weights(self, words.get("weights"), words.get("F"))
@@ -183,10 +184,10 @@ class Aggregates(Held):
         """The values smoothed by a biweight that is close to a Gaussian of this full width at half maximum.
 
         fwhm : > 0, a distance in `unit`: straight, or with metric="path" along edges. Vertices farther away than
-            `smoothing_radius(fwhm)`, or not connected within that distance, have no influence. With the straight metric,
-            banks that lie nearer to each other than to the bottom between them are not mixed as long as the path over
-            the bottom leaves the ball; once it fits, the other bank counts by its straight distance (docs/aggregate.md).
-            With metric="path" it counts by the length of the path.
+            `smoothing_radius(fwhm)`, or not connected within that distance, have no influence. With the straight
+            metric, two banks are not mixed as long as the path over the bottom between them leaves the ball; once it
+            fits, the other bank counts by its straight distance (docs/aggregate.md). With metric="path" it counts by
+            the length of the path.
         weights : None counts each vertex once; "area" weighs it by its area, and makes the result independent of how
             densely the surface is sampled.
         The other words are those of `aggregate`, which this calls with reduce="mean" and kernel="biweight". Vertices
@@ -202,8 +203,8 @@ class Aggregates(Held):
     def smoothing_matrix(
         self, fwhm: Number, *, vertices: Vertices = None, **words: Unpack[SmoothWords]
     ) -> csr_array:
-        """What `smooth` does, as a scipy.sparse.csr_array (#rows, #V): its product with values (#V, ...) are the smoothed
-        values, up to rounding, for values without NaN. Each row sums to 1; those of walls are empty.
+        """What `smooth` does, as a scipy.sparse.csr_array (#rows, #V): its product with values (#V, ...) are the
+        smoothed values, up to rounding, for values without NaN. Each row sums to 1; those of walls are empty.
 
         The words are those of `smooth` but `nan`, and `dtype` is float64 unless given. Memory: 12 bytes for each vertex
         of each neighborhood. Needs SciPy. `smooth` is faster, unless the same matrix is used many times.

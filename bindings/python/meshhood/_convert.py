@@ -69,8 +69,8 @@ def radii(r, rows):
         raise TypeError(f"r: expected numbers, not {array.dtype}")
     if array.shape != (rows,):
         raise ValueError(
-            f"r: expected one number, or one for each of {rows} rows, not an array of shape {array.shape}; several radii "
-            "for all rows are scales="
+            f"r: expected one number, or one for each of {rows} rows, not an array of shape {array.shape}; several "
+            "radii for all rows are scales="
         )
     wrong = np.flatnonzero(~(array >= 0))
     if wrong.size:

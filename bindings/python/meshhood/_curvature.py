@@ -23,8 +23,8 @@ class Curvature(NamedTuple):
         the smallest coefficients. 2: fewer than six vertices are connected with the vertex; all values are 0. 3: the
         vertex has no normal, as it belongs to no face with an area; all values are 0. 4: fewer than six vertices are in
         the ball; the fit is to these and to the nearest connected ones.
-    count : (#rows,) uint32, the vertices within the radius to which the quadric is fitted, without those that the filter
-        leaves out. If they are fewer than six, the state is not 0.
+    count : (#rows,) uint32, the vertices within the radius to which the quadric is fitted, without those that the
+        filter leaves out. If they are fewer than six, the state is not 0.
 
     With `scales` each array has a leading axis.
     """

@@ -75,10 +75,10 @@ class MeshIndex(Queries, Aggregates, Shape, Regions):
         have the rows of all scales, scale after scale.
     walls, ignored : bool masks (#V,). A search does not pass walls, as if they were not in the mesh; it passes ignored
         vertices. Neither belong to a neighborhood, and that of a wall is empty.
-    metric : "straight", the neighborhood in the ball of radius `r`; "path", the vertices whose shortest path along edges
-        is at most `r` long. Distances, and the weights that follow from them, are then the lengths of these paths.
-        "rings", the vertices that at most `r` edges separate from the vertex; distances are then numbers of edges. Calls
-        that combine values know no "rings", and those that measure the surface "straight" alone.
+    metric : "straight", the neighborhood in the ball of radius `r`; "path", the vertices whose shortest path along
+        edges is at most `r` long. Distances, and the weights that follow from them, are then the lengths of these
+        paths. "rings", the vertices that at most `r` edges separate from the vertex; distances are then numbers of
+        edges. Calls that combine values know no "rings", and those that measure the surface "straight" alone.
     unit : of `r` and `scales`: "mesh" is that of V, "edge" is `mean_edge_length`.
     workers, progress : as above. Progress is over all scales. The result does not depend on `workers`.
 
@@ -297,8 +297,8 @@ class MeshIndex(Queries, Aggregates, Shape, Regions):
     ) -> Counts: ...
 
     def count(self, vertices: Any, r: Any = None, *, scales: Any = None, **words: Any) -> Any:
-        """The number of vertices of each neighborhood: int64, (#rows,) or (#scales, #rows); an int for one vertex and one
-        radius. The words are those of `query_ball`.
+        """The number of vertices of each neighborhood: int64, (#rows,) or (#scales, #rows); an int for one vertex and
+        one radius. The words are those of `query_ball`.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> index.count(None, scales=[0.2, 0.4]).shape

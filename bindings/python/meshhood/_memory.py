@@ -56,8 +56,9 @@ def _left(root: Path, name: str, limit: str, usage: str, reclaimable: str) -> It
         try:
             most = (folder / limit).read_text(encoding="ascii").strip()
             if most != "max":
-                statistics = dict(line.split() for line in (folder / "memory.stat").read_text(encoding="ascii").splitlines())
-                yield int(most) - int((folder / usage).read_text(encoding="ascii")) + int(statistics.get(reclaimable, 0))
+                lines = (folder / "memory.stat").read_text(encoding="ascii").splitlines()
+                free = int(dict(line.split() for line in lines).get(reclaimable, 0))
+                yield int(most) - int((folder / usage).read_text(encoding="ascii")) + free
         except (OSError, ValueError):  # the root group has no limits, and in a container other groups are not visible
             pass
         if folder == root:

@@ -210,7 +210,8 @@ def _coordinate_entries(graph):
 
 
 def _is_mesh(V):
-    return any(hasattr(V, name) for name in ("points", "vertices", "vertex", "dataset", "GetPolys", "agg_data", "coordinates", "parts", "mesh"))
+    names = ("points", "vertices", "vertex", "dataset", "GetPolys", "agg_data", "coordinates", "parts", "mesh")
+    return any(hasattr(V, name) for name in names)
 
 
 def _parts(mesh):
@@ -249,7 +250,8 @@ def _parts(mesh):
 def only_part(parts, name):
     """The one part of a mesh or of data of nilearn, which may have one for each hemisphere."""
     if len(parts) != 1:
-        raise ValueError(f"{name}: has the parts {', '.join(map(repr, parts))}, expected one: .parts[{next(iter(parts), '')!r}]")
+        first = next(iter(parts), "left")
+        raise ValueError(f"{name}: has the parts {', '.join(map(repr, parts))}, expected one: .parts[{first!r}]")
     return next(iter(parts.values()))
 
 

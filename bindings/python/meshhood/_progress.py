@@ -14,8 +14,8 @@ Report = Optional[Callable[[int, int], object]]
 
 @contextlib.contextmanager
 def reporter(progress: Progress, title: str, unit: str = "steps", count: Optional[int] = None) -> Iterator[Report]:
-    """The function that a long call reports its progress to, or None. `title`, `unit`, and `count`, how many units there
-    are, are those of a bar; without a count, a unit is a part of the call."""
+    """The function that a long call reports its progress to, or None. `title`, `unit`, and `count`, how many units
+    there are, are those of a bar; without a count, a unit is a part of the call."""
     if progress is True:
         with _bar(title, unit, count) as report:
             yield report

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`mesh.meshhood` of PyVista's PolyData. PyVista finds this module by its entry point, and imports it at the first use."""
+"""`mesh.meshhood` of PyVista's PolyData. PyVista finds this module by its entry point and imports it at first use."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ class Submesh(NamedTuple):
     """Some faces of a mesh, as a mesh of their own."""
 
     V: Union[NDArray[np.float32], NDArray[np.float64]]  #: the positions of its vertices
-    F: Union[Ids, tuple[NDArray[np.int64], Ids]]  #: (#F, 3), or a tuple (offsets, corners) if the mesh was given as polygons; rows of V
+    F: Union[Ids, tuple[NDArray[np.int64], Ids]]  #: (#F, 3), or (offsets, corners) if the mesh has polygons; rows of V
     vertices: Ids  #: its vertices by their ids in the whole mesh, ascending
     faces: NDArray[np.int64]  #: its faces by their rows in the whole mesh, ascending
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The words that every call on many vertices understands, each with one meaning (see `MeshIndex`), read in one place."""
+"""The words that every call on many vertices understands (see `MeshIndex`), read in one place."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ class Rows:
     def shaped(self, results: list[Any]) -> Any:
         """Results of each scale, a row for each vertex, as one array."""
         array = results[0] if len(results) == 1 else np.stack(results)
-        return array.reshape(self.shape + array.shape[len(results) > 1 and 2 or 1 :])
+        return array.reshape(self.shape + results[0].shape[1:])
 
 
 def read_rows(index: Held, vertices: Any, r: Any, scales: Any, words: Mapping[str, Any], accepted: Any) -> Rows:
@@ -121,7 +121,8 @@ def read_rows(index: Held, vertices: Any, r: Any, scales: Any, words: Mapping[st
 def check_words(words: Mapping[str, Any], accepted: Any) -> None:
     for name in words:
         if name not in accepted.__optional_keys__:
-            raise TypeError(f"{name}: no argument of this call; it takes {', '.join(sorted(accepted.__optional_keys__))}")
+            known = ", ".join(sorted(accepted.__optional_keys__))
+            raise TypeError(f"{name}: no argument of this call; it takes {known}")
 
 
 def result_dtype(words: Mapping[str, Any], default: Any = np.float64) -> Any:
@@ -156,7 +157,7 @@ def check_size(shape: tuple[int, ...], itemsize: int, max_bytes: Any) -> None:
     size, limit = itemsize * math.prod(shape), _convert.max_bytes(max_bytes)
     if size > limit:
         raise MemoryError(
-            f"the result of shape {shape}, {size} bytes, exceeds max_bytes, {limit}; take fewer vertices or scales at a time"
+            f"the result of shape {shape}, {size} bytes, exceeds max_bytes, {limit}; take fewer vertices or scales"
         )
 
 

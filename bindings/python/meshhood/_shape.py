@@ -81,8 +81,8 @@ class Shape(Held):
         A row depends on index, faces or normals, vertex, radius and masks alone, bit for bit: not on the other rows or
         scales of the call, earlier calls, threads or the processor.
         Returns a `Curvature`: k1, k2, d1, d2, state, count, and as properties mean, gaussian, shape_index, curvedness,
-        ok. Raises ValueError without faces and normals. See docs/curvature.md for what the numbers mean, and for when to
-        choose `corrected_curvature`.
+        ok. Raises ValueError without faces and normals. See docs/curvature.md for what the numbers mean, and for when
+        to choose `corrected_curvature`.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> index.curvature(0.3)
@@ -144,7 +144,7 @@ class Shape(Held):
         degree : 0 to 4. weights, F : as for `aggregate`.
         Returns (#rows, 1, 4, 10, 20 or 35) float64, with a leading axis if there are scales: 1, x, y, z, x^2, xy, xz,
         y^2, yz, z^2, x^3, ..., the order of scikit-learn's PolynomialFeatures. They are accurate to 1e-13 of the sum of
-        w |p|^(i + j + k). A row depends on index, weights, vertex, radius and masks alone, bit for bit: not on the other
+        w |p|^(i + j + k). A row depends on index, weights, vertex, radius and masks alone, bit for bit: not on other
         rows of the call, earlier calls, threads or the processor. Only if the rows have different radii, those of the
         vertices nearby have an effect on the last bits.
 

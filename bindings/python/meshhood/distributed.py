@@ -152,7 +152,8 @@ class Parts:
         options = {"like": like, "fit": fit, "filter": bool(filter)}
         function = functools.partial(curvature_rows, self._radius(r, unit), options)
         rows = self.map(function, r, unit=unit, shape=(CURVATURE_COLUMNS,), order=order)
-        return Curvature(rows[:, 0], rows[:, 1], rows[:, 2:5], rows[:, 5:8], rows[:, 8].astype(np.uint8), rows[:, 9].astype(np.uint32))
+        state, count = rows[:, 8].astype(np.uint8), rows[:, 9].astype(np.uint32)
+        return Curvature(rows[:, 0], rows[:, 1], rows[:, 2:5], rows[:, 5:8], state, count)
 
     def _per_vertex(self, values: Any, name: str) -> Any:
         """`values` as an array, or as the text of a path."""
