@@ -106,7 +106,7 @@ class Aggregates(Held):
             1 - (d/r)^2; "biweight": (1 - (d/r)^2)^2, which is close to a Gaussian of the standard deviation 0.4 r.
         nan : "propagate", a neighborhood with a NaN gives NaN; "omit", NaN marks a missing value, which is left out.
         nesting : what scales mean. "own": each has its own neighborhoods. "patch": the neighborhoods of the largest,
-            and of them the vertices within each smaller radius.
+            and of them the vertices within each smaller radius. With metric="path" both are the same.
         ddof : "var" and "std" divide by the number of values minus this, 0 or 1.
         F : other faces than those that the index keeps, for weights="area".
         dtype : of the result, float32 or float64. Without it, that of `values` if float32, else float64. All sums are
