@@ -149,9 +149,11 @@ class ListedRows {
 }  // namespace
 
 bool is_better_listed(const Index& index, const SignalView& signal, const AggregateQuery& query, double radius) {
-  const bool sums = query.reduce == Reduce::Sum || query.reduce == Reduce::Mean;
-  return sums && query.nesting == Nesting::Own && signal.channels >= kFewestChannels &&
-         mean_count(index, query.metric, radius) <= kMostVertices && is_moderate(signal);
+  const bool has_kernel = query.kernel != SmoothingKernel::Box;
+  constexpr double kSmallestRadius = 0x1p-450;  // squares of shorter distances underflow
+  return has_kernel && radius > kSmallestRadius && query.nesting == Nesting::Own &&
+         signal.channels >= kFewestChannels && mean_count(index, query.metric, radius) <= kMostVertices &&
+         is_moderate(signal);
 }
 
 void sum_listed(const Index& index, const SignalView& signal, const AggregateQuery& query, double radius,
