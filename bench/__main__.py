@@ -13,6 +13,7 @@ pages and plots are made from them.
     python3 -m bench accuracy    the paper's answer and the ball against the exact one
     python3 -m bench scaling     cost as mesh and radius grow
     python3 -m bench peers       other libraries on the same queries
+    python3 -m bench tasks       the programs of examples/tasks beside those of other tools
     python3 -m bench reading     files of a million triangles, beside other libraries
     python3 -m bench report      plots and docs/benchmarks.md, from the results
 
@@ -97,6 +98,12 @@ def reading(options):
     measuring.run(options.threads)
 
 
+def tasks(options):
+    from . import tasks as measuring
+
+    measuring.run(options.meshes)
+
+
 def report(_):
     from . import report as writing
 
@@ -104,7 +111,7 @@ def report(_):
 
 
 PARTS = {part.__name__: part for part in (tables, exact, before, batch, arrays, curvature, growth, pictures, accuracy,
-                                       scaling, peers, reading, report)}
+                                       scaling, peers, tasks, reading, report)}
 
 
 def main():

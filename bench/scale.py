@@ -55,8 +55,8 @@ def compare_ids(parts, index, sample):
     for number in range(len(parts)):
         part = parts.open(number)
         numbers = part.owned[np.isin(part.vertices[part.owned], sample)]
-        for chunk in part.index.iter_neighborhoods(numbers, parts.halo, chunk=500, sort=True):
-            expected = index.query_ball(part.vertices[chunk.vertices], parts.halo, sort=True)
+        for chunk in part.index.iter_neighborhoods(numbers, parts.halo, chunk=500, sort="id"):
+            expected = index.query_ball(part.vertices[chunk.vertices], parts.halo, sort="id")
             same = np.array_equal(chunk.indptr, expected[0])
             found = part.vertices[chunk.indices]
             wrong += np.count_nonzero(found != expected[1]) if same else len(found)

@@ -46,6 +46,7 @@ struct States {
   std::size_t rank_deficient = 0;
   std::size_t too_few = 0;
   std::size_t no_normal = 0;
+  std::size_t extended = 0;
 
   void add(const std::vector<CurvatureState>& states) {
     for (const CurvatureState state : states) {
@@ -53,6 +54,7 @@ struct States {
       rank_deficient += static_cast<std::size_t>(state == CurvatureState::RankDeficient);
       too_few += static_cast<std::size_t>(state == CurvatureState::TooFew);
       no_normal += static_cast<std::size_t>(state == CurvatureState::NoNormal);
+      extended += static_cast<std::size_t>(state == CurvatureState::Extended);
     }
   }
 };
@@ -115,15 +117,17 @@ void print(const CurvatureCommand& options, std::size_t rows, std::size_t radii,
   document.update({{"rows", rows},
                    {"radii", radii},
                    {"fitted", states.fitted},
+                   {"extended", states.extended},
                    {"rank_deficient", states.rank_deficient},
                    {"too_few", states.too_few},
                    {"no_normal", states.no_normal}});
   print_result(
       options.json, document,
-      fmt::format("{}: {} rows, radii: {}; {} fitted, {} without a unique fit, {} of too few vertices, {} without a "
-                  "normal\n",
-                  names_of(options.files), rows, radii, states.fitted, states.rank_deficient, states.too_few,
-                  states.no_normal));
+      fmt::format(
+          "{}: {} rows, radii: {}; {} fitted, {} extended to six vertices, {} without a unique fit, {} of too few "
+          "vertices, {} without a normal\n",
+          names_of(options.files), rows, radii, states.fitted, states.extended, states.rank_deficient, states.too_few,
+          states.no_normal));
 }
 
 void curvature(const CurvatureCommand& options) {

@@ -46,7 +46,7 @@ def main():
     V, F, depth = tablet()
     index = meshhood.MeshIndex(V, F)
     radii = np.arange(1, 17) / 2  # 0.5, 1, ..., 8 mm
-    vectors = index.features(radii, kinds=("crease", "height", "area"))
+    vectors = index.features(scales=radii, kinds=("crease", "height", "area"))
     lasting = meshhood.persistence(vectors[:, :, 0], radii, threshold=0.3)
     found = lasting.scales <= -5  # a valley at five consecutive radii or more
     signs = depth > DEPTH / 4

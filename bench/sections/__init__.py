@@ -6,7 +6,7 @@
     summary(data)   its part of docs/benchmarks.md; may be absent
 """
 from . import (accuracy, all_vertices, arrays, batch, before, curvature, curvature_growth, exact_index, figure4,
-               paper_tables, peers, reading, scaling)
+               paper_tables, peers, reading, scaling, tasks)
 
 SECTIONS = {
     "batch": batch,
@@ -19,6 +19,7 @@ SECTIONS = {
     "curvature": curvature,
     "curvature_growth": curvature_growth,
     "peers": peers,
+    "tasks": tasks,
     "reading": reading,
     "scaling": scaling,
     "figure4": figure4,

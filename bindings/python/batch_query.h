@@ -4,12 +4,16 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
 #include <variant>
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
 #include "meshhood/batch.h"
+#include "meshhood/error.h"
 #include "meshhood/filter.h"
 
 namespace meshhood::python {
@@ -52,6 +56,22 @@ using Mask = std::optional<
 [[nodiscard]] inline BatchQuery query_of(const std::optional<Rows>& vertices, const Radius& radius, const Mask& walls,
                                          const Mask& ignored, const std::optional<Radii>& scales = std::nullopt) {
   return {.vertices = vertices_of(vertices), .radius = radius_of(radius, scales), .filter = filter_of(walls, ignored)};
+}
+
+/// A result beyond the limit of bytes: a MemoryError in Python.
+class ResultTooLarge : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Calls `f`, whose result alone may be too large.
+template <class F>
+auto limited(F&& f) {
+  try {
+    return std::forward<F>(f)();
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::TooLarge) throw;
+    throw ResultTooLarge(std::string(error.what()) + "; iter_neighborhoods returns the rows in chunks");
+  }
 }
 
 }  // namespace meshhood::python

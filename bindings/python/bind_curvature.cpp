@@ -54,7 +54,7 @@ auto curvatures_of(const CurvatureIndex& surface, const std::optional<Rows>& ver
   const std::size_t rows = found.state.size();
   return std::tuple(owned<double>(std::move(found.k1)), owned<double>(std::move(found.k2)),
                     owned<double>(std::move(found.d1), {rows, 3}), owned<double>(std::move(found.d2), {rows, 3}),
-                    owned<std::uint8_t>(std::move(found.state)));
+                    owned<std::uint8_t>(std::move(found.state)), owned<std::uint32_t>(std::move(found.count)));
 }
 
 /// With scales, each array has a leading axis.

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
@@ -57,15 +61,22 @@ std::shared_ptr<GraphData> make_graph(const ExactMethod& method) {
   return without_lock([&] { return std::make_shared<GraphData>(extract_graph(method.index())); });
 }
 
-/// Not a copy: the array is read-only and keeps the graph alive.
-nb::object positions(const nb::object& self) {
-  const auto& graph = nb::cast<const GraphData&>(self);
-  return std::visit(
-      [&](const auto& xyz) {
-        using Real = typename std::decay_t<decltype(xyz)>::value_type;
-        return nb::cast(Output<const Real>(xyz.data(), {xyz.size() / 3, 3}, self), nb::rv_policy::reference);
-      },
-      graph.positions);
+/// A copy in the order of the mesh, which may not be written to.
+nb::object positions(const ExactMethod& method) {
+  const Index& index = method.index();
+  return index.positions().visit([&](const auto& xyz) {
+    using Real = std::remove_cvref_t<decltype(xyz.packed().front())>;
+    std::vector<Real> copy(3 * index.vertex_count());
+    without_lock([&] {
+      const std::span<const VertexId> ids = index.permutation();
+      for (std::size_t place = 0; place < index.vertex_count(); ++place) {
+        const std::size_t id = ids.empty() ? place : ids[place];
+        std::copy_n(xyz.packed().begin() + static_cast<std::ptrdiff_t>(3 * place), 3,
+                    copy.begin() + static_cast<std::ptrdiff_t>(3 * id));
+      }
+    });
+    return nb::cast(owned<const Real>(std::move(copy), {index.vertex_count(), 3}));
+  });
 }
 
 std::shared_ptr<paper::Index> make_hierarchy(const GraphData& graph, int levels, int discard, double fusion_growth) {
@@ -83,22 +94,29 @@ std::shared_ptr<Method> make_paper(std::shared_ptr<paper::Index> hierarchy, doub
 }  // namespace
 
 void bind_makers(nb::module_& module) {
-  nb::class_<GraphData>(module, "Graph")
-      .def_prop_ro("positions", &positions)
-      .def("mean_edge_length",
-           [](const GraphData& graph) { return without_lock([&] { return mean_edge_length(graph.view()); }); });
+  nb::class_<GraphData>(module, "Graph").def("mean_edge_length", [](const GraphData& graph) {
+    return without_lock([&] { return mean_edge_length(graph.view()); });
+  });
   static_cast<void>(nb::class_<paper::Index>(module, "Hierarchy"));
   module.def("exact", &make_exact, nb::arg(), nb::arg(), nb::arg("offsets").none(), nb::arg("cut").none(),
              nb::arg("threads"), nb::arg("progress").none());
   module.def("refit", &make_refitted, nb::arg(), nb::arg(), nb::arg("changed").none(), nb::arg("threads"),
              nb::arg("progress").none());
   module.def("graph", &make_graph);
+  module.def("positions", &positions);
+  module.def(
+      "check_faces",
+      [](const GraphData& graph, const Input& corners, const std::optional<Input>& offsets) {
+        const FacesView faces = faces_of(corners, offsets);
+        without_lock([&] { check_faces(graph.view(), faces); });
+      },
+      nb::arg(), nb::arg(), nb::arg("offsets").none());
   module.def("hierarchy", &make_hierarchy, nb::arg(), nb::arg("levels"), nb::arg("discard"), nb::arg("fusion_growth"));
   module.def("paper", &make_paper, nb::arg(), nb::arg("radius_ratio"));
   module.def("along_edges", [](std::shared_ptr<ExactMethod> exact) { return edge_method(std::move(exact)); });
   module.def("rings", [](std::shared_ptr<ExactMethod> exact) { return ring_method(std::move(exact)); });
   module.def("bfs", [](std::shared_ptr<GraphData> graph) { return bfs_method(std::move(graph)); });
-  module.def("ball", [](std::shared_ptr<GraphData> graph) { return ball_method(std::move(graph)); });
+  module.def("ball", [](std::shared_ptr<ExactMethod> exact) { return ball_method(std::move(exact)); });
 }
 
 }  // namespace meshhood::python

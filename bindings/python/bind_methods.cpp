@@ -56,7 +56,7 @@ auto many(Method& method, const std::optional<Rows>& vertices, const Radius& rad
       return {values_of<VertexId>(ids), values_of<double>(found_distances)};
     });
   };
-  std::vector<std::uint64_t> offsets = method.neighborhoods(query, allocate, options);
+  std::vector<std::uint64_t> offsets = limited([&] { return method.neighborhoods(query, allocate, options); });
   return std::tuple(owned<std::int64_t>(std::move(offsets)), std::move(ids), std::move(found_distances));
 }
 

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "graph_copy.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "meshhood/error.h"
@@ -22,6 +26,16 @@ void check_positions(const PositionsView& positions) {
   check_vertex_count(positions.size());
 }
 
+/// The first edge of `some` that `all` does not have.
+std::optional<std::pair<std::size_t, VertexId>> first_missing(const AdjacencyView& some, const AdjacencyView& all) {
+  for (std::size_t v = 0; v < some.size(); ++v) {
+    for (const VertexId w : some[v]) {
+      if (!std::ranges::binary_search(all[v], w)) return std::pair(v, w);
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 GraphData graph_copy(const MeshView& mesh) {
@@ -38,6 +52,14 @@ GraphData graph_copy(const MeshView& mesh) {
 
 Adjacency cut_copy(const AdjacencyView& graph, const IndicesView& cut) {
   return about("cut", [&] { return cut_edges(graph, cut); });
+}
+
+void check_faces(const GraphView& graph, const FacesView& faces) {
+  const Adjacency of_faces = about("F", [&] { return adjacency({graph.positions, faces}); });
+  const auto missing = first_missing(of_faces.view(), graph.adjacency);
+  if (!missing || !first_missing(graph.adjacency, of_faces.view())) return;
+  raise(ErrorCode::InvalidMesh, "F: faces of another mesh: one joins vertices " + std::to_string(missing->first) +
+                                    " and " + std::to_string(missing->second) + ", which the index does not");
 }
 
 void check_vertex_count(std::size_t count) {

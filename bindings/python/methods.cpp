@@ -59,9 +59,9 @@ std::shared_ptr<Method> bfs_method(std::shared_ptr<const GraphData> graph) {
   return std::make_shared<Method>(without_lock([&] { return SearchMethod::breadth_first(view); }), std::move(graph));
 }
 
-std::shared_ptr<Method> ball_method(std::shared_ptr<const GraphData> graph) {
-  const GraphView view = graph->view();
-  return std::make_shared<Method>(SearchMethod::ball_scan(view.positions), std::move(graph));
+std::shared_ptr<Method> ball_method(std::shared_ptr<const ExactMethod> exact) {
+  const Index& index = exact->index();
+  return std::make_shared<Method>(SearchMethod::in_space(index), std::move(exact));
 }
 
 }  // namespace meshhood::python

@@ -77,7 +77,7 @@ class ExactMethod : public Method {
 /// Breadth-first search.
 [[nodiscard]] std::shared_ptr<Method> bfs_method(std::shared_ptr<const GraphData> graph);
 
-/// Every vertex within the radius in space, by a scan of all.
-[[nodiscard]] std::shared_ptr<Method> ball_method(std::shared_ptr<const GraphData> graph);
+/// Every vertex within the radius in space, by the tree of the index.
+[[nodiscard]] std::shared_ptr<Method> ball_method(std::shared_ptr<const ExactMethod> exact);
 
 }  // namespace meshhood::python

@@ -9,6 +9,7 @@
 #include "meshhood/kernel_target.h"
 #include "meshhood/version.h"
 
+#include "batch_query.h"
 #include "bindings.h"
 
 namespace nb = nanobind;
@@ -27,7 +28,7 @@ PyObject* python_type(ErrorCode code) {
 /// The argument that caused an error of a query.
 const char* argument_of(ErrorCode code) {
   switch (code) {
-    case ErrorCode::VertexOutOfRange: return "v: ";
+    case ErrorCode::VertexOutOfRange: return "vertices: ";
     case ErrorCode::InvalidRadius: return "r: ";
     default: return "";
   }
@@ -52,6 +53,8 @@ void set_os_error(const Error& error) {
 void translate(const std::exception_ptr& exception, void*) {
   try {
     std::rethrow_exception(exception);
+  } catch (const ResultTooLarge& error) {
+    PyErr_SetString(PyExc_MemoryError, error.what());
   } catch (const Error& error) {
     if (error.code() == ErrorCode::IoFailure && error.error_number() != 0) {
       set_os_error(error);

@@ -238,7 +238,8 @@ export class Curvature {
   /**
    * 0: fitted. 1: the points determine no unique quadric; the values are those of the one with the smallest
    * coefficients. 2: fewer than six vertices are connected with the vertex; all values are 0. 3: the vertex has no
-   * normal, as it belongs to no face with an area; all values are 0.
+   * normal, as it belongs to no face with an area; all values are 0. 4: fewer than six vertices are in the ball; the
+   * fit is to these and to the nearest connected ones.
    */
   readonly state: Uint8Array;
 

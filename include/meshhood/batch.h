@@ -53,7 +53,12 @@ class SearchMethod {
   [[nodiscard]] static SearchMethod rings(const Index& index);
   static SearchMethod rings(const Index&&) = delete;
 
-  /// The vertices within the radius in space (see `BallSearcher`). The coordinates must be valid.
+  /// The vertices within the radius in space, connected or not, by the tree of the index. Ids are in index order.
+  [[nodiscard]] static SearchMethod in_space(const Index& index);
+  static SearchMethod in_space(const Index&&) = delete;
+
+  /// The same without an index, by a scan of all vertices for each query (see `BallSearcher`). The coordinates must be
+  /// valid.
   [[nodiscard]] static SearchMethod ball_scan(const PositionsView& positions);
 
   /// #V.

@@ -91,6 +91,7 @@ enum class CurvatureState : std::uint8_t {
   RankDeficient,  ///< the points determine no unique quadric: the one with the smallest coefficients
   TooFew,         ///< fewer than six vertices are connected with the query vertex: all values are 0
   NoNormal,       ///< the query vertex has no normal, as it belongs to no face with an area: all values are 0
+  Extended,       ///< fewer than six vertices are in the ball: the fit to these and to the nearest connected ones
 };
 
 struct CurvatureOptions {
@@ -133,6 +134,10 @@ struct Curvatures {
   std::vector<double> d2;
 
   std::vector<CurvatureState> state;  ///< #rows
+
+  /// #rows: the vertices within the radius to which the surface is fitted, without those that the filter leaves out. If
+  /// these are fewer than six, others beyond the radius are fitted, too.
+  std::vector<std::uint32_t> count;
 };
 
 /// Fits a quadric through the query vertex to its neighborhood by least squares (Panozzo et al., "Efficient

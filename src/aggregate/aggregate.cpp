@@ -15,6 +15,7 @@
 #include "meshhood/error.h"
 
 #include "aggregate/kernel_sums.h"
+#include "aggregate/listed_sums.h"
 #include "aggregate/maximal_nodes.h"
 #include "aggregate/minima.h"
 #include "aggregate/node_tree.h"
@@ -185,6 +186,14 @@ class Aggregation {
         blocks_((signal.channels + kChannelsTogether - 1) / kChannelsTogether) {}
 
   void run() {
+    for (std::size_t i = 0; i < radii_.size(); ++i) {
+      if (is_listed(radii_[i])) {
+        reduce_listed(i);
+      } else {
+        passes_.push_back(i);
+      }
+    }
+    if (passes_.empty()) return;
     for (std::size_t first = 0; first < signal_.channels; first += kChannelsTogether) {
       const std::size_t count = std::min(kChannelsTogether, signal_.channels - first);
       SignalBlock block = make_block(view_, signal_, first, count, query_);
@@ -201,12 +210,24 @@ class Aggregation {
       } else if (has_patches_) {
         reduce_patches(*reduction, first, count);
       } else {
-        for (std::size_t i = 0; i < radii_.size(); ++i) reduce_radius(*reduction, i, first, count);
+        for (const std::size_t i : passes_) reduce_radius(*reduction, i, first, count);
       }
     }
   }
 
  private:
+  [[nodiscard]] bool is_listed(const BatchRadius& radius) const {
+    return !has_patches_ && !radius.list() && is_better_listed(index_, signal_, query_, radius.common());
+  }
+
+  /// All channels of one radius.
+  void reduce_listed(std::size_t radius) {
+    const std::size_t size = rows_ * signal_.channels;
+    const PacketOptions pass = next_pass(blocks_);
+    sum_listed(index_, signal_, query_, radii_[radius].common(), result_.subspan(radius * size, size),
+               {.threads = options_.threads, .progress = pass.progress});
+  }
+
   void reduce_radius(const Reduction& reduction, std::size_t radius, std::size_t first, std::size_t count) {
     for_each_packet(
         index_, {query_.vertices, radii_[radius]},
@@ -266,7 +287,7 @@ class Aggregation {
       auto& [search, reducer, within] = *threads[thread];
       for (const BatchItem& item : chunk) {
         search.run(view_.leaf_begin[leaf_of(item.position)] + lane_of(item.position), item.radius, walls);
-        for (std::size_t i = 0; i < radii_.size(); ++i) {
+        for (const std::size_t i : passes_) {
           const double radius = radii_[i].list() ? item.radius : radii_[i].common();
           within.clear();
           std::ranges::copy_if(search.found(), std::back_inserter(within),
@@ -291,15 +312,17 @@ class Aggregation {
     return {result_.data() + radius * rows_ * signal_.channels + first, signal_.channels, count};
   }
 
-  PacketOptions next_pass() {
+  /// `blocks`: how many blocks of channels it reduces.
+  PacketOptions next_pass(std::size_t blocks = 1) {
     PacketOptions pass{.threads = options_.threads, .progress = {}};
-    const std::size_t passes = blocks_ * (has_patches_ || query_.metric == Metric::Path ? 1 : radii_.size());
+    const bool shares_search = passes_.size() > 1 && (has_patches_ || query_.metric == Metric::Path);
+    const std::size_t passes = blocks_ * (shares_search ? radii_.size() - passes_.size() + 1 : radii_.size());
     if (options_.progress) {
-      pass.progress = [this, passes, before = passes_begun_ * rows_](std::size_t done, std::size_t /*total*/) {
-        return options_.progress(before + done, passes * rows_);
+      pass.progress = [this, passes, blocks, before = passes_begun_ * rows_](std::size_t done, std::size_t /*total*/) {
+        return options_.progress(before + blocks * done, passes * rows_);
       };
     }
-    ++passes_begun_;
+    passes_begun_ += blocks;
     return pass;
   }
 
@@ -310,6 +333,7 @@ class Aggregation {
   const AggregateQuery& query_;
   FilterCopy filter_;                   // for paths
   std::span<const BatchRadius> radii_;  // of the passes
+  std::vector<std::size_t> passes_;     // those whose rows are not listed
   bool has_patches_;
   std::size_t rows_;
   std::span<double> result_;

@@ -21,23 +21,28 @@ class SizeLimit {
   SizeLimit(const BatchOptions& options, std::size_t rows)
       : rows_(rows),
         max_bytes_(options.max_bytes),
-        max_ids_(options.max_bytes / (sizeof(VertexId) + (options.distances ? sizeof(double) : 0))) {}
+        id_bytes_(sizeof(VertexId) + (options.distances ? sizeof(double) : 0)),
+        max_ids_(options.max_bytes / id_bytes_) {}
 
   [[nodiscard]] bool allows(double ids) const { return ids <= static_cast<double>(max_ids_); }
 
   /// Any thread: counts the ids of some rows.
   void add(std::uint64_t ids) {
-    if (total_.fetch_add(ids, std::memory_order_relaxed) + ids > max_ids_) refuse("");
+    const std::uint64_t total = total_.fetch_add(ids, std::memory_order_relaxed) + ids;
+    if (total > max_ids_) refuse("at least ", total);
   }
 
-  [[noreturn]] void refuse(const std::string& detail) const {
-    raise(ErrorCode::TooLarge, "the result of " + std::to_string(rows_) + " rows" + detail + " exceeds max_bytes, " +
+  /// `ids`: the size of the result, as far as it is known.
+  [[noreturn]] void refuse(const char* how_exact, std::uint64_t ids) const {
+    raise(ErrorCode::TooLarge, "the result of " + std::to_string(rows_) + " rows, " + how_exact +
+                                   std::to_string(ids * id_bytes_) + " bytes, exceeds max_bytes, " +
                                    std::to_string(max_bytes_));
   }
 
  private:
   std::size_t rows_;
   std::uint64_t max_bytes_;
+  std::uint64_t id_bytes_;
   std::uint64_t max_ids_;
   std::atomic<std::uint64_t> total_{0};
 };
@@ -65,7 +70,7 @@ void check_sample(Batch& batch, const SizeLimit& limit) {
   double variance = 0;
   for (const double size : sizes) variance += (size - mean) * (size - mean) / kSample;
   if (limit.allows(rows * (mean - kDeviations * std::sqrt(variance / kSample)))) return;
-  limit.refuse(", about " + std::to_string(std::llround(mean)) + " vertices each,");
+  limit.refuse("about ", static_cast<std::uint64_t>(std::llround(rows * mean)));
 }
 
 void count_rows(Batch& batch, std::uint64_t* sizes, SizeLimit* limit) {

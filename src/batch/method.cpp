@@ -20,6 +20,7 @@
 #include "exact/filtered.h"
 #include "exact/index_access.h"
 #include "exact/query/arguments.h"
+#include "exact/query/space_search.h"
 #include "paper/hierarchy.h"
 
 namespace meshhood {
@@ -31,6 +32,7 @@ static_assert(NeighborhoodSearcher<ReferenceSearcher>);
 static_assert(NeighborhoodSearcher<BallSearcher>);
 static_assert(NeighborhoodSearcher<EdgeSearcher>);
 static_assert(NeighborhoodSearcher<RingSearcher>);
+static_assert(NeighborhoodSearcher<SpaceSearcher>);
 static_assert(NeighborhoodSearcher<AnySearcher>);
 
 /// Answers rows one by one.
@@ -176,6 +178,13 @@ SearchMethod SearchMethod::along_edges(const Index& index) {
 }
 
 SearchMethod SearchMethod::rings(const Index& index) { return SearchMethod(shared(ring_factory(borrowed(index)))); }
+
+SearchMethod SearchMethod::in_space(const Index& index) {
+  return SearchMethod(shared({.vertex_count = index.vertex_count(),
+                              .make_searcher = [&index] { return AnySearcher(SpaceSearcher(index)); },
+                              .position = [&index](VertexId v) { return IndexAccess::view(index).slot[v]; },
+                              .is_count_cheap = true}));
+}
 
 SearchMethod SearchMethod::ball_scan(const PositionsView& positions) {
   return SearchMethod(shared({.vertex_count = positions.size(),

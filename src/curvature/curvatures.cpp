@@ -43,7 +43,7 @@ class CurvatureFitter {
   [[nodiscard]] TangentFrame fit_frame(const QueryMoments& moments, std::size_t query) const;
   void solve(const PacketMoments& sums, const QueryMoments& moments, std::size_t size);
   [[nodiscard]] std::optional<Quadric> quadric(const PacketMoments& sums, std::size_t query) const;
-  void write(std::size_t row, CurvatureState state, const PrincipalCurvature& curvature);
+  void write(std::size_t row, const DirectFit::Result& result);
 
   const SurfaceState* surface_;
   const CurvatureOptions* options_;
@@ -82,17 +82,17 @@ void CurvatureFitter::fit_row(const MomentRows& packet, const PacketMoments& sum
                               std::size_t i) {
   const std::size_t row = packet.rows[i];
   const std::size_t query = packet.queries_of_rows[i];
-  if (std::isnan(frames_[query].n.x)) return write(row, CurvatureState::NoNormal, {});
-  if (moments.at[0][query] >= kFewestPoints) {
+  if (std::isnan(frames_[query].n.x)) return write(row, {CurvatureState::NoNormal, {}, 0});
+  const auto count = static_cast<std::size_t>(moments.at[0][query]);
+  if (count >= kFewestPoints) {
     if (const std::optional<Quadric> fitted = quadric(sums, query)) {
       PrincipalCurvature result = principal_curvature(*fitted, axes_[query], options_->shape_operator);
       result.k1 *= sums.scale();
       result.k2 *= sums.scale();
-      return write(row, CurvatureState::Fitted, result);
+      return write(row, {CurvatureState::Fitted, result, count});
     }
   }
-  const DirectFit::Result direct = direct_.fit(packet.places[query], packet.radii[query], frames_[query]);
-  write(row, direct.state, direct.curvature);
+  write(row, direct_.fit(packet.places[query], packet.radii[query], frames_[query]));
 }
 
 TangentFrame CurvatureFitter::fit_frame(const QueryMoments& moments, std::size_t query) const {
@@ -119,12 +119,13 @@ std::optional<Quadric> CurvatureFitter::quadric(const PacketMoments& sums, std::
   return Quadric{found.a[query], found.b[query], found.c[query], found.d[query], found.e[query]};
 }
 
-void CurvatureFitter::write(std::size_t row, CurvatureState state, const PrincipalCurvature& curvature) {
-  out_->state[row] = state;
-  out_->k1[row] = curvature.k1;
-  out_->k2[row] = curvature.k2;
-  set_row(out_->d1, row, curvature.d1);
-  set_row(out_->d2, row, curvature.d2);
+void CurvatureFitter::write(std::size_t row, const DirectFit::Result& result) {
+  out_->state[row] = result.state;
+  out_->count[row] = static_cast<std::uint32_t>(result.count);
+  out_->k1[row] = result.curvature.k1;
+  out_->k2[row] = result.curvature.k2;
+  set_row(out_->d1, row, result.curvature.d1);
+  set_row(out_->d2, row, result.curvature.d2);
 }
 
 }  // namespace
@@ -143,6 +144,7 @@ Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query, co
   result.d1.resize(3 * rows);
   result.d2.resize(3 * rows);
   result.state.resize(rows);
+  result.count.resize(rows);
   const MomentSource source{.index = &*state.index, .filter = options.filter ? &state : nullptr};
   const Index searched = filtered(state.searched, query.filter, options.threads);
   visit_moments(searched, {.vertices = query.vertices, .radius = query.radius}, options.open_ball, source,

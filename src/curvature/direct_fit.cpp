@@ -66,15 +66,19 @@ double DirectFit::set_points(std::uint32_t place) {
 DirectFit::Result DirectFit::fit(std::uint32_t place, double radius, const TangentFrame& frame) {
   if (!searcher_) searcher_.emplace(*searched_);
   find_places(*searcher_, *surface_->index, place, radius, found_);
-  extend(place);
-  if (found_.size() < kFewestPoints) return {CurvatureState::TooFew, {}};
+  const std::size_t inside = found_.size();
+  const bool is_extended = inside < kFewestPoints;
+  if (is_extended) extend(place);
+  if (found_.size() < kFewestPoints) return {CurvatureState::TooFew, {}, inside};
   if (options_->filter) filter(frame.n);
+  const std::size_t count = is_extended ? inside : found_.size();
   const double scale = set_points(place);
   const auto result = [&](const PointFit& fit, const TangentFrame& axes) -> Result {
     PrincipalCurvature curvature = principal_curvature(fit.quadric, axes, options_->shape_operator);
     curvature.k1 *= scale;
     curvature.k2 *= scale;
-    return {fit.unique ? CurvatureState::Fitted : CurvatureState::RankDeficient, curvature};
+    const CurvatureState state = is_extended ? CurvatureState::Extended : CurvatureState::Fitted;
+    return {fit.unique ? state : CurvatureState::RankDeficient, curvature, count};
   };
   if (options_->fit == CurvatureFit::Jet) {
     const JetFit jet = fit_jet(points_, frame.n);

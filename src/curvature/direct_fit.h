@@ -23,6 +23,7 @@ class DirectFit {
   struct Result {
     CurvatureState state;
     PrincipalCurvature curvature;
+    std::size_t count;  // of the vertices within the radius that are fitted
   };
 
   /// The vertex at `place` in index order. `frame` is that of its normal, for a quadric.

@@ -129,7 +129,7 @@ class FeatureExtraction {
     const std::size_t kinds = options_.kinds.size();
     for (std::size_t row = 0; row < rows_; ++row) {
       const double radius = radius_at(radius_of_rows, row);
-      const bool has_fit = k.state[row] == CurvatureState::Fitted || k.state[row] == CurvatureState::RankDeficient;
+      const bool has_fit = k.state[row] != CurvatureState::TooFew && k.state[row] != CurvatureState::NoNormal;
       for (std::size_t kind = 0; kind < kinds; ++kind) {
         if (follows_from_areas(options_.kinds[kind])) continue;
         values[row * kinds + kind] =

@@ -33,7 +33,6 @@ PacketMoments::PacketMoments(const MomentSource& source, Isa isa)
 void PacketMoments::begin(std::span<const std::uint32_t> places, double reach, QueryWord queries) {
   size_ = places.size();
   active_ = first_lanes(static_cast<unsigned>(size_)) & queries;
-  without_vertices_ = first_lanes(static_cast<unsigned>(size_)) & ~queries;
   if (source_.filter != nullptr) set_normals(places);
   for (std::size_t q = 0; q < size_; ++q) {
     const Point p = std::visit([&](auto xyz) { return point(xyz, places[q]); }, source_.index->positions);
@@ -150,9 +149,9 @@ const QueryMoments& PacketMoments::finish() {
   add_common();
   add_some();
   kernels_->collect(common_, some_, moments_);
-  // What is common to the others was added for all.
-  for_each_lane(without_vertices_, [&](unsigned q) {
-    for (QueryRow& row : moments_.at) row[q] = 0;
+  // What is common to the active queries is not of the others: those of walls and, with a filter, without a normal.
+  for_each_lane(first_lanes(static_cast<unsigned>(size_)) & ~active_, [&](unsigned q) {
+    for (auto& sums : moments_.at) sums[q] = 0;
   });
   for (std::size_t q = 0; q < size_; ++q) sizes_[q] = sizes_of(moments_, q);
   kernels_->shift(moments_, offsets_);

@@ -92,7 +92,6 @@ class PacketMoments {
 
   std::size_t size_ = 0;
   QueryWord active_ = 0;  // without the queries that have no normal, if there is a filter
-  QueryWord without_vertices_ = 0;
   Point center_{0, 0, 0};
   double scale_ = 1;
   QueryVectors offsets_;  // from the query vertices to the center

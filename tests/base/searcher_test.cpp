@@ -15,6 +15,7 @@
 #include "meshhood/meshhood.h"
 #include "meshhood/search.h"
 
+#include "exact/query/space_search.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/refusal.h"
@@ -76,6 +77,7 @@ TEST_P(Searchers, AllMembersGiveTheSameAnswer) {
   paper::Searcher approximate(hierarchy);
   ReferenceSearcher reference(view);
   BallSearcher ball(view.positions);
+  SpaceSearcher space(index);
   Random random(3);
   for (int i = 0; i < 30; ++i) {
     const auto v = static_cast<VertexId>(random.below(mesh.size()));
@@ -89,6 +91,8 @@ TEST_P(Searchers, AllMembersGiveTheSameAnswer) {
     expect(approximate);
     expect(reference);
     expect(ball);
+    expect(space);
+    EXPECT_EQ(sorted(space.neighborhood(v, radius)), ball.neighborhood(v, radius));
     EXPECT_EQ(exact.count(v, radius), reference.count(v, radius));
     EXPECT_LE(reference.count(v, radius), approximate.count(v, radius));
     EXPECT_LE(approximate.count(v, radius), ball.count(v, radius));
@@ -135,6 +139,7 @@ TEST_P(Searchers, OfAMethodGiveTheAnswersOfTheSearcherThatItNames) {
     expect_same(SearchMethod::breadth_first(graph), ReferenceSearcher(graph), v, radius);
     expect_same(SearchMethod::along_edges(index), EdgeSearcher(index), v, radius);
     expect_same(SearchMethod::ball_scan(graph.positions), BallSearcher(graph.positions), v, radius);
+    expect_same(SearchMethod::in_space(index), SpaceSearcher(index), v, radius);
   }
 }
 

@@ -17,6 +17,7 @@
 
 #include "meshhood/meshhood.h"
 
+#include "exact/query/space_search.h"
 #include "support/families.h"
 #include "support/family_name.h"
 #include "support/refusal.h"
@@ -144,6 +145,7 @@ TEST_P(Families, RowsAreTheAnswersToSingleQueries) {
     expect_right<paper::Searcher>(approximate, approximate, random);
     expect_right<ReferenceSearcher>(SearchMethod::breadth_first(graph), graph, random);
     expect_right<BallSearcher>(SearchMethod::ball_scan(graph.positions), graph.positions, random);
+    expect_right<SpaceSearcher>(SearchMethod::in_space(exact), exact, random);
     rows += random.vertices.size();
   }
   std::printf("%s: %zu rows, %zu numbers of threads\n", std::string(GetParam().name).c_str(), rows, kThreads.size());
@@ -373,8 +375,7 @@ TEST_F(Batches, RefuseAResultBeyondTheLimit) {
       BatchOptions options{.threads = threads, .distances = distances, .max_bytes = bytes};
       EXPECT_EQ(neighborhoods(index, {.radius = 3}, options).ids.size(), ids);
       --options.max_bytes;
-      expect_refused(ErrorCode::TooLarge,
-                     "the result of 3600 rows exceeds max_bytes, " + std::to_string(options.max_bytes),
+      expect_refused(ErrorCode::TooLarge, " bytes, exceeds max_bytes, " + std::to_string(options.max_bytes),
                      [&] { static_cast<void>(neighborhoods(index, {.radius = 3}, options)); });
     }
   }
@@ -387,7 +388,7 @@ TEST_F(Batches, RefuseAResultFarBeyondTheLimitByASample) {
                                most = std::max(most, done);
                                return true;
                              }};
-  expect_refused(ErrorCode::TooLarge, "about 3600 vertices each, exceeds max_bytes, 1073741824", [&] {
+  expect_refused(ErrorCode::TooLarge, "about 1440000000 bytes, exceeds max_bytes, 1073741824", [&] {
     static_cast<void>(neighborhoods(index, {.vertices = vertices, .radius = kInfinity}, options));
   });
   EXPECT_EQ(most, 0U) << "all rows of the refused batch were counted";

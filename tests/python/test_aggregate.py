@@ -52,10 +52,10 @@ def test_shapes(plates):
     V, _, _, index, values = plates
     n = len(V)
     assert index.aggregate(values, 1).shape == (n, 2, 3)
-    assert index.aggregate(values, [1, 2.5]).shape == (2, n, 2, 3)
-    assert index.aggregate(values, [1]).shape == (1, n, 2, 3)
+    assert index.aggregate(values, scales=[1, 2.5]).shape == (2, n, 2, 3)
+    assert index.aggregate(values, scales=[1]).shape == (1, n, 2, 3)
     assert index.aggregate(values, 1, vertices=[3, 3, 4]).shape == (3, 2, 3)
-    assert index.aggregate(values, [1, 2], vertices=5).shape == (2, 2, 3)
+    assert index.aggregate(values, scales=[1, 2], vertices=5).shape == (2, 2, 3)
     assert index.aggregate(values, 1, vertices=[]).shape == (0, 2, 3)
     assert index.aggregate(values[:, :0], 1).shape == (n, 0, 3)
     assert isinstance(index.aggregate(values[:, 0, 0], 1, vertices=5), float)
@@ -69,7 +69,7 @@ def test_values_of_any_type_and_layout(plates):
     _, _, _, index, values = plates
     whole = np.round(100 * values[:, :, 0])
     want = index.aggregate(whole, 2.5)
-    for same in (whole.astype(np.int32), whole.astype(np.float32), np.asfortranarray(whole), whole.astype(">f8"), whole.tolist()):
+    for same in (whole.astype(np.int32), np.asfortranarray(whole), whole.astype(">f8"), whole.tolist()):
         np.testing.assert_array_equal(index.aggregate(same, 2.5), want)
     np.testing.assert_array_equal(index.aggregate(whole > 0, 2.5, "sum"), index.aggregate((whole > 0) * 1.0, 2.5, "sum"))
 
@@ -88,7 +88,7 @@ def test_missing_values(plates):
 
 def test_patch(plates):
     V, _, edges, index, values = plates
-    got = index.aggregate(values[:, 0, 0], [4.0, 1.5], "sum", nesting="patch")
+    got = index.aggregate(values[:, 0, 0], scales=[4.0, 1.5], reduce="sum", nesting="patch")
     for v in range(len(V)):
         ids = oracle.neighborhood(V, edges, v, 4.0)
         near = ids[oracle.distances(V, v)[ids] <= 1.5]
@@ -131,8 +131,12 @@ def test_errors_name_the_argument(plates):
         ("values: expected an array of shape", ValueError, lambda: index.aggregate(values[1:], 1)),
         ("values: expected numbers", TypeError, lambda: index.aggregate(values.astype(complex), 1)),
         ("r: radius -1", ValueError, lambda: index.aggregate(values, -1)),
-        ("r: radius nan", ValueError, lambda: index.aggregate(values, [1, np.nan])),
-        ("r: expected one number or a list", ValueError, lambda: index.aggregate(values, [])),
+        ("scales: radius nan", ValueError, lambda: index.aggregate(values, scales=[1, np.nan])),
+        ("r: .* several radii for all rows are scales=", ValueError, lambda: index.aggregate(values, [1, 2])),
+        ("scales: expected a list", ValueError, lambda: index.aggregate(values, scales=[])),
+        ("r: expected a radius", TypeError, lambda: index.aggregate(values)),
+        ("r: expected a radius", TypeError, lambda: index.aggregate(values, 1, scales=[1])),
+        ("sort: no argument", TypeError, lambda: index.aggregate(values, 1, sort="id")),
         ("reduce: 'median'", ValueError, lambda: index.aggregate(values, 1, "median")),
         ("kernel: 'gauss'", ValueError, lambda: index.aggregate(values, 1, kernel="gauss")),
         ("kernel is for sum and mean", ValueError, lambda: index.aggregate(values, 1, "max", kernel="biweight")),
@@ -141,8 +145,8 @@ def test_errors_name_the_argument(plates):
         ("ddof: 2", ValueError, lambda: index.aggregate(values, 1, "var", ddof=2)),
         ("weights: expected an array of shape", ValueError, lambda: index.aggregate(values, 1, weights=[1, 2])),
         ("vertex 0: the weight is -1", ValueError, lambda: index.aggregate(values, 1, weights=np.full(n, -1.0))),
-        (f"v: row 1: vertex {n}", ValueError, lambda: index.aggregate(values, 1, vertices=[0, n])),
-        ("more than the limit", ValueError, lambda: index.aggregate(values, 1, max_bytes=100)),
+        (f"vertices: row 1: vertex {n}", ValueError, lambda: index.aggregate(values, 1, vertices=[0, n])),
+        ("bytes, exceeds max_bytes, 100", MemoryError, lambda: index.aggregate(values, 1, max_bytes=100)),
         ("fwhm: 0", ValueError, lambda: index.smooth(values, 0)),
     ):
         with pytest.raises(error, match=cause):
@@ -152,7 +156,7 @@ def test_errors_name_the_argument(plates):
 def test_progress_may_end_the_call(plates):
     _, _, _, index, values = plates
     reports = []
-    index.aggregate(values, [1, 2], progress=lambda done, total: reports.append((done, total)))
+    index.aggregate(values, scales=[1, 2], progress=lambda done, total: reports.append((done, total)))
     assert reports[-1] == (2 * len(index), 2 * len(index))
 
     def stop(done, total):

@@ -71,20 +71,20 @@ CALLS = {
     "count": ("index.count(v, r, progress=p)", {"v": "vertices", "r": "radii"}),
     "along edges": ("index.query_ball(v, r, metric='path', progress=p)", {"v": "vertices", "r": "radii"}),
     "aggregate": (
-        "index.aggregate(values, r, weights=weights, vertices=v, progress=p)",
+        "index.aggregate(values, scales=r, weights=weights, vertices=v, progress=p)",
         {"values": "values", "r": "r", "weights": "weights", "v": "vertices"},
     ),
     "variance of patches": (
-        "index.aggregate(values, r, 'var', weights=weights, nesting='patch', progress=p)",
+        "index.aggregate(values, scales=r, reduce='var', weights=weights, nesting='patch', progress=p)",
         {"values": "values", "r": "r", "weights": "weights"},
     ),
     "maximum": (
-        "index.aggregate(values, r, 'max', vertices=v, progress=p)",
+        "index.aggregate(values, scales=r, reduce='max', vertices=v, progress=p)",
         {"values": "values", "r": "r", "v": "vertices"},
     ),
     "smooth": ("index.smooth(values, 2.0, weights=weights, progress=p)", {"values": "values", "weights": "weights"}),
-    "curvature": ("index.curvature(r, v, F=F, progress=p)", {"r": "r", "v": "vertices", "F": "F"}),
-    "curvature by normals": ("index.curvature(r, normals=N, progress=p)", {"r": "r", "N": "normals"}),
+    "curvature": ("index.curvature(scales=r, vertices=v, F=F, progress=p)", {"r": "r", "v": "vertices", "F": "F"}),
+    "curvature by normals": ("index.curvature(scales=r, normals=N, progress=p)", {"r": "r", "N": "normals"}),
     "corrected curvature": (
         "index.corrected_curvature(2.0, v, F=F, normals=N, progress=p)",
         {"v": "vertices", "F": "F", "N": "normals"},
@@ -98,7 +98,7 @@ CALLS = {
         {"r": "radii", "v": "vertices", "weights": "weights"},
     ),
     "features": (
-        "index.features(r, v, F=F, kinds=('crease', 'area', 'variation'), progress=p)",
+        "index.features(scales=r, vertices=v, F=F, kinds=('crease', 'area', 'variation'), progress=p)",
         {"r": "r", "v": "vertices", "F": "F"},
     ),
     "build": ("meshhood.MeshIndex(V, F, cut=cut, progress=p)", {"V": "V", "F": "F", "cut": "cut"}),

@@ -74,7 +74,7 @@ def test_area_height_and_variation_are_dense_sums(make):
     areas, normals = areas_and_normals(V, F)
     unit = np.linalg.norm(V[1] - V[0])
     radii = unit * np.array([0.5, 2.3, 5.0])
-    found = index.features(radii, F=F, kinds=("area", "height", "variation"))
+    found = index.features(scales=radii, F=F, kinds=("area", "height", "variation"))
     for i, r in enumerate(radii):
         for v in range(0, len(V), 3):
             ids = oracle.neighborhood(V, edges, v, r)
@@ -93,7 +93,7 @@ def test_area_height_and_variation_are_dense_sums(make):
 def test_a_neighborhood_without_area_has_no_features():
     V, F = bumpy(5)
     V = np.vstack([V, [[9.0, 9, 9]]])
-    found = meshhood.MeshIndex(V, F).features([1.0], F=F, kinds=("area", "height", "variation"))
+    found = meshhood.MeshIndex(V, F).features(scales=[1.0], F=F, kinds=("area", "height", "variation"))
     assert np.isnan(found[0, -1]).all()
 
 

@@ -107,7 +107,7 @@ def test_a_radius_above_the_halo_is_refused_naming_the_required_halo(parts, tmp_
 
 def sum_of_x(part, index, owned):
     x = index.positions[:, 0].astype(np.float64)
-    indptr, indices = index.query_ball(owned, HALO, sort=True, workers=1)
+    indptr, indices = index.query_ball(owned, HALO, sort="id", workers=1)
     return np.add.reduceat(x[indices], indptr[:-1])
 
 
@@ -193,7 +193,7 @@ def test_neighborhoods_are_those_of_one_index(parts, index, tmp_path, format):
         vertices, indptr, indices, distances = (
             np.asarray(found[name]) for name in ("vertices", "indptr", "indices", "distances")
         )
-        expected = index.query_ball(vertices, 3.5, sort=True, return_distance=True)
+        expected = index.query_ball(vertices, 3.5, sort="id", return_distance=True)
         for one, other in zip((indptr, indices, distances), expected):
             np.testing.assert_array_equal(one, other)
         rows += len(vertices)

@@ -63,3 +63,16 @@ def test_searchlight(tmp_path):
 def test_scan_graph(tmp_path):
     scan = meshes.shared("paper/head_skin_1m.ply.zst", tmp_path)
     assert "1002496 vertices" in run("scan_graph.py", scan, memory=FOUR_GB)
+
+
+TASKS = sorted((EXAMPLES / "tasks").glob("*.py"))
+
+
+@pytest.mark.parametrize("task", TASKS, ids=[task.stem for task in TASKS])
+def test_a_task_is_a_program_of_at_most_ten_lines(task, tmp_path):
+    if "nilearn" in task.stem:
+        pytest.importorskip("nilearn")
+    lines = task.read_text(encoding="utf-8").splitlines()
+    assert len(lines) <= 10
+    assert lines[0].startswith("# ") and "" in lines
+    run(task, meshes.shared("scan/cortex_left_41k.ply.zst", tmp_path))

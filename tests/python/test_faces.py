@@ -16,7 +16,7 @@ VALUES = np.arange(len(V), dtype=float)
 CALLS = {
     "curvature": lambda index, **F: index.curvature(2.5, **F).k1,
     "corrected curvature": lambda index, **F: index.corrected_curvature(2.5, **F).measures,
-    "features": lambda index, **F: index.features([1.5, 2.5], kinds=("crease", "area"), **F),
+    "features": lambda index, **F: index.features(scales=[1.5, 2.5], kinds=("crease", "area"), **F),
     "aggregate": lambda index, **F: index.aggregate(VALUES, 2.5, weights="area", **F),
     "smooth": lambda index, **F: index.smooth(VALUES, 2.5, weights="area", **F),
     "moments": lambda index, **F: index.moments(2.5, weights="area", **F),

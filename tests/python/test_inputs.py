@@ -13,7 +13,7 @@ R = 1.5
 
 
 def answers(index):
-    return [a.tolist() for a in index.query_ball(None, R, sort=True)]
+    return [a.tolist() for a in index.query_ball(None, R, sort="id")]
 
 
 TRIANGLES = answers(meshhood.MeshIndex(V, F))
@@ -171,20 +171,20 @@ INDEX = meshhood.MeshIndex(V, F)
 @pytest.mark.parametrize(
     ("v", "r", "error", "message"),
     (
-        (36, 1, ValueError, "v: vertex 36, but the mesh has 36"),
-        (-1, 1, ValueError, "v: vertex -1"),
-        (2**70, 1, ValueError, "v: vertex 1180591620717411303424"),
-        (1.0, 1, TypeError, "v: .*float"),
-        ([0, 1, 36], 1, ValueError, "v: row 2: vertex 36"),
-        (np.array([0, 2**32], np.uint64), 1, ValueError, "v: row 1: vertex 4294967296"),
-        ([0.0], 1, TypeError, "v: .*float64"),
-        (True, 1, TypeError, "v: .*bool"),
-        (np.True_, 1, TypeError, "v: .*bool"),
-        (np.array(True), 1, TypeError, "v: "),
-        ([0, True], 1, TypeError, "v: .*bool"),
-        ([True], 1, ValueError, r"v: a bool mask of shape \(1,\), expected \(36,\)"),
-        (np.ones((len(V), 1), bool), 1, ValueError, r"v: a bool mask of shape \(36, 1\)"),
-        ([[0, 1]], 1, ValueError, r"v: .*\(1, 2\)"),
+        (36, 1, ValueError, "vertices: vertex 36, but the mesh has 36"),
+        (-1, 1, ValueError, "vertices: vertex -1"),
+        (2**70, 1, ValueError, "vertices: vertex 1180591620717411303424"),
+        (1.0, 1, TypeError, "vertices: .*float"),
+        ([0, 1, 36], 1, ValueError, "vertices: row 2: vertex 36"),
+        (np.array([0, 2**32], np.uint64), 1, ValueError, "vertices: row 1: vertex 4294967296"),
+        ([0.0], 1, TypeError, "vertices: .*float64"),
+        (True, 1, TypeError, "vertices: .*bool"),
+        (np.True_, 1, TypeError, "vertices: .*bool"),
+        (np.array(True), 1, TypeError, "vertices: "),
+        ([0, True], 1, TypeError, "vertices: .*bool"),
+        ([True], 1, ValueError, r"vertices: a bool mask of shape \(1,\), expected \(36,\)"),
+        (np.ones((len(V), 1), bool), 1, ValueError, r"vertices: a bool mask of shape \(36, 1\)"),
+        ([[0, 1]], 1, ValueError, r"vertices: .*\(1, 2\)"),
         (0, -1, ValueError, "r: .*-1"),
         (0, np.nan, ValueError, "r: .*nan"),
         (0, True, TypeError, "r: .*bool"),
@@ -197,7 +197,7 @@ INDEX = meshhood.MeshIndex(V, F)
         (0, 10**400, TypeError, "r: "),
         (0, [1], ValueError, r"r: .*\(1,\)"),
         ([0, 1], [1, -1], ValueError, "r: row 1: .*-1"),
-        ([0, 1], [1, 2, 3], ValueError, r"r: .* 2 of them.*\(3,\)"),
+        ([0, 1], [1, 2, 3], ValueError, r"r: .* 2 rows.*\(3,\)"),
         ([0, 1], ["1", "2"], TypeError, "r: "),
     ),
 )

@@ -9,11 +9,11 @@ import pytest
 V, QUADS = meshes.grid(8)
 V[:, 2] = V[:, 0] * V[:, 1] / 16
 F = meshes.triangles(QUADS)
-WANTED = meshhood.MeshIndex(V, F).query_ball(None, 2.0, sort=True)[1]
+WANTED = meshhood.MeshIndex(V, F).query_ball(None, 2.0, sort="id")[1]
 
 
 def expect_same(index):
-    np.testing.assert_array_equal(index.query_ball(None, 2.0, sort=True)[1], WANTED)
+    np.testing.assert_array_equal(index.query_ball(None, 2.0, sort="id")[1], WANTED)
 
 
 def test_arrays_of_igl_in_either_order_are_read():
@@ -166,3 +166,93 @@ def test_a_surface_of_nibabel_is_read(tmp_path):
         meshhood.MeshIndex(gifti(points))
     with pytest.raises(ValueError, match="V: has 2 arrays of intent 'pointset', expected one"):
         meshhood.MeshIndex(gifti(points, points, triangles))
+
+
+class Part:
+    """A mesh of nilearn, as far as it is read."""
+
+    def __init__(self, coordinates, faces):
+        self.coordinates, self.faces = coordinates, faces
+
+
+class Several:
+    """A PolyMesh of nilearn, or the data of a SurfaceImage."""
+
+    def __init__(self, **parts):
+        self.parts = parts
+
+
+class Image:
+    """A SurfaceImage of nilearn."""
+
+    def __init__(self, mesh, data):
+        self.mesh, self.data = mesh, data
+
+
+def test_meshes_and_images_of_nilearn():
+    mesh = Several(left=Part(V, F))
+    image = Image(mesh, Several(left=V[:, :2]))
+    for given in (Part(V, F), mesh, image):
+        expect_same(meshhood.MeshIndex(given))
+    index = meshhood.MeshIndex(image)
+    np.testing.assert_array_equal(index.smooth(image, 2.0), index.smooth(V[:, :2], 2.0))
+    np.testing.assert_array_equal(index.curvature(2.0, F=mesh).k1, index.curvature(2.0).k1)
+    both = Several(left=Part(V, F), right=Part(V, F))
+    with pytest.raises(ValueError, match=r"V: has the parts 'left', 'right', expected one: .parts\['left'\]"):
+        meshhood.MeshIndex(both)
+
+
+def test_a_surface_of_nilearn():
+    surface = pytest.importorskip("nilearn.surface")
+    expect_same(meshhood.MeshIndex(surface.InMemoryMesh(V, F)))
+
+
+def test_a_gifti_file_is_read(tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    image = nibabel.gifti.GiftiImage()
+    for array, intent in ((V.astype(np.float32), "POINTSET"), (F.astype(np.int32), "TRIANGLE")):
+        image.add_gifti_data_array(nibabel.gifti.GiftiDataArray(array, intent=f"NIFTI_INTENT_{intent}"))
+    nibabel.save(image, tmp_path / "lh.surf.gii")
+    mesh = meshhood.read_mesh(tmp_path / "lh.surf.gii")
+    np.testing.assert_array_equal(mesh.vertices, V.astype(np.float32))
+    np.testing.assert_array_equal(mesh.faces, F)
+    assert mesh.faces.dtype == np.int32
+
+
+def test_values_are_written_by_name(tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    values = {"quality": V[:, 0], "direction": V.astype(np.float32)}
+    meshhood.write_mesh(tmp_path / "a.ply", V, F, values=values, colors=np.full((len(V), 3), 7, np.uint8))
+    text = (tmp_path / "a.ply").read_bytes()
+    assert all(f"property float {name}\n".encode() in text for name in ("quality", "direction_x", "direction_z"))
+    back = meshhood.read_mesh(tmp_path / "a.ply")
+    np.testing.assert_array_equal(back.vertices, V)
+    np.testing.assert_array_equal(back.faces, F)
+    meshhood.write_mesh(tmp_path / "a.vtk", V, F, values=values)
+    np.testing.assert_array_equal(pyvista.read(tmp_path / "a.vtk")["quality"], V[:, 0].astype(np.float32))
+    for words, message in (
+        ({"values": {"k": V[1:, 0]}}, r"values\['k'\]: expected an array of shape"),
+        ({"values": {"a b": V[:, 0]}}, "a b"),
+        ({"colors": V}, "colors: float"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            meshhood.write_mesh(tmp_path / "b.ply", V, F, **words)
+    with pytest.raises(ValueError, match="path: the extension '.obj', expected .ply or .vtk"):
+        meshhood.write_mesh(tmp_path / "b.obj", V, F)
+    assert not (tmp_path / "b.ply").exists()
+
+
+def test_the_accessor_of_pyvista():
+    pyvista = pytest.importorskip("pyvista", minversion="0.48")
+    import meshhood._pyvista  # noqa: F401: by its entry point, if the package is installed
+
+    mesh = pyvista.PolyData.from_regular_faces(V, F)
+    index = mesh.meshhood.index
+    mesh["k1"] = mesh.meshhood.curvature(2.0).k1
+    assert mesh.meshhood.index is index
+    np.testing.assert_array_equal(mesh["k1"], meshhood.MeshIndex(V, F).curvature(2.0).k1)
+    mesh.points *= 2
+    assert mesh.meshhood.count(0, 2.0) == meshhood.MeshIndex(mesh.points, F).count(0, 2.0)
+    assert "smooth" in dir(mesh.meshhood)
+    with pytest.raises(AttributeError, match="sharpen"):
+        mesh.meshhood.sharpen

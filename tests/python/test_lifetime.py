@@ -53,11 +53,11 @@ def test_arrays_may_change_after_the_index_is_made(method):
 @pytest.mark.parametrize("method", ("exact", "paper", "bfs", "ball"))
 def test_threads_may_share_an_index(method):
     index = make()
-    wanted = [index.query_ball(v, 4.0, sort=True, method=method) for v in range(len(index))]
+    wanted = [index.query_ball(v, 4.0, sort="id", method=method) for v in range(len(index))]
     shared = make()  # which has made neither searchers nor the index of the paper yet
 
     def run_query(v):
-        return shared.query_ball(v, 4.0, sort=True, method=method)
+        return shared.query_ball(v, 4.0, sort="id", method=method)
 
     with ThreadPoolExecutor(4) as pool:
         for got, want in zip(pool.map(run_query, range(len(index))), wanted):

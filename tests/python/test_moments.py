@@ -2,12 +2,14 @@
 """Moments, principal components, corrected curvature and features, compared with NumPy over the vertices that SciPy
 finds."""
 
+from typing import get_args
+
 import meshes
 import meshhood
 import numpy as np
 import oracle
 import pytest
-from meshhood._shape import _KINDS
+from meshhood._shape import Kind
 from test_curvature import ellipsoid
 
 
@@ -117,21 +119,21 @@ def test_features_are_curvatures_times_the_radius_and_persist():
     V, F = ellipsoid(3)
     index = meshhood.MeshIndex(V, F)
     radii = meshhood.geometric_radii(0.5, 2, 3)
-    found = index.features(radii, F=F, kinds=_KINDS)
-    assert found.shape == (3, len(V), len(_KINDS))
+    found = index.features(scales=radii, F=F, kinds=get_args(Kind))
+    assert found.shape == (3, len(V), len(get_args(Kind)))
     k = index.curvature(1.0, F=F)
-    np.testing.assert_allclose(found[1, :, _KINDS.index("mean")], k.mean, rtol=1e-12)
-    np.testing.assert_allclose(found[1, :, _KINDS.index("shape_index")], k.shape_index, rtol=1e-12)
+    np.testing.assert_allclose(found[1, :, get_args(Kind).index("mean")], k.mean, rtol=1e-12)
+    np.testing.assert_allclose(found[1, :, get_args(Kind).index("shape_index")], k.shape_index, rtol=1e-12)
     patch = index.principal_components(1.0, weights="area", F=F)
-    np.testing.assert_allclose(found[1, :, _KINDS.index("variation")], patch.surface_variation, rtol=1e-12)
-    crease = index.features(radii, F=F)
+    np.testing.assert_allclose(found[1, :, get_args(Kind).index("variation")], patch.surface_variation, rtol=1e-12)
+    crease = index.features(scales=radii, F=F)
     np.testing.assert_array_equal(crease, found[..., 0])
     lasting = meshhood.persistence(crease, radii, 0.3)
     v = int(np.argmax(crease[2]))  # at an end of the long axis
     assert lasting.scales[v] == (crease[:, v] >= 0.3).sum()
     assert lasting.strength[v] == crease[:, v].max()
     assert lasting.radius[v] == 2
-    np.testing.assert_array_equal(index.features([1.0], [4, 4], F=F, unit="edge").shape, (1, 2))
+    np.testing.assert_array_equal(index.features(scales=[1.0], vertices=[4, 4], F=F, unit="edge").shape, (1, 2))
 
 
 def test_jets_are_near_quadrics_on_a_smooth_surface():
@@ -150,8 +152,8 @@ def test_wrong_arguments_are_refused_by_name(plates):
         (lambda: index.moments(1, weights=[1.0]), "weights: expected an array of shape"),
         (lambda: index.moments(1, weights=np.full(len(V), -1.0)), "vertex 0: the weight is -1"),
         (lambda: index.corrected_curvature(-1, F=F), "r: radius -1"),
-        (lambda: index.features([1, 0], F=F), "radius 1: 0"),
-        (lambda: index.features([], F=F), "no radii"),
+        (lambda: index.features(scales=[1, 0], F=F), "radius 1: 0"),
+        (lambda: index.features(scales=[], F=F), "scales: expected a list"),
         (lambda: index.features(1, F=F, kinds="ridge"), "kinds: 'ridge'"),
         (lambda: index.features(1, F=F, kinds=[]), "kinds: there are none"),
         (lambda: index.curvature(1, F=F, fit="sphere"), "fit: 'sphere'"),

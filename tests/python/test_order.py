@@ -97,7 +97,7 @@ def test_of_regions_and_of_rings_of_nested_radii(case):
 def test_sorted_answers_ascend(case):
     _, _, index, rows, wanted = case
     for (v, r), want in zip(rows, wanted):
-        np.testing.assert_array_equal(index.query_ball(v, r, sort=True), np.sort(want[0]))
+        np.testing.assert_array_equal(index.query_ball(v, r, sort="id"), np.sort(want[0]))
 
 
 def test_of_threads(case):

@@ -89,3 +89,22 @@ def test_the_legend_explains_every_color():
         drawn = plotter.renderer.legend
         assert (drawn.GetNumberOfEntries() if drawn else 0) == entries
         plotter.close()
+
+
+def test_any_ids_and_metrics_are_drawn():
+    V, F = meshes.two_plates(10)
+    index = meshhood.MeshIndex(V, F)
+    walls = V[:, 0] > 6
+    for words, entries in (
+        ({"ids": index.query_ball(55, 2.0)}, 3),
+        ({"ids": V[:, 0] > 4}, 3),
+        ({"r": 3.0, "metric": "path"}, 5),
+        ({"r": 3.0, "walls": walls}, 5),
+    ):
+        plotter = pyvista.Plotter(off_screen=True)
+        meshhood.plot_neighborhood(index, 55, plotter=plotter, **words)
+        assert plotter.renderer.legend.GetNumberOfEntries() == entries
+        plotter.close()
+    for words in ({}, {"r": 1.0, "ids": [1]}):
+        with pytest.raises(TypeError, match="r: expected a radius, or ids instead"):
+            meshhood.plot_neighborhood(index, 0, plotter=object(), **words)

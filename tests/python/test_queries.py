@@ -48,7 +48,7 @@ def test_region_of_a_point_on_a_face_is_that_of_scipy(mesh):
     random = np.random.default_rng(1)
     for p, face in random_starts(V, F, random, 40):
         for r in (0.3, 1.0, 2.5, 7.0):
-            found, lengths = index.query_region(p, r, seeds=face, sort=True, return_distance=True)
+            found, lengths = index.query_region(p, r, seeds=face, sort="id", return_distance=True)
             np.testing.assert_array_equal(found, region(V, graph, p, face, r))
             np.testing.assert_array_equal(lengths, distances(V, p)[found])
 
@@ -56,7 +56,7 @@ def test_region_of_a_point_on_a_face_is_that_of_scipy(mesh):
 def test_region_of_a_vertex_is_its_neighborhood(mesh):
     V, _, index, _ = mesh
     for v in range(0, len(V), 17):
-        np.testing.assert_array_equal(index.query_region(v, 3.0, sort=True), index.query_ball(v, 3.0, sort=True))
+        np.testing.assert_array_equal(index.query_region(v, 3.0, sort="id"), index.query_ball(v, 3.0, sort="id"))
 
 
 def test_walls_are_not_passed_and_ignored_vertices_are(mesh):
@@ -64,7 +64,7 @@ def test_walls_are_not_passed_and_ignored_vertices_are(mesh):
     random = np.random.default_rng(2)
     for p, face in random_starts(V, F, random, 30):
         walls, ignored = random.random(len(V)) < 0.2, random.random(len(V)) < 0.3
-        found = index.query_region(p, 4.0, seeds=face, walls=walls, ignored=ignored, sort=True)
+        found = index.query_region(p, 4.0, seeds=face, walls=walls, ignored=ignored, sort="id")
         np.testing.assert_array_equal(found, region(V, graph, p, face, 4.0, walls, ignored))
 
 
@@ -73,7 +73,7 @@ def test_seeds_are_by_default_the_nearest_vertex(mesh):
     p = V[30] + [0.2, 0.1, 0]
     vertex, distance = index.nearest(p)
     assert vertex == np.argmin(distances(V, p)) and distance == distances(V, p).min()
-    np.testing.assert_array_equal(index.query_region(p, 3, sort=True), region(V, graph, p, [vertex], 3))
+    np.testing.assert_array_equal(index.query_region(p, 3, sort="id"), region(V, graph, p, [vertex], 3))
     for none in ([], np.empty((0, 3))):
         assert [len(found) for found in index.nearest(none)] == [0, 0]
     vertices, _ = index.nearest(V[:50])
@@ -86,10 +86,10 @@ def test_stroke_is_the_union_of_its_regions(mesh):
     points = np.array([p for p, _ in starts])
     seeds = np.array([face for _, face in starts])
     parts = [region(V, graph, p, face, 1.5) for p, face in starts]
-    found = index.query_stroke(points, 1.5, seeds=seeds, sort=True)
+    found = index.query_stroke(points, 1.5, seeds=seeds, sort="id")
     np.testing.assert_array_equal(found, np.unique(np.concatenate(parts)))
     parts = [index.query_region(p, 1.5) for p in points]
-    np.testing.assert_array_equal(index.query_stroke(points, 1.5, sort=True), np.unique(np.concatenate(parts)))
+    np.testing.assert_array_equal(index.query_stroke(points, 1.5, sort="id"), np.unique(np.concatenate(parts)))
     assert len(index.query_stroke(np.empty((0, 3)), 1.5)) == 0
 
 
@@ -154,7 +154,7 @@ def test_paths_do_not_pass_walls(mesh):
         ids, lengths = index.query_region(v, 5, **options)
         np.testing.assert_array_equal(np.sort(ids), np.flatnonzero(np.isfinite(expected) & ~ignored))
         np.testing.assert_array_equal(lengths, expected[ids])
-        by_id, lengths = index.query_region(v, 5, sort=True, **options)
+        by_id, lengths = index.query_region(v, 5, sort="id", **options)
         np.testing.assert_array_equal(by_id, np.sort(ids))
         np.testing.assert_array_equal(lengths, expected[by_id])
 
@@ -162,9 +162,9 @@ def test_paths_do_not_pass_walls(mesh):
 def test_batch_along_edges_has_the_rows_of_single_queries(mesh):
     _, _, index, _ = mesh
     rows = [3, 50, 3, 99]
-    indptr, indices, lengths = index.query_ball(rows, 3, metric="path", return_distance=True, sort=True)
+    indptr, indices, lengths = index.query_ball(rows, 3, metric="path", return_distance=True, sort="id")
     for i, v in enumerate(rows):
-        ids, expected = index.query_ball(v, 3, metric="path", return_distance=True, sort=True)
+        ids, expected = index.query_ball(v, 3, metric="path", return_distance=True, sort="id")
         np.testing.assert_array_equal(indices[indptr[i] : indptr[i + 1]], ids)
         np.testing.assert_array_equal(lengths[indptr[i] : indptr[i + 1]], expected)
     np.testing.assert_array_equal(index.count(rows, 3, metric="path"), np.diff(indptr))
@@ -229,19 +229,19 @@ def test_rims_on_a_scan_are_loops_where_the_mesh_is_closed(tmp_path):
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda i: i.query_region([0, 0], 1), r"start: expected 3 numbers"),
-        (lambda i: i.query_region([[0, 0, 0], [1, 1, 1]], 1), r"start: expected a vertex or 3 numbers"),
+        (lambda i: i.query_region([0.0, 0.0], 1), r"start: expected 3 numbers"),
+        (lambda i: i.query_region(np.zeros((2, 3)), 1), r"start: expected a vertex or 3 numbers"),
         (lambda i: i.query_region([0, np.nan, 0], 1), r"start: row 0: coordinate 1 is nan"),
         (lambda i: i.query_region(144, 1), r"start: vertex 144, but the mesh has 36 vertices"),
         (lambda i: i.query_region(3, 1, seeds=[3]), r"seeds: expected None"),
-        (lambda i: i.query_region([0, 0, 0], 1, seeds=[0, 36]), r"seeds: row 1: vertex 36"),
+        (lambda i: i.query_region([0.0, 0.0, 0.0], 1, seeds=[0, 36]), r"seeds: row 1: vertex 36"),
         (lambda i: i.query_region(0, -1), r"r: radius -1"),
         (lambda i: i.query_region(0, 1, metric="geodesic"), r"metric: 'geodesic'"),
-        (lambda i: i.query_region([0, 0, 0], 1, metric="path"), r"start: expected a vertex with metric='path'"),
+        (lambda i: i.query_region([0.0, 0.0, 0.0], 1, metric="path"), r"start: expected a vertex with metric='path'"),
         (lambda i: i.query_region(0, 1, walls=np.zeros(36)), r"walls: expected bool, not float64"),
         (lambda i: i.query_region(0, 1, ignored=np.zeros(35, bool)), r"ignored: a bool mask of shape \(35,\)"),
         (lambda i: i.query_stroke([[0, 0, 0]], 1, seeds=[[0], [1]]), r"seeds: expected \(1,\) or \(1, k\)"),
-        (lambda i: i.query_stroke([[0, 0, 0]], [1, 2]), r"r: expected one number or 1 of them"),
+        (lambda i: i.query_stroke([[0, 0, 0]], [1, 2]), r"r: expected one number, or one for each of 1 rows"),
         (lambda i: i.query_nested(0, [1, 1]), r"radii: value 1: radius 1.0, expected more than 1.0"),
         (lambda i: i.query_nested(0, [np.nan]), r"radii: value 0: radius nan"),
         (lambda i: i.contains(0, 36, 1), r"w: vertex 36"),

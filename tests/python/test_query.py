@@ -36,7 +36,7 @@ def test_one_vertex(plates, method, r):
         ids, distances = index.query_ball(v, r, return_distance=True, method=method)
         np.testing.assert_array_equal(np.sort(ids), wanted)
         np.testing.assert_array_equal(distances, oracle.distances(V, v)[ids])
-        np.testing.assert_array_equal(index.query_ball(v, r, sort=True, method=method), wanted)
+        np.testing.assert_array_equal(index.query_ball(v, r, sort="id", method=method), wanted)
         assert index.count(v, r, method=method) == len(wanted)
 
 
@@ -54,7 +54,7 @@ def test_paper_with_other_parameters():
     single_vertices = meshhood.Paper(levels=1)
     # One cluster that holds all makes each answer the ball; single vertices make it exact.
     for paper, method in ((one_cluster, "ball"), (single_vertices, "exact"), (meshhood.Paper(), "paper")):
-        for got, want in zip(*(index.query_ball(None, 2.5, sort=True, method=m) for m in (paper, method))):
+        for got, want in zip(*(index.query_ball(None, 2.5, sort="id", method=m) for m in (paper, method))):
             np.testing.assert_array_equal(got, want)
     exact, ball = (index.count(None, 2.5, method=method) for method in ("exact", "ball"))
     assert (exact < ball).any()
@@ -72,7 +72,7 @@ def test_many_vertices_are_one_after_the_other(plates, method, workers):
     _, _, _, index = plates
     v = np.array([5, 200, 5, 0, 287])
     r = np.array([1.0, 2.0, 0.0, np.inf, 3.5])
-    options = {"return_distance": True, "sort": True, "method": method}
+    options = {"return_distance": True, "sort": "id", "method": method}
     indptr, indices, distances = index.query_ball(v, r, workers=workers, **options)
     singles = [index.query_ball(*query, **options) for query in zip(v, r)]
     for ids, far, single in zip(rows(indptr, indices), rows(indptr, distances), singles):
@@ -83,7 +83,7 @@ def test_many_vertices_are_one_after_the_other(plates, method, workers):
 
 def test_all_vertices(plates):
     V, _, edges, index = plates
-    indptr, indices = index.query_ball(None, 2.5, sort=True)
+    indptr, indices = index.query_ball(None, 2.5, sort="id")
     assert len(indptr) == len(V) + 1
     for v, ids in enumerate(rows(indptr, indices)):
         np.testing.assert_array_equal(ids, oracle.neighborhood(V, edges, v, 2.5))
@@ -126,10 +126,10 @@ def test_chunks_are_the_rows(plates, chunk):
 
 def test_chunks_of_some_vertices(plates):
     index = plates[3]
-    parts = list(index.iter_neighborhoods([7, 3, 9], 1.0, chunk=2, sort=True))
+    parts = list(index.iter_neighborhoods([7, 3, 9], 1.0, chunk=2, sort="id"))
     assert [list(p.vertices) for p in parts] == [[7, 3], [9]]
     assert parts[0].distances is None
-    np.testing.assert_array_equal(parts[1].indices, index.query_ball(9, 1.0, sort=True))
+    np.testing.assert_array_equal(parts[1].indices, index.query_ball(9, 1.0, sort="id"))
 
 
 @pytest.mark.parametrize("method", ("exact", "bfs"))
@@ -137,11 +137,11 @@ def test_chunks_in_index_order_are_the_rows(plates, method):
     index = plates[3]
     v = np.random.default_rng(5).integers(0, len(index), 300)  # some of them more than once
     r = np.linspace(0, 4, len(v))
-    parts = list(index.iter_neighborhoods(v, r, chunk=70, order="index", sort=True, method=method))
+    parts = list(index.iter_neighborhoods(v, r, chunk=70, order="index", sort="id", method=method))
     place = np.argsort(index.permutation)
     order = np.argsort(place[v], kind="stable")
     np.testing.assert_array_equal(np.concatenate([p.vertices for p in parts]), v[order])
-    indptr, indices = index.query_ball(v[order], r[order], sort=True, method=method)
+    indptr, indices = index.query_ball(v[order], r[order], sort="id", method=method)
     np.testing.assert_array_equal(np.concatenate([np.diff(p.indptr) for p in parts]), np.diff(indptr))
     np.testing.assert_array_equal(np.concatenate([p.indices for p in parts]), indices)
 
@@ -192,4 +192,4 @@ def test_random_meshes(mesh, r):
     edges = oracle.graph(len(V), faces)
     wanted = np.concatenate([oracle.neighborhood(V, edges, v, r) for v in range(len(V))])
     for method in ("exact", "bfs"):
-        np.testing.assert_array_equal(index.query_ball(None, r, sort=True, method=method)[1], wanted)
+        np.testing.assert_array_equal(index.query_ball(None, r, sort="id", method=method)[1], wanted)

@@ -29,7 +29,7 @@ def expect_answers_of(index, V, F, radii=(0.25, 1.0, 2.5, 7.0)):
     edges = oracle.triangle_graph(len(V), F)
     for v in range(0, len(V), 97):
         for r in (*radii, oracle.distances(V, v)[(7 * v + 11) % len(V)]):
-            np.testing.assert_array_equal(index.query_ball(v, r, sort=True), oracle.neighborhood(V, edges, v, r))
+            np.testing.assert_array_equal(index.query_ball(v, r, sort="id"), oracle.neighborhood(V, edges, v, r))
 
 
 def test_answers_are_those_of_the_moved_mesh(mesh):
@@ -78,8 +78,8 @@ def test_every_method_unit_and_property_belongs_to_the_moved_mesh(mesh):
             twice.count(None, 4.0, method=method), index.count(None, 2.0, method=method)
         )
         np.testing.assert_array_equal(
-            twice.query_ball(7, 3, unit="edge", method=method, sort=True),
-            index.query_ball(7, 3, unit="edge", method=method, sort=True),
+            twice.query_ball(7, 3, unit="edge", method=method, sort="id"),
+            index.query_ball(7, 3, unit="edge", method=method, sort="id"),
         )
     np.testing.assert_array_equal(index.positions, V)
 

@@ -162,8 +162,8 @@ def test_indexes_saved_by_the_cpp_library_are_loaded(file):
     index = meshhood.load(file)
     np.testing.assert_array_equal(np.sort(index.permutation), np.arange(len(index)))
     for v in range(0, len(index), 7):
-        ids = index.query_ball(v, 1.0, sort=True)
-        np.testing.assert_array_equal(ids, index.query_ball(v, 1.0, sort=True, method="bfs"))
+        ids = index.query_ball(v, 1.0, sort="id")
+        np.testing.assert_array_equal(ids, index.query_ball(v, 1.0, sort="id", method="bfs"))
 
 
 def test_progress_of_loading(file):

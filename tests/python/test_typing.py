@@ -21,6 +21,9 @@ from typing_extensions import assert_type
 Ids = NDArray[np.int32]
 Longs = NDArray[np.int64]
 Reals = NDArray[np.float64]
+Singles = NDArray[np.float32]
+Floats = Union[Singles, Reals]
+Offsets = Union[Ids, Longs]
 
 mesh = meshhood.read_mesh("hand.ply")
 assert_type(mesh.vertices, Union[NDArray[np.float32], Reals])
@@ -39,15 +42,31 @@ assert_type(meshhood.__version__, str)
 assert_type(meshhood.show_config(), None)
 
 assert_type(index.query_ball(1, 2), Ids)
-assert_type(index.query_ball(np.int64(1), np.float32(2), sort=True, unit="edge"), Ids)
-assert_type(index.query_ball(1, 2.0, return_distance=True), tuple[Ids, Reals])
-assert_type(index.query_ball([1, 2], 2.0, method="bfs"), tuple[Longs, Ids])
-assert_type(index.query_ball(None, [2.0, 3.0]), tuple[Longs, Ids])
-assert_type(index.query_ball(np.arange(3), np.ones(3), return_distance=True), tuple[Longs, Ids, Reals])
-assert_type(index.query_ball(index.permutation, 1.0), tuple[Longs, Ids])
-assert_type(index.query_ball(np.ones(9, bool), 1.0), tuple[Longs, Ids])
+assert_type(index.query_ball(np.int64(1), np.float32(2), sort="id", unit="edge"), Ids)
+assert_type(index.query_ball(1, 2.0, return_distance=True), tuple[Ids, Floats])
+assert_type(index.query_ball([1, 2], 2.0, method="bfs"), tuple[Offsets, Ids])
+assert_type(index.query_ball(None, [2.0, 3.0]), tuple[Offsets, Ids])
+assert_type(index.query_ball(np.arange(3), np.ones(3), return_distance=True), tuple[Offsets, Ids, Floats])
+assert_type(index.query_ball(index.permutation, 1.0), tuple[Offsets, Ids])
+assert_type(index.query_ball(np.ones(9, bool), 1.0), tuple[Offsets, Ids])
 assert_type(index.count(1, 2.0, method=meshhood.Paper(radius_ratio=20)), int)
 assert_type(index.count(range(3), 2.0), Longs)
+assert_type(index.count(3, scales=[1.0, 2.0]), Longs)
+walls = np.zeros(9, bool)
+assert_type(index.query_ball(None, 2.0, walls=walls, metric="path", dtype=np.float32), tuple[Offsets, Ids])
+assert_type(index.query_ball(3, scales=[1.0, 2.0]), tuple[Offsets, Ids])
+assert_type(index.query_region(3, 2.0, walls=walls, return_distance=True), tuple[Ids, Reals])
+assert_type(index.aggregate(np.ones(9), 2.0, "max"), Reals)
+assert_type(index.aggregate(np.ones(9, np.float32), scales=[1.0, 2.0], vertices=[3, 4]), Singles)
+assert_type(index.aggregate([1.0, 2.0], 2.0, vertices=3), Union[float, Singles, Reals])
+assert_type(index.smooth(np.ones(9, np.float32), 2.0, metric="path", walls=walls), Singles)
+assert_type(index.smooth(np.ones(9), 2.0, weights="area"), Reals)
+assert_type(index.nearest([0.0, 0.0, 1.0]), tuple[int, float])
+assert_type(index.nearest([[0.0, 0.0, 1.0]]), tuple[Ids, Reals])
+assert_type(index.nearest(np.ones((2, 3))), Union[tuple[int, float], tuple[Ids, Reals]])
+assert_type(index.submesh([1, 2]).F, Union[Ids, tuple[Longs, Ids]])
+assert_type(index.curvature(scales=[2.0]).count, NDArray[np.uint32])
+assert_type(meshhood.smoothing_radius(6.0), float)
 assert_type(index.curvature(2.0, F=mesh.faces, fit="jet"), meshhood.Curvature)
 assert_type(index.corrected_curvature(2.0, F=mesh.faces).mean, Reals)
 assert_type(index.moments(2.0, degree=3, weights="area", F=mesh.faces), Reals)
@@ -56,8 +75,8 @@ assert_type(index.features(meshhood.geometric_radii(1.0, 2.0, 3), F=mesh.faces, 
 assert_type(meshhood.persistence(np.ones((1, 2)), [1.0], 0.5).scales, Ids)
 for part in index.iter_neighborhoods(None, 1.0, return_distance=True):
     assert_type(part.vertices, Ids)
-    assert_type(part.indptr, Longs)
-    assert_type(part.distances, Union[Reals, None])
+    assert_type(part.indptr, Offsets)
+    assert_type(part.distances, Union[Singles, Reals, None])
 index.save("hand.index")
 assert_type(meshhood.load("hand.index", mmap=True), meshhood.MeshIndex)
 
@@ -84,8 +103,12 @@ REFUSED = (
     'index.query_ball(1, 2.0, method="fast")',
     'index.query_ball(1, 2.0, unit="mile")',
     'index.query_ball([1], 2.0, metric="edge")',
-    "index.count(1, 2.0, sort=True)",
+    "index.count(1, 2.0, sort='id')",
     "index.iter_neighborhoods(1.0)",
+    'index.features(2.0, kinds="sharp")',
+    'index.query_ball([1], 2.0, sort="length")',
+    'index.curvature(2.0, metric="miles")',
+    'index.smooth([1.0], 2.0, kernel="biweight")',
     "meshhood.Paper(factor=20)",
     "meshhood.load(3)",
 )

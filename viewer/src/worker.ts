@@ -239,7 +239,7 @@ async function computeCurvature(radius: number): Promise<Curvature | null> {
   const isDone = await forEachPart('Fitting all neighborhoods', (index, vertices) => {
     const found = index.curvature(radius, { faces, vertices });
     vertices.forEach((v, row) => {
-      const isFitted = found.state[row] < 2;
+      const isFitted = found.state[row] !== 2 && found.state[row] !== 3;
       k1[v] = isFitted ? found.k1[row] : NaN;
       k2[v] = isFitted ? found.k2[row] : NaN;
     });

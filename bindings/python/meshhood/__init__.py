@@ -11,9 +11,9 @@ component that contains v.
 """
 
 from . import _core
-from ._aggregate import vertex_areas
+from ._aggregate import smoothing_radius, vertex_areas
 from ._curvature import Curvature
-from ._files import Mesh, load, read_mesh
+from ._files import Mesh, load, read_mesh, write_mesh
 from ._index import Chunk, MeshIndex, Quality
 from ._libigl import principal_curvature
 from ._methods import Paper
@@ -36,8 +36,12 @@ __version__: str = _core.__version__
 
 def show_config() -> None:
     """Prints the version and the instructions that the inner loops use on this processor, by the names of Google
-    Highway: AVX3 for AVX-512, AVX2, SSE4, NEON, or SCALAR for none but those of every processor. Answers do not depend on
-    them, only their speed."""
+    Highway: AVX3 for AVX-512, AVX2, SSE4, NEON, or SCALAR for none but those of every processor. Answers do not depend
+    on them, only their speed.
+
+    >>> meshhood.show_config()  # doctest: +ELLIPSIS
+    meshhood ...
+    """
     print(f"meshhood {__version__}, kernels for {_core.kernel_target()}")
 
 
@@ -66,7 +70,9 @@ __all__ = [
     "principal_curvature",
     "read_mesh",
     "show_config",
+    "smoothing_radius",
     "vertex_areas",
     "view",
     "weld",
+    "write_mesh",
 ]

@@ -3,26 +3,63 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal, Optional, Union
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Literal, Optional, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _convert, _core
 from ._held import Held
-from ._mesh import mesh_arrays
-from ._progress import Progress, reporter
-from ._types import Number, Radii, Reals, Unit, Vertex, Vertices
+from ._mesh import mesh_arrays, only_part
+from ._rows import ResultWords, check_size, check_words, read_rows, result_dtype
+from ._types import Floats, Number, Radii, Reals, Scales, Vertex, Vertices
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+    from typing_extensions import Unpack
 
 Reduce = Literal["sum", "mean", "min", "max", "var", "std", "count"]
 Kernel = Literal["epanechnikov", "biweight"]
 
 _REDUCTIONS = ("sum", "mean", "min", "max", "var", "std", "count")
+_MISSING = ("propagate", "omit")
+
+
+class SmoothWords(ResultWords, total=False):
+    """The words of `MeshIndex.smooth` besides `vertices`."""
+
+    weights: Union[Literal["area"], ArrayLike, None]
+    nan: Literal["propagate", "omit"]
+    F: Any
+
+
+class AggregateWords(SmoothWords, total=False):
+    """The words of `MeshIndex.aggregate` besides `vertices`."""
+
+    scales: Optional[Scales]
+    kernel: Optional[Kernel]
+    nesting: Literal["own", "patch"]
+    ddof: int
+
+
+def smoothing_radius(fwhm: Number) -> float:
+    """The radius of the biweight kernel whose nearest Gaussian, in the plane and the L2 norm, has this full width at
+    half maximum: fwhm / (0.4 * 2 sqrt(2 ln 2)), which is 1.06165 fwhm.
+
+    >>> round(meshhood.smoothing_radius(6.0), 4)
+    6.3699
+    """
+    return float(_core.smoothing_radius(_convert.finite(fwhm, "fwhm", or_zero=True)))
 
 
 def vertex_areas(V: Any, F: Any = None) -> NDArray[np.float64]:
     """The area that each vertex represents: each face gives equal shares to its corners, a third of a triangle. (#V,)
-    float64, in the square of the unit of V. V and F as for `MeshIndex`."""
+    float64, in the square of the unit of V. V and F as for `MeshIndex`.
+
+    >>> bool(abs(meshhood.vertex_areas(V, F).sum() - 4 * np.pi) < 0.2)
+    True
+    """
     positions, corners, offsets = mesh_arrays(V, F)
     return _core.vertex_areas(positions, corners, offsets=offsets)
 
@@ -30,136 +67,183 @@ def vertex_areas(V: Any, F: Any = None) -> NDArray[np.float64]:
 class Aggregates(Held):
     """The part of `MeshIndex` that computes values over neighborhoods."""
 
+    @overload
     def aggregate(
-        self,
-        values: ArrayLike,
-        r: Radii,
-        reduce: Reduce = "mean",
-        *,
-        weights: Union[Literal["area"], ArrayLike, None] = None,
-        kernel: Optional[Kernel] = None,
-        vertices: Union[Vertex, Vertices] = None,
-        nan: Literal["propagate", "omit"] = "propagate",
-        nesting: Literal["own", "patch"] = "own",
-        ddof: int = 0,
-        F: Any = None,
-        unit: Unit = "mesh",
-        workers: int = -1,
-        max_bytes: Optional[int] = None,
-        progress: Progress = None,
+        self, values: NDArray[np.float32], r: Optional[Radii] = None, reduce: Reduce = "mean", *,
+        vertices: Vertices = None, **words: Unpack[AggregateWords],
+    ) -> NDArray[np.float32]: ...  # fmt: skip
+
+    @overload
+    def aggregate(
+        self, values: Union[NDArray[np.float64], Sequence[float]], r: Optional[Radii] = None, reduce: Reduce = "mean",
+        *, vertices: Vertices = None, **words: Unpack[AggregateWords],
+    ) -> Reals: ...  # fmt: skip
+
+    @overload
+    def aggregate(
+        self, values: ArrayLike, r: Optional[Radii] = None, reduce: Reduce = "mean", *, vertices: Vertices = None,
+        **words: Unpack[AggregateWords],
+    ) -> Floats: ...  # fmt: skip
+
+    @overload
+    def aggregate(
+        self, values: ArrayLike, r: Optional[Radii] = None, reduce: Reduce = "mean", *, vertices: Vertex,
+        **words: Unpack[AggregateWords],
+    ) -> Union[float, Floats]: ...  # fmt: skip
+
+    def aggregate(
+        self, values: Any, r: Any = None, reduce: Reduce = "mean", *, vertices: Any = None, **words: Any
     ) -> Any:
         """A sum, a mean or another aggregate of values over the exact neighborhood of each vertex.
 
-        values : (#V,) or (#V, ...), numbers or bools; each channel by itself. Copied as float64.
-        r : the radius, >= 0 or inf, or several. A vertex at exactly `r` is inside.
+        values : (#V,) or (#V, ...), numbers or bools; each channel by itself. Copied. Or a SurfaceImage of nilearn with
+            one part.
+        r, scales, vertices, walls, ignored, metric, unit, workers, progress : see `MeshIndex`.
         reduce : "sum", "mean", "min", "max", "var", "std" or "count".
         weights : (#V,) finite and >= 0, for sum, mean, var and std; "area" for `vertex_areas`. A vertex of weight 0
             is left out.
         kernel : for sum and mean, how the weight falls with the distance d. None: not at all; "epanechnikov":
             1 - (d/r)^2; "biweight": (1 - (d/r)^2)^2, which is close to a Gaussian of the standard deviation 0.4 r.
-        vertices : a vertex, a sequence of vertices, a bool mask (#V,), or None for all.
         nan : "propagate", a neighborhood with a NaN gives NaN; "omit", NaN marks a missing value, which is left out.
-        nesting : what several radii mean. "own": each has its own neighborhoods. "patch": the neighborhoods of the
-            largest, and of them the vertices within each smaller radius.
+        nesting : what scales mean. "own": each has its own neighborhoods. "patch": the neighborhoods of the largest,
+            and of them the vertices within each smaller radius. With metric="path" both are the same.
         ddof : "var" and "std" divide by the number of values minus this, 0 or 1.
         F : other faces than those that the index keeps, for weights="area".
-        unit, workers, max_bytes, progress : as for `query_ball`. The result does not depend on `workers`.
+        dtype : of the result, float32 or float64. Without it, that of `values` if float32, else float64. All sums are
+            computed in float64.
+        max_bytes : refuse a larger result with MemoryError; by default, one larger than the memory that is free.
 
-        Returns float64: an axis of radii if `r` is a sequence, one of vertices unless `vertices` is a single one, then
-        the axes of `values` but the first. NaN where a neighborhood has no values; 0 for their sum.
+        Returns an axis of scales if there are any, one of vertices unless `vertices` is a single one, then the axes of
+        `values` but the first. NaN where a neighborhood has no values; 0 for their sum.
 
         No ids are listed. The cost is that of `count` for all vertices and a little for each channel. Sums
         are exact to 1e-14 of the sum of the absolute terms, with a kernel to 1e-13 of the sum without it. A result does
         not depend on the other vertices of the call, bit for bit.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> index.aggregate(V, 0.3, "std", weights="area").shape
+        (642, 3)
+        >>> index.aggregate(V[:, 2], scales=[0.2, 0.4], vertices=[42, 43]).shape
+        (2, 2)
         """
-        count = self._count
-        values = _values(values, count)
-        radii = self._scale(unit) * _radii(r)
+        rows = read_rows(self, vertices, r, words.get("scales"), words, AggregateWords)
+        if rows.metric == "rings":
+            raise ValueError("metric: 'rings', expected 'straight' or 'path'")
+        given = _values(values, self._count)
+        dtype = result_dtype(words, np.float32 if given.dtype == np.float32 else np.float64)
+        shape = rows.shape + given.shape[1:]
+        check_size(shape, 8, words.get("max_bytes"))
+        nesting = _convert.choice(words.get("nesting", "own"), "nesting", ("own", "patch"))
         options = {
-            "radii": np.atleast_1d(radii).tolist(),
             "reduce": getattr(_core.Reduce, _convert.choice(reduce, "reduce", _REDUCTIONS)),
-            "kernel": getattr(_core.SmoothingKernel, _kernel(kernel)),
-            "missing": getattr(_core.MissingValues, _convert.choice(nan, "nan", ("propagate", "omit"))),
-            "nesting": getattr(_core.Nesting, _convert.choice(nesting, "nesting", ("own", "patch"))),
-            "ddof": _convert.integer(ddof, "ddof", 0, 1),
-            "threads": _convert.threads(workers),
-            "max_bytes": _convert.max_bytes(max_bytes),
+            "kernel": getattr(_core.SmoothingKernel, _kernel(words.get("kernel"))),
+            "missing": getattr(_core.MissingValues, _convert.choice(words.get("nan", "propagate"), "nan", _MISSING)),
+            "nesting": getattr(_core.Nesting, nesting),
+            "ddof": _convert.integer(words.get("ddof", 0), "ddof", 0, 1),
         }
-        if vertices is None:
-            rows, row_shape = None, (count,)
-        elif _convert.is_single(vertices):
-            rows, row_shape = np.array([_convert.vertex(vertices, count)], np.int32), ()
-        else:
-            rows = _convert.vertices(vertices, count)
-            row_shape = (len(rows),)
-        shape = radii.shape + row_shape + values.shape[1:]
-        if 0 in values.shape[1:]:
-            return np.empty(shape)
-        columns = values.reshape(count, int(np.prod(values.shape[1:])))
-        with reporter(progress) as report:
+        weights = area_weights(self, words.get("weights"), words.get("F"))
+        if 0 in given.shape[1:]:
+            return np.empty(shape, dtype)
+        columns = np.array(given, np.float64, order="C").reshape(self._count, int(np.prod(given.shape[1:])))
+        radii, radius = rows.common_radii
+        with rows.reporter("aggregate") as report:
             result = _core.aggregate(
                 self._exact,
                 values=columns,
-                weights=area_weights(self, weights, F),
-                vertices=rows,
+                weights=weights,
+                vertices=rows.vertices,
+                radii=radii,
+                radius=radius,
+                threads=rows.threads,
+                max_bytes=2**64 - 1,
                 progress=report,
                 **options,
+                **rows.filter,
+                metric=getattr(_core.Metric, rows.metric),
             )
-        result = result.reshape(shape)
+        result = result.reshape(shape).astype(dtype, copy=False)
         return result if result.ndim else float(result)
 
+    @overload
     def smooth(
-        self,
-        values: ArrayLike,
-        fwhm: Number,
-        *,
-        weights: Union[Literal["area"], ArrayLike, None] = None,
-        nan: Literal["propagate", "omit"] = "propagate",
-        F: Any = None,
-        unit: Unit = "mesh",
-        workers: int = -1,
-        max_bytes: Optional[int] = None,
-        progress: Progress = None,
-    ) -> Reals:
+        self, values: NDArray[np.float32], fwhm: Number, *, vertices: Vertices = None, **words: Unpack[SmoothWords]
+    ) -> NDArray[np.float32]: ...
+
+    @overload
+    def smooth(
+        self, values: Union[NDArray[np.float64], Sequence[float]], fwhm: Number, *, vertices: Vertices = None,
+        **words: Unpack[SmoothWords],
+    ) -> Reals: ...  # fmt: skip
+
+    @overload
+    def smooth(
+        self, values: ArrayLike, fwhm: Number, *, vertices: Vertices = None, **words: Unpack[SmoothWords]
+    ) -> Floats: ...
+
+    def smooth(self, values: Any, fwhm: Any, *, vertices: Any = None, **words: Any) -> Any:
         """The values smoothed by a biweight that is close to a Gaussian of this full width at half maximum.
 
-        fwhm : > 0, a straight-line distance in `unit`. Vertices farther away than 1.06 fwhm, or not connected within
-            that distance, have no influence: nothing is smoothed across a gap.
+        fwhm : > 0, a distance in `unit`: straight, or with metric="path" along edges. Vertices farther away than
+            `smoothing_radius(fwhm)`, or not connected within that distance, have no influence. With the straight
+            metric, two banks are not mixed as long as the path over the bottom between them leaves the ball; once it
+            fits, the other bank counts by its straight distance (docs/aggregate.md). With metric="path" it counts by
+            the length of the path.
         weights : None counts each vertex once; "area" weighs it by its area, and makes the result independent of how
             densely the surface is sampled.
-        See `aggregate`, which this calls with reduce="mean" and kernel="biweight". Returns float64 of the shape of
-        `values`.
+        The other words are those of `aggregate`, which this calls with reduce="mean" and kernel="biweight". Vertices
+        that are walls get NaN.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> smooth = index.smooth(V[:, 2], 0.5, metric="path", walls=V[:, 2] < -0.9)
         """
+        check_words(words, SmoothWords)
         fwhm = _convert.finite(fwhm, "fwhm", or_zero=False)
-        return self.aggregate(
-            values,
-            _core.smoothing_radius(fwhm),
-            kernel="biweight",
-            weights=weights,
-            nan=nan,
-            F=F,
-            unit=unit,
-            workers=workers,
-            max_bytes=max_bytes,
-            progress=progress,
-        )
+        return self.aggregate(values, smoothing_radius(fwhm), "mean", kernel="biweight", vertices=vertices, **words)
+
+    def smoothing_matrix(
+        self, fwhm: Number, *, vertices: Vertices = None, **words: Unpack[SmoothWords]
+    ) -> csr_array:
+        """What `smooth` does, as a scipy.sparse.csr_array (#rows, #V): its product with values (#V, ...) are the
+        smoothed values, up to rounding, for values without NaN. Each row sums to 1; those of walls are empty.
+
+        The words are those of `smooth` but `nan`, and `dtype` is float64 unless given. Memory: 12 bytes for each vertex
+        of each neighborhood. Needs SciPy. `smooth` is faster, unless the same matrix is used many times.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> W = index.smoothing_matrix(0.5, weights="area")
+        >>> np.allclose(W @ V[:, 2], index.smooth(V[:, 2], 0.5, weights="area"))
+        True
+        """
+        from scipy.sparse import csr_array
+
+        check_words(words, SmoothWords)
+        if "nan" in words:
+            raise TypeError("nan: no argument of this call, because a matrix does not depend on the values")
+        weights = area_weights(self, words.get("weights"), words.get("F"))
+        listed: Any = {word: value for word, value in words.items() if word not in ("weights", "F", "dtype")}
+        radius = self._scale(words.get("unit", "mesh")) * smoothing_radius(fwhm)
+        listed["unit"] = "mesh"
+        graph = self.radius_neighbors_graph(radius, vertices=vertices, mode="distance", **listed)
+        data = (1 - (graph.data / radius) ** 2) ** 2
+        if weights is not None:
+            data *= weights[graph.indices]
+        sizes = np.diff(graph.indptr)
+        sums = csr_array((data, graph.indices, graph.indptr), shape=graph.shape).sum(axis=1)
+        with np.errstate(invalid="ignore"):
+            data /= np.repeat(sums, sizes)
+        graph.data = data.astype(result_dtype(words), copy=False)
+        return graph
 
 
 def _values(values, count):
-    """`values` as float64 in C order."""
-    array = _numbers(values, "values", "biuf")
+    """`values` as an array of numbers."""
+    if hasattr(values, "mesh") and hasattr(values, "data"):  # nilearn's SurfaceImage
+        values = only_part(values.data.parts, "values")
+    array = _convert.as_array(values, "values")
+    if array.dtype.kind not in "biuf":
+        raise TypeError(f"values: expected numbers, not {array.dtype}")
     if array.ndim == 0 or array.shape[0] != count:
         raise ValueError(f"values: expected an array of shape ({count},) or ({count}, ...), not {array.shape}")
-    return array
-
-
-def _radii(r):
-    array = _numbers(r, "r", "iuf")
-    if array.ndim > 1 or array.size == 0:
-        raise ValueError(f"r: expected one number or a list of them, not an array of shape {array.shape}")
-    wrong = np.flatnonzero(~(array >= 0))
-    if wrong.size:
-        raise ValueError(f"r: radius {np.atleast_1d(array)[wrong[0]]}, expected a number >= 0")
     return array
 
 
@@ -170,7 +254,7 @@ def area_weights(index: Held, weights: Any, F: Any) -> Any:
     if isinstance(weights, str):
         _convert.choice(weights, "weights", ("area",))
         corners, offsets = index._face_arrays(F)
-        return _core.vertex_areas(index._methods.graph().positions, corners, offsets=offsets)
+        return _core.vertex_areas(index._methods.positions, corners, offsets=offsets)
     array = _numbers(weights, "weights", "biuf")
     if array.shape != (index._count,):
         raise ValueError(f"weights: expected an array of shape ({index._count},), not {array.shape}")

@@ -7,15 +7,12 @@ import os
 
 import numpy as np
 
-try:
-    import resource
-except ImportError:  # Windows
-    resource = None
+from ._memory import free_bytes
 
 _MOST_THREADS = 1024
 
 
-def vertices(v, count, name="v"):
+def vertices(v, count, name="vertices"):
     """`v` as a new int32 array in C order, each value in [0, count). `v` may be a boolean mask of `count` values.
 
     The result is a copy even if `v` already has this type: another thread, or a `progress` function, may write to `v`
@@ -30,7 +27,10 @@ def vertices(v, count, name="v"):
     if array.dtype.kind not in "iu":
         raise TypeError(f"{name}: expected integers, not {array.dtype}")
     if array.ndim != 1:
-        raise ValueError(f"{name}: expected one vertex or a list of vertices, not an array of shape {array.shape}")
+        hint = "; faces are passed as F=" if array.ndim == 2 and array.shape[1] in (3, 4) else ""
+        raise ValueError(
+            f"{name}: expected one vertex or a list of vertices, not an array of shape {array.shape}{hint}"
+        )
     wrong = np.flatnonzero((array < 0) | (array >= count))
     if wrong.size:
         row = wrong[0]
@@ -38,7 +38,7 @@ def vertices(v, count, name="v"):
     return array.astype(np.int32, copy=False)
 
 
-def vertex(v, count, name="v"):
+def vertex(v, count, name="vertices"):
     """`v` as an int in [0, count)."""
     if type(v) is not int:
         v = _integer(v, name)
@@ -51,12 +51,12 @@ def is_single(v):
     return isinstance(v, int) or np.ndim(np.from_dlpack(v) if _has_only_dlpack(v) else v) == 0
 
 
-def radius(r):
+def radius(r, name="r"):
     """`r`, one number, as a float >= 0."""
     if not isinstance(r, float):
-        r = _number(r, "r")
+        r = _number(r, name)
     if not r >= 0:
-        raise ValueError(f"r: radius {r}, expected a number >= 0")
+        raise ValueError(f"{name}: radius {r}, expected a number >= 0")
     return r
 
 
@@ -68,7 +68,10 @@ def radii(r, rows):
     if array.dtype.kind not in "iuf":
         raise TypeError(f"r: expected numbers, not {array.dtype}")
     if array.shape != (rows,):
-        raise ValueError(f"r: expected one number or {rows} of them, not an array of shape {array.shape}")
+        raise ValueError(
+            f"r: expected one number, or one for each of {rows} rows, not an array of shape {array.shape}; several "
+            "radii for all rows are scales="
+        )
     wrong = np.flatnonzero(~(array >= 0))
     if wrong.size:
         raise ValueError(f"r: row {wrong[0]}: radius {array[wrong[0]]}, expected a number >= 0")
@@ -113,11 +116,17 @@ def points(values, name):
     return array
 
 
-def point(value, name):
-    """`value`, 3 numbers, as a new float64 array (1, 3), where a vertex would do too."""
-    array = points(value, name)
-    if len(array) != 1 or np.ndim(value) != 1:
-        raise ValueError(f"{name}: expected a vertex or 3 numbers, not an array of shape {np.shape(value)}")
+def point(value, name, meant):
+    """`value`, 3 numbers, as a new float64 array (1, 3), where a vertex would do too. Integers are refused: they may be
+    vertices. `meant`: the call for several vertices."""
+    given = as_array(value, name)
+    if given.dtype.kind in "iu" and given.size:
+        raise TypeError(
+            f"{name}: integers of shape {given.shape}, expected a vertex, or a point as 3 floats; for vertices: {meant}"
+        )
+    array = points(given, name)
+    if len(array) != 1 or given.ndim != 1:
+        raise ValueError(f"{name}: expected a vertex or 3 numbers, not an array of shape {given.shape}")
     return array
 
 
@@ -169,14 +178,8 @@ def threads(workers):
 
 
 def max_bytes(value):
-    """`value`, or for None the memory that this process may have."""
-    if value is not None:
-        return integer(value, "max_bytes", 0, 2**64 - 1)
-    limits = [2**64 - 1]
-    if resource is not None:
-        limits.append(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
-        limits += [limit for limit in resource.getrlimit(resource.RLIMIT_AS)[:1] if limit > 0]
-    return min(limits)
+    """`value`, or for None the memory that this process may still take."""
+    return free_bytes() if value is None else integer(value, "max_bytes", 0, 2**64 - 1)
 
 
 def path(value):

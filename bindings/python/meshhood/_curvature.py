@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,7 +10,7 @@ from numpy.typing import NDArray
 
 from . import _convert, _core
 
-FITTED, RANK_DEFICIENT, TOO_FEW, NO_NORMAL = range(4)
+FITTED, RANK_DEFICIENT, TOO_FEW, NO_NORMAL, EXTENDED = range(5)
 
 
 class Curvature(NamedTuple):
@@ -22,9 +21,12 @@ class Curvature(NamedTuple):
     d1, d2 : (#rows, 3) float64, unit vectors, with the sign that makes the component of largest magnitude positive.
     state : (#rows,) uint8. 0: fitted. 1: the points determine no unique quadric; the values are those of the one with
         the smallest coefficients. 2: fewer than six vertices are connected with the vertex; all values are 0. 3: the
-        vertex has no normal, as it belongs to no face with an area; all values are 0.
+        vertex has no normal, as it belongs to no face with an area; all values are 0. 4: fewer than six vertices are in
+        the ball; the fit is to these and to the nearest connected ones.
+    count : (#rows,) uint32, the vertices within the radius to which the quadric is fitted, without those that the
+        filter leaves out. If they are fewer than six, the state is not 0.
 
-    With a list of radii each array has a leading axis of radii.
+    With `scales` each array has a leading axis.
     """
 
     k1: NDArray[np.float64]
@@ -32,10 +34,16 @@ class Curvature(NamedTuple):
     d1: NDArray[np.float64]
     d2: NDArray[np.float64]
     state: NDArray[np.uint8]
+    count: NDArray[np.uint32]  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        rows = " by ".join(map(str, self.k1.shape))
+        fitted = f", {np.count_nonzero(self.ok)} ok" if isinstance(self.state, np.ndarray) else ""
+        return f"<meshhood.Curvature: {rows} rows{fitted}>"
 
     @property
     def ok(self) -> NDArray[np.bool_]:
-        """Whether the row has a unique fit."""
+        """Whether the row has a unique fit to the vertices of its ball alone: state 0."""
         return self.state == FITTED
 
     @property
@@ -68,9 +76,8 @@ class Surfaces:
         self._exact = exact
         self._kept: tuple[Any, Any] = (None, None)  # replaced as a whole: no lock, which a fork could copy while it is held
 
-    def of_faces(self, arrays: tuple[Any, Any], *, is_own: bool) -> Any:
-        """`is_own`: the arrays are the faces that the index keeps, which never change."""
-        key = b"" if is_own else _digest(arrays)
+    def of_faces(self, key: bytes, arrays: tuple[Any, Any]) -> Any:
+        """`key`: what tells the faces from others; empty for those that the index keeps, which never change."""
         kept, surface = self._kept
         if kept != key:
             surface = _core.surface_of_faces(self._exact, *arrays)
@@ -89,12 +96,3 @@ class Surfaces:
             return _core.surface_of_normals(self._exact, array.astype(np.float64).ravel())
         except ValueError as error:
             raise ValueError(f"normals: {error}") from None
-
-
-def _digest(arrays: Any) -> bytes:
-    digest = hashlib.blake2b(digest_size=16)
-    for array in arrays:
-        if array is not None:
-            digest.update(f"{array.dtype} {len(array)};".encode())
-            digest.update(array)
-    return digest.digest()

@@ -5,14 +5,15 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import NamedTuple, Union
+from collections.abc import Mapping
+from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _convert, _core
 from ._index import MeshIndex
-from ._mesh import kept_faces
+from ._mesh import kept_faces, mesh_arrays
 from ._progress import Progress, reporter
 
 
@@ -24,7 +25,8 @@ class Mesh(NamedTuple):
 
 
 def read_mesh(path: Union[str, os.PathLike[str]], *, workers: int = -1, progress: Progress = None) -> Mesh:
-    """Reads a PLY, OBJ, OFF or STL file. The format is recognized by content.
+    """Reads a PLY, OBJ, OFF or STL file, whose format is recognized by content, or a GIFTI surface (.gii), which needs
+    nibabel; its coordinates are not transformed.
 
     workers : as for `MeshIndex`. The result does not depend on it.
     progress : as for `MeshIndex`; the parts are bytes. Their total is 0 if the size is unknown (a pipe).
@@ -34,13 +36,68 @@ def read_mesh(path: Union[str, os.PathLike[str]], *, workers: int = -1, progress
     file; STL corners with equal positions become one vertex. Irregularities that could be read cause a warning.
 
     Raises OSError, with errno and filename; ValueError, naming the file, place and element; KeyboardInterrupt on Ctrl-C.
+
+    >>> V, F = meshhood.read_mesh("hand.ply")
     """
     path, threads = _convert.path(path), _convert.threads(workers)
-    with reporter(progress) as report:
+    if os.fsdecode(path).endswith((".gii", ".gii.gz")):
+        import nibabel
+
+        vertices, corners, _ = mesh_arrays(nibabel.load(os.fsdecode(path)), None)
+        return Mesh(vertices, corners.astype(np.int32, copy=False).reshape(-1, 3))
+    with reporter(progress, "read_mesh", "bytes") as report:
         vertices, corners, offsets, irregularities = _core.read_mesh(path, threads=threads, progress=report)
     for irregularity in irregularities:
         warnings.warn(f"{path}: {irregularity}", stacklevel=2)
     return Mesh(vertices, (offsets, corners) if len(offsets) else corners.reshape(-1, 3))
+
+
+def write_mesh(
+    path: Union[str, os.PathLike[str]],
+    V: Any,
+    F: Any = None,
+    *,
+    values: Optional[Mapping[str, ArrayLike]] = None,
+    colors: Optional[ArrayLike] = None,
+) -> None:
+    """Writes a mesh with values of its vertices, for MeshLab, ParaView and PyVista: PLY (.ply), or VTK's legacy format
+    (.vtk), both binary.
+
+    V, F : as for `MeshIndex`, but not a graph.
+    values : by name, numbers (#V,) or vectors (#V, 3), written as float32. A name is printable ASCII without blanks.
+        MeshLab shows the one named "quality" as colors.
+    colors : (#V, 3) uint8, red, green and blue; PLY only.
+
+    The file appears whole or not at all. Raises OSError, with errno and filename; ValueError or TypeError, naming the
+    argument.
+
+    >>> index = meshhood.MeshIndex(V, F)
+    >>> meshhood.write_mesh("curved.ply", V, F, values={"quality": index.curvature(0.3).mean})
+    >>> len(meshhood.read_mesh("curved.ply").vertices)
+    642
+    """
+    path = _convert.path(path)
+    extension = os.path.splitext(os.fsdecode(path))[1].lower()
+    if extension not in (".ply", ".vtk"):
+        raise ValueError(f"path: the extension {extension!r}, expected .ply or .vtk")
+    if colors is not None and extension == ".vtk":
+        raise ValueError("colors: expected None for .vtk")
+    positions, corners, offsets = mesh_arrays(V, F)
+    named = [(name, _scalars(numbers, f"values[{name!r}]", len(positions))) for name, numbers in (values or {}).items()]
+    if colors is not None:
+        colors = np.ascontiguousarray(_convert.as_array(colors, "colors"))
+        if colors.dtype != np.uint8 or colors.shape != (len(positions), 3):
+            raise ValueError(f"colors: {colors.dtype} of shape {colors.shape}, expected uint8 ({len(positions)}, 3)")
+    _core.write_mesh(path, positions, corners, offsets=offsets, values=named, colors=colors, vtk=extension == ".vtk")
+
+
+def _scalars(numbers: Any, name: str, count: int) -> NDArray[np.float32]:
+    array = _convert.as_array(numbers, name)
+    if array.dtype.kind not in "biuf":
+        raise TypeError(f"{name}: expected numbers, not {array.dtype}")
+    if array.shape not in ((count,), (count, 3)):
+        raise ValueError(f"{name}: expected an array of shape ({count},) or ({count}, 3), not {array.shape}")
+    return np.ascontiguousarray(array, np.float32)
 
 
 def load(
@@ -61,11 +118,14 @@ def load(
 
     Raises OSError, with errno and filename; ValueError, naming the file, place and what was expected;
     KeyboardInterrupt on Ctrl-C.
+
+    >>> meshhood.MeshIndex(V, F).save("hand.mhi")
+    >>> index = meshhood.load("hand.mhi", mmap=True)
     """
     if trusted and not mmap:
         raise ValueError("trusted: expected only with mmap=True")
     path = _convert.path(path)
-    with reporter(progress) as report:
+    with reporter(progress, "load", "bytes") as report:
         exact = _core.load(path, mmap=bool(mmap), trusted=bool(trusted), progress=report)
     faces = exact.faces
     return MeshIndex._holding(exact, faces and kept_faces(*faces))

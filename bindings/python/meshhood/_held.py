@@ -3,12 +3,17 @@
 
 from __future__ import annotations
 
+import hashlib
+from collections.abc import Mapping
 from typing import Any
+
+import numpy as np
 
 from . import _convert, _core
 from ._curvature import Surfaces
 from ._mesh import face_arrays
 from ._methods import Methods
+from ._types import METRICS
 
 
 class Held:
@@ -16,6 +21,8 @@ class Held:
 
     _exact: Any
     _faces: Any  # corners and offsets, as `face_arrays` returns them, or None
+    _checked: bytes  # the key of the faces given last
+    _mesher: Any  # of the faces that the index keeps, made at the first use
     _methods: Methods
     _surfaces: Surfaces
     _queries: Any
@@ -24,16 +31,26 @@ class Held:
     def _hold(self, exact: Any, faces: Any) -> None:
         self._exact = exact
         self._faces = faces
+        self._checked = b""
+        self._mesher = None
         self._methods = Methods(exact)
         self._surfaces = Surfaces(exact)
         self._queries = _core.queries(exact)
         self._count = exact.vertex_count
 
-    def _method(self, method: Any, metric: Any) -> Any:
-        if _convert.choice(metric, "metric", ("straight", "path")) == "path":
+    def _method(self, words: Mapping[str, Any]) -> Any:
+        """The method that the words name."""
+        method = words.get("method", "exact")
+        metric = _convert.choice(words.get("metric", "straight"), "metric", METRICS)
+        if metric != "straight":
             if method != "exact":
-                raise ValueError(f"method: {method!r}, expected 'exact' with metric='path'")
-            return self._methods.along_edges
+                raise ValueError(f"method: {method!r}, expected 'exact' with metric={metric!r}")
+            if metric == "rings" and words.get("unit", "mesh") != "mesh":
+                raise ValueError("unit: expected 'mesh' with metric='rings', whose radii are numbers of edges")
+            return self._methods.along_edges if metric == "path" else self._methods.rings
+        for mask in ("walls", "ignored"):
+            if method != "exact" and words.get(mask) is not None:
+                raise ValueError(f"method: {method!r}, expected 'exact' with {mask}")
         try:
             return self._methods[method]
         except TypeError:
@@ -51,16 +68,29 @@ class Held:
             raise ValueError("unit: 'edge', but the mesh has no edges of positive length")
         return length
 
-    def _batch(self, v: Any, r: Any, scale: float, workers: Any) -> Any:
-        rows = None if v is None else _convert.vertices(v, self._count)
-        radius = _convert.radii(r, self._count if rows is None else len(rows))
-        return rows, scale * radius, _convert.threads(workers)
+    def _masks(self, walls: Any, ignored: Any) -> tuple[Any, Any]:
+        return _convert.mask(walls, "walls", self._count), _convert.mask(ignored, "ignored", self._count)
+
+    def _places(self) -> Any:
+        """The place of each vertex in index order."""
+        places = np.empty(self._count, np.int32)
+        places[self._exact.permutation] = np.arange(self._count, dtype=np.int32)
+        return places
 
     def _face_arrays(self, F: Any) -> tuple[Any, Any]:
         """Corners and offsets of `F`, or of the faces that the index keeps."""
-        if F is not None:
-            return face_arrays(F)
-        return self._own_faces("F: expected the faces, because")
+        return self._keyed_faces(F)[1]
+
+    def _keyed_faces(self, F: Any) -> tuple[bytes, tuple[Any, Any]]:
+        """The same, and what tells them from other faces. Those of another mesh are refused."""
+        if F is None:
+            return b"", self._own_faces("F: expected the faces, because")
+        arrays = face_arrays(F)
+        key = _digest(arrays)
+        if key != self._checked:
+            _core.check_faces(self._methods.graph(), *arrays)
+            self._checked = key
+        return key, arrays
 
     def _own_faces(self, wish: str) -> tuple[Any, Any]:
         """Corners and offsets of the faces that the index keeps. `wish`: the beginning of the error if it has none."""
@@ -74,7 +104,16 @@ class Held:
     def _surface(self, F: Any, normals: Any) -> Any:
         """The normals of the faces, or `normals`."""
         if normals is None:
-            return self._surfaces.of_faces(self._face_arrays(F), is_own=F is None)
+            return self._surfaces.of_faces(*self._keyed_faces(F))
         if F is not None:
             raise ValueError("F: expected None, because the normals are given")
         return self._surfaces.of_normals(normals)
+
+
+def _digest(arrays: Any) -> bytes:
+    digest = hashlib.blake2b(digest_size=16)
+    for array in arrays:
+        if array is not None:
+            digest.update(f"{array.dtype} {len(array)};".encode())
+            digest.update(array)
+    return digest.digest()

@@ -6,7 +6,8 @@ from __future__ import annotations
 import copyreg
 import os
 import pickle
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union, overload
 
 import numpy as np
@@ -16,24 +17,12 @@ from . import _convert, _core
 from ._aggregate import Aggregates
 from ._held import Held
 from ._mesh import kept_faces, mesh_arrays, moved_positions, warn_if_unwelded
-from ._methods import Method
 from ._progress import Progress, reporter
 from ._queries import Queries
+from ._region_mesh import Regions
+from ._rows import CountWords, ListWords, Rows, check_words, read_rows, result_dtype, sort_of, sorted_rows
 from ._shape import Shape
-from ._types import (
-    BallOptions,
-    CountOptions,
-    Counts,
-    Ids,
-    Metric,
-    Number,
-    Offsets,
-    Radii,
-    Reals,
-    Unit,
-    Vertex,
-    Vertices,
-)
+from ._types import Counts, Floats, Ids, Number, Offsets, Radii, Scales, Vertex, Vertices
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -48,7 +37,7 @@ class Chunk(NamedTuple):
     vertices: Ids
     indptr: Offsets
     indices: Ids
-    distances: Optional[Reals]
+    distances: Optional[Floats]
 
 
 class Quality(NamedTuple):
@@ -59,12 +48,12 @@ class Quality(NamedTuple):
     gain: float
 
 
-class MeshIndex(Queries, Aggregates, Shape):
+class MeshIndex(Queries, Aggregates, Shape, Regions):
     """An index of a mesh that finds the neighborhood of a vertex v with a radius r: the part of the mesh inside the
     ball of radius r around v that is connected to v within the ball.
 
     V : (#V, 3) float32 or float64, the positions, in any unit. Or a mesh without F: of
-        trimesh, PyVista, VTK (vtkPolyData), vedo, meshio, Open3D, or a GIFTI surface of nibabel.
+        trimesh, PyVista, VTK (vtkPolyData), vedo, meshio, Open3D, nilearn, or a GIFTI surface of nibabel.
     F : the faces, of any integer type; one of
         (#F, 3) triangles, (#F, 4) quads, (#F, k);
         a tuple (offsets, corners): polygon i has the corners corners[offsets[i]:offsets[i + 1]];
@@ -72,10 +61,26 @@ class MeshIndex(Queries, Aggregates, Shape):
         a scipy.sparse matrix (#V, #V): a graph. Each stored entry is an edge, in either direction, whatever its value.
     cut : edges that no search crosses, as pairs of vertices (#cut, 2) in either order.
     keep_faces : keep a copy of the faces, 4 bytes for each corner and, unless all are triangles, for each face. Without
-        it, or from a graph, the calls that need faces need them as their argument F.
+        it, or from a graph, the calls that need faces need them as their argument F: the faces, or a mesh. Faces of
+        another mesh are refused.
     workers : number of threads, -1 for one per processor. The index does not depend on it.
     progress : True shows a bar of tqdm. A function is called as progress(done, total); an exception from it ends the
         call.
+
+    Calls on many vertices understand the same words:
+
+    vertices : the rows: a vertex, a sequence of vertices, a bool mask (#V,), or None for all.
+    r : the radius, >= 0 or inf, or one for each row. A vertex at exactly `r` is inside.
+    scales : several radii for all rows, instead of `r`. The result has a leading axis of scales. Lists of neighborhoods
+        have the rows of all scales, scale after scale.
+    walls, ignored : bool masks (#V,). A search does not pass walls, as if they were not in the mesh; it passes ignored
+        vertices. Neither belong to a neighborhood, and that of a wall is empty.
+    metric : "straight", the neighborhood in the ball of radius `r`; "path", the vertices whose shortest path along
+        edges is at most `r` long. Distances, and the weights that follow from them, are then the lengths of these
+        paths. "rings", the vertices that at most `r` edges separate from the vertex; distances are then numbers of
+        edges. Calls that combine values know no "rings", and those that measure the surface "straight" alone.
+    unit : of `r` and `scales`: "mesh" is that of V, "edge" is `mean_edge_length`.
+    workers, progress : as above. Progress is over all scales. The result does not depend on `workers`.
 
     Vertices are numbered as in V, with int32 ids; at most 2^31 - 1 vertices. V and F are copied: later changes have no
     effect. V and F may have any memory layout, and be anything that offers its memory to NumPy (`__array__`,
@@ -84,12 +89,17 @@ class MeshIndex(Queries, Aggregates, Shape):
 
     Warns if faces with coinciding corners are not connected (an unwelded mesh).
 
-    An exact answer depends on the index, the vertex and the radius alone. Its ids are in index order: ascending places
-    of `permutation`.
+    An exact answer depends on the index, the vertex, the radius and the masks alone. Its ids are in index order:
+    ascending places of `permutation`.
 
     Immutable. Any number of threads may use it at the same time; the interpreter lock is released during calls. An
     index can be saved, pickled (the same bytes), and used in a forked process. Every method raises ValueError or
-    TypeError, naming the argument and the element, and KeyboardInterrupt on Ctrl-C.
+    TypeError, naming the argument and the element, MemoryError for a result that does not fit, and KeyboardInterrupt on
+    Ctrl-C.
+
+    >>> index = meshhood.MeshIndex(V, F)
+    >>> index
+    <meshhood.MeshIndex: 642 vertices, mean edge not computed yet, 45.05 kB>
     """
 
     def __init__(
@@ -104,7 +114,7 @@ class MeshIndex(Queries, Aggregates, Shape):
     ) -> None:
         positions, corners, offsets = mesh_arrays(V, F)
         options = {"cut": _convert.edges(cut, "cut"), "threads": _convert.threads(workers)}
-        with reporter(progress) as report:
+        with reporter(progress, "MeshIndex") as report:
             exact = _core.exact(positions, corners, offsets=offsets, **options, progress=report)
         has_faces = keep_faces and not hasattr(F, "tocoo")
         self._hold(exact, kept_faces(corners, offsets) if has_faces else None)
@@ -121,7 +131,9 @@ class MeshIndex(Queries, Aggregates, Shape):
         return self._count
 
     def __repr__(self) -> str:
-        return f"<meshhood.MeshIndex: {self._count} vertices, {_as_size(self.nbytes)}>"
+        length = self._methods.known_mean_edge_length
+        edge = "not computed yet" if length is None else f"{length:.4g}"
+        return f"<meshhood.MeshIndex: {self._count} vertices, mean edge {edge}, {_as_size(self.nbytes)}>"
 
     def __reduce_ex__(self, protocol: Any) -> tuple[Any, ...]:
         """The bytes of an index file, which are verified when they are loaded, the faces, and the attributes of a
@@ -167,7 +179,7 @@ class MeshIndex(Queries, Aggregates, Shape):
     def positions(self) -> Union[NDArray[np.float32], NDArray[np.float64]]:
         """The positions: (#V, 3), in the numbering and precision of V, read-only. Extracted at the first use, then
         kept."""
-        return self._methods.graph().positions
+        return self._methods.positions
 
     @property
     def faces(self) -> Union[Ids, tuple[NDArray[np.signedinteger[Any]], Ids], None]:
@@ -192,190 +204,254 @@ class MeshIndex(Queries, Aggregates, Shape):
 
     @overload
     def query_ball(
-        self, v: Vertex, r: Number, *, return_distance: Literal[False] = False, **options: Unpack[BallOptions]
+        self, vertices: Vertex, r: Number, *, return_distance: Literal[False] = False, **words: Unpack[ListWords]
     ) -> Ids: ...
 
     @overload
     def query_ball(
-        self, v: Vertex, r: Number, *, return_distance: Literal[True], **options: Unpack[BallOptions]
-    ) -> tuple[Ids, Reals]: ...
+        self, vertices: Vertex, r: Number, *, return_distance: Literal[True], **words: Unpack[ListWords]
+    ) -> tuple[Ids, Floats]: ...
 
     @overload
     def query_ball(
-        self, v: Vertices, r: Radii, *, return_distance: Literal[False] = False, **options: Unpack[BallOptions]
+        self, vertices: Vertices, r: Radii, *, return_distance: Literal[False] = False, **words: Unpack[ListWords]
     ) -> tuple[Offsets, Ids]: ...
 
     @overload
     def query_ball(
-        self, v: Vertices, r: Radii, *, return_distance: Literal[True], **options: Unpack[BallOptions]
-    ) -> tuple[Offsets, Ids, Reals]: ...
+        self, vertices: Vertices, r: Radii, *, return_distance: Literal[True], **words: Unpack[ListWords]
+    ) -> tuple[Offsets, Ids, Floats]: ...
 
+    @overload
     def query_ball(
         self,
-        v: Any,
-        r: Any,
+        vertices: Union[Vertex, Vertices],
+        r: None = None,
         *,
-        return_distance: bool = False,
-        sort: bool = False,
-        method: Method = "exact",
-        metric: Metric = "straight",
-        unit: Unit = "mesh",
-        workers: int = -1,
-        max_bytes: Optional[int] = None,
-        progress: Progress = None,
-    ) -> Any:
-        """The vertices of the neighborhood of each `v`, itself included.
+        scales: Scales,
+        return_distance: Literal[False] = False,
+        **words: Unpack[ListWords],
+    ) -> tuple[Offsets, Ids]: ...
 
-        v : a vertex, a sequence of vertices, a bool mask (#V,), or None for all.
-        r : the radius, >= 0 or inf; for many vertices optionally one per vertex. A vertex at exactly `r` is inside.
-        return_distance : also return the straight-line distance of each vertex from its `v` (float64).
-        sort : the ids of a neighborhood ascend. Otherwise those of "exact" are in index order: ascending places of
-            `permutation`; those of another method have an order of its own, which is always the same.
+    @overload
+    def query_ball(
+        self,
+        vertices: Union[Vertex, Vertices],
+        r: None = None,
+        *,
+        scales: Scales,
+        return_distance: Literal[True],
+        **words: Unpack[ListWords],
+    ) -> tuple[Offsets, Ids, Floats]: ...
+
+    def query_ball(
+        self, vertices: Any, r: Any = None, *, scales: Any = None, return_distance: bool = False, **words: Any
+    ) -> Any:
+        """The vertices of the neighborhood of each vertex, itself included.
+
+        vertices, r, scales, walls, ignored, metric, unit, workers, progress : see `MeshIndex`.
+        return_distance : also return the distance of each vertex from its query vertex: that of the straight line, or
+            with metric="path" the length of the path.
+        sort : the order of the ids of a neighborhood: "index", ascending places of `permutation`; "id", ascending; or
+            "distance", ascending, and by id where equal. Without it none is sorted: those of "exact" and "ball" are in
+            index order, those of metric="path" ascend by length, and those of "paper" and "bfs" have an order of their
+            own, which is always the same.
         method : "exact", the exact neighborhood, by the index;
                  "paper", the approximate neighborhood of the paper, a superset of "exact" and a subset of "ball", or
                  `Paper` with other parameters;
                  "bfs", the exact neighborhood by breadth-first search, for comparison;
                  "ball", every vertex within `r` in space, connected or not.
-            "paper" builds an index of its own at the first use.
-        metric : "straight", the neighborhood in the ball of radius `r`; "path", the vertices whose shortest path along
-            edges is at most `r` long. Distances are then the lengths of these paths, and the vertices of one
-            neighborhood are sorted by them. "path" needs method "exact".
-        unit : of `r`: "mesh" is that of V, "edge" is `mean_edge_length`.
-        max_bytes : refuse a larger result of many vertices; by default, one larger than the memory of the machine. A
-            sample of the rows usually shows this within a second.
-        workers, progress : as for the class, for many vertices. The result does not depend on `workers`.
+            "paper" builds an index of its own at the first use. Masks and metric="path" need "exact".
+        dtype : of the distances, float64 unless given.
+        max_bytes : refuse a larger result of many vertices with MemoryError; by default, one larger than the memory
+            that is free. A sample of the rows usually shows this within a second.
 
-        Returns for one vertex `indices` (int32) or `indices, distances`; for many vertices `indptr, indices` or
-        `indptr, indices, distances`: row i is indices[indptr[i]:indptr[i + 1]] (indptr int64). The arrays are new.
+        Returns for one vertex `indices` (int32) or `indices, distances`; for many vertices, or for scales, `indptr,
+        indices` or `indptr, indices, distances`: row i is indices[indptr[i]:indptr[i + 1]]. `indptr` is int32 if it
+        fits, else int64. The arrays are new.
 
         The cost of "exact" grows with the part of the mesh at the surface of each ball rather than with the size of the
         neighborhood. All rows are in memory at once; to avoid that, use `iter_neighborhoods`.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> near = index.query_ball(42, 0.3)
+        >>> indptr, indices, distances = index.query_ball([42, 43], [0.3, 0.5], return_distance=True, sort="distance")
+        >>> int(indices[indptr[1]])
+        43
         """
-        searched, scale = self._method(method, metric), self._scale(unit)
-        if v is not None and _convert.is_single(v):
-            v, r = _convert.vertex(v, self._count), scale * _convert.radius(r)
-            return _query_one(searched, v, r, return_distance, sort)
-        rows, radius, threads = self._batch(v, r, scale, workers)
-        options = {"distances": bool(return_distance), "sorted": bool(sort), "threads": threads}
-        with reporter(progress) as report:
-            indptr, indices, distances = searched.neighborhoods(
-                rows, radius, **options, max_bytes=_convert.max_bytes(max_bytes), progress=report
-            )
+        if scales is None and vertices is not None and _convert.is_single(vertices):
+            return self._query_one(vertices, r, return_distance, words)
+        rows = read_rows(self, vertices, r, scales, words, ListWords)
+        indptr, indices, distances = self._query_many(rows, return_distance, words, "query_ball")
         return (indptr, indices, distances) if return_distance else (indptr, indices)
 
     @overload
-    def count(self, v: Vertex, r: Number, **options: Unpack[CountOptions]) -> int: ...
+    def count(self, vertices: Vertex, r: Number, **words: Unpack[CountWords]) -> int: ...
 
     @overload
-    def count(self, v: Vertices, r: Radii, **options: Unpack[CountOptions]) -> Counts: ...
+    def count(self, vertices: Vertices, r: Radii, **words: Unpack[CountWords]) -> Counts: ...
 
+    @overload
     def count(
-        self,
-        v: Any,
-        r: Any,
-        *,
-        method: Method = "exact",
-        metric: Metric = "straight",
-        unit: Unit = "mesh",
-        workers: int = -1,
-        progress: Progress = None,
-    ) -> Any:
-        """The number of vertices of each neighborhood: an int for one vertex, else an int64 array. See `query_ball`."""
-        searched, scale = self._method(method, metric), self._scale(unit)
-        if v is not None and _convert.is_single(v):
-            return searched.count(_convert.vertex(v, self._count), scale * _convert.radius(r))
-        rows, radius, threads = self._batch(v, r, scale, workers)
-        with reporter(progress) as report:
-            return searched.counts(rows, radius, threads=threads, progress=report)
+        self, vertices: Union[Vertex, Vertices], r: None = None, *, scales: Scales, **words: Unpack[CountWords]
+    ) -> Counts: ...
+
+    def count(self, vertices: Any, r: Any = None, *, scales: Any = None, **words: Any) -> Any:
+        """The number of vertices of each neighborhood: int64, (#rows,) or (#scales, #rows); an int for one vertex and
+        one radius. The words are those of `query_ball`.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> index.count(None, scales=[0.2, 0.4]).shape
+        (2, 642)
+        """
+        searched = self._method(words)
+        has_masks = words.get("walls") is not None or words.get("ignored") is not None
+        if scales is None and vertices is not None and not has_masks and _convert.is_single(vertices):
+            check_words(words, CountWords)
+            radius = self._scale(words.get("unit", "mesh")) * _convert.radius(r)
+            return searched.count(_convert.vertex(vertices, self._count), radius)
+        rows = read_rows(self, vertices, r, scales, words, CountWords)
+        counts = rows.shaped(
+            rows.for_each_scale(
+                "count",
+                lambda radius, report: searched.counts(
+                    rows.vertices, radius, threads=rows.threads, progress=report, **rows.filter
+                ),
+            )
+        )
+        return counts if counts.ndim else int(counts)
 
     def radius_neighbors_graph(
         self,
-        r: Radii,
+        r: Optional[Radii] = None,
         *,
+        vertices: Vertices = None,
+        scales: Optional[Scales] = None,
         mode: Literal["connectivity", "distance"] = "connectivity",
-        method: Method = "exact",
-        metric: Metric = "straight",
-        unit: Unit = "mesh",
-        workers: int = -1,
-        max_bytes: Optional[int] = None,
-        progress: Progress = None,
+        **words: Unpack[ListWords],
     ) -> csr_array:
-        """All neighborhoods as a scipy.sparse.csr_array (#V, #V): row v holds the neighborhood of v, itself included.
+        """Neighborhoods as a scipy.sparse.csr_array (#rows, #V), all unless `vertices` are given: a row holds the
+        neighborhood of its vertex, itself included. With scales, (#scales * #rows, #V), scale after scale.
 
-        r : one radius, or one per vertex (the matrix is then not symmetric).
-        mode : "connectivity", 1.0 for each vertex of the neighborhood; or "distance", the straight-line distances, with
-            zeros stored. Both are float64, as in scikit-learn.
-        Needs SciPy. See `query_ball` for the other arguments.
+        mode : "connectivity", 1.0 for each vertex of the neighborhood; or "distance", the distances, with zeros stored.
+            Both are float64, as in scikit-learn, unless `dtype` says otherwise.
+        The other words are those of `query_ball`; the ids of a row ascend. With one radius for each row the matrix is
+        not symmetric. Needs SciPy.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> index.radius_neighbors_graph(0.3, vertices=[42, 43], mode="distance").shape
+        (2, 642)
         """
         from scipy.sparse import csr_array
 
         with_distances = _convert.choice(mode, "mode", ("connectivity", "distance")) == "distance"
-        indptr, indices, *distances = self.query_ball(
-            None,
-            r,
-            return_distance=with_distances,
-            sort=True,
-            method=method,
-            metric=metric,
-            unit=unit,
-            workers=workers,
-            max_bytes=max_bytes,
-            progress=progress,
-        )
-        if len(indices) <= np.iinfo(np.int32).max:
-            indptr = indptr.astype(np.int32)  # or SciPy would widen the indices to the same type
-        data = distances[0] if with_distances else np.ones(len(indices))
-        graph = csr_array((data, indices, indptr), shape=(self._count, self._count))
+        rows = read_rows(self, vertices, r, scales, words, ListWords)
+        by_id: Any = {**words, "sort": "id"}
+        indptr, indices, distances = self._query_many(rows, with_distances, by_id, "radius_neighbors_graph")
+        data = distances if with_distances else np.ones(len(indices), result_dtype(words))
+        graph = csr_array((data, indices, indptr), shape=(len(indptr) - 1, self._count))
         graph.has_sorted_indices = graph.has_canonical_format = True
         return graph
 
     def iter_neighborhoods(
         self,
-        v: Vertices,
-        r: Radii,
+        vertices: Vertices,
+        r: Optional[Radii] = None,
         *,
+        scales: Optional[Scales] = None,
         chunk: int = 4096,
         order: Order = "query",
         return_distance: bool = False,
-        sort: bool = False,
-        method: Method = "exact",
-        metric: Metric = "straight",
-        unit: Unit = "mesh",
-        workers: int = -1,
+        **words: Unpack[ListWords],
     ) -> Iterator[Chunk]:
         """As `query_ball` for many vertices, `chunk` rows at a time, so that memory stays bounded.
 
-        order : of the rows: "query", that of `v`; "index", that of `permutation`, in which near vertices follow each
-            other. The rows of a chunk are then computed together, which is up to ten times as fast where the vertices
-            of a mesh are numbered at random. Rows of the same vertex stay in their order.
+        order : of the rows: "query", that of `vertices`; "index", that of `permutation`, in which near vertices follow
+            each other. The rows of a chunk are then computed together, which is up to ten times as fast where the
+            vertices of a mesh are numbered at random. Rows of the same vertex stay in their order.
 
         Yields `Chunk(vertices, indptr, indices, distances)`; `distances` is None unless `return_distance`. The
-        arguments are checked and copied when this is called: later changes to `v` or `r` have no effect.
+        arguments are checked and copied when this is called: later changes have no effect, except to the masks.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> sum(len(part.vertices) for part in index.iter_neighborhoods(None, 0.3, chunk=100))
+        642
         """
         chunk = _convert.positive(chunk, "chunk")
         in_index_order = _convert.choice(order, "order", ("query", "index")) == "index"
-        searched = self._method(method, metric)
-        rows, radius, threads = self._batch(v, r, self._scale(unit), workers)
-        if rows is None:
-            rows = np.arange(self._count, dtype=np.int32)
-        if in_index_order:
-            places = np.empty(self._count, np.int32)
-            places[self.permutation] = np.arange(self._count, dtype=np.int32)
-            by_place = np.argsort(places[rows], kind="stable")
-            rows = rows[by_place]
-            radius = radius if isinstance(radius, float) else radius[by_place]
-        options = {"distances": bool(return_distance), "sorted": bool(sort), "threads": threads}
-        options |= {"max_bytes": _convert.max_bytes(None), "progress": None}
+        rows = read_rows(self, vertices, r, scales, words, ListWords)
+        self._method(words), sort_of(words)
+        all_rows = np.arange(self._count, dtype=np.int32) if rows.vertices is None else rows.vertices
+        by_place = np.argsort(self._places()[all_rows], kind="stable") if in_index_order else slice(None)
 
         def chunks() -> Iterator[Chunk]:
-            for begin in range(0, len(rows), chunk):
-                part = slice(begin, begin + chunk)
-                vertices = rows[part].copy()
-                radii = radius if isinstance(radius, float) else radius[part]
-                indptr, indices, distances = searched.neighborhoods(rows[part], radii, **options)
-                yield Chunk(vertices, indptr, indices, distances if return_distance else None)
+            for radius in rows.radii:
+                ids, radii = all_rows[by_place], radius if isinstance(radius, float) else radius[by_place]
+                for begin in range(0, len(ids), chunk):
+                    part = slice(begin, begin + chunk)
+                    some = replace(
+                        rows,
+                        vertices=ids[part],
+                        radii=[radii if isinstance(radii, float) else radii[part]],
+                        progress=None,
+                    )
+                    yield Chunk(ids[part].copy(), *self._query_many(some, return_distance, words, ""))
 
         return chunks()
+
+    def _query_one(self, vertex: Any, r: Any, return_distance: bool, words: Any) -> Any:
+        if not words and not return_distance:  # a microsecond, of which the words below would be a half
+            return self._exact.neighborhood(_convert.vertex(vertex, self._count), _convert.radius(r))
+        check_words(words, ListWords)
+        searched, sort, unit = self._method(words), sort_of(words), self._scale(words.get("unit", "mesh"))
+        v = _convert.vertex(vertex, self._count)
+        radius = unit * _convert.radius(r)
+        masks = self._masks(words.get("walls"), words.get("ignored"))
+        if any(mask is not None for mask in masks):
+            metric = words.get("metric", "straight")
+            if metric == "straight":
+                indices, distances, _ = self._queries.region(None, np.array([v], np.int32), radius, *masks)
+            elif metric == "path":
+                indices, distances = self._queries.path_region(v, radius, *masks)
+            else:
+                counts, indices = self._queries.rings(v, int(min(radius, 2.0**62)), *masks)
+                distances = np.repeat(np.arange(float(len(counts))), np.diff(counts, prepend=0))
+                sort = sort or "index"
+        elif return_distance or sort == "distance":
+            indices, distances = searched.neighborhood_and_distances(v, radius)
+        else:
+            indices, distances = searched.neighborhood(v, radius), None
+        if sort is not None:
+            indices, distances = sorted_rows(self, sort, np.array([0, len(indices)]), indices, distances)
+        return (indices, distances.astype(result_dtype(words), copy=False)) if return_distance else indices
+
+    def _query_many(self, rows: Rows, return_distance: bool, words: Any, title: str) -> Any:
+        """indptr, indices, and distances or None; the rows of all scales."""
+        searched, sort, dtype = self._method(words), sort_of(words), result_dtype(words)
+        left = _convert.max_bytes(words.get("max_bytes"))
+        with_distances = return_distance or sort == "distance"
+
+        def search(radius: Any, report: Any) -> Any:
+            nonlocal left
+            found = searched.neighborhoods(
+                rows.vertices,
+                radius,
+                distances=with_distances,
+                sorted=sort == "id",
+                threads=rows.threads,
+                max_bytes=left,
+                progress=report,
+                **rows.filter,
+            )
+            left = max(0, left - sum(array.nbytes for array in found[1:]))
+            return found
+
+        indptr, indices, distances = _joined(rows.for_each_scale(title, search))
+        if sort in ("index", "distance"):
+            indices, distances = sorted_rows(self, sort, indptr, indices, distances)
+        if len(indices) <= np.iinfo(np.int32).max:
+            indptr = indptr.astype(np.int32)  # or SciPy would widen the indices to the same type
+        return indptr, indices, distances.astype(dtype, copy=False) if return_distance else None
 
     def refit(
         self,
@@ -397,13 +473,15 @@ class MeshIndex(Queries, Aggregates, Shape):
         Returns a new index, with the attributes of a subclass. This one stays as it is, and threads may search it
         meanwhile. The two share all memory but positions and bounds. Answers are exact whatever the positions; `quality`
         says when a new index would answer faster.
+
+        >>> moved = meshhood.MeshIndex(V, F).refit(2 * V)
         """
         moved = None if changed is None else _convert.vertices(changed, self._count, "changed")
         positions = moved_positions(V)
         if len(positions) != self._count:
             raise ValueError(f"V: {len(positions)} positions, but the index has {self._count} vertices")
         positions = _copied(positions, moved)
-        with reporter(progress) as report:
+        with reporter(progress, "refit") as report:
             exact = _core.refit(
                 self._exact, positions, changed=moved, threads=_convert.threads(workers), progress=report
             )
@@ -416,6 +494,9 @@ class MeshIndex(Queries, Aggregates, Shape):
         what it would be in a new index, and their ratio. The time of a query is about proportional to the radius of the
         leaves around it. After a build, `gain` is about 1; at 1.5 and above a new index pays off if many queries
         follow. Takes some milliseconds for any mesh.
+
+        >>> meshhood.MeshIndex(V, F).quality().gain < 1.5
+        True
         """
         return Quality(*self._exact.quality())
 
@@ -431,10 +512,12 @@ class MeshIndex(Queries, Aggregates, Shape):
         The file holds the positions and the graph of the mesh, and its faces if `faces`. It appears whole or not at
         all: it is written to the same folder under another name, synchronized to disk and renamed. Raises OSError, with
         errno and filename, and KeyboardInterrupt on Ctrl-C; an old file of that name is then unchanged.
+
+        >>> meshhood.MeshIndex(V, F).save("hand.mhi", faces=True)
         """
         path = _convert.path(path)
         arrays = self._own_faces("faces: True, but") if faces else None
-        with reporter(progress) as report:
+        with reporter(progress, "save", "bytes") as report:
             _core.save(self._exact, path, faces=arrays, progress=report)
 
 def _copied(positions: Any, rows: Any) -> Any:
@@ -447,17 +530,14 @@ def _copied(positions: Any, rows: Any) -> Any:
     return copy
 
 
-def _query_one(searched: Any, v: int, r: float, return_distance: bool, sort: bool) -> Any:
-    if not return_distance:
-        indices = searched.neighborhood(v, r)
-        if sort:
-            indices.sort()
-        return indices
-    indices, distances = searched.neighborhood_and_distances(v, r)
-    if not sort:
-        return indices, distances
-    order = np.argsort(indices)
-    return indices[order], distances[order]
+def _joined(scales: list[Any]) -> tuple[Any, Any, Any]:
+    """The rows of all scales as those of one call."""
+    if len(scales) == 1:
+        return scales[0]
+    offsets, indices, distances = zip(*scales)
+    begins = np.cumsum([0, *(int(each[-1]) for each in offsets[:-1])])
+    joined = [offsets[0][:1], *(begin + each[1:] for begin, each in zip(begins, offsets))]
+    return np.concatenate(joined), np.concatenate(indices), np.concatenate(distances)
 
 
 def _as_size(count: float) -> str:

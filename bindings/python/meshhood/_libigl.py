@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _convert, _core
-from ._curvature import TOO_FEW
+from ._curvature import NO_NORMAL, TOO_FEW
 from ._index import MeshIndex
 
 
@@ -20,17 +20,19 @@ def principal_curvature(
     NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]
 ]:
     """As `igl.principal_curvature(V, F, radius, False)` of libigl, with the same results: PD1, PD2 (#V, 3), PV1, PV2
-    (#V,), and the vertices without a result.
+    (#V,), and the vertices without a result. This is not libigl's default: with useKring=True it takes the vertices
+    within `radius` edges instead of those in a ball.
 
     V : (#V, 3); F : (#F, 3).
     radius : of the neighborhood, in mean lengths of the sides of all faces; an integer of at least 2.
-    useKring : must be False: the neighborhood is that of a ball, not the vertices within a number of edges. In libigl
-        the default is True.
+    useKring : must be False.
     workers : number of threads, -1 for one per processor.
 
     Differences from libigl: the list includes vertices without a normal; directions have the sign that makes the
     component of largest magnitude positive; isolated vertices at the end of V do not end the program. See
     `MeshIndex.curvature` for a shape operator without libigl's error.
+
+    >>> PD1, PD2, PV1, PV2, bad = meshhood.principal_curvature(V, F, radius=3)
     """
     if useKring:
         raise ValueError("useKring: True, expected False: rings of edges are not searched")
@@ -41,5 +43,5 @@ def principal_curvature(
     index = MeshIndex(V, F, workers=workers)
     length = _core.libigl_radius(index.positions, *index._face_arrays(None), edges=float(radius))
     found = index.curvature(length, like="libigl", workers=workers)
-    bad = np.flatnonzero(found.state >= TOO_FEW).astype(np.int32)
+    bad = np.flatnonzero(np.isin(found.state, (TOO_FEW, NO_NORMAL))).astype(np.int32)
     return found.d1, found.d2, found.k1, found.k2, bad

@@ -21,9 +21,11 @@ def mesh_arrays(V, F):
 
 
 def face_arrays(F):
-    """The corners of faces, and the offsets of the polygons or None for triangles."""
+    """The corners of faces, or of a mesh, and the offsets of the polygons or None for triangles."""
     if hasattr(F, "tocoo"):
         raise ValueError("F: a graph, expected faces")
+    if _is_mesh(F):
+        F = _parts(F)[1]
     return _polygons(F) if isinstance(F, tuple) else _faces(F)
 
 
@@ -208,11 +210,18 @@ def _coordinate_entries(graph):
 
 
 def _is_mesh(V):
-    return any(hasattr(V, name) for name in ("points", "vertices", "vertex", "dataset", "GetPolys", "agg_data"))
+    names = ("points", "vertices", "vertex", "dataset", "GetPolys", "agg_data", "coordinates", "parts", "mesh")
+    return any(hasattr(V, name) for name in names)
 
 
 def _parts(mesh):
     """Positions and faces of a mesh of another library or of this package."""
+    if hasattr(mesh, "mesh") and hasattr(mesh, "data"):  # nilearn's SurfaceImage
+        mesh = mesh.mesh
+    if hasattr(mesh, "parts"):
+        mesh = only_part(mesh.parts, "V")
+    if hasattr(mesh, "coordinates") and hasattr(mesh, "faces"):  # nilearn's InMemoryMesh and FileMesh
+        return mesh.coordinates, mesh.faces
     if hasattr(mesh, "agg_data"):
         return _gifti_data(mesh, "pointset"), _gifti_data(mesh, "triangle")
     if hasattr(mesh, "dataset"):  # vedo
@@ -233,9 +242,17 @@ def _parts(mesh):
     if hasattr(mesh, "vertices") and hasattr(mesh, "triangles"):  # Open3D
         return mesh.vertices, np.asarray(mesh.triangles)
     raise TypeError(
-        "V: expected a mesh of trimesh, PyVista, VTK, vedo, meshio, Open3D or nibabel if F is omitted, "
+        "V: expected a mesh of trimesh, PyVista, VTK, vedo, meshio, Open3D, nilearn or nibabel if F is omitted, "
         f"not {type(mesh).__name__}"
     )
+
+
+def only_part(parts, name):
+    """The one part of a mesh or of data of nilearn, which may have one for each hemisphere."""
+    if len(parts) != 1:
+        first = next(iter(parts), "left")
+        raise ValueError(f"{name}: has the parts {', '.join(map(repr, parts))}, expected one: .parts[{first!r}]")
+    return next(iter(parts.values()))
 
 
 def _gifti_data(image, intent):

@@ -11,8 +11,7 @@ from typing import Literal, Union
 from . import _convert, _core
 
 _MOST_LEVELS = 64  # no mesh has more
-_SCANS = {"bfs": _core.bfs, "ball": _core.ball}
-_ALONG_EDGES = object()  # no method that callers can name
+_ALONG_EDGES, _RINGS = object(), object()  # no methods that callers can name
 
 
 @dataclass(frozen=True)
@@ -31,6 +30,8 @@ class Paper:
         belong to the answer. Finite, > 0.
 
     The defaults are those of the paper. Raises ValueError or TypeError, naming the parameter.
+
+    >>> near = meshhood.MeshIndex(V, F).query_ball(42, 0.3, method=meshhood.Paper(radius_ratio=20))
     """
 
     levels: int = 5
@@ -54,6 +55,7 @@ class Methods(dict):
     def __init__(self, exact):
         super().__init__(exact=exact)
         self._graph = None
+        self._positions = None
         self._mean_edge_length = None
         self._hierarchies = {}
         self._locks = {}
@@ -73,8 +75,12 @@ class Methods(dict):
     def _make(self, method):
         if method is _ALONG_EDGES:
             return _core.along_edges(self["exact"])
-        if method in _SCANS:
-            return _SCANS[method](self.graph())
+        if method is _RINGS:
+            return _core.rings(self["exact"])
+        if method == "ball":
+            return _core.ball(self["exact"])
+        if method == "bfs":
+            return _core.bfs(self.graph())
         paper = Paper() if method == "paper" else method
         if not isinstance(paper, Paper):
             raise ValueError(f"method: {method!r}, expected 'exact', 'paper', 'bfs', 'ball' or a Paper")
@@ -90,8 +96,20 @@ class Methods(dict):
         return self._hierarchies[options]
 
     @property
+    def positions(self):
+        """The positions in the order of the mesh, extracted from the index at the first use."""
+        with self._making():
+            if self._positions is None:
+                self._positions = _core.positions(self["exact"])
+            return self._positions
+
+    @property
     def along_edges(self):
         return self[_ALONG_EDGES]
+
+    @property
+    def rings(self):
+        return self[_RINGS]
 
     def graph(self):
         """The mesh as a graph, extracted from the index at the first use."""
@@ -99,6 +117,11 @@ class Methods(dict):
             if self._graph is None:
                 self._graph = _core.graph(self["exact"])
             return self._graph
+
+    @property
+    def known_mean_edge_length(self):
+        """None if it has not been computed yet, which takes as long as a pass over all edges."""
+        return self._mean_edge_length
 
     @property
     def mean_edge_length(self):

@@ -80,7 +80,11 @@ class Persistence(NamedTuple):
 
 
 def geometric_radii(smallest: float, largest: float, count: int) -> Reals:
-    """`count` radii from `smallest` to `largest` with a constant ratio."""
+    """`count` radii from `smallest` to `largest` with a constant ratio.
+
+    >>> [float(radius) for radius in meshhood.geometric_radii(1.0, 4.0, 3)]
+    [1.0, 2.0, 4.0]
+    """
     smallest = _convert.finite(smallest, "smallest", or_zero=False)
     return _core.geometric_radii(smallest, _convert.finite(largest, "largest", or_zero=False), _count(count))
 
@@ -97,6 +101,10 @@ def persistence(values: Any, radii: Any, threshold: float) -> Persistence:
     values : (#radii, #rows), one kind of feature. A NaN ends a run.
     radii : (#radii,), ascending.
     threshold : > 0.
+
+    >>> crease = meshhood.MeshIndex(V, F).features(scales=[0.2, 0.4])
+    >>> int(meshhood.persistence(crease, [0.2, 0.4], threshold=0.1).scales.max())
+    2
     """
     array = np.array(_convert.as_array(values, "values"), np.float64)
     scales = np.array(_convert.as_array(radii, "radii"), np.float64)

@@ -17,8 +17,8 @@ from ._result_files import SAVERS
 
 _ROWS = 4096  # searched at once, so that a part of any size takes little memory
 
-CURVATURE_COLUMNS = 9
-"""k1, k2, the components of d1 and d2, and the state."""
+CURVATURE_COLUMNS = 10
+"""k1, k2, the components of d1 and d2, the state and the count."""
 
 PartFunction = Callable[[OpenPart, MeshIndex, "NDArray[np.int32]"], Any]
 
@@ -124,7 +124,7 @@ def save_neighborhoods(radius: float, format: str, distances: bool, path: str, p
 
     def chunks(return_distance: bool) -> Iterator[NDArray[Any]]:
         for chunk in part.index.iter_neighborhoods(
-            owned, radius, chunk=_ROWS, return_distance=return_distance, sort=True, workers=1
+            owned, radius, chunk=_ROWS, return_distance=return_distance, sort="id", workers=1
         ):
             # The numbering of a part ascends as that of the mesh does, so that the rows stay sorted.
             yield chunk.distances if return_distance else part.vertices[chunk.indices]

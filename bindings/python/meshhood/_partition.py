@@ -52,6 +52,11 @@ def partition(
 
     Returns the parts, as `open_parts`. Raises ValueError, naming the file and element; OSError, also if another run
     writes into the folder; KeyboardInterrupt on Ctrl-C. Finished parts then stay, and the next run continues.
+
+    >>> np.save("V.npy", V), np.save("F.npy", F)
+    (None, None)
+    >>> meshhood.partition(("V.npy", "F.npy"), "parts", parts=2, halo=0.3)
+    <meshhood.distributed.Parts: 642 vertices in 2 parts, halo 0.3>
     """
     from .distributed import open_parts
 
@@ -68,7 +73,7 @@ def partition(
     }
     if (parts is None) == (vertices_per_part is None):
         raise ValueError("parts, vertices_per_part: expected one of them")
-    with reporter(progress) as report:
+    with reporter(progress, "partition") as report:
         _, notes = _core.partition(
             _convert.path(vertices), None if faces is None else _convert.path(faces), folder, **options, progress=report
         )

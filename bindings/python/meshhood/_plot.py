@@ -3,17 +3,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Optional
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _convert
 from ._index import MeshIndex
-from ._types import Number, Unit, Vertex
 from ._mesh import mesh_arrays
+from ._types import Mask, Metric, Number, Unit, Vertex
 
-# What a vertex belongs to, each a subset of the one before, in the colors of the paper.
-_LABELS = ("other", "ball", "paper", "exact")
+# A vertex that belongs to nothing, and to each layer of a plot, the last in front; the colors of the paper.
 _COLORS = ("lightgray", "royalblue", "gold", "forestgreen")
 
 # In steps of depth, of which VTK has 2^16: in front of everything.
@@ -25,21 +25,27 @@ _VIEW_ANGLE = 30.0  # degrees
 def plot_neighborhood(
     index: MeshIndex,
     v: Vertex,
-    r: Number,
-    V: Any,
+    r: Optional[Number] = None,
+    V: Any = None,
     F: Any = None,
     *,
+    ids: Optional[ArrayLike] = None,
+    metric: Metric = "straight",
+    walls: Mask = None,
+    ignored: Mask = None,
     unit: Unit = "mesh",
     legend: bool = True,
     plotter: Any = None,
 ) -> Any:
     """Draws the neighborhood of `v` within `r` on the mesh: the exact neighborhood in green, what the search of the
     paper adds in yellow, what the ball adds in blue, the rest in gray, and the vertex as a red dot that is always
-    visible.
+    visible. With metric="path", green is what paths reach, and yellow what the straight metric adds; with masks, yellow
+    is what they take away.
 
     index : the `MeshIndex` of the mesh.
-    v, r, unit : the query, as for `MeshIndex.query_ball`.
-    V, F : the mesh, as for `MeshIndex`, but not a graph.
+    v, r, metric, walls, ignored, unit : the query, as for `MeshIndex.query_ball`.
+    V, F : the mesh, as for `MeshIndex`, but not a graph; None for the faces that the index keeps.
+    ids : draw these vertices in green instead, (n,) ids or a bool mask (#V,).
     legend : explain the colors, with the number of vertices of each.
     plotter : a pyvista.Plotter to draw on; otherwise one is made and shown.
 
@@ -48,16 +54,23 @@ def plot_neighborhood(
 
     Returns the plotter. Needs PyVista. For a picture without a window:
 
-        plotter = pyvista.Plotter(off_screen=True)
-        meshhood.plot_neighborhood(index, 42, 1.5, V, F, plotter=plotter).screenshot("picture.png")
+    >>> index, plotter = meshhood.MeshIndex(V, F), pyvista.Plotter(off_screen=True)
+    >>> image = meshhood.plot_neighborhood(index, 42, 0.5, plotter=plotter).screenshot("picture.png")
     """
     import pyvista
 
-    v = _convert.vertex(v, len(index))
+    v = _convert.vertex(v, len(index), "v")
+    if (r is None) == (ids is None):
+        raise TypeError("r: expected a radius, or ids instead")
+    if ids is None:
+        words: Any = {"metric": metric, "walls": walls, "ignored": ignored}
+        layers = _layers(index, v, r, words, unit)
+    else:
+        layers = {"ids": _convert.vertices(ids, len(index), "ids")}
     labels = np.zeros(len(index), np.uint8)
-    for label, method in enumerate(_LABELS[1:], start=1):
-        labels[index.query_ball(v, r, method=method, unit=unit)] = label
-    mesh = _poly_data(pyvista, *mesh_arrays(V, F))
+    for label, found in enumerate(layers.values(), start=len(_COLORS) - len(layers)):
+        labels[found] = label
+    mesh = _poly_data(pyvista, *_mesh_of(index, V, F))
     if mesh.n_points != len(index):
         raise ValueError(f"V: {mesh.n_points} vertices, but the index has {len(index)}")
     drawn = pyvista.Plotter() if plotter is None else plotter
@@ -65,17 +78,31 @@ def plot_neighborhood(
         mesh,
         scalars=labels,
         cmap=list(_COLORS),
-        clim=(-0.5, len(_LABELS) - 0.5),
+        clim=(-0.5, len(_COLORS) - 0.5),
         interpolate_before_map=False,
         show_scalar_bar=False,
     )
     _add_dot(drawn, mesh.points[[v]])
     if legend:
-        _add_legend(drawn, v, labels)
+        _add_legend(drawn, v, list(layers), labels)
     _aim(drawn, mesh, v, labels)
     if plotter is None:
         drawn.show()
     return drawn
+
+
+def _layers(index: MeshIndex, v: int, r: Any, words: Any, unit: Unit) -> dict[str, Any]:
+    """The vertices of each layer, by its name in the legend; each nearly always contains the one that follows."""
+    ball, exact = (index.query_ball(v, r, unit=unit, method=method) for method in ("ball", "exact"))
+    if words["metric"] == "straight" and words["walls"] is None and words["ignored"] is None:
+        return {"ball": ball, "paper": index.query_ball(v, r, unit=unit, method="paper"), "exact": exact}
+    return {"ball": ball, "straight": exact, "asked": index.query_ball(v, r, unit=unit, **words)}
+
+
+def _mesh_of(index: MeshIndex, V: Any, F: Any) -> Any:
+    if V is not None:
+        return mesh_arrays(V, F)
+    return index.positions, *index._face_arrays(F)
 
 
 def _add_dot(plotter, point):
@@ -84,15 +111,13 @@ def _add_dot(plotter, point):
     dot.mapper.SetRelativeCoincidentTopologyPointOffsetParameter(_IN_FRONT)
 
 
-def _add_legend(plotter, v, labels):
-    other, ball, paper, exact = (int((labels == label).sum()) for label in range(len(_LABELS)))
-    entries = [
-        [f"vertex {v}", "red"],
-        [f"exact: {exact}", _COLORS[3]],
-        [f"paper adds {paper}", _COLORS[2]],
-        [f"ball adds {ball}", _COLORS[1]],
-        [f"other: {other}", _COLORS[0]],
-    ]
+def _add_legend(plotter, v, names, labels):
+    counts = [int((labels == label).sum()) for label in range(len(_COLORS))]
+    colors = _COLORS[len(_COLORS) - len(names) :]
+    entries = [[f"vertex {v}", "red"], [f"{names[-1]}: {counts[-1]}", colors[-1]]]
+    for name, color in reversed(list(zip(names[:-1], colors))):
+        entries.append([f"{name} adds {counts[_COLORS.index(color)]}", color])
+    entries.append([f"other: {counts[0]}", _COLORS[0]])
     plotter.add_legend(entries, bcolor="#303030", border=True, face="rectangle", size=(0.3, 0.25), loc="lower right")
 
 

@@ -5,17 +5,19 @@ from __future__ import annotations
 
 import contextlib
 import warnings
-from collections.abc import Callable
-from typing import Union
+from collections.abc import Callable, Iterator
+from typing import Any, Optional, Union
 
 Progress = Union[bool, Callable[[int, int], object], None]
+Report = Optional[Callable[[int, int], object]]
 
 
 @contextlib.contextmanager
-def reporter(progress):
-    """The function that a long call reports its progress to, or None."""
+def reporter(progress: Progress, title: str, unit: str = "steps", count: Optional[int] = None) -> Iterator[Report]:
+    """The function that a long call reports its progress to, or None. `title`, `unit`, and `count`, how many units
+    there are, are those of a bar; without a count, a unit is a part of the call."""
     if progress is True:
-        with _bar() as report:
+        with _bar(title, unit, count) as report:
             yield report
     elif progress is None or progress is False:
         yield None
@@ -25,18 +27,34 @@ def reporter(progress):
         raise TypeError(f"progress: expected True or a function, not {type(progress).__name__}")
 
 
+def in_parts(report: Report, count: int) -> list[Report]:
+    """A function for each of `count` calls that follow each other: together they report from 0 to the end once."""
+    if report is None or count == 1:
+        return [report] * count
+    return [_Part(report, number, count) for number in range(count)]
+
+
+class _Part:
+    def __init__(self, report: Callable[[int, int], object], number: int, count: int) -> None:
+        self._report, self._number, self._count = report, number, count
+
+    def __call__(self, done: int, total: int) -> None:
+        self._report(self._number * total + done, self._count * total)
+
+
 @contextlib.contextmanager
-def _bar():
+def _bar(title: str, unit: str, count: Optional[int]) -> Iterator[Report]:
     try:
         from tqdm.auto import tqdm
     except ImportError:
         warnings.warn("progress=True needs tqdm, which is not installed", stacklevel=5)
         yield None
         return
-    with tqdm() as bar:
+    bar: Any
+    with tqdm(desc=title, unit=f" {unit}", unit_scale=True) as bar:
 
-        def report(done, total):
-            bar.total = total
-            bar.update(done - bar.n)
+        def report(done: int, total: int) -> None:
+            bar.total = total if count is None else count
+            bar.update((done if count is None or total == 0 else done * count // total) - bar.n)
 
         yield report

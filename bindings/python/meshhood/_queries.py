@@ -5,20 +5,31 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Literal, Optional, Union, overload
+from typing import TYPE_CHECKING, Any, Literal, Optional, TypedDict, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _convert
 from ._held import Held
-from ._types import Counts, Ids, Metric, Number, Reals, RegionOptions, Unit
+from ._rows import check_words, sort_of, sorted_rows
+from ._types import Counts, Ids, Mask, Metric, Number, Reals, Sort, Unit
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 Seeds = Union[int, "np.integer[Any]", Sequence[int], "NDArray[np.integer[Any]]", None]
-Mask = Optional[NDArray[np.bool_]]
+
+
+class RegionWords(TypedDict, total=False):
+    """The words of `MeshIndex.query_region` besides `return_distance`, on which the type of the result depends."""
+
+    seeds: Seeds
+    walls: Mask
+    ignored: Mask
+    sort: Optional[Sort]
+    metric: Metric
+    unit: Unit
 
 
 class Queries(Held):
@@ -26,57 +37,47 @@ class Queries(Held):
 
     @overload
     def query_region(
-        self, start: ArrayLike, r: Number, *, return_distance: Literal[False] = False, **options: Unpack[RegionOptions]
+        self, start: ArrayLike, r: Number, *, return_distance: Literal[False] = False, **words: Unpack[RegionWords]
     ) -> Ids: ...
 
     @overload
     def query_region(
-        self, start: ArrayLike, r: Number, *, return_distance: Literal[True], **options: Unpack[RegionOptions]
+        self, start: ArrayLike, r: Number, *, return_distance: Literal[True], **words: Unpack[RegionWords]
     ) -> tuple[Ids, Reals]: ...
 
-    def query_region(
-        self,
-        start: Any,
-        r: Any,
-        *,
-        seeds: Any = None,
-        walls: Any = None,
-        ignored: Any = None,
-        return_distance: bool = False,
-        sort: bool = False,
-        metric: Metric = "straight",
-        unit: Unit = "mesh",
-    ) -> Any:
+    def query_region(self, start: Any, r: Any, *, return_distance: bool = False, **words: Any) -> Any:
         """The region of `start` and the radius `r`: the vertices that are connected to a seed by edges between vertices
-        within `r` of `start`. For a vertex as start, without masks, it is the neighborhood that `query_ball` returns.
+        within `r` of `start`. For a vertex as start it is the neighborhood that `query_ball` returns.
 
-        start : a vertex, or a point in space (3 numbers). It is the center of the ball.
+        start : a vertex, or a point in space (3 floats). It is the center of the ball.
         seeds : if `start` is a point: the vertices from which the search starts, for example the corners of the face
             on which the point lies; None for the vertex nearest to the point. A seed outside the ball does not count.
             If all seeds are outside, the region is empty, and a warning says so: the point is too far from the mesh.
-        walls : a bool mask (#V,): vertices that the search does not pass and that belong to no answer, as if they were
-            not in the mesh.
-        ignored : a bool mask (#V,): vertices that the search passes but that belong to no answer.
-        metric : "path": the vertices whose shortest path along edges from the vertex `start` is at most `r` long.
-        r, return_distance, sort, unit : as for one vertex of `query_ball`, and so is the result.
+        metric : "path" needs a vertex as start.
+        walls, ignored, unit : see `MeshIndex`.
+        r, return_distance, sort : as for one vertex of `query_ball`, and so is the result. Distances are float64.
 
-        An answer depends on the index, the start, the radius and the masks alone. Its ids are in index order: ascending
-        places of `permutation`; with "path" they are sorted by path length.
+        An answer depends on the index, the start, the radius and the masks alone. Without `sort`, its ids are in index
+        order, or with "path" sorted by path length. The cost grows with the size of the region.
 
-        The cost grows with the size of the region.
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> ids = index.query_region([0.0, 0.0, 1.1], 0.3)
+        >>> ids = index.query_region(42, 0.5, walls=V[:, 2] > 0.9)
         """
-        center, first = self._start(start, seeds)
-        radius, masks = self._scale(unit) * _convert.radius(r), self._masks(walls, ignored)
-        if _convert.choice(metric, "metric", ("straight", "path")) == "path":
-            if np.ndim(start) != 0:
+        check_words(words, RegionWords)
+        sort = sort_of(words)
+        center, first = self._start(start, words.get("seeds"), "query_ball(vertices, r)")
+        radius = self._scale(words.get("unit", "mesh")) * _convert.radius(r)
+        masks = self._masks(words.get("walls"), words.get("ignored"))
+        if _convert.choice(words.get("metric", "straight"), "metric", ("straight", "path")) == "path":
+            if center is not None:
                 raise ValueError("start: expected a vertex with metric='path', because a point has no edges")
             indices, distances = self._queries.path_region(int(first[0]), radius, *masks)
         else:
             indices, distances, has_seed = self._queries.region(center, first, radius, *masks)
             _warn_unless(has_seed or not len(first), "start: the")
-        if sort:
-            order = np.argsort(indices)
-            indices, distances = indices[order], distances[order]
+        if sort is not None:
+            indices, distances = sorted_rows(self, sort, np.array([0, len(indices)]), indices, distances)
         return (indices, distances) if return_distance else indices
 
     def query_stroke(
@@ -87,17 +88,21 @@ class Queries(Held):
         seeds: Any = None,
         walls: Mask = None,
         ignored: Mask = None,
-        sort: bool = False,
+        sort: Literal["index", "id"] = "index",
         unit: Unit = "mesh",
     ) -> Ids:
         """The union of the regions of many points, such as those of a brush stroke; each vertex once, in index order,
-        or ascending with `sort`.
+        or ascending with sort="id".
 
         points : (n, 3).
         r : one radius, or one for each point.
         seeds : (n,) or (n, k), those of each point; None for the vertex nearest to each. A warning says that all seeds
             of a point are farther than its radius.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> ids = index.query_stroke([[0.0, 0.0, 1.0], [0.1, 0.0, 1.0]], 0.2)
         """
+        by_id = _convert.choice(sort, "sort", ("index", "id")) == "id"
         centers = _convert.points(points, "points")
         if seeds is None:
             seeds = self._queries.nearest(centers)[0] if len(centers) else np.empty(0, np.int32)
@@ -105,7 +110,7 @@ class Queries(Held):
         rows = _convert.seed_rows(seeds, len(centers), self._count)
         indices, has_seeds = self._queries.stroke(centers, rows, radii, *self._masks(walls, ignored))
         _warn_unless(has_seeds, "points: a")
-        if sort:
+        if by_id:
             indices.sort()
         return indices
 
@@ -127,8 +132,13 @@ class Queries(Held):
         So indices[counts[i - 1]:counts[i]] is ring i: the vertices of the region of radii[i] that are not in that of
         radii[i - 1]. A near vertex belongs to a late ring if only a wider ball connects it. Each ring is in index
         order. The sum over a region is the sum over its rings: `np.add.reduceat`, then `np.cumsum`.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> counts, ids = index.query_nested(42, [0.2, 0.4])
+        >>> len(ids) == index.count(42, 0.4)
+        True
         """
-        center, first = self._start(start, seeds)
+        center, first = self._start(start, seeds, "query_ball(vertices, scales=radii)")
         values = _convert.ascending(radii, "radii") * self._scale(unit)
         counts, indices, has_seed = self._queries.nested(center, first, values, *self._masks(walls, ignored))
         _warn_unless(has_seed or not len(first), "start: the")
@@ -137,8 +147,12 @@ class Queries(Held):
     def query_rings(self, v: Any, k: Any, *, walls: Mask = None, ignored: Mask = None) -> tuple[Counts, Ids]:
         """The vertices that at most `k` edges separate from vertex `v`: `counts, indices`. The first counts[i] of the
         indices are at most i edges away; `counts` ends with the last ring that is not empty, or with ring k.
-        Each ring is in index order."""
-        v = _convert.vertex(v, self._count)
+        Each ring is in index order.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> counts, ids = index.query_rings(42, 2)
+        """
+        v = _convert.vertex(v, self._count, "v")
         counts, indices = self._queries.rings(v, _convert.integer(k, "k", 0, 2**63 - 1), *self._masks(walls, ignored))
         return counts, indices
 
@@ -153,8 +167,12 @@ class Queries(Held):
         ignored: Mask = None,
         unit: Unit = "mesh",
     ) -> bool:
-        """Whether the region of `start` and the radius `r` has vertex `w`."""
-        center, first = self._start(start, seeds)
+        """Whether the region of `start` and the radius `r` has vertex `w`.
+
+        >>> meshhood.MeshIndex(V, F).contains(42, 163, 0.3)
+        True
+        """
+        center, first = self._start(start, seeds, "a call for each")
         w, r = _convert.vertex(w, self._count, "w"), self._scale(unit) * _convert.radius(r)
         return bool(self._queries.contains(center, first, w, r, *self._masks(walls, ignored)))
 
@@ -162,8 +180,13 @@ class Queries(Held):
         self, start: ArrayLike, w: Any, *, seeds: Seeds = None, walls: Mask = None, ignored: Mask = None
     ) -> float:
         """The smallest radius whose region has vertex `w`; inf if there is none. It is the minimum, over all paths of
-        edges from a seed to `w`, of the largest distance between a vertex of the path and `start`."""
-        center, first = self._start(start, seeds)
+        edges from a seed to `w`, of the largest distance between a vertex of the path and `start`.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> index.contains(42, 77, index.connecting_radius(42, 77))
+        True
+        """
+        center, first = self._start(start, seeds, "a call for each")
         w = _convert.vertex(w, self._count, "w")
         return float(self._queries.connecting_radius(center, first, w, *self._masks(walls, ignored)))
 
@@ -171,15 +194,34 @@ class Queries(Held):
         self, start: ArrayLike, k: Any, *, seeds: Seeds = None, walls: Mask = None, ignored: Mask = None
     ) -> tuple[Ids, Reals]:
         """The `k` nearest connected vertices and their connecting radii: the first k, ordered by connecting radius,
-        then by distance from `start`, then by id. Fewer if no more are connected."""
-        center, first = self._start(start, seeds)
+        then by distance from `start`, then by id. Fewer if no more are connected.
+
+        >>> ids, radii = meshhood.MeshIndex(V, F).nearest_connected(42, 20)
+        >>> int(ids[0])
+        42
+        """
+        center, first = self._start(start, seeds, "query_knn(vertices, k), or seeds= around a point")
         k = _convert.integer(k, "k", 0, 2**63 - 1)
         indices, radii = self._queries.nearest_connected(center, first, k, *self._masks(walls, ignored))
         return indices, radii
 
-    def nearest(self, points: ArrayLike) -> Any:
+    @overload
+    def nearest(self, points: Sequence[float]) -> tuple[int, float]: ...
+
+    @overload
+    def nearest(self, points: Sequence[Sequence[float]]) -> tuple[Ids, Reals]: ...
+
+    @overload
+    def nearest(self, points: ArrayLike) -> Union[tuple[int, float], tuple[Ids, Reals]]: ...
+
+    def nearest(self, points: Any) -> Any:
         """The vertex nearest to a point, and its distance: `vertex, distance`. For points (n, 3) or [], two arrays. Of
-        several vertices at the same distance, the one with the smallest id."""
+        several vertices at the same distance, the one with the smallest id.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> vertex, distance = index.nearest([0.0, 0.0, 2.0])
+        >>> vertices, distances = index.nearest(2 * V[:5])
+        """
         rows = _convert.points(points, "points")
         if self._count == 0:
             raise ValueError("points: the mesh has no vertices")
@@ -187,23 +229,20 @@ class Queries(Held):
         is_one = np.ndim(points) == 1 and len(rows) == 1
         return (int(vertices[0]), float(distances[0])) if is_one else (vertices, distances)
 
-    def _start(self, start: Any, seeds: Any) -> tuple[tuple[float, float, float] | None, Ids]:
-        """The center and the seeds; for a vertex, None and the vertex."""
+    def _start(self, start: Any, seeds: Any, meant: str) -> tuple[tuple[float, float, float] | None, Ids]:
+        """The center and the seeds; for a vertex, None and the vertex. `meant`: the call for several vertices."""
         if np.ndim(start) == 0:
             if seeds is not None:
                 raise ValueError("seeds: expected None, because the start is a vertex")
             v = _convert.vertex(start, self._count, "start")
             return None, np.array([v], np.int32)
-        point = _convert.point(start, "start")
+        point = _convert.point(start, "start", meant)
         if seeds is None:
             first = self._queries.nearest(point)[0] if self._count else np.empty(0, np.int32)
         else:
             first = _convert.vertices(np.atleast_1d(seeds), self._count, "seeds")
         x, y, z = point[0]
         return (float(x), float(y), float(z)), first
-
-    def _masks(self, walls: Any, ignored: Any) -> tuple[Any, Any]:
-        return _convert.mask(walls, "walls", self._count), _convert.mask(ignored, "ignored", self._count)
 
 
 def _warn_unless(has_seed: bool, which: str) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _convert, _core
+from ._held import Held
 from ._mesh import mesh_arrays
 
 Ids = NDArray[np.int32]
@@ -19,7 +20,7 @@ class Submesh(NamedTuple):
     """Some faces of a mesh, as a mesh of their own."""
 
     V: Union[NDArray[np.float32], NDArray[np.float64]]  #: the positions of its vertices
-    F: Any  #: (#F, 3) int32, or a tuple (offsets, corners) if the mesh was given as polygons; rows of V
+    F: Union[Ids, tuple[NDArray[np.int64], Ids]]  #: (#F, 3), or (offsets, corners) if the mesh has polygons; rows of V
     vertices: Ids  #: its vertices by their ids in the whole mesh, ascending
     faces: NDArray[np.int64]  #: its faces by their rows in the whole mesh, ascending
 
@@ -40,6 +41,9 @@ class RegionMesh:
     `ids` are the vertices of a region, in any order, as the queries of `MeshIndex` return them; or a bool mask (#V,).
     The cost of a call is that of sorting the faces around them. Raises ValueError or TypeError, naming the argument and
     the element.
+
+    >>> mesher = meshhood.RegionMesh(V, F)
+    >>> part = mesher.submesh(meshhood.MeshIndex(V, F).query_ball(42, 0.5))
     """
 
     def __init__(self, V: Any, F: Any = None) -> None:
@@ -74,7 +78,7 @@ class RegionMesh:
         if np.ndim(start) == 0:
             center = self._positions[_convert.vertex(start, len(self._positions), "start")].astype(np.float64)
         else:
-            center = _convert.point(start, "start")[0]
+            center = _convert.point(start, "start", "a call for each")[0]
         x, y, z = (float(value) for value in center)
         points, edges, offsets, closed = self._mesher.rim(self._ids(ids), (x, y, z), _convert.radius(r))
         parts = [slice(begin, end) for begin, end in zip(offsets[:-1], offsets[1:])]
@@ -85,3 +89,40 @@ class RegionMesh:
 
     def _all(self, corners: Any) -> bool:
         return _convert.choice(corners, "corners", ("all", "any")) == "all"
+
+
+class Regions(Held):
+    """The part of `MeshIndex` that makes meshes of regions."""
+
+    def submesh(self, ids: ArrayLike, corners: Corners = "all", *, F: Any = None) -> Submesh:
+        """The faces with all corners in `ids`, or with at least one, as a mesh.
+
+        ids : the vertices of a region, in any order, or a bool mask (#V,).
+        F : other faces than those that the index keeps. The faces that the surface of a ball cuts are left out with
+            "all" and whole with "any": the area of a patch is off by a share of its rim.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> part = index.submesh(index.query_ball(42, 0.5))
+        >>> len(part.V) == len(part.vertices)
+        True
+        """
+        return self._region_mesh(F).submesh(ids, corners)
+
+    def rim(self, ids: ArrayLike, start: Any, r: Any, *, F: Any = None) -> list[RimLine]:
+        """Where the surface leaves a region: see `RegionMesh.rim`.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> [line.closed for line in index.rim(index.query_ball(42, 0.5), 42, 0.5)]
+        [True]
+        """
+        return self._region_mesh(F).rim(ids, start, r)
+
+    def _region_mesh(self, F: Any) -> RegionMesh:
+        if F is None and self._mesher is not None:
+            return self._mesher
+        corners, offsets = self._face_arrays(F)
+        faces = corners.reshape(-1, 3) if offsets is None else (offsets, corners)
+        mesher = RegionMesh(self._methods.positions, faces)
+        if F is None:
+            self._mesher = mesher
+        return mesher

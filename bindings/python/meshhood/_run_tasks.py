@@ -12,7 +12,7 @@ from ._progress import Progress, reporter
 def run_all(tasks: list[tuple[Callable[[Any], Any], Any]], progress: Progress) -> list[Any]:
     """The results of `function(argument)` for all tasks: on the cluster of the current client, else on threads."""
     client = _client()
-    with reporter(progress) as report:
+    with reporter(progress, "parts", "tasks") as report:
         if report:
             report(0, len(tasks))
         if client is None:

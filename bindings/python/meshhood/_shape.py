@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Literal, Union
+from typing import TYPE_CHECKING, Any, Literal, Optional, Union, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,36 +14,62 @@ from ._aggregate import area_weights
 from ._curvature import Curvature
 from ._held import Held
 from ._moments import CorrectedCurvature, PrincipalComponents
-from ._progress import Progress, reporter
-from ._types import Number, Radii, Reals, Unit, Vertices
+from ._rows import Rows, Words, read_rows
+from ._types import Radii, Reals, Scales, Vertices
 
-_KINDS = (
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+Kind = Literal[
     "crease", "mean", "gaussian", "k1", "k2", "curvedness", "shape_index", "area", "height", "variation",
-)  # fmt: skip
+]  # fmt: skip
+
+
+class SurfaceWords(Words, total=False):
+    """The words of calls that measure the surface."""
+
+    scales: Optional[Scales]
+    F: Any
+
+
+class CurvatureWords(SurfaceWords, total=False):
+    """The words of `MeshIndex.curvature`."""
+
+    normals: Any
+    like: Literal[None, "libigl"]
+    fit: Literal["quadric", "jet"]
+    filter: bool
+
+
+class CorrectedWords(SurfaceWords, total=False):
+    """The words of `MeshIndex.corrected_curvature`."""
+
+    normals: Any
+
+
+class MomentWords(SurfaceWords, total=False):
+    """The words of `MeshIndex.principal_components`, and with `degree` those of `moments`."""
+
+    weights: Union[Literal["area"], ArrayLike, None]
+
+
+class FeatureWords(SurfaceWords, total=False):
+    """The words of `MeshIndex.features`."""
+
+    filter: bool
 
 
 class Shape(Held):
     """The part of `MeshIndex` that measures the surface."""
 
     def curvature(
-        self,
-        r: Union[Radii, Sequence[float]],
-        vertices: Vertices = None,
-        *,
-        F: Any = None,
-        normals: Any = None,
-        like: Literal[None, "libigl"] = None,
-        fit: Literal["quadric", "jet"] = "quadric",
-        filter: bool = True,
-        unit: Unit = "mesh",
-        workers: int = -1,
-        progress: Progress = None,
+        self, r: Optional[Radii] = None, vertices: Vertices = None, **words: Unpack[CurvatureWords]
     ) -> Curvature:
-        """Principal curvatures of `vertices` by a quadric that is fitted to their neighborhoods of radius `r`.
+        """Principal curvatures of `vertices` by a quadric that is fitted to their neighborhoods.
 
-        r : a radius, or a list of radii: the arrays of the result then have a leading axis.
-        vertices : a list of vertices, a bool mask, or None for all.
-        F : other faces than those that the index keeps. The normals are kept for the next call with the same faces.
+        r, vertices, scales, walls, ignored, unit, workers, progress : see `MeshIndex`.
+        F : other faces than those that the index keeps, or a mesh. The normals are kept for the next call with the same
+            faces.
         normals : (#V, 3), instead of those of the faces; of any length. NaN where a vertex has none.
         like : "libigl" gives the values of igl.principal_curvature. Its shape operator is wrong where the fitted
             quadric is tilted against the normal, and its neighborhoods have the vertices nearer than `r`.
@@ -51,138 +77,158 @@ class Shape(Held):
             components of the neighborhood: with filter=False CGAL's Monge_via_jet_fitting of degrees 2 and 2.
         filter : fit only vertices whose normal makes an angle of less than 90 degrees with that of the query vertex, if
             there are at least six.
-        unit, workers, progress : as for `query_ball`.
 
-        A row depends on index, faces or normals, vertex and radius alone, bit for bit: not on the other rows or radii
-        of the call, earlier calls, threads or the processor.
-        Returns a `Curvature`: k1, k2, d1, d2, state, and as properties mean, gaussian, shape_index, curvedness, ok.
-        Raises ValueError without faces and normals. See docs/curvature.md for what the numbers mean.
+        A row depends on index, faces or normals, vertex, radius and masks alone, bit for bit: not on the other rows or
+        scales of the call, earlier calls, threads or the processor.
+        Returns a `Curvature`: k1, k2, d1, d2, state, count, and as properties mean, gaussian, shape_index, curvedness,
+        ok. Raises ValueError without faces and normals. See docs/curvature.md for what the numbers mean, and for when
+        to choose `corrected_curvature`.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> index.curvature(0.3)
+        <meshhood.Curvature: 642 rows, 642 ok>
+        >>> index.curvature(scales=[0.3, 0.5]).mean.shape
+        (2, 642)
         """
+        like, fit = words.get("like"), words.get("fit", "quadric")
         if like is not None:
             _convert.choice(like, "like", ("libigl",))
-        rows = None if vertices is None else _convert.vertices(vertices, self._count)
-        radii = np.array(_convert.as_array(r, "r"))
-        several = radii.ndim > 0
-        radii = self._scale(unit) * _convert.radii(radii, len(radii) if several else 1)
-        options = {"libigl": like == "libigl", "jet": _convert.choice(fit, "fit", ("quadric", "jet")) == "jet"}
-        options |= {"filter": bool(filter), "threads": _convert.threads(workers)}
-        surface = self._surface(F, normals)
-        with reporter(progress) as report:
-            if not several:
-                return Curvature(*surface.curvatures(rows, radii, progress=report, **options))
-            each = [Curvature(*surface.curvatures(rows, float(r), progress=report, **options)) for r in radii]
-        return Curvature(*(np.stack(arrays) for arrays in zip(*each)))
+        rows = self._surface_rows(vertices, r, words, CurvatureWords)
+        options: Any = {"libigl": like == "libigl", "jet": _convert.choice(fit, "fit", ("quadric", "jet")) == "jet"}
+        options |= {"filter": bool(words.get("filter", True)), "threads": rows.threads, **rows.filter}
+        surface = self._surface(words.get("F"), words.get("normals"))
+        found = rows.for_each_scale(
+            "curvature", lambda radius, report: surface.curvatures(rows.vertices, radius, progress=report, **options)
+        )
+        return Curvature(*(rows.shaped(list(arrays)) for arrays in zip(*found)))
 
     def corrected_curvature(
-        self,
-        r: Number,
-        vertices: Vertices = None,
-        *,
-        F: Any = None,
-        normals: Any = None,
-        unit: Unit = "mesh",
-        workers: int = -1,
-        progress: Progress = None,
+        self, r: Optional[Radii] = None, vertices: Vertices = None, **words: Unpack[CorrectedWords]
     ) -> CorrectedCurvature:
         """Curvatures by the interpolated corrected curvature measures (Lachaud et al. 2020; in CGAL 6
         `interpolated_corrected_curvatures`): sums over the faces, without a fit.
 
-        r : the radius of all rows. normals : (#V, 3), instead of those that follow from the faces. The faces are needed
-        in any case. The other arguments are as for `curvature`. Returns a `CorrectedCurvature`: area, mean, gaussian,
-        k1, k2, d1, d2, measures. As for `curvature`, a row does not depend on the others.
+        normals : (#V, 3), instead of those that follow from the faces. The faces are needed in any case.
+        The other words are those of `curvature`. Returns a `CorrectedCurvature`: area, mean, gaussian, k1, k2, d1, d2,
+        measures. As for `curvature`, a row does not depend on the others.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> index.corrected_curvature(scales=[0.3, 0.5]).mean.shape
+        (2, 642)
         """
-        rows = None if vertices is None else _convert.vertices(vertices, self._count)
-        radius = self._scale(unit) * _convert.radius(r)
+        rows = self._surface_rows(vertices, r, words, CorrectedWords)
+        F, normals = words.get("F"), words.get("normals")
         corners, offsets = self._face_arrays(F)
         surface = self._surface(F if normals is None else None, normals)
-        with reporter(progress) as report:
-            found = surface.corrected(
-                corners, offsets=offsets, vertices=rows, radius=radius, threads=_convert.threads(workers), progress=report
-            )
-        return CorrectedCurvature(*found)
+        found = rows.for_each_scale(
+            "corrected_curvature",
+            lambda radius, report: surface.corrected(
+                corners,
+                offsets=offsets,
+                vertices=rows.vertices,
+                radius=radius,
+                threads=rows.threads,
+                progress=report,
+                **rows.filter,
+            ),
+        )
+        return CorrectedCurvature(*(rows.shaped(list(arrays)) for arrays in zip(*found)))
 
     def moments(
-        self,
-        r: Radii,
-        vertices: Vertices = None,
-        *,
-        degree: int = 2,
-        weights: Union[Literal["area"], ArrayLike, None] = None,
-        F: Any = None,
-        unit: Unit = "mesh",
-        workers: int = -1,
-        progress: Progress = None,
+        self, r: Optional[Radii] = None, vertices: Vertices = None, *, degree: int = 2, **words: Unpack[MomentWords]
     ) -> Reals:
         """Sums of w x^i y^j z^k over each neighborhood for i + j + k <= degree, where x, y, z are the coordinates
         relative to the query vertex, and w the weights.
 
-        r : a radius, or one for each row. degree : 0 to 4. weights, F : as for `aggregate`.
-        Returns (#rows, 1, 4, 10, 20 or 35) float64: 1, x, y, z, x^2, xy, xz, y^2, yz, z^2, x^3, ..., the order of
-        scikit-learn's PolynomialFeatures. They are accurate to 1e-13 of the sum of w |p|^(i + j + k). A row depends on
-        index, weights, vertex and radius alone, bit for bit: not on the other rows of the call, earlier calls, threads
-        or the processor. Only if the rows have different radii, those of the vertices nearby have an effect on the last
-        bits.
+        r, vertices, scales, walls, ignored, unit, workers, progress : see `MeshIndex`.
+        degree : 0 to 4. weights, F : as for `aggregate`.
+        Returns (#rows, 1, 4, 10, 20 or 35) float64, with a leading axis if there are scales: 1, x, y, z, x^2, xy, xz,
+        y^2, yz, z^2, x^3, ..., the order of scikit-learn's PolynomialFeatures. They are accurate to 1e-13 of the sum of
+        w |p|^(i + j + k). A row depends on index, weights, vertex, radius and masks alone, bit for bit: not on other
+        rows of the call, earlier calls, threads or the processor. Only if the rows have different radii, those of the
+        vertices nearby have an effect on the last bits.
+
+        >>> meshhood.MeshIndex(V, F).moments(0.3).shape
+        (642, 10)
         """
-        rows, radii, threads = self._batch(vertices, r, self._scale(unit), workers)
-        options = {"degree": _convert.integer(degree, "degree", 0, 4), "weights": area_weights(self, weights, F)}
-        with reporter(progress) as report:
-            return _core.moments(self._exact, rows, radii, **options, threads=threads, progress=report)
+        rows = self._surface_rows(vertices, r, words, MomentWords)
+        weights = area_weights(self, words.get("weights"), words.get("F"))
+        options = {"degree": _convert.integer(degree, "degree", 0, 4), "weights": weights, "threads": rows.threads}
+        found = rows.for_each_scale(
+            "moments",
+            lambda radius, report: _core.moments(
+                self._exact, rows.vertices, radius, progress=report, **options, **rows.filter
+            ),
+        )
+        return rows.shaped(found)
 
     def principal_components(
-        self,
-        r: Radii,
-        vertices: Vertices = None,
-        *,
-        weights: Union[Literal["area"], ArrayLike, None] = None,
-        F: Any = None,
-        unit: Unit = "mesh",
-        workers: int = -1,
-        progress: Progress = None,
+        self, r: Optional[Radii] = None, vertices: Vertices = None, **words: Unpack[MomentWords]
     ) -> PrincipalComponents:
         """The mean and the covariance of the positions of each neighborhood: normals, surface variation, and with
-        weights="area" the integral invariants area, barycenter and covariance. The arguments are those of `moments`,
-        and so is what a row depends on."""
-        rows, radii, threads = self._batch(vertices, r, self._scale(unit), workers)
-        options = {"weights": area_weights(self, weights, F), "threads": threads}
-        with reporter(progress) as report:
-            return PrincipalComponents(*_core.principal_components(self._exact, rows, radii, **options, progress=report))
+        weights="area" the integral invariants area, barycenter and covariance. The words are those of `moments`, and so
+        is what a row depends on.
+
+        >>> found = meshhood.MeshIndex(V, F).principal_components(0.3, weights="area")
+        >>> found.normal.shape, found.surface_variation.shape
+        ((642, 3), (642,))
+        """
+        rows = self._surface_rows(vertices, r, words, MomentWords)
+        weights = area_weights(self, words.get("weights"), words.get("F"))
+        options = {"weights": weights, "threads": rows.threads, **rows.filter}
+        found = rows.for_each_scale(
+            "principal_components",
+            lambda radius, report: _core.principal_components(
+                self._exact, rows.vertices, radius, progress=report, **options
+            ),
+        )
+        return PrincipalComponents(*(rows.shaped(list(arrays)) for arrays in zip(*found)))
 
     def features(
         self,
-        r: Union[Number, Sequence[float], ArrayLike],
+        r: Optional[Radii] = None,
         vertices: Vertices = None,
         *,
-        F: Any = None,
-        kinds: Union[str, Sequence[str]] = "crease",
-        filter: bool = True,
-        unit: Unit = "mesh",
-        workers: int = -1,
-        progress: Progress = None,
+        kinds: Union[Kind, Sequence[Kind]] = "crease",
+        **words: Unpack[FeatureWords],
     ) -> Reals:
-        """Feature vectors over several radii, without unit, so that scales can be compared.
+        """Feature vectors without unit, so that scales can be compared.
 
-        r : radii, > 0, for example `geometric_radii(a, b, count)`.
+        r, vertices, scales, walls, ignored, unit, workers, progress : see `MeshIndex`; scales are for example
+            `geometric_radii(a, b, count)`. Radii are > 0.
         kinds : one name or several of crease, mean, gaussian, k1, k2, curvedness, shape_index, area, height, variation.
             See docs/curvature.md for what they mean.
-        F, filter, unit, workers, progress : as for `curvature`.
+        F, filter : as for `curvature`.
 
-        Returns (#radii, #rows, #kinds) float64, without the last axis if `kinds` is one name. NaN where there is no
-        result. `persistence` finds over how many radii a feature lasts. As for
-        `curvature`, a row does not depend on the others.
+        Returns (#scales, #rows, #kinds) float64, without the first axis if there is one `r`, and without the last if
+        `kinds` is one name. NaN where there is no result. `persistence` finds over how many scales a feature lasts. As
+        for `curvature`, a row does not depend on the others.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> index.features(scales=meshhood.geometric_radii(0.2, 0.8, 3), kinds=("crease", "area")).shape
+        (3, 642, 2)
         """
-        rows = None if vertices is None else _convert.vertices(vertices, self._count)
-        array = np.atleast_1d(np.array(_convert.as_array(r, "r")))
-        radii = self._scale(unit) * _convert.radii(array, len(array))
+        rows = self._surface_rows(vertices, r, words, FeatureWords)
         names = (kinds,) if isinstance(kinds, str) else tuple(kinds)
         if not names:
             raise ValueError("kinds: there are none, expected at least one")
+        F = words.get("F")
         options = {
-            "radii": np.atleast_1d(radii),
-            "kinds": [getattr(_core.Feature, _convert.choice(name, "kinds", _KINDS)) for name in names],
+            "kinds": [getattr(_core.Feature, _convert.choice(name, "kinds", get_args(Kind))) for name in names],
             "areas": area_weights(self, "area", F) if {"area", "height", "variation"} & set(names) else None,
-            "filter": bool(filter),
-            "threads": _convert.threads(workers),
+            "filter": bool(words.get("filter", True)),
+            "threads": rows.threads,
+            **rows.filter,
         }
-        with reporter(progress) as report:
-            found = self._surface(F, None).features(rows, progress=report, **options)
+        surface = self._surface(F, None)
+        radii, radius = rows.common_radii
+        with rows.reporter("features") as report:
+            found = surface.features(rows.vertices, radii=np.array(radii), radius=radius, progress=report, **options)
+        found = found.reshape(rows.shape + found.shape[2:])
         return found[..., 0] if isinstance(kinds, str) else found
+
+    def _surface_rows(self, vertices: Any, r: Any, words: Any, accepted: Any) -> Rows:
+        rows = read_rows(self, vertices, r, words.get("scales"), words, accepted)
+        if rows.metric != "straight":
+            raise ValueError(f"metric: {rows.metric!r}, expected 'straight': the surface is measured in balls")
+        return rows

@@ -68,8 +68,8 @@ def view(
     the exact neighborhood in green, extra vertices of the search of the paper in yellow, further vertices of the ball
     in blue.
 
-        meshhood.view(V, F, v=42, r=10, unit="edge")             # displayed by a notebook
-        meshhood.view(V, F, values=sizes).save("sizes.html")
+    >>> page = meshhood.view(V, F, v=42, r=10, unit="edge")  # displayed by a notebook
+    >>> meshhood.view(V, F, values=V[:, 2]).save("heights.html")
 
     V, F : the mesh, as for `MeshIndex`, but not a graph.
     v, r, unit : the query to show at first, as for `MeshIndex.query_ball`; by default the page chooses one.
@@ -117,7 +117,7 @@ def _surface(V: Any, F: Any) -> Any:
 def _settings(count: int, v: Any, r: Any, unit: Any, ids: Any, values: Any, name: Any) -> dict[str, Any]:
     settings: dict[str, Any] = {"name": str(name)}
     if v is not None:
-        settings["vertex"] = _convert.vertex(v, count)
+        settings["vertex"] = _convert.vertex(v, count, "v")
     if r is not None:
         settings["radius"] = _convert.radius(r)
         settings["unit"] = _convert.choice(unit, "unit", ("mesh", "edge"))

@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 from . import _convert, _core
 from ._mesh import mesh_arrays
-from ._types import Ids, Number, Offsets
+from ._types import Ids, Number
 
 
 class Welded(NamedTuple):
     """A welded mesh, and what has become of each vertex (see `weld`)."""
 
     vertices: Union[NDArray[np.float32], NDArray[np.float64]]
-    faces: Union[Ids, tuple[Offsets, Ids]]
+    faces: Union[Ids, tuple[NDArray[np.int64], Ids]]
     ids: Ids
 
 
@@ -40,6 +40,10 @@ def weld(V: Any, F: Any = None, eps: Number = 0) -> Welded:
 
     About O(#V + #F) if `eps` is no larger than the mean edge length; one thread. Raises ValueError or TypeError, naming
     the argument and the element.
+
+    >>> welded = meshhood.weld(V[F].reshape(-1, 3), np.arange(F.size).reshape(-1, 3))
+    >>> len(welded.vertices)
+    642
     """
     positions, corners, offsets = mesh_arrays(V, F)
     distance = _convert.finite(eps, "eps", or_zero=True)

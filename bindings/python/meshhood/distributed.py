@@ -152,7 +152,8 @@ class Parts:
         options = {"like": like, "fit": fit, "filter": bool(filter)}
         function = functools.partial(curvature_rows, self._radius(r, unit), options)
         rows = self.map(function, r, unit=unit, shape=(CURVATURE_COLUMNS,), order=order)
-        return Curvature(rows[:, 0], rows[:, 1], rows[:, 2:5], rows[:, 5:8], rows[:, 8].astype(np.uint8))
+        state, count = rows[:, 8].astype(np.uint8), rows[:, 9].astype(np.uint32)
+        return Curvature(rows[:, 0], rows[:, 1], rows[:, 2:5], rows[:, 5:8], state, count)
 
     def _per_vertex(self, values: Any, name: str) -> Any:
         """`values` as an array, or as the text of a path."""
@@ -288,6 +289,11 @@ def open_parts(folder: Folder) -> Parts:
 
     The manifest is verified here, the files of a part when it is first used in a process. Raises ValueError, naming the
     file, if one has been changed, is truncated or is of another mesh; OSError.
+
+    >>> np.save("V.npy", V), np.save("F.npy", F)
+    (None, None)
+    >>> parts = meshhood.partition(("V.npy", "F.npy"), "parts", parts=2, halo=0.3)
+    >>> counts = meshhood.open_parts("parts").count(0.3).compute()
     """
     return Parts(folder)
 

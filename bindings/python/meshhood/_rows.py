@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: MIT
+"""The words that every call on many vertices understands (see `MeshIndex`), read in one place."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Optional, TypedDict, Union
+
+import numpy as np
+
+from . import _convert
+from ._methods import Method
+from ._progress import Progress, Report, in_parts, reporter
+from ._types import METRICS, Ids, Mask, Metric, Reals, Sort, Unit
+
+if TYPE_CHECKING:
+    from numpy.typing import DTypeLike
+
+    from ._held import Held
+
+
+class Words(TypedDict, total=False):
+    """The words of every call on many vertices, besides the rows and their radii: see `MeshIndex`."""
+
+    walls: Mask
+    ignored: Mask
+    metric: Metric
+    unit: Unit
+    workers: int
+    progress: Progress
+
+
+class ResultWords(Words, total=False):
+    """Of calls whose result may be large."""
+
+    dtype: DTypeLike
+    max_bytes: Optional[int]
+
+
+class CountWords(Words, total=False):
+    """Of calls that can search by other methods than the index: see `MeshIndex.query_ball`."""
+
+    method: Method
+
+
+class ListWords(CountWords, ResultWords, total=False):
+    """Of calls that list neighborhoods: see `MeshIndex.query_ball`."""
+
+    sort: Optional[Sort]
+
+
+@dataclass(frozen=True)
+class Rows:
+    """The rows of a call, as its words say."""
+
+    count: int
+    vertices: Optional[Ids]  # None for all
+    radii: list[Union[float, Reals]]  # of each scale, in the unit of the positions
+    shape: tuple[int, ...]  # the leading axes of the result
+    walls: Any
+    ignored: Any
+    metric: str
+    threads: int
+    progress: Progress
+
+    @property
+    def common_radii(self) -> Any:
+        """The radii as calls of the library take them that compute all scales at once: those of all rows, and one for
+        each row, of which there is one or the other."""
+        first = self.radii[0]
+        return (self.radii, None) if isinstance(first, float) else ([], first)
+
+    @property
+    def filter(self) -> dict[str, Any]:
+        return {"walls": self.walls, "ignored": self.ignored}
+
+    def reporter(self, title: str) -> AbstractContextManager[Report]:
+        return reporter(self.progress, title, "vertices", self.count * len(self.radii))
+
+    def for_each_scale(self, title: str, compute: Callable[[Union[float, Reals], Report], Any]) -> list[Any]:
+        """The results of `compute(radius, progress)`."""
+        with self.reporter(title) as report:
+            reports = in_parts(report, len(self.radii))
+            return [compute(radius, each) for radius, each in zip(self.radii, reports)]
+
+    def shaped(self, results: list[Any]) -> Any:
+        """Results of each scale, a row for each vertex, as one array."""
+        array = results[0] if len(results) == 1 else np.stack(results)
+        return array.reshape(self.shape + results[0].shape[1:])
+
+
+def read_rows(index: Held, vertices: Any, r: Any, scales: Any, words: Mapping[str, Any], accepted: Any) -> Rows:
+    """`accepted`: the class of `words`."""
+    check_words(words, accepted)
+    is_one = vertices is not None and _convert.is_single(vertices)
+    if vertices is None:
+        ids, count = None, index._count
+    else:
+        one = np.array([_convert.vertex(vertices, index._count)], np.int32) if is_one else None
+        ids = _convert.vertices(vertices, index._count) if one is None else one
+        count = len(ids)
+    radii = _radii(r, scales, None if is_one else count, index._scale(words.get("unit", "mesh")))
+    shape = () if scales is None else (len(radii),)
+    walls, ignored = index._masks(words.get("walls"), words.get("ignored"))
+    return Rows(
+        count,
+        ids,
+        radii,
+        shape if is_one else (*shape, count),
+        walls,
+        ignored,
+        _convert.choice(words.get("metric", "straight"), "metric", METRICS),
+        _convert.threads(words.get("workers", -1)),
+        words.get("progress"),
+    )
+
+
+def check_words(words: Mapping[str, Any], accepted: Any) -> None:
+    for name in words:
+        if name not in accepted.__optional_keys__:
+            known = ", ".join(sorted(accepted.__optional_keys__))
+            raise TypeError(f"{name}: no argument of this call; it takes {known}")
+
+
+def result_dtype(words: Mapping[str, Any], default: Any = np.float64) -> Any:
+    """The type of the numbers of the result."""
+    given = words.get("dtype")
+    dtype = np.dtype(default if given is None else given)
+    if dtype not in (np.float32, np.float64):
+        raise ValueError(f"dtype: {dtype}, expected float32 or float64")
+    return dtype
+
+
+def sort_of(words: Mapping[str, Any]) -> Optional[str]:
+    sort = words.get("sort")
+    return None if sort is None else _convert.choice(sort, "sort", ("index", "id", "distance"))
+
+
+def sorted_rows(index: Held, sort: str, indptr: Any, indices: Any, distances: Any) -> tuple[Any, Any]:
+    """The ids and distances, if there are any, with each row sorted."""
+    keys = [indices]
+    if sort == "index":
+        keys.append(index._places()[indices])
+    elif sort == "distance":
+        keys.append(distances)
+    if len(indptr) > 2:
+        keys.append(np.repeat(np.arange(len(indptr) - 1), np.diff(indptr)))
+    order = np.lexsort(keys)
+    return indices[order], None if distances is None else distances[order]
+
+
+def check_size(shape: tuple[int, ...], itemsize: int, max_bytes: Any) -> None:
+    """Refuses a result of this shape that is too large."""
+    size, limit = itemsize * math.prod(shape), _convert.max_bytes(max_bytes)
+    if size > limit:
+        raise MemoryError(
+            f"the result of shape {shape}, {size} bytes, exceeds max_bytes, {limit}; take fewer vertices or scales"
+        )
+
+
+def _radii(r: Any, scales: Any, rows: Optional[int], unit: float) -> list[Any]:
+    """`rows`: None for a single vertex."""
+    if (r is None) == (scales is None):
+        raise TypeError("r: expected a radius, or one for each row; or several radii for all rows as scales, not both")
+    if scales is None:
+        return [unit * (_convert.radius(r) if rows is None else _convert.radii(r, rows))]
+    values = _convert.as_array(scales, "scales")
+    if values.ndim != 1 or values.size == 0:
+        raise ValueError(f"scales: expected a list of radii, not an array of shape {values.shape}")
+    return [unit * _convert.radius(value, "scales") for value in values]

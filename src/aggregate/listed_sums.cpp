@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "aggregate/listed_sums.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "meshhood/batch.h"
+
+#include "exact/index_access.h"
+#include "shared/parallel.h"
+
+namespace meshhood {
+namespace {
+
+constexpr std::size_t kFewestChannels = 17;    // more than share one search over nodes
+constexpr double kMostVertices = 400;          // of a mean row; with more, the rounding errors would be too large
+constexpr std::size_t kRowsTogether = 4096;    // whose lists wait for the product
+constexpr std::size_t kChannelsOfABlock = 32;  // the values of a row's vertices, 32 of each, stay in the cache
+
+/// Far from overflow and underflow, so that values need no scaling.
+bool is_moderate(const SignalView& signal) {
+  constexpr double kLargest = 0x1p+300;
+  const auto is_fine = [](double value) { return !(std::abs(value) > kLargest); };  // NaN is fine
+  if (!signal.values.visit([&](auto values) { return std::all_of(values.begin(), values.end(), is_fine); })) {
+    return false;
+  }
+  const auto is_fine_weight = [](double weight) { return weight == 0 || (weight > 1 / kLargest && weight < kLargest); };
+  return std::all_of(signal.weights.begin(), signal.weights.end(), is_fine_weight);
+}
+
+SearchMethod method_of(const Index& index, Metric metric) {
+  return metric == Metric::Path ? SearchMethod::along_edges(index) : SearchMethod(index);
+}
+
+/// The mean size of the neighborhoods of some vertices, which depend on the index alone.
+double mean_count(const Index& index, Metric metric, double radius) {
+  constexpr std::size_t kSample = 64;
+  const std::size_t vertices = index.vertex_count();
+  std::vector<VertexId> sample;
+  for (std::size_t i = 0; i < std::min(kSample, vertices); ++i) {
+    sample.push_back(IndexAccess::view(index).id(i * vertices / std::min(kSample, vertices)));
+  }
+  const std::vector<std::uint64_t> sizes = counts(method_of(index, metric), {.vertices = sample, .radius = radius});
+  return static_cast<double>(std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})) /
+         static_cast<double>(std::max<std::size_t>(sizes.size(), 1));
+}
+
+/// The weight of a vertex at a distance, as a part of its own.
+double kernel_at(SmoothingKernel kernel, double distance, double radius) {
+  if (kernel == SmoothingKernel::Box || distance == 0) return 1;
+  const double share = distance / radius;
+  const double weight = 1 - share * share;
+  return kernel == SmoothingKernel::Biweight ? weight * weight : weight;
+}
+
+/// The sums of up to `kChannelsOfABlock` channels, and of the weights of their values.
+struct Sums {
+  std::array<double, kChannelsOfABlock> values{};
+  std::array<double, kChannelsOfABlock> weights{};
+};
+
+/// Adds the values of the channels `first ..` of a row's vertices. `kOmit`: a NaN is left out.
+template <bool kOmit, class Real>
+void add(std::span<const VertexId> ids, const double* weights, const Real* values, std::size_t channels,
+         std::size_t count, Sums& sums) {
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const double weight = weights[i];
+    const Real* const row = values + ids[i] * channels;
+    const auto add_channel = [&](std::size_t c) {
+      const double value = static_cast<double>(row[c]);
+      if constexpr (kOmit) {
+        sums.values[c] += std::isnan(value) ? 0.0 : weight * value;
+        sums.weights[c] += std::isnan(value) ? 0.0 : weight;
+      } else {
+        sums.values[c] += weight * value;
+      }
+    };
+    if (count == kChannelsOfABlock) {  // a loop of constant length, which the compiler unrolls
+      for (std::size_t c = 0; c < kChannelsOfABlock; ++c) add_channel(c);
+    } else {
+      for (std::size_t c = 0; c < count; ++c) add_channel(c);
+    }
+  }
+}
+
+/// Some rows, near each other, as lists.
+class ListedRows {
+ public:
+  ListedRows(const SignalView& signal, const AggregateQuery& query, double radius)
+      : signal_(signal), query_(query), radius_(radius) {}
+
+  /// Replaces distances by weights, and leaves out vertices whose own weight is 0.
+  void set(Neighborhoods&& rows) {
+    rows_ = std::move(rows);
+    std::size_t kept = 0;
+    std::size_t i = 0;
+    for (std::size_t row = 0; row + 1 < rows_.offsets.size(); ++row) {
+      for (const std::size_t end = rows_.offsets[row + 1]; i < end; ++i) {
+        const VertexId id = rows_.ids[i];
+        const double own = signal_.weights.empty() ? 1 : signal_.weights[id];
+        if (own == 0) continue;
+        rows_.ids[kept] = id;
+        rows_.distances[kept++] = own * kernel_at(query_.kernel, rows_.distances[i], radius_);
+      }
+      rows_.offsets[row + 1] = kept;
+    }
+  }
+
+  /// Writes the channels of a row.
+  void write(std::size_t row, double* out) const {
+    const std::size_t begin = rows_.offsets[row];
+    const std::span<const VertexId> ids = std::span(rows_.ids).subspan(begin, rows_.offsets[row + 1] - begin);
+    const double* const weights = rows_.distances.data() + begin;
+    const double all_weights = std::accumulate(weights, weights + ids.size(), 0.0);
+    const bool omits = query_.missing == MissingValues::Omit;
+    for (std::size_t first = 0; first < signal_.channels; first += kChannelsOfABlock) {
+      const std::size_t count = std::min(kChannelsOfABlock, signal_.channels - first);
+      Sums sums;
+      signal_.values.visit([&](auto values) {
+        const auto* const start = values.data() + first;
+        omits ? add<true>(ids, weights, start, signal_.channels, count, sums)
+              : add<false>(ids, weights, start, signal_.channels, count, sums);
+      });
+      for (std::size_t c = 0; c < count; ++c) {
+        out[first + c] = result(sums.values[c], omits ? sums.weights[c] : all_weights);
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] double result(double sum, double weights) const {
+    if (query_.reduce == Reduce::Mean) sum = weights > 0 ? sum / weights : std::numeric_limits<double>::quiet_NaN();
+    return std::isnan(sum) ? std::numeric_limits<double>::quiet_NaN() : sum;  // its sign and payload vary
+  }
+
+  const SignalView& signal_;
+  const AggregateQuery& query_;
+  double radius_;
+  Neighborhoods rows_;
+};
+
+}  // namespace
+
+bool is_better_listed(const Index& index, const SignalView& signal, const AggregateQuery& query, double radius) {
+  const bool has_kernel = query.kernel != SmoothingKernel::Box;
+  constexpr double kSmallestRadius = 0x1p-450;  // squares of shorter distances underflow
+  return has_kernel && radius > kSmallestRadius && query.nesting == Nesting::Own &&
+         signal.channels >= kFewestChannels && mean_count(index, query.metric, radius) <= kMostVertices &&
+         is_moderate(signal);
+}
+
+void sum_listed(const Index& index, const SignalView& signal, const AggregateQuery& query, double radius,
+                std::span<double> result, const AggregateOptions& options) {
+  const IndexView& view = IndexAccess::view(index);
+  std::vector<std::size_t> rows(query.vertices.list() ? query.vertices.list()->size() : index.vertex_count());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  const auto vertex = [&](std::size_t row) {
+    return query.vertices.list() ? (*query.vertices.list())[row] : static_cast<VertexId>(row);
+  };
+  // Near rows share values that are in the cache.
+  std::sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(view.slot[vertex(a)], a) < std::pair(view.slot[vertex(b)], b);
+  });
+  const SearchMethod method = method_of(index, query.metric);
+  const Filter filter = query.metric == Metric::Path ? query.filter : Filter();
+  TaskContext task(options.threads, options.progress, rows.size());
+  ListedRows listed(signal, query, radius);
+  std::vector<VertexId> vertices;
+  for (std::size_t begin = 0; begin < rows.size(); begin += kRowsTogether) {
+    const std::span<const std::size_t> some =
+        std::span(rows).subspan(begin, std::min(kRowsTogether, rows.size() - begin));
+    vertices.clear();
+    for (const std::size_t row : some) vertices.push_back(vertex(row));
+    listed.set(neighborhoods(method, {.vertices = vertices, .radius = radius, .filter = filter},
+                             {.threads = options.threads, .distances = true}));
+    constexpr std::size_t kGrain = 16;
+    task.parallel_for(some.size(), kGrain, [&](unsigned /*thread*/, std::size_t first, std::size_t end) {
+      for (std::size_t i = first; i < end; ++i) listed.write(i, result.data() + some[i] * signal.channels);
+      task.advance(end - first);
+    });
+  }
+  task.finish();
+}
+
+}  // namespace meshhood
