@@ -47,3 +47,4 @@
 #include "meshhood/search.h"               // IWYU pragma: export
 #include "meshhood/serialize.h"            // IWYU pragma: export
 #include "meshhood/start.h"                // IWYU pragma: export
+#include "meshhood/unconnected.h"          // IWYU pragma: export
