@@ -28,6 +28,7 @@
 #include "meshhood/curvature.h"            // IWYU pragma: export
 #include "meshhood/edge_search.h"          // IWYU pragma: export
 #include "meshhood/error.h"                // IWYU pragma: export
+#include "meshhood/face_index.h"           // IWYU pragma: export
 #include "meshhood/features.h"             // IWYU pragma: export
 #include "meshhood/filter.h"               // IWYU pragma: export
 #include "meshhood/fingerprint.h"          // IWYU pragma: export
