@@ -14,7 +14,7 @@ foreach(part
     base/adjacency base/frame base/mesh shared/distance base/sphere base/reference base/error shared/parallel
     base/cut_edges base/epoch_array base/number_set base/packed_positions
     aggregate/aggregate
-    batch/batch batch/joint_batch batch/packets batch/position_sort batch/unconnected
+    batch/batch batch/joint_batch batch/k_nearest batch/packets batch/position_sort batch/unconnected
     exact/cell_components exact/cells exact/edge_buckets exact/edge_source exact/forest exact/joint_search exact/kd_order exact/layout exact/leaf_spheres exact/leaves
     exact/links exact/node_groups exact/node_links exact/node_parts exact/quality exact/refit exact/root_tree exact/tree exact/check exact/damage exact/file exact/index exact/verify
     exact/search_differential exact/search_order exact/search_rare exact/search_traps exact/threads

@@ -33,6 +33,7 @@
 #include "meshhood/filter.h"               // IWYU pragma: export
 #include "meshhood/fingerprint.h"          // IWYU pragma: export
 #include "meshhood/index.h"                // IWYU pragma: export
+#include "meshhood/k_nearest.h"            // IWYU pragma: export
 #include "meshhood/kernel_target.h"        // IWYU pragma: export
 #include "meshhood/level.h"                // IWYU pragma: export
 #include "meshhood/mesh.h"                 // IWYU pragma: export

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from . import _convert, _core
-from ._curvature import Surfaces
+from ._curvature import KeptOfFaces, Surfaces
 from ._mesh import face_arrays
 from ._methods import Methods
 
@@ -18,6 +18,7 @@ class Held:
     _faces: Any  # corners and offsets, as `face_arrays` returns them, or None
     _methods: Methods
     _surfaces: Surfaces
+    _face_index: KeptOfFaces
     _queries: Any
     _count: int
 
@@ -26,6 +27,7 @@ class Held:
         self._faces = faces
         self._methods = Methods(exact)
         self._surfaces = Surfaces(exact)
+        self._face_index = KeptOfFaces(exact, _core.face_index)
         self._queries = _core.queries(exact)
         self._count = exact.vertex_count
 

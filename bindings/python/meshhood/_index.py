@@ -20,6 +20,7 @@ from ._methods import Method
 from ._progress import Progress, reporter
 from ._queries import Queries
 from ._shape import Shape
+from ._surface_queries import SurfaceQueries
 from ._types import (
     BallOptions,
     CountOptions,
@@ -59,7 +60,7 @@ class Quality(NamedTuple):
     gain: float
 
 
-class MeshIndex(Queries, Aggregates, Shape):
+class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape):
     """An index of a mesh that finds the neighborhood of a vertex v with a radius r: the part of the mesh inside the
     ball of radius r around v that is connected to v within the ball.
 

@@ -45,6 +45,7 @@ class RegionOptions(TypedDict, total=False):
     """The options of `MeshIndex.query_region`, but `return_distance`, on which the type of the result depends."""
 
     seeds: Union[int, "np.integer[Any]", Sequence[int], "NDArray[np.integer[Any]]", None]
+    face: Union[int, "np.integer[Any]", None]
     walls: Optional[NDArray[np.bool_]]
     ignored: Optional[NDArray[np.bool_]]
     sort: bool
