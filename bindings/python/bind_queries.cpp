@@ -22,6 +22,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "interpreter.h"
+#include "masks.h"
 #include "queries.h"
 
 namespace nb = nanobind;
@@ -33,11 +34,6 @@ using Seeds = nb::ndarray<const std::int32_t, nb::shape<-1>, nb::c_contig, nb::d
 using SeedRows = nb::ndarray<const std::int32_t, nb::shape<-1, -1>, nb::c_contig, nb::device::cpu>;
 using Points = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 using Reals = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
-using Mask = std::optional<nb::ndarray<const std::uint8_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>>;
-
-VertexMask mask_of(const Mask& mask) { return mask ? VertexMask(std::span(mask->data(), mask->size())) : VertexMask(); }
-
-Filter filter_of(const Mask& walls, const Mask& ignored) { return {mask_of(walls), mask_of(ignored)}; }
 
 std::span<const VertexId> ids_of(const std::int32_t* first, std::size_t count) {
   return {reinterpret_cast<const VertexId*>(first), count};

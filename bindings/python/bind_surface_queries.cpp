@@ -24,6 +24,7 @@
 #include "batch_query.h"
 #include "bindings.h"
 #include "interpreter.h"
+#include "masks.h"
 #include "methods.h"
 
 namespace nb = nanobind;
@@ -32,9 +33,6 @@ namespace meshhood::python {
 namespace {
 
 using Points = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
-using Mask = std::optional<nb::ndarray<const std::uint8_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>>;
-
-VertexMask mask_of(const Mask& mask) { return mask ? VertexMask(std::span(mask->data(), mask->size())) : VertexMask(); }
 
 auto unconnected(const ExactMethod& method, const std::optional<Rows>& vertices,
                  const std::variant<double, Radii>& radius, unsigned threads, nb::handle progress) {
@@ -76,7 +74,7 @@ NearestOptions nearest_options(bool path, double radius, const Mask& walls, cons
                                nb::handle progress) {
   return {.metric = path ? Metric::Path : Metric::Straight,
           .radius = radius,
-          .filter = {mask_of(walls), mask_of(ignored)},
+          .filter = filter_of(walls, ignored),
           .threads = threads,
           .progress = progress_to(progress)};
 }
@@ -97,13 +95,11 @@ auto k_nearest_of(const ExactMethod& method, const std::optional<Rows>& vertices
 }
 
 auto discs_of(const ExactMethod& method, const std::optional<Rows>& vertices, double area, const Radii& areas,
-              bool path, double radius, const Mask& walls, const Mask& ignored, unsigned threads,
-              nb::handle progress) {
+              bool path, double radius, const Mask& walls, const Mask& ignored, unsigned threads, nb::handle progress) {
   const BatchQuery query = query_of(vertices, 0.0);
   const NearestOptions options = nearest_options(path, radius, walls, ignored, threads, progress);
-  Neighborhoods found = without_lock([&] {
-    return discs(method.index(), query.vertices, area, std::span(areas.data(), areas.size()), options);
-  });
+  Neighborhoods found = without_lock(
+      [&] { return discs(method.index(), query.vertices, area, std::span(areas.data(), areas.size()), options); });
   return std::tuple(owned<std::int64_t>(std::move(found.offsets)), owned<std::int32_t>(std::move(found.ids)),
                     owned<double>(std::move(found.distances)));
 }

@@ -28,6 +28,7 @@
 #include "meshhood/curvature.h"            // IWYU pragma: export
 #include "meshhood/edge_search.h"          // IWYU pragma: export
 #include "meshhood/error.h"                // IWYU pragma: export
+#include "meshhood/face_graph.h"           // IWYU pragma: export
 #include "meshhood/face_index.h"           // IWYU pragma: export
 #include "meshhood/features.h"             // IWYU pragma: export
 #include "meshhood/filter.h"               // IWYU pragma: export
@@ -36,6 +37,7 @@
 #include "meshhood/k_nearest.h"            // IWYU pragma: export
 #include "meshhood/kernel_target.h"        // IWYU pragma: export
 #include "meshhood/level.h"                // IWYU pragma: export
+#include "meshhood/link_points.h"          // IWYU pragma: export
 #include "meshhood/mesh.h"                 // IWYU pragma: export
 #include "meshhood/mesh_data.h"            // IWYU pragma: export
 #include "meshhood/moments.h"              // IWYU pragma: export

@@ -25,11 +25,6 @@ namespace {
 
 constexpr double kNoGap = std::numeric_limits<double>::infinity();
 
-// The distances of a vertex from a query and from the center, and that between these, are each rounded a few times by
-// 2^-53 of their size, or of 2^-537 where squares underflow.
-constexpr double kSlack = 1e-14;
-constexpr double kTiny = 0x1p-500;
-
 /// Searches around one packet at a time.
 class UnconnectedSearch : public VertexVisitor {
  public:
@@ -133,7 +128,7 @@ class UnconnectedSearch : public VertexVisitor {
   void update_reach() {
     double reach = 0;
     for (const Query& query : queries_) reach = std::max(reach, query.limit + query.from_center);
-    reach_ = reach * (1 + kSlack) + kTiny;
+    reach_ = reach_of(reach);
   }
 
   const IndexView* index_;

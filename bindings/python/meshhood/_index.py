@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from . import _convert, _core
 from ._aggregate import Aggregates
 from ._held import Held
-from ._mesh import kept_faces, mesh_arrays, moved_positions, warn_if_unwelded
+from ._mesh import kept_faces, mesh_arrays, moved_positions, warn_if_no_faces, warn_if_unwelded
 from ._methods import Method
 from ._progress import Progress, reporter
 from ._queries import Queries
@@ -109,6 +109,8 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape):
             exact = _core.exact(positions, corners, offsets=offsets, **options, progress=report)
         has_faces = keep_faces and not hasattr(F, "tocoo")
         self._hold(exact, kept_faces(corners, offsets) if has_faces else None)
+        if not hasattr(F, "tocoo"):
+            warn_if_no_faces(positions, corners, stacklevel=3)
         warn_if_unwelded(positions, corners, offsets, stacklevel=3)
 
     @classmethod

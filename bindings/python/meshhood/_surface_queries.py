@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,14 +11,63 @@ from numpy.typing import ArrayLike, NDArray
 from . import _convert, _core
 from ._aggregate import area_weights
 from ._held import Held
+from ._mesh import mesh_arrays, positions_of
 from ._progress import Progress, reporter
 from ._types import Ids, Metric, Number, Radii, Reals, Unit, Vertex, Vertices
 
+if TYPE_CHECKING:
+    from typing_extensions import Self
+
 Mask = Optional[NDArray[np.bool_]]
+
+# Memory for an edge while an index is built, at most.
+_BYTES_OF_EDGE = 64
 
 
 class SurfaceQueries(Held):
     """The part of `MeshIndex` that finds what is nearest."""
+
+    @classmethod
+    def from_points(
+        cls, P: Any, link: Number, *, max_edges: Optional[int] = None, workers: int = -1, progress: Progress = None
+    ) -> Self:
+        """The index of points without faces: any two points at most `link` apart are joined by an edge.
+
+        P : (#V, 3) float32 or float64, the points, as V of `MeshIndex`.
+        link : a finite number >= 0, in the unit of P. Points at exactly this distance, and at the same place, are
+            joined. A link less than about a millionth of the extent of all points takes long.
+        max_edges : refuse a graph with more edges; by default, as many as the memory of the machine may hold.
+        workers, progress : as for `MeshIndex`. The index does not depend on `workers`.
+
+        Everything that needs no faces works as for a mesh. The normals that curvature needs can be given.
+
+            index = meshhood.MeshIndex.from_points(P, link=0.9)
+        """
+        points = positions_of(P, "P")
+        distance = _convert.finite(link, "link", or_zero=True)
+        edges = _convert.max_bytes(None) // _BYTES_OF_EDGE if max_edges is None else max_edges
+        options = {
+            "max_edges": _convert.integer(edges, "max_edges", 0, 2**64 - 1),
+            "threads": _convert.threads(workers),
+        }
+        with reporter(progress) as report:
+            return cls._holding(_core.exact_of_points(points, link=distance, **options, progress=report))
+
+    @classmethod
+    def of_faces(cls, V: Any, F: Any = None, *, workers: int = -1, progress: Progress = None) -> Self:
+        """The index of the faces of a mesh, for data that lies on faces: its vertices are the faces, at the mean of
+        their corners, and two faces are joined if they have an edge in common. So ids are rows of F, and `positions`
+        the centers (#F, 3), float64. The arguments are as for `MeshIndex`.
+
+            index = meshhood.MeshIndex.of_faces(V, F)
+            smooth = index.smooth(values_of_faces, fwhm=3.0)
+        """
+        positions, corners, offsets = mesh_arrays(V, F)
+        threads = _convert.threads(workers)
+        with reporter(progress) as report:
+            return cls._holding(
+                _core.exact_of_faces(positions, corners, offsets=offsets, threads=threads, progress=report)
+            )
 
     def nearest_unconnected(
         self,
