@@ -46,7 +46,9 @@ class PathSearch {
     while (queue_.open()) {
       const std::size_t before = found_.size();
       search_open_bucket();
-      if (is_enough(std::span<const Path>(found_).subspan(before))) abandon();
+      if (!is_enough(std::span<const Path>(found_).subspan(before))) continue;
+      abandon();
+      break;
     }
     is_complete_ = true;
   }
