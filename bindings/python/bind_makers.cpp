@@ -46,12 +46,10 @@ std::shared_ptr<ExactMethod> make_exact(const Input& positions, const Input& cor
 std::shared_ptr<ExactMethod> make_linked(const Input& positions, double link, std::size_t max_edges, unsigned threads,
                                          nb::handle progress) {
   const PositionsView points = positions_of(positions, "P");
-  const LinkOptions linking{.max_edges = max_edges, .threads = threads};
-  const BuildOptions building{.threads = threads, .progress = progress_to(progress)};
+  const LinkOptions options{.max_edges = max_edges, .threads = threads, .progress = progress_to(progress)};
   return without_lock([&] {
     about("P", [&] { validate(points); });
-    const Adjacency graph = link_points(points, link, linking);
-    return exact_method(build(GraphView{points, graph.view()}, building));
+    return exact_method(build_linked(points, link, options));
   });
 }
 

@@ -4,13 +4,13 @@
 #include <cstddef>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/index.h"
 #include "meshhood/mesh.h"
 #include "meshhood/progress.h"
 
 /// Points without faces: the graph that joins near ones.
 ///
-///     const auto graph = meshhood::link_points(points, 0.9);
-///     const auto index = meshhood::build({points, graph.view()});
+///     const auto index = meshhood::build_linked(points, 0.9);
 namespace meshhood {
 
 struct LinkOptions {
@@ -28,13 +28,15 @@ struct LinkOptions {
 /// points  #V by 3, as the positions of a mesh; borrowed for the call.
 /// link    >= 0 and finite, in the unit of the points.
 ///
-/// Two passes over an index of the points without edges, one to count the neighbors and one to list them: O(#V log #V)
-/// and the number of pairs of points whose leaves are within `link`. So outliers and clusters cost no more than other
-/// points with as many neighbors, as long as `link` is not much less than a millionth of the extent of all points: the
-/// tree is stored in single precision. Memory: the result, and an index.
+/// By the cells of a grid, in one pass to count the neighbors and one to list them: O(#V log #V) and the number of
+/// pairs of points in neighboring cells. Outliers do not make the cells larger, unless they are 2^50 times `link` away.
+/// Memory: the result, and 48 bytes a point.
 ///
 /// Throws Error{InvalidMesh, TooLarge, InvalidOption, Cancelled}; TooLarge, with the limit, if there are more than
 /// `max_edges`, as soon as so many are counted.
 [[nodiscard]] Adjacency link_points(const PositionsView& points, double link, const LinkOptions& options = {});
+
+/// The index of this graph: what `build` makes of it, in less time, because the graph is not checked. Throws the same.
+[[nodiscard]] Index build_linked(const PositionsView& points, double link, const LinkOptions& options = {});
 
 }  // namespace meshhood

@@ -58,9 +58,6 @@ struct FaceIndex::State {
   [[nodiscard]] std::span<const std::uint32_t> corners_of(std::size_t i) const {
     return std::span(corners).subspan(first_corner[i], first_corner[i + 1] - first_corner[i]);
   }
-  [[nodiscard]] Point position(std::uint32_t place) const {
-    return std::visit([&](auto xyz) { return point(xyz, place); }, index->positions);
-  }
 };
 
 /// Counting sort by the leaf of the corner that comes first in index order.
@@ -167,15 +164,21 @@ class FaceIndex::Search : public VertexVisitor {
   }
 
   void visit_leaf(LeafId leaf) {
-    for (std::size_t i = state_->first_face[leaf]; i < state_->first_face[leaf + std::size_t{1}]; ++i) visit_face(i);
+    std::visit(
+        [&](auto xyz) {
+          const std::size_t end = state_->first_face[leaf + std::size_t{1}];
+          for (std::size_t i = state_->first_face[leaf]; i < end; ++i) visit_face(i, xyz);
+        },
+        state_->index->positions);
   }
 
  private:
-  void visit_face(std::size_t i) {
+  template <class Real>
+  void visit_face(std::size_t i, std::span<const Real> xyz) {
     const std::span<const std::uint32_t> face = state_->corners_of(i);
-    std::array<Point, 3> corners{state_->position(face[0]), state_->position(face[1]), {}};
+    std::array<Point, 3> corners{point(xyz, face[0]), point(xyz, face[1]), {}};
     for (std::size_t second = 1; second + 1 < face.size(); ++second, corners[1] = corners[2]) {
-      corners[2] = state_->position(face[second + 1]);
+      corners[2] = point(xyz, face[second + 1]);
       if (is_far(corners)) continue;
       const TrianglePoint found = nearest_in_triangle(center_.exact, corners, state_->index->frame.scale);
       const std::size_t number = state_->faces[i];
@@ -193,8 +196,9 @@ class FaceIndex::Search : public VertexVisitor {
   /// Whether the bounding box of a triangle is farther away than the nearest face so far.
   [[nodiscard]] bool is_far(const std::array<Point, 3>& corners) const {
     const auto gap = [&](double Point::* axis) {
-      const auto [low, high] = std::minmax({corners[0].*axis, corners[1].*axis, corners[2].*axis});
-      return std::max({low - center_.exact.*axis, center_.exact.*axis - high, 0.0});
+      const double low = std::min(std::min(corners[0].*axis, corners[1].*axis), corners[2].*axis);
+      const double high = std::max(std::max(corners[0].*axis, corners[1].*axis), corners[2].*axis);
+      return std::max(std::max(low - center_.exact.*axis, center_.exact.*axis - high), 0.0);
     };
     const double x = gap(&Point::x);
     const double y = gap(&Point::y);

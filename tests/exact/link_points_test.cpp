@@ -60,10 +60,34 @@ INSTANTIATE_TEST_SUITE_P(All, LinkedFamilies, testing::ValuesIn(families()), fam
 TEST(LinkPoints, OfAClusterAndAnOutlierDoNotLookAtAllPairs) {
   std::vector<double> points;
   for (int i = 0; i < 100000; ++i) points.insert(points.end(), {static_cast<double>(i), 0, 0});
-  points.insert(points.end(), {1e8, 1e8, 1e8});
+  points.insert(points.end(), {1e13, 1e13, 1e13});
   const Adjacency graph = link_points(points, 1.5);
   EXPECT_EQ(graph.neighbors.size(), 2U * 99999U);
   EXPECT_EQ(graph.view()[100000].size(), 0U);
+}
+
+TEST(LinkPoints, AcrossMoreCellsThanKeys) {
+  // 2^40 cells along each axis, whose keys are not distinct.
+  Random random(7);
+  std::vector<double> points{0x1p40, 0x1p40, 0x1p40};
+  for (int i = 0; i < 2000; ++i) {
+    const double base = i % 2 == 0 ? 0 : 0x1p39;
+    for (int axis = 0; axis < 3; ++axis) points.push_back(base + random.uniform(0, 12));
+  }
+  TestMesh mesh;
+  for (std::size_t i = 0; i < points.size(); i += 3) mesh.add_vertex(points[i], points[i + 1], points[i + 2]);
+  const Oracle oracle(mesh.finish(false));
+  const Adjacency found = link_points(points, 1);
+  const Adjacency expected = scan(oracle, 1);
+  EXPECT_EQ(found.offsets, expected.offsets);
+  EXPECT_EQ(found.neighbors, expected.neighbors);
+}
+
+TEST(LinkPoints, BuildTheIndexOfTheirGraph) {
+  const TestMesh mesh = bumpy_grid(40);
+  const Adjacency graph = link_points(mesh.positions_view(), 1.2);
+  const Index expected = build(GraphView{mesh.positions_view(), graph.view()});
+  EXPECT_TRUE(same_storage(build_linked(mesh.positions_view(), 1.2, {.threads = 2}), expected));
 }
 
 TEST(LinkPoints, RefuseWrongLinksAndTooManyEdges) {
