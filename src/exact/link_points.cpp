@@ -66,14 +66,18 @@ class PointGrid {
       return count;
     }
 
-    /// Writes their ids but that of this one, ascending.
-    void write(std::span<VertexId> out) const {
-      VertexId* next = out.data();
+    /// Writes their ids but that of this one, ascending. Which points are near cannot be predicted, so there is no
+    /// branch; `scratch` has room for one more.
+    void write(std::span<VertexId> out, std::vector<VertexId>& scratch) const {
+      if (scratch.size() <= out.size()) scratch.resize(2 * out.size() + 1);
+      VertexId* next = scratch.data();
       for (const auto& [begin, end] : runs) {
         for (std::size_t i = begin; i < end; ++i) {
-          if (i != point && grid->is_near(point, i)) *next++ = grid->order_[i].second;
+          *next = grid->order_[i].second;
+          next += static_cast<std::size_t>(grid->is_near(point, i)) & static_cast<std::size_t>(i != point);
         }
       }
+      std::copy(scratch.data(), next, out.begin());
       std::sort(out.begin(), out.end());
     }
   };
@@ -185,10 +189,14 @@ class PointGrid {
   std::vector<std::size_t> begin_;                         // of each cell, and one more: its first point
 };
 
+/// Calls `f(near, scratch)` for all points, on any thread, with scratch memory of the thread.
 template <class F>
 void for_each_point(const PointGrid& grid, TaskContext& task, F&& f) {
   task.parallel_for(grid.cell_count(), kGridCellsAtOnce, [&](unsigned thread, std::size_t begin, std::size_t end) {
-    for (std::size_t cell = begin; cell < end && task.should_continue(thread); ++cell) grid.for_each_point(cell, f);
+    std::vector<VertexId> scratch;
+    for (std::size_t cell = begin; cell < end && task.should_continue(thread); ++cell) {
+      grid.for_each_point(cell, [&](const PointGrid::Near& near) { f(near, scratch); });
+    }
   });
 }
 
@@ -206,7 +214,7 @@ Adjacency link_points(const PositionsView& points, double link, const LinkOption
   Adjacency graph;
   graph.offsets.assign(points.size() + 1, 0);
   std::atomic<std::size_t> neighbors{0};
-  for_each_point(grid, task, [&](const PointGrid::Near& near) {
+  for_each_point(grid, task, [&](const PointGrid::Near& near, std::vector<VertexId>&) {
     const std::size_t count = near.count() - 1;  // without itself
     if (neighbors.fetch_add(count, std::memory_order_relaxed) + count > 2 * most) {
       raise(ErrorCode::TooLarge, "link: " + to_text(link) + " joins the " + std::to_string(points.size()) +
@@ -218,9 +226,9 @@ Adjacency link_points(const PositionsView& points, double link, const LinkOption
   task.step();
   std::partial_sum(graph.offsets.begin(), graph.offsets.end(), graph.offsets.begin());
   graph.neighbors.resize(graph.offsets.back());
-  for_each_point(grid, task, [&](const PointGrid::Near& near) {
+  for_each_point(grid, task, [&](const PointGrid::Near& near, std::vector<VertexId>& scratch) {
     const std::size_t begin = graph.offsets[near.id()];
-    near.write(std::span(graph.neighbors).subspan(begin, graph.offsets[near.id() + std::size_t{1}] - begin));
+    near.write(std::span(graph.neighbors).subspan(begin, graph.offsets[near.id() + std::size_t{1}] - begin), scratch);
   });
   task.finish();
   return graph;
