@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "meshhood/index.h"
+#include "meshhood/start.h"
 
 #include "support/families.h"
 #include "support/family_name.h"
