@@ -14,7 +14,7 @@
 
 #include "meshhood/batch.h"
 #include "meshhood/error.h"
-#include "meshhood/filter.h"
+#include "masks.h"
 
 namespace meshhood::python {
 
@@ -23,19 +23,6 @@ using Radii = nanobind::ndarray<const double, nanobind::shape<-1>, nanobind::c_c
 
 /// A radius, or one for each row; none if there are scales.
 using Radius = std::optional<std::variant<double, Radii>>;
-
-/// A value for each vertex, 0 or 1.
-using Mask = std::optional<
-    nanobind::ndarray<const std::uint8_t, nanobind::shape<-1>, nanobind::c_contig, nanobind::device::cpu>>;
-
-[[nodiscard]] inline VertexMask mask_of(const Mask& mask) {
-  return mask ? VertexMask(std::span(mask->data(), mask->size())) : VertexMask();
-}
-
-/// Borrows the arrays.
-[[nodiscard]] inline Filter filter_of(const Mask& walls, const Mask& ignored) {
-  return {mask_of(walls), mask_of(ignored)};
-}
 
 [[nodiscard]] inline std::span<const double> numbers_of(const Radii& array) { return {array.data(), array.size()}; }
 

@@ -15,7 +15,9 @@
 #include <nanobind/stl/shared_ptr.h>
 
 #include "meshhood/adjacency.h"
+#include "meshhood/face_graph.h"
 #include "meshhood/index.h"
+#include "meshhood/link_points.h"
 #include "meshhood/paper.h"
 #include "meshhood/refit.h"
 
@@ -40,6 +42,28 @@ std::shared_ptr<ExactMethod> make_exact(const Input& positions, const Input& cor
   return without_lock([&] {
     GraphData graph = graph_copy(mesh);
     if (cut) graph.adjacency = cut_copy(graph.adjacency.view(), edges);
+    return exact_method(build(graph.view(), options));
+  });
+}
+
+/// The index of points that are joined if at most `link` apart.
+std::shared_ptr<ExactMethod> make_linked(const Input& positions, double link, std::size_t max_edges, unsigned threads,
+                                         nb::handle progress) {
+  const PositionsView points = positions_of(positions, "P");
+  const LinkOptions options{.max_edges = max_edges, .threads = threads, .progress = progress_to(progress)};
+  return without_lock([&] {
+    about("P", [&] { validate(points); });
+    return exact_method(build_linked(points, link, options));
+  });
+}
+
+/// The index of the faces of a mesh.
+std::shared_ptr<ExactMethod> make_of_faces(const Input& positions, const Input& corners,
+                                           const std::optional<Input>& offsets, unsigned threads, nb::handle progress) {
+  const MeshView mesh{positions_of(positions, "V"), faces_of(corners, offsets)};
+  const BuildOptions options{.threads = threads, .progress = progress_to(progress)};
+  return without_lock([&] {
+    const GraphData graph = face_graph(mesh);
     return exact_method(build(graph.view(), options));
   });
 }
@@ -100,6 +124,10 @@ void bind_makers(nb::module_& module) {
   static_cast<void>(nb::class_<paper::Index>(module, "Hierarchy"));
   module.def("exact", &make_exact, nb::arg(), nb::arg(), nb::arg("offsets").none(), nb::arg("cut").none(),
              nb::arg("threads"), nb::arg("progress").none());
+  module.def("exact_of_points", &make_linked, nb::arg(), nb::arg("link"), nb::arg("max_edges"), nb::arg("threads"),
+             nb::arg("progress").none());
+  module.def("exact_of_faces", &make_of_faces, nb::arg(), nb::arg(), nb::arg("offsets").none(), nb::arg("threads"),
+             nb::arg("progress").none());
   module.def("refit", &make_refitted, nb::arg(), nb::arg(), nb::arg("changed").none(), nb::arg("threads"),
              nb::arg("progress").none());
   module.def("graph", &make_graph);

@@ -23,6 +23,7 @@
 #include "batch_query.h"
 #include "bindings.h"
 #include "interpreter.h"
+#include "masks.h"
 #include "queries.h"
 
 namespace nb = nanobind;

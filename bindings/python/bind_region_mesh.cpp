@@ -50,6 +50,14 @@ auto submesh(RegionMesher& mesher, const IdList& ids, bool all) {
                     owned<std::int64_t>(std::move(part.offsets)), owned<std::int32_t>(std::move(part.corners)));
 }
 
+auto clip(RegionMesher& mesher, const IdList& ids, const SpacePoint& center, double radius) {
+  ClippedMesh part = mesher.clip(id_span(ids), center, radius);
+  const std::size_t points = part.points.size();
+  return std::tuple(owned<double>(std::move(part.points), {points, 3}),
+                    owned<std::int32_t>(std::move(part.edges), {points, 2}), owned<std::int64_t>(std::move(part.faces)),
+                    owned<std::int64_t>(std::move(part.offsets)), owned<std::int32_t>(std::move(part.corners)));
+}
+
 auto rim(RegionMesher& mesher, const IdList& ids, const SpacePoint& center, double radius) {
   Rim rim = mesher.rim(id_span(ids), center, radius);
   const std::size_t size = rim.points.size();
@@ -65,6 +73,7 @@ void bind_region_mesh(nb::module_& module) {
       .def_prop_ro("face_count", &RegionMesher::face_count)
       .def("faces", &faces)
       .def("submesh", &submesh)
+      .def("clip", &clip)
       .def("rim", &rim);
   module.def("mesher", &make_mesher, nb::arg(), nb::arg(), nb::arg("offsets").none(), nb::keep_alive<0, 1>());
 }

@@ -22,6 +22,9 @@ void bind_queries(nanobind::module_& module);
 /// Regions as meshes.
 void bind_region_mesh(nanobind::module_& module);
 
+/// Nearest vertices and points for many rows: on the surface, connected, and not connected.
+void bind_surface_queries(nanobind::module_& module);
+
 /// Curvature.
 void bind_curvature(nanobind::module_& module);
 

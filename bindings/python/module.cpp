@@ -77,6 +77,7 @@ NB_MODULE(_core, module) {
   meshhood::python::bind_makers(module);
   meshhood::python::bind_queries(module);
   meshhood::python::bind_region_mesh(module);
+  meshhood::python::bind_surface_queries(module);
   meshhood::python::bind_files(module);
   meshhood::python::bind_parts(module);
   meshhood::python::bind_weld(module);

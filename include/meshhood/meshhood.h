@@ -28,12 +28,16 @@
 #include "meshhood/curvature.h"            // IWYU pragma: export
 #include "meshhood/edge_search.h"          // IWYU pragma: export
 #include "meshhood/error.h"                // IWYU pragma: export
+#include "meshhood/face_graph.h"           // IWYU pragma: export
+#include "meshhood/face_index.h"           // IWYU pragma: export
 #include "meshhood/features.h"             // IWYU pragma: export
 #include "meshhood/filter.h"               // IWYU pragma: export
 #include "meshhood/fingerprint.h"          // IWYU pragma: export
 #include "meshhood/index.h"                // IWYU pragma: export
+#include "meshhood/k_nearest.h"            // IWYU pragma: export
 #include "meshhood/kernel_target.h"        // IWYU pragma: export
 #include "meshhood/level.h"                // IWYU pragma: export
+#include "meshhood/link_points.h"          // IWYU pragma: export
 #include "meshhood/mesh.h"                 // IWYU pragma: export
 #include "meshhood/mesh_data.h"            // IWYU pragma: export
 #include "meshhood/moments.h"              // IWYU pragma: export
@@ -47,3 +51,4 @@
 #include "meshhood/search.h"               // IWYU pragma: export
 #include "meshhood/serialize.h"            // IWYU pragma: export
 #include "meshhood/start.h"                // IWYU pragma: export
+#include "meshhood/unconnected.h"          // IWYU pragma: export

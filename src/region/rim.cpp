@@ -94,9 +94,6 @@ class Joiner {
   std::vector<bool> is_used_;
 };
 
-/// An edge that leaves the region: its end inside, and its end outside.
-using RimEdge = std::array<VertexId, 2>;
-
 /// The two exits that a face joins, in the direction that has the region on its left.
 struct ExitPair {
   RimEdge from;
@@ -107,16 +104,12 @@ struct ExitPair {
 /// after the run and enters it before the run.
 template <class IsInside>
 void add_exits(std::span<const VertexId> corners, IsInside&& is_inside, std::vector<ExitPair>& pairs) {
-  const std::size_t size = corners.size();
-  const auto corner = [&](std::size_t i) { return corners[i % size]; };
-  for (std::size_t begin = 0; begin < size; ++begin) {
-    const VertexId before = corner(begin + size - 1);
-    if (is_inside(before) || !is_inside(corner(begin))) continue;
-    std::size_t last = begin;
-    while (is_inside(corner(last + 1))) ++last;
-    const ExitPair pair{{corner(last), corner(last + 1)}, {corner(begin), before}};
+  const auto corner = [&](std::size_t i) { return corners[i % corners.size()]; };
+  for_each_run(corners, is_inside, [&](std::size_t begin, std::size_t count) {
+    const std::size_t last = begin + count - 1;
+    const ExitPair pair{{corner(last), corner(last + 1)}, {corner(begin), corner(begin + corners.size() - 1)}};
     if (pair.from != pair.to) pairs.push_back(pair);
-  }
+  });
 }
 
 std::vector<RimEdge> distinct_exits(std::span<const ExitPair> pairs) {
@@ -160,6 +153,22 @@ Point exit_point(const Point& inside, const Point& outside, const Point& center,
   return inside + std::clamp(t, 0.0, 1.0) * d;
 }
 
+std::vector<SpacePoint> rim_points(const PositionsView& positions, std::span<const RimEdge> edges,
+                                   const SpacePoint& center, double radius) {
+  const Point middle{center[0], center[1], center[2]};
+  std::vector<SpacePoint> points;
+  for (const auto& [inner, outer] : edges) {
+    const auto at = [&](VertexId v) { return point(positions, v); };
+    if (!(squared_distance(at(inner), middle) <= squared_radius(radius))) {
+      raise(ErrorCode::InvalidOption, "ids: vertex " + std::to_string(inner) + " is not within the radius " +
+                                          to_text(radius) + " of the center, expected a region of this ball");
+    }
+    const Point p = exit_point(at(inner), at(outer), middle, radius);
+    points.push_back({p.x, p.y, p.z});
+  }
+  return points;
+}
+
 Rim RegionMesher::rim(std::span<const VertexId> ids, const SpacePoint& center, double radius) {
   check_point(center, "center: ");
   check_radius(radius);
@@ -171,17 +180,7 @@ Rim RegionMesher::rim(std::span<const VertexId> ids, const SpacePoint& center, d
     if (corners.size() >= 3) add_exits(corners, is_inside, pairs);
   }
   const std::vector<RimEdge> exits = distinct_exits(pairs);
-  const Point middle{center[0], center[1], center[2]};
-  std::vector<SpacePoint> points;
-  for (const auto& [inner, outer] : exits) {
-    const auto at = [&](VertexId v) { return point(state_->positions, v); };
-    if (!(squared_distance(at(inner), middle) <= squared_radius(radius))) {
-      raise(ErrorCode::InvalidOption, "ids: vertex " + std::to_string(inner) + " is not within the radius " +
-                                          to_text(radius) + " of the center, expected a region of this ball");
-    }
-    const Point p = exit_point(at(inner), at(outer), middle, radius);
-    points.push_back({p.x, p.y, p.z});
-  }
+  const std::vector<SpacePoint> points = rim_points(state_->positions, exits, center, radius);
   Rim rim;
   rim.offsets.push_back(0);
   for (const Polyline& line : Joiner(segments_of(pairs, exits), exits.size()).join()) {

@@ -18,7 +18,11 @@
 #include "meshhood/batch.h"
 #include "meshhood/curvature.h"
 #include "meshhood/edge_search.h"
+#include "meshhood/face_graph.h"
+#include "meshhood/face_index.h"
 #include "meshhood/index.h"
+#include "meshhood/k_nearest.h"
+#include "meshhood/link_points.h"
 #include "meshhood/paper.h"
 #include "meshhood/reference.h"
 #include "meshhood/refit.h"
@@ -27,6 +31,7 @@
 #include "meshhood/reorder.h"
 #include "meshhood/search.h"
 #include "meshhood/serialize.h"
+#include "meshhood/unconnected.h"
 
 #include "batch/batch.h"
 #include "batch/position_sort.h"
@@ -382,6 +387,43 @@ TEST_P(Allocation, FailsInACurvature) {
         EXPECT_EQ(made->d2, expected.d2);
         EXPECT_EQ(made->state, expected.state);
       });
+}
+
+TEST_P(Allocation, FailsInACallForTheNearest) {
+  const double radius = distance(mesh.view().positions, 0, static_cast<VertexId>(mesh.size() / 2)) / 4;
+  const std::vector<VertexId> some{0, 1, 2, 17, 130, 131};
+  const TestMesh grid = make_grid(9, 9, false);
+  // Each returns a list of ids.
+  std::vector<std::function<std::vector<VertexId>()>> calls{
+      [&] { return nearest_unconnected(index, {.vertices = some, .radius = radius}).vertices; },
+      [&] { return k_nearest(index, some, 20).ids; },
+      [&] { return k_nearest(index, some, 20, {.metric = Metric::Path}).ids; },
+      [&] { return discs(index, some, 20, std::vector<double>(mesh.size(), 1.0)).ids; },
+      [&] { return link_points(mesh.positions_view(), radius / 2).neighbors; },
+      [&] { return face_graph(grid.view()).adjacency.neighbors; }};
+  if (mesh.face_count() != 0) {
+    calls.emplace_back([&] {
+      const FaceIndex surface = FaceIndex::build(index, mesh.view().faces);
+      return std::vector<VertexId>{static_cast<VertexId>(surface.closest_points(std::vector<SpacePoint>(3))[0].face)};
+    });
+    calls.emplace_back([&] {
+      const std::vector<VertexId> ids = Searcher(index).neighborhood(0, radius);
+      return RegionMesher(mesh.view())
+          .clip(ids, point_on_face(index, std::array<VertexId, 1>{0}, std::array{1.0}), 2 * radius)
+          .corners;
+    });
+  }
+  for (const auto& call : calls) {
+    const std::vector<VertexId> expected = call();
+    shortages.fail_each(
+        nothing_yet<std::vector<VertexId>>(), [&](std::optional<std::vector<VertexId>>& made) { made = call(); },
+        [&](const std::optional<std::vector<VertexId>>& made, Ending ending) {
+          ASSERT_EQ(made.has_value(), ending == Ending::Well);
+          if (made) {
+            EXPECT_EQ(*made, expected);
+          }
+        });
+  }
 }
 
 TEST_P(Allocation, FailsInABuildOnTwoThreads) {

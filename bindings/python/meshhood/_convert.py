@@ -38,6 +38,21 @@ def vertices(v, count, name="vertices"):
     return array.astype(np.int32, copy=False)
 
 
+def faces(values, count, name):
+    """`values`, one face or a list of them, as a new int64 array, each value in [0, count)."""
+    array = np.atleast_1d(np.array(as_array(values, name)))
+    if array.size == 0 and not isinstance(values, np.ndarray):
+        array = array.astype(np.int64)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"{name}: expected integers, not {array.dtype}")
+    if array.ndim != 1:
+        raise ValueError(f"{name}: expected one face or a list of faces, not an array of shape {array.shape}")
+    wrong = np.flatnonzero((array < 0) | (array >= count))
+    if wrong.size:
+        raise ValueError(f"{name}: row {wrong[0]}: face {array[wrong[0]]}, but the mesh has {count} faces")
+    return array.astype(np.int64)
+
+
 def vertex(v, count, name="vertices"):
     """`v` as an int in [0, count)."""
     if type(v) is not int:

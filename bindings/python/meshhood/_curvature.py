@@ -69,20 +69,28 @@ class Curvature(NamedTuple):
         return np.hypot(self.k1, self.k2) / np.sqrt(2)
 
 
-class Surfaces:
-    """The normals of an index. Those of faces are kept until other faces are given."""
+class KeptOfFaces:
+    """What `make(exact, corners, offsets)` returns for an index and its faces, kept until other faces are given."""
 
-    def __init__(self, exact: Any) -> None:
+    def __init__(self, exact: Any, make: Any) -> None:
         self._exact = exact
+        self._make = make
         self._kept: tuple[Any, Any] = (None, None)  # replaced as a whole: no lock, which a fork could copy while it is held
 
     def of_faces(self, key: bytes, arrays: tuple[Any, Any]) -> Any:
         """`key`: what tells the faces from others; empty for those that the index keeps, which never change."""
-        kept, surface = self._kept
+        kept, made = self._kept
         if kept != key:
-            surface = _core.surface_of_faces(self._exact, *arrays)
-            self._kept = (key, surface)
-        return surface
+            made = self._make(self._exact, *arrays)
+            self._kept = (key, made)
+        return made
+
+
+class Surfaces(KeptOfFaces):
+    """The normals of an index."""
+
+    def __init__(self, exact: Any) -> None:
+        super().__init__(exact, _core.surface_of_faces)
 
     def of_normals(self, normals: Any) -> Any:
         """`normals`: (#V, 3)."""

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from . import _convert, _core
-from ._curvature import Surfaces
+from ._curvature import KeptOfFaces, Surfaces
 from ._mesh import face_arrays
 from ._methods import Methods
 from ._types import METRICS
@@ -25,6 +25,7 @@ class Held:
     _mesher: Any  # of the faces that the index keeps, made at the first use
     _methods: Methods
     _surfaces: Surfaces
+    _face_index: KeptOfFaces
     _queries: Any
     _count: int
 
@@ -35,6 +36,7 @@ class Held:
         self._mesher = None
         self._methods = Methods(exact)
         self._surfaces = Surfaces(exact)
+        self._face_index = KeptOfFaces(exact, _core.face_index)
         self._queries = _core.queries(exact)
         self._count = exact.vertex_count
 

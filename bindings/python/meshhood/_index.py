@@ -16,12 +16,13 @@ from numpy.typing import NDArray
 from . import _convert, _core
 from ._aggregate import Aggregates
 from ._held import Held
-from ._mesh import kept_faces, mesh_arrays, moved_positions, warn_if_unwelded
+from ._mesh import kept_faces, mesh_arrays, moved_positions, warn_if_no_faces, warn_if_unwelded
 from ._progress import Progress, reporter
 from ._queries import Queries
 from ._region_mesh import Regions
 from ._rows import CountWords, ListWords, Rows, check_words, read_rows, result_dtype, sort_of, sorted_rows
 from ._shape import Shape
+from ._surface_queries import SurfaceQueries
 from ._types import Counts, Floats, Ids, Number, Offsets, Radii, Scales, Vertex, Vertices
 
 if TYPE_CHECKING:
@@ -48,7 +49,7 @@ class Quality(NamedTuple):
     gain: float
 
 
-class MeshIndex(Queries, Aggregates, Shape, Regions):
+class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions):
     """An index of a mesh that finds the neighborhood of a vertex v with a radius r: the part of the mesh inside the
     ball of radius r around v that is connected to v within the ball.
 
@@ -118,6 +119,8 @@ class MeshIndex(Queries, Aggregates, Shape, Regions):
             exact = _core.exact(positions, corners, offsets=offsets, **options, progress=report)
         has_faces = keep_faces and not hasattr(F, "tocoo")
         self._hold(exact, kept_faces(corners, offsets) if has_faces else None)
+        if not hasattr(F, "tocoo"):
+            warn_if_no_faces(positions, corners, stacklevel=3)
         warn_if_unwelded(positions, corners, offsets, stacklevel=3)
 
     @classmethod

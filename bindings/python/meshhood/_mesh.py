@@ -14,7 +14,7 @@ def mesh_arrays(V, F):
     """Positions (#V by 3, float32 or float64), corners, and the offsets of the polygons or None for triangles."""
     if F is None:
         V, F = _parts(V)
-    positions = _positions(V)
+    positions = positions_of(V)
     if hasattr(F, "tocoo"):
         return positions, *_edges(F, len(positions))
     return positions, *face_arrays(F)
@@ -47,23 +47,24 @@ def _read_only(array, dtype):
 
 def moved_positions(V):
     """Positions as above, also of a mesh."""
-    return _positions(_parts(V)[0] if _is_mesh(V) else V)
+    return positions_of(_parts(V)[0] if _is_mesh(V) else V)
 
 
-def _positions(V):
-    array = as_array(V, "V")
+def positions_of(V, name="V"):
+    """`V` as float32 or float64 (#V, 3) in C order."""
+    array = as_array(V, name)
     if array.dtype.kind in "iu" or array.dtype == np.float16:
-        array = _as_float64(array)
+        array = _as_float64(array, name)
     if array.dtype not in (np.float32, np.float64):
-        raise TypeError(f"V: expected float32 or float64, not {array.dtype}")
+        raise TypeError(f"{name}: expected float32 or float64, not {array.dtype}")
     if array.ndim != 2 or array.shape[1] != 3:
-        raise ValueError(f"V: expected an array of shape (#V, 3), not {array.shape}")
+        raise ValueError(f"{name}: expected an array of shape (#V, 3), not {array.shape}")
     return np.ascontiguousarray(array)
 
 
-def _as_float64(array):
+def _as_float64(array, name):
     if array.dtype.itemsize == 8 and ((array > 2**53) | (array < -(2**53))).any():
-        raise TypeError("V: has integers beyond 2^53, which float64 does not hold")
+        raise TypeError(f"{name}: has integers beyond 2^53, which float64 does not hold")
     return array.astype(np.float64)
 
 
@@ -243,7 +244,7 @@ def _parts(mesh):
         return mesh.vertices, np.asarray(mesh.triangles)
     raise TypeError(
         "V: expected a mesh of trimesh, PyVista, VTK, vedo, meshio, Open3D, nilearn or nibabel if F is omitted, "
-        f"not {type(mesh).__name__}"
+        f"not {type(mesh).__name__}; for points without faces, use MeshIndex.from_points(V, link=...)"
     )
 
 
@@ -318,6 +319,16 @@ def _meshio_block(block):
     if data.ndim != 2 or sides not in (None, data.shape[1]):
         raise ValueError(f"V: has cells of type {block.type!r} in an array of shape {data.shape}")
     return data
+
+
+def warn_if_no_faces(positions, corners, stacklevel):
+    """Warns if there is nothing that connects the vertices."""
+    if len(positions) > 1 and len(corners) == 0:
+        warnings.warn(
+            f"F: no faces, so each of the {len(positions)} vertices is a neighborhood of its own; for points without "
+            "faces, meshhood.MeshIndex.from_points(V, link=...) joins those at most `link` apart",
+            stacklevel=stacklevel,
+        )
 
 
 def warn_if_unwelded(positions, corners, offsets, stacklevel):

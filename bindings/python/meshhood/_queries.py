@@ -25,6 +25,7 @@ class RegionWords(TypedDict, total=False):
     """The words of `MeshIndex.query_region` besides `return_distance`, on which the type of the result depends."""
 
     seeds: Seeds
+    face: Union[int, np.integer[Any], None]
     walls: Mask
     ignored: Mask
     sort: Optional[Sort]
@@ -53,6 +54,8 @@ class Queries(Held):
         seeds : if `start` is a point: the vertices from which the search starts, for example the corners of the face
             on which the point lies; None for the vertex nearest to the point. A seed outside the ball does not count.
             If all seeds are outside, the region is empty, and a warning says so: the point is too far from the mesh.
+        face : if `start` is a point: the face on which it lies, as `closest_point` returns it; its corners are the
+            seeds. Prefer this for picks: the nearest vertex may lie on another sheet than the nearest point.
         metric : "path" needs a vertex as start.
         walls, ignored, unit : see `MeshIndex`.
         r, return_distance, sort : as for one vertex of `query_ball`, and so is the result. Distances are float64.
@@ -66,7 +69,7 @@ class Queries(Held):
         """
         check_words(words, RegionWords)
         sort = sort_of(words)
-        center, first = self._start(start, words.get("seeds"), "query_ball(vertices, r)")
+        center, first = self._start(start, words.get("seeds"), "query_ball(vertices, r)", words.get("face"))
         radius = self._scale(words.get("unit", "mesh")) * _convert.radius(r)
         masks = self._masks(words.get("walls"), words.get("ignored"))
         if _convert.choice(words.get("metric", "straight"), "metric", ("straight", "path")) == "path":
@@ -86,6 +89,7 @@ class Queries(Held):
         r: Any,
         *,
         seeds: Any = None,
+        face: Any = None,
         walls: Mask = None,
         ignored: Mask = None,
         sort: Literal["index", "id"] = "index",
@@ -98,16 +102,20 @@ class Queries(Held):
         r : one radius, or one for each point.
         seeds : (n,) or (n, k), those of each point; None for the vertex nearest to each. A warning says that all seeds
             of a point are farther than its radius.
+        face : (n,), the face on which each point lies, as `closest_point` returns them; its corners are the seeds.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> ids = index.query_stroke([[0.0, 0.0, 1.0], [0.1, 0.0, 1.0]], 0.2)
         """
         by_id = _convert.choice(sort, "sort", ("index", "id")) == "id"
         centers = _convert.points(points, "points")
-        if seeds is None:
-            seeds = self._queries.nearest(centers)[0] if len(centers) else np.empty(0, np.int32)
         radii = np.array(np.broadcast_to(_convert.radii(r, len(centers)), len(centers))) * self._scale(unit)
-        rows = _convert.seed_rows(seeds, len(centers), self._count)
+        if face is not None:
+            rows = self._corners_of(face, len(centers), seeds)
+        else:
+            if seeds is None:
+                seeds = self._queries.nearest(centers)[0] if len(centers) else np.empty(0, np.int32)
+            rows = _convert.seed_rows(seeds, len(centers), self._count)
         indices, has_seeds = self._queries.stroke(centers, rows, radii, *self._masks(walls, ignored))
         _warn_unless(has_seeds, "points: a")
         if by_id:
@@ -229,20 +237,43 @@ class Queries(Held):
         is_one = np.ndim(points) == 1 and len(rows) == 1
         return (int(vertices[0]), float(distances[0])) if is_one else (vertices, distances)
 
-    def _start(self, start: Any, seeds: Any, meant: str) -> tuple[tuple[float, float, float] | None, Ids]:
+    def _start(
+        self, start: Any, seeds: Any, meant: str, face: Any = None
+    ) -> tuple[tuple[float, float, float] | None, Ids]:
         """The center and the seeds; for a vertex, None and the vertex. `meant`: the call for several vertices."""
         if np.ndim(start) == 0:
+            if face is not None:
+                raise ValueError("face: expected None, because the start is a vertex")
             if seeds is not None:
                 raise ValueError("seeds: expected None, because the start is a vertex")
             v = _convert.vertex(start, self._count, "start")
             return None, np.array([v], np.int32)
         point = _convert.point(start, "start", meant)
-        if seeds is None:
+        if face is not None:
+            corners = self._corners_of([_convert.integer(face, "face", 0, 2**63 - 1)], 1, seeds)[0]
+            first = corners[corners >= 0]
+        elif seeds is None:
             first = self._queries.nearest(point)[0] if self._count else np.empty(0, np.int32)
         else:
             first = _convert.vertices(np.atleast_1d(seeds), self._count, "seeds")
         x, y, z = point[0]
         return (float(x), float(y), float(z)), first
+
+    def _corners_of(self, face: Any, rows: int, seeds: Any) -> Ids:
+        """The corners of each face, a row for each, filled up with -1."""
+        if seeds is not None:
+            raise ValueError("seeds: expected None, because the face is given")
+        corners, offsets = self._own_faces("face: given, but")
+        count = len(corners) // 3 if offsets is None else len(offsets) - 1
+        faces = _convert.faces(face, count, "face")
+        if len(faces) != rows:
+            raise ValueError(f"face: expected one for each of {rows} points, not {len(faces)}")
+        if offsets is None:
+            return corners.reshape(-1, 3)[faces]
+        begin, sizes = offsets[faces], offsets[faces + 1] - offsets[faces]
+        places = np.arange(sizes.max(initial=0))
+        at = np.minimum(begin[:, None] + places, max(len(corners) - 1, 0))
+        return np.where(places < sizes[:, None], corners[at], np.int32(-1))
 
 
 def _warn_unless(has_seed: bool, which: str) -> None:

@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal, NamedTuple, Union
+from typing import Any, Literal, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _convert, _core
+from ._aggregate import vertex_areas
 from ._held import Held
 from ._mesh import mesh_arrays
 
@@ -21,8 +22,13 @@ class Submesh(NamedTuple):
 
     V: Union[NDArray[np.float32], NDArray[np.float64]]  #: the positions of its vertices
     F: Union[Ids, tuple[NDArray[np.int64], Ids]]  #: (#F, 3), or (offsets, corners) if the mesh has polygons; rows of V
-    vertices: Ids  #: its vertices by their ids in the whole mesh, ascending
+    vertices: Ids  #: its vertices by their ids in the whole mesh, ascending; then -1 for points where faces are clipped
     faces: NDArray[np.int64]  #: its faces by their rows in the whole mesh, ascending
+
+    @property
+    def area(self) -> float:
+        """The sum of the areas of its faces, in the square of the unit of V."""
+        return float(vertex_areas(self.V, self.F).sum())
 
 
 class RimLine(NamedTuple):
@@ -59,8 +65,20 @@ class RegionMesh:
         """The faces with all corners in `ids`, or with at least one; ascending."""
         return self._mesher.faces(self._ids(ids), self._all(corners))
 
-    def submesh(self, ids: ArrayLike, corners: Corners = "all") -> Submesh:
-        """These faces as a mesh."""
+    def submesh(
+        self, ids: ArrayLike, corners: Corners = "all", *, clip: Optional[tuple[Any, Any]] = None
+    ) -> Submesh:
+        """These faces as a mesh. With corners="all", faces that the surface of the ball cuts are left out, and so is
+        their area.
+
+        clip : (start, r), if `ids` is the region of `start` and `r`, as for `rim`: the faces are clipped at the ball
+            instead, with exact points on the sides that leave the region. Two such points of a face are joined by a
+            straight chord, not along the sphere, so that `area` is a little too small. V is then float64, F a tuple
+            (offsets, corners), and a face of which the ball has several parts occurs several times. What of a face lies
+            in the ball without a corner in `ids` is left out.
+        """
+        if clip is not None:
+            return self._clipped(self._ids(ids), self._all(corners), clip)
         vertices, faces, offsets, flat = self._mesher.submesh(self._ids(ids), self._all(corners))
         triangles = flat.reshape(-1, 3) if self._triangles else (offsets, flat)
         return Submesh(self._positions[vertices], triangles, vertices, faces)
@@ -75,14 +93,26 @@ class RegionMesh:
         three or more of them meet. If the faces are consistently oriented, the region lies to the left. If an edge
         leads from the region to a wall inside the ball, the point on this edge is the wall.
         """
+        points, edges, offsets, closed = self._mesher.rim(self._ids(ids), self._center(start), _convert.radius(r))
+        parts = [slice(begin, end) for begin, end in zip(offsets[:-1], offsets[1:])]
+        return [RimLine(points[part], edges[part], bool(is_closed)) for part, is_closed in zip(parts, closed)]
+
+    def _clipped(self, ids: Ids, is_all: bool, clip: Any) -> Submesh:
+        if not is_all:
+            raise ValueError("corners: 'any', expected 'all' with clip")
+        if not isinstance(clip, (tuple, list)) or len(clip) != 2:
+            raise ValueError("clip: expected a tuple (start, r)")
+        points, edges, faces, offsets, flat = self._mesher.clip(ids, self._center(clip[0]), _convert.radius(clip[1]))
+        vertices = np.where(edges[:, 0] == edges[:, 1], edges[:, 0], np.int32(-1))
+        return Submesh(points, (offsets, flat), vertices, faces)
+
+    def _center(self, start: Any) -> tuple[float, float, float]:
         if np.ndim(start) == 0:
             center = self._positions[_convert.vertex(start, len(self._positions), "start")].astype(np.float64)
         else:
             center = _convert.point(start, "start", "a call for each")[0]
         x, y, z = (float(value) for value in center)
-        points, edges, offsets, closed = self._mesher.rim(self._ids(ids), (x, y, z), _convert.radius(r))
-        parts = [slice(begin, end) for begin, end in zip(offsets[:-1], offsets[1:])]
-        return [RimLine(points[part], edges[part], bool(is_closed)) for part, is_closed in zip(parts, closed)]
+        return x, y, z
 
     def _ids(self, ids: Any) -> Ids:
         return _convert.vertices(ids, len(self._positions), "ids")
@@ -94,19 +124,25 @@ class RegionMesh:
 class Regions(Held):
     """The part of `MeshIndex` that makes meshes of regions."""
 
-    def submesh(self, ids: ArrayLike, corners: Corners = "all", *, F: Any = None) -> Submesh:
-        """The faces with all corners in `ids`, or with at least one, as a mesh.
+    def submesh(
+        self, ids: ArrayLike, corners: Corners = "all", *, clip: Optional[tuple[Any, Any]] = None, F: Any = None
+    ) -> Submesh:
+        """The faces with all corners in `ids`, or with at least one, as a mesh: see `RegionMesh.submesh`.
 
         ids : the vertices of a region, in any order, or a bool mask (#V,).
-        F : other faces than those that the index keeps. The faces that the surface of a ball cuts are left out with
-            "all" and whole with "any": the area of a patch is off by a share of its rim.
+        clip : (start, r), to cut the faces at the ball. Without it, those that the surface of the ball cuts are left
+            out with "all" and whole with "any": the area of a patch is off by a share of its rim.
+        F : other faces than those that the index keeps.
 
         >>> index = meshhood.MeshIndex(V, F)
-        >>> part = index.submesh(index.query_ball(42, 0.5))
+        >>> ids = index.query_ball(42, 0.5)
+        >>> part = index.submesh(ids)
         >>> len(part.V) == len(part.vertices)
         True
+        >>> index.submesh(ids, clip=(42, 0.5)).area > part.area
+        True
         """
-        return self._region_mesh(F).submesh(ids, corners)
+        return self._region_mesh(F).submesh(ids, corners, clip=clip)
 
     def rim(self, ids: ArrayLike, start: Any, r: Any, *, F: Any = None) -> list[RimLine]:
         """Where the surface leaves a region: see `RegionMesh.rim`.

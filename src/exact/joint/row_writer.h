@@ -2,9 +2,9 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "exact/joint/packet_answer.h"
+#include "exact/joint/packet_pieces.h"
 #include "exact/layout.h"
 #include "simd/joint.h"
 
@@ -17,7 +17,7 @@ class RowWriter {
   RowWriter(const IndexView& index, Isa isa) : index_(&index), kernels_(&joint_kernels(isa)) {}
 
   /// Begins with a packet, which must outlive the calls below.
-  void begin(const PacketAnswer& answer);
+  void begin(const PacketAnswer& answer) { pieces_.assign(answer); }
 
   /// Writes the ids of a row. `ids` has as many places as the row has vertices.
   void write_ids(unsigned query, std::span<VertexId> ids) const;
@@ -26,11 +26,9 @@ class RowWriter {
   void write_distances(unsigned query, const Point& center, std::span<double> distances) const;
 
  private:
-  void add_run(const VertexRange& run, QueryWord queries);
-
   const IndexView* index_;
   const JointKernels* kernels_;
-  std::vector<RowPiece> pieces_;  // ascending
+  PacketPieces pieces_;
 };
 
 }  // namespace meshhood

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // At which radius vertices become connected. A flood grows until it has reached them.
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 #include "exact/query/arguments.h"
@@ -15,15 +13,6 @@ namespace meshhood {
 namespace {
 
 constexpr double kNoRadius = std::numeric_limits<double>::infinity();
-
-struct NextVertex {
-  double distance;
-  VertexId vertex;
-
-  friend bool operator<(const NextVertex& a, const NextVertex& b) {
-    return std::tie(a.distance, a.vertex) < std::tie(b.distance, b.vertex);
-  }
-};
 
 }  // namespace
 
@@ -65,27 +54,14 @@ void RegionSearcher::nearest_connected(const Start& start, std::size_t k, std::v
   State& state = *state_;
   state.check(start);
   state.check(filter);
-  const Point center = state.begin(start, filter);
   std::vector<VertexId> ids;
   std::vector<double> found_radii;
-  std::vector<NextVertex> ring;
-  while (ids.size() < k) {
-    const double radius = state.flood.next_radius();
-    if (radius == kNoRadius) break;
-    const std::size_t before = state.flood.reached().size();
-    state.flood.grow(radius);
-    ring.clear();
-    state.for_each_found(before, [&](const LeafSubset& subset) {
-      for_each_lane(subset.lanes, [&](unsigned lane) {
-        const double square = squared_distance(state.index->position(subset.leaf, lane), center);
-        ring.push_back({std::sqrt(square), state.index->id(state.index->leaf_begin[subset.leaf] + lane)});
-      });
-    });
-    const std::size_t count = std::min(ring.size(), k - ids.size());
-    std::partial_sort(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(count), ring.end());
-    for (std::size_t i = 0; i < count; ++i) ids.push_back(ring[i].vertex);
-    found_radii.resize(ids.size(), radius);
-  }
+  const auto add = [&](VertexId vertex, double radius) {
+    ids.push_back(vertex);
+    found_radii.push_back(radius);
+    return ids.size() < k;
+  };
+  if (k > 0) state.for_each_nearest(start, kNoRadius, filter, add);
   out = std::move(ids);
   radii = std::move(found_radii);
 }

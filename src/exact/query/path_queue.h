@@ -100,7 +100,8 @@ class PathQueue {
     }
   }
 
-  /// Opens the first bucket that has paths, which may be the open one again. Returns whether there is one.
+  /// Opens the first bucket that has paths, which may be the open one again. Returns whether there is one; if not, the
+  /// queue is to be cleared before the next call.
   [[nodiscard]] bool open();
 
   /// Removes the paths of the open bucket, and calls `f(path)` for each.

@@ -36,9 +36,10 @@ PathSearch::PathSearch(const IndexView& index, KeptGraph& graph)
       lengths_(index.vertex_count(), kUnreached),
       is_met_(index.vertex_count() / kVerticesOfBlock + 1) {}
 
-void PathSearch::run(std::uint32_t start, double radius, const LaneFilter& walls) {
+/// Returns whether there is anything to find.
+bool PathSearch::begin(std::uint32_t start, double radius, const LaneFilter& walls) {
   forget();
-  if (walls.has_at(start)) return;
+  if (walls.has_at(start)) return false;
   is_complete_ = false;
   radius_ = radius;
   walls_ = &walls;
@@ -47,8 +48,14 @@ void PathSearch::run(std::uint32_t start, double radius, const LaneFilter& walls
   is_small_ = radius < kSmall * mean_length;
   queue_.push({0, start});
   lengths_[start] = 0;
-  while (queue_.open()) search_open_bucket();
-  is_complete_ = true;
+  return true;
+}
+
+/// Empties the queue.
+void PathSearch::abandon() {
+  while (queue_.open()) {
+    queue_.take([this](const Path& path) { left_.push_back(path.end); });
+  }
 }
 
 void PathSearch::forget() {

@@ -34,7 +34,24 @@ class PathSearch {
 
   /// Finds the vertices whose path distance from the vertex `start`, in index order, is at most `radius`, without
   /// passing `walls`.
-  void run(std::uint32_t start, double radius, const LaneFilter& walls);
+  void run(std::uint32_t start, double radius, const LaneFilter& walls) {
+    run(start, radius, walls, [](std::span<const Path>) { return false; });
+  }
+
+  /// The same, but ends as soon as `is_enough(paths)` returns true: it is called for the paths that were found since
+  /// the last call. All paths that are shorter than one of these have then been found.
+  template <class IsEnough>
+  void run(std::uint32_t start, double radius, const LaneFilter& walls, IsEnough&& is_enough) {
+    if (!begin(start, radius, walls)) return;
+    while (queue_.open()) {
+      const std::size_t before = found_.size();
+      search_open_bucket();
+      if (!is_enough(std::span<const Path>(found_).subspan(before))) continue;
+      abandon();
+      break;
+    }
+    is_complete_ = true;
+  }
 
   /// The paths found by the last run, that to the first vertex first, the others in no stated order.
   [[nodiscard]] std::span<const Path> found() const { return found_; }
@@ -46,6 +63,8 @@ class PathSearch {
   [[nodiscard]] std::size_t steps() const { return steps_; }
 
  private:
+  [[nodiscard]] bool begin(std::uint32_t start, double radius, const LaneFilter& walls);
+  void abandon();
   void forget();
   [[nodiscard]] double mean_length_near(std::uint32_t vertex) const;
   void search_open_bucket();

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -15,9 +19,20 @@
 #include "exact/query/lane_filter.h"
 #include "exact/search/searcher_state.h"
 #include "exact/vertex_set.h"
+#include "shared/distance.h"
 #include "simd/kernels.h"
 
 namespace meshhood {
+
+/// A vertex that the flood has reached in its last step.
+struct NextVertex {
+  double distance;  // from the center
+  VertexId vertex;
+
+  friend bool operator<(const NextVertex& a, const NextVertex& b) {
+    return std::tie(a.distance, a.vertex) < std::tie(b.distance, b.vertex);
+  }
+};
 
 /// The scratch memory of a region searcher, and what its queries share.
 struct RegionSearcher::State {
@@ -29,6 +44,7 @@ struct RegionSearcher::State {
   LaneFilter walls;
   LaneFilter ignored;
   std::vector<LeafSubset> found;  // scratch
+  std::vector<NextVertex> ring;   // scratch
   VertexSet answer;
   std::unique_ptr<SearcherAccess::State> neighborhoods;
 
@@ -76,12 +92,41 @@ struct RegionSearcher::State {
   /// Refills `answer` with what was found, except in the first `skip` steps of the flood.
   void collect_found(std::size_t skip = 0);
 
+  /// Calls `f(vertex, radius)` for the vertices that are not ignored by their connecting radius, then by distance from
+  /// the center, then by id, until it returns false or there is none whose radius is at most `most`. The start and the
+  /// filter are valid.
+  template <class F>
+  void for_each_nearest(const Start& start, double most, const Filter& filter, F&& f);
+
   /// Refills `answer` with the region, and returns its center.
   Point search(const Start& start, double radius, const Filter& filter);
 };
 
-/// Access to the parts of a region searcher, for tests.
+template <class F>
+void RegionSearcher::State::for_each_nearest(const Start& start, double most, const Filter& filter, F&& f) {
+  const Point center = begin(start, filter);
+  for (;;) {
+    const double radius = flood.next_radius();
+    if (!(radius <= most) || radius == std::numeric_limits<double>::infinity()) return;
+    const std::size_t before = flood.reached().size();
+    flood.grow(radius);
+    ring.clear();
+    for_each_found(before, [&](const LeafSubset& subset) {
+      for_each_lane(subset.lanes, [&](unsigned lane) {
+        const double square = squared_distance(index->position(subset.leaf, lane), center);
+        ring.push_back({std::sqrt(square), index->id(index->leaf_begin[subset.leaf] + lane)});
+      });
+    });
+    std::sort(ring.begin(), ring.end());
+    for (const NextVertex& next : ring) {
+      if (!f(next.vertex, radius)) return;
+    }
+  }
+}
+
+/// Access to the parts of a region searcher, for batches and tests.
 struct RegionAccess {
+  static RegionSearcher::State& state(RegionSearcher& searcher) { return *searcher.state_; }
   static Flood& flood(RegionSearcher& searcher) { return searcher.state_->flood; }
   static void set_isa(RegionSearcher& searcher, Isa isa) {
     searcher.state_ = std::make_unique<RegionSearcher::State>(searcher.state_->index, searcher.state_->graph, isa);

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Compares `nearest_unconnected` with `counts` for all vertices, in alternating rounds. Wall-clock microseconds for
+// each vertex, and the ratio.
+//
+//   unconnected MESH THREADS [RADIUS IN MEAN EDGES...]
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "meshhood/meshhood.h"
+
+#include "mesh_argument.h"
+#include "program.h"
+
+namespace meshhood::bench {
+namespace {
+
+constexpr int kRounds = 3;
+
+/// The time of the fastest round, in seconds.
+template <class F>
+void measure_round(double& least, F&& f) {
+  const auto start = std::chrono::steady_clock::now();
+  f();
+  least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+void compare(const Index& index, double edges, double mean_edge, unsigned threads) {
+  const BatchQuery query{.radius = edges * mean_edge};
+  const BatchOptions options{.threads = threads};
+  double counting = std::numeric_limits<double>::infinity();
+  double nearest = counting;
+  Unconnected found;
+  for (int round = 0; round < kRounds; ++round) {
+    measure_round(counting, [&] { static_cast<void>(counts(index, query, options)); });
+    measure_round(nearest, [&] { found = nearest_unconnected(index, query, options); });
+  }
+  const auto none = std::count(found.vertices.begin(), found.vertices.end(), kNoVertex);
+  const auto vertices = static_cast<double>(index.vertex_count());
+  std::printf("%6.4g %12.3f %12.3f %8.2f %10.1f\n", edges, 1e6 * counting / vertices, 1e6 * nearest / vertices,
+              nearest / counting, 100 * (1 - static_cast<double>(none) / vertices));
+  std::fflush(stdout);
+}
+
+int run(std::span<char*> arguments) {
+  if (arguments.size() < 3) {
+    std::fprintf(stderr, "usage: unconnected MESH THREADS [RADIUS IN MEAN EDGES...]\n");
+    return 2;
+  }
+  const MeshArgument mesh(arguments[1]);
+  const auto threads = static_cast<unsigned>(std::stoul(arguments[2]));
+  const Index index = build(mesh.view(), {.threads = threads});
+  const GraphData graph = extract_graph(index);
+  const double mean_edge = mean_edge_length(graph.view());
+  std::printf("%6s %12s %12s %8s %10s\n", "edges", "counts us", "nearest us", "ratio", "found %");
+  std::vector<double> edges{5, 10};
+  if (arguments.size() > 3) edges.clear();
+  for (const char* argument : arguments.subspan(3)) edges.push_back(std::stod(argument));
+  for (const double radius : edges) compare(index, radius, mean_edge, threads);
+  return 0;
+}
+
+}  // namespace
+}  // namespace meshhood::bench
+
+int main(int argc, char** argv) {
+  return meshhood::bench::exit_status("unconnected",
+                                      [&] { return meshhood::bench::run({argv, static_cast<std::size_t>(argc)}); });
+}

@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: MIT
+"""Nearest vertices and points for many rows: on the surface, connected, and not connected."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _convert, _core
+from ._aggregate import area_weights
+from ._held import Held
+from ._mesh import mesh_arrays, positions_of
+from ._progress import Progress, reporter
+from ._rows import Words, read_rows
+from ._types import Ids, Number, Radii, Reals, Vertex, Vertices
+
+if TYPE_CHECKING:
+    from typing_extensions import Self, Unpack
+
+# Memory for an edge while an index is built, at most.
+_BYTES_OF_EDGE = 64
+
+
+class SurfaceQueries(Held):
+    """The part of `MeshIndex` that finds what is nearest."""
+
+    @classmethod
+    def from_points(
+        cls, P: Any, link: Number, *, max_edges: Optional[int] = None, workers: int = -1, progress: Progress = None
+    ) -> Self:
+        """The index of points without faces: any two points at most `link` apart are joined by an edge.
+
+        P : (#V, 3) float32 or float64, the points, as V of `MeshIndex`.
+        link : a finite number >= 0, in the unit of P. Points at exactly this distance, and at the same place, are
+            joined. A link less than about a millionth of the extent of all points takes long.
+        max_edges : refuse a graph with more edges; by default, as many as the memory of the machine may hold.
+        workers, progress : as for `MeshIndex`. The index does not depend on `workers`.
+
+        Everything that needs no faces works as for a mesh. The normals that curvature needs can be given.
+
+        >>> index = meshhood.MeshIndex.from_points(V, link=0.1)
+        """
+        points = positions_of(P, "P")
+        distance = _convert.finite(link, "link", or_zero=True)
+        edges = _convert.max_bytes(None) // _BYTES_OF_EDGE if max_edges is None else max_edges
+        options = {
+            "max_edges": _convert.integer(edges, "max_edges", 0, 2**64 - 1),
+            "threads": _convert.threads(workers),
+        }
+        with reporter(progress, "from_points") as report:
+            return cls._holding(_core.exact_of_points(points, link=distance, **options, progress=report))
+
+    @classmethod
+    def of_faces(cls, V: Any, F: Any = None, *, workers: int = -1, progress: Progress = None) -> Self:
+        """The index of the faces of a mesh, for data that lies on faces: its vertices are the faces, at the mean of
+        their corners, and two faces are joined if they have an edge in common. So ids are rows of F, and `positions`
+        the centers (#F, 3), float64. The arguments are as for `MeshIndex`.
+
+        >>> index = meshhood.MeshIndex.of_faces(V, F)
+        >>> smooth = index.smooth(index.positions[:, 2], fwhm=0.3)
+        """
+        positions, corners, offsets = mesh_arrays(V, F)
+        threads = _convert.threads(workers)
+        with reporter(progress, "of_faces") as report:
+            return cls._holding(
+                _core.exact_of_faces(positions, corners, offsets=offsets, threads=threads, progress=report)
+            )
+
+    def nearest_unconnected(
+        self,
+        vertices: Vertices,
+        r: Radii,
+        **words: Unpack[Words],
+    ) -> tuple[Ids, Reals]:
+        """The nearest vertex within `r` in space that is not in the neighborhood with radius `r`, and its distance:
+        `other, gap`, both (#rows,); -1 and inf where there is none. Of several at the same distance, the one with the
+        smallest id.
+
+        vertices : a sequence of vertices, a bool mask (#V,), or None for all.
+        r : one radius, or one for each row. A vertex at exactly `r` counts.
+        walls, ignored, unit, workers, progress : see `MeshIndex`. Walls and ignored vertices are never the nearest, and
+            for a wall there is none. metric : "straight".
+
+        It is the thickness of a wall, the gap between two folds or sheets that nearly touch. *Not connected* is meant at
+        the scale of `r`: a vertex to which only a way outside the ball leads is not connected, so a surface that bends
+        back into the ball counts as well as another component. With r=inf only other components count.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> other, gap = index.nearest_unconnected(None, 0.5)
+        >>> thin = gap < 0.1
+        """
+        rows = read_rows(self, vertices, r, None, words, Words)
+        _one_of(rows.metric, "straight")
+        with rows.reporter("nearest unconnected") as report:
+            return _core.nearest_unconnected(
+                self._exact, rows.vertices, rows.radii[0], threads=rows.threads, progress=report, **rows.filter
+            )
+
+    def closest_point(
+        self, q: ArrayLike, *, F: Any = None, workers: int = -1, progress: Progress = None
+    ) -> tuple[Any, Any, Any]:
+        """The point of the surface nearest to a point in space: `face, barycentric, point`. For points (n, 3) or [],
+        three arrays.
+
+        q : 3 numbers, or (n, 3).
+        F : other faces than those that the index keeps. What is made of the faces is kept for the next call with the
+            same faces.
+        workers, progress : as for `query_ball`, for many points.
+
+        face : an int, or (n,) int64, the row of F. Of several faces at the same distance, the one with the smallest
+            number; faces that meet at a side or a corner have the same distance there, bit for bit.
+        barycentric : (3,) or (n, 3) float64, >= 0, the weight of each corner of the face. Exactly 0 off a side. For
+            polygons there is a column for each corner of the largest face of the mesh. A polygon is the fan of the
+            triangles of its corners 0, i and i + 1; the others have weight 0. A face with fewer than three corners has
+            no points.
+        point : (3,) or (n, 3) float64.
+
+        Use it for picks, instead of the nearest vertex, which may lie on another sheet:
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> face, barycentric, point = index.closest_point([0.1, 0.2, 2.0])
+        >>> region = index.query_region(point, 0.3, face=face)
+        """
+        points = _convert.points(q, "q")
+        key, (corners, offsets) = self._keyed_faces(F)
+        surface = self._face_index.of_faces(key, (corners, offsets))
+        threads = _convert.threads(workers)
+        with reporter(progress, "closest_point", "points", len(points)) as report:
+            faces, second, weights, found = surface.closest(points, threads=threads, progress=report)
+        if offsets is not None:
+            weights = _of_polygons(second, weights, int(np.diff(offsets).max()))
+        is_one = np.ndim(q) == 1 and len(points) == 1
+        return (int(faces[0]), weights[0], found[0]) if is_one else (faces, weights, found)
+
+    def query_knn(
+        self,
+        vertices: Union[Vertex, Vertices],
+        k: Any = None,
+        *,
+        r: Number = np.inf,
+        fill: int = -1,
+        until: Optional[Number] = None,
+        weights: Any = "area",
+        F: Any = None,
+        **words: Unpack[Words],
+    ) -> Any:
+        """The `k` nearest connected vertices of each of `vertices`, itself included: `ids, distances`, both (#rows, k),
+        or (k,) for a single vertex.
+
+        vertices : a vertex, a sequence of vertices, a bool mask (#V,), or None for all.
+        k : how many. A row for a smaller `k` is the beginning of that for a larger one.
+        r : only vertices within this connecting radius or path length.
+        metric : "straight": the nearest by connecting radius, the smallest radius whose neighborhood has the vertex,
+            then by distance, then by id, as for `nearest_connected`; the distances are the connecting radii. "path": by
+            the length of the shortest path along edges, then by place in index order.
+        fill : the id where a row has fewer than `k` vertices; the distance there is inf.
+        until : instead of `k`, an area. Each row is then a disc of fixed area: the first vertices, in the same order,
+            whose weights add up to at least `until`; all where they do not. Returns `indptr, ids, distances`.
+        weights : (#V,), for `until`: "area" for `vertex_areas`.
+        F : other faces than those that the index keeps, for weights="area".
+        walls, ignored, unit, workers, progress : see `MeshIndex`. A row whose vertex is a wall is empty. The result has
+            the unit of V, `until` its square.
+
+        >>> index = meshhood.MeshIndex(V, F)
+        >>> ids, distances = index.query_knn(None, 20)
+        >>> indptr, ids, distances = index.query_knn([4, 7], until=0.3, metric="path")
+        """
+        if (k is None) == (until is None):
+            raise ValueError("k: expected a number of vertices, or an area as `until`, and not both")
+        rows = read_rows(self, vertices, r, None, words, Words)
+        if not isinstance(rows.radii[0], float):
+            raise ValueError("r: expected one radius for all rows")
+        options = {
+            "path": _one_of(rows.metric, "straight", "path") == "path",
+            "radius": rows.radii[0],
+            "threads": rows.threads,
+            **rows.filter,
+        }
+        with rows.reporter("nearest") as report:
+            if until is not None:
+                areas = area_weights(self, weights, F)
+                if areas is None:
+                    raise ValueError("weights: expected 'area' or (#V,) numbers")
+                area = _convert.finite(until, "until", or_zero=False)
+                return _core.discs(self._exact, rows.vertices, area=area, areas=areas, **options, progress=report)
+            options["k"] = _convert.integer(k, "k", 0, 2**63 - 1)
+            options["fill"] = _convert.integer(fill, "fill", -(2**31), 2**31 - 1)
+            ids, distances = _core.k_nearest(self._exact, rows.vertices, **options, progress=report)
+        return (ids[0], distances[0]) if rows.shape == () else (ids, distances)
+
+
+def _one_of(metric: str, *known: str) -> str:
+    return str(_convert.choice(metric, "metric", known))
+
+
+def _of_polygons(second: Any, weights: Any, corners: int) -> Reals:
+    """The barycentric coordinates of triangles of fans as those of polygons of up to `corners` corners."""
+    rows = np.arange(len(second))
+    wide = np.zeros((len(second), corners))
+    wide[rows, 0] = weights[:, 0]
+    wide[rows, second] = weights[:, 1]
+    wide[rows, second + 1] = weights[:, 2]
+    return wide

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "meshhood/batch.h"
+#include "meshhood/filter.h"
+#include "meshhood/index.h"
+#include "meshhood/progress.h"
+#include "meshhood/unconnected.h"
+
+/// The nearest connected vertices of many vertices in one call: a number of them, or as many as cover an area.
+namespace meshhood {
+
+/// By what vertices are near.
+enum class Metric : std::uint8_t {
+  Straight,  ///< the connecting radius, as for `RegionSearcher::nearest_connected`; then the distance, then the id
+  Path,      ///< the path distance, as for `EdgeSearcher`; then the place in index order
+};
+
+struct NearestOptions {
+  Metric metric = Metric::Straight;
+
+  /// Only vertices of this connecting radius or path distance, or less. >= 0 or infinite.
+  double radius = std::numeric_limits<double>::infinity();
+
+  /// The same for all rows. A row whose vertex is a wall is empty.
+  Filter filter = {};
+
+  /// As for a batch (see `BatchOptions`). The result does not depend on `threads`.
+  unsigned threads = 1;
+  Progress progress = {};
+};
+
+/// #rows by k.
+struct KNearest {
+  std::vector<VertexId> ids;      ///< `kNoVertex` where a row has fewer than k vertices
+  std::vector<double> distances;  ///< connecting radii or path distances; infinite there
+};
+
+/// The `k` nearest connected vertices of each of `vertices`, itself included; fewer where no more are connected.
+///
+/// A row depends on the index, its vertex, `k` and the options alone, and begins with the row for any smaller `k`. Each
+/// thread owns a `RegionSearcher`, or a search of an `EdgeSearcher`. O(k log k) a row on most surfaces.
+///
+/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming the row; TooLarge if rows
+/// times k is more than 2^40.
+[[nodiscard]] KNearest k_nearest(const Index& index, const BatchVertices& vertices, std::size_t k,
+                                 const NearestOptions& options = {});
+
+/// A disc of fixed area around each of `vertices`: of the nearest connected vertices, in the order of `k_nearest`, the
+/// first whose areas add up to at least `area`; all, where they do not. Distances as for `k_nearest`.
+///
+/// areas  of each vertex, such as `vertex_areas`: #V, >= 0 and finite.
+/// area   > 0 and finite, in the unit of `areas`.
+///
+/// Ignored vertices do not count. Throws as `k_nearest`; InvalidOption also for `area` and `areas`, naming the vertex.
+[[nodiscard]] Neighborhoods discs(const Index& index, const BatchVertices& vertices, double area,
+                                  std::span<const double> areas, const NearestOptions& options = {});
+
+}  // namespace meshhood

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "meshhood/batch.h"
+#include "meshhood/index.h"
+#include "meshhood/vertex_id.h"
+
+/// What is near in space, but not connected nearby: the other side of a wall, the next fold, sheets that nearly touch.
+namespace meshhood {
+
+/// No vertex.
+inline constexpr VertexId kNoVertex = std::numeric_limits<VertexId>::max();
+
+/// For each row of a query, the nearest vertex in the ball that does not belong to the neighborhood.
+struct Unconnected {
+  std::vector<VertexId> vertices;  ///< #rows; `kNoVertex` where there is none
+  std::vector<double> gaps;        ///< #rows: its distance (see `distance`); infinite where there is none
+};
+
+/// Finds, for each row `v` with radius `r`, the nearest of the vertices that lie within `r` of `v` in space and are not
+/// in the neighborhood of `v` with radius `r` (see `Searcher`); of several at the same distance, the one with the
+/// smallest id. A vertex at exactly `r` counts.
+///
+/// *Not connected* is meant at the scale of `r`: a vertex to which only a way outside the ball leads is not connected.
+/// So the edge of a sheet that bends back into the ball counts as well as another component, and a larger radius may
+/// connect what was not. With an infinite radius, only other components count.
+///
+/// query    as for a batch: one radius for all rows, or one for each row.
+/// options  of these, `threads` and `progress` are used. The result does not depend on them.
+///
+/// The neighborhoods are found as by `counts`; what the tree of the index has in the balls besides them is searched,
+/// the nearest first. So far away from any gap, all leaves that the surface of a ball meets are compared with it.
+/// Memory besides the result: as for `counts`.
+///
+/// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
+[[nodiscard]] Unconnected nearest_unconnected(const Index& index, const BatchQuery& query,
+                                              const BatchOptions& options = {});
+
+}  // namespace meshhood

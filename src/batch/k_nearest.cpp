@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+// Rows of nearest vertices: each thread searches row after row, in index order, until the row is full.
+#include "meshhood/k_nearest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "meshhood/error.h"
+#include "meshhood/region.h"
+
+#include "exact/bound_index.h"
+#include "exact/index_access.h"
+#include "exact/query/arguments.h"
+#include "exact/query/lane_filter.h"
+#include "exact/query/path_search.h"
+#include "exact/query/region_state.h"
+#include "shared/parallel.h"
+#include "shared/text.h"
+
+namespace meshhood {
+namespace {
+
+constexpr std::size_t kRowsAtOnce = 32;
+constexpr std::size_t kMostValues = std::size_t{1} << 40;
+
+// The areas of a row are added in two orders, each of fewer than 2^31 terms: the sums differ by less than this share.
+constexpr double kAreaSlack = 1e-6;
+
+/// The rows of a call, in index order.
+class NearestRows {
+ public:
+  NearestRows(const Index& index, const BatchVertices& vertices, const NearestOptions& options)
+      : index_(index), options_(&options) {
+    check_radius(options.radius);
+    check_filter(options.filter, index.vertex_count());
+    const std::size_t count = vertices.list() ? vertices.list()->size() : index.vertex_count();
+    vertices_.reserve(count);
+    for (std::size_t row = 0; row < count; ++row) {
+      const VertexId v = vertices.list() ? (*vertices.list())[row] : static_cast<VertexId>(row);
+      check_vertex(v, index.vertex_count(), "row " + std::to_string(row) + ": vertex");
+      vertices_.push_back(v);
+    }
+  }
+
+  [[nodiscard]] std::size_t size() const { return vertices_.size(); }
+  [[nodiscard]] VertexId vertex(std::size_t row) const { return vertices_[row]; }
+
+  /// Calls `f(search, row)` for all rows, on any thread, with a search of that thread, made by `make()`.
+  template <class Make, class F>
+  void for_each(Make&& make, F&& f) {
+    std::vector<std::pair<std::uint32_t, std::size_t>> in_order(size());
+    for (std::size_t row = 0; row < size(); ++row) in_order[row] = {index_->slot[vertices_[row]], row};
+    std::sort(in_order.begin(), in_order.end());
+    TaskContext task(options_->threads, options_->progress, size());
+    std::vector<decltype(make())> searches(task.threads());
+    task.parallel_for(size(), kRowsAtOnce, [&](unsigned thread, std::size_t begin, std::size_t end) {
+      if (!searches[thread]) searches[thread] = make();
+      for (std::size_t i = begin; i < end && task.should_continue(thread); ++i) {
+        f(*searches[thread], in_order[i].second);
+        task.advance(1);
+      }
+    });
+    task.finish();
+  }
+
+ private:
+  BoundIndex index_;
+  const NearestOptions* options_;
+  std::vector<VertexId> vertices_;
+};
+
+/// The vertices around one vertex by connecting radius.
+class StraightSearch {
+ public:
+  StraightSearch(const Index& index, const NearestOptions& options) : searcher_(index), options_(&options) {}
+
+  /// Calls `take(vertex, distance)` for the nearest vertices in order until it returns false. `areas`: not used.
+  template <class Take>
+  void run(VertexId v, std::size_t /*enough*/, double /*enough_area*/, std::span<const double> /*areas*/, Take&& take) {
+    RegionAccess::state(searcher_).for_each_nearest(v, options_->radius, options_->filter, take);
+  }
+
+ private:
+  RegionSearcher searcher_;
+  const NearestOptions* options_;
+};
+
+/// The same by path distance.
+class PathRowSearch {
+ public:
+  PathRowSearch(const Index& index, const NearestOptions& options)
+      : index_(index),
+        graph_(IndexAccess::share_graph(index)),
+        paths_(*index_, *graph_),
+        radius_(options.radius),
+        walls_(*index_, options.filter.walls),
+        ignored_(*index_, options.filter.ignored) {}
+
+  /// The search ends when it has `enough` vertices, or more than `enough_area`.
+  template <class Take>
+  void run(VertexId v, std::size_t enough, double enough_area, std::span<const double> areas, Take&& take) {
+    const std::uint32_t slot = index_->slot[v];
+    std::size_t count = 0;
+    double area = 0;
+    paths_.run(index_->leaf_begin[leaf_of(slot)] + lane_of(slot), radius_, walls_, [&](std::span<const Path> found) {
+      for (const Path& path : found) {
+        if (ignored_.has_at(path.end)) continue;
+        ++count;
+        if (!areas.empty()) area += areas[index_->id(path.end)];
+      }
+      return count >= enough || area > enough_area * (1 + kAreaSlack);
+    });
+    for (const Path& path : paths_.found_in_order()) {
+      if (!ignored_.has_at(path.end) && !take(index_->id(path.end), path.length)) return;
+    }
+  }
+
+ private:
+  BoundIndex index_;
+  std::shared_ptr<KeptGraph> graph_;
+  PathSearch paths_;
+  double radius_;
+  LaneFilter walls_;
+  LaneFilter ignored_;
+};
+
+/// Calls `f(search, row)` for all rows with a search of the metric.
+template <class F>
+void for_each_row(const Index& index, NearestRows& rows, const NearestOptions& options, F&& f) {
+  if (options.metric == Metric::Straight) {
+    rows.for_each([&] { return std::make_unique<StraightSearch>(index, options); }, f);
+  } else {
+    // Before the threads begin: each of them would make it.
+    static_cast<void>(IndexAccess::share_graph(index)->of(IndexAccess::view(index)));
+    rows.for_each([&] { return std::make_unique<PathRowSearch>(index, options); }, f);
+  }
+}
+
+void check_areas(double area, std::span<const double> areas, std::size_t vertices) {
+  if (!(area > 0 && std::isfinite(area))) {
+    raise(ErrorCode::InvalidOption, "area: " + to_text(area) + ", expected a finite number > 0");
+  }
+  if (areas.size() != vertices) {
+    raise(ErrorCode::InvalidOption, "areas: " + std::to_string(areas.size()) + " values, expected one for each of " +
+                                        std::to_string(vertices) + " vertices");
+  }
+  for (std::size_t v = 0; v < areas.size(); ++v) {
+    if (areas[v] >= 0 && std::isfinite(areas[v])) continue;
+    raise(ErrorCode::InvalidOption,
+          "areas: vertex " + std::to_string(v) + " has " + to_text(areas[v]) + ", expected a finite number >= 0");
+  }
+}
+
+}  // namespace
+
+KNearest k_nearest(const Index& index, const BatchVertices& vertices, std::size_t k, const NearestOptions& options) {
+  NearestRows rows(index, vertices, options);
+  if (rows.size() != 0 && k > kMostValues / rows.size()) {
+    raise(ErrorCode::TooLarge, "k: " + std::to_string(k) + " vertices for each of " + std::to_string(rows.size()) +
+                                   " rows, expected at most 2^40 in all");
+  }
+  KNearest result{std::vector<VertexId>(rows.size() * k, kNoVertex),
+                  std::vector<double>(rows.size() * k, std::numeric_limits<double>::infinity())};
+  if (k == 0) return result;
+  for_each_row(index, rows, options, [&](auto& search, std::size_t row) {
+    std::size_t next = row * k;
+    search.run(rows.vertex(row), k, std::numeric_limits<double>::infinity(), {}, [&](VertexId vertex, double distance) {
+      result.ids[next] = vertex;
+      result.distances[next++] = distance;
+      return next < (row + 1) * k;
+    });
+  });
+  return result;
+}
+
+Neighborhoods discs(const Index& index, const BatchVertices& vertices, double area, std::span<const double> areas,
+                    const NearestOptions& options) {
+  check_areas(area, areas, index.vertex_count());
+  NearestRows rows(index, vertices, options);
+  struct Disc {
+    std::vector<VertexId> ids;
+    std::vector<double> distances;
+  };
+  std::vector<Disc> found(rows.size());
+  for_each_row(index, rows, options, [&](auto& search, std::size_t row) {
+    double sum = 0;
+    search.run(rows.vertex(row), index.vertex_count() + 1, area, areas, [&](VertexId vertex, double distance) {
+      found[row].ids.push_back(vertex);
+      found[row].distances.push_back(distance);
+      sum += areas[vertex];
+      return sum < area;
+    });
+  });
+  Neighborhoods result;
+  result.offsets.push_back(0);
+  for (const Disc& disc : found) result.offsets.push_back(result.offsets.back() + disc.ids.size());
+  result.ids.reserve(result.offsets.back());
+  result.distances.reserve(result.offsets.back());
+  for (Disc& disc : found) {
+    result.ids.insert(result.ids.end(), disc.ids.begin(), disc.ids.end());
+    result.distances.insert(result.distances.end(), disc.distances.begin(), disc.distances.end());
+    disc = {};
+  }
+  return result;
+}
+
+}  // namespace meshhood

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// The nearest vertices that do not belong to the neighborhoods of a packet: a search through the tree, which leaves out
+// the nodes that all queries have reached.
+#include "meshhood/unconnected.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/vector.h"
+#include "batch/packets.h"
+#include "exact/index_access.h"
+#include "exact/joint/packet_pieces.h"
+#include "exact/query/any_center.h"
+#include "exact/query/nearest_first.h"
+#include "shared/distance.h"
+
+namespace meshhood {
+namespace {
+
+constexpr double kNoGap = std::numeric_limits<double>::infinity();
+
+/// Searches around one packet at a time.
+class UnconnectedSearch : public VertexVisitor {
+ public:
+  explicit UnconnectedSearch(const IndexView& index) : index_(&index) {}
+
+  void run(const PacketAnswer& packet) {
+    pieces_.assign(packet);
+    queries_.clear();
+    const LeafId home = leaf_of(index_->slot[packet.vertices.front()]);
+    const Center center(index_->frame, center_of_leaf(home));
+    all_ = packet.queries;
+    for (std::size_t i = 0; i < packet.vertices.size(); ++i) {
+      const std::uint32_t slot = index_->slot[packet.vertices[i]];
+      const Point p = index_->position(leaf_of(slot), lane_of(slot));
+      const double from_center = std::sqrt(squared_distance(center.exact, p));
+      queries_.push_back({Center(index_->frame, p), from_center, packet.radii[i], squared_radius(packet.radii[i])});
+    }
+    update_reach();
+    NearestFirst(*index_, center, *this).run();
+  }
+
+  struct Found {
+    VertexId vertex;
+    double gap;
+  };
+  [[nodiscard]] Found found(std::size_t query) const { return {queries_[query].vertex, queries_[query].gap}; }
+
+  [[nodiscard]] double reach() const { return reach_; }
+
+  /// Whether a query has not reached a vertex of the node.
+  [[nodiscard]] bool wants(NodeId node) const {
+    const GroupRecord& record = index_->records[node / kFanOut];
+    const RowPiece* const piece = pieces_.find(record.begin[node % kFanOut]);
+    const bool is_reached = piece != nullptr && piece->reached == nullptr && piece->queries == all_ &&
+                            record.begin[node % kFanOut + 1] - piece->first <= piece->size;
+    return !is_reached;
+  }
+
+  void visit_leaf(LeafId leaf) {
+    const QueryWord near = queries_near(leaf);
+    if (near == 0) return;
+    const std::size_t begin = index_->leaf_begin[leaf];
+    const RowPiece* const piece = pieces_.find(begin);
+    bool is_nearer = false;
+    for (std::size_t v = begin; v < index_->leaf_begin[leaf + 1]; ++v) {
+      const QueryWord reached = piece == nullptr            ? 0
+                                : piece->reached == nullptr ? piece->queries
+                                                            : piece->reached[v - begin];
+      is_nearer |= offer(v, near & ~reached);
+    }
+    if (is_nearer) update_reach();
+  }
+
+ private:
+  struct Query {
+    Center center;
+    double from_center;    // of the search
+    double limit;          // the distance of the nearest vertex so far, or the radius
+    double squared_limit;  // of the predicate
+    VertexId vertex = kNoVertex;
+    double gap = kNoGap;
+  };
+
+  [[nodiscard]] Point center_of_leaf(LeafId leaf) const {
+    const Frame& frame = index_->frame;
+    return frame.origin + (1 / frame.scale) * center_of(index_->leaves[leaf].bounds);
+  }
+
+  /// The queries for which the leaf may hold a vertex that is near enough.
+  [[nodiscard]] QueryWord queries_near(LeafId leaf) const {
+    QueryWord near = 0;
+    for (std::size_t i = 0; i < queries_.size(); ++i) {
+      const double low = squared_distances(index_->leaves[leaf].bounds, queries_[i].center).low;
+      near |= QueryWord{low <= queries_[i].squared_limit} << i;
+    }
+    return near;
+  }
+
+  /// Compares a vertex, in index order, with the queries that have not reached it. Returns whether it is nearer to one
+  /// than what was found before.
+  bool offer(std::size_t vertex, QueryWord queries) {
+    if (queries == 0) return false;
+    bool is_nearer = false;
+    const Point p = std::visit([&](auto xyz) { return point(xyz, vertex); }, index_->positions);
+    for_each_query(queries, [&](std::size_t i) {
+      Query& query = queries_[i];
+      const double square = squared_distance(query.center.exact, p);
+      if (!(square <= query.squared_limit)) return;
+      const double distance = std::sqrt(square);
+      const VertexId id = index_->id(vertex);
+      if (distance == query.gap && query.vertex < id) return;
+      is_nearer |= distance < query.limit;
+      query.vertex = id;
+      query.gap = query.limit = distance;
+      query.squared_limit = squared_radius(distance);
+    });
+    return is_nearer;
+  }
+
+  /// What is farther from the center is farther from each query than its limit.
+  void update_reach() {
+    double reach = 0;
+    for (const Query& query : queries_) reach = std::max(reach, query.limit + query.from_center);
+    reach_ = reach_of(reach);
+  }
+
+  const IndexView* index_;
+  PacketPieces pieces_;
+  std::vector<Query> queries_;
+  QueryWord all_ = 0;
+  double reach_ = 0;
+};
+
+}  // namespace
+
+Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, const BatchOptions& options) {
+  const std::size_t rows = query.vertices.list() ? query.vertices.list()->size() : index.vertex_count();
+  Unconnected result{std::vector<VertexId>(rows, kNoVertex), std::vector<double>(rows, kNoGap)};
+  const IndexView& view = IndexAccess::view(index);
+  const auto make_visitor = [&](unsigned /*thread*/) -> PacketVisitor {
+    return [search = UnconnectedSearch(view), &result](const PacketAnswer& packet) mutable {
+      search.run(packet);
+      for (std::size_t i = 0; i < packet.rows.size(); ++i) {
+        const auto [vertex, gap] = search.found(packet.queries_of_rows[i]);
+        result.vertices[packet.rows[i]] = vertex;
+        result.gaps[packet.rows[i]] = gap;
+      }
+    };
+  };
+  for_each_packet(index, query, make_visitor, {.threads = options.threads, .progress = options.progress});
+  return result;
+}
+
+}  // namespace meshhood

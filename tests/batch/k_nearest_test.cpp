@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// The nearest connected vertices of many vertices, against single queries and the oracle.
+#include "meshhood/k_nearest.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/aggregate.h"
+#include "meshhood/edge_search.h"
+#include "meshhood/index.h"
+#include "meshhood/region.h"
+
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/random.h"
+#include "support/refusal.h"
+#include "support/region_oracle.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+struct NearestRow {
+  std::vector<VertexId> ids;
+  std::vector<double> distances;
+};
+
+/// All connected vertices up to a radius, in order.
+NearestRow nearest_of(const RegionOracle& oracle, const PlainStart& start, double radius) {
+  NearestRow row;
+  const std::vector<double> radii = oracle.connecting_radii(start, radius);
+  row.ids = oracle.in_order(start, radii);
+  for (const VertexId v : row.ids) row.distances.push_back(radii[v]);
+  return row;
+}
+
+NearestRow along_edges(EdgeSearcher& searcher, VertexId v, double radius, const Filter& filter) {
+  NearestRow row;
+  searcher.neighborhood(v, radius, row.ids, row.distances, filter);
+  return row;
+}
+
+NearestRow k_of(const KNearest& found, std::size_t row, std::size_t k) {
+  NearestRow result;
+  for (std::size_t i = row * k; i < (row + 1) * k; ++i) {
+    if (found.ids[i] == kNoVertex) {
+      EXPECT_EQ(found.distances[i], kInfinity);
+      continue;
+    }
+    EXPECT_EQ(result.ids.size(), i - row * k) << "a gap in the row";
+    result.ids.push_back(found.ids[i]);
+    result.distances.push_back(found.distances[i]);
+  }
+  return result;
+}
+
+void cut(NearestRow& row, std::size_t size) {
+  row.ids.resize(std::min(size, row.ids.size()));
+  row.distances.resize(row.ids.size());
+}
+
+class KNearestIn : public testing::TestWithParam<Family> {};
+
+TEST_P(KNearestIn, BeginsAsAllVerticesInOrder) {
+  std::size_t rows = 0;
+  for (const std::size_t vertices : {1U, 40U, 500U}) {
+    const TestMesh mesh = make_mesh(GetParam(), vertices, vertices);
+    if (mesh.size() == 0) continue;
+    const Index index = build(mesh.view());
+    const RegionOracle oracle(mesh);
+    EdgeSearcher edges(index);
+    Random random(vertices);
+    std::vector<std::uint8_t> walls(mesh.size());
+    std::vector<std::uint8_t> ignored(mesh.size());
+    std::vector<double> areas(mesh.size());
+    for (std::size_t v = 0; v < mesh.size(); ++v) {
+      walls[v] = static_cast<std::uint8_t>(random.below(8) == 0);
+      ignored[v] = static_cast<std::uint8_t>(random.below(8) == 0);
+      areas[v] = random.below(4) == 0 ? 0 : random.uniform(0, 1);
+    }
+    std::vector<VertexId> some;
+    for (std::size_t i = 0; i < scaled(40, 10); ++i) some.push_back(static_cast<VertexId>(random.below(mesh.size())));
+    const double edge = oracle.graph().mean_edge();
+    for (const Metric metric : {Metric::Straight, Metric::Path}) {
+      for (const double radius : {kInfinity, 3 * edge, 0.0}) {
+        NearestOptions options{.metric = metric, .radius = radius, .threads = 2};
+        if (radius != 0)
+          options.filter = {VertexMask(std::span<const std::uint8_t>(walls)),
+                            VertexMask(std::span<const std::uint8_t>(ignored))};
+        const std::size_t k = 1 + random.below(30);
+        const double area = random.uniform(0.5, 6);
+        const KNearest found = k_nearest(index, some, k, options);
+        const Neighborhoods disc = discs(index, some, area, areas, options);
+        ASSERT_EQ(found.ids.size(), k * some.size());
+        ASSERT_EQ(disc.offsets.size(), some.size() + 1);
+        for (std::size_t i = 0; i < some.size(); ++i, ++rows) {
+          PlainStart start;
+          start.center = {mesh.positions[3 * some[i]], mesh.positions[3 * some[i] + 1],
+                          mesh.positions[3 * some[i] + 2]};
+          start.seeds = {some[i]};
+          start.walls = radius != 0 ? walls : std::vector<std::uint8_t>(mesh.size());
+          start.ignored = radius != 0 ? ignored : std::vector<std::uint8_t>(mesh.size());
+          NearestRow all = metric == Metric::Straight ? nearest_of(oracle, start, radius)
+                                                      : along_edges(edges, some[i], radius, options.filter);
+          std::size_t size = 0;
+          for (double sum = 0; size < all.ids.size() && sum < area; ++size) sum += areas[all.ids[size]];
+          const std::span<const VertexId> ids =
+              std::span(disc.ids).subspan(disc.offsets[i], disc.offsets[i + 1] - disc.offsets[i]);
+          ASSERT_THAT(ids, testing::ElementsAreArray(std::span(all.ids).first(size))) << mesh.name << ", " << some[i];
+          ASSERT_TRUE(std::equal(ids.begin(), ids.end(), all.ids.begin()));
+          for (std::size_t j = 0; j < size; ++j) ASSERT_EQ(disc.distances[disc.offsets[i] + j], all.distances[j]);
+          cut(all, k);
+          const NearestRow row = k_of(found, i, k);
+          ASSERT_EQ(row.ids, all.ids) << mesh.name << ", vertex " << some[i] << ", radius " << radius;
+          ASSERT_EQ(row.distances, all.distances);
+        }
+      }
+    }
+  }
+  std::printf("%s: %zu rows\n", std::string(GetParam().name).c_str(), rows);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, KNearestIn, testing::ValuesIn(families()), family_name);
+
+TEST(KNearest, OfAllVerticesAreTheRowsInTheirOrder) {
+  const TestMesh mesh = bumpy_grid(30);
+  const Index index = build(mesh.view());
+  RegionSearcher searcher(index);
+  const KNearest found = k_nearest(index, {}, 7, {.threads = 3});
+  ASSERT_EQ(found.ids.size(), 7 * mesh.size());
+  NearestRow expected;
+  for (VertexId v = 0; v < mesh.size(); ++v) {
+    searcher.nearest_connected(v, 7, expected.ids, expected.distances);
+    ASSERT_EQ(k_of(found, v, 7).ids, expected.ids);
+  }
+}
+
+TEST(KNearest, DiscsOfAPlaneHaveTheirArea) {
+  const TestMesh mesh = make_grid(60, 60, false);
+  const Index index = build(mesh.view());
+  const std::vector<double> areas = vertex_areas(mesh.view());
+  const std::vector<VertexId> middle{60 * 30 + 30};
+  for (const Metric metric : {Metric::Straight, Metric::Path}) {
+    const Neighborhoods disc = discs(index, middle, 99.5, areas, {.metric = metric});
+    EXPECT_EQ(disc.ids.size(), 100U);
+    EXPECT_EQ(disc.ids.front(), middle.front());
+  }
+}
+
+TEST(KNearest, RefusesWrongArguments) {
+  const TestMesh mesh = make_grid(4, 4, false);
+  const Index index = build(mesh.view());
+  const std::vector<VertexId> vertices{1, 16};
+  const std::vector<double> areas(16, 1.0);
+  std::vector<double> wrong = areas;
+  wrong[3] = -1;
+  expect_refused(ErrorCode::VertexOutOfRange, "row 1: vertex 16",
+                 [&] { static_cast<void>(k_nearest(index, vertices, 3)); });
+  expect_refused(ErrorCode::InvalidRadius, "-2", [&] { static_cast<void>(k_nearest(index, {}, 3, {.radius = -2})); });
+  expect_refused(ErrorCode::TooLarge, "expected at most 2^40",
+                 [&] { static_cast<void>(k_nearest(index, {}, std::size_t{1} << 62)); });
+  expect_refused(ErrorCode::InvalidOption, "area: 0", [&] { static_cast<void>(discs(index, {}, 0, areas)); });
+  expect_refused(ErrorCode::InvalidOption, "areas: vertex 3 has -1",
+                 [&] { static_cast<void>(discs(index, {}, 1, wrong)); });
+  expect_refused(ErrorCode::InvalidOption, "areas: 2 values",
+                 [&] { static_cast<void>(discs(index, {}, 1, std::span(areas).first(2))); });
+  const std::vector<std::uint8_t> mask(3);
+  expect_refused(ErrorCode::InvalidOption, "walls: 3 values", [&] {
+    static_cast<void>(k_nearest(index, {}, 3, {.filter = {.walls = VertexMask(std::span<const std::uint8_t>(mask))}}));
+  });
+}
+
+TEST(KNearest, StopsWhenItIsCancelled) {
+  const TestMesh mesh = bumpy_grid(30);
+  const Index index = build(mesh.view());
+  expect_refused(ErrorCode::Cancelled, "", [&] {
+    static_cast<void>(k_nearest(index, {}, 5, {.progress = [](std::size_t, std::size_t) { return false; }}));
+  });
+}
+
+}  // namespace
+}  // namespace meshhood::test

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// The nearest vertices that are not connected, against a scan of all vertices.
+#include "meshhood/unconnected.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/index.h"
+#include "meshhood/start.h"
+
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/oracle.h"
+#include "support/random.h"
+#include "support/refusal.h"
+#include "support/scale.h"
+#include "support/sheets.h"
+
+namespace meshhood::test {
+namespace {
+
+/// The first by distance, then by id, of the vertices in the ball that are not in the neighborhood.
+NearestVertex scan(const Oracle& oracle, VertexId v, double radius) {
+  std::vector<bool> is_connected(oracle.size());
+  for (const VertexId w : oracle.exact(v, radius)) is_connected[w] = true;
+  NearestVertex best{kNoVertex, kInfinity};
+  for (VertexId w = 0; w < oracle.size(); ++w) {
+    const double distance = oracle.distance(v, w);
+    if (is_connected[w] || !(distance <= radius) || (best.vertex != kNoVertex && distance >= best.distance)) continue;
+    best = {w, distance};
+  }
+  return best;
+}
+
+class UnconnectedFamilies : public testing::TestWithParam<Family> {};
+
+TEST_P(UnconnectedFamilies, AreTheFirstOfAScan) {
+  std::size_t rows = 0;
+  std::size_t found = 0;
+  for (const std::size_t vertices : {1U, 40U, 300U, 700U}) {
+    const TestMesh mesh = make_mesh(GetParam(), vertices, vertices);
+    if (mesh.size() == 0) continue;
+    const Oracle oracle(mesh);
+    const Index index = build(mesh.view());
+    Random random(vertices);
+    const double edge = oracle.mean_edge();
+    for (const double radius : {0.0, 2 * edge, 7 * edge, kInfinity}) {
+      std::vector<double> radii(mesh.size(), radius);
+      // A vertex at exactly the radius counts.
+      const auto pick = [&] { return static_cast<VertexId>(random.below(mesh.size())); };
+      for (int i = 0; i < 5; ++i) {
+        const VertexId v = pick();
+        radii[v] = oracle.distance(v, pick());
+      }
+      const Unconnected result = nearest_unconnected(index, {.radius = radii}, {.threads = 2});
+      for (VertexId v = 0; v < mesh.size(); v += static_cast<VertexId>(1 + mesh.size() / scaled(150, 20))) {
+        const NearestVertex expected = scan(oracle, v, radii[v]);
+        ASSERT_EQ(result.vertices[v], expected.vertex) << mesh.name << ", vertex " << v << ", radius " << radii[v];
+        ASSERT_EQ(result.gaps[v], expected.distance) << mesh.name << ", vertex " << v << ", radius " << radii[v];
+        ++rows;
+        found += static_cast<std::size_t>(expected.vertex != kNoVertex);
+      }
+    }
+  }
+  std::printf("%s: %zu rows, %zu with a vertex\n", std::string(GetParam().name).c_str(), rows, found);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, UnconnectedFamilies, testing::ValuesIn(families()), family_name);
+
+TEST(Unconnected, OfAFoldedSheetIsTheOtherHalf) {
+  const TestMesh mesh = make_folded_sheet(24);
+  const Index index = build(mesh.view());
+  const Oracle oracle(mesh);
+  const Unconnected result = nearest_unconnected(index, {.radius = 3.0});
+  std::size_t across = 0;
+  for (VertexId v = 0; v < mesh.size(); ++v) {
+    const NearestVertex expected = scan(oracle, v, 3);
+    ASSERT_EQ(result.vertices[v], expected.vertex) << v;
+    across += static_cast<std::size_t>(std::abs(result.gaps[v] - 0.7) < 1e-6);
+  }
+  EXPECT_GT(across, mesh.size() / 2);
+}
+
+TEST(Unconnected, DoesNotDependOnTheOtherRowsOrOnThreads) {
+  const TestMesh mesh = make_folded_sheet(24, 0.3);
+  const Index index = build(mesh.view());
+  const Unconnected all = nearest_unconnected(index, {.radius = 2.5}, {.threads = 3});
+  const std::vector<VertexId> some{700, 3, 3, 1151, 64, 65, 66, 67, 68, 69, 70, 71, 72, 73, 74, 75};
+  const Unconnected result = nearest_unconnected(index, {.vertices = some, .radius = 2.5});
+  ASSERT_EQ(result.vertices.size(), some.size());
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    EXPECT_EQ(result.vertices[i], all.vertices[some[i]]);
+    EXPECT_EQ(result.gaps[i], all.gaps[some[i]]);
+  }
+}
+
+TEST(Unconnected, OfSeveralIsTheOneWithTheSmallestId) {
+  TestMesh mesh;
+  mesh.add_vertex(0, 0, 0);
+  mesh.add_vertex(2, 0, 0);
+  mesh.add_vertex(0, 1, 0);
+  mesh.add_vertex(1, 0, 0);
+  mesh.add_vertex(0, 0, -1);
+  const Index index = build(mesh.finish(true).view());
+  const Unconnected result = nearest_unconnected(index, {.radius = 1});
+  EXPECT_THAT(result.vertices, testing::ElementsAre(2, 3, 0, 0, 0));
+  EXPECT_THAT(result.gaps, testing::Each(1));
+}
+
+TEST(Unconnected, RefusesARowThatDoesNotExistAndARadiusThatIsNone) {
+  const TestMesh mesh = make_grid(5, 5, false);
+  const Index index = build(mesh.view());
+  const std::vector<VertexId> vertices{3, 25};
+  expect_refused(ErrorCode::VertexOutOfRange, "row 1: vertex 25",
+                 [&] { static_cast<void>(nearest_unconnected(index, {.vertices = vertices, .radius = 1})); });
+  expect_refused(ErrorCode::InvalidRadius, "-1",
+                 [&] { static_cast<void>(nearest_unconnected(index, {.radius = -1.0})); });
+  expect_refused(ErrorCode::InvalidRadius, "nan", [&] { static_cast<void>(nearest_unconnected(index, {})); });
+}
+
+}  // namespace
+}  // namespace meshhood::test

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// The graph of near points, against a scan of all pairs.
+#include "meshhood/link_points.h"
+
+#include <cstddef>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/index.h"
+
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/oracle.h"
+#include "support/random.h"
+#include "support/refusal.h"
+#include "support/same_storage.h"
+
+namespace meshhood::test {
+namespace {
+
+Adjacency scan(const Oracle& oracle, double link) {
+  Adjacency graph{{0}, {}};
+  for (std::size_t v = 0; v < oracle.size(); ++v) {
+    for (std::size_t w = 0; w < oracle.size(); ++w) {
+      if (v != w && oracle.distance(v, w) <= link) graph.neighbors.push_back(static_cast<VertexId>(w));
+    }
+    graph.offsets.push_back(static_cast<EdgeOffset>(graph.neighbors.size()));
+  }
+  return graph;
+}
+
+class LinkedFamilies : public testing::TestWithParam<Family> {};
+
+TEST_P(LinkedFamilies, JoinThePairsOfAScan) {
+  std::size_t edges = 0;
+  for (const std::size_t vertices : {1U, 40U, 300U}) {
+    const TestMesh mesh = make_mesh(GetParam(), vertices, vertices);
+    const Oracle oracle(mesh);
+    Random random(vertices);
+    const auto pick = [&] { return random.below(mesh.size()); };
+    const double edge = oracle.mean_edge();
+    for (const double link : {0.0, 0.9 * edge, 2 * edge, mesh.size() == 0 ? 0 : oracle.distance(pick(), pick())}) {
+      const Adjacency expected = scan(oracle, link);
+      const Adjacency found = link_points(mesh.positions_view(), link, {.threads = 2});
+      ASSERT_EQ(found.offsets, expected.offsets) << mesh.name << ", link " << link;
+      ASSERT_EQ(found.neighbors, expected.neighbors) << mesh.name << ", link " << link;
+      validate(GraphView{mesh.positions_view(), found.view()});
+      edges += found.neighbors.size() / 2;
+    }
+  }
+  std::printf("%s: %zu edges\n", std::string(GetParam().name).c_str(), edges);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, LinkedFamilies, testing::ValuesIn(families()), family_name);
+
+TEST(LinkPoints, OfAClusterAndAnOutlierDoNotLookAtAllPairs) {
+  std::vector<double> points;
+  for (int i = 0; i < 100000; ++i) points.insert(points.end(), {static_cast<double>(i), 0, 0});
+  points.insert(points.end(), {1e13, 1e13, 1e13});
+  const Adjacency graph = link_points(points, 1.5);
+  EXPECT_EQ(graph.neighbors.size(), 2U * 99999U);
+  EXPECT_EQ(graph.view()[100000].size(), 0U);
+}
+
+TEST(LinkPoints, AcrossMoreCellsThanKeys) {
+  // 2^40 cells along each axis, whose keys are not distinct.
+  Random random(7);
+  std::vector<double> points{0x1p40, 0x1p40, 0x1p40};
+  for (int i = 0; i < 2000; ++i) {
+    const double base = i % 2 == 0 ? 0 : 0x1p39;
+    for (int axis = 0; axis < 3; ++axis) points.push_back(base + random.uniform(0, 12));
+  }
+  TestMesh mesh;
+  for (std::size_t i = 0; i < points.size(); i += 3) mesh.add_vertex(points[i], points[i + 1], points[i + 2]);
+  const Oracle oracle(mesh.finish(false));
+  const Adjacency found = link_points(points, 1);
+  const Adjacency expected = scan(oracle, 1);
+  EXPECT_EQ(found.offsets, expected.offsets);
+  EXPECT_EQ(found.neighbors, expected.neighbors);
+}
+
+TEST(LinkPoints, BuildTheIndexOfTheirGraph) {
+  const TestMesh mesh = bumpy_grid(40);
+  const Adjacency graph = link_points(mesh.positions_view(), 1.2);
+  const Index expected = build(GraphView{mesh.positions_view(), graph.view()});
+  EXPECT_THAT(differences(build_linked(mesh.positions_view(), 1.2, {.threads = 2}), expected), testing::IsEmpty());
+}
+
+TEST(LinkPoints, RefuseWrongLinksAndTooManyEdges) {
+  std::vector<float> points;
+  for (int i = 0; i < 3000; ++i) points.insert(points.end(), {static_cast<float>(i % 10), 0, 0});
+  expect_refused(ErrorCode::InvalidOption, "link: -1", [&] { static_cast<void>(link_points(points, -1)); });
+  expect_refused(ErrorCode::InvalidOption, "link: inf",
+                 [&] { static_cast<void>(link_points(points, std::numeric_limits<double>::infinity())); });
+  expect_refused(ErrorCode::TooLarge, "link: 20 joins the 3000 points by more than 1000 edges",
+                 [&] { static_cast<void>(link_points(points, 20, {.max_edges = 1000})); });
+  const std::size_t edges = std::size_t{3000} * 2999 / 2;
+  EXPECT_EQ(link_points(points, 20, {.max_edges = edges}).neighbors.size(), 2 * edges);
+  expect_refused(ErrorCode::TooLarge, "edges",
+                 [&] { static_cast<void>(link_points(points, 20, {.max_edges = edges - 1, .threads = 2})); });
+  points[4] = std::numeric_limits<float>::quiet_NaN();
+  expect_refused(ErrorCode::InvalidMesh, "vertex 1", [&] { static_cast<void>(link_points(points, 1)); });
+}
+
+}  // namespace
+}  // namespace meshhood::test

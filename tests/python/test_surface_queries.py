@@ -1,0 +1,302 @@
+# SPDX-License-Identifier: MIT
+"""What is nearest: on the surface, connected, and not connected; points without faces, faces as vertices, patches."""
+
+import warnings
+
+import numpy as np
+import pytest
+from meshes import folded, grid, triangles, two_plates
+from oracle import distances, neighborhood, triangle_graph
+
+import meshhood
+
+
+@pytest.fixture(params=[two_plates, folded], ids=["plates", "folded"])
+def mesh(request):
+    V, F = request.param(12)
+    return V, F, meshhood.MeshIndex(V, F), triangle_graph(len(V), F)
+
+
+def unconnected(V, edges, v, r):
+    near = distances(V, v)
+    near[neighborhood(V, edges, v, r)] = np.inf
+    near[near > r] = np.inf
+    other = int(near.argmin())
+    return (other, near[other]) if near[other] < np.inf else (-1, np.inf)
+
+
+@pytest.mark.parametrize("r", [0.1, 0.25, 1.0, 3.5, np.inf])
+def test_nearest_unconnected_is_that_of_a_scan(mesh, r):
+    V, _, index, edges = mesh
+    other, gap = index.nearest_unconnected(None, r)
+    assert other.dtype == np.int32 and gap.dtype == np.float64
+    for v in range(0, len(V), 5):
+        assert (other[v], gap[v]) == unconnected(V, edges, v, r)
+    some = [7, 3, 3]
+    np.testing.assert_array_equal(index.nearest_unconnected(some, r, workers=1)[0], other[some])
+
+
+def test_nearest_unconnected_takes_a_mask_radii_and_a_unit(mesh):
+    V, _, index, _ = mesh
+    rows = np.zeros(len(V), bool)
+    rows[[4, 9]] = True
+    other, gap = index.nearest_unconnected(rows, [0.1, 2.0])
+    assert other[0] == -1 and gap[0] == np.inf and gap[1] == 0.25
+    a = index.nearest_unconnected(None, 2, unit="edge")
+    b = index.nearest_unconnected(None, 2 * index.mean_edge_length)
+    np.testing.assert_array_equal(a[0], b[0])
+    with pytest.raises(ValueError, match="v: row 1: vertex 999"):
+        index.nearest_unconnected([0, 999], 1.0)
+    with pytest.raises(ValueError, match="r: radius -1"):
+        index.nearest_unconnected(None, -1)
+
+
+def nearest_by_samples(V, F, q):
+    """The least distance from points spread over the triangles: an upper bound, a little too large."""
+    steps = np.linspace(0, 1, 9)
+    weights = np.array([(1 - a - b, a, b) for a in steps for b in steps if a + b <= 1 + 1e-12])
+    points = np.einsum("wc,fcx->fwx", weights, V[F].astype(np.float64))
+    return np.sqrt(((points - q) ** 2).sum(axis=-1)).min()
+
+
+def test_closest_point_is_as_near_as_any_sample_of_the_faces(mesh):
+    V, F, index, _ = mesh
+    random = np.random.default_rng(2)
+    q = random.uniform(V.min(0) - 1, V.max(0) + 1, (60, 3))
+    face, barycentric, point = index.closest_point(q)
+    assert face.shape == (60,) and barycentric.shape == point.shape == (60, 3)
+    np.testing.assert_allclose(np.einsum("nc,ncx->nx", barycentric, V[F[face]]), point, atol=1e-12)
+    np.testing.assert_allclose(barycentric.sum(axis=1), 1)
+    assert barycentric.min() >= 0
+    for i in range(len(q)):
+        distance = np.linalg.norm(point[i] - q[i])
+        sampled = nearest_by_samples(V, F, q[i])
+        assert distance <= sampled + 1e-12 and sampled <= distance + 0.2
+    one = index.closest_point(q[0])
+    assert type(one[0]) is int and one[0] == face[0]
+    np.testing.assert_array_equal(one[2], point[0])
+    assert [part.shape for part in index.closest_point([])] == [(0,), (0, 3), (0, 3)]
+
+
+def test_closest_point_of_polygons_has_a_weight_for_each_corner():
+    V, quads = grid(4)
+    corners = np.concatenate([quads.ravel(), [0, 1, 2]])
+    offsets = np.array([*range(0, 4 * len(quads) + 1, 4), 4 * len(quads) + 3])
+    index = meshhood.MeshIndex(V, (offsets, corners))
+    face, barycentric, point = index.closest_point([[1.25, 1.5, 3.0], [0.5, 0.0, 0.0]])
+    assert barycentric.shape == (2, 4)
+    assert face[0] == 4
+    np.testing.assert_allclose(barycentric @ np.eye(4), barycentric)
+    np.testing.assert_allclose(barycentric[0] @ V[quads[4]], point[0])
+    np.testing.assert_array_equal(point[0], [1.25, 1.5, 0])
+
+
+def test_closest_point_takes_other_faces_and_keeps_what_it_made():
+    V, F = folded(8)
+    bare = meshhood.MeshIndex(V, F, keep_faces=False)
+    with pytest.raises(ValueError, match="F: expected the faces"):
+        bare.closest_point([0, 0, 0])
+    assert bare.closest_point([3.2, 3.1, 0], F=F)[0] == meshhood.MeshIndex(V, F).closest_point([3.2, 3.1, 0])[0]
+    only = bare.closest_point([3.2, 3.1, 0], F=F[:1])
+    assert only[0] == 0
+    with pytest.raises(ValueError, match="q: row 1: coordinate 2 is nan"):
+        bare.closest_point([[0, 0, 0], [0, 0, np.nan]], F=F)
+    with pytest.raises(ValueError, match="no face of three corners"):
+        bare.closest_point([0, 0, 0], F=np.empty((0, 3), int))
+
+
+def test_a_region_starts_from_the_corners_of_a_face(mesh):
+    V, F, index, _ = mesh
+    random = np.random.default_rng(4)
+    q = random.uniform(V.min(0), V.max(0), (25, 3))
+    faces, _, points = index.closest_point(q)
+    for face, point in zip(faces, points):
+        found = index.query_region(point, 2.5, face=face)
+        np.testing.assert_array_equal(found, index.query_region(point, 2.5, seeds=F[face]))
+    np.testing.assert_array_equal(
+        index.query_stroke(points, 1.5, face=faces), index.query_stroke(points, 1.5, seeds=F[faces])
+    )
+
+
+def test_a_region_of_a_polygon_starts_from_all_its_corners():
+    V, quads = grid(4)
+    corners = np.concatenate([quads.ravel(), [0, 1, 4]])
+    offsets = np.array([*range(0, 4 * len(quads) + 1, 4), 4 * len(quads) + 3])
+    index = meshhood.MeshIndex(V, (offsets, corners))
+    np.testing.assert_array_equal(index.query_region([0.5, 0.5, 0], 0.8, face=0, sort=True), [0, 1, 4, 5])
+    stroke = index.query_stroke([[0.5, 0.5, 0], [0.2, 0.2, 0]], 0.8, face=[0, 9], sort=True)
+    np.testing.assert_array_equal(stroke, [0, 1, 4, 5])
+
+
+def test_a_face_as_start_is_refused_where_it_means_nothing(mesh):
+    V, F, index, _ = mesh
+    with pytest.raises(ValueError, match="face: expected None, because the start is a vertex"):
+        index.query_region(3, 1.0, face=2)
+    with pytest.raises(ValueError, match="seeds: expected None, because the face is given"):
+        index.query_region([0, 0, 0], 1.0, seeds=[1], face=2)
+    with pytest.raises(ValueError, match=f"face: row 0: face {len(F)}, but the mesh has {len(F)} faces"):
+        index.query_region([0, 0, 0], 1.0, face=len(F))
+    with pytest.raises(ValueError, match="face: expected one for each of 2 points, not 1"):
+        index.query_stroke([[0, 0, 0], [1, 1, 0]], 1.0, face=[1])
+    with pytest.raises(ValueError, match="face: given, but this index has none"):
+        meshhood.MeshIndex(V, F, keep_faces=False).query_region([0, 0, 0], 1.0, face=1)
+
+
+def test_query_knn_is_nearest_connected_row_by_row(mesh):
+    V, _, index, _ = mesh
+    walls = np.zeros(len(V), bool)
+    walls[::7] = True
+    ignored = np.zeros(len(V), bool)
+    ignored[::5] = True
+    for filters in ({}, {"walls": walls}, {"walls": walls, "ignored": ignored}):
+        ids, radii = index.query_knn(None, 9, **filters)
+        assert ids.shape == radii.shape == (len(V), 9)
+        for v in range(0, len(V), 9):
+            expected, expected_radii = index.nearest_connected(v, 9, **filters)
+            count = len(expected)
+            np.testing.assert_array_equal(ids[v, :count], expected)
+            np.testing.assert_array_equal(radii[v, :count], expected_radii)
+            assert (ids[v, count:] == -1).all() and (radii[v, count:] == np.inf).all()
+
+
+def test_query_knn_by_path_begins_as_the_path_neighborhood(mesh):
+    V, _, index, _ = mesh
+    ids, lengths = index.query_knn(range(0, len(V), 9), 30, metric="path", r=3.0, fill=len(V), workers=2)
+    for row, v in enumerate(range(0, len(V), 9)):
+        expected, expected_lengths = index.query_ball(v, 3.0, metric="path", return_distance=True)
+        count = min(30, len(expected))
+        np.testing.assert_array_equal(ids[row, :count], expected[:count])
+        np.testing.assert_array_equal(lengths[row, :count], expected_lengths[:count])
+        assert (ids[row, count:] == len(V)).all()
+
+
+def test_query_knn_of_one_vertex_is_one_row(mesh):
+    _, _, index, _ = mesh
+    ids, radii = index.query_knn(5, 4)
+    assert ids.shape == radii.shape == (4,) and ids[0] == 5 and radii[0] == 0
+    np.testing.assert_array_equal(ids, index.query_knn([5], 4)[0][0])
+
+
+@pytest.mark.parametrize("metric", ["straight", "path"])
+def test_query_knn_until_an_area_gives_discs_of_it(mesh, metric):
+    V, F, index, _ = mesh
+    areas = meshhood.vertex_areas(V, F)
+    indptr, ids, distances = index.query_knn(None, until=7.5, metric=metric)
+    all_ids, all_distances = index.query_knn(None, 40, metric=metric)
+    for v in range(0, len(V), 11):
+        row = ids[indptr[v] : indptr[v + 1]]
+        np.testing.assert_array_equal(row, all_ids[v, : len(row)])
+        np.testing.assert_array_equal(distances[indptr[v] : indptr[v + 1]], all_distances[v, : len(row)])
+        sums = np.cumsum(areas[row])
+        assert sums[-1] >= 7.5 > sums[-2]
+    same = index.query_knn(None, until=7.5, metric=metric, weights=areas)
+    np.testing.assert_array_equal(same[1], ids)
+
+
+def test_query_knn_refuses_wrong_arguments(mesh):
+    V, _, index, _ = mesh
+    for wrong in ({}, {"k": 3, "until": 1.0}):
+        with pytest.raises(ValueError, match="k: expected a number of vertices, or an area as `until`, and not both"):
+            index.query_knn(None, **wrong)
+    with pytest.raises(ValueError, match="until: -1"):
+        index.query_knn(None, until=-1)
+    with pytest.raises(ValueError, match="metric: 'geodesic'"):
+        index.query_knn(None, 3, metric="geodesic")
+    with pytest.raises(ValueError, match="walls: a bool mask of shape"):
+        index.query_knn(None, 3, walls=np.zeros(3, bool))
+    with pytest.raises(ValueError, match="k: 4611686018427387904 vertices"):
+        index.query_knn(None, 2**62)
+    with pytest.raises(ValueError, match="areas: vertex 2 has -1"):
+        index.query_knn(None, until=1.0, weights=np.where(np.arange(len(V)) == 2, -1.0, 1.0))
+
+
+def test_from_points_joins_the_pairs_of_a_tree():
+    from scipy.spatial import cKDTree
+
+    random = np.random.default_rng(5)
+    P = random.uniform(0, 10, (1500, 3))
+    index = meshhood.MeshIndex.from_points(P, 0.9)
+    pairs = cKDTree(P).query_pairs(0.9, output_type="ndarray")
+    rings = [index.query_rings(v, 1)[1] for v in range(len(P))]
+    found = {(v, int(w)) for v, ring in enumerate(rings) for w in ring if v < w}
+    assert found == set(map(tuple, pairs.tolist()))
+    assert index.faces is None
+    np.testing.assert_array_equal(index.positions, P)
+    assert meshhood.MeshIndex.from_points(P.astype(np.float32), 0.9).positions.dtype == np.float32
+
+
+def test_from_points_refuses_wrong_arguments_and_a_dense_graph():
+    P = np.zeros((100, 3))
+    with pytest.raises(ValueError, match=r"^link: 1 joins the 100 points by more than 50 edges"):
+        meshhood.MeshIndex.from_points(P, 1.0, max_edges=50)
+    with pytest.raises(ValueError, match="link: inf"):
+        meshhood.MeshIndex.from_points(P, np.inf)
+    with pytest.raises(ValueError, match=r"P: expected an array of shape \(#V, 3\)"):
+        meshhood.MeshIndex.from_points(P[:, :2], 1.0)
+    P[3, 1] = np.nan
+    with pytest.raises(ValueError, match="P: vertex 3"):
+        meshhood.MeshIndex.from_points(P, 1.0)
+
+
+def test_points_without_faces_given_as_a_mesh_warn_and_name_from_points():
+    V, _ = grid(3)
+    with pytest.warns(UserWarning, match="F: no faces.*from_points"):
+        meshhood.MeshIndex(V, np.empty((0, 3), int))
+    with pytest.raises(TypeError, match="from_points"):
+        meshhood.MeshIndex(V)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        meshhood.MeshIndex(V, triangle_graph(len(V), np.empty((0, 3), int)))  # a graph may have no edges
+
+
+def test_of_faces_joins_faces_across_edges():
+    V, quads = grid(5)
+    F = triangles(quads)
+    index = meshhood.MeshIndex.of_faces(V, F)
+    assert len(index) == len(F)
+    np.testing.assert_allclose(index.positions, V[F].mean(axis=1))
+    for f in range(len(F)):
+        shared = [g for g in range(len(F)) if len(set(F[f]) & set(F[g])) == 2]
+        np.testing.assert_array_equal(np.sort(index.query_rings(f, 1)[1]), np.sort([f, *shared]))
+    polygons = meshhood.MeshIndex.of_faces(V, quads)
+    np.testing.assert_allclose(polygons.positions, V[quads].mean(axis=1))
+    with pytest.raises(ValueError, match="F: face 1 has no corners|face 1 has no corners"):
+        meshhood.MeshIndex.of_faces(V, (np.array([0, 3, 3]), np.array([0, 1, 2])))
+
+
+def test_a_subclass_is_made_from_points_and_of_faces():
+    class Mine(meshhood.MeshIndex):
+        pass
+
+    V, quads = grid(4)
+    assert type(Mine.from_points(V, 1.0)) is Mine
+    assert type(Mine.of_faces(V, quads)) is Mine
+
+
+def test_a_clipped_submesh_has_the_area_of_the_disc():
+    V, quads = grid(41)
+    F = triangles(quads)
+    index, patches = meshhood.MeshIndex(V, F), meshhood.RegionMesh(V, F)
+    p, r = [20.2, 19.7, 0.0], 13.3
+    ids = index.query_region(p, r)
+    whole, clipped = patches.submesh(ids), patches.submesh(ids, clip=(p, r))
+    disc = np.pi * r * r
+    assert whole.area < 0.95 * disc
+    assert 0.99 * disc < clipped.area < disc
+    assert clipped.V.dtype == np.float64
+    is_vertex = clipped.vertices >= 0
+    np.testing.assert_array_equal(clipped.V[is_vertex], V[clipped.vertices[is_vertex]])
+    np.testing.assert_allclose(np.linalg.norm(clipped.V[~is_vertex] - p, axis=1), r)
+    assert set(whole.faces) <= set(clipped.faces)
+    np.testing.assert_array_equal(patches.submesh(ids, clip=(int(ids[0]), 1e9)).faces, patches.faces(ids, "any"))
+
+
+def test_a_clip_is_refused_unless_the_ids_are_a_region_of_the_ball():
+    V, quads = grid(5)
+    patches = meshhood.RegionMesh(V, quads)
+    with pytest.raises(ValueError, match="vertex 24 is not within the radius 1"):
+        patches.submesh([24], clip=(0, 1.0))
+    with pytest.raises(ValueError, match="corners: 'any', expected 'all' with clip"):
+        patches.submesh([0], "any", clip=(0, 1.0))
+    with pytest.raises(ValueError, match=r"clip: expected a tuple \(start, r\)"):
+        patches.submesh([0], clip=1.0)

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+// The point of the surface nearest to a point, against a scan of all faces; that of a triangle, in long double.
+#include "meshhood/face_index.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/index.h"
+#include "meshhood/refit.h"
+#include "meshhood/region.h"
+
+#include "exact/index_access.h"
+#include "region/triangle_point.h"
+#include "support/draw_start.h"
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/random.h"
+#include "support/refusal.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+using Long = long double;
+using LongPoint = std::array<Long, 3>;
+
+Point corner_of(const TestMesh& mesh, std::uint32_t v) {
+  return {mesh.positions[3 * std::size_t{v}], mesh.positions[3 * std::size_t{v} + 1],
+          mesh.positions[3 * std::size_t{v} + 2]};
+}
+
+/// Calls `f(face, second, corners)` for all triangles of the fans.
+template <class F>
+void for_each_triangle(const TestMesh& mesh, F&& f) {
+  for (std::size_t face = 0; face < mesh.face_count(); ++face) {
+    const auto all = mesh.face(face);
+    for (std::size_t second = 1; second + 1 < all.size(); ++second) {
+      f(face, second,
+        std::array{corner_of(mesh, all[0]), corner_of(mesh, all[second]), corner_of(mesh, all[second + 1])});
+    }
+  }
+}
+
+Long dot_of(const LongPoint& a, const LongPoint& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+LongPoint minus(const Point& a, const Point& b) {
+  return {static_cast<Long>(a.x) - static_cast<Long>(b.x), static_cast<Long>(a.y) - static_cast<Long>(b.y),
+          static_cast<Long>(a.z) - static_cast<Long>(b.z)};
+}
+
+/// The distance by the regions of Ericson, "Real-Time Collision Detection" (2005), sec. 5.1.5, in long double.
+Long distance_by_regions(const Point& q, const std::array<Point, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  const LongPoint ab = minus(b, a);
+  const LongPoint ac = minus(c, a);
+  const LongPoint ap = minus(q, a);
+  const auto length_at = [&](Long second, Long third) {
+    LongPoint offset{};
+    for (std::size_t i = 0; i < 3; ++i) offset[i] = ap[i] - second * ab[i] - third * ac[i];
+    return std::sqrt(dot_of(offset, offset));
+  };
+  const Long d1 = dot_of(ab, ap);
+  const Long d2 = dot_of(ac, ap);
+  if (d1 <= 0 && d2 <= 0) return length_at(0, 0);
+  const LongPoint bp = minus(q, b);
+  const Long d3 = dot_of(ab, bp);
+  const Long d4 = dot_of(ac, bp);
+  if (d3 >= 0 && d4 <= d3) return length_at(1, 0);
+  const Long vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return length_at(d1 / (d1 - d3), 0);
+  const LongPoint cp = minus(q, c);
+  const Long d5 = dot_of(ab, cp);
+  const Long d6 = dot_of(ac, cp);
+  if (d6 >= 0 && d5 <= d6) return length_at(0, 1);
+  const Long vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return length_at(0, d2 / (d2 - d6));
+  const Long va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+    const Long share = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return length_at(1 - share, share);
+  }
+  return length_at(vb / (va + vb + vc), vc / (va + vb + vc));
+}
+
+class FaceIndexIn : public testing::TestWithParam<Family> {};
+
+TEST_P(FaceIndexIn, FindsTheFirstOfAScan) {
+  std::size_t points = 0;
+  for (const std::size_t vertices : {1U, 2U, 40U, 300U, 2000U}) {
+    const TestMesh mesh = make_mesh(GetParam(), vertices, vertices);
+    bool has_triangles = false;
+    for_each_triangle(mesh, [&](auto&&...) { has_triangles = true; });
+    const Index index = build(mesh.view());
+    if (!has_triangles) {
+      expect_refused(ErrorCode::InvalidMesh, "no face of three corners",
+                     [&] { static_cast<void>(FaceIndex::build(index, mesh.view().faces)); });
+      continue;
+    }
+    SCOPED_TRACE(mesh.name);
+    const FaceIndex surface = FaceIndex::build(index, mesh.view().faces);
+    EXPECT_EQ(surface.face_count(), mesh.face_count());
+    const double scale = IndexAccess::view(index).frame.scale;
+    Random random(vertices);
+    for (std::size_t i = 0; i < scaled(40, 6); ++i, ++points) {
+      SpacePoint q = draw_start(random, mesh).plain.center;
+      if (i % 7 == 6) q = {-q[1], q[2], 1e30};
+      double expected = kInfinity;
+      std::size_t face = 0;
+      for_each_triangle(mesh, [&](std::size_t number, std::size_t, const std::array<Point, 3>& corners) {
+        const double distance = nearest_in_triangle({q[0], q[1], q[2]}, corners, scale).distance;
+        if (!(distance < expected)) return;
+        expected = distance;
+        face = number;
+      });
+      const SurfacePoint found = surface.closest_point(q);
+      ASSERT_EQ(found.face, face) << i;
+      ASSERT_EQ(found.distance, expected) << i;
+      const auto corners = mesh.face(face);
+      ASSERT_THAT(found.vertices,
+                  testing::ElementsAre(corners[0], corners[found.second_corner], corners[found.second_corner + 1]));
+      ASSERT_NEAR(found.weights[0] + found.weights[1] + found.weights[2], 1, 1e-15);
+      ASSERT_GE(std::min({found.weights[0], found.weights[1], found.weights[2]}), 0);
+    }
+  }
+  std::printf("%s: %zu points\n", std::string(GetParam().name).c_str(), points);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FaceIndexIn, testing::ValuesIn(families()), family_name);
+
+TEST(TrianglePoint, HasTheDistanceOfTheRegionsAroundIt) {
+  Random random(5);
+  std::array<std::size_t, 4> zeros{};  // points by the number of weights that are 0
+  for (std::size_t i = 0; i < scaled(200000, 5000); ++i) {
+    const auto draw = [&] { return Point{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}; };
+    const std::array corners{draw(), draw(), draw()};
+    const Point q = draw();
+    const TrianglePoint found = nearest_in_triangle(q, corners, 1);
+    const Long expected = distance_by_regions(q, corners);
+    ASSERT_NEAR(found.distance, static_cast<double>(expected), 1e-14);
+    Point sum{0, 0, 0};
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum.x += found.weights[k] * corners[k].x;
+      sum.y += found.weights[k] * corners[k].y;
+      sum.z += found.weights[k] * corners[k].z;
+    }
+    ASSERT_NEAR(std::sqrt(squared_distance(sum, found.point)), 0, 1e-14);
+    ASSERT_NEAR(std::sqrt(squared_distance(q, found.point)), found.distance, 1e-14);
+    ++zeros[static_cast<std::size_t>(std::count(found.weights.begin(), found.weights.end(), 0.0))];
+  }
+  std::printf("inside %zu, sides %zu, corners %zu\n", zeros[0], zeros[1], zeros[2]);
+  EXPECT_GT(std::min({zeros[0], zeros[1], zeros[2]}), 100U);
+}
+
+TEST(TrianglePoint, WithoutAnAreaIsItsSides) {
+  const TrianglePoint on_line = nearest_in_triangle({1, 2, 0}, {{{0, 0, 0}, {3, 0, 0}, {2, 0, 0}}}, 1);
+  EXPECT_EQ(on_line.distance, 2);
+  EXPECT_EQ(on_line.point.x, 1);
+  const TrianglePoint one_point = nearest_in_triangle({1, 2, 0}, {{{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}}, 1);
+  EXPECT_EQ(one_point.distance, 2);
+  EXPECT_THAT(one_point.weights, testing::Contains(1.0));
+}
+
+TEST(FaceIndex, OfFacesThatMeetFindsTheOneWithTheSmallestNumber) {
+  const TestMesh mesh = bumpy_grid(20);
+  const Index index = build(mesh.view());
+  const FaceIndex surface = FaceIndex::build(index, mesh.view().faces);
+  for (std::uint32_t v = 0; v < mesh.size(); ++v) {
+    std::size_t first = mesh.face_count();
+    for (std::size_t face = mesh.face_count(); face-- > 0;) {
+      if (std::ranges::count(mesh.face(face), v) != 0) first = face;
+    }
+    const Point p = corner_of(mesh, v);
+    const SurfacePoint found = surface.closest_point({p.x, p.y, p.z});
+    ASSERT_EQ(found.face, first);
+    ASSERT_EQ(found.distance, 0);
+    ASSERT_EQ(found.point, (SpacePoint{p.x, p.y, p.z}));
+  }
+}
+
+TEST(FaceIndex, OfAPolygonIsItsFan) {
+  TestMesh mesh;
+  mesh.add_vertex(0, 0, 0);
+  mesh.add_vertex(4, 0, 0);
+  mesh.add_vertex(4, 4, 0);
+  mesh.add_vertex(0, 4, 0);
+  mesh.add_face({0, 1});
+  mesh.add_face({0, 1, 2, 3});
+  const Index index = build(mesh.finish(true).view());
+  const SurfacePoint found = FaceIndex::build(index, mesh.view().faces).closest_point({1, 3, 5});
+  EXPECT_EQ(found.face, 1U);
+  EXPECT_EQ(found.second_corner, 2U);
+  EXPECT_THAT(found.vertices, testing::ElementsAre(0, 2, 3));
+  EXPECT_THAT(found.weights, testing::ElementsAre(0.25, 0.25, 0.5));
+  EXPECT_EQ(found.point, (SpacePoint{1, 3, 0}));
+  EXPECT_EQ(found.distance, 5);
+}
+
+TEST(FaceIndex, FindsAFaceThatOverhangsItsLeaf) {
+  TestMesh mesh = bumpy_grid(40);
+  const auto far = mesh.add_vertex(500, 0, 0);
+  const auto farther = mesh.add_vertex(500, 500, 30);
+  mesh.add_face({0, far, farther});
+  const Index index = build(mesh.finish(true).view());
+  const FaceIndex surface = FaceIndex::build(index, mesh.view().faces);
+  EXPECT_EQ(surface.closest_point({300, 150, 40}).face, mesh.face_count() - 1);
+}
+
+TEST(FaceIndex, AnswersManyPointsOnSeveralThreadsAsOneByOne) {
+  const TestMesh mesh = bumpy_grid(30);
+  const Index index = build(mesh.view());
+  const FaceIndex surface = FaceIndex::build(index, mesh.view().faces);
+  Random random(3);
+  std::vector<SpacePoint> points(500);
+  for (SpacePoint& p : points) p = {random.uniform(-5, 35), random.uniform(-5, 35), random.uniform(-5, 5)};
+  const std::vector<SurfacePoint> found = surface.closest_points(points, {.threads = 3});
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SurfacePoint expected = surface.closest_point(points[i]);
+    EXPECT_EQ(found[i].face, expected.face);
+    EXPECT_EQ(found[i].point, expected.point);
+  }
+}
+
+TEST(FaceIndex, GivesTheStartOfARegion) {
+  const TestMesh mesh = bumpy_grid(30);
+  const Index index = build(mesh.view());
+  const SurfacePoint hit = FaceIndex::build(index, mesh.view().faces).closest_point({10.3, 11.4, 2});
+  RegionSearcher searcher(index);
+  EXPECT_EQ(searcher.region(hit.start(), 3), searcher.region(Start(hit.point, hit.vertices), 3));
+  EXPECT_GT(searcher.count(hit.start(), 3), 10U);
+}
+
+TEST(FaceIndex, RefusesWrongPointsWrongFacesAndAnIndexRefittedInPlace) {
+  const TestMesh mesh = make_grid(3, 3, false);
+  Index index = build(mesh.view());
+  const FaceIndex surface = FaceIndex::build(index, mesh.view().faces);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  expect_refused(ErrorCode::InvalidOption, "point: coordinate 1 is nan",
+                 [&] { static_cast<void>(surface.closest_point({0, nan, 0})); });
+  const std::vector<SpacePoint> points{{0, 0, 0}, {0, 0, 1e300}};
+  expect_refused(ErrorCode::InvalidOption, "points: row 1: coordinate 2 is 1e+300",
+                 [&] { static_cast<void>(surface.closest_points(points)); });
+  const std::vector<std::uint32_t> corners{0, 1, 9};
+  expect_refused(ErrorCode::InvalidMesh, "9",
+                 [&] { static_cast<void>(FaceIndex::build(index, FacesView::triangles(corners))); });
+  index.refit_in_place(mesh.positions_view());
+  expect_refused(ErrorCode::InvalidOption, "refit", [&] { static_cast<void>(surface.closest_point({0, 0, 0})); });
+}
+
+}  // namespace
+}  // namespace meshhood::test
