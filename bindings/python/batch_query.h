@@ -14,6 +14,7 @@
 
 #include "meshhood/batch.h"
 #include "meshhood/error.h"
+
 #include "masks.h"
 
 namespace meshhood::python {

@@ -98,8 +98,8 @@ auto discs_of(const ExactMethod& method, const std::optional<Rows>& vertices, do
               bool path, double radius, const Mask& walls, const Mask& ignored, unsigned threads, nb::handle progress) {
   const BatchVertices asked = vertices_of(vertices);
   const NearestOptions options = nearest_options(path, radius, walls, ignored, threads, progress);
-  Neighborhoods found = without_lock(
-      [&] { return discs(method.index(), asked, area, std::span(areas.data(), areas.size()), options); });
+  Neighborhoods found =
+      without_lock([&] { return discs(method.index(), asked, area, std::span(areas.data(), areas.size()), options); });
   return std::tuple(owned<std::int64_t>(std::move(found.offsets)), owned<std::int32_t>(std::move(found.ids)),
                     owned<double>(std::move(found.distances)));
 }

@@ -12,6 +12,7 @@
 #include "meshhood/batch.h"
 #include "meshhood/index.h"
 #include "meshhood/mesh.h"
+#include "meshhood/metric.h"
 #include "meshhood/progress.h"
 
 /// Sums, means and other aggregates of values over neighborhoods, without lists of ids.
@@ -39,12 +40,6 @@ enum class SmoothingKernel : std::uint8_t {
   Box,           ///< 1
   Epanechnikov,  ///< 1 - (d/r)^2
   Biweight,      ///< (1 - (d/r)^2)^2, close to a Gaussian of the standard deviation 0.4 r
-};
-
-/// How the distance of a vertex is measured, of which the radius and the smoothing kernel speak.
-enum class Metric : std::uint8_t {
-  Straight,  ///< the exact neighborhood (see `Searcher`), and straight lines
-  Path,      ///< the vertices within the radius along the edges (see `EdgeSearcher`), and the lengths of shortest paths
 };
 
 /// The meaning of NaN in the values.

@@ -10,19 +10,16 @@
 #include "meshhood/batch.h"
 #include "meshhood/filter.h"
 #include "meshhood/index.h"
+#include "meshhood/metric.h"
 #include "meshhood/progress.h"
 #include "meshhood/unconnected.h"
 
 /// The nearest connected vertices of many vertices in one call: a number of them, or as many as cover an area.
 namespace meshhood {
 
-/// By what vertices are near.
-enum class Metric : std::uint8_t {
-  Straight,  ///< the connecting radius, as for `RegionSearcher::nearest_connected`; then the distance, then the id
-  Path,      ///< the path distance, as for `EdgeSearcher`; then the place in index order
-};
-
 struct NearestOptions {
+  /// By what vertices are near. Straight: the connecting radius, as for `RegionSearcher::nearest_connected`; then the
+  /// distance, then the id. Path: the path distance, as for `EdgeSearcher`; then the place in index order.
   Metric metric = Metric::Straight;
 
   /// Only vertices of this connecting radius or path distance, or less. >= 0 or infinite.

@@ -40,6 +40,7 @@
 #include "meshhood/link_points.h"          // IWYU pragma: export
 #include "meshhood/mesh.h"                 // IWYU pragma: export
 #include "meshhood/mesh_data.h"            // IWYU pragma: export
+#include "meshhood/metric.h"               // IWYU pragma: export
 #include "meshhood/moments.h"              // IWYU pragma: export
 #include "meshhood/paper.h"                // IWYU pragma: export
 #include "meshhood/progress.h"             // IWYU pragma: export

@@ -28,7 +28,8 @@ struct Unconnected {
 /// So the edge of a sheet that bends back into the ball counts as well as another component, and a larger radius may
 /// connect what was not. With an infinite radius, only other components count.
 ///
-/// query    as for a batch: one radius for all rows, or one for each row.
+/// query    as for a batch: one radius for all rows, or one for each row. Walls and ignored vertices are never the
+///          nearest, and for a wall there is none.
 /// options  of these, `threads` and `progress` are used. The result does not depend on them.
 ///
 /// The neighborhoods are found as by `counts`; what the tree of the index has in the balls besides them is searched,

@@ -13,10 +13,12 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "batch/filter_copy.h"
 #include "batch/packets.h"
 #include "exact/index_access.h"
 #include "exact/joint/packet_pieces.h"
 #include "exact/query/any_center.h"
+#include "exact/query/lane_filter.h"
 #include "exact/query/nearest_first.h"
 #include "shared/distance.h"
 
@@ -28,7 +30,9 @@ constexpr double kNoGap = std::numeric_limits<double>::infinity();
 /// Searches around one packet at a time.
 class UnconnectedSearch : public VertexVisitor {
  public:
-  explicit UnconnectedSearch(const IndexView& index) : index_(&index) {}
+  /// Borrows both.
+  UnconnectedSearch(const IndexView& index, const Filter& filter)
+      : index_(&index), walls_(index, filter.walls), ignored_(index, filter.ignored) {}
 
   void run(const PacketAnswer& packet) {
     pieces_.assign(packet);
@@ -41,6 +45,7 @@ class UnconnectedSearch : public VertexVisitor {
       const Point p = index_->position(leaf_of(slot), lane_of(slot));
       const double from_center = std::sqrt(squared_distance(center.exact, p));
       queries_.push_back({Center(index_->frame, p), from_center, packet.radii[i], squared_radius(packet.radii[i])});
+      if (walls_.has(packet.vertices[i])) queries_.back().close();
     }
     update_reach();
     NearestFirst(*index_, center, *this).run();
@@ -73,6 +78,7 @@ class UnconnectedSearch : public VertexVisitor {
       const QueryWord reached = piece == nullptr            ? 0
                                 : piece->reached == nullptr ? piece->queries
                                                             : piece->reached[v - begin];
+      if (walls_.has_at(v) || ignored_.has_at(v)) continue;
       is_nearer |= offer(v, near & ~reached);
     }
     if (is_nearer) update_reach();
@@ -86,6 +92,12 @@ class UnconnectedSearch : public VertexVisitor {
     double squared_limit;  // of the predicate
     VertexId vertex = kNoVertex;
     double gap = kNoGap;
+
+    /// The query of a wall finds nothing.
+    void close() {
+      limit = 0;
+      squared_limit = -1;
+    }
   };
 
   [[nodiscard]] Point center_of_leaf(LeafId leaf) const {
@@ -132,6 +144,8 @@ class UnconnectedSearch : public VertexVisitor {
   }
 
   const IndexView* index_;
+  LaneFilter walls_;
+  LaneFilter ignored_;
   PacketPieces pieces_;
   std::vector<Query> queries_;
   QueryWord all_ = 0;
@@ -144,8 +158,9 @@ Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, con
   const std::size_t rows = query.vertices.list() ? query.vertices.list()->size() : index.vertex_count();
   Unconnected result{std::vector<VertexId>(rows, kNoVertex), std::vector<double>(rows, kNoGap)};
   const IndexView& view = IndexAccess::view(index);
+  const FilterCopy filter(query.filter);
   const auto make_visitor = [&](unsigned /*thread*/) -> PacketVisitor {
-    return [search = UnconnectedSearch(view), &result](const PacketAnswer& packet) mutable {
+    return [search = UnconnectedSearch(view, filter.view()), &result](const PacketAnswer& packet) mutable {
       search.run(packet);
       for (std::size_t i = 0; i < packet.rows.size(); ++i) {
         const auto [vertex, gap] = search.found(packet.queries_of_rows[i]);
