@@ -16,15 +16,15 @@ subprocess.run(["meshhood", "generate", "book", "--vertices", "40000", "-o", "bo
 V, F = meshhood.read_mesh("book.ply")
 index = meshhood.MeshIndex(V, F)
 stroke = np.array([(x, 0, 35 + 18 * np.sin(x / 6)) for x in np.linspace(20, 60, 50)])  # on the page at y = 0
-near = [index.query_ball(index.nearest(point)[0], 4.0, method="ball") for point in stroke]
+near = [index.query_ball(v, 4.0, method="ball") for v in index.nearest(stroke)[0]]
 page = np.round(np.arctan2(V[:, 1], V[:, 0]) / np.arctan2(V[:, 1], V[:, 0]).max() * 7)
-spread = V + page[:, None] * (0, 45, 0)  # the pages moved apart, to show them
 
 plotter = pyvista.Plotter(shape=(1, 2), window_size=(1100, 320))
-for i, (title, ids) in enumerate([("query_stroke()", index.query_stroke(stroke, 4.0)), ("a ball", np.concatenate(near))]):
+for i, ids in enumerate([index.query_stroke(stroke, 4.0), np.concatenate(near)]):
     plotter.subplot(0, i)
-    mesh = pyvista.PolyData.from_regular_faces(spread, F[(page[F] == page[F[:, :1]]).all(axis=1)])
-    plotter.add_mesh(mesh, scalars=np.isin(np.arange(len(V)), ids) * 1.0, cmap=["lightgray", "#009E73"], show_scalar_bar=False)
-    plotter.add_text(title, font_size=10)
+    painted = np.isin(np.arange(len(V)), ids) * 1.0
+    apart = pyvista.PolyData.from_regular_faces(V + page[:, None] * (0, 45, 0), F[np.ptp(page[F], axis=1) == 0])
+    plotter.add_mesh(apart, scalars=painted, cmap=["lightgray", "#009E73"], show_scalar_bar=False)
+    plotter.add_text(("query_stroke()", "a ball")[i], font_size=10)
     plotter.camera_position = [(260, -160, 110), (35, 130, 30), (0, 0, 1)]
 plotter.show()

@@ -20,10 +20,11 @@ creases = index.features(radii)  # (10, #V), without unit
 lasting = meshhood.persistence(creases, radii, threshold=0.4)
 
 plotter = pyvista.Plotter(shape=(1, 2), window_size=(1000, 440))
-for i, (title, map) in enumerate({"the smallest radius": 10 * creases[0], "radii that a crease lasts": lasting.scales}.items()):
+maps = {"the smallest radius": 10 * creases[0], "radii that a crease lasts": lasting.scales.astype(float)}
+for i, (title, map) in enumerate(maps.items()):
     plotter.subplot(0, i)
     mesh = pyvista.PolyData.from_regular_faces(V, F)
-    plotter.add_mesh(mesh, scalars=map.astype(float), cmap="RdBu_r", clim=(-10, 10), show_scalar_bar=False)
+    plotter.add_mesh(mesh, scalars=map, cmap="RdBu_r", clim=(-10, 10), show_scalar_bar=False)
     plotter.add_text(title, font_size=10)
     plotter.camera_position = [(0, 0, 240), (0, 0, 0), (0, 1, 0)]
 plotter.show()

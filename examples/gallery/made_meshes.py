@@ -11,7 +11,8 @@ def sphere(splits):
     V = np.array([np.roll(corner, shift) for shift in range(3) for corner in corners], float)
     distances = np.linalg.norm(V[:, None] - V, axis=2)
     near = abs(distances - 2) < 1e-9
-    F = np.array([(a, b, c) for a in range(12) for b in range(a) for c in range(b) if near[a, b] and near[b, c] and near[a, c]])
+    triples = [(a, b, c) for a in range(12) for b in range(a) for c in range(b)]
+    F = np.array([(a, b, c) for a, b, c in triples if near[a, b] and near[b, c] and near[a, c]])
     outward = np.einsum("ij,ij->i", np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]]), V[F[:, 0]]) > 0
     F[~outward] = F[~outward][:, ::-1]
     for _ in range(splits):
@@ -19,7 +20,7 @@ def sphere(splits):
         edges, middles = np.unique(sides, axis=0, return_inverse=True)
         m = middles.reshape(-1, 3) + len(V)
         V = np.concatenate([V, V[edges].mean(axis=1)])
-        F = np.concatenate([np.c_[F[:, 0], m[:, 0], m[:, 2]], np.c_[F[:, 1], m[:, 1], m[:, 0]], np.c_[F[:, 2], m[:, 2], m[:, 1]], m])
+        F = np.concatenate([m] + [np.c_[F[:, i], m[:, i], m[:, i - 1]] for i in range(3)])
     return V / np.linalg.norm(V, axis=1, keepdims=True), F
 
 
@@ -61,8 +62,8 @@ def bowl():
 
 
 def rolled(turn, side=100):
-    """V, F: a sheet of 3 side by side vertices, 1 apart, rolled up by `turn` turns, which are 4 apart; its middle stays."""
-    along, across = (axis.ravel().astype(float) for axis in np.meshgrid(np.arange(3 * side), np.arange(side), indexing="ij"))
+    """V, F: a sheet of 3 side by side vertices, 1 apart, rolled up by `turn` turns 4 apart; its middle stays."""
+    along, across = (axis.ravel().astype(float) for axis in np.indices((3 * side, side)))
     share = np.linspace(0, 1, 4096)
     angle = 2 * np.pi * turn * (share - 0.5) - np.pi / 2
     radius = 3 * side / (2 * np.pi * turn) - 4 * turn * (share - 0.5)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The configuration of Sphinx. tools/build_site runs it on a copy of docs/ in build/site-sources/docs."""
 
+import hashlib
 import os
 import re
 import sys
@@ -27,18 +28,13 @@ extensions = [
 ]
 root_doc = "index"
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
-exclude_patterns = ["sg_execution_times.rst"]
-
 # The pages are also read where Sphinx does not build them, so that they use few directives.
-myst_enable_extensions = ["attrs_block", "colon_fence", "deflist", "dollarmath", "fieldlist"]
+myst_enable_extensions = ["colon_fence", "fieldlist", "html_image"]
 myst_heading_anchors = 4
-suppress_warnings = ["myst.xref_missing"] if os.environ.get("MESHHOOD_SITE_DRAFT") else []
 
 default_role = "py:obj"
 autodoc_typehints = "none"
 autodoc_member_order = "bysource"
-autodoc_mock_imports = []
-python_use_unqualified_type_names = True
 
 cpp_index_common_prefix = ["meshhood::"]
 
@@ -61,8 +57,9 @@ sphinx_gallery_conf = {
     "show_memory": False,
     "show_signature": False,
     "remove_config_comments": True,
-    "within_subsection_order": "FileNameSortKey",
-    "min_reported_time": 3600,
+    "within_subsection_order": "gallery_order.Order",
+    "write_computation_times": False,
+    "thumbnail_size": (800, 560),
 }
 
 html_theme = "pydata_sphinx_theme"
@@ -112,6 +109,9 @@ def list_benchmarks(app, docname, source):
 
 
 def setup(app):
+    # Pages are written again when the way in which they are written changes.
+    tools = b"".join(file.read_bytes() for file in sorted(Path(__file__).parent.glob("*.py")))
+    app.add_config_value("site_tools", hashlib.sha256(tools).hexdigest(), "env")
     app.connect("source-read", link_within_site)
     app.connect("source-read", list_benchmarks)
     app.connect("autodoc-process-docstring", process_docstring)

@@ -8,6 +8,7 @@ XML      the folder that tools/site/Doxyfile writes
 OUTPUT   a folder, which gets a file for each header: index.inc for meshhood/index.h, with its entries in their order
 """
 
+import re
 import sys
 import textwrap
 from pathlib import Path
@@ -16,6 +17,9 @@ from xml.etree import ElementTree
 INTERNAL = ("std", "meshhood::detail")
 DIRECTIVES = {"function": "function", "variable": "var", "typedef": "type", "enum": "enum-class"}
 INDENT = "   "
+NAME = re.compile(r"^[A-Za-z_]\w*(?:::\w+)*$")
+MARKUP = re.compile(r"[\\*|`]|_\b(?!\w)")
+JOINT = "\0"  # becomes the escaped blank that lets markup begin and end within a word
 
 
 def flat(element):
@@ -27,20 +31,26 @@ def inline(element):
     """The content of a paragraph up to its first block, as reStructuredText."""
     parts = [escaped(element.text)]
     for child in element:
-        if child.tag not in BLOCKS:
-            code = flat(child).replace("`", "'")
-            parts.append(f"\\ ``{code}``\\ " if child.tag == "computeroutput" else marked(child))
+        if child.tag == "computeroutput":
+            parts.append(JOINT + code(flat(child)) + JOINT)
+        elif child.tag not in BLOCKS:
+            parts.append(marked(child))
         parts.append(escaped(child.tail))
     return "".join(parts)
 
 
 def marked(child):
     text = inline(child).strip()
-    return f"\\ *{text}*\\ " if child.tag == "emphasis" and text else text
+    return f"{JOINT}*{text}*{JOINT}" if child.tag == "emphasis" and text else text
+
+
+def code(text):
+    """A name as a link to its entry, other code as it is."""
+    return f":cpp:any:`{text}`" if NAME.match(text) else f"``{text}``"
 
 
 def escaped(text):
-    return (text or "").replace("\\", "\\\\").replace("*", "\\*").replace("|", "\\|").replace("_ ", "\\_ ").replace("`", "\\`")
+    return MARKUP.sub(r"\\\g<0>", text or "")
 
 
 def code_block(element):
@@ -71,7 +81,7 @@ BLOCKS = {"programlisting": code_block, "verbatim": verbatim, "itemizedlist": it
 def blocks(element):
     """The paragraphs, lists and code of a description."""
     for paragraph in element.findall("para"):
-        text = " ".join(inline(paragraph).split())
+        text = " ".join(inline(paragraph).split()).replace(JOINT, "\\ ")
         found = [BLOCKS[child.tag](child) for child in paragraph if child.tag in BLOCKS]
         if text:
             yield text
@@ -121,7 +131,11 @@ def member_entry(member):
 
 
 def is_shown(member):
-    return member.get("kind") in DIRECTIVES and member.get("prot") == "public"
+    """Whether a member is public and has something to say: not what every class has, to copy, move and destroy it."""
+    name, arguments = flat(member.find("name")), flat(member.find("argsstring"))
+    is_special = name.startswith("~") or name == "operator=" or arguments.startswith(f"({name} &&)")
+    is_known = member.get("kind") in DIRECTIVES and member.get("prot") == "public"
+    return is_known and not is_special and not arguments.endswith("=delete")
 
 
 class Headers:

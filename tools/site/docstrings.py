@@ -8,6 +8,7 @@ block is code.
 import re
 
 ARGUMENT = re.compile(r"^(\w+(?:, \w+)*) : (.*)$")
+INDENT = "   "
 SPECIAL = re.compile(r"([*|])")
 
 
@@ -29,19 +30,21 @@ def paragraphs(lines):
             block = []
 
 
-def fields(block):
-    """A block of text in which some lines describe arguments."""
-    in_field = False
+def arguments(block):
+    """A block of text in which some lines describe arguments, which become a list of definitions."""
+    in_list = False
     for line in block:
         found = ARGUMENT.match(line)
         if found:
             names, text = found.groups()
-            yield from ("", f":{names}: {escaped(text)}")
-        elif line.startswith(" "):
-            yield "   " * in_field + escaped(line.strip())
+            terms = ", ".join(f"``{name}``" for name in names.split(", "))
+            yield from ([] if in_list else [""]) + [terms, INDENT + escaped(text)]
+            in_list = True
+        elif in_list and line.startswith(" "):
+            yield INDENT + escaped(line.strip())
         else:
-            yield from ([""] if in_field else []) + [escaped(line.strip())]
-        in_field = bool(found) or (in_field and line.startswith(" "))
+            yield from ([""] if in_list else []) + [escaped(line.strip())]
+            in_list = False
 
 
 def as_rest(lines):
@@ -50,7 +53,7 @@ def as_rest(lines):
         if all(line.startswith("    ") for line in block):
             result += [".. code-block:: python", "", *block]
         else:
-            result += fields(block)
+            result += arguments(block)
         result.append("")
     return result
 

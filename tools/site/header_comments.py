@@ -4,8 +4,8 @@
 
     header_comments.py HEADER
 
-`name  text` in a comment describes a parameter, and becomes an item of a list. `#V` is a number, not a link. Adapters to
-other libraries are documented whether or not these libraries are installed.
+`name  text` in a comment describes a parameter, and becomes an item of a list. `#V` is a number, not a link. Adapters
+to other libraries are documented whether or not these libraries are installed.
 """
 
 import re
@@ -23,7 +23,7 @@ def escaped(line):
 
 
 def starts_file_comment(lines, i):
-    """Whether a comment begins here that describes the header: no declaration follows it, but a namespace or nothing."""
+    """Whether a comment begins here that describes the header: a namespace follows it, or nothing."""
     if not lines[i].startswith("///") or (i > 0 and lines[i - 1].startswith("///")):
         return False
     following = next((line for line in lines[i:] if not line.startswith("///")), "")

@@ -20,7 +20,8 @@ const GROUPS = [
   ['Types', ts.SyntaxKind.TypeAliasDeclaration, 'data'],
 ];
 
-const isCallable = (node) => ts.isMethodDeclaration(node) || ts.isMethodSignature(node) || ts.isFunctionDeclaration(node);
+const isCallable = (node) =>
+  ts.isMethodDeclaration(node) || ts.isMethodSignature(node) || ts.isFunctionDeclaration(node);
 const isExported = (node) => node.modifiers?.some(({ kind }) => kind === ts.SyntaxKind.ExportKeyword);
 const nameOf = (node) => (ts.isConstructorDeclaration(node) ? 'constructor' : node.name.getText());
 const membersOf = (node) => (ts.isClassDeclaration(node) || ts.isInterfaceDeclaration(node) ? node.members : []);
@@ -34,8 +35,8 @@ function title(node) {
 function declaration(node) {
   const text = node.getText().replace(/^export (declare )?/, '');
   const indent = ' '.repeat(source.getLineAndCharacterOfPosition(node.getStart()).character);
-  const lines = text.replace(/\/\*\*[\s\S]*?\*\/\s*/g, '').split('\n');
-  return lines.map((line) => (line.startsWith(indent) ? line.slice(indent.length) : line)).filter((line) => line.trim()).join('\n');
+  const lines = text.replace(/\/\*\*[\s\S]*?\*\/\s*/g, '').split('\n').filter((line) => line.trim());
+  return lines.map((line) => (line.startsWith(indent) ? line.slice(indent.length) : line)).join('\n');
 }
 
 function comment(node) {
@@ -51,7 +52,10 @@ function comment(node) {
 }
 
 // Comments contain examples as indented blocks; a fence of their own keeps their language.
-const fenced = (text) => text.replace(/(?:^ {4}.*\n?)+/gm, (code) => `\`\`\`js\n${code.replace(/^ {4}/gm, '').trimEnd()}\n\`\`\`\n`);
+function fenced(text) {
+  const fence = '```';
+  return text.replace(/(?:^ {4}.*\n?)+/gm, (code) => `${fence}js\n${code.replace(/^ {4}/gm, '').trimEnd()}\n${fence}\n`);
+}
 
 function block(directive, heading, body, fence) {
   return `${fence}{js:${directive}} ${heading}\n\n${body.trim()}\n${fence}\n`;
@@ -76,9 +80,10 @@ function member(nodes) {
 
 function entry(nodes, directive) {
   const [first] = nodes;
-  const members = grouped(membersOf(first).filter((part) => part.name !== undefined || ts.isConstructorDeclaration(part)));
-  const own = members.length > 0 ? '' : code(nodes);
-  return block(directive, title(first), `${own}\n${nodes.map(comment).join('\n\n')}\n\n${members.map(member).join('\n')}`, ':::::');
+  const named = membersOf(first).filter((part) => part.name !== undefined || ts.isConstructorDeclaration(part));
+  const own = named.length > 0 ? '' : code(nodes);
+  const parts = [own, ...nodes.map(comment), ...grouped(named).map(member)];
+  return block(directive, title(first), parts.join('\n\n'), ':::::');
 }
 
 const exported = source.statements.filter(isExported);

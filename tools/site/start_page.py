@@ -28,7 +28,8 @@ INK = {"light": "#222832", "dark": "#ced6dd"}  # the text of the theme
 
 def plot(meshes, ink, name):
     """Times as fast as breadth-first search over the radius, for the ids of all neighborhoods."""
-    matplotlib.rcParams.update({"svg.hashsalt": "meshhood", "svg.fonttype": "none", "text.color": ink, "axes.labelcolor": ink})
+    matplotlib.rcParams.update({"svg.hashsalt": "meshhood", "svg.fonttype": "none"})
+    matplotlib.rcParams.update({"text.color": ink, "axes.labelcolor": ink})
     figure, axes = plt.subplots(figsize=(6.4, 3.6), layout="constrained")
     for mesh, color, marker in zip(SHOWN, COLORS, MARKERS):
         rows = meshes[mesh]["rows"]
