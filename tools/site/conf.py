@@ -89,12 +89,14 @@ LINK = re.compile(r"(?<=\]\()(?![a-z]+:|#)([^)\s]+)|(?<= src=\")([^\"]+)")
 
 
 def link_within_site(app, docname, source):
-    """Leads links from and to the pages of the root to where the site has them."""
+    """Leads links from and to the pages of the root, and to the gallery, to where the site has them."""
 
     def moved(match):
         target = match[0]
         if docname.upper() in ROOT_PAGES:
             target = target.removeprefix("docs/") if target.startswith("docs/") else f"../{target}"
+        if target.endswith("examples/gallery/README.rst"):
+            return "/gallery/index.rst"
         page, separator, place = target.rpartition("/")[2].partition("#")
         stem = page.removesuffix(".md")
         return f"/{stem.lower()}.md{separator}{place}" if stem in ROOT_PAGES else target
@@ -108,6 +110,12 @@ def list_benchmarks(app, docname, source):
         source[0] += "\n```{toctree}\n:hidden:\n:glob:\n\nbenchmarks/*\n```\n"
 
 
+def write_empty_heads_as_cells(app, page, template, context, doctree):
+    """A head without text names no column: a screen reader shall not announce it as one."""
+    if "body" in context:
+        context["body"] = re.sub(r'<th class="head[^"]*">(?:<p></p>)?</th>', "<td></td>", context["body"])
+
+
 def setup(app):
     # Pages are written again when the way in which they are written changes.
     tools = b"".join(file.read_bytes() for file in sorted(Path(__file__).parent.glob("*.py")))
@@ -115,3 +123,4 @@ def setup(app):
     app.connect("source-read", link_within_site)
     app.connect("source-read", list_benchmarks)
     app.connect("autodoc-process-docstring", process_docstring)
+    app.connect("html-page-context", write_empty_heads_as_cells)

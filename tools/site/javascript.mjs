@@ -2,7 +2,7 @@
 // Writes the reference of the package for JavaScript from its declarations, for the JavaScript domain of Sphinx: each
 // declaration as it is written, then its comment. Everything exported becomes an entry of its own.
 //
-//   javascript.mjs DECLARATIONS.d.ts OUTPUT.md
+//   javascript.mjs DECLARATIONS.d.ts OUTPUT
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname } from 'node:path';
@@ -95,9 +95,4 @@ const left = exported.filter(({ kind }) => !GROUPS.some((group) => group[1] === 
 if (left.length > 0) throw new Error(`${declarations}: no group for ${left.map(nameOf).join(', ')}`);
 
 mkdirSync(dirname(output), { recursive: true });
-writeFileSync(output, `# JavaScript
-
-The package \`meshhood\` for browsers and Node. [In the browser](../web.md) shows how to use it. Its declarations for
-TypeScript are quoted here with their comments.
-
-${pages.join('\n')}`);
+writeFileSync(output, pages.join('\n'));

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+// The name of the search button is what it shows, its keys included: the label of the theme leaves them out.
+for (const button of document.querySelectorAll('.search-button-field')) button.removeAttribute('aria-label');
+
 // Loads the viewer on the start page when its button is pressed, because it has several megabytes.
 for (const place of document.querySelectorAll('#live')) {
   place.querySelector('button').addEventListener('click', () => {
