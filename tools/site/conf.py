@@ -45,6 +45,8 @@ pyvista.global_theme.background = "white"
 pyvista.global_theme.font.color = "black"
 pyvista.global_theme.window_size = [960, 640]
 pyvista.global_theme.anti_aliasing = "ssaa"
+pyvista.global_theme.smooth_shading = True
+pyvista.global_theme.lighting_params.ambient = 0.3
 
 sphinx_gallery_conf = {
     "examples_dirs": [str(WORK / "examples/gallery")],
@@ -66,7 +68,8 @@ html_theme = "pydata_sphinx_theme"
 html_title = "meshhood"
 html_static_path = [str(Path(__file__).parent / "static"), str(WORK / "static")]
 html_css_files = ["site.css"]
-html_js_files = ["site.js"]
+html_js_files = [("site.js", {"defer": "defer"})]
+toc_object_entries_show_parents = "hide"
 html_copy_source = False
 html_show_sourcelink = False
 html_sidebars = {"index": []}
