@@ -33,6 +33,7 @@ myst_enable_extensions = ["colon_fence", "fieldlist", "html_image"]
 myst_heading_anchors = 4
 
 default_role = "py:obj"
+smartquotes = False
 autodoc_typehints = "none"
 autodoc_member_order = "bysource"
 

@@ -111,8 +111,8 @@ def signature(member):
         return f"{template_of(member)}{name} = {of_type}"
     arguments = flat(member.find("argsstring"))
     value = flat(member.find("initializer")) if kind == "variable" and member.get("static") != "yes" else ""
-    explicit = "explicit " if member.get("explicit") == "yes" else ""
-    return f"{template_of(member)}{explicit}{of_type} {name}{arguments} {value}".replace("  ", " ").strip()
+    words = "".join(f"{word} " for word in ("static", "explicit") if member.get(word) == "yes" and kind == "function")
+    return f"{template_of(member)}{words}{of_type} {name}{arguments} {value}".replace("  ", " ").strip()
 
 
 def entry(directive, what, text, children=()):

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The name of the search button is what it shows, its keys included: the label of the theme leaves them out.
-for (const button of document.querySelectorAll('.search-button-field')) button.removeAttribute('aria-label');
+for (const button of document.querySelectorAll('.navbar-persistent--container .search-button-field')) {
+  button.removeAttribute('aria-label');
+}
 
 // Loads the viewer on the start page when its button is pressed, because it has several megabytes.
 for (const place of document.querySelectorAll('#live')) {
