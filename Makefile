@@ -4,6 +4,8 @@
 #   make install PREFIX=dir   installs what make build builds, with the page of meshhood view; /usr/local by default
 #   make demo [MESH=file]     compares all methods on a mesh where they differ, or on your own, and draws a picture
 #   make view [MESH=file]     shows the same in an interactive page, build/demo/view.html
+#   make site                 builds the site of these documents, with its gallery and references, into build/site
+#   make serve                builds it and shows it at http://localhost:8000; PORT=n for another port
 #   make test                 runs the short tests; about ten minutes
 #   make test-all             runs also the long tests, the sanitizers, the fuzzers, the mutants and tools/verify
 #
@@ -13,7 +15,7 @@
 #   make reproduce            the paper's tables and pictures, accuracy, growth; about 20 minutes
 #   make peers                other libraries on the same queries; about 15 minutes
 #   make benchmarks           both
-.PHONY: build install test test-all demo view reproduce peers benchmarks
+.PHONY: build install test test-all demo view site serve reproduce peers benchmarks
 
 PREFIX ?= /usr/local
 
@@ -47,6 +49,15 @@ view: build
 	@tools/setup web
 	@tools/build_viewer
 	@tools/view
+
+site:
+	@tools/setup site
+	@tools/build_site
+
+PORT ?= 8000
+serve: site
+	@echo "== http://localhost:$(PORT)"
+	@python3 -m http.server --bind 127.0.0.1 --directory build/site "$(PORT)"
 
 bench = build/bench-venv/bin/python3 -B -m bench
 

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: MIT
+"""The order of the gallery."""
+
+from pathlib import Path
+
+EXAMPLES = (
+    "smooth_map",
+    "searchlight",
+    "curvature_scales",
+    "creases",
+    "patch_rim",
+    "wall_thickness",
+    "brush",
+    "deforming",
+    "point_sheets",
+    "larger_than_memory",
+)
+
+
+class Order:
+    """Sorts the files of a folder, as the gallery asks for."""
+
+    def __init__(self, folder):
+        self.folder = folder
+
+    def __call__(self, file):
+        return EXAMPLES.index(Path(file).stem)
