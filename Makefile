@@ -5,6 +5,7 @@
 #   make demo [MESH=file]     compares all methods on a mesh where they differ, or on your own, and draws a picture
 #   make view [MESH=file]     shows the same in an interactive page, build/demo/view.html
 #   make test                 runs the short tests; about ten minutes
+#   make packages             makes and tests what a release publishes, in build/packages; about half an hour
 #   make test-all             runs also the long tests, the sanitizers, the fuzzers, the mutants and tools/verify
 #
 # These reproduce docs/benchmarks.md. They write that page and print how long each part took. They need a quiet machine;
@@ -13,7 +14,7 @@
 #   make reproduce            the paper's tables and pictures, accuracy, growth; about 20 minutes
 #   make peers                other libraries on the same queries; about 15 minutes
 #   make benchmarks           both
-.PHONY: build install test test-all demo view reproduce peers benchmarks
+.PHONY: build install test test-all packages demo view reproduce peers benchmarks
 
 PREFIX ?= /usr/local
 
@@ -37,6 +38,10 @@ test:
 test-all:
 	@tools/setup test-all
 	@tools/test release asan tsan:exact/threads
+
+packages:
+	@tools/setup packages
+	@tools/packages
 
 demo: build
 	@tools/setup demo

@@ -20,6 +20,7 @@ if(TARGET meshhood_cli)
   set(package ${PROJECT_SOURCE_DIR}/build/wasm/npm)
   add_subdirectory(wasm)
   add_subdirectory(viewer)
+  add_subdirectory(packages)
 endif()
 
 add_subdirectory(install)
