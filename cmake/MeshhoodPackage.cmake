@@ -5,8 +5,8 @@ endif()
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME meshhood)
 set(CPACK_PACKAGE_CONTACT "The meshhood authors <meshhood@invalid>")
-set(CPACK_PACKAGE_DESCRIPTION "meshhood returns the connected component of a polygonal mesh inside a ball around a vertex, \
-exact and indexed: a C++20 library, with its headers, and the command meshhood.")
+set(CPACK_PACKAGE_DESCRIPTION "meshhood returns the connected component of a polygonal mesh inside a ball around a \
+vertex, exact and indexed: a C++20 library, with its headers, and the command meshhood.")
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)

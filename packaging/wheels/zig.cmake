@@ -1,5 +1,5 @@
-# Wheels by the compiler of `ziglang` from PyPI, for any of its targets: tools/wheels. It comes with the headers and the
-# stubs of each C library, and links its own C++ library into the module.
+# Wheels by the compiler of ziglang from PyPI, for any of its targets: tools/wheels. It has the headers and the stubs of
+# each C library, and links its own C++ library into the module.
 set(MESHHOOD_ZIG "" CACHE FILEPATH "The program zig")
 set(MESHHOOD_ZIG_TARGET "" CACHE STRING "Its target, as in x86_64-linux-gnu.2.28")
 list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES MESHHOOD_ZIG MESHHOOD_ZIG_TARGET)
@@ -11,8 +11,7 @@ if(CMAKE_MATCH_2 STREQUAL "macos")
   set(CMAKE_SYSTEM_NAME Darwin)
 endif()
 
-# Without -mcpu, zig compiles for the processor of this machine, and without -fno-sanitize for a run-time library that is
-# not linked.
+# By default, zig compiles for the processor of this machine, and for a run-time library that is not linked.
 set(options -target ${MESHHOOD_ZIG_TARGET} -mcpu=baseline -fno-sanitize=undefined)
 set(CMAKE_C_COMPILER ${MESHHOOD_ZIG} cc ${options})
 set(CMAKE_CXX_COMPILER ${MESHHOOD_ZIG} c++ ${options})
@@ -21,8 +20,9 @@ foreach(language C CXX)
   set(CMAKE_${language}_ARCHIVE_APPEND "${MESHHOOD_ZIG} ar q <TARGET> <OBJECTS>")
   set(CMAKE_${language}_ARCHIVE_FINISH "${MESHHOOD_ZIG} ranlib <TARGET>")
 endforeach()
-# The strip of this machine does not know other processors. The linker leaves out the symbols.
+# The strip of this machine does not know other processors; the linker leaves out the symbols. A program is independent
+# of its position, as the module is, so that zig compiles its C++ library only once.
 set(CMAKE_STRIP "")
-set(CMAKE_EXE_LINKER_FLAGS_INIT -s)
+set(CMAKE_EXE_LINKER_FLAGS_INIT "-s -pie")
 # Programs of other systems do not run here.
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)

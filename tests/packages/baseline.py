@@ -14,10 +14,10 @@ import sys
 # Vectors of AVX and beyond, whose names begin with v; those of SSE3 to SSE4.2; and the bit instructions, without tzcnt,
 # which older processors take for bsf, and compilers use where both give the same.
 BEYOND = re.compile(
-    r"\t(v[a-z]\w+|k(mov|or|and|xor|not|unpck|shift|test|add)\w*|movddup|movs[lh]dup|lddqu|pshufb|pabs[bwd]|palignr|ph(add|sub)\w+"
-    r"|pmulhrsw|psign[bwd]|pmaddubsw|pblend\w+|blend\w+|pmov[sz]x\w+|ptest|round[sp][sd]|pcmpeqq|pcmpgtq|packusdw|pmulld"
-    r"|pmuldq|p(min|max)(s[bd]|u[wd])|insertps|extractps|p(insr|extr)[bdq]|pcmp[ei]str[im]|movntdqa|crc32\w*|popcnt"
-    r"|lzcnt|andn|bextr|bls(i|r|msk)|bzhi|mulx|p(dep|ext)|rorx|s(ar|hl|hr)x)\b"
+    r"\t(v[a-z]\w+|k(mov|or|and|xor|not|unpck|shift|test|add)\w*|movddup|movs[lh]dup|lddqu|pshufb|pabs[bwd]|palignr"
+    r"|ph(add|sub)\w+|pmulhrsw|psign[bwd]|pmaddubsw|pblend\w+|blend\w+|pmov[sz]x\w+|ptest|round[sp][sd]|pcmpeqq|pcmpgtq|packusdw|pmulld"
+    r"|pmuldq|p(min|max)(s[bd]|u[wd])|insertps|extractps|p(insr|extr)[bdq]|pcmp[ei]str[im]|movntdqa|crc32\w*"
+    r"|popcnt|lzcnt|andn|bextr|bls(i|r|msk)|bzhi|mulx|p(dep|ext)|rorx|s(ar|hl|hr)x)\b"
 )
 FUNCTION = re.compile(r"^[0-9a-f]+ <(.*)>:$")
 KERNELS = re.compile(r"N_(SSE4|AVX2|AVX3)")

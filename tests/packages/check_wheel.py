@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks a wheel without installing it: what it contains, its size, and that it needs no newer system than its name says.
+"""Checks a wheel without installing it: what it contains, its size, and that it needs no newer system than it names.
 
     check_wheel.py WHEEL
 """

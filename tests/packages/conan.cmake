@@ -1,4 +1,4 @@
-# `conan create` of the recipe, static and shared, in a cache of its own. Its requirements are the headers of this machine.
+# `conan create` of the recipe, static and shared, in a cache of its own. Headers of this machine are its requirements.
 cmake_minimum_required(VERSION 3.25)
 cmake_path(GET PYTHON PARENT_PATH programs)
 set(ENV{CONAN_HOME} ${WORK_DIR})

@@ -128,8 +128,8 @@ def main():
         sizes = check_answers(Path(name))
         check_command(Path(name), kernels)
     print(
-        f"Python {platform.python_version()}, NumPy {np.__version__}, {platform.machine()}: {len(sizes)} neighborhoods of "
-        f"{min(sizes)} to {max(sizes)} vertices; imported in {1000 * (imported - with_numpy):.0f} ms, "
+        f"Python {platform.python_version()}, NumPy {np.__version__}, {platform.machine()}: {len(sizes)} neighborhoods "
+        f"of {min(sizes)} to {max(sizes)} vertices; imported in {1000 * (imported - with_numpy):.0f} ms, "
         f"after NumPy in {1000 * (with_numpy - started):.0f} ms"
     )
 

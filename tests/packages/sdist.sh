@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes the source package, and installs it as pip does where there is no wheel: with what pyproject.toml needs from PyPI,
-# the compiler and the libraries of this machine, into an empty environment.
+# Makes the source package, and installs it as pip does where there is no wheel: into an empty environment, with what
+# pyproject.toml needs from PyPI, and the compiler and the libraries of this machine.
 # Usage: sdist.sh REPOSITORY
 set -euo pipefail
 cd "$1"
@@ -14,8 +14,10 @@ if grep --extended-regexp '^[^/]+/(bench|docs|fuzz|packaging|tests|\.)' "$packag
   echo "these do not belong into the source package"
   exit 1
 fi
-for file in README.md LICENSE PKG-INFO build/viewer/viewer.html; do grep --quiet "^meshhood-[^/]*/$file\$" "$packages/sdist.txt"; done
-echo "$(basename "$archive"): $(stat --format=%s "$archive") bytes, $(grep --count '[^/]$' "$packages/sdist.txt") files"
+for file in README.md LICENSE PKG-INFO build/viewer/viewer.html; do
+  grep --quiet "^meshhood-[^/]*/$file\$" "$packages/sdist.txt"
+done
+stat --format='%n: %s bytes' "$archive"
 
 folder=$packages/installed/sdist
 rm -rf "$folder"

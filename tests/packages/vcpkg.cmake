@@ -1,5 +1,5 @@
-# Runs the port of vcpkg, with its functions as its documentation describes them, since vcpkg itself is not to be had from
-# a package registry; then uses what the port installs, with each of COMPILERS.
+# Runs the port of vcpkg with functions that do what its documentation says, since no package registry has vcpkg itself.
+# Then uses what the port installs, with each of COMPILERS.
 cmake_minimum_required(VERSION 3.25)
 include(${SOURCE_DIR}/tests/install/consume.cmake)
 file(REMOVE_RECURSE ${WORK_DIR})

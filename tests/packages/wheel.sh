@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes the wheels of a target and tests each: what its name says, and, in an empty environment, its answers, its files and
-# its choice of kernels. Exit code 77: a program is missing.
+# Makes the wheels of a target and tests each: what its name says, and, in an empty environment, its answers, its files
+# and its choice of kernels. Exit code 77: a program is missing.
 # Usage: wheel.sh REPOSITORY TARGET VERSION... [-- SUITE:VERSION...]
 # TARGET and VERSION are as for tools/wheels. The wheel for 3.12 is also tested in QEMU, with the Python of a SUITE of
 # Debian.
@@ -46,24 +46,27 @@ in_qemu() {
     # A mirror may be older than the time for which its list is valid.
     mmdebstrap --quiet --variant=extract --aptopt='Acquire::Check-Valid-Until "false"' \
       --architectures="$(sed 's/x86_64/amd64/; s/aarch64/arm64/' <<<"$machine")" \
-      --include="base-files,python$3-minimal,libpython$3-stdlib,libstdc++6" "$2" "$root" http://deb.debian.org/debian 2>/dev/null
+      --include="base-files,python$3-minimal,libpython$3-stdlib,libstdc++6" \
+      "$2" "$root" http://deb.debian.org/debian 2>/dev/null
   fi
   rm -rf "$folder"
   "${pip[@]}" --target "$folder" --only-binary :all: --implementation cp --python-version "$3" \
-    --platform "manylinux_2_28_$machine" --platform "manylinux_2_27_$machine" --platform "manylinux2014_$machine" "$1" numpy
+    --platform "manylinux_2_28_$machine" --platform "manylinux_2_27_$machine" --platform "manylinux2014_$machine" \
+    "$1" numpy
   PYTHONPATH=$folder PYTHONHOME=$root/usr MESHHOOD_RUNNER=$runner MESHHOOD_PROGRAM=$folder/bin/meshhood \
     MESHHOOD_VIEWER=$folder/meshhood/viewer.html $runner "$root/usr/bin/python$3" "$here/installed_wheel.py" $kernels
 }
 
-# on_older_processors VERSION: what is in the environment of that version, as on processors without the newer instructions;
-# the oldest with a NumPy that runs on it.
+# on_older_processors VERSION: what is in the environment of that version, as on processors with fewer instructions; on the
+# oldest with a NumPy that still runs there.
 on_older_processors() {
   local old=$packages/installed/numpy-1.26 interpreter=$packages/installed/$target-$1/bin/python3 processor runner
   [[ -d $old ]] || "${pip[@]}" --target "$old" --no-deps --only-binary :all: --python-version "$1" numpy==1.26.4
   for processor in Haswell:AVX2: Nehalem:SSE4: "core2duo:SCALAR:$old"; do
     IFS=: read -r processor kernels path <<<"$processor"
     runner="qemu-x86_64-static -cpu $processor"
-    PYTHONPATH=$path MESHHOOD_RUNNER=$runner $runner "$interpreter" "$here/installed_wheel.py" "$kernels" 2>/dev/null
+    PYTHONPATH=$path MESHHOOD_RUNNER=$runner $runner "$interpreter" "$here/installed_wheel.py" "$kernels" \
+      2> >(grep --invert-match "TCG doesn't support requested feature" >&2)
   done
 }
 
