@@ -57,7 +57,7 @@ in_qemu() {
     MESHHOOD_VIEWER=$folder/meshhood/viewer.html $runner "$root/usr/bin/python$3" "$here/installed_wheel.py" $kernels
 }
 
-# on_older_processors VERSION: what is in the environment of that version, as on processors with fewer instructions; on the
+# on_older_processors VERSION: the environment of that version, as on processors with fewer instructions; on the
 # oldest with a NumPy that still runs there.
 on_older_processors() {
   local old=$packages/installed/numpy-1.26 interpreter=$packages/installed/$target-$1/bin/python3 processor runner
