@@ -70,21 +70,23 @@ on_older_processors() {
   done
 }
 
-# in_musl WHEEL: what the program in it writes has the same bytes as that of this machine.
+# in_musl WHEEL: what the program in it says and writes is, byte for byte, what that for glibc does.
 in_musl() {
-  local folder=$packages/installed/$target
+  local folder=$packages/installed/$target program
   rm -rf "$folder"
   "$python" -m zipfile --extract "$1" "$folder"
-  chmod +x "$folder"/*.data/scripts/meshhood
-  local program
-  for program in "$folder"/*.data/scripts/meshhood "$packages"/installed/x86_64-linux-gnu-3.12/bin/meshhood; do
-    "$program" --version
-    "$program" generate scroll --vertices 20000 -o "$folder/scroll.ply"
-    "$program" build "$folder/scroll.ply" -o "$folder/scroll.mhi" >/dev/null
-    "$program" batch "$folder/scroll.mhi" -r 5 --unit edge -o "$folder/scroll.npz" >/dev/null
-    sha256sum <"$folder/scroll.mhi" && sha256sum <"$folder/scroll.npz"
-  done | uniq --count >"$folder/written"
-  cat "$folder/written"
+  for program in "$folder"/*.data/scripts/meshhood "$packages/installed/x86_64-linux-gnu-3.12/bin/meshhood"; do
+    chmod +x "$program"
+    {
+      "$program" --version
+      "$program" generate scroll --vertices 20000 -o "$folder/scroll.ply"
+      "$program" build "$folder/scroll.ply" -o "$folder/scroll.mhi" >/dev/null
+      "$program" batch "$folder/scroll.mhi" -r 5 --unit edge -o "$folder/scroll.npz" >/dev/null
+      sha256sum <"$folder/scroll.ply" && sha256sum <"$folder/scroll.mhi" && sha256sum <"$folder/scroll.npz"
+    } >"$folder/$([[ $program == "$folder"/* ]] && echo musl || echo glibc).txt" 2>&1
+  done
+  cat "$folder/musl.txt"
+  diff "$folder/glibc.txt" "$folder/musl.txt"
 }
 
 tools/wheels "$target" "${versions[@]}"
