@@ -53,6 +53,7 @@ def check_platform(wheel):
 
 def main():
     wheel = Path(sys.argv[1])
+    assert re.search(r"-(cp312-abi3|(cp3\d+)-\2)-", wheel.name), f"{wheel.name} names no interface of CPython"
     bytes_ = wheel.stat().st_size
     with zipfile.ZipFile(wheel) as archive:
         check_contents(archive)
