@@ -7,6 +7,7 @@
 #   make site                 builds the site of these documents, with its gallery and references, into build/site
 #   make serve                builds it and shows it at http://localhost:8000; PORT=n for another port
 #   make test                 runs the short tests; about ten minutes
+#   make packages             makes and tests what a release publishes, in build/packages; about half an hour
 #   make test-all             runs also the long tests, the sanitizers, the fuzzers, the mutants and tools/verify
 #
 # These reproduce docs/benchmarks.md. They write that page and print how long each part took. They need a quiet machine;
@@ -15,7 +16,7 @@
 #   make reproduce            the paper's tables and pictures, accuracy, growth; about 20 minutes
 #   make peers                other libraries on the same queries; about 15 minutes
 #   make benchmarks           both
-.PHONY: build install test test-all demo view site serve reproduce peers benchmarks
+.PHONY: build install test test-all packages demo view site serve reproduce peers benchmarks
 
 PREFIX ?= /usr/local
 
@@ -39,6 +40,10 @@ test:
 test-all:
 	@tools/setup test-all
 	@tools/test release asan tsan:exact/threads
+
+packages:
+	@tools/setup packages
+	@tools/packages
 
 demo: build
 	@tools/setup demo

@@ -24,7 +24,8 @@ struct PageSettings {
 };
 
 /// The built page: the file that the environment variable MESHHOOD_VIEWER names, or share/meshhood/viewer.html of the
-/// installation, or build/viewer/viewer.html of the build tree. Throws Error{IoFailure} if there is none.
+/// installation, or build/viewer/viewer.html of the build tree, or that of the Python package whose wheel contains this
+/// program. Throws Error{IoFailure} if there is none.
 [[nodiscard]] std::filesystem::path find_page();
 
 /// Throws Error{IoFailure} if `mesh` is not a regular file, and Error{TooLarge} if it is larger than a browser takes in

@@ -26,13 +26,19 @@ function(meshhood_own_target target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF COMPILE_WARNING_AS_ERROR ${MESHHOOD_WARNINGS})
 endfunction()
 
+# The names of a shared library: while the first number of the version is 0, a change of the second breaks programs.
+function(meshhood_version_library target)
+  set_target_properties(${target} PROPERTIES
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+endfunction()
+
 # For large programs that spend little time in their own code: optimizing them takes longer than it saves. -Og compiles
 # in three quarters of the time of -O1, and the tests run as fast.
 function(meshhood_compile_quickly target)
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     target_compile_options(${target} PRIVATE -O0)
   else()
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Og>)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:$<IF:$<BOOL:${MESHHOOD_SMALL}>,-Os,-Og>>)
     target_compile_definitions(${target} PRIVATE XXH_NO_INLINE_HINTS=1)  # xxHash demands inlining that -Og does not do
   endif()
 endfunction()

@@ -22,6 +22,7 @@ if(TARGET meshhood_cli)
   add_subdirectory(wasm)
   add_subdirectory(viewer)
   add_subdirectory(site)
+  add_subdirectory(packages)
 endif()
 
 add_subdirectory(install)

@@ -2,15 +2,9 @@
 cmake_minimum_required(VERSION 3.25)
 set(WORK_DIR ${WORK_DIR}/find_package)
 include(${CMAKE_CURRENT_LIST_DIR}/installed.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/consume.cmake)
 set(build ${WORK_DIR}/build)
-file(REMOVE_RECURSE ${build})
-
-execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE_DIR}/tests/install/consumer -B ${build} -G ${GENERATOR}
-  -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=${prefix} -DVERSION=${VERSION}
-  OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND ${CMAKE_COMMAND} --build ${build} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND ${build}/consumer ${build} COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND ${build}/small COMMAND_ERROR_IS_FATAL ANY)
+consume(${prefix} ${build})
 
 foreach(file man/man1/meshhood.1 bash-completion/completions/meshhood zsh/site-functions/_meshhood
     fish/vendor_completions.d/meshhood.fish)

@@ -1,4 +1,5 @@
-# Installs this build, then compiles and runs the consumer with the flags of pkg-config.
+# Installs this build, then compiles and runs the consumer with the flags of pkg-config. They name the headers as those
+# of the project itself, so that each warning of them shows.
 cmake_minimum_required(VERSION 3.25)
 set(WORK_DIR ${WORK_DIR}/pkg_config)
 include(${CMAKE_CURRENT_LIST_DIR}/installed.cmake)
@@ -10,7 +11,8 @@ function(compile program package)
   execute_process(COMMAND pkg-config --cflags --libs ${package}
     OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
   separate_arguments(flags UNIX_COMMAND "${flags}")
-  execute_process(COMMAND ${COMPILER} -std=c++20 -O1 ${SOURCE_DIR}/tests/install/consumer/${program}.cpp ${flags}
+  execute_process(COMMAND ${COMPILER} -std=c++20 -O1 -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
+    ${SOURCE_DIR}/tests/install/consumer/${program}.cpp ${flags}
     -o ${WORK_DIR}/${program} COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND ${WORK_DIR}/${program} ${WORK_DIR} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()

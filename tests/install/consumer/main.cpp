@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include <meshhood/io/index_io.h>
 #include <meshhood/io/mesh_io.h>
+#include <meshhood/io/weld.h>
 #include <meshhood/meshhood.h>
 #include <meshhood/version.h>
 

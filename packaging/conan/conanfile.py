@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: MIT
+"""The libraries for Conan: `conan create packaging/conan --build=missing` in a checkout."""
+
+import re
+from pathlib import Path
+
+from conan import ConanFile
+from conan.tools.build import check_min_cppstd
+from conan.tools.cmake import CMake, CMakeDeps, CMakeToolchain, cmake_layout
+from conan.tools.files import copy, load, rmdir
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+
+
+class Meshhood(ConanFile):
+    name = "meshhood"
+    description = "The connected component of a mesh inside a ball around a vertex: exact, indexed"
+    license = "MIT"
+    topics = ("mesh", "neighborhood", "geometry")
+    package_type = "library"
+    settings = "os", "arch", "compiler", "build_type"
+    options = {"shared": [True, False], "fPIC": [True, False], "with_io": [True, False]}
+    default_options = {"shared": False, "fPIC": True, "with_io": True}
+    implements = ["auto_shared_fpic"]
+
+    def set_version(self):
+        text = load(self, REPOSITORY / "CMakeLists.txt")
+        self.version = re.search(r"project\(meshhood VERSION ([0-9.]+)", text)[1]
+
+    def export_sources(self):
+        for pattern in ("CMakeLists.txt", "LICENSE", "cmake/*", "include/*", "src/*", "io/*"):
+            copy(self, pattern, REPOSITORY, self.export_sources_folder)
+
+    def layout(self):
+        cmake_layout(self)
+
+    def validate(self):
+        check_min_cppstd(self, 20)
+
+    def requirements(self):
+        self.requires("highway/[>=1.0.3]", visible=False)
+        self.requires("xxhash/[>=0.8]", visible=False)
+        if self.options.with_io:
+            self.requires("fmt/[>=9]")
+            self.requires("fast_float/[>=3.4]")
+
+    def generate(self):
+        CMakeDeps(self).generate()
+        toolchain = CMakeToolchain(self)
+        toolchain.cache_variables["MESHHOOD_BUILD_IO"] = bool(self.options.with_io)
+        for part in ("CLI", "TESTS", "BENCH", "EXAMPLES"):
+            toolchain.cache_variables[f"MESHHOOD_BUILD_{part}"] = False
+        toolchain.cache_variables["MESHHOOD_WARNINGS"] = False
+        toolchain.cache_variables["CMAKE_UNITY_BUILD"] = True  # several times as fast
+        toolchain.cache_variables["CMAKE_UNITY_BUILD_BATCH_SIZE"] = "0"
+        for library, header in (("highway", "HIGHWAY"), ("xxhash", "XXHASH")):
+            includes = self.dependencies[library].cpp_info.aggregated_components().includedirs
+            toolchain.cache_variables[f"{header}_INCLUDE_DIR"] = includes[0]
+        toolchain.generate()
+
+    def build(self):
+        cmake = CMake(self)
+        cmake.configure()
+        cmake.build()
+
+    def package(self):
+        CMake(self).install()
+        copy(self, "LICENSE", self.source_folder, Path(self.package_folder, "licenses"))
+        for folder in ("cmake", "pkgconfig"):
+            rmdir(self, Path(self.package_folder, "lib", folder))  # CMakeDeps and PkgConfigDeps write these
+        rmdir(self, Path(self.package_folder, "share"))
+
+    def package_info(self):
+        core = self.cpp_info.components["meshhood"]
+        core.set_property("cmake_target_name", "meshhood::meshhood")
+        core.libs = ["meshhood"]
+        core.requires = ["highway::highway", "xxhash::xxhash"]
+        if self.settings.os in ("Linux", "FreeBSD"):
+            core.system_libs = ["pthread", "m"]
+        if self.options.with_io:
+            io = self.cpp_info.components["io"]
+            io.set_property("cmake_target_name", "meshhood::io")
+            io.set_property("pkg_config_name", "meshhood-io")
+            io.libs = ["meshhood_io"]
+            io.requires = ["meshhood", "fmt::fmt", "fast_float::fast_float"]

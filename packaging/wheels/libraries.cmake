@@ -1,0 +1,31 @@
+# The libraries that a wheel contains, as targets of the names that find_package would give. CMake includes this file
+# after project(): CMAKE_PROJECT_meshhood_INCLUDE.
+
+# Those of headers only are copied, as their folder also has the headers of the C library of this machine.
+find_path(header_folder fmt/format.h PATHS /usr/include REQUIRED)
+set(headers ${CMAKE_BINARY_DIR}/headers)
+file(GLOB xxhash ${header_folder}/xxh*.h)
+file(COPY ${xxhash} DESTINATION ${headers})
+foreach(library CLI fast_float fmt hwy nlohmann)
+  file(COPY ${header_folder}/${library} DESTINATION ${headers})
+endforeach()
+set(XXHASH_INCLUDE_DIR ${headers} CACHE PATH "The headers of xxHash")
+set(HIGHWAY_INCLUDE_DIR ${headers} CACHE PATH "The headers of Highway")
+foreach(library CLI11::CLI11 FastFloat::fast_float fmt::fmt nlohmann_json::nlohmann_json)
+  add_library(${library} INTERFACE IMPORTED GLOBAL)
+  target_include_directories(${library} INTERFACE ${headers})
+endforeach()
+target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
+
+# minizip with zlib, from sources.
+set(MESHHOOD_SOURCES "" CACHE PATH "The folder of the sources of minizip and zlib")
+enable_language(C)
+add_library(minizip STATIC EXCLUDE_FROM_ALL)
+foreach(source minizip/ioapi minizip/unzip minizip/zip zlib/adler32 zlib/crc32 zlib/deflate zlib/inffast zlib/inflate
+    zlib/inftrees zlib/trees zlib/zutil)
+  target_sources(minizip PRIVATE ${MESHHOOD_SOURCES}/${source}.c)
+endforeach()
+target_include_directories(minizip SYSTEM PUBLIC ${MESHHOOD_SOURCES} ${MESHHOOD_SOURCES}/zlib)
+set_target_properties(minizip PROPERTIES UNITY_BUILD OFF)
+target_compile_definitions(minizip PRIVATE NOCRYPT NOUNCRYPT HAVE_UNISTD_H)
+add_library(PkgConfig::MINIZIP ALIAS minizip)
