@@ -305,6 +305,21 @@ TEST(RefitInPlace, HasTheIndexOfARefitInTheSameMemory) {
   EXPECT_THAT(differences(index, build(sculpted.mesh.view())), IsEmpty());
 }
 
+TEST(RefitInPlace, SearchersAskedForTheSameRadiusInAnotherFrameCompareWithItThere) {
+  constexpr double kRadius = 120;
+  TestMesh mesh = bumpy_grid(160).finish(false);
+  Index index = build(mesh.view());
+  Searcher searcher(index);
+  const VertexId v = 160 * 80 + 80;
+  EXPECT_EQ(searcher.count(v, kRadius), mesh.size());
+  for (double& x : mesh.positions) x *= 4;
+  index.refit_in_place(mesh.positions_view());
+  searcher.rebind(index);
+  const std::vector<VertexId> found = searcher.neighborhood(v, kRadius);
+  EXPECT_EQ(found, Searcher(index).neighborhood(v, kRadius));
+  EXPECT_LT(found.size(), mesh.size() / 4);
+}
+
 /// Moves some vertices, then more of them out of the frame, then all.
 TEST_P(RefitFamilies, SearchersThatAreBoundAgainGiveTheAnswersOfNewOnes) {
   TestMesh mesh = make_mesh(GetParam(), 5, 400);
