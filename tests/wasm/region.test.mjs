@@ -81,7 +81,7 @@ test('nested radii have the regions of each radius', () => {
 
 test('rings of edges are those of the command line', () => {
   const { counts, ids } = index.queryRings(333, 3);
-  assert.deepEqual([...ids].sort((a, b) => a - b), query('-v', '333', '--rings', '3'));
+  assert.deepEqual([...ids].sort((a, b) => a - b), query('-v', '333', '--metric', 'rings', '-r', '3'));
   assert.equal(counts.length, 4);
   assert.equal(counts[0], 1);
   assert.equal(counts[3], ids.length);
