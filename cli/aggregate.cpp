@@ -20,9 +20,11 @@
 #include "commands.h"
 #include "input.h"
 #include "io/npz_writer.h"
+#include "methods.h"
 #include "names.h"
 #include "options.h"
 #include "output.h"
+#include "row_query.h"
 #include "size_limit.h"
 #include "task.h"
 #include "value_files.h"
@@ -38,6 +40,7 @@ constexpr Names<Reduce, 7> kReductions{{{"mean", Reduce::Mean},
                                         {"var", Reduce::Variance},
                                         {"std", Reduce::StandardDeviation},
                                         {"count", Reduce::Count}}};
+constexpr Names<Metric, 2> kMetrics{{{"straight", Metric::Straight}, {"path", Metric::Path}}};
 constexpr Names<SmoothingKernel, 3> kKernels{{{"box", SmoothingKernel::Box},
                                               {"epanechnikov", SmoothingKernel::Epanechnikov},
                                               {"biweight", SmoothingKernel::Biweight}}};
@@ -48,14 +51,13 @@ struct AggregateCommand {
   std::string file;
   std::string weld;  ///< as typed; empty without
   std::string values;
-  Radii radii;
+  RowOptions rows;
+  std::string metric = "straight";
   std::string reduce = "mean";
   std::string kernel = "box";
   std::string weights;  ///< "area", a file, or empty
   std::string missing = "propagate";
   std::string nesting = "own";
-  std::string vertices;  ///< a file with a list; empty for all
-  unsigned threads = kAllThreads;
   bool json = false;
   std::optional<std::uint64_t> max_bytes;
   ValueFiles files;
@@ -109,7 +111,7 @@ AggregateShape run(const AggregateCommand& options, Input& input, const Aggregat
   const Channels values = read_channels(options.values, input.vertex_count());
   const std::vector<double> weights = weights_of(options, input);
   const SignalView signal{values.numbers, values.channels, weights};
-  const Index& index = input.exact_index(options.threads);
+  const Index& index = input.exact_index(options.rows.threads);
   const AggregateShape shape{query.radius.scales()->size(), row_count(query.vertices, index.vertex_count()),
                              values.channels, aggregate_size(index, signal, query)};
   const BatchSize size{shape.rows, shape.numbers};
@@ -117,7 +119,7 @@ AggregateShape run(const AggregateCommand& options, Input& input, const Aggregat
   std::vector<double> result;
   {
     Task task("computing", {"rows", static_cast<double>(shape.radii)});
-    result = aggregate(index, signal, query, {.threads = options.threads, .progress = task.progress()});
+    result = aggregate(index, signal, query, {.threads = options.rows.threads, .progress = task.progress()});
     if (!options.files.npz.empty()) write_npz(options.files.npz, query, listed, shape, result);
   }
   if (options.files.has_mesh()) write_mesh(options, shape, result, input.surface());
@@ -125,17 +127,20 @@ AggregateShape run(const AggregateCommand& options, Input& input, const Aggregat
 }
 
 void aggregate_command(const AggregateCommand& options) {
-  check_value_files(options.files, {options.file, options.values, options.weights, options.vertices});
-  Input input(options.file, options.weld, options.threads);
+  check_value_files(options.files, options.rows.with_files({options.file, options.values, options.weights}));
+  Input input(options.file, options.weld, options.rows.threads);
   input.need_edges("aggregate");
-  const QueryVertices vertices(options.vertices, input);
-  const AggregateQuery query{.vertices = vertices.view(),
-                             .radius = BatchRadius::scales(resolve(options.radii, input)),
+  const RowQuery rows(options.rows, input);
+  const BatchQuery batch = rows.query();
+  const AggregateQuery query{.vertices = batch.vertices,
+                             .radius = batch.radius,
+                             .filter = batch.filter,
+                             .metric = value_of(kMetrics, options.metric),
                              .reduce = value_of(kReductions, options.reduce),
                              .kernel = value_of(kKernels, options.kernel),
                              .missing = value_of(kMissing, options.missing),
                              .nesting = value_of(kNestings, options.nesting)};
-  const AggregateShape shape = run(options, input, query, vertices.listed());
+  const AggregateShape shape = run(options, input, query, rows.listed());
   Json document = to_json(options.files);
   document.update(
       {{"reduce", options.reduce}, {"radii", shape.radii}, {"rows", shape.rows}, {"channels", shape.channels}});
@@ -155,7 +160,8 @@ void add_aggregate(CLI::App& program) {
   add_file_option(*command, "--values", "numbers by vertex: text with a line per vertex, or an array of NumPy (.npy)",
                   options->values)
       ->required();
-  add_radii(*command, options->radii);
+  add_rows(*command, options->rows);
+  add_metric(*command, options->metric);
   add_choice(*command, "--reduce", "what to compute: mean, sum, min, max, var, std or count", names_of(kReductions),
              options->reduce);
   add_choice(*command, "--kernel",
@@ -170,8 +176,6 @@ void add_aggregate(CLI::App& program) {
   add_choice(*command, "--nesting",
              "with several radii; own: a neighborhood for each; patch: the neighborhood of the largest, cut by each",
              names_of(kNestings), options->nesting);
-  add_vertices(*command, options->vertices);
-  add_threads(*command, options->threads);
   add_max_bytes(*command, options->max_bytes);
   add_value_files(*command, options->files, "the first channel at the last radius");
   add_json(*command, options->json);

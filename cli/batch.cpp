@@ -28,10 +28,12 @@
 #include "output.h"
 #include "quantity.h"
 #include "row_file.h"
+#include "row_query.h"
 #include "shard.h"
 #include "size_limit.h"
 #include "task.h"
 #include "vertex_files.h"
+#include "vertex_order.h"
 
 namespace meshhood::cli {
 namespace {
@@ -39,11 +41,10 @@ namespace {
 struct BatchCommand {
   std::string file;
   std::string weld;  ///< as typed; empty without
-  Radius radius;
-  std::string vertices;  ///< a file with a list; empty for all
-  std::string order;     ///< as typed; empty for the default
-  std::string method = "exact";
-  unsigned threads = kAllThreads;
+  RowOptions rows;
+  std::string order;  ///< as typed; empty for the default
+  MethodOptions search;
+  std::string sort = "id";
   bool count = false;
   bool distances = false;
   bool json = false;
@@ -55,11 +56,16 @@ struct BatchCommand {
 /// Rows that are streamed come in index order, which is the fastest. Sizes are found as fast in vertex order, where
 /// the number of a row is that of its vertex.
 RowOrder row_order(const BatchCommand& options) {
-  const bool is_exact = options.method == "exact";
+  const bool is_exact = options.search.method == "exact";
   if (options.order == "index" && !is_exact) raise(ErrorCode::InvalidOption, "--order index: expected --method exact");
-  if (!options.vertices.empty()) return RowOrder::List;
+  if (!options.rows.vertices.empty()) return RowOrder::List;
   if (!options.order.empty()) return value_of(kRowOrders, options.order);
   return is_exact && !options.count ? RowOrder::Index : RowOrder::Vertex;
+}
+
+/// Rows as the methods write them are in the order of the ids, or of the index except along the edges.
+bool sorts_rows(const BatchCommand& options) {
+  return options.sort == "distance" || (options.sort == "index" && options.search.metric == "path");
 }
 
 /// The approximate size of the file: the members without the zip headers. The ones of a matrix without distances
@@ -68,7 +74,7 @@ double file_bytes(const BatchCommand& options, const BatchSize& total, std::size
   const auto rows = static_cast<double>(total.rows);
   const auto count = static_cast<double>(total.count);
   const double vertices = has_vertices(row_order(options)) ? 8 * rows : 0;
-  if (options.count) return vertices + 8 * rows;
+  if (options.count) return vertices + 8 * rows * static_cast<double>(options.rows.radii.values.size());
   const double index_bytes = fits_32_bits(total.count, columns) ? 4 : 8;
   return vertices + index_bytes * (rows + count) + (options.distances ? 8 : 1e-3) * count;
 }
@@ -76,26 +82,30 @@ double file_bytes(const BatchCommand& options, const BatchSize& total, std::size
 /// One for each array of the file whose length is that of the answer, and one to count.
 std::size_t number_of_passes(const BatchCommand& options) { return options.count ? 1 : options.distances ? 3 : 2; }
 
-/// Writes the rows of a batch. The length of an array precedes its values, so the rows are counted first. Then
-/// each array is computed and written in a pass of its own, so that memory holds only a few numbers per row.
+/// Writes the rows of a batch, of one radius unless they are only counted. The length of an array precedes its values,
+/// so the rows are counted first. Then each array is computed and written in a pass of its own, so that memory holds
+/// only a few numbers per row.
 class Writer {
  public:
-  Writer(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options, const SizeLimit& limit,
-         Task& task, io::NpzWriter& npz)
+  Writer(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options, VertexSorter& sorter,
+         const SizeLimit& limit, Task& task, io::NpzWriter& npz)
       : method_(method),
         query_(query),
         options_(options),
         order_(row_order(options)),
+        sorter_(sorter),
         limit_(limit),
         task_(task),
         npz_(npz) {}
 
   BatchSize write() {
     const std::vector<std::uint64_t> sizes = counts(method_, query_, next_pass());
-    const BatchSize total{sizes.size(), std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})};
+    const std::size_t radii = query_.radius.scales() ? query_.radius.scales()->size() : 1;
+    const BatchSize total{sizes.size() / radii, std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})};
     limit_.check(total, file_bytes(options_, total, method_.vertex_count()));
     if (options_.count) {
-      npz_.add<std::uint64_t>("count", sizes);
+      npz_.begin<std::uint64_t>("count", std::array<std::uint64_t, 2>{radii, total.rows});
+      npz_.append<std::uint64_t>(sizes);
     } else {
       write_rows(sizes, total);
     }
@@ -119,25 +129,41 @@ class Writer {
     std::transform_inclusive_scan(sizes.begin(), sizes.end(), offsets.begin() + 1, std::plus<>(),
                                   [](std::uint64_t size) { return static_cast<Integer>(size); });
     npz_.add<Integer>("indptr", offsets);
-    std::vector<Integer> ids;
-    const auto write = [&](const BatchRow& row) {
-      ids.assign(row.ids.begin(), row.ids.end());
-      npz_.append<Integer>(ids);
+    std::vector<Integer> converted;
+    const auto write = [&](std::span<const VertexId> ids, std::span<const double> /*distances*/) {
+      converted.assign(ids.begin(), ids.end());
+      npz_.append<Integer>(converted);
     };
     npz_.begin<Integer>("indices", total.count);
-    for_each_neighborhood(method_, query_, write, next_pass());
+    for_each_row(sorter_.needs_distances(), write);
   }
 
   void write_distances(const BatchSize& total) {
     npz_.begin<double>(distances_name(order_), total.count);
+    for_each_row(true,
+                 [&](std::span<const VertexId> /*ids*/, std::span<const double> distances) { npz_.append(distances); });
+  }
+
+  /// Calls `write(ids, distances)` for each row, sorted as the options say.
+  template <class Write>
+  void for_each_row(bool with_distances, Write&& write) {
     BatchOptions pass = next_pass();
-    pass.distances = true;
-    for_each_neighborhood(method_, query_, [&](const BatchRow& row) { npz_.append(row.distances); }, pass);
+    pass.distances = with_distances;
+    pass.sorted = options_.sort == "id";
+    std::vector<VertexId> ids;
+    std::vector<double> distances;
+    const auto sort_and_write = [&](const BatchRow& row) {
+      ids.assign(row.ids.begin(), row.ids.end());
+      distances.assign(row.distances.begin(), row.distances.end());
+      sorter_.sort(ids, distances);
+      write(std::span<const VertexId>(ids), std::span<const double>(distances));
+    };
+    if (sorts_rows(options_)) return for_each_neighborhood(method_, query_, sort_and_write, pass);
+    for_each_neighborhood(method_, query_, [&](const BatchRow& row) { write(row.ids, row.distances); }, pass);
   }
 
   BatchOptions next_pass() {
-    return {.threads = options_.threads,
-            .sorted = true,
+    return {.threads = options_.rows.threads,
             .in_index_order = order_ == RowOrder::Index,
             .progress = task_.progress(passes_begun_++, number_of_passes(options_))};
   }
@@ -146,6 +172,7 @@ class Writer {
   const BatchQuery& query_;
   const BatchCommand& options_;
   RowOrder order_;
+  VertexSorter& sorter_;
   const SizeLimit& limit_;
   Task& task_;
   io::NpzWriter& npz_;
@@ -159,16 +186,20 @@ std::string task_name(const BatchCommand& options, const std::optional<BatchEsti
 }
 
 /// The description of a shard and of its batch.
-std::string describe(const BatchCommand& options, const Shard& shard, double radius, std::size_t rows,
-                     const Fingerprint& mesh, std::size_t columns) {
+std::string describe(const BatchCommand& options, const Shard& shard, std::size_t rows, const RowQuery& query,
+                     Input& input) {
   return Json{{"number", shard.number},
               {"shards", shard.count},
               {"rows", rows},
               {"order", name_of(kRowOrders, row_order(options))},
-              {"columns", columns},
-              {"mesh", to_text(mesh)},
-              {"method", options.method},
-              {"radius", radius},
+              {"columns", input.vertex_count()},
+              {"mesh", to_text(input.fingerprint())},
+              {"method", options.search.method},
+              {"metric", options.search.metric},
+              {"radius", query.radii().front()},
+              {"walls", query.masks().wall_count()},
+              {"ignored", query.masks().ignored_count()},
+              {"sort", options.sort},
               {"count", options.count},
               {"distances", options.distances}}
       .dump();
@@ -176,9 +207,9 @@ std::string describe(const BatchCommand& options, const Shard& shard, double rad
 
 /// `shard`: the text of its own array; empty if all rows are written.
 BatchSize write(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options,
-                const std::string& shard) {
+                const std::vector<double>& radii, VertexSorter& sorter, const std::string& shard) {
   const SizeLimit limit(options.output, options.max_bytes);
-  const std::optional<BatchEstimate> expected = estimate(method, query);
+  const std::optional<BatchEstimate> expected = options.count ? std::nullopt : estimate(method, query);
   const std::size_t columns = method.vertex_count();
   if (expected) limit.check(expected->lower, file_bytes(options, expected->lower, columns), "at least ");
   Task task(task_name(options, expected, columns),
@@ -186,7 +217,8 @@ BatchSize write(const SearchMethod& method, const BatchQuery& query, const Batch
   io::NpzWriter npz(options.output);
   if (has_vertices(row_order(options))) write_vertices(npz, query.vertices);
   if (!shard.empty()) npz.add_text(kShardArray, shard);
-  const BatchSize total = Writer(method, query, options, limit, task, npz).write();
+  if (options.count) npz.add<double>("radii", radii);
+  const BatchSize total = Writer(method, query, options, sorter, limit, task, npz).write();
   Task::check_cancelled();
   npz.commit();
   return total;
@@ -216,35 +248,46 @@ std::vector<VertexId> all_in_index_order(const Index& index, const Welding& weld
   return result;
 }
 
+void check_options(const BatchCommand& options) {
+  check_weld(options.weld, options.search.method);
+  check_method(options.search, !options.rows.filter.empty(), options.rows.radii.unit);
+  check_sort(options.sort, options.search.method);
+  const std::size_t radii = options.rows.radii.values.size();
+  if (radii == 1) return;
+  if (!options.shard.empty()) raise(ErrorCode::InvalidOption, fmt::format("--shard: {} radii, expected one", radii));
+  if (!options.count) {
+    raise(ErrorCode::InvalidOption, fmt::format("--radius: {} radii, expected one, or --count", radii));
+  }
+}
+
 void batch(const BatchCommand& options) {
-  check_weld(options.weld, options.method);
-  check_output(options.output, {options.file, options.vertices});
+  check_options(options);
+  check_output(options.output, options.rows.with_files({options.file}));
   const RowOrder order = row_order(options);
-  Input input(options.file, options.weld, options.threads);
-  const QueryVertices vertices(options.vertices, input);
-  BatchQuery query{.vertices = vertices.view(), .radius = resolve(options.radius, input)};
-  const SearchMethod method = method_of(options.method, input, {}, options.threads);
+  const unsigned threads = options.rows.threads;
+  Input input(options.file, options.weld, threads);
+  const RowQuery rows(options.rows, input);
+  BatchQuery query = options.count ? rows.query() : rows.query(rows.radii().front());
+  const SearchMethod method = method_of(options.search, input, {}, threads);
+  VertexSorter sorter(options.sort, input);
   std::vector<VertexId> in_index_order;
   if (order == RowOrder::Index) {
-    in_index_order = all_in_index_order(input.exact_index(options.threads), input.welding());
+    in_index_order = all_in_index_order(input.exact_index(threads), input.welding());
     query.vertices = in_index_order;
   }
   std::string about;
   std::vector<VertexId> of_shard;
   if (!options.shard.empty()) {
     const Shard shard = parse_shard(options.shard);
-    about = describe(options, shard, query.radius.common(), row_count(query.vertices, input.vertex_count()),
-                     input.fingerprint(), input.vertex_count());
+    about = describe(options, shard, row_count(query.vertices, input.vertex_count()), rows, input);
     of_shard = vertices_of(shard, query.vertices, input.vertex_count());
     query.vertices = of_shard;
   }
-  const BatchSize total = write(method, query, options, about);
-  print_result(options.json,
-               {{"output", options.output},
-                {"method", options.method},
-                {"order", name_of(kRowOrders, order)},
-                {"rows", total.rows},
-                {"count", total.count}},
+  const BatchSize total = write(method, query, options, rows.radii(), sorter, about);
+  Json document{{"output", options.output}, {"method", options.search.method}};
+  if (!options.search.is_straight()) document["metric"] = options.search.metric;
+  document.update({{"order", name_of(kRowOrders, order)}, {"rows", total.rows}, {"count", total.count}});
+  print_result(options.json, document,
                fmt::format("{}: {} rows{}, {} vertices in them\n", printable_name(options.output), total.rows,
                            order == RowOrder::Index ? " in index order" : "", total.count));
 }
@@ -257,20 +300,20 @@ void add_batch(CLI::App& program) {
       program.add_subcommand("batch", "Write the neighborhoods of all vertices, or of a list, in CSR form");
   add_file(*command, options->file);
   add_weld(*command, options->weld);
-  add_radius(*command, options->radius);
-  add_vertices(*command, options->vertices);
+  add_rows(*command, options->rows);
   add_choice(
       *command, "--order",
       "order of all rows; index: the fastest, with the array vertices; vertex: a matrix for scipy.sparse.load_npz "
       "(default: index; with --count or another method: vertex)",
       {"index", "vertex"}, options->order)
       ->excludes("--vertices");
-  add_method(*command, options->method);
-  add_threads(*command, options->threads);
-  CLI::Option* count = command->add_flag("--count", options->count, "write only the number of vertices of each row");
+  add_method(*command, options->search);
+  add_sort(*command, options->sort);
+  CLI::Option* count = command->add_flag("--count", options->count,
+                                         "write only the number of vertices of each row, for one radius or several");
   command
       ->add_flag("--distances", options->distances,
-                 "also write straight-line distances: the array distances, or the values of the matrix")
+                 "also write distances in the metric of the radius: the array distances, or the values of the matrix")
       ->excludes(count);
   add_max_bytes(*command, options->max_bytes);
   command

@@ -10,6 +10,7 @@ void add_aggregate(CLI::App& program);
 void add_batch(CLI::App& program);
 void add_build(CLI::App& program);
 void add_check(CLI::App& program);
+void add_closest(CLI::App& program);
 void add_compare(CLI::App& program);
 void add_connect(CLI::App& program);
 void add_curvature(CLI::App& program);
@@ -21,6 +22,7 @@ void add_merge(CLI::App& program);
 void add_partition(CLI::App& program);
 void add_query(CLI::App& program);
 void add_region(CLI::App& program);
+void add_unconnected(CLI::App& program);
 void add_view(CLI::App& program);
 
 }  // namespace meshhood::cli

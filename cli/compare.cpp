@@ -42,7 +42,7 @@ std::vector<Row> answer(Input& input, VertexId v, double radius) {
   std::vector<Row> rows;
   measure::Comparison comparison(input.vertex_count());
   for (const char* const method : {"bfs", "ball", "paper", "exact"}) {
-    AnySearcher searcher = method_of(method, input).make_searcher();
+    AnySearcher searcher = method_of({.method = method}, input).make_searcher();
     Row row{method, {}, {}, 0};
     row.microseconds = 1e6 * measure::median_seconds([&] { searcher.neighborhood(v, radius, row.vertices); });
     std::erase_if(row.vertices, [&](VertexId w) { return input.welding().kept(w) != w; });  // the ball has them all

@@ -39,7 +39,7 @@ struct Connections {
 };
 
 Connections connections_of(const ConnectCommand& options, const QueryStart& start, Input& input) {
-  const FilterMasks masks(options.start, input);
+  const FilterMasks masks(options.start.filter, input);
   RegionSearcher searcher(input.exact_index());
   Connections found;
   if (options.nearest) {
@@ -70,7 +70,7 @@ void connect(const ConnectCommand& options) {
   if (options.targets.empty() == !options.nearest) {
     raise(ErrorCode::InvalidOption, "expected either --to or --nearest");
   }
-  check_start_options(options.start, "exact", !options.vertices.empty());
+  check_start_options(options.start, !options.vertices.empty());
   Input input(options.file, options.weld);
   input.need_edges("connect");
   const QueryStart start = start_of(options.start, options.vertices, input);

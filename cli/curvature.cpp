@@ -21,6 +21,7 @@
 #include "io/npz_writer.h"
 #include "options.h"
 #include "output.h"
+#include "row_query.h"
 #include "task.h"
 #include "value_files.h"
 #include "vertex_files.h"
@@ -31,11 +32,9 @@ namespace {
 struct CurvatureCommand {
   std::string file;
   std::string weld;  ///< as typed; empty without
-  std::string vertices;
-  Radii radii;
+  RowOptions rows;
   bool like_libigl = false;
   bool no_filter = false;
-  unsigned threads = kAllThreads;
   ValueFiles files;
   bool json = false;
 };
@@ -131,30 +130,30 @@ void print(const CurvatureCommand& options, std::size_t rows, std::size_t radii,
 }
 
 void curvature(const CurvatureCommand& options) {
-  check_value_files(options.files, {options.file, options.vertices});
-  Input input(options.file, options.weld, options.threads);
+  check_value_files(options.files, options.rows.with_files({options.file}));
+  Input input(options.file, options.weld, options.rows.threads);
   input.need_faces("curvature");
-  const std::vector<double> radii = resolve(options.radii, input);
-  const QueryVertices vertices(options.vertices, input);
-  const Index& index = input.exact_index(options.threads);
+  const RowQuery rows(options.rows, input);
+  const std::vector<double>& radii = rows.radii();
+  const Index& index = input.exact_index(options.rows.threads);
   const CurvatureIndex surface = CurvatureIndex::build(index, input.surface());
   CurvatureOptions settings = options.like_libigl ? like_libigl() : CurvatureOptions{};
   settings.filter = !options.no_filter;
-  settings.threads = options.threads;
+  settings.threads = options.rows.threads;
   Columns columns;
   States states;
   {
     Task task("fitting", {"rows", static_cast<double>(radii.size())});
     for (std::size_t i = 0; i < radii.size(); ++i) {
       settings.progress = task.progress(i, radii.size());
-      const Curvatures found = curvatures(surface, {.vertices = vertices.view(), .radius = radii[i]}, settings);
+      const Curvatures found = curvatures(surface, rows.query(radii[i]), settings);
       states.add(found.state);
       columns.append(found);
     }
-    if (!options.files.npz.empty()) write_npz(options.files.npz, radii, vertices.listed(), columns);
+    if (!options.files.npz.empty()) write_npz(options.files.npz, radii, rows.listed(), columns);
   }
   if (options.files.has_mesh()) write_mesh(options.files, radii.size(), columns, input.surface());
-  print(options, row_count(vertices.view(), index.vertex_count()), radii.size(), states);
+  print(options, rows.size(), radii.size(), states);
 }
 
 }  // namespace
@@ -164,13 +163,11 @@ void add_curvature(CLI::App& program) {
   CLI::App* command = program.add_subcommand("curvature", "Write the principal curvatures at one or several scales");
   add_surface(*command, options->file);
   add_weld(*command, options->weld);
-  add_radii(*command, options->radii);
-  add_vertices(*command, options->vertices);
+  add_rows(*command, options->rows);
   command->add_flag("--like-libigl", options->like_libigl,
                     "the values of igl::principal_curvature, with the error of its shape operator");
   command->add_flag("--no-filter", options->no_filter,
                     "also fit vertices whose normal points away from that of the query vertex");
-  add_threads(*command, options->threads);
   add_value_files(*command, options->files, "the mean curvature at the last radius");
   add_json(*command, options->json);
   command->callback([options] { curvature(*options); });

@@ -29,6 +29,7 @@
 #include "names.h"
 #include "options.h"
 #include "output.h"
+#include "row_query.h"
 #include "task.h"
 #include "value_files.h"
 #include "vertex_files.h"
@@ -50,14 +51,13 @@ constexpr Names<Feature, 10> kKinds{{{"crease", Feature::Crease},
 struct FeaturesCommand {
   std::string file;
   std::string weld;  ///< as typed; empty without
-  Radii radii;
+  RowOptions rows;
   std::string smallest;
   std::string largest;
   std::size_t count = 16;
   std::vector<std::string> kinds{"crease"};
   double threshold = 0.5;
   bool no_filter = false;
-  unsigned threads = kAllThreads;
   ValueFiles files;
   bool json = false;
 };
@@ -81,22 +81,23 @@ std::vector<double> equal_steps(double largest, std::size_t count) {
   return radii;
 }
 
-std::vector<double> radii_of(const FeaturesCommand& options, Input& input) {
-  if (options.radii.values.empty() == options.largest.empty()) {
+std::vector<double> radii_of(const FeaturesCommand& options, const RowQuery& rows, Input& input) {
+  const Radii& typed = options.rows.radii;
+  if (typed.values.empty() == options.largest.empty()) {
     raise(ErrorCode::InvalidOption, "expected either --radius or --largest");
   }
-  if (options.largest.empty()) return resolve(options.radii, input);
+  if (options.largest.empty()) return rows.radii();
   if (options.count == 0) raise(ErrorCode::InvalidOption, "--count is 0, expected 1 to 1000");
-  const auto in_mesh = [&](const std::string& radius) { return resolve(Radius{radius, options.radii.unit}, input); };
+  const auto in_mesh = [&](const std::string& radius) { return resolve(Radius{radius, typed.unit}, input); };
   if (options.smallest.empty()) return equal_steps(in_mesh(options.largest), options.count);
   return geometric_radii(in_mesh(options.smallest), in_mesh(options.largest), options.count);
 }
 
-/// The features of all vertices, and how long each kind persists.
+/// The features of all rows, and how long each kind persists.
 struct FeaturesFound {
   std::vector<double> radii;
   std::size_t kinds;
-  std::vector<double> values;  // #radii by #V by #kinds
+  std::vector<double> values;  // #radii by #rows by #kinds
   std::vector<Persistence> lasting;
 
   [[nodiscard]] std::size_t rows() const { return values.size() / radii.size() / kinds; }
@@ -105,18 +106,17 @@ struct FeaturesFound {
   }
 };
 
-FeaturesFound compute(const FeaturesCommand& options, Input& input) {
-  FeaturesFound found{radii_of(options, input), options.kinds.size(), {}, {}};
+FeaturesFound compute(const FeaturesCommand& options, const RowQuery& rows, Input& input) {
+  FeaturesFound found{radii_of(options, rows, input), options.kinds.size(), {}, {}};
   static_cast<void>(persistence({}, found.radii, options.threshold));  // refuses wrong radii before the work begins
-  const CurvatureIndex surface = CurvatureIndex::build(input.exact_index(options.threads), input.surface());
-  const QueryVertices vertices("", input);
+  const CurvatureIndex surface = CurvatureIndex::build(input.exact_index(options.rows.threads), input.surface());
   const std::vector<double> areas = vertex_areas(input.surface());
   Task task("measuring", {"rows", static_cast<double>(found.radii.size())});
-  found.values = features(surface, {vertices.view(), BatchRadius::scales(found.radii)},
+  found.values = features(surface, rows.query(BatchRadius::scales(found.radii)),
                           {.kinds = kinds_of(options),
                            .areas = areas,
                            .filter = !options.no_filter,
-                           .threads = options.threads,
+                           .threads = options.rows.threads,
                            .progress = task.progress()});
   for (std::size_t kind = 0; kind < found.kinds; ++kind) {
     std::vector<double> one(found.radii.size() * found.rows());
@@ -126,9 +126,10 @@ FeaturesFound compute(const FeaturesCommand& options, Input& input) {
   return found;
 }
 
-void write_npz(const FeaturesCommand& options, const FeaturesFound& found) {
+void write_npz(const FeaturesCommand& options, const FeaturesFound& found, const BatchVertices& listed) {
   io::NpzWriter npz(options.files.npz);
   npz.add<double>("radii", found.radii);
+  write_vertices(npz, listed);
   npz.add_texts("kinds", options.kinds);
   const std::array<std::uint64_t, 3> shape{found.radii.size(), found.rows(), found.kinds};
   npz.begin<double>("features", shape);
@@ -203,17 +204,18 @@ void print(const FeaturesCommand& options, const FeaturesFound& found) {
 }
 
 void features_command(const FeaturesCommand& options) {
-  check_value_files(options.files, {options.file});
-  Input input(options.file, options.weld, options.threads);
+  check_value_files(options.files, options.rows.with_files({options.file}));
+  Input input(options.file, options.weld, options.rows.threads);
   input.need_faces("features");
-  const FeaturesFound found = compute(options, input);
-  if (!options.files.npz.empty()) write_npz(options, found);
+  const RowQuery rows(options.rows, input);
+  const FeaturesFound found = compute(options, rows, input);
+  if (!options.files.npz.empty()) write_npz(options, found, rows.listed());
   if (options.files.has_mesh()) write_mesh(options, found, input.surface());
   print(options, found);
 }
 
 void add_radii(CLI::App& command, FeaturesCommand& options) {
-  add_radii(command, options.radii)->required(false);
+  add_rows(command, options.rows)->required(false);
   command
       .add_option("--largest", options.largest,
                   "the largest of --count radii, in equal steps, or with --smallest in equal ratios")
@@ -244,7 +246,6 @@ void add_features(CLI::App& program) {
       ->capture_default_str();
   command->add_flag("--no-filter", options->no_filter,
                     "also fit vertices whose normal points away from that of the query vertex");
-  add_threads(*command, options->threads);
   add_value_files(*command, options->files,
                   "the first kind at the largest radius; the colors of PLY show it, too, blue below 0, red above");
   add_json(*command, options->json);

@@ -88,10 +88,12 @@ void add_subcommands(CLI::App& program) {
   add_query(program);
   add_connect(program);
   add_region(program);
+  add_closest(program);
   add_batch(program);
   add_aggregate(program);
   add_curvature(program);
   add_features(program);
+  add_unconnected(program);
   add_merge(program);
   add_partition(program);
   add_compare(program);

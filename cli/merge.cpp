@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // meshhood merge: joins the files of `meshhood batch --shard`.
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -105,7 +106,9 @@ class Merger {
     const RowOrder order = value_of(kRowOrders, about.at("order").get<std::string>());
     if (has_vertices(order)) copy<std::int64_t>("vertices", rows_);
     if (about.at("count").get<bool>()) {
-      copy<std::int64_t, std::uint64_t>("count", rows_);
+      copy_radius();
+      npz_.begin<std::uint64_t>("count", std::array<std::uint64_t, 2>{1, rows_});
+      copy_values<std::int64_t, std::uint64_t>("count", rows_);
       return rows_;
     }
     const auto columns = about.at("columns").get<std::uint64_t>();
@@ -124,6 +127,15 @@ class Merger {
   }
 
  private:
+  /// Which all files have.
+  void copy_radius() {
+    io::NpzReader reader(files_[0].name);
+    reader.begin("radii");
+    std::vector<double> radii;
+    if (reader.left() != 1 || !reader.read(radii)) refuse(files_[0].name, "has not the one radius of a shard");
+    npz_.add<double>("radii", radii);
+  }
+
   [[nodiscard]] std::vector<std::int64_t> joined_offsets() const {
     std::vector<std::int64_t> all{0};
     for (const ShardFile& file : files_) {
@@ -137,10 +149,15 @@ class Merger {
     return all;
   }
 
-  /// Appends an array of all files, `total` values of type `In`, as one of type `Out`.
+  /// Writes an array of all files, `total` values of type `In`, as one of type `Out`.
   template <class In, class Out = In>
   void copy(std::string_view name, std::uint64_t total) {
     npz_.begin<Out>(name, total);
+    copy_values<In, Out>(name, total);
+  }
+
+  template <class In, class Out>
+  void copy_values(std::string_view name, std::uint64_t total) {
     std::uint64_t done = 0;
     std::vector<In> values;
     for (const ShardFile& file : files_) {

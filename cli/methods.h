@@ -10,15 +10,28 @@
 
 #include "input.h"
 
-/// The methods of a search by their names: exact, bfs, paper and ball.
+/// How a search finds vertices and measures their distances, by names.
 namespace meshhood::cli {
 
-/// --method.
-void add_method(CLI::App& command, std::string& method);
+struct MethodOptions {
+  std::string method = "exact";
+  std::string metric = "straight";
 
-/// The method `name`. Borrows `input`. `options` are those of paper; `threads` build the index. Throws
-/// Error{InvalidOption} if the method needs edges and the input has none.
-[[nodiscard]] SearchMethod method_of(const std::string& name, Input& input, const paper::QueryOptions& options = {},
-                                     unsigned threads = kAllThreads);
+  [[nodiscard]] bool is_straight() const { return metric == "straight"; }
+};
+
+/// --method and --metric.
+void add_method(CLI::App& command, MethodOptions& options);
+
+/// --metric alone, of a command that does not count edges.
+void add_metric(CLI::App& command, std::string& metric);
+
+/// Throws Error{InvalidOption} if the options contradict each other, a filter, or the unit of the radius.
+void check_method(const MethodOptions& options, bool has_filter, const std::string& unit);
+
+/// Borrows `input`. `settings` are those of the method paper; `threads` build the index. Throws Error{InvalidOption} if
+/// the method needs edges and the input has none.
+[[nodiscard]] SearchMethod method_of(const MethodOptions& options, Input& input,
+                                     const paper::QueryOptions& settings = {}, unsigned threads = kAllThreads);
 
 }  // namespace meshhood::cli

@@ -250,7 +250,7 @@ VertexId resolve_vertex(std::uint64_t v, const Input& input) {
         fmt::format("vertex {} is out of range: {} has {} vertices", v, printable_name(input.name()), vertices));
 }
 
-void check_output(const std::string& output, std::initializer_list<std::string> inputs) {
+void check_output(const std::string& output, const std::vector<std::string>& inputs) {
   namespace fs = std::filesystem;
   if (output.empty()) return;
   std::error_code ignored;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <string>
@@ -113,7 +112,7 @@ void add_unit(CLI::App& command, const std::string& length, std::string& unit);
 /// Checks an output file before the work begins; does nothing if `output` is empty. From then on, if it is standard
 /// output, what the command prints goes to standard error. Throws Error{InvalidOption} if it is one of the `inputs`,
 /// and Error{IoFailure} if its folder does not exist or is not writable.
-void check_output(const std::string& output, std::initializer_list<std::string> inputs = {});
+void check_output(const std::string& output, const std::vector<std::string>& inputs = {});
 
 /// "; did you mean 'build'?", or "" if no candidate is similar to `word`.
 [[nodiscard]] std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);

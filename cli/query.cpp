@@ -24,6 +24,7 @@
 #include "output.h"
 #include "painting.h"
 #include "start.h"
+#include "vertex_order.h"
 
 namespace meshhood::cli {
 namespace {
@@ -33,9 +34,9 @@ struct QueryCommand {
   std::string weld;  ///< as typed; empty without
   std::vector<std::uint64_t> vertices;
   Radii radii;
-  std::optional<std::uint64_t> rings;  ///< instead of the radii
   StartOptions start;
-  std::string method = "exact";
+  MethodOptions search;
+  std::string sort = "id";
   std::optional<std::string> factor;
   bool count = false;
   bool distances = false;
@@ -45,8 +46,8 @@ struct QueryCommand {
 
 struct Answer {
   std::optional<VertexId> vertex;   ///< none for --point
-  std::vector<std::size_t> counts;  ///< for each radius; one for --rings
-  std::vector<VertexId> vertices;   ///< as in `StartAnswer`; empty if they are neither printed nor painted
+  std::vector<std::size_t> counts;  ///< for each radius
+  std::vector<VertexId> vertices;   ///< ring by ring; empty if they are neither printed nor painted
   std::vector<double> distances;    ///< of `vertices`, if requested
   double seconds = 0;               ///< 0 if it was not measured
 };
@@ -54,7 +55,7 @@ struct Answer {
 AnySearcher searcher_of(const QueryCommand& options, Input& input) {
   paper::QueryOptions settings;
   if (options.factor) settings.radius_ratio = parse_radius("--factor", *options.factor);
-  return method_of(options.method, input, settings).make_searcher();
+  return method_of(options.search, input, settings).make_searcher();
 }
 
 /// The answer of `searcher`, with the median time of several runs.
@@ -65,7 +66,6 @@ Answer timed_answer(const QueryCommand& options, AnySearcher& searcher, VertexId
     return answer;
   }
   answer.seconds = measure::median_seconds([&] { searcher.neighborhood(v, radius, answer.vertices); });
-  std::sort(answer.vertices.begin(), answer.vertices.end());
   answer.counts.front() = answer.vertices.size();
   return answer;
 }
@@ -110,15 +110,13 @@ Json to_json(const QueryCommand& options, std::span<const double> radii, const A
   } else {
     document["point"] = options.start.center();
   }
-  if (options.rings) {
-    document["rings"] = *options.rings;
-  } else if (radii.size() == 1) {
+  if (radii.size() == 1) {
     document["radius"] = radii.front();
   } else {
     document["radii"] = radii;
   }
-  document["method"] = options.method;
-  if (options.start.is_along_edges()) document["metric"] = options.start.metric;
+  document["method"] = options.search.method;
+  if (!options.search.is_straight()) document["metric"] = options.search.metric;
   if (answer.counts.size() == 1) {
     document["count"] = answer.counts.front();
   } else {
@@ -166,7 +164,8 @@ void print(const QueryCommand& options, std::span<const double> radii, const std
 }
 
 void paint(const QueryCommand& options, Input& input, const std::vector<Answer>& answers) {
-  const Color color = options.method == "ball" ? kBallColor : options.method == "paper" ? kPaperColor : kExactColor;
+  const std::string& method = options.search.method;
+  const Color color = method == "ball" ? kBallColor : method == "paper" ? kPaperColor : kExactColor;
   Painting painting(input.vertex_count());
   for (const Answer& answer : answers) painting.paint(answer.vertices, color);
   for (const Answer& answer : answers) {
@@ -177,39 +176,47 @@ void paint(const QueryCommand& options, Input& input, const std::vector<Answer>&
 
 std::vector<Answer> answers_of_method(const QueryCommand& options, std::span<const QueryStart> starts, double radius,
                                       Input& input) {
+  const std::string& method = options.search.method;
   AnySearcher searcher = searcher_of(options, input);
+  VertexSorter sorter(options.sort, input);
   std::vector<Answer> answers;
   for (const QueryStart& start : starts) {
     const VertexId v = *start.vertex();
     Answer answer = timed_answer(options, searcher, v, radius);
-    if (options.method == "exact" || options.method == "bfs") note_whole_component(searcher, radius, answer, input);
-    if (options.distances) {
+    if (method == "exact" || method == "bfs") note_whole_component(searcher, radius, answer, input);
+    if (options.distances || sorter.needs_distances()) {
       for (const VertexId w : answer.vertices) answer.distances.push_back(distance(input.positions(), v, w));
     }
+    sorter.sort(answer.vertices, answer.distances);
     answers.push_back(std::move(answer));
   }
   return answers;
 }
 
-/// The answers that the methods do not give: from a point, with a filter, along edges, by rings, for several radii.
+/// The answers that the methods do not give: from a point, with a filter, in another metric, for several radii.
 std::vector<Answer> answers_of_starts(const QueryCommand& options, std::span<const QueryStart> starts,
                                       std::span<const double> radii, Input& input) {
   input.need_edges("this query");
+  VertexSorter sorter(options.sort, input);
   std::vector<Answer> answers;
   for (const QueryStart& start : starts) {
-    StartAnswer found = options.rings ? rings_of(options.start, *start.vertex(), *options.rings, input)
-                                      : regions_of(options.start, start, radii, input);
-    if (!options.distances) found.distances.clear();
+    StartAnswer found = regions_of(options.start, options.search.metric, start, radii, input);
+    std::size_t begin = 0;
+    for (const std::size_t end : found.counts) {
+      sorter.sort(std::span(found.vertices).subspan(begin, end - begin),
+                  std::span(found.distances).subspan(begin, end - begin));
+      begin = end;
+    }
     answers.push_back({start.vertex(), std::move(found.counts), std::move(found.vertices), std::move(found.distances)});
   }
-  if (options.start.is_plain() && !options.rings) {
+  if (options.start.is_plain() && options.search.is_straight()) {
     AnySearcher searcher = searcher_of(options, input);
     for (const Answer& answer : answers) note_whole_component(searcher, radii.back(), answer, input);
   }
   return answers;
 }
 
-/// In the unit of the positions; none for --rings.
+/// In the unit of the positions, or numbers of edges.
 std::vector<double> ascending_radii(const QueryCommand& options, Input& input) {
   std::vector<double> radii = resolve(options.radii, input);
   for (std::size_t i = 1; i < radii.size(); ++i) {
@@ -221,22 +228,22 @@ std::vector<double> ascending_radii(const QueryCommand& options, Input& input) {
 }
 
 void check_options(const QueryCommand& options) {
-  if (options.factor && options.method != "paper") {
-    raise(ErrorCode::InvalidOption, "--factor requires --method paper");
-  }
+  const std::string& method = options.search.method;
+  if (options.factor && method != "paper") raise(ErrorCode::InvalidOption, "--factor requires --method paper");
+  const bool has_point = !options.start.point.empty();
+  if (has_point && method != "exact") raise(ErrorCode::InvalidOption, "--point requires --method exact");
+  check_method(options.search, !options.start.filter.empty(), options.radii.unit);
   const std::size_t radii = options.radii.values.size();
-  if ((radii > 0) == options.rings.has_value()) {
-    raise(ErrorCode::InvalidOption, "expected either --radius or --rings");
+  if (radii > 1 && method != "exact") {
+    raise(ErrorCode::InvalidOption, fmt::format("--radius: {} radii, expected one with --method {}", radii, method));
   }
-  if (options.rings && (!options.start.point.empty() || options.start.is_along_edges() || options.method != "exact")) {
-    raise(ErrorCode::InvalidOption, "--rings: expected --vertex, and neither --metric nor --method");
-  }
-  if (radii > 1 && options.method != "exact") {
+  check_sort(options.sort, method);
+  check_start_options(options.start, !options.vertices.empty());
+  if (has_point && !options.search.is_straight()) {
     raise(ErrorCode::InvalidOption,
-          fmt::format("--radius: {} radii, expected one with --method {}", radii, options.method));
+          fmt::format("--metric {}: expected --vertex, because a point has no edges", options.search.metric));
   }
-  check_start_options(options.start, options.method, !options.vertices.empty());
-  check_weld(options.weld, options.method);
+  check_weld(options.weld, method);
 }
 
 void query(const QueryCommand& options) {
@@ -245,7 +252,7 @@ void query(const QueryCommand& options) {
   Input input(options.file, options.weld);
   const std::vector<QueryStart> starts = starts_of(options.start, options.vertices, input);
   const std::vector<double> radii = ascending_radii(options, input);
-  const std::vector<Answer> answers = options.start.is_plain() && radii.size() == 1
+  const std::vector<Answer> answers = options.start.is_plain() && options.search.is_straight() && radii.size() == 1
                                           ? answers_of_method(options, starts, radii.front(), input)
                                           : answers_of_starts(options, starts, radii, input);
   if (!options.output.empty()) paint(options, input, answers);
@@ -264,18 +271,13 @@ void add_query(CLI::App& program) {
               "answer begins with the query vertex",
               options->vertices);
   add_radii(*command, options->radii)
-      ->required(false)
       ->description(
           "radius of the ball; a vertex at exactly this distance is inside; several, ascending: -r 1,2 or -r 1 -r 2, "
           "then each vertex is printed once, with the smallest radius whose neighborhood has it, and --count prints a "
           "line for each radius");
-  command
-      ->add_option("--rings", options->rings,
-                   "instead of the radius: find the vertices at most this number of edges away from the query vertex")
-      ->transform(whole_number())
-      ->type_name("NUMBER");
   add_start(*command, options->start);
-  add_method(*command, options->method);
+  add_method(*command, options->search);
+  add_sort(*command, options->sort);
   command
       ->add_option("--factor", options->factor,
                    "f of the paper's query, the ratio of the radius to that of the clusters: greater is more exact "
@@ -283,9 +285,7 @@ void add_query(CLI::App& program) {
       ->type_name("NUMBER");
   CLI::Option* count = command->add_flag("--count", options->count, "print only the number of vertices");
   command
-      ->add_flag(
-          "--distances", options->distances,
-          "print each vertex with its distance: straight, along the edges with --metric path, edges with --rings")
+      ->add_flag("--distances", options->distances, "print each vertex with its distance, in the metric of the radius")
       ->excludes(count);
   add_output(*command, ".ply", "also write the mesh with the neighborhood in color", options->output);
   add_json(*command, options->json);

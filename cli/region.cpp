@@ -12,7 +12,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "meshhood/error.h"
 #include "meshhood/region_mesh.h"
 
 #include "commands.h"
@@ -81,17 +80,14 @@ void write_arrays(const std::string& file, const Submesh& part, const Rim& rim) 
 }
 
 void region(const RegionCommand& options) {
-  check_start_options(options.start, "exact", !options.vertices.empty());
-  if (options.start.is_along_edges()) {
-    raise(ErrorCode::InvalidOption, "--metric path: a region has no rim in this metric");
-  }
+  check_start_options(options.start, !options.vertices.empty());
   check_output(options.output, {options.file});
   check_output(options.arrays, {options.file, options.output});
   Input input(options.file, options.weld);
   input.need_faces("region");
   const QueryStart start = start_of(options.start, options.vertices, input);
   const double radius = resolve(options.radius, input);
-  const std::vector<VertexId> ids = regions_of(options.start, start, std::span(&radius, 1), input).vertices;
+  const std::vector<VertexId> ids = regions_of(options.start, "straight", start, std::span(&radius, 1), input).vertices;
   RegionMesher mesher(input.surface());
   const Submesh part = mesher.submesh(ids, options.faces == "all" ? Corners::All : Corners::Any);
   const Rim rim = mesher.rim(ids, center_of(start.view(), input.positions()), radius);

@@ -13,45 +13,35 @@
 #include "meshhood/filter.h"
 #include "meshhood/start.h"
 
+#include "filter_files.h"
 #include "input.h"
 
-/// The options of a query beyond vertex and radius: where it starts, what it may pass, and how it measures lengths.
+/// The options of a query beyond vertex and radius: where it starts, and what it may pass.
 namespace meshhood::cli {
+
+/// --point.
+CLI::Option* add_point(CLI::App& command, const std::string& description, std::vector<std::string>& point);
+
+/// What was typed. Throws Error{InvalidOption}.
+[[nodiscard]] SpacePoint parse_point(const std::vector<std::string>& point);
 
 struct StartOptions {
   std::vector<std::string> point;
   std::vector<std::uint64_t> seeds;
-  std::string metric = "straight";
-  std::string walls;
-  std::string ignored;
-
-  [[nodiscard]] bool has_filter() const { return !walls.empty() || !ignored.empty(); }
-  [[nodiscard]] bool is_along_edges() const { return metric == "path"; }
+  FilterFiles filter;
 
   /// --point. Throws Error{InvalidOption}.
-  [[nodiscard]] SpacePoint center() const;
+  [[nodiscard]] SpacePoint center() const { return parse_point(point); }
 
   /// Whether the query has none of these options.
-  [[nodiscard]] bool is_plain() const { return point.empty() && !has_filter() && !is_along_edges(); }
+  [[nodiscard]] bool is_plain() const { return point.empty() && filter.empty(); }
 };
 
-/// --point, --seed, --metric, --walls and --ignored.
+/// --point, --seed, --walls and --ignored.
 void add_start(CLI::App& command, StartOptions& options);
 
-/// Throws Error{InvalidOption} if the options contradict each other or `method`.
-void check_start_options(const StartOptions& options, const std::string& method, bool has_vertices);
-
-/// The masks of a query, from files that list vertices.
-class FilterMasks {
- public:
-  FilterMasks(const StartOptions& options, const Input& input);
-
-  [[nodiscard]] Filter filter() const { return {.walls = walls_, .ignored = ignored_}; }
-
- private:
-  std::vector<std::uint8_t> walls_;
-  std::vector<std::uint8_t> ignored_;
-};
+/// Throws Error{InvalidOption} unless there is either a point or a vertex.
+void check_start_options(const StartOptions& options, bool has_vertices);
 
 /// Where a search starts. Owns the seeds.
 class QueryStart {
@@ -83,17 +73,15 @@ class QueryStart {
 
 /// The answer to one query, ring by ring. With one radius there is one ring.
 struct StartAnswer {
-  std::vector<VertexId> vertices;   ///< ascending within each ring
+  std::vector<VertexId> vertices;   ///< each ring in an order of its own
   std::vector<double> distances;    ///< of `vertices`
   std::vector<std::size_t> counts;  ///< the first `counts[i]` vertices are within radius `i`
 };
 
-/// The regions of a start for ascending `radii`, at least one, as the rings of `RegionSearcher::nested`; with --metric
-/// path the vertices whose path distance is at most each radius.
-[[nodiscard]] StartAnswer regions_of(const StartOptions& options, const QueryStart& start,
+/// The regions of a start for ascending `radii`, at least one, as the rings of `RegionSearcher::nested`. With the
+/// metric "path" or "rings", the vertices whose path distance or number of edges is at most each radius; the start must
+/// then be a vertex.
+[[nodiscard]] StartAnswer regions_of(const StartOptions& options, const std::string& metric, const QueryStart& start,
                                      std::span<const double> radii, Input& input);
-
-/// The vertices that at most `k` edges separate from vertex `v`, all as one ring, with the number of these edges.
-[[nodiscard]] StartAnswer rings_of(const StartOptions& options, VertexId v, std::size_t k, Input& input);
 
 }  // namespace meshhood::cli

@@ -39,7 +39,7 @@ void add_value_files(CLI::App& command, ValueFiles& files, const std::string& sh
   }
 }
 
-void check_value_files(const ValueFiles& files, std::initializer_list<std::string> inputs) {
+void check_value_files(const ValueFiles& files, const std::vector<std::string>& inputs) {
   if (files.npz.empty() && !files.has_mesh()) {
     raise(ErrorCode::InvalidOption, "expected --output, --ply or --vtk");
   }

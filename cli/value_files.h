@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <span>
 #include <string>
 #include <utility>
@@ -34,7 +33,7 @@ struct ValueFiles {
 void add_value_files(CLI::App& command, ValueFiles& files, const std::string& shown);
 
 /// As `check_output`. Throws also if no file was requested.
-void check_value_files(const ValueFiles& files, std::initializer_list<std::string> inputs);
+void check_value_files(const ValueFiles& files, const std::vector<std::string>& inputs);
 
 /// The requested files, for a message and for JSON.
 [[nodiscard]] std::string names_of(const ValueFiles& files);

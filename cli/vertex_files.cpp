@@ -31,9 +31,10 @@ namespace {
   raise(ErrorCode::InvalidOption, fmt::format("{}: {}", input.name(), message));
 }
 
-void check_rows(const io::InputBuffer& input, std::uint64_t rows, std::size_t vertices) {
-  if (rows == vertices) return;
-  fail(input, fmt::format("{} rows of values, expected one for each of {} vertices", rows, vertices));
+/// Any number of rows is right if `vertices` has none.
+void check_rows(const io::InputBuffer& input, std::uint64_t rows, std::optional<std::size_t> vertices) {
+  if (!vertices || rows == *vertices) return;
+  fail(input, fmt::format("{} rows of values, expected one for each of {} vertices", rows, *vertices));
 }
 
 /// Opens a file and calls `read(input)`. A malformed one is a wrong option, not a wrong mesh.
@@ -66,7 +67,7 @@ std::optional<double> next_number(io::Text& text) {
   return number;
 }
 
-Channels read_text(io::InputBuffer& input, std::size_t vertices) {
+Channels read_text(io::InputBuffer& input, std::optional<std::size_t> vertices) {
   io::Text text(input, {.hash_comments = true});
   Channels values;
   std::size_t rows = 0;
@@ -78,7 +79,7 @@ Channels read_text(io::InputBuffer& input, std::size_t vertices) {
     if (count != values.channels) {
       text.fail(ErrorCode::InvalidOption, fmt::format("{} numbers on a line, expected {}", count, values.channels));
     }
-    if (rows > vertices) check_rows(input, rows, vertices);
+    if (vertices && rows > *vertices) check_rows(input, rows, vertices);
   }
   check_rows(input, rows, vertices);
   if (values.channels == 0) values.channels = 1;  // of no vertices
@@ -116,7 +117,7 @@ const NumberType& number_type(const io::InputBuffer& input, const io::NpyHeader&
                           header.item));
 }
 
-Channels read_numpy(io::InputBuffer& input, std::size_t vertices) {
+Channels read_numpy(io::InputBuffer& input, std::optional<std::size_t> vertices) {
   const io::NpyHeader header = io::parse_npy_header(input.ahead(io::kNpyHeadBytes), input.name());
   if (header.shape.size() != 1 && header.shape.size() != 2) {
     fail(input, fmt::format("an array of {} dimensions, expected one or two", header.shape.size()));
@@ -128,7 +129,7 @@ Channels read_numpy(io::InputBuffer& input, std::size_t vertices) {
   if (header.fortran_order && values.channels > 1) fail(input, "the array is in Fortran order, expected C order");
   input.skip(header.bytes);
   const bool swaps = header.big_endian == (std::endian::native == std::endian::little);
-  for (std::size_t row = 0; row < vertices; ++row) {
+  for (std::uint64_t row = 0; row < header.shape.front(); ++row) {
     for (std::uint64_t channel = 0; channel < values.channels; ++channel) {
       std::string number(input.ahead(type.bytes).substr(0, type.bytes));
       if (number.size() < type.bytes) fail(input, fmt::format("the file ends within row {}", row));
@@ -161,10 +162,22 @@ std::vector<VertexId> read_vertex_list(const std::string& file, std::size_t vert
   });
 }
 
-Channels read_channels(const std::string& file, std::size_t vertices) {
+Channels read_channels(const std::string& file, std::optional<std::size_t> vertices) {
   return read_file(file, [&](io::InputBuffer& input) {
     return io::is_npy(input.ahead(io::kNpyHeadBytes)) ? read_numpy(input, vertices) : read_text(input, vertices);
   });
+}
+
+std::vector<SpacePoint> read_points(const std::string& file) {
+  constexpr std::size_t kAxes = 3;
+  const Channels read = read_channels(file, std::nullopt);
+  if (read.channels != kAxes && !read.numbers.empty()) {
+    raise(ErrorCode::InvalidOption,
+          fmt::format("{}: {} numbers for each point, expected {}", io::printable_name(file), read.channels, kAxes));
+  }
+  std::vector<SpacePoint> points(read.numbers.size() / kAxes);
+  for (std::size_t i = 0; i < read.numbers.size(); ++i) points[i / kAxes][i % kAxes] = read.numbers[i];
+  return points;
 }
 
 std::vector<double> read_channel(const std::string& file, std::size_t vertices, std::string_view values) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,7 @@
 
 #include "meshhood/batch.h"
 #include "meshhood/mesh.h"
+#include "meshhood/start.h"
 
 #include "input.h"
 #include "io/npz_writer.h"
@@ -29,9 +31,12 @@ struct Channels {
   std::size_t channels = 0;
 };
 
-/// Reads the values of a mesh of `vertices`: an array of NumPy (.npy) of one or two dimensions, recognized by its first
-/// bytes; or a text with one line per vertex, all with as many numbers.
-[[nodiscard]] Channels read_channels(const std::string& file, std::size_t vertices);
+/// Reads the values of a mesh of `vertices`, or of any number of rows without: an array of NumPy (.npy) of one or two
+/// dimensions, recognized by its first bytes; or a text with one line per vertex, all with as many numbers.
+[[nodiscard]] Channels read_channels(const std::string& file, std::optional<std::size_t> vertices);
+
+/// The same for points in space, three numbers in each row.
+[[nodiscard]] std::vector<SpacePoint> read_points(const std::string& file);
 
 /// The same for values of one channel. `values` names them in the message: "weights".
 [[nodiscard]] std::vector<double> read_channel(const std::string& file, std::size_t vertices, std::string_view values);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cerrno>
+#include <limits>
 #include <type_traits>
 
 #include <fmt/format.h>
@@ -57,9 +58,11 @@ NpyHeader NpzReader::begin(std::string_view name) {
   head.resize(kBeforeDictionary + (byte(8) | byte(9) << 8U));
   take(std::span(head).subspan(kBeforeDictionary));
   header_ = parse_npy_header(head, printable_name(path_.string()) + ": " + name_);
-  const auto& shape = header_.shape;
-  if (shape.size() > 1) fail("has several dimensions");
-  left_ = shape.empty() ? 1 : shape[0];
+  left_ = 1;
+  for (const std::uint64_t length : header_.shape) {
+    if (length != 0 && left_ > std::numeric_limits<std::uint64_t>::max() / length) fail("is too large");
+    left_ *= length;
+  }
   if (header_.big_endian != (std::endian::native == std::endian::big) && header_.item > 1)
     fail("has another byte order");
   return header_;

@@ -5,10 +5,13 @@ import {
 } from './arguments.js';
 import { Curvature } from './curvature.js';
 import { Instance, MeshhoodError, Owner, makeInstance } from './instance.js';
+import { MASKS, ROWS, withMasks, withRows } from './rows.js';
 
 const METHODS = ['exact', 'paper', 'bfs', 'ball'];
-const BY_PATH = METHODS.length; // as in bindings/wasm/src/method.h
-const METRICS = ['straight', 'path'];
+const METRICS = ['straight', 'path', 'rings'];
+const BY_METRIC = METHODS.length - 1; // and the place of another metric: as in bindings/wasm/src/workspace.h
+const LENGTHS = ['straight', 'path']; // the metrics that measure lengths
+const ORDERS = ['index', 'id', 'distance'];
 const UNITS = ['mesh', 'edge'];
 const REDUCTIONS = ['sum', 'mean', 'min', 'max', 'var', 'std', 'count'];
 const KERNELS = ['box', 'epanechnikov', 'biweight'];
@@ -19,20 +22,27 @@ const FITS = ['quadric', 'jet'];
 // The options of the calls, with their defaults.
 const BUILDING = { offsets: null, cut: null, progress: undefined };
 const QUERY = { method: 'exact', metric: 'straight', unit: 'mesh' };
-const ANSWER = { sort: false, distances: false };
-const MASKS = { walls: null, ignored: null };
+const ANSWER = { sort: null, distances: false };
 const SEARCH = { seeds: null, ...MASKS };
-const SMOOTHING = { weights: null, faces: null, vertices: null, nan: 'propagate', unit: 'mesh' };
-const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, ...SMOOTHING };
+const SMOOTHING = {
+  weights: null, faces: null, vertices: null, metric: 'straight', ...MASKS, nan: 'propagate', unit: 'mesh',
+};
+const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, scales: null, ...SMOOTHING };
 const CURVATURE = {
-  vertices: null, faces: null, normals: null, like: null, fit: 'quadric', filter: true, unit: 'mesh',
+  vertices: null, ...ROWS, faces: null, normals: null, like: null, fit: 'quadric', filter: true, unit: 'mesh',
 };
 
-function chooseMethod(method, metric) {
+function chooseMethod({ method, metric, unit }) {
   const place = choose(METHODS, method, 'method');
-  if (choose(METRICS, metric, 'metric') === 0) return place;
-  if (method === 'exact') return BY_PATH;
-  throw new MeshhoodError('InvalidOption', `method: '${method}', expected 'exact' with metric 'path'`);
+  const other = choose(METRICS, metric, 'metric');
+  if (other === 0) return place;
+  if (method !== 'exact') {
+    throw new MeshhoodError('InvalidOption', `method: '${method}', expected 'exact' with metric '${metric}'`);
+  }
+  if (metric === 'rings' && unit === 'edge') {
+    throw new MeshhoodError('InvalidOption', "unit: 'edge', but with metric 'rings' the radius is a number of edges");
+  }
+  return BY_METRIC + other;
 }
 
 function build(positions, corners, options = {}) {
@@ -58,12 +68,8 @@ function move(instance, { positions, changed }) {
     'refit', xyz, positions.length, positions instanceof Float64Array, list, changed?.length ?? 0));
 }
 
-/** Ids and distances in ascending order of the ids. */
-function sorted({ ids, distances }) {
-  if (distances === undefined) return { ids: ids.sort() };
-  const order = Array.from(ids.keys()).sort((i, j) => ids[i] - ids[j]);
-  return { ids: Uint32Array.from(order, (i) => ids[i]), distances: Float64Array.from(order, (i) => distances[i]) };
-}
+/** Whether a vertex stands for many. */
+const isMany = (v) => v === null || typeof v === 'object';
 
 export class MeshIndex extends Owner {
   #vertexCount;
@@ -138,28 +144,42 @@ export class MeshIndex extends Owner {
   // Neighborhoods.
 
   queryBall(v, r, options = {}) {
-    const { method, metric, unit, sort, distances } = withDefaults(options, { ...QUERY, ...ANSWER });
-    const place = chooseMethod(method, metric);
-    const scale = this.#scale(unit);
-    if (v === null || typeof v === 'object') return this.#queryMany(place, v, r, scale, { sort, distances });
-    this.#query(place, v, r, scale, distances);
-    return this.#takeNeighborhood(sort, distances);
+    const given = withDefaults(options, { ...QUERY, ...ANSWER, ...MASKS });
+    const place = chooseMethod(given);
+    const { sort, distances, walls, ignored } = given;
+    if (sort !== null) choose(ORDERS, sort, 'sort');
+    if (!isMany(v) && walls === null && ignored === null) {
+      this.#query(place, v, r, this.#scale(given.unit), distances || sort === 'distance');
+      return this.#takeNeighborhood(sort, distances);
+    }
+    this.#queryMany(place, v, r, given, { distances: distances || sort === 'distance', byId: sort === 'id' });
+    if (sort === 'index' || sort === 'distance') this.instance.call('sort_answer', ORDERS.indexOf(sort), true);
+    const rows = { offsets: this.instance.takeCounts(), ids: this.instance.takeIds() };
+    if (distances) rows.distances = this.instance.takeReals();
+    this.instance.releaseAnswer();
+    if (isMany(v)) return rows;
+    return distances ? { ids: rows.ids, distances: rows.distances } : rows.ids;
   }
 
   viewBall(v, r, options = {}) {
-    const { method, metric, unit } = withDefaults(options, QUERY);
-    const count = this.#query(chooseMethod(method, metric), v, r, this.#scale(unit), false);
+    const given = withDefaults(options, QUERY);
+    const count = this.#query(chooseMethod(given), v, r, this.#scale(given.unit), false);
     return this.instance.view(Uint32Array, this.instance.call('answer_ids'), count);
   }
 
   count(v, r, options = {}) {
-    const { method, metric, unit } = withDefaults(options, QUERY);
-    const place = chooseMethod(method, metric);
-    const scale = this.#scale(unit);
-    if (v === null || typeof v === 'object') return this.#queryMany(place, v, r, scale, { countOnly: true });
-    this.#expectVertex(v);
-    expectRadius(r);
-    return this.instance.call('count', place, v, scale * r) >>> 0;
+    const given = withDefaults(options, { ...QUERY, ...ROWS });
+    const place = chooseMethod(given);
+    const { scales, walls, ignored } = given;
+    if (!isMany(v) && scales === null && walls === null && ignored === null) {
+      this.#expectVertex(v);
+      expectRadius(r);
+      return this.instance.call('count', place, v, this.#scale(given.unit) * r) >>> 0;
+    }
+    this.#queryMany(place, v, r, given, { countOnly: true });
+    const counts = this.instance.takeCounts();
+    this.instance.releaseAnswer();
+    return isMany(v) || scales !== null ? counts : counts[0];
   }
 
   /** Returns the number of ids. */
@@ -171,27 +191,27 @@ export class MeshIndex extends Owner {
 
   /** Of one vertex or region. */
   #takeNeighborhood(sort, distances) {
+    if (sort !== null) this.instance.call('sort_answer', choose(ORDERS, sort, 'sort'), false);
     const ids = this.instance.takeIds();
-    const found = distances ? { ids, distances: this.instance.takeReals() } : { ids };
-    const answer = sort ? sorted(found) : found;
-    return distances ? answer : answer.ids;
+    return distances ? { ids, distances: this.instance.takeReals() } : ids;
   }
 
-  #queryMany(method, v, r, scale, { sort = false, distances = false, countOnly = false }) {
+  /** Of one vertex, too. */
+  #queryMany(method, v, r, given, { distances = false, byId = false, countOnly = false }) {
+    if (!isMany(v)) this.#expectVertex(v);
+    const vertices = isMany(v) ? v : Uint32Array.of(v);
+    withRows(this.instance, vertices, r, given, this.#scale(given.unit), (...rows) =>
+      this.instance.call('batch', ...rows, method, countOnly, distances, byId));
+  }
+
+  nearestUnconnected(v, r, options = {}) {
+    const given = withDefaults(options, { ...MASKS, unit: 'mesh' });
     expectVertices(v, 'vertices');
-    const isList = typeof r !== 'number';
-    if (isList) expectType(r, [Float64Array], 'radii');
-    const radii = isList ? r.map((radius) => scale * radius) : null;
-    this.instance.with([v, radii], (vertices, list) => this.instance.call('batch', method, vertices, v?.length ?? 0,
-      isList ? 0 : scale * r, list, radii?.length ?? 0, countOnly, distances, sort));
-    const answer = countOnly ? this.instance.takeCounts() : this.#takeRows(distances);
+    withRows(this.instance, v, r, given, this.#scale(given.unit), (...rows) =>
+      this.instance.call('nearest_unconnected', ...rows));
+    const found = { ids: this.instance.takeIds(), gaps: this.instance.takeReals() };
     this.instance.releaseAnswer();
-    return answer;
-  }
-
-  #takeRows(distances) {
-    const rows = { offsets: this.instance.takeCounts(), ids: this.instance.takeIds() };
-    return distances ? { ...rows, distances: this.instance.takeReals() } : rows;
+    return found;
   }
 
   // Regions.
@@ -199,8 +219,10 @@ export class MeshIndex extends Owner {
   queryRegion(start, r, options = {}) {
     const { unit, sort, distances, ...search } = withDefaults(options, { unit: 'mesh', ...ANSWER, ...SEARCH });
     expectRadius(r);
+    if (sort !== null) choose(ORDERS, sort, 'sort');
     const radius = this.#scale(unit) * r;
-    const isNear = this.#search(start, search, () => this.instance.call('region', radius, distances));
+    const isNear = this.#search(start, search, () =>
+      this.instance.call('region', radius, distances || sort === 'distance'));
     this.#warnUnless(isNear);
     return this.#takeNeighborhood(sort, distances);
   }
@@ -250,6 +272,20 @@ export class MeshIndex extends Owner {
     return { vertex, distance: this.instance.takeReals()[0] };
   }
 
+  closestPoint(point, options = {}) {
+    const { faces } = withDefaults(options, { faces: null });
+    expectPoint(point, 'point');
+    if (faces === null) {
+      throw new MeshhoodError('InvalidOption', 'faces: expected the faces of the mesh, which an index does not keep');
+    }
+    expectFaces(faces);
+    const face = withFaces(this.instance, faces, (...six) => this.instance.call('closest_point', ...point, ...six)) >>> 0;
+    const numbers = this.instance.takeReals();
+    return {
+      face, vertices: this.instance.takeIds(), weights: numbers.slice(0, 3), point: numbers.slice(3, 6), distance: numbers[6],
+    };
+  }
+
   /** Once for each index: a pointer that leaves the mesh would cause many. */
   #warnUnless(isNear) {
     if (isNear || this.#hasWarned) return;
@@ -266,15 +302,11 @@ export class MeshIndex extends Owner {
       throw new MeshhoodError('InvalidOption', 'seeds: expected null, for the start is a vertex');
     }
     expectVertices(seeds, 'seeds');
-    for (const [mask, name] of [[walls, 'walls'], [ignored, 'ignored']]) {
-      if (mask !== null) expectType(mask, [Uint8Array], name);
-    }
-    return this.instance.with([seeds, walls, ignored], (seedList, wallMask, ignoredMask) => {
+    return withMasks(this.instance, { walls, ignored }, () => this.instance.with([seeds], (seedList) => {
       if (typeof start === 'number') this.instance.call('start_at_vertex', start);
       else this.instance.call('start_at_point', ...start, seedList, seeds?.length ?? 0);
-      this.instance.call('restrict_search', wallMask, walls?.length ?? 0, ignoredMask, ignored?.length ?? 0);
       return use();
-    });
+    }));
   }
 
   #takeRings() {
@@ -284,21 +316,19 @@ export class MeshIndex extends Owner {
   // Values and shape.
 
   aggregate(values, r, options = {}) {
-    const { reduce, weights, kernel, vertices, nan, nesting, ddof, faces, unit } = withDefaults(options, AGGREGATION);
-    const scale = this.#scale(unit);
+    const given = withDefaults(options, AGGREGATION);
+    const { metric, reduce, weights, kernel, vertices, nan, nesting, ddof, faces, unit } = given;
     const signal = toReals(values, 'values');
-    const radii = (typeof r === 'number' ? Float64Array.of(r) : toReals(r, 'r')).map((radius) => scale * radius);
     const channels = Math.max(1, Math.floor(signal.length / this.vertexCount) || 0);
     const choices = [
-      choose(REDUCTIONS, reduce, 'reduce'), choose(KERNELS, kernel, 'kernel'), choose(MISSING, nan, 'nan'),
+      choose(LENGTHS, metric, 'metric'), choose(REDUCTIONS, reduce, 'reduce'), choose(KERNELS, kernel, 'kernel'), choose(MISSING, nan, 'nan'),
       choose(NESTINGS, nesting, 'nesting'),
     ];
     expectSize(ddof, 'ddof');
-    expectVertices(vertices, 'vertices');
     const weighed = this.#weights(weights, faces);
-    this.instance.with([signal, weighed, vertices, radii], (numbers, weightList, rows, radiusList) =>
-      this.instance.call('aggregate', numbers, signal.length, channels, weightList, weighed?.length ?? 0,
-        rows, vertices?.length ?? 0, radiusList, radii.length, ...choices, ddof));
+    withRows(this.instance, vertices, r, given, this.#scale(unit), (...rows) =>
+      this.instance.with([signal, weighed], (numbers, weightList) => this.instance.call('aggregate', ...rows,
+        numbers, signal.length, channels, weightList, weighed?.length ?? 0, ...choices, ddof)));
     const aggregates = this.instance.takeReals();
     this.instance.releaseAnswer();
     return aggregates;
@@ -324,15 +354,13 @@ export class MeshIndex extends Owner {
   }
 
   curvature(r, options = {}) {
-    const { vertices, faces, normals, like, fit, filter, unit } = withDefaults(options, CURVATURE);
-    expectRadius(r);
-    const radius = this.#scale(unit) * r;
-    expectVertices(vertices, 'vertices');
+    const given = withDefaults(options, CURVATURE);
+    const { vertices, faces, normals, like, fit, filter, unit } = given;
     if (like !== null) choose(['libigl'], like, 'like');
     const place = choose(FITS, fit, 'fit');
     this.#useNormals(faces, normals);
-    this.instance.with([vertices], (rows) => this.instance.call(
-      'curvature', rows, vertices?.length ?? 0, radius, place, Boolean(filter), like !== null));
+    withRows(this.instance, vertices, r, given, this.#scale(unit), (...rows) => this.instance.call(
+      'curvature', ...rows, place, Boolean(filter), like !== null));
     return this.#takeCurvature();
   }
 

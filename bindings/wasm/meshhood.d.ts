@@ -143,22 +143,41 @@ export type Method = 'exact' | 'paper' | 'bfs' | 'ball';
 /** Of a radius: `mesh` is the unit of the positions, `edge` is `meanEdgeLength`. */
 export type Unit = 'mesh' | 'edge';
 
+/**
+ * Of a radius and of distances. `straight`: in a straight line. `path`: lengths of the shortest paths along edges; the
+ * vertices of one neighborhood then ascend by them. `rings`: numbers of edges. The last two need method `exact`.
+ */
+export type Metric = 'straight' | 'path' | 'rings';
+
 export interface QueryOptions {
   method?: Method;
-  /**
-   * `straight`: the neighborhood in the ball. `path`: the vertices whose shortest path along edges is at most r long.
-   * Distances are then those lengths, and the vertices of one neighborhood ascend by them. It needs method `exact`.
-   */
-  metric?: 'straight' | 'path';
+  metric?: Metric;
   unit?: Unit;
 }
 
-export interface AnswerOptions extends QueryOptions {
-  /**
-   * The ids of a neighborhood ascend. Otherwise those of `exact` are in index order: ascending places of `permutation`;
-   * those of another method have an order of its own, which is always the same.
-   */
-  sort?: boolean;
+/** Restricts searches. A mask has #V bytes; one other than 0 puts its vertex into the set. */
+export interface Masks {
+  /** The search does not pass these vertices, and they belong to no answer: as if they were not in the mesh. */
+  walls?: Uint8Array | null;
+  /** The search passes these vertices, but they belong to no answer. */
+  ignored?: Uint8Array | null;
+}
+
+/** Several radii, each for all rows, in any order. The argument `r` is then null, and the result has an axis for them. */
+export interface Scales {
+  scales?: Float64Array | Float32Array | null;
+}
+
+/**
+ * Of the vertices of a neighborhood. `index`: ascending places of `permutation`. `id`: ascending ids. `distance`:
+ * ascending distances, then ids. Null: as found. This is the order of the index by default and with metric `rings`,
+ * that of the distances with `path`; another method has an order of its own, which is always the same.
+ */
+export type Sort = 'index' | 'id' | 'distance' | null;
+
+/** Masks need method `exact`; with them, a call takes O(#V) besides its searches, also for one vertex. */
+export interface AnswerOptions extends QueryOptions, Masks {
+  sort?: Sort;
 }
 
 /** The rows of many queries: row i is `ids[offsets[i]]` to `ids[offsets[i + 1] - 1]`, and the distances likewise. */
@@ -169,14 +188,6 @@ export interface Rows {
 
 /** A vertex, or a point in space, which is then the center of the ball. */
 export type Start = number | readonly [number, number, number] | Float32Array | Float64Array;
-
-/** Restricts a search. A mask has #V bytes; one other than 0 puts its vertex into the set. */
-export interface Masks {
-  /** The search does not pass these vertices, and they belong to no answer: as if they were not in the mesh. */
-  walls?: Uint8Array | null;
-  /** The search passes these vertices, but they belong to no answer. */
-  ignored?: Uint8Array | null;
-}
 
 export interface RegionOptions extends Masks {
   /**
@@ -194,7 +205,9 @@ export interface Rings {
   ids: Uint32Array;
 }
 
-export interface AggregateOptions {
+export interface AggregateOptions extends Masks, Scales {
+  /** Of the radius and of the kernel. */
+  metric?: 'straight' | 'path';
   reduce?: 'sum' | 'mean' | 'min' | 'max' | 'var' | 'std' | 'count';
   /**
    * #V numbers >= 0, for `sum`, `mean`, `var` and `std`; `area` is the area that each vertex represents, which needs
@@ -212,7 +225,7 @@ export interface AggregateOptions {
   /** `propagate`: a neighborhood with a NaN gives NaN. `omit`: NaN marks a missing value, which is left out. */
   nan?: 'propagate' | 'omit';
   /**
-   * What several radii mean. `own`: each has its own neighborhoods. `patch`: the neighborhoods of the largest, and of
+   * What scales mean. `own`: each has its own neighborhoods. `patch`: the neighborhoods of the largest, and of
    * them the vertices within each smaller radius.
    */
   nesting?: 'own' | 'patch';
@@ -221,7 +234,7 @@ export interface AggregateOptions {
   unit?: Unit;
 }
 
-/** Principal curvatures, one entry for each row. */
+/** Principal curvatures, one entry for each row; #scales by #rows if there are scales, here meant by #rows. */
 export class Curvature {
   /** Of arrays that were computed in parts. They are not copied. */
   constructor(k1: Float64Array, k2: Float64Array, d1: Float64Array, d2: Float64Array, state: Uint8Array);
@@ -256,7 +269,7 @@ export class Curvature {
   readonly curvedness: Float64Array;
 }
 
-export interface CurvatureOptions {
+export interface CurvatureOptions extends Masks, Scales {
   /** The rows; null for all vertices. */
   vertices?: Uint32Array | null;
   /**
@@ -366,13 +379,13 @@ export class MeshIndex {
 
   /**
    * The vertices of the neighborhood of v, itself included. A vertex at exactly r is inside. With `distances`, also
-   * their straight-line distances from v.
+   * their distances from v, in the metric of the radius.
    *
    * An exact answer depends on the index, the vertex and the radius alone. Its ids are in index order: ascending places
    * of `permutation`.
    *
    * @param v the vertex; or many as an array, null for all
-   * @param r the radius, >= 0 or Infinity; for many vertices optionally one per vertex
+   * @param r the radius, >= 0 or Infinity; for many vertices optionally one per vertex. The row of a wall is empty.
    * @throws MeshhoodError VertexOutOfRange, InvalidRadius, InvalidOption; TooLarge, which disposes the index
    */
   queryBall(v: number, r: number, options?: AnswerOptions & { distances?: false }): Uint32Array;
@@ -391,28 +404,42 @@ export class MeshIndex {
   /** As `queryBall` for one vertex, without a copy: a view into the memory of the index, valid until its next call. */
   viewBall(v: number, r: number, options?: QueryOptions): Uint32Array;
 
-  /** The number of vertices of each neighborhood that `queryBall` returns. */
-  count(v: number, r: number, options?: QueryOptions): number;
-  count(v: Uint32Array | null, r: number | Float64Array, options?: QueryOptions): Uint32Array;
+  /** The number of vertices of each neighborhood that `queryBall` returns. With scales, #scales by #rows. */
+  count(v: number, r: number, options?: QueryOptions & Masks): number;
+  count(v: Uint32Array | null, r: number | Float64Array, options?: QueryOptions & Masks): Uint32Array;
+  count(v: number | Uint32Array | null, r: null, options: QueryOptions & Masks & Required<Scales>): Uint32Array;
+
+  /**
+   * For each vertex the nearest of those in its ball that do not belong to its neighborhood: another sheet, the other
+   * side of a wall. Of several at the same distance, the one with the smallest id. Walls and ignored vertices are never
+   * the nearest. Where there is none, as for a wall, the gap is Infinity and the id 2^32 - 1.
+   *
+   * @param v the vertices, null for all
+   */
+  nearestUnconnected(
+    v: Uint32Array | null,
+    r: number | Float64Array,
+    options?: Masks & { unit?: Unit },
+  ): { ids: Uint32Array; gaps: Float64Array };
 
   /**
    * The region of a start and the radius r: the vertices that are connected to a seed by edges between vertices within
    * r of the start. For a vertex as start, without masks, it is the neighborhood that `queryBall` returns.
    *
-   * An answer depends on the index, the start, the radius and the masks alone. Its ids are in index order, or ascend if
-   * `sort` is set.
+   * An answer depends on the index, the start, the radius and the masks alone. Without `sort`, its ids are in index
+   * order.
    *
    * @throws MeshhoodError VertexOutOfRange, InvalidRadius, InvalidOption, as the calls below
    */
   queryRegion(
     start: Start,
     r: number,
-    options?: RegionOptions & { unit?: Unit; sort?: boolean; distances?: false },
+    options?: RegionOptions & { unit?: Unit; sort?: Sort; distances?: false },
   ): Uint32Array;
   queryRegion(
     start: Start,
     r: number,
-    options: RegionOptions & { unit?: Unit; sort?: boolean; distances: true },
+    options: RegionOptions & { unit?: Unit; sort?: Sort; distances: true },
   ): { ids: Uint32Array; distances: Float64Array };
 
   /**
@@ -450,17 +477,31 @@ export class MeshIndex {
   nearest(point: Exclude<Start, number>): { vertex: number; distance: number };
 
   /**
-   * A sum, a mean or another aggregate of values over the exact neighborhood of each vertex. No ids are listed.
+   * The point of the surface nearest to a point in space. Its triangle has the corners 0, i and i + 1 of the face, whose
+   * vertices are the seeds of a region there. Of several faces at the same distance, the one with the smallest number.
+   *
+   * @param options `faces`: those that the index was built from. It keeps what it makes of them until others are given,
+   * as for `curvature`.
+   * @throws MeshhoodError InvalidMesh, InvalidOption
+   */
+  closestPoint(
+    point: Exclude<Start, number>,
+    options: { faces: Faces },
+  ): { face: number; vertices: Uint32Array; weights: Float64Array; point: Float64Array; distance: number };
+
+  /**
+   * A sum, a mean or another aggregate of values over the neighborhood of each vertex. No ids are listed.
    *
    * @param values #V numbers, or #V by channels, vertex after vertex; each channel by itself
-   * @param r the radius, or several
-   * @returns #radii by #rows by channels. NaN where a neighborhood has no values; 0 for their sum.
+   * @param r the radius, or one for each row; null with `scales`
+   * @returns #rows by channels, with scales #scales by #rows by channels. NaN where a neighborhood has no values, as that
+   * of a wall; 0 for their sum.
    * @throws MeshhoodError InvalidOption, InvalidRadius, VertexOutOfRange, InvalidMesh; TooLarge, which disposes the
    * index
    */
   aggregate(
     values: Float64Array | Float32Array | Uint32Array | Int32Array | Uint16Array | Int16Array | Uint8Array | Int8Array,
-    r: number | Float64Array,
+    r: number | Float64Array | Float32Array | null,
     options?: AggregateOptions,
   ): Float64Array;
 
@@ -471,17 +512,20 @@ export class MeshIndex {
   smooth(
     values: Float64Array | Float32Array,
     fwhm: number,
-    options?: Pick<AggregateOptions, 'weights' | 'faces' | 'vertices' | 'nan' | 'unit'>,
+    options?: Pick<
+      AggregateOptions,
+      'weights' | 'faces' | 'vertices' | 'metric' | 'walls' | 'ignored' | 'nan' | 'unit'
+    >,
   ): Float64Array;
 
   /**
-   * Principal curvatures by a quadric that is fitted to the neighborhoods of radius r. docs/curvature.md explains the
-   * numbers.
+   * Principal curvatures by a quadric that is fitted to the neighborhoods of radius r: one for all rows, one for each, or
+   * null with `scales`. docs/curvature.md explains the numbers.
    *
    * @throws MeshhoodError InvalidOption, InvalidRadius, VertexOutOfRange, InvalidMesh; TooLarge, which disposes the
    * index
    */
-  curvature(r: number, options: CurvatureOptions): Curvature;
+  curvature(r: number | Float64Array | Float32Array | null, options: CurvatureOptions): Curvature;
 
   /** Gives the memory back. All later calls throw an Error. */
   dispose(): void;

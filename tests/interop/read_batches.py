@@ -80,7 +80,8 @@ def check_exact(batches, oracle):
     check_matrix(sparse.load_npz(batches.file("--order", "vertex", "--distances")), rows, size, np.float64)
     check_index_order(batches, rows)
     counts = np.load(batches.file("--count"))
-    assert counts.files == ["count"] and np.array_equal(counts["count"], [len(vertices) for vertices, _ in rows]), "counts"
+    assert counts.files == ["radii", "count"], counts.files
+    assert np.array_equal(counts["count"], [[len(vertices) for vertices, _ in rows]]), "counts"
 
 
 def check_index_order(batches, rows):

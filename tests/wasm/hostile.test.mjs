@@ -119,9 +119,9 @@ test('numbers beyond 32 bits are not taken modulo 2^32', () => {
 
 test('numbers that are not finite, denormal or huge give a right answer or an error', () => {
   const index = build(plates(6));
-  const all = index.queryBall(0, Infinity, { sort: true });
+  const all = index.queryBall(0, Infinity, { sort: 'id' });
   assert.equal(all.length, index.vertexCount);
-  assert.deepEqual(index.queryBall(0, 1.7e308, { sort: true }), all);
+  assert.deepEqual(index.queryBall(0, 1.7e308, { sort: 'id' }), all);
   assert.deepEqual(index.queryBall(0, 5e-324), Uint32Array.of(0));
   assert.deepEqual(index.queryBall(0, -0), Uint32Array.of(0));
   for (const x of [NaN, Infinity, -Infinity, 1e151]) {
@@ -134,7 +134,7 @@ test('numbers that are not finite, denormal or huge give a right answer or an er
     assert.throws(() => index.aggregate(new Float64Array(72), r), { code: 'InvalidRadius' });
     assert.throws(() => index.curvature(r, { normals: new Float64Array(216) }), MeshhoodError);
   }
-  assert.deepEqual(index.queryBall(0, Infinity, { sort: true }), all);
+  assert.deepEqual(index.queryBall(0, Infinity, { sort: 'id' }), all);
 });
 
 test('the mesh without vertices answers nothing, and refuses the rest', () => {

@@ -36,8 +36,8 @@ for (const [name, mesh] of Object.entries(families)) {
       const radius = i % 3 === 0 ? distance(mesh.positions, v, Math.floor(rows.length * next())) : 6 * next();
       const expected = neighborhood(mesh.positions, rows, v, radius);
       found += expected.length;
-      assert.deepEqual(index.queryBall(v, radius, { sort: true }), expected, `vertex ${v}, radius ${radius}`);
-      assert.deepEqual(index.queryBall(v, radius, { sort: true, method: 'bfs' }), expected);
+      assert.deepEqual(index.queryBall(v, radius, { sort: 'id' }), expected, `vertex ${v}, radius ${radius}`);
+      assert.deepEqual(index.queryBall(v, radius, { sort: 'id', method: 'bfs' }), expected);
       assert.equal(index.count(v, radius), expected.length);
       assert.deepEqual(index.queryBall(v, radius, { method: 'ball' }), ball(mesh.positions, v, radius));
       const all = new Set(index.viewBall(v, radius, { method: 'ball' }));
@@ -90,10 +90,10 @@ test('a batch has the rows of single queries', () => {
   const vertices = Uint32Array.of(5, 300, 5, 0);
   const radii = Float64Array.of(1, 2.5, 0, Infinity);
   for (const method of ['exact', 'paper', 'bfs', 'ball']) {
-    const { offsets, ids, distances } = index.queryBall(vertices, radii, { method, sort: true, distances: true });
+    const { offsets, ids, distances } = index.queryBall(vertices, radii, { method, sort: 'id', distances: true });
     const counts = index.count(vertices, radii, { method });
     vertices.forEach((v, row) => {
-      const single = index.queryBall(v, radii[row], { method, sort: true, distances: true });
+      const single = index.queryBall(v, radii[row], { method, sort: 'id', distances: true });
       assert.deepEqual(ids.slice(offsets[row], offsets[row + 1]), single.ids);
       assert.deepEqual(distances.slice(offsets[row], offsets[row + 1]), single.distances);
       assert.equal(counts[row], single.ids.length);
@@ -129,7 +129,7 @@ test('the golden index files load, and save to the same bytes', () => {
 test('an index of the golden file answers as recorded', () => {
   const index = MeshIndex.load(golden('float.mhi'));
   assert.equal(index.vertexCount, 370);
-  assert.deepEqual([...index.queryBall(100, 1.5, { sort: true })], [81, 82, 83, 99, 100, 101, 117, 118, 119]);
+  assert.deepEqual([...index.queryBall(100, 1.5, { sort: 'id' })], [81, 82, 83, 99, 100, 101, 117, 118, 119]);
   assert.equal(index.count(100, Infinity), 270);
 });
 
@@ -146,7 +146,7 @@ test('the same file gives the same index and the same answers as the command lin
   for (const method of ['exact', 'paper', 'bfs', 'ball']) {
     const { vertices } = JSON.parse(
       meshhood('query', 'roll.mhi', '-v', '500', '-r', '3.5', '--method', method, '--json'));
-    assert.deepEqual([...MeshIndex.load(saved).queryBall(500, 3.5, { method, sort: true })], vertices);
+    assert.deepEqual([...MeshIndex.load(saved).queryBall(500, 3.5, { method, sort: 'id' })], vertices);
   }
   write('page.mhi', index.save());
   assert.match(meshhood('check', 'page.mhi', '--mesh', 'roll.ply'), /\S/);

@@ -37,17 +37,17 @@ function region(center, seeds, radius, { walls, ignored } = {}) {
 const query = (...options) => JSON.parse(meshhood('query', 'roll.ply', ...options, '--json')).vertices;
 
 test('a region around a vertex with masks is that of the command line', () => {
-  const found = index.queryRegion(502, 5, { walls, ignored, sort: true });
+  const found = index.queryRegion(502, 5, { walls, ignored, sort: 'id' });
   assert.deepEqual([...found], query('-v', '502', '-r', '5', '--walls', 'walls.txt', '--ignored', 'ignored.txt'));
   assert.ok(found.length > 20);
-  assert.deepEqual(index.queryRegion(502, 5, { sort: true }), index.queryBall(502, 5, { sort: true }));
+  assert.deepEqual(index.queryRegion(502, 5, { sort: 'id' }), index.queryBall(502, 5, { sort: 'id' }));
 });
 
 test('a region around a point with seeds is that of the command line', () => {
   const point = Array.from(mesh.positions.subarray(3 * 502, 3 * 503), (x) => x + 0.25);
   for (const seeds of [null, Uint32Array.of(500, 30)]) {
     const options = seeds === null ? [] : ['--seed', seeds.join()];
-    const found = index.queryRegion(point, 6, { seeds, sort: true });
+    const found = index.queryRegion(point, 6, { seeds, sort: 'id' });
     assert.deepEqual([...found], query('--point', point.join(), '-r', '6', ...options));
     assert.ok(found.length > 20);
   }
@@ -61,7 +61,7 @@ test('random regions have the vertices of the definition, with their distances',
     const seeds = Uint32Array.from({ length: 1 + Math.floor(4 * next()) }, () => Math.floor(vertices * next()));
     const masks = i % 2 === 0 ? {} : { walls, ignored };
     const radius = 12 * next();
-    const { ids, distances } = index.queryRegion(center, radius, { seeds, ...masks, sort: true, distances: true });
+    const { ids, distances } = index.queryRegion(center, radius, { seeds, ...masks, sort: 'id', distances: true });
     assert.deepEqual(ids, region(center, [...seeds], radius, masks));
     ids.forEach((w, k) => assert.equal(distances[k], distance([...center, ...mesh.positions], 0, w + 1)));
     found += ids.length;
@@ -74,14 +74,14 @@ test('nested radii have the regions of each radius', () => {
   const radii = Float64Array.of(1, 2.5, 4, 9);
   const { counts, ids } = index.queryNested(333, radii, { walls });
   radii.forEach((radius, i) => {
-    assert.deepEqual(ids.slice(0, counts[i]).sort(), index.queryRegion(333, radius, { walls, sort: true }));
+    assert.deepEqual(ids.slice(0, counts[i]).sort(), index.queryRegion(333, radius, { walls, sort: 'id' }));
   });
   assert.throws(() => index.queryNested(333, Float64Array.of(2, 1)), { code: 'InvalidRadius', message: /more than 2/ });
 });
 
 test('rings of edges are those of the command line', () => {
   const { counts, ids } = index.queryRings(333, 3);
-  assert.deepEqual([...ids].sort((a, b) => a - b), query('-v', '333', '--rings', '3'));
+  assert.deepEqual([...ids].sort((a, b) => a - b), query('-v', '333', '--metric', 'rings', '-r', '3'));
   assert.equal(counts.length, 4);
   assert.equal(counts[0], 1);
   assert.equal(counts[3], ids.length);
@@ -140,7 +140,7 @@ test('a refitted index answers as a new one', () => {
     for (const v of [0, 333, 1000]) {
       for (const method of ['exact', 'bfs', 'paper', 'ball']) {
         assert.deepEqual(
-          refitted.queryBall(v, 4, { sort: true, method }), expected.queryBall(v, 4, { sort: true, method }));
+          refitted.queryBall(v, 4, { sort: 'id', method }), expected.queryBall(v, 4, { sort: 'id', method }));
       }
       const byPath = { metric: 'path', distances: true };
       assert.deepEqual(refitted.queryBall(v, 4, byPath), expected.queryBall(v, 4, byPath));

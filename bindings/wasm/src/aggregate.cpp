@@ -7,24 +7,29 @@
 
 #include "answer.h"
 #include "arguments.h"
+#include "rows.h"
 #include "workspace.h"
 
 namespace meshhood::wasm {
 
 extern "C" {
 
-/// All vertices if `vertices` is null.
-[[clang::export_name("aggregate")]] void aggregate(const double* values, std::size_t value_count, std::size_t channels,
-                                                   const double* weights, std::size_t weight_count,
-                                                   const VertexId* vertices, std::size_t vertex_count,
-                                                   const double* radii, std::size_t radius_count, Reduce reduce,
-                                                   SmoothingKernel kernel, MissingValues missing, Nesting nesting,
-                                                   double ddof) {
+/// See `RowArguments`.
+[[clang::export_name("aggregate")]] void aggregate(const VertexId* vertices, std::size_t vertex_count, double radius,
+                                                   const double* radii, std::size_t radius_count, bool are_scales,
+                                                   const double* values, std::size_t value_count, std::size_t channels,
+                                                   const double* weights, std::size_t weight_count, Metric metric,
+                                                   Reduce reduce, SmoothingKernel kernel, MissingValues missing,
+                                                   Nesting nesting, double ddof) {
+  const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
+  const BatchQuery query = rows.query();
   const SignalView signal{
       .values = std::span(values, value_count), .channels = channels, .weights = {weights, weight_count}};
   answer.reals = meshhood::aggregate(workspace.index(), signal,
-                                     {.vertices = view_vertices(vertices, vertex_count),
-                                      .radius = BatchRadius::scales({radii, radii + radius_count}),
+                                     {.vertices = query.vertices,
+                                      .radius = query.radius,
+                                      .filter = query.filter,
+                                      .metric = metric,
                                       .reduce = reduce,
                                       .kernel = kernel,
                                       .missing = missing,

@@ -3,13 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <span>
-
-#define XXH_INLINE_ALL  // NOLINT(readability-identifier-naming): the library's own
-#include <xxhash.h>
+#include <vector>
 
 #include "meshhood/meshhood.h"
 
 #include "arguments.h"
+#include "face_hash.h"
+#include "rows.h"
 #include "workspace.h"
 
 namespace meshhood::wasm {
@@ -17,16 +17,9 @@ namespace {
 
 Curvatures last_curvatures;
 
-/// Of the bytes of the corners and the offsets, in their order: `meshhood::fingerprint` does not see which way round a
-/// face is, on which its normal depends.
-Fingerprint hash_faces(const void* corners, std::size_t corner_count, const void* offsets, std::size_t offset_count) {
-  XXH3_state_t state;
-  XXH3_128bits_reset(&state);
-  XXH3_128bits_update(&state, &corner_count, sizeof corner_count);
-  XXH3_128bits_update(&state, corners, 4 * corner_count);
-  XXH3_128bits_update(&state, offsets, 4 * offset_count);
-  const XXH128_hash_t hash = XXH3_128bits_digest(&state);
-  return {.high = hash.high64, .low = hash.low64};
+template <class T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
+  all.insert(all.end(), more.begin(), more.end());
 }
 
 }  // namespace
@@ -45,14 +38,29 @@ extern "C" {
   workspace.use_normals({normals, scalars});
 }
 
-/// All vertices if `vertices` is null.
+/// See `RowArguments`. With scales, one after the other.
 [[clang::export_name("curvature")]] void curvature(const VertexId* vertices, std::size_t vertex_count, double radius,
+                                                   const double* radii, std::size_t radius_count, bool are_scales,
                                                    CurvatureFit fit, bool filter, bool is_like_libigl) {
+  const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
   CurvatureOptions options = is_like_libigl ? like_libigl() : CurvatureOptions{};
   options.fit = fit;
   options.filter = filter;
-  last_curvatures =
-      curvatures(workspace.surface(), {.vertices = view_vertices(vertices, vertex_count), .radius = radius}, options);
+  BatchQuery query = rows.query();
+  if (!query.radius.scales()) {
+    last_curvatures = curvatures(workspace.surface(), query, options);
+    return;
+  }
+  last_curvatures = {};
+  for (const double scale : std::span(radii, radius_count)) {
+    query.radius = scale;
+    const Curvatures found = curvatures(workspace.surface(), query, options);
+    append(last_curvatures.k1, found.k1);
+    append(last_curvatures.k2, found.k2);
+    append(last_curvatures.d1, found.d1);
+    append(last_curvatures.d2, found.d2);
+    append(last_curvatures.state, found.state);
+  }
 }
 
 [[clang::export_name("curvature_rows")]] std::size_t curvature_rows() { return last_curvatures.state.size(); }

@@ -1,16 +1,65 @@
 // SPDX-License-Identifier: MIT
 // Neighborhoods of vertices by any method.
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <numeric>
 #include <span>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "meshhood/meshhood.h"
 
 #include "answer.h"
 #include "arguments.h"
+#include "rows.h"
 #include "workspace.h"
 
 namespace meshhood::wasm {
+namespace {
+
+/// The numbers are part of the interface with JavaScript. Of equal distances, the smaller id comes first.
+enum class VertexOrder : std::uint8_t { Index, Id, Distance };
+
+/// Of each vertex in index order.
+std::vector<std::uint32_t> places() {
+  const std::span<const VertexId> permutation = workspace.index().permutation();
+  std::vector<std::uint32_t> result(workspace.index().vertex_count());
+  std::iota(result.begin(), result.end(), 0U);
+  for (std::size_t i = 0; i < permutation.size(); ++i) result[permutation[i]] = static_cast<std::uint32_t>(i);
+  return result;
+}
+
+void sort_rows(VertexOrder order, std::span<const std::uint32_t> offsets) {
+  struct Item {
+    double key;
+    VertexId id;
+    double distance;
+  };
+  const std::vector<std::uint32_t> place = order == VertexOrder::Index ? places() : std::vector<std::uint32_t>();
+  const auto key = [&](std::size_t i) -> double {
+    return order == VertexOrder::Distance ? answer.reals[i] : order == VertexOrder::Index ? place[answer.ids[i]] : 0;
+  };
+  const bool has_distances = !answer.reals.empty();
+  std::vector<Item> items;
+  for (std::size_t row = 0; row + 1 < offsets.size(); ++row) {
+    const std::size_t begin = offsets[row];
+    items.clear();
+    for (std::size_t i = begin; i < offsets[row + 1]; ++i) {
+      items.push_back({key(i), answer.ids[i], has_distances ? answer.reals[i] : 0});
+    }
+    std::sort(items.begin(), items.end(),
+              [](const Item& a, const Item& b) { return std::tie(a.key, a.id) < std::tie(b.key, b.id); });
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      answer.ids[begin + i] = items[i].id;
+      if (has_distances) answer.reals[begin + i] = items[i].distance;
+    }
+  }
+}
+
+}  // namespace
 
 extern "C" {
 
@@ -20,6 +69,7 @@ extern "C" {
   if (with_distances) {
     searcher.neighborhood(v, radius, answer.ids, answer.reals);
   } else {
+    answer.reals.clear();
     searcher.neighborhood(v, radius, answer.ids);
   }
   return answer.ids.size();
@@ -29,23 +79,39 @@ extern "C" {
   return workspace.method(method).searcher.count(v, radius);
 }
 
-/// All vertices if `vertices` is null, and `radius` for all rows if `radii` is null. The counts of the answer are the
-/// offsets of the rows; with `count_only`, their sizes.
-[[clang::export_name("batch")]] void batch(MethodName method, const VertexId* vertices, std::size_t vertex_count,
-                                           double radius, const double* radii, std::size_t radius_count,
-                                           bool count_only, bool with_distances, bool sorted) {
-  BatchQuery query{.vertices = view_vertices(vertices, vertex_count), .radius = radius};
-  if (radii != nullptr) query.radius = std::span(radii, radius_count);
+/// Puts the ids of the answer, and the distances, if there are any, into an order: each row by itself if the counts are
+/// its offsets.
+[[clang::export_name("sort_answer")]] void sort_answer(VertexOrder order, bool has_rows) {
+  const std::array whole{std::uint32_t{0}, static_cast<std::uint32_t>(answer.ids.size())};
+  sort_rows(order, has_rows ? std::span<const std::uint32_t>(answer.counts) : whole);
+}
+
+/// See `RowArguments`. The counts of the answer are the offsets of the rows; with `count_only`, their sizes.
+[[clang::export_name("batch")]] void batch(const VertexId* vertices, std::size_t vertex_count, double radius,
+                                           const double* radii, std::size_t radius_count, bool are_scales,
+                                           MethodName method, bool count_only, bool with_distances, bool by_id) {
+  const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
   const SearchMethod& search = workspace.method(method).search;
   if (count_only) {
-    const auto sizes = counts(search, query);
+    const auto sizes = counts(search, rows.query());
     answer.counts.assign(sizes.begin(), sizes.end());
     return;
   }
-  Neighborhoods rows = neighborhoods(search, query, {.distances = with_distances, .sorted = sorted});
-  answer.counts.assign(rows.offsets.begin(), rows.offsets.end());
-  answer.ids = std::move(rows.ids);
-  answer.reals = std::move(rows.distances);
+  Neighborhoods found = neighborhoods(search, rows.query(), {.distances = with_distances, .sorted = by_id});
+  answer.counts.assign(found.offsets.begin(), found.offsets.end());
+  answer.ids = std::move(found.ids);
+  answer.reals = std::move(found.distances);
+}
+
+/// See `RowArguments`. The ids of the answer are the nearest unconnected vertices, the reals their distances.
+[[clang::export_name("nearest_unconnected")]] void nearest_unconnected(const VertexId* vertices,
+                                                                       std::size_t vertex_count, double radius,
+                                                                       const double* radii, std::size_t radius_count,
+                                                                       bool are_scales) {
+  const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
+  Unconnected found = meshhood::nearest_unconnected(workspace.index(), rows.query());
+  answer.ids = std::move(found.vertices);
+  answer.reals = std::move(found.gaps);
 }
 
 }  // extern "C"

@@ -11,13 +11,13 @@
 
 #include "answer.h"
 #include "arguments.h"
+#include "rows.h"
 #include "workspace.h"
 
 namespace meshhood::wasm {
 namespace {
 
 Start origin = VertexId{0};
-Filter restriction;
 VertexId closest = 0;
 std::vector<std::size_t> region_sizes;
 
@@ -49,6 +49,7 @@ extern "C" {
 /// Whether a seed lies in the ball.
 [[clang::export_name("region")]] bool region(double radius, bool with_distances) {
   if (with_distances) return workspace.regions().region(origin, radius, answer.ids, answer.reals, restriction);
+  answer.reals.clear();
   return workspace.regions().region(origin, radius, answer.ids, restriction);
 }
 

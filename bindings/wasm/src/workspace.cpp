@@ -36,6 +36,8 @@ void Workspace::replace_index(Index&& index) {
 }
 
 void Workspace::forget_derived() {
+  indexed_faces_.reset();
+  face_index_.reset();
   faces_.reset();
   surface_.reset();
   edges_.reset();
@@ -68,6 +70,7 @@ SearchMethod Workspace::make_method(MethodName name) {
     case MethodName::Bfs: return SearchMethod::breadth_first(graph().view());
     case MethodName::Ball: return SearchMethod::ball_scan(graph().view().positions);
     case MethodName::Path: return SearchMethod::along_edges(index());
+    case MethodName::Rings: return SearchMethod::rings(index());
   }
   __builtin_unreachable();
 }
@@ -100,6 +103,14 @@ void Workspace::use_faces(const FacesView& faces, const Fingerprint& content) {
 void Workspace::use_normals(std::span<const double> normals) {
   surface_ = CurvatureIndex::build(index(), normals);
   faces_.reset();
+}
+
+const FaceIndex& Workspace::face_index(const FacesView& faces, const Fingerprint& content) {
+  if (indexed_faces_ != content) {
+    face_index_ = FaceIndex::build(index(), faces);
+    indexed_faces_ = content;
+  }
+  return *face_index_;
 }
 
 void Workspace::prepare_regions(const PositionsView& positions, const FacesView& faces) {

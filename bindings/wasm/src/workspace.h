@@ -15,10 +15,11 @@
 
 namespace meshhood::wasm {
 
-/// The numbers are part of the interface with JavaScript. `Path` is the exact search by the metric of the paths.
-enum class MethodName : std::uint8_t { Exact, Paper, Bfs, Ball, Path };
+/// The numbers are part of the interface with JavaScript. `Path` and
+/// `Rings` search the exact index by these metrics.
+enum class MethodName : std::uint8_t { Exact, Paper, Bfs, Ball, Path, Rings };
 
-inline constexpr std::size_t kMethodCount = 5;
+inline constexpr std::size_t kMethodCount = 6;
 
 /// A method, and a searcher for single queries.
 struct Method {
@@ -69,6 +70,9 @@ class Workspace {
   /// With the normals of the last `use_...`.
   [[nodiscard]] const CurvatureIndex& surface() const { return *surface_; }
 
+  /// Made of faces, as by `use_faces`. Throws as `FaceIndex::build`.
+  [[nodiscard]] const FaceIndex& face_index(const FacesView& faces, const Fingerprint& content);
+
   /// Copies the mesh whose regions are made. Throws as `RegionMesher`.
   void prepare_regions(const PositionsView& positions, const FacesView& faces);
 
@@ -90,7 +94,9 @@ class Workspace {
   std::optional<EdgeSearcher> edges_;
   std::optional<CurvatureIndex> surface_;
   std::optional<Fingerprint> faces_;  // those of `surface_`, if it was made from faces
-  PositionsData region_positions_;    // borrowed by `mesher_`
+  std::optional<FaceIndex> face_index_;
+  std::optional<Fingerprint> indexed_faces_;  // those of `face_index_`
+  PositionsData region_positions_;            // borrowed by `mesher_`
   std::optional<RegionMesher> mesher_;
 };
 

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// meshhood unconnected: what is near each vertex, but not connected with it.
+#include "meshhood/unconnected.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "input.h"
+#include "io/npz_writer.h"
+#include "options.h"
+#include "output.h"
+#include "row_query.h"
+#include "task.h"
+#include "value_files.h"
+#include "vertex_files.h"
+
+namespace meshhood::cli {
+namespace {
+
+struct UnconnectedCommand {
+  std::string file;
+  std::string weld;  ///< as typed; empty without
+  RowOptions rows;
+  ValueFiles files;
+  bool json = false;
+};
+
+/// Radius after radius.
+struct Gaps {
+  std::vector<std::int64_t> others;  ///< -1 where there is none
+  std::vector<double> gaps;
+
+  void append(const Unconnected& found) {
+    for (const VertexId v : found.vertices) others.push_back(v == kNoVertex ? -1 : std::int64_t{v});
+    gaps.insert(gaps.end(), found.gaps.begin(), found.gaps.end());
+  }
+};
+
+void write_npz(const std::string& file, const RowQuery& rows, const Gaps& found) {
+  io::NpzWriter npz(file);
+  npz.add<double>("radii", rows.radii());
+  write_vertices(npz, rows.listed());
+  const std::array<std::uint64_t, 2> shape{rows.radii().size(), rows.size()};
+  npz.begin<std::int64_t>("other", shape);
+  npz.append<std::int64_t>(found.others);
+  npz.begin<double>("gap", shape);
+  npz.append<double>(found.gaps);
+  npz.commit();
+}
+
+void write_mesh(const ValueFiles& files, const RowQuery& rows, const Gaps& found, const MeshView& mesh) {
+  VertexValues values(rows.size());
+  for (std::size_t i = 0; i < rows.radii().size(); ++i) {
+    values.add(fmt::format("gap_{}", i), [&](std::size_t v) { return found.gaps[i * rows.size() + v]; });
+  }
+  values.write(files, mesh, rows.radii().size() - 1);
+}
+
+void unconnected(const UnconnectedCommand& options) {
+  check_value_files(options.files, options.rows.with_files({options.file}));
+  Input input(options.file, options.weld, options.rows.threads);
+  input.need_edges("unconnected");
+  const RowQuery rows(options.rows, input);
+  const std::size_t radii = rows.radii().size();
+  const Index& index = input.exact_index(options.rows.threads);
+  Gaps found;
+  {
+    Task task("searching", {"rows", static_cast<double>(radii)});
+    for (std::size_t i = 0; i < radii; ++i) {
+      found.append(nearest_unconnected(index, rows.query(rows.radii()[i]),
+                                       {.threads = options.rows.threads, .progress = task.progress(i, radii)}));
+    }
+    if (!options.files.npz.empty()) write_npz(options.files.npz, rows, found);
+  }
+  if (options.files.has_mesh()) write_mesh(options.files, rows, found, input.surface());
+  const auto none = static_cast<std::size_t>(std::count(found.others.begin(), found.others.end(), -1));
+  Json document = to_json(options.files);
+  document.update({{"rows", rows.size()}, {"radii", radii}, {"found", found.others.size() - none}, {"none", none}});
+  print_result(options.json, document,
+               fmt::format("{}: {} rows, radii: {}; {} with an unconnected vertex, {} without\n",
+                           names_of(options.files), rows.size(), radii, found.others.size() - none, none));
+}
+
+}  // namespace
+
+void add_unconnected(CLI::App& program) {
+  auto options = std::make_shared<UnconnectedCommand>();
+  CLI::App* command = program.add_subcommand(
+      "unconnected", "Write the nearest vertex of each ball that is not connected in it: gaps and wall thickness");
+  add_file(*command, options->file);
+  add_weld(*command, options->weld);
+  add_rows(*command, options->rows);
+  add_value_files(*command, options->files, "the gap at the last radius");
+  add_json(*command, options->json);
+  command->callback([options] { unconnected(*options); });
+}
+
+}  // namespace meshhood::cli
