@@ -25,11 +25,11 @@
 namespace meshhood {
 namespace {
 
-constexpr std::size_t kPointsAtOnce = 64;
+constexpr std::size_t kPointsOfTask = 64;
 
 // The distance of a face is off by a few units in the last place of itself and of the sides, which are at most 4 in the
 // frame. A face whose bounding box is farther away than this much more than another face cannot be nearer.
-constexpr double kRangeSlack = 0x1p-43;
+constexpr double kFaceSlack = 0x1p-43;
 
 std::uint32_t leaf_of_place(const IndexView& index, std::uint32_t place) {
   return leaf_of(index.slot[index.id(place)]);
@@ -188,7 +188,7 @@ class FaceIndex::Search : public VertexVisitor {
       number_ = number;
       face_ = i;
       second_ = second;
-      const double limit = best_.distance + kRangeSlack * (best_.distance + 4 * center_.unit);
+      const double limit = best_.distance + kFaceSlack * (best_.distance + 4 * center_.unit);
       squared_limit_ = limit * limit;
     }
   }
@@ -253,7 +253,7 @@ std::vector<SurfacePoint> FaceIndex::closest_points(std::span<const SpacePoint> 
   for (std::size_t i = 0; i < points.size(); ++i) check_point(points[i], "points: row " + std::to_string(i) + ": ");
   TaskContext task(options.threads, options.progress, points.size());
   std::vector<SurfacePoint> found(points.size());
-  task.parallel_for(points.size(), kPointsAtOnce, [&](unsigned /*thread*/, std::size_t begin, std::size_t end) {
+  task.parallel_for(points.size(), kPointsOfTask, [&](unsigned /*thread*/, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       found[i] = Search(*state_, {points[i][0], points[i][1], points[i][2]}).run();
     }
