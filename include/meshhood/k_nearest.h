@@ -45,7 +45,7 @@ struct KNearest {
 /// thread owns a `RegionSearcher`, or a search of an `EdgeSearcher`. O(k log k) a row on most surfaces.
 ///
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, TooLarge, Cancelled}, naming the row; TooLarge if rows
-/// times k is more than 2^40.
+/// times k is more than 2^40; on a machine of 32 bits, more than 2^28.
 [[nodiscard]] KNearest k_nearest(const Index& index, const BatchVertices& vertices, std::size_t k,
                                  const NearestOptions& options = {});
 

@@ -26,13 +26,13 @@ constexpr std::size_t kChannelsOfABlock = 32;  // the values of a row's vertices
 
 /// Far from overflow and underflow, so that values need no scaling.
 bool is_moderate(const SignalView& signal) {
-  constexpr double kLargestValue = 0x1p+300;
-  const auto is_fine = [](double value) { return !(std::abs(value) > kLargestValue); };  // NaN is fine
+  constexpr double kLargestTerm = 0x1p+300;
+  const auto is_fine = [](double value) { return !(std::abs(value) > kLargestTerm); };  // NaN is fine
   if (!signal.values.visit([&](auto values) { return std::all_of(values.begin(), values.end(), is_fine); })) {
     return false;
   }
   const auto is_fine_weight = [](double weight) {
-    return weight == 0 || (weight > 1 / kLargestValue && weight < kLargestValue);
+    return weight == 0 || (weight > 1 / kLargestTerm && weight < kLargestTerm);
   };
   return std::all_of(signal.weights.begin(), signal.weights.end(), is_fine_weight);
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -24,7 +26,10 @@ namespace meshhood {
 namespace {
 
 constexpr std::size_t kRowsAtOnce = 32;
-constexpr std::size_t kMostValues = std::size_t{1} << 40;
+
+// Of a result. Fewer where addresses have 32 bits.
+constexpr std::size_t kMostValues = static_cast<std::size_t>(
+    std::min<std::uint64_t>(std::uint64_t{1} << 40U, std::numeric_limits<std::size_t>::max() / 16));
 
 // The areas of a row are added in two orders, each of fewer than 2^31 terms: the sums differ by less than this share.
 constexpr double kAreaSlack = 1e-6;
@@ -160,7 +165,7 @@ KNearest k_nearest(const Index& index, const BatchVertices& vertices, std::size_
   NearestRows rows(index, vertices, options);
   if (rows.size() != 0 && k > kMostValues / rows.size()) {
     raise(ErrorCode::TooLarge, "k: " + std::to_string(k) + " vertices for each of " + std::to_string(rows.size()) +
-                                   " rows, expected at most 2^40 in all");
+                                   " rows, expected at most " + std::to_string(kMostValues) + " in all");
   }
   KNearest result{std::vector<VertexId>(rows.size() * k, kNoVertex),
                   std::vector<double>(rows.size() * k, std::numeric_limits<double>::infinity())};

@@ -29,7 +29,7 @@ constexpr std::size_t kPointsOfTask = 64;
 
 // The distance of a face is off by a few units in the last place of itself and of the sides, which are at most 4 in the
 // frame. A face whose bounding box is farther away than this much more than another face cannot be nearer.
-constexpr double kLimitSlack = 0x1p-43;
+constexpr double kFaceSlack = 0x1p-43;
 
 std::uint32_t leaf_of_place(const IndexView& index, std::uint32_t place) {
   return leaf_of(index.slot[index.id(place)]);
@@ -188,7 +188,7 @@ class FaceIndex::Search : public VertexVisitor {
       number_ = number;
       face_ = i;
       second_ = second;
-      const double limit = best_.distance + kLimitSlack * (best_.distance + 4 * center_.unit);
+      const double limit = best_.distance + kFaceSlack * (best_.distance + 4 * center_.unit);
       squared_limit_ = limit * limit;
     }
   }

@@ -26,7 +26,7 @@ double share_of_side(const Point& a, const Point& b) {
 
 class Candidates {
  public:
-  Candidates(const Point& q, const std::array<Point, 3>& corners, double scale) : q_(q), corners_(&corners) {
+  Candidates(const Point& q, const std::array<Point, 3>& corners, double scale) : corners_(&corners) {
     for (std::size_t i = 0; i < 3; ++i) {
       from_q_[i] = corners[i] - q;
       scaled_[i] = scale * from_q_[i];
@@ -76,7 +76,6 @@ class Candidates {
     best_ = {weights, point, distance};
   }
 
-  Point q_;
   const std::array<Point, 3>* corners_;
   std::array<Point, 3> from_q_;
   std::array<Point, 3> scaled_;  // the same in units of the frame

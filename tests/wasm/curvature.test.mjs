@@ -50,7 +50,7 @@ for (const [name, mesh] of Object.entries(meshes)) {
     for (const kernel of ['epanechnikov', 'biweight']) {
       const expected = aggregate('-r', '2,4', '--kernel', kernel, '--nesting', 'patch', '--weights', 'area');
       const options = { kernel, nesting: 'patch', weights: 'area', faces: mesh };
-      assert.deepEqual(index.aggregate(signal, Float64Array.of(2, 4), options), expected, kernel);
+      assert.deepEqual(index.aggregate(signal, null, { scales: Float64Array.of(2, 4), ...options }), expected, kernel);
     }
   });
 }
@@ -156,7 +156,7 @@ test('wrong arguments give the errors of C++ and leave the index usable', () => 
   refuse(() => index.aggregate(signal, 3, { reduce: 'max', kernel: 'biweight' }), { message: /kernel is for sum/ });
   refuse(() => index.aggregate(signal, 3, { weights: 'area' }), { code: 'InvalidOption', message: /faces/ });
   refuse(() => index.aggregate(signal, 3, { weights: signal }), { code: 'InvalidOption', message: /weight is -/ });
-  refuse(() => index.aggregate(signal, new Float64Array()), { code: 'InvalidOption', message: /no radii/ });
+  refuse(() => index.aggregate(signal, null, { scales: new Float64Array() }), { code: 'InvalidOption', message: /no radii/ });
   refuse(() => index.aggregate([1, 2], 3), TypeError);
   refuse(() => index.aggregate(new BigInt64Array(1400), 3), TypeError);
   assert.equal(index.aggregate(signal, 0)[5], signal[5]);

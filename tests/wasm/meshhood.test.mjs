@@ -53,7 +53,7 @@ for (const [name, mesh] of Object.entries(families)) {
 test('distances belong to their ids, in either order', () => {
   const mesh = families.roll;
   const index = build(mesh);
-  for (const sort of [false, true]) {
+  for (const sort of [null, 'index', 'id', 'distance']) {
     const { ids, distances } = index.queryBall(300, 4, { distances: true, sort });
     assert.ok(ids.length > 20);
     ids.forEach((w, i) => assert.equal(distances[i], distance(mesh.positions, 300, w)));

@@ -23,6 +23,8 @@ const CALLS = {
   refitInPlace: [(options) => index.refitInPlace(mesh.positions, options), 'changed'],
   queryBall: [(options) => index.queryBall(5, 3, options), 'unit'],
   batch: [(options) => index.queryBall(null, 3, options), 'distances'],
+  nearestUnconnected: [(options) => index.nearestUnconnected(null, 3, options), 'walls'],
+  closestPoint: [(options) => index.closestPoint([0, 0, 0], { ...options, faces: mesh }), 'faces'],
   viewBall: [(options) => index.viewBall(5, 3, options), 'metric'],
   count: [(options) => index.count(5, 3, options), 'method'],
   queryRegion: [(options) => index.queryRegion(5, 3, options), 'ignored'],
@@ -50,7 +52,7 @@ for (const [name, [call, known]] of Object.entries(CALLS)) {
 
 test('options in other letters are named, too', () => {
   assert.throws(() => index.queryBall(5, 3, { Sort: true }), { message: "unknown option 'Sort', did you mean 'sort'?" });
-  assert.throws(() => index.count(5, 3, { sort: true }), { message: "unknown option 'sort', expected one of method, metric, unit" });
+  assert.throws(() => index.count(5, 3, { sort: true }), { message: "unknown option 'sort', expected one of method, metric, unit, scales, walls, ignored" });
 });
 
 test('options that are no object are refused', () => {

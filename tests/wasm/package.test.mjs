@@ -13,7 +13,7 @@ test('the packed package works in an empty project', () => {
   assert.match(archive, /^meshhood-[\d.]+\.tgz$/);
   assert.deepEqual(readdirSync(join(project, 'node_modules', 'meshhood')).sort(), [
     'LICENSE', 'README.md', 'arguments.js', 'curvature.js', 'instance.js', 'mesh_file.js', 'mesh_index.js',
-    'meshhood.d.ts', 'meshhood.js', 'meshhood.wasm', 'package.json', 'region_mesh.js', 'weld.js',
+    'meshhood.d.ts', 'meshhood.js', 'meshhood.wasm', 'package.json', 'region_mesh.js', 'rows.js', 'weld.js',
     'words.js',
   ]);
   writeFileSync(join(project, 'use.js'), `

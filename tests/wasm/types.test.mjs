@@ -45,7 +45,7 @@ for (const [name, options] of Object.entries({
 }
 
 test('unknown options and wrong types are errors of the compiler', () => {
-  for (const wrong of ["{ units: 'edge' }", "{ unit: 'foot' }", "{ sort: 1 }"]) {
+  for (const wrong of ["{ units: 'edge' }", "{ unit: 'foot' }", "{ sort: 1 }", "{ metric: 'edges' }", "{ walls: [1] }"]) {
     const { status, stdout } = compile(`
       import type { MeshIndex } from 'meshhood';
       export const near = (index: MeshIndex) => index.queryBall(5, 3, ${wrong});`, '--target', 'es2022');

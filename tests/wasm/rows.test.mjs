@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// The words of calls on many vertices: the arrays of the command line, bit by bit.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+import { distance, grid, neighborhood, neighbors, plates, toPly } from './meshes.mjs';
+import { build, library, meshhood, readArrays, write } from './setup.mjs';
+
+const { initialize } = library;
+await initialize();
+
+const mesh = grid(30, 25, (row, column) => [row, column, Math.sin(0.4 * row) + Math.cos(0.3 * column)], Float64Array);
+const index = build(mesh);
+const count = index.vertexCount;
+write('hills.ply', toPly(mesh));
+
+const mask = (belongs) => Uint8Array.from({ length: count }, (_, v) => (belongs(v) ? 1 : 0));
+const listed = (bytes) => `${[...bytes.keys()].filter((v) => bytes[v] !== 0).join('\n')}\n`;
+const walls = mask((v) => v % 25 === 12 && v > 50); // a wall with a gap
+const ignored = mask((v) => v % 7 === 3);
+const vertices = Uint32Array.of(400, 12, 387, 3, 400);
+write('walls.txt', listed(walls));
+write('ignored.txt', listed(ignored));
+write('vertices.txt', `${vertices.join('\n')}\n`);
+const FILTER = ['--walls', 'walls.txt', '--ignored', 'ignored.txt'];
+const ROWS = ['--vertices', 'vertices.txt', ...FILTER];
+
+const ofCommandLine = (...words) => {
+  meshhood(...words, '-o', 'out.npz');
+  return readArrays('out.npz');
+};
+const numbers = (array) => Array.from(array, Number);
+
+for (const metric of ['straight', 'path', 'rings']) {
+  for (const sort of ['id', 'index', 'distance']) {
+    test(`rows by ${metric}, sorted by ${sort}, are those of the command line`, () => {
+      const expected = ofCommandLine('batch', 'hills.ply', '-r', '4', '--metric', metric, '--sort', sort, '--distances', ...ROWS);
+      const found = index.queryBall(vertices, 4, { metric, sort, walls, ignored, distances: true });
+      assert.deepEqual(numbers(found.offsets), numbers(expected.indptr));
+      assert.deepEqual(numbers(found.ids), numbers(expected.indices));
+      assert.deepEqual(found.distances, expected.data);
+      assert.deepEqual(index.queryBall(vertices, 4, { metric, sort, walls, ignored }).ids, found.ids);
+      assert.equal(found.offsets[3] - found.offsets[2], 0); // 387 is a wall
+      assert.ok(found.ids.length > 50);
+    });
+  }
+
+  test(`counts by ${metric} at several scales are those of the command line`, () => {
+    const scales = Float64Array.of(3, 0, 5);
+    const expected = ofCommandLine('batch', 'hills.ply', '-r', '3,0,5', '--metric', metric, '--count', ...ROWS);
+    const found = index.count(vertices, null, { metric, scales, walls, ignored });
+    assert.deepEqual(numbers(found), numbers(expected.count));
+    assert.deepEqual(numbers(index.count(400, null, { metric, scales, walls, ignored })), [0, 5, 10].map((i) => found[i]));
+    assert.equal(index.count(400, 5, { metric, walls, ignored }), found[10]);
+    assert.deepEqual(index.count(vertices, Float64Array.of(5, 5, 5, 5, 3), { metric, walls, ignored }),
+      Uint32Array.of(...found.subarray(10, 14), found[4]));
+  });
+}
+
+test('one vertex with masks is a row', () => {
+  const rows = index.queryBall(Uint32Array.of(400), 4, { walls, sort: 'distance', distances: true });
+  assert.deepEqual(index.queryBall(400, 4, { walls, sort: 'distance', distances: true }), { ids: rows.ids, distances: rows.distances });
+  assert.deepEqual(index.queryBall(400, 4, { walls }), index.queryRegion(400, 4, { walls }));
+  assert.equal(index.queryBall(387, 4, { walls }).length, 0);
+});
+
+test('aggregates with masks, paths, scales and a radius for each row are those of the command line', () => {
+  const values = Float64Array.from({ length: count }, (_, v) => mesh.positions[3 * v + 2]);
+  write('values.txt', `${values.join('\n')}\n`);
+  const common = ['aggregate', 'hills.ply', '--values', 'values.txt', ...ROWS];
+  for (const metric of ['straight', 'path']) {
+    const expected = ofCommandLine(...common, '-r', '2,5', '--metric', metric, '--kernel', 'biweight').values;
+    const options = { vertices, metric, walls, ignored, kernel: 'biweight' };
+    assert.deepEqual(index.aggregate(values, null, { ...options, scales: Float64Array.of(2, 5) }), expected, metric);
+    const each = index.aggregate(values, Float64Array.of(2, 5, 2, 5, 5), options);
+    assert.deepEqual(each, Float64Array.of(expected[0], expected[6], expected[2], expected[8], expected[9]), metric);
+    assert.ok(Number.isNaN(each[2]));
+  }
+  const smooth = index.smooth(values, 3, { vertices, metric: 'path', walls });
+  assert.ok(Math.abs(smooth[0] - values[400]) < 1 && smooth[0] !== index.smooth(values, 3, { vertices, walls })[0]);
+  assert.throws(() => index.aggregate(values, 2, { metric: 'rings' }), { message: /^metric: 'rings', expected one of 'straight', 'path'/ });
+});
+
+test('curvatures with masks and scales are those of the command line', () => {
+  const expected = ofCommandLine('curvature', 'hills.ply', '-r', '3,5', ...ROWS);
+  const found = index.curvature(null, { faces: mesh, vertices, walls, ignored, scales: Float64Array.of(3, 5) });
+  for (const part of ['k1', 'k2', 'd1', 'd2']) assert.deepEqual(found[part], expected[part], part);
+  assert.deepEqual(numbers(found.state), numbers(expected.state));
+  assert.equal(found.state[2], 2);
+});
+
+test('the nearest unconnected vertices are those of the command line and of a scan', () => {
+  const sheets = plates(12);
+  write('plates.ply', toPly(sheets));
+  const index = build(sheets);
+  const expected = ofCommandLine('unconnected', 'plates.ply', '-r', '1.5');
+  const { ids, gaps } = index.nearestUnconnected(null, 1.5);
+  assert.deepEqual(gaps, expected.gap);
+  assert.deepEqual(numbers(ids).map((v) => (v === 2 ** 32 - 1 ? -1 : v)), numbers(expected.other));
+  const rows = neighbors(sheets);
+  const near = new Set(neighborhood(sheets.positions, rows, 5, 1.5));
+  let least = Infinity;
+  for (let w = 0; w < index.vertexCount; ++w) if (!near.has(w)) least = Math.min(least, distance(sheets.positions, 5, w));
+  assert.equal(gaps[5], least <= 1.5 ? least : Infinity);
+  assert.ok(gaps.some(Number.isFinite));
+  const other = new Uint8Array(index.vertexCount);
+  other[ids[5]] = 1;
+  assert.ok(index.nearestUnconnected(Uint32Array.of(5), 1.5, { ignored: other }).ids[0] !== ids[5]);
+});
+
+test('the closest point of the surface is that of the command line', () => {
+  for (const point of [[3.3, 4.2, 9], [-1, 2.5, 0], [10.5, 10.25, -3]]) {
+    const [expected] = JSON.parse(meshhood('closest', 'hills.ply', '--point', point.join(','), '--json'));
+    const found = index.closestPoint(point, { faces: mesh });
+    assert.deepEqual({ ...found, vertices: [...found.vertices], weights: [...found.weights], point: [...found.point] }, expected);
+  }
+  const { point, vertices: seeds } = index.closestPoint([3.3, 4.2, 9], { faces: mesh });
+  assert.ok(index.queryRegion(point, 2, { seeds }).length > 5);
+  assert.throws(() => index.closestPoint([1, 2, 3]), { code: 'InvalidOption', message: /^faces: expected/ });
+  assert.throws(() => index.closestPoint([1, 2, Infinity], { faces: mesh }), { code: 'InvalidOption' });
+});
+
+test('words that contradict each other are refused', () => {
+  const scales = Float64Array.of(1, 2);
+  assert.throws(() => index.count(null, 1, { scales }), { name: 'TypeError', message: /^r: expected a radius/ });
+  assert.throws(() => index.count(null, null), { name: 'TypeError', message: /^r: expected a radius/ });
+  assert.throws(() => index.queryBall(null, null, { scales }), { name: 'TypeError', message: /^unknown option 'scales'/ });
+  assert.throws(() => index.count(null, Float64Array.of(1, 2)), { code: 'InvalidRadius' });
+  assert.throws(() => index.count(null, 1, { walls: new Uint8Array(3) }), { code: 'InvalidOption' });
+  assert.throws(() => index.count(null, 1, { walls: [1] }), TypeError);
+  assert.throws(() => index.count(null, 1, { walls, method: 'bfs' }), { code: 'InvalidOption' });
+  assert.throws(() => index.count(null, 1, { metric: 'rings', unit: 'edge' }), { code: 'InvalidOption', message: /^unit/ });
+  assert.throws(() => index.queryBall(5, 1, { sort: true }), { code: 'InvalidOption', message: /^sort: 'true'/ });
+  assert.equal(index.count(400, 0), 1);
+});
