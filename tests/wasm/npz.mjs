@@ -9,7 +9,8 @@ const TYPES = {
 function readArray(npy) {
   const size = npy.readUInt16LE(8);
   const type = /'descr': '([^']+)'/.exec(npy.toString('latin1', 10, 10 + size))[1];
-  return new TYPES[type](new Uint8Array(npy.subarray(10 + size)).buffer);
+  const Type = TYPES[type] ?? Uint8Array; // the bytes of a text
+  return new Type(new Uint8Array(npy.subarray(10 + size)).buffer);
 }
 
 /** The arrays of an NPZ file that the command line has written, by their names. */
