@@ -29,11 +29,19 @@ const USE = `
   const index: MeshIndex = new MeshIndex(mesh.positions, mesh.corners, { offsets: mesh.offsets });
   const near: Uint32Array = index.queryBall(42, 1.5, { unit: 'edge' });
   const rows: Rows = index.queryBall(null, 1.5);
-  const curvature: Curvature = index.curvature(2, { faces });
+  const scales = Float64Array.of(1, 2);
+  const walls = new Uint8Array(index.vertexCount);
+  const curvature: Curvature = index.curvature(null, { faces, scales, walls });
+  const counts: Uint32Array = index.count(null, null, { scales, metric: 'rings' });
+  const far: Rows & { distances: Float64Array } = index.queryBall(near, 2, { sort: 'distance', walls, distances: true });
+  const { ids, gaps } = index.nearestUnconnected(near, scales, { walls });
+  const { vertices, point } = index.closestPoint([0, 0, 1], { faces });
+  index.queryRegion(point, 2, { seeds: vertices, sort: 'id' });
+  index.smooth(index.aggregate(gaps, scales, { metric: 'path' }), 3, { metric: 'path', walls });
   index.refitInPlace(mesh.positions, { changed: near });
   const part = new RegionMesh(mesh.positions, faces.corners).submesh(near);
   const codes: string[] = [new MeshhoodError().code];
-  export const used = [rows.offsets, curvature.mean, part.vertices, codes];
+  export const used = [counts, far.distances, ids, rows.offsets, curvature.mean, part.vertices, codes];
 `;
 
 for (const [name, options] of Object.entries({
