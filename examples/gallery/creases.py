@@ -16,7 +16,7 @@ V, F = cortex()
 V *= 1 - 0.008 * np.exp(-((waves(sphere(6)[0], 40, 45.0, 6) / 0.2) ** 2))[:, None]
 index = meshhood.MeshIndex(V, F)
 radii = meshhood.geometric_radii(1.5, 12.0, 10) * index.mean_edge_length
-creases = index.features(radii)  # (10, #V), without unit
+creases = index.features(scales=radii)  # (10, #V), without unit
 lasting = meshhood.persistence(creases, radii, threshold=0.4)
 
 plotter = pyvista.Plotter(shape=(1, 2), window_size=(1000, 440))

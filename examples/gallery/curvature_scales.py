@@ -15,7 +15,7 @@ V, F = cortex()
 V += np.random.default_rng(3).normal(0, 0.08, V.shape)
 index = meshhood.MeshIndex(V, F)
 radii = [1.5, 3, 6, 12]
-mean = index.curvature(radii, unit="edge").mean  # (4, #V), in 1/mm
+mean = index.curvature(scales=radii, unit="edge").mean  # (4, #V), in 1/mm
 
 plotter = pyvista.Plotter(shape=(2, 2), window_size=(1000, 860))
 for i, (radius, map) in enumerate(zip(radii, mean)):

@@ -2,9 +2,9 @@
 """A patch around a picked point, with its rim
 ==============================================
 
-A point is picked on a tube whose strands pass close to each other. ``query_region`` finds the patch around it
-(green) and ``RegionMesh`` its rim (orange): where the surface leaves the ball, at exactly the radius. The strand beside
-it reaches into the ball, too, but is not connected there.
+A point is picked near a tube whose strands pass close to each other. ``closest_point`` finds the point of the surface
+and its face, ``query_region`` the patch around it, and ``submesh`` cuts its faces at the ball (green). ``rim`` is where
+the surface leaves the ball (orange). The strand beside it reaches into the ball, too, but is not connected there.
 """
 
 import subprocess
@@ -15,16 +15,16 @@ import pyvista
 
 subprocess.run(["meshhood", "generate", "knot", "--vertices", "20000", "-o", "knot.ply"], check=True)
 V, F = meshhood.read_mesh("knot.ply")
-picked, radius = V[F[16495]].mean(axis=0), 14.0
-ids = meshhood.MeshIndex(V, F).query_region(picked, radius, seeds=F[16495])
-regions = meshhood.RegionMesh(V, F)
-patch = regions.submesh(ids)
+index, radius = meshhood.MeshIndex(V, F), 14.0
+face, barycentric, point = index.closest_point(V[F[16495]].mean(axis=0) + (0.3, -0.2, 0.5))
+ids = index.query_region(point, radius, face=face)
+patch = index.submesh(ids, clip=(point, radius))
 
-plotter = pyvista.Plotter()
-plotter.add_mesh(pyvista.PolyData.from_regular_faces(V, np.delete(F, patch.faces, 0)), color="lightgray")
-plotter.add_mesh(pyvista.PolyData.from_regular_faces(patch.V, patch.F), color="#009E73")
-for line in regions.rim(ids, picked, radius):
-    plotter.add_mesh(pyvista.Spline(line.points, 4 * len(line.points)), color="#D55E00", line_width=6)
-plotter.add_mesh(pyvista.Sphere(radius=radius, center=picked), color="#0072B2", opacity=0.15)
-plotter.camera_position = [picked + (60, -60, 110), picked, (0, 1, 0)]
+plotter, toward = pyvista.Plotter(), np.array([0.06, -0.06, 0.11])  # nearer to the camera, so that colors cover gray
+plotter.add_mesh(pyvista.PolyData.from_regular_faces(V, F), color="lightgray")
+F = np.split(patch.F[1], patch.F[0][1:-1])
+plotter.add_mesh(pyvista.PolyData.from_irregular_faces(patch.V + toward, F), color="#009E73")
+for line in index.rim(ids, point, radius):
+    plotter.add_lines(np.r_[line.points, line.points[:1]] + 2 * toward, color="#D55E00", width=6, connected=True)
+plotter.camera_position = [point + 700 * toward, point, (0, 1, 0)]
 plotter.show()

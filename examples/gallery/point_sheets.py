@@ -2,22 +2,20 @@
 """Thin sheets of points
 ========================
 
-Points of a scan lie on two sheets that nearly touch. Points have no edges, but a graph of near points has:
-``MeshIndex`` takes any sparse matrix. The neighborhood of a point (green) then stays on its sheet, and
+Points of a scan lie on two sheets that nearly touch. ``MeshIndex.from_points`` joins points at most ``link`` apart:
+farther than neighbors on a sheet, less than the gap. The neighborhood of a point (green) then stays on its sheet, and
 ``principal_components`` fits normals to one sheet; a ball (blue) mixes both.
 """
 
 import meshhood
 import numpy as np
 import pyvista
-from scipy.spatial import KDTree
 
 random = np.random.default_rng(5)
 xy = random.uniform(0, 60, (2, 12000, 2))
 height = 4 * np.sin(xy[..., 0] / 9) * np.cos(xy[..., 1] / 11) + np.array([[0], [2]])
 P = np.concatenate([np.c_[xy[0], height[0]], np.c_[xy[1], height[1]]])
-graph = KDTree(P).sparse_distance_matrix(KDTree(P), 1.3, output_type="coo_matrix")
-index = meshhood.MeshIndex(P, graph)
+index = meshhood.MeshIndex.from_points(P, link=1.3)
 
 middle = index.nearest([30, 30, 0])[0]
 label = np.zeros(len(P))

@@ -2,8 +2,9 @@
 """A searchlight
 ================
 
-In one patch, two conditions differ by a pattern whose mean contains nothing. A searchlight collects the evidence within
-8 mm of each vertex, over the connected part of the ball, so that the other bank of a groove does not blur the answer.
+Two conditions differ by a pattern in one patch. A searchlight is a row of ``radius_neighbors_graph``: the vertices
+within 8 mm along paths that do not pass the wall (gray). Half of the trials give the pattern of each searchlight; by it
+the conditions of the other half are told apart. An accuracy of 0.5 is chance.
 """
 
 import meshhood
@@ -12,18 +13,18 @@ import pyvista
 from made_meshes import cortex
 
 V, F = cortex()
-index = meshhood.MeshIndex(V, F)
 random = np.random.default_rng(7)
+index, wall = meshhood.MeshIndex(V, F), V[:, 0] < V[5456, 0] - 20
+hemisphere = np.flatnonzero((V[:, 2] > 10) & ~wall)
 patch = index.query_ball(5456, 8.0)
-first, second = random.normal(size=(2, 20, len(V)))
-second[:, patch] += random.choice([-0.7, 0.7], size=len(patch))
-evidence = 20 * (second.mean(0) - first.mean(0)) ** 2 / (first.var(0, ddof=1) + second.var(0, ddof=1))  # t squared
-found = index.aggregate(evidence, 8.0)
+first, second = random.normal(size=(2, 2, 20, len(V)))  # half, trial, vertex
+second[..., patch] += random.choice([-0.3, 0.3], size=len(patch))
+lights = index.radius_neighbors_graph(8.0, vertices=hemisphere, metric="path", walls=wall)
+evidence = [lights @ ((second[0] - first[0]).mean(0) * trials).T for trials in (first[1], second[1])]
+accuracy = np.full(len(V), np.nan)
+accuracy[hemisphere] = (evidence[1][:, :, None] > evidence[0][:, None, :]).mean((1, 2))
 
-plotter = pyvista.Plotter(shape=(1, 2), window_size=(1000, 480))
-for i, (title, map) in enumerate({"each vertex by itself": evidence, "searchlight of 8 mm": found}.items()):
-    plotter.subplot(0, i)
-    plotter.add_mesh(pyvista.PolyData.from_regular_faces(V, F), scalars=map, clim=(0.5, 4), show_scalar_bar=False)
-    plotter.add_text(title, font_size=10)
-    plotter.camera_position = [V[5456] + (0, 0, 160), V[5456], (0, 1, 0)]
-plotter.show()
+mesh = pyvista.PolyData.from_regular_faces(V, F)
+mesh["accuracy"] = accuracy
+camera = [V[5456] + (0, -10, 160), V[5456] + (0, -10, 0), (0, 1, 0)]
+mesh.plot(clim=(0.5, 1), nan_color="lightgray", cpos=camera, scalar_bar_args={"vertical": True})
