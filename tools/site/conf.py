@@ -87,8 +87,8 @@ html_theme_options = {
 }
 
 
-# Pages of the site that lie in the root of the repository.
-ROOT_PAGES = ("README", "CHANGELOG", "CONTRIBUTING")
+# Pages of the site that lie outside docs.
+ROOT_PAGES = ("README", "CHANGELOG", "CONTRIBUTING", "RELEASE")
 LINK = re.compile(r"(?<=\]\()(?![a-z]+:|#)([^)\s]+)|(?<= src=\")([^\"]+)")
 
 

@@ -464,11 +464,11 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions):
         workers: int = -1,
         progress: Progress = None,
     ) -> MeshIndex:
-        """The index of the mesh after its vertices have moved: the same edges, other positions. About a third of the
-        time of a build.
+        """The index of the mesh after its vertices have moved: the same edges, other positions. In about an eighth
+        of the time of a build.
 
         V : (#V, 3), or a mesh as for the class. Its faces are not read.
-        changed : the vertices that have moved, as `v` of `query_ball`; None for all. Rows of V of other vertices are
+        changed : the vertices that have moved, as `vertices` of `query_ball`; None for all. Rows of V of other vertices are
             not read. The time is that of a copy of the positions, plus a part that grows with the number of vertices
             that have moved. With `changed`, V must not be float64 if the index has float32.
         workers, progress : as for the class.
