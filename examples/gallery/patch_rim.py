@@ -2,9 +2,9 @@
 """A patch around a picked point, with its rim
 ==============================================
 
-A point is picked near a tube whose strands pass close to each other. ``closest_point`` finds the point of the surface
-and its face, ``query_region`` the patch around it, and ``submesh`` cuts its faces at the ball (green). ``rim`` is where
-the surface leaves the ball (orange). The strand beside it reaches into the ball, too, but is not connected there.
+``closest_point`` finds the point of the surface nearest to a pick, and its face; ``query_region`` the patch around it;
+``submesh`` cuts the patch at the ball (green), and ``rim`` is its outline (orange). The strand beside it reaches into
+the ball (blue), too, but is not connected there.
 """
 
 import subprocess
@@ -26,5 +26,6 @@ F = np.split(patch.F[1], patch.F[0][1:-1])
 plotter.add_mesh(pyvista.PolyData.from_irregular_faces(patch.V + toward, F), color="#009E73")
 for line in index.rim(ids, point, radius):
     plotter.add_lines(np.r_[line.points, line.points[:1]] + 2 * toward, color="#D55E00", width=6, connected=True)
+plotter.add_mesh(pyvista.Sphere(radius=radius, center=point), color="#0072B2", opacity=0.15)
 plotter.camera_position = [point + 700 * toward, point, (0, 1, 0)]
 plotter.show()

@@ -34,6 +34,7 @@ extern const std::array<meshhood::VertexId, 3> corners;
 extern const std::vector<std::pair<meshhood::SpacePoint, std::array<meshhood::VertexId, 3>>> stroke;
 extern const std::vector<meshhood::VertexId> seam;
 extern const std::vector<float> positions;
+extern const std::vector<meshhood::SpacePoint> points;
 extern CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3> surface;
 """
 
