@@ -3,8 +3,7 @@
 ==============================================
 
 ``closest_point`` finds the point of the surface nearest to a pick, and its face; ``query_region`` the patch around it;
-``submesh`` cuts the patch at the ball (green), and ``rim`` is its outline (orange). The strand beside it reaches into
-the ball (blue), too, but is not connected there.
+``submesh`` cuts the patch at the ball (green), and ``rim`` is its outline (orange). The ball (blue) has another strand.
 """
 
 import subprocess
@@ -22,8 +21,8 @@ patch = index.submesh(ids, clip=(point, radius))
 
 plotter, toward = pyvista.Plotter(), np.array([0.06, -0.06, 0.11])  # nearer to the camera, so that colors cover gray
 plotter.add_mesh(pyvista.PolyData.from_regular_faces(V, F), color="lightgray")
-F = np.split(patch.F[1], patch.F[0][1:-1])
-plotter.add_mesh(pyvista.PolyData.from_irregular_faces(patch.V + toward, F), color="#009E73")
+disc = pyvista.PolyData.from_irregular_faces(patch.V + toward, np.split(patch.F[1], patch.F[0][1:-1]))
+plotter.add_mesh(disc, color="#009E73")
 for line in index.rim(ids, point, radius):
     plotter.add_lines(np.r_[line.points, line.points[:1]] + 2 * toward, color="#D55E00", width=6, connected=True)
 plotter.add_mesh(pyvista.Sphere(radius=radius, center=point), color="#0072B2", opacity=0.15)
