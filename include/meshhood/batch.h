@@ -140,8 +140,8 @@ struct BatchQuery {
   /// Required. A vertex at exactly the radius is inside.
   BatchRadius radius = {};
 
-  /// With an `Index`, and along its edges. The neighborhood of a wall is empty. An index is not built anew: the search
-  /// itself takes about as long as without walls, but each call reads the masks, O(#V).
+  /// With an `Index`, along its edges, and for its rings. The neighborhood of a wall is empty. An index is not built
+  /// anew: the search itself takes about as long as without walls, but each call reads the masks, O(#V).
   Filter filter = {};
 };
 

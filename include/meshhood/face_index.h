@@ -40,7 +40,8 @@ struct SurfacePoint {
 /// enlarged by what overhangs.
 ///
 /// Immutable: any number of threads may use it. Shares the memory of the index, as a searcher does: the index may be
-/// moved or destroyed. After `refit` it is to be built again. 24 bytes a triangle, and 4 for each node of the tree.
+/// moved or destroyed. After `refit` it is to be built again. 24 bytes a triangle, 4 a leaf, and 4
+/// for each node of the tree.
 class FaceIndex {
  public:
   /// faces   those of the mesh that the index was built from; borrowed for the call.

@@ -172,27 +172,25 @@ class Aggregation {
  public:
   Aggregation(const Index& index, const SignalView& signal, const CheckedQuery& checked, std::span<double> result,
               const AggregateOptions& options)
-      : index_(filtered(index, checked.query().filter, options.threads)),
+      : filter_(checked.query().filter),
+        index_(filtered(index, filter_.view(), options.threads)),
         view_(IndexAccess::view(index_)),
         tree_(view_),
         signal_(signal),
         query_(checked.query()),
-        filter_(checked.query().filter),
         radii_(checked.passes()),
         has_patches_(checked.has_patches()),
         rows_(checked.rows()),
         result_(result),
         options_(options),
-        blocks_((signal.channels + kChannelsTogether - 1) / kChannelsTogether) {}
+        blocks_((signal.channels + kChannelsTogether - 1) / kChannelsTogether) {
+    query_.filter = filter_.view();
+  }
 
   void run() {
-    for (std::size_t i = 0; i < radii_.size(); ++i) {
-      if (is_listed(radii_[i])) {
-        reduce_listed(i);
-      } else {
-        passes_.push_back(i);
-      }
-    }
+    std::vector<std::size_t> listed;
+    for (std::size_t i = 0; i < radii_.size(); ++i) (is_listed(radii_[i]) ? listed : passes_).push_back(i);
+    for (const std::size_t i : listed) reduce_listed(i);
     if (passes_.empty()) return;
     for (std::size_t first = 0; first < signal_.channels; first += kChannelsTogether) {
       const std::size_t count = std::min(kChannelsTogether, signal_.channels - first);
@@ -326,12 +324,12 @@ class Aggregation {
     return pass;
   }
 
+  FilterCopy filter_;
   Index index_;
   const IndexView& view_;
   NodeTree tree_;
   const SignalView& signal_;
-  const AggregateQuery& query_;
-  FilterCopy filter_;                   // for paths
+  AggregateQuery query_;                // with the filter above
   std::span<const BatchRadius> radii_;  // of the passes
   std::vector<std::size_t> passes_;     // those whose rows are not listed
   bool has_patches_;

@@ -58,7 +58,8 @@ double mean_count(const Index& index, Metric metric, double radius) {
 double kernel_at(SmoothingKernel kernel, double distance, double radius) {
   if (kernel == SmoothingKernel::Box || distance == 0) return 1;
   const double share = distance / radius;
-  const double weight = 1 - share * share;
+  const double weight =
+      (1 - share) * (1 + share);  // not 1 - t^2, whose rounding would give a vertex at the rim a weight
   return kernel == SmoothingKernel::Biweight ? weight * weight : weight;
 }
 
@@ -178,10 +179,14 @@ void sum_listed(const Index& index, const SignalView& signal, const AggregateQue
   for (std::size_t begin = 0; begin < rows.size(); begin += kRowsTogether) {
     const std::span<const std::size_t> some =
         std::span(rows).subspan(begin, std::min(kRowsTogether, rows.size() - begin));
+    Progress still_wanted;
+    if (options.progress) {
+      still_wanted = [&](std::size_t, std::size_t) { return options.progress(begin, rows.size()); };
+    }
     vertices.clear();
     for (const std::size_t row : some) vertices.push_back(vertex(row));
     listed.set(neighborhoods(method, {.vertices = vertices, .radius = radius, .filter = filter},
-                             {.threads = options.threads, .distances = true}));
+                             {.threads = options.threads, .distances = true, .progress = still_wanted}));
     constexpr std::size_t kGrain = 16;
     task.parallel_for(some.size(), kGrain, [&](unsigned /*thread*/, std::size_t first, std::size_t end) {
       for (std::size_t i = first; i < end; ++i) listed.write(i, result.data() + some[i] * signal.channels);

@@ -87,8 +87,9 @@ std::vector<double> centers_of(const MeshView& mesh) {
 
 GraphData face_graph(const MeshView& mesh) {
   validate(mesh);
-  if (mesh.faces.size() > std::numeric_limits<VertexId>::max()) {
-    raise(ErrorCode::TooLarge, std::to_string(mesh.faces.size()) + " faces, expected at most 2^32 - 1");
+  if (mesh.faces.size() > kMaxVertices) {
+    raise(ErrorCode::TooLarge,
+          std::to_string(mesh.faces.size()) + " faces, expected at most " + std::to_string(kMaxVertices));
   }
   GraphData graph;
   graph.positions = centers_of(mesh);

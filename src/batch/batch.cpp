@@ -34,7 +34,7 @@ std::shared_ptr<const SearcherFactory> with_filter(const SearcherFactory& factor
   if (filter.empty()) return nullptr;
   if (factory.with_filter) return factory.with_filter(filter, threads);
   raise(ErrorCode::InvalidOption,
-        "this method has no walls and no ignored vertices, expected the exact index or paths along its edges");
+        "this method has no walls and no ignored vertices, expected the exact index, paths along its edges, or rings");
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "meshhood/error.h"
 #include "meshhood/region.h"
 
+#include "batch/filter_copy.h"
 #include "exact/bound_index.h"
 #include "exact/index_access.h"
 #include "exact/query/arguments.h"
@@ -38,9 +39,10 @@ constexpr double kAreaSlack = 1e-6;
 class NearestRows {
  public:
   NearestRows(const Index& index, const BatchVertices& vertices, const NearestOptions& options)
-      : index_(index), options_(&options) {
+      : index_(index), filter_(options.filter), options_(options) {
     check_radius(options.radius);
     check_filter(options.filter, index.vertex_count());
+    options_.filter = filter_.view();
     const std::size_t count = vertices.list() ? vertices.list()->size() : index.vertex_count();
     vertices_.reserve(count);
     for (std::size_t row = 0; row < count; ++row) {
@@ -50,6 +52,12 @@ class NearestRows {
     }
   }
 
+  NearestRows(const NearestRows&) = delete;
+  NearestRows& operator=(const NearestRows&) = delete;
+  ~NearestRows() = default;
+
+  /// With copies of the masks.
+  [[nodiscard]] const NearestOptions& options() const { return options_; }
   [[nodiscard]] std::size_t size() const { return vertices_.size(); }
   [[nodiscard]] VertexId vertex(std::size_t row) const { return vertices_[row]; }
 
@@ -59,7 +67,7 @@ class NearestRows {
     std::vector<std::pair<std::uint32_t, std::size_t>> in_order(size());
     for (std::size_t row = 0; row < size(); ++row) in_order[row] = {index_->slot[vertices_[row]], row};
     std::sort(in_order.begin(), in_order.end());
-    TaskContext task(options_->threads, options_->progress, size());
+    TaskContext task(options_.threads, options_.progress, size());
     std::vector<decltype(make())> searches(task.threads());
     task.parallel_for(size(), kRowsAtOnce, [&](unsigned thread, std::size_t begin, std::size_t end) {
       if (!searches[thread]) searches[thread] = make();
@@ -73,7 +81,8 @@ class NearestRows {
 
  private:
   BoundIndex index_;
-  const NearestOptions* options_;
+  FilterCopy filter_;
+  NearestOptions options_;
   std::vector<VertexId> vertices_;
 };
 
@@ -134,7 +143,8 @@ class PathRowSearch {
 
 /// Calls `f(search, row)` for all rows with a search of the metric.
 template <class F>
-void for_each_row(const Index& index, NearestRows& rows, const NearestOptions& options, F&& f) {
+void for_each_row(const Index& index, NearestRows& rows, F&& f) {
+  const NearestOptions& options = rows.options();
   if (options.metric == Metric::Straight) {
     rows.for_each([&] { return std::make_unique<StraightSearch>(index, options); }, f);
   } else {
@@ -170,7 +180,7 @@ KNearest k_nearest(const Index& index, const BatchVertices& vertices, std::size_
   KNearest result{std::vector<VertexId>(rows.size() * k, kNoVertex),
                   std::vector<double>(rows.size() * k, std::numeric_limits<double>::infinity())};
   if (k == 0) return result;
-  for_each_row(index, rows, options, [&](auto& search, std::size_t row) {
+  for_each_row(index, rows, [&](auto& search, std::size_t row) {
     std::size_t next = row * k;
     search.run(rows.vertex(row), k, std::numeric_limits<double>::infinity(), {}, [&](VertexId vertex, double distance) {
       result.ids[next] = vertex;
@@ -183,6 +193,8 @@ KNearest k_nearest(const Index& index, const BatchVertices& vertices, std::size_
 
 Neighborhoods discs(const Index& index, const BatchVertices& vertices, double area, std::span<const double> areas,
                     const NearestOptions& options) {
+  const std::vector<double> copy(areas.begin(), areas.end());
+  areas = copy;
   check_areas(area, areas, index.vertex_count());
   NearestRows rows(index, vertices, options);
   struct Disc {
@@ -190,7 +202,7 @@ Neighborhoods discs(const Index& index, const BatchVertices& vertices, double ar
     std::vector<double> distances;
   };
   std::vector<Disc> found(rows.size());
-  for_each_row(index, rows, options, [&](auto& search, std::size_t row) {
+  for_each_row(index, rows, [&](auto& search, std::size_t row) {
     double sum = 0;
     search.run(rows.vertex(row), index.vertex_count() + 1, area, areas, [&](VertexId vertex, double distance) {
       found[row].ids.push_back(vertex);

@@ -169,7 +169,8 @@ Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, con
       }
     };
   };
-  for_each_packet(index, query, make_visitor, {.threads = options.threads, .progress = options.progress});
+  for_each_packet(index, {.vertices = query.vertices, .radius = query.radius, .filter = filter.view()}, make_visitor,
+                  {.threads = options.threads, .progress = options.progress});
   return result;
 }
 

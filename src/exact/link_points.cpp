@@ -200,17 +200,17 @@ void for_each_point(const PointGrid& grid, TaskContext& task, F&& f) {
   });
 }
 
-}  // namespace
+constexpr std::size_t kLinkSteps = 3;
 
-Adjacency link_points(const PositionsView& points, double link, const LinkOptions& options) {
+/// Takes `kLinkSteps` steps of the task.
+Adjacency linked(const PositionsView& points, double link, std::uint64_t max_edges, TaskContext& task) {
   validate(points);
   if (!(link >= 0 && std::isfinite(link))) {
     raise(ErrorCode::InvalidOption, "link: " + to_text(link) + ", expected a finite number >= 0");
   }
-  TaskContext task(options.threads, options.progress, 3);
   const PointGrid grid(points, link, task);
   task.step();
-  const std::size_t most = std::min(options.max_edges, kMaxNeighbors / 2);
+  const std::size_t most = std::min(max_edges, kMaxNeighbors / 2);
   Adjacency graph;
   graph.offsets.assign(points.size() + 1, 0);
   std::atomic<std::size_t> neighbors{0};
@@ -230,13 +230,22 @@ Adjacency link_points(const PositionsView& points, double link, const LinkOption
     const std::size_t begin = graph.offsets[near.id()];
     near.write(std::span(graph.neighbors).subspan(begin, graph.offsets[near.id() + std::size_t{1}] - begin), scratch);
   });
+  task.step();
+  return graph;
+}
+
+}  // namespace
+
+Adjacency link_points(const PositionsView& points, double link, const LinkOptions& options) {
+  TaskContext task(options.threads, options.progress, kLinkSteps);
+  Adjacency graph = linked(points, link, options.max_edges, task);
   task.finish();
   return graph;
 }
 
 Index build_linked(const PositionsView& points, double link, const LinkOptions& options) {
-  const Adjacency graph = link_points(points, link, {.max_edges = options.max_edges, .threads = options.threads});
-  TaskContext task(options.threads, options.progress, IndexAccess::kBuildSteps);
+  TaskContext task(options.threads, options.progress, kLinkSteps + IndexAccess::kBuildSteps);
+  const Adjacency graph = linked(points, link, options.max_edges, task);
   Index index = IndexAccess::make(IndexAccess::build_arrays(points, EdgeSource(graph.view()), task));
   task.report_progress();
   return index;

@@ -127,8 +127,7 @@ class Aggregates(Held):
         (2, 2)
         """
         rows = read_rows(self, vertices, r, words.get("scales"), words, AggregateWords)
-        if rows.metric == "rings":
-            raise ValueError("metric: 'rings', expected 'straight' or 'path'")
+        _refuse_rings(rows.metric)
         given = _values(values, self._count)
         dtype = result_dtype(words, np.float32 if given.dtype == np.float32 else np.float64)
         shape = rows.shape + given.shape[1:]
@@ -204,7 +203,8 @@ class Aggregates(Held):
         self, fwhm: Number, *, vertices: Vertices = None, **words: Unpack[SmoothWords]
     ) -> csr_array:
         """What `smooth` does, as a scipy.sparse.csr_array (#rows, #V): its product with values (#V, ...) are the
-        smoothed values, up to rounding, for values without NaN. Each row sums to 1; those of walls are empty.
+        smoothed values, up to rounding, for values without NaN. Each row sums to 1; those of walls are empty, and where
+        all weights are 0, the row is NaN.
 
         The words are those of `smooth` but `nan`, and `dtype` is float64 unless given. Memory: 12 bytes for each vertex
         of each neighborhood. Needs SciPy. `smooth` is faster, unless the same matrix is used many times.
@@ -219,6 +219,8 @@ class Aggregates(Held):
         check_words(words, SmoothWords)
         if "nan" in words:
             raise TypeError("nan: no argument of this call, because a matrix does not depend on the values")
+        _refuse_rings(words.get("metric"))
+        fwhm = _convert.finite(fwhm, "fwhm", or_zero=False)
         weights = area_weights(self, words.get("weights"), words.get("F"))
         listed: Any = {word: value for word, value in words.items() if word not in ("weights", "F", "dtype")}
         radius = self._scale(words.get("unit", "mesh")) * smoothing_radius(fwhm)
@@ -233,6 +235,11 @@ class Aggregates(Held):
             data /= np.repeat(sums, sizes)
         graph.data = data.astype(result_dtype(words), copy=False)
         return graph
+
+
+def _refuse_rings(metric: Any) -> None:
+    if metric == "rings":
+        raise ValueError("metric: 'rings', expected 'straight' or 'path'")
 
 
 def _values(values, count):

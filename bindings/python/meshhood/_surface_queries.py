@@ -13,7 +13,7 @@ from ._aggregate import area_weights
 from ._held import Held
 from ._mesh import mesh_arrays, positions_of
 from ._progress import Progress, reporter
-from ._rows import Words, read_rows
+from ._rows import Words, check_size, read_rows
 from ._types import Ids, Number, Radii, Reals, Vertex, Vertices
 
 if TYPE_CHECKING:
@@ -21,6 +21,12 @@ if TYPE_CHECKING:
 
 # Memory for an edge while an index is built, at most.
 _BYTES_OF_EDGE = 64
+
+
+class NearestWords(Words, total=False):
+    """The words of `MeshIndex.query_knn`."""
+
+    max_bytes: Optional[int]
 
 
 class SurfaceQueries(Held):
@@ -144,7 +150,7 @@ class SurfaceQueries(Held):
         until: Optional[Number] = None,
         weights: Any = "area",
         F: Any = None,
-        **words: Unpack[Words],
+        **words: Unpack[NearestWords],
     ) -> Any:
         """The `k` nearest connected vertices of each of `vertices`, itself included: `ids, distances`, both (#rows, k),
         or (k,) for a single vertex.
@@ -162,6 +168,7 @@ class SurfaceQueries(Held):
         F : other faces than those that the index keeps, for weights="area".
         walls, ignored, unit, workers, progress : see `MeshIndex`. A row whose vertex is a wall is empty. The result has
             the unit of V, `until` its square.
+        max_bytes : refuse a larger result of `k`; by default, one larger than the memory that is free.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> ids, distances = index.query_knn(None, 20)
@@ -169,7 +176,7 @@ class SurfaceQueries(Held):
         """
         if (k is None) == (until is None):
             raise ValueError("k: expected a number of vertices, or an area as `until`, and not both")
-        rows = read_rows(self, vertices, r, None, words, Words)
+        rows = read_rows(self, vertices, r, None, words, NearestWords)
         if not isinstance(rows.radii[0], float):
             raise ValueError("r: expected one radius for all rows")
         options = {
@@ -186,6 +193,7 @@ class SurfaceQueries(Held):
                 area = _convert.finite(until, "until", or_zero=False)
                 return _core.discs(self._exact, rows.vertices, area=area, areas=areas, **options, progress=report)
             options["k"] = _convert.integer(k, "k", 0, 2**63 - 1)
+            check_size((rows.count, options["k"]), 12, words.get("max_bytes"))
             options["fill"] = _convert.integer(fill, "fill", -(2**31), 2**31 - 1)
             ids, distances = _core.k_nearest(self._exact, rows.vertices, **options, progress=report)
         return (ids[0], distances[0]) if rows.shape == () else (ids, distances)
