@@ -74,7 +74,6 @@ class Meshhood(ConanFile):
         core = self.cpp_info.components["meshhood"]
         core.set_property("cmake_target_name", "meshhood::meshhood")
         core.libs = ["meshhood"]
-        core.requires = ["highway::highway", "xxhash::xxhash"]
         if self.settings.os in ("Linux", "FreeBSD"):
             core.system_libs = ["pthread", "m"]
         if self.options.with_io:

@@ -20,9 +20,13 @@ foreach(language C CXX)
   set(CMAKE_${language}_ARCHIVE_APPEND "${MESHHOOD_ZIG} ar q <TARGET> <OBJECTS>")
   set(CMAKE_${language}_ARCHIVE_FINISH "${MESHHOOD_ZIG} ranlib <TARGET>")
 endforeach()
+# Functions have sections of their own, so that the linker leaves out what is not called.
+set(CMAKE_C_FLAGS_INIT "-ffunction-sections -fdata-sections")
+set(CMAKE_CXX_FLAGS_INIT "-ffunction-sections -fdata-sections")
 # The strip of this machine does not know other processors; the linker leaves out the symbols. A program is independent
 # of its position, as the module is, so that zig compiles its C++ library only once.
 set(CMAKE_STRIP "")
-set(CMAKE_EXE_LINKER_FLAGS_INIT "-s -pie")
+set(CMAKE_EXE_LINKER_FLAGS_INIT "-s -pie -Wl,--gc-sections")
+set(CMAKE_MODULE_LINKER_FLAGS_INIT "-Wl,--gc-sections")
 # Programs of other systems do not run here.
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)

@@ -17,6 +17,7 @@ fi
 for file in README.md LICENSE PKG-INFO build/viewer/viewer.html; do
   grep --quiet "^meshhood-[^/]*/$file\$" "$packages/sdist.txt"
 done
+"$python" -m twine check --strict "$archive"
 stat --format='%n: %s bytes' "$archive"
 
 folder=$packages/installed/sdist
