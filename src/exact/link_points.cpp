@@ -203,7 +203,7 @@ void for_each_point(const PointGrid& grid, TaskContext& task, F&& f) {
 constexpr std::size_t kLinkSteps = 3;
 
 /// Takes `kLinkSteps` steps of the task.
-Adjacency linked(const PositionsView& points, double link, std::uint64_t max_edges, TaskContext& task) {
+Adjacency linked(const PositionsView& points, double link, std::size_t max_edges, TaskContext& task) {
   validate(points);
   if (!(link >= 0 && std::isfinite(link))) {
     raise(ErrorCode::InvalidOption, "link: " + to_text(link) + ", expected a finite number >= 0");
