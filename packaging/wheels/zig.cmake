@@ -26,7 +26,11 @@ set(CMAKE_CXX_FLAGS_INIT "-ffunction-sections -fdata-sections")
 # The strip of this machine does not know other processors; the linker leaves out the symbols. A program is independent
 # of its position, as the module is, so that zig compiles its C++ library only once.
 set(CMAKE_STRIP "")
-set(CMAKE_EXE_LINKER_FLAGS_INIT "-s -pie -Wl,--gc-sections")
-set(CMAKE_MODULE_LINKER_FLAGS_INIT "-Wl,--gc-sections")
+set(unused "-Wl,--gc-sections")
+if(CMAKE_SYSTEM_NAME STREQUAL "Darwin")
+  set(unused "-Wl,-dead_strip")
+endif()
+set(CMAKE_EXE_LINKER_FLAGS_INIT "-s -pie ${unused}")
+set(CMAKE_MODULE_LINKER_FLAGS_INIT "${unused}")
 # Programs of other systems do not run here.
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
