@@ -17,9 +17,9 @@
 #include "batch/joint_worker.h"
 #include "batch/ring_worker.h"
 #include "batch/searcher_factory.h"
-#include "exact/filtered.h"
 #include "exact/index_access.h"
 #include "exact/query/arguments.h"
+#include "exact/query/filtered.h"
 #include "exact/query/space_search.h"
 #include "paper/hierarchy.h"
 

@@ -9,7 +9,7 @@
 
 #include "batch/batch.h"
 #include "batch/joint_worker.h"
-#include "exact/filtered.h"
+#include "exact/query/filtered.h"
 
 namespace meshhood {
 namespace {

@@ -18,8 +18,8 @@
 #include "curvature/surface.h"
 #include "curvature/symmetric.h"
 #include "curvature/visit_moments.h"
-#include "exact/filtered.h"
 #include "exact/joint/packet_answer.h"
+#include "exact/query/filtered.h"
 
 namespace meshhood {
 namespace {

@@ -16,8 +16,8 @@
 #include "curvature/packet_moments.h"
 #include "curvature/symmetric.h"
 #include "curvature/visit_moments.h"
-#include "exact/filtered.h"
 #include "exact/index_access.h"
+#include "exact/query/filtered.h"
 #include "shared/distance.h"
 #include "shared/text.h"
 

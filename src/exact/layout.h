@@ -72,7 +72,7 @@ struct alignas(64) GroupRecord {
   std::uint32_t end_link = 0;
   std::array<NodeSet, kFanOut> linked{};  // by node: the nodes of the group that it is linked with
   std::uint32_t nodes = 0;
-  NodeSet pierced = 0;                   // the nodes that have walls; 0 in files: see filtered.h
+  NodeSet pierced = 0;                   // the nodes that have walls; 0 in files: see query/filtered.h
   std::array<std::uint8_t, 3> unused{};  // so that every byte has a defined value
 };
 
@@ -120,7 +120,7 @@ struct IndexView {
   std::span<const NodeId> parents;         // by group: the node that covers it, or kNoNode
   std::span<const NodeLink> node_links;    // by group
   std::span<const double> mean_radii;      // by level
-  std::span<const LaneMask> walls;         // by leaf; empty if there are none: see filtered.h
+  std::span<const LaneMask> walls;         // by leaf; empty if there are none: see query/filtered.h
   std::span<const LaneMask> ignored;       // likewise
   Tree tree;                               // the levels, made from `levels`, `records` and `mean_radii`
   RootTree roots;                          // over the groups that no node covers

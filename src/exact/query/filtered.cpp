@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "exact/filtered.h"
+#include "exact/query/filtered.h"
 
 #include <algorithm>
 #include <memory>

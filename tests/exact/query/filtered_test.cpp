@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Answers with walls are those of the reference search on the graph without the walls; ignored vertices are left out of
 // them. Single queries, counts, ids and distances of batches, on every instruction set.
-#include "exact/filtered.h"
+#include "exact/query/filtered.h"
 
 #include <algorithm>
 #include <cstdint>
