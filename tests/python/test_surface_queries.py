@@ -45,7 +45,7 @@ def test_nearest_unconnected_takes_a_mask_radii_and_a_unit(mesh):
     a = index.nearest_unconnected(None, 2, unit="edge")
     b = index.nearest_unconnected(None, 2 * index.mean_edge_length)
     np.testing.assert_array_equal(a[0], b[0])
-    with pytest.raises(ValueError, match="v: row 1: vertex 999"):
+    with pytest.raises(ValueError, match="vertices: row 1: vertex 999"):
         index.nearest_unconnected([0, 999], 1.0)
     with pytest.raises(ValueError, match="r: radius -1"):
         index.nearest_unconnected(None, -1)
@@ -123,8 +123,8 @@ def test_a_region_of_a_polygon_starts_from_all_its_corners():
     corners = np.concatenate([quads.ravel(), [0, 1, 4]])
     offsets = np.array([*range(0, 4 * len(quads) + 1, 4), 4 * len(quads) + 3])
     index = meshhood.MeshIndex(V, (offsets, corners))
-    np.testing.assert_array_equal(index.query_region([0.5, 0.5, 0], 0.8, face=0, sort=True), [0, 1, 4, 5])
-    stroke = index.query_stroke([[0.5, 0.5, 0], [0.2, 0.2, 0]], 0.8, face=[0, 9], sort=True)
+    np.testing.assert_array_equal(index.query_region([0.5, 0.5, 0], 0.8, face=0, sort="id"), [0, 1, 4, 5])
+    stroke = index.query_stroke([[0.5, 0.5, 0], [0.2, 0.2, 0]], 0.8, face=[0, 9], sort="id")
     np.testing.assert_array_equal(stroke, [0, 1, 4, 5])
 
 
@@ -133,13 +133,13 @@ def test_a_face_as_start_is_refused_where_it_means_nothing(mesh):
     with pytest.raises(ValueError, match="face: expected None, because the start is a vertex"):
         index.query_region(3, 1.0, face=2)
     with pytest.raises(ValueError, match="seeds: expected None, because the face is given"):
-        index.query_region([0, 0, 0], 1.0, seeds=[1], face=2)
+        index.query_region([0.0, 0.0, 0.0], 1.0, seeds=[1], face=2)
     with pytest.raises(ValueError, match=f"face: row 0: face {len(F)}, but the mesh has {len(F)} faces"):
-        index.query_region([0, 0, 0], 1.0, face=len(F))
+        index.query_region([0.0, 0.0, 0.0], 1.0, face=len(F))
     with pytest.raises(ValueError, match="face: expected one for each of 2 points, not 1"):
         index.query_stroke([[0, 0, 0], [1, 1, 0]], 1.0, face=[1])
     with pytest.raises(ValueError, match="face: given, but this index has none"):
-        meshhood.MeshIndex(V, F, keep_faces=False).query_region([0, 0, 0], 1.0, face=1)
+        meshhood.MeshIndex(V, F, keep_faces=False).query_region([0.0, 0.0, 0.0], 1.0, face=1)
 
 
 def test_query_knn_is_nearest_connected_row_by_row(mesh):
@@ -204,7 +204,7 @@ def test_query_knn_refuses_wrong_arguments(mesh):
         index.query_knn(None, 3, metric="geodesic")
     with pytest.raises(ValueError, match="walls: a bool mask of shape"):
         index.query_knn(None, 3, walls=np.zeros(3, bool))
-    with pytest.raises(ValueError, match="k: 4611686018427387904 vertices"):
+    with pytest.raises(MemoryError, match="exceeds max_bytes"):
         index.query_knn(None, 2**62)
     with pytest.raises(ValueError, match="areas: vertex 2 has -1"):
         index.query_knn(None, until=1.0, weights=np.where(np.arange(len(V)) == 2, -1.0, 1.0))
