@@ -59,7 +59,7 @@ double kernel_at(SmoothingKernel kernel, double distance, double radius) {
   if (kernel == SmoothingKernel::Box || distance == 0) return 1;
   const double share = distance / radius;
   const double weight =
-      (1 - share) * (1 + share);  // not 1 - t^2, whose rounding would give a vertex at the rim a weight
+      (1 - share) * (1 + share);  // not 1 - share^2, whose rounding would give a vertex at the rim a weight
   return kernel == SmoothingKernel::Biweight ? weight * weight : weight;
 }
 

@@ -73,15 +73,15 @@ class UnconnectedSearch : public VertexVisitor {
     if (near == 0) return;
     const std::size_t begin = index_->leaf_begin[leaf];
     const RowPiece* const piece = pieces_.find(begin);
-    bool is_nearer = false;
+    bool has_shrunk = false;
     for (std::size_t v = begin; v < index_->leaf_begin[leaf + 1]; ++v) {
       const QueryWord reached = piece == nullptr            ? 0
                                 : piece->reached == nullptr ? piece->queries
                                                             : piece->reached[v - begin];
       if (walls_.has_at(v) || ignored_.has_at(v)) continue;
-      is_nearer |= offer(v, near & ~reached);
+      has_shrunk |= offer(v, near & ~reached);
     }
-    if (is_nearer) update_reach();
+    if (has_shrunk) update_reach();
   }
 
  private:
@@ -115,11 +115,11 @@ class UnconnectedSearch : public VertexVisitor {
     return near;
   }
 
-  /// Compares a vertex, in index order, with the queries that have not reached it. Returns whether it is nearer to one
-  /// than what was found before.
+  /// Compares a vertex, in index order, with the queries that have not reached it. Returns whether the limit of one has
+  /// shrunk.
   bool offer(std::size_t vertex, QueryWord queries) {
     if (queries == 0) return false;
-    bool is_nearer = false;
+    bool has_shrunk = false;
     const Point p = std::visit([&](auto xyz) { return point(xyz, vertex); }, index_->positions);
     for_each_query(queries, [&](std::size_t i) {
       Query& query = queries_[i];
@@ -128,12 +128,12 @@ class UnconnectedSearch : public VertexVisitor {
       const double distance = std::sqrt(square);
       const VertexId id = index_->id(vertex);
       if (distance == query.gap && query.vertex < id) return;
-      is_nearer |= distance < query.limit;
+      has_shrunk |= distance < query.limit;
       query.vertex = id;
       query.gap = query.limit = distance;
       query.squared_limit = squared_radius(distance);
     });
-    return is_nearer;
+    return has_shrunk;
   }
 
   /// What is farther from the center is farther from each query than its limit.
