@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """The pages of the reference name everything public once, and the gallery keeps its rules. Reads sources alone, so that
-it runs anywhere in no time; built_test.py checks the pages themselves.
+it runs anywhere in no time; reference_test.py checks the pages themselves.
 
     names_test.py ROOT
 """

@@ -13,6 +13,7 @@ import sys
 
 PARAMETER = re.compile(r"^(\s*///) (\w+(?:, \w+)*) {2,}(\S.*)$")
 TEXT = re.compile(r"^\s*/// \S")
+CODE = re.compile(r"^\s*/// {5}")
 NUMBER = re.compile(r"#(?=[A-Za-z])")
 GUARD = re.compile(r"^#if __has_include\(.*\)$")
 
@@ -44,7 +45,7 @@ def filtered(lines):
         else:
             if in_item and TEXT.match(line):  # ends the list
                 yield line[: line.index("///")] + "///"
-            yield escaped(line)
+            yield line if CODE.match(line) and not in_item else escaped(line)
         in_item = bool(found) or (in_item and line.strip().startswith("///    "))
 
 
