@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Checks that everything the documents name exists: files, excerpts of code, presets, MESHHOOD_ names, identifiers of the
-code, and options of the command line. Usage: tools/check_docs.py [PROGRAM]
+"""Checks that everything the documents name exists: files, excerpts of code, presets and targets, MESHHOOD_ names,
+identifiers of the code, and options of the command line; and that a test runs each block of code.
+Usage: tools/check_docs.py [PROGRAM]
 
 Without PROGRAM, or if it does not exist, the options of the command line are not checked, and a line says so.
 """
@@ -11,12 +12,15 @@ import subprocess
 import sys
 from pathlib import Path
 
+import code_blocks
+
 ROOT = Path(__file__).resolve().parent.parent
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)|<img[^>]* src=\"([^\"]+)\"")
 CODE = re.compile(r"```.*?```|`[^`\n]+`", re.DOTALL)
 PATH = re.compile(r"(?<![\w./<-])(?:include|src|io|cli|shapes|tests|bench|examples|docs|cmake|tools|\.ci)/[\w./-]*\w")
 EXCERPT = re.compile(r"<!-- from (\S+) -->\n```cpp\n(.*?)```", re.DOTALL)
 PRESET = re.compile(r"--preset[ =]([\w-]+)")
+TARGET = re.compile(r"(?<![\w-])make ([a-z][\w-]*)")
 MACRO = re.compile(r"\bMESHHOOD_[A-Z_]*[A-Z]\b")
 # `kConstant`, `snake_case`, `CamelCase`, or any name before `(` or beside `::`; a name of a single word may be prose.
 IDENTIFIER = re.compile(r"(?<![\w./<-])(?:k[A-Z]\w+|[a-z]\w*_\w+|[A-Z]\w*[a-z]\w*[A-Z]\w*|\w+(?=\(|::)|(?<=::)\w+)(?![\w/-])")
@@ -27,11 +31,9 @@ OPTION = re.compile(r"(?<!\S)\[?(--?[a-z][\w-]*)")
 
 
 def texts(*patterns):
-    """The files of the checkout that match, each with its text. Does not call git, which may not trust the owner."""
-    files = (path for pattern in patterns for path in ROOT.rglob(pattern))
-    names = sorted(path.relative_to(ROOT) for path in files)
-    names = [name for name in names if name.parts[0] != "build" and "node_modules" not in name.parts]
-    return [(str(name), (ROOT / name).read_text(encoding="utf-8")) for name in names]
+    """The files of the checkout that match, each with its text."""
+    names = code_blocks.files(*patterns)
+    return [(name, (ROOT / name).read_text(encoding="utf-8")) for name in names]
 
 
 def code_in(text):
@@ -63,6 +65,20 @@ def missing_presets(name, text):
     presets = {p["name"] for p in json.loads((ROOT / "CMakePresets.json").read_text())["configurePresets"]}
     for preset in sorted(set(PRESET.findall(text)) - presets):
         yield f"{name}: names the preset {preset}, which does not exist"
+
+
+def missing_targets(name, text):
+    targets = re.search(r"^\.PHONY: (.*)", (ROOT / "Makefile").read_text(encoding="utf-8"), re.M)[1].split()
+    for target in sorted(set(TARGET.findall(code_in(text))) - set(targets)):
+        yield f"{name}: names `make {target}`, which does not exist"
+
+
+def broken_shell(name, text):
+    """Only the syntax: what can run without a change of the machine runs in the tests."""
+    for block in code_blocks.blocks(text):
+        if block.language == "sh":
+            run = subprocess.run(["bash", "-n"], input=block.code, capture_output=True, text=True, check=False)
+            yield from (f"{name}: {line}" for line in run.stderr.splitlines())
 
 
 def missing_macros(name, text):
@@ -113,7 +129,10 @@ def missing_options(name, text, program):
 
 def main(program):
     known = texts("*.md")
-    checks = [missing_links, missing_paths, stale_excerpts, missing_presets, missing_macros, missing_identifiers]
+    checks = [
+        missing_links, missing_paths, stale_excerpts, missing_presets, missing_targets, missing_macros,
+        missing_identifiers, broken_shell, code_blocks.faults,
+    ]  # fmt: skip
     if program and Path(program).exists():
         program = str(Path(program).resolve())
         checks.append(lambda name, text: missing_options(name, text, program))

@@ -17,8 +17,8 @@
 
 /// Sums, means and other aggregates of values over neighborhoods, without lists of ids.
 ///
-///     const std::vector<double> smooth =
-///         meshhood::aggregate(index, {.values = thickness}, {.radius = 6.0, .kernel = SmoothingKernel::Biweight});
+///     const std::vector<double> smooth = meshhood::aggregate(
+///         index, {.values = thickness}, {.radius = 6.0, .kernel = meshhood::SmoothingKernel::Biweight});
 ///
 /// See docs/aggregate.md.
 namespace meshhood {

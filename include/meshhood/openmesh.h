@@ -3,6 +3,8 @@
 
 /// Copies of meshes of OpenMesh. Empty unless OpenMesh is found.
 ///
+///     #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+///
 ///     OpenMesh::TriMesh_ArrayKernelT<> surface;
 ///     const meshhood::MeshData mesh = meshhood::copy_mesh(surface);
 ///     auto index = meshhood::build(mesh.view());

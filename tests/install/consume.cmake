@@ -1,3 +1,21 @@
+# The code blocks of all documents in a language and with a mark, one after the other.
+function(code_blocks result)
+  execute_process(COMMAND python3 -B ${SOURCE_DIR}/tools/code_blocks.py ${ARGN}
+    OUTPUT_VARIABLE blocks COMMAND_ERROR_IS_FATAL ANY)
+  string(JSON count LENGTH ${blocks})
+  if(count EQUAL 0)
+    message(FATAL_ERROR "no document has code of ${ARGN}")
+  endif()
+  math(EXPR last "${count} - 1")
+  set(codes)
+  foreach(i RANGE ${last})
+    string(JSON code GET ${blocks} ${i} code)
+    list(APPEND codes "${code}")
+  endforeach()
+  message("${count} code blocks: ${ARGN}")
+  set(${result} ${codes} PARENT_SCOPE)
+endfunction()
+
 # Configures, builds and runs the consumer in ${build} with ${COMPILER}, against what is installed in ${prefix}. Further
 # arguments are for CMake.
 function(consume prefix build)

@@ -6,6 +6,18 @@ include(${CMAKE_CURRENT_LIST_DIR}/consume.cmake)
 set(build ${WORK_DIR}/build)
 consume(${prefix} ${build})
 
+# The CMake of the documents, each block in a project of a program `app`.
+code_blocks(blocks cmake)
+foreach(block IN LISTS blocks)
+  file(WRITE ${WORK_DIR}/document/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
+project(document LANGUAGES CXX)
+add_executable(app ${SOURCE_DIR}/tests/install/consumer/main.cpp)
+${block}")
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${WORK_DIR}/document -B ${WORK_DIR}/document/build -G ${GENERATOR} --fresh
+    -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${prefix} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK_DIR}/document/build OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+
 foreach(file man/man1/meshhood.1 bash-completion/completions/meshhood zsh/site-functions/_meshhood
     fish/vendor_completions.d/meshhood.fish)
   file(STRINGS ${prefix}/share/${file} lines REGEX "curvature")

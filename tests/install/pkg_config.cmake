@@ -3,6 +3,7 @@
 cmake_minimum_required(VERSION 3.25)
 set(WORK_DIR ${WORK_DIR}/pkg_config)
 include(${CMAKE_CURRENT_LIST_DIR}/installed.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/consume.cmake)
 file(GLOB_RECURSE files ${prefix}/*/meshhood.pc)
 cmake_path(GET files PARENT_PATH folder)
 set(ENV{PKG_CONFIG_PATH} ${folder})
@@ -18,6 +19,13 @@ function(compile program package)
 endfunction()
 compile(small meshhood)
 compile(main meshhood-io)
+
+# The commands of the documents that need an installed library.
+file(COPY_FILE ${SOURCE_DIR}/tests/install/consumer/main.cpp ${WORK_DIR}/app.cpp)
+code_blocks(blocks sh installed)
+foreach(block IN LISTS blocks)
+  execute_process(COMMAND bash -euo pipefail -c "${block}" WORKING_DIRECTORY ${WORK_DIR} COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
 
 execute_process(COMMAND pkg-config --modversion meshhood-io
   OUTPUT_VARIABLE version OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)

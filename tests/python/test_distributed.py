@@ -3,13 +3,11 @@
 
 import json
 import os
-import re
 import shutil
 import signal
 import struct
 import threading
 import time
-from pathlib import Path
 
 import meshes
 import meshhood
@@ -541,22 +539,3 @@ def test_map_meshes_takes_meshes_and_indexes(tmp_path):
     np.testing.assert_array_equal([np.load(file) for file in files][1::2], expected)
     with pytest.raises(FileNotFoundError):
         distributed.map_meshes([tmp_path / "none.ply"], mean_count)
-
-
-@pytest.mark.filterwarnings("ignore:Port 8787")  # of the dashboard, where another cluster runs
-def test_the_code_of_the_document_runs(mesh, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    write_ply("scan.ply", *mesh)
-    write_ply("other.ply", *meshes.two_plates(9))
-    pytest.importorskip("distributed")
-    pytest.importorskip("zarr", "3")
-    document = Path(__file__).resolve().parents[2] / "docs" / "scale.md"
-    blocks = re.findall(r"```python\n(.*?)```", document.read_text(encoding="utf-8"), re.DOTALL)
-    names = {}
-    for block in blocks:
-        exec(compile(block, "docs/scale.md", "exec"), names)
-    print(f"{len(blocks)} pieces of code")
-    index = meshhood.MeshIndex(*mesh)
-    np.testing.assert_array_equal(names["counts"], index.count(None, 4, unit="edge"))
-    assert names["heights"].shape == (len(index),)
-    assert len(names["files"]) == 2

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The pieces of C++ in docs/queries.md compile, each in a function of its own, with the names that the page introduces.
+"""The C++ of the documents, and the examples in the comments of the public headers, compile: each block in a function of
+its own, with the names that these pages introduce. `= ...;` stands for values that the reader has.
 
     code_test.py COMPILER ROOT INCLUDES
 
@@ -13,8 +14,14 @@ import sys
 import tempfile
 from pathlib import Path
 
-BLOCK = re.compile(r"```cpp\n(.*?)```", re.DOTALL)
+COMPILER, ROOT, INCLUDES = sys.argv[1], Path(sys.argv[2]), sys.argv[3].split(":")
+sys.path.insert(0, str(ROOT / "tools"))
+from code_blocks import blocks_to_run, documents
+
 INCLUDE = re.compile(r"^#include .*\n", re.MULTILINE)
+COMMENT = re.compile(r"(?:^///.*\n)+", re.MULTILINE)
+EXAMPLE = re.compile(r"^///\n((?:/// {5}.*\n|///\n)+)", re.MULTILINE)
+NEEDED = re.compile(r"^#if __has_include\((<.*>)\)$", re.MULTILINE)
 NAMES = """
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -37,21 +44,52 @@ extern const std::vector<float> positions;
 extern const std::vector<meshhood::SpacePoint> points;
 extern CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3> surface;
 """
+NAMES_OF_HEADERS = """
+using Kernel = CGAL::Simple_cartesian<double>;
+extern const std::vector<double> thickness;
+extern const meshhood::FacesView faces;
+extern const meshhood::CurvatureIndex surface;
+"""
+
+
+def examples(header):
+    """The indented blocks of the comments of a header that stand at its left margin."""
+    for comment in COMMENT.findall(header.read_text(encoding="utf-8")):
+        for block in EXAMPLE.findall(comment):
+            yield re.sub(r"^/// {0,5}", "", block, flags=re.MULTILINE).replace("\n...\n", "\n")
+
+
+def has(header, command):
+    """Whether the library of an adapter is there."""
+    needed = NEEDED.findall(header.read_text(encoding="utf-8"))
+    source = "".join(f"#include {name}\n" for name in needed)
+    return subprocess.run([*command, "-x", "c++", "-"], input=source, text=True, capture_output=True).returncode == 0
+
+
+def function(name, block):
+    return f"void {name}() {{\n{INCLUDE.sub('', block).replace('= ...;', '= {};')}}}\n"
 
 
 def main():
-    compiler, root, includes = sys.argv[1], Path(sys.argv[2]), sys.argv[3].split(":")
-    blocks = BLOCK.findall((root / "docs/queries.md").read_text(encoding="utf-8"))
-    headers = [line for block in blocks for line in INCLUDE.findall(block)]
-    bodies = [INCLUDE.sub("", block).replace("= ...;", "= {};") for block in blocks]
-    functions = [f"void piece_{i}() {{\n{body}}}\n" for i, body in enumerate(bodies)]
+    folders = [option for include in INCLUDES for option in ("-I", include)]
+    command = [COMPILER, "-std=c++20", "-fsyntax-only", *folders]
+    of_pages = [block.code for name in documents() for block in blocks_to_run(name, "cpp")]
+    headers = [header for header in sorted((ROOT / "include/meshhood").glob("*.h")) if list(examples(header))]
+    known = [header for header in headers if has(header, command)]
+    for header in set(headers) - set(known):
+        print(f"skipped: the library of {header.name} is not installed")
+    of_headers = [block for header in known for block in examples(header)]
+    includes = [line for block in of_pages + of_headers for line in INCLUDE.findall(block)]
+    includes += [f"#include <meshhood/{header.name}>\n" for header in known]
+    parts = [*includes, NAMES, *(function(f"piece_{i}", block) for i, block in enumerate(of_pages))]
+    parts += ["namespace headers {", NAMES_OF_HEADERS]
+    parts += [function(f"piece_{i}", block) for i, block in enumerate(of_headers)]
     with tempfile.TemporaryDirectory() as folder:
-        source = Path(folder) / "queries.cpp"
-        source.write_text("".join([*headers, NAMES, *functions, "}\n"]), encoding="utf-8")
-        folders = [option for include in includes for option in ("-I", include)]
-        done = subprocess.run([compiler, "-std=c++20", "-fsyntax-only", *folders, source], check=False)
-    print(f"docs/queries.md: {len(blocks)} pieces of C++")
-    sys.exit(done.returncode or len(blocks) < 10)
+        source = Path(folder) / "documents.cpp"
+        source.write_text("".join([*parts, "}\n}\n"]), encoding="utf-8")
+        done = subprocess.run([*command, source], check=False)
+    print(f"{len(of_pages)} pieces of C++ in the documents, {len(of_headers)} in the headers")
+    sys.exit(done.returncode or len(of_pages) < 10 or len(of_headers) < 10)
 
 
 if __name__ == "__main__":

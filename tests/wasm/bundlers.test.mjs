@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The package in a page that each bundler makes, as docs/web.md says, and the example with three.js. The pages answer in
+// The package in a page that each bundler makes, with the code of docs/web.md, and the example with three.js. The pages answer in
 // Chromium. MESHHOOD_PACKAGE is the folder of the package, MESHHOOD_EXAMPLE that of the example, and
 // MESHHOOD_VIEWER_SOURCES that of the page, whose npm packages drive the browser.
 import assert from 'node:assert/strict';
@@ -13,7 +13,7 @@ import * as esbuild from 'esbuild';
 import * as vite from 'vite';
 import webpack from 'webpack';
 
-import { makeProject } from './project.mjs';
+import { codeBlocks, makeProject } from './project.mjs';
 import { countPixels, launch } from '../viewer/browser.mjs';
 
 const { project } = makeProject('three');
@@ -35,15 +35,18 @@ async function serve(folder) {
   return `http://127.0.0.1:${server.address().port}/`;
 }
 
-/** Writes a page whose script initializes the package by `source`, and asks for a neighborhood. */
-function writeSources(folder, { imports = '', source = '' }) {
-  mkdirSync(path(folder), { recursive: true });
-  writeFileSync(path(folder, 'index.html'), '<!doctype html><script type="module" src="./main.js"></script>');
-  writeFileSync(path(folder, 'main.js'), `
+/** Writes a page whose script initializes the package as docs/web.md says for a bundler, and asks for a neighborhood. */
+function writeSources(bundler) {
+  const [{ code }] = codeBlocks('js', bundler);
+  const imports = code.match(/^import .*$/gm) ?? [];
+  const others = code.replace(/^import .*$/gm, '');
+  mkdirSync(path(bundler), { recursive: true });
+  writeFileSync(path(bundler, 'index.html'), '<!doctype html><script type="module" src="./main.js"></script>');
+  writeFileSync(path(bundler, 'main.js'), `
     import { MeshIndex, initialize } from 'meshhood';
-    ${imports}
+    ${imports.join('\n')}
     try {
-      await initialize(${source});
+      ${others}
       const index = new MeshIndex(Float32Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0, 9, 0, 0), Uint16Array.of(0, 1, 2, 1, 2, 3));
       document.title = index.queryBall(0, 2, { sort: 'id' }).join();
     } catch (error) {
@@ -62,7 +65,7 @@ async function expectAnswer(address) {
 
 for (const loader of ['file', 'binary']) {
   test(`esbuild with the loader ${loader}`, async () => {
-    writeSources('esbuild', { imports: "import wasm from 'meshhood/meshhood.wasm';", source: 'wasm' });
+    writeSources('esbuild');
     const built = `esbuild-${loader}`;
     await esbuild.build({
       entryPoints: [path('esbuild', 'main.js')], bundle: true, format: 'esm', target: 'es2022', outdir: path(built),
@@ -74,16 +77,15 @@ for (const loader of ['file', 'binary']) {
 }
 
 const viteOptions = (root) => ({ root, configFile: false, logLevel: 'error', build: { target: 'es2022' } });
-const VITE = { imports: "import wasm from 'meshhood/meshhood.wasm?url';", source: 'wasm' };
 
 test('Vite', async () => {
-  writeSources('vite', VITE);
+  writeSources('vite');
   await vite.build(viteOptions(path('vite')));
   await expectAnswer(await serve('vite/dist'));
 });
 
 test('the server of Vite for development', async () => {
-  writeSources('vite', VITE);
+  writeSources('vite');
   const server = await vite.createServer({ ...viteOptions(path('vite')), server: { host: '127.0.0.1', port: 0 } });
   await server.listen();
   await expectAnswer(server.resolvedUrls.local[0]);
@@ -91,7 +93,7 @@ test('the server of Vite for development', async () => {
 });
 
 test('webpack', async () => {
-  writeSources('webpack', {});
+  writeSources('webpack');
   const stats = await promisify(webpack)({
     mode: 'production', context: path('webpack'), entry: './main.js', output: { path: path('webpack', 'dist') },
     performance: { hints: false },

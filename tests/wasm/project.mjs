@@ -8,6 +8,12 @@ import { dirname, join } from 'node:path';
 import { after } from 'node:test';
 import { fileURLToPath } from 'node:url';
 
+/** The blocks of the documents in a language: { page, code }. See tools/code_blocks.py. */
+export function codeBlocks(language, mark = '') {
+  const program = fileURLToPath(new URL('../../tools/code_blocks.py', import.meta.url));
+  return JSON.parse(execFileSync('python3', ['-B', program, language, mark], { encoding: 'utf8' }));
+}
+
 /** Makes the project, and removes it after the tests. `others` are packages that tests/wasm/package.json names. */
 export function makeProject(...others) {
   const project = mkdtempSync(join(tmpdir(), 'meshhood-'));
