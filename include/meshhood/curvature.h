@@ -16,7 +16,7 @@
 /// to choose among them are explained in docs/curvature.md.
 ///
 ///     const auto surface = meshhood::CurvatureIndex::build(index, mesh);
-///     const auto [k1, k2, d1, d2, state] = meshhood::curvatures(surface, {.radius = 2.5}, {.threads = 0});
+///     const auto [k1, k2, d1, d2, state, count] = meshhood::curvatures(surface, {.radius = 2.5}, {.threads = 0});
 namespace meshhood {
 
 /// The data for curvature besides the index of a mesh: the normals of the vertices. Immutable: any number of threads

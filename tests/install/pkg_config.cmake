@@ -20,7 +20,10 @@ endfunction()
 compile(small meshhood)
 compile(main meshhood-io)
 
-# The commands of the documents that need an installed library.
+# The commands of the documents that need an installed library. They do not quote its folder, which has a blank.
+cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${prefix})
+file(CREATE_LINK ${prefix} ${WORK_DIR}/installed SYMBOLIC)
+set(ENV{PKG_CONFIG_PATH} ${WORK_DIR}/installed/${folder})
 file(COPY_FILE ${SOURCE_DIR}/tests/install/consumer/main.cpp ${WORK_DIR}/app.cpp)
 code_blocks(blocks sh installed)
 foreach(block IN LISTS blocks)

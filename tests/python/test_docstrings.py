@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""Each public function, and each public method of an index, has an example in its docstring, which runs."""
+"""Each public function, and each public method of an index, has an example in its docstring, which runs. Other code of
+docstrings does, too."""
 
 import doctest
+import importlib
 import inspect
+import pkgutil
 
 import meshhood
+import meshhood.distributed
 import numpy as np
 import pytest
 
@@ -13,7 +17,8 @@ METHODS = [name for name, thing in inspect.getmembers(meshhood.MeshIndex, inspec
 OBJECTS = {
     **{name: getattr(meshhood, name) for name in FUNCTIONS},
     **{f"MeshIndex.{name}": getattr(meshhood.MeshIndex, name) for name in METHODS},
-    **{name: getattr(meshhood, name) for name in ("MeshIndex", "Paper", "RegionMesh")},
+    **{name: getattr(meshhood, name) for name in ("MeshIndex", "Paper", "RegionMesh", "distributed")},
+    "meshhood": meshhood,
 }
 
 
@@ -21,11 +26,12 @@ OBJECTS = {
 def test_the_example_runs(name, tmp_path, monkeypatch):
     sphere = pytest.importorskip("trimesh").creation.icosphere(subdivisions=3)
     sphere.export(tmp_path / "hand.ply")
+    sphere.export(tmp_path / "scan.ply")
     monkeypatch.chdir(tmp_path)
     names = {"meshhood": meshhood, "np": np, "V": np.array(sphere.vertices), "F": np.array(sphere.faces)}
     if name == "plot_neighborhood":
         names["pyvista"] = pytest.importorskip("pyvista")
-    if name == "open_parts":
+    if name in ("open_parts", "distributed"):
         pytest.importorskip("dask.array")
     if name == "view":
         page = tmp_path / "viewer.html"
@@ -36,3 +42,25 @@ def test_the_example_runs(name, tmp_path, monkeypatch):
     lines = []
     doctest.DocTestRunner().run(example, out=lines.append)
     assert not lines, "".join(lines)
+
+
+def docstrings():
+    """The docstrings of all modules of the package, with their names."""
+    finder = doctest.DocTestFinder(exclude_empty=True)
+    for module in pkgutil.iter_modules(meshhood.__path__):
+        if module.name not in ("_core", "_pyvista"):  # compiled; of PyVista, which loads it
+            for found in finder.find(importlib.import_module(f"meshhood.{module.name}")):
+                yield found.name, found.docstring
+    yield "meshhood", meshhood.__doc__
+
+
+def test_all_code_runs():
+    """Code of a docstring is an example of those above: its lines are indented, and begin with >>>."""
+    tested = {inspect.getdoc(thing) for thing in OBJECTS.values()}
+    left = []
+    for name, text in docstrings():
+        paragraphs = inspect.cleandoc(text).split("\n\n")
+        code = [lines for lines in paragraphs if all(line.startswith("    ") for line in lines.splitlines())]
+        if any(">>>" not in lines for lines in code) or (code and inspect.cleandoc(text) not in tested):
+            left.append(name)
+    assert left == []

@@ -4,10 +4,10 @@
 The neighborhood of vertex v with radius r: of the part of the mesh inside the ball of radius r around v, the connected
 component that contains v.
 
-    V, F = meshhood.read_mesh("hand.ply")
-    index = meshhood.MeshIndex(V, F)
-    near = index.query_ball(42, 1.5)
-    indptr, indices = index.query_ball([42, 43], 1.5)
+    >>> V, F = meshhood.read_mesh("hand.ply")
+    >>> index = meshhood.MeshIndex(V, F)
+    >>> near = index.query_ball(42, 1.5)
+    >>> indptr, indices = index.query_ball([42, 43], 1.5)
 """
 
 from . import _core

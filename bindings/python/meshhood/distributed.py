@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Neighborhoods on a mesh in parts, on Dask: on the threads of this machine, or on a cluster.
 
-    parts = meshhood.partition("scan.ply", "scan.parts", parts=32, halo=65, unit="edge")
-    counts = parts.count(5, unit="edge").compute()
+    >>> parts = meshhood.partition("scan.ply", "scan.parts", parts=8, halo=6, unit="edge")
+    >>> counts = parts.count(5, unit="edge").compute()
 
 A part is one task. Without a `dask.distributed.Client`, tasks run on the threads of this machine; with one, on its
 workers, which must see the folder under the same path. Retries and the dashboard are those of Dask.
@@ -145,9 +145,8 @@ class Parts:
         #V rows. See `map` for `order`.
 
         Normals are those of the whole mesh, because each part has all faces around the vertices within its halo. The
-        last digits may differ from those of one index, because the order of the sums does. Compute all arrays together:
-
-            k1, k2 = dask.compute(found.k1, found.k2)
+        last digits may differ from those of one index, because the order of the sums does. Compute all arrays together,
+        by `dask.compute(found.k1, found.k2)`.
         """
         options = {"like": like, "fit": fit, "filter": bool(filter)}
         function = functools.partial(curvature_rows, self._radius(r, unit), options)
