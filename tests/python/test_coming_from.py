@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""The calls in the tables of docs/coming_from exist: each is evaluated, those of the other library and ours, on a small
-mesh. The pages of C++ libraries are left out."""
+"""The calls in the tables of docs/coming_from run on a small mesh: those of the other library, where it is installed, and
+ours. The pages of C++ libraries are left out."""
 
-import importlib
 import re
 import warnings
 from pathlib import Path
@@ -21,8 +20,7 @@ MODULES = {
     "pyvista": ["pyvista"],
     "libigl": ["igl"],
     "open3d": ["open3d"],
-    "nilearn": ["sklearn", "nilearn", "nibabel"],
-    "pycortex": ["cortex"],
+    "nilearn": ["sklearn", "nilearn", "nibabel", "cortex"],
 }
 OF_CPP = {"cgal", "geometry_central", "index"}
 
@@ -39,7 +37,7 @@ def common():
         **{"V": V, "F": F, "P": V, "index": index, "ids": ids, "near": ids},
         **{"v": 42, "r": 0.4, "k": 5, "eps": 1e-6, "fwhm": 0.3, "link": 0.2},
         **{"p": np.array([0.1, 0.2, 1.1]), "points": V[:9] * 1.1, "center": V[42]},
-        **{"values": V[:, 2].copy(), "walls": V[:, 2] < -0.9, "faces": np.arange(9)},
+        **{"values": V[:, 2].copy(), "wall": V[:, 2] < -0.9, "faces": np.arange(9)},
     }
 
 
@@ -95,6 +93,7 @@ def of_open3d(names):
     scene = open3d.t.geometry.RaycastingScene()
     scene.add_triangles(open3d.t.geometry.TriangleMesh.from_legacy(mesh))
     return {
+        "RaycastingScene": open3d.t.geometry.RaycastingScene,
         "KDTreeFlann": open3d.geometry.KDTreeFlann,
         "KDTreeSearchParamRadius": open3d.geometry.KDTreeSearchParamRadius,
         **{"mesh": mesh, "scene": scene, "pcd": open3d.geometry.PointCloud(V)},
@@ -103,42 +102,44 @@ def of_open3d(names):
 
 
 def of_nilearn(names):
+    import cortex.polyutils
     import nibabel
     import nilearn.decoding
     import nilearn.image
     from sklearn.neighbors import NearestNeighbors
 
     image = nibabel.Nifti1Image(np.random.default_rng(1).normal(size=(5, 5, 5)).astype(np.float32), np.eye(4))
-    return {"nilearn": nilearn, "NearestNeighbors": NearestNeighbors, "image": image}
-
-
-def of_pycortex(names):
-    import cortex.polyutils
-
     surface = cortex.polyutils.Surface(names["V"], names["F"])
-    return {"cortex": cortex, "surface": surface, "factor": 0.1, "mask": np.isin(np.arange(len(names["V"])), names["ids"])}
+    mask = np.isin(np.arange(len(names["V"])), names["ids"])
+    return {
+        **{"nilearn": nilearn, "NearestNeighbors": NearestNeighbors, "image": image},
+        **{"cortex": cortex, "surface": surface, "factor": 0.1, "mask": mask},
+    }
 
 
 def calls(name):
-    """The calls in the first two columns of the tables of a page, except those that leave something out by `...`."""
+    """The calls in the first two columns of the tables of a page: of the other library, and ours."""
     for line in (FOLDER / f"{name}.md").read_text(encoding="utf-8").splitlines():
         if line.startswith("| ") and not line.startswith("| ---"):
             _, other, ours, _ = line.split("|", 3)
-            yield from (CODE.findall(column) for column in (other, ours))
+            yield from (("other", call) for call in CODE.findall(other))
+            yield from (("ours", call) for call in CODE.findall(ours))
 
 
 @pytest.mark.parametrize("name", sorted(page.stem for page in FOLDER.glob("*.md") if page.stem not in OF_CPP))
 def test_calls_exist(name):
     for module in MODULES[name]:
         pytest.importorskip(module)
-    names, count, failed = common(), 0, []
-    names.update(globals()[f"of_{name}"](names))
-    for call in (call for column in calls(name) for call in column):
+    shared = common()
+    others = {**shared, **globals()[f"of_{name}"](shared)}
+    names = {"other": others, "ours": {**others, "p": shared["p"], "points": shared["points"]}}
+    count, failed = 0, []
+    for side, call in calls(name):
         count += 1
         try:
             with warnings.catch_warnings(), np.errstate(all="ignore"):
                 warnings.simplefilter("ignore")
-                eval(call, dict(names))
+                eval(call, dict(names[side]))
         except Exception as error:
             failed.append(f"{call}: {type(error).__name__}: {error}")
     print(f"{name}: {count} calls")

@@ -31,9 +31,14 @@ sbatch() {
 
 
 def write_meshes():
-    sphere = pytest.importorskip("trimesh").creation.icosphere(subdivisions=3)
-    for name in ("hand", "lh", "cortex", "part", "body"):
+    trimesh = pytest.importorskip("trimesh")
+    sphere = trimesh.creation.icosphere(subdivisions=3)
+    for name in ("hand", "cortex", "body"):
         sphere.export(f"{name}.ply")
+    trimesh.Trimesh(50 * sphere.vertices, sphere.faces).export("lh.ply")
+    hollow = np.concatenate([20 * sphere.vertices, 18 * sphere.vertices])  # a wall of 2 mm
+    faces = np.concatenate([sphere.faces, sphere.faces[:, ::-1] + len(sphere.vertices)])
+    meshhood.write_mesh("part.ply", hollow, faces)
     with gzip.open("hand.ply.gz", "wb") as file:
         file.write(Path("hand.ply").read_bytes())
     V, F = meshes.two_plates(60)

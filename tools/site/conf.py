@@ -54,6 +54,7 @@ sphinx_gallery_conf = {
     "gallery_dirs": ["gallery"],
     "filename_pattern": "/",
     "ignore_pattern": "made_meshes",
+    "copyfile_regex": r"made_meshes\.py",
     "image_scrapers": (pyvista.Scraper(), "matplotlib"),
     "abort_on_example_error": True,
     "download_all_examples": False,
@@ -114,6 +115,12 @@ def list_benchmarks(app, docname, source):
         source[0] += "\n```{toctree}\n:hidden:\n:glob:\n\nbenchmarks/*\n```\n"
 
 
+def link_meshes(app, docname, source):
+    """An example that is downloaded needs the module of the meshes beside it."""
+    if docname.startswith("gallery/") and "from made_meshes import" in source[0]:
+        source[0] += "\nThe meshes are those of :download:`made_meshes.py`, which belongs beside the program.\n"
+
+
 def write_empty_heads_as_cells(app, page, template, context, doctree):
     """A head without text names no column: a screen reader shall not announce it as one."""
     if "body" in context:
@@ -126,5 +133,6 @@ def setup(app):
     app.add_config_value("site_tools", hashlib.sha256(tools).hexdigest(), "env")
     app.connect("source-read", link_within_site)
     app.connect("source-read", list_benchmarks)
+    app.connect("source-read", link_meshes)
     app.connect("autodoc-process-docstring", process_docstring)
     app.connect("html-page-context", write_empty_heads_as_cells)
