@@ -2,9 +2,9 @@
 """Creases over scales
 ======================
 
-Fine scratches run over folds. A scratch is a crease at small radii only; a fold remains one at large radii. ``features``
-measures creases, ``persistence`` counts the radii at which each lasts: ridges red, valleys blue. :doc:`/curvature` shows
-creases of a scan of a dragon, whose terms do not allow us to ship it with this program.
+Fine scratches run over folds. A scratch is a crease at small radii only; a fold remains one at large radii.
+``features`` measures creases, ``persistence`` counts the radii at which each lasts: ridges red, valleys blue.
+:doc:`/curvature` shows creases of a scan of a dragon, whose terms do not allow us to ship it with this program.
 """
 
 import meshhood

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The package in a page that each bundler makes, with the code of docs/web.md, and the example with three.js. The pages answer in
+// The package in a page that each bundler makes, with the code of docs/web.md, and the example with three.js. They answer in
 // Chromium. MESHHOOD_PACKAGE is the folder of the package, MESHHOOD_EXAMPLE that of the example, and
 // MESHHOOD_VIEWER_SOURCES that of the page, whose npm packages drive the browser.
 import assert from 'node:assert/strict';
