@@ -13,7 +13,7 @@ from scale import scaled
 STEPS = scaled(40, least=8)
 
 # What writes the file of this name, `target`, and an older file of that name.
-WRITE_MESH = "meshhood.write_mesh(target, V, F, values={'z': V[:, 2]})"
+WRITE_MESH = "meshhood.write_mesh(target, V, F, values={'height': V[:, 2]})"
 WRITE_BYTES = "target.write_bytes(b'old')"
 FILES = {
     "an index": ("index.save(target)", "smaller.save(target)"),

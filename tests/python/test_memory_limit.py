@@ -41,7 +41,7 @@ CALLS = {
     "principal components": "index.principal_components(2.0, workers=2)",
     "features": "index.features(scales=[1.0, 2.0], F=F, workers=2)",
     "build": "meshhood.MeshIndex(V, F, workers=2)",
-    "points without faces": "meshhood.MeshIndex.from_points(V, 1.0, workers=2)",
+    "points without faces": "meshhood.MeshIndex.from_points(V, 1.0, max_edges=10**6, workers=2)",
     "faces as vertices": "meshhood.MeshIndex.of_faces(V, F, workers=2)",
     "refit": "index.refit(V, workers=2)",
     "partition": "meshhood.partition(arrays, folder / str(os.getpid()), parts=2, halo=1.0, workers=2)",
