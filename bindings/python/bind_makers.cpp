@@ -52,18 +52,23 @@ std::shared_ptr<ExactMethod> make_linked(const Input& positions, double link, st
   const PositionsView points = positions_of(positions, "P");
   const LinkOptions options{.max_edges = max_edges, .threads = threads, .progress = progress_to(progress)};
   return without_lock([&] {
-    about("P", [&] { validate(points); });
-    return exact_method(build_linked(points, link, options));
+    const GraphData copy = positions_copy(points, "P");
+    return exact_method(build_linked(copy.view().positions, link, options));
   });
 }
 
 /// The index of the faces of a mesh.
 std::shared_ptr<ExactMethod> make_of_faces(const Input& positions, const Input& corners,
                                            const std::optional<Input>& offsets, unsigned threads, nb::handle progress) {
-  const MeshView mesh{positions_of(positions, "V"), faces_of(corners, offsets)};
+  const PositionsView given = positions_of(positions, "V");
+  const FacesView faces = faces_of(corners, offsets);
   const BuildOptions options{.threads = threads, .progress = progress_to(progress)};
   return without_lock([&] {
-    const GraphData graph = face_graph(mesh);
+    const GraphData copy = positions_copy(given, "V");
+    const GraphData graph = about("F", [&] {
+      check_vertex_count(faces.size());
+      return face_graph({copy.view().positions, faces});
+    });
     return exact_method(build(graph.view(), options));
   });
 }

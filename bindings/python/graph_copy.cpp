@@ -21,11 +21,6 @@ namespace {
 // Ids are int32 in Python, as SciPy's sparse matrices have them.
 constexpr std::size_t kMostVertices = std::numeric_limits<std::int32_t>::max();
 
-void check_positions(const PositionsView& positions) {
-  validate(positions);
-  check_vertex_count(positions.size());
-}
-
 /// The first edge of `some` that `all` does not have.
 std::optional<std::pair<std::size_t, VertexId>> first_missing(const AdjacencyView& some, const AdjacencyView& all) {
   for (std::size_t v = 0; v < some.size(); ++v) {
@@ -38,14 +33,21 @@ std::optional<std::pair<std::size_t, VertexId>> first_missing(const AdjacencyVie
 
 }  // namespace
 
-GraphData graph_copy(const MeshView& mesh) {
-  // The copy is validated, not the original: another thread may write to that at any time.
+GraphData positions_copy(const PositionsView& positions, const char* argument) {
   GraphData copy;
-  mesh.positions.visit([&](const auto& strided) {
+  positions.visit([&](const auto& strided) {
     const auto xyz = strided.packed();
     copy.positions = std::vector(xyz.begin(), xyz.end());
   });
-  about("V", [&] { check_positions(copy.view().positions); });
+  about(argument, [&] {
+    validate(copy.view().positions);
+    check_vertex_count(positions.size());
+  });
+  return copy;
+}
+
+GraphData graph_copy(const MeshView& mesh) {
+  GraphData copy = positions_copy(mesh.positions, "V");
   copy.adjacency = about("F", [&] { return adjacency({copy.view().positions, mesh.faces}); });
   return copy;
 }

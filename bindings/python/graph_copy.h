@@ -8,6 +8,11 @@
 
 namespace meshhood::python {
 
+/// Positions that other threads may write to, copied before they are validated; no edges.
+///
+/// Throws Error{InvalidMesh, TooLarge}. The message begins with `argument`.
+[[nodiscard]] GraphData positions_copy(const PositionsView& positions, const char* argument);
+
 /// The graph of a mesh whose positions other threads may write to. Copies them first.
 ///
 /// Throws Error{InvalidMesh, TooLarge}. The message begins with the argument: `V` or `F`.

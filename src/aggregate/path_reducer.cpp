@@ -23,8 +23,8 @@ void PathKernelReducer::reduce(std::span<const Path> paths, double radius, std::
   weights_.clear();
   for (const Path& path : paths) {
     // Not 1 - t^2, whose rounding would give a vertex at the rim a weight.
-    const double t = path.length / radius;
-    const double weight = is_box ? 1 : (1 - t) * (1 + t);
+    const double t = is_box ? 0 : path.length / radius;
+    const double weight = (1 - t) * (1 + t);
     weights_.push_back(squared_ ? weight * weight : weight);
   }
   totals_.clear();

@@ -166,7 +166,9 @@ class PointGrid {
     task.parallel_for(2, 1, [&](unsigned, std::size_t part, std::size_t) {
       std::sort(part == 0 ? order_.begin() : middle, part == 0 ? middle : order_.end());
     });
-    std::inplace_merge(order_.begin(), middle, order_.end());
+    std::vector<std::pair<std::uint64_t, VertexId>> merged(order_.size());
+    std::merge(order_.begin(), middle, middle, order_.end(), merged.begin());
+    order_ = std::move(merged);
   }
 
   /// The first point whose cell has a key of at least `key`.

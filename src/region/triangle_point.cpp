@@ -20,7 +20,9 @@ double length_of(const Point& offset) {
 /// Which share of the way from `a` to `b` leads to the point nearest to the origin. Ends have exactly 0 and 1.
 double share_of_side(const Point& a, const Point& b) {
   const Point side = b - a;
-  const double share = -dot(a, side) / dot(side, side);
+  const double square = dot(side, side);
+  if (square == 0) return 0;
+  const double share = -dot(a, side) / square;
   return share > 0 ? std::min(share, 1.0) : 0;  // 0 where it is not a number
 }
 
@@ -62,6 +64,7 @@ class Candidates {
   void offer_inside() {
     const Point normal = cross(sides_[0], sides_[1]);
     const double square = dot(normal, normal);
+    if (square == 0) return;
     const double second = dot(normal, cross(scaled_[0], sides_[2])) / square;
     const double third = dot(normal, cross(scaled_[0], sides_[0])) / square;
     if (!(second > 0 && third > 0 && second + third < 1)) return;

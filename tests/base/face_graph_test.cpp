@@ -69,6 +69,21 @@ TEST_P(FaceGraphIn, JoinsTheFacesThatHaveASideInCommon) {
 
 INSTANTIATE_TEST_SUITE_P(All, FaceGraphIn, testing::ValuesIn(families()), family_name);
 
+TEST(FaceGraph, JoinsFacesOnceThatHaveSeveralSidesInCommon) {
+  TestMesh mesh;
+  mesh.add_vertex(0, 0, 0);
+  mesh.add_vertex(1, 0, 0);
+  mesh.add_vertex(1, 1, 0);
+  mesh.add_vertex(0, 1, 0);
+  mesh.add_face({0, 1, 2, 3});
+  mesh.add_face({0, 1, 2});
+  mesh.add_face({2, 1, 0});
+  const GraphData graph = face_graph(mesh.finish(true).view());
+  EXPECT_THAT(graph.adjacency.view()[0], testing::ElementsAre(1, 2));
+  EXPECT_THAT(graph.adjacency.view()[1], testing::ElementsAre(0, 2));
+  EXPECT_THAT(graph.adjacency.view()[2], testing::ElementsAre(0, 1));
+}
+
 TEST(FaceGraph, HasTheMeanOfTheCorners) {
   TestMesh mesh;
   mesh.add_vertex(0, 0, 0);

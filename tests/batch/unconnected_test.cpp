@@ -91,6 +91,21 @@ TEST(Unconnected, OfAFoldedSheetIsTheOtherHalf) {
   EXPECT_GT(across, mesh.size() / 2);
 }
 
+// Some vertices of a leaf reach the other half around the fold, others of the leaf do not.
+TEST(Unconnected, AtTheDistanceOfTheFoldAreThoseOfAScan) {
+  const TestMesh mesh = make_folded_sheet(24);
+  const Index index = build(mesh.view());
+  const Oracle oracle(mesh);
+  for (const double radius : {8.0, 10.0, 12.0}) {
+    const Unconnected result = nearest_unconnected(index, {.radius = radius});
+    for (VertexId v = 0; v < mesh.size(); ++v) {
+      const NearestVertex expected = scan(oracle, v, radius);
+      ASSERT_EQ(result.vertices[v], expected.vertex) << v;
+      ASSERT_EQ(result.gaps[v], expected.distance) << v;
+    }
+  }
+}
+
 TEST(Unconnected, IsNeitherAWallNorIgnored) {
   const TestMesh mesh = make_folded_sheet(24);
   const Index index = build(mesh.view());

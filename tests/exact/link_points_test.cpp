@@ -84,6 +84,20 @@ TEST(LinkPoints, AcrossMoreCellsThanKeys) {
   EXPECT_EQ(found.neighbors, expected.neighbors);
 }
 
+TEST(LinkPoints, OfCellsThatShareAKeyAreJoinedOnce) {
+  // 2^32 keys along two axes: the cells that follow each other along the first one have the same key.
+  constexpr double kCells = 0x1p32 - 2.5;
+  constexpr double kExtent = kCells / (1 - kCells * 0x1p-50);
+  TestMesh mesh;
+  Random random(8);
+  mesh.add_vertex(0, kExtent, kExtent);
+  for (int i = 0; i < 500; ++i) mesh.add_vertex(random.uniform(0, 9), random.uniform(0, 9), random.uniform(0, 9));
+  const Adjacency expected = scan(Oracle(mesh.finish(false)), 1);
+  const Adjacency found = link_points(mesh.positions_view(), 1);
+  EXPECT_EQ(found.offsets, expected.offsets);
+  EXPECT_EQ(found.neighbors, expected.neighbors);
+}
+
 TEST(LinkPoints, BuildTheIndexOfTheirGraph) {
   const TestMesh mesh = bumpy_grid(40);
   const Adjacency graph = link_points(mesh.positions_view(), 1.2);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <thread>
 #include <vector>
 
@@ -237,17 +238,15 @@ TEST(SearchOrder, IsThatOfTheIndexInEveryWayToAnswer) {
   const TestMesh mesh = folded();
   const Index index = build(mesh.view());
   const Questions questions(mesh, index, 3, scaled(40, 10));
-  std::vector<std::size_t> ways(4);
+  using Way = SearcherAccess::State::Way;
+  std::map<Way, std::size_t> ways;
   for (Searcher& searcher : searchers_of(index)) {
     for (std::size_t i = 0; i < questions.asked.size(); ++i) {
       questions.expect(searcher, index, i);
-      ++ways[static_cast<std::size_t>(SearcherAccess::state(searcher).way)];
+      ++ways[SearcherAccess::state(searcher).way];
     }
   }
-  using Way = SearcherAccess::State::Way;
-  for (const Way way : {Way::Alone, Way::LeafBfs, Way::Component}) {
-    EXPECT_GT(ways[static_cast<std::size_t>(way)], 0U);
-  }
+  for (const Way way : {Way::Alone, Way::LeafBfs, Way::Component}) EXPECT_GT(ways[way], 0U);
 }
 
 TEST(SearchOrder, IsTheSameInEveryThread) {

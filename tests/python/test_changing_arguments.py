@@ -54,17 +54,24 @@ arguments = {
     "V": V, "moved": V + draw.random(V.shape) / 9, "F": F, "cut": F[::9, :2].copy(),
     "values": draw.random((count, 40)), "weights": draw.random(count), "normals": draw.normal(size=(count, 3)),
     "vertices": draw.permutation(count), "r": np.array([2.0, 1.0, 3.0]), "radii": draw.random(count) * 3,
-    "changed": draw.permutation(count)[:700],
+    "changed": draw.permutation(count)[:700], "points": V + draw.normal(size=V.shape),
+    "walls": draw.random(count) < 0.1, "ignored": draw.random(count) < 0.1,
 }
 hostile = {
     "V": np.nan, "moved": np.nan, "F": 2**40, "cut": -1, "values": np.inf, "weights": -1.0, "normals": np.nan,
-    "vertices": -1, "r": np.nan, "radii": -1.0, "changed": 2**40,
+    "vertices": -1, "r": np.nan, "radii": -1.0, "changed": 2**40, "points": np.nan, "walls": True, "ignored": True,
 }
 def numbers(result):
+    if hasattr(result, "tocsr"):
+        return result.indptr, result.indices, result.data
     if isinstance(result, meshhood.MeshIndex):
         return [result.positions, *result.query_ball(None, 2.0)]
     return result if isinstance(result, tuple) else (result,)
 """
+
+# Several radii, each of which is a search of its own, with masks.
+FILTERED = "scales=r, walls=walls, ignored=ignored, progress=p"
+FILTER = {"r": "r", "walls": "walls", "ignored": "ignored"}
 
 CALLS = {
     "query_ball": ("index.query_ball(v, r, progress=p)", {"v": "vertices", "r": "radii"}),
@@ -104,6 +111,53 @@ CALLS = {
     "build": ("meshhood.MeshIndex(V, F, cut=cut, progress=p)", {"V": "V", "F": "F", "cut": "cut"}),
     "refit": ("index.refit(moved, progress=p)", {"moved": "moved"}),
     "refit of some": ("index.refit(moved, changed, progress=p)", {"moved": "moved", "changed": "changed"}),
+    "query_ball with masks": (f"index.query_ball(v, {FILTERED})", {"v": "vertices", **FILTER}),
+    "count with masks": (f"index.count(v, {FILTERED})", {"v": "vertices", **FILTER}),
+    "along edges with masks": (f"index.query_ball(v, metric='path', {FILTERED})", {"v": "vertices", **FILTER}),
+    "rings with masks": (f"index.query_ball(v, metric='rings', {FILTERED})", {"v": "vertices", **FILTER}),
+    "graph with masks": (f"index.radius_neighbors_graph(vertices=v, {FILTERED})", {"v": "vertices", **FILTER}),
+    "aggregate with masks": (f"index.aggregate(values, {FILTERED})", {"values": "values", **FILTER}),
+    "aggregate along edges": (
+        f"index.aggregate(values, metric='path', weights=weights, {FILTERED})",
+        {"values": "values", "weights": "weights", **FILTER},
+    ),
+    "smoothing matrix": (
+        "index.smoothing_matrix(2.0, weights=weights, vertices=v, walls=walls, progress=p)",
+        {"weights": "weights", "v": "vertices", "walls": "walls"},
+    ),
+    "curvature with masks": (
+        f"index.curvature(vertices=v, F=F, {FILTERED})",
+        {"v": "vertices", "F": "F", **FILTER},
+    ),
+    "corrected curvature with masks": (
+        f"index.corrected_curvature(F=F, normals=N, {FILTERED})",
+        {"F": "F", "N": "normals", **FILTER},
+    ),
+    "moments with masks": (f"index.moments(weights=weights, {FILTERED})", {"weights": "weights", **FILTER}),
+    "principal components with masks": (
+        f"index.principal_components(weights=weights, {FILTERED})",
+        {"weights": "weights", **FILTER},
+    ),
+    "features with masks": (f"index.features(F=F, kinds=('crease', 'area'), {FILTERED})", {"F": "F", **FILTER}),
+    "nearest unconnected": (
+        "index.nearest_unconnected(v, r, walls=walls, ignored=ignored, progress=p)",
+        {"v": "vertices", "r": "radii", "walls": "walls", "ignored": "ignored"},
+    ),
+    "k nearest": (
+        "index.query_knn(v, 9, walls=walls, ignored=ignored, progress=p)",
+        {"v": "vertices", "walls": "walls", "ignored": "ignored"},
+    ),
+    "k nearest along edges": (
+        "index.query_knn(v, 9, metric='path', walls=walls, ignored=ignored, progress=p)",
+        {"v": "vertices", "walls": "walls", "ignored": "ignored"},
+    ),
+    "discs": (
+        "index.query_knn(v, until=9.0, weights=weights, walls=walls, ignored=ignored, progress=p)",
+        {"v": "vertices", "weights": "weights", "walls": "walls", "ignored": "ignored"},
+    ),
+    "closest points": ("index.closest_point(q, F=F, progress=p)", {"q": "points", "F": "F"}),
+    "points without faces": ("meshhood.MeshIndex.from_points(V, 1.5, progress=p)", {"V": "V"}),
+    "faces as vertices": ("meshhood.MeshIndex.of_faces(V, F, progress=p)", {"V": "V", "F": "F"}),
 }
 
 
@@ -231,11 +285,12 @@ call = lambda: index.aggregate(**arguments)
 """ + WRITES.format(times=TIMES))
 
 
-def test_a_thread_may_write_to_the_positions():
-    run("""
+@pytest.mark.parametrize("made", ("MeshIndex(V, F)", "MeshIndex.from_points(V, 1.0)", "MeshIndex.of_faces(V, F)"))
+def test_a_thread_may_write_to_the_positions(made):
+    run(f"""
 V, F = meshes.grid(200)
-written, values = V, (0.0, np.nan, np.inf)
-call = lambda: meshhood.MeshIndex(V, F)
+written, values = V, (0.0, np.nan, np.inf, -1e150, V.copy())
+call = lambda: meshhood.{made}
 """ + WRITES.format(times=TIMES // 4))
 
 
@@ -265,6 +320,16 @@ def test_chunks_are_those_of_the_arguments_at_the_call(method):
         v[:], r[:] = -7, np.nan
         part.vertices[:] = 0
     np.testing.assert_array_equal(np.concatenate([part.indices for part in rows]), wanted[1])
+
+
+def test_chunks_are_those_of_the_masks_at_the_call():
+    index = meshhood.MeshIndex(*meshes.two_plates(12))
+    masks = {"walls": np.arange(len(index)) % 5 == 0, "ignored": np.arange(len(index)) % 3 == 0}
+    wanted = index.query_ball(None, 2.0, **masks)
+    parts = index.iter_neighborhoods(None, 2.0, chunk=9, **masks)
+    for mask in masks.values():
+        mask[:] = True
+    np.testing.assert_array_equal(np.concatenate([part.indices for part in parts]), wanted[1])
 
 
 def test_the_arguments_of_chunks_are_checked_at_the_call():

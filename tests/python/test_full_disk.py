@@ -12,10 +12,15 @@ from scale import scaled
 
 STEPS = scaled(40, least=8)
 
-# What is written under the name `target`, and of an older file of that name.
+# What writes the file of this name, `target`, and an older file of that name.
+WRITE_MESH = "meshhood.write_mesh(target, V, F, values={'height': V[:, 2]})"
+WRITE_BYTES = "target.write_bytes(b'old')"
 FILES = {
-    "MeshIndex.save": ("index.save(target)", "smaller.save(target)"),
-    "Page.save": ("page.save(target)", "target.write_bytes(b'old')"),
+    "an index": ("index.save(target)", "smaller.save(target)"),
+    "an index with faces": ("index.save(target, faces=True)", "smaller.save(target)"),
+    "a page": ("page.save(target)", WRITE_BYTES),
+    "mesh.ply": (WRITE_MESH, WRITE_BYTES),
+    "mesh.vtk": (WRITE_MESH, WRITE_BYTES),
 }
 # What is written into the folder `target`.
 FOLDERS = {
@@ -55,9 +60,10 @@ target = place / "target"
 """
 
 WRITE_FILE = """
+target = place / {name!r}
 {write}
 new = target.read_bytes()
-target = root / "target"
+target = root / {name!r}
 refused = 0
 for pages in range({steps}):
     disk.leave_free(4000)
@@ -115,7 +121,7 @@ def run(program, folder):
 @pytest.mark.parametrize("name", FILES)
 def test_a_file_is_the_old_one_or_the_new_one(name, tmp_path):
     write, write_old = FILES[name]
-    run(WRITE_FILE.format(write=write, write_old=write_old, steps=60), tmp_path)
+    run(WRITE_FILE.format(name=name, write=write, write_old=write_old, steps=60), tmp_path)
 
 
 @pytest.mark.parametrize("name", FOLDERS)

@@ -21,7 +21,15 @@ CALLS = {
     "paper": "index.query_ball(None, 1.0, method='paper', workers=2)",
     "bfs": "index.count(range(500), 2.0, method='bfs', workers=2)",
     "along edges": "index.query_ball(None, 1.0, metric='path', workers=2)",
+    "with masks": "index.query_ball(None, 2.0, walls=walls, ignored=ignored, workers=2)",
+    "along edges with masks": "index.count(None, 1.0, metric='path', walls=walls, ignored=ignored, workers=2)",
+    "nearest unconnected": "index.nearest_unconnected(None, 2.0, walls=walls, workers=2)",
+    "k nearest": "index.query_knn(range(2000), 20, ignored=ignored, workers=2)",
+    "k nearest along edges": "index.query_knn(range(2000), 20, metric='path', workers=2)",
+    "discs": "index.query_knn(range(2000), until=9.0, workers=2)",
+    "closest points": "index.closest_point(V, F=F, workers=2)",
     "aggregate": "index.aggregate(values, 3.0, workers=2)",
+    "aggregate along edges": "index.aggregate(values, 2.0, metric='path', walls=walls, workers=2)",
     "several radii": "index.aggregate(values, scales=[1.0, 2.0], nesting='patch', workers=2)",
     "maximum": "index.aggregate(values, 3.0, 'max', workers=2)",
     "variance": "index.aggregate(values, 3.0, 'var', workers=2)",
@@ -33,6 +41,8 @@ CALLS = {
     "principal components": "index.principal_components(2.0, workers=2)",
     "features": "index.features(scales=[1.0, 2.0], F=F, workers=2)",
     "build": "meshhood.MeshIndex(V, F, workers=2)",
+    "points without faces": "meshhood.MeshIndex.from_points(V, 1.0, max_edges=10**6, workers=2)",
+    "faces as vertices": "meshhood.MeshIndex.of_faces(V, F, workers=2)",
     "refit": "index.refit(V, workers=2)",
     "partition": "meshhood.partition(arrays, folder / str(os.getpid()), parts=2, halo=1.0, workers=2)",
 }
@@ -46,6 +56,7 @@ folder = pathlib.Path(sys.argv[1])
 V, F = meshes.two_plates(120)
 index = meshhood.MeshIndex(V, F)
 values = np.ones((len(V), 20))
+walls, ignored = np.arange(len(V)) % 7 == 0, np.arange(len(V)) % 5 == 0
 arrays = folder / "V.npy", folder / "F.npy"
 np.save(arrays[0], V), np.save(arrays[1], F)
 DONE, OUT_OF_MEMORY = 0, 3

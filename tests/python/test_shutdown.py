@@ -23,6 +23,8 @@ CALLS = {
     "paper": "index.query_ball(range(50), 2.0, method='paper')",
     "bfs": "index.query_ball(range(50), 2.0, method='bfs')",
     "ball": "index.query_ball(range(50), 2.0, method='ball')",
+    "batch with masks": "index.query_ball(None, 4.0, walls=walls, ignored=ignored)",
+    "batch along edges with masks": "index.query_ball(None, 2.0, metric='path', walls=walls, ignored=ignored)",
     "single query": "index.query_ball(7, 2.0)",
     "single query with distances": "index.query_ball(7, 2.0, return_distance=True)",
     "single bfs": "index.query_ball(7, 2.0, method='bfs')",
@@ -38,7 +40,15 @@ CALLS = {
     "connecting radius": "index.connecting_radius(7, 900)",
     "nearest connected": "index.nearest_connected(7, 20)",
     "nearest": "index.nearest(V[:50])",
+    "nearest unconnected": "index.nearest_unconnected(None, 2.0)",
+    "k nearest": "index.query_knn(None, 20, walls=walls)",
+    "k nearest along edges": "index.query_knn(None, 20, metric='path')",
+    "discs": "index.query_knn(range(50), until=9.0, ignored=ignored)",
+    "closest points": "index.closest_point(V)",
+    "clipped patch": "index.submesh(index.query_region(7, 4.0), clip=(7, 4.0))",
+    "rim": "index.rim(index.query_region(7, 4.0), 7, 4.0)",
     "aggregate": "index.aggregate(values, scales=[2.0, 4.0], reduce='var', progress=lambda done, total: None)",
+    "aggregate along edges": "index.aggregate(values, 2.0, metric='path', walls=walls)",
     "smooth": "index.smooth(values, 4.0)",
     "areas": "meshhood.vertex_areas(V, F)",
     "curvature": "index.curvature(scales=[2.0, 4.0], F=F)",
@@ -50,6 +60,9 @@ CALLS = {
     "persistence": "meshhood.persistence(values.T, range(1, 21), 0.1)",
     "build": "meshhood.MeshIndex(V, F)",
     "build without edges": "meshhood.MeshIndex(V, F, cut=F[:9, :2])",
+    "build from points": "meshhood.MeshIndex.from_points(V, 1.0)",
+    "build of faces": "meshhood.MeshIndex.of_faces(V, F)",
+    "weld": "meshhood.weld(V, F, 0.1)",
     "refit": "index.refit(V)",
     "refit of some": "index.refit(V, [7, 8, 9])",
     "quality": "index.quality()",
@@ -60,6 +73,7 @@ CALLS = {
     "load": "meshhood.load(folder / 'plates.index')",
     "map": "meshhood.load(folder / 'plates.index', mmap=True)",
     "read_mesh": "meshhood.read_mesh(folder / 'mesh.off')",
+    "write_mesh": "meshhood.write_mesh(folder / f'{threading.get_ident()}.ply', V, F)",
     "pickle": "pickle.loads(pickle.dumps(index))",
     "partition": "meshhood.partition(arrays, folder / str(threading.get_ident()), parts=2, halo=0.5, resume=False)",
     "open parts": "meshhood.open_parts(folder / 'parts')",
@@ -80,6 +94,7 @@ arrays = folder / "V.npy", folder / "F.npy"
 np.save(arrays[0], V), np.save(arrays[1], F)
 meshhood.partition(arrays, folder / "parts", parts=2, halo=0.5)
 values = np.ones((len(V), 20))
+walls, ignored = np.arange(len(V)) % 7 == 0, np.arange(len(V)) % 5 == 0
 (folder / "mesh.off").write_text("OFF\\n2000 0 0\\n" + "0 1 2\\n" * 2000)
 def open_part(path):
     meshhood._open_part._opened.cache_clear()

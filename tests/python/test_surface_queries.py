@@ -260,7 +260,7 @@ def test_of_faces_joins_faces_across_edges():
         np.testing.assert_array_equal(np.sort(index.query_rings(f, 1)[1]), np.sort([f, *shared]))
     polygons = meshhood.MeshIndex.of_faces(V, quads)
     np.testing.assert_allclose(polygons.positions, V[quads].mean(axis=1))
-    with pytest.raises(ValueError, match="F: face 1 has no corners|face 1 has no corners"):
+    with pytest.raises(ValueError, match="F: face 1 has no corners"):
         meshhood.MeshIndex.of_faces(V, (np.array([0, 3, 3]), np.array([0, 1, 2])))
 
 

@@ -160,6 +160,23 @@ TEST(TrianglePoint, HasTheDistanceOfTheRegionsAroundIt) {
   EXPECT_GT(std::min({zeros[0], zeros[1], zeros[2]}), 100U);
 }
 
+TEST(TrianglePoint, OfTrianglesWithASideInCommonHasTheSameDistanceThere) {
+  Random random(6);
+  std::size_t at_side = 0;
+  for (std::size_t i = 0; i < scaled(50000, 2000); ++i) {
+    const auto draw = [&] { return Point{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}; };
+    const std::array corners{draw(), draw(), draw()};
+    const Point q = draw();
+    const TrianglePoint found = nearest_in_triangle(q, corners, 1);
+    if (found.weights[2] != 0) continue;
+    const TrianglePoint other = nearest_in_triangle(q, {corners[1], corners[0], draw()}, 1);
+    if (other.weights[2] != 0) continue;
+    ASSERT_EQ(found.distance, other.distance) << i;
+    at_side += static_cast<std::size_t>(found.weights[0] != 0 && found.weights[1] != 0);
+  }
+  EXPECT_GT(at_side, 100U);
+}
+
 TEST(TrianglePoint, WithoutAnAreaIsItsSides) {
   const TrianglePoint on_line = nearest_in_triangle({1, 2, 0}, {{{0, 0, 0}, {3, 0, 0}, {2, 0, 0}}}, 1);
   EXPECT_EQ(on_line.distance, 2);
@@ -212,6 +229,28 @@ TEST(FaceIndex, FindsAFaceThatOverhangsItsLeaf) {
   const Index index = build(mesh.finish(true).view());
   const FaceIndex surface = FaceIndex::build(index, mesh.view().faces);
   EXPECT_EQ(surface.closest_point({300, 150, 40}).face, mesh.face_count() - 1);
+}
+
+/// Without edges each vertex has a root of its own, beyond which its faces extend.
+TEST(FaceIndex, FindsFacesThatJoinComponents) {
+  const TestMesh mesh = bumpy_grid(40);
+  Random random(4);
+  std::vector<std::uint32_t> corners(300);
+  for (std::uint32_t& v : corners) v = static_cast<std::uint32_t>(random.below(mesh.size()));
+  const Adjacency no_edges{std::vector<EdgeOffset>(mesh.size() + 1, 0), {}};
+  const Index index = build(GraphView{mesh.positions_view(), no_edges.view()});
+  const FaceIndex surface = FaceIndex::build(index, FacesView::triangles(corners));
+  const double scale = IndexAccess::view(index).frame.scale;
+  for (std::size_t i = 0; i < scaled(2000, 300); ++i) {
+    const Point q{random.uniform(-5, 45), random.uniform(-5, 45), random.uniform(-5, 5)};
+    double expected = kInfinity;
+    for (std::size_t first = 0; first < corners.size(); first += 3) {
+      const std::array triangle{corner_of(mesh, corners[first]), corner_of(mesh, corners[first + 1]),
+                                corner_of(mesh, corners[first + 2])};
+      expected = std::min(expected, nearest_in_triangle(q, triangle, scale).distance);
+    }
+    ASSERT_EQ(surface.closest_point({q.x, q.y, q.z}).distance, expected) << i;
+  }
 }
 
 TEST(FaceIndex, AnswersManyPointsOnSeveralThreadsAsOneByOne) {

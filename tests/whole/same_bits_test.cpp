@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Whole calls whose results are sums have the same bits with every kernel and any number of threads; those of
-// aggregates and corrected curvature do not depend on the other rows of the call, either.
+// Whole calls whose results are numbers have the same bits with every kernel and any number of threads, with masks and
+// without; those of aggregates, corrected curvature and nearest vertices do not depend on the other rows of the call,
+// either.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -9,6 +10,7 @@
 #include <cstdio>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -54,6 +56,8 @@ struct Scene {
   CurvatureIndex surface;
   std::vector<double> areas;
   std::vector<double> signal;
+  std::vector<std::uint8_t> walls;
+  std::vector<std::uint8_t> ignored;
   double edge;
 
   explicit Scene(TestMesh given)
@@ -63,8 +67,14 @@ struct Scene {
         areas(vertex_areas(mesh.view())),
         edge(Oracle(mesh).mean_edge()) {
     Random random(3);
-    for (std::size_t v = 0; v < mesh.size(); ++v) signal.push_back(random.uniform(-1, 1) * random.uniform(0, 1e6));
+    for (std::size_t v = 0; v < mesh.size(); ++v) {
+      signal.push_back(random.uniform(-1, 1) * random.uniform(0, 1e6));
+      walls.push_back(random.below(40) == 0 ? 1 : 0);
+      ignored.push_back(random.below(9) == 0 ? 1 : 0);
+    }
   }
+
+  [[nodiscard]] Filter filter(bool has_masks) const { return has_masks ? Filter{walls, ignored} : Filter{}; }
 
   /// In each leaf `least` to `most` of its vertices, in no order.
   [[nodiscard]] std::vector<VertexId> rows(std::size_t least, std::size_t most) const {
@@ -93,7 +103,7 @@ std::vector<Scene> scenes() {
   return all;
 }
 
-/// A call whose result is sums, as a function of its rows.
+/// A call whose result is numbers, as a function of its rows.
 struct Call {
   std::string name;
   std::function<std::vector<double>(const std::vector<VertexId>& rows, unsigned threads)> result;
@@ -101,7 +111,7 @@ struct Call {
   bool by_row;  // each row depends on its vertex alone
 };
 
-std::vector<Call> aggregates(const Scene& scene, double radius) {
+std::vector<Call> aggregates(const Scene& scene, double radius, const Filter& filter) {
   std::vector<Call> calls;
   for (const Reduce reduce : kReductions) {
     for (const SmoothingKernel kernel : kKernels) {
@@ -110,8 +120,9 @@ std::vector<Call> aggregates(const Scene& scene, double radius) {
         calls.push_back({"reduction " + std::to_string(static_cast<int>(reduce)) + ", kernel " +
                              std::to_string(static_cast<int>(kernel)) + ", nesting " +
                              std::to_string(static_cast<int>(nesting)),
-                         [&scene, radius, reduce, kernel, nesting](const auto& rows, unsigned threads) {
-                           AggregateQuery query{.vertices = rows, .radius = BatchRadius::scales({radius, radius / 2})};
+                         [&scene, radius, filter, reduce, kernel, nesting](const auto& rows, unsigned threads) {
+                           AggregateQuery query{
+                               .vertices = rows, .radius = BatchRadius::scales({radius, radius / 2}), .filter = filter};
                            query.reduce = reduce;
                            query.kernel = kernel;
                            query.nesting = nesting;
@@ -131,24 +142,24 @@ std::vector<Call> aggregates(const Scene& scene, double radius) {
   return calls;
 }
 
-std::vector<Call> curvature_calls(const Scene& scene, double radius) {
+std::vector<Call> curvature_calls(const Scene& scene, double radius, const Filter& filter) {
   std::vector<Call> calls;
   calls.push_back({"corrected curvature",
-                   [&scene, radius](const auto& rows, unsigned threads) {
-                     return corrected_curvatures(scene.surface, scene.mesh.view().faces, {rows, radius},
+                   [&scene, radius, filter](const auto& rows, unsigned threads) {
+                     return corrected_curvatures(scene.surface, scene.mesh.view().faces, {rows, radius, filter},
                                                  {.threads = threads})
                          .measures;
                    },
                    CorrectedCurvatures::kMeasures, true});
   calls.push_back({"moments",
-                   [&scene, radius](const auto& rows, unsigned threads) {
-                     return moments(scene.index, {.vertices = rows, .radius = radius},
+                   [&scene, radius, filter](const auto& rows, unsigned threads) {
+                     return moments(scene.index, {rows, radius, filter},
                                     {.degree = 4, .weights = scene.areas, .threads = threads});
                    },
                    35, false});
   calls.push_back({"features",
-                   [&scene, radius](const auto& rows, unsigned threads) {
-                     return features(scene.surface, {rows, radius},
+                   [&scene, radius, filter](const auto& rows, unsigned threads) {
+                     return features(scene.surface, {rows, radius, filter},
                                      {.kinds = {Feature::Crease, Feature::Height, Feature::Variation, Feature::Area},
                                       .areas = scene.areas,
                                       .threads = threads});
@@ -156,12 +167,11 @@ std::vector<Call> curvature_calls(const Scene& scene, double radius) {
                    4, false});
   for (const CurvatureFit fit : {CurvatureFit::Quadric, CurvatureFit::Jet}) {
     calls.push_back({"curvature of fit " + std::to_string(static_cast<int>(fit)),
-                     [&scene, radius, fit](const auto& rows, unsigned threads) {
+                     [&scene, radius, filter, fit](const auto& rows, unsigned threads) {
                        CurvatureOptions options;
                        options.fit = fit;
                        options.threads = threads;
-                       const Curvatures found =
-                           curvatures(scene.surface, {.vertices = rows, .radius = radius}, options);
+                       const Curvatures found = curvatures(scene.surface, {rows, radius, filter}, options);
                        std::vector<double> numbers;
                        for (std::size_t i = 0; i < rows.size(); ++i) {
                          numbers.insert(numbers.end(), {found.k1[i], found.k2[i], static_cast<double>(found.state[i])});
@@ -174,9 +184,58 @@ std::vector<Call> curvature_calls(const Scene& scene, double radius) {
   return calls;
 }
 
-std::vector<Call> all_calls(const Scene& scene, double radius) {
-  std::vector<Call> calls = aggregates(scene, radius);
-  for (Call& call : curvature_calls(scene, radius)) calls.push_back(std::move(call));
+std::vector<double> interleaved(const std::vector<VertexId>& ids, const std::vector<double>& distances) {
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    numbers.insert(numbers.end(), {static_cast<double>(ids[i]), distances[i]});
+  return numbers;
+}
+
+std::vector<Call> nearest_calls(const Scene& scene, double radius, const Filter& filter) {
+  constexpr std::size_t kNearest = 9;
+  std::vector<Call> calls;
+  calls.push_back({"nearest unconnected",
+                   [&scene, radius, filter](const auto& rows, unsigned threads) {
+                     const Unconnected found =
+                         nearest_unconnected(scene.index, {rows, radius, filter}, {.threads = threads});
+                     return interleaved(found.vertices, found.gaps);
+                   },
+                   2, true});
+  for (const Metric metric : {Metric::Straight, Metric::Path}) {
+    const std::string name = " of metric " + std::to_string(static_cast<int>(metric));
+    const auto options = [filter, metric](unsigned threads) {
+      return NearestOptions{.metric = metric, .filter = filter, .threads = threads};
+    };
+    calls.push_back({"k nearest" + name,
+                     [&scene, options](const auto& rows, unsigned threads) {
+                       const KNearest found = k_nearest(scene.index, rows, kNearest, options(threads));
+                       return interleaved(found.ids, found.distances);
+                     },
+                     2 * kNearest, true});
+    calls.push_back({"discs" + name,
+                     [&scene, options](const auto& rows, unsigned threads) {
+                       const double area = 20 * scene.edge * scene.edge;
+                       const Neighborhoods found = discs(scene.index, rows, area, scene.areas, options(threads));
+                       return interleaved(found.ids, found.distances);
+                     },
+                     0, false});
+  }
+  calls.push_back({"sums along edges",
+                   [&scene, radius, filter](const auto& rows, unsigned threads) {
+                     AggregateQuery query{.vertices = rows, .radius = radius, .filter = filter};
+                     query.metric = Metric::Path;
+                     query.kernel = SmoothingKernel::Biweight;
+                     return aggregate(scene.index, {scene.signal, 1, scene.areas}, query, {.threads = threads});
+                   },
+                   1, true});
+  return calls;
+}
+
+std::vector<Call> all_calls(const Scene& scene, double radius, bool has_masks) {
+  const Filter filter = scene.filter(has_masks);
+  std::vector<Call> calls = aggregates(scene, radius, filter);
+  for (Call& call : curvature_calls(scene, radius, filter)) calls.push_back(std::move(call));
+  for (Call& call : nearest_calls(scene, radius, filter)) calls.push_back(std::move(call));
   return calls;
 }
 
@@ -186,44 +245,51 @@ Bits bits_of(const Call& call, const std::vector<VertexId>& rows, unsigned threa
   return bits;
 }
 
-TEST(SameBits, OfWholeCallsWithEveryKernelAndAnyNumberOfThreads) {
-  std::size_t compared = 0;
+/// Calls `f(scene, call)` for all calls without masks, and with masks at the last radius.
+template <class F>
+void for_each_call(const std::vector<double>& radii, F&& f) {
   for (const Scene& scene : scenes()) {
-    for (const double edges : {2.0, 12.0}) {
-      const std::vector<VertexId> rows = scene.rows(8, 17);
-      for (const Call& call : all_calls(scene, edges * scene.edge)) {
-        const Bits expected = bits_of(call, rows, 1);
-        for (const Isa isa : available_isas()) {
-          const LimitedIsa limited(isa);
-          ASSERT_EQ(bits_of(call, rows, 1), expected)
-              << call.name << ", " << edges << " edges, kernels " << static_cast<int>(isa);
+    for (const double edges : radii) {
+      for (const bool has_masks : {false, true}) {
+        if (has_masks && edges != radii.back()) continue;
+        for (const Call& call : all_calls(scene, edges * scene.edge, has_masks)) {
+          SCOPED_TRACE(call.name + ", " + std::to_string(edges) + " edges" + (has_masks ? ", masks" : ""));
+          f(scene, call);
+          if (testing::Test::HasFatalFailure()) return;
         }
-        ASSERT_EQ(bits_of(call, rows, 3), expected) << call.name << ", threads";
-        compared += expected.size();
       }
     }
   }
+}
+
+TEST(SameBits, OfWholeCallsWithEveryKernelAndAnyNumberOfThreads) {
+  std::size_t compared = 0;
+  for_each_call({2.0, 12.0}, [&](const Scene& scene, const Call& call) {
+    const std::vector<VertexId> rows = scene.rows(8, 17);
+    const Bits expected = bits_of(call, rows, 1);
+    for (const Isa isa : available_isas()) {
+      const LimitedIsa limited(isa);
+      ASSERT_EQ(bits_of(call, rows, 1), expected) << "kernels " << static_cast<int>(isa);
+    }
+    ASSERT_EQ(bits_of(call, rows, 3), expected) << "threads";
+    compared += expected.size();
+  });
   std::printf("%zu numbers\n", compared);
 }
 
 TEST(SameBits, OfARowWhateverTheOtherRows) {
   std::size_t compared = 0;
-  for (const Scene& scene : scenes()) {
-    for (const double edges : {0.0, 2.0, 12.0}) {
-      const std::vector<VertexId> all = scene.rows(32, 32);
-      for (const Call& call : all_calls(scene, edges * scene.edge)) {
-        if (!call.by_row) continue;
-        const Bits together = bits_of(call, all, 1);
-        for (std::size_t row = 0; row < all.size(); row += 37) {
-          const Bits alone = bits_of(call, {all[row]}, 1);
-          const auto first = together.begin() + static_cast<std::ptrdiff_t>(call.columns * row);
-          ASSERT_TRUE(std::equal(alone.begin(), alone.end(), first))
-              << call.name << ", " << edges << " edges, vertex " << all[row];
-          compared += alone.size();
-        }
-      }
+  for_each_call({0.0, 2.0, 12.0}, [&](const Scene& scene, const Call& call) {
+    if (!call.by_row) return;
+    const std::vector<VertexId> all = scene.rows(32, 32);
+    const Bits together = bits_of(call, all, 1);
+    for (std::size_t row = 0; row < all.size(); row += 37) {
+      const Bits alone = bits_of(call, {all[row]}, 1);
+      const auto first = together.begin() + static_cast<std::ptrdiff_t>(call.columns * row);
+      ASSERT_TRUE(std::equal(alone.begin(), alone.end(), first)) << "vertex " << all[row];
+      compared += alone.size();
     }
-  }
+  });
   std::printf("%zu numbers\n", compared);
 }
 

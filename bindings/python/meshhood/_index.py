@@ -374,7 +374,7 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions):
             vertices of a mesh are numbered at random. Rows of the same vertex stay in their order.
 
         Yields `Chunk(vertices, indptr, indices, distances)`; `distances` is None unless `return_distance`. The
-        arguments are checked and copied when this is called: later changes have no effect, except to the masks.
+        arguments are checked and copied when this is called: later changes have no effect.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> sum(len(part.vertices) for part in index.iter_neighborhoods(None, 0.3, chunk=100))

@@ -104,7 +104,9 @@ def read_rows(index: Held, vertices: Any, r: Any, scales: Any, words: Mapping[st
         count = len(ids)
     radii = _radii(r, scales, None if is_one else count, index._scale(words.get("unit", "mesh")))
     shape = () if scales is None else (len(radii),)
-    walls, ignored = index._masks(words.get("walls"), words.get("ignored"))
+    # Copies: the scales of a call, and the chunks of an iterator, are calls of the library of their own.
+    masks = index._masks(words.get("walls"), words.get("ignored"))
+    walls, ignored = (None if mask is None else mask.copy() for mask in masks)
     return Rows(
         count,
         ids,

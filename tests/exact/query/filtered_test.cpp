@@ -263,7 +263,8 @@ TEST(Filtered, RefusesMasksOfAnotherSizeAndMethodsWithoutFilters) {
   expect_refused(ErrorCode::InvalidOption, "no walls and no ignored vertices", count(ball, {.walls = mask}));
 }
 
-/// Many vertices in one packet that no filter touches, beside one that loses all of its queries.
+/// Many vertices in one packet that no filter touches, beside one that loses all of its queries. Balls with the larger
+/// radius have whole leaves in common.
 TEST(Filtered, AnswersWallsInTheMiddleOfALeaf) {
   Random random(9);
   const TestMesh mesh = bumpy_grid(30);
@@ -277,9 +278,11 @@ TEST(Filtered, AnswersWallsInTheMiddleOfALeaf) {
     }
     const Adjacency graph = without_walls(mesh, walls);
     ReferenceSearcher reference(GraphView{mesh.positions_view(), graph.view()});
-    const std::vector<std::uint64_t> sizes = counts(index, {.radius = 6, .filter = {.walls = walls}});
-    for (VertexId v = 0; v < mesh.size(); ++v) {
-      ASSERT_EQ(sizes[v], walls[v] != 0 ? 0 : reference.count(v, 6)) << "vertex " << v << ", leaf " << leaf;
+    for (const double radius : {6.0, 15.0}) {
+      const std::vector<std::uint64_t> sizes = counts(index, {.radius = radius, .filter = {.walls = walls}});
+      for (VertexId v = 0; v < mesh.size(); ++v) {
+        ASSERT_EQ(sizes[v], walls[v] != 0 ? 0 : reference.count(v, radius)) << "vertex " << v << ", leaf " << leaf;
+      }
     }
   }
 }
