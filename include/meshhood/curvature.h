@@ -147,10 +147,8 @@ struct Curvatures {
 /// six.
 /// query    as for a batch: one radius for all rows, or one for each row.
 /// A row depends on surface, vertex and radius alone, bit for bit: not on the other rows of the call, earlier calls,
-/// threads or the processor. Only if the rows have different radii, those of the vertices nearby have an effect on the
-/// last bits. O(size of the neighborhoods) in the worst case; the common part of the neighborhoods of a leaf is summed
-/// once. If few vertices are queried, the others of their leaves are searched, too: a single vertex takes three to four
-/// times as long as a query of its neighborhood alone would.
+/// threads or the processor. O(size of the neighborhoods) in the worst case; the common part of the neighborhoods of a
+/// leaf is summed once.
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
 [[nodiscard]] Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query,
                                     const CurvatureOptions& options = {});

@@ -52,8 +52,8 @@ struct MomentOptions {
 /// largest, or less, may be lost. A power of a coordinate outside the range of doubles becomes 0 or infinite.
 ///
 /// A row depends on index, weights, vertex and radius alone, bit for bit: not on the other rows of the call, earlier
-/// calls, threads or the processor. Only if the rows have different radii, those of the vertices nearby have an effect
-/// within the bound. Takes the time of `curvatures`; a row that is summed again takes that of one more query.
+/// calls, threads or the processor. Takes the time of `curvatures`; a row that is summed again takes that of one more
+/// query.
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming row or vertex.
 [[nodiscard]] std::vector<double> moments(const Index& index, const BatchQuery& query,
                                           const MomentOptions& options = {});

@@ -28,8 +28,7 @@ JointWorker::JointWorker(const Index& index, Isa isa)
 
 void JointWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink) {
   for_each_run(
-      chunk, PacketRows::Asked,
-      [&](const Run& run) { return sink(run.items, std::span(joint_->counts()).first(run.items.size())); },
+      chunk, [&](const Run& run) { return sink(run.items, std::span(joint_->counts()).first(run.items.size())); },
       [&](const BatchItem& item) {
         const std::uint64_t size = searcher().count(item.vertex, item.radius);
         return sink({&item, 1}, {&size, 1});
@@ -49,36 +48,30 @@ void JointWorker::find(std::span<const BatchItem> chunk, bool distances, RowRece
     return true;
   };
   for_each_run(
-      chunk, PacketRows::Asked, [&](const Run& run) { return write(joint_->answer(), joint_->counts(), run.items); },
+      chunk, [&](const Run& run) { return write(joint_->answer(), joint_->counts(), run.items); },
       [&](const BatchItem& item) {
         const VertexSet& found = search_single(item);
         return write(single_packet_.describe(view_, found), {found.count()}, {&item, 1});
       });
 }
 
-void JointWorker::visit(std::span<const BatchItem> chunk, PacketRows rows,
-                        const std::function<bool(const PacketAnswer&)>& sink) {
+void JointWorker::visit(std::span<const BatchItem> chunk, const std::function<bool(const PacketAnswer&)>& sink) {
   LeafId group = 0;
   bool has_group = false;
   const auto pass_on = [&](PacketAnswer answer, bool begins_group) {
     answer.rows = lists_.rows;
-    answer.queries_of_rows = lists_.queries_of_rows;
     answer.vertices = lists_.vertices;
     answer.radii = lists_.radii;
     answer.begins_group = begins_group;
     return sink(answer);
   };
   for_each_run(
-      chunk, rows,
+      chunk,
       [&](const Run& run) {
         const bool begins_group = !has_group || run.leaf / kFanOut != group;
         has_group = true;
         group = run.leaf / kFanOut;
-        if (rows == PacketRows::WholeLeaves) {
-          lists_.assign_leaf(view_, run.leaf, run.items);
-        } else {
-          lists_.assign(run.items);
-        }
+        lists_.assign(run.items);
         return pass_on(joint_->answer(), begins_group);
       },
       [&](const BatchItem& item) {
@@ -91,9 +84,8 @@ void JointWorker::visit(std::span<const BatchItem> chunk, PacketRows rows,
 /// Calls `together(run)` for each packet once its search is done, and `single(item)` for the other rows, until one of
 /// them returns false.
 template <class Together, class Single>
-void JointWorker::for_each_run(std::span<const BatchItem> chunk, PacketRows rows, Together&& together,
-                               Single&& single) {
-  split(chunk, rows);
+void JointWorker::for_each_run(std::span<const BatchItem> chunk, Together&& together, Single&& single) {
+  split(chunk);
   const auto group_of = [](const Run& run) { return run.leaf / kFanOut; };
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     if (!runs_[i].is_joint) {
@@ -105,30 +97,28 @@ void JointWorker::for_each_run(std::span<const BatchItem> chunk, PacketRows rows
     if (leaves_.empty() || leaves_.front() / kFanOut != group_of(runs_[i])) {
       std::size_t end = i;
       while (end < runs_.size() && group_of(runs_[end]) == group_of(runs_[i])) ++end;
-      begin_group(std::span(runs_).subspan(i, end - i), rows);
+      begin_group(std::span(runs_).subspan(i, end - i));
     }
-    begin_packet(runs_[i], rows);
+    begin_packet(runs_[i]);
     if (!together(runs_[i])) return;
   }
 }
 
 /// Cuts a chunk, whose vertices ascend in index order, into runs.
-void JointWorker::split(std::span<const BatchItem> chunk, PacketRows rows) {
+void JointWorker::split(std::span<const BatchItem> chunk) {
   runs_.clear();
   leaves_.clear();
   while (!chunk.empty()) {
     const LeafId leaf = leaf_of(chunk.front().position);
-    const bool is_whole = rows == PacketRows::WholeLeaves;
-    const std::size_t most = is_whole ? chunk.size() : std::min<std::size_t>(chunk.size(), kPacketCapacity);
+    const std::size_t most = std::min<std::size_t>(chunk.size(), kPacketCapacity);
     std::size_t size = 1;
     while (size < most && leaf_of(chunk[size].position) == leaf) ++size;
-    const double radius = chunk.front().radius;
-    runs_.push_back({leaf, chunk.first(size), is_whole ? pays_whole(leaf, radius) : pays(leaf, size, radius)});
+    runs_.push_back({leaf, chunk.first(size), pays(leaf, size, chunk.front().radius)});
     chunk = chunk.subspan(size);
   }
 }
 
-void JointWorker::begin_group(std::span<const Run> runs, PacketRows rows) {
+void JointWorker::begin_group(std::span<const Run> runs) {
   leaves_.clear();
   double low = std::numeric_limits<double>::infinity();
   double high = 0;
@@ -140,27 +130,14 @@ void JointWorker::begin_group(std::span<const Run> runs, PacketRows rows) {
       high = std::max(high, item.radius);
     }
   }
-  if (rows == PacketRows::WholeLeaves) {
-    // All leaves of the group that would be answered together, so that the group does not depend on the rows either.
-    const LeafId first = runs.front().leaf / kFanOut * kFanOut;
-    leaves_.clear();
-    for (LeafId leaf = first; leaf < first + kFanOut; ++leaf) {
-      if (view_.leaves[leaf].size != 0 && pays_whole(leaf, high)) leaves_.push_back(leaf);
-    }
-  }
   if (!joint_) joint_.emplace(view_, isa_);
   const TreeBounds low_bounds = prepared(low).bounds;
   joint_->begin_group(leaves_, low_bounds, prepared(high).bounds);
 }
 
-void JointWorker::begin_packet(const Run& run, PacketRows rows) {
+void JointWorker::begin_packet(const Run& run) {
   queries_.clear();
-  if (rows == PacketRows::WholeLeaves) {
-    const JointRadius& radius = prepared(run.items.front().radius);
-    for (unsigned lane = 0; lane < view_.leaves[run.leaf].size; ++lane) queries_.push_back({lane, radius});
-  } else {
-    for (const BatchItem& item : run.items) queries_.push_back({lane_of(item.position), prepared(item.radius)});
-  }
+  for (const BatchItem& item : run.items) queries_.push_back({lane_of(item.position), prepared(item.radius)});
   joint_->run(run.leaf, queries_);
 }
 

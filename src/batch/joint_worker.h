@@ -31,7 +31,7 @@ class JointWorker final : public BatchWorker {
   void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) override;
 
   /// Passes on the packets of a chunk. `sink` returns false to drop the rest.
-  void visit(std::span<const BatchItem> chunk, PacketRows rows, const std::function<bool(const PacketAnswer&)>& sink);
+  void visit(std::span<const BatchItem> chunk, const std::function<bool(const PacketAnswer&)>& sink);
 
  private:
   /// Consecutive rows of one leaf: a packet, or rows to be answered one by one.
@@ -42,14 +42,11 @@ class JointWorker final : public BatchWorker {
   };
 
   template <class Together, class Single>
-  void for_each_run(std::span<const BatchItem> chunk, PacketRows rows, Together&& together, Single&& single);
-  void split(std::span<const BatchItem> chunk, PacketRows rows);
-  void begin_group(std::span<const Run> runs, PacketRows rows);
-  void begin_packet(const Run& run, PacketRows rows);
+  void for_each_run(std::span<const BatchItem> chunk, Together&& together, Single&& single);
+  void split(std::span<const BatchItem> chunk);
+  void begin_group(std::span<const Run> runs);
+  void begin_packet(const Run& run);
   [[nodiscard]] bool pays(LeafId leaf, std::size_t size, double radius) const;
-  [[nodiscard]] bool pays_whole(LeafId leaf, double radius) const {
-    return pays(leaf, view_.leaves[leaf].size, radius);
-  }
   [[nodiscard]] const JointRadius& prepared(double radius);
   const VertexSet& search_single(const BatchItem& item);
   [[nodiscard]] Point position_of(const BatchItem& item) const;

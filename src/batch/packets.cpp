@@ -35,7 +35,7 @@ void for_each_packet(const Index& index, const BatchQuery& query, const PacketVi
   std::vector<std::unique_ptr<PacketThread>> threads(batch.task().threads());
   batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
     if (!threads[thread]) threads[thread] = std::make_unique<PacketThread>(searched, make_visitor(thread));
-    threads[thread]->worker.visit(chunk, options.rows, [&](const PacketAnswer& answer) {
+    threads[thread]->worker.visit(chunk, [&](const PacketAnswer& answer) {
       threads[thread]->visitor(answer);
       batch.task().advance(answer.rows.size());
       return batch.task().should_continue(thread);

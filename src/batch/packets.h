@@ -25,9 +25,6 @@ struct PacketOptions {
 
   /// Receives the number of rows that were visited.
   Progress progress = {};
-
-  /// `WholeLeaves` requires one radius for all rows.
-  PacketRows rows = PacketRows::Asked;
 };
 
 /// Visits the exact neighborhoods of all rows of `query`, each row in one packet, packets in no stated order.

@@ -7,32 +7,14 @@
 namespace meshhood {
 
 void PacketLists::assign(std::span<const BatchItem> items) {
-  clear();
+  rows.clear();
+  vertices.clear();
+  radii.clear();
   for (const BatchItem& item : items) {
-    queries_of_rows.push_back(static_cast<unsigned>(rows.size()));
     rows.push_back(item.row);
     vertices.push_back(item.vertex);
     radii.push_back(item.radius);
   }
-}
-
-void PacketLists::assign_leaf(const IndexView& index, LeafId leaf, std::span<const BatchItem> items) {
-  clear();
-  for (const BatchItem& item : items) {
-    queries_of_rows.push_back(lane_of(item.position));
-    rows.push_back(item.row);
-  }
-  for (std::size_t lane = 0; lane < index.leaves[leaf].size; ++lane) {
-    vertices.push_back(index.id(index.leaves[leaf].first + lane));
-  }
-  radii.assign(vertices.size(), items.front().radius);
-}
-
-void PacketLists::clear() {
-  rows.clear();
-  queries_of_rows.clear();
-  vertices.clear();
-  radii.clear();
 }
 
 const PacketAnswer& SinglePacket::describe(const IndexView& index, const VertexSet& found) {

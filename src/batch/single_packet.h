@@ -16,18 +16,10 @@ namespace meshhood {
 /// The rows of a packet, an array for each property.
 struct PacketLists {
   std::vector<std::size_t> rows;
-  std::vector<unsigned> queries_of_rows;
   std::vector<VertexId> vertices;
   std::vector<double> radii;
 
-  /// A query for each item.
   void assign(std::span<const BatchItem> items);
-
-  /// A query for each vertex of a leaf, by lane. `items` are of that leaf, and have one radius.
-  void assign_leaf(const IndexView& index, LeafId leaf, std::span<const BatchItem> items);
-
- private:
-  void clear();
 };
 
 /// The answer to a single query in the form of a packet of one row.

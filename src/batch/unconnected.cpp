@@ -163,7 +163,7 @@ Unconnected nearest_unconnected(const Index& index, const BatchQuery& query, con
     return [search = UnconnectedSearch(view, filter.view()), &result](const PacketAnswer& packet) mutable {
       search.run(packet);
       for (std::size_t i = 0; i < packet.rows.size(); ++i) {
-        const auto [vertex, gap] = search.found(packet.queries_of_rows[i]);
+        const auto [vertex, gap] = search.found(i);
         result.vertices[packet.rows[i]] = vertex;
         result.gaps[packet.rows[i]] = gap;
       }

@@ -18,7 +18,7 @@
 #include "curvature/surface.h"
 #include "curvature/symmetric.h"
 #include "curvature/visit_moments.h"
-#include "exact/joint/packet_answer.h"
+#include "exact/index_access.h"
 #include "exact/query/filtered.h"
 
 namespace meshhood {
@@ -39,7 +39,7 @@ class CurvatureFitter {
   void fit(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments);
 
  private:
-  void fit_row(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments, std::size_t i);
+  void fit_row(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments, std::size_t query);
   [[nodiscard]] TangentFrame fit_frame(const QueryMoments& moments, std::size_t query) const;
   void solve(const PacketMoments& sums, const QueryMoments& moments, std::size_t size);
   [[nodiscard]] std::optional<Quadric> quadric(const PacketMoments& sums, std::size_t query) const;
@@ -75,13 +75,12 @@ void CurvatureFitter::fit(const MomentRows& packet, const PacketMoments& sums, c
   }
   sums.kernels().rotate(moments, u_, v_, n_, in_frame_);
   solve(sums, moments, packet.places.size());
-  for (std::size_t i = 0; i < packet.rows.size(); ++i) fit_row(packet, sums, moments, i);
+  for_each_query(packet.queries, [&](std::size_t q) { fit_row(packet, sums, moments, q); });
 }
 
 void CurvatureFitter::fit_row(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments,
-                              std::size_t i) {
-  const std::size_t row = packet.rows[i];
-  const std::size_t query = packet.queries_of_rows[i];
+                              std::size_t query) {
+  const std::size_t row = packet.rows[query];
   if (std::isnan(frames_[query].n.x)) return write(row, {CurvatureState::NoNormal, {}, 0});
   const auto count = static_cast<std::size_t>(moments.at[0][query]);
   if (count >= kFewestPoints) {
@@ -145,8 +144,8 @@ Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query, co
   result.d2.resize(3 * rows);
   result.state.resize(rows);
   result.count.resize(rows);
-  const MomentSource source{.index = &*state.index, .filter = options.filter ? &state : nullptr};
   const Index searched = filtered(state.searched, query.filter, options.threads);
+  const MomentSource source{.index = &IndexAccess::view(searched), .filter = options.filter ? &state : nullptr};
   visit_moments(searched, {.vertices = query.vertices, .radius = query.radius}, options.open_ball, source,
                 {.threads = options.threads, .progress = options.progress}, [&] {
                   auto fitter = std::make_shared<CurvatureFitter>(state, searched, options, result);

@@ -34,18 +34,20 @@ void DirectMoments::sum(std::uint32_t place, double radius) {
   find_places(*searcher_, *source_.index, place, radius, found_);
   const Point center = offset(place, {0, 0, 0});
   set_units(center);
-  PartialMoments sums{};
-  for (std::size_t begin = 0; begin < found_.size(); begin += MomentPoints::kCapacity) {
-    const std::size_t size = std::min(found_.size() - begin, MomentPoints::kCapacity);
-    points_ = {};
+  PaddedMoments sums{};
+  for (std::size_t begin = 0; begin < found_.size(); begin += kLeafCapacity) {
+    const std::size_t size = std::min<std::size_t>(found_.size() - begin, kLeafCapacity);
     for (std::size_t k = 0; k < size; ++k) {
       const std::uint32_t i = found_[begin + k];
       points_.set(k, scale_ * offset(i, center),
                   source_.weights.empty() ? 1 : std::ldexp(source_.weights[i], weight_exponent_));
     }
-    moment_kernels(best_isa()).add_powers(points_, size, sums);
+    for (std::size_t k = size; k % 8 != 0; ++k) points_.set(k, {0, 0, 0}, 0);
+    PaddedMoments some;
+    moment_kernels(best_isa()).sum(points_, size, some);
+    add(sums, some);
   }
-  for (std::size_t m = 0; m < kMomentCount; ++m) moments_.at[m][0] = sums.total(m);
+  for (std::size_t m = 0; m < kMomentCount; ++m) moments_.at[m][0] = sums.at[m];
 }
 
 }  // namespace meshhood

@@ -76,22 +76,19 @@ void for_each_row(const Index& index, const BatchQuery& query, const MomentOptio
                   const std::function<void(std::size_t row, const RowMoments&)>& take) {
   const IndexView& view = IndexAccess::view(index);
   const MomentWeights weights(view, options.weights);
-  const MomentSource source{.index = &view, .weights = weights.values};
   const Index searched = filtered(index, query.filter, options.threads);
+  const MomentSource source{.index = &IndexAccess::view(searched), .weights = weights.values};
   visit_moments(searched, {.vertices = query.vertices, .radius = query.radius}, false, source,
                 {.threads = options.threads, .progress = options.progress}, [&] {
                   const auto direct = std::make_shared<DirectMoments>(searched, source);
                   return [&, direct](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
-                    for (std::size_t i = 0; i < packet.rows.size(); ++i) {
-                      const unsigned q = packet.queries_of_rows[i];
-                      if (sums.is_accurate(q)) {
-                        take(packet.rows[i], {moments, q, sums.scale(), weights.exponent});
-                      } else {
-                        direct->sum(packet.places[q], packet.radii[q]);
-                        take(packet.rows[i],
-                             {direct->moments(), 0, direct->scale(), weights.exponent + direct->weight_exponent()});
-                      }
-                    }
+                    for_each_query(packet.queries, [&](std::size_t q) {
+                      if (sums.is_accurate(q))
+                        return take(packet.rows[q], {moments, q, sums.scale(), weights.exponent});
+                      direct->sum(packet.places[q], packet.radii[q]);
+                      take(packet.rows[q],
+                           {direct->moments(), 0, direct->scale(), weights.exponent + direct->weight_exponent()});
+                    });
                   };
                 });
 }

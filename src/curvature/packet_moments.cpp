@@ -2,7 +2,10 @@
 #include "curvature/packet_moments.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <variant>
 
 #include "base/vector.h"
@@ -21,137 +24,203 @@ MomentSizes sizes_of(const QueryMoments& moments, std::size_t query) {
 PacketMoments::PacketMoments(const MomentSource& source, Isa isa)
     : source_(source),
       kernels_(&moment_kernels(isa)),
+      sure_(*source.index),
       offsets_{},
       facing_{},
-      waiting_common_{},
-      waiting_some_{},
+      terms_{},
+      words_{},
       points_{},
-      common_{},
-      some_{},
-      moments_{} {}
-
-void PacketMoments::begin(std::span<const std::uint32_t> places, double reach, QueryWord queries) {
-  size_ = places.size();
-  active_ = first_lanes(static_cast<unsigned>(size_)) & queries;
-  if (source_.filter != nullptr) set_normals(places);
-  for (std::size_t q = 0; q < size_; ++q) {
-    const Point p = std::visit([&](auto xyz) { return point(xyz, places[q]); }, source_.index->positions);
-    offsets_.x[q] = p.x;
-    offsets_.y[q] = p.y;
-    offsets_.z[q] = p.z;
-  }
-  set_center(reach);
-  common_ = {};
-  some_ = {};
-  waiting_common_.size = 0;
-  waiting_some_.size = 0;
+      sums_{},
+      moments_{} {
+  points_.weight.fill(1);
 }
 
-void PacketMoments::set_normals(std::span<const std::uint32_t> places) {
+QueryWord PacketMoments::begin(LeafId leaf, std::span<const std::uint32_t> places, std::span<const double> radii,
+                               QueryWord queries, QueryWord with_vertices) {
+  size_ = places.size();
+  queries = set_unit(leaf, radii, queries);
+  active_ = queries & with_vertices;
+  set_offsets(places);
+  if (source_.filter != nullptr) set_normals(leaf, places);
+  term_count_ = 0;
+  add_sure_leaves(leaf, radii);
+  return queries;
+}
+
+/// The center is that of the box around the leaf. The unit follows from the size of that box and the radius.
+QueryWord PacketMoments::set_unit(LeafId leaf, std::span<const double> radii, QueryWord queries) {
+  const IndexView& index = *source_.index;
+  double extent = 0;
+  std::visit(
+      [&](auto xyz) {
+        const auto box = [&](std::size_t axis) {
+          double low = std::numeric_limits<double>::infinity();
+          double high = -low;
+          for (std::size_t i = 0; i < index.leaves[leaf].size; ++i) {
+            const auto coordinate = static_cast<double>(xyz[3 * (index.leaves[leaf].first + i) + axis]);
+            low = std::min(low, coordinate);
+            high = std::max(high, coordinate);
+          }
+          extent = std::max(extent, (high - low) * index.frame.scale);
+          return low + (high - low) / 2;
+        };
+        center_ = {box(0), box(1), box(2)};
+      },
+      index.positions);
+  const auto unit = [&](std::size_t query) {
+    const double reach = std::min(radii[query] * index.frame.scale, 4.0);  // the mesh has no larger one
+    return unit_factor(std::max(extent, reach), index.frame);
+  };
+  const auto first = static_cast<std::size_t>(std::countr_zero(queries));
+  scale_ = unit(first);
+  QueryWord same = 0;
+  for_each_query(queries,
+                 [&](std::size_t q) { same |= QueryWord{radii[q] == radii[first] || unit(q) == scale_} << q; });
+  return same;
+}
+
+void PacketMoments::set_offsets(std::span<const std::uint32_t> places) {
+  for (std::size_t q = 0; q < size_; ++q) {
+    const Point offset =
+        scale_ * (center_ - std::visit([&](auto xyz) { return point(xyz, places[q]); }, source_.index->positions));
+    offsets_.x[q] = offset.x;
+    offsets_.y[q] = offset.y;
+    offsets_.z[q] = offset.z;
+  }
+}
+
+void PacketMoments::set_normals(LeafId leaf, std::span<const std::uint32_t> places) {
   for (std::size_t q = 0; q < size_; ++q) {
     const Point n = source_.filter->normal(places[q]);
     if (std::isnan(n.x)) active_ &= ~(QueryWord{1} << q);
     facing_.set(q, n);
   }
-  set_axis();
+  set_axis(leaf);
 }
 
-/// The center is that of the box around the query vertices.
-void PacketMoments::set_center(double reach) {
-  double extent = std::min(reach * source_.index->frame.scale, 4.0);  // the mesh has no larger one
-  const auto middle = [&](QueryRow& row) {
-    const auto [low, high] = std::minmax_element(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(size_));
-    extent = std::max(extent, (*high - *low) * source_.index->frame.scale);
-    return *low + (*high - *low) / 2;
+/// If all normals of a leaf make at most the angle t with an axis, a normal that makes less than 90 degrees - t with it
+/// faces all of them.
+void PacketMoments::set_axis(LeafId leaf) {
+  const Leaf& of = source_.index->leaves[leaf];
+  const auto for_each_normal = [&](const auto& f) {
+    for (std::size_t i = of.first; i < of.first + of.size; ++i) {
+      const Point n = source_.filter->normal(i);
+      if (!std::isnan(n.x)) f(n);
+    }
   };
-  center_ = {middle(offsets_.x), middle(offsets_.y), middle(offsets_.z)};
-  scale_ = unit_factor(extent, source_.index->frame);
-  for (std::size_t q = 0; q < size_; ++q) {
-    offsets_.x[q] = (center_.x - offsets_.x[q]) * scale_;
-    offsets_.y[q] = (center_.y - offsets_.y[q]) * scale_;
-    offsets_.z[q] = (center_.z - offsets_.z[q]) * scale_;
-  }
-}
-
-/// If all normals of the queries make at most the angle t with an axis, a normal that makes less than 90 degrees - t
-/// with it faces all of them.
-void PacketMoments::set_axis() {
   Point sum{0, 0, 0};
-  const auto normal = [&](std::size_t q) {
-    return Point{facing_.normals.x[q], facing_.normals.y[q], facing_.normals.z[q]};
-  };
-  for_each_lane(active_, [&](unsigned q) { sum = sum + normal(q); });
+  for_each_normal([&](const Point& n) { sum = sum + n; });
   facing_.axis = sum;
   facing_.all = 2;
   const double size = length(sum);
   if (!(size > 0)) return;
   facing_.axis = (1 / size) * sum;
   double least = 1;
-  for_each_lane(active_, [&](unsigned q) { least = std::min(least, dot(facing_.axis, normal(q))); });
+  for_each_normal([&](const Point& n) { least = std::min(least, dot(facing_.axis, n)); });
   if (least > 0) facing_.all = static_cast<float>(std::sqrt(std::max(0.0, 1 - least * least))) + 2 * kFacingMargin;
 }
 
-void PacketMoments::add(std::size_t first, std::size_t size, QueryWord word) {
-  add_leaves(first, size, [word](std::size_t) { return word; });
-}
-
-void PacketMoments::add(std::size_t first, std::size_t size, std::span<const QueryWord, kPacketCapacity> words) {
-  add_leaves(first, size, [words](std::size_t i) { return words[i]; });
-}
-
-template <class WordOf>
-void PacketMoments::add_leaves(std::size_t first, std::size_t size, const WordOf& word_of) {
-  if (active_ == 0) return;
-  std::array<QueryWord, kLeafCapacity> words;
-  for (std::size_t begin = 0; begin < size; begin += words.size()) {
-    const auto leaf = std::span(words).first(std::min(size - begin, words.size()));
-    for (std::size_t i = 0; i < leaf.size(); ++i) leaf[i] = word_of(begin + i) & active_;
-    if (source_.filter != nullptr) {
-      const SurfaceState& surface = *source_.filter;
-      const std::size_t at = first + begin;
-      kernels_->keep_facing({&surface.normal_x[at], &surface.normal_y[at], &surface.normal_z[at]}, facing_, leaf);
+/// The sums begin with the sure leaves for their radius. With a filter, those are left out that do not face all
+/// vertices of this one.
+void PacketMoments::add_sure_leaves(LeafId leaf, std::span<const double> radii) {
+  std::array<std::size_t, kPacketCapacity> by_radius;
+  std::size_t count = 0;
+  for_each_query(active_, [&](std::size_t q) {
+    std::size_t place = count++;
+    for (; place > 0 && radii[by_radius[place - 1]] > radii[q]; --place) by_radius[place] = by_radius[place - 1];
+    by_radius[place] = q;
+  });
+  sure_.begin(leaf);
+  PaddedMoments sum{};
+  QueryWord larger = active_;  // the queries of at least this radius
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t q = by_radius[k];
+    if (k == 0 || radii[q] != radii[by_radius[k - 1]]) {
+      const TreeBounds radius(source_.index->frame, radii[q]);
+      while (const std::optional<LeafId> next = sure_.next(radius)) {
+        const Leaf& of = source_.index->leaves[*next];
+        if (source_.filter != nullptr && !faces_all(of)) continue;
+        sure_.set_queries(*next, larger);
+        set_points(of);
+        PaddedMoments term;
+        kernels_->sum(points_, of.size, term);
+        meshhood::add(sum, term);
+      }
     }
-    if (waiting_common_.size + leaf.size() > VertexList::kCapacity) add_common();
-    if (waiting_some_.size + leaf.size() > VertexList::kCapacity) add_some();
-    kernels_->append(static_cast<std::uint32_t>(first + begin), leaf, active_, waiting_common_, waiting_some_);
+    sums_[q] = sum;
+    larger &= ~(QueryWord{1} << q);
   }
 }
 
-/// Vertices that count for all queries are added once, about the center of the packet.
-void PacketMoments::add_common() {
-  const auto places = std::span(waiting_common_.places).first(waiting_common_.size);
-  set_points(places);
-  // Not the weights alone: what an earlier packet left there may be infinite.
-  for (std::size_t i = places.size(); i % PartialMoments::kParts != 0; ++i) points_.set(i, {0, 0, 0}, 0);
-  kernels_->add_powers(points_, places.size(), common_);
-  waiting_common_.size = 0;
+/// Whether each vertex of `leaf` surely faces each vertex of the leaf of the queries.
+bool PacketMoments::faces_all(const Leaf& leaf) const {
+  const SurfaceState& surface = *source_.filter;
+  bool all = true;
+  for (std::size_t i = leaf.first; i < leaf.first + leaf.size; ++i) {
+    all &= dot(facing_.axis, surface.normal(i)) > double{facing_.all};
+  }
+  return all;
 }
 
-void PacketMoments::add_some() {
-  const std::size_t size = waiting_some_.size;
-  set_points(std::span(waiting_some_.places).first(size));
-  kernels_->add_powers_by_word(points_, std::span(waiting_some_.words).first(size), some_);
-  waiting_some_.size = 0;
+void PacketMoments::add(LeafId leaf, QueryWord word) {
+  std::array<QueryWord, kPacketCapacity> words;
+  words.fill(word);
+  add(leaf, words);
 }
 
-void PacketMoments::set_points(std::span<const std::uint32_t> places) {
-  std::visit(
-      [&](auto xyz) {
-        for (std::size_t i = 0; i < places.size(); ++i) {
-          const double weight = source_.weights.empty() ? 1 : source_.weights[places[i]];
-          points_.set(i, scale_ * (point(xyz, places[i]) - center_), weight);
-        }
-      },
-      source_.index->positions);
+/// A query that has all vertices of a leaf gets their sum, another one those that it has.
+void PacketMoments::add(LeafId leaf, std::span<const QueryWord, kPacketCapacity> words) {
+  const QueryWord open = active_ & ~sure_.queries(leaf);
+  const Leaf& of = source_.index->leaves[leaf];
+  if (open == 0 || of.size == 0) return;  // a group with fewer than eight leaves has empty ones
+  std::array<QueryWord, kPacketCapacity> open_words;
+  const auto rest = std::span(open_words).first(of.size);
+  for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = words[i] & open;
+  if (source_.filter != nullptr) {
+    const SurfaceState& surface = *source_.filter;
+    kernels_->keep_facing({&surface.normal_x[of.first], &surface.normal_y[of.first], &surface.normal_z[of.first]},
+                          facing_, rest);
+  }
+  QueryWord all = open;
+  for (const QueryWord word : rest) all &= word;
+  for (QueryWord& word : rest) word &= ~all;
+  add_terms_of(of, rest, all);
+}
+
+void PacketMoments::add_terms_of(const Leaf& leaf, std::span<const QueryWord> words, QueryWord all) {
+  LaneMask some = 0;
+  for (std::size_t i = 0; i < words.size(); ++i) some |= LaneMask{words[i] != 0} << i;
+  if ((some | all) == 0) return;
+  if (term_count_ > terms_.size() - (kLeafCapacity + 1)) add_terms();
+  set_points(leaf);
+  if (some != 0) kernels_->powers(points_, some, &terms_[term_count_]);
+  for_each_lane(some, [&](unsigned lane) { words_[term_count_++] = words[lane]; });
+  if (all != 0) {
+    kernels_->sum(points_, leaf.size, terms_[term_count_]);
+    words_[term_count_++] = all;
+  }
+}
+
+void PacketMoments::add_terms() {
+  kernels_->add_terms(terms_.data(), std::span(words_).first(term_count_), sums_);
+  term_count_ = 0;
+}
+
+void PacketMoments::set_points(const Leaf& leaf) {
+  if (!source_.weights.empty()) std::copy_n(&source_.weights[leaf.first], leaf.size, points_.weight.data());
+  if (const auto* floats = std::get_if<std::span<const float>>(&source_.index->positions)) {
+    kernels_->set_points_float(&(*floats)[3 * std::size_t{leaf.first}], leaf.size, center_, scale_, points_);
+  } else {
+    const auto& doubles = std::get<std::span<const double>>(source_.index->positions);
+    kernels_->set_points_double(&doubles[3 * std::size_t{leaf.first}], leaf.size, center_, scale_, points_);
+  }
 }
 
 const QueryMoments& PacketMoments::finish() {
-  add_common();
-  add_some();
-  kernels_->collect(common_, some_, moments_);
-  // What is common to the active queries is not of the others: those of walls and, with a filter, without a normal.
-  for_each_lane(first_lanes(static_cast<unsigned>(size_)) & ~active_, [&](unsigned q) {
-    for (auto& sums : moments_.at) sums[q] = 0;
+  add_terms();
+  for_each_query(first_lanes(static_cast<unsigned>(size_)), [&](std::size_t q) {
+    const bool has_sums = (active_ >> q & 1U) != 0;
+    for (std::size_t m = 0; m < kMomentCount; ++m) moments_.at[m][q] = has_sums ? sums_[q].at[m] : 0;
   });
   for (std::size_t q = 0; q < size_; ++q) sizes_[q] = sizes_of(moments_, q);
   kernels_->shift(moments_, offsets_);

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "base/frame.h"
+#include "curvature/sure_leaves.h"
 #include "curvature/surface.h"
 #include "curvature/symmetric.h"
 #include "simd/moments.h"
@@ -24,7 +25,7 @@ namespace meshhood {
 
 /// The values from which the moments of a packet are computed, in index order.
 struct MomentSource {
-  const IndexView* index;
+  const IndexView* index;                // which is searched, with its walls
   const SurfaceState* filter = nullptr;  // only vertices whose normal faces that of the query vertex, if set
   std::span<const double> weights = {};  // by vertex; 1 if empty
 };
@@ -42,22 +43,28 @@ struct MomentSizes {
   double fourth;
 };
 
-/// The moments of the neighborhoods of up to 32 vertices that lie close together. A vertex that counts for all queries
-/// is added once, about a common center; the sums are moved to each query vertex at the end. Owns 30 kB of memory.
+/// The moments of the neighborhoods of up to 32 vertices of a leaf. What is added is the powers of vertices, and sums
+/// of these over leaves: first the sure leaves for the radius of a query (see `SureLeaves`), which are summed once for
+/// all queries; then, in index order, each leaf that the query has as a whole, and each vertex of the other leaves.
+/// The coordinates are relative to the center of the leaf, and the sums are moved to each query vertex at the end. All
+/// of this depends on index, leaf, vertex and radius alone, not on the other queries. Owns 45 kB of memory, and 8 bytes
+/// for each leaf of the mesh.
 class PacketMoments {
  public:
   /// Borrows what `source` names.
   PacketMoments(const MomentSource& source, Isa isa);
 
-  /// Begins with the query vertices at these positions in index order. No vertex that will be added is farther than
-  /// `reach` from its query vertex. Only `queries` have vertices.
-  void begin(std::span<const std::uint32_t> places, double reach, QueryWord queries = ~QueryWord{0});
+  /// Begins with query vertices of a leaf, named by their places in index order. `radii` are those of their closed
+  /// balls; only `with_vertices` have a neighborhood. Returns those of `queries` that have the same unit, of which the
+  /// moments will be: with the first, those of similar radii.
+  QueryWord begin(LeafId leaf, std::span<const std::uint32_t> places, std::span<const double> radii, QueryWord queries,
+                  QueryWord with_vertices);
 
-  /// The vertices `first .. first + size - 1` in index order belong to the queries of `word`.
-  void add(std::size_t first, std::size_t size, QueryWord word);
+  /// A leaf whose vertices all belong to the queries of `word`. Leaves ascend from call to call.
+  void add(LeafId leaf, QueryWord word);
 
-  /// The same with a word for each vertex; `size` <= 32.
-  void add(std::size_t first, std::size_t size, std::span<const QueryWord, kPacketCapacity> words);
+  /// The same for a leaf with a word for each vertex.
+  void add(LeafId leaf, std::span<const QueryWord, kPacketCapacity> words);
 
   /// The moments about the query vertices, in a unit that makes their coordinates about 1: `scale()` times those of
   /// the mesh, a power of two. Valid until the next `begin`.
@@ -70,39 +77,43 @@ class PacketMoments {
   /// whichever are larger. The errors of the moments of these degrees are of the order of epsilon times them.
   [[nodiscard]] const MomentSizes& sizes(std::size_t query) const { return sizes_[query]; }
 
-  /// Whether the moments are accurate to 1e-13 of the sum of w |p|^(i + j + k). They are not where the query vertices
-  /// lie much farther apart than the vertices of the neighborhood, as in a leaf with vertices of large and small faces.
+  /// Whether the moments are accurate to 1e-13 of the sum of w |p|^(i + j + k). They are not where the vertices of the
+  /// leaf lie much farther apart than those of the neighborhood, as in a leaf with vertices of large and small faces.
   [[nodiscard]] bool is_accurate(std::size_t query) const { return is_accurate_[query]; }
 
  private:
   friend struct ScratchAccess;  // defined by tests
 
-  void set_center(double reach);
-  void set_normals(std::span<const std::uint32_t> places);
-  void set_axis();
-  template <class WordOf>
-  void add_leaves(std::size_t first, std::size_t size, const WordOf& word_of);
-  void add_common();
-  void add_some();
-  void set_points(std::span<const std::uint32_t> places);
+  QueryWord set_unit(LeafId leaf, std::span<const double> radii, QueryWord queries);
+  void set_offsets(std::span<const std::uint32_t> places);
+  void set_normals(LeafId leaf, std::span<const std::uint32_t> places);
+  void set_axis(LeafId leaf);
+  void add_sure_leaves(LeafId leaf, std::span<const double> radii);
+  [[nodiscard]] bool faces_all(const Leaf& leaf) const;
+  void add_terms_of(const Leaf& leaf, std::span<const QueryWord> words, QueryWord all);
+  void add_terms();
+  void set_points(const Leaf& leaf);
   [[nodiscard]] bool is_accurate(std::size_t query, const MomentSizes& before, const MomentSizes& after) const;
+
+  static constexpr std::size_t kTerms = 64;
 
   MomentSource source_;
   const MomentKernels* kernels_;
+  SureLeaves sure_;
 
   std::size_t size_ = 0;
-  QueryWord active_ = 0;  // without the queries that have no normal, if there is a filter
+  QueryWord active_ = 0;  // those that get sums
   Point center_{0, 0, 0};
   double scale_ = 1;
   QueryVectors offsets_;  // from the query vertices to the center
   FacingTest facing_;
 
-  // Vertices that are not added yet. Added together, they fill the vectors of the kernels.
-  VertexList waiting_common_;  // for all queries
-  VertexList waiting_some_;
+  // Terms that are not added yet. Added together, they cost less.
+  std::size_t term_count_ = 0;
+  std::array<PaddedMoments, kTerms> terms_;
+  std::array<QueryWord, kTerms + 15> words_;
   MomentPoints points_;
-  PartialMoments common_;
-  MomentsByQuery some_;
+  MomentsByQuery sums_;
   QueryMoments moments_;
   PerLane<MomentSizes> sizes_{};
   PerLane<bool> is_accurate_{};

@@ -17,11 +17,6 @@ namespace {
 /// radii unchanged; the batch rejects them.
 double open_radius(double radius) { return radius > 0 ? std::nextafter(radius, 0.0) : radius; }
 
-bool has_one_radius(const BatchQuery& query) {
-  const auto& list = query.radius.list();
-  return !list || std::ranges::all_of(*list, [&](double radius) { return radius == list->front(); });
-}
-
 /// The state of a thread that sums the moments of packets.
 class PacketSummer {
  public:
@@ -29,27 +24,52 @@ class PacketSummer {
       : index_(source.index), sums_(source, best_isa()), visitor_(std::move(visitor)) {}
 
   void visit(const PacketAnswer& packet) {
-    const std::size_t size = packet.vertices.size();
+    const std::size_t size = packet.rows.size();
     for (std::size_t i = 0; i < size; ++i) places_[i] = place_of(*index_, packet.vertices[i]);
     const auto places = std::span(places_).first(size);
-    sums_.begin(places, *std::max_element(packet.radii.begin(), packet.radii.end()), packet.queries);
-    for (const CoreLeaves& core : packet.cores) {
-      for (const LeafRun& run : core.runs) sums_.add(run.vertices.begin, run.vertices.size(), core.queries);
+    list_pieces(packet);
+    const LeafId leaf = leaf_of(index_->slot[packet.vertices.front()]);
+    for (QueryWord left = first_lanes(static_cast<unsigned>(size)); left != 0;) {
+      const QueryWord queries = sums_.begin(leaf, places, packet.radii, left, packet.queries);
+      for (const Piece& piece : pieces_) add(piece);
+      visitor_({packet.rows, places, packet.radii, queries}, sums_, sums_.finish());
+      left &= ~queries;
     }
-    for (const WholeLeaves& whole : packet.whole) {
-      sums_.add(whole.run.vertices.begin, whole.run.vertices.size(), whole.queries);
-    }
-    for (const PartialLeaf& leaf : packet.partial) {
-      sums_.add(leaf.vertices.begin, leaf.vertices.size(), leaf.queries);
-    }
-    visitor_({packet.rows, packet.queries_of_rows, places, packet.radii}, sums_, sums_.finish());
   }
 
  private:
+  /// Whole leaves, or a leaf with words.
+  struct Piece {
+    LeafId begin;
+    LeafId end;
+    QueryWord queries;
+    const PartialLeaf* partial;
+  };
+
+  /// In index order, which does not depend on what else is in the packet.
+  void list_pieces(const PacketAnswer& packet) {
+    pieces_.clear();
+    const auto add_run = [&](const LeafRun& run, QueryWord queries) {
+      pieces_.push_back({run.first_leaf, run.end_leaf, queries, nullptr});
+    };
+    for (const CoreLeaves& core : packet.cores) {
+      for (const LeafRun& run : core.runs) add_run(run, core.queries);
+    }
+    for (const WholeLeaves& whole : packet.whole) add_run(whole.run, whole.queries);
+    for (const PartialLeaf& leaf : packet.partial) pieces_.push_back({leaf.leaf, leaf.leaf + 1, 0, &leaf});
+    std::sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) { return a.begin < b.begin; });
+  }
+
+  void add(const Piece& piece) {
+    if (piece.partial != nullptr) return sums_.add(piece.begin, piece.partial->queries);
+    for (LeafId leaf = piece.begin; leaf < piece.end; ++leaf) sums_.add(leaf, piece.queries);
+  }
+
   const IndexView* index_;
   PacketMoments sums_;
   MomentVisitor visitor_;
   std::array<std::uint32_t, kPacketCapacity> places_{};
+  std::vector<Piece> pieces_;
 };
 
 }  // namespace
@@ -64,15 +84,13 @@ void visit_moments(const Index& index, const BatchQuery& query, bool open_ball, 
   } else if (open_ball) {
     closed.radius = open_radius(query.radius.common());
   }
-  PacketOptions packets = options;
-  packets.rows = has_one_radius(closed) ? PacketRows::WholeLeaves : PacketRows::Asked;
   for_each_packet(
       index, closed,
       [&](unsigned) -> PacketVisitor {
         auto summer = std::make_shared<PacketSummer>(source, make_visitor());
         return [summer](const PacketAnswer& packet) { summer->visit(packet); };
       },
-      packets);
+      options);
 }
 
 }  // namespace meshhood

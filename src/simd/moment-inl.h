@@ -6,8 +6,6 @@ HWY_BEFORE_NAMESPACE();
 namespace meshhood::HWY_NAMESPACE {
 namespace {
 
-constexpr std::size_t kEight = 8;
-
 /// Two numbers whose product is a power.
 struct Factors {
   std::size_t first;
@@ -40,31 +38,67 @@ constexpr std::array<Factors, PaddedMoments::kPadded> kFactors = [] {
   return factors;
 }();
 
-HWY_INLINE double product(double a, double b) { return a * b; }
-HWY_INLINE Numbers product(Numbers a, Numbers b) { return hn::Mul(a, b); }
-
-/// Calls `f(m, power)` for the first `Count` powers of 1 x y z, times the weight. A number may be a vector.
-template <std::size_t Count, class Number, class F>
-HWY_INLINE void for_each_power(const Number (&coordinates)[4], Number weight, const F& f) {
-  Number small[kSmallPowers.size()];
-  Number weighted[kSmallPowers.size()];
+/// The small powers of a vector of points, and these times the weight.
+struct SmallPowers {
+  SmallPowers() = default;
+  HWY_INLINE SmallPowers(const MomentPoints& points, std::size_t i, Numbers weight) {
+    const Numbers coordinates[]{splat(1.0), load(points.x[i]), load(points.y[i]), load(points.z[i])};
 #pragma GCC unroll 10
-  for (std::size_t m = 0; m < kSmallPowers.size(); ++m) {
-    small[m] = product(coordinates[kSmallPowers[m].first], coordinates[kSmallPowers[m].second]);
-    weighted[m] = product(weight, small[m]);
+    for (std::size_t m = 0; m < kSmallPowers.size(); ++m) {
+      plain[m] = hn::Mul(coordinates[kSmallPowers[m].first], coordinates[kSmallPowers[m].second]);
+      weighted[m] = hn::Mul(weight, plain[m]);
+    }
   }
-#pragma GCC unroll 40
-  for (std::size_t m = 0; m < Count; ++m) f(m, product(weighted[kFactors[m].first], small[kFactors[m].second]));
+
+  [[nodiscard]] HWY_INLINE Numbers power(std::size_t m) const {
+    return hn::Mul(weighted[kFactors[m].first], plain[kFactors[m].second]);
+  }
+
+  Numbers plain[kSmallPowers.size()];
+  Numbers weighted[kSmallPowers.size()];
+};
+
+/// Doubles of at most four lanes.
+using Four = hn::CappedTag<double, 4>;
+
+/// Lane j of row i becomes lane i of row j.
+template <std::size_t Size>
+HWY_INLINE void transpose([[maybe_unused]] VectorOf<Four> (&rows)[Size]) {
+  static_assert(Size == kLanes<Four>);
+#if HWY_TARGET != HWY_SCALAR
+  const Four d;
+  const auto even = hn::InterleaveLower(d, rows[0], rows[1]);
+  const auto odd = hn::InterleaveUpper(d, rows[0], rows[1]);
+  if constexpr (Size == 2) {
+    rows[0] = even;
+    rows[1] = odd;
+  } else {
+    const auto next_even = hn::InterleaveLower(d, rows[2], rows[3]);
+    const auto next_odd = hn::InterleaveUpper(d, rows[2], rows[3]);
+    rows[0] = hn::ConcatLowerLower(d, next_even, even);
+    rows[1] = hn::ConcatLowerLower(d, next_odd, odd);
+    rows[2] = hn::ConcatUpperUpper(d, next_even, even);
+    rows[3] = hn::ConcatUpperUpper(d, next_odd, odd);
+  }
+#endif
 }
 
-void add_powers(const MomentPoints& points, std::size_t size, PartialMoments& sums) {
-  const std::size_t end = (size + kEight - 1) / kEight * kEight;
-  for (std::size_t i = 0; i < end; i += kLanes<Doubles>) {
-    const Numbers coordinates[]{splat(1.0), load(points.x[i]), load(points.y[i]), load(points.z[i])};
-    for_each_power<kMomentCount>(coordinates, load(points.weight[i]), [&](std::size_t m, Numbers power) HWY_ATTR {
-      add_to(sums.at[m][i % PartialMoments::kParts], power);
-    });
+/// The second half is added to the first, until one is left.
+template <class Vector, std::size_t Size>
+HWY_INLINE Vector sum_by_halves(Vector (&parts)[Size]) {
+  for (std::size_t half = Size / 2; half > 0; half /= 2) {
+    for (std::size_t i = 0; i < half; ++i) parts[i] = hn::Add(parts[i], parts[half + i]);
   }
+  return parts[0];
+}
+
+/// The same for the lanes, until at most four are left.
+HWY_INLINE VectorOf<Four> as_four(Numbers numbers) {
+#if HWY_TARGET == HWY_AVX3
+  return hn::Add(hn::LowerHalf(Four(), numbers), hn::UpperHalf(Four(), numbers));
+#else
+  return numbers;
+#endif
 }
 
 #if HWY_TARGET == HWY_AVX3
@@ -106,17 +140,70 @@ HWY_INLINE void powers_of(const MomentPoints& points, std::size_t i, PaddedMomen
           out.at[m]);
   }
 }
+
+HWY_INLINE void powers(const MomentPoints& points, LaneMask chosen, PaddedMoments* out) {
+  for (LaneMask left = chosen; left != 0; left &= left - 1) {
+    powers_of(points, static_cast<std::size_t>(std::countr_zero(left)), *out++);
+  }
+}
 #else
-/// The powers of point `i`, times its weight.
-HWY_INLINE void powers_of(const MomentPoints& points, std::size_t i, PaddedMoments& out) {
-  const double coordinates[]{1, points.x[i], points.y[i], points.z[i]};
-  for_each_power<PaddedMoments::kPadded>(coordinates, points.weight[i],
-                                         [&](std::size_t m, double power) { out.at[m] = power; });
+/// Vector by vector of points. A product has one moment of several points; they change places, and become several
+/// moments of each point.
+HWY_INLINE void powers(const MomentPoints& points, LaneMask chosen, PaddedMoments* out) {
+  constexpr std::size_t kSize = kLanes<Doubles>;
+  for (std::size_t i = 0; i < kLeafCapacity; i += kSize) {
+    const LaneMask here = chosen >> i & first_lanes(kSize);
+    if (here == 0) continue;
+    const SmallPowers small(points, i, load(points.weight[i]));
+#pragma GCC unroll 40
+    for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kSize) {
+      Numbers rows[kSize];
+#pragma GCC unroll 4
+      for (std::size_t k = 0; k < kSize; ++k) rows[k] = small.power(m + k);
+      transpose(rows);
+      PaddedMoments* to = out;
+      for (std::size_t k = 0; k < kSize; ++k) {
+        store(rows[k], to->at[m]);
+        to += here >> k & 1U;  // what is not chosen is written over
+      }
+    }
+    out += std::popcount(here);
+  }
 }
 #endif
 
-/// The words of up to 64 points as a matrix of bits, transposed: bit `i` of number `q` is bit `q` of word `i`.
-HWY_INLINE void points_of_queries(std::span<const QueryWord> words, std::array<std::uint64_t, kPacketCapacity>& out) {
+/// Eight partial sums, of points 8 k + i each, are added by halves.
+void sum(const MomentPoints& points, std::size_t size, PaddedMoments& out) {
+  constexpr std::size_t kParts = 8 / kLanes<Doubles>;
+  const Doubles d;
+  SmallPowers small[kVectors<Doubles>];
+  std::size_t vectors = 0;
+  for (std::size_t i = 0; i < size || vectors % kParts != 0; i += kLanes<Doubles>) {
+    const LaneMask exist = i < size ? first_lanes(static_cast<unsigned>(size)) >> i : 0;
+    small[vectors++] = SmallPowers(points, i, only(d, mask_of(d, exist), load(points.weight[i])));
+  }
+  std::fill(out.at.begin() + kMomentCount, out.at.end(), 0);
+#pragma GCC unroll 40
+  for (std::size_t m = 0; m < kMomentCount; m += kLanes<Four>) {
+    VectorOf<Four> rows[kLanes<Four>];
+#pragma GCC unroll 4
+    for (std::size_t k = 0; k < kLanes<Four>; ++k) {
+      Numbers parts[kParts];
+      for (std::size_t part = 0; part < kParts; ++part) parts[part] = small[part].power(m + k);
+      for (std::size_t v = kParts; v < vectors; v += kParts) {
+        for (std::size_t part = 0; part < kParts; ++part) {
+          parts[part] = hn::Add(parts[part], small[v + part].power(m + k));
+        }
+      }
+      rows[k] = as_four(sum_by_halves(parts));
+    }
+    transpose(rows);
+    hn::Store(sum_by_halves(rows), Four(), &out.at[m]);
+  }
+}
+
+/// The words of up to 64 terms as a matrix of bits, transposed: bit `i` of number `q` is bit `q` of word `i`.
+HWY_INLINE void terms_of_queries(std::span<const QueryWord> words, std::array<std::uint64_t, kPacketCapacity>& out) {
   const Words d;
   out = {};
   for (std::size_t first = 0; first < words.size(); first += kLanes<Words>) {
@@ -129,25 +216,44 @@ HWY_INLINE void points_of_queries(std::span<const QueryWord> words, std::array<s
   }
 }
 
-/// As `MomentKernels::add_powers_by_word`. The sums of a query stay in registers while its points are added.
-void add_powers_by_word(const MomentPoints& points, std::span<const QueryWord> words, MomentsByQuery& sums) {
-  constexpr std::size_t kAtOnce = std::min<std::size_t>(PaddedMoments::kPadded / kLanes<Doubles>, 10);  // vectors
-  std::array<PaddedMoments, MomentPoints::kCapacity> powers;
-  for (std::size_t i = 0; i < words.size(); ++i) powers_of(points, i, powers[i]);
-  std::array<std::uint64_t, kPacketCapacity> points_of;
-  points_of_queries(words, points_of);
+// So many vectors of sums stay in registers.
+constexpr std::size_t kAtOnce = std::min<std::size_t>(PaddedMoments::kPadded / kLanes<Doubles>, 10);
+using SomeSums = Numbers[kAtOnce];  // NOLINT(modernize-avoid-c-arrays): std::array drops the alignment
+
+/// Adds the moments from `m` on.
+HWY_INLINE void add_some(const PaddedMoments& term, std::size_t m, SomeSums& sums) {
+#pragma GCC unroll 10
+  for (std::size_t k = 0; k < kAtOnce; ++k) sums[k] = hn::Add(sums[k], load(term.at[m + k * kLanes<Doubles>]));
+}
+
+HWY_INLINE void store_some(const SomeSums& sums, std::size_t m, PaddedMoments& out) {
+#pragma GCC unroll 10
+  for (std::size_t k = 0; k < kAtOnce; ++k) store(sums[k], out.at[m + k * kLanes<Doubles>]);
+}
+
+template <class Real>
+void set_points(const Real* xyz, std::size_t size, const Point& center, double scale, MomentPoints& points) {
+  const Doubles d;
+  for (std::size_t i = 0; i < (size + 7) / 8 * 8; i += kLanes<Doubles>) {
+    const auto exist = mask_of(d, i < size ? first_lanes(static_cast<unsigned>(size)) >> i : 0);
+    const auto at = scaled(difference(load_points(d, xyz + 3 * i), splat_point(d, center)), splat(scale));
+    const Points<Doubles> existing{only(d, exist, at.x), only(d, exist, at.y), only(d, exist, at.z)};
+    store_rows(existing, points, i);
+  }
+}
+
+void add_terms(const PaddedMoments* terms, std::span<const QueryWord> words, MomentsByQuery& sums) {
+  std::array<std::uint64_t, kPacketCapacity> terms_of;
+  terms_of_queries(words, terms_of);
   for (std::size_t q = 0; q < kPacketCapacity; ++q) {
-    for (std::size_t m = 0; m < PaddedMoments::kPadded && points_of[q] != 0; m += kAtOnce * kLanes<Doubles>) {
-      Numbers sum[kAtOnce];  // NOLINT(modernize-avoid-c-arrays): std::array drops the alignment
+    for (std::size_t m = 0; m < PaddedMoments::kPadded && terms_of[q] != 0; m += kAtOnce * kLanes<Doubles>) {
+      SomeSums some;
 #pragma GCC unroll 10
-      for (std::size_t k = 0; k < kAtOnce; ++k) sum[k] = hn::Zero(Doubles());
-      for (std::uint64_t left = points_of[q]; left != 0; left &= left - 1) {
-        const PaddedMoments& power = powers[static_cast<std::size_t>(std::countr_zero(left))];
-#pragma GCC unroll 10
-        for (std::size_t k = 0; k < kAtOnce; ++k) sum[k] = hn::Add(sum[k], load(power.at[m + k * kLanes<Doubles>]));
+      for (std::size_t k = 0; k < kAtOnce; ++k) some[k] = load(sums[q].at[m + k * kLanes<Doubles>]);
+      for (std::uint64_t left = terms_of[q]; left != 0; left &= left - 1) {
+        add_some(terms[std::countr_zero(left)], m, some);
       }
-#pragma GCC unroll 10
-      for (std::size_t k = 0; k < kAtOnce; ++k) add_to(sums.at[q].at[m + k * kLanes<Doubles>], sum[k]);
+      store_some(some, m, sums[q]);
     }
   }
 }
@@ -204,35 +310,6 @@ void keep_facing(const NormalColumns& normals, const FacingTest& test, std::span
   for (QueryWord left = used & facing_axis.perhaps & ~facing_axis.surely; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
     words[i] = facing(normals, rounded, i, test, words[i]);
-  }
-}
-
-/// Adds those of the vertices whose bits are set.
-HWY_INLINE void append_chosen(Word places, Word words, LaneMask chosen, VertexList& list) {
-  const Words d;
-  std::uint32_t* const end = write_chosen(d, places, chosen, &list.places[list.size]);
-  write_chosen(d, words, chosen, &list.words[list.size]);
-  list.size = static_cast<std::size_t>(end - list.places.data());
-}
-
-void append(std::uint32_t first, std::span<const QueryWord> words, QueryWord all, VertexList& common,
-            VertexList& some) {
-  const Words d;
-  for (std::size_t i = 0; i < words.size(); i += kLanes<Words>) {
-    const LaneMask exist = first_lanes(static_cast<unsigned>(std::min(words.size() - i, kLanes<Words>)));
-    const auto word = hn::LoadU(d, words.data() + i);
-    const auto place = hn::Add(splat(static_cast<std::uint32_t>(first + i)), hn::Iota(d, 0));
-    const LaneMask is_common = bits_of(d, hn::Eq(word, splat(all))) & exist;
-    const LaneMask is_some = bits_of(d, hn::Ne(word, hn::Zero(d))) & exist & ~is_common;
-    append_chosen(place, word, is_common, common);
-    append_chosen(place, word, is_some, some);
-  }
-}
-
-void collect(const PartialMoments& common, const MomentsByQuery& some, QueryMoments& out) {
-  for (std::size_t m = 0; m < kMomentCount; ++m) {
-    const double all = common.total(m);
-    for (std::size_t q = 0; q < kPacketCapacity; ++q) out.at[m][q] = all + some.at[q].at[m];
   }
 }
 
@@ -414,11 +491,12 @@ void fit_jets(const FrameMoments& s, const QueryVectors& sums, const QueryRow& c
 // NOLINTEND(modernize-avoid-c-arrays)
 
 constexpr MomentKernels kMomentKernels{
-    .add_powers = add_powers,
-    .add_powers_by_word = add_powers_by_word,
+    .set_points_float = set_points<float>,
+    .set_points_double = set_points<double>,
+    .powers = powers,
+    .sum = sum,
+    .add_terms = add_terms,
     .keep_facing = keep_facing,
-    .append = append,
-    .collect = collect,
     .shift = shift,
     .rotate = rotate,
     .fit_quadrics = fit_quadrics,

@@ -53,29 +53,19 @@ struct alignas(64) PaddedMoments {
   std::array<double, kPadded> at;
 };
 
-/// The sums of each query.
-struct MomentsByQuery {
-  std::array<PaddedMoments, kPacketCapacity> at;
-};
+inline void add(PaddedMoments& sum, const PaddedMoments& term) {
+  for (std::size_t m = 0; m < PaddedMoments::kPadded; ++m) sum.at[m] += term.at[m];
+}
 
-/// Eight partial sums of each moment.
-struct alignas(64) PartialMoments {
-  static constexpr std::size_t kParts = 8;
-  std::array<std::array<double, kParts>, kMomentCount> at;
+/// Those of each query.
+using MomentsByQuery = std::array<PaddedMoments, kPacketCapacity>;
 
-  [[nodiscard]] double total(std::size_t m) const {
-    const auto& part = at[m];
-    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
-  }
-};
-
-/// Vertices relative to the center of a packet, in a unit in which they are about 1.
+/// The vertices of a leaf relative to the center of a packet, in a unit in which they are about 1.
 struct alignas(64) MomentPoints {
-  static constexpr std::size_t kCapacity = 64;
-  std::array<double, kCapacity> x;
-  std::array<double, kCapacity> y;
-  std::array<double, kCapacity> z;
-  std::array<double, kCapacity> weight;
+  PerLane<double> x;
+  PerLane<double> y;
+  PerLane<double> z;
+  PerLane<double> weight;
 
   void set(std::size_t i, const Point& p, double its_weight) {
     x[i] = p.x;
@@ -100,14 +90,6 @@ struct NormalColumns {
   const double* x;
   const double* y;
   const double* z;
-};
-
-/// Vertices and their words, with room for a vector beyond the end.
-struct VertexList {
-  static constexpr std::size_t kCapacity = MomentPoints::kCapacity;
-  std::size_t size = 0;
-  std::array<std::uint32_t, kCapacity + 16> places;
-  std::array<QueryWord, kCapacity + 16> words;
 };
 
 /// Which vertices face the queries of a packet: those whose normal makes an angle of less than 90 degrees with that of
@@ -140,25 +122,28 @@ struct alignas(64) QueryQuadrics {
 };
 
 struct MomentKernels {
-  /// Adds the powers of `size` points, times their weights, to `sums`. Reads points up to the next multiple of eight:
-  /// they must be finite, with weight 0 beyond the size.
-  void (*add_powers)(const MomentPoints& points, std::size_t size, PartialMoments& sums);
+  /// Sets the coordinates of points to those of the first `size` vertices of `xyz`, #V by 3, less the center, times the
+  /// scale; and, up to the next multiple of eight, to 0. Reads that many vertices, of which those beyond the size may
+  /// have any values.
+  void (*set_points_float)(const float* xyz, std::size_t size, const Point& center, double scale, MomentPoints& points);
+  void (*set_points_double)(const double* xyz, std::size_t size, const Point& center, double scale,
+                            MomentPoints& points);
 
-  /// Adds the powers of point `i`, times its weight, to the sums of the queries of `words[i]`. Reads the 15 words after
-  /// the last one, but does not use them.
-  void (*add_powers_by_word)(const MomentPoints& points, std::span<const QueryWord> words, MomentsByQuery& sums);
+  /// Writes the powers of each of the chosen points, times its weight, one after the other. May write over the elements
+  /// beyond these: `out` has room for 32.
+  void (*powers)(const MomentPoints& points, LaneMask chosen, PaddedMoments* out);
+
+  /// The sum of the powers of `size` points, at least one, times their weights. Reads the points up to the next
+  /// multiple of eight: their coordinates must be finite, and their weights do not matter.
+  void (*sum)(const MomentPoints& points, std::size_t size, PaddedMoments& out);
+
+  /// Adds `terms[i]` to the sums of the queries of `words[i]`, term after term. At most 64 terms. Reads the 15 words
+  /// after the last one, but does not use them.
+  void (*add_terms)(const PaddedMoments* terms, std::span<const QueryWord> words, MomentsByQuery& sums);
 
   /// Removes from `words[i]` the queries that vertex `i` does not face. Normals are unit vectors; one of NaN faces
   /// none. At most `kLeafCapacity` words; the columns begin with the first vertex.
   void (*keep_facing)(const NormalColumns& normals, const FacingTest& test, std::span<QueryWord> words);
-
-  /// Appends vertex `first + i` with `words[i]` to `common` if the word is `all`, and to `some` if it is neither that
-  /// nor 0. Both lists have room for all. Reads `kLeafCapacity` words.
-  void (*append)(std::uint32_t first, std::span<const QueryWord> words, QueryWord all, VertexList& common,
-                 VertexList& some);
-
-  /// The sums of each query, those of `common` included.
-  void (*collect)(const PartialMoments& common, const MomentsByQuery& some, QueryMoments& out);
 
   /// Moves the centers by `-by`: the coordinates grow by `by`. By a Taylor shift along each axis, 105 multiply-adds.
   void (*shift)(QueryMoments& moments, const QueryVectors& by);

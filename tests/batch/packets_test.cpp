@@ -239,29 +239,6 @@ TEST(PacketsOfAStar, NameWholeLeaves) {
   }
 }
 
-TEST_F(Packets, OfWholeLeavesHaveTheRowsThatAreAsked) {
-  std::vector<double> expected = sums({.radius = 7}, 1);
-  std::vector<double> found(vertices.size(), std::numeric_limits<double>::quiet_NaN());
-  std::size_t not_asked = 0;
-  for_each_packet(index, {.vertices = vertices, .radius = 7}, everyone([&](const PacketAnswer& answer) {
-                    ASSERT_EQ(answer.rows.size(), answer.queries_of_rows.size());
-                    PacketAnswer of_queries = answer;
-                    std::vector<std::size_t> queries(answer.vertices.size());
-                    of_queries.rows = queries;  // as many sums as queries
-                    const std::vector<double> sums = sums_of(of_queries, signal);
-                    for (std::size_t i = 0; i < answer.rows.size(); ++i) {
-                      const unsigned query = answer.queries_of_rows[i];
-                      ASSERT_EQ(answer.vertices[query], vertices[answer.rows[i]]);
-                      ASSERT_EQ(answer.radii[query], 7);
-                      found[answer.rows[i]] = sums[query];
-                    }
-                    not_asked += sums.size() > answer.rows.size() ? 1U : 0U;
-                  }),
-                  {.rows = PacketRows::WholeLeaves});
-  for (std::size_t row = 0; row < found.size(); ++row) EXPECT_NEAR(found[row], expected[vertices[row]], 1e-9);
-  EXPECT_GT(not_asked, 0U);
-}
-
 TEST_F(Packets, OfAGroupHaveTheSameCores) {
   std::map<std::size_t, std::vector<LeafRun>> cores;
   std::size_t repeated = 0;

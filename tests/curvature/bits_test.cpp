@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Moments, principal components, curvatures and features of a row are a function of index, vertex and radius: the same
-// bits whichever rows are asked with it, in any order, by any number of threads.
+// bits whichever rows are asked with it, at whichever radii, in any order, by any number of threads.
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -26,6 +29,7 @@ struct Surface {
   Index index;
   CurvatureIndex surface;
   std::vector<double> areas;
+  bool has_features = true;  // they have no radius of 0 or infinity
 
   explicit Surface(TestMesh made)
       : mesh(std::move(made)),
@@ -40,16 +44,16 @@ void append(std::vector<double>& out, const std::vector<double>& values, std::si
 }
 
 /// All results of each row, one after the other.
-std::vector<std::vector<double>> results(const Surface& s, const BatchVertices& vertices, double radius,
-                                         unsigned threads) {
-  const std::size_t rows = vertices.list() ? vertices.list()->size() : s.mesh.size();
+std::vector<std::vector<double>> results(const Surface& s, const BatchQuery& query, unsigned threads) {
+  const std::size_t rows = query.vertices.list() ? query.vertices.list()->size() : s.mesh.size();
   std::vector<std::vector<double>> out(rows);
-  const BatchQuery query{.vertices = vertices, .radius = radius};
   const auto sums = moments(s.index, query, {.degree = 4, .weights = s.areas, .threads = threads});
   const PrincipalComponents patch = principal_components(s.index, query, {.threads = threads});
-  const auto feature =
-      features(s.surface, {vertices, radius},
-               {.kinds = {Feature::Crease, Feature::Height, Feature::Variation}, .areas = s.areas, .threads = threads});
+  const auto feature = !s.has_features ? std::vector<double>(3 * rows)
+                                       : features(s.surface, {query.vertices, query.radius, query.filter},
+                                                  {.kinds = {Feature::Crease, Feature::Height, Feature::Variation},
+                                                   .areas = s.areas,
+                                                   .threads = threads});
   for (std::size_t row = 0; row < rows; ++row) {
     append(out[row], sums, row, moment_count(4));
     append(out[row], patch.center, row, 3);
@@ -57,15 +61,18 @@ std::vector<std::vector<double>> results(const Surface& s, const BatchVertices& 
     append(out[row], patch.axes, row, 9);
     append(out[row], feature, row, 3);
   }
-  for (const bool filter : {true, false}) {
-    for (const CurvatureFit fit : {CurvatureFit::Quadric, CurvatureFit::Jet}) {
-      const Curvatures k = curvatures(s.surface, query, {.filter = filter, .fit = fit, .threads = threads});
-      for (std::size_t row = 0; row < rows; ++row) {
-        append(out[row], k.k1, row, 1);
-        append(out[row], k.k2, row, 1);
-        append(out[row], k.d1, row, 3);
-        append(out[row], k.d2, row, 3);
-      }
+  for (const CurvatureOptions& options :
+       {CurvatureOptions{.filter = true, .fit = CurvatureFit::Quadric, .threads = threads},
+        CurvatureOptions{.filter = false, .fit = CurvatureFit::Quadric, .threads = threads},
+        CurvatureOptions{.filter = true, .open_ball = true, .fit = CurvatureFit::Jet, .threads = threads},
+        CurvatureOptions{.filter = false, .fit = CurvatureFit::Jet, .threads = threads}}) {
+    const Curvatures k = curvatures(s.surface, query, options);
+    for (std::size_t row = 0; row < rows; ++row) {
+      append(out[row], k.k1, row, 1);
+      append(out[row], k.k2, row, 1);
+      append(out[row], k.d1, row, 3);
+      append(out[row], k.d2, row, 3);
+      out[row].push_back(k.count[row]);
     }
   }
   return out;
@@ -78,14 +85,14 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
 /// How many of the rows differ from those of the same vertices among all.
 std::size_t different(const Surface& s, const std::vector<std::vector<double>>& all, const std::vector<VertexId>& rows,
                       double radius, unsigned threads) {
-  const auto found = results(s, rows, radius, threads);
+  const auto found = results(s, {.vertices = rows, .radius = radius}, threads);
   std::size_t count = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) count += static_cast<std::size_t>(!same_bits(found[i], all[rows[i]]));
   return count;
 }
 
 void expect_equal_bits(const Surface& s, double radius, Random& random) {
-  const auto all = results(s, {}, radius, 1);
+  const auto all = results(s, {.radius = radius}, 1);
   const auto count = static_cast<VertexId>(s.mesh.size());
   std::vector<VertexId> shuffled(count);
   std::iota(shuffled.begin(), shuffled.end(), VertexId{0});
@@ -130,13 +137,102 @@ TEST(Bits, OfARowDependOnIndexVertexAndRadiusAloneOnEveryFamily) {
   std::printf("%zu meshes\n", meshes);
 }
 
-TEST(Bits, OfEqualRadiiInAListAreThoseOfOneRadius) {
-  const Surface s(bumpy_grid(25).finish(true));
-  const std::vector<VertexId> rows{300, 7, 311, 300};
-  const std::vector<double> radii(rows.size(), 4.0);
-  const auto listed = moments(s.index, {.vertices = rows, .radius = radii}, {.degree = 4});
-  const auto common = moments(s.index, {.vertices = rows, .radius = 4.0}, {.degree = 4});
-  EXPECT_TRUE(same_bits(listed, common));
+/// Which vertices and radii are queried, and what is left out.
+struct Rows {
+  std::vector<VertexId> vertices;
+  std::vector<double> radii;
+  Filter filter;
+
+  [[nodiscard]] BatchQuery query() const { return {.vertices = vertices, .radius = radii, .filter = filter}; }
+  [[nodiscard]] BatchQuery row(std::size_t i) const {
+    return {.vertices = std::span(vertices).subspan(i, 1), .radius = radii[i], .filter = filter};
+  }
+};
+
+/// Rows in any order, each of one of the radii.
+Rows random_rows(const Surface& s, std::span<const double> radii, Random& random) {
+  Rows rows;
+  for (std::size_t i = 0; i < s.mesh.size(); ++i) {
+    rows.vertices.push_back(static_cast<VertexId>(random.below(s.mesh.size())));
+    rows.radii.push_back(radii[random.below(radii.size())]);
+  }
+  return rows;
+}
+
+/// Compares rows of different radii with themselves: by several threads, some of them, each alone, and in a call of one
+/// radius for all vertices.
+void expect_equal_bits_of(const Surface& s, const Rows& rows, Random& random) {
+  const auto all = results(s, rows.query(), 1);
+  const auto by_threads = results(s, rows.query(), 3);
+  Rows some{{}, {}, rows.filter};
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = all.size(); i > 0; --i) {
+    if (random.below(3) != 0) continue;
+    chosen.push_back(i - 1);
+    some.vertices.push_back(rows.vertices[i - 1]);
+    some.radii.push_back(rows.radii[i - 1]);
+  }
+  const auto part = results(s, some.query(), 2);
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_TRUE(same_bits(all[i], by_threads[i])) << "threads, row " << i;
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    EXPECT_TRUE(same_bits(all[chosen[i]], part[i])) << "one of three, row " << chosen[i];
+  }
+  for (std::size_t k = 0; k < std::min<std::size_t>(all.size(), scaled(60, 20)); ++k) {
+    const std::size_t i = random.below(all.size());
+    EXPECT_TRUE(same_bits(all[i], results(s, rows.row(i), 1).front())) << "alone, row " << i;
+  }
+  const double radius = rows.radii.front();
+  const auto common = results(s, {.radius = radius, .filter = rows.filter}, 1);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool is_common = rows.radii[i] == radius;
+    EXPECT_TRUE(!is_common || same_bits(all[i], common[rows.vertices[i]])) << "one radius, row " << i;
+  }
+}
+
+TEST(Bits, OfARowDoNotDependOnTheRadiiOfOthers) {
+  Random random(11);
+  Surface bumps(bumpy_grid(40).finish(false));
+  const auto expect = [&](const std::vector<double>& radii) {
+    expect_equal_bits_of(bumps, random_rows(bumps, radii, random), random);
+  };
+  expect({1.5, 3.0, 7.0, 20.0});
+  expect({7.0, 7.0 * (1 - 0x1p-52), 7.0 * (1 + 0x1p-52)});
+  bumps.has_features = false;
+  expect({0.0, 1e-300, 1e-9, 0.9, 2.5, 30.0, 1e9, std::numeric_limits<double>::infinity()});
+}
+
+TEST(Bits, OfARowDoNotDependOnOthersWithWallsAndIgnoredVertices) {
+  Random random(12);
+  const Surface bumps(bumpy_grid(30).finish(true));
+  std::vector<std::uint8_t> walls(bumps.mesh.size());
+  std::vector<std::uint8_t> ignored(bumps.mesh.size());
+  for (std::uint8_t& value : walls) value = random.below(40) == 0 ? 1 : 0;
+  for (std::uint8_t& value : ignored) value = random.below(40) == 0 ? 1 : 0;
+  const std::vector<double> radii{1.2, 4.0, 9.0, 18.0};
+  for (const Filter& filter : {Filter{.walls = walls}, Filter{.ignored = ignored}, Filter{walls, ignored}}) {
+    Rows rows = random_rows(bumps, radii, random);
+    rows.filter = filter;
+    expect_equal_bits_of(bumps, rows, random);
+  }
+}
+
+TEST(Bits, OfARowDoNotDependOnTheRadiiOfOthersOnEveryFamily) {
+  Random random(13);
+  std::size_t meshes = 0;
+  for (const Family& family : families()) {
+    TestMesh mesh = make_mesh(family, 5, 300);
+    if (mesh.size() < 10 || mesh.face_count() == 0) continue;
+    SCOPED_TRACE(family.name);
+    const Surface s(std::move(mesh));
+    const Adjacency graph = adjacency(s.mesh.view());
+    const double edge = mean_edge_length(GraphView{s.mesh.view().positions, graph.view()});
+    if (!(edge > 0 && 100 * edge < std::numeric_limits<double>::infinity())) continue;
+    const std::vector<double> radii{0.01 * edge, 1.2 * edge, 2 * edge, 5 * edge, 100 * edge};
+    expect_equal_bits_of(s, random_rows(s, radii, random), random);
+    ++meshes;
+  }
+  EXPECT_GT(meshes, 15U);
+  std::printf("%zu meshes\n", meshes);
 }
 
 }  // namespace

@@ -2,10 +2,10 @@
 // The moments of a packet do not depend on what earlier packets left in the scratch memory.
 #include "curvature/packet_moments.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -19,19 +19,19 @@
 
 namespace meshhood {
 
-/// Fills the scratch memory with NaN, and numbers of vertices that do not exist.
+/// Fills the scratch memory with NaN.
 struct ScratchAccess {
   static void poison(PacketMoments& sums) {
     fill(sums.offsets_);
     fill(sums.facing_.normals);
     fill(sums.facing_.rounded);
-    fill(sums.waiting_common_.places);
-    fill(sums.waiting_common_.words);
-    fill(sums.waiting_some_.places);
-    fill(sums.waiting_some_.words);
-    fill(sums.points_);
-    fill(sums.common_);
-    fill(sums.some_);
+    fill(sums.terms_);
+    fill(sums.words_);
+    fill(sums.points_.x);
+    fill(sums.points_.y);
+    fill(sums.points_.z);
+    if (!sums.source_.weights.empty()) fill(sums.points_.weight);
+    fill(sums.sums_);
     fill(sums.moments_);
     fill(sums.sizes_);
   }
@@ -46,18 +46,22 @@ struct ScratchAccess {
 namespace test {
 namespace {
 
-const QueryMoments& sum(PacketMoments& sums, const IndexView& index, const PacketAnswer& packet) {
+/// The moments of those queries that have the same unit as the first of them, and which these are.
+std::pair<QueryWord, const QueryMoments*> sum(PacketMoments& sums, const IndexView& index, const PacketAnswer& packet,
+                                              QueryWord queries) {
   std::vector<std::uint32_t> places;
   for (const VertexId v : packet.vertices) places.push_back(place_of(index, v));
-  sums.begin(places, *std::max_element(packet.radii.begin(), packet.radii.end()));
+  const LeafId leaf = leaf_of(index.slot[packet.vertices.front()]);
+  const QueryWord some = sums.begin(leaf, places, packet.radii, queries, packet.queries);
+  const auto add_run = [&](const LeafRun& run, QueryWord word) {
+    for (LeafId i = run.first_leaf; i < run.end_leaf; ++i) sums.add(i, word);
+  };
   for (const CoreLeaves& core : packet.cores) {
-    for (const LeafRun& run : core.runs) sums.add(run.vertices.begin, run.vertices.size(), core.queries);
+    for (const LeafRun& run : core.runs) add_run(run, core.queries);
   }
-  for (const WholeLeaves& whole : packet.whole) {
-    sums.add(whole.run.vertices.begin, whole.run.vertices.size(), whole.queries);
-  }
-  for (const PartialLeaf& leaf : packet.partial) sums.add(leaf.vertices.begin, leaf.vertices.size(), leaf.queries);
-  return sums.finish();
+  for (const WholeLeaves& whole : packet.whole) add_run(whole.run, whole.queries);
+  for (const PartialLeaf& partial : packet.partial) sums.add(partial.leaf, partial.queries);
+  return {some, &sums.finish()};
 }
 
 TEST(PacketMoments, DoNotDependOnTheScratchMemory) {
@@ -70,20 +74,29 @@ TEST(PacketMoments, DoNotDependOnTheScratchMemory) {
     radii[v] = v < radii.size() / 2 ? 8.0 : std::array{3.0, 0.5, 1e-320, 8.0}[v % 4];
   }
   std::size_t rows = 0;
-  for (const bool filtered : {false, true}) {
-    const MomentSource source{.index = &*state.index, .filter = filtered ? &state : nullptr};
+  std::vector<double> weights(mesh.size());
+  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = 1 + static_cast<double>(i % 7);
+  const MomentSource plain{.index = &*state.index};
+  const MomentSource filtered{.index = &*state.index, .filter = &state};
+  const MomentSource weighted{.index = &*state.index, .weights = weights};
+  for (const MomentSource& source : {plain, filtered, weighted}) {
     for (const Isa isa : available_isas()) {
       PacketMoments reused(source, isa);
       for_each_packet(state.searched, {.radius = radii}, [&](unsigned) -> PacketVisitor {
         return [&](const PacketAnswer& packet) {
-          PacketMoments fresh(source, isa);
-          const QueryMoments& expected = sum(fresh, *state.index, packet);
-          ScratchAccess::poison(reused);
-          const QueryMoments& found = sum(reused, *state.index, packet);
-          for (std::size_t q = 0; q < packet.rows.size(); ++q) {
-            for (std::size_t m = 0; m < kMomentCount; ++m) ASSERT_EQ(found.at[m][q], expected.at[m][q]);
-            ASSERT_EQ(reused.is_accurate(q), fresh.is_accurate(q));
-            ++rows;
+          for (QueryWord left = first_lanes(static_cast<unsigned>(packet.rows.size())); left != 0;) {
+            PacketMoments fresh(source, isa);
+            const auto [queries, expected] = sum(fresh, *state.index, packet, left);
+            ScratchAccess::poison(reused);
+            const auto [same_queries, found] = sum(reused, *state.index, packet, left);
+            ASSERT_EQ(queries, same_queries);
+            ASSERT_NE(queries & left, 0U);
+            for_each_query(queries, [&, &expected = *expected, &found = *found](std::size_t q) {
+              for (std::size_t m = 0; m < kMomentCount; ++m) ASSERT_EQ(found.at[m][q], expected.at[m][q]);
+              ASSERT_EQ(reused.is_accurate(q), fresh.is_accurate(q));
+              ++rows;
+            });
+            left &= ~queries;
           }
         };
       });

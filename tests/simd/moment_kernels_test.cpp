@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -40,18 +41,30 @@ double power(double x, std::size_t n) {
   return result;
 }
 
+/// Points, up to 64, with a word for each.
 struct Input {
-  MomentPoints points{};
+  std::array<MomentPoints, 2> leaves{};
   std::vector<QueryWord> words;
+
+  [[nodiscard]] std::size_t size() const { return words.size(); }
+  [[nodiscard]] LaneMask lanes(std::size_t first) const {
+    return first_lanes(static_cast<unsigned>(std::min<std::size_t>(size() - first, kLeafCapacity)));
+  }
+  [[nodiscard]] Point at(std::size_t i) const {
+    const MomentPoints& points = leaves[i / kLeafCapacity];
+    return {points.x[i % kLeafCapacity], points.y[i % kLeafCapacity], points.z[i % kLeafCapacity]};
+  }
+  [[nodiscard]] double weight(std::size_t i) const { return leaves[i / kLeafCapacity].weight[i % kLeafCapacity]; }
+  void set(std::size_t i, const Point& p) { leaves[i / kLeafCapacity].set(i % kLeafCapacity, p, weight(i)); }
 };
 
 Input random_input(Random& random, std::size_t size) {
   Input input;
   for (std::size_t i = 0; i < size; ++i) {
-    input.points.x[i] = random.uniform(-1, 1);
-    input.points.y[i] = random.uniform(-1, 1);
-    input.points.z[i] = random.uniform(-1, 1);
-    input.points.weight[i] = random.uniform(0, 2);
+    const double x = random.uniform(-1, 1);
+    const double y = random.uniform(-1, 1);
+    const double z = random.uniform(-1, 1);
+    input.leaves[i / kLeafCapacity].set(i % kLeafCapacity, {x, y, z}, random.uniform(0, 2));
     input.words.push_back(static_cast<QueryWord>(random.below(std::uint64_t{1} << 32)));
   }
   return input;
@@ -67,34 +80,47 @@ QueryVectors random_vectors(Random& random) {
   return vectors;
 }
 
-/// The sums of the queries of its words, which are followed by others.
-std::unique_ptr<MomentsByQuery> summed(const MomentKernels& kernels, const Input& input) {
-  std::array<QueryWord, MomentPoints::kCapacity + 15> words;
+/// The powers of each point, added to the sums of the queries of its word. The words are followed by others.
+QueryMoments summed(const MomentKernels& kernels, const Input& input) {
+  constexpr std::size_t kMost = 64;
+  const auto terms = std::make_unique<std::array<PaddedMoments, kMost>>();
+  std::array<QueryWord, kMost + 15> words;
   words.fill(~QueryWord{0});
   std::copy(input.words.begin(), input.words.end(), words.begin());
-  auto sums = std::make_unique<MomentsByQuery>();
-  kernels.add_powers_by_word(input.points, std::span(words).first(input.words.size()), *sums);
-  return sums;
-}
-
-/// The sums of an input, without words and with them.
-QueryMoments collected(const MomentKernels& kernels, const Input& common, const Input& some) {
-  PartialMoments parts{};
+  for (std::size_t first = 0; first < input.size(); first += kLeafCapacity) {
+    kernels.powers(input.leaves[first / kLeafCapacity], input.lanes(first), &(*terms)[first]);
+  }
+  const auto sums = std::make_unique<MomentsByQuery>();
+  kernels.add_terms(terms->data(), std::span(words).first(input.size()), *sums);
   QueryMoments out{};
-  kernels.add_powers(common.points, common.words.size(), parts);
-  kernels.collect(parts, *summed(kernels, some), out);
+  for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+    for (std::size_t m = 0; m < kMomentCount; ++m) out.at[m][q] = (*sums)[q].at[m];
+  }
   return out;
 }
 
-double expected(const Input& common, const Input& some, std::size_t query, const Powers& n) {
+/// The same sums for each query: those of all points.
+QueryMoments summed_for_all(const MomentKernels& kernels, Input input) {
+  std::fill(input.words.begin(), input.words.end(), ~QueryWord{0});
+  return summed(kernels, input);
+}
+
+double term(const Input& input, std::size_t i, const Powers& n) {
+  const Point p = input.at(i);
+  return input.weight(i) * power(p.x, n.i) * power(p.y, n.j) * power(p.z, n.k);
+}
+
+double expected(const Input& input, std::size_t query, const Powers& n) {
   double sum = 0;
-  const auto add = [&](const MomentPoints& p, std::size_t i) {
-    sum += p.weight[i] * power(p.x[i], n.i) * power(p.y[i], n.j) * power(p.z[i], n.k);
-  };
-  for (std::size_t i = 0; i < common.words.size(); ++i) add(common.points, i);
-  for (std::size_t i = 0; i < some.words.size(); ++i) {
-    if ((some.words[i] >> query & 1U) != 0) add(some.points, i);
+  for (std::size_t i = 0; i < input.size(); ++i) {
+    if ((input.words[i] >> query & 1U) != 0) sum += term(input, i, n);
   }
+  return sum;
+}
+
+double expected_for_all(const Input& input, const Powers& n) {
+  double sum = 0;
+  for (std::size_t i = 0; i < input.size(); ++i) sum += term(input, i, n);
   return sum;
 }
 
@@ -112,35 +138,132 @@ TEST(MomentKernels, EachMomentHasAnIndexOfItsOwn) {
 
 TEST(MomentKernels, SumsAreThoseOfThePowersForEachQuery) {
   Random random(1);
-  for (const std::size_t size : {0U, 1U, 7U, 8U, 9U, 63U, 64U}) {
-    const Input common = random_input(random, size);
-    const Input some = random_input(random, 64 - size);
+  for (const std::size_t size : {0U, 1U, 7U, 8U, 9U, 33U, 63U, 64U}) {
+    const Input input = random_input(random, size);
     for (const Isa isa : available_isas()) {
-      const QueryMoments sums = collected(moment_kernels(isa), common, some);
+      const QueryMoments sums = summed(moment_kernels(isa), input);
       for (const Powers& n : all_powers()) {
         for (std::size_t q = 0; q < kPacketCapacity; ++q) {
-          EXPECT_NEAR(sums.at[moment_index(n.i, n.j, n.k)][q], expected(common, some, q, n), 1e-13);
+          EXPECT_NEAR(sums.at[moment_index(n.i, n.j, n.k)][q], expected(input, q, n), 1e-13);
         }
       }
     }
   }
 }
 
+TEST(MomentKernels, TermsAreAddedOneAfterTheOther) {
+  Random random(7);
+  const Input input = random_input(random, 50);
+  for (const Isa isa : available_isas()) {
+    const MomentKernels& kernels = moment_kernels(isa);
+    std::vector<PaddedMoments> terms(64);
+    for (std::size_t i = 0; i < 50; ++i) terms[i].at.fill(input.at(i).x);
+    std::vector<QueryWord> words = input.words;
+    words.resize(65, ~QueryWord{0});
+    MomentsByQuery sums{};
+    for (PaddedMoments& sum : sums) sum.at.fill(0x1p53);  // so that another order gives other bits
+    const MomentsByQuery before = sums;
+    kernels.add_terms(terms.data(), std::span(words).first(20), sums);
+    kernels.add_terms(&terms[20], std::span(words).subspan(20, 30), sums);
+    for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+      double sum = before[q].at[0];
+      for (std::size_t i = 0; i < 50; ++i) {
+        if ((input.words[i] >> q & 1U) != 0) sum += input.at(i).x;
+      }
+      EXPECT_THAT(sums[q].at, testing::Each(sum));
+    }
+  }
+}
+
+TEST(MomentKernels, PowersAreThoseOfTheChosenPoints) {
+  Random random(8);
+  const Input input = random_input(random, kLeafCapacity);
+  for (const LaneMask chosen : {0xFFFFFFFFU, 0U, 1U, 0x80000000U, 0x12345678U, 0x00F000FFU}) {
+    for (const Isa isa : available_isas()) {
+      PerLane<PaddedMoments> powers{};
+      moment_kernels(isa).powers(input.leaves[0], chosen, powers.data());
+      std::size_t at = 0;
+      for_each_lane(chosen, [&](unsigned lane) {
+        for (const Powers& n : all_powers()) {
+          EXPECT_NEAR(powers[at].at[moment_index(n.i, n.j, n.k)], term(input, lane, n), 1e-15);
+        }
+        ++at;
+      });
+    }
+  }
+}
+
+/// As `sum` of the kernels.
+double sum_in_eight_parts(std::span<const PaddedMoments> powers, std::size_t m) {
+  std::array<double, 8> parts{};
+  for (std::size_t i = 0; i < powers.size(); ++i) parts[i % 8] += powers[i].at[m];
+  return ((parts[0] + parts[4]) + (parts[2] + parts[6])) + ((parts[1] + parts[5]) + (parts[3] + parts[7]));
+}
+
+TEST(MomentKernels, TheSumOfALeafHasEightPartialSums) {
+  Random random(9);
+  for (std::size_t size = 1; size <= kLeafCapacity; ++size) {
+    Input input = random_input(random, size);
+    for (std::size_t i = size; i < kLeafCapacity; ++i) input.leaves[0].weight[i] = std::nan("");
+    for (std::size_t i = (size + 7) / 8 * 8; i < kLeafCapacity; ++i) input.leaves[0].x[i] = std::nan("");
+    for (const Isa isa : available_isas()) {
+      PerLane<PaddedMoments> powers{};
+      PaddedMoments sum;
+      moment_kernels(isa).powers(input.leaves[0], first_lanes(static_cast<unsigned>(size)), powers.data());
+      moment_kernels(isa).sum(input.leaves[0], size, sum);
+      for (std::size_t m = 0; m < kMomentCount; ++m) {
+        EXPECT_EQ(sum.at[m], sum_in_eight_parts(std::span(powers).first(size), m));
+      }
+    }
+  }
+}
+
+template <class Real>
+void expect_points(Random& random,
+                   void (*MomentKernels::*set_points)(const Real*, std::size_t, const Point&, double, MomentPoints&)) {
+  std::vector<Real> xyz(3 * kLeafCapacity);
+  for (Real& coordinate : xyz) coordinate = static_cast<Real>(random.uniform(-1, 1));
+  const Point center{0.3, -0.2, 0.1};
+  for (const std::size_t size : {1U, 7U, 8U, 21U, 32U}) {
+    std::vector<Real> values = xyz;
+    std::fill(values.begin() + static_cast<std::ptrdiff_t>(3 * size), values.end(), std::numeric_limits<Real>::max());
+    for (const Isa isa : available_isas()) {
+      MomentPoints points{};
+      points.x.fill(std::nan(""));
+      points.weight.fill(5);
+      (moment_kernels(isa).*set_points)(values.data(), size, center, 0x1p600, points);
+      for (std::size_t i = 0; i < (size + 7) / 8 * 8; ++i) {
+        const bool exists = i < size;
+        const auto coordinate = [&](std::size_t axis) { return static_cast<double>(values[3 * i + axis]); };
+        EXPECT_EQ(points.x[i], exists ? (coordinate(0) - center.x) * 0x1p600 : 0);
+        EXPECT_EQ(points.y[i], exists ? (coordinate(1) - center.y) * 0x1p600 : 0);
+        EXPECT_EQ(points.z[i], exists ? (coordinate(2) - center.z) * 0x1p600 : 0);
+        EXPECT_EQ(points.weight[i], 5);
+      }
+    }
+  }
+}
+
+TEST(MomentKernels, PointsAreRelativeToTheCenterAndOthersZero) {
+  Random random(10);
+  expect_points<float>(random, &MomentKernels::set_points_float);
+  expect_points<double>(random, &MomentKernels::set_points_double);
+}
+
 TEST(MomentKernels, ShiftedMomentsAreThoseOfShiftedPoints) {
   Random random(2);
   const Input points = random_input(random, 40);
   const QueryVectors by = random_vectors(random);
-  QueryMoments moments = collected(moment_kernels(Isa{}), points, {});
+  QueryMoments moments = summed_for_all(moment_kernels(Isa{}), points);
   moment_kernels(Isa{}).shift(moments, by);
   for (std::size_t q = 0; q < kPacketCapacity; ++q) {
     Input shifted = points;
     for (std::size_t i = 0; i < 40; ++i) {
-      shifted.points.x[i] += by.x[q];
-      shifted.points.y[i] += by.y[q];
-      shifted.points.z[i] += by.z[q];
+      const Point p = points.at(i);
+      shifted.set(i, {p.x + by.x[q], p.y + by.y[q], p.z + by.z[q]});
     }
     for (const Powers& n : all_powers()) {
-      EXPECT_NEAR(moments.at[moment_index(n.i, n.j, n.k)][q], expected(shifted, {}, q, n), 1e-11);
+      EXPECT_NEAR(moments.at[moment_index(n.i, n.j, n.k)][q], expected_for_all(shifted, n), 1e-11);
     }
   }
 }
@@ -148,7 +271,7 @@ TEST(MomentKernels, ShiftedMomentsAreThoseOfShiftedPoints) {
 TEST(MomentKernels, RotatedMomentsAreThoseOfRotatedPoints) {
   Random random(3);
   const Input points = random_input(random, 40);
-  const QueryMoments moments = collected(moment_kernels(Isa{}), points, {});
+  const QueryMoments moments = summed_for_all(moment_kernels(Isa{}), points);
   const QueryVectors u = random_vectors(random);
   const QueryVectors v = random_vectors(random);
   const QueryVectors n = random_vectors(random);
@@ -168,31 +291,11 @@ TEST(MomentKernels, RotatedMomentsAreThoseOfRotatedPoints) {
   for (std::size_t q = 0; q < kPacketCapacity; ++q) {
     Input rotated = points;
     for (std::size_t i = 0; i < 40; ++i) {
-      const MomentPoints& p = points.points;
-      const auto along = [&](const QueryVectors& axis) {
-        return axis.x[q] * p.x[i] + axis.y[q] * p.y[i] + axis.z[q] * p.z[i];
-      };
-      rotated.points.x[i] = along(u);
-      rotated.points.y[i] = along(v);
-      rotated.points.z[i] = along(n);
+      const Point p = points.at(i);
+      const auto along = [&](const QueryVectors& axis) { return axis.x[q] * p.x + axis.y[q] * p.y + axis.z[q] * p.z; };
+      rotated.set(i, {along(u), along(v), along(n)});
     }
-    for (const Case& one : cases) EXPECT_NEAR((*one.row)[q], expected(rotated, {}, q, one.powers), 1e-11);
-  }
-}
-
-TEST(MomentKernels, SumsOfFewQueriesAreThoseOfThePowers) {
-  Random random(5);
-  Input some = random_input(random, 20);
-  for (const std::size_t queries : {1U, 4U, 5U, 27U, 31U}) {
-    for (QueryWord& word : some.words) word &= (QueryWord{1} << queries) - 1;
-    for (const Isa isa : available_isas()) {
-      QueryMoments sums{};
-      moment_kernels(isa).collect({}, *summed(moment_kernels(isa), some), sums);
-      for (std::size_t q = 0; q < queries; ++q) {
-        EXPECT_NEAR(sums.at[moment_index(1, 2, 1)][q], expected({}, some, q, {1, 2, 1}), 1e-13);
-      }
-    }
-    some = random_input(random, 20);
+    for (const Case& one : cases) EXPECT_NEAR((*one.row)[q], expected_for_all(rotated, one.powers), 1e-11);
   }
 }
 
@@ -266,12 +369,6 @@ TEST(MomentKernels, TheAxisDecidesOnlyBeyondItsBound) {
   }
 }
 
-void expect_equal(const VertexList& a, const VertexList& b) {
-  ASSERT_EQ(a.size, b.size);
-  EXPECT_TRUE(std::equal(a.places.begin(), a.places.begin() + static_cast<std::ptrdiff_t>(a.size), b.places.begin()));
-  EXPECT_TRUE(std::equal(a.words.begin(), a.words.begin() + static_cast<std::ptrdiff_t>(a.size), b.words.begin()));
-}
-
 /// Where a fit is not unique, its numbers have no meaning.
 void expect_equal(const QueryQuadrics& a, const QueryQuadrics& b) {
   for (std::size_t q = 0; q < kPacketCapacity; ++q) {
@@ -280,24 +377,6 @@ void expect_equal(const QueryQuadrics& a, const QueryQuadrics& b) {
     EXPECT_EQ(a.determinant[q], b.determinant[q]);
     EXPECT_THAT((std::array{a.a[q], a.b[q], a.c[q], a.d[q], a.e[q]}),
                 testing::ElementsAre(b.a[q], b.b[q], b.c[q], b.d[q], b.e[q]));
-  }
-}
-
-TEST(MomentKernels, VerticesGoToTheListOfTheirWord) {
-  for (const Isa isa : available_isas()) {
-    VertexList common{};
-    VertexList some{};
-    for (const std::uint32_t first : {40U, 90U}) {
-      std::vector<QueryWord> words(kLeafCapacity, 0b100);
-      std::fill_n(words.begin(), 19, 0);
-      words[0] = words[17] = 0b111;
-      words[3] = 0b100;
-      words[18] = 0b010;
-      moment_kernels(isa).append(first, std::span(words).first(19), 0b111, common, some);
-    }
-    EXPECT_THAT(std::span(common.places).first(common.size), testing::ElementsAre(40, 57, 90, 107));
-    EXPECT_THAT(std::span(some.places).first(some.size), testing::ElementsAre(43, 58, 93, 108));
-    EXPECT_THAT(std::span(some.words).first(some.size), testing::ElementsAre(0b100, 0b010, 0b100, 0b010));
   }
 }
 
@@ -356,8 +435,7 @@ TEST(MomentKernels, ASingularFitHasNoPositiveDeterminant) {
 TEST(MomentKernels, EveryInstructionSetGivesTheSameBits) {
   Random random(4);
   for (int round = 0; round < 20; ++round) {
-    const Input common = random_input(random, random.below(65));
-    const Input some = random_input(random, random.below(65));
+    const Input input = random_input(random, 1 + random.below(64));
     const QueryVectors by = random_vectors(random);
     const QueryVectors u = random_vectors(random);
     const QueryVectors v = random_vectors(random);
@@ -365,26 +443,23 @@ TEST(MomentKernels, EveryInstructionSetGivesTheSameBits) {
     for (std::size_t q = 0; q < kPacketCapacity; ++q) test.set(q, {u.x[q], u.y[q], u.z[q]});
     test.axis = {0.6, 0, 0.8};
     test.all = 0.5;
-    const std::size_t leaf = std::min<std::size_t>(some.words.size(), kLeafCapacity);
-    const NormalColumns normals{some.points.x.data(), some.points.y.data(), some.points.z.data()};
+    const std::size_t leaf = std::min<std::size_t>(input.size(), kLeafCapacity);
+    const MomentPoints& points = input.leaves[0];
     std::vector<std::vector<QueryWord>> facing;
     std::vector<FrameMoments> results;
     std::vector<std::array<QueryQuadrics, 2>> fits;
-    std::vector<std::array<VertexList, 2>> lists;
+    std::vector<PaddedMoments> sums;
     for (const Isa isa : available_isas()) {
       const MomentKernels& kernels = moment_kernels(isa);
-      QueryMoments moments = collected(kernels, common, some);
+      QueryMoments moments = summed(kernels, input);
       kernels.shift(moments, by);
       kernels.rotate(moments, u, v, by, results.emplace_back());
-      facing.emplace_back(some.words).resize(leaf);
-      kernels.keep_facing(normals, test, facing.back());
-      auto& [in_common, in_some] = lists.emplace_back();
-      std::vector<QueryWord> padded = facing.back();
-      padded.resize(kLeafCapacity);
-      kernels.append(100, std::span(padded).first(leaf), 0b11, in_common, in_some);
+      facing.emplace_back(input.words).resize(leaf);
+      kernels.keep_facing({points.x.data(), points.y.data(), points.z.data()}, test, facing.back());
       fits.emplace_back();
       kernels.fit_quadrics(results.back(), fits.back()[0]);
       kernels.fit_jets(results.back(), by, moments.at[0], fits.back()[1]);
+      kernels.sum(points, leaf, sums.emplace_back());
     }
     EXPECT_THAT(facing, testing::Each(facing.front()));
     for (const FrameMoments& result : results) EXPECT_EQ(std::memcmp(&result, results.data(), sizeof(result)), 0);
@@ -392,9 +467,8 @@ TEST(MomentKernels, EveryInstructionSetGivesTheSameBits) {
       expect_equal(quadrics, fits.front()[0]);
       expect_equal(jets, fits.front()[1]);
     }
-    for (const auto& [in_common, in_some] : lists) {
-      expect_equal(in_common, lists.front()[0]);
-      expect_equal(in_some, lists.front()[1]);
+    for (const PaddedMoments& sum : sums) {
+      EXPECT_EQ(std::memcmp(&sum, sums.data(), kMomentCount * sizeof(double)), 0);
     }
   }
 }

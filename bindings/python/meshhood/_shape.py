@@ -145,8 +145,7 @@ class Shape(Held):
         Returns (#rows, 1, 4, 10, 20 or 35) float64, with a leading axis if there are scales: 1, x, y, z, x^2, xy, xz,
         y^2, yz, z^2, x^3, ..., the order of scikit-learn's PolynomialFeatures. They are accurate to 1e-13 of the sum of
         w |p|^(i + j + k). A row depends on index, weights, vertex, radius and masks alone, bit for bit: not on other
-        rows of the call, earlier calls, threads or the processor. Only if the rows have different radii, those of the
-        vertices nearby have an effect on the last bits.
+        rows of the call, earlier calls, threads or the processor.
 
         >>> meshhood.MeshIndex(V, F).moments(0.3).shape
         (642, 10)

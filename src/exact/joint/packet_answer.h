@@ -48,20 +48,13 @@ struct PartialLeaf {
   std::span<const QueryWord, kPacketCapacity> queries;  ///< by vertex of the leaf; then 0
 };
 
-/// Which queries a packet has.
-enum class PacketRows {
-  Asked,        ///< one for each row
-  WholeLeaves,  ///< all vertices of a leaf, whichever of them are asked: what is found depends on leaf and radius alone
-};
-
 /// The neighborhoods of the queries of a packet. `cores`, `whole` and `partial` name each vertex at most once. Their
 /// order depends on the query alone, not on threads or the processor. Valid during the call of the visitor.
 struct PacketAnswer {
-  std::span<const std::size_t> rows;          ///< the rows of the packet, by their numbers in the query
-  std::span<const unsigned> queries_of_rows;  ///< which query of the packet each row is: row i is query i if `Asked`
-  std::span<const VertexId> vertices;         ///< of each query, 1 to 32, an id of the caller
-  std::span<const double> radii;              ///< of each query
-  QueryWord queries = 0;                      ///< all
+  std::span<const std::size_t> rows;   ///< 1 to 32 rows by their numbers in the query; row i is query i of the packet
+  std::span<const VertexId> vertices;  ///< of each row, an id of the caller
+  std::span<const double> radii;       ///< of each row
+  QueryWord queries = 0;               ///< all
 
   /// Whether a group begins. The cores of earlier packets are then no longer valid, and their numbers are used again.
   /// The packets of a group come one after the other, to one visitor.
