@@ -11,8 +11,7 @@ import sys
 import zipfile
 from pathlib import Path
 
-# The module, the page and the command line have about a third each. The aim is 3 MB.
-MOST_BYTES = 4_000_000
+MOST_BYTES = 3_000_000
 
 
 def check_contents(archive):
@@ -43,8 +42,9 @@ def check_platform(wheel):
             module = next(name for name in archive.namelist() if name.endswith(".so"))
             assert archive.read(module)[:4] == b"\xcf\xfa\xed\xfe", "not a module of macOS"
         return "not loaded: there is no such system here"
+    # Without the libraries of this machine, whose libc.so is not that of musl, but a text for the linker.
     text = subprocess.run(
-        [sys.executable, "-m", "auditwheel", "show", wheel], check=True, capture_output=True, text=True
+        [sys.executable, "-m", "auditwheel", "show", "--ldpaths", "", wheel], check=True, capture_output=True, text=True
     ).stdout
     found = re.search(r'tag:\s+"((many|musl)linux_(\d+)_(\d+)_(\w+))"', text)
     named = re.search(r"(many|musl)linux_(\d+)_(\d+)_(\w+)\.whl", wheel.name)
