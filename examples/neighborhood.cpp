@@ -2,10 +2,10 @@
 // The first program of the README and of docs/cpp.md: the neighborhood of a vertex of hand.ply, a mesh in this folder.
 // NOLINTBEGIN(bugprone-exception-escape): the runtime prints the error
 // [readme]
+#include <iostream>
+
 #include <meshhood/io/mesh_io.h>
 #include <meshhood/meshhood.h>
-
-#include <iostream>
 
 int main() {
   const auto mesh = meshhood::io::read_mesh("hand.ply");  // PLY, OBJ, OFF or STL
