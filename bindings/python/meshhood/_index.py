@@ -33,7 +33,11 @@ Order = Literal["query", "index"]
 
 
 class Chunk(NamedTuple):
-    """Some rows of a batch: row i is the neighborhood of vertices[i] (see `MeshIndex.query_ball`)."""
+    """Some rows of a batch: row i is the neighborhood of vertices[i] (see `MeshIndex.query_ball`).
+
+    >>> chunk = next(meshhood.MeshIndex(V, F).iter_neighborhoods(None, 0.3, chunk=100))
+    >>> first = chunk.indices[chunk.indptr[0] : chunk.indptr[1]]
+    """
 
     vertices: Ids
     indptr: Offsets
@@ -42,7 +46,10 @@ class Chunk(NamedTuple):
 
 
 class Quality(NamedTuple):
-    """How well the leaves of an index fit the positions (see `MeshIndex.quality`)."""
+    """How well the leaves of an index fit the positions (see `MeshIndex.quality`).
+
+    >>> mean_radius, rebuilt_radius, gain = meshhood.MeshIndex(V, F).quality()
+    """
 
     mean_radius: float
     rebuilt_radius: float
