@@ -99,10 +99,8 @@ def test_a_list_of_another_length_is_never_guessed(name):
         CALLS[name](1.0, wall=WALLS)
 
 
-@pytest.mark.parametrize("name", CALLS)
+@pytest.mark.parametrize("name", PATH_CALLS)
 def test_masks_give_what_a_mesh_without_the_walls_gives(name):
-    if name in ("curvature", "corrected", "components", "features", "moments"):
-        pytest.skip("compared with lists below")
     found = arrays(CALLS[name](2.5, walls=WALLS))
     graph = edges_without(WALLS)
     alone = meshhood.MeshIndex(V, graph)

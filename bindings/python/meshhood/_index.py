@@ -374,7 +374,8 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions):
         return_distance: bool = False,
         **words: Unpack[ListWords],
     ) -> Iterator[Chunk]:
-        """As `query_ball` for many vertices, `chunk` rows at a time, so that memory stays bounded.
+        """As `query_ball` for many vertices, `chunk` rows at a time, so that memory stays bounded. With masks, each chunk
+        takes O(#V) besides its searches.
 
         order : of the rows: "query", that of `vertices`; "index", that of `permutation`, in which near vertices follow
             each other. The rows of a chunk are then computed together, which is up to ten times as fast where the
