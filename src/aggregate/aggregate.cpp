@@ -197,8 +197,7 @@ class Aggregation {
       SignalBlock block = make_block(view_, signal_, first, count, query_);
       if (query_.metric == Metric::Path && query_.kernel != SmoothingKernel::Box) {
         const SumColumns columns(std::move(block), query_.reduce);
-        const bool squared = query_.kernel == SmoothingKernel::Biweight;
-        reduce_paths([&] { return std::make_unique<PathKernelReducer>(columns, squared); }, first, count);
+        reduce_paths([&] { return std::make_unique<PathKernelReducer>(columns, query_.kernel); }, first, count);
         continue;
       }
       const std::unique_ptr<Reduction> reduction = make_reduction(view_, tree_, std::move(block), query_);

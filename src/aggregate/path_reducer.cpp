@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "aggregate/path_reducer.h"
 
-#include <cmath>
-
 #include "aggregate/compensated.h"
+#include "aggregate/kernel_weight.h"
 
 namespace meshhood {
 
@@ -19,14 +18,8 @@ void PathSetReducer::reduce(std::span<const Path> paths, double /*radius*/, std:
 }
 
 void PathKernelReducer::reduce(std::span<const Path> paths, double radius, std::span<double> channels) {
-  const bool is_box = radius == 0 || std::isinf(radius);
   weights_.clear();
-  for (const Path& path : paths) {
-    // Not 1 - t^2, whose rounding would give a vertex at the rim a weight.
-    const double t = is_box ? 0 : path.length / radius;
-    const double weight = (1 - t) * (1 + t);
-    weights_.push_back(squared_ ? weight * weight : weight);
-  }
+  for (const Path& path : paths) weights_.push_back(kernel_weight(kernel_, path.length, radius));
   totals_.clear();
   for (std::size_t i = 0; i < columns_->size(); ++i) {
     CompensatedSum sum;

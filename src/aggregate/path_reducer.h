@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "meshhood/aggregate.h"
+
 #include "aggregate/maximal_nodes.h"
 #include "aggregate/node_tree.h"
 #include "aggregate/packet_reducer.h"
@@ -50,14 +52,14 @@ class PathSetReducer final : public PathReducer {
 /// Sum and mean with weights that fall with the length of the path.
 class PathKernelReducer final : public PathReducer {
  public:
-  /// `squared`: the biweight, else Epanechnikov. Borrows `columns`.
-  PathKernelReducer(const SumColumns& columns, bool squared) : columns_(&columns), squared_(squared) {}
+  /// Borrows `columns`.
+  PathKernelReducer(const SumColumns& columns, SmoothingKernel kernel) : columns_(&columns), kernel_(kernel) {}
 
   void reduce(std::span<const Path> paths, double radius, std::span<double> channels) override;
 
  private:
   const SumColumns* columns_;
-  bool squared_;
+  SmoothingKernel kernel_;
   std::vector<double> weights_;  // by path
   std::vector<double> totals_;   // by column
 };

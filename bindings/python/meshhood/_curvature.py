@@ -27,6 +27,10 @@ class Curvature(NamedTuple):
         filter leaves out. If they are fewer than six, the state is not 0.
 
     With `scales` each array has a leading axis.
+
+    >>> found = meshhood.MeshIndex(V, F).curvature(0.3)
+    >>> bool(found.ok.all() and abs(found.mean - 1).max() < 0.1)  # on the unit sphere
+    True
     """
 
     k1: NDArray[np.float64]

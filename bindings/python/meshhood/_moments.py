@@ -23,6 +23,10 @@ class PrincipalComponents(NamedTuple):
         component of largest magnitude positive.
 
     All but `weight` are NaN where the weights sum to 0.
+
+    >>> found = meshhood.MeshIndex(V, F).principal_components(0.3)
+    >>> bool((abs(np.sum(found.normal * V, axis=1)) > 0.99).all())  # on the unit sphere
+    True
     """
 
     weight: Reals
@@ -53,6 +57,10 @@ class CorrectedCurvature(NamedTuple):
     d1, d2 : (#rows, 3) their directions in the plane of the vertex normal.
     measures : (#rows, 12) the sums from which the others follow: the area; twice the integral of H; the integral of K;
         and the anisotropic measure, a matrix of 3 by 3, row by row.
+
+    >>> found = meshhood.MeshIndex(V, F).corrected_curvature(0.3)
+    >>> bool(abs(found.gaussian - 1).max() < 0.1)  # on the unit sphere
+    True
     """
 
     area: Reals
@@ -72,6 +80,11 @@ class Persistence(NamedTuple):
         times -1 if the feature is negative there; 0 if there is none.
     strength : (#rows,) the feature of largest magnitude in this run; 0 if there is none.
     radius : (#rows,) the radius at which it has this strength; 0 if there is none.
+
+    >>> creases = meshhood.MeshIndex(V, F).features(scales=[0.2, 0.4])
+    >>> found = meshhood.persistence(creases, [0.2, 0.4], threshold=0.1)
+    >>> bool((found.radius == 0.4).all())
+    True
     """
 
     scales: NDArray[np.int32]
