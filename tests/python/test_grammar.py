@@ -194,7 +194,7 @@ def test_workers_and_progress(name):
         assert reports[-1][0] == reports[-1][1] > 0 and reports == sorted(reports)
 
 
-@pytest.mark.parametrize("name", (*LISTS, *VALUES_OVER))
+@pytest.mark.parametrize("name", (*LISTS, *VALUES_OVER, *SHAPE))
 def test_dtype(name):
     single, double = (CALLS[name](INDEX, R, dtype=dtype) for dtype in (np.float32, np.float64))
     np.testing.assert_allclose(single, double, rtol=1e-6, atol=1e-6)

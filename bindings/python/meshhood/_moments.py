@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _convert, _core
+from ._types import Floats, Reals
 
-Reals = NDArray[np.float64]
 
 class PrincipalComponents(NamedTuple):
     """How the vertices of each neighborhood are distributed. With areas as weights, `weight`, `center` and `variances`
@@ -29,18 +29,18 @@ class PrincipalComponents(NamedTuple):
     True
     """
 
-    weight: Reals
-    center: Reals
-    variances: Reals
-    axes: Reals
+    weight: Floats
+    center: Floats
+    variances: Floats
+    axes: Floats
 
     @property
-    def normal(self) -> Reals:
+    def normal(self) -> Floats:
         """The normal of the plane that fits best."""
         return self.axes[..., 0, :]
 
     @property
-    def surface_variation(self) -> Reals:
+    def surface_variation(self) -> Floats:
         """The least variance divided by the sum of the three (Pauly, Gross, Kobbelt 2002): 0 on a plane, at most
         1/3."""
         with np.errstate(invalid="ignore"):
@@ -63,14 +63,14 @@ class CorrectedCurvature(NamedTuple):
     True
     """
 
-    area: Reals
-    mean: Reals
-    gaussian: Reals
-    k1: Reals
-    k2: Reals
-    d1: Reals
-    d2: Reals
-    measures: Reals
+    area: Floats
+    mean: Floats
+    gaussian: Floats
+    k1: Floats
+    k2: Floats
+    d1: Floats
+    d2: Floats
+    measures: Floats
 
 
 class Persistence(NamedTuple):
