@@ -13,7 +13,6 @@
 
 #include "meshhood/batch.h"
 
-#include "aggregate/kernel_weight.h"
 #include "exact/index_access.h"
 #include "shared/parallel.h"
 
@@ -24,6 +23,15 @@ constexpr std::size_t kFewestChannels = 17;    // more than share one search ove
 constexpr double kMostVertices = 400;          // of a mean row; with more, the rounding errors would be too large
 constexpr std::size_t kRowsTogether = 4096;    // whose lists wait for the product
 constexpr std::size_t kChannelsOfABlock = 32;  // the values of a row's vertices, 32 of each, stay in the cache
+
+/// The weight of a vertex at a distance, as a part of its own; 1 without a smoothing kernel.
+double kernel_weight(SmoothingKernel kernel, double distance, double radius) {
+  if (kernel == SmoothingKernel::Box || distance == 0) return 1;
+  const double share = distance / radius;
+  // Not 1 - share^2, whose rounding would give a vertex at the rim a weight.
+  const double weight = (1 - share) * (1 + share);
+  return kernel == SmoothingKernel::Biweight ? weight * weight : weight;
+}
 
 /// Far from overflow and underflow, so that values need no scaling.
 bool is_moderate(const SignalView& signal) {
