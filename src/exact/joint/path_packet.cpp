@@ -4,9 +4,9 @@
 namespace meshhood {
 namespace {
 
-constexpr std::uint32_t kNone = 0xFFFFFFFF;
+constexpr std::uint32_t kNoNumber = 0xFFFFFFFF;
 
-constexpr PathLengths kUnreached = [] {
+constexpr PathLengths kReachedByNone = [] {
   PathLengths lengths{};
   lengths.of.fill(std::numeric_limits<double>::infinity());
   return lengths;
@@ -27,7 +27,7 @@ PathPacket::PathPacket(const IndexView& index, KeptGraph& graph, Isa isa, const 
       ignored_(&ignored),
       limits_(limits),
       search_(index, graph),
-      numbers_(index.vertex_count(), kNone),
+      numbers_(index.vertex_count(), kNoNumber),
       place_of_(index.leaf_count()) {}
 
 bool PathPacket::run(std::span<const PathQuery> queries) {
@@ -86,22 +86,22 @@ void PathPacket::list_edges() {
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t number = numbers_[graph_->edges.neighbors[k]];
       edges_[count] = {graph_->lengths[k], number};
-      count += number != kNone ? 1 : 0;
+      count += number != kNoNumber ? 1 : 0;
     }
   }
   first_edge_[found.size()] = count;
   for (std::size_t i = 0; i < queries_.size(); ++i) starts_[i] = numbers_[queries_[i].vertex];
-  for (const Path& path : found) numbers_[path.end] = kNone;
+  for (const Path& path : found) numbers_[path.end] = kNoNumber;
 }
 
 /// Passes lengths on until none becomes shorter. Returns false if that takes too many steps.
 bool PathPacket::pass_on_lengths() {
   constexpr std::size_t kAtOnce = 32;
   const std::span<const Path> found = search_.found();
-  lengths_.assign(found.size(), kUnreached);
+  lengths_.assign(found.size(), kReachedByNone);
   waiting_.reset(found.size());
   for (std::size_t i = 0; i < queries_.size(); ++i) {
-    if (starts_[i] == kNone) continue;  // a wall
+    if (starts_[i] == kNoNumber) continue;  // a wall
     lengths_[starts_[i]].of[i] = 0;
     waiting_.add(starts_[i]);
   }
@@ -122,7 +122,7 @@ bool PathPacket::pass_on_lengths() {
 void PathPacket::leave_out_ignored() {
   if (ignored_->empty()) return;
   for (std::size_t number = 0; number < lengths_.size(); ++number) {
-    if (ignored_->has_at(vertex(number))) lengths_[number] = kUnreached;
+    if (ignored_->has_at(vertex(number))) lengths_[number] = kReachedByNone;
   }
 }
 

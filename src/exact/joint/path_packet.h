@@ -121,7 +121,7 @@ class PathPacket {
   const LaneFilter* ignored_;
   PathLimits limits_;
   PathSearch search_;                   // its paths number the vertices that were found
-  std::vector<std::uint32_t> numbers_;  // by vertex; kNone outside `list_edges`
+  std::vector<std::uint32_t> numbers_;  // by vertex; kNoNumber outside `list_edges`
   // By number:
   std::vector<std::size_t> first_edge_;  // in `edges_`; and the end of the last
   std::vector<PathLengths> lengths_;
@@ -129,7 +129,7 @@ class PathPacket {
   PathFront waiting_;            // those whose lengths became shorter, and were not passed on
   std::size_t steps_ = 0;
   std::vector<PathQuery> queries_;
-  PerLane<std::uint32_t> starts_{};  // the numbers of their vertices; kNone for a wall
+  PerLane<std::uint32_t> starts_{};  // the numbers of their vertices; kNoNumber for a wall
   bool is_single_ = false;           // there is one query, and its paths are those of `search_`
   // Made when they are asked for:
   std::vector<LeafWords> words_;  // by number, 32 of them in each
