@@ -194,11 +194,20 @@ def test_workers_and_progress(name):
         assert reports[-1][0] == reports[-1][1] > 0 and reports == sorted(reports)
 
 
-@pytest.mark.parametrize("name", (*LISTS, *VALUES_OVER, *SHAPE))
+@pytest.mark.parametrize("name", (*LISTS, *VALUES_OVER))
 def test_dtype(name):
     single, double = (CALLS[name](INDEX, R, dtype=dtype) for dtype in (np.float32, np.float64))
     np.testing.assert_allclose(single, double, rtol=1e-6, atol=1e-6)
     assert (single != double).any()
+
+
+@pytest.mark.parametrize("name", SHAPE)
+def test_dtype_of_the_shape(name):
+    call = getattr(INDEX, name)
+    single, double = call(0.9 * R, dtype=np.float32), call(0.9 * R)
+    for found, wanted in zip(*((a,) if isinstance(a, np.ndarray) else a for a in (single, double))):
+        assert found.dtype == (np.float32 if wanted.dtype == np.float64 else wanted.dtype)
+        np.testing.assert_array_equal(found, wanted.astype(found.dtype))
 
 
 @pytest.mark.parametrize("sort", ("index", "id", "distance"))
