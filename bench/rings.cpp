@@ -9,20 +9,17 @@
 #include <cstdint>
 #include <cstdio>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "meshhood/meshhood.h"
 
-#include "measure/timing.h"
 #include "mesh_argument.h"
 #include "program.h"
+#include "rounds.h"
 
 namespace meshhood::bench {
 namespace {
-
-constexpr int kRounds = 5;
 
 /// Breadth-first search by the number of edges. Marks are numbers of queries, so nothing is cleared between them.
 class PlainRings {
@@ -94,15 +91,7 @@ class Rings {
                                                         found[4] += ids.size();
                                                       }
                                                     }};
-    std::array<double, 5> least;
-    least.fill(std::numeric_limits<double>::infinity());
-    for (int round = 0; round < kRounds; ++round) {
-      for (std::size_t i = 0; i < runs.size(); ++i) {
-        const double start = measure::processor_time();
-        runs[i]();
-        least[i] = std::min(least[i], measure::processor_time() - start);
-      }
-    }
+    std::array<double, 5> least = fastest(runs);
     const bool same = std::ranges::all_of(found, [&](std::size_t count) { return count == found[0]; });
     for (double& seconds : least) seconds *= 1e6 / size;
     std::printf("%3zu %9.1f %10.3f %10.3f %6.2f %10.3f %10.3f %6.2f %10.3f%s\n", k,

@@ -6,25 +6,20 @@
 //
 //   bench_walls MESH [RADIUS IN MEAN EDGES...]
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "meshhood/meshhood.h"
 
-#include "measure/timing.h"
 #include "mesh_argument.h"
 #include "program.h"
+#include "rounds.h"
 
 namespace meshhood::bench {
 namespace {
-
-constexpr int kRounds = 5;
 
 using Mask = std::vector<std::uint8_t>;
 
@@ -79,20 +74,6 @@ class Walls {
     return mask;
   }
 
-  /// Processor seconds of the fastest round, of each of the runs.
-  static std::array<double, 4> fastest(const std::array<std::function<void()>, 4>& runs) {
-    std::array<double, 4> least;
-    least.fill(std::numeric_limits<double>::infinity());
-    for (int round = 0; round < kRounds; ++round) {
-      for (std::size_t i = 0; i < runs.size(); ++i) {
-        const double start = measure::processor_time();
-        runs[i]();
-        least[i] = std::min(least[i], measure::processor_time() - start);
-      }
-    }
-    return least;
-  }
-
   void compare(double edges, const char* name, const char* kind, const Filter& filter) {
     const BatchQuery plain{.radius = edges * mean_edge_};
     const BatchQuery restricted{.radius = edges * mean_edge_, .filter = filter};
@@ -102,7 +83,7 @@ class Walls {
       return [&] { for_each_neighborhood(index_, query, [&](const BatchRow& row) { found += row.ids.size(); }); };
     };
     const auto [count_plain, count_with, list_plain, list_with] =
-        fastest({count(plain), count(restricted), list(plain), list(restricted)});
+        fastest<4>({count(plain), count(restricted), list(plain), list(restricted)});
     const double to_us = 1e6 / static_cast<double>(size_);
     std::printf("%6.4g %-10s %-8s %10.3f %8.2f %10.3f %8.2f\n", edges, name, kind, to_us * count_plain,
                 count_with / count_plain, to_us * list_plain, list_with / list_plain);

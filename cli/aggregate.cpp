@@ -83,7 +83,7 @@ struct AggregateShape {
 void write_npz(const std::string& file, const AggregateQuery& query, const BatchVertices& listed,
                const AggregateShape& shape, const std::vector<double>& result) {
   io::NpzWriter npz(file);
-  npz.add<double>("radii", *query.radius.scales());
+  write_radii(npz, query.radius);
   write_vertices(npz, listed);
   const std::array<std::uint64_t, 3> lengths{shape.radii, shape.rows, shape.channels};
   npz.begin<double>("values", lengths);
@@ -112,7 +112,7 @@ AggregateShape run(const AggregateCommand& options, Input& input, const Aggregat
   const std::vector<double> weights = weights_of(options, input);
   const SignalView signal{values.numbers, values.channels, weights};
   const Index& index = input.exact_index(options.rows.threads);
-  const AggregateShape shape{query.radius.scales()->size(), row_count(query.vertices, index.vertex_count()),
+  const AggregateShape shape{options.rows.scale_count(), row_count(query.vertices, index.vertex_count()),
                              values.channels, aggregate_size(index, signal, query)};
   const BatchSize size{shape.rows, shape.numbers};
   SizeLimit(options.files.first(), options.max_bytes).check(size, 8 * static_cast<double>(shape.numbers));

@@ -74,7 +74,7 @@ double file_bytes(const BatchCommand& options, const BatchSize& total, std::size
   const auto rows = static_cast<double>(total.rows);
   const auto count = static_cast<double>(total.count);
   const double vertices = has_vertices(row_order(options)) ? 8 * rows : 0;
-  if (options.count) return vertices + 8 * rows * static_cast<double>(options.rows.radii.values.size());
+  if (options.count) return vertices + 8 * rows * static_cast<double>(options.rows.scale_count());
   const double index_bytes = fits_32_bits(total.count, columns) ? 4 : 8;
   return vertices + index_bytes * (rows + count) + (options.distances ? 8 : 1e-3) * count;
 }
@@ -100,11 +100,11 @@ class Writer {
 
   BatchSize write() {
     const std::vector<std::uint64_t> sizes = counts(method_, query_, next_pass());
-    const std::size_t radii = query_.radius.scales() ? query_.radius.scales()->size() : 1;
-    const BatchSize total{sizes.size() / radii, std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})};
+    const std::size_t scales = options_.rows.scale_count();
+    const BatchSize total{sizes.size() / scales, std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})};
     limit_.check(total, file_bytes(options_, total, method_.vertex_count()));
     if (options_.count) {
-      npz_.begin<std::uint64_t>("count", std::array<std::uint64_t, 2>{radii, total.rows});
+      npz_.begin<std::uint64_t>("count", std::array<std::uint64_t, 2>{scales, total.rows});
       npz_.append<std::uint64_t>(sizes);
     } else {
       write_rows(sizes, total);
@@ -206,8 +206,8 @@ std::string describe(const BatchCommand& options, const Shard& shard, std::size_
 }
 
 /// `shard`: the text of its own array; empty if all rows are written.
-BatchSize write(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options,
-                const std::vector<double>& radii, VertexSorter& sorter, const std::string& shard) {
+BatchSize write(const SearchMethod& method, const BatchQuery& query, const BatchCommand& options, VertexSorter& sorter,
+                const std::string& shard) {
   const SizeLimit limit(options.output, options.max_bytes);
   const std::optional<BatchEstimate> expected = options.count ? std::nullopt : estimate(method, query);
   const std::size_t columns = method.vertex_count();
@@ -217,7 +217,7 @@ BatchSize write(const SearchMethod& method, const BatchQuery& query, const Batch
   io::NpzWriter npz(options.output);
   if (has_vertices(row_order(options))) write_vertices(npz, query.vertices);
   if (!shard.empty()) npz.add_text(kShardArray, shard);
-  if (options.count) npz.add<double>("radii", radii);
+  if (options.count) write_radii(npz, query.radius);
   const BatchSize total = Writer(method, query, options, sorter, limit, task, npz).write();
   Task::check_cancelled();
   npz.commit();
@@ -252,7 +252,10 @@ void check_options(const BatchCommand& options) {
   check_weld(options.weld, options.search.method);
   check_method(options.search, !options.rows.filter.empty(), options.rows.radii.unit);
   check_sort(options.sort, options.search.method);
-  const std::size_t radii = options.rows.radii.values.size();
+  if (!options.shard.empty() && !options.rows.row_radii.empty()) {
+    raise(ErrorCode::InvalidOption, "--shard: a radius for each row, expected one for all");
+  }
+  const std::size_t radii = options.rows.scale_count();
   if (radii == 1) return;
   if (!options.shard.empty()) raise(ErrorCode::InvalidOption, fmt::format("--shard: {} radii, expected one", radii));
   if (!options.count) {
@@ -267,13 +270,18 @@ void batch(const BatchCommand& options) {
   const unsigned threads = options.rows.threads;
   Input input(options.file, options.weld, threads);
   const RowQuery rows(options.rows, input);
-  BatchQuery query = options.count ? rows.query() : rows.query(rows.radii().front());
+  BatchQuery query = options.count ? rows.query() : rows.query_of_scale(0);
   const SearchMethod method = method_of(options.search, input, {}, threads);
   VertexSorter sorter(options.sort, input);
   std::vector<VertexId> in_index_order;
+  std::vector<double> radii_in_index_order;
   if (order == RowOrder::Index) {
     in_index_order = all_in_index_order(input.exact_index(threads), input.welding());
     query.vertices = in_index_order;
+    if (query.radius.list()) {
+      for (const VertexId v : in_index_order) radii_in_index_order.push_back(rows.radii()[v]);
+      query.radius = radii_in_index_order;
+    }
   }
   std::string about;
   std::vector<VertexId> of_shard;
@@ -283,7 +291,7 @@ void batch(const BatchCommand& options) {
     of_shard = vertices_of(shard, query.vertices, input.vertex_count());
     query.vertices = of_shard;
   }
-  const BatchSize total = write(method, query, options, rows.radii(), sorter, about);
+  const BatchSize total = write(method, query, options, sorter, about);
   Json document{{"output", options.output}, {"method", options.search.method}};
   if (!options.search.is_straight()) document["metric"] = options.search.metric;
   document.update({{"order", name_of(kRowOrders, order)}, {"rows", total.rows}, {"count", total.count}});

@@ -75,12 +75,11 @@ struct Columns {
   }
 };
 
-void write_npz(const std::string& file, const std::vector<double>& radii, const BatchVertices& vertices,
-               const Columns& columns) {
+void write_npz(const std::string& file, const RowQuery& rows, std::size_t scales, const Columns& columns) {
   io::NpzWriter npz(file);
-  npz.add<double>("radii", radii);
-  write_vertices(npz, vertices);
-  const std::array<std::uint64_t, 3> shape{radii.size(), columns.k1.size() / radii.size(), 3};
+  write_radii(npz, rows.query().radius);
+  write_vertices(npz, rows.listed());
+  const std::array<std::uint64_t, 3> shape{scales, rows.size(), 3};
   const auto add = [&](const char* name, const auto& values, std::size_t dimensions) {
     using Value = typename std::decay_t<decltype(values)>::value_type;
     npz.begin<Value>(name, std::span(shape).first(dimensions));
@@ -94,10 +93,10 @@ void write_npz(const std::string& file, const std::vector<double>& radii, const 
   npz.commit();
 }
 
-void write_mesh(const ValueFiles& files, std::size_t radii, const Columns& columns, const MeshView& mesh) {
+void write_mesh(const ValueFiles& files, std::size_t scales, const Columns& columns, const MeshView& mesh) {
   const std::size_t rows = mesh.positions.size();
   VertexValues values(rows);
-  for (std::size_t i = 0; i < radii; ++i) {
+  for (std::size_t i = 0; i < scales; ++i) {
     const std::size_t first = i * rows;
     values.add(fmt::format("mean_{}", i),
                [&](std::size_t v) { return (columns.k1[first + v] + columns.k2[first + v]) / 2; });
@@ -108,13 +107,13 @@ void write_mesh(const ValueFiles& files, std::size_t radii, const Columns& colum
     values.add_vectors(fmt::format("d2_{}", i), std::span(columns.d2).subspan(3 * first, 3 * rows));
   }
   constexpr std::size_t kColumns = 6;
-  values.write(files, mesh, (radii - 1) * kColumns);
+  values.write(files, mesh, (scales - 1) * kColumns);
 }
 
-void print(const CurvatureCommand& options, std::size_t rows, std::size_t radii, const States& states) {
+void print(const CurvatureCommand& options, std::size_t rows, std::size_t scales, const States& states) {
   Json document = to_json(options.files);
   document.update({{"rows", rows},
-                   {"radii", radii},
+                   {"radii", scales},
                    {"fitted", states.fitted},
                    {"extended", states.extended},
                    {"rank_deficient", states.rank_deficient},
@@ -125,7 +124,7 @@ void print(const CurvatureCommand& options, std::size_t rows, std::size_t radii,
       fmt::format(
           "{}: {} rows, radii: {}; {} fitted, {} extended to six vertices, {} without a unique fit, {} of too few "
           "vertices, {} without a normal\n",
-          names_of(options.files), rows, radii, states.fitted, states.extended, states.rank_deficient, states.too_few,
+          names_of(options.files), rows, scales, states.fitted, states.extended, states.rank_deficient, states.too_few,
           states.no_normal));
 }
 
@@ -134,7 +133,7 @@ void curvature(const CurvatureCommand& options) {
   Input input(options.file, options.weld, options.rows.threads);
   input.need_faces("curvature");
   const RowQuery rows(options.rows, input);
-  const std::vector<double>& radii = rows.radii();
+  const std::size_t scales = options.rows.scale_count();
   const Index& index = input.exact_index(options.rows.threads);
   const CurvatureIndex surface = CurvatureIndex::build(index, input.surface());
   CurvatureOptions settings = options.like_libigl ? like_libigl() : CurvatureOptions{};
@@ -143,17 +142,17 @@ void curvature(const CurvatureCommand& options) {
   Columns columns;
   States states;
   {
-    Task task("fitting", {"rows", static_cast<double>(radii.size())});
-    for (std::size_t i = 0; i < radii.size(); ++i) {
-      settings.progress = task.progress(i, radii.size());
-      const Curvatures found = curvatures(surface, rows.query(radii[i]), settings);
+    Task task("fitting", {"rows", static_cast<double>(scales)});
+    for (std::size_t i = 0; i < scales; ++i) {
+      settings.progress = task.progress(i, scales);
+      const Curvatures found = curvatures(surface, rows.query_of_scale(i), settings);
       states.add(found.state);
       columns.append(found);
     }
-    if (!options.files.npz.empty()) write_npz(options.files.npz, radii, rows.listed(), columns);
+    if (!options.files.npz.empty()) write_npz(options.files.npz, rows, scales, columns);
   }
-  if (options.files.has_mesh()) write_mesh(options.files, radii.size(), columns, input.surface());
-  print(options, rows.size(), radii.size(), states);
+  if (options.files.has_mesh()) write_mesh(options.files, scales, columns, input.surface());
+  print(options, rows.size(), scales, states);
 }
 
 }  // namespace

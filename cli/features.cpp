@@ -216,6 +216,7 @@ void features_command(const FeaturesCommand& options) {
 
 void add_radii(CLI::App& command, FeaturesCommand& options) {
   add_rows(command, options.rows)->required(false);
+  command.remove_option(command.get_option("--radii"));  // a feature persists over radii that all rows share
   command
       .add_option("--largest", options.largest,
                   "the largest of --count radii, in equal steps, or with --smallest in equal ratios")

@@ -114,12 +114,7 @@ void check_mesh_of_page(const fs::path& mesh) {
 fs::path find_page() {
   if (const char* const named = std::getenv("MESHHOOD_VIEWER"); named != nullptr && *named != '\0') return named;
   const fs::path here = folder_of_program();
-  std::vector<fs::path> places = {here / "../share/meshhood/viewer.html", here / "../viewer/viewer.html"};
-  std::error_code missing;
-  for (const fs::path& python : fs::directory_iterator(here / "../lib", missing)) {
-    places.push_back(python / "site-packages/meshhood/viewer.html");  // of a wheel that also has this program
-  }
-  for (const fs::path& page : places) {
+  for (const fs::path& page : {here / "../share/meshhood/viewer.html", here / "../viewer/viewer.html"}) {
     if (fs::exists(page)) return page;
   }
   raise(ErrorCode::IoFailure,

@@ -1,17 +1,49 @@
 // SPDX-License-Identifier: MIT
 #include "row_query.h"
 
+#include <array>
+#include <cstdint>
+#include <string>
 #include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "meshhood/error.h"
+
+#include "io/messages.h"
 
 namespace meshhood::cli {
+namespace {
+
+std::vector<double> radii_of(const RowOptions& options, std::size_t rows, Input& input) {
+  if (options.row_radii.empty()) return resolve(options.radii, input);
+  std::vector<double> radii = read_channel(options.row_radii, rows, "radii");
+  const double unit = resolve(Radius{"1", options.radii.unit}, input);
+  for (std::size_t row = 0; row < rows; ++row) {
+    if (!(radii[row] >= 0)) {
+      raise(ErrorCode::InvalidRadius, fmt::format("{}: row {}: radius {}, expected a number >= 0",
+                                                  io::printable_name(options.row_radii), row, radii[row]));
+    }
+    radii[row] *= unit;
+  }
+  return radii;
+}
+
+}  // namespace
 
 std::vector<std::string> RowOptions::with_files(std::vector<std::string> files) const {
-  files.insert(files.end(), {vertices, filter.walls, filter.ignored});
+  files.insert(files.end(), {vertices, row_radii, filter.walls, filter.ignored});
   return files;
 }
 
 CLI::Option* add_rows(CLI::App& command, RowOptions& options) {
   CLI::Option* const radius = add_radii(command, options.radii);
+  add_file_option(command, "--radii",
+                  "instead of --radius, one for each row: text with a number per line, or an array of NumPy (.npy)",
+                  options.row_radii)
+      ->excludes(radius)
+      ->each([radius](const std::string&) { radius->required(false); });
   add_vertices(command, options.vertices);
   add_filter(command, options.filter);
   add_threads(command, options.threads);
@@ -19,13 +51,20 @@ CLI::Option* add_rows(CLI::App& command, RowOptions& options) {
 }
 
 RowQuery::RowQuery(const RowOptions& options, Input& input)
-    : radii_(resolve(options.radii, input)),
-      vertices_(options.vertices, input),
+    : vertices_(options.vertices, input),
       masks_(options.filter, input),
-      size_(row_count(vertices_.view(), input.vertex_count())) {}
+      size_(row_count(vertices_.view(), input.vertex_count())),
+      are_of_rows_(!options.row_radii.empty()),
+      radii_(radii_of(options, size_, input)) {}
 
 BatchQuery RowQuery::query(BatchRadius radius) const {
   return {.vertices = vertices_.view(), .radius = std::move(radius), .filter = masks_.filter()};
+}
+
+void write_radii(io::NpzWriter& npz, const BatchRadius& radius) {
+  if (radius.scales()) return npz.add<double>("radii", *radius.scales());
+  npz.begin<double>("radii", std::array<std::uint64_t, 2>{1, radius.list()->size()});
+  npz.append<double>(*radius.list());
 }
 
 }  // namespace meshhood::cli

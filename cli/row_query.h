@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 
 #include "filter_files.h"
 #include "input.h"
+#include "io/npz_writer.h"
 #include "options.h"
 #include "vertex_files.h"
 
@@ -20,24 +22,30 @@ namespace meshhood::cli {
 struct RowOptions {
   std::string vertices;  ///< a file with a list; empty for all
   Radii radii;
+  std::string row_radii;  ///< a file with a radius for each row, instead
   FilterFiles filter;
   unsigned threads = kAllThreads;
+
+  /// The length of the first axis of the result.
+  [[nodiscard]] std::size_t scale_count() const { return row_radii.empty() ? radii.values.size() : 1; }
 
   /// `files` and those that these options name: all that a command reads.
   [[nodiscard]] std::vector<std::string> with_files(std::vector<std::string> files) const;
 };
 
-/// --radius, --unit, --vertices, --walls, --ignored and --threads. Returns the first, which is required unless made
-/// optional.
+/// --radius, --radii, --unit, --vertices, --walls, --ignored and --threads. Returns the first, which is required
+/// without
+/// --radii unless made optional.
 CLI::Option* add_rows(CLI::App& command, RowOptions& options);
 
 /// What these options mean for an input.
 class RowQuery {
  public:
-  /// Borrows from `input`. Throws as `resolve` and `read_vertex_list`.
+  /// Borrows from `input`. Throws as `resolve`, `read_vertex_list` and `read_channel`.
   RowQuery(const RowOptions& options, Input& input);
 
-  /// In the unit of the positions; empty if --radius is optional and was not given.
+  /// In the unit of the positions: those of all rows, or one for each row. Empty if --radius is optional and was not
+  /// given.
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
 
   [[nodiscard]] const FilterMasks& masks() const { return masks_; }
@@ -45,19 +53,26 @@ class RowQuery {
   /// The number of rows.
   [[nodiscard]] std::size_t size() const { return size_; }
 
-  /// The query of all radii, for calls whose results have a leading axis for them; or of other ones. Borrows from this
-  /// object.
-  [[nodiscard]] BatchQuery query() const { return query(BatchRadius::scales(radii_)); }
+  /// The query of all scales, for calls whose results have a leading axis for them; of one of them; or of another
+  /// radius. Borrows from this object.
+  [[nodiscard]] BatchQuery query() const { return query(are_of_rows_ ? of_rows() : BatchRadius::scales(radii_)); }
+  [[nodiscard]] BatchQuery query_of_scale(std::size_t i) const { return query(are_of_rows_ ? of_rows() : radii_[i]); }
   [[nodiscard]] BatchQuery query(BatchRadius radius) const;
 
   /// For the array `vertices` of the result: none if the rows are those of all vertices. Borrows from this object.
   [[nodiscard]] BatchVertices listed() const { return vertices_.listed(); }
 
  private:
-  std::vector<double> radii_;
+  [[nodiscard]] BatchRadius of_rows() const { return radii_; }
+
   QueryVertices vertices_;
   FilterMasks masks_;
   std::size_t size_;
+  bool are_of_rows_;
+  std::vector<double> radii_;
 };
+
+/// Writes the array `radii`: (scales,), or (1, rows) if each row has its own.
+void write_radii(io::NpzWriter& npz, const BatchRadius& radius);
 
 }  // namespace meshhood::cli

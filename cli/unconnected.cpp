@@ -46,11 +46,11 @@ struct Gaps {
   }
 };
 
-void write_npz(const std::string& file, const RowQuery& rows, const Gaps& found) {
+void write_npz(const std::string& file, const RowQuery& rows, std::size_t scales, const Gaps& found) {
   io::NpzWriter npz(file);
-  npz.add<double>("radii", rows.radii());
+  write_radii(npz, rows.query().radius);
   write_vertices(npz, rows.listed());
-  const std::array<std::uint64_t, 2> shape{rows.radii().size(), rows.size()};
+  const std::array<std::uint64_t, 2> shape{scales, rows.size()};
   npz.begin<std::int64_t>("other", shape);
   npz.append<std::int64_t>(found.others);
   npz.begin<double>("gap", shape);
@@ -58,12 +58,13 @@ void write_npz(const std::string& file, const RowQuery& rows, const Gaps& found)
   npz.commit();
 }
 
-void write_mesh(const ValueFiles& files, const RowQuery& rows, const Gaps& found, const MeshView& mesh) {
-  VertexValues values(rows.size());
-  for (std::size_t i = 0; i < rows.radii().size(); ++i) {
-    values.add(fmt::format("gap_{}", i), [&](std::size_t v) { return found.gaps[i * rows.size() + v]; });
+void write_mesh(const ValueFiles& files, std::size_t scales, const Gaps& found, const MeshView& mesh) {
+  const std::size_t rows = mesh.positions.size();
+  VertexValues values(rows);
+  for (std::size_t i = 0; i < scales; ++i) {
+    values.add(fmt::format("gap_{}", i), [&](std::size_t v) { return found.gaps[i * rows + v]; });
   }
-  values.write(files, mesh, rows.radii().size() - 1);
+  values.write(files, mesh, scales - 1);
 }
 
 void unconnected(const UnconnectedCommand& options) {
@@ -71,24 +72,24 @@ void unconnected(const UnconnectedCommand& options) {
   Input input(options.file, options.weld, options.rows.threads);
   input.need_edges("unconnected");
   const RowQuery rows(options.rows, input);
-  const std::size_t radii = rows.radii().size();
+  const std::size_t scales = options.rows.scale_count();
   const Index& index = input.exact_index(options.rows.threads);
   Gaps found;
   {
-    Task task("searching", {"rows", static_cast<double>(radii)});
-    for (std::size_t i = 0; i < radii; ++i) {
-      found.append(nearest_unconnected(index, rows.query(rows.radii()[i]),
-                                       {.threads = options.rows.threads, .progress = task.progress(i, radii)}));
+    Task task("searching", {"rows", static_cast<double>(scales)});
+    for (std::size_t i = 0; i < scales; ++i) {
+      found.append(nearest_unconnected(index, rows.query_of_scale(i),
+                                       {.threads = options.rows.threads, .progress = task.progress(i, scales)}));
     }
-    if (!options.files.npz.empty()) write_npz(options.files.npz, rows, found);
+    if (!options.files.npz.empty()) write_npz(options.files.npz, rows, scales, found);
   }
-  if (options.files.has_mesh()) write_mesh(options.files, rows, found, input.surface());
+  if (options.files.has_mesh()) write_mesh(options.files, scales, found, input.surface());
   const auto none = static_cast<std::size_t>(std::count(found.others.begin(), found.others.end(), -1));
   Json document = to_json(options.files);
-  document.update({{"rows", rows.size()}, {"radii", radii}, {"found", found.others.size() - none}, {"none", none}});
+  document.update({{"rows", rows.size()}, {"radii", scales}, {"found", found.others.size() - none}, {"none", none}});
   print_result(options.json, document,
                fmt::format("{}: {} rows, radii: {}; {} with an unconnected vertex, {} without\n",
-                           names_of(options.files), rows.size(), radii, found.others.size() - none, none));
+                           names_of(options.files), rows.size(), scales, found.others.size() - none, none));
 }
 
 }  // namespace

@@ -1,35 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The neighborhood of a vertex of a mesh file: `example_neighborhood FILE VERTEX RADIUS`.
-#include <cstdio>
-#include <cstdlib>
-#include <exception>
-#include <vector>
-
-// NOLINTBEGIN(misc-use-internal-linkage): as the README shows it
+// The first program of the README and of docs/cpp.md: the neighborhood of a vertex of hand.ply, a mesh in this folder.
+// NOLINTBEGIN(bugprone-exception-escape): the runtime prints the error
 // [readme]
+#include <iostream>
+
 #include <meshhood/io/mesh_io.h>
 #include <meshhood/meshhood.h>
 
-std::vector<meshhood::VertexId> near(const char* file, meshhood::VertexId vertex, double radius) {
-  const auto mesh = meshhood::io::read_mesh(file);  // PLY, OBJ, OFF or STL
-  const auto index = meshhood::build(mesh.view());  // once for each mesh
-  meshhood::Searcher searcher(index);               // one for each thread; answers any number of queries
-  return searcher.neighborhood(vertex, radius);     // the radius has the unit of the positions
+int main() {
+  const auto mesh = meshhood::io::read_mesh("hand.ply");  // PLY, OBJ, OFF or STL
+  const auto index = meshhood::build(mesh.view());        // once for each mesh
+  meshhood::Searcher searcher(index);                     // one for each thread; answers any number of queries
+  const auto near = searcher.neighborhood(42, 1.5);       // of vertex 42; the radius has the unit of the positions
+  std::cout << near.size() << " vertices\n";
 }
 // [readme]
-// NOLINTEND(misc-use-internal-linkage)
-
-int main(int argc, char** argv) try {
-  if (argc != 4) {
-    std::fprintf(stderr, "usage: %s FILE VERTEX RADIUS\n", argv[0]);
-    return 2;
-  }
-  const auto vertex = static_cast<meshhood::VertexId>(std::strtoul(argv[2], nullptr, 10));
-  const double radius = std::strtod(argv[3], nullptr);
-  std::printf("%zu vertices connected to vertex %u within distance %g\n", near(argv[1], vertex, radius).size(),
-              unsigned{vertex}, radius);
-  return 0;
-} catch (const std::exception& error) {
-  std::fprintf(stderr, "%s\n", error.what());
-  return 1;
-}
+// NOLINTEND(bugprone-exception-escape)

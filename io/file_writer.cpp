@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
-#include <ctime>
 #include <system_error>
 #include <utility>
 
@@ -47,24 +46,28 @@ std::string temporary_name(const std::filesystem::path& target) {
 class BlockedFileSizeSignal {
  public:
   BlockedFileSizeSignal() {
-    ::sigemptyset(&signal_);
-    ::sigaddset(&signal_, SIGXFSZ);
-    sigset_t pending;
-    ::sigpending(&pending);
-    was_pending_ = ::sigismember(&pending, SIGXFSZ) == 1;
+    sigemptyset(&signal_);  // without ::, as these may be macros
+    sigaddset(&signal_, SIGXFSZ);
+    was_pending_ = is_pending();
     ::pthread_sigmask(SIG_BLOCK, &signal_, &previous_mask_);
   }
   BlockedFileSizeSignal(const BlockedFileSizeSignal&) = delete;
   BlockedFileSizeSignal& operator=(const BlockedFileSizeSignal&) = delete;
   ~BlockedFileSizeSignal() {
     const int error = errno;
-    constexpr timespec kNoWait{};
-    if (!was_pending_) static_cast<void>(uninterrupted([&] { return ::sigtimedwait(&signal_, nullptr, &kNoWait); }));
+    int removed = 0;
+    if (!was_pending_ && is_pending()) ::sigwait(&signal_, &removed);
     ::pthread_sigmask(SIG_SETMASK, &previous_mask_, nullptr);
     errno = error;
   }
 
  private:
+  static bool is_pending() {
+    sigset_t pending;
+    ::sigpending(&pending);
+    return sigismember(&pending, SIGXFSZ) == 1;
+  }
+
   sigset_t signal_{};
   sigset_t previous_mask_{};
   bool was_pending_ = false;

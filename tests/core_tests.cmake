@@ -14,9 +14,9 @@ foreach(part
     base/adjacency base/frame base/mesh shared/distance base/sphere base/reference base/error shared/parallel
     base/cut_edges base/epoch_array base/number_set base/packed_positions base/face_graph
     aggregate/aggregate aggregate/listed_sums
-    batch/batch batch/joint_batch batch/packets batch/position_sort batch/ring_worker batch/k_nearest batch/unconnected
+    batch/batch batch/joint_batch batch/packets batch/path_worker batch/position_sort batch/ring_worker batch/k_nearest batch/unconnected
     exact/cell_components exact/cells exact/edge_buckets exact/edge_source exact/query/filtered exact/forest exact/joint_search exact/kd_order exact/layout exact/leaf_spheres exact/leaves exact/link_points
-    exact/links exact/node_groups exact/node_links exact/node_parts exact/quality exact/refit exact/root_tree exact/tree exact/check exact/damage exact/file exact/index exact/verify
+    exact/links exact/node_groups exact/node_links exact/node_parts exact/path_packet exact/quality exact/refit exact/root_tree exact/tree exact/check exact/damage exact/file exact/index exact/verify
     exact/search_differential exact/search_order exact/search_rare exact/search_traps exact/threads
     exact/query/any_center exact/query/edge_search exact/query/nearest exact/query/path_order exact/query/path_queue exact/query/path_search exact/query/region
     exact/search/component exact/search/descent exact/search/group_states exact/search/home_marks exact/search/leaf_bfs exact/search/leaf_bits
@@ -24,7 +24,7 @@ foreach(part
     paper/create paper/select paper/fusion paper/link paper/arrange paper/build paper/check paper/query paper/file
     region/region_mesher region/clip region/face_index
     curvature/bits curvature/corrected curvature/curvatures curvature/features curvature/filter curvature/moments curvature/packet_moments curvature/quadric curvature/sure_leaves
-    simd/aggregate_kernels simd/joint_kernels simd/kernels simd/moment_kernels
+    simd/aggregate_kernels simd/joint_kernels simd/kernels simd/moment_kernels simd/path_kernels
     whole/arguments whole/robustness whole/same_bits whole/differential whole/metamorphic)
   meshhood_test(${part} meshhood_families)
 endforeach()

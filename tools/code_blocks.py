@@ -6,8 +6,9 @@
     python     python.documents, in the order of the page
     sh         python.documents, likewise; `sh installed` runs against an installed library, in install.pkg_config
     cpp        site.code compiles it
-    cmake      install.find_package configures it, as part of a project
+    cmake      install.find_package configures it, as a project or as part of one
     js         wasm.documents; `js esbuild`, `js vite` and `js webpack` run in wasm.bundlers, with that bundler
+    html       wasm.bundlers opens it in Chromium
     text       is no program: the output of one, a formula, a list of folders
 
 `sh setup` is code that changes the machine or builds the checkout: only its syntax, and what it names, are checked.
@@ -27,6 +28,7 @@ MARKS = {
     "cpp": {""},
     "cmake": {""},
     "js": {"", "esbuild", "vite", "webpack"},
+    "html": {""},
     "text": {""},
 }
 FENCE = re.compile(r"^(?P<indent> *)(?P<fence>`{3,}|~{3,}|:{3,})(?P<info>.*)\n(?P<code>(?:.*\n)*?)(?P=indent)(?P=fence) *$", re.M)

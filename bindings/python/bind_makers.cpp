@@ -40,9 +40,13 @@ std::shared_ptr<ExactMethod> make_exact(const Input& positions, const Input& cor
   const BuildOptions options{.threads = threads, .progress = progress_to(progress)};
   const IndicesView edges = cut ? indices_of(*cut, "cut") : IndicesView();
   return without_lock([&] {
-    GraphData graph = graph_copy(mesh);
-    if (cut) graph.adjacency = cut_copy(graph.adjacency.view(), edges);
-    return exact_method(build(graph.view(), options));
+    if (cut) {
+      GraphData graph = graph_copy(mesh);
+      graph.adjacency = cut_copy(graph.adjacency.view(), edges);
+      return exact_method(build(graph.view(), options));
+    }
+    const GraphData copy = positions_copy(mesh.positions, "V");
+    return about("F", [&] { return exact_method(build(MeshView{copy.view().positions, mesh.faces}, options)); });
   });
 }
 

@@ -70,9 +70,9 @@ auto closest_points(const FaceIndex& surface, const Points& points, unsigned thr
                     owned<double>(std::move(weights), {rows, 3}), owned<double>(std::move(found), {rows, 3}));
 }
 
-NearestOptions nearest_options(bool path, double radius, const Mask& walls, const Mask& ignored, unsigned threads,
+NearestOptions nearest_options(Metric metric, double radius, const Mask& walls, const Mask& ignored, unsigned threads,
                                nb::handle progress) {
-  return {.metric = path ? Metric::Path : Metric::Straight,
+  return {.metric = metric,
           .radius = radius,
           .filter = filter_of(walls, ignored),
           .threads = threads,
@@ -80,10 +80,10 @@ NearestOptions nearest_options(bool path, double radius, const Mask& walls, cons
 }
 
 auto k_nearest_of(const ExactMethod& method, const std::optional<Rows>& vertices, std::size_t k, std::int32_t fill,
-                  bool path, double radius, const Mask& walls, const Mask& ignored, unsigned threads,
+                  Metric metric, double radius, const Mask& walls, const Mask& ignored, unsigned threads,
                   nb::handle progress) {
   const BatchVertices asked = vertices_of(vertices);
-  const NearestOptions options = nearest_options(path, radius, walls, ignored, threads, progress);
+  const NearestOptions options = nearest_options(metric, radius, walls, ignored, threads, progress);
   KNearest found = without_lock([&] {
     KNearest result = k_nearest(method.index(), asked, k, options);
     for (VertexId& id : result.ids) id = id == kNoVertex ? static_cast<VertexId>(fill) : id;
@@ -95,9 +95,10 @@ auto k_nearest_of(const ExactMethod& method, const std::optional<Rows>& vertices
 }
 
 auto discs_of(const ExactMethod& method, const std::optional<Rows>& vertices, double area, const Radii& areas,
-              bool path, double radius, const Mask& walls, const Mask& ignored, unsigned threads, nb::handle progress) {
+              Metric metric, double radius, const Mask& walls, const Mask& ignored, unsigned threads,
+              nb::handle progress) {
   const BatchVertices asked = vertices_of(vertices);
-  const NearestOptions options = nearest_options(path, radius, walls, ignored, threads, progress);
+  const NearestOptions options = nearest_options(metric, radius, walls, ignored, threads, progress);
   Neighborhoods found =
       without_lock([&] { return discs(method.index(), asked, area, std::span(areas.data(), areas.size()), options); });
   return std::tuple(owned<std::int64_t>(std::move(found.offsets)), owned<std::int32_t>(std::move(found.ids)),
@@ -114,9 +115,9 @@ void bind_surface_queries(nb::module_& module) {
   nb::class_<FaceIndex>(module, "FaceIndex")
       .def("closest", &closest_points, nb::arg(), nb::arg("threads"), nb::arg("progress").none());
   module.def("face_index", &make_face_index, nb::arg(), nb::arg(), nb::arg("offsets").none());
-  module.def("k_nearest", &k_nearest_of, nb::arg(), nb::arg().none(), nb::arg("k"), nb::arg("fill"), nb::arg("path"),
+  module.def("k_nearest", &k_nearest_of, nb::arg(), nb::arg().none(), nb::arg("k"), nb::arg("fill"), nb::arg("metric"),
              nb::arg("radius"), walls, ignored, nb::arg("threads"), nb::arg("progress").none());
-  module.def("discs", &discs_of, nb::arg(), nb::arg().none(), nb::arg("area"), nb::arg("areas"), nb::arg("path"),
+  module.def("discs", &discs_of, nb::arg(), nb::arg().none(), nb::arg("area"), nb::arg("areas"), nb::arg("metric"),
              nb::arg("radius"), walls, ignored, nb::arg("threads"), nb::arg("progress").none());
 }
 

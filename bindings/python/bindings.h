@@ -34,6 +34,9 @@ void bind_files(nanobind::module_& module);
 /// Meshes in parts.
 void bind_parts(nanobind::module_& module);
 
+/// The command line as a function. Only where it is built: MESHHOOD_BUILD_CLI.
+void bind_command(nanobind::module_& module);
+
 /// Welding.
 void bind_weld(nanobind::module_& module);
 

@@ -81,6 +81,9 @@ NB_MODULE(_core, module) {
   meshhood::python::bind_files(module);
   meshhood::python::bind_parts(module);
   meshhood::python::bind_weld(module);
+#if defined(MESHHOOD_COMMANDS)
+  meshhood::python::bind_command(module);
+#endif
   module.attr("__version__") = meshhood::kVersion.data();
   module.def("kernel_target", [] { return std::string(meshhood::kernel_target()); });
 }

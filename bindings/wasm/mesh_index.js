@@ -18,6 +18,10 @@ const KERNELS = ['box', 'epanechnikov', 'biweight'];
 const MISSING = ['propagate', 'omit'];
 const NESTINGS = ['own', 'patch'];
 const FITS = ['quadric', 'jet'];
+const KINDS = [
+  'crease', 'mean', 'gaussian', 'k1', 'k2', 'curvedness', 'shape_index', 'area', 'height', 'variation',
+];
+const KINDS_OF_AREAS = ['area', 'height', 'variation'];
 
 // The options of the calls, with their defaults.
 const BUILDING = { offsets: null, cut: null, progress: undefined };
@@ -31,6 +35,9 @@ const AGGREGATION = { reduce: 'mean', kernel: 'box', nesting: 'own', ddof: 0, sc
 const CURVATURE = {
   vertices: null, ...ROWS, faces: null, normals: null, like: null, fit: 'quadric', filter: true, unit: 'mesh',
 };
+
+const FEATURES = { vertices: null, ...ROWS, faces: null, kinds: 'crease', filter: true, unit: 'mesh' };
+const NEAREST = { r: Infinity, until: null, weights: 'area', faces: null, metric: 'straight', ...MASKS, unit: 'mesh' };
 
 function chooseMethod({ method, metric, unit }) {
   const place = choose(METHODS, method, 'method');
@@ -214,6 +221,35 @@ export class MeshIndex extends Owner {
     return found;
   }
 
+  queryKnn(v, k, options = {}) {
+    const given = withDefaults(options, NEAREST);
+    const { r, until, weights, faces, metric, unit } = given;
+    if ((k === null || k === undefined) === (until === null)) {
+      throw new TypeError('k: expected a number of vertices; or null, and an area as until');
+    }
+    if (isMany(v)) expectVertices(v, 'vertices');
+    else this.#expectVertex(v);
+    expectRadius(r);
+    const vertices = isMany(v) ? v : Uint32Array.of(v);
+    const search = (use) => withMasks(this.instance, given, () => this.instance.with([vertices], (ids) =>
+      use(ids, vertices?.length ?? 0, choose(LENGTHS, metric, 'metric'), this.#scale(unit) * r)));
+    const rows = {};
+    if (until === null) {
+      expectSize(k, 'k');
+      search((...rest) => this.instance.call('k_nearest', ...rest, k));
+    } else {
+      expectNumber(until, 'until');
+      const areas = this.#weights(weights, faces);
+      if (areas === null) throw new TypeError("weights: null, expected 'area' or a typed array of numbers");
+      search((...rest) => this.instance.with([areas], (list) =>
+        this.instance.call('discs', ...rest, until, list, areas.length)));
+      rows.offsets = this.instance.takeCounts();
+    }
+    Object.assign(rows, { ids: this.instance.takeIds(), distances: this.instance.takeReals() });
+    this.instance.releaseAnswer();
+    return rows;
+  }
+
   // Regions.
 
   queryRegion(start, r, options = {}) {
@@ -362,6 +398,21 @@ export class MeshIndex extends Owner {
     withRows(this.instance, vertices, r, given, this.#scale(unit), (...rows) => this.instance.call(
       'curvature', ...rows, place, Boolean(filter), like !== null));
     return this.#takeCurvature();
+  }
+
+  features(r, options = {}) {
+    const given = withDefaults(options, FEATURES);
+    const { vertices, faces, kinds, filter, unit } = given;
+    const names = typeof kinds === 'string' ? [kinds] : kinds;
+    const places = Uint8Array.from(names, (name) => choose(KINDS, name, 'kinds'));
+    this.#useNormals(faces, null);
+    const areas = names.some((name) => KINDS_OF_AREAS.includes(name)) ? this.#weights('area', faces) : null;
+    withRows(this.instance, vertices, r, given, this.#scale(unit), (...rows) =>
+      this.instance.with([places, areas], (list, areaList) => this.instance.call(
+        'features', ...rows, list, places.length, areaList, areas?.length ?? 0, Boolean(filter))));
+    const found = this.instance.takeReals();
+    this.instance.releaseAnswer();
+    return found;
   }
 
   #useNormals(faces, normals) {

@@ -234,6 +234,25 @@ export interface AggregateOptions extends Masks, Scales {
   unit?: Unit;
 }
 
+export interface KnnOptions extends Masks {
+  /** Only vertices up to this connecting radius or path length. */
+  r?: number;
+  /**
+   * `straight`: the nearest by connecting radius, as for `nearestConnected`. `path`: by the length of the shortest path
+   * along edges, then by place in index order.
+   */
+  metric?: 'straight' | 'path';
+  unit?: Unit;
+}
+
+export interface DiscOptions extends KnnOptions {
+  /** Instead of k, an area > 0, in the square of the unit of the positions. */
+  until: number;
+  /** #V numbers >= 0, whose sum is compared with `until`; `area`, the default, needs `faces`. */
+  weights?: Float64Array | Float32Array | 'area';
+  faces?: Faces | null;
+}
+
 /** Principal curvatures, one entry for each row; #scales by #rows if there are scales, here meant by #rows. */
 export class Curvature {
   /** Of arrays that were computed in parts. They are not copied. */
@@ -287,6 +306,21 @@ export interface CurvatureOptions extends Masks, Scales {
   /** `quadric`: through the vertex and over its tangent plane. `jet`: as CGAL's `Monge_via_jet_fitting`. */
   fit?: 'quadric' | 'jet';
   /** Fit only vertices whose normal is less than 90 degrees from that of the query vertex, if at least six remain. */
+  filter?: boolean;
+  unit?: Unit;
+}
+
+/** What describes a neighborhood without unit. docs/curvature.md explains each. */
+export type Kind =
+  | 'crease' | 'mean' | 'gaussian' | 'k1' | 'k2' | 'curvedness' | 'shape_index' | 'area' | 'height' | 'variation';
+
+export interface FeatureOptions extends Masks, Scales {
+  /** The rows; null for all vertices. */
+  vertices?: Uint32Array | null;
+  /** The faces that the index was built from, as for `curvature`. */
+  faces: Faces;
+  kinds?: Kind | readonly Kind[];
+  /** As for `curvature`. */
   filter?: boolean;
   unit?: Unit;
 }
@@ -423,6 +457,21 @@ export class MeshIndex {
   ): { ids: Uint32Array; gaps: Float64Array };
 
   /**
+   * The k nearest connected vertices of each vertex, itself included: #rows by k. Where a row has fewer, the distance is
+   * Infinity and the id 2^32 - 1. Distances are connecting radii, or path lengths. With `until`, each row is a disc of
+   * fixed area instead: the first vertices in the same order whose weights add up to at least as much.
+   *
+   * @param v the vertex; or many as an array, null for all
+   * @throws MeshhoodError VertexOutOfRange, InvalidRadius, InvalidOption; TooLarge, which may dispose the index
+   */
+  queryKnn(
+    v: number | Uint32Array | null,
+    k: number,
+    options?: KnnOptions,
+  ): { ids: Uint32Array; distances: Float64Array };
+  queryKnn(v: number | Uint32Array | null, k: null, options: DiscOptions): Rows & { distances: Float64Array };
+
+  /**
    * The region of a start and the radius r: the vertices that are connected to a seed by edges between vertices within
    * r of the start. For a vertex as start, without masks, it is the neighborhood that `queryBall` returns.
    *
@@ -526,6 +575,14 @@ export class MeshIndex {
    * index
    */
   curvature(r: number | Float64Array | Float32Array | null, options: CurvatureOptions): Curvature;
+
+  /**
+   * Feature vectors without unit, so that scales can be compared. NaN where there is no result. Radii are > 0.
+   *
+   * @returns #rows by #kinds, with scales #scales by #rows by #kinds
+   * @throws as `curvature`
+   */
+  features(r: number | Float64Array | Float32Array | null, options: FeatureOptions): Float64Array;
 
   /** Gives the memory back. All later calls throw an Error. */
   dispose(): void;

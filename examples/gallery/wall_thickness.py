@@ -18,5 +18,7 @@ index = meshhood.MeshIndex(V, F)
 other, gap = index.nearest_unconnected(None, 7.0)
 
 mesh = pyvista.PolyData.from_regular_faces(V, F)
-mesh["thickness in mm"] = np.where(other >= 0, gap, np.nan)
-mesh.clip("y", invert=False).plot(cmap="viridis", nan_color="lightgray", cpos=[(30, -120, 60), (0, 0, -20), (0, 0, 1)])
+mesh["mm"] = np.where(other >= 0, gap, np.nan)
+camera = [(30, -120, 60), (0, 0, -20), (0, 0, 1)]
+bar = {"vertical": True}
+mesh.clip("y", invert=False).plot(cmap="viridis", nan_color="lightgray", cpos=camera, scalar_bar_args=bar)

@@ -26,6 +26,10 @@ foreach(source minizip/ioapi minizip/unzip minizip/zip zlib/adler32 zlib/crc32 z
   target_sources(minizip PRIVATE ${MESHHOOD_SOURCES}/${source}.c)
 endforeach()
 target_include_directories(minizip SYSTEM PUBLIC ${MESHHOOD_SOURCES} ${MESHHOOD_SOURCES}/zlib)
-set_target_properties(minizip PROPERTIES UNITY_BUILD OFF)
+# The module contains it. By default, zig compiles for programs of fixed position where the C library is musl.
+set_target_properties(minizip PROPERTIES UNITY_BUILD OFF POSITION_INDEPENDENT_CODE ON)
 target_compile_definitions(minizip PRIVATE NOCRYPT NOUNCRYPT HAVE_UNISTD_H)
+if(APPLE) # whose functions for files have 64 bits under their plain names; this zlib takes it for a system without fdopen
+  target_compile_definitions(minizip PRIVATE USE_FILE32API fdopen=fdopen)
+endif()
 add_library(PkgConfig::MINIZIP ALIAS minizip)

@@ -29,6 +29,8 @@ set(CMAKE_STRIP "")
 set(unused "-Wl,--gc-sections")
 if(CMAKE_SYSTEM_NAME STREQUAL "Darwin")
   set(unused "-Wl,-dead_strip")
+  # CMake demands it for the library of C. It is not here, and a module of static libraries does not need it.
+  set(CMAKE_INSTALL_NAME_TOOL install_name_tool)
 endif()
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-s -pie ${unused}")
 set(CMAKE_MODULE_LINKER_FLAGS_INIT "${unused}")

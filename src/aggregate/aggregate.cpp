@@ -27,11 +27,10 @@
 #include "batch/batch.h"
 #include "batch/filter_copy.h"
 #include "batch/packets.h"
+#include "batch/path_worker.h"
 #include "batch/rows.h"
 #include "exact/index_access.h"
 #include "exact/query/filtered.h"
-#include "exact/query/lane_filter.h"
-#include "exact/query/path_search.h"
 #include "shared/distance.h"
 #include "shared/text.h"
 
@@ -172,8 +171,8 @@ class Aggregation {
  public:
   Aggregation(const Index& index, const SignalView& signal, const CheckedQuery& checked, std::span<double> result,
               const AggregateOptions& options)
-      : filter_(checked.query().filter),
-        index_(filtered(index, filter_.view(), options.threads)),
+      : filter_(std::make_shared<const FilterCopy>(checked.query().filter)),
+        index_(filtered(index, filter_->view(), options.threads)),
         view_(IndexAccess::view(index_)),
         tree_(view_),
         signal_(signal),
@@ -184,7 +183,7 @@ class Aggregation {
         result_(result),
         options_(options),
         blocks_((signal.channels + kChannelsTogether - 1) / kChannelsTogether) {
-    query_.filter = filter_.view();
+    query_.filter = filter_->view();
   }
 
   void run() {
@@ -203,8 +202,7 @@ class Aggregation {
       }
       const std::unique_ptr<Reduction> reduction = make_reduction(view_, tree_, std::move(block), query_);
       if (query_.metric == Metric::Path) {
-        reduce_paths([&] { return std::make_unique<PathSetReducer>(view_, tree_, reduction->make_reducer()); }, first,
-                     count);
+        reduce_paths([&] { return std::make_unique<PathSetReducer>(tree_, reduction->make_reducer()); }, first, count);
       } else if (has_patches_) {
         reduce_patches(*reduction, first, count);
       } else {
@@ -265,38 +263,34 @@ class Aggregation {
         next_pass());
   }
 
-  /// One search for each row, at the largest radius: the vertices within a smaller one are among those found.
+  /// One search for each packet, at the largest radius: the vertices within a smaller one are among those found.
   void reduce_paths(const std::function<std::unique_ptr<PathReducer>()>& make_reducer, std::size_t first,
                     std::size_t count) {
     struct PerThread {
-      PathSearch search;
+      PathWorker worker;
       std::unique_ptr<PathReducer> reducer;
-      std::vector<Path> within{};
+      std::vector<double> radii{};
     };
     const PacketOptions pass = next_pass();
     const BatchOptions options{.threads = pass.threads, .progress = pass.progress};
     Batch batch(SearchMethod::along_edges(index_), {query_.vertices, largest_radius()}, options, 1);
-    const std::shared_ptr<KeptGraph> graph = IndexAccess::share_graph(index_);
-    const LaneFilter walls(view_, filter_.view().walls);
-    const LaneFilter ignored(view_, filter_.view().ignored);
     std::vector<std::unique_ptr<PerThread>> threads(batch.task().threads());
     batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
-      if (!threads[thread]) threads[thread].reset(new PerThread{PathSearch(view_, *graph), make_reducer()});
-      auto& [search, reducer, within] = *threads[thread];
-      for (const BatchItem& item : chunk) {
-        search.run(view_.leaf_begin[leaf_of(item.position)] + lane_of(item.position), item.radius, walls);
+      if (!threads[thread]) threads[thread].reset(new PerThread{PathWorker(index_, filter_), make_reducer()});
+      auto& [worker, reducer, radii] = *threads[thread];
+      worker.visit(chunk, [&](std::span<const BatchItem> rows, PathPacket& packet) {
         for (const std::size_t i : passes_) {
-          const double radius = radii_[i].list() ? item.radius : radii_[i].common();
-          within.clear();
-          std::ranges::copy_if(search.found(), std::back_inserter(within),
-                               [&](const Path& path) { return path.length <= radius && !ignored.has_at(path.end); });
-          destination(i, first, count).write(item.row, [&](std::span<double> channels) {
-            reducer->reduce(within, radius, channels);
-          });
+          radii.clear();
+          for (const BatchItem& item : rows) radii.push_back(radii_[i].list() ? item.radius : radii_[i].common());
+          reducer->reduce(packet, radii);
+          const Destination to = destination(i, first, count);
+          for (std::size_t k = 0; k < rows.size(); ++k) {
+            to.write(rows[k].row, [&](std::span<double> channels) { reducer->write(k, channels); });
+          }
         }
-        batch.task().advance(1);
-        if (!batch.task().should_continue(thread)) return;
-      }
+        batch.task().advance(rows.size());
+        return batch.task().should_continue(thread);
+      });
     });
     batch.task().finish();
   }
@@ -324,7 +318,7 @@ class Aggregation {
     return pass;
   }
 
-  FilterCopy filter_;
+  std::shared_ptr<const FilterCopy> filter_;
   Index index_;
   const IndexView& view_;
   NodeTree tree_;

@@ -24,6 +24,15 @@ constexpr double kMostVertices = 400;          // of a mean row; with more, the 
 constexpr std::size_t kRowsTogether = 4096;    // whose lists wait for the product
 constexpr std::size_t kChannelsOfABlock = 32;  // the values of a row's vertices, 32 of each, stay in the cache
 
+/// The weight of a vertex at a distance, as a part of its own; 1 without a smoothing kernel.
+double kernel_weight(SmoothingKernel kernel, double distance, double radius) {
+  if (kernel == SmoothingKernel::Box || distance == 0) return 1;
+  const double share = distance / radius;
+  // Not 1 - share^2, whose rounding would give a vertex at the rim a weight.
+  const double weight = (1 - share) * (1 + share);
+  return kernel == SmoothingKernel::Biweight ? weight * weight : weight;
+}
+
 /// Far from overflow and underflow, so that values need no scaling.
 bool is_moderate(const SignalView& signal) {
   constexpr double kLargestTerm = 0x1p+300;
@@ -52,15 +61,6 @@ double mean_count(const Index& index, Metric metric, double radius) {
   const std::vector<std::uint64_t> sizes = counts(method_of(index, metric), {.vertices = sample, .radius = radius});
   return static_cast<double>(std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})) /
          static_cast<double>(std::max<std::size_t>(sizes.size(), 1));
-}
-
-/// The weight of a vertex at a distance, as a part of its own.
-double kernel_at(SmoothingKernel kernel, double distance, double radius) {
-  if (kernel == SmoothingKernel::Box || distance == 0) return 1;
-  const double share = distance / radius;
-  const double weight =
-      (1 - share) * (1 + share);  // not 1 - share^2, whose rounding would give a vertex at the rim a weight
-  return kernel == SmoothingKernel::Biweight ? weight * weight : weight;
 }
 
 /// The sums of up to `kChannelsOfABlock` channels, and of the weights of their values.
@@ -110,7 +110,7 @@ class ListedRows {
         const double own = signal_.weights.empty() ? 1 : signal_.weights[id];
         if (own == 0) continue;
         rows_.ids[kept] = id;
-        rows_.distances[kept++] = own * kernel_at(query_.kernel, rows_.distances[i], radius_);
+        rows_.distances[kept++] = own * kernel_weight(query_.kernel, rows_.distances[i], radius_);
       }
       rows_.offsets[row + 1] = kept;
     }

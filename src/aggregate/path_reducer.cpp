@@ -1,38 +1,52 @@
 // SPDX-License-Identifier: MIT
 #include "aggregate/path_reducer.h"
 
-#include <cmath>
+#include <limits>
 
 #include "aggregate/compensated.h"
 
 namespace meshhood {
 
-void PathSetReducer::reduce(std::span<const Path> paths, double /*radius*/, std::span<double> channels) {
-  lanes_.clear();
-  for (const Path& path : paths) {
-    const std::uint32_t slot = index_->slot[index_->id(path.end)];
-    lanes_.push_back({leaf_of(slot), LaneMask{1} << lane_of(slot)});
-  }
-  set_.assign(lanes_);
-  nodes_.reduce(packet_.describe(*index_, set_), *reducer_);
-  reducer_->write(0, channels);
+void PathSetReducer::reduce(PathPacket& packet, std::span<const double> radii) {
+  words_.clear();
+  leaves_.clear();
+  packet.for_each_leaf(radii, [&](const PathLeaf& leaf) {
+    words_.push_back(leaf.queries);
+    leaves_.push_back({leaf.leaf, leaf.vertices, leaf.queries});
+  });
+  for (std::size_t i = 0; i < leaves_.size(); ++i) leaves_[i] = {leaves_[i].leaf, leaves_[i].vertices, words_[i]};
+  PacketAnswer answer;
+  answer.queries = first_lanes(static_cast<unsigned>(radii.size()));
+  answer.partial = leaves_;
+  nodes_.reduce(answer, *reducer_);
 }
 
-void PathKernelReducer::reduce(std::span<const Path> paths, double radius, std::span<double> channels) {
-  const bool is_box = radius == 0 || std::isinf(radius);
-  weights_.clear();
-  for (const Path& path : paths) {
-    // Not 1 - t^2, whose rounding would give a vertex at the rim a weight.
-    const double t = is_box ? 0 : path.length / radius;
-    const double weight = (1 - t) * (1 + t);
-    weights_.push_back(squared_ ? weight * weight : weight);
+PathKernelReducer::PathKernelReducer(const SumColumns& columns, bool squared)
+    : kernels_(&aggregate_kernels(best_isa())), columns_(&columns), squared_(squared), sums_(columns.size()) {}
+
+void PathKernelReducer::reduce(PathPacket& packet, std::span<const double> radii) {
+  for (RowSums& sums : sums_) sums = {};
+  PathLengths divisors{};
+  divisors.of.fill(1);
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    // Within a radius of 0 all lengths are 0, and all weights 1.
+    divisors.of[i] = radii[i] > 0 ? radii[i] : std::numeric_limits<double>::infinity();
   }
+  packet.for_each_leaf(radii, [&](const PathLeaf& leaf) {
+    for (std::size_t lane = 0; lane < leaf.vertices.size(); ++lane) {
+      if (leaf.queries[lane] == 0) continue;
+      kernels_->set_path_weights(leaf.lengths[lane], divisors, squared_, weights_.of_vertex[lane]);
+    }
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+      const auto values = std::span(columns_->column(i)).subspan(leaf.vertices.begin, leaf.vertices.size());
+      kernels_->add_weighted(values, leaf.queries.data(), weights_, sums_[i]);
+    }
+  });
+}
+
+void PathKernelReducer::write(std::size_t query, std::span<double> channels) {
   totals_.clear();
-  for (std::size_t i = 0; i < columns_->size(); ++i) {
-    CompensatedSum sum;
-    for (std::size_t k = 0; k < paths.size(); ++k) sum.add(weights_[k] * columns_->column(i)[paths[k].end]);
-    totals_.push_back(sum.value());
-  }
+  for (const RowSums& sums : sums_) totals_.push_back(CompensatedSum{sums.high[query], sums.low[query]}.value());
   for (std::size_t i = 0; i < channels.size(); ++i) channels[i] = columns_->result(i, totals_);
 }
 

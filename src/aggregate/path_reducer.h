@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
+
+#include "meshhood/aggregate.h"
 
 #include "aggregate/maximal_nodes.h"
 #include "aggregate/node_tree.h"
 #include "aggregate/packet_reducer.h"
 #include "aggregate/sums.h"
-#include "batch/single_packet.h"
-#include "exact/layout.h"
-#include "exact/query/path_queue.h"
-#include "exact/vertex_set.h"
+#include "exact/joint/packet_answer.h"
+#include "exact/joint/path_packet.h"
+#include "simd/aggregate.h"
 
 namespace meshhood {
 
-/// Reduces the vertices within a radius along the edges of one vertex. One object a thread.
+/// Reduces the vertices that the queries of a packet reach along the edges. What a query gets does not depend on the
+/// others. One object a thread.
 class PathReducer {
  public:
   PathReducer() = default;
@@ -24,42 +27,46 @@ class PathReducer {
   PathReducer& operator=(const PathReducer&) = delete;
   virtual ~PathReducer() = default;
 
-  /// Writes a number for each channel. `paths` are those to the vertices that are reduced, in an order that the query
-  /// determines; each is at most `radius` long.
-  virtual void reduce(std::span<const Path> paths, double radius, std::span<double> channels) = 0;
+  /// Reduces the vertices within the radii, one for each query and at most that of its search.
+  virtual void reduce(PathPacket& packet, std::span<const double> radii) = 0;
+
+  /// Writes the result of a query, a number for each channel.
+  virtual void write(std::size_t query, std::span<double> channels) = 0;
 };
 
-/// Reduces a set of vertices as the neighborhood of a packet of one row.
+/// Reduces them as the neighborhoods of a packet.
 class PathSetReducer final : public PathReducer {
  public:
   /// Borrows `tree`, and what `reducer` borrows.
-  PathSetReducer(const IndexView& index, const NodeTree& tree, std::unique_ptr<PacketReducer> reducer)
-      : index_(&index), nodes_(tree), reducer_(std::move(reducer)), set_(index) {}
+  PathSetReducer(const NodeTree& tree, std::unique_ptr<PacketReducer> reducer)
+      : nodes_(tree), reducer_(std::move(reducer)) {}
 
-  void reduce(std::span<const Path> paths, double radius, std::span<double> channels) override;
+  void reduce(PathPacket& packet, std::span<const double> radii) override;
+  void write(std::size_t query, std::span<double> channels) override { reducer_->write(query, channels); }
 
  private:
-  const IndexView* index_;
   MaximalNodes nodes_;
   std::unique_ptr<PacketReducer> reducer_;
-  std::vector<LeafSubset> lanes_;
-  VertexSet set_;
-  SinglePacket packet_;
+  std::vector<PerLane<QueryWord>> words_;
+  std::vector<PartialLeaf> leaves_;
 };
 
 /// Sum and mean with weights that fall with the length of the path.
 class PathKernelReducer final : public PathReducer {
  public:
   /// `squared`: the biweight, else Epanechnikov. Borrows `columns`.
-  PathKernelReducer(const SumColumns& columns, bool squared) : columns_(&columns), squared_(squared) {}
+  PathKernelReducer(const SumColumns& columns, bool squared);
 
-  void reduce(std::span<const Path> paths, double radius, std::span<double> channels) override;
+  void reduce(PathPacket& packet, std::span<const double> radii) override;
+  void write(std::size_t query, std::span<double> channels) override;
 
  private:
+  const AggregateKernels* kernels_;
   const SumColumns* columns_;
   bool squared_;
-  std::vector<double> weights_;  // by path
-  std::vector<double> totals_;   // by column
+  RowWeights weights_{};
+  std::vector<RowSums> sums_;   // by column
+  std::vector<double> totals_;  // likewise
 };
 
 }  // namespace meshhood

@@ -15,6 +15,7 @@
 
 #include "batch/filter_copy.h"
 #include "batch/joint_worker.h"
+#include "batch/path_worker.h"
 #include "batch/ring_worker.h"
 #include "batch/searcher_factory.h"
 #include "exact/index_access.h"
@@ -105,45 +106,19 @@ SearcherFactory ring_factory(const std::shared_ptr<const Index>& index) {
           .make_joint_worker = [index] { return std::make_unique<RingWorker>(*index); }};
 }
 
-/// A searcher along the edges with one filter for all queries.
-class FilteredEdgeSearcher {
- public:
-  FilteredEdgeSearcher(const Index& index, std::shared_ptr<const FilterCopy> filter)
-      : searcher_(index), filter_(std::move(filter)) {}
-
-  [[nodiscard]] std::size_t vertex_count() const { return searcher_.vertex_count(); }
-  [[nodiscard]] std::span<const VertexId> permutation() const { return searcher_.permutation(); }
-  std::vector<VertexId> neighborhood(VertexId v, double radius) {
-    return searcher_.neighborhood(v, radius, filter_->view());
-  }
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
-    searcher_.neighborhood(v, radius, out, filter_->view());
-  }
-  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
-    searcher_.neighborhood(v, radius, out, distances, filter_->view());
-  }
-  std::size_t count(VertexId v, double radius) { return searcher_.count(v, radius, filter_->view()); }
-  std::span<const VertexRange> ranges(VertexId v, double radius) {
-    return searcher_.ranges(v, radius, filter_->view());
-  }
-
- private:
-  EdgeSearcher searcher_;
-  std::shared_ptr<const FilterCopy> filter_;
-};
-
+/// `filter`: null if there is none.
 SearcherFactory edge_factory(const Index& index, const std::shared_ptr<const FilterCopy>& filter) {
   return {.vertex_count = index.vertex_count(),
-          .make_searcher =
-              [&index, filter] {
-                return filter ? AnySearcher(FilteredEdgeSearcher(index, filter)) : AnySearcher(EdgeSearcher(index));
-              },
+          .make_searcher = [&index] { return AnySearcher(EdgeSearcher(index)); },
           .position = [&index](VertexId v) { return IndexAccess::view(index).slot[v]; },
+          .is_count_cheap = true,
+          .positions_together = kLeafCapacity,
           .with_filter =
               [&index](const Filter& given, unsigned /*threads*/) {
                 check_filter(given, index.vertex_count());
                 return shared(edge_factory(index, std::make_shared<const FilterCopy>(given)));
-              }};
+              },
+          .make_joint_worker = [&index, filter] { return std::make_unique<PathWorker>(index, filter); }};
 }
 
 constexpr auto kOwnOrder = [](VertexId v) { return std::uint32_t{v}; };

@@ -156,6 +156,18 @@ void set_weights(const Offsets& offsets, const KernelRadii& radii, bool squared,
   }
 }
 
+// Not 1 - t^2, whose rounding would give a vertex at the rim a weight.
+void set_path_weights(const PathLengths& lengths, const PathLengths& radii, bool squared, PerLane<double>& weights) {
+  const Doubles d;
+  const auto one = splat(1.0);
+  for (std::size_t i = 0; i < kPacketCapacity; i += kLanes<Doubles>) {
+    const auto t = hn::Div(load(lengths.of[i]), load(radii.of[i]));
+    auto weight = hn::Mul(hn::Sub(one, t), hn::Add(one, t));
+    if (squared) weight = hn::Mul(weight, weight);
+    hn::StoreU(weight, d, &weights[i]);
+  }
+}
+
 /// What a node adds to each row if the parenthesis of `AggregateKernels::add_moments` is not squared, and if it is.
 // With q the offset of a vertex from c, and t that of c from the query vertex, d^2 = |q + t|^2, so
 //   sum of s d^2 = sum s|q|^2 + 2 t . sum s q + |t|^2 sum s
@@ -194,8 +206,8 @@ void add_moments(const Moments& moments, const Offsets& offsets, const KernelRad
   });
 }
 
-constexpr AggregateKernels kAggregateKernels{add_values,  lower_minima, sum_deviations, merge_spreads,
-                                             set_offsets, set_weights,  add_weighted,   add_moments};
+constexpr AggregateKernels kAggregateKernels{add_values,  lower_minima,     sum_deviations, merge_spreads, set_offsets,
+                                             set_weights, set_path_weights, add_weighted,   add_moments};
 
 }  // namespace
 }  // namespace meshhood::HWY_NAMESPACE

@@ -8,6 +8,7 @@
 #include "shared/distance.h"
 #include "simd/joint.h"
 #include "simd/kernels.h"
+#include "simd/paths.h"
 
 /// The inner loops of aggregates: what up to 32 rows of a packet get from a few values, where a word for each value
 /// says which rows have it. As in `Kernels`, each function gives the same result on every processor, bit for bit.
@@ -88,6 +89,11 @@ struct AggregateKernels {
   /// Sets the weights of a vertex with these offsets, `1 - d^2/r^2` or, if `squared`, the square of that. None is
   /// negative, and where d^2 is r^2 the weight is 0.
   void (*set_weights)(const Offsets& offsets, const KernelRadii& radii, bool squared, PerLane<double>& weights);
+
+  /// The same of a vertex by the lengths of paths to it. An infinite radius makes the weights 1; where there is no path
+  /// within the radius they have no meaning.
+  void (*set_path_weights)(const PathLengths& lengths, const PathLengths& radii, bool squared,
+                           PerLane<double>& weights);
 
   /// As `add_values`, each value multiplied by its weight for the row.
   void (*add_weighted)(std::span<const double> values, const QueryWord* words, const RowWeights& weights,

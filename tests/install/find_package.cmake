@@ -6,13 +6,14 @@ include(${CMAKE_CURRENT_LIST_DIR}/consume.cmake)
 set(build ${WORK_DIR}/build)
 consume(${prefix} ${build})
 
-# The CMake of the documents, each block in a project of a program `app`.
+# The CMake of the documents: each block is a project of a program `app`, or what one adds for the library.
 code_blocks(blocks cmake)
 foreach(block IN LISTS blocks)
-  file(WRITE ${WORK_DIR}/document/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
-project(document LANGUAGES CXX)
-add_executable(app ${SOURCE_DIR}/tests/install/consumer/main.cpp)
-${block}")
+  if(NOT block MATCHES "project\\(")
+    string(PREPEND block "cmake_minimum_required(VERSION 3.25)\nproject(app LANGUAGES CXX)\nadd_executable(app app.cpp)\n")
+  endif()
+  file(WRITE ${WORK_DIR}/document/CMakeLists.txt "${block}")
+  file(COPY_FILE ${SOURCE_DIR}/examples/neighborhood.cpp ${WORK_DIR}/document/app.cpp)
   execute_process(COMMAND ${CMAKE_COMMAND} -S ${WORK_DIR}/document -B ${WORK_DIR}/document/build -G ${GENERATOR} --fresh
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${prefix} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK_DIR}/document/build OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)

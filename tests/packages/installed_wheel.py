@@ -7,9 +7,8 @@ breadth-first search, files, the page, and the command line.
 
 KERNELS  the target that the kernels must use, as AVX2; by default the best one of the processor, as Linux names it
 
-MESHHOOD_PROGRAM names the command line; by default it is among the scripts of the environment, and `none` says that it
-was not installed. MESHHOOD_RUNNER is a command that runs programs of the machine that the wheel is for, as
-`qemu-aarch64-static`.
+MESHHOOD_PROGRAM is how to run the command line, words between spaces; by default it is among the scripts of the
+environment, and `none` says that it was not installed.
 """
 
 import json
@@ -98,13 +97,12 @@ def check_answers(folder):
 
 
 def check_command(folder, kernels):
-    program = os.environ.get("MESHHOOD_PROGRAM", Path(sysconfig.get_path("scripts")) / "meshhood")
-    if program == "none":
+    program = os.environ.get("MESHHOOD_PROGRAM", "").split() or [Path(sysconfig.get_path("scripts")) / "meshhood"]
+    if program == ["none"]:
         return
 
     def run(*arguments):
-        command = [*os.environ.get("MESHHOOD_RUNNER", "").split(), program, *arguments]
-        return subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True).stdout
+        return subprocess.run([*program, *arguments], cwd=folder, check=True, capture_output=True, text=True).stdout
 
     assert run("--version") == f"meshhood {meshhood.__version__}, kernels for {kernels}\n"
     run("generate", "scroll", "--vertices", "5000", "-o", "scroll.ply")

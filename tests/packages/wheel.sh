@@ -47,14 +47,14 @@ in_qemu() {
     mmdebstrap --quiet --variant=extract --aptopt='Acquire::Check-Valid-Until "false"' \
       --architectures="$(sed 's/x86_64/amd64/; s/aarch64/arm64/' <<<"$machine")" \
       --include="base-files,python$3-minimal,libpython$3-stdlib,libstdc++6" \
-      "$2" "$root" http://deb.debian.org/debian 2>/dev/null
+      "$2" "$root" "$(tools/find_mirror)" 2>/dev/null
   fi
   rm -rf "$folder"
   "${pip[@]}" --target "$folder" --only-binary :all: --implementation cp --python-version "$3" \
     --platform "manylinux_2_28_$machine" --platform "manylinux_2_27_$machine" --platform "manylinux2014_$machine" \
     "$1" numpy
-  PYTHONPATH=$folder PYTHONHOME=$root/usr MESHHOOD_RUNNER=$runner MESHHOOD_PROGRAM=$folder/bin/meshhood \
-    MESHHOOD_VIEWER=$folder/meshhood/viewer.html $runner "$root/usr/bin/python$3" "$here/installed_wheel.py" $kernels
+  PYTHONPATH=$folder PYTHONHOME=$root/usr MESHHOOD_PROGRAM="$runner $root/usr/bin/python$3 $folder/bin/meshhood" \
+    $runner "$root/usr/bin/python$3" "$here/installed_wheel.py" $kernels
 }
 
 # on_older_processors VERSION: the environment of that version, as on processors with fewer instructions; on the
@@ -65,25 +65,27 @@ on_older_processors() {
   for processor in Haswell:AVX2: Nehalem:SSE4: "core2duo:SCALAR:$old"; do
     IFS=: read -r processor kernels path <<<"$processor"
     runner="qemu-x86_64-static -cpu $processor"
-    PYTHONPATH=$path MESHHOOD_RUNNER=$runner $runner "$interpreter" "$here/installed_wheel.py" "$kernels" \
+    PYTHONPATH=$path MESHHOOD_PROGRAM="$runner $interpreter ${interpreter%/*}/meshhood" \
+      $runner "$interpreter" "$here/installed_wheel.py" "$kernels" \
       2> >(grep --invert-match "TCG doesn't support requested feature" >&2)
   done
 }
 
-# in_musl WHEEL: what the program in it says and writes is, byte for byte, what that for glibc does.
+# in_musl: what the commands say and write is, byte for byte, what those for glibc do. A program that is linked for this
+# test runs them, as there is no Python for musl here.
 in_musl() {
   local folder=$packages/installed/$target program
+  cmake --build "$packages/$target" --target meshhood_cli >/dev/null
   rm -rf "$folder"
-  "$python" -m zipfile --extract "$1" "$folder"
-  for program in "$folder"/*.data/scripts/meshhood "$packages/installed/x86_64-linux-gnu-3.12/bin/meshhood"; do
-    chmod +x "$program"
+  mkdir "$folder"
+  for program in "$packages/$target/meshhood" "$packages/installed/x86_64-linux-gnu-3.12/bin/meshhood"; do
     {
       "$program" --version
       "$program" generate scroll --vertices 20000 -o "$folder/scroll.ply"
       "$program" build "$folder/scroll.ply" -o "$folder/scroll.mhi" >/dev/null
       "$program" batch "$folder/scroll.mhi" -r 5 --unit edge -o "$folder/scroll.npz" >/dev/null
       sha256sum <"$folder/scroll.ply" && sha256sum <"$folder/scroll.mhi" && sha256sum <"$folder/scroll.npz"
-    } >"$folder/$([[ $program == "$folder"/* ]] && echo musl || echo glibc).txt" 2>&1
+    } >"$folder/$([[ $program == "$packages/$target/"* ]] && echo musl || echo glibc).txt" 2>&1
   done
   cat "$folder/musl.txt"
   diff "$folder/glibc.txt" "$folder/musl.txt"
@@ -97,7 +99,7 @@ for version in "${versions[@]}"; do
   "$python" "$here/check_wheel.py" "$wheel"
   case $target in
     x86_64-linux-gnu) in_venv "$wheel" "$version" ;;
-    x86_64-linux-musl) in_musl "$wheel" ;;
+    x86_64-linux-musl) in_musl ;;
   esac
 done
 for suite in "${suites[@]}"; do in_qemu "$wheel" "${suite%:*}" "${suite#*:}"; done

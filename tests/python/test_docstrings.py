@@ -1,25 +1,34 @@
 # SPDX-License-Identifier: MIT
-"""Each public function, and each public method of an index, has an example in its docstring, which runs. Other code of
-docstrings does, too."""
+"""Each public class, function and method has an example in its docstring, which runs. Other code of docstrings does,
+too."""
 
 import doctest
 import importlib
 import inspect
 import pkgutil
+import webbrowser
 
 import meshhood
 import meshhood.distributed
 import numpy as np
 import pytest
 
-FUNCTIONS = [name for name in meshhood.__all__ if inspect.isfunction(getattr(meshhood, name))]
-METHODS = [name for name, thing in inspect.getmembers(meshhood.MeshIndex, inspect.isfunction) if name[0] != "_"]
-OBJECTS = {
-    **{name: getattr(meshhood, name) for name in FUNCTIONS},
-    **{f"MeshIndex.{name}": getattr(meshhood.MeshIndex, name) for name in METHODS},
-    **{name: getattr(meshhood, name) for name in ("MeshIndex", "Paper", "RegionMesh", "distributed")},
-    "meshhood": meshhood,
-}
+
+def objects():
+    """Each public class and function, and each public method of a class, by name."""
+    for module in (meshhood, meshhood.distributed):
+        for name in module.__all__:
+            thing = getattr(module, name)
+            if inspect.isclass(thing) or inspect.isfunction(thing):
+                yield name, thing
+            if inspect.isclass(thing):
+                for method, function in inspect.getmembers(thing, lambda x: inspect.isfunction(x) or inspect.ismethod(x)):
+                    if method[0] != "_":
+                        yield f"{name}.{method}", function
+
+
+OBJECTS = {**dict(objects()), "distributed": meshhood.distributed, "meshhood": meshhood}
+OF_PARTS = ("distributed", "open_parts", "map_meshes", "Parts", "OpenPart", "PartSize")
 
 
 @pytest.mark.parametrize("name", OBJECTS)
@@ -31,9 +40,10 @@ def test_the_example_runs(name, tmp_path, monkeypatch):
     names = {"meshhood": meshhood, "np": np, "V": np.array(sphere.vertices), "F": np.array(sphere.faces)}
     if name == "plot_neighborhood":
         names["pyvista"] = pytest.importorskip("pyvista")
-    if name in ("open_parts", "distributed"):
+    if name.split(".")[0] in OF_PARTS:
         pytest.importorskip("dask.array")
-    if name == "view":
+    if name.split(".")[0] in ("view", "Page"):
+        monkeypatch.setattr(webbrowser, "open", lambda address: None)
         page = tmp_path / "viewer.html"
         page.write_text(f"<html>{meshhood._view._PLACE}</html>", encoding="utf-8")
         monkeypatch.setenv("MESHHOOD_VIEWER", str(page))

@@ -52,6 +52,7 @@ def write_values(sphere):
     thickness = np.asarray(sphere.vertices)[:, 2]
     np.save("thickness.npy", thickness)
     np.savetxt("thickness.txt", thickness)
+    np.savetxt("widths.txt", 0.3 + 0.1 * thickness**2)
     np.savetxt("medial.txt", np.flatnonzero(thickness < -0.9), fmt="%d")
     np.savetxt("walls.txt", [1, 2, 3], fmt="%d")
     np.savetxt("seam.txt", sphere.edges_unique[:9], fmt="%d")

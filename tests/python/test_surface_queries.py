@@ -118,6 +118,22 @@ def test_a_region_starts_from_the_corners_of_a_face(mesh):
     )
 
 
+def test_every_search_from_a_point_starts_from_the_corners_of_its_face(mesh):
+    V, F, index, _ = mesh
+    random = np.random.default_rng(9)
+    walls = random.random(len(V)) < 0.1
+    faces, _, points = index.closest_point(random.uniform(V.min(0), V.max(0), (12, 3)))
+    for face, point in zip(faces, points):
+        for call in (
+            lambda **start: index.query_nested(point, [1.0, 2.5], walls=walls, **start),
+            lambda **start: [index.contains(point, w, 2.5, walls=walls, **start) for w in range(0, len(V), 9)],
+            lambda **start: [index.connecting_radius(point, w, walls=walls, **start) for w in range(0, len(V), 9)],
+            lambda **start: index.nearest_connected(point, 15, walls=walls, **start),
+        ):
+            for found, wanted in zip(call(face=face), call(seeds=F[face])):
+                np.testing.assert_array_equal(found, wanted)
+
+
 def test_a_region_of_a_polygon_starts_from_all_its_corners():
     V, quads = grid(4)
     corners = np.concatenate([quads.ravel(), [0, 1, 4]])
@@ -130,8 +146,15 @@ def test_a_region_of_a_polygon_starts_from_all_its_corners():
 
 def test_a_face_as_start_is_refused_where_it_means_nothing(mesh):
     V, F, index, _ = mesh
-    with pytest.raises(ValueError, match="face: expected None, because the start is a vertex"):
-        index.query_region(3, 1.0, face=2)
+    for call in (
+        lambda **start: index.query_region(3, 1.0, **start),
+        lambda **start: index.query_nested(3, [1.0], **start),
+        lambda **start: index.contains(3, 4, 1.0, **start),
+        lambda **start: index.connecting_radius(3, 4, **start),
+        lambda **start: index.nearest_connected(3, 4, **start),
+    ):
+        with pytest.raises(ValueError, match="face: expected None, because the start is a vertex"):
+            call(face=2)
     with pytest.raises(ValueError, match="seeds: expected None, because the face is given"):
         index.query_region([0.0, 0.0, 0.0], 1.0, seeds=[1], face=2)
     with pytest.raises(ValueError, match=f"face: row 0: face {len(F)}, but the mesh has {len(F)} faces"):

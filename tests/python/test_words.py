@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The words that calls on many vertices share mean the same in each: rows, radii, scales, masks, metric, order."""
 
+import inspect
+
 import meshes
 import meshhood
 import numpy as np
@@ -97,10 +99,8 @@ def test_a_list_of_another_length_is_never_guessed(name):
         CALLS[name](1.0, wall=WALLS)
 
 
-@pytest.mark.parametrize("name", CALLS)
+@pytest.mark.parametrize("name", PATH_CALLS)
 def test_masks_give_what_a_mesh_without_the_walls_gives(name):
-    if name in ("curvature", "corrected", "components", "features", "moments"):
-        pytest.skip("compared with lists below")
     found = arrays(CALLS[name](2.5, walls=WALLS))
     graph = edges_without(WALLS)
     alone = meshhood.MeshIndex(V, graph)
@@ -321,16 +321,49 @@ def test_errors_blame_the_argument_at_fault():
         INDEX.count(None, 1.0, walls=np.arange(COUNT))
 
 
-def test_faces_of_another_mesh_are_refused():
+# Each call that takes faces.
+WITH_FACES = {
+    "aggregate": lambda index, F: index.aggregate(VALUES, 2.0, weights="area", F=F),
+    "smooth": lambda index, F: index.smooth(VALUES, 2.0, weights="area", F=F),
+    "smoothing_matrix": lambda index, F: index.smoothing_matrix(2.0, weights="area", F=F).toarray(),
+    "curvature": lambda index, F: index.curvature(2.0, F=F),
+    "corrected_curvature": lambda index, F: index.corrected_curvature(2.0, F=F),
+    "moments": lambda index, F: index.moments(2.0, weights="area", F=F),
+    "principal_components": lambda index, F: index.principal_components(2.0, weights="area", F=F),
+    "features": lambda index, F: index.features(2.0, kinds=("area", "crease"), F=F),
+    "closest_point": lambda index, F: index.closest_point(V[:20] + 0.1, F=F),
+    "query_knn": lambda index, F: index.query_knn(None, until=3.0, F=F),
+    "submesh": lambda index, F: index.submesh([0, 1, 2, 9, 10, 11], F=F),
+    "rim": lambda index, F: [line.points for line in index.rim(INDEX.query_ball(40, 2.0), 40, 2.0, F=F)],
+}
+
+
+def test_each_call_that_takes_faces_is_listed():
+    methods = inspect.getmembers(meshhood.MeshIndex, inspect.isfunction)
+    words = {name: inspect.signature(method).parameters for name, method in methods if name[0] != "_"}
+    taking = {name for name, parameters in words.items() if "F" in parameters or "Unpack" in str(parameters.get("words"))}
+    # Those with other words refuse F, but `refit`, whose faces are not read.
+    taking -= {"radius_neighbors_graph", "iter_neighborhoods", "nearest_unconnected"}
+    assert taking | {"aggregate", "smooth"} == set(WITH_FACES)
+
+
+@pytest.mark.parametrize("name", WITH_FACES)
+def test_faces_of_another_mesh_are_refused(name):
+    call = WITH_FACES[name]
     other = np.concatenate([F[:, [1, 0, 2]][::-1][:-1], [[0, 5, 40]]])
-    for call in (lambda F: INDEX.curvature(2.0, F=F), lambda F: INDEX.smooth(VALUES, 2.0, weights="area", F=F)):
+    bare = meshhood.MeshIndex(V, F, keep_faces=False)
+    for index in (INDEX, bare):
         for wrong in (other, (F + 7) % COUNT):
             with pytest.raises(ValueError, match="F: faces of another mesh: one joins vertices"):
-                call(wrong)
-        call(F[::-1])
-        call(meshhood.Mesh(V, F))
-    cut = meshhood.MeshIndex(V, F, cut=F[:5, :2], keep_faces=False)
-    cut.curvature(2.0, F=F)
+                call(index, wrong)
+        with pytest.raises(ValueError, match=f"F: .*vertex {COUNT}"):
+            call(index, np.concatenate([F, [[0, 1, COUNT]]]))
+        for a, b in zip(arrays(call(INDEX, None)), arrays(call(index, meshhood.Mesh(V, F)))):
+            np.testing.assert_array_equal(a, b)
+        call(index, F[::-1])
+    with pytest.raises(ValueError, match="F: expected the faces"):
+        call(bare, None)
+    call(meshhood.MeshIndex(V, F, cut=F[:5, :2], keep_faces=False), F)
 
 
 def test_a_region_as_a_mesh_needs_no_faces():

@@ -52,9 +52,12 @@ for (const [screen, shown] of [[WIDE, pages], [NARROW, pages], [DARK, pages.filt
       await page.evaluate(axe);
       const { violations } = await page.evaluate(() => window.axe.run());
       const excess = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+      const cut = await page.evaluate(() => [...document.querySelectorAll('article :is(h1, h2, h3)')]
+        .filter((heading) => heading.scrollWidth > heading.clientWidth).map((heading) => heading.textContent));
       const titles = await page.locator('article h1').count();
       faults.push(...[...errors, ...violations.map(described)].map((fault) => `${file}: ${fault}`));
       if (excess > 0) faults.push(`${file}: ${excess} pixels wider than the screen`);
+      if (cut.length > 0) faults.push(`${file}: cut headings: ${cut.join(', ')}`);
       if (titles !== 1) faults.push(`${file}: ${titles} titles`);
       await page.screenshot({ path: join(pictures, `${file.replace(/\W/g, '_')}_${screen.join('_')}.png`) });
       await page.close();

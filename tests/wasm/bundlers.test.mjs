@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The package in a page that each bundler makes, with the code of docs/web.md, and the example with three.js. They answer in
-// Chromium. MESHHOOD_PACKAGE is the folder of the package, MESHHOOD_EXAMPLE that of the example, and
-// MESHHOOD_VIEWER_SOURCES that of the page, whose npm packages drive the browser.
+// The package in the page of docs/web.md that needs no bundler, in one that each bundler makes, with the code of that
+// document, and the example with three.js. They answer in Chromium. MESHHOOD_PACKAGE is the folder of the package,
+// MESHHOOD_EXAMPLE that of the example, and MESHHOOD_VIEWER_SOURCES that of the page, whose npm packages drive the browser.
 import assert from 'node:assert/strict';
-import { cpSync, existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { execFileSync } from 'node:child_process';
+import { cpSync, existsSync, mkdirSync, readFileSync, symlinkSync, writeFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join } from 'node:path';
 import { after, test } from 'node:test';
@@ -62,6 +63,20 @@ async function expectAnswer(address) {
   assert.equal(await page.title(), '0,1,2');
   await page.close();
 }
+
+test('no bundler', async () => {
+  const [{ code }] = codeBlocks('html');
+  mkdirSync(path('plain'));
+  writeFileSync(path('plain', 'index.html'), code);
+  symlinkSync(path('node_modules'), path('plain', 'node_modules'));
+  execFileSync(process.env.MESHHOOD_CLI, ['generate', 'sphere', '--vertices', '500', '-o', path('hand.ply')]);
+  const page = await browser.newPage();
+  page.on('pageerror', (error) => { throw error; });
+  await page.goto(await serve('plain'));
+  await page.setInputFiles('input', path('hand.ply'));
+  await page.waitForFunction(() => /^\d+ vertices$/.test(document.querySelector('output').textContent));
+  await page.close();
+});
 
 for (const loader of ['file', 'binary']) {
   test(`esbuild with the loader ${loader}`, async () => {

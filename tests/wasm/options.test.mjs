@@ -24,6 +24,7 @@ const CALLS = {
   queryBall: [(options) => index.queryBall(5, 3, options), 'unit'],
   batch: [(options) => index.queryBall(null, 3, options), 'distances'],
   nearestUnconnected: [(options) => index.nearestUnconnected(null, 3, options), 'walls'],
+  queryKnn: [(options) => index.queryKnn(null, 3, options), 'weights'],
   closestPoint: [(options) => index.closestPoint([0, 0, 0], { ...options, faces: mesh }), 'faces'],
   viewBall: [(options) => index.viewBall(5, 3, options), 'metric'],
   count: [(options) => index.count(5, 3, options), 'method'],
@@ -36,6 +37,7 @@ const CALLS = {
   aggregate: [(options) => index.aggregate(heights, 2, options), 'reduce'],
   smooth: [(options) => index.smooth(heights, 2, options), 'weights'],
   curvature: [(options) => index.curvature(2, { faces: mesh, ...options }), 'filter'],
+  features: [(options) => index.features(2, { faces: mesh, ...options }), 'kinds'],
   RegionMesh: [(options) => new RegionMesh(mesh.positions, mesh.corners, options), 'offsets'],
 };
 

@@ -108,6 +108,54 @@ test('the nearest unconnected vertices are those of the command line and of a sc
   assert.ok(index.nearestUnconnected(Uint32Array.of(5), 1.5, { ignored: other }).ids[0] !== ids[5]);
 });
 
+test('features with masks and scales are those of the command line', () => {
+  const kinds = ['crease', 'shape_index', 'area', 'variation'];
+  const expected = ofCommandLine('features', 'hills.ply', '-r', '3,5', '--kinds', kinds.join(','), ...ROWS);
+  const options = { faces: mesh, vertices, walls, ignored };
+  const found = index.features(null, { ...options, kinds, scales: Float64Array.of(3, 5) });
+  assert.deepEqual(found, expected.features);
+  const crease = index.features(5, options);
+  assert.deepEqual(crease, Float64Array.from(vertices, (_, row) => found[4 * (5 + row)]));
+  assert.ok(Number.isNaN(crease[2]) && Number.isFinite(crease[0]));
+  assert.throws(() => index.features(3, { ...options, kinds: ['crest'] }), { code: 'InvalidOption', message: /^kinds: 'crest'/ });
+  assert.throws(() => index.features(0, options), { code: 'InvalidRadius' });
+});
+
+test('the nearest of many vertices are those of each, by connecting radius and by paths', () => {
+  const k = 9;
+  const { ids, distances } = index.queryKnn(vertices, k, { walls, ignored });
+  vertices.forEach((v, row) => {
+    const { ids: one, radii } = index.nearestConnected(v, k, { walls, ignored });
+    assert.deepEqual([...ids.subarray(k * row, k * row + one.length)], [...one]);
+    assert.deepEqual([...distances.subarray(k * row, k * row + one.length)], [...radii]);
+    for (let i = k * row + one.length; i < k * (row + 1); ++i) assert.deepEqual([ids[i], distances[i]], [2 ** 32 - 1, Infinity]);
+  });
+  assert.equal(ids[2 * k], 2 ** 32 - 1); // 387 is a wall
+  const paths = index.queryKnn(400, 20, { metric: 'path', walls });
+  const within = index.queryBall(400, paths.distances[19], { metric: 'path', walls, distances: true });
+  assert.deepEqual([...paths.distances], [...within.distances.subarray(0, 20)]);
+  const short = index.queryKnn(400, 20, { metric: 'path', r: 1.5 });
+  assert.equal(short.distances.filter(Number.isFinite).length, index.queryBall(400, 1.5, { metric: 'path' }).length);
+  assert.equal(index.queryKnn(null, 2).ids.length, 2 * count);
+});
+
+test('discs have the first of the nearest vertices whose areas reach a sum', () => {
+  const ones = new Float64Array(count).fill(1);
+  const few = index.queryKnn(vertices, null, { until: 4.5, weights: ones });
+  assert.deepEqual([...few.offsets], [0, 5, 10, 15, 20, 25]);
+  const { ids } = index.queryKnn(vertices, 5);
+  assert.deepEqual(few.ids, ids);
+  const disc = index.queryKnn(400, null, { until: 8, faces: mesh, metric: 'path' });
+  assert.deepEqual(disc.ids, index.queryKnn(400, disc.ids.length, { metric: 'path' }).ids);
+  assert.ok(disc.ids.length > 3 && disc.ids.length < 12);
+  assert.throws(() => index.queryKnn(400, 3, { until: 8 }), { name: 'TypeError', message: /^k: expected/ });
+  assert.throws(() => index.queryKnn(400, null), { name: 'TypeError', message: /^k: expected/ });
+  assert.throws(() => index.queryKnn(400, null, { until: 8 }), { code: 'InvalidOption', message: /^weights: 'area' needs/ });
+  assert.throws(() => index.queryKnn(400, null, { until: 0, weights: ones }), { code: 'InvalidOption', message: /^area: 0/ });
+  assert.throws(() => index.queryKnn(400, 3, { metric: 'rings' }), { code: 'InvalidOption', message: /^metric/ });
+  assert.throws(() => index.queryKnn(400, 3, { r: -1 }), { code: 'InvalidRadius' });
+});
+
 test('the closest point of the surface is that of the command line', () => {
   for (const point of [[3.3, 4.2, 9], [-1, 2.5, 0], [10.5, 10.25, -3]]) {
     const [expected] = JSON.parse(meshhood('closest', 'hills.ply', '--point', point.join(','), '--json'));

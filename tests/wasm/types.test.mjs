@@ -35,13 +35,16 @@ const USE = `
   const counts: Uint32Array = index.count(null, null, { scales, metric: 'rings' });
   const far: Rows & { distances: Float64Array } = index.queryBall(near, 2, { sort: 'distance', walls, distances: true });
   const { ids, gaps } = index.nearestUnconnected(near, scales, { walls });
+  const lengths: Float64Array = index.queryKnn(near, 9, { metric: 'path', walls }).distances;
+  const discs: Rows = index.queryKnn(null, null, { until: 2, faces });
+  const creases: Float64Array = index.features(null, { faces, scales, kinds: ['crease', 'area'] });
   const { vertices, point } = index.closestPoint([0, 0, 1], { faces });
   index.queryRegion(point, 2, { seeds: vertices, sort: 'id' });
   index.smooth(index.aggregate(gaps, scales, { metric: 'path' }), 3, { metric: 'path', walls });
   index.refitInPlace(mesh.positions, { changed: near });
   const part = new RegionMesh(mesh.positions, faces.corners).submesh(near);
   const codes: string[] = [new MeshhoodError().code];
-  export const used = [counts, far.distances, ids, rows.offsets, curvature.mean, part.vertices, codes];
+  export const used = [lengths, discs, creases, counts, far.distances, ids, rows.offsets, curvature.mean, part.vertices, codes];
 `;
 
 for (const [name, options] of Object.entries({

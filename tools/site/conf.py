@@ -90,11 +90,13 @@ html_theme_options = {
 
 # Pages of the site that lie outside docs.
 ROOT_PAGES = ("README", "CHANGELOG", "CONTRIBUTING", "RELEASE")
+NAME_OF_FILE = re.compile(r"\[[\w/]+\.md\](?=\()")
 LINK = re.compile(r"(?<=\]\()(?![a-z]+:|#)([^)\s]+)|(?<= src=\")([^\"]+)")
 
 
 def link_within_site(app, docname, source):
-    """Leads links from and to the pages of the root, and to the gallery, to where the site has them."""
+    """Leads links from and to the pages of the root, and to the gallery, to where the site has them. Those that show the
+    name of a file show the title of the page."""
 
     def moved(match):
         target = match[0]
@@ -106,7 +108,7 @@ def link_within_site(app, docname, source):
         stem = page.removesuffix(".md")
         return f"/{stem.lower()}.md{separator}{place}" if stem in ROOT_PAGES else target
 
-    source[0] = LINK.sub(moved, source[0])
+    source[0] = LINK.sub(moved, NAME_OF_FILE.sub("[]", source[0]))
 
 
 def list_benchmarks(app, docname, source):

@@ -29,6 +29,7 @@ _MISSING = ("propagate", "omit")
 class SmoothWords(ResultWords, total=False):
     """The words of `MeshIndex.smooth` besides `vertices`."""
 
+    scales: Optional[Scales]
     weights: Union[Literal["area"], ArrayLike, None]
     nan: Literal["propagate", "omit"]
     F: Any
@@ -37,7 +38,6 @@ class SmoothWords(ResultWords, total=False):
 class AggregateWords(SmoothWords, total=False):
     """The words of `MeshIndex.aggregate` besides `vertices`."""
 
-    scales: Optional[Scales]
     kernel: Optional[Kernel]
     nesting: Literal["own", "patch"]
     ddof: int
@@ -165,28 +165,30 @@ class Aggregates(Held):
 
     @overload
     def smooth(
-        self, values: NDArray[np.float32], fwhm: Number, *, vertices: Vertices = None, **words: Unpack[SmoothWords]
-    ) -> NDArray[np.float32]: ...
+        self, values: NDArray[np.float32], fwhm: Optional[Radii] = None, *, vertices: Vertices = None,
+        **words: Unpack[SmoothWords],
+    ) -> NDArray[np.float32]: ...  # fmt: skip
 
     @overload
     def smooth(
-        self, values: Union[NDArray[np.float64], Sequence[float]], fwhm: Number, *, vertices: Vertices = None,
-        **words: Unpack[SmoothWords],
+        self, values: Union[NDArray[np.float64], Sequence[float]], fwhm: Optional[Radii] = None, *,
+        vertices: Vertices = None, **words: Unpack[SmoothWords],
     ) -> Reals: ...  # fmt: skip
 
     @overload
     def smooth(
-        self, values: ArrayLike, fwhm: Number, *, vertices: Vertices = None, **words: Unpack[SmoothWords]
-    ) -> Floats: ...
+        self, values: ArrayLike, fwhm: Optional[Radii] = None, *, vertices: Vertices = None,
+        **words: Unpack[SmoothWords],
+    ) -> Floats: ...  # fmt: skip
 
-    def smooth(self, values: Any, fwhm: Any, *, vertices: Any = None, **words: Any) -> Any:
+    def smooth(self, values: Any, fwhm: Any = None, *, vertices: Any = None, **words: Any) -> Any:
         """The values smoothed by a biweight that is close to a Gaussian of this full width at half maximum.
 
-        fwhm : > 0, a distance in `unit`: straight, or with metric="path" along edges. Vertices farther away than
-            `smoothing_radius(fwhm)`, or not connected within that distance, have no influence. With the straight
-            metric, two banks are not mixed as long as the path over the bottom between them leaves the ball; once it
-            fits, the other bank counts by its straight distance (docs/aggregate.md). With metric="path" it counts by
-            the length of the path.
+        fwhm : > 0, or one for each row; or several as `scales`. A distance in `unit`: straight, or with metric="path"
+            along edges. Vertices farther away than `smoothing_radius(fwhm)`, or not connected within that distance,
+            have no influence. With the straight metric, two banks are not mixed as long as the path over the bottom
+            between them leaves the ball; once it fits, the other bank counts by its straight distance
+            (docs/aggregate.md). With metric="path" it counts by the length of the path.
         weights : None counts each vertex once; "area" weighs it by its area, and makes the result independent of how
             densely the surface is sampled.
         The other words are those of `aggregate`, which this calls with reduce="mean" and kernel="biweight". Vertices
@@ -196,15 +198,15 @@ class Aggregates(Held):
         >>> smooth = index.smooth(V[:, 2], 0.5, metric="path", walls=V[:, 2] < -0.9)
         """
         check_words(words, SmoothWords)
-        fwhm = _convert.finite(fwhm, "fwhm", or_zero=False)
-        return self.aggregate(values, smoothing_radius(fwhm), "mean", kernel="biweight", vertices=vertices, **words)
+        words["scales"], r = _smoothing_radii(words.get("scales"), "scales"), _smoothing_radii(fwhm, "fwhm")
+        return self.aggregate(values, r, "mean", kernel="biweight", vertices=vertices, **words)
 
     def smoothing_matrix(
-        self, fwhm: Number, *, vertices: Vertices = None, **words: Unpack[SmoothWords]
+        self, fwhm: Optional[Radii] = None, *, vertices: Vertices = None, **words: Unpack[SmoothWords]
     ) -> csr_array:
-        """What `smooth` does, as a scipy.sparse.csr_array (#rows, #V): its product with values (#V, ...) are the
-        smoothed values, up to rounding, for values without NaN. Each row sums to 1; those of walls are empty, and where
-        all weights are 0, the row is NaN.
+        """What `smooth` does, as a scipy.sparse.csr_array (#rows, #V), or with scales (#scales * #rows, #V): its product
+        with values (#V, ...) are the smoothed values, up to rounding, for values without NaN. Each row sums to 1; those
+        of walls are empty, and where all weights are 0, the row is NaN.
 
         The words are those of `smooth` but `nan`, and `dtype` is float64 unless given. Memory: 12 bytes for each vertex
         of each neighborhood. Needs SciPy. `smooth` is faster, unless the same matrix is used many times.
@@ -220,21 +222,33 @@ class Aggregates(Held):
         if "nan" in words:
             raise TypeError("nan: no argument of this call, because a matrix does not depend on the values")
         _refuse_rings(words.get("metric"))
-        fwhm = _convert.finite(fwhm, "fwhm", or_zero=False)
         weights = area_weights(self, words.get("weights"), words.get("F"))
         listed: Any = {word: value for word, value in words.items() if word not in ("weights", "F", "dtype")}
-        radius = self._scale(words.get("unit", "mesh")) * smoothing_radius(fwhm)
-        listed["unit"] = "mesh"
-        graph = self.radius_neighbors_graph(radius, vertices=vertices, mode="distance", **listed)
-        data = (1 - (graph.data / radius) ** 2) ** 2
+        listed["scales"], r = _smoothing_radii(words.get("scales"), "scales"), _smoothing_radii(fwhm, "fwhm")
+        graph = self.radius_neighbors_graph(r, vertices=vertices, mode="distance", **listed)
+        sizes = np.diff(graph.indptr)
+        radii = np.atleast_1d(self._scale(words.get("unit", "mesh")) * (r if listed["scales"] is None else listed["scales"]))
+        share = graph.data / np.repeat(np.repeat(radii, len(sizes) // max(len(radii), 1)), sizes)
+        data = ((1 - share) * (1 + share)) ** 2  # not 1 - share^2, whose rounding would give a vertex at the rim a weight
         if weights is not None:
             data *= weights[graph.indices]
-        sizes = np.diff(graph.indptr)
         sums = csr_array((data, graph.indices, graph.indptr), shape=graph.shape).sum(axis=1)
         with np.errstate(invalid="ignore"):
             data /= np.repeat(sums, sizes)
         graph.data = data.astype(result_dtype(words), copy=False)
         return graph
+
+
+def _smoothing_radii(fwhm: Any, name: str) -> Any:
+    """The radii of the kernels of one width or several; None for None."""
+    if fwhm is None or np.ndim(fwhm) == 0:
+        return None if fwhm is None else smoothing_radius(_convert.finite(fwhm, name, or_zero=False))
+    widths = _numbers(fwhm, name, "iuf")
+    wrong = np.argwhere(~((widths > 0) & (widths < np.inf)))
+    if wrong.size:
+        at = tuple(wrong[0])
+        raise ValueError(f"{name}: row {at[0]}: {widths[at]}, expected a finite number > 0")
+    return np.array([_core.smoothing_radius(width) for width in widths.flat]).reshape(widths.shape)
 
 
 def _refuse_rings(metric: Any) -> None:

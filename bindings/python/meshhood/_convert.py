@@ -13,12 +13,20 @@ _MOST_THREADS = 1024
 
 
 def vertices(v, count, name="vertices"):
-    """`v` as a new int32 array in C order, each value in [0, count). `v` may be a boolean mask of `count` values.
+    """`v` as a new int32 array in C order, each value in [0, count). `v` may be a boolean mask of `count` values."""
+    return _numbers_of(v, count, name, "vertex", "vertices").astype(np.int32, copy=False)
 
-    The result is a copy even if `v` already has this type: another thread, or a `progress` function, may write to `v`
-    during the call."""
-    array = np.array(as_array(v, name))
-    if array.size == 0 and not isinstance(v, np.ndarray):
+
+def faces(f, count, name):
+    """The same for faces, as an int64 array."""
+    return _numbers_of(f, count, name, "face", "faces").astype(np.int64, copy=False)
+
+
+def _numbers_of(values, count, name, one, many):
+    """The result is a copy even if `values` already have the type of ids: another thread, or a `progress` function, may
+    write to them during the call."""
+    array = np.array(as_array(values, name))
+    if array.size == 0 and not isinstance(values, np.ndarray):
         array = array.astype(np.int32)
     if array.dtype.kind == "b" and array.ndim:
         if array.shape != (count,):
@@ -28,29 +36,11 @@ def vertices(v, count, name="vertices"):
         raise TypeError(f"{name}: expected integers, not {array.dtype}")
     if array.ndim != 1:
         hint = "; faces are passed as F=" if array.ndim == 2 and array.shape[1] in (3, 4) else ""
-        raise ValueError(
-            f"{name}: expected one vertex or a list of vertices, not an array of shape {array.shape}{hint}"
-        )
+        raise ValueError(f"{name}: expected one {one} or a list of {many}, not an array of shape {array.shape}{hint}")
     wrong = np.flatnonzero((array < 0) | (array >= count))
     if wrong.size:
-        row = wrong[0]
-        raise ValueError(f"{name}: row {row}: vertex {array[row]}, but the mesh has {count} vertices")
-    return array.astype(np.int32, copy=False)
-
-
-def faces(values, count, name):
-    """`values`, one face or a list of them, as a new int64 array, each value in [0, count)."""
-    array = np.atleast_1d(np.array(as_array(values, name)))
-    if array.size == 0 and not isinstance(values, np.ndarray):
-        array = array.astype(np.int64)
-    if array.dtype.kind not in "iu":
-        raise TypeError(f"{name}: expected integers, not {array.dtype}")
-    if array.ndim != 1:
-        raise ValueError(f"{name}: expected one face or a list of faces, not an array of shape {array.shape}")
-    wrong = np.flatnonzero((array < 0) | (array >= count))
-    if wrong.size:
-        raise ValueError(f"{name}: row {wrong[0]}: face {array[wrong[0]]}, but the mesh has {count} faces")
-    return array.astype(np.int64)
+        raise ValueError(f"{name}: row {wrong[0]}: {one} {array[wrong[0]]}, but the mesh has {count} {many}")
+    return array
 
 
 def vertex(v, count, name="vertices"):

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _convert, _core
+from ._types import Floats
 
 FITTED, RANK_DEFICIENT, TOO_FEW, NO_NORMAL, EXTENDED = range(5)
 
@@ -16,9 +17,9 @@ FITTED, RANK_DEFICIENT, TOO_FEW, NO_NORMAL, EXTENDED = range(5)
 class Curvature(NamedTuple):
     """Principal curvatures k1 >= k2 in 1 / unit of the positions, their directions, and the state of each row.
 
-    k1, k2 : (#rows,) float64. Positive where the surface is convex, seen from the side of the normals: 1 / R on a
+    k1, k2 : (#rows,), in the type `dtype` of the call. Positive where the surface is convex, seen from the side of the normals: 1 / R on a
         sphere with normals outward.
-    d1, d2 : (#rows, 3) float64, unit vectors, with the sign that makes the component of largest magnitude positive.
+    d1, d2 : (#rows, 3), unit vectors, with the sign that makes the component of largest magnitude positive.
     state : (#rows,) uint8. 0: fitted. 1: the points determine no unique quadric; the values are those of the one with
         the smallest coefficients. 2: fewer than six vertices are connected with the vertex; all values are 0. 3: the
         vertex has no normal, as it belongs to no face with an area; all values are 0. 4: fewer than six vertices are in
@@ -27,12 +28,16 @@ class Curvature(NamedTuple):
         filter leaves out. If they are fewer than six, the state is not 0.
 
     With `scales` each array has a leading axis.
+
+    >>> found = meshhood.MeshIndex(V, F).curvature(0.3)
+    >>> bool(found.ok.all() and abs(found.mean - 1).max() < 0.1)  # on the unit sphere
+    True
     """
 
-    k1: NDArray[np.float64]
-    k2: NDArray[np.float64]
-    d1: NDArray[np.float64]
-    d2: NDArray[np.float64]
+    k1: Floats
+    k2: Floats
+    d1: Floats
+    d2: Floats
     state: NDArray[np.uint8]
     count: NDArray[np.uint32]  # type: ignore[assignment]
 
@@ -47,24 +52,24 @@ class Curvature(NamedTuple):
         return self.state == FITTED
 
     @property
-    def mean(self) -> NDArray[np.float64]:
+    def mean(self) -> Floats:
         """H = (k1 + k2) / 2."""
         return (self.k1 + self.k2) / 2
 
     @property
-    def gaussian(self) -> NDArray[np.float64]:
+    def gaussian(self) -> Floats:
         """K = k1 k2."""
         return self.k1 * self.k2
 
     @property
-    def shape_index(self) -> NDArray[np.float64]:
+    def shape_index(self) -> Floats:
         """Koenderink's shape index: 1 on a dome, 0.5 on a ridge, 0 on a saddle, -0.5 in a valley, -1 in a bowl. NaN
         where both curvatures are 0."""
         index = 2 / np.pi * np.arctan2(self.k1 + self.k2, self.k1 - self.k2)
         return np.where((self.k1 == 0) & (self.k2 == 0), np.nan, index)
 
     @property
-    def curvedness(self) -> NDArray[np.float64]:
+    def curvedness(self) -> Floats:
         """Koenderink's curvedness, the square root of (k1^2 + k2^2) / 2."""
         return np.hypot(self.k1, self.k2) / np.sqrt(2)
 

@@ -18,7 +18,10 @@ from ._progress import Progress, reporter
 
 
 class Mesh(NamedTuple):
-    """Positions and faces, as `MeshIndex` takes them."""
+    """Positions and faces, as `MeshIndex` takes them.
+
+    >>> index = meshhood.MeshIndex(meshhood.read_mesh("hand.ply"))
+    """
 
     vertices: Union[NDArray[np.float32], NDArray[np.float64]]
     faces: Union[NDArray[np.int32], tuple[NDArray[np.int64], NDArray[np.int32]]]

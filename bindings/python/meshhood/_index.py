@@ -33,7 +33,11 @@ Order = Literal["query", "index"]
 
 
 class Chunk(NamedTuple):
-    """Some rows of a batch: row i is the neighborhood of vertices[i] (see `MeshIndex.query_ball`)."""
+    """Some rows of a batch: row i is the neighborhood of vertices[i] (see `MeshIndex.query_ball`).
+
+    >>> chunk = next(meshhood.MeshIndex(V, F).iter_neighborhoods(None, 0.3, chunk=100))
+    >>> first = chunk.indices[chunk.indptr[0] : chunk.indptr[1]]
+    """
 
     vertices: Ids
     indptr: Offsets
@@ -42,7 +46,10 @@ class Chunk(NamedTuple):
 
 
 class Quality(NamedTuple):
-    """How well the leaves of an index fit the positions (see `MeshIndex.quality`)."""
+    """How well the leaves of an index fit the positions (see `MeshIndex.quality`).
+
+    >>> mean_radius, rebuilt_radius, gain = meshhood.MeshIndex(V, F).quality()
+    """
 
     mean_radius: float
     rebuilt_radius: float
@@ -367,7 +374,8 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions):
         return_distance: bool = False,
         **words: Unpack[ListWords],
     ) -> Iterator[Chunk]:
-        """As `query_ball` for many vertices, `chunk` rows at a time, so that memory stays bounded.
+        """As `query_ball` for many vertices, `chunk` rows at a time, so that memory stays bounded. With masks, each chunk
+        takes O(#V) besides its searches.
 
         order : of the rows: "query", that of `vertices`; "index", that of `permutation`, in which near vertices follow
             each other. The rows of a chunk are then computed together, which is up to ten times as fast where the

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _convert, _core
+from ._types import Floats, Reals
 
-Reals = NDArray[np.float64]
 
 class PrincipalComponents(NamedTuple):
     """How the vertices of each neighborhood are distributed. With areas as weights, `weight`, `center` and `variances`
@@ -23,20 +23,24 @@ class PrincipalComponents(NamedTuple):
         component of largest magnitude positive.
 
     All but `weight` are NaN where the weights sum to 0.
+
+    >>> found = meshhood.MeshIndex(V, F).principal_components(0.3)
+    >>> bool((abs(np.sum(found.normal * V, axis=1)) > 0.99).all())  # on the unit sphere
+    True
     """
 
-    weight: Reals
-    center: Reals
-    variances: Reals
-    axes: Reals
+    weight: Floats
+    center: Floats
+    variances: Floats
+    axes: Floats
 
     @property
-    def normal(self) -> Reals:
+    def normal(self) -> Floats:
         """The normal of the plane that fits best."""
         return self.axes[..., 0, :]
 
     @property
-    def surface_variation(self) -> Reals:
+    def surface_variation(self) -> Floats:
         """The least variance divided by the sum of the three (Pauly, Gross, Kobbelt 2002): 0 on a plane, at most
         1/3."""
         with np.errstate(invalid="ignore"):
@@ -53,16 +57,20 @@ class CorrectedCurvature(NamedTuple):
     d1, d2 : (#rows, 3) their directions in the plane of the vertex normal.
     measures : (#rows, 12) the sums from which the others follow: the area; twice the integral of H; the integral of K;
         and the anisotropic measure, a matrix of 3 by 3, row by row.
+
+    >>> found = meshhood.MeshIndex(V, F).corrected_curvature(0.3)
+    >>> bool(abs(found.gaussian - 1).max() < 0.1)  # on the unit sphere
+    True
     """
 
-    area: Reals
-    mean: Reals
-    gaussian: Reals
-    k1: Reals
-    k2: Reals
-    d1: Reals
-    d2: Reals
-    measures: Reals
+    area: Floats
+    mean: Floats
+    gaussian: Floats
+    k1: Floats
+    k2: Floats
+    d1: Floats
+    d2: Floats
+    measures: Floats
 
 
 class Persistence(NamedTuple):
@@ -72,6 +80,11 @@ class Persistence(NamedTuple):
         times -1 if the feature is negative there; 0 if there is none.
     strength : (#rows,) the feature of largest magnitude in this run; 0 if there is none.
     radius : (#rows,) the radius at which it has this strength; 0 if there is none.
+
+    >>> creases = meshhood.MeshIndex(V, F).features(scales=[0.2, 0.4])
+    >>> found = meshhood.persistence(creases, [0.2, 0.4], threshold=0.1)
+    >>> bool((found.radius == 0.4).all())
+    True
     """
 
     scales: NDArray[np.int32]

@@ -19,7 +19,12 @@ _OPEN_PARTS = 8  # mapped at once in a process
 
 
 class PartSize(NamedTuple):
-    """The size of a part: `vertices` includes its halo, `owned` does not."""
+    """The size of a part: `vertices` includes its halo, `owned` does not.
+
+    >>> parts = meshhood.partition("scan.ply", "scan.parts", parts=2, halo=0.5)
+    >>> sum(size.owned for size in parts.sizes) == parts.n_vertices
+    True
+    """
 
     vertices: int
     owned: int
@@ -31,6 +36,9 @@ class OpenPart:
     also after another partition has replaced the files. Only `mesh` then raises ValueError or FileNotFoundError.
 
     Within a part, vertices are numbered from 0 in ascending order of their ids in the mesh.
+
+    >>> part = meshhood.partition("scan.ply", "scan.parts", parts=2, halo=0.5).open(0)
+    >>> near = part.vertices[part.index.query_ball(part.owned[0], 0.5)]  # by their ids in the mesh
     """
 
     def __init__(self, files: Any, number: int) -> None:

@@ -18,6 +18,7 @@ from ._types import Counts, Ids, Mask, Metric, Number, Reals, Sort, Unit
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
+Face = Union[int, "np.integer[Any]", None]
 Seeds = Union[int, "np.integer[Any]", Sequence[int], "NDArray[np.integer[Any]]", None]
 
 
@@ -25,7 +26,7 @@ class RegionWords(TypedDict, total=False):
     """The words of `MeshIndex.query_region` besides `return_distance`, on which the type of the result depends."""
 
     seeds: Seeds
-    face: Union[int, np.integer[Any], None]
+    face: Face
     walls: Mask
     ignored: Mask
     sort: Optional[Sort]
@@ -69,7 +70,7 @@ class Queries(Held):
         """
         check_words(words, RegionWords)
         sort = sort_of(words)
-        center, first = self._start(start, words.get("seeds"), "query_ball(vertices, r)", words.get("face"))
+        center, first = self._start(start, words.get("seeds"), words.get("face"), "query_ball(vertices, r)")
         radius = self._scale(words.get("unit", "mesh")) * _convert.radius(r)
         masks = self._masks(words.get("walls"), words.get("ignored"))
         if _convert.choice(words.get("metric", "straight"), "metric", ("straight", "path")) == "path":
@@ -128,6 +129,7 @@ class Queries(Held):
         radii: Any,
         *,
         seeds: Seeds = None,
+        face: Face = None,
         walls: Mask = None,
         ignored: Mask = None,
         unit: Unit = "mesh",
@@ -135,6 +137,7 @@ class Queries(Held):
         """The regions of several radii, each vertex once: `counts, indices`. The region of radii[i] is
         indices[:counts[i]].
 
+        start, seeds, face, walls, ignored, unit : see `query_region`.
         radii : strictly ascending.
 
         So indices[counts[i - 1]:counts[i]] is ring i: the vertices of the region of radii[i] that are not in that of
@@ -146,7 +149,7 @@ class Queries(Held):
         >>> len(ids) == index.count(42, 0.4)
         True
         """
-        center, first = self._start(start, seeds, "query_ball(vertices, scales=radii)")
+        center, first = self._start(start, seeds, face, "query_ball(vertices, scales=radii)")
         values = _convert.ascending(radii, "radii") * self._scale(unit)
         counts, indices, has_seed = self._queries.nested(center, first, values, *self._masks(walls, ignored))
         _warn_unless(has_seed or not len(first), "start: the")
@@ -171,44 +174,61 @@ class Queries(Held):
         r: Number,
         *,
         seeds: Seeds = None,
+        face: Face = None,
         walls: Mask = None,
         ignored: Mask = None,
         unit: Unit = "mesh",
     ) -> bool:
-        """Whether the region of `start` and the radius `r` has vertex `w`.
+        """Whether the region of `start` and the radius `r` has vertex `w`. The other words are those of `query_region`.
 
         >>> meshhood.MeshIndex(V, F).contains(42, 163, 0.3)
         True
         """
-        center, first = self._start(start, seeds, "a call for each")
+        center, first = self._start(start, seeds, face, "a call for each")
         w, r = _convert.vertex(w, self._count, "w"), self._scale(unit) * _convert.radius(r)
         return bool(self._queries.contains(center, first, w, r, *self._masks(walls, ignored)))
 
     def connecting_radius(
-        self, start: ArrayLike, w: Any, *, seeds: Seeds = None, walls: Mask = None, ignored: Mask = None
+        self,
+        start: ArrayLike,
+        w: Any,
+        *,
+        seeds: Seeds = None,
+        face: Face = None,
+        walls: Mask = None,
+        ignored: Mask = None,
     ) -> float:
         """The smallest radius whose region has vertex `w`; inf if there is none. It is the minimum, over all paths of
         edges from a seed to `w`, of the largest distance between a vertex of the path and `start`.
+        The other words are those of `query_region`.
 
         >>> index = meshhood.MeshIndex(V, F)
         >>> index.contains(42, 77, index.connecting_radius(42, 77))
         True
         """
-        center, first = self._start(start, seeds, "a call for each")
+        center, first = self._start(start, seeds, face, "a call for each")
         w = _convert.vertex(w, self._count, "w")
         return float(self._queries.connecting_radius(center, first, w, *self._masks(walls, ignored)))
 
     def nearest_connected(
-        self, start: ArrayLike, k: Any, *, seeds: Seeds = None, walls: Mask = None, ignored: Mask = None
+        self,
+        start: ArrayLike,
+        k: Any,
+        *,
+        seeds: Seeds = None,
+        face: Face = None,
+        walls: Mask = None,
+        ignored: Mask = None,
     ) -> tuple[Ids, Reals]:
         """The `k` nearest connected vertices and their connecting radii: the first k, ordered by connecting radius,
-        then by distance from `start`, then by id. Fewer if no more are connected.
+        then by distance from `start`, then by id. Fewer if no more are connected. The other words are those of
+        `query_region`.
 
         >>> ids, radii = meshhood.MeshIndex(V, F).nearest_connected(42, 20)
         >>> int(ids[0])
         42
         """
-        center, first = self._start(start, seeds, "query_knn(vertices, k), or seeds= around a point")
+        center, first = self._start(start, seeds, face, "query_knn(vertices, k), or seeds= around a point")
         k = _convert.integer(k, "k", 0, 2**63 - 1)
         indices, radii = self._queries.nearest_connected(center, first, k, *self._masks(walls, ignored))
         return indices, radii
@@ -237,9 +257,7 @@ class Queries(Held):
         is_one = np.ndim(points) == 1 and len(rows) == 1
         return (int(vertices[0]), float(distances[0])) if is_one else (vertices, distances)
 
-    def _start(
-        self, start: Any, seeds: Any, meant: str, face: Any = None
-    ) -> tuple[tuple[float, float, float] | None, Ids]:
+    def _start(self, start: Any, seeds: Any, face: Any, meant: str) -> tuple[tuple[float, float, float] | None, Ids]:
         """The center and the seeds; for a vertex, None and the vertex. `meant`: the call for several vertices."""
         if np.ndim(start) == 0:
             if face is not None:
@@ -265,7 +283,7 @@ class Queries(Held):
             raise ValueError("seeds: expected None, because the face is given")
         corners, offsets = self._own_faces("face: given, but")
         count = len(corners) // 3 if offsets is None else len(offsets) - 1
-        faces = _convert.faces(face, count, "face")
+        faces = _convert.faces([face] if np.ndim(face) == 0 else face, count, "face")
         if len(faces) != rows:
             raise ValueError(f"face: expected one for each of {rows} points, not {len(faces)}")
         if offsets is None:

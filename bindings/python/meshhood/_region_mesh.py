@@ -18,7 +18,13 @@ Corners = Literal["all", "any"]
 
 
 class Submesh(NamedTuple):
-    """Some faces of a mesh, as a mesh of their own."""
+    """Some faces of a mesh, as a mesh of their own.
+
+    >>> index = meshhood.MeshIndex(V, F)
+    >>> part = index.submesh(index.query_ball(42, 0.5))
+    >>> np.array_equal(part.V, V[part.vertices]) and np.array_equal(part.vertices[part.F], F[part.faces])
+    True
+    """
 
     V: Union[NDArray[np.float32], NDArray[np.float64]]  #: the positions of its vertices
     F: Union[Ids, tuple[NDArray[np.int64], Ids]]  #: (#F, 3), or (offsets, corners) if the mesh has polygons; rows of V
@@ -32,7 +38,13 @@ class Submesh(NamedTuple):
 
 
 class RimLine(NamedTuple):
-    """A polyline along which a surface leaves a ball."""
+    """A polyline along which a surface leaves a ball.
+
+    >>> index = meshhood.MeshIndex(V, F)
+    >>> line = index.rim(index.query_ball(42, 0.5), 42, 0.5)[0]
+    >>> np.allclose(np.linalg.norm(line.points - V[42], axis=1), 0.5)
+    True
+    """
 
     points: NDArray[np.float64]  #: (n, 3)
     edges: Ids  #: (n, 2): of each point, the end of its edge inside the region, and the other
@@ -62,7 +74,11 @@ class RegionMesh:
         return f"<meshhood.RegionMesh: {len(self._positions)} vertices, {self._mesher.face_count} faces>"
 
     def faces(self, ids: ArrayLike, corners: Corners = "all") -> NDArray[np.int64]:
-        """The faces with all corners in `ids`, or with at least one; ascending."""
+        """The faces with all corners in `ids`, or with at least one; ascending.
+
+        >>> meshhood.RegionMesh(V, F).faces(F[7]).tolist()
+        [7]
+        """
         return self._mesher.faces(self._ids(ids), self._all(corners))
 
     def submesh(
@@ -76,6 +92,10 @@ class RegionMesh:
             straight chord, not along the sphere, so that `area` is a little too small. V is then float64, F a tuple
             (offsets, corners), and a face of which the ball has several parts occurs several times. What of a face lies
             in the ball without a corner in `ids` is left out.
+
+        >>> mesher, ids = meshhood.RegionMesh(V, F), meshhood.MeshIndex(V, F).query_ball(42, 0.5)
+        >>> mesher.submesh(ids).area < mesher.submesh(ids, clip=(42, 0.5)).area < mesher.submesh(ids, "any").area
+        True
         """
         if clip is not None:
             return self._clipped(self._ids(ids), self._all(corners), clip)
@@ -92,6 +112,10 @@ class RegionMesh:
         On a manifold mesh without border all polylines are closed. The others end at the border of the mesh, or where
         three or more of them meet. If the faces are consistently oriented, the region lies to the left. If an edge
         leads from the region to a wall inside the ball, the point on this edge is the wall.
+
+        >>> ids = meshhood.MeshIndex(V, F).query_ball(42, 0.5)
+        >>> [line.closed for line in meshhood.RegionMesh(V, F).rim(ids, 42, 0.5)]
+        [True]
         """
         points, edges, offsets, closed = self._mesher.rim(self._ids(ids), self._center(start), _convert.radius(r))
         parts = [slice(begin, end) for begin, end in zip(offsets[:-1], offsets[1:])]

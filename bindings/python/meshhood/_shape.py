@@ -14,10 +14,11 @@ from ._aggregate import area_weights
 from ._curvature import Curvature
 from ._held import Held
 from ._moments import CorrectedCurvature, PrincipalComponents
-from ._rows import Rows, Words, read_rows
-from ._types import Radii, Reals, Scales, Vertices
+from ._rows import Rows, Words, read_rows, result_dtype
+from ._types import Floats, Radii, Scales, Vertices
 
 if TYPE_CHECKING:
+    from numpy.typing import DTypeLike
     from typing_extensions import Unpack
 
 Kind = Literal[
@@ -30,6 +31,7 @@ class SurfaceWords(Words, total=False):
 
     scales: Optional[Scales]
     F: Any
+    dtype: DTypeLike
 
 
 class CurvatureWords(SurfaceWords, total=False):
@@ -68,6 +70,7 @@ class Shape(Held):
         """Principal curvatures of `vertices` by a quadric that is fitted to their neighborhoods.
 
         r, vertices, scales, walls, ignored, unit, workers, progress : see `MeshIndex`.
+        dtype : of the numbers of the result, float64 unless given. All is computed in float64.
         F : other faces than those that the index keeps, or a mesh. The normals are kept for the next call with the same
             faces.
         normals : (#V, 3), instead of those of the faces; of any length. NaN where a vertex has none.
@@ -100,7 +103,7 @@ class Shape(Held):
         found = rows.for_each_scale(
             "curvature", lambda radius, report: surface.curvatures(rows.vertices, radius, progress=report, **options)
         )
-        return Curvature(*(rows.shaped(list(arrays)) for arrays in zip(*found)))
+        return Curvature(*(_of_type(rows.shaped(list(arrays)), words) for arrays in zip(*found)))
 
     def corrected_curvature(
         self, r: Optional[Radii] = None, vertices: Vertices = None, **words: Unpack[CorrectedWords]
@@ -132,17 +135,17 @@ class Shape(Held):
                 **rows.filter,
             ),
         )
-        return CorrectedCurvature(*(rows.shaped(list(arrays)) for arrays in zip(*found)))
+        return CorrectedCurvature(*(_of_type(rows.shaped(list(arrays)), words) for arrays in zip(*found)))
 
     def moments(
         self, r: Optional[Radii] = None, vertices: Vertices = None, *, degree: int = 2, **words: Unpack[MomentWords]
-    ) -> Reals:
+    ) -> Floats:
         """Sums of w x^i y^j z^k over each neighborhood for i + j + k <= degree, where x, y, z are the coordinates
         relative to the query vertex, and w the weights.
 
         r, vertices, scales, walls, ignored, unit, workers, progress : see `MeshIndex`.
-        degree : 0 to 4. weights, F : as for `aggregate`.
-        Returns (#rows, 1, 4, 10, 20 or 35) float64, with a leading axis if there are scales: 1, x, y, z, x^2, xy, xz,
+        degree : 0 to 4. weights, F : as for `aggregate`. dtype : as for `curvature`.
+        Returns (#rows, 1, 4, 10, 20 or 35), with a leading axis if there are scales: 1, x, y, z, x^2, xy, xz,
         y^2, yz, z^2, x^3, ..., the order of scikit-learn's PolynomialFeatures. They are accurate to 1e-13 of the sum of
         w |p|^(i + j + k). A row depends on index, weights, vertex, radius and masks alone, bit for bit: not on other
         rows of the call, earlier calls, threads or the processor.
@@ -159,7 +162,7 @@ class Shape(Held):
                 self._exact, rows.vertices, radius, progress=report, **options, **rows.filter
             ),
         )
-        return rows.shaped(found)
+        return _of_type(rows.shaped(found), words)
 
     def principal_components(
         self, r: Optional[Radii] = None, vertices: Vertices = None, **words: Unpack[MomentWords]
@@ -181,7 +184,7 @@ class Shape(Held):
                 self._exact, rows.vertices, radius, progress=report, **options
             ),
         )
-        return PrincipalComponents(*(rows.shaped(list(arrays)) for arrays in zip(*found)))
+        return PrincipalComponents(*(_of_type(rows.shaped(list(arrays)), words) for arrays in zip(*found)))
 
     def features(
         self,
@@ -190,16 +193,16 @@ class Shape(Held):
         *,
         kinds: Union[Kind, Sequence[Kind]] = "crease",
         **words: Unpack[FeatureWords],
-    ) -> Reals:
+    ) -> Floats:
         """Feature vectors without unit, so that scales can be compared.
 
         r, vertices, scales, walls, ignored, unit, workers, progress : see `MeshIndex`; scales are for example
             `geometric_radii(a, b, count)`. Radii are > 0.
         kinds : one name or several of crease, mean, gaussian, k1, k2, curvedness, shape_index, area, height, variation.
             See docs/curvature.md for what they mean.
-        F, filter : as for `curvature`.
+        F, filter, dtype : as for `curvature`.
 
-        Returns (#scales, #rows, #kinds) float64, without the first axis if there is one `r`, and without the last if
+        Returns (#scales, #rows, #kinds), without the first axis if there is one `r`, and without the last if
         `kinds` is one name. NaN where there is no result. `persistence` finds over how many scales a feature lasts. As
         for `curvature`, a row does not depend on the others.
 
@@ -223,7 +226,7 @@ class Shape(Held):
         radii, radius = rows.common_radii
         with rows.reporter("features") as report:
             found = surface.features(rows.vertices, radii=np.array(radii), radius=radius, progress=report, **options)
-        found = found.reshape(rows.shape + found.shape[2:])
+        found = _of_type(found.reshape(rows.shape + found.shape[2:]), words)
         return found[..., 0] if isinstance(kinds, str) else found
 
     def _surface_rows(self, vertices: Any, r: Any, words: Any, accepted: Any) -> Rows:
@@ -231,3 +234,8 @@ class Shape(Held):
         if rows.metric != "straight":
             raise ValueError(f"metric: {rows.metric!r}, expected 'straight': the surface is measured in balls")
         return rows
+
+
+def _of_type(array: Any, words: Any) -> Any:
+    """Numbers in the type that the words give; other arrays as they are."""
+    return array.astype(result_dtype(words), copy=False) if array.dtype == np.float64 else array

@@ -180,7 +180,7 @@ class SurfaceQueries(Held):
         if not isinstance(rows.radii[0], float):
             raise ValueError("r: expected one radius for all rows")
         options = {
-            "path": _one_of(rows.metric, "straight", "path") == "path",
+            "metric": getattr(_core.Metric, _one_of(rows.metric, "straight", "path")),
             "radius": rows.radii[0],
             "threads": rows.threads,
             **rows.filter,

@@ -22,7 +22,10 @@ _PLACE = "<!-- meshhood:page -->"  # replaced by the mesh
 
 
 class Page:
-    """A page that shows a mesh and its neighborhoods. A notebook displays it."""
+    """A page that shows a mesh and its neighborhoods. A notebook displays it.
+
+    >>> page = meshhood.view(V, F, v=42, r=0.3)
+    """
 
     html: str
     """The whole page: it needs neither a server nor a network."""
@@ -33,12 +36,18 @@ class Page:
 
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
         """Writes the page to a file, which appears whole or not at all. Raises OSError, with errno and filename; an old
-        file of that name is then unchanged."""
+        file of that name is then unchanged.
+
+        >>> meshhood.view(V, F).save("hand.html")
+        """
         with atomic_file(path) as file:
             file.write(self.html.encode())
 
     def open(self, path: Union[str, os.PathLike[str]]) -> None:
-        """Writes the page to a file and opens it in the browser."""
+        """Writes the page to a file and opens it in the browser.
+
+        >>> meshhood.view(V, F, values=V[:, 2]).open("heights.html")
+        """
         self.save(path)
         webbrowser.open(Path(os.fsdecode(path)).resolve().as_uri())
 

@@ -14,7 +14,10 @@ from ._types import Ids, Number
 
 
 class Welded(NamedTuple):
-    """A welded mesh, and what has become of each vertex (see `weld`)."""
+    """A welded mesh, and what has become of each vertex (see `weld`).
+
+    >>> vertices, faces, ids = meshhood.weld(V, F)
+    """
 
     vertices: Union[NDArray[np.float32], NDArray[np.float64]]
     faces: Union[Ids, tuple[NDArray[np.int64], Ids]]

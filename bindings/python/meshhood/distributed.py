@@ -59,6 +59,9 @@ class Parts:
     Every method takes a radius `r` up to `halo`, in `unit`: "mesh" is the unit of the positions, "edge" is
     `mean_edge_length`. A larger radius is an error, which names the halo that it needs. Results are those of one index of the
     whole mesh.
+
+    >>> meshhood.partition("scan.ply", "scan.parts", parts=2, halo=0.5)
+    <meshhood.distributed.Parts: 642 vertices in 2 parts, halo 0.5>
     """
 
     folder: str
@@ -94,11 +97,20 @@ class Parts:
 
     def open(self, number: int) -> OpenPart:
         """Part `number`, verified and mapped. Raises ValueError, naming the file, if a file has been changed or is of
-        another mesh, and naming the folder if other parts have replaced these; OSError."""
+        another mesh, and naming the folder if other parts have replaced these; OSError.
+
+        >>> parts = meshhood.partition("scan.ply", "scan.parts", parts=2, halo=0.5)
+        >>> parts.open(1).number
+        1
+        """
         return self._name(_convert.integer(number, "number", 0, len(self) - 1)).open()
 
     def count(self, r: float, *, unit: Unit = "mesh", order: Literal["mesh", "parts"] = "mesh") -> da.Array:
-        """The number of vertices of each neighborhood: a dask.array (#V,) int64. See `map` for `order`."""
+        """The number of vertices of each neighborhood: a dask.array (#V,) int64. See `map` for `order`.
+
+        >>> parts = meshhood.partition("scan.ply", "scan.parts", parts=2, halo=0.5)
+        >>> counts = parts.count(0.3).compute()
+        """
         return self.map(functools.partial(count_vertices, self._radius(r, unit)), r, unit=unit, dtype=np.int64, order=order)
 
     def aggregate(
@@ -122,6 +134,10 @@ class Parts:
         weights : None, "area", or (#V,) as `values`. Areas are those of the whole mesh.
 
         Minima, maxima and counts are those of one index. The last digits of sums may differ, because their order does.
+
+        >>> parts = meshhood.partition("scan.ply", "scan.parts", parts=2, halo=0.5)
+        >>> parts.aggregate(V, 0.3, "std").compute().shape
+        (642, 3)
         """
         radius = self._radius(r, unit)
         values = self._per_vertex(values, "values")
@@ -147,6 +163,9 @@ class Parts:
         Normals are those of the whole mesh, because each part has all faces around the vertices within its halo. The
         last digits may differ from those of one index, because the order of the sums does. Compute all arrays together,
         by `dask.compute(found.k1, found.k2)`.
+
+        >>> parts = meshhood.partition("scan.ply", "scan.parts", parts=2, halo=0.5)
+        >>> mean = parts.curvature(0.3).mean.compute()
         """
         options = {"like": like, "fit": fit, "filter": bool(filter)}
         function = functools.partial(curvature_rows, self._radius(r, unit), options)
@@ -184,6 +203,11 @@ class Parts:
             mesh whose results do not fit into the memory of one worker, use "parts" or `write`.
 
         Nothing is computed before `compute()`, `persist()` or `store`. Errors of `function` are passed on.
+
+        >>> parts = meshhood.partition("scan.ply", "scan.parts", parts=2, halo=0.5)
+        >>> heights = lambda part, index, owned: index.positions[owned, 2]
+        >>> np.allclose(parts.map(heights, 0).compute(), V[:, 2])
+        True
         """
         import dask.array as da
 
@@ -199,7 +223,12 @@ class Parts:
         return self._array(blocks, dtype, shape)
 
     def ids(self) -> da.Array:
-        """The id in the mesh of each row of results in the order of the parts: a dask.array (#V,) int64."""
+        """The id in the mesh of each row of results in the order of the parts: a dask.array (#V,) int64.
+
+        >>> parts = meshhood.partition("scan.ply", "scan.parts", parts=2, halo=0.5)
+        >>> np.array_equal(np.sort(parts.ids().compute()), np.arange(642))
+        True
+        """
         return self._array(self._blocks(owned_ids), np.dtype(np.int64), ())
 
     def write(
@@ -212,6 +241,11 @@ class Parts:
         written are kept, so that a call that was stopped can be continued. A folder with other results, or into which
         another call writes, is refused. The rows are in the order of `part.owned`.
         progress : True shows a bar of tqdm; a function is called as progress(done, total), in parts.
+
+        >>> parts = meshhood.partition("scan.ply", "scan.parts", parts=2, halo=0.5)
+        >>> paths = parts.write(lambda part, index, owned: index.count(owned, 0.3, workers=1), 0.3, "counts")
+        >>> sum(len(np.load(path)) for path in paths)
+        642
         """
         radius = self._radius(r, unit)
         what = {"map": _name_of(function), "r": radius}
@@ -234,6 +268,10 @@ class Parts:
             ascending. All ids are those of the mesh. With `return_distance` also `distances` (float64), in the order of `indices`.
 
         The memory of a task is small, whatever the size of the result. `to` and `progress` as in `write`.
+
+        >>> parts = meshhood.partition("scan.ply", "scan.parts", parts=2, halo=0.5)
+        >>> with np.load(parts.neighborhoods(0.3, "near")[0]) as rows:
+        ...     first = rows["indices"][: rows["indptr"][1]]
         """
         radius = self._radius(r, unit)
         _convert.choice(format, "format", ("npz", "zarr"))
@@ -316,6 +354,9 @@ def map_meshes(
     progress : as in `Parts.write`, in meshes.
 
     Returns the results in the order of `paths`, or the paths of the written files. An error names its mesh.
+
+    >>> meshhood.distributed.map_meshes(["hand.ply", "scan.ply"], len)
+    [642, 642]
     """
     meshes = [os.path.abspath(os.fspath(path)) for path in paths]
     if to is None:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Curvature at a scale. One of the two `use_...` comes first.
+// Curvature and features at a scale. One of the two `use_...` comes first.
 #include <array>
 #include <cstddef>
 #include <span>
@@ -7,6 +7,7 @@
 
 #include "meshhood/meshhood.h"
 
+#include "answer.h"
 #include "arguments.h"
 #include "face_hash.h"
 #include "rows.h"
@@ -61,6 +62,17 @@ extern "C" {
     append(last_curvatures.d2, found.d2);
     append(last_curvatures.state, found.state);
   }
+}
+
+/// See `RowArguments`. `areas` are null unless a kind needs them.
+[[clang::export_name("features")]] void features(const VertexId* vertices, std::size_t vertex_count, double radius,
+                                                 const double* radii, std::size_t radius_count, bool are_scales,
+                                                 const Feature* kinds, std::size_t kind_count, const double* areas,
+                                                 std::size_t area_count, bool filter) {
+  const RowArguments rows{vertices, vertex_count, radius, radii, radius_count, are_scales};
+  answer.reals =
+      meshhood::features(workspace.surface(), rows.query(),
+                         {.kinds = {kinds, kinds + kind_count}, .areas = {areas, area_count}, .filter = filter});
 }
 
 [[clang::export_name("curvature_rows")]] std::size_t curvature_rows() { return last_curvatures.state.size(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Neighborhoods of vertices by any method.
+// Neighborhoods of vertices by any method, and what is nearest to them.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -59,6 +59,10 @@ void sort_rows(VertexOrder order, std::span<const std::uint32_t> offsets) {
   }
 }
 
+NearestOptions nearest_options(Metric metric, double radius) {
+  return {.metric = metric, .radius = radius, .filter = restriction};
+}
+
 }  // namespace
 
 extern "C" {
@@ -112,6 +116,25 @@ extern "C" {
   Unconnected found = meshhood::nearest_unconnected(workspace.index(), rows.query());
   answer.ids = std::move(found.vertices);
   answer.reals = std::move(found.gaps);
+}
+
+/// All vertices if `vertices` is null. The ids and reals of the answer have `k` places for each row.
+[[clang::export_name("k_nearest")]] void k_nearest(const VertexId* vertices, std::size_t vertex_count, Metric metric,
+                                                   double radius, double k) {
+  KNearest found = meshhood::k_nearest(workspace.index(), view_vertices(vertices, vertex_count), to_size(k),
+                                       nearest_options(metric, radius));
+  answer.ids = std::move(found.ids);
+  answer.reals = std::move(found.distances);
+}
+
+/// The same rows up to an area. The counts of the answer are their offsets.
+[[clang::export_name("discs")]] void discs(const VertexId* vertices, std::size_t vertex_count, Metric metric,
+                                           double radius, double area, const double* areas, std::size_t area_count) {
+  Neighborhoods found = meshhood::discs(workspace.index(), view_vertices(vertices, vertex_count), area,
+                                        {areas, area_count}, nearest_options(metric, radius));
+  answer.counts.assign(found.offsets.begin(), found.offsets.end());
+  answer.ids = std::move(found.ids);
+  answer.reals = std::move(found.distances);
 }
 
 }  // extern "C"

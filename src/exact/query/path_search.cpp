@@ -36,19 +36,19 @@ PathSearch::PathSearch(const IndexView& index, KeptGraph& graph)
       lengths_(index.vertex_count(), kUnreached),
       is_met_(index.vertex_count() / kVerticesOfBlock + 1) {}
 
-/// Returns whether there is anything to find.
-bool PathSearch::begin(std::uint32_t start, double radius, const LaneFilter& walls) {
+void PathSearch::begin(std::span<const std::uint32_t> starts, double radius, const LaneFilter& walls) {
   forget();
-  if (walls.has_at(start)) return false;
   is_complete_ = false;
   radius_ = radius;
   walls_ = &walls;
-  const double mean_length = mean_length_near(start);
+  const double mean_length = mean_length_near(starts.front());
   queue_.clear(mean_length / kBucketsPerEdge);
   is_small_ = radius < kSmall * mean_length;
-  queue_.push({0, start});
-  lengths_[start] = 0;
-  return true;
+  for (const std::uint32_t start : starts) {
+    if (walls.has_at(start) || lengths_[start] == 0) continue;
+    lengths_[start] = 0;
+    queue_.push({0, start});
+  }
 }
 
 /// Empties the queue.

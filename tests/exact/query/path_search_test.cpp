@@ -169,5 +169,24 @@ TEST(PathSearch, SearchesAgainFromOtherVerticesAndBehindOtherWalls) {
   EXPECT_EQ(count(4, LaneFilter()), 10U);
 }
 
+TEST(PathSearch, FindsTheShortestPathsFromAnyOfSeveralVertices) {
+  PlaneGraph graph;
+  for (int i = 0; i < 10; ++i) graph.add(i, 0);
+  for (VertexId i = 1; i < 10; ++i) graph.join(i - 1, i);
+  const Index built = graph.index();
+  const IndexView& index = IndexAccess::view(built);
+  PathSearch search(index, *IndexAccess::share_graph(built));
+  std::vector<std::uint32_t> starts;
+  for (const VertexId v : {1U, 8U, 1U}) {
+    starts.push_back(index.leaf_begin[leaf_of(index.slot[v])] + lane_of(index.slot[v]));
+  }
+  search.run(starts, 3, LaneFilter(), [](std::span<const Path>) { return false; });
+  EXPECT_EQ(search.found().size(), 10U);
+  for (const Path& path : search.found()) {
+    const auto x = static_cast<int>(index.id(path.end));
+    EXPECT_EQ(path.length, std::min(std::abs(x - 1), std::abs(x - 8)));
+  }
+}
+
 }  // namespace
 }  // namespace meshhood::test

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// Paths along the edges from every vertex, in one call, beside one `EdgeSearcher` that answers one vertex after the
+// other: counts, ids with lengths, and a smoothed map. On one thread, in alternating rounds; microseconds a vertex, and
+// how many times as fast the call is.
+//
+//   bench_paths MESH [RADIUS IN MEAN EDGES...]
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "meshhood/meshhood.h"
+
+#include "measure/timing.h"
+#include "mesh_argument.h"
+#include "program.h"
+
+namespace meshhood::bench {
+namespace {
+
+constexpr int kRounds = 3;
+
+class Paths {
+ public:
+  explicit Paths(const MeshView& mesh)
+      : index_(build(mesh)),
+        graph_(extract_graph(index_)),
+        mean_edge_(mean_edge_length(graph_.view())),
+        edges_(index_),
+        method_(SearchMethod::along_edges(index_)),
+        map_(index_.vertex_count()) {
+    for (std::size_t v = 0; v < map_.size(); ++v) map_[v] = static_cast<double>(v % 97);
+  }
+
+  void run(double radius_in_edges) {
+    const double radius = radius_in_edges * mean_edge_;
+    const BatchQuery query{.radius = radius};
+    const auto size = static_cast<VertexId>(index_.vertex_count());
+    std::array<double, 6> found{};
+    const std::array<std::function<void()>, 6> runs{
+        [&] {
+          for (VertexId v = 0; v < size; ++v) found[0] += static_cast<double>(edges_.count(v, radius));
+        },
+        [&] {
+          for (const std::uint64_t count : counts(method_, query)) found[1] += static_cast<double>(count);
+        },
+        [&] {
+          kept_.clear();
+          kept_lengths_.clear();
+          for (VertexId v = 0; v < size; ++v) {
+            edges_.neighborhood(v, radius, ids_, lengths_);
+            kept_.insert(kept_.end(), ids_.begin(), ids_.end());
+            kept_lengths_.insert(kept_lengths_.end(), lengths_.begin(), lengths_.end());
+          }
+          found[2] += static_cast<double>(kept_.size());
+        },
+        [&] {
+          // Into the same memory, as the ids of one vertex after the other.
+          const auto allocate = [&](std::size_t count) {
+            kept_.resize(count);
+            kept_lengths_.resize(count);
+            return BatchMemory{kept_, kept_lengths_};
+          };
+          found[3] += static_cast<double>(neighborhoods(method_, query, allocate, {.distances = true}).back());
+        },
+        [&] {
+          for (VertexId v = 0; v < size; ++v) found[4] += smoothed(v, radius);
+        },
+        [&] {
+          const AggregateQuery smooth{.radius = radius, .metric = Metric::Path, .kernel = SmoothingKernel::Biweight};
+          for (const double mean : aggregate(index_, {std::span<const double>(map_)}, smooth)) found[5] += mean;
+        }};
+    std::array<double, 6> least;
+    least.fill(std::numeric_limits<double>::infinity());
+    for (int round = 0; round < kRounds; ++round) {
+      for (std::size_t i = 0; i < runs.size(); ++i) {
+        const double start = measure::processor_time();
+        runs[i]();
+        least[i] = std::min(least[i], measure::processor_time() - start);
+      }
+    }
+    std::printf("%6.4g %9.1f", radius_in_edges, found[0] / kRounds / size);
+    for (std::size_t i = 0; i < runs.size(); i += 2) {
+      std::printf(" %10.3f %10.3f %6.2f", 1e6 * least[i] / size, 1e6 * least[i + 1] / size, least[i] / least[i + 1]);
+    }
+    const bool same = found[0] == found[1] && found[2] == found[3] && std::abs(found[4] - found[5]) < 1e-9 * found[4];
+    std::printf("%s\n", same ? "" : "  DIFFERENT RESULTS");
+    std::fflush(stdout);
+  }
+
+ private:
+  double smoothed(VertexId v, double radius) {
+    edges_.neighborhood(v, radius, ids_, lengths_);
+    double sum = 0;
+    double weights = 0;
+    for (std::size_t i = 0; i < ids_.size(); ++i) {
+      const double t = lengths_[i] / radius;
+      const double weight = (1 - t * t) * (1 - t * t);
+      sum += weight * map_[ids_[i]];
+      weights += weight;
+    }
+    return sum / weights;
+  }
+
+  Index index_;
+  GraphData graph_;
+  double mean_edge_;
+  EdgeSearcher edges_;
+  SearchMethod method_;
+  std::vector<double> map_;
+  std::vector<VertexId> ids_;
+  std::vector<double> lengths_;
+  std::vector<VertexId> kept_;
+  std::vector<double> kept_lengths_;
+};
+
+int run(std::span<char*> arguments) {
+  if (arguments.size() < 2) {
+    std::fprintf(stderr, "usage: bench_paths MESH [RADIUS IN MEAN EDGES...]\n");
+    return 2;
+  }
+  const MeshArgument mesh(arguments[1]);
+  Paths paths(mesh.view());
+  std::printf("%6s %9s", "edges", "vertices");
+  for (const char* what : {"count", "ids", "smooth"}) std::printf(" %10s %10s %6s", what, "batch", "ratio");
+  std::printf("\n");
+  std::vector<double> radii{5, 10, 20};
+  if (arguments.size() > 2) radii.clear();
+  for (const char* argument : arguments.subspan(2)) radii.push_back(std::stod(argument));
+  for (const double radius : radii) paths.run(radius);
+  return 0;
+}
+
+}  // namespace
+}  // namespace meshhood::bench
+
+int main(int argc, char** argv) {
+  return meshhood::bench::exit_status("bench_paths",
+                                      [&] { return meshhood::bench::run({argv, static_cast<std::size_t>(argc)}); });
+}

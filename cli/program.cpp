@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include "program.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstddef>
+#include <memory>
+#include <new>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "meshhood/error.h"
+#include "meshhood/kernel_target.h"
+#include "meshhood/version.h"
+
+#include "commands.h"
+#include "help.h"
+#include "io/descriptor.h"
+#include "io/number.h"
+#include "options.h"
+#include "output.h"
+
+namespace meshhood::cli {
+namespace {
+
+constexpr const char* kDescription =
+    "Neighborhoods on polygonal meshes: the connected component of the mesh inside a ball around a vertex, exact and "
+    "indexed.";
+
+constexpr const char* kFooter =
+    "FILE may be - for standard input, and --output - is standard output; what is printed then goes to standard "
+    "error.\n"
+    "Exit codes: 0 done, 2 wrong usage, 3 not a valid mesh, 4 not a valid index, 5 failed to read or write, 6 a limit, "
+    "the memory or the disk is too small, 130 interrupted.";
+
+/// Part of the interface of the program.
+enum class ExitCode {
+  Ok = 0,
+  Usage = 2,        ///< a wrong option, vertex or radius
+  MeshRefused = 3,  ///< the file is not a valid mesh
+  IndexRefused = 4,
+  InputOutput = 5,    ///< the operating system could not read or write
+  Limit = 6,          ///< a documented limit, the memory or the disk is too small
+  Interrupted = 130,  ///< as the shell reports a program that Ctrl-C ended
+};
+
+ExitCode exit_code(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::VertexOutOfRange:
+    case ErrorCode::InvalidRadius:
+    case ErrorCode::InvalidOption: return ExitCode::Usage;
+    case ErrorCode::InvalidMesh:
+    case ErrorCode::MalformedFile:
+    case ErrorCode::UnsupportedFormat: return ExitCode::MeshRefused;
+    case ErrorCode::MalformedIndex: return ExitCode::IndexRefused;
+    case ErrorCode::IoFailure: return ExitCode::InputOutput;
+    case ErrorCode::TooLarge: return ExitCode::Limit;
+    case ErrorCode::Cancelled: return ExitCode::Interrupted;
+  }
+  throw std::logic_error("an error code without an exit code");
+}
+
+ExitCode fail(ExitCode code, std::string_view message) {
+  print_error("", message);
+  return code;
+}
+
+void add_subcommands(CLI::App& program) {
+  program.require_subcommand(0, 1);
+  program.formatter(std::make_shared<HelpFormatter>());  // the commands inherit it
+  program.footer(kFooter);
+  program.set_version_flag("--version", fmt::format("meshhood {}, kernels for {}", kVersion, kernel_target()));
+  add_info(program);
+  add_build(program);
+  add_check(program);
+  add_query(program);
+  add_connect(program);
+  add_region(program);
+  add_closest(program);
+  add_batch(program);
+  add_aggregate(program);
+  add_curvature(program);
+  add_features(program);
+  add_unconnected(program);
+  add_merge(program);
+  add_partition(program);
+  add_compare(program);
+  add_generate(program);
+  add_view(program);
+  add_manual(program);
+}
+
+/// CLI11 takes the next argument as the value of `--radius=`, which a shell makes of an unset variable.
+void refuse_empty_values(const std::vector<std::string>& arguments) {
+  for (const std::string& argument : arguments) {
+    if (argument == "--") return;
+    if (!argument.starts_with("--") || argument.find('=') != argument.size() - 1) continue;
+    raise(ErrorCode::InvalidOption, fmt::format("{}: the value is empty", argument.substr(0, argument.size() - 1)));
+  }
+}
+
+bool are_numbers(std::span<const std::string> words) {
+  return std::all_of(words.begin(), words.end(), [](const std::string& word) { return io::parse_real<double>(word); });
+}
+
+/// Turns `--point X Y Z` into `--point X,Y,Z`. An option of CLI11 with one to three values would also take the FILE
+/// that follows `--point X,Y,Z`.
+void join_points(std::vector<std::string>& arguments) {
+  constexpr std::size_t kAxes = 3;
+  for (std::size_t i = 0; i + kAxes < arguments.size(); ++i) {
+    if (arguments[i] != "--point" || !are_numbers(std::span(arguments).subspan(i + 1, kAxes))) continue;
+    arguments[i + 1] += ',' + arguments[i + 2] + ',' + arguments[i + 3];
+    arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i + 2),
+                    arguments.begin() + static_cast<std::ptrdiff_t>(i + 1 + kAxes));
+  }
+}
+
+std::vector<std::string> names_of_options(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+/// Where to find what other programs call `name`.
+std::string command_for(std::string_view name) {
+  if (name == "stats" || name == "stat" || name == "statistics") return "; did you mean 'info'?";
+  return "; meshhood --help prints all";
+}
+
+/// The first argument that no command or option accepts, with a suggestion; "" if there is none.
+std::string unknown_argument(const CLI::App& program) {
+  const std::vector<CLI::App*> commands = program.get_subcommands();
+  const CLI::App& command = commands.empty() ? program : *commands.front();
+  for (const std::string& argument : command.remaining()) {
+    const bool is_option = argument.starts_with('-');
+    if (!is_option && &command != &program) continue;
+    std::vector<std::string> candidates = names_of_options(command);
+    if (!is_option) {
+      for (const CLI::App* known : program.get_subcommands({})) candidates.push_back(known->get_name());
+    }
+    const std::string name = argument.substr(0, argument.find('='));
+    if (is_option) return fmt::format("unknown option '{}'{}", name, suggestion(name, candidates));
+    const std::string similar = suggestion(name, candidates);
+    return fmt::format("unknown command '{}'{}", name, similar.empty() ? command_for(name) : similar);
+  }
+  return {};
+}
+
+/// Runs the subcommand, or prints the help or the version if that was requested.
+void run(CLI::App& program, std::vector<std::string> arguments) {
+  try {
+    refuse_empty_values(arguments);
+    join_points(arguments);
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+    program.parse(std::move(arguments));
+    if (program.get_subcommands().empty()) raise(ErrorCode::InvalidOption, "a command is missing; see --help");
+  } catch (const CLI::Success& request) {
+    const std::string unknown = program.get_subcommands().empty() ? unknown_argument(program) : "";
+    if (!unknown.empty()) raise(ErrorCode::InvalidOption, unknown);
+    std::ostringstream text;
+    program.exit(request, text, text);
+    print_text(text.str());
+  } catch (const CLI::ParseError& error) {
+    const std::string unknown = unknown_argument(program);
+    raise(ErrorCode::InvalidOption, unknown.empty() ? error.what() : unknown);
+  }
+  close_output();
+}
+
+ExitCode run_or_report(std::span<const char* const> arguments) {
+  try {
+    CLI::App program(kDescription, "meshhood");
+    add_subcommands(program);
+    run(program, {arguments.begin(), arguments.end()});
+    return ExitCode::Ok;
+  } catch (const OutputClosed&) {
+    return ExitCode::Ok;
+  } catch (const Error& error) {
+    if (error.path() == io::kStandardOutput && error.error_number() == EPIPE) return ExitCode::Ok;
+    return fail(exit_code(error.code()), error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(ExitCode::Limit, "not enough memory");
+  } catch (const std::length_error&) {
+    return fail(ExitCode::Limit, "not enough memory");
+  } catch (const std::system_error& error) {
+    return fail(ExitCode::InputOutput, error.what());
+  }
+}
+
+/// A file opened later must not get the number of a closed standard stream: messages would be written into it. Writing
+/// to a closed standard output still fails, because the replacement is opened in the wrong direction.
+void occupy_standard_streams() {
+  for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number) {
+    if (::fcntl(number, F_GETFD) != -1) continue;
+    static_cast<void>(::open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+  }
+}
+
+}  // namespace
+
+int run_program(std::span<const char* const> arguments) {
+  occupy_standard_streams();
+  // Both become errors of the write: a closed pipe, and a file-size limit for standard output.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  return static_cast<int>(run_or_report(arguments));
+}
+
+}  // namespace meshhood::cli

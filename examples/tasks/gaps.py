@@ -1,0 +1,6 @@
+# What is near each vertex, within 3 mm, but not connected with it there: the width of sulci, the thickness of walls.
+import sys, meshhood  # noqa: E401
+V, F = meshhood.read_mesh(sys.argv[1])
+
+index = meshhood.MeshIndex(V, F)
+result = index.nearest_unconnected(None, 3.0)

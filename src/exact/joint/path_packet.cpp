@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "exact/joint/path_packet.h"
+
+namespace meshhood {
+namespace {
+
+constexpr std::uint32_t kNoNumber = 0xFFFFFFFF;
+
+constexpr PathLengths kReachedByNone = [] {
+  PathLengths lengths{};
+  lengths.of.fill(std::numeric_limits<double>::infinity());
+  return lengths;
+}();
+
+// So that no vertex is within a radius that is infinite, unless there is a path to it.
+constexpr double kLongest = std::numeric_limits<double>::max();
+
+}  // namespace
+
+PathPacket::PathPacket(const IndexView& index, KeptGraph& graph, Isa isa, const LaneFilter& walls,
+                       const LaneFilter& ignored, const PathLimits& limits)
+    : index_(&index),
+      graph_(&graph.of(index)),
+      kernels_(&path_kernels(isa)),
+      joint_kernels_(&joint_kernels(isa)),
+      walls_(&walls),
+      ignored_(&ignored),
+      limits_(limits),
+      search_(index, graph),
+      numbers_(index.vertex_count(), kNoNumber),
+      place_of_(index.leaf_count()) {}
+
+bool PathPacket::run(std::span<const PathQuery> queries) {
+  begin(queries);
+  is_single_ = false;
+  std::array<std::uint32_t, kPacketCapacity> starts{};
+  double most = 0;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    starts[i] = queries[i].vertex;
+    most = std::max(most, queries[i].radius);
+  }
+  const auto are_too_many = [this](std::span<const Path>) { return search_.found().size() > limits_.vertices; };
+  search_.run(std::span(starts).first(queries.size()), most, *walls_, are_too_many);
+  if (are_too_many({})) return false;
+  list_edges();
+  if (!pass_on_lengths()) return false;
+  leave_out_ignored();
+  return true;
+}
+
+void PathPacket::run_single(const PathQuery& query) {
+  begin(std::span(&query, 1));
+  is_single_ = true;
+  search_.run(query.vertex, query.radius, *walls_);
+}
+
+void PathPacket::begin(std::span<const PathQuery> queries) {
+  assert(!queries.empty() && queries.size() <= kPacketCapacity);
+  queries_.assign(queries.begin(), queries.end());
+  leaves_.clear();
+  steps_ = 0;
+}
+
+/// No length is within that of a query that does not exist.
+PathLengths PathPacket::limits_of(std::span<const double> radii) const {
+  PathLengths limits{};
+  limits.of.fill(-1);
+  for (std::size_t i = 0; i < radii.size(); ++i) limits.of[i] = std::min(radii[i], kLongest);
+  return limits;
+}
+
+/// Numbers the vertices that were found, and lists the edges between them.
+void PathPacket::list_edges() {
+  const std::span<const Path> found = search_.found();
+  const auto row = [&](std::uint32_t v) { return std::pair(graph_->edges.offsets[v], graph_->edges.offsets[v + 1]); };
+  first_edge_.resize(found.size() + 1);
+  std::size_t most = 1;
+  for (const Path& path : found) most += row(path.end).second - row(path.end).first;
+  if (edges_.size() < most) edges_.resize(most);
+  // Nothing throws before the numbers are forgotten.
+  for (std::size_t i = 0; i < found.size(); ++i) numbers_[found[i].end] = static_cast<std::uint32_t>(i);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    first_edge_[i] = count;
+    const auto [begin, end] = row(found[i].end);
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t number = numbers_[graph_->edges.neighbors[k]];
+      edges_[count] = {graph_->lengths[k], number};
+      count += number != kNoNumber ? 1 : 0;
+    }
+  }
+  first_edge_[found.size()] = count;
+  for (std::size_t i = 0; i < queries_.size(); ++i) starts_[i] = numbers_[queries_[i].vertex];
+  for (const Path& path : found) numbers_[path.end] = kNoNumber;
+}
+
+/// Passes lengths on until none becomes shorter. Returns false if that takes too many steps.
+bool PathPacket::pass_on_lengths() {
+  constexpr std::size_t kAtOnce = 32;
+  const std::span<const Path> found = search_.found();
+  lengths_.assign(found.size(), kReachedByNone);
+  waiting_.reset(found.size());
+  for (std::size_t i = 0; i < queries_.size(); ++i) {
+    if (starts_[i] == kNoNumber) continue;  // a wall
+    lengths_[starts_[i]].of[i] = 0;
+    waiting_.add(starts_[i]);
+  }
+  const std::size_t most = limits_.steps * found.size();
+  waiting_.run([&](std::uint32_t number) {
+    if (++steps_ > most) return;  // then the list becomes empty soon
+    const std::size_t end = first_edge_[number + std::size_t{1}];
+    for (std::size_t first = first_edge_[number]; first < end; first += kAtOnce) {
+      const auto some = std::span<const PathEdge>(edges_).subspan(first, std::min(kAtOnce, end - first));
+      const std::uint32_t shorter = kernels_->follow_edges(lengths_[number], some, lengths_.data());
+      for_each_query(shorter, [&](std::size_t edge) { waiting_.add(some[edge].end); });
+    }
+  });
+  return steps_ <= most;
+}
+
+/// Takes the ignored vertices out of what was found.
+void PathPacket::leave_out_ignored() {
+  if (ignored_->empty()) return;
+  for (std::size_t number = 0; number < lengths_.size(); ++number) {
+    if (ignored_->has_at(vertex(number))) lengths_[number] = kReachedByNone;
+  }
+}
+
+PerLane<std::uint64_t> PathPacket::counts() {
+  PerLane<std::uint64_t> counts{};
+  if (is_single_) {
+    for (const Path& path : search_.found()) counts[0] += ignored_->has_at(path.end) ? 0 : 1;
+    return counts;
+  }
+  std::array<double, kPacketCapacity> radii{};
+  std::ranges::transform(queries_, radii.begin(), &PathQuery::radius);
+  const PathLengths limits = limits_of(std::span(radii).first(queries_.size()));
+  words_.resize(lengths_.size() / kLeafCapacity + 1);
+  list_of_words_.clear();
+  for (std::uint32_t i = 0; i < words_.size(); ++i) {
+    joint_kernels_->clear_words(words_[i]);
+    list_of_words_.push_back({i, 0});
+  }
+  for (std::size_t number = 0; number < lengths_.size(); ++number) {
+    words_[number / kLeafCapacity].reached[number % kLeafCapacity] = kernels_->within_limits(lengths_[number], limits);
+  }
+  joint_kernels_->count_words(words_.data(), list_of_words_, counts);
+  return counts;
+}
+
+std::span<const Path> PathPacket::paths_in_order(std::size_t query) {
+  const auto [source, radius] = queries_[query];
+  const std::span<const Path> found = search_.found();
+  if (walls_->has_at(source)) return {};
+  if (paths_.size() < found.size()) paths_.resize(found.size());
+  std::size_t count = 0;
+  // Whether a vertex is within the radius cannot be predicted, so there is no branch.
+  for (std::size_t number = 0; number < found.size(); ++number) {
+    const std::uint32_t end = vertex(number);
+    const double length = is_single_ ? found[number].length : lengths_[number].of[query];
+    const bool is_left_out = is_single_ && ignored_->has_at(end);
+    paths_[count] = {length, end};
+    count += static_cast<std::size_t>(length <= std::min(radius, kLongest)) & static_cast<std::size_t>(end != source) &
+             static_cast<std::size_t>(!is_left_out);
+  }
+  const std::span<const Path> paths = order_.sorted({0, source}, std::span(paths_).first(count));
+  return paths.subspan(ignored_->has_at(source) ? 1 : 0);
+}
+
+void PathPacket::list_leaves() {
+  if (!leaves_.empty()) return;
+  place_of_.forget();
+  for (std::uint32_t number = 0; number < search_.found().size(); ++number) {
+    const VertexId id = index_->id(vertex(number));
+    if (ignored_->has(id)) continue;
+    const std::uint32_t slot = index_->slot[id];
+    const LeafId leaf = leaf_of(slot);
+    if (!place_of_.is_known(leaf)) {
+      place_of_.set(leaf, static_cast<std::uint32_t>(leaves_.size()));
+      leaves_.push_back({leaf, 0, {}});
+    }
+    LeafPlaces& places = leaves_[place_of_[leaf]];
+    places.lanes |= LaneMask{1} << lane_of(slot);
+    places.number[lane_of(slot)] = number;
+  }
+  std::ranges::sort(leaves_, {}, &LeafPlaces::leaf);
+}
+
+/// Reads a leaf into `leaf_`. Returns whether a query reaches a vertex of it.
+bool PathPacket::read(const LeafPlaces& places, const PathLengths& limits) {
+  leaf_.leaf = places.leaf;
+  leaf_.vertices = {index_->leaf_begin[places.leaf], index_->leaf_begin[places.leaf + 1]};
+  leaf_.queries = {};
+  QueryWord any = 0;
+  for_each_lane(places.lanes, [&](unsigned lane) {
+    const std::uint32_t number = places.number[lane];
+    if (is_single_) {
+      leaf_.lengths[lane].of[0] = search_.found()[number].length;
+      leaf_.queries[lane] = leaf_.lengths[lane].of[0] <= limits.of[0] ? 1 : 0;
+    } else {
+      leaf_.lengths[lane] = lengths_[number];
+      leaf_.queries[lane] = kernels_->within_limits(lengths_[number], limits);
+    }
+    any |= leaf_.queries[lane];
+  });
+  return any != 0;
+}
+
+}  // namespace meshhood

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "meshhood/search.h"
+
+#include "base/epoch_array.h"
+#include "exact/joint/path_front.h"
+#include "exact/layout.h"
+#include "exact/query/lane_filter.h"
+#include "exact/query/path_search.h"
+#include "exact/weighted_graph.h"
+#include "simd/paths.h"
+
+namespace meshhood {
+
+/// A query along the edges: a vertex in index order, and a radius.
+struct PathQuery {
+  std::uint32_t vertex;
+  double radius;
+};
+
+/// What a search for several queries may take, before each is answered alone.
+struct PathLimits {
+  std::size_t vertices = std::size_t{1} << 15;  ///< of more, the lengths would leave the cache
+  std::size_t steps = 16;                       ///< how many times it takes each vertex, in the mean
+};
+
+/// A leaf of which some queries of a packet reach vertices.
+struct PathLeaf {
+  LeafId leaf;
+  VertexRange vertices;                            // in index order
+  PerLane<QueryWord> queries;                      // by vertex of the leaf: those with a path within the radius; then 0
+  std::array<PathLengths, kLeafCapacity> lengths;  // by vertex of the leaf, for these queries
+};
+
+/// The shortest paths along the edges from up to 32 vertices at once, with a length for each of them at each vertex.
+/// See docs/joint.md. Best for vertices of one leaf, whose paths have most vertices in common.
+///
+/// A search from all of them together, `PathSearch`, finds the vertices that any of them reaches, and numbers these in
+/// the order of the shortest path. Then lengths are passed on over the edges, in the order of the numbers, until no
+/// edge makes one shorter. Far from the sources, paths from each of them lead on in this order. So most vertices are
+/// taken once or twice for all queries together.
+///
+/// Lengths have the bits that `PathSearch` finds for each vertex alone. Let the length of a path be the sum of its
+/// edges in their order, each addition rounded. When no edge makes a length shorter, the length at a vertex is that of
+/// a path to it; and it is at most that of any other path, by induction over the edges of that path, because a rounded
+/// sum never decreases if a summand grows. So it is the least of all, which does not depend on the order of the steps.
+/// This holds for both searches. Both leave out vertices that no path within the radius leads to; a path that passes
+/// one is not within the radius either, because it is not shorter than its beginning.
+///
+/// One object a thread. Owns, besides its `PathSearch`, 4 bytes for each vertex and 8 for each leaf of the mesh, and
+/// 0.4 kB for each vertex that it reaches, up to its limit. What is found does not depend on earlier calls.
+class PathPacket {
+ public:
+  /// The filters must outlive the packet.
+  PathPacket(const IndexView& index, KeptGraph& graph, Isa isa, const LaneFilter& walls, const LaneFilter& ignored,
+             const PathLimits& limits = {});
+
+  /// Finds the paths from 1 to 32 vertices, each within the radius of its query. Returns false if that would exceed the
+  /// limits; then `run_single` is to be called for each.
+  [[nodiscard]] bool run(std::span<const PathQuery> queries);
+
+  /// The same for one query, in a search of its own.
+  void run_single(const PathQuery& query);
+
+  // Of the queries of the last run that succeeded, without ignored vertices:
+
+  /// How many vertices each reaches.
+  [[nodiscard]] PerLane<std::uint64_t> counts();
+
+  /// The paths of a query, that to its vertex first, the others ascending by length, then by vertex in index order.
+  /// Valid until the next call.
+  [[nodiscard]] std::span<const Path> paths_in_order(std::size_t query);
+
+  /// Calls `f(const PathLeaf&)` for the leaves, ascending, of which a query reaches a vertex within a radius. There is
+  /// one for each query, at most that of its search.
+  template <class F>
+  void for_each_leaf(std::span<const double> radii, F&& f) {
+    list_leaves();
+    const PathLengths limits = limits_of(radii);
+    for (const LeafPlaces& places : leaves_) {
+      if (read(places, limits)) f(std::as_const(leaf_));
+    }
+  }
+
+  /// How many times the last `run` took a vertex.
+  [[nodiscard]] std::size_t steps() const { return steps_; }
+
+ private:
+  /// The vertices of a leaf that were found.
+  struct LeafPlaces {
+    LeafId leaf;
+    LaneMask lanes;                 // those that are not ignored
+    PerLane<std::uint32_t> number;  // by lane
+  };
+
+  void begin(std::span<const PathQuery> queries);
+  [[nodiscard]] PathLengths limits_of(std::span<const double> radii) const;
+  void list_edges();
+  [[nodiscard]] bool pass_on_lengths();
+  void leave_out_ignored();
+  void list_leaves();
+  [[nodiscard]] bool read(const LeafPlaces& places, const PathLengths& limits);
+  [[nodiscard]] std::uint32_t vertex(std::size_t number) const { return search_.found()[number].end; }
+
+  const IndexView* index_;
+  const WeightedGraph* graph_;
+  const PathKernels* kernels_;
+  const JointKernels* joint_kernels_;
+  const LaneFilter* walls_;
+  const LaneFilter* ignored_;
+  PathLimits limits_;
+  PathSearch search_;                   // its paths number the vertices that were found
+  std::vector<std::uint32_t> numbers_;  // by vertex; kNoNumber outside `list_edges`
+  // By number:
+  std::vector<std::size_t> first_edge_;  // in `edges_`; and the end of the last
+  std::vector<PathLengths> lengths_;
+  std::vector<PathEdge> edges_;  // to vertices that were found
+  PathFront waiting_;            // those whose lengths became shorter, and were not passed on
+  std::size_t steps_ = 0;
+  std::vector<PathQuery> queries_;
+  PerLane<std::uint32_t> starts_{};  // the numbers of their vertices; kNoNumber for a wall
+  bool is_single_ = false;           // there is one query, and its paths are those of `search_`
+  // Made when they are asked for:
+  std::vector<LeafWords> words_;  // by number, 32 of them in each
+  std::vector<LeafOfWords> list_of_words_;
+  std::vector<Path> paths_;  // of a query, and room for more
+  PathOrder order_;
+  EpochArray<std::uint32_t> place_of_;  // by leaf: in `leaves_`
+  std::vector<LeafPlaces> leaves_;
+  PathLeaf leaf_{};  // the one that is passed on
+};
+
+}  // namespace meshhood

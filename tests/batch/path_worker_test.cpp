@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Batches along the edges have the rows of `EdgeSearcher`, on every instruction set.
+#include "batch/path_worker.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/batch.h"
+#include "meshhood/edge_search.h"
+
+#include "support/draw_start.h"
+#include "support/exact_answer.h"
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+class PathRowsOfFamily : public testing::TestWithParam<Family> {};
+
+TEST_P(PathRowsOfFamily, AreThoseOfASearcher) {
+  Random random(37);
+  const Isa best = best_isa();
+  std::size_t rows = 0;
+  for (std::uint64_t seed = 0; seed < scaled(16, 4); ++seed) {
+    const TestMesh mesh = make_mesh(GetParam(), seed, 300);
+    const Index index = build(mesh.view());
+    limit_isa(available_isas()[seed % available_isas().size()]);
+    const std::vector<std::uint8_t> walls = draw_mask(random, mesh.size(), random.below(2) * 9);
+    const std::vector<std::uint8_t> ignored = draw_mask(random, mesh.size(), random.below(2) * 4);
+    EdgeSearcher searcher(index);
+    std::vector<VertexId> ids;
+    std::vector<double> lengths;
+    double longest = 0;
+    if (mesh.size() > 0) searcher.neighborhood(0, kInfinity, ids, lengths);
+    if (!lengths.empty()) longest = lengths.back();
+    std::vector<VertexId> vertices;
+    std::vector<double> radii;
+    const std::size_t size = random.below(300);  // few rows of a leaf, and many
+    for (std::size_t i = 0; mesh.size() > 0 && i < size; ++i) {
+      vertices.push_back(static_cast<VertexId>(random.below(mesh.size())));
+      radii.push_back(random.below(10) == 0 ? kInfinity : longest * random.uniform(0, 0.6));
+    }
+    const SearchMethod method = SearchMethod::along_edges(index);
+    const BatchQuery query{.vertices = vertices, .radius = radii, .filter = {walls, ignored}};
+    const unsigned threads = 1 + static_cast<unsigned>(seed % 2);
+    const std::vector<std::uint64_t> sizes = counts(method, query, {.threads = threads});
+    const Neighborhoods found = neighborhoods(method, query, {.threads = threads});
+    const Neighborhoods measured = neighborhoods(method, query, {.threads = threads, .distances = true});
+    ASSERT_EQ(found.ids, measured.ids);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      searcher.neighborhood(vertices[i], radii[i], ids, lengths, {walls, ignored});
+      const std::size_t begin = found.offsets[i];
+      ASSERT_EQ(sizes[i], ids.size());
+      ASSERT_THAT(std::span(found.ids).subspan(begin, ids.size()), testing::ElementsAreArray(ids));
+      ASSERT_THAT(std::span(measured.distances).subspan(begin, ids.size()), testing::ElementsAreArray(lengths));
+    }
+    rows += vertices.size();
+  }
+  limit_isa(best);
+  std::printf("%zu rows\n", rows);
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, PathRowsOfFamily, testing::ValuesIn(families()), family_name);
+
+}  // namespace
+}  // namespace meshhood::test
