@@ -491,6 +491,18 @@ TEST_F(Aggregate, OfMissingValuesOnlyIsNaNExceptForSumAndCount) {
   EXPECT_GT(of(Reduce::Count, MissingValues::Propagate), 1);
 }
 
+TEST_F(Aggregate, OfAWholeLeafWithOneMissingValueIsNaN) {
+  std::vector<double> values(scene.size(), 1.0);
+  values[scene.size() / 2] = kNan;
+  const auto of = [&](Reduce reduce, MissingValues missing) {
+    return aggregate(scene.index(), {values}, {.radius = kInfinity, .reduce = reduce, .missing = missing}).front();
+  };
+  for (const Reduce reduce : {Reduce::Sum, Reduce::Mean, Reduce::Minimum, Reduce::Maximum, Reduce::Variance}) {
+    EXPECT_THAT(of(reduce, MissingValues::Propagate), IsNan());
+    EXPECT_FALSE(std::isnan(of(reduce, MissingValues::Omit)));
+  }
+}
+
 TEST_F(Aggregate, IgnoresAHugeValueOutsideTheNeighborhood) {
   // In the same leaf as vertices of the neighborhood, so that the sums stored for the leaf include it.
   std::vector<double> values(scene.size(), 1.0);
