@@ -15,6 +15,24 @@ constexpr PathLengths kReachedByNone = [] {
 // So that no vertex is within a radius that is infinite, unless there is a path to it.
 constexpr double kLongest = std::numeric_limits<double>::max();
 
+/// Along the coordinate in which they differ most.
+void sort_along_longest_axis(std::span<std::uint32_t> vertices, const PositionsInOrder& positions) {
+  std::visit(
+      [&](const auto& xyz) {
+        const auto coordinate = [&](std::size_t axis) {
+          return [&xyz, axis](std::uint32_t v) { return xyz[3 * std::size_t{v} + axis]; };
+        };
+        std::array<double, 3> extents{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const auto [least, most] = std::ranges::minmax_element(vertices, {}, coordinate(axis));
+          extents[axis] = double{coordinate(axis)(*most)} - double{coordinate(axis)(*least)};
+        }
+        const auto longest = std::ranges::max_element(extents) - extents.begin();
+        std::ranges::sort(vertices, {}, coordinate(static_cast<std::size_t>(longest)));
+      },
+      positions);
+}
+
 }  // namespace
 
 PathPacket::PathPacket(const IndexView& index, KeptGraph& graph, Isa isa, const LaneFilter& walls,
@@ -39,6 +57,7 @@ bool PathPacket::run(std::span<const PathQuery> queries) {
     starts[i] = queries[i].vertex;
     most = std::max(most, queries[i].radius);
   }
+  sort_along_longest_axis(std::span(starts).first(queries.size()), index_->positions);
   const auto are_too_many = [this](std::span<const Path>) { return search_.found().size() > limits_.vertices; };
   search_.run(std::span(starts).first(queries.size()), most, *walls_, are_too_many);
   if (are_too_many({})) return false;
