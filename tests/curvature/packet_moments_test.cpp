@@ -91,8 +91,8 @@ TEST(PacketMoments, DoNotDependOnTheScratchMemory) {
             const auto [same_queries, found] = sum(reused, *state.index, packet, left);
             ASSERT_EQ(queries, same_queries);
             ASSERT_NE(queries & left, 0U);
-            for_each_query(queries, [&, &expected = *expected, &found = *found](std::size_t q) {
-              for (std::size_t m = 0; m < kMomentCount; ++m) ASSERT_EQ(found.at[m][q], expected.at[m][q]);
+            for_each_query(queries, [&, &expects = *expected, &finds = *found](std::size_t q) {
+              for (std::size_t m = 0; m < kMomentCount; ++m) ASSERT_EQ(finds.at[m][q], expects.at[m][q]);
               ASSERT_EQ(reused.is_accurate(q), fresh.is_accurate(q));
               ++rows;
             });
