@@ -6,12 +6,15 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <memory>
 
 #include "meshhood/progress.h"
 
 #include "shared/coarse_clock.h"
 
 namespace meshhood {
+
+class HelperThreads;
 
 /// A long call: its threads, its progress and whether it was cancelled. Belongs to the calling thread, which takes part
 /// in the work as thread 0.
@@ -24,6 +27,10 @@ class TaskContext {
 
   /// One thread, no progress, never cancelled.
   TaskContext();
+
+  TaskContext(const TaskContext&) = delete;
+  TaskContext& operator=(const TaskContext&) = delete;
+  ~TaskContext();
 
   [[nodiscard]] unsigned threads() const { return threads_; }
 
@@ -67,6 +74,7 @@ class TaskContext {
   std::size_t total_;
   std::atomic<std::size_t> done_{0};
   std::atomic<bool> stopped_{false};
+  std::unique_ptr<HelperThreads> helpers_;  // made by the first loop of more than one thread
   std::chrono::steady_clock::time_point next_report_;
 };
 

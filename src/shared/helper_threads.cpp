@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "shared/helper_threads.h"
+
+#include <cstdlib>
+#include <exception>
+
+#include "shared/failure.h"
+
+namespace meshhood {
+
+bool prepare_exceptions() {
+#if defined(__cpp_exceptions)
+  constexpr std::size_t kMoreThanEnough = 4096;
+  void* const volatile trial = std::malloc(kMoreThanEnough);  // volatile: or compilers omit it
+  if (trial == nullptr) return false;
+  std::free(trial);
+  static_cast<void>(std::current_exception());
+#endif
+  return true;
+}
+
+#if defined(__STDCPP_THREADS__)
+
+namespace {
+
+// About 50 microseconds. Other threads have the processor meanwhile if they need it.
+constexpr int kLooksBeforeSleep = 200;
+
+/// Looks for a while whether `happened()`.
+template <class F>
+void look(F&& happened) {
+  for (int i = 0; i < kLooksBeforeSleep && !happened(); ++i) std::this_thread::yield();
+}
+
+}  // namespace
+
+HelperThreads::~HelperThreads() {
+  give(Order::End, 0, nullptr);
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void HelperThreads::run(std::size_t most, const std::function<void(unsigned)>& body) {
+  start(most);
+  give(Order::Help, most, &body);
+  body(0);
+  std::unique_lock lock(mutex_);
+  order_ = Order::Wait;  // no thread begins any more
+  lock.unlock();
+  const auto all_ended = [this] { return at_work_.load(std::memory_order_acquire) == 0; };
+  look(all_ended);
+  lock.lock();
+  ended_.wait(lock, all_ended);
+}
+
+/// So that there are `count`, or as many as the system can create.
+void HelperThreads::start(std::size_t count) {
+  Failure ignored;
+  static_cast<void>(ignored.guard([&] {
+    while (threads_.size() < count) {
+      const auto thread = static_cast<unsigned>(threads_.size() + 1);
+      threads_.emplace_back([this, thread, seen = orders_.load()] {
+        if (prepare_exceptions()) help(thread, seen);
+      });
+    }
+  }));
+}
+
+void HelperThreads::give(Order order, std::size_t most, const std::function<void(unsigned)>* body) {
+  {
+    const std::lock_guard lock(mutex_);
+    order_ = order;
+    most_ = most;
+    body_ = body;
+    orders_.fetch_add(1, std::memory_order_release);
+  }
+  given_.notify_all();
+}
+
+void HelperThreads::help(unsigned thread, std::size_t seen) {
+  const auto is_new = [&] { return orders_.load(std::memory_order_acquire) != seen; };
+  for (;;) {
+    look(is_new);
+    std::unique_lock lock(mutex_);
+    given_.wait(lock, is_new);
+    seen = orders_.load(std::memory_order_relaxed);
+    if (order_ == Order::End) return;
+    if (order_ == Order::Wait || thread > most_) continue;
+    at_work_.fetch_add(1, std::memory_order_relaxed);
+    const std::function<void(unsigned)>& body = *body_;
+    lock.unlock();
+    body(thread);
+    lock.lock();
+    at_work_.fetch_sub(1, std::memory_order_release);
+    if (at_work_.load(std::memory_order_relaxed) == 0) ended_.notify_one();
+  }
+}
+
+#endif
+
+}  // namespace meshhood

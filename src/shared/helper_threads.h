@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#if defined(__STDCPP_THREADS__)
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <vector>
+#endif
+
+namespace meshhood {
+
+/// Lets the C++ runtime allocate what it needs on this thread to handle exceptions. It would do so at the first
+/// exception; if memory has run out by then, glibc ends the process, where the runtime was loaded by the program while
+/// it ran, as Python does. False if memory is that short already.
+bool prepare_exceptions();
+
+#if defined(__STDCPP_THREADS__)
+
+/// The threads that take part in the loops of a task, beside that which it belongs to. They are started once, and wait
+/// between the loops: at first awake, because the next loop often begins within microseconds, and to start or wake a
+/// thread takes 50 to 100 of these.
+class HelperThreads {
+ public:
+  HelperThreads() = default;
+  HelperThreads(const HelperThreads&) = delete;
+  HelperThreads& operator=(const HelperThreads&) = delete;
+
+  /// Ends the threads.
+  ~HelperThreads();
+
+  /// Calls `body(0)` on this thread, and `body(1)`, `body(2)` ... `body(most)` on others, but only on those that are
+  /// ready before `body(0)` ends: there are fewer also if the system cannot create them, or if they have no memory at
+  /// their start. Returns when all have ended. `body` must not throw.
+  void run(std::size_t most, const std::function<void(unsigned)>& body);
+
+ private:
+  /// What the threads are to do.
+  enum class Order { Wait, Help, End };
+
+  void start(std::size_t count);
+  void give(Order order, std::size_t most, const std::function<void(unsigned)>* body);
+  void help(unsigned thread, std::size_t seen);
+
+  std::mutex mutex_;  // for what follows; the atomic numbers may be read without
+  std::condition_variable given_;
+  std::condition_variable ended_;
+  Order order_ = Order::Wait;
+  std::size_t most_ = 0;
+  const std::function<void(unsigned)>* body_ = nullptr;
+  std::atomic<std::size_t> orders_{0};  // how many were given
+  std::atomic<std::size_t> at_work_{0};
+  std::vector<std::thread> threads_;
+};
+
+#else
+
+class HelperThreads {
+ public:
+  void run(std::size_t /*most*/, const std::function<void(unsigned)>& body) { body(0); }
+};
+
+#endif
+
+}  // namespace meshhood
