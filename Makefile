@@ -39,7 +39,7 @@ test:
 
 test-all:
 	@tools/setup test-all
-	@tools/test release asan tsan:exact/threads
+	@tools/test release asan tsan:shared/helper_threads tsan:exact/threads
 
 packages:
 	@tools/setup packages
