@@ -38,10 +38,7 @@ class KernelSumReducer final : public PacketReducer {
     const IndexView& index = reduction_->index();
     for (std::size_t row = 0; row < packet.vertices.size(); ++row) {
       const std::uint32_t slot = index.slot[packet.vertices[row]];
-      const Point center = index.position(leaf_of(slot), lane_of(slot));
-      centers_.x[row] = center.x;
-      centers_.y[row] = center.y;
-      centers_.z[row] = center.z;
+      centers_.set(row, index.position(leaf_of(slot), lane_of(slot)));
     }
     set_radii(packet.radii);
   }
@@ -58,7 +55,7 @@ class KernelSumReducer final : public PacketReducer {
         [&](auto xyz) {
           for (std::size_t k = 0; k < vertices.size(); ++k) {
             kernels.set_offsets(point(xyz, vertices.begin + k), centers_, offsets_);
-            kernels.set_weights(offsets_, squares_, reduction_->squared(), weights_.of_vertex[k]);
+            kernels.set_weights(offsets_, squares_, reduction_->squared(), weights_[k]);
           }
         },
         reduction_->index().positions);

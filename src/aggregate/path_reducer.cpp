@@ -27,15 +27,15 @@ PathKernelReducer::PathKernelReducer(const SumColumns& columns, bool squared)
 void PathKernelReducer::reduce(PathPacket& packet, std::span<const double> radii) {
   for (RowSums& sums : sums_) sums = {};
   PathLengths divisors{};
-  divisors.of.fill(1);
+  divisors.fill(1);
   for (std::size_t i = 0; i < radii.size(); ++i) {
     // Within a radius of 0 all lengths are 0, and all weights 1.
-    divisors.of[i] = radii[i] > 0 ? radii[i] : std::numeric_limits<double>::infinity();
+    divisors[i] = radii[i] > 0 ? radii[i] : std::numeric_limits<double>::infinity();
   }
   packet.for_each_leaf(radii, [&](const PathLeaf& leaf) {
     for (std::size_t lane = 0; lane < leaf.vertices.size(); ++lane) {
       if (leaf.queries[lane] == 0) continue;
-      kernels_->set_path_weights(leaf.lengths[lane], divisors, squared_, weights_.of_vertex[lane]);
+      kernels_->set_path_weights(leaf.lengths[lane], divisors, squared_, weights_[lane]);
     }
     for (std::size_t i = 0; i < sums_.size(); ++i) {
       const auto values = std::span(columns_->column(i)).subspan(leaf.vertices.begin, leaf.vertices.size());

@@ -41,7 +41,6 @@ class CurvatureFitter {
  private:
   void fit_row(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments, std::size_t query);
   [[nodiscard]] TangentFrame fit_frame(const QueryMoments& moments, std::size_t query) const;
-  void solve(const PacketMoments& sums, const QueryMoments& moments, std::size_t size);
   [[nodiscard]] std::optional<Quadric> quadric(const PacketMoments& sums, std::size_t query) const;
   void write(std::size_t row, const DirectFit::Result& result);
 
@@ -55,26 +54,20 @@ class CurvatureFitter {
   QueryVectors v_{};
   QueryVectors n_{};
   FrameMoments in_frame_{};
-  QueryVectors sums_{};  // of the coordinates u, v, n, for jets
   QueryQuadrics quadrics_{};
 };
-
-void set(QueryVectors& vectors, std::size_t query, const Point& value) {
-  vectors.x[query] = value.x;
-  vectors.y[query] = value.y;
-  vectors.z[query] = value.z;
-}
 
 void CurvatureFitter::fit(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
   for (std::size_t q = 0; q < packet.places.size(); ++q) {
     frames_[q] = frame_at(*surface_, packet.places[q], options_->shape_operator);
     axes_[q] = fit_frame(moments, q);
-    set(u_, q, axes_[q].u);
-    set(v_, q, axes_[q].v);
-    set(n_, q, axes_[q].n);
+    u_.set(q, axes_[q].u);
+    v_.set(q, axes_[q].v);
+    n_.set(q, axes_[q].n);
   }
-  sums.kernels().rotate(moments, u_, v_, n_, in_frame_);
-  solve(sums, moments, packet.places.size());
+  const MomentKernels& kernels = sums.kernels();
+  kernels.rotate(moments, u_, v_, n_, in_frame_);
+  (options_->fit == CurvatureFit::Quadric ? kernels.fit_quadrics : kernels.fit_jets)(in_frame_, quadrics_);
   for_each_query(packet.queries, [&](std::size_t q) { fit_row(packet, sums, moments, q); });
 }
 
@@ -97,18 +90,6 @@ void CurvatureFitter::fit_row(const MomentRows& packet, const PacketMoments& sum
 TangentFrame CurvatureFitter::fit_frame(const QueryMoments& moments, std::size_t query) const {
   if (options_->fit == CurvatureFit::Quadric) return frames_[query];
   return jet_frame(distribution_of(moments, query).axes, frames_[query].n);
-}
-
-void CurvatureFitter::solve(const PacketMoments& sums, const QueryMoments& moments, std::size_t size) {
-  if (options_->fit == CurvatureFit::Quadric) return sums.kernels().fit_quadrics(in_frame_, quadrics_);
-  const auto sum_of = [&](std::size_t i, std::size_t j, std::size_t k, std::size_t q) {
-    return moments.at[moment_index(i, j, k)][q];
-  };
-  for (std::size_t q = 0; q < size; ++q) {
-    const Point sum{sum_of(1, 0, 0, q), sum_of(0, 1, 0, q), sum_of(0, 0, 1, q)};
-    set(sums_, q, {dot(sum, axes_[q].u), dot(sum, axes_[q].v), dot(sum, axes_[q].n)});
-  }
-  sums.kernels().fit_jets(in_frame_, sums_, moments.at[0], quadrics_);
 }
 
 /// None if the normal equations are too badly conditioned for the errors of the moments.

@@ -81,11 +81,8 @@ QueryWord PacketMoments::set_unit(LeafId leaf, std::span<const double> radii, Qu
 
 void PacketMoments::set_offsets(std::span<const std::uint32_t> places) {
   for (std::size_t q = 0; q < size_; ++q) {
-    const Point offset =
-        scale_ * (center_ - std::visit([&](auto xyz) { return point(xyz, places[q]); }, source_.index->positions));
-    offsets_.x[q] = offset.x;
-    offsets_.y[q] = offset.y;
-    offsets_.z[q] = offset.z;
+    const Point at = std::visit([&](auto xyz) { return point(xyz, places[q]); }, source_.index->positions);
+    offsets_.set(q, scale_ * (center_ - at));
   }
 }
 

@@ -16,13 +16,13 @@ namespace meshhood {
 
 /// A sum for each row, as two doubles `high + low`: the rounding of each addition to `high` is added to `low` (Knuth's
 /// TwoSum), so that the error does not grow with the number of additions.
-struct alignas(64) RowSums {
+struct RowSums {
   PerLane<double> high;
   PerLane<double> low;
 };
 
 /// A spread for each row: see `Spread` in aggregate/variances.h.
-struct alignas(64) RowSpreads {
+struct RowSpreads {
   PerLane<double> weight;
   PerLane<double> mean;
   PerLane<double> low;
@@ -30,25 +30,19 @@ struct alignas(64) RowSpreads {
 };
 
 /// The query vertices of a packet, and the units in which distances from them are computed.
-struct alignas(64) PacketCenters {
-  PerLane<double> x;
-  PerLane<double> y;
-  PerLane<double> z;
+struct PacketCenters : PointPerLane<double> {
   PerLane<double> unit;  // powers of two, by which differences of coordinates are multiplied. 0: every weight is 1
 };
 
 /// The square of the radius of each query, in its unit.
-struct alignas(64) KernelRadii {
+struct KernelRadii {
   PerLane<double> square;   // rounded
   PerLane<double> low;      // what is missing
   PerLane<double> inverse;  // of `square`
 };
 
 /// The position of a point relative to each query vertex of a packet, in the unit of the query.
-struct alignas(64) Offsets {
-  PerLane<double> x;
-  PerLane<double> y;
-  PerLane<double> z;
+struct Offsets : PointPerLane<double> {
   PerLane<double> square;  // of the distance
 };
 
@@ -63,10 +57,8 @@ struct Moments {
   double fourth;                 // s |q|^4
 };
 
-/// A weight for each of up to 32 vertices and each row.
-struct alignas(64) RowWeights {
-  std::array<PerLane<double>, kLeafCapacity> of_vertex;
-};
+/// A weight for each row, for each of up to 32 vertices.
+using RowWeights = std::array<PerLane<double>, kLeafCapacity>;
 
 struct AggregateKernels {
   /// Adds to each row the values whose word has it. `values` and `words` have the same length, up to 32.

@@ -1,33 +1,132 @@
 // SPDX-License-Identifier: MIT
-// The kernels of a search, compiled once for each target.
-#include <algorithm>
-#include <array>
+// `Kernels`, compiled once for each target; see lanes-inl.h.
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
-#include <type_traits>
 
 #include "simd/kernels.h"
-#include "simd/lane_tables.h"
 #include "simd/leaf.h"
-#include "simd/query_word.h"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/ball_kernels.cpp"
-// clang-format off: each uses those before it.
-#include "simd/each_target-inl.h"
-#include "simd/ball-inl.h"
-// clang-format on
+#include "simd/lanes-inl.h"
 
-#if HWY_ONCE
-namespace meshhood {
+HWY_BEFORE_NAMESPACE();
+namespace meshhood::HWY_NAMESPACE {
+namespace {
 
-const Kernels& kernels(Isa isa) {
-  static constexpr std::array kTables{MESHHOOD_TABLES(kBallKernels)};
-  return *kTables[static_cast<std::size_t>(isa)];
+/// The predicate.
+template <class Real>
+LaneMask within_exact(const Real* xyz, std::size_t size, const LeafBall& ball) {
+  const Doubles d;
+  LaneMask inside = 0;
+  for (std::size_t i = 0; i < size; i += kLanes<Doubles>) {
+    const auto square = squared_length(difference(load_points(d, xyz + 3 * i), splat_point(d, ball.center)));
+    inside |= bits_of(d, hn::Le(square, hn::Set(d, ball.squared_radius))) << i;
+  }
+  return inside & first_lanes(static_cast<unsigned>(size));
 }
 
-}  // namespace meshhood
+/// In single precision, if that decides all vertices.
+LaneMask within_float(const float* xyz, std::size_t size, const LeafBall& ball) {
+  const Floats d;
+  LaneMask inside = 0;
+  LaneMask outside = 0;
+  // An unrolled loop over all lanes takes less time than one that stops early, but not in WebAssembly.
+  constexpr bool kUnrolled = HWY_TARGET != HWY_WASM && HWY_TARGET != HWY_SCALAR;
+  const std::size_t end = kUnrolled ? kLeafCapacity : size;
+  for (std::size_t i = 0; i < end; i += kLanes<Floats>) {
+    const auto square = squared_length(difference(load_points(d, xyz + 3 * i), splat_point(d, ball)));
+    inside |= bits_of(d, hn::Le(square, splat(ball.surely_inside))) << i;
+    outside |= bits_of(d, hn::Gt(square, splat(ball.surely_outside))) << i;
+  }
+  const LaneMask all = first_lanes(static_cast<unsigned>(size));
+  if (((inside | outside) & all) != all) [[unlikely]] {
+    return within_exact(xyz, size, ball);
+  }
+  return inside & all;
+}
+
+LaneMask cross_edges(std::span<const CrossEdge> edges, LaneMask from) {
+  if constexpr (kNarrow) {  // some of these targets cannot shift each lane by another number
+    LaneMask result = 0;
+    for (const CrossEdge& edge : edges) result |= (from >> edge.from & 1U) << edge.to;
+    return result;
+  }
+  const Words d;
+  const hn::Rebind<std::uint16_t, Words> pairs;
+  auto result = hn::Zero(d);
+  for (std::size_t i = 0; i < edges.size(); i += kLanes<Words>) {
+    const auto pair = hn::PromoteTo(d, hn::LoadU(pairs, reinterpret_cast<const std::uint16_t*>(edges.data() + i)));
+    const auto begins = hn::And((hn::Set(d, from) >> hn::And(pair, hn::Set(d, 31))), hn::Set(d, 1));
+    const auto ends = begins << hn::ShiftRight<8>(pair);
+    result = hn::Or(result, hn::IfThenElseZero(hn::FirstN(d, edges.size() - i), ends));
+  }
+  return any_of(d, result);
+}
+
+LaneMask reachable(const LaneMask* adjacency, LaneMask among, LaneMask from) {
+  if constexpr (kNarrow) {
+    LaneMask reached = from;
+    for (LaneMask todo = from; todo != 0 && reached != among;) {
+      const LaneMask added = adjacency[std::countr_zero(todo)] & among & ~reached;
+      todo = (todo & (todo - 1)) | added;
+      reached |= added;
+    }
+    return reached;
+  }
+  const Words d;
+  for (LaneMask reached = from;;) {
+    LaneMask near = 0;  // the lanes with a neighbor among those reached
+    for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Words>) {
+      near |= bits_of(d, hn::Ne(hn::And(hn::LoadU(d, adjacency + i), splat(reached)), hn::Zero(d))) << i;
+    }
+    const LaneMask grown = reached | (near & among);
+    if (grown == reached) return reached;
+    reached = grown;
+  }
+}
+
+HWY_INLINE GroupContainment classify_group(const Group& group, const TreeBall& ball) {
+  const hn::CappedTag<float, kFanOut> d;
+  unsigned outside = 0;
+  unsigned inside = 0;
+  for (std::size_t i = 0; i < kFanOut; i += kLanes<decltype(d)>) {
+    const auto square = squared_length(difference(splat_point(d, ball), load_rows(d, group, i)));
+    const auto radius = hn::Load(d, &group.radius[i]);
+    const auto far = hn::Add(hn::Set(d, ball.outer), radius);
+    const auto near = hn::Max(hn::Sub(hn::Set(d, ball.inner), radius), hn::Zero(d));
+    outside |= bits_of(d, hn::Gt(square, hn::Mul(far, far))) << i;
+    inside |= bits_of(d, hn::Lt(square, hn::Mul(near, near))) << i;
+  }
+  return {static_cast<std::uint8_t>(inside), static_cast<std::uint8_t>(~(outside | inside))};
+}
+
+void classify(const Group* groups, std::span<const std::uint32_t> list, const TreeBall& ball, GroupContainment* out) {
+  constexpr std::size_t kAhead = 4;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (i + kAhead < list.size()) {
+      const auto* const next = reinterpret_cast<const char*>(groups + list[i + kAhead]);
+      for (std::size_t line = 0; line < sizeof(Group); line += 64) hwy::Prefetch(next + line);
+    }
+    out[i] = classify_group(groups[list[i]], ball);
+  }
+}
+
+VertexId* compress(const VertexId* ids, LaneMask lanes, VertexId* out) {
+  const Ids d;
+  for (std::size_t i = 0; i < kLeafCapacity; i += kLanes<Ids>) {
+    out = write_chosen(d, hn::LoadU(d, ids + i), lanes >> i, out);
+  }
+  return out;
+}
+
+constexpr Kernels kBallKernels{within_float, within_exact<double>, cross_edges, reachable, classify, compress};
+
+}  // namespace
+}  // namespace meshhood::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+const meshhood::Kernels& meshhood::kernels(Isa isa) { return MESHHOOD_TABLE(kBallKernels, isa); }
 #endif

@@ -18,22 +18,17 @@ namespace meshhood {
 static_assert(kPacketCapacity == kLeafCapacity);
 
 /// The state of a leaf in a packet: words for each vertex.
-struct alignas(64) LeafWords {
+struct LeafWords {
   PerLane<QueryWord> inside;   // the queries whose ball holds the vertex
   PerLane<QueryWord> reached;  // the queries whose answer holds the vertex, so far
   PerLane<QueryWord> pending;  // the queries that reach a neighbor in another leaf; not yet compared with `inside`
 };
 
 /// The queries that reach each vertex of a leaf by as many edges as the last step had, and by no fewer.
-struct alignas(64) FreshWords {
-  PerLane<QueryWord> of;
-};
+using FreshWords = PerLane<QueryWord>;
 
 /// The vertices of a leaf in frame units, relative to the center of a group. Lanes without a vertex hold zeros.
-struct alignas(64) LeafPoints {
-  PerLane<float> x;
-  PerLane<float> y;
-  PerLane<float> z;
+struct LeafPoints : PointPerLane<float> {
   PerLane<float> square;  // of the length
 };
 
@@ -46,12 +41,8 @@ struct FloatCenter {
 };
 
 /// The balls of a packet, relative to the same center. A vertex p is compared with the ball around q by
-/// `2 p.q - p.p`, which is at least `q.q - r^2` where p is inside.
-struct alignas(64) PacketBalls {
-  // Twice the coordinates of the query vertices.
-  PerLane<float> x;
-  PerLane<float> y;
-  PerLane<float> z;
+/// `2 p.q - p.p`, which is at least `q.q - r^2` where p is inside. The points are twice the query vertices.
+struct PacketBalls : PointPerLane<float> {
   PerLane<float> surely_inside;  // >=; infinite for queries that do not exist
   PerLane<float> maybe_inside;   // >=; likewise
   // The center of the leaf of the queries, and squared distances from it.

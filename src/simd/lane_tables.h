@@ -12,7 +12,7 @@ namespace meshhood {
 
 /// Bit `i` for each lane `i`.
 template <class T>
-alignas(64) inline constexpr PerLane<T> kLaneBits = [] {
+inline constexpr PerLane<T> kLaneBits = [] {
   PerLane<T> bits{};
   for (std::size_t i = 0; i < kLeafCapacity; ++i) bits[i] = static_cast<T>(T{1} << i);
   return bits;

@@ -1,6 +1,22 @@
 // SPDX-License-Identifier: MIT
-// What the kernels share, for the target that is being compiled; see each_target-inl.h. A row of 32 lanes is a few
-// vectors: the tags below have at most as many lanes as the kernels can use, and the constants say how many.
+// Compiles the source that includes this once for each target, and has what the kernels share. The source defines
+// HWY_TARGET_INCLUDE, its own path, before. A row of 32 lanes is a few vectors: the tags below have at most as many
+// lanes as the kernels can use, and the constants say how many.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "simd/lane_tables.h"
+#include "simd/leaf.h"
+#include "simd/query_word.h"
+#include "simd/target_list.h"
+
+// clang-format off: in this order.
+#include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+#include "simd/wasm_doubles-inl.h"
+// clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace meshhood::HWY_NAMESPACE {

@@ -8,6 +8,8 @@
 #include <span>
 #include <variant>
 
+#include "shared/distance.h"
+
 namespace meshhood {
 
 inline constexpr unsigned kLeafCapacity = 32;
@@ -41,9 +43,23 @@ struct CrossEdge {
 /// any vertex on.
 using PositionsInOrder = std::variant<std::span<const float>, std::span<const double>>;
 
-/// A value for each lane of a leaf, or for each query of a packet.
+/// A value for each lane of a leaf, or for each query of a packet, aligned to the vectors of the kernels.
 template <class T>
-using PerLane = std::array<T, kLeafCapacity>;
+struct alignas(64) PerLane : std::array<T, kLeafCapacity> {};
+
+/// The coordinates of a point for each.
+template <class T>
+struct PointPerLane {
+  PerLane<T> x;
+  PerLane<T> y;
+  PerLane<T> z;
+
+  void set(std::size_t i, const Point& point) {
+    x[i] = static_cast<T>(point.x);
+    y[i] = static_cast<T>(point.y);
+    z[i] = static_cast<T>(point.z);
+  }
+};
 
 /// For every set of eight bits: the positions of its bits in ascending order, followed by zeros.
 inline constexpr std::array<std::array<std::uint8_t, 8>, 256> kBitPositions = [] {

@@ -1,33 +1,514 @@
 // SPDX-License-Identifier: MIT
-// The kernels of moments and curvature, compiled once for each target.
+// `MomentKernels`, compiled once for each target; see lanes-inl.h. The loops run over queries or vertices
+// that do not depend on each other, so that vectors of any width give the same bits.
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
-#include <type_traits>
 
-#include "simd/lane_tables.h"
 #include "simd/leaf.h"
 #include "simd/moments.h"
 #include "simd/query_word.h"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/moment_kernels.cpp"
-// clang-format off: each uses those before it.
-#include "simd/each_target-inl.h"
-#include "simd/moment-inl.h"
-// clang-format on
+#include "simd/lanes-inl.h"
 
-#if HWY_ONCE
-namespace meshhood {
+HWY_BEFORE_NAMESPACE();
+namespace meshhood::HWY_NAMESPACE {
+namespace {
 
-const MomentKernels& moment_kernels(Isa isa) {
-  static constexpr std::array kTables{MESHHOOD_TABLES(kMomentKernels)};
-  return *kTables[static_cast<std::size_t>(isa)];
+/// Two numbers whose product is a power.
+struct Factors {
+  std::size_t first;
+  std::size_t second;
+};
+
+/// The powers of degree 2 and less, 1 x y z xx xy xz yy yz zz, as products of two of 1 x y z.
+constexpr std::array<Factors, 10> kSmallPowers{
+    {{0, 0}, {0, 1}, {0, 2}, {0, 3}, {1, 1}, {1, 2}, {1, 3}, {2, 2}, {2, 3}, {3, 3}}};
+
+/// The moments, as products of two of these: the first two of the factors x..., y..., z... in this order, and the rest.
+constexpr std::array<Factors, PaddedMoments::kPadded> kFactors = [] {
+  const auto small = [](std::size_t a, std::size_t b) {
+    std::size_t place = 0;
+    while (kSmallPowers[place].first != std::min(a, b) || kSmallPowers[place].second != std::max(a, b)) ++place;
+    return place;
+  };
+  std::array<Factors, PaddedMoments::kPadded> factors{};
+  for (std::size_t i = 0; i <= 4; ++i) {
+    for (std::size_t j = 0; i + j <= 4; ++j) {
+      for (std::size_t k = 0; i + j + k <= 4; ++k) {
+        std::array<std::size_t, 4> axes{};  // of 1 x y z
+        std::fill_n(axes.begin(), i, 1);
+        std::fill_n(axes.begin() + i, j, 2);
+        std::fill_n(axes.begin() + i + j, k, 3);
+        factors[moment_index(i, j, k)] = {small(axes[0], axes[1]), small(axes[2], axes[3])};
+      }
+    }
+  }
+  return factors;
+}();
+
+/// The small powers of a vector of points, and these times the weight.
+struct SmallPowers {
+  SmallPowers() = default;
+  HWY_INLINE SmallPowers(const MomentPoints& points, std::size_t i, Numbers weight) {
+    const Numbers coordinates[]{splat(1.0), load(points.x[i]), load(points.y[i]), load(points.z[i])};
+#pragma GCC unroll 10
+    for (std::size_t m = 0; m < kSmallPowers.size(); ++m) {
+      plain[m] = hn::Mul(coordinates[kSmallPowers[m].first], coordinates[kSmallPowers[m].second]);
+      weighted[m] = hn::Mul(weight, plain[m]);
+    }
+  }
+
+  [[nodiscard]] HWY_INLINE Numbers power(std::size_t m) const {
+    return hn::Mul(weighted[kFactors[m].first], plain[kFactors[m].second]);
+  }
+
+  Numbers plain[kSmallPowers.size()];
+  Numbers weighted[kSmallPowers.size()];
+};
+
+/// Doubles of at most four lanes.
+using Four = hn::CappedTag<double, 4>;
+
+/// Lane j of row i becomes lane i of row j.
+template <std::size_t Size>
+HWY_INLINE void transpose([[maybe_unused]] VectorOf<Four> (&rows)[Size]) {
+  static_assert(Size == kLanes<Four>);
+#if HWY_TARGET != HWY_SCALAR
+  const Four d;
+  const auto even = hn::InterleaveLower(d, rows[0], rows[1]);
+  const auto odd = hn::InterleaveUpper(d, rows[0], rows[1]);
+  if constexpr (Size == 2) {
+    rows[0] = even;
+    rows[1] = odd;
+  } else {
+    const auto next_even = hn::InterleaveLower(d, rows[2], rows[3]);
+    const auto next_odd = hn::InterleaveUpper(d, rows[2], rows[3]);
+    rows[0] = hn::ConcatLowerLower(d, next_even, even);
+    rows[1] = hn::ConcatLowerLower(d, next_odd, odd);
+    rows[2] = hn::ConcatUpperUpper(d, next_even, even);
+    rows[3] = hn::ConcatUpperUpper(d, next_odd, odd);
+  }
+#endif
 }
 
-}  // namespace meshhood
+/// The second half is added to the first, until one is left.
+template <class Vector, std::size_t Size>
+HWY_INLINE Vector sum_by_halves(Vector (&parts)[Size]) {
+  for (std::size_t half = Size / 2; half > 0; half /= 2) {
+    for (std::size_t i = 0; i < half; ++i) parts[i] = hn::Add(parts[i], parts[half + i]);
+  }
+  return parts[0];
+}
+
+/// The same for the lanes, until at most four are left.
+HWY_INLINE VectorOf<Four> as_four(Numbers numbers) {
+#if HWY_TARGET == HWY_AVX3
+  return hn::Add(hn::LowerHalf(Four(), numbers), hn::UpperHalf(Four(), numbers));
+#else
+  return numbers;
+#endif
+}
+
+#if HWY_TARGET == HWY_AVX3
+/// The places of one of the factors of each power.
+constexpr std::array<std::uint64_t, PaddedMoments::kPadded> places_of(std::size_t Factors::* factor) {
+  std::array<std::uint64_t, PaddedMoments::kPadded> places{};
+  for (std::size_t m = 0; m < places.size(); ++m) places[m] = kFactors[m].*factor;
+  return places;
+}
+alignas(64) constexpr auto kFirstPlaces = places_of(&Factors::first);
+alignas(64) constexpr auto kSecondPlaces = places_of(&Factors::second);
+
+/// Eight of the sixteen numbers, those of which the places are given.
+HWY_INLINE Numbers chosen(const Numbers& low, const std::uint64_t& places, const Numbers& high) {
+  return Numbers{_mm512_permutex2var_pd(low.raw, _mm512_load_si512(&places), high.raw)};
+}
+
+/// The powers of point `i`, times its weight: products of two of the ten small ones, which a permutation brings to
+/// their places.
+HWY_INLINE void powers_of(const MomentPoints& points, std::size_t i, PaddedMoments& out) {
+  const Doubles d;
+  const auto one = splat(1.0);
+  const auto x = splat(points.x[i]);
+  const auto y = splat(points.y[i]);
+  const auto z = splat(points.z[i]);
+  const auto weight = splat(points.weight[i]);
+  const auto either = [d](LaneMask places, Numbers yes, Numbers no)
+                          HWY_ATTR { return hn::IfThenElse(mask_of(d, places), yes, no); };
+  // 1 x y z xx xy xz yy, and yz zz: products of two coordinates.
+  const auto left = either(0b1, one, either(0b1000'0100, y, either(0b1000, z, x)));
+  const auto right = either(0b1111, one, either(0b1010'0000, y, either(0b0100'0000, z, x)));
+  const auto low = hn::Mul(left, right);
+  const auto high = hn::Mul(either(0b1, y, z), z);
+  const auto weighted_low = hn::Mul(weight, low);
+  const auto weighted_high = hn::Mul(weight, high);
+#pragma GCC unroll 5
+  for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kLanes<Doubles>) {
+    store(hn::Mul(chosen(weighted_low, kFirstPlaces[m], weighted_high), chosen(low, kSecondPlaces[m], high)),
+          out.at[m]);
+  }
+}
+
+HWY_INLINE void powers(const MomentPoints& points, LaneMask chosen, PaddedMoments* out) {
+  for (LaneMask left = chosen; left != 0; left &= left - 1) {
+    powers_of(points, static_cast<std::size_t>(std::countr_zero(left)), *out++);
+  }
+}
+#else
+/// Vector by vector of points. A product has one moment of several points; they change places, and become several
+/// moments of each point.
+HWY_INLINE void powers(const MomentPoints& points, LaneMask chosen, PaddedMoments* out) {
+  constexpr std::size_t kSize = kLanes<Doubles>;
+  for (std::size_t i = 0; i < kLeafCapacity; i += kSize) {
+    const LaneMask here = chosen >> i & first_lanes(kSize);
+    if (here == 0) continue;
+    const SmallPowers small(points, i, load(points.weight[i]));
+#pragma GCC unroll 40
+    for (std::size_t m = 0; m < PaddedMoments::kPadded; m += kSize) {
+      Numbers rows[kSize];
+#pragma GCC unroll 4
+      for (std::size_t k = 0; k < kSize; ++k) rows[k] = small.power(m + k);
+      transpose(rows);
+      PaddedMoments* to = out;
+      for (std::size_t k = 0; k < kSize; ++k) {
+        store(rows[k], to->at[m]);
+        to += here >> k & 1U;  // what is not chosen is written over
+      }
+    }
+    out += std::popcount(here);
+  }
+}
+#endif
+
+/// Eight partial sums, of points 8 k + i each, are added by halves.
+void sum(const MomentPoints& points, std::size_t size, PaddedMoments& out) {
+  constexpr std::size_t kParts = 8 / kLanes<Doubles>;
+  const Doubles d;
+  SmallPowers small[kVectors<Doubles>];
+  std::size_t vectors = 0;
+  for (std::size_t i = 0; i < size || vectors % kParts != 0; i += kLanes<Doubles>) {
+    const LaneMask exist = i < size ? first_lanes(static_cast<unsigned>(size)) >> i : 0;
+    small[vectors++] = SmallPowers(points, i, only(d, mask_of(d, exist), load(points.weight[i])));
+  }
+  std::fill(out.at.begin() + kMomentCount, out.at.end(), 0);
+#pragma GCC unroll 40
+  for (std::size_t m = 0; m < kMomentCount; m += kLanes<Four>) {
+    VectorOf<Four> rows[kLanes<Four>];
+#pragma GCC unroll 4
+    for (std::size_t k = 0; k < kLanes<Four>; ++k) {
+      Numbers parts[kParts];
+      for (std::size_t part = 0; part < kParts; ++part) parts[part] = small[part].power(m + k);
+      for (std::size_t v = kParts; v < vectors; v += kParts) {
+        for (std::size_t part = 0; part < kParts; ++part) {
+          parts[part] = hn::Add(parts[part], small[v + part].power(m + k));
+        }
+      }
+      rows[k] = as_four(sum_by_halves(parts));
+    }
+    transpose(rows);
+    hn::Store(sum_by_halves(rows), Four(), &out.at[m]);
+  }
+}
+
+/// The words of up to 64 terms as a matrix of bits, transposed: bit `i` of number `q` is bit `q` of word `i`.
+HWY_INLINE void terms_of_queries(std::span<const QueryWord> words, std::array<std::uint64_t, kPacketCapacity>& out) {
+  const Words d;
+  out = {};
+  for (std::size_t first = 0; first < words.size(); first += kLanes<Words>) {
+    const std::size_t count = std::min(words.size() - first, kLanes<Words>);
+    const auto some = hn::LoadU(d, words.data() + first);
+    for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+      const LaneMask lanes = bits_of(d, hn::TestBit(some, splat(QueryWord{1} << q)));
+      out[q] |= std::uint64_t{lanes & first_lanes(static_cast<unsigned>(count))} << first;
+    }
+  }
+}
+
+template <class Real>
+void set_points(const Real* xyz, std::size_t size, const Point& center, double scale, MomentPoints& points) {
+  const Doubles d;
+  for (std::size_t i = 0; i < (size + 7) / 8 * 8; i += kLanes<Doubles>) {
+    const auto exist = mask_of(d, i < size ? first_lanes(static_cast<unsigned>(size)) >> i : 0);
+    const auto at = scaled(difference(load_points(d, xyz + 3 * i), splat_point(d, center)), splat(scale));
+    const Points<Doubles> existing{only(d, exist, at.x), only(d, exist, at.y), only(d, exist, at.z)};
+    store_rows(existing, points, i);
+  }
+}
+
+void add_terms(const PaddedMoments* terms, std::span<const QueryWord> words, MomentsByQuery& sums) {
+  constexpr std::size_t kAtOnce = std::min<std::size_t>(PaddedMoments::kPadded, 10 * kLanes<Doubles>);
+  std::array<std::uint64_t, kPacketCapacity> terms_of;
+  terms_of_queries(words, terms_of);
+  for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+    for (std::size_t m = 0; m < PaddedMoments::kPadded && terms_of[q] != 0; m += kAtOnce) {
+      Numbers some[kAtOnce / kLanes<Doubles>];  // stay in registers
+#pragma GCC unroll 10
+      for (std::size_t k = 0; k < std::size(some); ++k) some[k] = load(sums[q].at[m + k * kLanes<Doubles>]);
+      for (std::uint64_t left = terms_of[q]; left != 0; left &= left - 1) {
+        const PaddedMoments& term = terms[std::countr_zero(left)];
+#pragma GCC unroll 10
+        for (std::size_t k = 0; k < std::size(some); ++k) {
+          some[k] = hn::Add(some[k], load(term.at[m + k * kLanes<Doubles>]));
+        }
+      }
+#pragma GCC unroll 10
+      for (std::size_t k = 0; k < std::size(some); ++k) store(some[k], sums[q].at[m + k * kLanes<Doubles>]);
+    }
+  }
+}
+
+/// For which of the normals of a row the product with one normal is > `limit`, and for which it is > `-limit`, in
+/// single precision.
+struct Facing {
+  HWY_INLINE Facing(const RoundedVectors& normals, const Points<Floats>& normal, float limit) {
+    const Floats d;
+    MasksOfRow<Floats> above;
+    MasksOfRow<Floats> not_below;
+    for (std::size_t part = 0; part < kVectors<Floats>; ++part) {
+      const auto products = scalar_product(normal, load_rows(d, normals, part * kLanes<Floats>));
+      above[part] = hn::Gt(products, splat(limit));
+      not_below[part] = hn::Gt(products, splat(-limit));
+    }
+    surely = bits_of_row(d, above);
+    perhaps = bits_of_row(d, not_below);
+  }
+
+  LaneMask surely;
+  LaneMask perhaps;
+};
+
+/// Those of the queries `among` that vertex `i` faces. Single precision decides almost all.
+HWY_INLINE QueryWord facing(const NormalColumns& normals, const RoundedVectors& rounded, std::size_t i,
+                            const FacingTest& test, QueryWord among) {
+  const Points<Floats> normal{splat(rounded.x[i]), splat(rounded.y[i]), splat(rounded.z[i])};
+  const Facing facing(test.rounded, normal, kFacingMargin);
+  QueryWord word = among & facing.perhaps;
+  for (QueryWord open = word & ~facing.surely; open != 0; open &= open - 1) {
+    const auto q = static_cast<std::size_t>(std::countr_zero(open));
+    const QueryVectors& to = test.normals;
+    const double product = (normals.x[i] * to.x[q] + normals.y[i] * to.y[q]) + normals.z[i] * to.z[q];
+    if (!(product > 0)) word &= ~(QueryWord{1} << q);
+  }
+  return word;
+}
+
+/// The axis decides first, for all vertices together, without branches, which could not be predicted.
+void keep_facing(const NormalColumns& normals, const FacingTest& test, std::span<QueryWord> words) {
+  RoundedVectors rounded{};
+  QueryWord used = 0;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    rounded.x[i] = static_cast<float>(normals.x[i]);
+    rounded.y[i] = static_cast<float>(normals.y[i]);
+    rounded.z[i] = static_cast<float>(normals.z[i]);
+    used |= QueryWord{words[i] != 0} << i;
+  }
+  const auto [x, y, z] = test.axis;
+  const Points<Floats> axis{splat(static_cast<float>(x)), splat(static_cast<float>(y)), splat(static_cast<float>(z))};
+  const Facing facing_axis(rounded, axis, test.all);
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] &= 0 - (facing_axis.perhaps >> i & 1U);
+  for (QueryWord left = used & facing_axis.perhaps & ~facing_axis.surely; left != 0; left &= left - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(left));
+    words[i] = facing(normals, rounded, i, test, words[i]);
+  }
+}
+
+/// The place of the moment with power p of the axis, and powers a and b of the next two.
+constexpr std::size_t rotated_index(std::size_t axis, std::size_t p, std::size_t a, std::size_t b) {
+  if (axis == 0) return moment_index(p, a, b);
+  return axis == 1 ? moment_index(b, p, a) : moment_index(a, b, p);
+}
+
+/// Each `start` replaces one factor x of the powers above it by x + t: Horner's scheme for a Taylor shift.
+void shift(QueryMoments& moments, const QueryVectors& by) {
+  const std::array<const QueryRow*, 3> axes{&by.x, &by.y, &by.z};
+  const auto step = [&](std::size_t axis, std::size_t p, std::size_t a, std::size_t b) HWY_ATTR {
+    const QueryRow& t = *axes[axis];
+    const QueryRow& from = moments.at[rotated_index(axis, p - 1, a, b)];
+    QueryRow& to = moments.at[rotated_index(axis, p, a, b)];
+    for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>)
+      add_to(to[q], hn::Mul(load(t[q]), load(from[q])));
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t start = 0; start < 4; ++start) {
+      for (std::size_t p = 4; p > start; --p) {
+        for (std::size_t a = 0; a + p <= 4; ++a) {
+          for (std::size_t b = 0; a + b + p <= 4; ++b) step(axis, p, a, b);
+        }
+      }
+    }
+  }
+}
+
+// NOLINTBEGIN(modernize-avoid-c-arrays): std::array drops the alignment
+
+/// The components of a symmetric tensor in space: those with m of the indices y or z, and k of these z, at
+/// m (m + 1) / 2 + k.
+template <std::size_t Degree>
+struct Tensor {
+  Numbers at[(Degree + 1) * (Degree + 2) / 2];
+};
+
+/// The moments of one degree, of the queries from `q` on.
+template <std::size_t Degree>
+HWY_INLINE Tensor<Degree> tensor(const QueryMoments& moments, std::size_t q) {
+  Tensor<Degree> result;
+#pragma GCC unroll 5
+  for (std::size_t m = 0; m <= Degree; ++m) {
+#pragma GCC unroll 5
+    for (std::size_t k = 0; k <= m; ++k) {
+      result.at[m * (m + 1) / 2 + k] = load(moments.at[moment_index(Degree - m, m - k, k)][q]);
+    }
+  }
+  return result;
+}
+
+/// One index of the tensor, summed with the components of a vector.
+template <std::size_t Degree>
+HWY_INLINE Tensor<Degree - 1> contract(const Tensor<Degree>& in, const Points<Doubles>& by) {
+  Tensor<Degree - 1> result;
+#pragma GCC unroll 4
+  for (std::size_t m = 0; m < Degree; ++m) {
+#pragma GCC unroll 4
+    for (std::size_t k = 0; k <= m; ++k) {
+      const std::size_t at = m * (m + 1) / 2 + k;
+      const std::size_t below = (m + 1) * (m + 2) / 2 + k;
+      result.at[at] = scalar_product(by, {in.at[at], in.at[below], in.at[below + 1]});
+    }
+  }
+  return result;
+}
+
+void rotate(const QueryMoments& moments, const QueryVectors& us, const QueryVectors& vs, const QueryVectors& ns,
+            FrameMoments& out) {
+  const Doubles d;
+  for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>) {
+    const auto u = load_rows(d, us, q);
+    const auto v = load_rows(d, vs, q);
+    const auto n = load_rows(d, ns, q);
+    const auto put = [q](const Tensor<1>& last, const Points<Doubles>& by, QueryRow& row)
+                         HWY_ATTR { store(contract(last, by).at[0], row[q]); };
+    const auto fourth = tensor<4>(moments, q);
+    const auto fourth_uu = contract(contract(fourth, u), u);
+    const auto fourth_vv = contract(contract(fourth, v), v);
+    put(contract(fourth_uu, u), u, out.u4);
+    put(contract(fourth_uu, u), v, out.u3v);
+    put(contract(fourth_uu, v), v, out.u2v2);
+    put(contract(fourth_vv, v), u, out.uv3);
+    put(contract(fourth_vv, v), v, out.v4);
+    const auto third = tensor<3>(moments, q);
+    const auto third_uu = contract(contract(third, u), u);
+    const auto third_uv = contract(contract(third, v), u);
+    const auto third_vv = contract(contract(third, v), v);
+    put(third_uu, u, out.u3);
+    put(third_uu, v, out.u2v);
+    put(third_uu, n, out.uun);
+    put(third_uv, n, out.uvn);
+    put(third_vv, u, out.uv2);
+    put(third_vv, v, out.v3);
+    put(third_vv, n, out.vvn);
+    const auto second_u = contract(tensor<2>(moments, q), u);
+    const auto second_v = contract(tensor<2>(moments, q), v);
+    put(second_u, u, out.uu);
+    put(second_u, v, out.uv);
+    put(second_u, n, out.un);
+    put(second_v, v, out.vv);
+    put(second_v, n, out.vn);
+    const auto first = tensor<1>(moments, q);
+    put(first, u, out.u);
+    put(first, v, out.v);
+    put(first, n, out.n);
+    store(load(moments.at[0][q]), out.one[q]);
+  }
+}
+
+/// Solves b x = right by the decomposition b = L D L^T, where `b` is symmetric and given by its lower triangle, and
+/// writes x to `right`; returns the determinant of `MomentKernels::fit_quadrics`. The scaling to a diagonal of ones is
+/// left out, since it changes L, D and x by factors only; so are the roots of Cholesky's method.
+template <std::size_t N>
+HWY_INLINE Numbers solve(Numbers (&b)[N][N], Numbers (&right)[N]) {
+  const auto one = splat(1.0);
+  Numbers l[N][N];  // while `b` becomes L D
+  Numbers inverse[N];
+  auto product = one;
+  auto determinant = one;
+#pragma GCC unroll 6
+  for (std::size_t j = 0; j < N; ++j) {
+    const auto diagonal = b[j][j];
+#pragma GCC unroll 6
+    for (std::size_t i = j; i < N; ++i) {
+#pragma GCC unroll 6
+      for (std::size_t k = 0; k < j; ++k) b[i][j] = hn::Sub(b[i][j], hn::Mul(b[i][k], l[j][k]));
+    }
+    const auto is_positive = hn::Gt(diagonal, hn::Zero(Doubles()));
+    product = hn::Mul(product, hn::IfThenElse(is_positive, hn::Div(b[j][j], diagonal), splat(-1.0)));
+    determinant = hn::IfThenElse(hn::Ge(product, determinant), determinant, product);  // NaN stays
+    inverse[j] = hn::Div(one, b[j][j]);
+#pragma GCC unroll 6
+    for (std::size_t i = j + 1; i < N; ++i) l[i][j] = hn::Mul(b[i][j], inverse[j]);
+  }
+#pragma GCC unroll 6
+  for (std::size_t i = 0; i < N; ++i) {
+#pragma GCC unroll 6
+    for (std::size_t k = 0; k < i; ++k) right[i] = hn::Sub(right[i], hn::Mul(l[i][k], right[k]));
+  }
+#pragma GCC unroll 6
+  for (std::size_t solved = 0; solved < N; ++solved) {
+    const std::size_t i = N - 1 - solved;
+    right[i] = hn::Mul(right[i], inverse[i]);
+#pragma GCC unroll 6
+    for (std::size_t k = i + 1; k < N; ++k) right[i] = hn::Sub(right[i], hn::Mul(l[k][i], right[k]));
+  }
+  return determinant;
+}
+
+/// With a constant term if N is 6.
+template <std::size_t N>
+void fit(const FrameMoments& s, QueryQuadrics& out) {
+  for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>) {
+    const auto at = [q](const QueryRow& row) HWY_ATTR { return load(row[q]); };
+    Numbers b[N][N]{{at(s.u4)},
+                    {at(s.u3v), at(s.u2v2)},
+                    {at(s.u2v2), at(s.uv3), at(s.v4)},
+                    {at(s.u3), at(s.u2v), at(s.uv2), at(s.uu)},
+                    {at(s.u2v), at(s.uv2), at(s.v3), at(s.uv), at(s.vv)}};
+    Numbers x[N]{at(s.uun), at(s.uvn), at(s.vvn), at(s.un), at(s.vn)};
+    if constexpr (N == 6) {
+      const Numbers last[]{at(s.uu), at(s.uv), at(s.vv), at(s.u), at(s.v), at(s.one)};
+      for (std::size_t i = 0; i < N; ++i) b[5][i] = last[i];
+      x[5] = at(s.n);
+    }
+    store(solve(b, x), out.determinant[q]);
+    store(x[0], out.a[q]);
+    store(x[1], out.b[q]);
+    store(x[2], out.c[q]);
+    store(x[3], out.d[q]);
+    store(x[4], out.e[q]);
+  }
+}
+// NOLINTEND(modernize-avoid-c-arrays)
+
+constexpr MomentKernels kMomentKernels{
+    .set_points_float = set_points<float>,
+    .set_points_double = set_points<double>,
+    .powers = powers,
+    .sum = sum,
+    .add_terms = add_terms,
+    .keep_facing = keep_facing,
+    .shift = shift,
+    .rotate = rotate,
+    .fit_quadrics = fit<5>,
+    .fit_jets = fit<6>,
+};
+
+}  // namespace
+}  // namespace meshhood::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+const meshhood::MomentKernels& meshhood::moment_kernels(Isa isa) { return MESHHOOD_TABLE(kMomentKernels, isa); }
 #endif

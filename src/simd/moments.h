@@ -29,21 +29,11 @@ inline constexpr std::size_t kMomentCount = 35;
 using QueryRow = PerLane<double>;
 static_assert(kLeafCapacity == kPacketCapacity);
 
-struct alignas(64) QueryVectors {
-  QueryRow x;
-  QueryRow y;
-  QueryRow z;
-};
-
-/// The same in single precision.
-struct alignas(64) RoundedVectors {
-  PerLane<float> x;
-  PerLane<float> y;
-  PerLane<float> z;
-};
+using QueryVectors = PointPerLane<double>;
+using RoundedVectors = PointPerLane<float>;
 
 /// The moments of the neighborhoods of a packet, by moment, then by query.
-struct alignas(64) QueryMoments {
+struct QueryMoments {
   std::array<QueryRow, kMomentCount> at;
 };
 
@@ -61,28 +51,24 @@ inline void add(PaddedMoments& sum, const PaddedMoments& term) {
 using MomentsByQuery = std::array<PaddedMoments, kPacketCapacity>;
 
 /// The vertices of a leaf relative to the center of a packet, in a unit in which they are about 1.
-struct alignas(64) MomentPoints {
-  PerLane<double> x;
-  PerLane<double> y;
-  PerLane<double> z;
+struct MomentPoints : PointPerLane<double> {
   PerLane<double> weight;
 
   void set(std::size_t i, const Point& p, double its_weight) {
-    x[i] = p.x;
-    y[i] = p.y;
-    z[i] = p.z;
+    PointPerLane::set(i, p);
     weight[i] = its_weight;
   }
 };
 
 /// The moments of a neighborhood about its query vertex, in the frame (u, v, n) of its tangent plane. A fit of a
-/// quadratic height over that plane needs no others.
-struct alignas(64) FrameMoments {
+/// quadratic height over that plane needs no others, and those of degree 1 and 0 only if it has a constant term.
+struct FrameMoments {
   QueryRow uu, uv, vv;
   QueryRow u4, u3v, u2v2, uv3, v4;
   QueryRow u3, u2v, uv2, v3;
   QueryRow uun, uvn, vvn;
   QueryRow un, vn;
+  QueryRow u, v, n, one;
 };
 
 /// Columns of normals.
@@ -96,12 +82,8 @@ struct NormalColumns {
 /// the query. The product of the two, in double, each operation rounded, is > 0.
 struct FacingTest {
   void set(std::size_t query, const Point& normal) {
-    normals.x[query] = normal.x;
-    normals.y[query] = normal.y;
-    normals.z[query] = normal.z;
-    rounded.x[query] = static_cast<float>(normal.x);
-    rounded.y[query] = static_cast<float>(normal.y);
-    rounded.z[query] = static_cast<float>(normal.z);
+    normals.set(query, normal);
+    rounded.set(query, normal);
   }
 
   QueryVectors normals;  // of the queries: unit vectors, or NaN
@@ -116,7 +98,7 @@ struct FacingTest {
 inline constexpr float kFacingMargin = 0x1p-20F;
 
 /// The fits z = a x^2 + b x y + c y^2 + d x + e y of the queries of a packet.
-struct alignas(64) QueryQuadrics {
+struct QueryQuadrics {
   QueryRow a, b, c, d, e;
   QueryRow determinant;  // of the normal equations, see `MomentKernels::fit_quadrics`
 };
@@ -148,7 +130,7 @@ struct MomentKernels {
   /// Moves the centers by `-by`: the coordinates grow by `by`. By a Taylor shift along each axis, 105 multiply-adds.
   void (*shift)(QueryMoments& moments, const QueryVectors& by);
 
-  /// Contracts the moments of degree 2 to 4 with the axes of the frames.
+  /// Contracts the moments with the axes of the frames.
   void (*rotate)(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v, const QueryVectors& n,
                  FrameMoments& out);
 
@@ -157,9 +139,8 @@ struct MomentKernels {
   /// is not > 0 if there is no unique solution.
   void (*fit_quadrics)(const FrameMoments& moments, QueryQuadrics& out);
 
-  /// The same with a constant term, which `out` leaves out. `sums`: of the coordinates u, v, n. `counts`: moments of
-  /// degree 0, aligned like a row of these.
-  void (*fit_jets)(const FrameMoments& moments, const QueryVectors& sums, const QueryRow& counts, QueryQuadrics& out);
+  /// The same with a constant term, which `out` leaves out.
+  void (*fit_jets)(const FrameMoments& moments, QueryQuadrics& out);
 };
 
 /// The kernels for `isa`, which the processor must have.

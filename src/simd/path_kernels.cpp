@@ -1,33 +1,55 @@
 // SPDX-License-Identifier: MIT
-// The kernels of shortest paths, compiled once for each target.
-#include <algorithm>
-#include <array>
-#include <bit>
+// `PathKernels`, compiled once for each target; see lanes-inl.h. Sums are rounded one by one, as those of
+// a search from one vertex are, and lengths are neither NaN nor negative.
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
-#include <type_traits>
 
-#include "simd/lane_tables.h"
-#include "simd/leaf.h"
 #include "simd/paths.h"
 #include "simd/query_word.h"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/path_kernels.cpp"
-// clang-format off: each uses those before it.
-#include "simd/each_target-inl.h"
-#include "simd/path-inl.h"
-// clang-format on
+#include "simd/lanes-inl.h"
 
-#if HWY_ONCE
-namespace meshhood {
+HWY_BEFORE_NAMESPACE();
+namespace meshhood::HWY_NAMESPACE {
+namespace {
 
-const PathKernels& path_kernels(Isa isa) {
-  static constexpr std::array kTables{MESHHOOD_TABLES(kPathKernels)};
-  return *kTables[static_cast<std::size_t>(isa)];
+std::uint32_t follow_edges(const PathLengths& from, std::span<const PathEdge> edges, PathLengths* all) {
+  const Doubles d;
+  std::uint32_t shorter = 0;
+  for (std::size_t edge = 0; edge < edges.size(); ++edge) {
+    PathLengths& to = all[edges[edge].end];
+    const auto length = splat(edges[edge].length);
+    auto any = hn::MaskFromVec(hn::Zero(d));
+    // Whether a path is shorter cannot be predicted, so there is no branch.
+    for (std::size_t i = 0; i < kPacketCapacity; i += kLanes<Doubles>) {
+      const auto through = hn::Add(load(from[i]), length);
+      const auto before = load(to[i]);
+      const auto is_shorter = hn::Lt(through, before);
+      store(either(d, is_shorter, through, before), to[i]);
+      any = hn::Or(any, is_shorter);
+    }
+    shorter |= std::uint32_t{bits_of(d, any) != 0} << edge;
+  }
+  return shorter;
 }
 
-}  // namespace meshhood
+QueryWord within_limits(const PathLengths& lengths, const PathLengths& limits) {
+  const Doubles d;
+  QueryWord within = 0;
+  for (std::size_t i = 0; i < kPacketCapacity; i += kLanes<Doubles>) {
+    within |= bits_of(d, hn::Le(load(lengths[i]), load(limits[i]))) << i;
+  }
+  return within;
+}
+
+constexpr PathKernels kPathKernels{follow_edges, within_limits};
+
+}  // namespace
+}  // namespace meshhood::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+const meshhood::PathKernels& meshhood::path_kernels(Isa isa) { return MESHHOOD_TABLE(kPathKernels, isa); }
 #endif

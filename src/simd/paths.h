@@ -12,9 +12,7 @@
 namespace meshhood {
 
 /// The lengths of the shortest paths to a vertex so far, one for each query of a packet. Infinite where there is none.
-struct alignas(64) PathLengths {
-  PerLane<double> of;
-};
+using PathLengths = PerLane<double>;
 
 /// An edge to a vertex, by the number that the search gives it.
 struct PathEdge {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 // The targets of Highway for which the kernels are compiled, from slow to fast, each with the instructions of those
@@ -39,9 +40,10 @@
 #define MESHHOOD_AVX3(what)
 #endif
 
-/// The addresses of the tables of this name, one for each target.
-#define MESHHOOD_TABLES(name) \
-  &HWY_STATIC_DISPATCH(name), MESHHOOD_SSE4(&N_SSE4::name) MESHHOOD_AVX2(&N_AVX2::name) MESHHOOD_AVX3(&N_AVX3::name)
+/// Of the tables of this name, one for each target, that for `isa`.
+#define MESHHOOD_TABLE(name, isa)                                                                   \
+  *std::array{&HWY_STATIC_DISPATCH(name), MESHHOOD_SSE4(&N_SSE4::name) MESHHOOD_AVX2(&N_AVX2::name) \
+                                              MESHHOOD_AVX3(&N_AVX3::name)}[static_cast<std::size_t>(isa)]
 
 namespace meshhood {
 

@@ -102,7 +102,7 @@ class PacketTrial {
       for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
         any |= leaf.queries[lane];
         for_each_query(leaf.queries[lane],
-                       [&](std::size_t i) { found[i][leaf.vertices.begin + lane] = leaf.lengths[lane].of[i]; });
+                       [&](std::size_t i) { found[i][leaf.vertices.begin + lane] = leaf.lengths[lane][i]; });
       }
       EXPECT_NE(any, 0U);
     });

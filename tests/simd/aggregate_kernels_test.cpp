@@ -113,8 +113,8 @@ TEST_P(EveryAggregatePath, GivesTheBitsOfTheFirstInstructionSetForWeightsByDista
       tried.set_offsets(point, centers, offsets);
       plain.set_offsets(point, centers, other_offsets);
       ASSERT_EQ(bits_of(offsets), bits_of(other_offsets));
-      tried.set_weights(offsets, radii, squared, weights.of_vertex[k]);
-      plain.set_weights(other_offsets, radii, squared, other_weights.of_vertex[k]);
+      tried.set_weights(offsets, radii, squared, weights[k]);
+      plain.set_weights(other_offsets, radii, squared, other_weights[k]);
     }
     ASSERT_EQ(bits_of(weights), bits_of(other_weights));
     RowSums other = sums;

@@ -93,7 +93,7 @@ TEST_P(EveryJointPath, BallWordsAreThoseOfThePlainKernel) {
     balls.inside_all = static_cast<float>(random.uniform(0, 0.5));
     balls.outside_all = balls.inside_all + static_cast<float>(random.uniform(0, 2));
     PerLane<QueryWord> expected;
-    alignas(64) PerLane<QueryWord> found;  // as in LeafWords
+    PerLane<QueryWord> found;
     PerLane<QueryWord> expected_doubts{};
     PerLane<QueryWord> found_doubts{};
     const BallWords a = plain.ball_words(points, first_lanes(size), balls, expected, expected_doubts);
@@ -183,8 +183,8 @@ TEST_P(EveryJointPath, AStepFollowsEveryEdgeOnce) {
     FreshWords fresh{random_words()};
     LaneMask from = random.below(8) == 0 ? 0 : random_word();
     for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
-      if ((from >> lane & 1U) == 0) fresh.of[lane] = 0;
-      words.reached[lane] |= fresh.of[lane];
+      if ((from >> lane & 1U) == 0) fresh[lane] = 0;
+      words.reached[lane] |= fresh[lane];
     }
     for (int step = 0; step < 3; ++step) {
       const QueryWord alive = random.below(4) == 0 ? random_word() : ~QueryWord{0};
@@ -195,7 +195,7 @@ TEST_P(EveryJointPath, AStepFollowsEveryEdgeOnce) {
       ASSERT_EQ(tried.step_words(words, fresh, adjacency.data(), from, open, alive), lanes);
       ASSERT_EQ(words.reached, expected.reached);
       ASSERT_EQ(words.pending, expected.pending);
-      ASSERT_EQ(fresh.of, expected_fresh.of);
+      ASSERT_EQ(fresh, expected_fresh);
       from = lanes;
       ended += static_cast<std::size_t>(lanes == 0);
     }

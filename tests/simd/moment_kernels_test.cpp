@@ -286,7 +286,8 @@ TEST(MomentKernels, RotatedMomentsAreThoseOfRotatedPoints) {
       {&out.u3v, {3, 1, 0}}, {&out.u2v2, {2, 2, 0}}, {&out.uv3, {1, 3, 0}}, {&out.v4, {0, 4, 0}},
       {&out.u3, {3, 0, 0}},  {&out.u2v, {2, 1, 0}},  {&out.uv2, {1, 2, 0}}, {&out.v3, {0, 3, 0}},
       {&out.uun, {2, 0, 1}}, {&out.uvn, {1, 1, 1}},  {&out.vvn, {0, 2, 1}}, {&out.un, {1, 0, 1}},
-      {&out.vn, {0, 1, 1}},
+      {&out.vn, {0, 1, 1}},  {&out.u, {1, 0, 0}},    {&out.v, {0, 1, 0}},   {&out.n, {0, 0, 1}},
+      {&out.one, {0, 0, 0}},
   };
   for (std::size_t q = 0; q < kPacketCapacity; ++q) {
     Input rotated = points;
@@ -383,8 +384,6 @@ void expect_equal(const QueryQuadrics& a, const QueryQuadrics& b) {
 TEST(MomentKernels, FitsSolveTheNormalEquations) {
   Random random(6);
   FrameMoments s{};
-  QueryVectors sums{};
-  alignas(QueryVectors) QueryRow counts{};
   const std::array<double, 6> coefficients{0.5, -0.25, 0.125, 0.75, -1, 2};
   for (std::size_t q = 0; q < kPacketCapacity; ++q) {
     for (int i = 0; i < 30; ++i) {
@@ -398,14 +397,14 @@ TEST(MomentKernels, FitsSolveTheNormalEquations) {
       add(s.v4, v * v * v * v), add(s.u3, u * u * u), add(s.u2v, u * u * v), add(s.uv2, u * v * v);
       add(s.v3, v * v * v), add(s.uun, u * u * n), add(s.uvn, u * v * n), add(s.vvn, v * v * n);
       add(s.un, u * n), add(s.vn, v * n);
-      add(sums.x, u), add(sums.y, v), add(sums.z, n), add(counts, 1);
+      add(s.u, u), add(s.v, v), add(s.n, n), add(s.one, 1);
     }
   }
   for (const Isa isa : available_isas()) {
     QueryQuadrics quadrics{};
     QueryQuadrics jets{};
     moment_kernels(isa).fit_quadrics(s, quadrics);
-    moment_kernels(isa).fit_jets(s, sums, counts, jets);
+    moment_kernels(isa).fit_jets(s, jets);
     for (std::size_t q = 0; q < kPacketCapacity; ++q) {
       const auto expect = [&](const QueryQuadrics& fit) {
         const std::array<double, 5> found{fit.a[q], fit.b[q], fit.c[q], fit.d[q], fit.e[q]};
@@ -458,7 +457,7 @@ TEST(MomentKernels, EveryInstructionSetGivesTheSameBits) {
       kernels.keep_facing({points.x.data(), points.y.data(), points.z.data()}, test, facing.back());
       fits.emplace_back();
       kernels.fit_quadrics(results.back(), fits.back()[0]);
-      kernels.fit_jets(results.back(), by, moments.at[0], fits.back()[1]);
+      kernels.fit_jets(results.back(), fits.back()[1]);
       kernels.sum(points, leaf, sums.emplace_back());
     }
     EXPECT_THAT(facing, testing::Each(facing.front()));

@@ -34,7 +34,7 @@ class EveryPathKernel : public testing::TestWithParam<Isa> {
 
   void draw() {
     for (PathLengths& lengths : *all) {
-      for (double& value : lengths.of) value = length();
+      for (double& value : lengths) value = length();
     }
     edges.resize(random.below(33));
     for (PathEdge& edge : edges) edge = {length(), 1 + static_cast<std::uint32_t>(random.below(kVertices - 1))};
@@ -53,8 +53,8 @@ TEST_P(EveryPathKernel, FollowsEdges) {
     std::uint32_t shorter = 0;
     for (std::size_t i = 0; i < edges.size(); ++i) {
       for (std::size_t lane = 0; lane < kPacketCapacity; ++lane) {
-        double& to = (*expected)[edges[i].end].of[lane];
-        const double through = (*expected)[0].of[lane] + edges[i].length;
+        double& to = (*expected)[edges[i].end][lane];
+        const double through = (*expected)[0][lane] + edges[i].length;
         if (!(through < to)) continue;
         to = through;
         shorter |= std::uint32_t{1} << i;
@@ -68,10 +68,10 @@ TEST_P(EveryPathKernel, FollowsEdges) {
 TEST_P(EveryPathKernel, FindsWhatIsWithinLimits) {
   for (std::size_t round = 0; round < scaled(20000, 2000); ++round) {
     draw();
-    (*all)[1].of[random.below(kPacketCapacity)] = -1;
+    (*all)[1][random.below(kPacketCapacity)] = -1;
     QueryWord expected = 0;
     for (std::size_t lane = 0; lane < kPacketCapacity; ++lane) {
-      expected |= QueryWord{(*all)[0].of[lane] <= (*all)[1].of[lane]} << lane;
+      expected |= QueryWord{(*all)[0][lane] <= (*all)[1][lane]} << lane;
     }
     ASSERT_EQ(kernels.within_limits((*all)[0], (*all)[1]), expected);
   }
@@ -84,8 +84,8 @@ TEST_P(EveryPathKernel, WeighsLengths) {
       PerLane<double> weights;
       aggregate_kernels(GetParam()).set_path_weights((*all)[0], (*all)[1], squared, weights);
       for (std::size_t lane = 0; lane < kPacketCapacity; ++lane) {
-        const double length = (*all)[0].of[lane];
-        const double radius = (*all)[1].of[lane];
+        const double length = (*all)[0][lane];
+        const double radius = (*all)[1][lane];
         if (!(length <= radius) || radius == 0 || length == std::numeric_limits<double>::infinity()) continue;
         const double t = length / radius;
         const double weight = (1 - t) * (1 + t);

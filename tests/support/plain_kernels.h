@@ -178,13 +178,13 @@ inline LaneMask step_words(LeafWords& words, FreshWords& fresh, const LaneMask* 
                            QueryWord alive) {
   PerLane<QueryWord> arriving = words.pending;
   for_each_lane(from, [&](unsigned lane) {
-    for_each_lane(adjacency[lane], [&](unsigned neighbor) { arriving[neighbor] |= fresh.of[lane]; });
+    for_each_lane(adjacency[lane], [&](unsigned neighbor) { arriving[neighbor] |= fresh[lane]; });
   });
   LaneMask lanes = 0;
   for (unsigned lane = 0; lane < kLeafCapacity; ++lane) {
-    fresh.of[lane] = (open >> lane & 1U) != 0 ? arriving[lane] & alive & ~words.reached[lane] : 0;
-    words.reached[lane] |= fresh.of[lane];
-    lanes |= LaneMask{fresh.of[lane] != 0} << lane;
+    fresh[lane] = (open >> lane & 1U) != 0 ? arriving[lane] & alive & ~words.reached[lane] : 0;
+    words.reached[lane] |= fresh[lane];
+    lanes |= LaneMask{fresh[lane] != 0} << lane;
   }
   words.pending = {};
   return lanes;

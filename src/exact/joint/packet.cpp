@@ -80,11 +80,9 @@ void Packet::set_balls(const JointGroup& group, std::span<const JointQuery> quer
     const unsigned lane = lanes_[i];
     if (index_->is_wall(leaf_, lane)) continue;
     balls_.queries |= QueryWord{1} << i;
-    balls_.x[i] = 2 * points.x[lane];
-    balls_.y[i] = 2 * points.y[lane];
-    balls_.z[i] = 2 * points.z[lane];
     const Point q{static_cast<double>(points.x[lane]), static_cast<double>(points.y[lane]),
                   static_cast<double>(points.z[lane])};
+    balls_.set(i, 2 * q);
     balls_.surely_inside[i] = static_cast<float>(dot(q, q) - queries[i].radius.inner_squared + error);
     balls_.maybe_inside[i] = static_cast<float>(dot(q, q) - queries[i].radius.outer_squared - error);
   }

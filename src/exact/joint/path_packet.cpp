@@ -8,7 +8,7 @@ constexpr std::uint32_t kNoNumber = 0xFFFFFFFF;
 
 constexpr PathLengths kReachedByNone = [] {
   PathLengths lengths{};
-  lengths.of.fill(std::numeric_limits<double>::infinity());
+  lengths.fill(std::numeric_limits<double>::infinity());
   return lengths;
 }();
 
@@ -83,8 +83,8 @@ void PathPacket::begin(std::span<const PathQuery> queries) {
 /// No length is within that of a query that does not exist.
 PathLengths PathPacket::limits_of(std::span<const double> radii) const {
   PathLengths limits{};
-  limits.of.fill(-1);
-  for (std::size_t i = 0; i < radii.size(); ++i) limits.of[i] = std::min(radii[i], kLongest);
+  limits.fill(-1);
+  for (std::size_t i = 0; i < radii.size(); ++i) limits[i] = std::min(radii[i], kLongest);
   return limits;
 }
 
@@ -121,7 +121,7 @@ bool PathPacket::pass_on_lengths() {
   waiting_.reset(found.size());
   for (std::size_t i = 0; i < queries_.size(); ++i) {
     if (starts_[i] == kNoNumber) continue;  // a wall
-    lengths_[starts_[i]].of[i] = 0;
+    lengths_[starts_[i]][i] = 0;
     waiting_.add(starts_[i]);
   }
   const std::size_t most = limits_.steps * found.size();
@@ -176,7 +176,7 @@ std::span<const Path> PathPacket::paths_in_order(std::size_t query) {
   // Whether a vertex is within the radius cannot be predicted, so there is no branch.
   for (std::size_t number = 0; number < found.size(); ++number) {
     const std::uint32_t end = vertex(number);
-    const double length = is_single_ ? found[number].length : lengths_[number].of[query];
+    const double length = is_single_ ? found[number].length : lengths_[number][query];
     const bool is_left_out = is_single_ && ignored_->has_at(end);
     paths_[count] = {length, end};
     count += static_cast<std::size_t>(length <= std::min(radius, kLongest)) & static_cast<std::size_t>(end != source) &
@@ -214,8 +214,8 @@ bool PathPacket::read(const LeafPlaces& places, const PathLengths& limits) {
   for_each_lane(places.lanes, [&](unsigned lane) {
     const std::uint32_t number = places.number[lane];
     if (is_single_) {
-      leaf_.lengths[lane].of[0] = search_.found()[number].length;
-      leaf_.queries[lane] = leaf_.lengths[lane].of[0] <= limits.of[0] ? 1 : 0;
+      leaf_.lengths[lane][0] = search_.found()[number].length;
+      leaf_.queries[lane] = leaf_.lengths[lane][0] <= limits[0] ? 1 : 0;
     } else {
       leaf_.lengths[lane] = lengths_[number];
       leaf_.queries[lane] = kernels_->within_limits(lengths_[number], limits);

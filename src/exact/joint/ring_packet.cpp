@@ -52,7 +52,7 @@ void RingPacket::push(Entry entry) {
   for (const Link& link : index_->links_of(states_[entry].leaf)) {
     if ((link.boundary & fresh) == 0) continue;
     const Entry other = entry_of(link.leaf);
-    push_words(index_->cross_edges_of(link), fresh_[entry].of, words_[other].pending);
+    push_words(index_->cross_edges_of(link), fresh_[entry], words_[other].pending);
     if (!states_[other].is_pending) {
       states_[other].is_pending = true;
       pending_.push_back(other);
