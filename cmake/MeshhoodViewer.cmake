@@ -1,9 +1,6 @@
-# The page of `meshhood view` and `meshhood.view`. It is not part of `all`, because it needs node, npm and clang for
-# WebAssembly. `make install` and `pip install` build it where these are installed.
-add_custom_target(meshhood_viewer
-  COMMAND ${PROJECT_SOURCE_DIR}/tools/build_viewer --if-possible USES_TERMINAL VERBATIM)
-
-# Installs the page, if there is one; otherwise says so.
+# Installs the page of `meshhood view` and `meshhood.view`, if there is one; otherwise says so. No build here makes it,
+# because that needs node, npm and clang for WebAssembly, and takes as long as the library: `make view` and
+# `make install` do, and a source package contains it.
 function(meshhood_install_page destination component)
   set(page ${PROJECT_SOURCE_DIR}/build/viewer/viewer.html)
   install(FILES ${page} DESTINATION ${destination} COMPONENT ${component} OPTIONAL)

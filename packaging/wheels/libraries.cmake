@@ -33,3 +33,17 @@ if(APPLE) # whose functions for files have 64 bits under their plain names; this
   target_compile_definitions(minizip PRIVATE USE_FILE32API fdopen=fdopen)
 endif()
 add_library(PkgConfig::MINIZIP ALIAS minizip)
+
+# The linker of zig makes no bundles, but Python loads shared libraries as well; and it does not read the file in which
+# nanobind names what Python provides at run time.
+if(APPLE)
+  foreach(language C CXX)
+    set(CMAKE_SHARED_MODULE_CREATE_${language}_FLAGS "-shared -Wl,-undefined,dynamic_lookup")
+  endforeach()
+  function(meshhood_link_by_zig)
+    get_target_property(options meshhood_python LINK_OPTIONS)
+    list(FILTER options EXCLUDE REGEX "^-Wl,@")
+    set_target_properties(meshhood_python PROPERTIES LINK_OPTIONS "${options}")
+  endfunction()
+  cmake_language(DEFER CALL meshhood_link_by_zig)
+endif()

@@ -19,7 +19,9 @@ foreach(library fast_float/3.4.0 fmt/9.1.0 highway/1.0.3 xxhash/0.8.1)
   list(GET library 1 version)
   conan(create ${SOURCE_DIR}/tests/packages/system_library --name=${name} --version=${version})
 endforeach()
+# The test package is built outside of the sources, and leaves no presets there.
 foreach(shared False True)
   conan(create ${SOURCE_DIR}/packaging/conan -s compiler.cppstd=20 -o meshhood/*:shared=${shared}
-    -c tools.build:jobs=2 --no-remote)
+    -c tools.build:jobs=2 -c tools.cmake.cmake_layout:test_folder=${WORK_DIR}/test
+    -c tools.cmake.cmaketoolchain:user_presets= --no-remote)
 endforeach()

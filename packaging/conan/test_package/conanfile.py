@@ -23,4 +23,5 @@ class UseMeshhood(ConanFile):
 
     def test(self):
         if can_run(self):
-            self.run(f"{Path(self.cpp.build.bindir, 'use')}", env="conanrun")
+            # With its folder, which may be the one where the shell is, and in which a shell does not look.
+            self.run(f'"{Path(self.build_folder, self.cpp.build.bindir, "use")}"', env="conanrun")
