@@ -10,6 +10,8 @@
 #include "meshhood/batch.h"
 #include "meshhood/search.h"
 
+#include "batch/kept_packets.h"
+
 namespace meshhood {
 
 /// One row of a batch.
@@ -50,6 +52,20 @@ class BatchWorker {
   virtual void count(std::span<const BatchItem> chunk, const SizeSink& sink) = 0;
 
   virtual void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) = 0;
+
+  // In two steps, for rows that are counted first and written later. A worker that can keep what it finds overrides
+  // both.
+
+  /// As `count`, and keeps what `find_kept` needs.
+  virtual void count_and_keep(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets& /*kept*/) {
+    count(chunk, sink);
+  }
+
+  /// As `find`. `kept` is of the same chunk, none of whose rows was dropped.
+  virtual void find_kept(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
+                         const KeptPackets& /*kept*/) {
+    find(chunk, distances, receiver);
+  }
 };
 
 /// What a `SearchMethod` refers to. Any thread may call the functions.
