@@ -61,6 +61,12 @@ class SearchMethod {
   /// valid.
   [[nodiscard]] static SearchMethod ball_scan(const PositionsView& positions);
 
+  /// The same method with answers that `filter` restricts, for several batches or searchers: its masks are read once,
+  /// here, and copied; O(#V). `threads` as in `BatchOptions`. It takes no further filter. Throws Error{InvalidOption}
+  /// unless the method is of an `Index`, along edges or by rings, and each mask is empty or has a value for each
+  /// vertex.
+  [[nodiscard]] SearchMethod restricted(const Filter& filter, unsigned threads = 1) const;
+
   /// #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
@@ -141,7 +147,8 @@ struct BatchQuery {
   BatchRadius radius = {};
 
   /// With an `Index`, along its edges, and for its rings. The neighborhood of a wall is empty. An index is not built
-  /// anew: the search itself takes about as long as without walls, but each call reads the masks, O(#V).
+  /// anew: the search itself takes about as long as without walls, but each call reads the masks, O(#V). Calls for few
+  /// vertices each share that by `SearchMethod::restricted`.
   Filter filter = {};
 };
 
