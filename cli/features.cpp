@@ -200,10 +200,8 @@ void print(const FeaturesCommand& options, const FeaturesFound& found) {
     text += fmt::format("{}: {} vertices at {} or more\n", options.kinds[kind], lasting[kind], options.threshold);
   }
   Json document = to_json(options.files);
-  document.update({{"rows", found.rows()},
-                   {"kinds", options.kinds},
-                   {"threshold", options.threshold},
-                   {"lasting", lasting}});
+  document.update(
+      {{"rows", found.rows()}, {"kinds", options.kinds}, {"threshold", options.threshold}, {"lasting", lasting}});
   if (options.rows.row_radii.empty()) document["radii"] = found.radii;
   print_result(options.json, document, text);
 }
