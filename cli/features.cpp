@@ -81,11 +81,14 @@ std::vector<double> equal_steps(double largest, std::size_t count) {
   return radii;
 }
 
+/// The radii of all rows, ascending. With --radii there is one scale, that of each row.
 std::vector<double> radii_of(const FeaturesCommand& options, const RowQuery& rows, Input& input) {
   const Radii& typed = options.rows.radii;
-  if (typed.values.empty() == options.largest.empty()) {
-    raise(ErrorCode::InvalidOption, "expected either --radius or --largest");
+  const bool has_rows = !options.rows.row_radii.empty();
+  if ((typed.values.empty() && !has_rows) == options.largest.empty()) {
+    raise(ErrorCode::InvalidOption, "expected either --radius, --radii or --largest");
   }
+  if (has_rows) return {1};
   if (options.largest.empty()) return rows.radii();
   if (options.count == 0) raise(ErrorCode::InvalidOption, "--count is 0, expected 1 to 1000");
   const auto in_mesh = [&](const std::string& radius) { return resolve(Radius{radius, typed.unit}, input); };
@@ -95,7 +98,7 @@ std::vector<double> radii_of(const FeaturesCommand& options, const RowQuery& row
 
 /// The features of all rows, and how long each kind persists.
 struct FeaturesFound {
-  std::vector<double> radii;
+  std::vector<double> radii;  // of the scales; with --radii, 1
   std::size_t kinds;
   std::vector<double> values;  // #radii by #rows by #kinds
   std::vector<Persistence> lasting;
@@ -112,7 +115,8 @@ FeaturesFound compute(const FeaturesCommand& options, const RowQuery& rows, Inpu
   const CurvatureIndex surface = CurvatureIndex::build(input.exact_index(options.rows.threads), input.surface());
   const std::vector<double> areas = vertex_areas(input.surface());
   Task task("measuring", {"rows", static_cast<double>(found.radii.size())});
-  found.values = features(surface, rows.query(BatchRadius::scales(found.radii)),
+  const bool has_rows = !options.rows.row_radii.empty();
+  found.values = features(surface, has_rows ? rows.query() : rows.query(BatchRadius::scales(found.radii)),
                           {.kinds = kinds_of(options),
                            .areas = areas,
                            .filter = !options.no_filter,
@@ -121,15 +125,16 @@ FeaturesFound compute(const FeaturesCommand& options, const RowQuery& rows, Inpu
   for (std::size_t kind = 0; kind < found.kinds; ++kind) {
     std::vector<double> one(found.radii.size() * found.rows());
     for (std::size_t i = 0; i < one.size(); ++i) one[i] = found.values[i * found.kinds + kind];
-    found.lasting.push_back(persistence(one, found.radii, options.threshold));
+    Persistence& lasting = found.lasting.emplace_back(persistence(one, found.radii, options.threshold));
+    for (std::size_t row = 0; has_rows && row < found.rows(); ++row) lasting.radius[row] *= rows.radii()[row];
   }
   return found;
 }
 
-void write_npz(const FeaturesCommand& options, const FeaturesFound& found, const BatchVertices& listed) {
+void write_npz(const FeaturesCommand& options, const FeaturesFound& found, const RowQuery& rows) {
   io::NpzWriter npz(options.files.npz);
-  npz.add<double>("radii", found.radii);
-  write_vertices(npz, listed);
+  write_radii(npz, options.rows.row_radii.empty() ? BatchRadius::scales(found.radii) : rows.query().radius);
+  write_vertices(npz, rows.listed());
   npz.add_texts("kinds", options.kinds);
   const std::array<std::uint64_t, 3> shape{found.radii.size(), found.rows(), found.kinds};
   npz.begin<double>("features", shape);
@@ -195,11 +200,9 @@ void print(const FeaturesCommand& options, const FeaturesFound& found) {
     text += fmt::format("{}: {} vertices at {} or more\n", options.kinds[kind], lasting[kind], options.threshold);
   }
   Json document = to_json(options.files);
-  document.update({{"rows", found.rows()},
-                   {"radii", found.radii},
-                   {"kinds", options.kinds},
-                   {"threshold", options.threshold},
-                   {"lasting", lasting}});
+  document.update(
+      {{"rows", found.rows()}, {"kinds", options.kinds}, {"threshold", options.threshold}, {"lasting", lasting}});
+  if (options.rows.row_radii.empty()) document["radii"] = found.radii;
   print_result(options.json, document, text);
 }
 
@@ -209,17 +212,17 @@ void features_command(const FeaturesCommand& options) {
   input.need_faces("features");
   const RowQuery rows(options.rows, input);
   const FeaturesFound found = compute(options, rows, input);
-  if (!options.files.npz.empty()) write_npz(options, found, rows.listed());
+  if (!options.files.npz.empty()) write_npz(options, found, rows);
   if (options.files.has_mesh()) write_mesh(options, found, input.surface());
   print(options, found);
 }
 
 void add_radii(CLI::App& command, FeaturesCommand& options) {
   add_rows(command, options.rows)->required(false);
-  command.remove_option(command.get_option("--radii"));  // a feature persists over radii that all rows share
   command
       .add_option("--largest", options.largest,
                   "the largest of --count radii, in equal steps, or with --smallest in equal ratios")
+      ->excludes("--radii")
       ->type_name("NUMBER");
   command.add_option("--smallest", options.smallest, "the smallest of --count radii")
       ->type_name("NUMBER")

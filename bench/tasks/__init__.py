@@ -4,7 +4,8 @@
     python3 -m bench tasks [--meshes MESH ...]
 
 A program reads its input in the first paragraph; the last one, from the arrays of a mesh to the result, is timed in a
-process of its own: the median of three runs, wall clock, after one run that is not counted. `NAME.TOOL.py` does with
+process of its own: the median of three runs, wall clock, after one run that is not counted. A program that takes too
+long answers one vertex in EVERY, and its time is multiplied by that. `NAME.TOOL.py` does with
 TOOL what examples/tasks/NAME.py does. The answers are not the same where the questions differ: a ball has vertices that are
 not connected, and a heat method approximates distances.
 """
@@ -29,12 +30,14 @@ names = {}
 exec(compile(given, sys.argv[0], "exec"), names)
 begin = time.perf_counter()
 exec(compile(task, sys.argv[0], "exec"), names)
-print(json.dumps(time.perf_counter() - begin))
+seconds = time.perf_counter() - begin
+every = names.get("EVERY", 1)
+print(json.dumps({"seconds": every * seconds, "every": every}))
 """
 
 
-def seconds(program, mesh):
-    """None, and the last line of its errors, if the program does not run here."""
+def timed(program, mesh):
+    """Seconds, and of one vertex in how many; None, and the last line of its errors, if the program does not run here."""
     done = subprocess.run([sys.executable, "-c", _TIMED, program, mesh], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         return None, done.stderr.strip().splitlines()[-1]
@@ -44,11 +47,11 @@ def seconds(program, mesh):
 def measure(program, mesh):
     times = []
     for _ in range(1 + RUNS):
-        time, reason = seconds(program, mesh)
-        if time is None:
+        found, reason = timed(program, mesh)
+        if found is None:
             return {"reason": reason}
-        times.append(time)
-    return {"seconds": statistics.median(times[1:])}
+        times.append(found["seconds"])
+    return {**found, "seconds": statistics.median(times[1:])}
 
 
 def run(names=None):

@@ -13,6 +13,7 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/variant.h>
 
@@ -106,6 +107,12 @@ auto stored_faces(const nb::object& self) {
 
 void bind_methods(nb::module_& module) {
   nb::class_<Method>(module, "Method")
+      .def(
+          "restricted",
+          [](const Method& method, const Mask& walls, const Mask& ignored, unsigned threads) {
+            return method.restricted(filter_of(walls, ignored), threads);
+          },
+          nb::arg("walls").none(), nb::arg("ignored").none(), nb::arg("threads"))
       .def("neighborhood", &one, nb::arg(), nb::arg())
       .def("neighborhood_and_distances", &one_with_distances, nb::arg(), nb::arg())
       .def("count", &Method::count, nb::arg(), nb::arg())

@@ -9,6 +9,10 @@
 
 namespace meshhood::python {
 
+std::shared_ptr<Method> Method::restricted(const Filter& filter, unsigned threads) const {
+  return std::make_shared<Method>(without_lock([&] { return method_.restricted(filter, threads); }), owner_);
+}
+
 Answer Method::neighborhood(VertexId v, double radius, bool distances) {
   return with_searcher([&](AnySearcher& searcher) {
     Answer answer;

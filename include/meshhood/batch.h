@@ -61,6 +61,12 @@ class SearchMethod {
   /// valid.
   [[nodiscard]] static SearchMethod ball_scan(const PositionsView& positions);
 
+  /// The same method with answers that `filter` restricts, for several batches or searchers: its masks are read once,
+  /// here, and copied; O(#V). `threads` as in `BatchOptions`. It takes no further filter. Throws Error{InvalidOption}
+  /// unless the method is of an `Index`, along edges or by rings, and each mask is empty or has a value for each
+  /// vertex.
+  [[nodiscard]] SearchMethod restricted(const Filter& filter, unsigned threads = 1) const;
+
   /// #V.
   [[nodiscard]] std::size_t vertex_count() const;
 
@@ -141,7 +147,8 @@ struct BatchQuery {
   BatchRadius radius = {};
 
   /// With an `Index`, along its edges, and for its rings. The neighborhood of a wall is empty. An index is not built
-  /// anew: the search itself takes about as long as without walls, but each call reads the masks, O(#V).
+  /// anew: the search itself takes about as long as without walls, but each call reads the masks, O(#V). Calls for few
+  /// vertices each share that by `SearchMethod::restricted`.
   Filter filter = {};
 };
 
@@ -210,8 +217,11 @@ using BatchAllocator = std::function<BatchMemory(std::size_t count)>;
 void for_each_neighborhood(const SearchMethod& method, const BatchQuery& query, const RowSink& sink,
                            const BatchOptions& options = {});
 
-/// Returns all rows. With an index they are counted first, so that memory is allocated once and exactly: each row is
-/// searched twice. Other methods search each row once, and hold the result twice.
+/// Returns all rows. With an index they are counted first, so that memory is allocated once and exactly. What is found
+/// of exact neighborhoods and rings is kept meanwhile, so that their rows are searched once. It takes at most as much
+/// memory as the ids, mostly a tenth to a half, and is dropped if `max_bytes` is less than it and the result together.
+/// Rows of paths, in space and of `paper::Index` are searched twice. Without an index each row is searched once, and
+/// the result is held twice.
 /// Throws as `for_each_neighborhood`, and Error{TooLarge} if the result exceeds `options.max_bytes`.
 [[nodiscard]] Neighborhoods neighborhoods(const SearchMethod& method, const BatchQuery& query,
                                           const BatchOptions& options = {});

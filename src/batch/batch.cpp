@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "meshhood/error.h"
-
 #include "simd/leaf.h"
 
 namespace meshhood {
@@ -26,22 +24,9 @@ void sort_answer(std::span<VertexId> ids, std::span<double> distances) {
   }
 }
 
-namespace {
-
-/// Those of a filter, or null if there is none.
-std::shared_ptr<const SearcherFactory> with_filter(const SearcherFactory& factory, const Filter& filter,
-                                                   unsigned threads) {
-  if (filter.empty()) return nullptr;
-  if (factory.with_filter) return factory.with_filter(filter, threads);
-  raise(ErrorCode::InvalidOption,
-        "this method has no walls and no ignored vertices, expected the exact index, paths along its edges, or rings");
-}
-
-}  // namespace
-
 Batch::Batch(SearchMethod method, const BatchQuery& query, const BatchOptions& options, std::size_t passes)
     : method_(std::move(method)),
-      filtered_(with_filter(method_.searchers(), query.filter, options.threads)),
+      filtered_(query.filter.empty() ? nullptr : method_.searchers().restricted(query.filter, options.threads)),
       factory_(filtered_ ? *filtered_ : method_.searchers()),
       options_(options),
       rows_(query, factory_.vertex_count),
@@ -55,6 +40,7 @@ BatchWorker& Batch::worker(unsigned thread) {
 }
 
 std::vector<std::size_t> Batch::put_in_index_order() {
+  block_.reset();
   std::vector<std::pair<std::uint32_t, std::size_t>> by_position(rows_.size());
   for (std::size_t row = 0; row < rows_.size(); ++row) by_position[row] = {factory_.position(rows_.vertex(row)), row};
   sort_by_position(std::span(by_position), [](const auto& row) { return row.first; });

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -69,6 +70,9 @@ class Batch {
     RawValues<BatchItem> chunk;
   };
 
+  template <class RowOf, class F>
+  void run_chunks(RowOf&& row_of, F&& f);
+
   /// Whether the row after `row` has a position beyond the next multiple of `positions`.
   [[nodiscard]] bool ends_unit(std::size_t row, std::uint32_t positions) const;
 
@@ -84,11 +88,13 @@ class Batch {
   std::vector<PerThread> threads_;
   RawValues<std::uint64_t> in_order_;    // position, and in the lower half the number `i` of the row
   std::vector<std::size_t> chunk_ends_;  // in `in_order_`
+  std::optional<std::size_t> block_;  // the first row, if these are of a block of all rows: another pass needs no sort
 };
 
 template <class RowOf, class F>
 void Batch::for_each_chunk(std::size_t count, RowOf&& row_of, F&& f) {
   constexpr std::size_t kRowsAtOnce = std::size_t{1} << 16;
+  block_.reset();
   in_order_.clear();
   const std::span<std::uint64_t> in_order = in_order_.add(count);
   task_.parallel_for(count, kRowsAtOnce, [&](unsigned /*thread*/, std::size_t begin, std::size_t end) {
@@ -98,6 +104,12 @@ void Batch::for_each_chunk(std::size_t count, RowOf&& row_of, F&& f) {
   });
   sort_by_position(in_order, [](std::uint64_t row) { return static_cast<std::uint32_t>(row >> 32); });
   cut_into_chunks(in_order);
+  run_chunks(row_of, f);
+}
+
+template <class RowOf, class F>
+void Batch::run_chunks(RowOf&& row_of, F&& f) {
+  const std::span<const std::uint64_t> in_order = in_order_.part(0, in_order_.size());
   task_.parallel_for(chunk_ends_.size(), 1, [&](unsigned thread, std::size_t number, std::size_t) {
     const std::size_t begin = number == 0 ? 0 : chunk_ends_[number - 1];
     threads_[thread].chunk.clear();
@@ -115,7 +127,13 @@ template <class F>
 void Batch::for_all_chunks(F&& f) {
   for (std::size_t first = 0; first < rows_.size(); first += kMaxRows) {
     const std::size_t count = std::min(kMaxRows, rows_.size() - first);
-    for_each_chunk(count, [first](std::size_t i) { return first + i; }, f);
+    const auto row_of = [first](std::size_t i) { return first + i; };
+    if (block_ == first) {
+      run_chunks(row_of, f);
+    } else {
+      for_each_chunk(count, row_of, f);
+      block_ = first;
+    }
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rows kept in memory, all in one array. They are counted first, so that each is written to its final place.
+// Rows kept in memory, all in one array. They are counted first, so that each is written to its final place. What was
+// found is kept meanwhile, in less memory than the ids take, so that most rows are searched once.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -31,6 +32,9 @@ class SizeLimit {
     const std::uint64_t total = total_.fetch_add(ids, std::memory_order_relaxed) + ids;
     if (total > max_ids_) refuse("at least ", total);
   }
+
+  /// After all rows were added: whether the result and `bytes` more are within the limit.
+  [[nodiscard]] bool leaves(std::uint64_t bytes) const { return bytes <= max_bytes_ - total_ * id_bytes_; }
 
   /// `ids`: the size of the result, as far as it is known.
   [[noreturn]] void refuse(const char* how_exact, std::uint64_t ids) const {
@@ -73,16 +77,32 @@ void check_sample(Batch& batch, const SizeLimit& limit) {
   limit.refuse("about ", static_cast<std::uint64_t>(std::llround(rows * mean)));
 }
 
-void count_rows(Batch& batch, std::uint64_t* sizes, SizeLimit* limit) {
+void count_rows(Batch& batch, std::uint64_t* sizes) {
   batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
-    std::uint64_t ids = 0;
     batch.worker(thread).count(chunk, [&](std::span<const BatchItem> items, std::span<const std::uint64_t> some) {
-      for (std::size_t i = 0; i < items.size(); ++i) ids += sizes[items[i].row] = some[i];
+      for (std::size_t i = 0; i < items.size(); ++i) sizes[items[i].row] = some[i];
       return batch.task().should_continue(thread);
     });
-    if (limit != nullptr) limit->add(ids);
     batch.task().advance(chunk.size());
   });
+}
+
+/// The same for rows that are written later.
+KeptChunks count_and_keep(Batch& batch, std::uint64_t* sizes, SizeLimit& limit) {
+  KeptChunks kept(batch.task().threads());
+  batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
+    std::uint64_t ids = 0;
+    const auto sink = [&](std::span<const BatchItem> items, std::span<const std::uint64_t> some) {
+      for (std::size_t i = 0; i < items.size(); ++i) ids += sizes[items[i].row] = some[i];
+      return batch.task().should_continue(thread);
+    };
+    kept.add(thread, chunk.front().row,
+             [&](KeptPackets& packets) { batch.worker(thread).count_and_keep(chunk, sink, packets); });
+    limit.add(ids);
+    batch.task().advance(chunk.size());
+  });
+  if (!limit.leaves(kept.bytes())) kept.clear();
+  return kept;
 }
 
 BatchMemory allocated(const BatchAllocator& allocate, std::size_t count, bool distances) {
@@ -148,10 +168,15 @@ class RowsInPlace final : public RowReceiver {
   std::size_t ids_since_look_ = 0;
 };
 
-void write_rows(Batch& batch, std::span<const std::uint64_t> offsets, const BatchMemory& memory) {
+void write_rows(Batch& batch, KeptChunks& kept, std::span<const std::uint64_t> offsets, const BatchMemory& memory) {
   batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
     RowsInPlace receiver(batch, thread, offsets, memory);
-    batch.worker(thread).find(chunk, batch.options().distances, receiver);
+    if (KeptPackets* packets = kept.find(chunk.front().row); packets != nullptr) {
+      batch.worker(thread).find_kept(chunk, batch.options().distances, receiver, *packets);
+      *packets = {};  // its memory is free for others
+    } else {
+      batch.worker(thread).find(chunk, batch.options().distances, receiver);
+    }
     batch.task().advance(chunk.size());
   });
 }
@@ -165,7 +190,7 @@ std::vector<std::uint64_t> counts(const SearchMethod& method, const BatchQuery& 
   std::vector<std::uint64_t> result(passes.size() * rows);
   for (std::size_t i = 0; i < passes.size(); ++i) {
     if (i > 0) batch.set_radius(passes[i].common());
-    count_rows(batch, result.data() + i * rows, nullptr);
+    count_rows(batch, result.data() + i * rows);
   }
   batch.task().finish();
   return result;
@@ -179,9 +204,9 @@ std::vector<std::uint64_t> neighborhoods(const SearchMethod& method, const Batch
   SizeLimit limit(options, batch.rows().size());
   check_sample(batch, limit);
   std::vector<std::uint64_t> offsets(batch.rows().size() + 1);
-  count_rows(batch, offsets.data() + 1, &limit);
+  KeptChunks kept = count_and_keep(batch, offsets.data() + 1, limit);
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  write_rows(batch, offsets, allocated(allocate, offsets.back(), options.distances));
+  write_rows(batch, kept, offsets, allocated(allocate, offsets.back(), options.distances));
   batch.task().finish();
   return offsets;
 }

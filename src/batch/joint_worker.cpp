@@ -27,80 +27,64 @@ JointWorker::JointWorker(const Index& index, Isa isa)
       writer_(view_, isa) {}
 
 void JointWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink) {
-  for_each_run(
-      chunk, [&](const Run& run) { return sink(run.items, std::span(joint_->counts()).first(run.items.size())); },
-      [&](const BatchItem& item) {
-        const std::uint64_t size = searcher().count(item.vertex, item.radius);
-        return sink({&item, 1}, {&size, 1});
-      });
+  for_each_run(chunk, [&](const Run& run) {
+    if (run.is_joint) {
+      search_together(run);
+      return sink(run.items, std::span(joint_->counts()).first(run.items.size()));
+    }
+    const std::uint64_t size = searcher().count(run.items.front().vertex, run.items.front().radius);
+    return sink(run.items, {&size, 1});
+  });
 }
 
 void JointWorker::find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) {
-  const auto write = [&](const PacketAnswer& answer, const PerLane<std::uint64_t>& counts,
-                         std::span<const BatchItem> items) {
-    writer_.begin(answer);
-    for (unsigned i = 0; i < items.size(); ++i) {
-      const BatchMemory memory = receiver.memory(items[i].row, counts[i]);
-      writer_.write_ids(i, memory.ids);
-      if (distances) writer_.write_distances(i, position_of(items[i]), memory.distances);
-      if (!receiver.done(items[i].row)) return false;
-    }
-    return true;
-  };
-  for_each_run(
-      chunk, [&](const Run& run) { return write(joint_->answer(), joint_->counts(), run.items); },
-      [&](const BatchItem& item) {
-        const VertexSet& found = search_single(item);
-        return write(single_packet_.describe(view_, found), {found.count()}, {&item, 1});
-      });
+  for_each_run(chunk, [&](const Run& run) {
+    const PerLane<std::uint64_t>& counts = begin_rows(run);
+    return write(run.items, counts, distances, receiver);
+  });
+}
+
+void JointWorker::count_and_keep(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets& kept) {
+  for_each_run(chunk, [&](const Run& run) {
+    const auto counts = std::span(begin_rows(run)).first(run.items.size());
+    kept.add(writer_.pieces(), counts);
+    return sink(run.items, counts);
+  });
+}
+
+void JointWorker::find_kept(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
+                            const KeptPackets& kept) {
+  KeptPackets::Reader reader(kept);
+  for_each_run(chunk, [&](const Run& run) {
+    if (!reader.next()) return write(run.items, begin_rows(run), distances, receiver);
+    writer_.begin(reader.pieces());
+    return write(run.items, reader.counts(), distances, receiver);
+  });
 }
 
 void JointWorker::visit(std::span<const BatchItem> chunk, const std::function<bool(const PacketAnswer&)>& sink) {
   LeafId group = 0;
   bool has_group = false;
-  const auto pass_on = [&](PacketAnswer answer, bool begins_group) {
+  for_each_run(chunk, [&](const Run& run) {
+    const bool begins_group = !run.is_joint || !has_group || group_of(run) != group;
+    has_group = run.is_joint;
+    group = group_of(run);
+    PacketAnswer answer = this->answer(run);
+    lists_.assign(run.items);
     answer.rows = lists_.rows;
     answer.vertices = lists_.vertices;
     answer.radii = lists_.radii;
     answer.begins_group = begins_group;
     return sink(answer);
-  };
-  for_each_run(
-      chunk,
-      [&](const Run& run) {
-        const bool begins_group = !has_group || run.leaf / kFanOut != group;
-        has_group = true;
-        group = run.leaf / kFanOut;
-        lists_.assign(run.items);
-        return pass_on(joint_->answer(), begins_group);
-      },
-      [&](const BatchItem& item) {
-        has_group = false;
-        lists_.assign({&item, 1});
-        return pass_on(single_packet_.describe(view_, search_single(item)), true);
-      });
+  });
 }
 
-/// Calls `together(run)` for each packet once its search is done, and `single(item)` for the other rows, until one of
-/// them returns false.
-template <class Together, class Single>
-void JointWorker::for_each_run(std::span<const BatchItem> chunk, Together&& together, Single&& single) {
+/// Calls `f(run)` for the runs of a chunk, until it returns false.
+template <class F>
+void JointWorker::for_each_run(std::span<const BatchItem> chunk, F&& f) {
   split(chunk);
-  const auto group_of = [](const Run& run) { return run.leaf / kFanOut; };
-  for (std::size_t i = 0; i < runs_.size(); ++i) {
-    if (!runs_[i].is_joint) {
-      for (const BatchItem& item : runs_[i].items) {
-        if (!single(item)) return;
-      }
-      continue;
-    }
-    if (leaves_.empty() || leaves_.front() / kFanOut != group_of(runs_[i])) {
-      std::size_t end = i;
-      while (end < runs_.size() && group_of(runs_[end]) == group_of(runs_[i])) ++end;
-      begin_group(std::span(runs_).subspan(i, end - i));
-    }
-    begin_packet(runs_[i]);
-    if (!together(runs_[i])) return;
+  for (const Run& run : runs_) {
+    if (!f(run)) return;
   }
 }
 
@@ -113,9 +97,50 @@ void JointWorker::split(std::span<const BatchItem> chunk) {
     const std::size_t most = std::min<std::size_t>(chunk.size(), kPacketCapacity);
     std::size_t size = 1;
     while (size < most && leaf_of(chunk[size].position) == leaf) ++size;
-    runs_.push_back({leaf, chunk.first(size), pays(leaf, size, chunk.front().radius)});
+    if (pays(leaf, size, chunk.front().radius)) {
+      runs_.push_back({leaf, chunk.first(size), true});
+    } else {
+      for (std::size_t i = 0; i < size; ++i) runs_.push_back({leaf, chunk.subspan(i, 1), false});
+    }
     chunk = chunk.subspan(size);
   }
+}
+
+/// The neighborhoods of a run. Valid until the next search.
+const PacketAnswer& JointWorker::answer(const Run& run) {
+  if (run.is_joint) {
+    search_together(run);
+    return joint_->answer();
+  }
+  return single_packet_.describe(view_, search_single(run.items.front()));
+}
+
+/// Prepares `writer_` for the rows of a run, and returns their sizes.
+const PerLane<std::uint64_t>& JointWorker::begin_rows(const Run& run) {
+  writer_.begin(answer(run));
+  return run.is_joint ? joint_->counts() : single_packet_.counts();
+}
+
+bool JointWorker::write(std::span<const BatchItem> items, const PerLane<std::uint64_t>& counts, bool distances,
+                        RowReceiver& receiver) {
+  for (unsigned i = 0; i < items.size(); ++i) {
+    const BatchMemory memory = receiver.memory(items[i].row, counts[i]);
+    writer_.write_ids(i, memory.ids);
+    if (distances) writer_.write_distances(i, position_of(items[i]), memory.distances);
+    if (!receiver.done(items[i].row)) return false;
+  }
+  return true;
+}
+
+/// `run` is one of `runs_`.
+void JointWorker::search_together(const Run& run) {
+  if (leaves_.empty() || leaves_.front() / kFanOut != group_of(run)) {
+    const std::span<const Run> rest(&run, runs_.data() + runs_.size());
+    begin_group({rest.begin(), std::ranges::find_if(rest, [&](const Run& r) { return group_of(r) != group_of(run); })});
+  }
+  queries_.clear();
+  for (const BatchItem& item : run.items) queries_.push_back({lane_of(item.position), prepared(item.radius)});
+  joint_->run(run.leaf, queries_);
 }
 
 void JointWorker::begin_group(std::span<const Run> runs) {
@@ -133,12 +158,6 @@ void JointWorker::begin_group(std::span<const Run> runs) {
   if (!joint_) joint_.emplace(view_, isa_);
   const TreeBounds low_bounds = prepared(low).bounds;
   joint_->begin_group(leaves_, low_bounds, prepared(high).bounds);
-}
-
-void JointWorker::begin_packet(const Run& run) {
-  queries_.clear();
-  for (const BatchItem& item : run.items) queries_.push_back({lane_of(item.position), prepared(item.radius)});
-  joint_->run(run.leaf, queries_);
 }
 
 /// Whether to answer `size` vertices of a leaf together.

@@ -30,22 +30,31 @@ class JointWorker final : public BatchWorker {
   void count(std::span<const BatchItem> chunk, const SizeSink& sink) override;
   void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) override;
 
+  void count_and_keep(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets& kept) override;
+  void find_kept(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
+                 const KeptPackets& kept) override;
+
   /// Passes on the packets of a chunk. `sink` returns false to drop the rest.
   void visit(std::span<const BatchItem> chunk, const std::function<bool(const PacketAnswer&)>& sink);
 
  private:
-  /// Consecutive rows of one leaf: a packet, or rows to be answered one by one.
+  /// Consecutive rows of one leaf, to be answered together, or one row to be answered alone.
   struct Run {
     LeafId leaf;
     std::span<const BatchItem> items;
     bool is_joint;
   };
 
-  template <class Together, class Single>
-  void for_each_run(std::span<const BatchItem> chunk, Together&& together, Single&& single);
+  static LeafId group_of(const Run& run) { return run.leaf / kFanOut; }
+  template <class F>
+  void for_each_run(std::span<const BatchItem> chunk, F&& f);
   void split(std::span<const BatchItem> chunk);
+  const PacketAnswer& answer(const Run& run);
+  const PerLane<std::uint64_t>& begin_rows(const Run& run);
+  bool write(std::span<const BatchItem> items, const PerLane<std::uint64_t>& counts, bool distances,
+             RowReceiver& receiver);
+  void search_together(const Run& run);
   void begin_group(std::span<const Run> runs);
-  void begin_packet(const Run& run);
   [[nodiscard]] bool pays(LeafId leaf, std::size_t size, double radius) const;
   [[nodiscard]] const JointRadius& prepared(double radius);
   const VertexSet& search_single(const BatchItem& item);

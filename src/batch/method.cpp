@@ -10,6 +10,7 @@
 
 #include "meshhood/batch.h"
 #include "meshhood/edge_search.h"
+#include "meshhood/error.h"
 #include "meshhood/reference.h"
 #include "meshhood/search.h"
 
@@ -27,11 +28,39 @@
 namespace meshhood {
 namespace {
 
+/// `EdgeSearcher` with the same filter in all of its calls.
+class RestrictedEdges {
+ public:
+  RestrictedEdges(const Index& index, std::shared_ptr<const FilterCopy> filter)
+      : searcher_(index), filter_(std::move(filter)) {}
+
+  [[nodiscard]] std::size_t vertex_count() const { return searcher_.vertex_count(); }
+  [[nodiscard]] std::span<const VertexId> permutation() const { return searcher_.permutation(); }
+  [[nodiscard]] std::vector<VertexId> neighborhood(VertexId v, double radius) {
+    return searcher_.neighborhood(v, radius, filter_->view());
+  }
+  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out) {
+    searcher_.neighborhood(v, radius, out, filter_->view());
+  }
+  void neighborhood(VertexId v, double radius, std::vector<VertexId>& out, std::vector<double>& distances) {
+    searcher_.neighborhood(v, radius, out, distances, filter_->view());
+  }
+  [[nodiscard]] std::size_t count(VertexId v, double radius) { return searcher_.count(v, radius, filter_->view()); }
+  [[nodiscard]] std::span<const VertexRange> ranges(VertexId v, double radius) {
+    return searcher_.ranges(v, radius, filter_->view());
+  }
+
+ private:
+  EdgeSearcher searcher_;
+  std::shared_ptr<const FilterCopy> filter_;
+};
+
 static_assert(NeighborhoodSearcher<Searcher>);
 static_assert(NeighborhoodSearcher<paper::Searcher>);
 static_assert(NeighborhoodSearcher<ReferenceSearcher>);
 static_assert(NeighborhoodSearcher<BallSearcher>);
 static_assert(NeighborhoodSearcher<EdgeSearcher>);
+static_assert(NeighborhoodSearcher<RestrictedEdges>);
 static_assert(NeighborhoodSearcher<RingSearcher>);
 static_assert(NeighborhoodSearcher<SpaceSearcher>);
 static_assert(NeighborhoodSearcher<AnySearcher>);
@@ -80,6 +109,12 @@ std::uint32_t position_in_paper_index(const paper::Index& index, VertexId v) {
 /// Does not own the index, which must outlive all that use it.
 std::shared_ptr<const Index> borrowed(const Index& index) { return {std::shared_ptr<const void>(), &index}; }
 
+/// That of a method which a filter restricts: takes no other.
+std::shared_ptr<const SearcherFactory> without_filters(SearcherFactory factory) {
+  factory.with_filter = {};
+  return shared(std::move(factory));
+}
+
 SearcherFactory exact_factory(const std::shared_ptr<const Index>& index) {
   return {.vertex_count = index->vertex_count(),
           .make_searcher = [index] { return AnySearcher(Searcher(*index)); },
@@ -88,7 +123,7 @@ SearcherFactory exact_factory(const std::shared_ptr<const Index>& index) {
           .positions_together = JointWorker::kGroupPositions,
           .with_filter =
               [index](const Filter& filter, unsigned threads) {
-                return shared(exact_factory(std::make_shared<const Index>(filtered(*index, filter, threads))));
+                return without_filters(exact_factory(std::make_shared<const Index>(filtered(*index, filter, threads))));
               },
           .make_joint_worker = [index] { return std::make_unique<JointWorker>(*index); }};
 }
@@ -101,7 +136,7 @@ SearcherFactory ring_factory(const std::shared_ptr<const Index>& index) {
           .positions_together = kLeafCapacity,
           .with_filter =
               [index](const Filter& filter, unsigned threads) {
-                return shared(ring_factory(std::make_shared<const Index>(filtered(*index, filter, threads))));
+                return without_filters(ring_factory(std::make_shared<const Index>(filtered(*index, filter, threads))));
               },
           .make_joint_worker = [index] { return std::make_unique<RingWorker>(*index); }};
 }
@@ -109,14 +144,17 @@ SearcherFactory ring_factory(const std::shared_ptr<const Index>& index) {
 /// `filter`: null if there is none.
 SearcherFactory edge_factory(const Index& index, const std::shared_ptr<const FilterCopy>& filter) {
   return {.vertex_count = index.vertex_count(),
-          .make_searcher = [&index] { return AnySearcher(EdgeSearcher(index)); },
+          .make_searcher =
+              [&index, filter] {
+                return filter ? AnySearcher(RestrictedEdges(index, filter)) : AnySearcher(EdgeSearcher(index));
+              },
           .position = [&index](VertexId v) { return IndexAccess::view(index).slot[v]; },
           .is_count_cheap = true,
           .positions_together = kLeafCapacity,
           .with_filter =
               [&index](const Filter& given, unsigned /*threads*/) {
                 check_filter(given, index.vertex_count());
-                return shared(edge_factory(index, std::make_shared<const FilterCopy>(given)));
+                return without_filters(edge_factory(index, std::make_shared<const FilterCopy>(given)));
               },
           .make_joint_worker = [&index, filter] { return std::make_unique<PathWorker>(index, filter); }};
 }
@@ -127,6 +165,14 @@ constexpr auto kOwnOrder = [](VertexId v) { return std::uint32_t{v}; };
 
 std::unique_ptr<BatchWorker> SearcherFactory::make_worker() const {
   return make_joint_worker ? make_joint_worker() : std::make_unique<SearcherWorker>(make_searcher());
+}
+
+std::shared_ptr<const SearcherFactory> SearcherFactory::restricted(const Filter& filter, unsigned threads) const {
+  if (with_filter) return with_filter(filter, threads);
+  raise(
+      ErrorCode::InvalidOption,
+      "this method takes no walls and no ignored vertices, expected the exact index, paths along its edges, or rings, "
+      "without any so far");
 }
 
 SearchMethod::SearchMethod(std::shared_ptr<const SearcherFactory> searchers) : searchers_(std::move(searchers)) {}
@@ -165,6 +211,10 @@ SearchMethod SearchMethod::ball_scan(const PositionsView& positions) {
   return SearchMethod(shared({.vertex_count = positions.size(),
                               .make_searcher = [positions] { return AnySearcher(BallSearcher(positions)); },
                               .position = kOwnOrder}));
+}
+
+SearchMethod SearchMethod::restricted(const Filter& filter, unsigned threads) const {
+  return SearchMethod(searchers_->restricted(filter, threads));
 }
 
 std::size_t SearchMethod::vertex_count() const { return searchers_->vertex_count; }

@@ -82,39 +82,76 @@ std::span<const VertexRange> RingSearcher::ranges(VertexId v, double radius) {
 RingWorker::RingWorker(const Index& index)
     : searcher_(index), packet_(IndexAccess::view(index), best_isa()), writer_(IndexAccess::view(index), best_isa()) {}
 
-/// Finds the rings of the first rows, those of a leaf, and returns these rows.
-std::span<const BatchItem> RingWorker::run_first(std::span<const BatchItem> chunk) {
+/// The first rows of a chunk, those of a leaf.
+std::span<const BatchItem> RingWorker::first_packet(std::span<const BatchItem> chunk) {
   const LeafId leaf = leaf_of(chunk.front().position);
-  queries_.clear();
-  for (const BatchItem& item : chunk.first(std::min(chunk.size(), kPacketCapacity))) {
-    if (leaf_of(item.position) != leaf) break;
-    queries_.push_back({lane_of(item.position), rings_of(item.radius)});
+  const auto most = chunk.first(std::min(chunk.size(), kPacketCapacity));
+  return {most.begin(), std::ranges::find_if(most, [&](const BatchItem& i) { return leaf_of(i.position) != leaf; })};
+}
+
+/// Calls `f(items)` for the packets of a chunk, until it returns false.
+template <class F>
+void RingWorker::for_each_packet(std::span<const BatchItem> chunk, F&& f) {
+  while (!chunk.empty()) {
+    const std::span<const BatchItem> items = first_packet(chunk);
+    if (!f(items)) return;
+    chunk = chunk.subspan(items.size());
   }
-  packet_.run(leaf, queries_);
-  return chunk.first(queries_.size());
+}
+
+/// Finds the rings of the rows of a packet, and returns their sizes.
+const PerLane<std::uint64_t>& RingWorker::search(std::span<const BatchItem> items) {
+  queries_.clear();
+  for (const BatchItem& item : items) queries_.push_back({lane_of(item.position), rings_of(item.radius)});
+  packet_.run(leaf_of(items.front().position), queries_);
+  return counts_ = packet_.counts();
+}
+
+bool RingWorker::write(std::span<const BatchItem> items, const PerLane<std::uint64_t>& counts, RowReceiver& receiver) {
+  for (unsigned i = 0; i < items.size(); ++i) {
+    writer_.write_ids(i, receiver.memory(items[i].row, counts[i]).ids);
+    if (!receiver.done(items[i].row)) return false;
+  }
+  return true;
 }
 
 void RingWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink) {
-  while (!chunk.empty()) {
-    const std::span<const BatchItem> items = run_first(chunk);
-    const PerLane<std::uint64_t> counts = packet_.counts();
-    if (!sink(items, std::span(counts).first(items.size()))) return;
-    chunk = chunk.subspan(items.size());
-  }
+  for_each_packet(chunk, [&](std::span<const BatchItem> items) {
+    return sink(items, std::span(search(items)).first(items.size()));
+  });
 }
 
 void RingWorker::find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) {
   if (distances) return find_with_distances(chunk, receiver);
-  while (!chunk.empty()) {
-    const std::span<const BatchItem> items = run_first(chunk);
-    const PerLane<std::uint64_t> counts = packet_.counts();
+  for_each_packet(chunk, [&](std::span<const BatchItem> items) {
+    const PerLane<std::uint64_t>& counts = search(items);
     writer_.begin(packet_.answer());
-    for (unsigned i = 0; i < items.size(); ++i) {
-      writer_.write_ids(i, receiver.memory(items[i].row, counts[i]).ids);
-      if (!receiver.done(items[i].row)) return;
+    return write(items, counts, receiver);
+  });
+}
+
+void RingWorker::count_and_keep(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets& kept) {
+  for_each_packet(chunk, [&](std::span<const BatchItem> items) {
+    const auto counts = std::span(search(items)).first(items.size());
+    writer_.begin(packet_.answer());
+    kept.add(writer_.pieces(), counts);
+    return sink(items, counts);
+  });
+}
+
+void RingWorker::find_kept(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
+                           const KeptPackets& kept) {
+  if (distances) return find_with_distances(chunk, receiver);
+  KeptPackets::Reader reader(kept);
+  for_each_packet(chunk, [&](std::span<const BatchItem> items) {
+    if (reader.next()) {
+      writer_.begin(reader.pieces());
+      return write(items, reader.counts(), receiver);
     }
-    chunk = chunk.subspan(items.size());
-  }
+    const PerLane<std::uint64_t>& counts = search(items);
+    writer_.begin(packet_.answer());
+    return write(items, counts, receiver);
+  });
 }
 
 void RingWorker::find_with_distances(std::span<const BatchItem> chunk, RowReceiver& receiver) {

@@ -47,15 +47,23 @@ class RingWorker final : public BatchWorker {
 
   void count(std::span<const BatchItem> chunk, const SizeSink& sink) override;
   void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) override;
+  void count_and_keep(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets& kept) override;
+  void find_kept(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
+                 const KeptPackets& kept) override;
 
  private:
-  std::span<const BatchItem> run_first(std::span<const BatchItem> chunk);
+  static std::span<const BatchItem> first_packet(std::span<const BatchItem> chunk);
+  template <class F>
+  void for_each_packet(std::span<const BatchItem> chunk, F&& f);
+  const PerLane<std::uint64_t>& search(std::span<const BatchItem> items);
+  bool write(std::span<const BatchItem> items, const PerLane<std::uint64_t>& counts, RowReceiver& receiver);
   void find_with_distances(std::span<const BatchItem> chunk, RowReceiver& receiver);
 
   RingSearcher searcher_;
   RingPacket packet_;
   RowWriter writer_;
   std::vector<RingQuery> queries_;
+  PerLane<std::uint64_t> counts_{};
   std::vector<VertexId> ids_;
   std::vector<double> distances_;
 };

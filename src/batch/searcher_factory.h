@@ -10,6 +10,8 @@
 #include "meshhood/batch.h"
 #include "meshhood/search.h"
 
+#include "batch/kept_packets.h"
+
 namespace meshhood {
 
 /// One row of a batch.
@@ -50,6 +52,20 @@ class BatchWorker {
   virtual void count(std::span<const BatchItem> chunk, const SizeSink& sink) = 0;
 
   virtual void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) = 0;
+
+  // In two steps, for rows that are counted first and written later. A worker that can keep what it finds overrides
+  // both.
+
+  /// As `count`, and keeps what `find_kept` needs.
+  virtual void count_and_keep(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets& /*kept*/) {
+    count(chunk, sink);
+  }
+
+  /// As `find`. `kept` is of the same chunk, none of whose rows was dropped.
+  virtual void find_kept(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
+                         const KeptPackets& /*kept*/) {
+    find(chunk, distances, receiver);
+  }
 };
 
 /// What a `SearchMethod` refers to. Any thread may call the functions.
@@ -68,8 +84,8 @@ struct SearcherFactory {
   /// Rows that lie between two multiples of this many positions are computed together.
   std::uint32_t positions_together = 1;
 
-  /// The same method with answers that a filter restricts; empty if it has no filters. Copies the masks. Throws
-  /// Error{InvalidOption} unless each is empty or has a value for each vertex.
+  /// The same method with answers that a filter restricts; empty if it has no filters, or already one. Copies the
+  /// masks. Throws Error{InvalidOption} unless each is empty or has a value for each vertex.
   std::function<std::shared_ptr<const SearcherFactory>(const Filter& filter, unsigned threads)> with_filter = {};
 
   /// Makes a worker that answers rows together; empty if rows are answered one by one, by a searcher.
@@ -77,6 +93,9 @@ struct SearcherFactory {
 
   /// The worker of a thread.
   [[nodiscard]] std::unique_ptr<BatchWorker> make_worker() const;
+
+  /// As `with_filter`; refuses it where that is empty.
+  [[nodiscard]] std::shared_ptr<const SearcherFactory> restricted(const Filter& filter, unsigned threads) const;
 };
 
 }  // namespace meshhood

@@ -34,6 +34,7 @@ const PacketAnswer& SinglePacket::describe(const IndexView& index, const VertexS
       partial_.push_back({leaf_of_vertex(begin), {begin, end}, words});
     }
   }
+  counts_[0] = found.count();
   answer_.queries = kQuery;
   answer_.whole = whole_;
   answer_.partial = partial_;

@@ -26,10 +26,14 @@ struct PacketLists {
 class SinglePacket {
  public:
   /// Valid until the next call.
-  [[nodiscard]] const PacketAnswer& describe(const IndexView& index, const VertexSet& found);
+  const PacketAnswer& describe(const IndexView& index, const VertexSet& found);
+
+  /// The number of vertices of the last answer, for the only row.
+  [[nodiscard]] const PerLane<std::uint64_t>& counts() const { return counts_; }
 
  private:
   PacketAnswer answer_;
+  PerLane<std::uint64_t> counts_{};
   std::vector<WholeLeaves> whole_;
   std::vector<PartialLeaf> partial_;
   std::vector<PerLane<QueryWord>> words_;

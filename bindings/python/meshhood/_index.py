@@ -292,7 +292,7 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions):
         if scales is None and vertices is not None and _convert.is_single(vertices):
             return self._query_one(vertices, r, return_distance, words)
         rows = read_rows(self, vertices, r, scales, words, ListWords)
-        indptr, indices, distances = self._query_many(rows, return_distance, words, "query_ball")
+        indptr, indices, distances = self._query_many(self._method(words), rows, return_distance, words, "query_ball")
         return (indptr, indices, distances) if return_distance else (indptr, indices)
 
     @overload
@@ -357,7 +357,8 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions):
         with_distances = _convert.choice(mode, "mode", ("connectivity", "distance")) == "distance"
         rows = read_rows(self, vertices, r, scales, words, ListWords)
         by_id: Any = {**words, "sort": "id"}
-        indptr, indices, distances = self._query_many(rows, with_distances, by_id, "radius_neighbors_graph")
+        searched = self._method(words)
+        indptr, indices, distances = self._query_many(searched, rows, with_distances, by_id, "radius_neighbors_graph")
         data = distances if with_distances else np.ones(len(indices), result_dtype(words))
         graph = csr_array((data, indices, indptr), shape=(len(indptr) - 1, self._count))
         graph.has_sorted_indices = graph.has_canonical_format = True
@@ -374,8 +375,8 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions):
         return_distance: bool = False,
         **words: Unpack[ListWords],
     ) -> Iterator[Chunk]:
-        """As `query_ball` for many vertices, `chunk` rows at a time, so that memory stays bounded. With masks, each chunk
-        takes O(#V) besides its searches.
+        """As `query_ball` for many vertices, `chunk` rows at a time, so that memory stays bounded. Masks are read
+        once, O(#V).
 
         order : of the rows: "query", that of `vertices`; "index", that of `permutation`, in which near vertices follow
             each other. The rows of a chunk are then computed together, which is up to ten times as fast where the
@@ -391,7 +392,8 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions):
         chunk = _convert.positive(chunk, "chunk")
         in_index_order = _convert.choice(order, "order", ("query", "index")) == "index"
         rows = read_rows(self, vertices, r, scales, words, ListWords)
-        self._method(words), sort_of(words)
+        sort_of(words)
+        searched, rows = rows.restrict(self._method(words))
         all_rows = np.arange(self._count, dtype=np.int32) if rows.vertices is None else rows.vertices
         by_place = np.argsort(self._places()[all_rows], kind="stable") if in_index_order else slice(None)
 
@@ -406,7 +408,7 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions):
                         radii=[radii if isinstance(radii, float) else radii[part]],
                         progress=None,
                     )
-                    yield Chunk(ids[part].copy(), *self._query_many(some, return_distance, words, ""))
+                    yield Chunk(ids[part].copy(), *self._query_many(searched, some, return_distance, words, ""))
 
         return chunks()
 
@@ -436,9 +438,9 @@ class MeshIndex(Queries, SurfaceQueries, Aggregates, Shape, Regions):
             indices, distances = sorted_rows(self, sort, np.array([0, len(indices)]), indices, distances)
         return (indices, distances.astype(result_dtype(words), copy=False)) if return_distance else indices
 
-    def _query_many(self, rows: Rows, return_distance: bool, words: Any, title: str) -> Any:
-        """indptr, indices, and distances or None; the rows of all scales."""
-        searched, sort, dtype = self._method(words), sort_of(words), result_dtype(words)
+    def _query_many(self, searched: Any, rows: Rows, return_distance: bool, words: Any, title: str) -> Any:
+        """indptr, indices, and distances or None; the rows of all scales. `searched` is the method."""
+        sort, dtype = sort_of(words), result_dtype(words)
         left = _convert.max_bytes(words.get("max_bytes"))
         with_distances = return_distance or sort == "distance"
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Optional, TypedDict, Union
 
 import numpy as np
@@ -76,6 +76,12 @@ class Rows:
     @property
     def filter(self) -> dict[str, Any]:
         return {"walls": self.walls, "ignored": self.ignored}
+
+    def restrict(self, method: Any) -> tuple[Any, Rows]:
+        """The method with answers that the masks restrict, for several calls, and the rows without masks."""
+        if self.walls is None and self.ignored is None:
+            return method, self
+        return method.restricted(**self.filter, threads=self.threads), replace(self, walls=None, ignored=None)
 
     def reporter(self, title: str) -> AbstractContextManager[Report]:
         return reporter(self.progress, title, "vertices", self.count * len(self.radii))

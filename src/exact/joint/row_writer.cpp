@@ -11,7 +11,7 @@ namespace meshhood {
 
 void RowWriter::write_ids(unsigned query, std::span<VertexId> ids) const {
   const VertexId* permutation = index_->permutation.empty() ? nullptr : index_->permutation.data();
-  kernels_->write_row(pieces_.all(), query, permutation, ids);
+  kernels_->write_row(pieces_, query, permutation, ids);
 }
 
 void RowWriter::write_distances(unsigned query, const Point& center, std::span<double> distances) const {
@@ -21,7 +21,7 @@ void RowWriter::write_distances(unsigned query, const Point& center, std::span<d
         const auto write = [&](std::size_t vertex) {
           *next++ = std::sqrt(squared_distance(point(xyz, vertex), center));
         };
-        for (const RowPiece& piece : pieces_.all()) {
+        for (const RowPiece& piece : pieces_) {
           if (piece.reached != nullptr) {
             for_each_lane(kernels_->lanes_of(piece.reached, query),
                           [&](unsigned lane) { write(std::size_t{piece.first} + lane); });

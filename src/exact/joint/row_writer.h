@@ -17,7 +17,15 @@ class RowWriter {
   RowWriter(const IndexView& index, Isa isa) : index_(&index), kernels_(&joint_kernels(isa)) {}
 
   /// Begins with a packet, which must outlive the calls below.
-  void begin(const PacketAnswer& answer) { pieces_.assign(answer); }
+  void begin(const PacketAnswer& answer) {
+    sorted_.assign(answer);
+    pieces_ = sorted_.all();
+  }
+
+  /// The same with the pieces of a packet.
+  void begin(std::span<const RowPiece> pieces) { pieces_ = pieces; }
+
+  [[nodiscard]] std::span<const RowPiece> pieces() const { return pieces_; }
 
   /// Writes the ids of a row. `ids` has as many places as the row has vertices.
   void write_ids(unsigned query, std::span<VertexId> ids) const;
@@ -28,7 +36,8 @@ class RowWriter {
  private:
   const IndexView* index_;
   const JointKernels* kernels_;
-  PacketPieces pieces_;
+  PacketPieces sorted_;
+  std::span<const RowPiece> pieces_;
 };
 
 }  // namespace meshhood

@@ -246,6 +246,51 @@ TEST(Filtered, CopiesTheMasksWhenTheCallBegins) {
   }
 }
 
+/// A method that a filter restricts once answers as the method does with this filter in each call, also a searcher.
+TEST(Filtered, RestrictsAMethodForManyCalls) {
+  Random random(21);
+  const TestMesh mesh = bumpy_grid(20);
+  const Index index = build(mesh.view());
+  std::vector<std::uint8_t> walls = draw_mask(random, mesh.size(), 6);
+  std::vector<std::uint8_t> ignored = draw_mask(random, mesh.size(), 4);
+  for (const SearchMethod& method :
+       {SearchMethod(index), SearchMethod::along_edges(index), SearchMethod::rings(index)}) {
+    const BatchOptions options{.distances = true};
+    const Filter filter{walls, ignored};
+    const Neighborhoods expected = neighborhoods(method, {.radius = 2.5, .filter = filter}, options);
+    const std::vector<std::uint8_t> given_walls = walls;
+    const std::vector<std::uint8_t> given_ignored = ignored;
+    const SearchMethod restricted = method.restricted(filter, 2);
+    std::ranges::fill(walls, std::uint8_t{1});
+    std::ranges::fill(ignored, std::uint8_t{0});
+    const Neighborhoods found = neighborhoods(restricted, {.radius = 2.5}, options);
+    EXPECT_EQ(found.offsets, expected.offsets);
+    EXPECT_EQ(found.ids, expected.ids);
+    EXPECT_EQ(found.distances, expected.distances);
+    AnySearcher searcher = restricted.make_searcher();
+    std::vector<VertexId> ids;
+    std::vector<double> distances;
+    for (VertexId v = 0; v < mesh.size(); ++v) {
+      const std::size_t size = expected.offsets[v + 1] - expected.offsets[v];
+      searcher.neighborhood(v, 2.5, ids, distances);
+      ASSERT_THAT(ids, testing::ElementsAreArray(std::span(expected.ids).subspan(expected.offsets[v], size)));
+      ASSERT_THAT(distances,
+                  testing::ElementsAreArray(std::span(expected.distances).subspan(expected.offsets[v], size)));
+      ASSERT_EQ(searcher.neighborhood(v, 2.5), ids);
+      ASSERT_EQ(searcher.count(v, 2.5), size);
+      std::size_t in_ranges = 0;
+      for (const VertexRange& range : searcher.ranges(v, 2.5)) in_ranges += range.size();
+      ASSERT_EQ(in_ranges, size);
+    }
+    walls = given_walls;
+    ignored = given_ignored;
+    expect_refused(ErrorCode::InvalidOption, "without any so far",
+                   [&] { static_cast<void>(restricted.restricted(filter)); });
+    expect_refused(ErrorCode::InvalidOption, "without any so far",
+                   [&] { static_cast<void>(counts(restricted, {.radius = 1, .filter = filter})); });
+  }
+}
+
 TEST(Filtered, RefusesMasksOfAnotherSizeAndMethodsWithoutFilters) {
   const TestMesh mesh = make_grid(4, 4, false).finish(false);
   const Index index = build(mesh.view());
@@ -260,7 +305,7 @@ TEST(Filtered, RefusesMasksOfAnotherSizeAndMethodsWithoutFilters) {
   expect_refused(ErrorCode::InvalidOption, "walls: 8 values", count(exact, {.walls = short_mask}));
   expect_refused(ErrorCode::InvalidOption, "ignored: 8 values", count(exact, {.ignored = short_mask}));
   expect_refused(ErrorCode::InvalidOption, "walls: 8 values", count(paths, {.walls = short_mask}));
-  expect_refused(ErrorCode::InvalidOption, "no walls and no ignored vertices", count(ball, {.walls = mask}));
+  expect_refused(ErrorCode::InvalidOption, "takes no walls and no ignored vertices", count(ball, {.walls = mask}));
 }
 
 /// Many vertices in one packet that no filter touches, beside one that loses all of its queries. Balls with the larger

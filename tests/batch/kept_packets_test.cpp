@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// What is kept of the packets of a batch is what was found, in no more memory than the ids take; and a batch that keeps
+// it has the rows of one that does not.
+#include "batch/kept_packets.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshhood/batch.h"
+
+#include "support/draw_start.h"
+#include "support/exact_answer.h"
+#include "support/families.h"
+#include "support/family_name.h"
+#include "support/random.h"
+#include "support/scale.h"
+
+namespace meshhood::test {
+namespace {
+
+/// Words of a leaf of which each vertex has others.
+PerLane<QueryWord> some_words(QueryWord first) {
+  PerLane<QueryWord> words{};
+  for (unsigned lane = 0; lane < kLeafCapacity; ++lane) words[lane] = first * (lane + 1) & 7;
+  return words;
+}
+
+TEST(KeptPackets, AreReadInTheOrderInWhichTheyWereAdded) {
+  const PerLane<QueryWord> a = some_words(3);
+  const PerLane<QueryWord> b = some_words(5);
+  const PerLane<QueryWord> single{1, 0, 1};
+  const std::vector<RowPiece> first{{10, 32, 0, a.data()}, {42, 400, 5, nullptr}, {500, 20, 0, b.data()}};
+  const std::vector<RowPiece> second{{0, 60, 1, nullptr}, {70, 3, 0, single.data()}};
+  KeptPackets kept;
+  kept.add(first, std::vector<std::uint64_t>{400, 0, 432});
+  kept.add(second, std::vector<std::uint64_t>{62});
+  kept.add(first, std::vector<std::uint64_t>{1, 0, 1});
+  kept.add(second, std::vector<std::uint64_t>{63});
+  KeptPackets::Reader reader(kept);
+  const auto expect_next = [&](const std::vector<RowPiece>& pieces) {
+    ASSERT_EQ(reader.pieces().size(), pieces.size());
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const RowPiece& read = reader.pieces()[i];
+      EXPECT_EQ(read.first, pieces[i].first);
+      EXPECT_EQ(read.size, pieces[i].size);
+      EXPECT_EQ(read.queries, pieces[i].queries);
+      ASSERT_EQ(read.reached == nullptr, pieces[i].reached == nullptr);
+      if (read.reached == nullptr) continue;
+      EXPECT_TRUE(std::equal(read.reached, read.reached + kLeafCapacity, pieces[i].reached));
+    }
+  };
+  ASSERT_TRUE(reader.next());
+  expect_next(first);
+  EXPECT_EQ(reader.counts()[0], 400U);
+  EXPECT_EQ(reader.counts()[1], 0U);
+  EXPECT_EQ(reader.counts()[2], 432U);
+  ASSERT_TRUE(reader.next());
+  expect_next(second);
+  EXPECT_EQ(reader.counts()[0], 62U);
+  EXPECT_FALSE(reader.next()) << "its two ids take less memory than its pieces";
+  ASSERT_TRUE(reader.next());
+  expect_next(second);
+  EXPECT_EQ(reader.counts()[0], 63U);
+}
+
+TEST(KeptPackets, TakeNoMoreMemoryThanTheIds) {
+  const PerLane<QueryWord> words = some_words(3);
+  const std::vector<RowPiece> pieces{{10, 32, 0, words.data()}, {42, 1, 5, nullptr}};
+  const auto bytes_of = [&](std::uint64_t ids) {
+    KeptChunks chunks(1);
+    chunks.add(0, 0, [&](KeptPackets& kept) { kept.add(pieces, std::vector<std::uint64_t>{0, ids}); });
+    return chunks.bytes();
+  };
+  const std::size_t left_out = bytes_of(0);
+  EXPECT_LE(left_out, 8U);
+  std::size_t kept = 0;
+  for (std::uint64_t ids = 0; ids < 100; ++ids) {
+    if (bytes_of(ids) == left_out) continue;
+    EXPECT_LE(bytes_of(ids), sizeof(VertexId) * ids);
+    ++kept;
+  }
+  EXPECT_GT(kept, 40U);
+}
+
+TEST(KeptChunks, AreFoundByTheirFirstRowWhicheverThreadAddedThem) {
+  KeptChunks chunks(2);
+  const std::vector<RowPiece> pieces{{10, 100, 1, nullptr}};
+  for (const std::size_t row : {0, 5, 7}) {
+    chunks.add(row % 2, row, [&](KeptPackets& kept) { kept.add(pieces, std::vector<std::uint64_t>{100 + row}); });
+  }
+  for (const std::size_t row : {7, 0, 5}) {
+    ASSERT_NE(chunks.find(row), nullptr);
+    KeptPackets::Reader reader(*chunks.find(row));
+    ASSERT_TRUE(reader.next());
+    EXPECT_EQ(reader.counts()[0], 100 + row);
+  }
+  EXPECT_EQ(chunks.find(1), nullptr);
+  chunks.clear();
+  EXPECT_EQ(chunks.find(7), nullptr);
+  EXPECT_EQ(chunks.bytes(), 0U);
+}
+
+class KeptRows : public testing::TestWithParam<Family> {};
+
+TEST_P(KeptRows, AreThoseThatWereSearchedForEach) {
+  Random random(8);
+  std::size_t rows = 0;
+  for (std::uint64_t seed = 0; seed < scaled(16, 4); ++seed) {
+    const TestMesh mesh = make_mesh(GetParam(), seed, 400);
+    if (mesh.size() == 0) continue;
+    const Index index = build(mesh.view());
+    const std::vector<std::uint8_t> walls = draw_mask(random, mesh.size(), random.below(2) * 9);
+    const std::vector<std::uint8_t> ignored = draw_mask(random, mesh.size(), random.below(2) * 4);
+    const double scale = random.uniform(0.5, 6);
+    for (const bool by_rings : {false, true}) {
+      const SearchMethod method = by_rings ? SearchMethod::rings(index) : SearchMethod(index);
+      std::vector<VertexId> vertices;
+      std::vector<double> radii;
+      const std::size_t kept_of = 1 + random.below(4);  // all vertices, or few of each leaf
+      for (VertexId v = 0; v < mesh.size(); ++v) {
+        if (random.below(kept_of) != 0) continue;
+        vertices.push_back(v);
+        radii.push_back(random.below(20) == 0 ? kInfinity : scale * random.uniform(0, 1));
+      }
+      const BatchQuery query{.vertices = vertices, .radius = radii, .filter = {walls, ignored}};
+      const BatchOptions options{
+          .threads = 1 + static_cast<unsigned>(seed % 2), .distances = seed % 3 == 0, .sorted = seed % 5 == 0};
+      Neighborhoods expected{{0}, {}, {}};
+      for_each_neighborhood(
+          method, query,
+          [&](const BatchRow& row) {
+            expected.ids.insert(expected.ids.end(), row.ids.begin(), row.ids.end());
+            expected.distances.insert(expected.distances.end(), row.distances.begin(), row.distances.end());
+            expected.offsets.push_back(expected.ids.size());
+          },
+          options);
+      BatchOptions tight = options;  // without room for what is kept
+      tight.max_bytes = sizeof(VertexId) * expected.ids.size() + sizeof(double) * expected.distances.size();
+      for (const BatchOptions& given : {options, tight}) {
+        const Neighborhoods found = neighborhoods(method, query, given);
+        ASSERT_EQ(found.offsets, expected.offsets);
+        ASSERT_EQ(found.ids, expected.ids);
+        ASSERT_EQ(found.distances, expected.distances);
+      }
+      rows += vertices.size();
+    }
+  }
+  std::printf("%zu rows\n", rows);
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, KeptRows, testing::ValuesIn(families()), family_name);
+
+}  // namespace
+}  // namespace meshhood::test
