@@ -100,8 +100,8 @@ class PathPacket {
   /// The vertices of a leaf that were found.
   struct LeafPlaces {
     LeafId leaf;
-    LaneMask lanes;                 // those that are not ignored
-    PerLane<std::uint32_t> number;  // by lane
+    LaneMask lanes;                                   // those that are not ignored
+    std::array<std::uint32_t, kLeafCapacity> number;  // by lane
   };
 
   void begin(std::span<const PathQuery> queries);
