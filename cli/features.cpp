@@ -200,9 +200,9 @@ void print(const FeaturesCommand& options, const FeaturesFound& found) {
     text += fmt::format("{}: {} vertices at {} or more\n", options.kinds[kind], lasting[kind], options.threshold);
   }
   Json document = to_json(options.files);
-  document.update(
-      {{"rows", found.rows()}, {"kinds", options.kinds}, {"threshold", options.threshold}, {"lasting", lasting}});
+  document["rows"] = found.rows();
   if (options.rows.row_radii.empty()) document["radii"] = found.radii;
+  document.update({{"kinds", options.kinds}, {"threshold", options.threshold}, {"lasting", lasting}});
   print_result(options.json, document, text);
 }
 
