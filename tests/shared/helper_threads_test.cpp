@@ -15,6 +15,16 @@ namespace {
 
 constexpr std::size_t kMost = 7;
 
+/// A loop that does not end before all threads take part in it.
+void meet(HelperThreads& helpers) {
+  std::atomic<std::size_t> arrived{0};
+  helpers.run(kMost, [&](unsigned) {
+    ++arrived;
+    while (arrived <= kMost) std::this_thread::yield();
+  });
+  ASSERT_EQ(arrived, kMost + 1);
+}
+
 TEST(HelperThreads, CallEachNumberAtMostOnceInALoop) {
   HelperThreads helpers;
   // More threads, then fewer, then more again.
@@ -33,14 +43,7 @@ TEST(HelperThreads, CallEachNumberAtMostOnceInALoop) {
 
 TEST(HelperThreads, TakePartInLoopsThatWaitForThem) {
   HelperThreads helpers;
-  for (int loop = 0; loop < 100; ++loop) {
-    std::atomic<std::size_t> arrived{0};
-    helpers.run(kMost, [&](unsigned) {
-      ++arrived;
-      while (arrived <= kMost) std::this_thread::yield();
-    });
-    ASSERT_EQ(arrived, kMost + 1);
-  }
+  for (int loop = 0; loop < 100; ++loop) meet(helpers);
 }
 
 TEST(HelperThreads, HaveEndedWhenALoopReturns) {
@@ -60,12 +63,7 @@ TEST(HelperThreads, HaveEndedWhenALoopReturns) {
 TEST(HelperThreads, SleepAndWakeBetweenLoops) {
   HelperThreads helpers;
   for (int loop = 0; loop < 5; ++loop) {
-    std::atomic<std::size_t> arrived{0};
-    helpers.run(kMost, [&](unsigned) {
-      ++arrived;
-      while (arrived <= kMost) std::this_thread::yield();
-    });
-    ASSERT_EQ(arrived, kMost + 1);
+    meet(helpers);
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
 }
