@@ -218,8 +218,8 @@ void for_each_neighborhood(const SearchMethod& method, const BatchQuery& query, 
                            const BatchOptions& options = {});
 
 /// Returns all rows. With an index they are counted first, so that memory is allocated once and exactly. What is found
-/// of exact neighborhoods and rings is kept meanwhile, so that their rows are searched once. It takes at most as much
-/// memory as the ids, mostly a tenth to a half, and is dropped if `max_bytes` is less than it and the result together.
+/// of exact neighborhoods and rings is kept meanwhile, so that their rows are searched once. It takes about as much
+/// memory as the ids at most, and is dropped if `max_bytes` is less than it and the result together.
 /// Rows of paths, in space and of `paper::Index` are searched twice. Without an index each row is searched once, and
 /// the result is held twice.
 /// Throws as `for_each_neighborhood`, and Error{TooLarge} if the result exceeds `options.max_bytes`.
