@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The ids of all vertices in one array, where what is found while rows are counted is kept for writing them, beside the
-// same where each row is searched twice, which a limit of memory causes: there, too, it is kept, and then dropped, so that
-// the gain is shown a little too large. On one thread, in alternating rounds, by the
-// exact index and by rings: microseconds a vertex, and the ratio.
+// same where each row is searched twice, which a limit of memory causes: there, too, it is kept, and then dropped, so
+// that the gain is shown a little too large. On one thread, in alternating rounds, by the exact index and by rings:
+// microseconds a vertex, and the ratio.
 //
 //   bench_kept MESH [RADIUS IN MEAN EDGES...]
 #include <cstdint>
