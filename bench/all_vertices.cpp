@@ -251,10 +251,11 @@ class AllVertices {
     for (std::size_t row = 0; row < rows.size(); ++row) {
       chunk.push_back({row, rows[row], position_of(rows[row]), radius});
       if (row + 1 < rows.size() && group_of(rows[row]) == group_of(rows[row + 1])) continue;
-      worker.count(chunk, [&](std::span<const BatchItem> /*rows*/, std::span<const std::uint64_t> sizes) {
+      const auto add = [&](std::span<const BatchItem> /*rows*/, std::span<const std::uint64_t> sizes) {
         ids = std::accumulate(sizes.begin(), sizes.end(), ids);
         return true;
-      });
+      };
+      worker.count(chunk, add, nullptr);
       chunk.clear();
     }
     return ids;

@@ -20,6 +20,7 @@ ROUNDS = 5
 ENOUGH_SECONDS = 1  # of one tool for one question; no further round is begun then
 MOST_SECONDS = 20  # of one answer
 MOST_BYTES = 12 << 30  # of the address space of a tool
+OUT_OF_MEMORY = ("MemoryError", "bad_alloc", "CPU malloc failed")  # the last is Open3D's
 
 
 def run(names, radii, threads):
@@ -144,4 +145,6 @@ def over_limit():
 def reason(error):
     if "took longer" in error:
         return over_limit()
-    return f"over {MOST_BYTES >> 30} GiB" if "MemoryError" in error else f"failed: {error}"
+    if any(word in error for word in OUT_OF_MEMORY):
+        return f"over {MOST_BYTES >> 30} GiB"
+    return "failed: " + "".join(c for c in error if c.isprintable())  # in one cell of a table

@@ -65,10 +65,11 @@ void check_sample(Batch& batch, const SizeLimit& limit) {
   const auto row_of = [stretch](std::size_t i) { return i * stretch + i * std::size_t{0x9E37'79B1} % stretch; };
   std::vector<double> sizes(kSample);
   batch.for_each_chunk(kSample, row_of, [&](unsigned thread, std::span<const BatchItem> chunk) {
-    batch.worker(thread).count(chunk, [&](std::span<const BatchItem> items, std::span<const std::uint64_t> some) {
+    const auto sink = [&](std::span<const BatchItem> items, std::span<const std::uint64_t> some) {
       for (std::size_t i = 0; i < items.size(); ++i) sizes[items[i].row / stretch] = static_cast<double>(some[i]);
       return batch.task().should_continue(thread);
-    });
+    };
+    batch.worker(thread).count(chunk, sink, nullptr);
   });
   const double mean = std::accumulate(sizes.begin(), sizes.end(), 0.0) / kSample;
   double variance = 0;
@@ -77,32 +78,27 @@ void check_sample(Batch& batch, const SizeLimit& limit) {
   limit.refuse("about ", static_cast<std::uint64_t>(std::llround(rows * mean)));
 }
 
-void count_rows(Batch& batch, std::uint64_t* sizes) {
-  batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
-    batch.worker(thread).count(chunk, [&](std::span<const BatchItem> items, std::span<const std::uint64_t> some) {
-      for (std::size_t i = 0; i < items.size(); ++i) sizes[items[i].row] = some[i];
-      return batch.task().should_continue(thread);
-    });
-    batch.task().advance(chunk.size());
-  });
-}
+/// Of rows that are written later, also keeps what was found, and compares the number of ids with the limit.
+struct Later {
+  SizeLimit& limit;
+  KeptChunks& kept;
+};
 
-/// The same for rows that are written later.
-KeptChunks count_and_keep(Batch& batch, std::uint64_t* sizes, SizeLimit& limit) {
-  KeptChunks kept(batch.task().threads());
+/// `later` is null for rows that are only counted.
+void count_rows(Batch& batch, std::uint64_t* sizes, const Later* later) {
   batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
     std::uint64_t ids = 0;
     const auto sink = [&](std::span<const BatchItem> items, std::span<const std::uint64_t> some) {
       for (std::size_t i = 0; i < items.size(); ++i) ids += sizes[items[i].row] = some[i];
       return batch.task().should_continue(thread);
     };
-    kept.add(thread, chunk.front().row,
-             [&](KeptPackets& packets) { batch.worker(thread).count_and_keep(chunk, sink, packets); });
-    limit.add(ids);
+    batch.worker(thread).count(chunk, sink, later == nullptr ? nullptr : &later->kept.begin(thread));
+    if (later != nullptr) {
+      later->kept.end(thread, chunk.front().row);
+      later->limit.add(ids);
+    }
     batch.task().advance(chunk.size());
   });
-  if (!limit.leaves(kept.bytes())) kept.clear();
-  return kept;
 }
 
 BatchMemory allocated(const BatchAllocator& allocate, std::size_t count, bool distances) {
@@ -171,12 +167,9 @@ class RowsInPlace final : public RowReceiver {
 void write_rows(Batch& batch, KeptChunks& kept, std::span<const std::uint64_t> offsets, const BatchMemory& memory) {
   batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
     RowsInPlace receiver(batch, thread, offsets, memory);
-    if (KeptPackets* packets = kept.find(chunk.front().row); packets != nullptr) {
-      batch.worker(thread).find_kept(chunk, batch.options().distances, receiver, *packets);
-      *packets = {};  // its memory is free for others
-    } else {
-      batch.worker(thread).find(chunk, batch.options().distances, receiver);
-    }
+    KeptPackets* packets = kept.find(chunk.front().row);
+    batch.worker(thread).find(chunk, batch.options().distances, receiver, packets);
+    if (packets != nullptr) *packets = {};  // its memory is free for others
     batch.task().advance(chunk.size());
   });
 }
@@ -190,7 +183,7 @@ std::vector<std::uint64_t> counts(const SearchMethod& method, const BatchQuery& 
   std::vector<std::uint64_t> result(passes.size() * rows);
   for (std::size_t i = 0; i < passes.size(); ++i) {
     if (i > 0) batch.set_radius(passes[i].common());
-    count_rows(batch, result.data() + i * rows);
+    count_rows(batch, result.data() + i * rows, nullptr);
   }
   batch.task().finish();
   return result;
@@ -204,7 +197,10 @@ std::vector<std::uint64_t> neighborhoods(const SearchMethod& method, const Batch
   SizeLimit limit(options, batch.rows().size());
   check_sample(batch, limit);
   std::vector<std::uint64_t> offsets(batch.rows().size() + 1);
-  KeptChunks kept = count_and_keep(batch, offsets.data() + 1, limit);
+  KeptChunks kept(batch.task().threads());
+  const Later later{limit, kept};
+  count_rows(batch, offsets.data() + 1, &later);
+  if (!limit.leaves(kept.bytes())) kept.clear();
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
   write_rows(batch, kept, offsets, allocated(allocate, offsets.back(), options.distances));
   batch.task().finish();

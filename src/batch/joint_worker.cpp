@@ -26,8 +26,13 @@ JointWorker::JointWorker(const Index& index, Isa isa)
       unlike_a_surface_(is_unlike_a_surface(view_)),
       writer_(view_, isa) {}
 
-void JointWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink) {
+void JointWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept) {
   for_each_run(chunk, [&](const Run& run) {
+    if (kept != nullptr) {
+      const auto counts = std::span(begin_rows(run)).first(run.items.size());
+      kept->add(writer_.pieces(), counts);
+      return sink(run.items, counts);
+    }
     if (run.is_joint) {
       search_together(run);
       return sink(run.items, std::span(joint_->counts()).first(run.items.size()));
@@ -37,23 +42,8 @@ void JointWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink) 
   });
 }
 
-void JointWorker::find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) {
-  for_each_run(chunk, [&](const Run& run) {
-    const PerLane<std::uint64_t>& counts = begin_rows(run);
-    return write(run.items, counts, distances, receiver);
-  });
-}
-
-void JointWorker::count_and_keep(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets& kept) {
-  for_each_run(chunk, [&](const Run& run) {
-    const auto counts = std::span(begin_rows(run)).first(run.items.size());
-    kept.add(writer_.pieces(), counts);
-    return sink(run.items, counts);
-  });
-}
-
-void JointWorker::find_kept(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
-                            const KeptPackets& kept) {
+void JointWorker::find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
+                       const KeptPackets* kept) {
   KeptPackets::Reader reader(kept);
   for_each_run(chunk, [&](const Run& run) {
     if (!reader.next()) return write(run.items, begin_rows(run), distances, receiver);

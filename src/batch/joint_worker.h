@@ -27,12 +27,8 @@ class JointWorker final : public BatchWorker {
 
   explicit JointWorker(const Index& index, Isa isa = best_isa());
 
-  void count(std::span<const BatchItem> chunk, const SizeSink& sink) override;
-  void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) override;
-
-  void count_and_keep(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets& kept) override;
-  void find_kept(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
-                 const KeptPackets& kept) override;
+  void count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept) override;
+  void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver, const KeptPackets* kept) override;
 
   /// Passes on the packets of a chunk. `sink` returns false to drop the rest.
   void visit(std::span<const BatchItem> chunk, const std::function<bool(const PacketAnswer&)>& sink);

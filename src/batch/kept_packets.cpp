@@ -55,6 +55,7 @@ std::size_t KeptPackets::bytes() const {
 }
 
 bool KeptPackets::Reader::next() {
+  if (kept_ == nullptr) return false;
   const Packet& packet = kept_->packets_[packets_++];
   if (packet.rows == 0) return false;
   std::copy_n(kept_->counts_.begin() + static_cast<std::ptrdiff_t>(counts_), packet.rows, row_counts_.begin());

@@ -48,9 +48,10 @@ class KeptPackets {
 /// Reads the packets in the order in which they were added.
 class KeptPackets::Reader {
  public:
-  explicit Reader(const KeptPackets& kept) : kept_(&kept) {}
+  /// `kept` is null where nothing was kept.
+  explicit Reader(const KeptPackets* kept) : kept_(kept) {}
 
-  /// Goes to the next packet. Returns false if its answer was left out.
+  /// Goes to the next packet. Returns false if its answer was not kept.
   bool next();
 
   // Of this packet:
@@ -74,16 +75,18 @@ class KeptChunks {
  public:
   explicit KeptChunks(unsigned threads) : threads_(threads) {}
 
-  /// Thread number `thread` adds a chunk, named by its first row: `keep` fills what is kept.
-  template <class F>
-  void add(unsigned thread, std::size_t first_row, F&& keep) {
-    KeptPackets& scratch = threads_[thread].scratch;
-    scratch.clear();
-    keep(scratch);
-    threads_[thread].chunks.emplace(first_row, scratch);  // a copy, which is as small as possible
+  /// Empty, for the next chunk of a thread.
+  KeptPackets& begin(unsigned thread) {
+    threads_[thread].scratch.clear();
+    return threads_[thread].scratch;
   }
 
-  /// What is kept of a chunk; null if `clear` was called.
+  /// The chunk, named by its first row, is complete.
+  void end(unsigned thread, std::size_t first_row) {
+    threads_[thread].chunks.emplace(first_row, threads_[thread].scratch);  // a copy, which is as small as possible
+  }
+
+  /// What is kept of a chunk; null after `clear`.
   [[nodiscard]] KeptPackets* find(std::size_t first_row);
 
   [[nodiscard]] std::size_t bytes() const;

@@ -70,14 +70,15 @@ class SearcherWorker final : public BatchWorker {
  public:
   explicit SearcherWorker(AnySearcher searcher) : searcher_(std::move(searcher)) {}
 
-  void count(std::span<const BatchItem> chunk, const SizeSink& sink) override {
+  void count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* /*kept*/) override {
     for (const BatchItem& item : chunk) {
       const std::uint64_t size = searcher_.count(item.vertex, item.radius);
       if (!sink({&item, 1}, {&size, 1})) return;
     }
   }
 
-  void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) override {
+  void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
+            const KeptPackets* /*kept*/) override {
     for (const BatchItem& item : chunk) {
       if (distances) {
         searcher_.neighborhood(item.vertex, item.radius, ids_, distances_);

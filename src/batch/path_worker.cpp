@@ -21,14 +21,15 @@ PathWorker::PathWorker(const Index& index, std::shared_ptr<const FilterCopy> fil
       graph_(IndexAccess::share_graph(index)),
       packet_(view_, *graph_, isa, walls_, ignored_) {}
 
-void PathWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink) {
+void PathWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* /*kept*/) {
   visit(chunk, [&](std::span<const BatchItem> rows, PathPacket& packet) {
     const PerLane<std::uint64_t> counts = packet.counts();
     return sink(rows, std::span(counts).first(rows.size()));
   });
 }
 
-void PathWorker::find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) {
+void PathWorker::find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
+                      const KeptPackets* /*kept*/) {
   visit(chunk, [&](std::span<const BatchItem> rows, PathPacket& packet) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const std::span<const Path> paths = packet.paths_in_order(i);

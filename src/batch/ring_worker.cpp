@@ -115,32 +115,19 @@ bool RingWorker::write(std::span<const BatchItem> items, const PerLane<std::uint
   return true;
 }
 
-void RingWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink) {
-  for_each_packet(chunk, [&](std::span<const BatchItem> items) {
-    return sink(items, std::span(search(items)).first(items.size()));
-  });
-}
-
-void RingWorker::find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) {
-  if (distances) return find_with_distances(chunk, receiver);
-  for_each_packet(chunk, [&](std::span<const BatchItem> items) {
-    const PerLane<std::uint64_t>& counts = search(items);
-    writer_.begin(packet_.answer());
-    return write(items, counts, receiver);
-  });
-}
-
-void RingWorker::count_and_keep(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets& kept) {
+void RingWorker::count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept) {
   for_each_packet(chunk, [&](std::span<const BatchItem> items) {
     const auto counts = std::span(search(items)).first(items.size());
-    writer_.begin(packet_.answer());
-    kept.add(writer_.pieces(), counts);
+    if (kept != nullptr) {
+      writer_.begin(packet_.answer());
+      kept->add(writer_.pieces(), counts);
+    }
     return sink(items, counts);
   });
 }
 
-void RingWorker::find_kept(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
-                           const KeptPackets& kept) {
+void RingWorker::find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
+                      const KeptPackets* kept) {
   if (distances) return find_with_distances(chunk, receiver);
   KeptPackets::Reader reader(kept);
   for_each_packet(chunk, [&](std::span<const BatchItem> items) {

@@ -45,11 +45,8 @@ class RingWorker final : public BatchWorker {
  public:
   explicit RingWorker(const Index& index);
 
-  void count(std::span<const BatchItem> chunk, const SizeSink& sink) override;
-  void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) override;
-  void count_and_keep(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets& kept) override;
-  void find_kept(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
-                 const KeptPackets& kept) override;
+  void count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept) override;
+  void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver, const KeptPackets* kept) override;
 
  private:
   static std::span<const BatchItem> first_packet(std::span<const BatchItem> chunk);

@@ -49,23 +49,12 @@ class BatchWorker {
   BatchWorker& operator=(const BatchWorker&) = delete;
   virtual ~BatchWorker() = default;
 
-  virtual void count(std::span<const BatchItem> chunk, const SizeSink& sink) = 0;
+  /// `kept`, if not null, receives what spares `find` a second search. A worker may leave it as it is.
+  virtual void count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept) = 0;
 
-  virtual void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver) = 0;
-
-  // In two steps, for rows that are counted first and written later. A worker that can keep what it finds overrides
-  // both.
-
-  /// As `count`, and keeps what `find_kept` needs.
-  virtual void count_and_keep(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets& /*kept*/) {
-    count(chunk, sink);
-  }
-
-  /// As `find`. `kept` is of the same chunk, none of whose rows was dropped.
-  virtual void find_kept(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
-                         const KeptPackets& /*kept*/) {
-    find(chunk, distances, receiver);
-  }
+  /// `kept` is null, or what `count` kept of the same chunk, none of whose rows was dropped.
+  virtual void find(std::span<const BatchItem> chunk, bool distances, RowReceiver& receiver,
+                    const KeptPackets* kept) = 0;
 };
 
 /// What a `SearchMethod` refers to. Any thread may call the functions.

@@ -41,7 +41,7 @@ class DirectRows final : public RowReceiver {
 
   void run() {
     batch_.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
-      batch_.worker(thread).find(chunk, batch_.options().distances, *this);
+      batch_.worker(thread).find(chunk, batch_.options().distances, *this, nullptr);
     });
   }
 
@@ -136,7 +136,7 @@ class Stream {
         window, [first](std::size_t i) { return first + i; },
         [&](unsigned thread, std::span<const BatchItem> chunk) {
           WindowRows receiver(*this, thread, first);
-          batch_.worker(thread).find(chunk, batch_.options().distances, receiver);
+          batch_.worker(thread).find(chunk, batch_.options().distances, receiver, nullptr);
         });
     return fits();
   }

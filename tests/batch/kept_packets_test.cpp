@@ -41,7 +41,7 @@ TEST(KeptPackets, AreReadInTheOrderInWhichTheyWereAdded) {
   kept.add(second, std::vector<std::uint64_t>{62});
   kept.add(first, std::vector<std::uint64_t>{1, 0, 1});
   kept.add(second, std::vector<std::uint64_t>{63});
-  KeptPackets::Reader reader(kept);
+  KeptPackets::Reader reader(&kept);
   const auto expect_next = [&](const std::vector<RowPiece>& pieces) {
     ASSERT_EQ(reader.pieces().size(), pieces.size());
     for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -73,7 +73,8 @@ TEST(KeptPackets, TakeNoMoreMemoryThanTheIds) {
   const std::vector<RowPiece> pieces{{10, 32, 0, words.data()}, {42, 1, 5, nullptr}};
   const auto bytes_of = [&](std::uint64_t ids) {
     KeptChunks chunks(1);
-    chunks.add(0, 0, [&](KeptPackets& kept) { kept.add(pieces, std::vector<std::uint64_t>{0, ids}); });
+    chunks.begin(0).add(pieces, std::vector<std::uint64_t>{0, ids});
+    chunks.end(0, 0);
     return chunks.bytes();
   };
   const std::size_t left_out = bytes_of(0);
@@ -91,15 +92,17 @@ TEST(KeptChunks, AreFoundByTheirFirstRowWhicheverThreadAddedThem) {
   KeptChunks chunks(2);
   const std::vector<RowPiece> pieces{{10, 100, 1, nullptr}};
   for (const std::size_t row : {0, 5, 7}) {
-    chunks.add(row % 2, row, [&](KeptPackets& kept) { kept.add(pieces, std::vector<std::uint64_t>{100 + row}); });
+    chunks.begin(row % 2).add(pieces, std::vector<std::uint64_t>{100 + row});
+    chunks.end(row % 2, row);
   }
   for (const std::size_t row : {7, 0, 5}) {
     ASSERT_NE(chunks.find(row), nullptr);
-    KeptPackets::Reader reader(*chunks.find(row));
+    KeptPackets::Reader reader(chunks.find(row));
     ASSERT_TRUE(reader.next());
     EXPECT_EQ(reader.counts()[0], 100 + row);
   }
   EXPECT_EQ(chunks.find(1), nullptr);
+  EXPECT_FALSE(KeptPackets::Reader(chunks.find(1)).next());
   chunks.clear();
   EXPECT_EQ(chunks.find(7), nullptr);
   EXPECT_EQ(chunks.bytes(), 0U);
