@@ -103,12 +103,11 @@ PrincipalCurvature curvature_of(std::span<const double> m, const Point& normal) 
                     m[9] * b.x + m[10] * b.y + m[11] * b.z};
     return dot(a, m_b);
   };
-  const Eigen2 found =
-      eigen(along(frame.u, frame.u), (along(frame.u, frame.v) + along(frame.v, frame.u)) / 2, along(frame.v, frame.v));
-  const auto direction = [&](const std::array<double, 2>& v) {
-    return with_sign(unit(v[0] * frame.u + v[1] * frame.v));
-  };
-  return {-found.low / m[0], -found.high / m[0], direction(found.low_vector), direction(found.high_vector)};
+  // Those of a quadric whose second derivatives are the elements of the matrix.
+  const Quadric quadric{along(frame.u, frame.u) / 2, (along(frame.u, frame.v) + along(frame.v, frame.u)) / 2,
+                        along(frame.v, frame.v) / 2, 0, 0};
+  const PrincipalCurvature found = principal_curvature(quadric, frame, ShapeOperator::Exact);
+  return {found.k1 / m[0], found.k2 / m[0], found.d1, found.d2};
 }
 
 void write_row(CorrectedCurvatures& out, std::size_t row, std::span<const double> m, const Point& normal,

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <memory>
 #include <numbers>
-#include <optional>
 #include <vector>
 
 #include "meshhood/curvature.h"
@@ -40,63 +39,49 @@ class CurvatureFitter {
 
  private:
   void fit_row(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments, std::size_t query);
-  [[nodiscard]] TangentFrame fit_frame(const QueryMoments& moments, std::size_t query) const;
-  [[nodiscard]] std::optional<Quadric> quadric(const PacketMoments& sums, std::size_t query) const;
+  [[nodiscard]] TangentFrame fit_frame(const QueryMoments& moments, std::uint32_t place, std::size_t query) const;
   void write(std::size_t row, const DirectFit::Result& result);
 
   const SurfaceState* surface_;
   const CurvatureOptions* options_;
   Curvatures* out_;
   DirectFit direct_;
-  std::array<TangentFrame, kPacketCapacity> frames_{};  // of the vertex normals
-  std::array<TangentFrame, kPacketCapacity> axes_{};    // of the fits
-  QueryVectors u_{};
-  QueryVectors v_{};
-  QueryVectors n_{};
+  QueryFrames frames_{};  // of the fits
   FrameMoments in_frame_{};
   QueryQuadrics quadrics_{};
+  QueryCurvatures curvatures_{};
 };
 
 void CurvatureFitter::fit(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
-  for (std::size_t q = 0; q < packet.places.size(); ++q) {
-    frames_[q] = frame_at(*surface_, packet.places[q], options_->shape_operator);
-    axes_[q] = fit_frame(moments, q);
-    u_.set(q, axes_[q].u);
-    v_.set(q, axes_[q].v);
-    n_.set(q, axes_[q].n);
-  }
+  const std::size_t size = packet.places.size();
+  for (std::size_t q = 0; q < size; ++q) set_frame(frames_, q, fit_frame(moments, packet.places[q], q));
   const MomentKernels& kernels = sums.kernels();
-  kernels.rotate(moments, u_, v_, n_, in_frame_);
+  kernels.rotate(moments, frames_, in_frame_);
   (options_->fit == CurvatureFit::Quadric ? kernels.fit_quadrics : kernels.fit_jets)(in_frame_, quadrics_);
+  principal_curvatures(kernels, quadrics_, frames_, size, options_->shape_operator, curvatures_);
   for_each_query(packet.queries, [&](std::size_t q) { fit_row(packet, sums, moments, q); });
 }
 
 void CurvatureFitter::fit_row(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments,
                               std::size_t query) {
   const std::size_t row = packet.rows[query];
-  if (std::isnan(frames_[query].n.x)) return write(row, {CurvatureState::NoNormal, {}, 0});
+  const std::uint32_t place = packet.places[query];
+  if (std::isnan(surface_->normal(place).x)) return write(row, {CurvatureState::NoNormal, {}, 0});
   const auto count = static_cast<std::size_t>(moments.at[0][query]);
-  if (count >= kFewestPoints) {
-    if (const std::optional<Quadric> fitted = quadric(sums, query)) {
-      PrincipalCurvature result = principal_curvature(*fitted, axes_[query], options_->shape_operator);
-      result.k1 *= sums.scale();
-      result.k2 *= sums.scale();
-      return write(row, {CurvatureState::Fitted, result, count});
-    }
+  const bool is_well_conditioned =
+      quadrics_.determinant[query] >= smallest_determinant(in_frame_, query, sums.sizes(query));
+  if (count < kFewestPoints || !is_well_conditioned) {
+    return write(row, direct_.fit(place, packet.radii[query], frame_at(*surface_, place, options_->shape_operator)));
   }
-  write(row, direct_.fit(packet.places[query], packet.radii[query], frames_[query]));
+  const QueryCurvatures& found = curvatures_;
+  write(row, {CurvatureState::Fitted,
+              {sums.scale() * found.k1[query], sums.scale() * found.k2[query], found.d1.at(query), found.d2.at(query)},
+              count});
 }
 
-TangentFrame CurvatureFitter::fit_frame(const QueryMoments& moments, std::size_t query) const {
-  if (options_->fit == CurvatureFit::Quadric) return frames_[query];
-  return jet_frame(distribution_of(moments, query).axes, frames_[query].n);
-}
-
-/// None if the normal equations are too badly conditioned for the errors of the moments.
-std::optional<Quadric> CurvatureFitter::quadric(const PacketMoments& sums, std::size_t query) const {
-  const QueryQuadrics& found = quadrics_;
-  if (!(found.determinant[query] >= smallest_determinant(in_frame_, query, sums.sizes(query)))) return std::nullopt;
-  return Quadric{found.a[query], found.b[query], found.c[query], found.d[query], found.e[query]};
+TangentFrame CurvatureFitter::fit_frame(const QueryMoments& moments, std::uint32_t place, std::size_t query) const {
+  if (options_->fit == CurvatureFit::Quadric) return frame_at(*surface_, place, options_->shape_operator);
+  return jet_frame(distribution_of(moments, query).axes, surface_->normal(place));
 }
 
 void CurvatureFitter::write(std::size_t row, const DirectFit::Result& result) {

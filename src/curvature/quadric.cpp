@@ -18,11 +18,13 @@ double ratio(double numerator, double denominator) { return denominator > 0 ? nu
 }  // namespace
 
 TangentFrame frame_of(const Point& normal) {
-  // The coordinate axis that is farthest from the normal.
+  // The coordinate axis that is farthest from the normal, chosen without branches, which would be mispredicted.
   const double x = std::abs(normal.x);
   const double y = std::abs(normal.y);
   const double z = std::abs(normal.z);
-  const Point axis = x <= y && x <= z ? Point{1, 0, 0} : (y <= z ? Point{0, 1, 0} : Point{0, 0, 1});
+  const unsigned is_x = static_cast<unsigned>(x <= y) & static_cast<unsigned>(x <= z);
+  const unsigned is_y = ~is_x & static_cast<unsigned>(y <= z);
+  const Point axis{static_cast<double>(is_x), static_cast<double>(is_y), static_cast<double>(1 - is_x - is_y)};
   const Point u = unit(axis - dot(axis, normal) * normal);
   return {u, cross(normal, u), normal};
 }
@@ -33,6 +35,12 @@ TangentFrame frame_towards(const Point& normal, const Point& offset) {
   if (!(size > 0)) return frame_of(normal);
   const Point u = {in_plane.x / size, in_plane.y / size, in_plane.z / size};
   return {u, unit(cross(normal, u)), normal};
+}
+
+void set_frame(QueryFrames& frames, std::size_t query, const TangentFrame& frame) {
+  frames.u.set(query, frame.u);
+  frames.v.set(query, frame.v);
+  frames.n.set(query, frame.n);
 }
 
 double smallest_determinant(const FrameMoments& s, std::size_t query, const MomentSizes& sizes) {
@@ -55,44 +63,25 @@ PointFit fit_points(std::span<const Point> points) {
   return {fit.solution, fit.unique};
 }
 
+void principal_curvatures(const MomentKernels& kernels, const QueryQuadrics& quadrics, const QueryFrames& frames,
+                          std::size_t queries, ShapeOperator shape_operator, QueryCurvatures& out) {
+  const bool of_libigl = shape_operator == ShapeOperator::Libigl;
+  (of_libigl ? kernels.principal_curvatures_of_libigl : kernels.principal_curvatures)(quadrics, frames, queries, out);
+}
+
 PrincipalCurvature principal_curvature(const Quadric& quadric, const TangentFrame& frame,
                                        ShapeOperator shape_operator) {
-  const auto [a, b, c, d, e] = quadric;
-  // First fundamental form: E, F, G. Second: L, M, N.
-  const double E = 1 + d * d;  // NOLINT(readability-identifier-naming): the names of the field
-  const double F = d * e;      // NOLINT(readability-identifier-naming)
-  const double G = 1 + e * e;  // NOLINT(readability-identifier-naming)
-  const double determinant = 1 + d * d + e * e;
-  const double s = 1 / std::sqrt(determinant);
-  const double L = 2 * a * s;  // NOLINT(readability-identifier-naming)
-  const double M = b * s;      // NOLINT(readability-identifier-naming)
-  const double N = 2 * c * s;  // NOLINT(readability-identifier-naming)
-  if (shape_operator == ShapeOperator::Libigl) {
-    const Eigen2 result =
-        eigen((L * G - M * F) / determinant, (M * E - L * F) / determinant, (N * E - M * F) / determinant);
-    const auto direction = [&](const std::array<double, 2>& v) {
-      return with_sign(unit(v[0] * frame.u + v[1] * frame.v));
-    };
-    PrincipalCurvature k{-result.low, -result.high, direction(result.low_vector), direction(result.high_vector)};
-    if (k.k1 == 0) k.d1 = {0, 0, 0};
-    if (k.k2 == 0) k.d2 = {0, 0, 0};
-    return k;
-  }
-  // With I = C C^T, C = [[r, 0], [F / r, t]], the shape operator is similar to the symmetric C^-1 II C^-T, whose
-  // eigenvectors q belong to the directions C^-T q.
-  const double r = std::sqrt(E);
-  const double t = std::sqrt(determinant) / r;  // EG - F^2 = determinant
-  const double f = F / r;
-  const double p = L / E;
-  const double o = (M - f * L / r) / (r * t);
-  const double q = (N - 2 * f * M / r + f * f * L / E) / (t * t);
-  const Eigen2 result = eigen(p, o, q);
-  const auto direction = [&](const std::array<double, 2>& v) {
-    const double y = v[1] / t;
-    const double x = (v[0] - f * y) / r;
-    return with_sign(unit(x * frame.u + y * frame.v + (d * x + e * y) * frame.n));
-  };
-  return {-result.low, -result.high, direction(result.low_vector), direction(result.high_vector)};
+  QueryQuadrics quadrics{};
+  quadrics.a[0] = quadric[0];
+  quadrics.b[0] = quadric[1];
+  quadrics.c[0] = quadric[2];
+  quadrics.d[0] = quadric[3];
+  quadrics.e[0] = quadric[4];
+  QueryFrames frames{};
+  set_frame(frames, 0, frame);
+  QueryCurvatures out{};
+  principal_curvatures(moment_kernels(best_isa()), quadrics, frames, 1, shape_operator, out);
+  return {out.k1[0], out.k2[0], out.d1.at(0), out.d2.at(0)};
 }
 
 }  // namespace meshhood

@@ -33,6 +33,8 @@ struct TangentFrame {
 /// libigl's frame: `u` points to a neighbor at `offset`, projected into the plane. As above if that has no length.
 [[nodiscard]] TangentFrame frame_towards(const Point& normal, const Point& offset);
 
+void set_frame(QueryFrames& frames, std::size_t query, const TangentFrame& frame);
+
 /// The smallest determinant of the normal equations of `query` (see `MomentKernels::fit_quadrics`) for which the errors
 /// of the moments, which follow from `sizes`, hardly change the solution.
 [[nodiscard]] double smallest_determinant(const FrameMoments& moments, std::size_t query, const MomentSizes& sizes);
@@ -48,7 +50,11 @@ struct PointFit {
 /// libigl.
 [[nodiscard]] PointFit fit_points(std::span<const Point> points);
 
-/// Principal curvatures and directions at the origin of the frame.
+/// The principal curvatures of the quadrics of the first queries (see `MomentKernels`).
+void principal_curvatures(const MomentKernels& kernels, const QueryQuadrics& quadrics, const QueryFrames& frames,
+                          std::size_t queries, ShapeOperator shape_operator, QueryCurvatures& out);
+
+/// The same for one.
 struct PrincipalCurvature {
   double k1;
   double k2;

@@ -33,22 +33,6 @@ void rotate_to_zero(Matrix3& a, Matrix3& vectors, std::size_t p, std::size_t q) 
 
 }  // namespace
 
-Eigen2 eigen(double p, double o, double q) {
-  const double middle = (p + q) / 2;
-  const double half = (p - q) / 2;
-  const double radius = std::sqrt(half * half + o * o);
-  double x = 1;
-  double y = 0;
-  if (radius > 0 && half >= 0) {
-    x = std::sqrt((1 + half / radius) / 2);
-    y = o / (2 * radius * x);
-  } else if (radius > 0) {
-    y = std::sqrt((1 - half / radius) / 2);
-    x = o / (2 * radius * y);
-  }
-  return {middle - radius, middle + radius, {-y, x}, {x, y}};
-}
-
 Eigen3 eigen(const Symmetric3& m) {
   const double size =
       std::max({std::abs(m.xx), std::abs(m.xy), std::abs(m.xz), std::abs(m.yy), std::abs(m.yz), std::abs(m.zz)});

@@ -12,15 +12,6 @@
 
 namespace meshhood {
 
-/// Eigenvalues and unit eigenvectors of the symmetric matrix [[p, o], [o, q]].
-struct Eigen2 {
-  double low;
-  double high;
-  std::array<double, 2> low_vector;
-  std::array<double, 2> high_vector;
-};
-[[nodiscard]] Eigen2 eigen(double p, double o, double q);
-
 /// A symmetric matrix of 3 by 3.
 struct Symmetric3 {
   double xx;

@@ -59,6 +59,8 @@ struct PointPerLane {
     y[i] = static_cast<T>(point.y);
     z[i] = static_cast<T>(point.z);
   }
+
+  [[nodiscard]] Point at(std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
 /// For every set of eight bits: the positions of its bits in ascending order, followed by zeros.

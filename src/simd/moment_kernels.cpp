@@ -383,13 +383,12 @@ HWY_INLINE Tensor<Degree - 1> contract(const Tensor<Degree>& in, const Points<Do
   return result;
 }
 
-void rotate(const QueryMoments& moments, const QueryVectors& us, const QueryVectors& vs, const QueryVectors& ns,
-            FrameMoments& out) {
+void rotate(const QueryMoments& moments, const QueryFrames& frames, FrameMoments& out) {
   const Doubles d;
   for (std::size_t q = 0; q < kPacketCapacity; q += kLanes<Doubles>) {
-    const auto u = load_rows(d, us, q);
-    const auto v = load_rows(d, vs, q);
-    const auto n = load_rows(d, ns, q);
+    const auto u = load_rows(d, frames.u, q);
+    const auto v = load_rows(d, frames.v, q);
+    const auto n = load_rows(d, frames.n, q);
     const auto put = [q](const Tensor<1>& last, const Points<Doubles>& by, QueryRow& row)
                          HWY_ATTR { store(contract(last, by).at[0], row[q]); };
     const auto fourth = tensor<4>(moments, q);
@@ -492,6 +491,113 @@ void fit(const FrameMoments& s, QueryQuadrics& out) {
 }
 // NOLINTEND(modernize-avoid-c-arrays)
 
+/// Symmetric matrices [[p, o], [o, q]].
+struct Matrices {
+  Numbers p, o, q;
+};
+
+/// Their eigenvalues and unit eigenvectors: (x, y) belongs to `high`, and (-y, x) to `low`.
+struct Eigen {
+  Numbers low, high;
+  Numbers x, y;
+};
+
+HWY_INLINE Eigen eigen(const Matrices& m) {
+  const Doubles d;
+  const auto middle = hn::Mul(splat(0.5), hn::Add(m.p, m.q));
+  const auto half = hn::Mul(splat(0.5), hn::Sub(m.p, m.q));
+  const auto radius = hn::Sqrt(hn::Add(hn::Mul(half, half), hn::Mul(m.o, m.o)));
+  // By the half-angle formula. The component that is at least as large comes first: there, nothing cancels.
+  const auto cosine = hn::Div(hn::Abs(half), radius);
+  const auto larger = hn::Sqrt(hn::Mul(splat(0.5), hn::Add(splat(1.0), cosine)));
+  const auto smaller = hn::Div(m.o, hn::Mul(hn::Mul(splat(2.0), radius), larger));
+  const auto exist = hn::Gt(radius, hn::Zero(d));  // of a multiple of the unit matrix, the axes
+  const auto first = either(d, exist, larger, splat(1.0));
+  const auto second = only(d, exist, smaller);
+  const auto swapped = hn::And(exist, hn::Lt(half, hn::Zero(d)));
+  return {hn::Sub(middle, radius), hn::Add(middle, radius), either(d, swapped, second, first),
+          either(d, swapped, first, second)};
+}
+
+/// a x + b y + c z, where x, y and z are points.
+HWY_INLINE Points<Doubles> combined(const Points<Doubles>& a, Numbers x, const Points<Doubles>& b, Numbers y,
+                                    const Points<Doubles>& c, Numbers z) {
+  const auto at = [&](Numbers of_a, Numbers of_b, Numbers of_c)
+                      HWY_ATTR { return scalar_product(Points<Doubles>{x, y, z}, {of_a, of_b, of_c}); };
+  return {at(a.x, b.x, c.x), at(a.y, b.y, c.y), at(a.z, b.z, c.z)};
+}
+
+/// The unit vector of the direction of `v`, or its negative: the one whose component of largest magnitude, the first of
+/// several, is positive.
+HWY_INLINE Points<Doubles> direction(const Points<Doubles>& v) {
+  const Doubles d;
+  const auto size = hn::Sqrt(squared_length(v));
+  const auto at = scaled(v, either(d, hn::Eq(size, hn::Zero(d)), splat(1.0), hn::Div(splat(1.0), size)));
+  const auto largest = hn::Max(hn::Max(hn::Abs(at.x), hn::Abs(at.y)), hn::Abs(at.z));
+  const auto by_y = hn::Ne(hn::Abs(at.x), largest);
+  const auto by_z = hn::And(by_y, hn::Ne(hn::Abs(at.y), largest));
+  const auto decides = either(d, by_z, at.z, either(d, by_y, at.y, at.x));
+  return scaled(at, either(d, hn::Lt(decides, hn::Zero(d)), splat(-1.0), splat(1.0)));
+}
+
+template <bool OfLibigl>
+void principal_curvatures(const QueryQuadrics& quadrics, const QueryFrames& frames, std::size_t queries,
+                          QueryCurvatures& out) {
+  const Doubles doubles;
+  const auto one = splat(1.0);
+  const auto two = splat(2.0);
+  for (std::size_t i = 0; i < queries; i += kLanes<Doubles>) {
+    const auto d = load(quadrics.d[i]);
+    const auto e = load(quadrics.e[i]);
+    // First fundamental form: E, F, G. Second: L, M, N.
+    const auto E = hn::Add(one, hn::Mul(d, d));  // NOLINT(readability-identifier-naming): the names of the field
+    const auto F = hn::Mul(d, e);                // NOLINT(readability-identifier-naming)
+    const auto G = hn::Add(one, hn::Mul(e, e));  // NOLINT(readability-identifier-naming)
+    const auto determinant = hn::Add(E, hn::Mul(e, e));  // EG - F^2
+    const auto root = hn::Sqrt(determinant);
+    const auto s = hn::Div(one, root);
+    const auto L = hn::Mul(hn::Mul(two, load(quadrics.a[i])), s);  // NOLINT(readability-identifier-naming)
+    const auto M = hn::Mul(load(quadrics.b[i]), s);                // NOLINT(readability-identifier-naming)
+    const auto N = hn::Mul(hn::Mul(two, load(quadrics.c[i])), s);  // NOLINT(readability-identifier-naming)
+    const auto u = load_rows(doubles, frames.u, i);
+    const auto v = load_rows(doubles, frames.v, i);
+    const auto n = load_rows(doubles, frames.n, i);
+    const auto put = [&](const Eigen& found, const Points<Doubles>& d1, const Points<Doubles>& d2) HWY_ATTR {
+      store(hn::Neg(found.low), out.k1[i]);
+      store(hn::Neg(found.high), out.k2[i]);
+      store_rows(direction(d1), out.d1, i);
+      store_rows(direction(d2), out.d2, i);
+    };
+    if constexpr (OfLibigl) {
+      const auto over = [&](Numbers a, Numbers b, Numbers c, Numbers f)
+                            HWY_ATTR { return hn::Div(hn::Sub(hn::Mul(a, b), hn::Mul(c, f)), determinant); };
+      const Eigen found = eigen({over(L, G, M, F), over(M, E, L, F), over(N, E, M, F)});
+      const auto zero = hn::Zero(doubles);
+      const auto in_plane = [&](Numbers curvature, Numbers x, Numbers y) HWY_ATTR {
+        const auto exists = hn::Ne(curvature, zero);
+        return combined(u, only(doubles, exists, x), v, only(doubles, exists, y), n, zero);
+      };
+      put(found, in_plane(found.low, hn::Neg(found.y), found.x), in_plane(found.high, found.x, found.y));
+    } else {
+      // With I = C C^T, C = [[r, 0], [F / r, t]], the shape operator is similar to the symmetric C^-1 II C^-T, whose
+      // eigenvectors q belong to the directions C^-T q.
+      const auto r = hn::Sqrt(E);
+      const auto t = hn::Div(root, r);
+      const auto f = hn::Div(F, r);
+      const auto o = hn::Div(hn::Sub(M, hn::Div(hn::Mul(f, L), r)), hn::Mul(r, t));
+      const auto bent = hn::Sub(N, hn::Div(hn::Mul(hn::Mul(two, f), M), r));
+      const auto q = hn::Div(hn::Add(bent, hn::Div(hn::Mul(hn::Mul(f, f), L), E)), hn::Mul(t, t));
+      const Eigen found = eigen({hn::Div(L, E), o, q});
+      const auto on_quadric = [&](Numbers first, Numbers second) HWY_ATTR {
+        const auto y = hn::Div(second, t);
+        const auto x = hn::Div(hn::Sub(first, hn::Mul(f, y)), r);
+        return combined(u, x, v, y, n, hn::Add(hn::Mul(d, x), hn::Mul(e, y)));
+      };
+      put(found, on_quadric(hn::Neg(found.y), found.x), on_quadric(found.x, found.y));
+    }
+  }
+}
+
 constexpr MomentKernels kMomentKernels{
     .set_points_float = set_points<float>,
     .set_points_double = set_points<double>,
@@ -503,6 +609,8 @@ constexpr MomentKernels kMomentKernels{
     .rotate = rotate,
     .fit_quadrics = fit<5>,
     .fit_jets = fit<6>,
+    .principal_curvatures = principal_curvatures<false>,
+    .principal_curvatures_of_libigl = principal_curvatures<true>,
 };
 
 }  // namespace

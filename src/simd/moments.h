@@ -71,6 +71,11 @@ struct FrameMoments {
   QueryRow u, v, n, one;
 };
 
+/// Orthonormal axes at each query vertex; `n` is its normal.
+struct QueryFrames {
+  QueryVectors u, v, n;
+};
+
 /// Columns of normals.
 struct NormalColumns {
   const double* x;
@@ -103,6 +108,13 @@ struct QueryQuadrics {
   QueryRow determinant;  // of the normal equations, see `MomentKernels::fit_quadrics`
 };
 
+/// Principal curvatures, k1 >= k2, positive where the surface is convex, seen from `n`, and their directions: unit
+/// vectors whose component of largest magnitude is positive.
+struct QueryCurvatures {
+  QueryRow k1, k2;
+  QueryVectors d1, d2;
+};
+
 struct MomentKernels {
   /// Sets the coordinates of points to those of the first `size` vertices of `xyz`, #V by 3, less the center, times the
   /// scale; and, up to the next multiple of eight, to 0. Reads that many vertices, of which those beyond the size may
@@ -131,8 +143,7 @@ struct MomentKernels {
   void (*shift)(QueryMoments& moments, const QueryVectors& by);
 
   /// Contracts the moments with the axes of the frames.
-  void (*rotate)(const QueryMoments& moments, const QueryVectors& u, const QueryVectors& v, const QueryVectors& n,
-                 FrameMoments& out);
+  void (*rotate)(const QueryMoments& moments, const QueryFrames& frames, FrameMoments& out);
 
   /// Solves the normal equations of the least-squares fits, eight queries at once. `determinant` is the least of their
   /// leading determinants, scaled to a diagonal of ones: the condition of such a matrix is at most 12 / determinant. It
@@ -141,6 +152,15 @@ struct MomentKernels {
 
   /// The same with a constant term, which `out` leaves out.
   void (*fit_jets)(const FrameMoments& moments, QueryQuadrics& out);
+
+  /// The principal curvatures of the quadrics of the first queries, by `ShapeOperator::Exact`. Writes rows of others,
+  /// too.
+  void (*principal_curvatures)(const QueryQuadrics& quadrics, const QueryFrames& frames, std::size_t queries,
+                               QueryCurvatures& out);
+
+  /// The same by `ShapeOperator::Libigl`. The direction of a curvature of 0 is 0.
+  void (*principal_curvatures_of_libigl)(const QueryQuadrics& quadrics, const QueryFrames& frames, std::size_t queries,
+                                         QueryCurvatures& out);
 };
 
 /// The kernels for `isa`, which the processor must have.

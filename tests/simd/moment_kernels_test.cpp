@@ -276,7 +276,7 @@ TEST(MomentKernels, RotatedMomentsAreThoseOfRotatedPoints) {
   const QueryVectors v = random_vectors(random);
   const QueryVectors n = random_vectors(random);
   FrameMoments out{};
-  moment_kernels(Isa{}).rotate(moments, u, v, n, out);
+  moment_kernels(Isa{}).rotate(moments, {u, v, n}, out);
   struct Case {
     const QueryRow* row;
     Powers powers;
@@ -431,6 +431,109 @@ TEST(MomentKernels, ASingularFitHasNoPositiveDeterminant) {
   }
 }
 
+/// Among them flat, equally bent and steep ones.
+QueryQuadrics random_quadrics(Random& random) {
+  QueryQuadrics quadrics{};
+  for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+    const double bend = q % 8 == 0 ? 0 : 2;
+    const double slope = q % 5 == 0 ? 0 : (q % 5 == 1 ? 1e6 : 2);
+    quadrics.a[q] = random.uniform(-bend, bend);
+    quadrics.b[q] = q % 4 == 1 ? 0 : random.uniform(-bend, bend);
+    quadrics.c[q] = q % 4 == 1 ? quadrics.a[q] : random.uniform(-bend, bend);
+    quadrics.d[q] = random.uniform(-slope, slope);
+    quadrics.e[q] = random.uniform(-slope, slope);
+  }
+  return quadrics;
+}
+
+QueryFrames random_frames(Random& random) {
+  QueryFrames frames{};
+  for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+    const double angle = q == 0 ? 0 : random.uniform(0, 6);
+    const double x = std::cos(angle);
+    const double y = std::sin(angle);
+    frames.u.set(q, {x, 0, y});
+    frames.v.set(q, {0, -1, 0});
+    frames.n.set(q, {y, 0, -x});
+  }
+  return frames;
+}
+
+/// One query alone.
+QueryCurvatures curvatures_alone(const MomentKernels& kernels, const QueryQuadrics& quadrics, const QueryFrames& frames,
+                                 std::size_t q, bool of_libigl) {
+  QueryQuadrics quadric{};
+  quadric.a[0] = quadrics.a[q];
+  quadric.b[0] = quadrics.b[q];
+  quadric.c[0] = quadrics.c[q];
+  quadric.d[0] = quadrics.d[q];
+  quadric.e[0] = quadrics.e[q];
+  QueryFrames frame{};
+  frame.u.set(0, frames.u.at(q));
+  frame.v.set(0, frames.v.at(q));
+  frame.n.set(0, frames.n.at(q));
+  QueryCurvatures out{};
+  (of_libigl ? kernels.principal_curvatures_of_libigl : kernels.principal_curvatures)(quadric, frame, 1, out);
+  return out;
+}
+
+TEST(MomentKernels, PrincipalCurvaturesHaveTheSameBitsTogetherAndAloneOnEveryInstructionSet) {
+  Random random(11);
+  for (int round = 0; round < 20; ++round) {
+    const QueryQuadrics quadrics = random_quadrics(random);
+    const QueryFrames frames = random_frames(random);
+    for (const Isa isa : available_isas()) {
+      const MomentKernels& kernels = moment_kernels(isa);
+      for (const bool of_libigl : {false, true}) {
+        QueryCurvatures out{};
+        (of_libigl ? kernels.principal_curvatures_of_libigl : kernels.principal_curvatures)(quadrics, frames,
+                                                                                            kPacketCapacity, out);
+        for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+          const QueryCurvatures alone = curvatures_alone(moment_kernels(Isa{}), quadrics, frames, q, of_libigl);
+          const auto numbers = [](const QueryCurvatures& from, std::size_t i) {
+            return std::array{from.k1[i],   from.k2[i],   from.d1.x[i], from.d1.y[i],
+                              from.d1.z[i], from.d2.x[i], from.d2.y[i], from.d2.z[i]};
+          };
+          EXPECT_EQ(numbers(out, q), numbers(alone, 0)) << "query " << q;
+        }
+      }
+    }
+  }
+}
+
+TEST(MomentKernels, DirectionsAreUnitVectorsWhoseLargestComponentIsPositive) {
+  Random random(12);
+  const QueryQuadrics quadrics = random_quadrics(random);
+  const QueryFrames frames = random_frames(random);
+  QueryCurvatures out{};
+  moment_kernels(best_isa()).principal_curvatures(quadrics, frames, kPacketCapacity, out);
+  for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+    EXPECT_GE(out.k1[q], out.k2[q]);
+    for (const Point& p : {out.d1.at(q), out.d2.at(q)}) {
+      EXPECT_NEAR(p.x * p.x + p.y * p.y + p.z * p.z, 1, 1e-15);
+      EXPECT_EQ(std::max({p.x, p.y, p.z}), std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
+    }
+  }
+}
+
+TEST(MomentKernels, AFlatQuadricHasNoDirectionsByLibigl) {
+  const QueryFrames frames = [] {
+    Random random(13);
+    return random_frames(random);
+  }();
+  for (const Isa isa : available_isas()) {
+    QueryCurvatures out{};
+    moment_kernels(isa).principal_curvatures_of_libigl({}, frames, kPacketCapacity, out);
+    for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+      EXPECT_EQ(out.d1.x[q], 0);
+      EXPECT_EQ(out.d2.z[q], 0);
+    }
+    moment_kernels(isa).principal_curvatures({}, frames, kPacketCapacity, out);
+    EXPECT_EQ(out.d2.x[0], 1);
+    EXPECT_EQ(out.d1.y[0], 1);
+  }
+}
+
 TEST(MomentKernels, EveryInstructionSetGivesTheSameBits) {
   Random random(4);
   for (int round = 0; round < 20; ++round) {
@@ -452,7 +555,7 @@ TEST(MomentKernels, EveryInstructionSetGivesTheSameBits) {
       const MomentKernels& kernels = moment_kernels(isa);
       QueryMoments moments = summed(kernels, input);
       kernels.shift(moments, by);
-      kernels.rotate(moments, u, v, by, results.emplace_back());
+      kernels.rotate(moments, {u, v, by}, results.emplace_back());
       facing.emplace_back(input.words).resize(leaf);
       kernels.keep_facing({points.x.data(), points.y.data(), points.z.data()}, test, facing.back());
       fits.emplace_back();
