@@ -112,7 +112,8 @@ struct FeaturesFound {
 FeaturesFound compute(const FeaturesCommand& options, const RowQuery& rows, Input& input) {
   FeaturesFound found{radii_of(options, rows, input), options.kinds.size(), {}, {}};
   static_cast<void>(persistence({}, found.radii, options.threshold));  // refuses wrong radii before the work begins
-  const CurvatureIndex surface = CurvatureIndex::build(input.exact_index(options.rows.threads), input.surface());
+  const CurvatureIndex surface =
+      CurvatureIndex::build(input.exact_index(options.rows.threads), input.surface(), options.rows.threads);
   const std::vector<double> areas = vertex_areas(input.surface());
   Task task("measuring", {"rows", static_cast<double>(found.radii.size())});
   const bool has_rows = !options.rows.row_radii.empty();

@@ -31,9 +31,10 @@ namespace nb = nanobind;
 namespace meshhood::python {
 namespace {
 
-CurvatureIndex of_faces(const ExactMethod& method, const Input& corners, const std::optional<Input>& offsets) {
+CurvatureIndex of_faces(const ExactMethod& method, const Input& corners, const std::optional<Input>& offsets,
+                        unsigned threads) {
   const FacesView faces = faces_of(corners, offsets);
-  return without_lock([&] { return CurvatureIndex::build(method.index(), faces); });
+  return without_lock([&] { return CurvatureIndex::build(method.index(), faces, threads); });
 }
 
 CurvatureIndex of_normals(const ExactMethod& method, const Radii& normals) {
@@ -173,7 +174,7 @@ void bind_curvature(nb::module_& module) {
         return owned<double>(geometric_radii(smallest, largest, count));
       },
       nb::arg("smallest"), nb::arg("largest"), nb::arg("count"));
-  module.def("surface_of_faces", &of_faces, nb::arg(), nb::arg(), nb::arg("offsets").none());
+  module.def("surface_of_faces", &of_faces, nb::arg(), nb::arg(), nb::arg("offsets").none(), nb::arg("threads"));
   module.def("surface_of_normals", &of_normals, nb::arg(), nb::arg());
   module.def("libigl_radius", &radius_of_libigl, nb::arg(), nb::arg(), nb::arg("offsets").none(), nb::arg("edges"));
 }

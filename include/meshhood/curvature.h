@@ -28,12 +28,13 @@ class CurvatureIndex {
   /// half the cross product of two edges. That of a polygon is Newell's sum.
   ///
   /// mesh    the mesh that the index was built from, with faces; borrowed for the call.
-  /// Throws Error{InvalidMesh, TooLarge} if `mesh` is invalid, has no faces, or has other positions than the index.
-  /// O(#V + #corners).
-  [[nodiscard]] static CurvatureIndex build(const Index& index, const MeshView& mesh);
+  /// threads    as in `BuildOptions`; at most four are used. The result does not depend on it.
+  /// Throws Error{InvalidMesh, TooLarge} if `mesh` is invalid, has no faces, or has other positions than the index, and
+  /// Error{InvalidOption}. O(#V + #corners).
+  [[nodiscard]] static CurvatureIndex build(const Index& index, const MeshView& mesh, unsigned threads = 1);
 
   /// The same with the positions of the index. `faces` are those of the mesh that it was built from.
-  [[nodiscard]] static CurvatureIndex build(const Index& index, const FacesView& faces);
+  [[nodiscard]] static CurvatureIndex build(const Index& index, const FacesView& faces, unsigned threads = 1);
 
   /// The same for a graph without faces.
   ///

@@ -93,7 +93,7 @@ class Batch {
 
 template <class RowOf, class F>
 void Batch::for_each_chunk(std::size_t count, RowOf&& row_of, F&& f) {
-  constexpr std::size_t kRowsAtOnce = std::size_t{1} << 16;
+  constexpr std::size_t kRowsAtOnce = std::size_t{1} << 13;
   block_.reset();
   in_order_.clear();
   const std::span<std::uint64_t> in_order = in_order_.add(count);

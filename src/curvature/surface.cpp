@@ -10,8 +10,10 @@
 
 #include "meshhood/error.h"
 
+#include "base/validate.h"
 #include "base/vector.h"
 #include "exact/neighbors.h"
+#include "shared/parallel.h"
 
 namespace meshhood {
 namespace {
@@ -37,41 +39,61 @@ void check_positions(const IndexView& index, const MeshView& mesh) {
   });
 }
 
-/// Stores the normals as unit vectors; one of length 0 becomes NaN.
-void set_normals(SurfaceState& state, std::span<const Point> normals) {
-  for (std::vector<double>* const axis : {&state.normal_x, &state.normal_y, &state.normal_z}) {
-    axis->resize(normals.size());
-  }
+/// Stores the normals of vertices from the place `begin` on as unit vectors; one of length 0 becomes NaN.
+void set_normals(SurfaceState& state, std::size_t begin, std::span<const Point> normals) {
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const Point& n = normals[i];
     const double norm = length(n);
     const double size = norm > 0 ? norm : std::numeric_limits<double>::quiet_NaN();
-    state.normal_x[i] = n.x / size;
-    state.normal_y[i] = n.y / size;
-    state.normal_z[i] = n.z / size;
+    state.normal_x[begin + i] = n.x / size;
+    state.normal_y[begin + i] = n.y / size;
+    state.normal_z[begin + i] = n.z / size;
   }
 }
 
-/// The sums of the vector areas of the faces at each vertex, in the frame, where products do not overflow.
+/// The sums of the vector areas of the faces at the vertices whose places are in a range: in the frame, where products
+/// do not overflow, and in the order of the faces.
 template <class Real>
-std::vector<Point> sum_areas(const IndexView& index, std::span<const Real> xyz, const FacesView& faces) {
-  std::vector<Point> sums(index.vertex_count(), {0, 0, 0});
+std::vector<Point> sum_areas(const IndexView& index, std::span<const Real> xyz, const FacesView& faces,
+                             std::size_t begin, std::size_t end) {
+  std::vector<Point> sums(end - begin, {0, 0, 0});
+  const auto is_summed = [&](std::uint32_t place) { return begin <= place && place < end; };
   std::vector<std::uint32_t> places;
   faces.for_each([&](std::size_t, std::span<const VertexId> corners) {
     places.clear();
     for (const VertexId corner : corners) places.push_back(place_of(index, corner));
+    if (std::none_of(places.begin(), places.end(), is_summed)) return;
     const Point area = 0.5 * doubled_vector_area(places.size(), [&](std::size_t i) {
                          return index.frame.scale * point(xyz, places[i]);
                        });
-    for (const std::uint32_t place : places) sums[place] = sums[place] + area;
+    for (const std::uint32_t place : places) {
+      if (is_summed(place)) sums[place - begin] = sums[place - begin] + area;
+    }
   });
   return sums;
+}
+
+/// Each thread reads all faces for its part of the vertices. More parts than these would not make it faster.
+void set_normals(SurfaceState& state, const FacesView& faces, TaskContext& task) {
+  constexpr std::size_t kMostParts = 4;
+  const IndexView& index = *state.index;
+  const std::size_t parts = std::min<std::size_t>(task.threads(), kMostParts);
+  task.parallel_for(index.vertex_count(), index.vertex_count() / parts + 1,
+                    [&](unsigned, std::size_t begin, std::size_t end) {
+                      const auto sums = [&](auto xyz) { return sum_areas(index, xyz, faces, begin, end); };
+                      set_normals(state, begin, std::visit(sums, index.positions));
+                    });
 }
 
 }  // namespace
 
 // `searched` is never refitted. If the caller's index is, in place, `check_current` of `index` throws.
-CurvatureIndex::State::State(const Index& given) : searched(IndexAccess::alias(given)), index(searched) {}
+CurvatureIndex::State::State(const Index& given)
+    : searched(IndexAccess::alias(given)),
+      index(searched),
+      normal_x(given.vertex_count()),
+      normal_y(given.vertex_count()),
+      normal_z(given.vertex_count()) {}
 
 std::size_t CurvatureIndex::State::first_neighbor(std::size_t place) const {
   const std::uint32_t slot = index->slot[index->id(place)];
@@ -82,20 +104,21 @@ std::size_t CurvatureIndex::State::first_neighbor(std::size_t place) const {
   return first;
 }
 
-CurvatureIndex CurvatureIndex::build(const Index& index, const MeshView& mesh) {
+CurvatureIndex CurvatureIndex::build(const Index& index, const MeshView& mesh, unsigned threads) {
   validate(mesh);
   check_positions(IndexAccess::view(index), mesh);
-  return build(index, mesh.faces);
+  return build(index, mesh.faces, threads);
 }
 
-CurvatureIndex CurvatureIndex::build(const Index& index, const FacesView& faces) {
-  validate(MeshView{index.positions(), faces});
+CurvatureIndex CurvatureIndex::build(const Index& index, const FacesView& faces, unsigned threads) {
+  const Progress no_progress;
+  TaskContext task(threads, no_progress, 0);
+  validate(MeshView{index.positions(), faces}, task);
   if (faces.size() == 0 && index.vertex_count() != 0) {
     raise(ErrorCode::InvalidMesh, "the mesh has no faces, expected faces or normals");
   }
   auto state = std::make_unique<State>(index);
-  const IndexView& view = *state->index;
-  set_normals(*state, std::visit([&](auto xyz) { return sum_areas(view, xyz, faces); }, view.positions));
+  set_normals(*state, faces, task);
   return CurvatureIndex(std::move(state));
 }
 
@@ -119,7 +142,7 @@ CurvatureIndex CurvatureIndex::build(const Index& index, std::span<const double>
     }
     scaled.push_back({n.x / largest, n.y / largest, n.z / largest});  // its square may overflow
   }
-  set_normals(*state, scaled);
+  set_normals(*state, 0, scaled);
   return CurvatureIndex(std::move(state));
 }
 

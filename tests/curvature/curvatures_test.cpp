@@ -2,7 +2,9 @@
 // Curvatures of meshes, compared with formulas, with the fit to the points themselves, and with themselves after
 // changes that must have no effect.
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <numbers>
@@ -285,6 +287,29 @@ TEST(Curvatures, HaveTheSameBitsForAnyNumberOfThreads) {
   }
 }
 
+TEST(Curvatures, NormalsHaveTheSameBitsForAnyNumberOfThreads) {
+  std::size_t meshes = 0;
+  for (const Family& family : families()) {
+    const TestMesh mesh = make_mesh(family, 5, 300);
+    if (mesh.face_count() == 0) continue;
+    SCOPED_TRACE(family.name);
+    const Index index = build(mesh.view());
+    const auto bits = [&](unsigned threads) {
+      const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view().faces, threads);
+      const SurfaceState& state = CurvatureAccess::state(surface);
+      std::vector<std::uint64_t> all;
+      for (const auto* const axis : {&state.normal_x, &state.normal_y, &state.normal_z}) {
+        for (const double number : *axis) all.push_back(std::bit_cast<std::uint64_t>(number));
+      }
+      return all;
+    };
+    const std::vector<std::uint64_t> expected = bits(1);
+    for (const unsigned threads : {2U, 3U, 7U}) EXPECT_EQ(bits(threads), expected) << threads << " threads";
+    ++meshes;
+  }
+  EXPECT_GT(meshes, 15U);
+}
+
 TEST(Curvatures, OfAListAreThoseOfAllVertices) {
   const Case one(bumpy_grid(30).finish(false));
   const std::vector<VertexId> rows{17, 3, 899, 3, 450};
@@ -460,6 +485,8 @@ TEST(Curvatures, RefuseInvalidArgumentsAndNameThem) {
                  [&] { (void)curvatures(one.surface, {.radius = -1.0}, like_libigl()); });
   expect_refused(ErrorCode::InvalidOption, "thread",
                  [&] { (void)curvatures(one.surface, {.radius = 1.0}, {.threads = kMaxThreads + 1}); });
+  expect_refused(ErrorCode::InvalidOption, "thread",
+                 [&] { (void)CurvatureIndex::build(one.index, one.mesh.view(), kMaxThreads + 1); });
   expect_refused(ErrorCode::InvalidOption, "not the jet", [&] {
     (void)curvatures(one.surface, {.radius = 1.0}, {.shape_operator = ShapeOperator::Libigl, .fit = CurvatureFit::Jet});
   });

@@ -75,18 +75,19 @@ class Curvature(NamedTuple):
 
 
 class KeptOfFaces:
-    """What `make(exact, corners, offsets)` returns for an index and its faces, kept until other faces are given."""
+    """What `make(exact, corners, offsets, ...)` returns for an index and its faces, kept until other faces are given."""
 
     def __init__(self, exact: Any, make: Any) -> None:
         self._exact = exact
         self._make = make
         self._kept: tuple[Any, Any] = (None, None)  # replaced as a whole: no lock, which a fork could copy while it is held
 
-    def of_faces(self, key: bytes, arrays: tuple[Any, Any]) -> Any:
-        """`key`: what tells the faces from others; empty for those that the index keeps, which never change."""
+    def of_faces(self, key: bytes, arrays: tuple[Any, Any], **options: Any) -> Any:
+        """`key`: what tells the faces from others; empty for those that the index keeps, which never change. `options`
+        do not change the result."""
         kept, made = self._kept
         if kept != key:
-            made = self._make(self._exact, *arrays)
+            made = self._make(self._exact, *arrays, **options)
             self._kept = (key, made)
         return made
 

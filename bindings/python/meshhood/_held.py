@@ -103,10 +103,10 @@ class Held:
             )
         return self._faces
 
-    def _surface(self, F: Any, normals: Any) -> Any:
+    def _surface(self, F: Any, normals: Any, threads: int) -> Any:
         """The normals of the faces, or `normals`."""
         if normals is None:
-            return self._surfaces.of_faces(*self._keyed_faces(F))
+            return self._surfaces.of_faces(*self._keyed_faces(F), threads=threads)
         if F is not None:
             raise ValueError("F: expected None, because the normals are given")
         return self._surfaces.of_normals(normals)

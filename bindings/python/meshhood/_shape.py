@@ -99,7 +99,7 @@ class Shape(Held):
         rows = self._surface_rows(vertices, r, words, CurvatureWords)
         options: Any = {"libigl": like == "libigl", "jet": _convert.choice(fit, "fit", ("quadric", "jet")) == "jet"}
         options |= {"filter": bool(words.get("filter", True)), "threads": rows.threads, **rows.filter}
-        surface = self._surface(words.get("F"), words.get("normals"))
+        surface = self._surface(words.get("F"), words.get("normals"), rows.threads)
         found = rows.for_each_scale(
             "curvature", lambda radius, report: surface.curvatures(rows.vertices, radius, progress=report, **options)
         )
@@ -122,7 +122,7 @@ class Shape(Held):
         rows = self._surface_rows(vertices, r, words, CorrectedWords)
         F, normals = words.get("F"), words.get("normals")
         corners, offsets = self._face_arrays(F)
-        surface = self._surface(F if normals is None else None, normals)
+        surface = self._surface(F if normals is None else None, normals, rows.threads)
         found = rows.for_each_scale(
             "corrected_curvature",
             lambda radius, report: surface.corrected(
@@ -222,7 +222,7 @@ class Shape(Held):
             "threads": rows.threads,
             **rows.filter,
         }
-        surface = self._surface(F, None)
+        surface = self._surface(F, None, rows.threads)
         radii, radius = rows.common_radii
         with rows.reporter("features") as report:
             found = surface.features(rows.vertices, radii=np.array(radii), radius=radius, progress=report, **options)
