@@ -10,7 +10,8 @@ namespace meshhood {
 /// Error{Cancelled} and leaves its arguments unchanged.
 ///
 /// It is called on the calling thread only, with 0 at the beginning and `total` at the end. `done` never decreases and
-/// `total` is constant. An exception from it ends the call and is passed on.
+/// `total` is constant. An exception from it ends the call and is passed on. If it forks the process and the call has
+/// started threads, which are the parent's, the call throws Error{Cancelled} in the child.
 using Progress = std::function<bool(std::size_t done, std::size_t total)>;
 
 /// The largest number of threads that a call accepts.

@@ -4,6 +4,10 @@
 #include <cstdlib>
 #include <exception>
 
+#if defined(__STDCPP_THREADS__) && !defined(_WIN32)
+#include <unistd.h>
+#endif
+
 #include "shared/failure.h"
 
 namespace meshhood {
@@ -32,6 +36,14 @@ void look(F&& happened) {
   for (int i = 0; i < kLooksBeforeSleep && !happened(); ++i) std::this_thread::yield();
 }
 
+long this_process() {
+#if defined(_WIN32)
+  return 0;  // cannot be forked
+#else
+  return long{getpid()};
+#endif
+}
+
 }  // namespace
 
 HelperThreads::~HelperThreads() {
@@ -43,6 +55,7 @@ void HelperThreads::run(std::size_t most, const std::function<void(unsigned)>& b
   start(most);
   give(Order::Help, most, &body);
   body(0);
+  if (are_lost()) return;
   std::unique_lock lock(mutex_);
   order_ = Order::Wait;  // no thread begins any more
   lock.unlock();
@@ -52,8 +65,11 @@ void HelperThreads::run(std::size_t most, const std::function<void(unsigned)>& b
   ended_.wait(lock, all_ended);
 }
 
+bool HelperThreads::are_lost() const { return !threads_.empty() && process_ != this_process(); }
+
 /// So that there are `count`, or as many as the system can create.
 void HelperThreads::start(std::size_t count) {
+  process_ = this_process();
   Failure ignored;
   static_cast<void>(ignored.guard([&] {
     while (threads_.size() < count) {

@@ -38,6 +38,10 @@ class HelperThreads {
   /// their start. Returns when all have ended. `body` must not throw.
   void run(std::size_t most, const std::function<void(unsigned)>& body);
 
+  /// Whether this process was forked since the threads were started. They are those of the parent then: this object can
+  /// neither be used nor destroyed.
+  [[nodiscard]] bool are_lost() const;
+
  private:
   /// What the threads are to do.
   enum class Order { Wait, Help, End };
@@ -55,6 +59,7 @@ class HelperThreads {
   std::atomic<std::size_t> orders_{0};  // how many were given
   std::atomic<std::size_t> at_work_{0};
   std::vector<std::thread> threads_;
+  long process_ = 0;  // that the threads were started in
 };
 
 #else
@@ -62,6 +67,7 @@ class HelperThreads {
 class HelperThreads {
  public:
   void run(std::size_t /*most*/, const std::function<void(unsigned)>& body) { body(0); }
+  [[nodiscard]] bool are_lost() const { return false; }
 };
 
 #endif

@@ -40,11 +40,17 @@ TaskContext::TaskContext(unsigned threads, const Progress& progress, std::size_t
 
 TaskContext::TaskContext() : threads_(1), progress_(&kNoProgress), total_(0) {}
 
-TaskContext::~TaskContext() = default;
+TaskContext::~TaskContext() {
+  if (helpers_ && helpers_->are_lost()) static_cast<void>(helpers_.release());
+}
 
 void TaskContext::report_progress() {
   if (!*progress_) return;
-  if (!(*progress_)(done_.load(std::memory_order_relaxed), total_)) raise(ErrorCode::Cancelled, "cancelled");
+  const bool goes_on = (*progress_)(done_.load(std::memory_order_relaxed), total_);
+  if (helpers_ && helpers_->are_lost()) {
+    raise(ErrorCode::Cancelled, "cancelled in a child that was forked during the call; it goes on in the parent");
+  }
+  if (!goes_on) raise(ErrorCode::Cancelled, "cancelled");
   next_report_ = std::chrono::steady_clock::now() + kBetweenReports;
 }
 

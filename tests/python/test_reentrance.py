@@ -82,6 +82,42 @@ assert os.waitpid(child, 0)[1] == 0
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+@pytest.mark.parametrize(
+    "call",
+    [
+        "index.count(None, 3.0, workers=3, progress=progress)",
+        "index.query_ball(None, 3.0, workers=3, progress=progress)",
+        "index.curvature(3.0, workers=3, progress=progress)",
+        "meshhood.MeshIndex(*meshes.two_plates(60), workers=3, progress=progress)",
+    ],
+)
+def test_a_progress_function_that_forks_ends_the_call_in_the_child_alone(call):
+    """The threads of the call are the parent's: the child must not wait for them. A call that had started none yet goes
+    on in both."""
+    run(f"""
+import os, signal
+index = meshhood.MeshIndex(*meshes.two_plates(60))
+children = []
+def progress(done, total):
+    if done > 0 and len(children) < 3:
+        children.append(os.fork())
+        if children[-1] == 0:
+            signal.alarm(60)
+try:
+    {call}
+    ended = True
+except KeyboardInterrupt:
+    ended = False
+if children and children[-1] == 0:
+    index.count(None, 2.0, workers=2)  # another call starts threads of its own
+    os._exit(0)
+assert ended
+for child in children:
+    assert os.waitpid(child, 0)[1] == 0
+""")
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
 @pytest.mark.parametrize("method", METHODS)
 def test_a_fork_at_any_moment_of_other_threads_leaves_a_child_that_works(method):
     run(f"""

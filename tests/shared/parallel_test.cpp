@@ -13,6 +13,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "meshhood/error.h"
 
@@ -82,6 +84,42 @@ TEST(TaskContext, ReportsFinishedParts) {
   task.report_progress();
   expect_refused(ErrorCode::Cancelled, "cancelled", [&] { task.report_progress(); });
   EXPECT_THAT(reports, testing::ElementsAre(std::pair(0, 7), std::pair(4, 7), std::pair(4, 7)));
+}
+
+/// What a call of several threads throws whose callback forks the process, in a loop or between two.
+bool is_cancelled(bool in_loop, const Progress& progress) {
+  try {
+    TaskContext task(3, progress, 1);
+    task.parallel_for(100, 1, [&](unsigned thread, std::size_t begin, std::size_t) {
+      if (in_loop && thread == 0 && begin == 0) task.step();
+    });
+    if (!in_loop) task.step();
+    task.parallel_for(100, 1, [](unsigned, std::size_t, std::size_t) {});
+    return false;
+  } catch (const Error& error) {
+    return error.code() == ErrorCode::Cancelled;
+  }
+}
+
+TEST(ParallelFor, EndsInAChildThatTheCallbackForksAndGoesOnInTheParent) {
+  constexpr unsigned kSeconds = 60;
+  for (const bool in_loop : {false, true}) {
+    for (int round = 0; round < 20; ++round) {
+      pid_t child = -1;
+      const Progress forks = [&](std::size_t done, std::size_t) {
+        if (done == 0) return true;
+        child = fork();
+        if (child == 0) alarm(kSeconds);  // so that a child that waits fails
+        return true;
+      };
+      const bool cancelled = is_cancelled(in_loop, forks);
+      if (child == 0) _exit(cancelled ? 0 : 1);
+      EXPECT_FALSE(cancelled);
+      int status = 0;
+      ASSERT_EQ(waitpid(child, &status, 0), child);
+      EXPECT_EQ(status, 0);
+    }
+  }
 }
 
 }  // namespace
