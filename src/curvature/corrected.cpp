@@ -12,6 +12,8 @@
 #include "curvature/surface.h"
 #include "curvature/symmetric.h"
 #include "shared/distance.h"
+#include "shared/parallel.h"
+#include "simd/moments.h"
 
 namespace meshhood {
 namespace {
@@ -93,42 +95,66 @@ std::vector<double> measures_by_vertex(const SurfaceState& surface, const FacesV
   return held;
 }
 
-/// The principal curvatures from the measures of a neighborhood: the extremes of the symmetric part of the anisotropic
-/// measure over the tangent plane, by the area. CGAL excludes the normal by a large eigenvalue; this is the limit of
-/// its result for an infinite one.
-PrincipalCurvature curvature_of(std::span<const double> m, const Point& normal) {
-  const TangentFrame frame = frame_of(normal);
+/// Half of the symmetric part of the anisotropic measure over the tangent plane: the quadric whose shape operator it
+/// is. CGAL excludes the normal by a large eigenvalue; this is the limit of its result for an infinite one.
+Quadric quadric_of(std::span<const double> m, const TangentFrame& frame) {
   const auto along = [&](const Point& a, const Point& b) {
     const Point m_b{m[3] * b.x + m[4] * b.y + m[5] * b.z, m[6] * b.x + m[7] * b.y + m[8] * b.z,
                     m[9] * b.x + m[10] * b.y + m[11] * b.z};
     return dot(a, m_b);
   };
-  // Those of a quadric whose second derivatives are the elements of the matrix.
-  const Quadric quadric{along(frame.u, frame.u) / 2, (along(frame.u, frame.v) + along(frame.v, frame.u)) / 2,
-                        along(frame.v, frame.v) / 2, 0, 0};
-  const PrincipalCurvature found = principal_curvature(quadric, frame, ShapeOperator::Exact);
-  return {found.k1 / m[0], found.k2 / m[0], found.d1, found.d2};
+  return {along(frame.u, frame.u) / 2, (along(frame.u, frame.v) + along(frame.v, frame.u)) / 2,
+          along(frame.v, frame.v) / 2, 0, 0};
 }
 
-void write_row(CorrectedCurvatures& out, std::size_t row, std::span<const double> m, const Point& normal,
-               double scale) {
-  const bool some = m[0] != 0;
-  const Point nan{kNan, kNan, kNan};
-  const PrincipalCurvature k =
-      some && !std::isnan(normal.x) ? curvature_of(m, normal) : PrincipalCurvature{kNan, kNan, nan, nan};
-  double* const measures = &out.measures[m.size() * row];
-  measures[0] = m[0] / scale / scale;
-  measures[1] = m[1] / scale;
-  measures[2] = m[2];
-  for (std::size_t i = 3; i < m.size(); ++i) measures[i] = m[i] / scale;
-  out.area[row] = measures[0];
-  out.mean[row] = some ? m[1] / (2 * m[0]) * scale : kNan;
-  out.gaussian[row] = some ? m[2] / m[0] * scale * scale : kNan;
-  out.k1[row] = k.k1 * scale;
-  out.k2[row] = k.k2 * scale;
-  set_row(out.d1, row, k.d1);
-  set_row(out.d2, row, k.d2);
-}
+/// The measures of all neighborhoods, of which rows are written.
+struct RowWriter {
+  std::span<const double> sums;  // #rows by `CorrectedCurvatures::kMeasures`
+  double scale;                  // of the frame
+  CorrectedCurvatures& out;
+
+  [[nodiscard]] std::span<const double> measures(std::size_t row) const {
+    return sums.subspan(CorrectedCurvatures::kMeasures * row, CorrectedCurvatures::kMeasures);
+  }
+
+  /// Up to 32 rows. `normal(row)` is that of the query vertex.
+  template <class F>
+  void write(std::size_t begin, std::size_t end, F&& normal) const {
+    QueryFrames frames{};
+    QueryQuadrics quadrics{};
+    for (std::size_t row = begin; row < end; ++row) {
+      const TangentFrame frame = frame_of(normal(row));
+      set_frame(frames, row - begin, frame);
+      set_quadric(quadrics, row - begin, quadric_of(measures(row), frame));
+    }
+    QueryCurvatures curvatures{};
+    principal_curvatures(moment_kernels(best_isa()), quadrics, frames, end - begin, ShapeOperator::Exact, curvatures);
+    for (std::size_t row = begin; row < end; ++row) {
+      write_sums(row);
+      const std::size_t q = row - begin;
+      const double area = measures(row)[0];
+      const bool exists = area != 0 && !std::isnan(frames.n.x[q]);
+      const Point nan{kNan, kNan, kNan};
+      out.k1[row] = exists ? curvatures.k1[q] / area * scale : kNan;
+      out.k2[row] = exists ? curvatures.k2[q] / area * scale : kNan;
+      set_row(out.d1, row, exists ? curvatures.d1.at(q) : nan);
+      set_row(out.d2, row, exists ? curvatures.d2.at(q) : nan);
+    }
+  }
+
+ private:
+  void write_sums(std::size_t row) const {
+    const std::span<const double> m = measures(row);
+    double* const to = &out.measures[m.size() * row];
+    to[0] = m[0] / scale / scale;
+    to[1] = m[1] / scale;
+    to[2] = m[2];
+    for (std::size_t i = 3; i < m.size(); ++i) to[i] = m[i] / scale;
+    out.area[row] = to[0];
+    out.mean[row] = m[0] != 0 ? m[1] / (2 * m[0]) * scale : kNan;
+    out.gaussian[row] = m[0] != 0 ? m[2] / m[0] * scale * scale : kNan;
+  }
+};
 
 }  // namespace
 
@@ -155,11 +181,15 @@ CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const Fa
   }
   result.d1.resize(3 * results);
   result.d2.resize(3 * results);
-  for (std::size_t i = 0; i < results; ++i) {
-    const VertexId v = sum.vertices.list() ? listed[i % rows] : static_cast<VertexId>(i % rows);
-    write_row(result, i, std::span(sums).subspan(kChannels * i, kChannels), state.normal(place_of(*state.index, v)),
-              state.index->frame.scale);
-  }
+  const auto normal = [&](std::size_t row) {
+    const std::size_t i = row % rows;
+    return state.normal(place_of(*state.index, sum.vertices.list() ? listed[i] : static_cast<VertexId>(i)));
+  };
+  const RowWriter writer{sums, state.index->frame.scale, result};
+  const Progress no_progress;
+  TaskContext task(options.threads, no_progress, 0);
+  task.parallel_for(results, kPacketCapacity,
+                    [&](unsigned, std::size_t begin, std::size_t end) { writer.write(begin, end, normal); });
   return result;
 }
 

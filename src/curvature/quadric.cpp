@@ -43,6 +43,14 @@ void set_frame(QueryFrames& frames, std::size_t query, const TangentFrame& frame
   frames.n.set(query, frame.n);
 }
 
+void set_quadric(QueryQuadrics& quadrics, std::size_t query, const Quadric& quadric) {
+  quadrics.a[query] = quadric[0];
+  quadrics.b[query] = quadric[1];
+  quadrics.c[query] = quadric[2];
+  quadrics.d[query] = quadric[3];
+  quadrics.e[query] = quadric[4];
+}
+
 double smallest_determinant(const FrameMoments& s, std::size_t query, const MomentSizes& sizes) {
   const auto at = [query](const QueryRow& row) { return row[query]; };
   // The relative errors of the elements of the normal equations are about epsilon times `amplification`. Measured,
@@ -72,11 +80,7 @@ void principal_curvatures(const MomentKernels& kernels, const QueryQuadrics& qua
 PrincipalCurvature principal_curvature(const Quadric& quadric, const TangentFrame& frame,
                                        ShapeOperator shape_operator) {
   QueryQuadrics quadrics{};
-  quadrics.a[0] = quadric[0];
-  quadrics.b[0] = quadric[1];
-  quadrics.c[0] = quadric[2];
-  quadrics.d[0] = quadric[3];
-  quadrics.e[0] = quadric[4];
+  set_quadric(quadrics, 0, quadric);
   QueryFrames frames{};
   set_frame(frames, 0, frame);
   QueryCurvatures out{};

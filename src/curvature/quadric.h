@@ -33,7 +33,9 @@ struct TangentFrame {
 /// libigl's frame: `u` points to a neighbor at `offset`, projected into the plane. As above if that has no length.
 [[nodiscard]] TangentFrame frame_towards(const Point& normal, const Point& offset);
 
+// Of one query.
 void set_frame(QueryFrames& frames, std::size_t query, const TangentFrame& frame);
+void set_quadric(QueryQuadrics& quadrics, std::size_t query, const Quadric& quadric);
 
 /// The smallest determinant of the normal equations of `query` (see `MomentKernels::fit_quadrics`) for which the errors
 /// of the moments, which follow from `sizes`, hardly change the solution.
