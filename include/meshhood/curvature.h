@@ -27,8 +27,8 @@ class CurvatureIndex {
   /// The normal of a vertex is the sum of the vector areas of its faces, normalized. The vector area of a triangle is
   /// half the cross product of two edges. That of a polygon is Newell's sum.
   ///
-  /// mesh    the mesh that the index was built from, with faces; borrowed for the call.
-  /// threads    as in `BuildOptions`; at most four are used. The result does not depend on it.
+  /// mesh     the mesh that the index was built from, with faces; borrowed for the call.
+  /// threads  as in `BuildOptions`. The result does not depend on it.
   /// Throws Error{InvalidMesh, TooLarge} if `mesh` is invalid, has no faces, or has other positions than the index, and
   /// Error{InvalidOption}. O(#V + #corners).
   [[nodiscard]] static CurvatureIndex build(const Index& index, const MeshView& mesh, unsigned threads = 1);

@@ -19,7 +19,7 @@ enum class ErrorCode {
   MalformedIndex,     ///< a saved index that has been changed, is of another version, or belongs to another mesh
   IoFailure,          ///< the operating system could not open, read, write or close
   TooLarge,           ///< more vertices, edges or bytes than the documented limits, or a file than there is memory for
-  Cancelled,          ///< the caller's `Progress` returned false, or forked the process: there, in the child
+  Cancelled,          ///< the caller's `Progress` returned false; or a callback forked, and this is the child
 };
 
 /// One sentence about `code`, the same in every language binding.

@@ -10,8 +10,9 @@ namespace meshhood {
 /// Error{Cancelled} and leaves its arguments unchanged.
 ///
 /// It is called on the calling thread only, with 0 at the beginning and `total` at the end. `done` never decreases and
-/// `total` is constant. An exception from it ends the call and is passed on. If it forks the process and the call has
-/// started threads, which are the parent's, the call throws Error{Cancelled} in the child.
+/// `total` is constant. An exception from it ends the call and is passed on. If it forks the process while the call has
+/// threads, which stay with the parent, the call throws Error{Cancelled} in the child. What the threads were changing
+/// is in no defined state there: the child should soon end by `_exit`, or by `exec`.
 using Progress = std::function<bool(std::size_t done, std::size_t total)>;
 
 /// The largest number of threads that a call accepts.

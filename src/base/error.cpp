@@ -14,7 +14,7 @@ std::string_view describe(ErrorCode code) noexcept {
     case ErrorCode::MalformedIndex: return "the saved index was changed, is of another version or of another mesh";
     case ErrorCode::IoFailure: return "the operating system could not open, read, write or close";
     case ErrorCode::TooLarge: return "larger than the documented limits";
-    case ErrorCode::Cancelled: return "the caller cancelled the call";
+    case ErrorCode::Cancelled: return "the caller cancelled the call, or forked during it";
   }
   return "unknown error";
 }

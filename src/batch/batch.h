@@ -93,11 +93,11 @@ class Batch {
 
 template <class RowOf, class F>
 void Batch::for_each_chunk(std::size_t count, RowOf&& row_of, F&& f) {
-  constexpr std::size_t kRowsAtOnce = std::size_t{1} << 13;
+  constexpr std::size_t kRowsPerTask = std::size_t{1} << 13;  // enough for the cost of waking a thread
   block_.reset();
   in_order_.clear();
   const std::span<std::uint64_t> in_order = in_order_.add(count);
-  task_.parallel_for(count, kRowsAtOnce, [&](unsigned /*thread*/, std::size_t begin, std::size_t end) {
+  task_.parallel_for(count, kRowsPerTask, [&](unsigned /*thread*/, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       in_order[i] = (std::uint64_t{factory_.position(rows_.vertex(row_of(i)))} << 32) + i;
     }

@@ -79,23 +79,23 @@ void check_sample(Batch& batch, const SizeLimit& limit) {
 }
 
 /// Of rows that are written later, also keeps what was found, and compares the number of ids with the limit.
-struct Later {
+struct ForWriting {
   SizeLimit& limit;
   KeptChunks& kept;
 };
 
-/// `later` is null for rows that are only counted.
-void count_rows(Batch& batch, std::uint64_t* sizes, const Later* later) {
+/// `writing` is null for rows that are only counted.
+void count_rows(Batch& batch, std::uint64_t* sizes, const ForWriting* writing) {
   batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
     std::uint64_t ids = 0;
     const auto sink = [&](std::span<const BatchItem> items, std::span<const std::uint64_t> some) {
       for (std::size_t i = 0; i < items.size(); ++i) ids += sizes[items[i].row] = some[i];
       return batch.task().should_continue(thread);
     };
-    batch.worker(thread).count(chunk, sink, later == nullptr ? nullptr : &later->kept.begin(thread));
-    if (later != nullptr) {
-      later->kept.end(thread, chunk.front().row);
-      later->limit.add(ids);
+    batch.worker(thread).count(chunk, sink, writing == nullptr ? nullptr : &writing->kept.begin(thread));
+    if (writing != nullptr) {
+      writing->kept.end(thread, chunk.front().row);
+      writing->limit.add(ids);
     }
     batch.task().advance(chunk.size());
   });
@@ -198,8 +198,8 @@ std::vector<std::uint64_t> neighborhoods(const SearchMethod& method, const Batch
   check_sample(batch, limit);
   std::vector<std::uint64_t> offsets(batch.rows().size() + 1);
   KeptChunks kept(batch.task().threads());
-  const Later later{limit, kept};
-  count_rows(batch, offsets.data() + 1, &later);
+  const ForWriting writing{limit, kept};
+  count_rows(batch, offsets.data() + 1, &writing);
   if (!limit.leaves(kept.bytes())) kept.clear();
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
   write_rows(batch, kept, offsets, allocated(allocate, offsets.back(), options.distances));

@@ -2,6 +2,7 @@
 #include "batch/kept_packets.h"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 
 #include "meshhood/mesh.h"
@@ -56,6 +57,7 @@ std::size_t KeptPackets::bytes() const {
 
 bool KeptPackets::Reader::next() {
   if (kept_ == nullptr) return false;
+  assert(packets_ < kept_->packets_.size());
   const Packet& packet = kept_->packets_[packets_++];
   if (packet.rows == 0) return false;
   std::copy_n(kept_->counts_.begin() + static_cast<std::ptrdiff_t>(counts_), packet.rows, row_counts_.begin());

@@ -49,7 +49,8 @@ class BatchWorker {
   BatchWorker& operator=(const BatchWorker&) = delete;
   virtual ~BatchWorker() = default;
 
-  /// `kept`, if not null, receives what spares `find` a second search. A worker may leave it as it is.
+  /// `kept` is null, or empty, and then receives what spares `find` a second search. A worker whose `find` always
+  /// searches leaves it empty.
   virtual void count(std::span<const BatchItem> chunk, const SizeSink& sink, KeptPackets* kept) = 0;
 
   /// `kept` is null, or what `count` kept of the same chunk, none of whose rows was dropped.

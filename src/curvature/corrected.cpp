@@ -7,6 +7,7 @@
 #include "meshhood/aggregate.h"
 #include "meshhood/corrected_curvature.h"
 
+#include "base/validate.h"
 #include "base/vector.h"
 #include "curvature/quadric.h"
 #include "curvature/surface.h"
@@ -135,10 +136,13 @@ struct RowWriter {
       const double area = measures(row)[0];
       const bool exists = area != 0 && !std::isnan(frames.n.x[q]);
       const Point nan{kNan, kNan, kNan};
-      out.k1[row] = exists ? curvatures.k1[q] / area * scale : kNan;
-      out.k2[row] = exists ? curvatures.k2[q] / area * scale : kNan;
-      set_row(out.d1, row, exists ? curvatures.d1.at(q) : nan);
-      set_row(out.d2, row, exists ? curvatures.d2.at(q) : nan);
+      // The area is negative where the given normals point to the other side of the faces: then the order changes.
+      const auto& [k1, k2, d1, d2] = curvatures;
+      const bool swaps = area < 0;
+      out.k1[row] = exists ? (swaps ? k2 : k1)[q] / area * scale : kNan;
+      out.k2[row] = exists ? (swaps ? k1 : k2)[q] / area * scale : kNan;
+      set_row(out.d1, row, exists ? (swaps ? d2 : d1).at(q) : nan);
+      set_row(out.d2, row, exists ? (swaps ? d1 : d2).at(q) : nan);
     }
   }
 
@@ -161,7 +165,8 @@ struct RowWriter {
 CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const FacesView& faces, const BatchQuery& query,
                                          const CorrectedCurvatureOptions& options) {
   const SurfaceState& state = CurvatureAccess::state(surface);
-  validate(MeshView{state.searched.positions(), faces});
+  TaskContext task(options.threads);
+  validate(MeshView{state.searched.positions(), faces}, task);
   constexpr std::size_t kChannels = CorrectedCurvatures::kMeasures;
   const std::vector<double> held = measures_by_vertex(state, faces);
   std::vector<VertexId> listed;
@@ -186,8 +191,6 @@ CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const Fa
     return state.normal(place_of(*state.index, sum.vertices.list() ? listed[i] : static_cast<VertexId>(i)));
   };
   const RowWriter writer{sums, state.index->frame.scale, result};
-  const Progress no_progress;
-  TaskContext task(options.threads, no_progress, 0);
   task.parallel_for(results, kPacketCapacity,
                     [&](unsigned, std::size_t begin, std::size_t end) { writer.write(begin, end, normal); });
   return result;

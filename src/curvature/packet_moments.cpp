@@ -248,13 +248,13 @@ bool PacketMoments::is_accurate(std::size_t query, const MomentSizes& before, co
   const double t2 = (offsets_.x[query] * offsets_.x[query] + offsets_.y[query] * offsets_.y[query]) +
                     offsets_.z[query] * offsets_.z[query];
   const double t = std::sqrt(t2);
-  const double each = 1 / weight;
-  const double root2 = std::sqrt(each * before.second) + t;
-  const double root4 = std::sqrt(std::sqrt(each * before.fourth)) + t;
+  const double per_weight = 1 / weight;
+  const double root2 = std::sqrt(per_weight * before.second) + t;
+  const double root4 = std::sqrt(std::sqrt(per_weight * before.fourth)) + t;
   const double b2 = root2 * root2;
   const double b4 = (root4 * root4) * (root4 * root4);
-  const double a2 = each * after.second;
-  const double a4 = each * after.fourth;
+  const double a2 = per_weight * after.second;
+  const double a4 = per_weight * after.fourth;
   return b4 <= kMostLoss * a4 && b2 * b4 <= (kMostLoss * kMostLoss) * ((a2 * a2) * a2);
 }
 

@@ -33,7 +33,7 @@ struct TangentFrame {
 /// libigl's frame: `u` points to a neighbor at `offset`, projected into the plane. As above if that has no length.
 [[nodiscard]] TangentFrame frame_towards(const Point& normal, const Point& offset);
 
-// Of one query.
+// Set the row of one query.
 void set_frame(QueryFrames& frames, std::size_t query, const TangentFrame& frame);
 void set_quadric(QueryQuadrics& quadrics, std::size_t query, const Quadric& quadric);
 
@@ -56,13 +56,14 @@ struct PointFit {
 void principal_curvatures(const MomentKernels& kernels, const QueryQuadrics& quadrics, const QueryFrames& frames,
                           std::size_t queries, ShapeOperator shape_operator, QueryCurvatures& out);
 
-/// The same for one.
 struct PrincipalCurvature {
   double k1;
   double k2;
   Point d1;
   Point d2;
 };
+
+/// Those of one quadric.
 [[nodiscard]] PrincipalCurvature principal_curvature(const Quadric& quadric, const TangentFrame& frame,
                                                      ShapeOperator shape_operator);
 

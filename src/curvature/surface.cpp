@@ -74,7 +74,7 @@ std::vector<Point> sum_areas(const IndexView& index, std::span<const Real> xyz, 
 }
 
 /// Each thread reads all faces for its part of the vertices. More parts than these would not make it faster.
-void set_normals(SurfaceState& state, const FacesView& faces, TaskContext& task) {
+void sum_normals(SurfaceState& state, const FacesView& faces, TaskContext& task) {
   constexpr std::size_t kMostParts = 4;
   const IndexView& index = *state.index;
   const std::size_t parts = std::min<std::size_t>(task.threads(), kMostParts);
@@ -83,6 +83,16 @@ void set_normals(SurfaceState& state, const FacesView& faces, TaskContext& task)
                       const auto sums = [&](auto xyz) { return sum_areas(index, xyz, faces, begin, end); };
                       set_normals(state, begin, std::visit(sums, index.positions));
                     });
+}
+
+/// `faces` are valid.
+CurvatureIndex of_faces(const Index& index, const FacesView& faces, TaskContext& task) {
+  if (faces.size() == 0 && index.vertex_count() != 0) {
+    raise(ErrorCode::InvalidMesh, "the mesh has no faces, expected faces or normals");
+  }
+  auto state = std::make_unique<SurfaceState>(index);
+  sum_normals(*state, faces, task);
+  return CurvatureAccess::make(std::move(state));
 }
 
 }  // namespace
@@ -105,21 +115,16 @@ std::size_t CurvatureIndex::State::first_neighbor(std::size_t place) const {
 }
 
 CurvatureIndex CurvatureIndex::build(const Index& index, const MeshView& mesh, unsigned threads) {
-  validate(mesh);
+  TaskContext task(threads);
+  validate(mesh, task);
   check_positions(IndexAccess::view(index), mesh);
-  return build(index, mesh.faces, threads);
+  return of_faces(index, mesh.faces, task);
 }
 
 CurvatureIndex CurvatureIndex::build(const Index& index, const FacesView& faces, unsigned threads) {
-  const Progress no_progress;
-  TaskContext task(threads, no_progress, 0);
+  TaskContext task(threads);
   validate(MeshView{index.positions(), faces}, task);
-  if (faces.size() == 0 && index.vertex_count() != 0) {
-    raise(ErrorCode::InvalidMesh, "the mesh has no faces, expected faces or normals");
-  }
-  auto state = std::make_unique<State>(index);
-  set_normals(*state, faces, task);
-  return CurvatureIndex(std::move(state));
+  return of_faces(index, faces, task);
 }
 
 CurvatureIndex CurvatureIndex::build(const Index& index, std::span<const double> normals) {

@@ -69,7 +69,7 @@ bool HelperThreads::are_lost() const { return !threads_.empty() && process_ != t
 
 /// So that there are `count`, or as many as the system can create.
 void HelperThreads::start(std::size_t count) {
-  process_ = this_process();
+  if (threads_.empty()) process_ = this_process();
   Failure ignored;
   static_cast<void>(ignored.guard([&] {
     while (threads_.size() < count) {

@@ -38,23 +38,30 @@ TaskContext::TaskContext(unsigned threads, const Progress& progress, std::size_t
   report_progress();
 }
 
+TaskContext::TaskContext(unsigned threads) : TaskContext(threads, kNoProgress, 0) {}
+
 TaskContext::TaskContext() : threads_(1), progress_(&kNoProgress), total_(0) {}
 
 TaskContext::~TaskContext() {
+  // In a child, they are threads of the parent, and cannot be joined.
   if (helpers_ && helpers_->are_lost()) static_cast<void>(helpers_.release());
 }
 
 void TaskContext::report_progress() {
   if (!*progress_) return;
   const bool goes_on = (*progress_)(done_.load(std::memory_order_relaxed), total_);
-  if (helpers_ && helpers_->are_lost()) {
-    raise(ErrorCode::Cancelled, "cancelled in a child that was forked during the call; it goes on in the parent");
-  }
+  check_not_forked();
   if (!goes_on) raise(ErrorCode::Cancelled, "cancelled");
   next_report_ = std::chrono::steady_clock::now() + kBetweenReports;
 }
 
+void TaskContext::check_not_forked() const {
+  if (!helpers_ || !helpers_->are_lost()) return;
+  raise(ErrorCode::Cancelled, "cancelled in a child that was forked during the call; it goes on in the parent");
+}
+
 void TaskContext::run(std::size_t threads, const std::function<void(unsigned)>& body) {
+  check_not_forked();
   threads = std::min<std::size_t>(threads, threads_);
   if (threads <= 1) {
     body(0);
@@ -66,6 +73,7 @@ void TaskContext::run(std::size_t threads, const std::function<void(unsigned)>& 
   };
   if (!helpers_) helpers_ = std::make_unique<HelperThreads>();
   helpers_->run(threads - 1, guarded);
+  check_not_forked();  // the parent's threads may have failed, and not said so
   failure.pass_on();
 }
 

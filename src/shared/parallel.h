@@ -25,7 +25,10 @@ class TaskContext {
   /// Reports the beginning. Throws Error{InvalidOption, Cancelled}.
   TaskContext(unsigned threads, const Progress& progress, std::size_t total);
 
-  /// One thread, no progress, never cancelled.
+  /// No progress, never cancelled. Throws Error{InvalidOption}.
+  explicit TaskContext(unsigned threads);
+
+  /// The same with one thread; throws nothing.
   TaskContext();
 
   TaskContext(const TaskContext&) = delete;
@@ -68,6 +71,9 @@ class TaskContext {
  private:
   /// Calls `body(thread)` on up to `threads` threads at once.
   void run(std::size_t threads, const std::function<void(unsigned)>& body);
+
+  /// Throws Error{Cancelled} in a child that was forked while the task had threads.
+  void check_not_forked() const;
 
   unsigned threads_;
   const Progress* progress_;

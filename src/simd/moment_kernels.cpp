@@ -497,12 +497,12 @@ struct Matrices {
 };
 
 /// Their eigenvalues and unit eigenvectors: (x, y) belongs to `high`, and (-y, x) to `low`.
-struct Eigen {
+struct EigenPairs {
   Numbers low, high;
   Numbers x, y;
 };
 
-HWY_INLINE Eigen eigen(const Matrices& m) {
+HWY_INLINE EigenPairs eigen(const Matrices& m) {
   const Doubles d;
   const auto middle = hn::Mul(splat(0.5), hn::Add(m.p, m.q));
   const auto half = hn::Mul(splat(0.5), hn::Sub(m.p, m.q));
@@ -534,9 +534,8 @@ HWY_INLINE Points<Doubles> direction(const Points<Doubles>& v) {
   const auto size = hn::Sqrt(squared_length(v));
   const auto at = scaled(v, either(d, hn::Eq(size, hn::Zero(d)), splat(1.0), hn::Div(splat(1.0), size)));
   const auto largest = hn::Max(hn::Max(hn::Abs(at.x), hn::Abs(at.y)), hn::Abs(at.z));
-  const auto by_y = hn::Ne(hn::Abs(at.x), largest);
-  const auto by_z = hn::And(by_y, hn::Ne(hn::Abs(at.y), largest));
-  const auto decides = either(d, by_z, at.z, either(d, by_y, at.y, at.x));
+  const auto of_y_or_z = either(d, hn::Eq(hn::Abs(at.y), largest), at.y, at.z);
+  const auto decides = either(d, hn::Eq(hn::Abs(at.x), largest), at.x, of_y_or_z);
   return scaled(at, either(d, hn::Lt(decides, hn::Zero(d)), splat(-1.0), splat(1.0)));
 }
 
@@ -550,19 +549,21 @@ void principal_curvatures(const QueryQuadrics& quadrics, const QueryFrames& fram
     const auto d = load(quadrics.d[i]);
     const auto e = load(quadrics.e[i]);
     // First fundamental form: E, F, G. Second: L, M, N.
-    const auto E = hn::Add(one, hn::Mul(d, d));  // NOLINT(readability-identifier-naming): the names of the field
-    const auto F = hn::Mul(d, e);                // NOLINT(readability-identifier-naming)
-    const auto G = hn::Add(one, hn::Mul(e, e));  // NOLINT(readability-identifier-naming)
+    // NOLINTBEGIN(readability-identifier-naming): the names of the field
+    const auto E = hn::Add(one, hn::Mul(d, d));
+    const auto F = hn::Mul(d, e);
+    const auto G = hn::Add(one, hn::Mul(e, e));
     const auto determinant = hn::Add(E, hn::Mul(e, e));  // EG - F^2
     const auto root = hn::Sqrt(determinant);
     const auto s = hn::Div(one, root);
-    const auto L = hn::Mul(hn::Mul(two, load(quadrics.a[i])), s);  // NOLINT(readability-identifier-naming)
-    const auto M = hn::Mul(load(quadrics.b[i]), s);                // NOLINT(readability-identifier-naming)
-    const auto N = hn::Mul(hn::Mul(two, load(quadrics.c[i])), s);  // NOLINT(readability-identifier-naming)
+    const auto L = hn::Mul(hn::Mul(two, load(quadrics.a[i])), s);
+    const auto M = hn::Mul(load(quadrics.b[i]), s);
+    const auto N = hn::Mul(hn::Mul(two, load(quadrics.c[i])), s);
+    // NOLINTEND(readability-identifier-naming)
     const auto u = load_rows(doubles, frames.u, i);
     const auto v = load_rows(doubles, frames.v, i);
     const auto n = load_rows(doubles, frames.n, i);
-    const auto put = [&](const Eigen& found, const Points<Doubles>& d1, const Points<Doubles>& d2) HWY_ATTR {
+    const auto put = [&](const EigenPairs& found, const Points<Doubles>& d1, const Points<Doubles>& d2) HWY_ATTR {
       store(hn::Neg(found.low), out.k1[i]);
       store(hn::Neg(found.high), out.k2[i]);
       store_rows(direction(d1), out.d1, i);
@@ -571,11 +572,11 @@ void principal_curvatures(const QueryQuadrics& quadrics, const QueryFrames& fram
     if constexpr (OfLibigl) {
       const auto over = [&](Numbers a, Numbers b, Numbers c, Numbers f)
                             HWY_ATTR { return hn::Div(hn::Sub(hn::Mul(a, b), hn::Mul(c, f)), determinant); };
-      const Eigen found = eigen({over(L, G, M, F), over(M, E, L, F), over(N, E, M, F)});
+      const EigenPairs found = eigen({over(L, G, M, F), over(M, E, L, F), over(N, E, M, F)});
       const auto zero = hn::Zero(doubles);
       const auto in_plane = [&](Numbers curvature, Numbers x, Numbers y) HWY_ATTR {
-        const auto exists = hn::Ne(curvature, zero);
-        return combined(u, only(doubles, exists, x), v, only(doubles, exists, y), n, zero);
+        const auto is_none = hn::Eq(curvature, zero);
+        return combined(u, either(doubles, is_none, zero, x), v, either(doubles, is_none, zero, y), n, zero);
       };
       put(found, in_plane(found.low, hn::Neg(found.y), found.x), in_plane(found.high, found.x, found.y));
     } else {
@@ -587,7 +588,7 @@ void principal_curvatures(const QueryQuadrics& quadrics, const QueryFrames& fram
       const auto o = hn::Div(hn::Sub(M, hn::Div(hn::Mul(f, L), r)), hn::Mul(r, t));
       const auto bent = hn::Sub(N, hn::Div(hn::Mul(hn::Mul(two, f), M), r));
       const auto q = hn::Div(hn::Add(bent, hn::Div(hn::Mul(hn::Mul(f, f), L), E)), hn::Mul(t, t));
-      const Eigen found = eigen({hn::Div(L, E), o, q});
+      const EigenPairs found = eigen({hn::Div(L, E), o, q});
       const auto on_quadric = [&](Numbers first, Numbers second) HWY_ATTR {
         const auto y = hn::Div(second, t);
         const auto x = hn::Div(hn::Sub(first, hn::Mul(f, y)), r);

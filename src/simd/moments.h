@@ -71,7 +71,7 @@ struct FrameMoments {
   QueryRow u, v, n, one;
 };
 
-/// Orthonormal axes at each query vertex; `n` is its normal.
+/// Orthonormal axes at each query vertex: `n` is the normal of the plane that a surface is fitted over.
 struct QueryFrames {
   QueryVectors u, v, n;
 };
@@ -108,8 +108,8 @@ struct QueryQuadrics {
   QueryRow determinant;  // of the normal equations, see `MomentKernels::fit_quadrics`
 };
 
-/// Principal curvatures, k1 >= k2, positive where the surface is convex, seen from `n`, and their directions: unit
-/// vectors whose component of largest magnitude is positive.
+/// Principal curvatures, k1 >= k2, positive where the surface is convex, seen from `n`, and their directions: vectors
+/// of length 1, or 0, whose component of largest magnitude is positive.
 struct QueryCurvatures {
   QueryRow k1, k2;
   QueryVectors d1, d2;
@@ -153,8 +153,8 @@ struct MomentKernels {
   /// The same with a constant term, which `out` leaves out.
   void (*fit_jets)(const FrameMoments& moments, QueryQuadrics& out);
 
-  /// The principal curvatures of the quadrics of the first queries, by `ShapeOperator::Exact`. Writes rows of others,
-  /// too.
+  /// The principal curvatures of the quadrics of the first queries, by `ShapeOperator::Exact`. Also reads and writes
+  /// rows of others, which may have any values.
   void (*principal_curvatures)(const QueryQuadrics& quadrics, const QueryFrames& frames, std::size_t queries,
                                QueryCurvatures& out);
 

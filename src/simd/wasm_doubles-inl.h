@@ -17,7 +17,6 @@ HWY_API Doubles128 Abs(Doubles128 a) { return {wasm_f64x2_abs(a.raw)}; }
 HWY_API Doubles128 Max(Doubles128 a, Doubles128 b) { return {wasm_f64x2_max(a.raw, b.raw)}; }
 HWY_API Doubles128 Sqrt(Doubles128 a) { return {wasm_f64x2_sqrt(a.raw)}; }
 HWY_API DoubleMask128 Eq(Doubles128 a, Doubles128 b) { return {wasm_f64x2_eq(a.raw, b.raw)}; }
-HWY_API DoubleMask128 Ne(Doubles128 a, Doubles128 b) { return {wasm_f64x2_ne(a.raw, b.raw)}; }
 HWY_API DoubleMask128 Lt(Doubles128 a, Doubles128 b) { return {wasm_f64x2_lt(a.raw, b.raw)}; }
 HWY_API DoubleMask128 Le(Doubles128 a, Doubles128 b) { return {wasm_f64x2_le(a.raw, b.raw)}; }
 HWY_API DoubleMask128 Gt(Doubles128 a, Doubles128 b) { return {wasm_f64x2_gt(a.raw, b.raw)}; }

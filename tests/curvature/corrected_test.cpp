@@ -13,6 +13,8 @@
 #include "meshhood/curvature.h"
 #include "meshhood/index.h"
 
+#include "curvature/surface.h"
+#include "exact/index_access.h"
 #include "support/families.h"
 #include "support/refusal.h"
 #include "support/test_mesh.h"
@@ -56,6 +58,45 @@ TEST(CorrectedCurvature, OfACylinderIsThatOfTheFormula) {
       EXPECT_NEAR(std::abs(around), 1, 1e-3);
       EXPECT_NEAR(found.d2[3 * row + 2], 1, 1e-3);
     }
+  }
+}
+
+TEST(CorrectedCurvature, HasTheSameBitsForAnyNumberOfThreads) {
+  const TestMesh mesh = bumpy_grid(15).finish(false);
+  const Index index = build(mesh.view());
+  const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());
+  std::vector<VertexId> listed;
+  for (VertexId v = 0; v < 45; ++v) listed.push_back(7 * v % 225);
+  const std::vector<double> scales{2.0, 4.0};
+  const BatchQuery query{.vertices = listed, .radius = BatchRadius::scales(scales)};
+  const auto expected = corrected_curvatures(surface, mesh.view().faces, query);
+  ASSERT_EQ(expected.k1.size(), 90U);
+  for (const unsigned threads : {2U, 3U}) {
+    const auto found = corrected_curvatures(surface, mesh.view().faces, query, {.threads = threads});
+    EXPECT_EQ(found.k1, expected.k1);
+    EXPECT_EQ(found.k2, expected.k2);
+    EXPECT_EQ(found.d1, expected.d1);
+    EXPECT_EQ(found.d2, expected.d2);
+    EXPECT_EQ(found.area, expected.area);
+    EXPECT_EQ(found.gaussian, expected.gaussian);
+    EXPECT_EQ(found.measures, expected.measures);
+  }
+}
+
+TEST(CorrectedCurvature, OfNormalsThatPointToTheOtherSideIsStillOrdered) {
+  const TestMesh mesh = bumpy_grid(15).finish(false);
+  const Index index = build(mesh.view());
+  const CurvatureIndex surface = CurvatureIndex::build(index, mesh.view());
+  std::vector<double> opposite;
+  for (VertexId v = 0; v < mesh.size(); ++v) {
+    const Point n = CurvatureAccess::state(surface).normal(place_of(IndexAccess::view(index), v));
+    for (const double component : {-n.x, -n.y, -n.z}) opposite.push_back(component);
+  }
+  const auto found =
+      corrected_curvatures(CurvatureIndex::build(index, std::span(opposite)), mesh.view().faces, {{}, 3.0});
+  for (std::size_t v = 0; v < mesh.size(); ++v) {
+    ASSERT_LT(found.area[v], 0);
+    ASSERT_GE(found.k1[v], found.k2[v]);
   }
 }
 

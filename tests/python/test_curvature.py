@@ -161,7 +161,7 @@ def test_the_normals_are_kept_only_for_the_same_faces():
     V, F = ellipsoid(2)
     index = meshhood.MeshIndex(V, F)
     first = index.curvature(1, F=F)
-    kept = index._surface(F, None)
+    kept = index._surface(F, None, 1)
     assert index._surface(F.copy(), None) is kept
     turned = F[:, ::-1].copy()
     np.testing.assert_allclose(index.curvature(1, F=turned).k1, -first.k2, rtol=1e-9)

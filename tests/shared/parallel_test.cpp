@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -86,14 +87,32 @@ TEST(TaskContext, ReportsFinishedParts) {
   EXPECT_THAT(reports, testing::ElementsAre(std::pair(0, 7), std::pair(4, 7), std::pair(4, 7)));
 }
 
-/// What a call of several threads throws whose callback forks the process, in a loop or between two.
-bool is_cancelled(bool in_loop, const Progress& progress) {
+/// When a call forks the process.
+enum class Fork { InProgressOfALoop, InProgressBetweenLoops, BetweenLoops };
+
+/// Whether a call of three threads, which forks once, is cancelled. Sets `child`.
+bool is_cancelled_by_fork(Fork when, pid_t& child) {
+  constexpr unsigned kSeconds = 60;
+  const auto fork_once = [&] {
+    child = fork();
+    if (child == 0) alarm(kSeconds);  // so that a child that waits fails
+  };
+  const Progress forks = [&](std::size_t done, std::size_t) {
+    if (done > 0) fork_once();
+    return true;
+  };
   try {
-    TaskContext task(3, progress, 1);
-    task.parallel_for(100, 1, [&](unsigned thread, std::size_t begin, std::size_t) {
-      if (in_loop && thread == 0 && begin == 0) task.step();
+    TaskContext task(3, when == Fork::BetweenLoops ? kNoProgress : forks, 1);
+    std::atomic<bool> has_forked{when != Fork::InProgressOfALoop};
+    task.parallel_for(100, 1, [&](unsigned thread, std::size_t, std::size_t) {
+      if (thread == 0 && !has_forked) {
+        task.step();
+        has_forked = true;
+      }
+      while (!has_forked) std::this_thread::yield();
     });
-    if (!in_loop) task.step();
+    if (when == Fork::InProgressBetweenLoops) task.step();
+    if (when == Fork::BetweenLoops) fork_once();
     task.parallel_for(100, 1, [](unsigned, std::size_t, std::size_t) {});
     return false;
   } catch (const Error& error) {
@@ -101,19 +120,13 @@ bool is_cancelled(bool in_loop, const Progress& progress) {
   }
 }
 
-TEST(ParallelFor, EndsInAChildThatTheCallbackForksAndGoesOnInTheParent) {
-  constexpr unsigned kSeconds = 60;
-  for (const bool in_loop : {false, true}) {
+TEST(ParallelFor, EndsInAChildThatIsForkedDuringTheCallAndGoesOnInTheParent) {
+  for (const Fork when : {Fork::InProgressOfALoop, Fork::InProgressBetweenLoops, Fork::BetweenLoops}) {
     for (int round = 0; round < 20; ++round) {
       pid_t child = -1;
-      const Progress forks = [&](std::size_t done, std::size_t) {
-        if (done == 0) return true;
-        child = fork();
-        if (child == 0) alarm(kSeconds);  // so that a child that waits fails
-        return true;
-      };
-      const bool cancelled = is_cancelled(in_loop, forks);
+      const bool cancelled = is_cancelled_by_fork(when, child);
       if (child == 0) _exit(cancelled ? 0 : 1);
+      ASSERT_GT(child, 0);
       EXPECT_FALSE(cancelled);
       int status = 0;
       ASSERT_EQ(waitpid(child, &status, 0), child);
