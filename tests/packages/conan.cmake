@@ -1,4 +1,5 @@
-# `conan create` of the recipe, static and shared, in a cache of its own. Headers of this machine are its requirements.
+# `conan create` of the recipe, static and shared, with each of COMPILERS, in a cache of its own. Headers of this machine
+# are its requirements.
 cmake_minimum_required(VERSION 3.25)
 cmake_path(GET PYTHON PARENT_PATH programs)
 set(ENV{CONAN_HOME} ${WORK_DIR})
@@ -20,8 +21,16 @@ foreach(library fast_float/3.4.0 fmt/9.1.0 highway/1.0.3 xxhash/0.8.1)
   conan(create ${SOURCE_DIR}/tests/packages/system_library --name=${name} --version=${version})
 endforeach()
 # The test package is built outside of the sources, and leaves no presets there.
-foreach(shared False True)
-  conan(create ${SOURCE_DIR}/packaging/conan -s compiler.cppstd=20 -o meshhood/*:shared=${shared}
-    -c tools.build:jobs=2 -c tools.cmake.cmake_layout:test_folder=${WORK_DIR}/test
-    -c tools.cmake.cmaketoolchain:user_presets= --no-remote)
+foreach(COMPILER IN LISTS COMPILERS)
+  set(compiler)
+  if(COMPILER MATCHES "clang\\+\\+-([0-9]+)$")
+    string(REPLACE "clang++" "clang" c_compiler ${COMPILER})
+    set(compiler -s compiler=clang -s compiler.version=${CMAKE_MATCH_1} -s compiler.libcxx=libstdc++11
+      -c "tools.build:compiler_executables={'c': '${c_compiler}', 'cpp': '${COMPILER}'}")
+  endif()
+  foreach(shared False True)
+    conan(create ${SOURCE_DIR}/packaging/conan ${compiler} -s compiler.cppstd=20 -o meshhood/*:shared=${shared}
+      -c tools.build:jobs=2 -c tools.cmake.cmake_layout:test_folder=${WORK_DIR}/test
+      -c tools.cmake.cmaketoolchain:user_presets= --no-remote)
+  endforeach()
 endforeach()

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Tests the installed package where nothing else is but NumPy: the choice of kernels, answers compared with a
-breadth-first search, files, the page, and the command line.
+breadth-first search, files, the page, the command line, and the programs of examples/tasks, of which some need SciPy or
+nilearn.
 
     installed_wheel.py [KERNELS]
 
@@ -14,6 +15,7 @@ environment, and `none` says that it was not installed.
 import json
 import os
 import platform
+import runpy
 import subprocess
 import sys
 import sysconfig
@@ -117,6 +119,20 @@ def check_command(folder, kernels):
     assert (folder / "scroll.html").stat().st_size > (folder / "scroll.ply").stat().st_size
 
 
+def run_examples(mesh):
+    """Returns the names of those that ran."""
+    names = []
+    for path in sorted((Path(__file__).resolve().parents[2] / "examples" / "tasks").glob("*.py")):
+        sys.argv[1:] = [str(mesh)]
+        try:
+            runpy.run_path(str(path))
+        except ModuleNotFoundError as error:
+            assert error.name.partition(".")[0] in ("scipy", "nilearn", "sklearn"), error
+        else:
+            names.append(path.stem)
+    return names
+
+
 def main():
     expected = sys.argv[1] if len(sys.argv) > 1 else best_kernels()
     kernels = meshhood._core.kernel_target()
@@ -125,9 +141,12 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         sizes = check_answers(Path(name))
         check_command(Path(name), kernels)
+        meshhood.write_mesh(Path(name) / "folded.ply", *folded(30))
+        examples = run_examples(Path(name) / "folded.ply")
+    assert len(examples) >= 9, examples
     print(
         f"Python {platform.python_version()}, NumPy {np.__version__}, {platform.machine()}: {len(sizes)} neighborhoods "
-        f"of {min(sizes)} to {max(sizes)} vertices; imported in {1000 * (imported - with_numpy):.0f} ms, "
+        f"of {min(sizes)} to {max(sizes)} vertices; {len(examples)} examples; imported in {1000 * (imported - with_numpy):.0f} ms, "
         f"after NumPy in {1000 * (with_numpy - started):.0f} ms"
     )
 

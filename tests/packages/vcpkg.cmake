@@ -1,5 +1,5 @@
 # Runs the port of vcpkg with functions that do what its documentation says, since no package registry has vcpkg itself.
-# Then uses what the port installs, with each of COMPILERS.
+# Then uses what the port installs, static and shared, with each of COMPILERS.
 cmake_minimum_required(VERSION 3.25)
 include(${SOURCE_DIR}/tests/install/consume.cmake)
 file(REMOVE_RECURSE ${WORK_DIR})
@@ -13,15 +13,13 @@ if(NOT named STREQUAL VERSION OR NOT io MATCHES "fmt")
 endif()
 
 set(ENV{MESHHOOD_SOURCE} ${SOURCE_DIR})
-set(CURRENT_PACKAGES_DIR ${WORK_DIR}/installed)
-set(build ${WORK_DIR}/build)
 function(vcpkg_check_features)
   set(features -DMESHHOOD_BUILD_IO=ON PARENT_SCOPE)
 endfunction()
 function(vcpkg_cmake_configure)
   cmake_parse_arguments(arg "" "SOURCE_PATH" "OPTIONS" ${ARGN})
   execute_process(COMMAND ${CMAKE_COMMAND} -S ${arg_SOURCE_PATH} -B ${build} -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Release
-    -DCMAKE_INSTALL_PREFIX=${CURRENT_PACKAGES_DIR} ${arg_OPTIONS} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+    -DCMAKE_INSTALL_PREFIX=${CURRENT_PACKAGES_DIR} -DBUILD_SHARED_LIBS=${shared} ${arg_OPTIONS} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 function(vcpkg_cmake_install)
   execute_process(COMMAND ${CMAKE_COMMAND} --build ${build} --parallel 2 --target install
@@ -39,9 +37,12 @@ function(vcpkg_install_copyright)
   cmake_parse_arguments(arg "" "" "FILE_LIST" ${ARGN})
   file(COPY ${arg_FILE_LIST} DESTINATION ${CURRENT_PACKAGES_DIR}/share/meshhood)
 endfunction()
-include(${SOURCE_DIR}/packaging/vcpkg/portfile.cmake)
-
-foreach(COMPILER IN LISTS COMPILERS)
-  cmake_path(GET COMPILER FILENAME name)
-  consume(${CURRENT_PACKAGES_DIR} ${WORK_DIR}/${name})
+foreach(shared OFF ON)
+  set(CURRENT_PACKAGES_DIR ${WORK_DIR}/installed-${shared})
+  set(build ${WORK_DIR}/build-${shared})
+  include(${SOURCE_DIR}/packaging/vcpkg/portfile.cmake)
+  foreach(COMPILER IN LISTS COMPILERS)
+    cmake_path(GET COMPILER FILENAME name)
+    consume(${CURRENT_PACKAGES_DIR} ${WORK_DIR}/${name}-${shared})
+  endforeach()
 endforeach()
