@@ -109,7 +109,7 @@ Quadric quadric_of(std::span<const double> m, const TangentFrame& frame) {
 }
 
 /// The measures of all neighborhoods, of which rows are written.
-struct RowWriter {
+struct CorrectedRows {
   std::span<const double> sums;  // #rows by `CorrectedCurvatures::kMeasures`
   double scale;                  // of the frame
   CorrectedCurvatures& out;
@@ -190,7 +190,7 @@ CorrectedCurvatures corrected_curvatures(const CurvatureIndex& surface, const Fa
     const std::size_t i = row % rows;
     return state.normal(place_of(*state.index, sum.vertices.list() ? listed[i] : static_cast<VertexId>(i)));
   };
-  const RowWriter writer{sums, state.index->frame.scale, result};
+  const CorrectedRows writer{sums, state.index->frame.scale, result};
   task.parallel_for(results, kPacketCapacity,
                     [&](unsigned, std::size_t begin, std::size_t end) { writer.write(begin, end, normal); });
   return result;
