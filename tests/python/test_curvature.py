@@ -162,10 +162,10 @@ def test_the_normals_are_kept_only_for_the_same_faces():
     index = meshhood.MeshIndex(V, F)
     first = index.curvature(1, F=F)
     kept = index._surface(F, None, 1)
-    assert index._surface(F.copy(), None) is kept
+    assert index._surface(F.copy(), None, 1) is kept
     turned = F[:, ::-1].copy()
     np.testing.assert_allclose(index.curvature(1, F=turned).k1, -first.k2, rtol=1e-9)
-    assert index._surface(turned, None) is not kept
+    assert index._surface(turned, None, 1) is not kept
     F[:] = turned  # the same array with other faces
     np.testing.assert_array_equal(index.curvature(1, F=F).k1, index.curvature(1, F=turned).k1)
 
