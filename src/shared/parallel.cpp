@@ -44,7 +44,9 @@ TaskContext::TaskContext() : threads_(1), progress_(&kNoProgress), total_(0) {}
 
 TaskContext::~TaskContext() {
   // In a child, they are threads of the parent, and cannot be joined.
-  if (helpers_ && helpers_->are_lost()) static_cast<void>(helpers_.release());
+  if (!helpers_ || !helpers_->are_lost()) return;
+  const HelperThreads* const left_alone = helpers_.release();
+  static_cast<void>(left_alone);
 }
 
 void TaskContext::report_progress() {

@@ -485,7 +485,8 @@ QueryCurvatures curvatures_alone(const MomentKernels& kernels, const QueryQuadri
   frame.v.set(0, frames.v.at(q));
   frame.n.set(0, frames.n.at(q));
   QueryCurvatures out{};
-  (of_libigl ? kernels.principal_curvatures_of_libigl : kernels.principal_curvatures)(quadric, frame, 1, out);
+  const auto find = of_libigl ? kernels.principal_curvatures_of_libigl : kernels.principal_curvatures;
+  find(quadric, frame, 1, out);
   return out;
 }
 
@@ -500,8 +501,8 @@ TEST(MomentKernels, PrincipalCurvaturesHaveTheSameBitsTogetherAndAloneOnEveryIns
       const MomentKernels& kernels = moment_kernels(isa);
       for (const bool of_libigl : {false, true}) {
         QueryCurvatures out{};
-        (of_libigl ? kernels.principal_curvatures_of_libigl : kernels.principal_curvatures)(quadrics, frames,
-                                                                                            kPacketCapacity, out);
+        const auto find = of_libigl ? kernels.principal_curvatures_of_libigl : kernels.principal_curvatures;
+        find(quadrics, frames, kPacketCapacity, out);
         for (std::size_t q = 0; q < kPacketCapacity; ++q) {
           const QueryCurvatures alone = curvatures_alone(moment_kernels(Isa{}), quadrics, frames, q, of_libigl);
           EXPECT_EQ(bits_of(out, q), bits_of(alone, 0)) << "query " << q;
