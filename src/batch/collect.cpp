@@ -78,7 +78,7 @@ void check_sample(Batch& batch, const SizeLimit& limit) {
   limit.refuse("about ", static_cast<std::uint64_t>(std::llround(rows * mean)));
 }
 
-/// Of rows that are written later, also keeps what was found, and compares the number of ids with the limit.
+/// What rows need that are counted first and written later: a limit for their ids, and a place for what was found.
 struct ForWriting {
   SizeLimit& limit;
   KeptChunks& kept;

@@ -18,13 +18,11 @@ double ratio(double numerator, double denominator) { return denominator > 0 ? nu
 }  // namespace
 
 TangentFrame frame_of(const Point& normal) {
-  // The coordinate axis that is farthest from the normal, chosen without branches, which would be mispredicted.
+  // The coordinate axis that is farthest from the normal.
   const double x = std::abs(normal.x);
   const double y = std::abs(normal.y);
   const double z = std::abs(normal.z);
-  const unsigned is_x = static_cast<unsigned>(x <= y) & static_cast<unsigned>(x <= z);
-  const unsigned is_y = ~is_x & static_cast<unsigned>(y <= z);
-  const Point axis{static_cast<double>(is_x), static_cast<double>(is_y), static_cast<double>(1 - is_x - is_y)};
+  const Point axis = x <= y && x <= z ? Point{1, 0, 0} : (y <= z ? Point{0, 1, 0} : Point{0, 0, 1});
   const Point u = unit(axis - dot(axis, normal) * normal);
   return {u, cross(normal, u), normal};
 }

@@ -73,7 +73,7 @@ std::vector<Point> sum_areas(const IndexView& index, std::span<const Real> xyz, 
   return sums;
 }
 
-/// Each thread reads all faces for its part of the vertices. More parts than these would not make it faster.
+/// Each thread reads all faces, and sums at its part of the vertices. Many parts would mostly repeat the reading.
 void sum_normals(SurfaceState& state, const FacesView& faces, TaskContext& task) {
   constexpr std::size_t kMostParts = 4;
   const IndexView& index = *state.index;

@@ -146,7 +146,8 @@ def main():
     assert len(examples) >= 9, examples
     print(
         f"Python {platform.python_version()}, NumPy {np.__version__}, {platform.machine()}: {len(sizes)} neighborhoods "
-        f"of {min(sizes)} to {max(sizes)} vertices; {len(examples)} examples; imported in {1000 * (imported - with_numpy):.0f} ms, "
+        f"of {min(sizes)} to {max(sizes)} vertices; {len(examples)} examples; "
+        f"imported in {1000 * (imported - with_numpy):.0f} ms, "
         f"after NumPy in {1000 * (with_numpy - started):.0f} ms"
     )
 
