@@ -7,6 +7,11 @@
 #if defined(__STDCPP_THREADS__) && !defined(_WIN32)
 #include <unistd.h>
 #endif
+#if defined(__STDCPP_THREADS__) && defined(__linux__) && !defined(__ANDROID__)
+#define MESHHOOD_PLACES_THREADS
+#include <pthread.h>
+#include <sched.h>
+#endif
 
 #include "shared/failure.h"
 
@@ -27,13 +32,29 @@ bool prepare_exceptions() {
 
 namespace {
 
-// About 50 microseconds. Other threads have the processor meanwhile if they need it.
-constexpr int kLooksBeforeSleep = 200;
+// About 500 microseconds, longer than most of what one thread does between the loops of a small mesh. Other threads have
+// the processor meanwhile if they need it.
+constexpr int kLooksBeforeSleep = 2000;
 
 /// Looks for a while whether `happened()`.
 template <class F>
 void look(F&& happened) {
   for (int i = 0; i < kLooksBeforeSleep && !happened(); ++i) std::this_thread::yield();
+}
+
+/// Linux may start or wake a thread on the processor of its creator, which leaves it only after milliseconds: longer than
+/// all neighborhoods of a small mesh take. So `helpers` use only the other processors, if there is one for each.
+void keep_off_this_processor([[maybe_unused]] std::vector<std::thread>& helpers) {
+#if defined(MESHHOOD_PLACES_THREADS)
+  cpu_set_t others;
+  const int processor = sched_getcpu();
+  if (processor < 0 || pthread_getaffinity_np(pthread_self(), sizeof(others), &others) != 0) return;
+  CPU_CLR(static_cast<std::size_t>(processor), &others);
+  if (static_cast<std::size_t>(CPU_COUNT(&others)) < helpers.size()) return;
+  for (std::thread& helper : helpers) {
+    static_cast<void>(pthread_setaffinity_np(helper.native_handle(), sizeof(others), &others));
+  }
+#endif
 }
 
 long this_process() {
@@ -69,6 +90,7 @@ bool HelperThreads::are_lost() const { return !threads_.empty() && process_ != t
 
 /// So that there are `count`, or as many as the system can create.
 void HelperThreads::start(std::size_t count) {
+  if (threads_.size() >= count) return;
   if (threads_.empty()) process_ = this_process();
   Failure ignored;
   static_cast<void>(ignored.guard([&] {
@@ -79,6 +101,7 @@ void HelperThreads::start(std::size_t count) {
       });
     }
   }));
+  keep_off_this_processor(threads_);
 }
 
 void HelperThreads::give(Order order, std::size_t most, const std::function<void(unsigned)>* body) {

@@ -15,7 +15,7 @@ namespace {
 static_assert(kCellSize <= kLeafCapacity);
 
 // Enough work for the cost of starting a thread.
-constexpr std::size_t kCellsPerTask = 512;
+constexpr std::size_t kCellsPerTask = 64;
 
 /// Appends the components of a cell, the largest first; returns how many there are.
 std::uint32_t split_cell(const Cells& cells, const Links& links, std::uint32_t cell, std::vector<CellComponent>& out) {

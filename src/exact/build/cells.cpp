@@ -7,8 +7,8 @@ namespace meshhood {
 namespace {
 
 // Enough work for the cost of starting a thread.
-constexpr std::size_t kPointGrain = 8192;
-constexpr std::size_t kCellGrain = 256;
+constexpr std::size_t kPointGrain = 2048;
+constexpr std::size_t kCellGrain = 64;
 
 std::vector<KdPoint> make_points(const PositionsView& positions, const Frame& frame, TaskContext& task) {
   return positions.visit([&](const auto& xyz) {

@@ -11,7 +11,7 @@ namespace meshhood {
 namespace {
 
 // Enough vertices for the cost of starting a thread.
-constexpr std::size_t kVertexGrain = 8192;
+constexpr std::size_t kVertexGrain = 2048;
 
 /// The positions in index order, padded.
 template <class Real>

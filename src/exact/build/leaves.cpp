@@ -24,7 +24,7 @@ namespace meshhood {
 namespace {
 
 // Enough leaves for the cost of starting a thread.
-constexpr std::size_t kLeavesPerTask = 256;
+constexpr std::size_t kLeavesPerTask = 64;
 
 /// What the leaves are made of.
 struct Material {

@@ -14,7 +14,7 @@ namespace meshhood {
 namespace {
 
 // Enough polygons for the cost of starting a thread.
-constexpr std::size_t kPolygonsPerTask = 16384;
+constexpr std::size_t kPolygonsPerTask = 4096;
 
 /// Ranges of leaves, of equal size.
 class Buckets {
