@@ -13,10 +13,10 @@
 #include "meshhood/mesh.h"
 
 #include "batch/position_sort.h"
-#include "batch/raw_values.h"
 #include "batch/rows.h"
 #include "batch/searcher_factory.h"
 #include "shared/parallel.h"
+#include "shared/raw_vector.h"
 
 namespace meshhood {
 
@@ -64,11 +64,20 @@ class Batch {
   [[nodiscard]] BatchWorker& worker(unsigned thread);
 
  private:
+  static constexpr std::size_t kRowsPerTask = std::size_t{1} << 12;
+
   /// What a thread uses. Not beside that of another thread, which writes to its own all the time.
   struct alignas(64) PerThread {
     std::unique_ptr<BatchWorker> worker;
-    RawValues<BatchItem> chunk;
+    RawVector<BatchItem> chunk;
   };
+
+  /// The rows `row_of(i)`, `i < count`, sorted by position. The two functions set `in_order_` and `chunk_ends_`.
+  template <class RowOf>
+  void sort_rows(std::size_t count, RowOf&& row_of);
+
+  /// The same for a row for each vertex, without a sort: the slots are those of an index.
+  void take_index_order();
 
   template <class RowOf, class F>
   void run_chunks(RowOf&& row_of, F&& f);
@@ -86,17 +95,22 @@ class Batch {
   Rows rows_;
   TaskContext task_;
   std::vector<PerThread> threads_;
-  RawValues<std::uint64_t> in_order_;    // position, and in the lower half the number `i` of the row
+  RawVector<std::uint64_t> in_order_;    // position, and in the lower half the number `i` of the row
   std::vector<std::size_t> chunk_ends_;  // in `in_order_`
   std::optional<std::size_t> block_;  // the first row, if these are of a block of all rows: another pass needs no sort
 };
 
 template <class RowOf, class F>
 void Batch::for_each_chunk(std::size_t count, RowOf&& row_of, F&& f) {
-  constexpr std::size_t kRowsPerTask = std::size_t{1} << 13;  // enough for the cost of waking a thread
   block_.reset();
+  sort_rows(count, row_of);
+  run_chunks(row_of, f);
+}
+
+template <class RowOf>
+void Batch::sort_rows(std::size_t count, RowOf&& row_of) {
   in_order_.clear();
-  const std::span<std::uint64_t> in_order = in_order_.add(count);
+  const std::span<std::uint64_t> in_order = add_raw(in_order_, count);
   task_.parallel_for(count, kRowsPerTask, [&](unsigned /*thread*/, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       in_order[i] = (std::uint64_t{factory_.position(rows_.vertex(row_of(i)))} << 32) + i;
@@ -104,16 +118,15 @@ void Batch::for_each_chunk(std::size_t count, RowOf&& row_of, F&& f) {
   });
   sort_by_position(in_order, [](std::uint64_t row) { return static_cast<std::uint32_t>(row >> 32); });
   cut_into_chunks(in_order);
-  run_chunks(row_of, f);
 }
 
 template <class RowOf, class F>
 void Batch::run_chunks(RowOf&& row_of, F&& f) {
-  const std::span<const std::uint64_t> in_order = in_order_.part(0, in_order_.size());
+  const std::span<const std::uint64_t> in_order = in_order_;
   task_.parallel_for(chunk_ends_.size(), 1, [&](unsigned thread, std::size_t number, std::size_t) {
     const std::size_t begin = number == 0 ? 0 : chunk_ends_[number - 1];
     threads_[thread].chunk.clear();
-    const std::span<BatchItem> chunk = threads_[thread].chunk.add(chunk_ends_[number] - begin);
+    const std::span<BatchItem> chunk = add_raw(threads_[thread].chunk, chunk_ends_[number] - begin);
     for (std::size_t i = 0; i < chunk.size(); ++i) {
       const std::uint64_t next = in_order[begin + i];
       const std::size_t row = row_of(static_cast<std::uint32_t>(next));
@@ -128,12 +141,16 @@ void Batch::for_all_chunks(F&& f) {
   for (std::size_t first = 0; first < rows_.size(); first += kMaxRows) {
     const std::size_t count = std::min(kMaxRows, rows_.size() - first);
     const auto row_of = [first](std::size_t i) { return first + i; };
-    if (block_ == first) {
-      run_chunks(row_of, f);
-    } else {
-      for_each_chunk(count, row_of, f);
+    if (block_ != first) {
+      block_.reset();
+      if (count == rows_.size() && rows_.are_all_vertices() && factory_.of_slots != nullptr) {
+        take_index_order();
+      } else {
+        sort_rows(count, row_of);
+      }
       block_ = first;
     }
+    run_chunks(row_of, f);
   }
 }
 

@@ -120,6 +120,7 @@ SearcherFactory exact_factory(const std::shared_ptr<const Index>& index) {
   return {.vertex_count = index->vertex_count(),
           .make_searcher = [index] { return AnySearcher(Searcher(*index)); },
           .position = [index](VertexId v) { return IndexAccess::view(*index).slot[v]; },
+          .of_slots = index.get(),
           .is_count_cheap = true,
           .positions_together = JointWorker::kGroupPositions,
           .with_filter =
@@ -133,6 +134,7 @@ SearcherFactory ring_factory(const std::shared_ptr<const Index>& index) {
   return {.vertex_count = index->vertex_count(),
           .make_searcher = [index] { return AnySearcher(RingSearcher(*index)); },
           .position = [index](VertexId v) { return IndexAccess::view(*index).slot[v]; },
+          .of_slots = index.get(),
           .is_count_cheap = true,
           .positions_together = kLeafCapacity,
           .with_filter =
@@ -150,6 +152,7 @@ SearcherFactory edge_factory(const Index& index, const std::shared_ptr<const Fil
                 return filter ? AnySearcher(RestrictedEdges(index, filter)) : AnySearcher(EdgeSearcher(index));
               },
           .position = [&index](VertexId v) { return IndexAccess::view(index).slot[v]; },
+          .of_slots = &index,
           .is_count_cheap = true,
           .positions_together = kLeafCapacity,
           .with_filter =
@@ -205,6 +208,7 @@ SearchMethod SearchMethod::in_space(const Index& index) {
   return SearchMethod(shared({.vertex_count = index.vertex_count(),
                               .make_searcher = [&index] { return AnySearcher(SpaceSearcher(index)); },
                               .position = [&index](VertexId v) { return IndexAccess::view(index).slot[v]; },
+                              .of_slots = &index,
                               .is_count_cheap = true}));
 }
 

@@ -22,6 +22,9 @@ class Rows {
 
   [[nodiscard]] std::size_t size() const { return size_; }
 
+  /// Whether row `v` is of vertex `v`, for all vertices.
+  [[nodiscard]] bool are_all_vertices() const { return !vertices_; }
+
   [[nodiscard]] VertexId vertex(std::size_t row) const {
     return vertices_ ? (*vertices_)[row] : static_cast<VertexId>(row);
   }

@@ -8,7 +8,7 @@
 #include "meshhood/error.h"
 
 #include "batch/batch.h"
-#include "batch/raw_values.h"
+#include "shared/raw_vector.h"
 
 namespace meshhood {
 namespace {
@@ -19,8 +19,8 @@ constexpr std::size_t kGrowth = 4;
 
 /// The rows of a window that one thread computed.
 struct Store {
-  RawValues<VertexId> ids;
-  RawValues<double> distances;
+  RawVector<VertexId> ids;
+  RawVector<double> distances;
 
   void clear() {
     ids.clear();
@@ -29,7 +29,7 @@ struct Store {
 
   /// Memory for a row, with `size` distances if they are requested.
   BatchMemory add(std::size_t size, bool with_distances) {
-    return {ids.add(size), with_distances ? distances.add(size) : std::span<double>()};
+    return {add_raw(ids, size), with_distances ? add_raw(distances, size) : std::span<double>()};
   }
 };
 
@@ -151,9 +151,10 @@ class Stream {
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
       const Waiting& row = waiting_[i];
       const Store& store = stores_[row.thread];
-      const auto distances =
-          batch_.options().distances ? store.distances.part(row.begin, row.size) : std::span<const double>();
-      sink_({row_of_.empty() ? first + i : row_of_[first + i], store.ids.part(row.begin, row.size), distances});
+      const auto distances = batch_.options().distances ? std::span(store.distances).subspan(row.begin, row.size)
+                                                        : std::span<const double>();
+      sink_({row_of_.empty() ? first + i : row_of_[first + i], std::span(store.ids).subspan(row.begin, row.size),
+             distances});
       batch_.task().advance(1);
       batch_.task().should_continue(0);
     }

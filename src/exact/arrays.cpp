@@ -6,16 +6,16 @@
 namespace meshhood {
 namespace {
 
-template <class T>
-void borrow(std::span<const T>& span, const std::vector<T>& array) {
+template <class T, class Allocator>
+void borrow(std::span<const T>& span, const std::vector<T, Allocator>& array) {
   span = array;
 }
 
-void borrow(PositionsInOrder& span, const PositionsData& array) { span = view_of(array); }
+void borrow(PositionsInOrder& span, const OrderedPositions& array) { span = view_of(array); }
 
 }  // namespace
 
-PositionsInOrder view_of(const PositionsData& positions) {
+PositionsInOrder view_of(const OrderedPositions& positions) {
   return std::visit([](const auto& xyz) -> PositionsInOrder { return std::span(xyz); }, positions);
 }
 

@@ -94,7 +94,7 @@ bool stay_in_frame(std::span<const Move> moves, const Frame& frame) {
   return std::all_of(moves.begin(), moves.end(), [&](const Move& move) { return covers(frame, move.to); });
 }
 
-void write_moves(std::span<const Move> moves, const IndexView& index, PositionsData& positions) {
+void write_moves(std::span<const Move> moves, const IndexView& index, OrderedPositions& positions) {
   std::visit(
       [&](auto& xyz) {
         using Real = typename std::decay_t<decltype(xyz)>::value_type;

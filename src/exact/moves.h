@@ -28,7 +28,7 @@ struct Move {
 [[nodiscard]] bool stay_in_frame(std::span<const Move> moves, const Frame& frame);
 
 /// Writes the new positions to `positions`, in index order.
-void write_moves(std::span<const Move> moves, const IndexView& index, PositionsData& positions);
+void write_moves(std::span<const Move> moves, const IndexView& index, OrderedPositions& positions);
 
 /// Moves the vertices of `index`, which owns its geometry and has no searcher, and computes again what depends on them.
 /// The moves must stay in the frame. If an exception ends the call, `index` is as it was.

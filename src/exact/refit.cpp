@@ -44,8 +44,10 @@ std::vector<T> copy(std::span<const T> array) {
   return {array.begin(), array.end()};
 }
 
-PositionsData copy(const PositionsInOrder& positions) {
-  return std::visit([](auto xyz) -> PositionsData { return copy(xyz); }, positions);
+OrderedPositions copy(const PositionsInOrder& positions) {
+  return std::visit(
+      []<class Real>(std::span<const Real> xyz) -> OrderedPositions { return RawVector<Real>(xyz.begin(), xyz.end()); },
+      positions);
 }
 
 std::shared_ptr<GeometryData> copy_geometry(const IndexView& index) {
@@ -58,7 +60,7 @@ std::shared_ptr<GeometryData> copy_geometry(const IndexView& index) {
   return geometry;
 }
 
-PositionsView without_padding(const PositionsData& positions, std::size_t vertices) {
+PositionsView without_padding(const OrderedPositions& positions, std::size_t vertices) {
   return std::visit([&](const auto& xyz) { return PositionsView(std::span(xyz).first(3 * vertices)); }, positions);
 }
 

@@ -22,9 +22,8 @@ namespace {
 
 /// Makes the index order the caller's order: the index then needs no permutation. Returns the former permutation.
 std::vector<VertexId> adopt_order(IndexData& index) {
-  std::vector<VertexId> permutation = std::exchange(index.permutation, {});
-  permutation.resize(index.slot.size());
-  permutation.shrink_to_fit();
+  const RawVector<VertexId> padded = std::exchange(index.permutation, {});
+  std::vector<VertexId> permutation(padded.begin(), padded.begin() + static_cast<std::ptrdiff_t>(index.slot.size()));
   for (std::size_t leaf = 0; leaf + 1 < index.leaf_begin.size(); ++leaf) {
     const auto slot = static_cast<std::uint32_t>(leaf * kLeafCapacity);
     std::iota(index.slot.begin() + static_cast<std::ptrdiff_t>(index.leaf_begin[leaf]),

@@ -31,7 +31,7 @@ struct Divided {
     TaskContext on_threads(threads, silent, 0);
     links = make_links(EdgeSource(adjacency.view()), cells.slot, cells.begin, on_threads);
     components = split_cells(cells, links, on_threads);
-    leaves = merge_small(components, links);
+    leaves = merge_small(components, links, on_threads);
     for (const KdPoint& p : cells.points) {
       const std::uint32_t slot = cells.slot[p.id];
       component_of.push_back(components.at(leaf_of(slot), lane_of(slot)));
@@ -51,7 +51,7 @@ struct Divided {
   }
 
   [[nodiscard]] std::size_t size_of_component(std::size_t component) const {
-    return count_of(components.all[component].lanes);
+    return count_of(components.values[component].lanes);
   }
   [[nodiscard]] std::size_t size_of_leaf(std::size_t leaf) const {
     std::size_t size = 0;
@@ -94,18 +94,18 @@ TEST_P(CellComponentsOfFamilies, ComponentsOfCellsAreThoseOfTheGraphWithinEachCe
     const Divided mesh(make_mesh(GetParam(), 3, vertices));
     const CellComponents& components = mesh.components;
     const std::vector<std::size_t> expected = connected_within_cells(mesh);
-    std::vector<std::size_t> sizes(components.all.size());
+    std::vector<std::size_t> sizes(components.values.size());
     std::size_t roots = 0;
     for (std::size_t i = 0; i < expected.size(); ++i) {
       const std::uint32_t c = mesh.component_of[i];
       ASSERT_EQ(c, mesh.component_of[expected[i]]) << "vertices connected within a cell";
-      ASSERT_EQ(components.all[c].cell, i / kCellSize);
+      ASSERT_EQ(components.values[c].cell, i / kCellSize);
       ASSERT_GE(c, components.first[i / kCellSize]) << "numbered by cell";
       ASSERT_LT(c, components.first[i / kCellSize + 1]) << "numbered by cell";
       ++sizes[c];
       roots += expected[i] == i ? 1 : 0;
     }
-    ASSERT_EQ(components.all.size(), roots) << "vertices not connected lie in different components";
+    ASSERT_EQ(components.values.size(), roots) << "vertices not connected lie in different components";
     for (std::size_t c = 0; c < sizes.size(); ++c) ASSERT_EQ(sizes[c], mesh.size_of_component(c));
     count += roots;
   }
@@ -131,12 +131,12 @@ TEST_P(CellComponentsOfFamilies, EveryComponentIsAPartOfOneLeafAndNoLeafIsFilled
       for (const CellComponent& part : mesh.leaves[leaf]) {
         const std::uint32_t component =
             mesh.components.at(part.cell, static_cast<unsigned>(std::countr_zero(part.lanes)));
-        ASSERT_EQ(mesh.components.all[component].lanes, part.lanes);
+        ASSERT_EQ(mesh.components.values[component].lanes, part.lanes);
         ASSERT_EQ(mesh.leaves.leaf_of[component], leaf);
         ++parts;
       }
     }
-    ASSERT_EQ(parts, mesh.components.all.size());
+    ASSERT_EQ(parts, mesh.components.values.size());
   }
 }
 
@@ -161,7 +161,7 @@ TEST(CellComponents, PointsWithoutEdgesFillLeavesInTheOrderOfTheCells) {
   Random random(1);
   for (int i = 0; i < 300; ++i) points.add_vertex(random.uniform(), random.uniform(), random.uniform());
   const Divided mesh(points.finish(true));
-  EXPECT_EQ(mesh.components.all.size(), 300U);
+  EXPECT_EQ(mesh.components.values.size(), 300U);
   EXPECT_EQ(mesh.leaves.size(), 10U);
   // The components of a cell are numbered from one to the next, not in the order of its lanes.
   for (std::uint32_t c = 0; c < 300; ++c) EXPECT_EQ(mesh.leaves.leaf_of[c], c / kLeafCapacity);

@@ -85,12 +85,12 @@ Forest forest_of(const NodeGraph& graph) {
 /// Leaves in a row, each linked with the next within runs of `run`.
 NodeGraph rows_of(std::size_t leaves, std::size_t run) {
   NodeGraph graph;
-  graph.offsets.push_back(0);
+  graph.neighbors.offsets.push_back(0);
   for (std::size_t leaf = 0; leaf < leaves; ++leaf) {
     graph.balls.push_back({{static_cast<double>(leaf), 0, 0}, 0.5});
-    if (leaf % run != 0) graph.neighbors.push_back(static_cast<std::uint32_t>(leaf - 1));
-    if (leaf % run + 1 != run) graph.neighbors.push_back(static_cast<std::uint32_t>(leaf + 1));
-    graph.offsets.push_back(static_cast<std::uint32_t>(graph.neighbors.size()));
+    if (leaf % run != 0) graph.neighbors.values.push_back(static_cast<std::uint32_t>(leaf - 1));
+    if (leaf % run + 1 != run) graph.neighbors.values.push_back(static_cast<std::uint32_t>(leaf + 1));
+    graph.neighbors.offsets.push_back(static_cast<std::uint32_t>(graph.neighbors.values.size()));
   }
   return graph;
 }
@@ -111,12 +111,12 @@ TEST(Forest, OfOneRowEndsInOneNodeWithoutLinks) {
 
 TEST(Forest, AroundAHubStopsWhereGroupingNoLongerHelps) {
   NodeGraph star;
-  star.offsets = {0, 999};
+  star.neighbors.offsets = {0, 999};
   star.balls.assign(1000, {{0, 0, 0}, 1});
-  for (std::uint32_t leaf = 1; leaf < 1000; ++leaf) star.neighbors.push_back(leaf);
+  for (std::uint32_t leaf = 1; leaf < 1000; ++leaf) star.neighbors.values.push_back(leaf);
   for (std::uint32_t leaf = 1; leaf < 1000; ++leaf) {
-    star.neighbors.push_back(0);
-    star.offsets.push_back(static_cast<std::uint32_t>(star.neighbors.size()));
+    star.neighbors.values.push_back(0);
+    star.neighbors.offsets.push_back(static_cast<std::uint32_t>(star.neighbors.values.size()));
   }
   const Forest forest = forest_of(star);
   EXPECT_EQ(forest.levels.size(), 2U);
@@ -128,18 +128,18 @@ TEST(Forest, AroundAHubStopsWhereGroupingNoLongerHelps) {
 NodeGraph sheets_of(std::size_t sheets, std::size_t side) {
   NodeGraph graph;
   Random random(sheets);
-  graph.offsets.push_back(0);
+  graph.neighbors.offsets.push_back(0);
   for (std::size_t leaf = 0; leaf < sheets * side * side; ++leaf) {
     const std::size_t x = leaf % side;
     const std::size_t y = leaf / side % side;
     const double z = static_cast<double>(sheets - 1) * random.uniform();
     graph.balls.push_back(
         {{static_cast<double>(x) + random.uniform(), static_cast<double>(y) + random.uniform(), z}, 1});
-    if (y > 0) graph.neighbors.push_back(static_cast<std::uint32_t>(leaf - side));
-    if (x > 0) graph.neighbors.push_back(static_cast<std::uint32_t>(leaf - 1));
-    if (x + 1 < side) graph.neighbors.push_back(static_cast<std::uint32_t>(leaf + 1));
-    if (y + 1 < side) graph.neighbors.push_back(static_cast<std::uint32_t>(leaf + side));
-    graph.offsets.push_back(static_cast<std::uint32_t>(graph.neighbors.size()));
+    if (y > 0) graph.neighbors.values.push_back(static_cast<std::uint32_t>(leaf - side));
+    if (x > 0) graph.neighbors.values.push_back(static_cast<std::uint32_t>(leaf - 1));
+    if (x + 1 < side) graph.neighbors.values.push_back(static_cast<std::uint32_t>(leaf + 1));
+    if (y + 1 < side) graph.neighbors.values.push_back(static_cast<std::uint32_t>(leaf + side));
+    graph.neighbors.offsets.push_back(static_cast<std::uint32_t>(graph.neighbors.values.size()));
   }
   return graph;
 }

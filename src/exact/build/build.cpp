@@ -59,10 +59,10 @@ void add_forest(LeafPartition& partition, IndexData& arrays, TaskContext& task) 
 }
 
 /// Adds the entries that a kernel may read beyond the end. There is room for them.
-template <class T>
-void pad(std::vector<T>& values) {
+template <class Vector>
+void pad(Vector& values) {
   assert(values.capacity() >= values.size() + kLeafCapacity);
-  values.resize(values.size() + kLeafCapacity);
+  values.resize(values.size() + kLeafCapacity, typename Vector::value_type{});
 }
 
 Index finish(IndexData arrays, TaskContext& task) {

@@ -14,11 +14,8 @@ namespace {
 
 static_assert(kCellSize <= kLeafCapacity);
 
-// Enough work for the cost of starting a thread.
-constexpr std::size_t kCellsPerTask = 64;
-
-/// Appends the components of a cell, the largest first; returns how many there are.
-std::uint32_t split_cell(const Cells& cells, const Links& links, std::uint32_t cell, std::vector<CellComponent>& out) {
+/// Appends the components of a cell, the largest first.
+void split_cell(const Cells& cells, const Links& links, std::uint32_t cell, std::vector<CellComponent>& out) {
   const auto first = static_cast<std::ptrdiff_t>(out.size());
   const LaneMask* const adjacency = &links.adjacency[cells.begin[cell]];
   for (LaneMask left = first_lanes(cells.size_of(cell)); left != 0;) {
@@ -30,7 +27,23 @@ std::uint32_t split_cell(const Cells& cells, const Links& links, std::uint32_t c
   std::swap(*begin, *std::max_element(begin, out.end(), [](const CellComponent& a, const CellComponent& b) {
     return count_of(a.lanes) < count_of(b.lanes);
   }));
-  return static_cast<std::uint32_t>(out.end() - begin);
+}
+
+/// By component, if it is small: the components at the other ends of the edges that leave it, one for each edge.
+CollectedRows<std::uint32_t> neighbors_of_small(const CellComponents& components, const Links& links,
+                                                TaskContext& task) {
+  return collect_rows<std::uint32_t>(components.values.size(), task,
+                                     [&](std::size_t c, std::vector<std::uint32_t>& out) {
+                                       const CellComponent& component = components.values[c];
+                                       if (count_of(component.lanes) >= kSmallComponent) return;
+                                       for (const Link& link : links.links_of(component.cell)) {
+                                         if ((link.boundary & component.lanes) == 0) continue;
+                                         for (const CrossEdge& edge : links.cross_edges_of(link)) {
+                                           if ((component.lanes >> edge.from & 1U) != 0)
+                                             out.push_back(components.at(link.leaf, edge.to));
+                                         }
+                                       }
+                                     });
 }
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -38,10 +51,11 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// Merges small components, in the order of their numbers.
 class Merger {
  public:
-  Merger(const CellComponents& components, const Links& links)
-      : components_(components), links_(links), merged_into_(components.all.size()) {
+  /// `neighbors`: see `neighbors_of_small`.
+  Merger(std::span<const CellComponent> components, const CollectedRows<std::uint32_t>& neighbors)
+      : neighbors_of_(neighbors), merged_into_(components.size()) {
     std::iota(merged_into_.begin(), merged_into_.end(), 0);
-    for (const CellComponent& component : components.all) {
+    for (const CellComponent& component : components) {
       sizes_.push_back(static_cast<std::uint8_t>(count_of(component.lanes)));
     }
   }
@@ -96,14 +110,9 @@ class Merger {
   /// The components at the other ends of all edges that leave `merged` from `small`, which is a part of it.
   void gather_neighbors(std::uint32_t small, std::uint32_t merged) {
     neighbors_.clear();
-    const CellComponent& component = components_.all[small];
-    for (const Link& link : links_.links_of(component.cell)) {
-      if ((link.boundary & component.lanes) == 0) continue;
-      for (const CrossEdge& edge : links_.cross_edges_of(link)) {
-        if ((component.lanes >> edge.from & 1U) == 0) continue;
-        const std::uint32_t neighbor = root(components_.at(link.leaf, edge.to));
-        if (neighbor != merged) neighbors_.push_back(neighbor);
-      }
+    for (const std::uint32_t other : neighbors_of_[small]) {
+      const std::uint32_t neighbor = root(other);
+      if (neighbor != merged) neighbors_.push_back(neighbor);
     }
   }
 
@@ -140,8 +149,7 @@ class Merger {
     return component;
   }
 
-  const CellComponents& components_;
-  const Links& links_;
+  const CollectedRows<std::uint32_t>& neighbors_of_;
   std::vector<std::uint32_t> merged_into_;  // by component: itself, or the component it has been merged into
   std::vector<std::uint8_t> sizes_;         // by component, with those merged into it; small if it has been merged
   std::vector<std::uint32_t> neighbors_;    // of the component that is being merged, one for each edge
@@ -169,23 +177,14 @@ MergedComponents number_leaves(std::vector<std::uint32_t> merged_into, std::span
 }  // namespace
 
 CellComponents split_cells(const Cells& cells, const Links& links, TaskContext& task) {
-  CellComponents result;
-  result.first.resize(cells.size() + 1);
-  std::vector<std::vector<CellComponent>> runs((cells.size() + kCellsPerTask - 1) / kCellsPerTask);
-  task.parallel_for(cells.size(), kCellsPerTask, [&](unsigned, std::size_t begin, std::size_t end) {
-    std::vector<CellComponent>& run = runs[begin / kCellsPerTask];
-    for (std::size_t cell = begin; cell < end; ++cell) {
-      result.first[cell + 1] = split_cell(cells, links, static_cast<std::uint32_t>(cell), run);
-    }
-  });
-  std::inclusive_scan(result.first.begin(), result.first.end(), result.first.begin());
-  result.all.reserve(result.first.back());
-  for (const std::vector<CellComponent>& run : runs) result.all.insert(result.all.end(), run.begin(), run.end());
-  return result;
+  return {collect_rows<CellComponent>(cells.size(), task, [&](std::size_t cell, std::vector<CellComponent>& out) {
+    split_cell(cells, links, static_cast<std::uint32_t>(cell), out);
+  })};
 }
 
-MergedComponents merge_small(const CellComponents& components, const Links& links) {
-  return number_leaves(Merger(components, links).run(), components.all);
+MergedComponents merge_small(const CellComponents& components, const Links& links, TaskContext& task) {
+  const CollectedRows<std::uint32_t> neighbors = neighbors_of_small(components, links, task);
+  return number_leaves(Merger(components.values, neighbors).run(), components.values);
 }
 
 }  // namespace meshhood

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "exact/build/cells.h"
+#include "exact/build/collect_rows.h"
 #include "exact/build/links.h"
 #include "exact/layout.h"
 #include "shared/parallel.h"
@@ -24,16 +25,13 @@ struct CellComponent {
   LaneMask lanes;
 };
 
-/// The components of all cells, numbered from cell to cell.
-struct CellComponents {
-  std::vector<std::uint32_t> first;  // by cell, and one more: its first component, which is its largest
-  std::vector<CellComponent> all;
-
+/// The components of all cells, numbered from cell to cell; the first of a cell is its largest.
+struct CellComponents : CollectedRows<CellComponent> {
   /// The component that holds the vertex `lane` of a cell.
   [[nodiscard]] std::uint32_t at(std::size_t cell, unsigned lane) const {
-    std::uint32_t component = first[cell];
-    while ((all[component].lanes >> lane & 1U) == 0) ++component;
-    assert(component < first[cell + 1]);
+    std::uint32_t component = offsets[cell];
+    while ((values[component].lanes >> lane & 1U) == 0) ++component;
+    assert(component < offsets[cell + 1]);
     return component;
   }
 };
@@ -58,6 +56,6 @@ struct MergedComponents {
 /// Merges small components into neighbors that have room, so that few leaves are small. What is merged is connected,
 /// or consists of *crumbs*: small components of the whole mesh, which share leaves so that a cloud of points does not
 /// take a leaf for each point. O(#V + edges of small components).
-[[nodiscard]] MergedComponents merge_small(const CellComponents& components, const Links& links);
+[[nodiscard]] MergedComponents merge_small(const CellComponents& components, const Links& links, TaskContext& task);
 
 }  // namespace meshhood

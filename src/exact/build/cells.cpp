@@ -10,9 +10,9 @@ namespace {
 constexpr std::size_t kPointGrain = 2048;
 constexpr std::size_t kCellGrain = 64;
 
-std::vector<KdPoint> make_points(const PositionsView& positions, const Frame& frame, TaskContext& task) {
+RawVector<KdPoint> make_points(const PositionsView& positions, const Frame& frame, TaskContext& task) {
   return positions.visit([&](const auto& xyz) {
-    std::vector<KdPoint> points(xyz.size());
+    RawVector<KdPoint> points(xyz.size());
     task.parallel_for(points.size(), kPointGrain, [&](unsigned, std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {
         const FramePoint p = frame.round(point(xyz, v));

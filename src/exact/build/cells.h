@@ -12,6 +12,7 @@
 #include "exact/build/kd_order.h"
 #include "exact/layout.h"
 #include "shared/parallel.h"
+#include "shared/raw_vector.h"
 
 namespace meshhood {
 
@@ -22,9 +23,9 @@ inline constexpr std::size_t kCellSize = 30;
 /// The vertices in a kd order, of which every `kCellSize` consecutive ones are a cell. Within a cell they ascend.
 /// A vertex of a cell has a slot, as it has in a leaf: 32 times its cell, plus its place in the cell.
 struct Cells {
-  std::vector<KdPoint> points;      // in kd order
-  std::vector<std::uint32_t> slot;  // by vertex
-  std::vector<VertexId> begin;      // by cell, and one more: its first point
+  RawVector<KdPoint> points;      // in kd order
+  RawVector<std::uint32_t> slot;  // by vertex
+  std::vector<VertexId> begin;    // by cell, and one more: its first point
 
   [[nodiscard]] std::size_t size() const { return begin.size() - 1; }
   [[nodiscard]] unsigned size_of(std::size_t cell) const { return begin[cell + 1] - begin[cell]; }

@@ -130,7 +130,7 @@ Forest make_forest(NodeGraph leaves, TaskContext& task) {
   LevelGrouping grouping;
   for (NodeGraph graph = std::move(leaves); graph.size() > 0;) {
     levels.push_back(grouping.group(graph, task));
-    graph = contract(graph, levels.back().covered);
+    graph = contract(graph, levels.back().covered, task);
   }
   if (levels.empty()) return {{0}, {}, {}, {}};
   return Numbering(levels).run();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "exact/build/geometry.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -13,10 +15,11 @@ namespace {
 // Enough vertices for the cost of starting a thread.
 constexpr std::size_t kVertexGrain = 2048;
 
-/// The positions in index order, padded.
+/// The positions in index order, padded with zeros.
 template <class Real>
-std::vector<Real> permute_positions(const StridedPositions<Real>& xyz, const IndexView& index, TaskContext& task) {
-  std::vector<Real> permuted(3 * (xyz.size() + kLeafCapacity));
+RawVector<Real> permute_positions(const StridedPositions<Real>& xyz, const IndexView& index, TaskContext& task) {
+  RawVector<Real> permuted(3 * (xyz.size() + kLeafCapacity));
+  std::fill(permuted.begin() + static_cast<std::ptrdiff_t>(3 * xyz.size()), permuted.end(), Real{0});
   task.parallel_for(xyz.size(), kVertexGrain, [&](unsigned, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       for (std::size_t axis = 0; axis < 3; ++axis) permuted[3 * i + axis] = xyz(index.id(i), axis);

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Each cut counts the points in equal intervals of the widest side, which tells where each third of the result begins:
 // the intervals before the one with the cut, that interval, and those after it. Then it moves the points there, from
-// one array into another, and divides the one interval with `std::nth_element`. Both passes are without branches.
+// one array into another, and divides the one interval with `std::nth_element`. Both passes are without branches, and
+// several threads can share them by chunks of the points.
 #include "exact/build/kd_order.h"
 
 #include <algorithm>
 #include <cassert>
 #include <limits>
-#include <memory>
+#include <numeric>
 #include <utility>
 #include <vector>
+
+#include "shared/raw_vector.h"
 
 namespace meshhood {
 namespace {
@@ -21,6 +24,13 @@ struct PointBox {
   [[nodiscard]] std::size_t widest_axis() const {
     const std::array<float, 3> width = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
     return static_cast<std::size_t>(std::max_element(width.begin(), width.end()) - width.begin());
+  }
+
+  void extend(const PointBox& other) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], other.low[axis]);
+      high[axis] = std::max(high[axis], other.high[axis]);
+    }
   }
 };
 
@@ -59,44 +69,113 @@ class Intervals {
   float per_unit_;
 };
 
+/// Consecutive points of a run, which one thread measures, counts and moves.
+struct Chunk {
+  std::span<const KdPoint> points;
+  PointBox box;
+  std::array<std::uint32_t, Intervals::kMost> counts;  // by interval
+  std::array<KdPoint*, 3> next;                        // by third of the result: the place of the next point
+
+  template <std::size_t Axis>
+  void count(const Intervals& intervals) {
+    std::fill_n(counts.begin(), intervals.count(), 0);
+    for (const KdPoint& p : points) ++counts[intervals(p.at[Axis])];
+  }
+
+  template <std::size_t Axis>
+  void move(const Intervals& intervals, std::size_t cut) {
+    for (const KdPoint& p : points) {
+      const std::size_t interval = intervals(p.at[Axis]);
+      *next[std::size_t{interval >= cut} + std::size_t{interval > cut}]++ = p;
+    }
+  }
+};
+
+/// Calls `f(chunk)` for each, on several threads if there are several chunks.
+template <class F>
+void for_each_chunk(std::span<Chunk> chunks, TaskContext& task, F&& f) {
+  if (chunks.size() == 1) {
+    f(chunks.front());
+  } else {
+    task.parallel_for(chunks.size(), 1, [&](unsigned, std::size_t i, std::size_t) { f(chunks[i]); });
+  }
+}
+
+/// Sets where the chunks put their points: in each third in the order given. `next` is where the thirds begin.
+void divide(std::span<Chunk> chunks, std::size_t cut, std::array<KdPoint*, 3> next) {
+  for (Chunk& chunk : chunks) {
+    chunk.next = next;
+    const std::size_t before = std::accumulate(chunk.counts.begin(), chunk.counts.begin() + cut, std::size_t{0});
+    const std::size_t within = chunk.counts[cut];
+    next = {next[0] + before, next[1] + within, next[2] + (chunk.points.size() - before - within)};
+  }
+}
+
 template <std::size_t Axis>
 bool precedes(const KdPoint& a, const KdPoint& b) {
   return a.at[Axis] != b.at[Axis] ? a.at[Axis] < b.at[Axis] : a.id < b.id;
 }
 
-/// Copies `points` to `to`, the `middle` first ones along the axis before the others.
+/// Copies the points of the chunks to `to`, the `middle` first ones along the axis before the others.
 template <std::size_t Axis>
-void cut_across(std::span<const KdPoint> points, const PointBox& box, std::size_t middle, std::span<KdPoint> to) {
-  const Intervals intervals(box.low[Axis], box.high[Axis], points.size());
-  std::array<std::uint32_t, Intervals::kMost> counts;
-  std::fill_n(counts.begin(), intervals.count(), 0);
-  for (const KdPoint& p : points) ++counts[intervals(p.at[Axis])];
+void cut_across(std::span<Chunk> chunks, const PointBox& box, std::size_t middle, std::span<KdPoint> to,
+                TaskContext& task) {
+  const Intervals intervals(box.low[Axis], box.high[Axis], to.size());
+  for_each_chunk(chunks, task, [&](Chunk& chunk) { chunk.template count<Axis>(intervals); });
+  const auto count = [&](std::size_t interval) {
+    std::size_t sum = 0;
+    for (const Chunk& chunk : chunks) sum += chunk.counts[interval];
+    return sum;
+  };
   std::size_t cut = 0;
   std::size_t before = 0;
-  while (before + counts[cut] <= middle) before += counts[cut++];
-  const std::size_t within = counts[cut];
-  std::array<KdPoint*, 3> next = {to.data(), to.data() + before, to.data() + before + within};
-  for (const KdPoint& p : points) {
-    const std::size_t interval = intervals(p.at[Axis]);
-    *next[std::size_t{interval >= cut} + std::size_t{interval > cut}]++ = p;
+  std::size_t within = count(0);
+  while (before + within <= middle) {
+    before += within;
+    within = count(++cut);
   }
+  divide(chunks, cut, {to.data(), to.data() + before, to.data() + before + within});
+  for_each_chunk(chunks, task, [&](Chunk& chunk) { chunk.template move<Axis>(intervals, cut); });
   const auto first = to.begin() + static_cast<std::ptrdiff_t>(before);
   std::nth_element(first, to.begin() + static_cast<std::ptrdiff_t>(middle), first + static_cast<std::ptrdiff_t>(within),
                    precedes<Axis>);
 }
 
-/// Copies `points` to `to`, cut across the widest side of their box, and returns the size of the first part.
-std::size_t cut(std::span<const KdPoint> points, std::size_t unit, std::span<KdPoint> to) {
-  const std::size_t units = (points.size() + unit - 1) / unit;
-  assert(unit > 0 && points.size() > unit);
+/// Copies the points of the chunks to `to`, cut across the widest side of their box, and returns the size of the first
+/// part.
+std::size_t cut(std::span<Chunk> chunks, std::size_t unit, std::span<KdPoint> to, TaskContext& task) {
+  const std::size_t units = (to.size() + unit - 1) / unit;
+  assert(unit > 0 && to.size() > unit);
   const std::size_t middle = units / 2 * unit;
-  const PointBox box = box_of(points);
+  for_each_chunk(chunks, task, [](Chunk& chunk) { chunk.box = box_of(chunk.points); });
+  PointBox box = chunks.front().box;
+  for (const Chunk& chunk : chunks.subspan(1)) box.extend(chunk.box);
   switch (box.widest_axis()) {
-    case 0: cut_across<0>(points, box, middle, to); break;
-    case 1: cut_across<1>(points, box, middle, to); break;
-    default: cut_across<2>(points, box, middle, to); break;
+    case 0: cut_across<0>(chunks, box, middle, to, task); break;
+    case 1: cut_across<1>(chunks, box, middle, to, task); break;
+    default: cut_across<2>(chunks, box, middle, to, task); break;
   }
   return middle;
+}
+
+/// The same for points in one run, on this thread.
+std::size_t cut(std::span<const KdPoint> points, std::size_t unit, std::span<KdPoint> to) {
+  TaskContext alone;
+  Chunk chunk;
+  chunk.points = points;
+  return cut(std::span(&chunk, 1), unit, to, alone);
+}
+
+/// The same on all threads.
+std::size_t cut(std::span<const KdPoint> points, std::size_t unit, std::span<KdPoint> to, TaskContext& task) {
+  constexpr std::size_t kMostChunks = 64;
+  constexpr std::size_t kSmallest = 2048;
+  const std::size_t size = std::max(kSmallest, (points.size() + kMostChunks - 1) / kMostChunks);
+  RawVector<Chunk> chunks((points.size() + size - 1) / size);
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    chunks[i].points = points.subspan(i * size, std::min(size, points.size() - i * size));
+  }
+  return cut(chunks, unit, to, task);
 }
 
 /// Copies at most a few dozen points to `to`, ascending by id: the place of each is the number of smaller ids.
@@ -143,20 +222,20 @@ void order(const PointRun& run, std::size_t unit, bool moves) {
   }
 }
 
-/// Cuts each run in two; a run of at most `unit` points is the second half of its own.
+/// Cuts each run in two, on all threads together while there are fewer runs than threads.
 std::vector<PointRun> cut_each(const std::vector<PointRun>& runs, std::size_t unit, TaskContext& task) {
   std::vector<PointRun> halves(2 * runs.size());
-  task.parallel_for(runs.size(), 1, [&](unsigned, std::size_t i, std::size_t) {
-    const PointRun& run = runs[i];
-    std::size_t middle = 0;
-    if (run.size() > unit) {
-      middle = cut(run.points, unit, run.other);
-    } else {
-      std::copy(run.points.begin(), run.points.end(), run.other.begin());
-    }
-    halves[2 * i] = run.part(0, middle).swapped();
-    halves[2 * i + 1] = run.part(middle, run.size() - middle).swapped();
-  });
+  const auto set_halves = [&](std::size_t i, std::size_t middle) {
+    halves[2 * i] = runs[i].part(0, middle).swapped();
+    halves[2 * i + 1] = runs[i].part(middle, runs[i].size() - middle).swapped();
+  };
+  if (runs.size() < task.threads()) {
+    for (std::size_t i = 0; i < runs.size(); ++i) set_halves(i, cut(runs[i].points, unit, runs[i].other, task));
+  } else {
+    task.parallel_for(runs.size(), 1, [&](unsigned, std::size_t i, std::size_t) {
+      set_halves(i, cut(runs[i].points, unit, runs[i].other));
+    });
+  }
   return halves;
 }
 
@@ -166,11 +245,11 @@ void kd_order(std::span<KdPoint> points, std::size_t unit, TaskContext& task) {
   // Several runs a thread, so that all threads end at about the same time; but none so short that starting it costs
   // more than cutting it.
   constexpr std::size_t kRunsPerThread = 8;
-  constexpr std::size_t kShortestRun = 2000;
-  const auto other = std::make_unique_for_overwrite<KdPoint[]>(points.size());  // NOLINT(modernize-avoid-c-arrays)
-  std::vector<PointRun> runs{{points, {other.get(), points.size()}}};
+  const std::size_t shortest = std::max<std::size_t>(2000, 4 * unit);
+  RawVector<KdPoint> other(points.size());
+  std::vector<PointRun> runs{{points, other}};
   bool moves = false;
-  while (runs.size() < kRunsPerThread * task.threads() && points.size() / runs.size() > kShortestRun) {
+  while (runs.size() < kRunsPerThread * task.threads() && points.size() / runs.size() > shortest) {
     runs = cut_each(runs, unit, task);
     moves = !moves;
   }

@@ -66,19 +66,18 @@ NodeBall measure_leaf(const Material& mesh, std::size_t leaf) {
   return ball;
 }
 
-/// Appends the other leaves that an edge joins to this one, ascending.
-void append_neighbors(const Material& mesh, std::uint32_t leaf, std::vector<std::uint32_t>& out) {
-  const auto row = static_cast<std::ptrdiff_t>(out.size());
+/// Appends the other leaves that an edge joins to this one.
+void append_neighbors(const Material& mesh, std::size_t leaf, std::vector<std::uint32_t>& out) {
+  const std::size_t before = out.size();
   const auto add = [&](std::uint32_t other) {
     // Most edges between two leaves follow each other.
-    if (other != leaf && (out.size() == static_cast<std::size_t>(row) || out.back() != other)) out.push_back(other);
+    if (other != leaf && (out.size() == before || out.back() != other)) out.push_back(other);
   };
   for (const CellComponent& part : mesh.leaves[leaf]) {
     for (const Link& link : mesh.links.links_of(part.cell)) {
       if ((link.boundary & part.lanes) == 0) continue;
-      const std::uint32_t first = mesh.components.first[link.leaf];
-      if (mesh.components.first[link.leaf + std::size_t{1}] == first + 1) {
-        add(mesh.leaves.leaf_of[first]);
+      if (mesh.components[link.leaf].size() == 1) {
+        add(mesh.leaf_at(link.leaf, 0));
         continue;
       }
       for (const CrossEdge& edge : mesh.links.cross_edges_of(link)) {
@@ -86,34 +85,13 @@ void append_neighbors(const Material& mesh, std::uint32_t leaf, std::vector<std:
       }
     }
   }
-  std::sort(out.begin() + row, out.end());
-  out.erase(std::unique(out.begin() + row, out.end()), out.end());
 }
 
 /// The leaves and the links between them, by which they are grouped.
 NodeGraph graph_of_leaves(const Material& mesh, TaskContext& task) {
-  const std::size_t leaves = mesh.leaves.size();
-  NodeGraph graph;
-  graph.balls.resize(leaves);
-  graph.offsets.assign(leaves + 1, 0);
-  std::vector<std::vector<std::uint32_t>> runs((leaves + kLeavesPerTask - 1) / kLeavesPerTask);
-  task.parallel_for(leaves, kLeavesPerTask, [&](unsigned, std::size_t begin, std::size_t end) {
-    std::vector<std::uint32_t>& run = runs[begin / kLeavesPerTask];
-    for (std::size_t leaf = begin; leaf < end; ++leaf) {
-      graph.balls[leaf] = measure_leaf(mesh, leaf);
-      append_neighbors(mesh, static_cast<std::uint32_t>(leaf), run);
-      graph.offsets[leaf + 1] = static_cast<std::uint32_t>(run.size());
-    }
-  });
-  for (const std::vector<std::uint32_t>& run : runs) {
-    const std::size_t begin = static_cast<std::size_t>(&run - runs.data()) * kLeavesPerTask;
-    const auto before = static_cast<std::uint32_t>(graph.neighbors.size());
-    for (std::size_t leaf = begin; leaf < std::min(begin + kLeavesPerTask, leaves); ++leaf) {
-      graph.offsets[leaf + 1] += before;
-    }
-    graph.neighbors.insert(graph.neighbors.end(), run.begin(), run.end());
-  }
-  return graph;
+  return make_graph(
+      mesh.leaves.size(), [&](std::size_t leaf) { return measure_leaf(mesh, leaf); },
+      [&](std::size_t leaf, std::vector<std::uint32_t>& out) { append_neighbors(mesh, leaf, out); }, task);
 }
 
 /// The vertices of each leaf in their order, and for each vertex in kd order its slot.
@@ -131,7 +109,7 @@ class Placing {
     result.permutation.resize(slot_.size());
   }
 
-  std::vector<std::uint32_t> run(TaskContext& task) {
+  RawVector<std::uint32_t> run(TaskContext& task) {
     task.parallel_for(result_.forest.leaves.size(), kLeavesPerTask, [&](unsigned, std::size_t begin, std::size_t end) {
       for (std::size_t place = begin; place < end; ++place) {
         if (result_.forest.leaves[place] != kNoNode) number_vertices(place);
@@ -165,7 +143,7 @@ class Placing {
 
   const Material& mesh_;
   LeafPartition& result_;
-  std::vector<std::uint32_t> slot_;
+  RawVector<std::uint32_t> slot_;
 };
 
 /// Turns the links of cells into those of leaves.
@@ -177,7 +155,7 @@ class LeafLinker {
 
   Links run(TaskContext& task) const {
     const std::size_t places = leaves_.forest.leaves.size();
-    std::vector<LaneMask> adjacency;
+    RawVector<LaneMask> adjacency;
     adjacency.reserve(slot_.size() + kLeafCapacity);  // and the padding of an index
     adjacency.resize(slot_.size());
     std::vector<Links> runs((places + kLeavesPerTask - 1) / kLeavesPerTask);
@@ -199,6 +177,7 @@ class LeafLinker {
   void link(std::size_t place, LaneMask* adjacency, LinkCollector& exits) const {
     const std::uint32_t leaf = leaves_.forest.leaves[place];
     if (leaf == kNoNode) return;
+    std::fill_n(adjacency, leaves_.leaf_begin[place + 1] - leaves_.leaf_begin[place], LaneMask{0});
     for (const CellComponent& part : mesh_.leaves[leaf]) {
       const std::size_t begin = mesh_.cells.begin[part.cell];
       for_each_lane(part.lanes, [&](unsigned from) {
@@ -244,12 +223,12 @@ LeafPartition make_leaves(const PositionsView& positions, const EdgeSource& edge
   mesh.links = make_links(edges, mesh.cells.slot, mesh.cells.begin, task);
   task.advance(1);
   mesh.components = split_cells(mesh.cells, mesh.links, task);
-  mesh.leaves = merge_small(mesh.components, mesh.links);
+  mesh.leaves = merge_small(mesh.components, mesh.links, task);
 
   LeafPartition result;
   result.forest = make_forest(graph_of_leaves(mesh, task), task);
   check_leaf_count(result.forest.leaves.size());
-  const std::vector<std::uint32_t> slot = Placing(mesh, result).run(task);
+  const RawVector<std::uint32_t> slot = Placing(mesh, result).run(task);
   result.links = LeafLinker(mesh, slot, result).run(task);
   task.advance(1);
   return result;

@@ -12,16 +12,17 @@
 #include "exact/build/forest.h"
 #include "exact/build/links.h"
 #include "shared/parallel.h"
+#include "shared/raw_vector.h"
 
 namespace meshhood {
 
 /// The vertices of each leaf, the order of leaves and of vertices in them, which is the index order, and the edges.
 struct LeafPartition {
-  Forest forest;                      // whose groups the leaves are numbered by
-  std::vector<std::uint32_t> slot;    // by the caller's vertex: 32 times its leaf plus its lane
-  std::vector<VertexId> permutation;  // in index order: the caller's vertex
-  std::vector<VertexId> leaf_begin;   // by place of a leaf, and one more: its first vertex in index order
-  Links links;                        // by place of a leaf
+  Forest forest;                     // whose groups the leaves are numbered by
+  RawVector<std::uint32_t> slot;     // by the caller's vertex: 32 times its leaf plus its lane
+  RawVector<VertexId> permutation;   // in index order: the caller's vertex
+  std::vector<VertexId> leaf_begin;  // by place of a leaf, and one more: its first vertex in index order
+  Links links;                       // by place of a leaf
 };
 
 /// The steps that `make_leaves` reports: cells, the edges by cell, leaves.

@@ -80,6 +80,8 @@ class Linker {
   /// Sets the edges within leaves, and collects the others, in both directions.
   void take(std::size_t bucket, EdgeBuckets& edges) {
     exits_.clear();
+    std::fill(adjacency_.begin() + begin_[buckets_.begin(bucket)], adjacency_.begin() + begin_[buckets_.end(bucket)],
+              LaneMask{0});
     edges.take(bucket, [&](const SlotEdge& edge) {
       const bool is_inside = buckets_.of(edge.to) == bucket;
       if (leaf_of(edge.from) == leaf_of(edge.to)) {
@@ -120,7 +122,7 @@ Links make_links(const EdgeSource& edges, std::span<const std::uint32_t> slot, s
                  TaskContext& task) {
   const Buckets buckets(begin.size() - 1);
   EdgeBuckets distributed = distribute(edges, slot, buckets, task);
-  std::vector<LaneMask> adjacency(slot.size());
+  RawVector<LaneMask> adjacency(slot.size());
   std::vector<Links> runs(buckets.count());
   std::vector<Linker> linkers(std::min<std::size_t>(task.threads(), runs.size()), {buckets, begin, adjacency});
   task.parallel_for(runs.size(), 1, [&](unsigned thread, std::size_t bucket, std::size_t) {

@@ -11,12 +11,13 @@
 #include "exact/build/edge_source.h"
 #include "exact/layout.h"
 #include "shared/parallel.h"
+#include "shared/raw_vector.h"
 
 namespace meshhood {
 
 /// The edges of the mesh, by leaf; or by cell, which then takes the place of a leaf.
 struct Links {
-  std::vector<LaneMask> adjacency;      // in the order of the leaves: the neighbors in the same leaf
+  RawVector<LaneMask> adjacency;        // in the order of the leaves: the neighbors in the same leaf
   std::vector<std::uint32_t> link_end;  // by leaf: the end of its links
   std::vector<Link> links;              // by leaf, then by linked leaf; one more, for the end of the last cross edges
   std::vector<CrossEdge> cross_edges;   // by link, then by `from`, then by `to`

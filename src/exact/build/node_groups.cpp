@@ -29,28 +29,20 @@ NodeBall ball_of(const NodeGraph& graph, std::span<const std::uint32_t> a, std::
   return ball;
 }
 
-NodeGraph contract(const NodeGraph& graph, const NodeGroups& groups) {
+NodeGraph contract(const NodeGraph& graph, const NodeGroups& groups, TaskContext& task) {
   std::vector<std::uint32_t> group_of(graph.size(), kUnset);
   for (std::uint32_t group = 0; group < groups.size(); ++group) {
     for (const std::uint32_t node : groups[group]) group_of[node] = group;
   }
-  NodeGraph result;
-  result.offsets.push_back(0);
-  std::vector<std::uint32_t> row;
-  for (std::uint32_t group = 0; group < groups.size(); ++group) {
-    row.clear();
+  const auto append_neighbors = [&](std::size_t group, std::vector<std::uint32_t>& out) {
     for (const std::uint32_t node : groups[group]) {
       for (const std::uint32_t other : graph[node]) {
-        if (group_of[other] != group) row.push_back(group_of[other]);
+        if (group_of[other] != group) out.push_back(group_of[other]);
       }
     }
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
-    result.balls.push_back(ball_of(graph, groups[group]));
-    result.neighbors.insert(result.neighbors.end(), row.begin(), row.end());
-    result.offsets.push_back(static_cast<std::uint32_t>(result.neighbors.size()));
-  }
-  return result;
+  };
+  return make_graph(
+      groups.size(), [&](std::size_t group) { return ball_of(graph, groups[group]); }, append_neighbors, task);
 }
 
 }  // namespace meshhood

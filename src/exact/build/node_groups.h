@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "exact/build/collect_rows.h"
 #include "shared/distance.h"
+#include "shared/parallel.h"
 
 namespace meshhood {
 
@@ -19,16 +22,28 @@ struct NodeBall {
 
 /// The nodes of one level while the tree is built, and the links between them.
 struct NodeGraph {
-  std::vector<NodeBall> balls;         // by node
-  std::vector<std::uint32_t> offsets;  // by node, and one more: where its neighbors begin
-  std::vector<std::uint32_t> neighbors;
+  std::vector<NodeBall> balls;             // by node
+  CollectedRows<std::uint32_t> neighbors;  // by node, ascending
 
   [[nodiscard]] std::size_t size() const { return balls.size(); }
-  [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t node) const {
-    assert(node < size());
-    return std::span(neighbors).subspan(offsets[node], offsets[node + 1] - offsets[node]);
-  }
+  [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t node) const { return neighbors[node]; }
 };
+
+/// A graph of `size` nodes. `ball_at(node)` is the ball of a node; `append(node, out)` appends its neighbors, in any
+/// order and any number of times.
+template <class BallAt, class Append>
+NodeGraph make_graph(std::size_t size, BallAt&& ball_at, Append&& append, TaskContext& task) {
+  NodeGraph graph;
+  graph.balls.resize(size);
+  graph.neighbors = collect_rows<std::uint32_t>(size, task, [&](std::size_t node, std::vector<std::uint32_t>& out) {
+    graph.balls[node] = ball_at(node);
+    const auto row = static_cast<std::ptrdiff_t>(out.size());
+    append(node, out);
+    std::sort(out.begin() + row, out.end());
+    out.erase(std::unique(out.begin() + row, out.end()), out.end());
+  });
+  return graph;
+}
 
 /// Sets of up to eight nodes.
 class NodeGroups {
@@ -53,6 +68,6 @@ class NodeGroups {
                                std::span<const std::uint32_t> b = {});
 
 /// The level above: each group becomes a node. Nodes that are in no group have no links.
-[[nodiscard]] NodeGraph contract(const NodeGraph& graph, const NodeGroups& groups);
+[[nodiscard]] NodeGraph contract(const NodeGraph& graph, const NodeGroups& groups, TaskContext& task);
 
 }  // namespace meshhood

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace meshhood {
+
+/// Leaves new elements as they are in memory where `std::allocator` would set them to zero.
+template <class T>
+class RawAllocator : public std::allocator<T> {
+ public:
+  RawAllocator() = default;
+  template <class U>
+  RawAllocator(const RawAllocator<U>& other) noexcept
+      : std::allocator<T>(other) {}  // NOLINT(google-explicit-constructor): as the standard allocator
+
+  template <class U>
+  struct rebind {  // NOLINT(readability-identifier-naming): the standard's
+    using other = RawAllocator<U>;
+  };
+
+  template <class U>
+  void construct(U* at) {
+    static_assert(std::is_trivially_destructible_v<U>);
+    ::new (static_cast<void*>(at)) U;
+  }
+  template <class U, class First, class... Rest>
+  void construct(U* at, First&& first, Rest&&... rest) {
+    std::construct_at(at, std::forward<First>(first), std::forward<Rest>(rest)...);
+  }
+};
+
+/// A vector whose new elements have no values, for those who set all of them. Where several threads do, each also has
+/// its part of the page faults, which take longer than the writing.
+template <class T>
+using RawVector = std::vector<T, RawAllocator<T>>;
+
+/// Appends `count` elements without values.
+template <class T>
+std::span<T> add_raw(RawVector<T>& values, std::size_t count) {
+  const std::size_t before = values.size();
+  values.resize(before + count);
+  return std::span(values).subspan(before);
+}
+
+}  // namespace meshhood
