@@ -21,6 +21,11 @@ namespace meshhood {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// Twice the vector area of a triangle.
+[[nodiscard]] inline Point doubled_vector_area(const Point& a, const Point& b, const Point& c) {
+  return Point{0, 0, 0} + cross(b - a, c - a);  // so that there is no -0, as for polygons
+}
+
 /// Twice the vector area of a polygon, about its first corner: the sum of the cross products of consecutive corners
 /// (Newell). `corner(i)` is the position of corner `i`; 0 for fewer than three corners.
 template <class F>

@@ -14,9 +14,12 @@
 #include "base/vector.h"
 #include "exact/neighbors.h"
 #include "shared/parallel.h"
+#include "shared/raw_vector.h"
 
 namespace meshhood {
 namespace {
+
+constexpr std::size_t kVerticesPerTask = 2048;
 
 bool same(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
@@ -39,50 +42,69 @@ void check_positions(const IndexView& index, const MeshView& mesh) {
   });
 }
 
-/// Stores the normals of vertices from the place `begin` on as unit vectors; one of length 0 becomes NaN.
-void set_normals(SurfaceState& state, std::size_t begin, std::span<const Point> normals) {
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    const Point& n = normals[i];
-    const double norm = length(n);
-    const double size = norm > 0 ? norm : std::numeric_limits<double>::quiet_NaN();
-    state.normal_x[begin + i] = n.x / size;
-    state.normal_y[begin + i] = n.y / size;
-    state.normal_z[begin + i] = n.z / size;
-  }
+/// Stores a normal as a unit vector; one of length 0 becomes NaN.
+void set_normal(SurfaceState& state, std::size_t place, const Point& n) {
+  const double norm = length(n);
+  const double size = norm > 0 ? norm : std::numeric_limits<double>::quiet_NaN();
+  state.normal_x[place] = n.x / size;
+  state.normal_y[place] = n.y / size;
+  state.normal_z[place] = n.z / size;
 }
 
-/// The sums of the vector areas of the faces at the vertices whose places are in a range: in the frame, where products
-/// do not overflow, and in the order of the faces.
+/// The place of each of the caller's vertices in index order.
+RawVector<std::uint32_t> places_of_vertices(const IndexView& index, TaskContext& task) {
+  RawVector<std::uint32_t> places(index.vertex_count());
+  task.parallel_for(places.size(), kVerticesPerTask, [&](unsigned, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) places[index.id(i)] = static_cast<std::uint32_t>(i);
+  });
+  return places;
+}
+
+/// Sets the normals of a range of places: the sums of the vector areas of the faces at each vertex, in the order of the
+/// faces, as unit vectors. The areas are computed in the unit of the frame, where products do not overflow.
 template <class Real>
-std::vector<Point> sum_areas(const IndexView& index, std::span<const Real> xyz, const FacesView& faces,
-                             std::size_t begin, std::size_t end) {
-  std::vector<Point> sums(end - begin, {0, 0, 0});
-  const auto is_summed = [&](std::uint32_t place) { return begin <= place && place < end; };
-  std::vector<std::uint32_t> places;
+void sum_areas(std::span<const Real> xyz, std::span<const std::uint32_t> places, const FacesView& faces,
+               std::size_t first, std::size_t end, SurfaceState& state) {
+  const double scale = state.index->frame.scale;
+  for (RawVector<double>* const axis : {&state.normal_x, &state.normal_y, &state.normal_z}) {
+    std::fill(axis->begin() + static_cast<std::ptrdiff_t>(first), axis->begin() + static_cast<std::ptrdiff_t>(end),
+              0.0);
+  }
+  const auto is_summed = [&](std::uint32_t place) { return place - first < end - first; };  // may wrap around
+  const auto position = [&](std::uint32_t place) { return scale * point(xyz, place); };
+  const auto add = [&](std::uint32_t place, const Point& area) {
+    if (!is_summed(place)) return;
+    state.normal_x[place] += area.x;
+    state.normal_y[place] += area.y;
+    state.normal_z[place] += area.z;
+  };
   faces.for_each([&](std::size_t, std::span<const VertexId> corners) {
-    places.clear();
-    for (const VertexId corner : corners) places.push_back(place_of(index, corner));
-    if (std::none_of(places.begin(), places.end(), is_summed)) return;
-    const Point area = 0.5 * doubled_vector_area(places.size(), [&](std::size_t i) {
-                         return index.frame.scale * point(xyz, places[i]);
-                       });
-    for (const std::uint32_t place : places) {
-      if (is_summed(place)) sums[place - begin] = sums[place - begin] + area;
+    if (corners.size() == 3) {
+      const std::uint32_t a = places[corners[0]];
+      const std::uint32_t b = places[corners[1]];
+      const std::uint32_t c = places[corners[2]];
+      if (!is_summed(a) && !is_summed(b) && !is_summed(c)) return;
+      const Point area = 0.5 * doubled_vector_area(position(a), position(b), position(c));
+      add(a, area);
+      add(b, area);
+      add(c, area);
+    } else if (std::any_of(corners.begin(), corners.end(), [&](VertexId v) { return is_summed(places[v]); })) {
+      const auto corner = [&](std::size_t i) { return position(places[corners[i]]); };
+      const Point area = 0.5 * doubled_vector_area(corners.size(), corner);
+      for (const VertexId c : corners) add(places[c], area);
     }
   });
-  return sums;
+  for (std::size_t place = first; place < end; ++place) set_normal(state, place, state.normal(place));
 }
 
 /// Each thread reads all faces, and sums at its part of the vertices. Many parts would mostly repeat the reading.
 void sum_normals(SurfaceState& state, const FacesView& faces, TaskContext& task) {
   constexpr std::size_t kMostParts = 4;
-  const IndexView& index = *state.index;
+  const RawVector<std::uint32_t> places = places_of_vertices(*state.index, task);
   const std::size_t parts = std::min<std::size_t>(task.threads(), kMostParts);
-  task.parallel_for(index.vertex_count(), index.vertex_count() / parts + 1,
-                    [&](unsigned, std::size_t begin, std::size_t end) {
-                      const auto sums = [&](auto xyz) { return sum_areas(index, xyz, faces, begin, end); };
-                      set_normals(state, begin, std::visit(sums, index.positions));
-                    });
+  task.parallel_for(places.size(), places.size() / parts + 1, [&](unsigned, std::size_t begin, std::size_t end) {
+    std::visit([&](auto xyz) { sum_areas(xyz, places, faces, begin, end, state); }, state.index->positions);
+  });
 }
 
 /// `faces` are valid.
@@ -135,8 +157,6 @@ CurvatureIndex CurvatureIndex::build(const Index& index, std::span<const double>
                                       " vertices");
   }
   auto state = std::make_unique<State>(index);
-  std::vector<Point> scaled;
-  scaled.reserve(vertices);
   for (std::size_t i = 0; i < vertices; ++i) {
     const VertexId id = state->index->id(i);
     const Point n = point(normals, id);
@@ -145,9 +165,8 @@ CurvatureIndex CurvatureIndex::build(const Index& index, std::span<const double>
       raise(ErrorCode::InvalidMesh,
             "the normal of vertex " + std::to_string(id) + " is infinite, expected numbers, or NaN for no normal");
     }
-    scaled.push_back({n.x / largest, n.y / largest, n.z / largest});  // its square may overflow
+    set_normal(*state, i, {n.x / largest, n.y / largest, n.z / largest});  // its square may overflow
   }
-  set_normals(*state, 0, scaled);
   return CurvatureIndex(std::move(state));
 }
 

@@ -14,6 +14,7 @@
 #include "exact/bound_index.h"
 #include "exact/layout.h"
 #include "shared/distance.h"
+#include "shared/raw_vector.h"
 
 namespace meshhood {
 
@@ -21,11 +22,11 @@ namespace meshhood {
 struct CurvatureIndex::State {
   explicit State(const Index& given);
 
-  Index searched;                // shares its memory with the caller's
-  BoundIndex index;              // its arrays
-  std::vector<double> normal_x;  // unit vectors; NaN without one
-  std::vector<double> normal_y;
-  std::vector<double> normal_z;
+  Index searched;              // shares its memory with the caller's
+  BoundIndex index;            // its arrays
+  RawVector<double> normal_x;  // unit vectors; NaN without one
+  RawVector<double> normal_y;
+  RawVector<double> normal_z;
 
   [[nodiscard]] Point position(std::size_t place) const {
     return std::visit([&](auto xyz) { return point(xyz, place); }, index->positions);
