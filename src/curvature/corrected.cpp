@@ -123,13 +123,14 @@ struct CorrectedRows {
   void write(std::size_t begin, std::size_t end, F&& normal) const {
     QueryFrames frames{};
     QueryQuadrics quadrics{};
+    const MomentKernels& kernels = moment_kernels(best_isa());
+    for (std::size_t row = begin; row < end; ++row) frames.n.set(row - begin, normal(row));
+    kernels.set_tangents(end - begin, frames);
     for (std::size_t row = begin; row < end; ++row) {
-      const TangentFrame frame = frame_of(normal(row));
-      set_frame(frames, row - begin, frame);
-      set_quadric(quadrics, row - begin, quadric_of(measures(row), frame));
+      set_quadric(quadrics, row - begin, quadric_of(measures(row), frame_of_query(frames, row - begin)));
     }
     QueryCurvatures curvatures{};
-    principal_curvatures(moment_kernels(best_isa()), quadrics, frames, end - begin, ShapeOperator::Exact, curvatures);
+    principal_curvatures(kernels, quadrics, frames, end - begin, ShapeOperator::Exact, curvatures);
     for (std::size_t row = begin; row < end; ++row) {
       write_sums(row);
       const std::size_t q = row - begin;

@@ -4,11 +4,13 @@
 #include <cstddef>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "meshhood/curvature.h"
 #include "meshhood/error.h"
 
+#include "base/prefetch.h"
 #include "base/vector.h"
 #include "curvature/direct_fit.h"
 #include "curvature/jet.h"
@@ -39,7 +41,8 @@ class CurvatureFitter {
 
  private:
   void fit_row(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments, std::size_t query);
-  [[nodiscard]] TangentFrame fit_frame(const QueryMoments& moments, std::uint32_t place, std::size_t query) const;
+  void set_frames(std::span<const std::uint32_t> places, const QueryMoments& moments, const MomentKernels& kernels);
+  void prefetch_row(std::size_t row) const;
   void write(std::size_t row, const DirectFit::Result& result);
 
   const SurfaceState* surface_;
@@ -53,13 +56,27 @@ class CurvatureFitter {
 };
 
 void CurvatureFitter::fit(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
-  const std::size_t size = packet.places.size();
-  for (std::size_t q = 0; q < size; ++q) set_frame(frames_, q, fit_frame(moments, packet.places[q], q));
+  for_each_query(packet.queries, [&](std::size_t q) { prefetch_row(packet.rows[q]); });
   const MomentKernels& kernels = sums.kernels();
+  set_frames(packet.places, moments, kernels);
   kernels.rotate(moments, frames_, in_frame_);
   (options_->fit == CurvatureFit::Quadric ? kernels.fit_quadrics : kernels.fit_jets)(in_frame_, quadrics_);
-  principal_curvatures(kernels, quadrics_, frames_, size, options_->shape_operator, curvatures_);
+  principal_curvatures(kernels, quadrics_, frames_, packet.places.size(), options_->shape_operator, curvatures_);
   for_each_query(packet.queries, [&](std::size_t q) { fit_row(packet, sums, moments, q); });
+}
+
+void CurvatureFitter::set_frames(std::span<const std::uint32_t> places, const QueryMoments& moments,
+                                 const MomentKernels& kernels) {
+  const bool is_jet = options_->fit == CurvatureFit::Jet;
+  if (!is_jet && options_->shape_operator == ShapeOperator::Exact) {
+    for (std::size_t q = 0; q < places.size(); ++q) frames_.n.set(q, surface_->normal(places[q]));
+    return kernels.set_tangents(places.size(), frames_);
+  }
+  for (std::size_t q = 0; q < places.size(); ++q) {
+    set_frame(frames_, q,
+              is_jet ? jet_frame(distribution_of(moments, q).axes, surface_->normal(places[q]))
+                     : frame_at(*surface_, places[q], options_->shape_operator));
+  }
 }
 
 void CurvatureFitter::fit_row(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments,
@@ -69,7 +86,8 @@ void CurvatureFitter::fit_row(const MomentRows& packet, const PacketMoments& sum
   if (std::isnan(surface_->normal(place).x)) return write(row, {CurvatureState::NoNormal, {}, 0});
   const auto count = static_cast<std::size_t>(moments.at[0][query]);
   const bool is_well_conditioned =
-      quadrics_.determinant[query] >= smallest_determinant(in_frame_, query, sums.sizes(query));
+      quadrics_.determinant[query] >=
+      smallest_determinant(in_frame_, query, sums.second_size(query), sums.fourth_size(query));
   if (count < kFewestPoints || !is_well_conditioned) {
     return write(row, direct_.fit(place, packet.radii[query], frame_at(*surface_, place, options_->shape_operator)));
   }
@@ -79,9 +97,14 @@ void CurvatureFitter::fit_row(const MomentRows& packet, const PacketMoments& sum
               count});
 }
 
-TangentFrame CurvatureFitter::fit_frame(const QueryMoments& moments, std::uint32_t place, std::size_t query) const {
-  if (options_->fit == CurvatureFit::Quadric) return frame_at(*surface_, place, options_->shape_operator);
-  return jet_frame(distribution_of(moments, query).axes, surface_->normal(place));
+/// The rows of a packet are scattered over the results.
+void CurvatureFitter::prefetch_row(std::size_t row) const {
+  prefetch(&out_->state[row]);
+  prefetch(&out_->count[row]);
+  prefetch(&out_->k1[row]);
+  prefetch(&out_->k2[row]);
+  prefetch(&out_->d1[3 * row]);
+  prefetch(&out_->d2[3 * row]);
 }
 
 void CurvatureFitter::write(std::size_t row, const DirectFit::Result& result) {

@@ -13,10 +13,12 @@
 namespace meshhood {
 namespace {
 
-MomentSizes sizes_of(const QueryMoments& moments, std::size_t query) {
-  const auto at = [&](std::size_t i, std::size_t j, std::size_t k) { return moments.at[moment_index(i, j, k)][query]; };
-  return {(at(2, 0, 0) + at(0, 2, 0)) + at(0, 0, 2),
-          (at(4, 0, 0) + at(0, 4, 0)) + at(0, 0, 4) + 2 * ((at(2, 2, 0) + at(0, 2, 2)) + at(2, 0, 2))};
+void measure(const QueryMoments& moments, MomentSizes& sizes) {
+  for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+    const auto at = [&](std::size_t i, std::size_t j, std::size_t k) { return moments.at[moment_index(i, j, k)][q]; };
+    sizes.second[q] = (at(2, 0, 0) + at(0, 2, 0)) + at(0, 0, 2);
+    sizes.fourth[q] = (at(4, 0, 0) + at(0, 4, 0)) + at(0, 0, 4) + 2 * ((at(2, 2, 0) + at(0, 2, 2)) + at(2, 0, 2));
+  }
 }
 
 }  // namespace
@@ -31,7 +33,9 @@ PacketMoments::PacketMoments(const MomentSource& source, Isa isa)
       words_{},
       points_{},
       sums_{},
-      moments_{} {
+      moments_{},
+      before_{},
+      after_{} {
   points_.weight.fill(1);
 }
 
@@ -219,13 +223,9 @@ const QueryMoments& PacketMoments::finish() {
     const bool has_sums = (active_ >> q & 1U) != 0;
     for (std::size_t m = 0; m < kMomentCount; ++m) moments_.at[m][q] = has_sums ? sums_[q].at[m] : 0;
   });
-  for (std::size_t q = 0; q < size_; ++q) sizes_[q] = sizes_of(moments_, q);
+  measure(moments_, before_);
   kernels_->shift(moments_, offsets_);
-  for (std::size_t q = 0; q < size_; ++q) {
-    const MomentSizes after = sizes_of(moments_, q);
-    is_accurate_[q] = is_accurate(q, sizes_[q], after);
-    sizes_[q] = {std::max(sizes_[q].second, after.second), std::max(sizes_[q].fourth, after.fourth)};
-  }
+  measure(moments_, after_);
   return moments_;
 }
 
@@ -239,7 +239,7 @@ const QueryMoments& PacketMoments::finish() {
 // the condition for d = 3, from which those for d = 1 and d = 2 follow, since B_4 >= A_4 and W B_4 >= B_2^2. All is
 // divided by W here, so that nothing underflows. Where digits were lost, the computed A_4 is at most about
 // epsilon B_4, and the test fails, too.
-bool PacketMoments::is_accurate(std::size_t query, const MomentSizes& before, const MomentSizes& after) const {
+bool PacketMoments::is_accurate(std::size_t query) const {
   constexpr double kMostLoss = 400;
   constexpr double kLeastWeight = 0x1p-800;  // products of smaller weights and powers may underflow
   const double weight = moments_.at[moment_index(0, 0, 0)][query];
@@ -249,12 +249,12 @@ bool PacketMoments::is_accurate(std::size_t query, const MomentSizes& before, co
                     offsets_.z[query] * offsets_.z[query];
   const double t = std::sqrt(t2);
   const double per_weight = 1 / weight;
-  const double root2 = std::sqrt(per_weight * before.second) + t;
-  const double root4 = std::sqrt(std::sqrt(per_weight * before.fourth)) + t;
+  const double root2 = std::sqrt(per_weight * before_.second[query]) + t;
+  const double root4 = std::sqrt(std::sqrt(per_weight * before_.fourth[query])) + t;
   const double b2 = root2 * root2;
   const double b4 = (root4 * root4) * (root4 * root4);
-  const double a2 = per_weight * after.second;
-  const double a4 = per_weight * after.fourth;
+  const double a2 = per_weight * after_.second[query];
+  const double a4 = per_weight * after_.fourth[query];
   return b4 <= kMostLoss * a4 && b2 * b4 <= (kMostLoss * kMostLoss) * ((a2 * a2) * a2);
 }
 

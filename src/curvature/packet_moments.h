@@ -37,10 +37,10 @@ struct PointDistribution {
 };
 [[nodiscard]] PointDistribution distribution_of(const QueryMoments& moments, std::size_t query);
 
-/// See `PacketMoments::sizes`.
+/// Sums of the squares and fourth powers of distances.
 struct MomentSizes {
-  double second;
-  double fourth;
+  QueryRow second;
+  QueryRow fourth;
 };
 
 /// The moments of the neighborhoods of up to 32 vertices of a leaf. What is added is the powers of vertices, and sums
@@ -73,13 +73,18 @@ class PacketMoments {
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] const MomentKernels& kernels() const { return *kernels_; }
 
-  /// Sums of the squares and fourth powers of distances, before the moments were moved to the query vertex or after,
-  /// whichever are larger. The errors of the moments of these degrees are of the order of epsilon times them.
-  [[nodiscard]] const MomentSizes& sizes(std::size_t query) const { return sizes_[query]; }
+  /// The sizes of the moments before they were moved to the query vertices, or after, whichever are larger. The errors
+  /// of the moments of these degrees are of the order of epsilon times them.
+  [[nodiscard]] double second_size(std::size_t query) const {
+    return std::max(before_.second[query], after_.second[query]);
+  }
+  [[nodiscard]] double fourth_size(std::size_t query) const {
+    return std::max(before_.fourth[query], after_.fourth[query]);
+  }
 
   /// Whether the moments are accurate to 1e-13 of the sum of w |p|^(i + j + k). They are not where the vertices of the
   /// leaf lie much farther apart than those of the neighborhood, as in a leaf with vertices of large and small faces.
-  [[nodiscard]] bool is_accurate(std::size_t query) const { return is_accurate_[query]; }
+  [[nodiscard]] bool is_accurate(std::size_t query) const;
 
  private:
   friend struct ScratchAccess;  // defined by tests
@@ -93,7 +98,6 @@ class PacketMoments {
   void add_terms_of(const Leaf& leaf, std::span<const QueryWord> words, QueryWord all);
   void add_terms();
   void set_points(const Leaf& leaf);
-  [[nodiscard]] bool is_accurate(std::size_t query, const MomentSizes& before, const MomentSizes& after) const;
 
   static constexpr std::size_t kTerms = 64;
 
@@ -115,8 +119,8 @@ class PacketMoments {
   MomentPoints points_;
   MomentsByQuery sums_;
   QueryMoments moments_;
-  PerLane<MomentSizes> sizes_{};
-  PerLane<bool> is_accurate_{};
+  MomentSizes before_;  // they were moved to the query vertices
+  MomentSizes after_;
 };
 
 }  // namespace meshhood

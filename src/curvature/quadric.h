@@ -33,13 +33,15 @@ struct TangentFrame {
 /// libigl's frame: `u` points to a neighbor at `offset`, projected into the plane. As above if that has no length.
 [[nodiscard]] TangentFrame frame_towards(const Point& normal, const Point& offset);
 
-// Set the row of one query.
+// The row of one query.
+[[nodiscard]] TangentFrame frame_of_query(const QueryFrames& frames, std::size_t query);
 void set_frame(QueryFrames& frames, std::size_t query, const TangentFrame& frame);
 void set_quadric(QueryQuadrics& quadrics, std::size_t query, const Quadric& quadric);
 
 /// The smallest determinant of the normal equations of `query` (see `MomentKernels::fit_quadrics`) for which the errors
-/// of the moments, which follow from `sizes`, hardly change the solution.
-[[nodiscard]] double smallest_determinant(const FrameMoments& moments, std::size_t query, const MomentSizes& sizes);
+/// of the moments, which follow from their sizes (see `PacketMoments::second_size`), hardly change the solution.
+[[nodiscard]] double smallest_determinant(const FrameMoments& moments, std::size_t query, double second_size,
+                                          double fourth_size);
 
 /// A least-squares fit by the points themselves.
 struct PointFit {

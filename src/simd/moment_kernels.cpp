@@ -527,12 +527,37 @@ HWY_INLINE Points<Doubles> combined(const Points<Doubles>& a, Numbers x, const P
   return {at(a.x, b.x, c.x), at(a.y, b.y, c.y), at(a.z, b.z, c.z)};
 }
 
+/// Vectors of length 1, or 0.
+HWY_INLINE Points<Doubles> unit(const Points<Doubles>& v) {
+  const Doubles d;
+  const auto size = hn::Sqrt(squared_length(v));
+  return scaled(v, either(d, hn::Eq(size, hn::Zero(d)), splat(1.0), hn::Div(splat(1.0), size)));
+}
+
+void set_tangents(std::size_t queries, QueryFrames& frames) {
+  const Doubles d;
+  const auto one = splat(1.0);
+  for (std::size_t q = 0; q < queries; q += kLanes<Doubles>) {
+    const auto n = load_rows(d, frames.n, q);
+    const auto is_x = hn::And(hn::Le(hn::Abs(n.x), hn::Abs(n.y)), hn::Le(hn::Abs(n.x), hn::Abs(n.z)));
+    const auto y = only(d, hn::Le(hn::Abs(n.y), hn::Abs(n.z)), one);
+    const Points<Doubles> axis{only(d, is_x, one), either(d, is_x, hn::Zero(d), y),
+                               either(d, is_x, hn::Zero(d), hn::Sub(one, y))};
+    const auto u = unit(difference(axis, scaled(n, scalar_product(axis, n))));
+    const auto component = [](Numbers a, Numbers b, Numbers c, Numbers e)
+                               HWY_ATTR { return hn::Sub(hn::Mul(a, b), hn::Mul(c, e)); };
+    store_rows(u, frames.u, q);
+    store_rows(
+        Points<Doubles>{component(n.y, u.z, n.z, u.y), component(n.z, u.x, n.x, u.z), component(n.x, u.y, n.y, u.x)},
+        frames.v, q);
+  }
+}
+
 /// The unit vector of the direction of `v`, or its negative: the one whose component of largest magnitude, the first of
 /// several, is positive.
 HWY_INLINE Points<Doubles> direction(const Points<Doubles>& v) {
   const Doubles d;
-  const auto size = hn::Sqrt(squared_length(v));
-  const auto at = scaled(v, either(d, hn::Eq(size, hn::Zero(d)), splat(1.0), hn::Div(splat(1.0), size)));
+  const auto at = unit(v);
   const auto largest = hn::Max(hn::Max(hn::Abs(at.x), hn::Abs(at.y)), hn::Abs(at.z));
   const auto of_y_or_z = either(d, hn::Eq(hn::Abs(at.y), largest), at.y, at.z);
   const auto decides = either(d, hn::Eq(hn::Abs(at.x), largest), at.x, of_y_or_z);
@@ -607,6 +632,7 @@ constexpr MomentKernels kMomentKernels{
     .add_terms = add_terms,
     .keep_facing = keep_facing,
     .shift = shift,
+    .set_tangents = set_tangents,
     .rotate = rotate,
     .fit_quadrics = fit<5>,
     .fit_jets = fit<6>,

@@ -142,6 +142,10 @@ struct MomentKernels {
   /// Moves the centers by `-by`: the coordinates grow by `by`. By a Taylor shift along each axis, 105 multiply-adds.
   void (*shift)(QueryMoments& moments, const QueryVectors& by);
 
+  /// Sets `u` and `v` of the frames of the first queries by their normals, which are unit vectors or NaN: `u` is the
+  /// projection of the coordinate axis that is farthest from the normal. Also reads and writes rows of others.
+  void (*set_tangents)(std::size_t queries, QueryFrames& frames);
+
   /// Contracts the moments with the axes of the frames.
   void (*rotate)(const QueryMoments& moments, const QueryFrames& frames, FrameMoments& out);
 

@@ -33,7 +33,10 @@ struct ScratchAccess {
     if (!sums.source_.weights.empty()) fill(sums.points_.weight);
     fill(sums.sums_);
     fill(sums.moments_);
-    fill(sums.sizes_);
+    fill(sums.before_.second);
+    fill(sums.before_.fourth);
+    fill(sums.after_.second);
+    fill(sums.after_.fourth);
   }
 
  private:

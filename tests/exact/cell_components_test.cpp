@@ -100,8 +100,8 @@ TEST_P(CellComponentsOfFamilies, ComponentsOfCellsAreThoseOfTheGraphWithinEachCe
       const std::uint32_t c = mesh.component_of[i];
       ASSERT_EQ(c, mesh.component_of[expected[i]]) << "vertices connected within a cell";
       ASSERT_EQ(components.values[c].cell, i / kCellSize);
-      ASSERT_GE(c, components.first[i / kCellSize]) << "numbered by cell";
-      ASSERT_LT(c, components.first[i / kCellSize + 1]) << "numbered by cell";
+      ASSERT_GE(c, components.offsets[i / kCellSize]) << "numbered by cell";
+      ASSERT_LT(c, components.offsets[i / kCellSize + 1]) << "numbered by cell";
       ++sizes[c];
       roots += expected[i] == i ? 1 : 0;
     }
@@ -115,8 +115,8 @@ TEST_P(CellComponentsOfFamilies, ComponentsOfCellsAreThoseOfTheGraphWithinEachCe
 TEST_P(CellComponentsOfFamilies, TheFirstComponentOfACellIsTheLargest) {
   const Divided mesh(make_mesh(GetParam(), 4, 1000));
   for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
-    for (std::uint32_t c = mesh.components.first[cell]; c < mesh.components.first[cell + 1]; ++c) {
-      ASSERT_LE(mesh.size_of_component(c), mesh.size_of_component(mesh.components.first[cell]));
+    for (std::uint32_t c = mesh.components.offsets[cell]; c < mesh.components.offsets[cell + 1]; ++c) {
+      ASSERT_LE(mesh.size_of_component(c), mesh.size_of_component(mesh.components.offsets[cell]));
     }
   }
 }
@@ -239,7 +239,7 @@ TEST(CellComponents, AreTheSameForAnyNumberOfThreads) {
   const Divided expected(sheets);
   for (const unsigned threads : {2U, 5U}) {
     const Divided mesh(sheets, threads);
-    EXPECT_EQ(mesh.components.first, expected.components.first);
+    EXPECT_EQ(mesh.components.offsets, expected.components.offsets);
     EXPECT_EQ(mesh.component_of, expected.component_of);
     EXPECT_EQ(mesh.leaf_of_point, expected.leaf_of_point);
   }

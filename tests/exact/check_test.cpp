@@ -56,7 +56,7 @@ TEST(IndexCheck, FindsAWrongNumbering) {
 }
 
 TEST(IndexCheck, FindsAWrongPosition) {
-  expect_found("its position differs", [](IndexData& i) { std::get<std::vector<float>>(i.positions)[200] += 1; });
+  expect_found("its position differs", [](IndexData& i) { std::get<RawVector<float>>(i.positions)[200] += 1; });
 }
 
 TEST(IndexCheck, FindsAWrongEdge) {

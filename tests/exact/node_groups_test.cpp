@@ -19,7 +19,8 @@ TEST(NodeGroups, BecomeTheNodesOfTheLevelAbove) {
   groups.add(std::vector<std::uint32_t>{0, 1, 2});
   groups.add(std::vector<std::uint32_t>{3, 4, 5});
   groups.add(std::vector<std::uint32_t>{6, 7});
-  const NodeGraph above = contract(graph, groups);
+  TaskContext task;
+  const NodeGraph above = contract(graph, groups, task);
   ASSERT_EQ(above.size(), 3U);
   EXPECT_THAT(above[0], ElementsAre(1));
   EXPECT_THAT(above[1], ElementsAre(0));

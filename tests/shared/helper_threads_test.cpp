@@ -8,6 +8,11 @@
 #include <thread>
 #include <vector>
 
+#if defined(__linux__)
+#include <pthread.h>
+#include <sched.h>
+#endif
+
 #include <gtest/gtest.h>
 
 namespace meshhood::test {
@@ -59,6 +64,31 @@ TEST(HelperThreads, HaveEndedWhenALoopReturns) {
     ASSERT_EQ(sum, 1000);
   }
 }
+
+#if defined(__linux__) && !defined(__ANDROID__)
+TEST(HelperThreads, KeepOffOneProcessorIfThereIsAnotherForEach) {
+  cpu_set_t all;
+  ASSERT_EQ(pthread_getaffinity_np(pthread_self(), sizeof(all), &all), 0);
+  const int processors = CPU_COUNT(&all);
+  for (const std::size_t helping : {std::size_t{1}, kMost}) {
+    HelperThreads helpers;
+    std::atomic<std::size_t> arrived{0};
+    std::array<int, kMost + 1> usable{};
+    helpers.run(helping, [&](unsigned thread) {
+      ++arrived;
+      while (arrived <= helping) std::this_thread::yield();  // so that the masks were set
+      cpu_set_t its;
+      ASSERT_EQ(pthread_getaffinity_np(pthread_self(), sizeof(its), &its), 0);
+      usable[thread] = CPU_COUNT(&its);
+    });
+    EXPECT_EQ(usable[0], processors);  // the caller may run where it could before
+    const bool is_one_for_each = processors > static_cast<int>(helping);
+    for (std::size_t thread = 1; thread <= helping; ++thread) {
+      EXPECT_EQ(usable[thread], processors - (is_one_for_each ? 1 : 0));
+    }
+  }
+}
+#endif
 
 TEST(HelperThreads, SleepAndWakeBetweenLoops) {
   HelperThreads helpers;

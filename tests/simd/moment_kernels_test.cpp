@@ -512,6 +512,76 @@ TEST(MomentKernels, PrincipalCurvaturesHaveTheSameBitsTogetherAndAloneOnEveryIns
   }
 }
 
+/// Of all kinds: along axes, with components that are equal, and none.
+QueryVectors random_normals(Random& random) {
+  QueryVectors normals{};
+  for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+    Point n{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+    if (q % 8 == 1) n = {0, 0, q % 16 == 1 ? 1.0 : -1.0};
+    if (q % 8 == 2) n = {n.x, n.x, n.z};
+    if (q % 8 == 3) n = {n.x, n.y, -n.y};
+    if (q % 8 == 4) n = {n.z, n.y, n.z};
+    if (q % 8 == 5) n = {-n.x, n.x, n.x};
+    const double size = std::sqrt(squared_distance(n, {0, 0, 0}));
+    normals.set(q, {n.x / size, n.y / size, n.z / size});
+  }
+  normals.set(7, {std::nan(""), std::nan(""), std::nan("")});
+  return normals;
+}
+
+TEST(MomentKernels, TangentsBeginWithTheAxisFarthestFromTheNormal) {
+  Random random(14);
+  for (int round = 0; round < 20; ++round) {
+    QueryFrames frames{};
+    frames.n = random_normals(random);
+    moment_kernels(best_isa()).set_tangents(kPacketCapacity, frames);
+    for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+      const Point n = frames.n.at(q);
+      const Point u = frames.u.at(q);
+      const Point v = frames.v.at(q);
+      if (q == 7) {
+        EXPECT_TRUE(std::isnan(u.x) && std::isnan(v.x));
+        continue;
+      }
+      EXPECT_NEAR(squared_distance(u, {0, 0, 0}), 1, 1e-15);
+      EXPECT_NEAR(u.x * n.x + u.y * n.y + u.z * n.z, 0, 1e-15);
+      EXPECT_EQ(v.x, n.y * u.z - n.z * u.y);
+      EXPECT_EQ(v.y, n.z * u.x - n.x * u.z);
+      EXPECT_EQ(v.z, n.x * u.y - n.y * u.x);
+      // Of equal ones the first. What is left of the axis lies more than half along it.
+      const std::array<double, 3> sizes{std::abs(n.x), std::abs(n.y), std::abs(n.z)};
+      const auto farthest = std::min_element(sizes.begin(), sizes.end()) - sizes.begin();
+      EXPECT_GT((std::array{u.x, u.y, u.z}[static_cast<std::size_t>(farthest)]), 0.8);
+    }
+  }
+}
+
+TEST(MomentKernels, TangentsHaveTheSameBitsTogetherAndAloneOnEveryInstructionSet) {
+  const auto bits = [](double number) {
+    return std::bit_cast<std::uint64_t>(std::isnan(number) ? std::nan("") : number);
+  };
+  Random random(15);
+  for (int round = 0; round < 20; ++round) {
+    const QueryVectors normals = random_normals(random);
+    for (const Isa isa : available_isas()) {
+      QueryFrames frames{};
+      frames.n = normals;
+      moment_kernels(isa).set_tangents(kPacketCapacity, frames);
+      for (std::size_t q = 0; q < kPacketCapacity; ++q) {
+        QueryFrames alone{};
+        alone.n.set(0, normals.at(q));
+        moment_kernels(Isa{}).set_tangents(1, alone);
+        for (const auto& [found, expected] :
+             {std::pair(frames.u.at(q), alone.u.at(0)), {frames.v.at(q), alone.v.at(0)}}) {
+          EXPECT_EQ(bits(found.x), bits(expected.x)) << "query " << q;
+          EXPECT_EQ(bits(found.y), bits(expected.y)) << "query " << q;
+          EXPECT_EQ(bits(found.z), bits(expected.z)) << "query " << q;
+        }
+      }
+    }
+  }
+}
+
 TEST(MomentKernels, DirectionsAreUnitVectorsWhoseLargestComponentIsPositive) {
   Random random(12);
   const QueryQuadrics quadrics = random_quadrics(random);

@@ -72,14 +72,15 @@ NodeGraph draw_node_graph(Draw& draw) {
   NodeGraph graph;
   const NodeLinks links = draw_links(draw, 1 + draw.below(64));
   const std::size_t kind = draw.below(5);
-  graph.offsets.push_back(0);
+  auto& [offsets, neighbors] = graph.neighbors;
+  offsets.push_back(0);
   for (const auto& row : links) {
     const auto signed_extent = [&] { return (draw.below(2) == 0 ? 1 : -1) * draw_extent(draw, kind); };
     const double x = signed_extent();
     const double y = signed_extent();
     graph.balls.push_back({{x, y, signed_extent()}, draw_extent(draw, kind)});
-    graph.neighbors.insert(graph.neighbors.end(), row.begin(), row.end());
-    graph.offsets.push_back(static_cast<std::uint32_t>(graph.neighbors.size()));
+    neighbors.insert(neighbors.end(), row.begin(), row.end());
+    offsets.push_back(static_cast<std::uint32_t>(neighbors.size()));
   }
   return graph;
 }

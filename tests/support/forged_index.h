@@ -21,13 +21,13 @@
 
 namespace meshhood::test {
 
-template <class T>
-void copy_array(std::vector<T>& to, std::span<const T> from) {
+template <class T, class Allocator>
+void copy_array(std::vector<T, Allocator>& to, std::span<const T> from) {
   to.assign(from.begin(), from.end());
 }
 
-inline void copy_array(PositionsData& to, const PositionsInOrder& from) {
-  std::visit([&]<class Real>(std::span<const Real> xyz) { to = std::vector<Real>(xyz.begin(), xyz.end()); }, from);
+inline void copy_array(OrderedPositions& to, const PositionsInOrder& from) {
+  std::visit([&]<class Real>(std::span<const Real> xyz) { to = RawVector<Real>(xyz.begin(), xyz.end()); }, from);
 }
 
 /// A copy of the arrays of `index`, for tests that damage them.
