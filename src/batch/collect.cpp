@@ -11,6 +11,7 @@
 
 #include "meshhood/error.h"
 
+#include "base/prefetch.h"
 #include "batch/batch.h"
 
 namespace meshhood {
@@ -164,8 +165,15 @@ class RowsInPlace final : public RowReceiver {
   std::size_t ids_since_look_ = 0;
 };
 
+/// The rows of a chunk lie far from each other. The processor itself fetches what follows on their first lines.
+void prefetch_row(std::span<const VertexId> ids) {
+  constexpr std::size_t kLines = 4;
+  fetch_lines(ids.data(), kLines);
+}
+
 void write_rows(Batch& batch, KeptChunks& kept, std::span<const std::uint64_t> offsets, const BatchMemory& memory) {
   batch.for_all_chunks([&](unsigned thread, std::span<const BatchItem> chunk) {
+    for (const BatchItem& item : chunk) prefetch_row(memory.ids.subspan(offsets[item.row]));
     RowsInPlace receiver(batch, thread, offsets, memory);
     KeptPackets* packets = kept.find(chunk.front().row);
     batch.worker(thread).find(chunk, batch.options().distances, receiver, packets);

@@ -32,18 +32,17 @@ void split_cell(const Cells& cells, const Links& links, std::uint32_t cell, std:
 /// By component, if it is small: the components at the other ends of the edges that leave it, one for each edge.
 CollectedRows<std::uint32_t> neighbors_of_small(const CellComponents& components, const Links& links,
                                                 TaskContext& task) {
-  return collect_rows<std::uint32_t>(components.values.size(), task,
-                                     [&](std::size_t c, std::vector<std::uint32_t>& out) {
-                                       const CellComponent& component = components.values[c];
-                                       if (count_of(component.lanes) >= kSmallComponent) return;
-                                       for (const Link& link : links.links_of(component.cell)) {
-                                         if ((link.boundary & component.lanes) == 0) continue;
-                                         for (const CrossEdge& edge : links.cross_edges_of(link)) {
-                                           if ((component.lanes >> edge.from & 1U) != 0)
-                                             out.push_back(components.at(link.leaf, edge.to));
-                                         }
-                                       }
-                                     });
+  const auto append = [&](std::size_t c, std::vector<std::uint32_t>& out) {
+    const CellComponent& component = components.values[c];
+    if (count_of(component.lanes) >= kSmallComponent) return;
+    for (const Link& link : links.links_of(component.cell)) {
+      if ((link.boundary & component.lanes) == 0) continue;
+      for (const CrossEdge& edge : links.cross_edges_of(link)) {
+        if ((component.lanes >> edge.from & 1U) != 0) out.push_back(components.at(link.leaf, edge.to));
+      }
+    }
+  };
+  return collect_rows<std::uint32_t>(components.values.size(), task, append);
 }
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -177,9 +176,10 @@ MergedComponents number_leaves(std::vector<std::uint32_t> merged_into, std::span
 }  // namespace
 
 CellComponents split_cells(const Cells& cells, const Links& links, TaskContext& task) {
-  return {collect_rows<CellComponent>(cells.size(), task, [&](std::size_t cell, std::vector<CellComponent>& out) {
+  const auto append = [&](std::size_t cell, std::vector<CellComponent>& out) {
     split_cell(cells, links, static_cast<std::uint32_t>(cell), out);
-  })};
+  };
+  return {collect_rows<CellComponent>(cells.size(), task, append)};
 }
 
 MergedComponents merge_small(const CellComponents& components, const Links& links, TaskContext& task) {
