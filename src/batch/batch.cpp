@@ -75,11 +75,11 @@ std::size_t Batch::whole_units(std::size_t first, std::size_t window) const {
 }
 
 void Batch::take_index_order() {
-  constexpr std::size_t kLeavesPerTask = 128;
+  constexpr std::size_t kLeavesAtOnce = 128;
   const IndexView& index = IndexAccess::view(*factory_.of_slots);
   in_order_.clear();
   const std::span<std::uint64_t> in_order = add_raw(in_order_, rows_.size());
-  task_.parallel_for(index.leaf_count(), kLeavesPerTask, [&](unsigned /*thread*/, std::size_t begin, std::size_t end) {
+  task_.parallel_for(index.leaf_count(), kLeavesAtOnce, [&](unsigned /*thread*/, std::size_t begin, std::size_t end) {
     for (std::size_t leaf = begin; leaf < end; ++leaf) {
       std::uint64_t slot = leaf * kLeafCapacity;
       for (std::size_t i = index.leaf_begin[leaf]; i < index.leaf_begin[leaf + 1]; ++i) {

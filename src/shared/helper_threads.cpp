@@ -32,8 +32,8 @@ bool prepare_exceptions() {
 
 namespace {
 
-// About 500 microseconds, longer than most of what one thread does between the loops of a small mesh. Other threads have
-// the processor meanwhile if they need it.
+// About 500 microseconds, longer than most of what one thread does between the loops of a small mesh. Other threads
+// have the processor meanwhile if they need it.
 constexpr int kLooksBeforeSleep = 2000;
 
 /// Looks for a while whether `happened()`.
@@ -42,8 +42,8 @@ void look(F&& happened) {
   for (int i = 0; i < kLooksBeforeSleep && !happened(); ++i) std::this_thread::yield();
 }
 
-/// Linux may start or wake a thread on the processor of its creator, which leaves it only after milliseconds: longer than
-/// all neighborhoods of a small mesh take. So `helpers` use only the other processors, if there is one for each.
+/// Linux may start or wake a thread on the processor of its creator, which leaves it only after milliseconds: longer
+/// than all neighborhoods of a small mesh take. So `helpers` use only the other processors, if there is one for each.
 void keep_off_this_processor([[maybe_unused]] std::vector<std::thread>& helpers) {
 #if defined(MESHHOOD_PLACES_THREADS)
   cpu_set_t others;

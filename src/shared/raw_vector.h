@@ -20,8 +20,8 @@ class RawAllocator : public std::allocator<T> {
       : std::allocator<T>(other) {}  // NOLINT(google-explicit-constructor): as the standard allocator
 
   template <class U>
-  struct rebind {  // NOLINT(readability-identifier-naming): the standard's
-    using other = RawAllocator<U>;
+  struct rebind {                   // NOLINT(readability-identifier-naming): the standard's, as the next
+    using other = RawAllocator<U>;  // NOLINT(readability-identifier-naming)
   };
 
   template <class U>
