@@ -141,6 +141,16 @@ struct Curvatures {
   std::vector<std::uint32_t> count;
 };
 
+/// Memory of the caller for the arrays of `Curvatures`, of the sizes given there.
+struct CurvatureMemory {
+  std::span<double> k1;
+  std::span<double> k2;
+  std::span<double> d1;
+  std::span<double> d2;
+  std::span<CurvatureState> state;
+  std::span<std::uint32_t> count;
+};
+
 /// Fits a quadric through the query vertex to its neighborhood by least squares (Panozzo et al., "Efficient
 /// Multi-scale Curvature and Crease Estimation", GraVisMa 2010), or a jet (see `CurvatureFit`), and returns its
 /// principal curvatures at that vertex.
@@ -153,6 +163,11 @@ struct Curvatures {
 /// Throws Error{VertexOutOfRange, InvalidRadius, InvalidOption, Cancelled}, naming the row.
 [[nodiscard]] Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query,
                                     const CurvatureOptions& options = {});
+
+/// Writes the same into memory of the caller, which need not be initialized: all of it, unless the call throws. Throws
+/// as the overload above, and Error{InvalidOption} if an array does not have the requested size.
+void curvatures(const CurvatureIndex& surface, const BatchQuery& query, const CurvatureMemory& out,
+                const CurvatureOptions& options = {});
 
 /// Koenderink's shape index, 2 / pi atan((k1 + k2) / (k1 - k2)): 1 on a dome, 0.5 on a ridge, 0 on a saddle, -0.5 in a
 /// valley, -1 in a bowl. NaN where both are 0, where it is not defined.

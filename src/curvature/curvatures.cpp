@@ -5,6 +5,7 @@
 #include <memory>
 #include <numbers>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "meshhood/curvature.h"
@@ -34,8 +35,9 @@ TangentFrame frame_at(const SurfaceState& surface, std::uint32_t place, ShapeOpe
 /// Fits the rows of packets. One object a thread.
 class CurvatureFitter {
  public:
-  CurvatureFitter(const SurfaceState& surface, const Index& searched, const CurvatureOptions& options, Curvatures& out)
-      : surface_(&surface), options_(&options), out_(&out), direct_(surface, searched, options) {}
+  CurvatureFitter(const SurfaceState& surface, const Index& searched, const CurvatureOptions& options,
+                  const CurvatureMemory& out)
+      : surface_(&surface), options_(&options), out_(out), direct_(surface, searched, options) {}
 
   void fit(const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments);
 
@@ -47,7 +49,7 @@ class CurvatureFitter {
 
   const SurfaceState* surface_;
   const CurvatureOptions* options_;
-  Curvatures* out_;
+  CurvatureMemory out_;
   DirectFit direct_;
   QueryFrames frames_{};  // of the fits
   FrameMoments in_frame_{};
@@ -99,21 +101,39 @@ void CurvatureFitter::fit_row(const MomentRows& packet, const PacketMoments& sum
 
 /// The rows of a packet are scattered over the results.
 void CurvatureFitter::prefetch_row(std::size_t row) const {
-  prefetch(&out_->state[row]);
-  prefetch(&out_->count[row]);
-  prefetch(&out_->k1[row]);
-  prefetch(&out_->k2[row]);
-  prefetch(&out_->d1[3 * row]);
-  prefetch(&out_->d2[3 * row]);
+  prefetch(&out_.state[row]);
+  prefetch(&out_.count[row]);
+  prefetch(&out_.k1[row]);
+  prefetch(&out_.k2[row]);
+  prefetch(&out_.d1[3 * row]);
+  prefetch(&out_.d2[3 * row]);
 }
 
 void CurvatureFitter::write(std::size_t row, const DirectFit::Result& result) {
-  out_->state[row] = result.state;
-  out_->count[row] = static_cast<std::uint32_t>(result.count);
-  out_->k1[row] = result.curvature.k1;
-  out_->k2[row] = result.curvature.k2;
-  set_row(out_->d1, row, result.curvature.d1);
-  set_row(out_->d2, row, result.curvature.d2);
+  out_.state[row] = result.state;
+  out_.count[row] = static_cast<std::uint32_t>(result.count);
+  out_.k1[row] = result.curvature.k1;
+  out_.k2[row] = result.curvature.k2;
+  set_row(out_.d1, row, result.curvature.d1);
+  set_row(out_.d2, row, result.curvature.d2);
+}
+
+std::size_t row_count(const CurvatureIndex& surface, const BatchQuery& query) {
+  return query.vertices.list() ? query.vertices.list()->size() : surface.vertex_count();
+}
+
+void check_sizes(const CurvatureMemory& memory, std::size_t rows) {
+  const auto check = [](const char* name, std::size_t size, std::size_t expected) {
+    if (size == expected) return;
+    raise(ErrorCode::InvalidOption,
+          "memory for " + std::to_string(size) + " elements of " + name + ", expected for " + std::to_string(expected));
+  };
+  check("k1", memory.k1.size(), rows);
+  check("k2", memory.k2.size(), rows);
+  check("d1", memory.d1.size(), 3 * rows);
+  check("d2", memory.d2.size(), 3 * rows);
+  check("state", memory.state.size(), rows);
+  check("count", memory.count.size(), rows);
 }
 
 }  // namespace
@@ -121,11 +141,7 @@ void CurvatureFitter::write(std::size_t row, const DirectFit::Result& result) {
 CurvatureOptions like_libigl() { return {.filter = true, .open_ball = true, .shape_operator = ShapeOperator::Libigl}; }
 
 Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query, const CurvatureOptions& options) {
-  if (options.fit == CurvatureFit::Jet && options.shape_operator == ShapeOperator::Libigl) {
-    raise(ErrorCode::InvalidOption, "libigl's shape operator requires the quadric, not the jet");
-  }
-  const SurfaceState& state = CurvatureAccess::state(surface);
-  const std::size_t rows = query.vertices.list() ? query.vertices.list()->size() : surface.vertex_count();
+  const std::size_t rows = row_count(surface, query);
   Curvatures result;
   result.k1.resize(rows);
   result.k2.resize(rows);
@@ -133,16 +149,26 @@ Curvatures curvatures(const CurvatureIndex& surface, const BatchQuery& query, co
   result.d2.resize(3 * rows);
   result.state.resize(rows);
   result.count.resize(rows);
+  curvatures(surface, query, {result.k1, result.k2, result.d1, result.d2, result.state, result.count}, options);
+  return result;
+}
+
+void curvatures(const CurvatureIndex& surface, const BatchQuery& query, const CurvatureMemory& out,
+                const CurvatureOptions& options) {
+  if (options.fit == CurvatureFit::Jet && options.shape_operator == ShapeOperator::Libigl) {
+    raise(ErrorCode::InvalidOption, "libigl's shape operator requires the quadric, not the jet");
+  }
+  const SurfaceState& state = CurvatureAccess::state(surface);
+  check_sizes(out, row_count(surface, query));
   const Index searched = filtered(state.searched, query.filter, options.threads);
   const MomentSource source{.index = &IndexAccess::view(searched), .filter = options.filter ? &state : nullptr};
   visit_moments(searched, {.vertices = query.vertices, .radius = query.radius}, options.open_ball, source,
                 {.threads = options.threads, .progress = options.progress}, [&] {
-                  auto fitter = std::make_shared<CurvatureFitter>(state, searched, options, result);
+                  auto fitter = std::make_shared<CurvatureFitter>(state, searched, options, out);
                   return [fitter](const MomentRows& packet, const PacketMoments& sums, const QueryMoments& moments) {
                     fitter->fit(packet, sums, moments);
                   };
                 });
-  return result;
 }
 
 double shape_index(double k1, double k2) {

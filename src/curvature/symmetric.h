@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <vector>
+#include <span>
 
 #include "base/vector.h"
 #include "shared/distance.h"
@@ -46,7 +46,7 @@ struct Eigen3 {
 }
 
 /// Writes row `row` of an array of 3 columns.
-inline void set_row(std::vector<double>& rows, std::size_t row, const Point& p) {
+inline void set_row(std::span<double> rows, std::size_t row, const Point& p) {
   rows[3 * row] = p.x;
   rows[3 * row + 1] = p.y;
   rows[3 * row + 2] = p.z;

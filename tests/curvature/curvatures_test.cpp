@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -308,6 +310,78 @@ TEST(Curvatures, NormalsHaveTheSameBitsForAnyNumberOfThreads) {
     ++meshes;
   }
   EXPECT_GT(meshes, 15U);
+}
+
+/// Memory with values that no curvature has.
+struct Poisoned {
+  explicit Poisoned(std::size_t rows)
+      : k1(rows, 77),
+        k2(rows, 77),
+        d1(3 * rows, 77),
+        d2(3 * rows, 77),
+        state(rows, CurvatureState{9}),
+        count(rows, 1U << 31) {}
+
+  CurvatureMemory memory() { return {k1, k2, d1, d2, state, count}; }
+
+  std::vector<double> k1, k2, d1, d2;
+  std::vector<CurvatureState> state;
+  std::vector<std::uint32_t> count;
+};
+
+TEST(Curvatures, AreWrittenToAllOfTheMemoryOfTheCaller) {
+  const Case one(bumpy_grid(30).finish(false));
+  std::vector<std::uint8_t> walls(one.surface.vertex_count());
+  for (std::size_t v = 100; v < 140; ++v) walls[v] = 1;
+  std::vector<std::uint8_t> ignored(one.surface.vertex_count());
+  for (std::size_t v = 130; v < 180; ++v) ignored[v] = 1;
+  const std::vector<VertexId> rows{17, 110, 899, 135, 450, 170};
+  const Filter filter{.walls = walls, .ignored = ignored};
+  for (const BatchQuery& query : {BatchQuery{.radius = 3.0},
+                                  {.radius = 3.0, .filter = filter},
+                                  {.vertices = rows, .radius = 0.0, .filter = filter},
+                                  {.vertices = rows, .radius = 4.0}}) {
+    const Curvatures expected = curvatures(one.surface, query);
+    Poisoned found(expected.k1.size());
+    curvatures(one.surface, query, found.memory());
+    const auto same = [](const auto& a, const auto& b) {
+      return a.size() == b.size() && std::memcmp(a.data(), b.data(), std::as_bytes(std::span(a)).size()) == 0;
+    };
+    EXPECT_TRUE(same(found.k1, expected.k1));
+    EXPECT_TRUE(same(found.k2, expected.k2));
+    EXPECT_TRUE(same(found.d1, expected.d1));
+    EXPECT_TRUE(same(found.d2, expected.d2));
+    EXPECT_EQ(found.state, expected.state);
+    EXPECT_EQ(found.count, expected.count);
+    for (std::size_t row = 0; row < found.k1.size(); ++row) {
+      EXPECT_NE(found.k1[row], 77) << row;
+      EXPECT_NE(found.d2[3 * row + 2], 77) << row;
+      EXPECT_NE(found.count[row], 1U << 31) << row;
+    }
+  }
+}
+
+TEST(Curvatures, RefuseMemoryOfAnotherSize) {
+  const Case one(bumpy_grid(5).finish(false));
+  const std::size_t rows = one.surface.vertex_count();
+  Poisoned whole(rows);
+  const auto expect_refusal = [&](const std::string& array, auto change) {
+    CurvatureMemory memory = whole.memory();
+    change(memory);
+    expect_refused(ErrorCode::InvalidOption, "memory for " + array,
+                   [&] { curvatures(one.surface, {.radius = 3.0}, memory); });
+    EXPECT_EQ(whole.k1.front(), 77);
+  };
+  const std::string less = std::to_string(rows - 1) + " elements of ";
+  const std::string third = std::to_string(rows) + " elements of ";
+  const std::string expected = ", expected for " + std::to_string(rows);
+  const std::string thrice = ", expected for " + std::to_string(3 * rows);
+  expect_refusal(less + "k1" + expected, [&](CurvatureMemory& m) { m.k1 = m.k1.first(rows - 1); });
+  expect_refusal(less + "k2" + expected, [&](CurvatureMemory& m) { m.k2 = m.k2.first(rows - 1); });
+  expect_refusal(third + "d1" + thrice, [&](CurvatureMemory& m) { m.d1 = m.d1.first(rows); });
+  expect_refusal(third + "d2" + thrice, [&](CurvatureMemory& m) { m.d2 = m.d2.first(rows); });
+  expect_refusal(less + "state" + expected, [&](CurvatureMemory& m) { m.state = m.state.first(rows - 1); });
+  expect_refusal(less + "count" + expected, [&](CurvatureMemory& m) { m.count = m.count.first(rows - 1); });
 }
 
 TEST(Curvatures, OfAListAreThoseOfAllVertices) {
