@@ -64,7 +64,7 @@ class Batch {
   [[nodiscard]] BatchWorker& worker(unsigned thread);
 
  private:
-  static constexpr std::size_t kRowsPerTask = std::size_t{1} << 12;
+  static constexpr std::size_t kRowsPerTask = std::size_t{1} << 12;  // enough for the cost of taking them
 
   /// What a thread uses. Not beside that of another thread, which writes to its own all the time.
   struct alignas(64) PerThread {

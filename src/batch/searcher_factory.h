@@ -68,7 +68,7 @@ struct SearcherFactory {
   /// Ascends with the order in which vertices are best searched: near vertices have near positions.
   std::function<std::uint32_t(VertexId v)> position;
 
-  /// The index whose slots the positions are; null if they are others.
+  /// The index whose slots the positions are; null if they are others. Lives as long as the functions.
   const Index* of_slots = nullptr;
 
   /// Counting takes much less time than listing. If not, rows to be kept are searched once, and copied.

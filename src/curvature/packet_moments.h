@@ -37,7 +37,7 @@ struct PointDistribution {
 };
 [[nodiscard]] PointDistribution distribution_of(const QueryMoments& moments, std::size_t query);
 
-/// Sums of the squares and fourth powers of distances.
+/// Of each query, the sums of the squares and fourth powers of distances.
 struct MomentSizes {
   QueryRow second;
   QueryRow fourth;
@@ -74,7 +74,7 @@ class PacketMoments {
   [[nodiscard]] const MomentKernels& kernels() const { return *kernels_; }
 
   /// The sizes of the moments before they were moved to the query vertices, or after, whichever are larger. The errors
-  /// of the moments of these degrees are of the order of epsilon times them.
+  /// of the moments of degree 2 and 4 are of the order of epsilon times them.
   [[nodiscard]] double second_size(std::size_t query) const {
     return std::max(before_.second[query], after_.second[query]);
   }
@@ -119,8 +119,8 @@ class PacketMoments {
   MomentPoints points_;
   MomentsByQuery sums_;
   QueryMoments moments_;
-  MomentSizes before_;  // they were moved to the query vertices
-  MomentSizes after_;
+  MomentSizes before_;  // about the center
+  MomentSizes after_;   // about the query vertices
 };
 
 }  // namespace meshhood

@@ -3,6 +3,8 @@
 
 #include <cstdlib>
 #include <exception>
+#include <limits>
+#include <span>
 
 #if defined(__STDCPP_THREADS__) && !defined(_WIN32)
 #include <unistd.h>
@@ -43,16 +45,17 @@ void look(F&& happened) {
 }
 
 /// Linux may start or wake a thread on the processor of its creator, which leaves it only after milliseconds: longer
-/// than all neighborhoods of a small mesh take. So `helpers` use only the other processors, if there is one for each.
-void keep_off_this_processor([[maybe_unused]] std::vector<std::thread>& helpers) {
+/// than all neighborhoods of a small mesh take. So the threads that were `started` use only the other processors, if
+/// there is one for each of the `helpers`.
+void keep_off_this_processor([[maybe_unused]] std::span<std::thread> started, [[maybe_unused]] std::size_t helpers) {
 #if defined(MESHHOOD_PLACES_THREADS)
   cpu_set_t others;
   const int processor = sched_getcpu();
   if (processor < 0 || pthread_getaffinity_np(pthread_self(), sizeof(others), &others) != 0) return;
   CPU_CLR(static_cast<std::size_t>(processor), &others);
-  if (static_cast<std::size_t>(CPU_COUNT(&others)) < helpers.size()) return;
-  for (std::thread& helper : helpers) {
-    static_cast<void>(pthread_setaffinity_np(helper.native_handle(), sizeof(others), &others));
+  if (static_cast<std::size_t>(CPU_COUNT(&others)) < helpers) return;
+  for (std::thread& thread : started) {
+    static_cast<void>(pthread_setaffinity_np(thread.native_handle(), sizeof(others), &others));
   }
 #endif
 }
@@ -90,18 +93,21 @@ bool HelperThreads::are_lost() const { return !threads_.empty() && process_ != t
 
 /// So that there are `count`, or as many as the system can create.
 void HelperThreads::start(std::size_t count) {
-  if (threads_.size() >= count) return;
-  if (threads_.empty()) process_ = this_process();
+  const std::size_t before = threads_.size();
+  if (before >= count) return;
+  if (before == 0) process_ = this_process();
   Failure ignored;
   static_cast<void>(ignored.guard([&] {
     while (threads_.size() < count) {
       const auto thread = static_cast<unsigned>(threads_.size() + 1);
       threads_.emplace_back([this, thread, seen = orders_.load()] {
-        if (prepare_exceptions()) help(thread, seen);
+        // Without memory it has no part in any loop, but it ends with the others: to set the processors of a thread
+        // that has ended would set those of the caller.
+        help(prepare_exceptions() ? thread : std::numeric_limits<unsigned>::max(), seen);
       });
     }
   }));
-  keep_off_this_processor(threads_);
+  keep_off_this_processor(std::span(threads_).subspan(before), threads_.size());
 }
 
 void HelperThreads::give(Order order, std::size_t most, const std::function<void(unsigned)>* body) {

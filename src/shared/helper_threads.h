@@ -23,8 +23,8 @@ bool prepare_exceptions();
 
 /// The threads that take part in the loops of a task, beside that which it belongs to. They are started once, and wait
 /// between the loops: at first awake, because the next loop often begins within microseconds, and to start or wake a
-/// thread takes 50 to 100 of these. On Linux they keep off the processor that the first loop is begun on, if there are
-/// as many others.
+/// thread takes 50 to 100 of these. On Linux they keep off the processor that the caller is on when they are started,
+/// if there are as many others.
 class HelperThreads {
  public:
   HelperThreads() = default;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -35,12 +36,12 @@ class RawAllocator : public std::allocator<T> {
   }
 };
 
-/// A vector whose new elements have no values, for those who set all of them. Where several threads do, each also has
-/// its part of the page faults, which take longer than the writing.
+/// A vector that leaves new elements unset: each must be written before it is read. Where several threads write them,
+/// each also has its part of the page faults, which take longer than the writing.
 template <class T>
 using RawVector = std::vector<T, RawAllocator<T>>;
 
-/// Appends `count` elements without values.
+/// Appends `count` elements that are not set.
 template <class T>
 std::span<T> add_raw(RawVector<T>& values, std::size_t count) {
   const std::size_t before = values.size();

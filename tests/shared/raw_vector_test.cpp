@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,7 @@
 namespace meshhood::test {
 namespace {
 
+// Formally, elements that were not set have any value; compilers leave what is in memory.
 TEST(RawVector, LeavesNewElementsAsTheyAreInMemory) {
   RawVector<std::uint32_t> values(100, 7);
   values.clear();
@@ -28,7 +30,7 @@ TEST(RawVector, SetsElementsWithAValue) {
   EXPECT_EQ(values[20], 8);
 }
 
-TEST(RawVector, AppendsWithoutMovingValuesAway) {
+TEST(RawVector, AppendsAfterTheValues) {
   RawVector<std::uint32_t> values;
   for (std::uint32_t part = 0; part < 50; ++part) {
     const std::span<std::uint32_t> added = add_raw(values, part);

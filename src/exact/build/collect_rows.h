@@ -11,7 +11,7 @@
 
 namespace meshhood {
 
-/// Rows of values, one after the other.
+/// Rows of values, one after the other, as those of an adjacency.
 template <class T>
 struct CollectedRows {
   std::vector<std::uint32_t> offsets;  // by row, and one more: where its values begin
@@ -29,24 +29,27 @@ template <class T, class Append>
 CollectedRows<T> collect_rows(std::size_t count, TaskContext& task, Append&& append) {
   constexpr std::size_t kRowsPerTask = 64;
   CollectedRows<T> result{std::vector<std::uint32_t>(count + 1), {}};
-  std::vector<std::vector<T>> runs((count + kRowsPerTask - 1) / kRowsPerTask);
+  std::vector<std::vector<T>> pieces((count + kRowsPerTask - 1) / kRowsPerTask);
   task.parallel_for(count, kRowsPerTask, [&](unsigned, std::size_t begin, std::size_t end) {
-    std::vector<T>& run = runs[begin / kRowsPerTask];
+    std::vector<T>& piece = pieces[begin / kRowsPerTask];
     for (std::size_t row = begin; row < end; ++row) {
-      append(row, run);
-      result.offsets[row + 1] = static_cast<std::uint32_t>(run.size());
+      append(row, piece);
+      result.offsets[row + 1] = static_cast<std::uint32_t>(piece.size());
     }
   });
   std::size_t all = 0;
-  for (std::size_t run = 0; run < runs.size(); ++run) {
-    const std::size_t end = std::min((run + 1) * kRowsPerTask, count);
-    for (std::size_t row = run * kRowsPerTask; row < end; ++row) {
+  for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
+    const std::size_t end = std::min((piece + 1) * kRowsPerTask, count);
+    for (std::size_t row = piece * kRowsPerTask; row < end; ++row) {
       result.offsets[row + 1] += static_cast<std::uint32_t>(all);
     }
-    all += runs[run].size();
+    all += pieces[piece].size();
   }
   result.values.reserve(all);
-  for (const std::vector<T>& run : runs) result.values.insert(result.values.end(), run.begin(), run.end());
+  for (std::vector<T>& piece : pieces) {
+    result.values.insert(result.values.end(), piece.begin(), piece.end());
+    piece = std::vector<T>();  // its memory is free for others
+  }
   return result;
 }
 
