@@ -7,6 +7,7 @@
 
 #include "meshhood/mesh.h"
 
+#include "exact/arrays.h"
 #include "exact/layout.h"
 #include "shared/parallel.h"
 
