@@ -23,7 +23,7 @@ void extend(Box& box, const Box& by) {
 
 template <class Real>
 Box bounding_box(const StridedPositions<Real>& xyz, TaskContext& task) {
-  constexpr std::size_t kGrain = 8192;  // enough vertices for the cost of starting a thread
+  constexpr std::size_t kGrain = 8192;  // enough that passing them to a thread costs little
   std::vector<Box> boxes((xyz.size() + kGrain - 1) / kGrain);
   task.parallel_for(xyz.size(), kGrain, [&](unsigned, std::size_t begin, std::size_t end) {
     Box box{point(xyz, begin), point(xyz, begin)};

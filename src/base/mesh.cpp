@@ -18,7 +18,7 @@ namespace {
 /// there is none.
 template <class IsValid>
 std::size_t first_invalid(std::size_t count, TaskContext& task, IsValid&& is_valid) {
-  constexpr std::size_t kGrain = 4096;  // enough work for the cost of starting a thread
+  constexpr std::size_t kGrain = 4096;  // enough that passing them to a thread costs little
   std::atomic<std::size_t> first{count};
   task.parallel_for(count, kGrain, [&](unsigned, std::size_t begin, std::size_t end) {
     std::size_t i = begin;

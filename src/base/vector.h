@@ -21,7 +21,7 @@ namespace meshhood {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Twice the vector area of a triangle.
+/// Twice the vector area of a triangle: the same bits as those of the polygon below, without its loop.
 [[nodiscard]] inline Point doubled_vector_area(const Point& a, const Point& b, const Point& c) {
   return Point{0, 0, 0} + cross(b - a, c - a);  // so that there is no -0, as for polygons
 }

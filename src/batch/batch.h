@@ -64,7 +64,8 @@ class Batch {
   [[nodiscard]] BatchWorker& worker(unsigned thread);
 
  private:
-  static constexpr std::size_t kRowsPerTask = std::size_t{1} << 12;  // enough for the cost of taking them
+  // Enough that passing them to a thread costs little.
+  static constexpr std::size_t kRowsPerTask = std::size_t{1} << 12;
 
   /// What a thread uses. Not beside that of another thread, which writes to its own all the time.
   struct alignas(64) PerThread {

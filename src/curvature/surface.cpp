@@ -70,7 +70,8 @@ void sum_areas(std::span<const Real> xyz, std::span<const std::uint32_t> places,
     std::fill(axis->begin() + static_cast<std::ptrdiff_t>(first), axis->begin() + static_cast<std::ptrdiff_t>(end),
               0.0);
   }
-  const auto is_summed = [&](std::uint32_t place) { return place - first < end - first; };  // may wrap around
+  // Below `first`, the difference wraps around to a large number.
+  const auto is_summed = [&](std::uint32_t place) { return place - first < end - first; };
   const auto position = [&](std::uint32_t place) { return scale * point(xyz, place); };
   const auto add = [&](std::uint32_t place, const Point& area) {
     if (!is_summed(place)) return;

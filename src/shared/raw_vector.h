@@ -17,8 +17,7 @@ class RawAllocator : public std::allocator<T> {
  public:
   RawAllocator() = default;
   template <class U>
-  RawAllocator(const RawAllocator<U>& other) noexcept
-      : std::allocator<T>(other) {}  // NOLINT(google-explicit-constructor): as the standard allocator
+  RawAllocator(const RawAllocator<U>& other) noexcept : std::allocator<T>(other) {}
 
   template <class U>
   struct rebind {                   // NOLINT(readability-identifier-naming): the standard's, as the next

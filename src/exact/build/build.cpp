@@ -22,7 +22,7 @@
 namespace meshhood {
 namespace {
 
-// Enough leaves for the cost of starting a thread.
+// Enough that passing them to a thread costs little.
 constexpr std::size_t kLeafGrain = 64;
 
 /// The leaves without their bounding spheres.

@@ -6,7 +6,7 @@
 namespace meshhood {
 namespace {
 
-// Enough work for the cost of starting a thread.
+// Enough that passing them to a thread costs little.
 constexpr std::size_t kPointGrain = 2048;
 constexpr std::size_t kCellGrain = 64;
 

@@ -12,7 +12,7 @@
 namespace meshhood {
 namespace {
 
-// Enough vertices for the cost of starting a thread.
+// Enough that passing them to a thread costs little.
 constexpr std::size_t kVertexGrain = 2048;
 
 /// The positions in index order, padded with zeros.

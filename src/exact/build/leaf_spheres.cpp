@@ -12,7 +12,7 @@ namespace {
 /// The spheres of `count` leaves; `leaf_at(i)` is the i-th.
 template <class LeafAt>
 Spheres measure(std::size_t count, LeafAt&& leaf_at, const IndexView& index, TaskContext& task) {
-  constexpr std::size_t kGrain = 64;  // enough leaves for the cost of starting a thread
+  constexpr std::size_t kGrain = 64;  // enough that passing them to a thread costs little
   Spheres result(count);
   task.parallel_for(count, kGrain, [&](unsigned, std::size_t begin, std::size_t end) {
     std::visit(

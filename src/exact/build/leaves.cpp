@@ -23,7 +23,7 @@
 namespace meshhood {
 namespace {
 
-// Enough leaves for the cost of starting a thread.
+// Enough that passing them to a thread costs little.
 constexpr std::size_t kLeavesPerTask = 64;
 
 /// What the leaves are made of.

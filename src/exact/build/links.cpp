@@ -13,7 +13,7 @@
 namespace meshhood {
 namespace {
 
-// Enough polygons for the cost of starting a thread.
+// Enough that passing them to a thread costs little.
 constexpr std::size_t kPolygonsPerTask = 4096;
 
 /// Ranges of leaves, of equal size.

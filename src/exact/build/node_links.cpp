@@ -52,7 +52,7 @@ void append(const std::vector<NodeLink>& links, std::vector<NodeLink>& all) {
 std::vector<NodeLink> make_node_links(std::span<const std::uint32_t> first_link, std::span<const Link> links,
                                       std::span<const std::uint32_t> levels, std::span<const NodeId> parents,
                                       std::vector<GroupRecord>& records, TaskContext& task) {
-  constexpr std::size_t kGrain = 32;  // enough groups for the cost of taking them
+  constexpr std::size_t kGrain = 32;  // enough that passing them to a thread costs little
   std::vector<NodeLink> result;
   const auto add_links = [&](std::size_t level, std::uint32_t group, GroupLinks& collected) {
     for (unsigned i = 0; i < records[group].nodes; ++i) {
